@@ -1,0 +1,26 @@
+#include "bus/bus.hpp"
+
+#include "bus/cyclonedds/cyclonedds_bus.hpp"
+#include "bus/fastdds/fastdds_bus.hpp"
+#include "bus/inproc/inproc_bus.hpp"
+#include "bus/wire.hpp"
+#include "core/types.hpp"
+
+namespace skein::bus {
+
+std::unique_ptr<Bus> make_bus(const BusConfig& config) {
+  if (config.vendor == "cyclonedds") return make_cyclonedds_bus(config);
+  if (config.vendor == "fastdds") return make_fastdds_bus(config);
+  if (config.vendor == "inproc") return make_inproc_bus();
+  throw InputError("unknown DDS vendor '" + config.vendor + "': it must be cyclonedds, fastdds or inproc");
+}
+
+std::vector<std::string> dds_vendors() { return {"cyclonedds", "fastdds"}; }
+
+void check_domain(int domain) {
+  if (domain < 0 || domain > kMaxDomain)
+    throw InputError("domain " + std::to_string(domain) + " is out of range: it must be 0 to " +
+                     std::to_string(kMaxDomain) + ", since its UDP ports begin at 7400 + 250 x domain");
+}
+
+}  // namespace skein::bus

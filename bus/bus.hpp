@@ -1,0 +1,93 @@
+// The only way in which Skein's processes talk: topics of already serialised CDR payloads, in numbered domains.
+// A backend (inproc/, fastdds/, cyclonedds/) moves bytes by topic name, type name and QoS; typed.hpp adds the types.
+//
+// Threads: a backend may call Reader callbacks from its own threads; an Inbox (inbox.hpp) takes them to the one
+// thread that owns a program's state. Writers may be used from one thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace skein::bus {
+
+/// A DDS participant as all others in its domain see it: a hash (FNV-1a, 64 bit) of the 12 bytes of its GUID prefix,
+/// so that both vendors name the same participant alike. 0 means unknown.
+using ParticipantId = std::uint64_t;
+
+/// Quality of service. Everything is KEEP_LAST; a writer never blocks on a dead, stopped or slow reader.
+struct Qos {
+  bool reliable = true;
+  bool latched = false;  ///< TRANSIENT_LOCAL: a late joiner gets the last `depth` samples
+  int depth = 64;        ///< at least what one lock-step round may hold
+};
+
+struct TopicSpec {
+  std::string name;  ///< on the wire: "rt/jurong/gimbal"
+  std::string type;  ///< on the wire: "geometry_msgs::msg::dds_::TwistStamped_"
+  Qos qos;
+};
+
+/// One received sample. `payload` begins with the 4-byte encapsulation header (CDR_LE for what Skein writes).
+struct Sample {
+  std::vector<std::uint8_t> payload;
+  ParticipantId source = 0;  ///< who wrote it
+};
+
+class Writer {
+ public:
+  virtual ~Writer() = default;
+  /// @param payload with encapsulation header. A length that is no multiple of four is padded with zeros, here as on
+  /// the wire. Never blocks for long: what a reader cannot take is lost to it.
+  virtual void write(std::span<const std::uint8_t> payload) = 0;
+  /// Participants with a reader that this writer has matched, one entry a reader.
+  virtual std::vector<ParticipantId> matched() const = 0;
+};
+
+class Reader {
+ public:
+  virtual ~Reader() = default;
+  /// Participants with a writer that this reader has matched, one entry a writer.
+  virtual std::vector<ParticipantId> matched() const = 0;
+};
+
+/// Called for each sample in the order in which each writer wrote; from a backend's thread, one call at a time for a
+/// reader, and perhaps before create_reader() returns. It must not destroy that reader, nor block.
+using OnSample = std::function<void(Sample&&)>;
+
+/// One participant in one domain. Endpoints must be destroyed before it.
+class Participant {
+ public:
+  virtual ~Participant() = default;
+  virtual ParticipantId id() const = 0;
+  virtual std::unique_ptr<Writer> create_writer(const TopicSpec& topic) = 0;
+  /// A participant never hears its own writers.
+  virtual std::unique_ptr<Reader> create_reader(const TopicSpec& topic, OnSample on_sample) = 0;
+};
+
+struct BusConfig {
+  std::string vendor = "cyclonedds";  ///< "cyclonedds", "fastdds" or "inproc"
+  bool loopback_only = true;          ///< no multicast, 127.0.0.1 only; false in containers
+  bool long_leases = false;           ///< debug: a process stopped in gdb keeps its place
+};
+
+/// Domain ids run from 0 to this one: the UDP ports of a domain begin at 7400 + 250 x domain and must stay below 65536.
+inline constexpr int kMaxDomain = 230;
+
+/// A vendor's implementation. A participant may outlive the bus that it was made by.
+class Bus {
+ public:
+  virtual ~Bus() = default;
+  /// @throws InputError when `domain` is not 0 .. kMaxDomain; std::runtime_error when the vendor fails
+  virtual std::unique_ptr<Participant> join(int domain) = 0;
+};
+
+/// @throws InputError (core/types.hpp) for an unknown vendor; the message lists the known ones.
+std::unique_ptr<Bus> make_bus(const BusConfig& config);
+/// Names of all vendors, in the order in which `mixed` deals them out: cyclonedds, fastdds. inproc is not among them.
+std::vector<std::string> dds_vendors();
+
+}  // namespace skein::bus

@@ -1,0 +1,81 @@
+#include "bus/cyclonedds/domain.hpp"
+
+#include <map>
+#include <mutex>
+#include <stdexcept>
+
+#include "bus/wire.hpp"
+
+namespace skein::bus::cyclonedds {
+
+namespace {
+
+/// Cyclone keeps its domains for the whole process and refuses to create one twice: hence the static register. Its
+/// lock is held while a domain is taken down, so that nobody joins the remains.
+struct Register {
+  struct Entry {
+    dds_entity_t entity = 0;
+    int members = 0;
+  };
+  std::mutex mutex;
+  std::map<int, Entry> domains;
+};
+
+Register& domain_register() {
+  static Register domains;
+  return domains;
+}
+
+}  // namespace
+
+std::string domain_configuration(const BusConfig& config) {
+  const std::string last_index = std::to_string(kMaxLocalParticipants - 1);
+  // Loopback: no multicast, so participants take fixed ports and announce themselves to all of these. Datagrams as
+  // large as UDP has them; fragments fill one, or else a 4 MB sample is thousands of them.
+  const std::string network =
+      config.loopback_only
+          ? "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+            "<AllowMulticast>false</AllowMulticast>"
+            "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>60000B</FragmentSize></General>"
+          : "";
+  const std::string peers =
+      config.loopback_only ? "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" + last_index +
+                                 "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
+                           : "";
+  // Watermarks: a writer waits once its unacknowledged bytes exceed WhcHigh. History is KEEP_LAST and bounds them
+  // already, so the mark is put out of reach and a stopped reader holds nobody up.
+  return "<CycloneDDS xmlns=\"https://cdds.io/config\"><Domain Id=\"any\">" + network + "<Discovery>" + peers +
+         "<SPDPInterval>" + std::to_string(kAnnounceS) + "s</SPDPInterval><LeaseDuration>" +
+         std::to_string(config.long_leases ? kLongLeaseS : kLeaseS) +
+         "s</LeaseDuration></Discovery>"
+         "<Internal><Watermarks><WhcHigh>2000MB</WhcHigh><WhcHighInit>2000MB</WhcHighInit>"
+         "<WhcAdaptive>false</WhcAdaptive></Watermarks>"
+         "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"8s\">50ms</HeartbeatInterval>"
+         "<NackDelay>5ms</NackDelay><GenerateKeyhash>true</GenerateKeyhash>"
+         "<SocketReceiveBufferSize min=\"default\" max=\"4MB\"/></Internal>"
+         "</Domain></CycloneDDS>";
+}
+
+dds_return_t check(dds_return_t result, const std::string& what) {
+  if (result < 0) throw std::runtime_error("Cyclone DDS: " + what + ": " + dds_strretcode(result));
+  return result;
+}
+
+Domain::Domain(int id, const BusConfig& config) : id_(id) {
+  Register& known = domain_register();
+  const std::scoped_lock lock(known.mutex);
+  Register::Entry& entry = known.domains[id];
+  if (entry.members == 0)
+    entry.entity = check(dds_create_domain(static_cast<dds_domainid_t>(id), domain_configuration(config).c_str()),
+                         "cannot create domain " + std::to_string(id));
+  ++entry.members;
+}
+
+Domain::~Domain() {
+  Register& known = domain_register();
+  const std::scoped_lock lock(known.mutex);
+  Register::Entry& entry = known.domains[id_];
+  if (--entry.members == 0) dds_delete(entry.entity);
+}
+
+}  // namespace skein::bus::cyclonedds

@@ -1,0 +1,31 @@
+// A domain of Cyclone DDS in this process: its configuration, and its life.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <string>
+
+#include "bus/bus.hpp"
+
+namespace skein::bus::cyclonedds {
+
+/// Cyclone's configuration (XML) for all domains.
+std::string domain_configuration(const BusConfig& config);
+
+/// @throws std::runtime_error "what: Cyclone's reason" when `result` is negative; @returns it otherwise
+dds_return_t check(dds_return_t result, const std::string& what);
+
+/// This process's membership in a domain: the domain lives as long as any of its memberships. From any thread.
+class Domain {
+ public:
+  /// @throws std::runtime_error when Cyclone cannot create it
+  Domain(int id, const BusConfig& config);
+  ~Domain();
+  Domain(const Domain&) = delete;
+  Domain& operator=(const Domain&) = delete;
+
+ private:
+  int id_;
+};
+
+}  // namespace skein::bus::cyclonedds

@@ -1,0 +1,218 @@
+#include "bus/fastdds/fastdds_bus.hpp"
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <spdlog/spdlog.h>
+
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include "bus/fastdds/raw_type.hpp"
+#include "bus/fastdds/settings.hpp"
+#include "bus/wire.hpp"
+
+namespace skein::bus {
+
+namespace fastdds {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::rtps::GUID_t;
+using eprosima::fastrtps::rtps::GuidPrefix_t;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+ParticipantId id_of(const GuidPrefix_t& prefix) {
+  return participant_id(std::span<const std::uint8_t, 12>(prefix.value, 12));
+}
+
+template <class Entity>
+Entity* created(Entity* entity, const std::string& what) {
+  if (entity == nullptr) throw std::runtime_error("Fast DDS: cannot create " + what);
+  return entity;
+}
+
+/// The endpoints that one endpoint has matched, kept by its listener. Fast DDS matches endpoints of one participant
+/// too; these do not count.
+class Matches {
+ public:
+  explicit Matches(const GuidPrefix_t& own) : own_(own) {}
+
+  void update(const dds::InstanceHandle_t& handle, int change) {
+    const GUID_t endpoint = eprosima::fastrtps::rtps::iHandle2GUID(handle);
+    if (endpoint.guidPrefix == own_) return;
+    const std::scoped_lock lock(mutex_);
+    if (change > 0)
+      participants_[endpoint] = id_of(endpoint.guidPrefix);
+    else
+      participants_.erase(endpoint);
+  }
+
+  std::vector<ParticipantId> participants() const {
+    const std::scoped_lock lock(mutex_);
+    std::vector<ParticipantId> ids;
+    for (const auto& [endpoint, id] : participants_) ids.push_back(id);
+    return ids;
+  }
+
+ private:
+  GuidPrefix_t own_;
+  mutable std::mutex mutex_;
+  std::map<GUID_t, ParticipantId> participants_;
+};
+
+class FastWriter : public Writer, private dds::DataWriterListener {
+ public:
+  FastWriter(dds::Publisher& publisher, dds::Topic& topic, const Qos& qos, const GuidPrefix_t& own)
+      : publisher_(publisher),
+        matches_(own),
+        writer_(created(publisher.create_datawriter(&topic, fastdds::writer_qos(qos), this,
+                                                    dds::StatusMask::publication_matched()),
+                        "a writer on " + topic.get_name())) {}
+  ~FastWriter() override {
+    writer_->set_listener(nullptr);
+    publisher_.delete_datawriter(writer_);
+  }
+
+  void write(std::span<const std::uint8_t> payload) override {
+    RawSample sample = padded(payload);
+    if (!writer_->write(&sample))
+      spdlog::warn("{}: Fast DDS could not send a sample of {} bytes", writer_->get_topic()->get_name(),
+                   payload.size());
+  }
+
+  std::vector<ParticipantId> matched() const override { return matches_.participants(); }
+
+ private:
+  void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
+    matches_.update(status.last_subscription_handle, status.current_count_change);
+  }
+
+  dds::Publisher& publisher_;
+  Matches matches_;
+  dds::DataWriter* writer_;
+};
+
+class FastReader : public Reader, private dds::DataReaderListener {
+ public:
+  FastReader(dds::Subscriber& subscriber, dds::Topic& topic, const Qos& qos, const GuidPrefix_t& own,
+             OnSample on_sample)
+      : subscriber_(subscriber),
+        own_(own),
+        on_sample_(std::move(on_sample)),
+        matches_(own),
+        reader_(created(subscriber.create_datareader(
+                            &topic, fastdds::reader_qos(qos), this,
+                            dds::StatusMask::data_available() << dds::StatusMask::subscription_matched()),
+                        "a reader on " + topic.get_name())) {}
+  /// Returns after the last callback has.
+  ~FastReader() override {
+    reader_->set_listener(nullptr);
+    subscriber_.delete_datareader(reader_);
+  }
+
+  std::vector<ParticipantId> matched() const override { return matches_.participants(); }
+
+ private:
+  void on_data_available(dds::DataReader* reader) override {
+    const std::scoped_lock lock(taking_);
+    RawSample payload;
+    dds::SampleInfo info;
+    while (reader->take_next_sample(&payload, &info) == ReturnCode_t::RETCODE_OK) {
+      const GuidPrefix_t& source = info.sample_identity.writer_guid().guidPrefix;
+      if (info.valid_data && source != own_) on_sample_({std::move(payload), id_of(source)});
+    }
+  }
+
+  void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
+    matches_.update(status.last_publication_handle, status.current_count_change);
+  }
+
+  dds::Subscriber& subscriber_;
+  GuidPrefix_t own_;
+  OnSample on_sample_;
+  std::mutex taking_;
+  Matches matches_;
+  dds::DataReader* reader_;
+};
+
+class FastParticipant : public Participant {
+ public:
+  FastParticipant(int domain, const BusConfig& config)
+      : participant_(created(dds::DomainParticipantFactory::get_instance()->create_participant(
+                                 static_cast<std::uint32_t>(domain), participant_qos(domain, config)),
+                             "a participant in domain " + std::to_string(domain))),
+        prefix_(participant_->guid().guidPrefix),
+        publisher_(created(participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT), "a publisher")),
+        subscriber_(created(participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT), "a subscriber")) {}
+  ~FastParticipant() override {
+    participant_->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+
+  ParticipantId id() const override { return id_of(prefix_); }
+
+  std::unique_ptr<Writer> create_writer(const TopicSpec& topic) override {
+    return std::make_unique<FastWriter>(*publisher_, open(topic), topic.qos, prefix_);
+  }
+
+  std::unique_ptr<Reader> create_reader(const TopicSpec& topic, OnSample on_sample) override {
+    return std::make_unique<FastReader>(*subscriber_, open(topic), topic.qos, prefix_, std::move(on_sample));
+  }
+
+ private:
+  /// Fast DDS has each topic once in a participant; it stays until the participant leaves.
+  dds::Topic& open(const TopicSpec& spec) {
+    const std::scoped_lock lock(mutex_);
+    const auto known = topics_.find(spec.name);
+    if (known != topics_.end()) {
+      if (known->second->get_type_name() != spec.type)
+        throw std::runtime_error("Fast DDS: topic " + spec.name + " has type " + known->second->get_type_name() +
+                                 " already, it cannot have type " + spec.type + " as well");
+      return *known->second;
+    }
+    if (!participant_->find_type(spec.type)) dds::TypeSupport(new RawType(spec.type)).register_type(participant_);
+    dds::Topic* topic =
+        created(participant_->create_topic(spec.name, spec.type, dds::TOPIC_QOS_DEFAULT), "topic " + spec.name);
+    topics_.emplace(spec.name, topic);
+    return *topic;
+  }
+
+  dds::DomainParticipant* participant_;
+  GuidPrefix_t prefix_;
+  dds::Publisher* publisher_;
+  dds::Subscriber* subscriber_;
+  std::mutex mutex_;
+  std::map<std::string, dds::Topic*> topics_;
+};
+
+class FastBus : public Bus {
+ public:
+  explicit FastBus(BusConfig config) : config_(std::move(config)) {}
+
+  std::unique_ptr<Participant> join(int domain) override {
+    check_domain(domain);
+    return std::make_unique<FastParticipant>(domain, config_);
+  }
+
+ private:
+  BusConfig config_;
+};
+
+}  // namespace
+}  // namespace fastdds
+
+std::unique_ptr<Bus> make_fastdds_bus(const BusConfig& config) {
+  return std::make_unique<fastdds::FastBus>(config);
+}
+
+}  // namespace skein::bus

@@ -1,0 +1,104 @@
+#include "bus/fastdds/settings.hpp"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "bus/wire.hpp"
+
+namespace skein::bus::fastdds {
+
+using namespace eprosima::fastdds::dds;
+using eprosima::fastrtps::Duration_t;
+using eprosima::fastrtps::rtps::IPLocator;
+using eprosima::fastrtps::rtps::Locator_t;
+
+namespace {
+
+constexpr std::uint32_t kSocketBuffer = 4 * 1024 * 1024;
+constexpr int kAllocatedSamples = 16;  // at first; more are allocated as they are needed
+
+Locator_t loopback_locator(std::uint32_t port) {
+  Locator_t locator;
+  IPLocator::setIPv4(locator, 127, 0, 0, 1);
+  locator.kind = LOCATOR_KIND_UDPv4;
+  locator.port = port;
+  return locator;
+}
+
+Duration_t milliseconds(std::uint32_t ms) { return {static_cast<std::int32_t>(ms / 1000), ms % 1000 * 1'000'000}; }
+
+}  // namespace
+
+DomainParticipantQos participant_qos(int domain, const BusConfig& config) {
+  DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
+
+  // UDP only: shared memory leaves segments behind when a process is killed.
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->sendBufferSize = udp->receiveBufferSize = kSocketBuffer;
+  if (config.loopback_only) {
+    udp->interfaceWhiteList.push_back("127.0.0.1");
+    udp->maxInitialPeersRange = kMaxLocalParticipants;
+    auto& builtin = qos.wire_protocol().builtin;
+    builtin.initialPeersList.push_back(loopback_locator(0));  // 0: the ports that RTPS has for this domain
+    // Ports are given, since Fast DDS would derive them from the number of participants that this process has ever
+    // had, in whatever domain, and soon be out of the range that is announced to. From these first ports on it takes
+    // the next ones that are free. A unicast locator also keeps discovery off multicast.
+    const auto& ports = qos.wire_protocol().port;
+    const auto domain_id = static_cast<std::uint32_t>(domain);
+    builtin.metatrafficUnicastLocatorList.push_back(loopback_locator(ports.getUnicastPort(domain_id, 0)));
+    qos.wire_protocol().default_unicast_locator_list.push_back(
+        loopback_locator(ports.getUnicastPort(domain_id, 0) + ports.offsetd3 - ports.offsetd1));
+    builtin.mutation_tries = kMaxLocalParticipants - 1;
+  }
+  qos.transport().use_builtin_transports = false;
+  qos.transport().user_transports.push_back(udp);
+
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  discovery.leaseDuration = {config.long_leases ? kLongLeaseS : kLeaseS, 0};
+  discovery.leaseDuration_announcementperiod = {kAnnounceS, 0};
+  // The first announcements come fast, since others may just be starting as well.
+  discovery.initial_announcements.count = 10;
+  discovery.initial_announcements.period = milliseconds(20);
+  return qos;
+}
+
+DataWriterQos writer_qos(const Qos& qos) {
+  DataWriterQos dds = DATAWRITER_QOS_DEFAULT;
+  dds.reliability().kind = qos.reliable ? RELIABLE_RELIABILITY_QOS : BEST_EFFORT_RELIABILITY_QOS;
+  dds.reliability().max_blocking_time = milliseconds(10);
+  dds.durability().kind = qos.latched ? TRANSIENT_LOCAL_DURABILITY_QOS : VOLATILE_DURABILITY_QOS;
+  dds.history().kind = KEEP_LAST_HISTORY_QOS;
+  dds.history().depth = qos.depth;
+  dds.resource_limits().max_instances = 1;
+  dds.resource_limits().max_samples = dds.resource_limits().max_samples_per_instance = qos.depth;
+  dds.resource_limits().allocated_samples = std::min(qos.depth, kAllocatedSamples);
+  dds.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
+  dds.data_sharing().off();
+  dds.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;
+  // What got lost is noticed by the next heartbeat; the default of 3 s would stall a lock-step round for as long.
+  dds.reliable_writer_qos().times.heartbeatPeriod = milliseconds(50);
+  dds.reliable_writer_qos().times.nackResponseDelay = milliseconds(1);
+  return dds;
+}
+
+DataReaderQos reader_qos(const Qos& qos) {
+  DataReaderQos dds = DATAREADER_QOS_DEFAULT;
+  dds.reliability().kind = qos.reliable ? RELIABLE_RELIABILITY_QOS : BEST_EFFORT_RELIABILITY_QOS;
+  dds.durability().kind = qos.latched ? TRANSIENT_LOCAL_DURABILITY_QOS : VOLATILE_DURABILITY_QOS;
+  // The listener takes each sample as it comes, so only those gather here that wait for a lost one before them. Were
+  // they limited to `depth` for all writers together, they would push out what one writer may well have sent.
+  dds.history().kind = KEEP_ALL_HISTORY_QOS;
+  dds.resource_limits().max_instances = 1;
+  dds.resource_limits().max_samples = dds.resource_limits().max_samples_per_instance = LENGTH_UNLIMITED;
+  dds.resource_limits().allocated_samples = std::min(qos.depth, kAllocatedSamples);
+  dds.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
+  dds.data_sharing().off();
+  dds.reliable_reader_qos().times.initialAcknackDelay = milliseconds(10);
+  dds.reliable_reader_qos().times.heartbeatResponseDelay = milliseconds(1);
+  return dds;
+}
+
+}  // namespace skein::bus::fastdds

@@ -1,0 +1,16 @@
+// How Skein sets up Fast DDS.
+#pragma once
+
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+
+#include "bus/bus.hpp"
+
+namespace skein::bus::fastdds {
+
+eprosima::fastdds::dds::DomainParticipantQos participant_qos(int domain, const BusConfig& config);
+eprosima::fastdds::dds::DataWriterQos writer_qos(const Qos& qos);
+eprosima::fastdds::dds::DataReaderQos reader_qos(const Qos& qos);
+
+}  // namespace skein::bus::fastdds

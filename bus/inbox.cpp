@@ -1,0 +1,190 @@
+#include "bus/inbox.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstdlib>
+#include <iterator>
+#include <map>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace skein::bus {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// One subscription; what has arrived for it is dropped once its reader is gone.
+struct Subscription {
+  Inbox::Handler handler;
+  std::atomic<bool> alive = true;
+};
+
+/// Something that has arrived: a sample for a subscription, or posted work.
+struct Arrival {
+  std::shared_ptr<Subscription> subscription;
+  Sample sample;
+  std::function<void()> work;
+
+  void run() {
+    if (work)
+      work();
+    else if (subscription->alive)
+      subscription->handler(std::move(sample));
+  }
+};
+
+/// Whose order is kept: one writer's samples at one reader; posted work is one stream.
+using Stream = std::pair<const Subscription*, ParticipantId>;
+
+unsigned chaos_of_environment() {
+  const char* value = std::getenv("SKEIN_CHAOS");
+  return value == nullptr ? 0 : static_cast<unsigned>(std::strtoul(value, nullptr, 10));
+}
+
+/// How long chaos holds an arrival back: half of them not at all, most for less than what a step takes, a few for
+/// longer. SplitMix64 (Steele, Lea and Flood 2014).
+class ChaosDelay {
+ public:
+  explicit ChaosDelay(unsigned seed) : state_((std::uint64_t{seed} << 32) ^ static_cast<std::uint64_t>(getpid())) {}
+
+  std::chrono::microseconds next() {
+    const std::uint64_t bits = random();
+    if ((bits & 1) == 0) return {};
+    const std::uint64_t longest_us = (bits & 0x1e) == 0 ? 3000 : 300;
+    return std::chrono::microseconds((bits >> 8) % longest_us);
+  }
+
+ private:
+  std::uint64_t random() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+  }
+
+  std::uint64_t state_;
+};
+
+}  // namespace
+
+/// Arrivals wait in `ready_`; under chaos they first wait in `held_` until they are due.
+struct Inbox::Impl {
+  explicit Impl(unsigned chaos_seed) : chaos(chaos_seed != 0), delay(chaos_seed) {}
+
+  void push(Arrival&& arrival) {
+    const std::scoped_lock lock(mutex);
+    if (chaos)
+      hold(std::move(arrival));
+    else
+      ready.push_back(std::move(arrival));
+    if (waiting) changed.notify_one();
+  }
+
+  /// Never before what came earlier in the same stream: equal times keep their order in a multimap.
+  void hold(Arrival&& arrival) {
+    const Stream stream{arrival.subscription.get(), arrival.sample.source};
+    Clock::time_point& last = last_due[stream];
+    last = std::max(last, Clock::now() + delay.next());
+    held.emplace(last, std::move(arrival));
+  }
+
+  /// Moves what is due from `held` to `ready`.
+  void release() {
+    const auto end = held.upper_bound(Clock::now());
+    for (auto it = held.begin(); it != end; ++it) ready.push_back(std::move(it->second));
+    held.erase(held.begin(), end);
+  }
+
+  /// Waits until something is ready, someone woke us, or the time is over.
+  void wait(std::unique_lock<std::mutex>& lock, Clock::time_point deadline) {
+    waiting = true;
+    for (;;) {
+      release();
+      const auto now = Clock::now();
+      if (!ready.empty() || woken || now >= deadline) break;
+      const auto next = held.empty() ? deadline : std::min(deadline, held.begin()->first);
+      changed.wait_until(lock, next);
+    }
+    waiting = false;
+  }
+
+  const bool chaos;
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<Arrival> ready;
+  bool waiting = false;
+  bool woken = false;
+
+  ChaosDelay delay;
+  std::multimap<Clock::time_point, Arrival> held;
+  std::map<Stream, Clock::time_point> last_due;
+};
+
+namespace {
+
+class InboxReader : public Reader {
+ public:
+  InboxReader(std::shared_ptr<Subscription> subscription, std::unique_ptr<Reader> reader)
+      : subscription_(std::move(subscription)), reader_(std::move(reader)) {}
+  ~InboxReader() override { subscription_->alive = false; }
+
+  std::vector<ParticipantId> matched() const override { return reader_->matched(); }
+
+ private:
+  std::shared_ptr<Subscription> subscription_;
+  std::unique_ptr<Reader> reader_;
+};
+
+}  // namespace
+
+Inbox::Inbox() : Inbox(chaos_of_environment()) {}
+
+Inbox::Inbox(unsigned chaos) : impl_(std::make_unique<Impl>(chaos)) {}
+
+Inbox::~Inbox() = default;
+
+std::unique_ptr<Reader> Inbox::subscribe(Participant& participant, const TopicSpec& topic, Handler handler) {
+  auto subscription = std::make_shared<Subscription>();
+  subscription->handler = std::move(handler);
+  auto reader = participant.create_reader(topic, [impl = impl_.get(), subscription](Sample&& sample) {
+    impl->push({subscription, std::move(sample), nullptr});
+  });
+  return std::make_unique<InboxReader>(std::move(subscription), std::move(reader));
+}
+
+bool Inbox::dispatch(std::chrono::milliseconds timeout) {
+  std::vector<Arrival> batch;
+  bool woken = false;
+  {
+    std::unique_lock lock(impl_->mutex);
+    impl_->wait(lock, Clock::now() + timeout);
+    batch.swap(impl_->ready);
+    woken = std::exchange(impl_->woken, false);
+  }
+  std::size_t done = 0;
+  try {
+    while (done < batch.size()) batch[done++].run();
+  } catch (...) {
+    // A handler may throw to its program; the samples behind it are not lost by that.
+    const std::scoped_lock lock(impl_->mutex);
+    impl_->ready.insert(impl_->ready.begin(), std::make_move_iterator(batch.begin() + static_cast<long>(done)),
+                        std::make_move_iterator(batch.end()));
+    throw;
+  }
+  return !batch.empty() && !woken;
+}
+
+void Inbox::wake() {
+  const std::scoped_lock lock(impl_->mutex);
+  impl_->woken = true;
+  impl_->changed.notify_one();
+}
+
+void Inbox::post(std::function<void()> work) { impl_->push({nullptr, {}, std::move(work)}); }
+
+}  // namespace skein::bus

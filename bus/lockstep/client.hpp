@@ -1,0 +1,100 @@
+// A participant's side of the lock-step (docs/lockstep.md): hello, matched, ready; then step after step
+// "all that was announced is here" -> think -> done. Built from events, so that a test can drive every order of them.
+// Threads: all calls from the thread that dispatches the inbox.
+#pragma once
+
+#include <optional>
+
+#include "bus/lockstep/counted.hpp"
+#include "idl/type_names.hpp"
+
+namespace skein::bus {
+
+class LockstepClient {
+ public:
+  using Step = msg::Step;
+  enum class Counterpart { server, router };
+  enum class Event {
+    none,     ///< nothing to do yet
+    think,    ///< step() is complete, handlers have run: think, write, then call done()
+    dropped,  ///< the server goes on without us
+  };
+
+  /// @param member  UAV name, "gcs", "station" or "comm_router".
+  LockstepClient(Participant& participant, Inbox& inbox, std::string member);
+
+  /// Declarations, before start(). Handlers run inside poll(), in an order that depends on nothing but the announcement.
+  void read(const TopicSpec& topic, Counterpart counterpart, CountedQueues::Handler handler);
+  /// The writer exists once the server has invited us: use write() below from the first think on.
+  void declare_writer(const TopicSpec& topic, Counterpart counterpart);
+
+  /// Says hello; poll() does the rest.
+  void start();
+  /// Call after every dispatch of the inbox.
+  Event poll();
+  /// The step that poll() announced.
+  const Step& step() const { return *step_; }
+
+  /// Sends on a declared topic. @returns false when the step's share of its history is used up (not sent).
+  bool write(const std::string& topic, std::span<const std::uint8_t> payload);
+  template <WireMessage Message>
+  bool write(const std::string& topic, const Message& message) {
+    return write(topic, encode(message));
+  }
+  /// Ends our part in step(). @param digest  station: hash of the tally changes.
+  void done(const std::vector<std::uint8_t>& digest = {});
+
+  /// True from the first step on in which we are a member.
+  bool is_member() const { return phase_ == Phase::member; }
+  /// True as long as the server's step writer is there: after the last step, stay until it has gone.
+  bool server_present() const;
+  /// Who the server and the router are; 0 when unknown or absent.
+  ParticipantId server() const { return server_; }
+  ParticipantId router() const { return router_; }
+  /// Counts that the server told us at the invitation (the router needs its members').
+  const std::vector<CountedQueues::Expected>& base() const { return base_; }
+  /// A further condition that must hold before the declaration goes out (the router: its other endpoints).
+  void declare_when(std::function<bool()> condition) { declare_condition_ = std::move(condition); }
+  /// A further condition that must hold before a step is thought about (the station: the ledger).
+  void think_when(std::function<bool(const Step&)> condition) { think_condition_ = std::move(condition); }
+  /// True while it waits for matches, which no sample announces: poll often.
+  bool waits_for_matches() const;
+  /// What it waits for, for a human.
+  std::string waiting_for() const;
+
+ private:
+  struct Reading {
+    TopicSpec topic;
+    Counterpart counterpart;
+    std::unique_ptr<Reader> reader;
+  };
+  struct Writing {
+    TopicSpec topic;
+    Counterpart counterpart;
+    std::unique_ptr<CountedWriter> writer;
+  };
+  enum class Phase { created, hello, matching, declared, member, dropped };
+
+  void on_resync(Sample&& sample);
+  void on_step(Sample&& sample);
+  void create_endpoints();
+  void say_ready(std::uint32_t revision);
+  bool matched(Counterpart counterpart, ParticipantId who) const;
+
+  Participant& participant_;
+  Inbox& inbox_;
+  std::string member_;
+  Phase phase_ = Phase::created;
+  ParticipantId server_ = 0, router_ = 0;
+  std::vector<Reading> readings_;
+  std::vector<Writing> writings_;
+  CountedQueues queues_;
+  std::vector<CountedQueues::Expected> base_;
+  std::function<bool()> declare_condition_;
+  std::function<bool(const Step&)> think_condition_;
+  std::unique_ptr<CountedWriter> ready_, done_;
+  std::unique_ptr<Reader> resync_reader_, step_reader_;
+  std::optional<Step> pending_, step_;
+};
+
+}  // namespace skein::bus

@@ -1,0 +1,95 @@
+#include "bus/lockstep/counted.hpp"
+
+#include <algorithm>
+
+namespace skein::bus {
+
+bool contains(const std::vector<ParticipantId>& matched, ParticipantId who) {
+  return std::find(matched.begin(), matched.end(), who) != matched.end();
+}
+
+CountedWriter::CountedWriter(Participant& participant, TopicSpec topic)
+    : topic_(std::move(topic)), writer_(participant.create_writer(topic_)) {}
+
+bool CountedWriter::write(std::span<const std::uint8_t> payload) {
+  if (count_ - step_start_ >= static_cast<std::uint64_t>(topic_.qos.depth)) {
+    ++refused_;
+    return false;
+  }
+  writer_->write(payload);
+  ++count_;
+  return true;
+}
+
+void CountedQueues::add_topic(const std::string& topic, Handler handler) { topics_[topic].handler = std::move(handler); }
+
+void CountedQueues::set_base(const std::string& topic, ParticipantId source, std::uint64_t count) {
+  const auto it = topics_.find(topic);
+  if (it == topics_.end()) return;
+  Lane& lane = it->second.lanes[source];
+  lane.arrived = lane.released = count;
+  lane.waiting.clear();
+}
+
+void CountedQueues::arrive(const std::string& topic, Sample&& sample) {
+  Lane& lane = topics_.at(topic).lanes[sample.source];
+  ++lane.arrived;
+  lane.waiting.push_back(std::move(sample));
+}
+
+void CountedQueues::expect(const std::vector<Expected>& expected) {
+  expected_.clear();
+  for (const Expected& e : expected) {
+    if (topics_.contains(e.topic)) expected_.push_back(e);
+  }
+}
+
+bool CountedQueues::complete() const {
+  return std::all_of(expected_.begin(), expected_.end(), [&](const Expected& e) {
+    const auto& lanes = topics_.at(e.topic).lanes;
+    const auto lane = lanes.find(e.source);
+    return e.count == 0 || (lane != lanes.end() && lane->second.arrived >= e.count);
+  });
+}
+
+void CountedQueues::release() {
+  for (const Expected& e : expected_) {
+    Topic& topic = topics_.at(e.topic);
+    Lane& lane = topic.lanes[e.source];
+    while (lane.released < e.count && !lane.waiting.empty()) {
+      Sample sample = std::move(lane.waiting.front());
+      lane.waiting.pop_front();
+      ++lane.released;
+      topic.handler(std::move(sample));
+    }
+  }
+}
+
+void CountedQueues::discard(ParticipantId source) {
+  for (auto& [name, topic] : topics_) topic.lanes.erase(source);
+  std::erase_if(expected_, [&](const Expected& e) { return e.source == source; });
+}
+
+bool CountedQueues::has_surplus(ParticipantId source) const {
+  return std::any_of(topics_.begin(), topics_.end(), [&](const auto& named) {
+    const auto lane = named.second.lanes.find(source);
+    if (lane == named.second.lanes.end()) return false;
+    const auto announced = std::find_if(expected_.begin(), expected_.end(), [&](const Expected& e) {
+      return e.source == source && e.topic == named.first;
+    });
+    return lane->second.arrived > (announced == expected_.end() ? 0 : announced->count);
+  });
+}
+
+std::vector<std::string> CountedQueues::missing() const {
+  std::vector<std::string> result;
+  for (const Expected& e : expected_) {
+    const auto& lanes = topics_.at(e.topic).lanes;
+    const auto lane = lanes.find(e.source);
+    const std::uint64_t arrived = lane == lanes.end() ? 0 : lane->second.arrived;
+    if (arrived < e.count) result.push_back(e.topic + " " + std::to_string(arrived) + " of " + std::to_string(e.count));
+  }
+  return result;
+}
+
+}  // namespace skein::bus

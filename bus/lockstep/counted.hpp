@@ -1,0 +1,95 @@
+// The counting on which lock-step rests: writers that count what they sent, queues that hand out exactly what was
+// announced, in the order in which it was announced, whatever the order of arrival.
+// Threads: none of this is shared; all calls from the thread that dispatches the inbox.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bus/bus.hpp"
+#include "bus/inbox.hpp"
+#include "idl/cdr.hpp"
+
+namespace skein::bus {
+
+/// A generated message type, as opposed to bytes.
+template <class T>
+concept WireMessage = requires { TypeName<T>::kValue; };
+
+/// True when `who` is among the participants that an endpoint has matched.
+bool contains(const std::vector<ParticipantId>& matched, ParticipantId who);
+
+/// A writer that counts its samples since it was made, and refuses more in one step than its history can hold:
+/// beyond that a reader might lose one, and the count would never come out.
+class CountedWriter {
+ public:
+  CountedWriter(Participant& participant, TopicSpec topic);
+
+  /// @returns false when this step's share of the history is used up; the sample is not sent then.
+  bool write(std::span<const std::uint8_t> payload);
+  template <WireMessage Message>
+  bool write(const Message& message) {
+    return write(encode(message));
+  }
+  /// Counts a sample that nobody reads without the cost of building it; see has_readers().
+  void skip() { ++count_; }
+
+  bool has_readers() const { return !writer_->matched().empty(); }
+  bool matches(ParticipantId who) const { return contains(writer_->matched(), who); }
+  std::uint64_t count() const { return count_; }
+  std::uint64_t refused() const { return refused_; }
+  const std::string& topic() const { return topic_.name; }
+  /// A new step: the history has room again.
+  void begin_step() { step_start_ = count_; }
+
+ private:
+  TopicSpec topic_;
+  std::unique_ptr<Writer> writer_;
+  std::uint64_t count_ = 0, step_start_ = 0, refused_ = 0;
+};
+
+/// Samples of some topics, kept apart by writer until they are called for.
+class CountedQueues {
+ public:
+  using Handler = std::function<void(Sample&&)>;
+  struct Expected {
+    std::string topic;
+    ParticipantId source = 0;
+    std::uint64_t count = 0;  ///< cumulative, since `source` joined
+  };
+
+  void add_topic(const std::string& topic, Handler handler);
+  bool has_topic(const std::string& topic) const { return topics_.contains(topic); }
+  /// The writer had already sent `count` samples when we began to listen.
+  void set_base(const std::string& topic, ParticipantId source, std::uint64_t count);
+  void arrive(const std::string& topic, Sample&& sample);
+  /// What must have arrived; topics that were never added are left out. Replaces the former expectation.
+  void expect(const std::vector<Expected>& expected);
+  bool complete() const;
+  /// Runs the handlers for all that is expected and not yet handed out, in the order of expect(), then of writing.
+  void release();
+  /// Forgets a source: what it sent, and what is expected of it.
+  void discard(ParticipantId source);
+  /// True when more has arrived from a source than is expected of it.
+  bool has_surplus(ParticipantId source) const;
+  /// What is still missing, for a human: "rt/x 3 of 4".
+  std::vector<std::string> missing() const;
+
+ private:
+  struct Lane {
+    std::uint64_t arrived = 0, released = 0;  ///< cumulative, bases included
+    std::deque<Sample> waiting;
+  };
+  struct Topic {
+    Handler handler;
+    std::map<ParticipantId, Lane> lanes;
+  };
+  std::map<std::string, Topic> topics_;
+  std::vector<Expected> expected_;
+};
+
+}  // namespace skein::bus

@@ -1,0 +1,21 @@
+// Names under which programs take part in the lock-step; a UAV's agent has the UAV's name, a user's program at the
+// ground station that of its node, "gcs".
+#pragma once
+
+#include <string_view>
+
+#include "bus/bus.hpp"
+#include "core/topics.hpp"
+
+namespace skein::bus {
+
+inline constexpr std::string_view kRouterName = "comm_router";
+inline constexpr std::string_view kStationName = "station";
+inline constexpr std::string_view kGcsName = "gcs";
+
+/// A topic of the one table (core/topics.hpp) as a backend takes it.
+inline TopicSpec spec(const topics::WireTopic& topic) {
+  return {topic.name, topic.type, Qos{.reliable = true, .latched = topic.latched, .depth = topic.depth}};
+}
+
+}  // namespace skein::bus

@@ -1,0 +1,365 @@
+#include "bus/lockstep/server.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "bus/lockstep/names.hpp"
+
+namespace skein::bus {
+
+namespace {
+
+msg::TopicCount topic_count(const std::string& topic, ParticipantId source, std::uint64_t count) {
+  msg::TopicCount result;
+  result.topic(topic);
+  result.source(source);
+  result.count(count);
+  return result;
+}
+
+}  // namespace
+
+LockstepServer::DomainIndex LockstepServer::add_domain(const std::string& node, Participant& participant) {
+  const DomainIndex index = domains_.size();
+  auto domain = std::make_unique<Domain>();
+  domain->node = node;
+  domain->participant = &participant;
+  domain->step = std::make_unique<CountedWriter>(participant, spec(topics::step()));
+  domain->resync = std::make_unique<CountedWriter>(participant, spec(topics::resync()));
+  const auto listen = [&](const TopicSpec& topic, Inbox::Handler handler) {
+    domain->control_readers.push_back(inbox_.subscribe(participant, topic, std::move(handler)));
+    return domain->control_readers.back().get();
+  };
+  listen(spec(topics::ready()), [this, index](Sample&& s) { on_ready(index, std::move(s)); });
+  domain->done_reader = listen(spec(topics::done()), [this, index](Sample&& s) { on_done(index, std::move(s)); });
+  if (index == 0) {
+    domain->readers.emplace_back(
+        spec(topics::routed()).name,
+        inbox_.subscribe(participant, spec(topics::routed()), [this](Sample&& s) { on_routed(std::move(s)); }));
+    domain->readers.emplace_back(
+        spec(topics::attached()).name,
+        inbox_.subscribe(participant, spec(topics::attached()), [this](Sample&& s) { on_attached(std::move(s)); }));
+    drop_ = std::make_unique<CountedWriter>(participant, spec(topics::drop()));
+  }
+  domains_.push_back(std::move(domain));
+  return index;
+}
+
+void LockstepServer::add_place(const std::string& member, DomainIndex domain, bool awaited) {
+  Place place;
+  place.name = member;
+  place.domain = domain;
+  place.awaited = awaited;
+  places_.push_back(std::move(place));
+}
+
+CountedWriter& LockstepServer::writer(DomainIndex domain, const TopicSpec& topic) {
+  Domain& d = *domains_.at(domain);
+  d.writers.push_back(std::make_unique<CountedWriter>(*d.participant, topic));
+  d.announced.push_back(0);
+  return *d.writers.back();
+}
+
+void LockstepServer::read(DomainIndex domain, const TopicSpec& topic, CountedQueues::Handler handler) {
+  Domain& d = *domains_.at(domain);
+  d.commands.add_topic(topic.name, std::move(handler));
+  d.readers.emplace_back(topic.name, inbox_.subscribe(*d.participant, topic, [this, &d, name = topic.name](Sample&& s) {
+    // Strangers may write into this domain; only who knocked can become a member, so the rest is not even kept.
+    const bool known = std::any_of(places_.begin(), places_.end(), [&](const Place& p) { return p.source == s.source; });
+    if (known) d.commands.arrive(name, std::move(s));
+  }));
+}
+
+LockstepServer::Place* LockstepServer::find(std::string_view name) {
+  const auto it = std::find_if(places_.begin(), places_.end(), [&](const Place& p) { return p.name == name; });
+  return it == places_.end() ? nullptr : &*it;
+}
+
+const LockstepServer::Place* LockstepServer::router() const {
+  const auto it = std::find_if(places_.begin(), places_.end(),
+                               [](const Place& p) { return p.name == kRouterName && p.member; });
+  return it == places_.end() ? nullptr : &*it;
+}
+
+bool LockstepServer::is_member(const std::string& name) const {
+  return std::any_of(places_.begin(), places_.end(), [&](const Place& p) { return p.name == name && p.member; });
+}
+
+// ---- joining ----------------------------------------------------------------------------------------------------
+
+void LockstepServer::on_ready(DomainIndex domain, Sample&& sample) {
+  msg::Ready ready;
+  if (!decode(sample.payload, ready)) return;
+  Place* place = find(ready.member());
+  if (place == nullptr || place->domain != domain) return;
+  if (place->source != 0 && place->source != sample.source) {
+    place->next.emplace(sample.source, ready);  // its predecessor is not yet known to be dead
+    return;
+  }
+  take_ready(*place, sample.source, ready);
+}
+
+void LockstepServer::take_ready(Place& place, ParticipantId source, const msg::Ready& ready) {
+  if (place.member) return;
+  place.source = source;
+  if (ready.revision() == 0) return;
+  place.declared = true;
+  place.reads = ready.reads();
+  place.writes = ready.writes();
+}
+
+void LockstepServer::invite(Place& place) {
+  const Domain& domain = *domains_.at(place.domain);
+  msg::Resync resync;
+  resync.member(place.name);
+  resync.source(place.source);
+  resync.k(k_);
+  resync.epoch(epoch_);
+  resync.base(all_counts(domain));
+  if (place.name == kRouterName) {
+    // What the members have sent so far is past: the new router counts from there.
+    for (const Place& other : places_) {
+      for (const auto& sent : other.sent) resync.base().push_back(topic_count(sent.topic, sent.source, sent.count));
+    }
+  }
+  domains_.at(place.domain)->resync->begin_step();
+  domains_.at(place.domain)->resync->write(resync);
+  place.invited = true;
+}
+
+bool LockstepServer::endpoints_matched(const Place& place) const {
+  const Domain& domain = *domains_.at(place.domain);
+  if (!domain.step->matches(place.source)) return false;
+  if (place.name != kRouterName && !contains(domain.done_reader->matched(), place.source)) return false;
+  const auto listed = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const auto& writer : domain.writers) {
+    if (listed(place.reads, writer->topic()) && !writer->matches(place.source)) return false;
+  }
+  for (const auto& [topic, reader] : domain.readers) {
+    if (listed(place.writes, topic) && !contains(reader->matched(), place.source)) return false;
+  }
+  return place.name != kRouterName || drop_->matches(place.source);
+}
+
+void LockstepServer::on_attached(Sample&& sample) {
+  msg::Attached attached;
+  if (decode(sample.payload, attached)) attached_[{sample.source, attached.source()}] = attached.router();
+}
+
+bool LockstepServer::attached_by_router(const Place& place) const {
+  const Place* r = router();
+  return place.name == kRouterName || r == nullptr || attached_.contains({r->source, place.source});
+}
+
+bool LockstepServer::router_attached_all() const {
+  const Place* r = router();
+  return r == nullptr || std::all_of(places_.begin(), places_.end(), [&](const Place& p) {
+           return !p.member || p.name == kRouterName || attached_.contains({r->source, p.source});
+         });
+}
+
+bool LockstepServer::at_boundary() {
+  // The router first: who joins beside it is then asked to be attached by it.
+  std::vector<Place*> order;
+  for (Place& place : places_) {
+    order.insert(place.name == kRouterName ? order.begin() : order.end(), &place);
+  }
+  bool closed = true;
+  for (Place* place : order) {
+    if (place->member) continue;
+    if (place->source == 0 && place->next) {
+      const auto [source, ready] = *place->next;
+      place->next.reset();
+      take_ready(*place, source, ready);
+    }
+    if (place->source == 0) {
+      closed = closed && (started_ || !place->awaited);
+      continue;
+    }
+    if (!place->invited) invite(*place);
+    if (!place->declared || !endpoints_matched(*place) || !attached_by_router(*place)) {
+      closed = false;
+      continue;
+    }
+    place->member = true;
+    membership_changed_ = true;
+    if (place->was_member) rejoined_.push_back(place->name);
+    place->was_member = true;
+  }
+  return closed && router_attached_all();
+}
+
+// ---- one step ---------------------------------------------------------------------------------------------------
+
+std::vector<msg::TopicCount> LockstepServer::all_counts(const Domain& domain) const {
+  std::vector<msg::TopicCount> result;
+  for (const auto& writer : domain.writers) {
+    result.push_back(topic_count(writer->topic(), domain.participant->id(), writer->count()));
+  }
+  const auto delivered = delivered_.find(domain.node);
+  if (delivered != delivered_.end()) {
+    for (const auto& [topic, count] : delivered->second) result.push_back(count);
+  }
+  return result;
+}
+
+std::vector<msg::TopicCount> LockstepServer::take_new_counts(Domain& domain) {
+  std::vector<msg::TopicCount> result;
+  for (std::size_t i = 0; i < domain.writers.size(); ++i) {
+    const CountedWriter& writer = *domain.writers[i];
+    if (writer.count() == domain.announced[i]) continue;
+    domain.announced[i] = writer.count();
+    result.push_back(topic_count(writer.topic(), domain.participant->id(), writer.count()));
+  }
+  if (const auto fresh = newly_delivered_.extract(domain.node)) {
+    result.insert(result.end(), fresh.mapped().begin(), fresh.mapped().end());
+  }
+  return result;
+}
+
+// A member as its peers in a domain see it: the router has a participant of its own in each.
+ParticipantId LockstepServer::source_in(DomainIndex domain, const Place& member) const {
+  if (domain == 0 || member.name != kRouterName) return member.source;
+  for (const Place& peer : places_) {
+    const auto attached = attached_.find({member.source, peer.source});
+    if (peer.member && peer.domain == domain && attached != attached_.end()) return attached->second;
+  }
+  return 0;
+}
+
+void LockstepServer::publish(const StepInfo& info) {
+  if (membership_changed_) ++epoch_;
+  membership_changed_ = false;
+  started_ = in_step_ = true;
+  k_ = info.k;
+  routed_digest_.clear();
+  station_digest_.clear();
+  msg::Step step;
+  step.k(info.k);
+  step.epoch(epoch_);
+  step.tick(info.tick);
+  const std::int64_t ns = info.tick * 2'500'000;
+  step.stamp().sec(static_cast<std::int32_t>(ns / 1'000'000'000));
+  step.stamp().nanosec(static_cast<std::uint32_t>(ns % 1'000'000'000));
+  step.ledger_upto(info.ledger_upto);
+  step.final_step(info.final_step);
+  for (std::size_t i = 0; i < domains_.size(); ++i) {
+    Domain& domain = *domains_[i];
+    step.members().clear();
+    for (Place& place : places_) {
+      place.answered = false;
+      if (!place.member || (i != 0 && place.domain != i && place.name != kRouterName)) continue;
+      msg::Member member;
+      member.name(place.name);
+      member.source(source_in(i, place));
+      step.members().push_back(member);
+    }
+    step.expected(take_new_counts(domain));
+    step.links(i == 0 ? info.links : std::vector<std::uint8_t>{});
+    for (auto& writer : domain.writers) writer->begin_step();
+    domain.step->begin_step();
+    domain.step->write(step);
+  }
+}
+
+void LockstepServer::on_done(DomainIndex domain, Sample&& sample) {
+  msg::Done done;
+  if (!in_step_ || !decode(sample.payload, done)) return;
+  Place* place = find(done.member());
+  if (place == nullptr || !place->member || place->domain != domain || place->source != sample.source ||
+      done.k() != k_ || done.epoch() != epoch_) {
+    return;
+  }
+  place->sent.clear();
+  for (const auto& sent : done.sent()) place->sent.push_back({sent.topic(), sample.source, sent.count()});
+  place->answered = true;
+  if (place->name == kStationName) station_digest_ = done.digest();
+}
+
+void LockstepServer::on_routed(Sample&& sample) {
+  msg::Routed routed;
+  Place* place = find(kRouterName);
+  if (!in_step_ || place == nullptr || !place->member || place->source != sample.source ||
+      !decode(sample.payload, routed) || routed.k() != k_ || routed.epoch() != epoch_) {
+    return;
+  }
+  for (const auto& node : routed.nodes()) {
+    for (const auto& count : node.delivered()) delivered_[node.node()][count.topic()] = count;
+    newly_delivered_[node.node()] = node.delivered();
+  }
+  routed_digest_ = routed.digest();
+  place->answered = true;
+}
+
+bool LockstepServer::answered() {
+  if (!in_step_) return false;
+  for (std::size_t i = 0; i < domains_.size(); ++i) {
+    std::vector<CountedQueues::Expected> expected;
+    for (const Place& place : places_) {
+      if (!place.member || place.domain != i) continue;
+      if (!place.answered) return false;
+      expected.insert(expected.end(), place.sent.begin(), place.sent.end());
+    }
+    domains_[i]->commands.expect(expected);
+  }
+  for (const auto& domain : domains_) {
+    if (!domain->commands.complete()) return false;
+  }
+  in_step_ = false;
+  for (Place& place : places_) {
+    if (place.member && domains_[place.domain]->commands.has_surplus(place.source)) {
+      leave(place, "sent more than it announced");
+    }
+  }
+  for (const auto& domain : domains_) domain->commands.release();
+  return true;
+}
+
+// ---- leaving ----------------------------------------------------------------------------------------------------
+
+void LockstepServer::leave(Place& place, const std::string& reason) {
+  domains_[place.domain]->commands.discard(place.source);
+  if (place.member) {
+    membership_changed_ = true;
+    msg::Drop drop;
+    drop.k(k_);
+    drop.epoch(epoch_);
+    drop.member(place.name);
+    drop.source(place.source);
+    drop_->begin_step();
+    drop_->write(drop);
+  }
+  lost_.push_back({place.name, k_, reason});
+  place.awaited = place.member = place.invited = place.declared = place.answered = false;
+  place.source = 0;
+  place.sent.clear();
+  if (place.name == kRouterName) {
+    delivered_.clear();
+    newly_delivered_.clear();
+  }
+}
+
+void LockstepServer::lost(const std::string& member, const std::string& reason) {
+  Place* place = find(member);
+  if (place == nullptr) return;
+  if (place->source == 0 && started_) return;
+  leave(*place, reason);
+}
+
+std::vector<LockstepServer::LostMember> LockstepServer::take_lost() { return std::exchange(lost_, {}); }
+
+std::vector<std::string> LockstepServer::take_rejoined() { return std::exchange(rejoined_, {}); }
+
+std::vector<std::string> LockstepServer::awaited() const {
+  std::vector<std::string> names;
+  for (const Place& place : places_) {
+    if (in_step_ ? place.member && !place.answered : !place.member && (place.awaited || place.source != 0)) {
+      names.push_back(place.name);
+    }
+  }
+  return names;
+}
+
+}  // namespace skein::bus

@@ -1,0 +1,120 @@
+// The server's side of the lock-step (docs/lockstep.md): it owns membership and the clock. Built from events.
+// Between two steps it stands still while somebody joins; within a step it waits for everybody's answer.
+// Threads: all calls from the thread that dispatches the inbox.
+#pragma once
+
+#include <optional>
+#include <map>
+
+#include "bus/lockstep/counted.hpp"
+#include "idl/type_names.hpp"
+
+namespace skein::bus {
+
+class LockstepServer {
+ public:
+  /// A domain that the server joined; the first one added is the world's, where the router is a member.
+  using DomainIndex = std::size_t;
+
+  struct StepInfo {
+    std::uint64_t k = 0;
+    std::int64_t tick = 0;
+    std::vector<std::uint8_t> links;  ///< row-major radio matrix, published in the world domain only
+    std::uint64_t ledger_upto = 0;
+    bool final_step = false;
+  };
+  struct LostMember {
+    std::string name;
+    std::uint64_t k = 0;
+    std::string reason;
+  };
+
+  explicit LockstepServer(Inbox& inbox) : inbox_(inbox) {}
+
+  /// @param node  radio node whose domain this is ("gcs" or a UAV's name); "" for the world's.
+  DomainIndex add_domain(const std::string& node, Participant& participant);
+  /// A place for a member; its name may say ready in this domain only. @param awaited  before the first step.
+  void add_place(const std::string& member, DomainIndex domain, bool awaited);
+  /// Topic that the server writes; announced in every step of that domain.
+  CountedWriter& writer(DomainIndex domain, const TopicSpec& topic);
+  /// Topic that a member of this domain writes and whose samples are handed out when the step is answered.
+  void read(DomainIndex domain, const TopicSpec& topic, CountedQueues::Handler handler);
+
+  /// At a boundary: lets in whoever knocks. @returns true when nobody is at the door any more: publish() may follow.
+  bool at_boundary();
+  void publish(const StepInfo& info);
+  /// @returns true when everybody has answered the published step; handlers of read() have run then, member by member.
+  bool answered();
+
+  /// A process died (launcher), hangs (time-out) or left: nobody waits for it any longer.
+  void lost(const std::string& member, const std::string& reason);
+  /// Members and joiners that are lost since the last call.
+  std::vector<LostMember> take_lost();
+
+  bool is_member(const std::string& name) const;
+  /// Joined again after it had been lost, since the last call.
+  std::vector<std::string> take_rejoined();
+  /// Who has not answered, or has not joined; for messages and time-outs.
+  std::vector<std::string> awaited() const;
+  /// Of the last answered step: the router's hash of its deliveries, the station's of its tally changes.
+  const std::vector<std::uint8_t>& routed_digest() const { return routed_digest_; }
+  const std::vector<std::uint8_t>& station_digest() const { return station_digest_; }
+
+ private:
+  struct Domain {
+    std::string node;
+    Participant* participant = nullptr;
+    std::unique_ptr<CountedWriter> step, resync;
+    std::vector<std::unique_ptr<Reader>> control_readers;
+    std::vector<std::unique_ptr<CountedWriter>> writers;
+    std::vector<std::uint64_t> announced;  ///< counts of `writers` that the members know
+    std::vector<std::pair<std::string, std::unique_ptr<Reader>>> readers;
+    CountedQueues commands;
+    const Reader* done_reader = nullptr;
+  };
+  struct Place {
+    std::string name;
+    DomainIndex domain = 0;
+    bool awaited = false, member = false, was_member = false;
+    ParticipantId source = 0;        ///< of the member, or of who knocks
+    bool invited = false, declared = false;
+    std::vector<std::string> reads, writes;
+    bool answered = false;
+    std::vector<CountedQueues::Expected> sent;  ///< by its last Done
+    std::optional<std::pair<ParticipantId, msg::Ready>> next;  ///< knocked while the place was taken
+  };
+
+  void on_ready(DomainIndex domain, Sample&& sample);
+  void on_done(DomainIndex domain, Sample&& sample);
+  void on_routed(Sample&& sample);
+  void on_attached(Sample&& sample);
+  void take_ready(Place& place, ParticipantId source, const msg::Ready& ready);
+  void invite(Place& place);
+  bool endpoints_matched(const Place& place) const;
+  bool attached_by_router(const Place& place) const;
+  bool router_attached_all() const;
+  ParticipantId source_in(DomainIndex domain, const Place& member) const;
+  const Place* router() const;
+  Place* find(std::string_view name);
+  std::vector<msg::TopicCount> all_counts(const Domain& domain) const;
+  std::vector<msg::TopicCount> take_new_counts(Domain& domain);
+  void leave(Place& place, const std::string& reason);
+
+  Inbox& inbox_;
+  std::vector<std::unique_ptr<Domain>> domains_;
+  std::vector<Place> places_;
+  std::unique_ptr<CountedWriter> drop_;
+  /// (router, member): the router's participant in the member's domain.
+  std::map<std::pair<ParticipantId, ParticipantId>, ParticipantId> attached_;
+  /// What the present router delivered, by node, topic; and what of it the members do not know yet.
+  std::map<std::string, std::map<std::string, msg::TopicCount>> delivered_;
+  std::map<std::string, std::vector<msg::TopicCount>> newly_delivered_;
+  std::vector<std::uint8_t> routed_digest_, station_digest_;
+  std::vector<LostMember> lost_;
+  std::vector<std::string> rejoined_;
+  std::uint64_t k_ = 0;
+  std::uint32_t epoch_ = 0;
+  bool membership_changed_ = true, in_step_ = false, started_ = false;
+};
+
+}  // namespace skein::bus

@@ -1,0 +1,15 @@
+// The bus that a program's command line asks for.
+#pragma once
+
+#include "bus/bus.hpp"
+#include "core/program.hpp"
+
+namespace skein::bus {
+
+/// @throws InputError for an unknown vendor.
+inline std::unique_ptr<Bus> make_bus(const ProgramOptions& options) {
+  return make_bus(BusConfig{
+      .vendor = options.dds, .loopback_only = options.loopback_only, .long_leases = options.long_leases});
+}
+
+}  // namespace skein::bus

@@ -1,0 +1,43 @@
+// What all backends do alike, so that it does not show which one is in use.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bus/bus.hpp"
+
+namespace skein::bus {
+
+/// How many participants of one domain find each other on one machine without multicast: each is announced to this
+/// many ports.
+inline constexpr int kMaxLocalParticipants = 32;
+
+/// Death is noticed after this long without a sign of life; signs are sent several times as often. Long enough for a
+/// process that gets no processor for seconds on a busy machine.
+inline constexpr int kLeaseS = 8;
+inline constexpr int kAnnounceS = 2;
+/// The lease when a process may be stopped in a debugger: a day.
+inline constexpr int kLongLeaseS = 24 * 3600;
+
+/// FNV-1a, 64 bit (Fowler, Noll and Vo), over a GUID prefix: the name of a participant, whatever the vendor.
+/// @param guid_prefix its 12 bytes in the order in which they stand on the wire
+inline ParticipantId participant_id(std::span<const std::uint8_t, 12> guid_prefix) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const std::uint8_t byte : guid_prefix) hash = (hash ^ byte) * 0x100000001b3;
+  return hash;
+}
+
+/// RTPS carries payloads as multiples of four bytes. Padding them with zeros before they go out makes a payload the
+/// same bytes at every reader, over any transport.
+inline std::vector<std::uint8_t> padded(std::span<const std::uint8_t> payload) {
+  std::vector<std::uint8_t> bytes((payload.size() + 3) / 4 * 4);
+  std::copy(payload.begin(), payload.end(), bytes.begin());
+  return bytes;
+}
+
+/// @throws InputError when the domain id is not 0 .. kMaxDomain
+void check_domain(int domain);
+
+}  // namespace skein::bus

@@ -1,0 +1,78 @@
+#include "cli/check_command.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "cli/environment.hpp"
+#include "cli/fleet_plan.hpp"
+#include "cli/preflight.hpp"
+#include "core/config_node.hpp"
+#include "core/scenario_reader.hpp"
+
+namespace skein::cli {
+namespace {
+
+enum class FileKind { scenario, vehicle, waypoints };
+
+/// Told by the first key that only one kind of file has, so that a file that lacks a required key is still recognised.
+FileKind kind_of(const std::string& file) {
+  static const std::map<std::string, FileKind> kTellingKeys = {
+      {"fleet", FileKind::scenario}, {"scene", FileKind::scenario},  {"desired_mm_per_pixel", FileKind::scenario},
+      {"role", FileKind::vehicle},   {"mass_kg", FileKind::vehicle}, {"camera", FileKind::vehicle},
+      {"lidar", FileKind::vehicle},  {"paths", FileKind::waypoints}};
+  for (const std::string& key : read_config_document(file).root.keys) {
+    const auto found = kTellingKeys.find(key);
+    if (found != kTellingKeys.end()) return found->second;
+  }
+  throw InputError(file + ":1: is of no known kind: a scenario has the keys 'scene' and 'fleet', a vehicle 'role', a " +
+                   "file for the waypoints planner 'paths'");
+}
+
+/// What the programs themselves say to a scenario and planner.
+void check_with_programs(const CheckOptions& options, const std::string& scenario, const std::string& planner) {
+  RunOptions run;
+  run.scenario = scenario;
+  run.planner = planner;
+  run.assets = options.assets;
+  const ScratchDir scratch;
+  run_checks(check_programs(plan_fleet(run, program_dir()), scratch.path()));
+}
+
+std::string check_file(const CheckOptions& options, const std::string& file) {
+  const std::string path = std::filesystem::absolute(file);
+  switch (kind_of(file)) {
+    case FileKind::vehicle:
+      load_vehicle(path, default_config_dir());
+      return "vehicle";
+    case FileKind::waypoints:
+      check_with_programs(options, RunOptions{}.scenario, "waypoints:" + path);
+      return "waypoints";
+    case FileKind::scenario:
+      check_with_programs(options, path, kDefaultPlanner);
+      return "scenario";
+  }
+  return {};
+}
+
+/// Reference vectors go to the program that holds the production code; its words and its exit code are ours.
+int check_golden(const std::string& file) {
+  const ExitStatus exit = run_to_end({"sim_server",
+                                      {program_dir() / "sim_server", "--golden", std::filesystem::absolute(file)},
+                                      fleet_environment(false),
+                                      {}});
+  return exit.signal == 0 && exit.code <= kExitBadInput ? exit.code : kExitProcessFailed;
+}
+
+}  // namespace
+
+int check_files(const CheckOptions& options, const Console& console) {
+  for (const std::string& file : options.files) {
+    const std::string kind = check_file(options, file);
+    console.out << file << ": OK (" << kind << ")" << std::endl;
+  }
+  int worst = kExitDone;
+  for (const std::string& file : options.golden) worst = std::max(worst, check_golden(file));
+  return worst;
+}
+
+}  // namespace skein::cli

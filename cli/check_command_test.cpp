@@ -1,0 +1,57 @@
+#include "cli/check_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "cli/fake_programs.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+class CheckCommand : public ::testing::Test {
+ protected:
+  int check(const CheckOptions& options) { return check_files(options, {out_, err_, false}); }
+  std::string file(const std::string& name, const std::string& text) {
+    write_text(programs_.dir() / name, text);
+    return programs_.dir() / name;
+  }
+
+  FakePrograms programs_;
+  std::ostringstream out_, err_;
+};
+
+TEST_F(CheckCommand, GoodFilesAreNamedWithTheirKind) {
+  const std::string vehicle = file("v.yaml", "{name: p, role: photographer}");
+  EXPECT_EQ(check({{programs_.scenario(), vehicle}, {}, {}}), kExitDone);
+  EXPECT_EQ(out_.str(), programs_.scenario().string() + ": OK (scenario)\n" + vehicle + ": OK (vehicle)\n");
+}
+
+TEST_F(CheckCommand, WrongFilesAreRefused) {
+  EXPECT_THROW(check({{"/does/not/exist.yaml"}, {}, {}}), InputError);
+  EXPECT_THROW(check({{file("a.yaml", "{colour: red}")}, {}, {}}), InputError);
+  EXPECT_THROW(check({{file("b.yaml", "{name: p, role: pilot}")}, {}, {}}), InputError);
+  EXPECT_THROW(check({{file("c.yaml", "{name: s, scene: {family: towers}, fleet: []}")}, {}, {}}), InputError);
+}
+
+TEST_F(CheckCommand, WhatAProgramSaysOfAScenarioCounts) {
+  write_script(programs_.dir() / "sim_server", "echo 'the mesh is empty' >&2; exit 2");
+  try {
+    check({{programs_.scenario()}, {}, {}});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "the mesh is empty");
+  }
+}
+
+TEST_F(CheckCommand, ReferenceVectorsGoToTheServerAndItsExitCodeIsOurs) {
+  const std::string table = file("t.csv", "x\n");
+  write_script(programs_.dir() / "sim_server", "[ \"$1\" = --golden ] && [ -e \"$2\" ] && exit 1; exit 2");
+  EXPECT_EQ(check({{}, {table}, {}}), kExitCheckFailed);
+  write_script(programs_.dir() / "sim_server", "exit 0");
+  EXPECT_EQ(check({{}, {table, table}, {}}), kExitDone);
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,157 @@
+#include "cli/fleet_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <set>
+
+#include "cli/environment.hpp"
+#include "core/scenario_reader.hpp"
+
+namespace skein::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+constexpr std::array<const char*, 2> kVendors = {"cyclonedds", "fastdds"};
+constexpr const char* kAgentPrefix = "uav_agent-";
+
+void append(Arguments& arguments, const Arguments& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+}
+
+/// Shortest text that reads back to the same number.
+std::string text_of(double value) {
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end.ptr};
+}
+
+/// What every program must know to read the same scenario.
+Arguments scenario_arguments(const FleetPlan& plan) {
+  const RunOptions& options = plan.options;
+  Arguments arguments = {"--scenario", std::filesystem::absolute(plan.scenario.file), "--seed",
+                         std::to_string(options.seed)};
+  if (options.assets) append(arguments, {"--assets", std::filesystem::absolute(*options.assets)});
+  if (options.scene_seed) append(arguments, {"--scene-seed", std::to_string(*options.scene_seed)});
+  if (options.duration_s) append(arguments, {"--duration", text_of(*options.duration_s)});
+  return arguments;
+}
+
+Arguments command_line(const FleetPlan& plan, const std::string& binary) {
+  Arguments arguments = {plan.bin_dir / binary};
+  append(arguments, scenario_arguments(plan));
+  return arguments;
+}
+
+/// @param program "sim_server", "comm_router", "station" or an agent's.
+Arguments run_arguments(const FleetPlan& plan, const std::string& program, int base_domain,
+                        const std::filesystem::path& out) {
+  const bool is_agent = program.starts_with(kAgentPrefix);
+  Arguments arguments = command_line(plan, is_agent ? "uav_agent" : program);
+  append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain), "--out", out});
+  if (plan.options.debug_uav) arguments.push_back("--debug-leases");
+  if (is_agent) {
+    const std::string uav = member_name(program);
+    append(arguments, {"--uav", uav, "--planner", plan.planners[plan.scenario.uav_index(uav)].spec});
+  }
+  if (program == "sim_server") {
+    append(arguments, {"--clock", plan.options.clock});
+    if (plan.options.stop_at_s) append(arguments, {"--stop-at", text_of(*plan.options.stop_at_s)});
+    if (plan.options.debug_uav) append(arguments, {"--agent-timeout", "0"});
+  }
+  return arguments;
+}
+
+std::string quoted_for_shell(const std::string& word) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("_-./:=,", c) != nullptr; };
+  if (std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir) {
+  LoadOptions load;
+  load.assets_dir = options.assets.value_or("");
+  load.duration_s = options.duration_s;
+  load.scene_seed = options.scene_seed;
+  FleetPlan plan{options, load_scenario(options.scenario, load), {}, bin_dir};
+  std::vector<std::string> names;
+  for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
+  plan.planners = parse_planners(options.planner, names);
+  if (options.debug_uav) plan.scenario.uav_index(*options.debug_uav);  // throws for an unknown name
+  return plan;
+}
+
+std::filesystem::path program_dir() {
+  const char* chosen = std::getenv("SKEIN_BIN_DIR");
+  if (chosen != nullptr && *chosen != '\0') return chosen;
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+int domain_count(const FleetPlan& plan) { return 2 + static_cast<int>(plan.scenario.fleet.size()); }
+
+std::string agent_program(const std::string& uav) { return kAgentPrefix + uav; }
+
+std::string member_name(const std::string& program) {
+  return program.starts_with(kAgentPrefix) ? program.substr(std::string(kAgentPrefix).size()) : program;
+}
+
+std::map<std::string, std::string> dds_vendors(const FleetPlan& plan) {
+  std::vector<std::string> programs = {"sim_server", "comm_router", "station"};
+  for (const UavConfig& uav : plan.scenario.fleet) programs.push_back(agent_program(uav.name));
+  std::map<std::string, std::string> vendors;
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    vendors[programs[i]] = plan.options.dds == "mixed" ? kVendors[i % kVendors.size()] : plan.options.dds;
+  }
+  return vendors;
+}
+
+std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out) {
+  const std::vector<std::string> environment = fleet_environment(plan.options.native);
+  std::vector<ProgramSpec> programs;
+  const auto add = [&](const std::string& name) {
+    Arguments arguments = run_arguments(plan, name, base_domain, out);
+    append(arguments, {"--status-fd", std::to_string(kStatusFd), "--control-fd", std::to_string(kControlFd)});
+    programs.push_back({name, std::move(arguments), environment, out / (name + ".log")});
+  };
+  for (const char* name : {"sim_server", "comm_router", "station"}) add(name);
+  for (const UavConfig& uav : plan.scenario.fleet) {
+    if (plan.options.debug_uav != uav.name) add(agent_program(uav.name));
+  }
+  return programs;
+}
+
+std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out) {
+  std::string command = fleet_environment_prefix(plan.options.native) + "gdb --args";
+  for (const std::string& argument : run_arguments(plan, agent_program(*plan.options.debug_uav), base_domain, out)) {
+    command += " " + quoted_for_shell(argument);
+  }
+  return command;
+}
+
+std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch) {
+  const std::vector<std::string> environment = fleet_environment(plan.options.native);
+  std::vector<ProgramSpec> programs;
+  const auto add = [&](const std::string& name, Arguments arguments) {
+    arguments.push_back("--check");
+    programs.push_back({name, std::move(arguments), environment, scratch / (name + ".log")});
+  };
+  add("sim_server", command_line(plan, "sim_server"));
+  std::set<std::string> checked;
+  for (const UavPlanner& planner : plan.planners) {
+    if (!checked.insert(planner.spec).second) continue;
+    Arguments arguments = command_line(plan, "uav_agent");
+    append(arguments, {"--uav", planner.uav, "--planner", planner.spec});
+    add(agent_program(planner.uav), std::move(arguments));
+  }
+  return programs;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,51 @@
+// Which programs a run consists of, and the command line of each.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cli/options.hpp"
+#include "cli/planner_spec.hpp"
+#include "cli/supervisor.hpp"
+#include "core/scenario.hpp"
+
+namespace skein::cli {
+
+/// All that is decided before a run starts.
+struct FleetPlan {
+  RunOptions options;
+  Scenario scenario;
+  std::vector<UavPlanner> planners;  ///< fleet order
+  std::filesystem::path bin_dir;     ///< where the programs are
+};
+
+/// Loads the scenario and takes the planners apart. @throws InputError for whatever is wrong in them.
+FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir);
+
+/// Where the sibling programs are: SKEIN_BIN_DIR, else this executable's own folder.
+std::filesystem::path program_dir();
+
+/// World, ground station and one domain a UAV.
+int domain_count(const FleetPlan& plan);
+
+/// The program that runs a UAV's on-board software: "uav_agent-jurong".
+std::string agent_program(const std::string& uav);
+/// How sim_server calls a program's member: the UAV's name, "comm_router" or "station".
+std::string member_name(const std::string& program);
+
+/// DDS vendor by program. `mixed` deals the vendors out in turn: sim_server, comm_router, station, then the UAVs.
+std::map<std::string, std::string> dds_vendors(const FleetPlan& plan);
+
+/// The whole fleet in the order in which it starts, the UAV under --debug left out.
+std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out);
+
+/// What to type to run the UAV under --debug in gdb.
+std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out);
+
+/// Programs that only validate (--check): sim_server, then one agent for each different planner.
+/// @param scratch folder for their logs.
+std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch);
+
+}  // namespace skein::cli

@@ -1,0 +1,60 @@
+// The skein command: reads the command line, hands over, turns what went wrong into a message and an exit code.
+#include <unistd.h>
+
+#include <exception>
+#include <iostream>
+
+#include "cli/check_command.hpp"
+#include "cli/options.hpp"
+#include "cli/preflight.hpp"
+#include "cli/run_command.hpp"
+#include "cli/run_diff.hpp"
+#include "cli/test_command.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+int diff_runs(const DiffOptions& options, const Console& console) {
+  const std::optional<RunDifference> difference = first_difference(options.run_a, options.run_b);
+  if (!difference) {
+    console.out << "the runs are the same" << std::endl;
+    return kExitDone;
+  }
+  console.out << "first difference at step " << difference->step << " (" << difference->time_s << " s):\n";
+  for (const std::string& field : difference->fields) console.out << "  " << field << '\n';
+  return kExitCheckFailed;
+}
+
+/// One overload a command.
+struct Execute {
+  const Console& console;
+  int operator()(const RunOptions& options) const { return run_fleet(options, console); }
+  int operator()(const TestOptions& options) const { return run_tests(options, console); }
+  int operator()(const CheckOptions& options) const { return check_files(options, console); }
+  int operator()(const DiffOptions& options) const { return diff_runs(options, console); }
+  int operator()(const HelpText& help) const {
+    console.out << help.text;
+    return kExitDone;
+  }
+};
+
+int execute(const std::vector<std::string>& arguments, const Console& console) try {
+  return std::visit(Execute{console}, parse_command_line(arguments));
+} catch (const InputError& error) {
+  console.err << error.what() << std::endl;
+  return kExitBadInput;
+} catch (const Interrupted&) {
+  return kExitInterrupted;
+} catch (const std::exception& error) {
+  console.err << "skein: " << error.what() << std::endl;
+  return kExitProcessFailed;
+}
+
+}  // namespace
+}  // namespace skein::cli
+
+int main(int argc, char** argv) {
+  const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  return skein::cli::execute({argv + 1, argv + argc}, {std::cout, std::cerr, terminal});
+}

@@ -1,0 +1,104 @@
+#include "cli/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "core/types.hpp"
+
+#ifndef SKEIN_VERSION
+#error "SKEIN_VERSION comes from CMake's project()"
+#endif
+
+namespace skein::cli {
+namespace {
+
+/// CLI11 validator: "lockstep", "realtime" or "realtime:FACTOR" with a positive factor.
+std::string check_clock(const std::string& text) {
+  if (text == "lockstep" || text == "realtime") return {};
+  const std::string prefix = "realtime:";
+  double factor = 0.0;
+  if (text.starts_with(prefix) && CLI::detail::lexical_cast(text.substr(prefix.size()), factor) && factor > 0.0 &&
+      std::isfinite(factor)) {
+    return {};
+  }
+  return "must be lockstep, realtime or realtime:FACTOR with a factor above 0";
+}
+
+/// CLI11 validator: strtoull, which CLI11 uses, takes "-1" for a very large number.
+std::string check_seed(const std::string& text) {
+  const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  return digits ? "" : "'" + text + "' must be a whole number, 0 or more";
+}
+
+/// CLI11 validator: CLI::PositiveNumber lets "nan" and "inf" pass.
+std::string check_seconds(const std::string& text) {
+  double value = 0.0;
+  const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0;
+  return good ? "" : "'" + text + "' must be a number of seconds above 0";
+}
+
+CLI::App* add_run(CLI::App& app, RunOptions& run) {
+  CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
+  command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
+  command->add_option("--planner", run.planner, "NAME, or UAV=NAME,... for some UAVs")->capture_default_str();
+  const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
+  command->add_option("--seed", run.seed, "What chance draws; 0 draws nothing")->check(seed)->capture_default_str();
+  command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
+  command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
+  command->add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
+      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
+      ->capture_default_str();
+  command->add_option("--clock", run.clock, "lockstep, or realtime[:FACTOR]")
+      ->check(CLI::Validator(check_clock, "CLOCK"))
+      ->capture_default_str();
+  command->add_option("--debug", run.debug_uav, "Leave this UAV's agent to you and your debugger");
+  command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
+  command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
+  command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
+  command->add_option("--out", run.out, "Results folder (default runs/<scenario>-<planner>-<seed>)");
+  command->add_flag("--force", run.force, "Overwrite an existing result");
+  return command;
+}
+
+}  // namespace
+
+Command parse_command_line(const std::vector<std::string>& arguments) {
+  CLI::App app("Skein: a fleet of inspection UAVs, simulated as separate processes that talk over DDS.", "skein");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "skein " SKEIN_VERSION);
+  app.failure_message(CLI::FailureMessage::simple);
+  RunOptions run;
+  TestOptions test;
+  CheckOptions check;
+  DiffOptions diff;
+
+  const CLI::App* run_command = add_run(app, run);
+  CLI::App* test_command = app.add_subcommand("test", "Run the test suite; the last line is 'N passed, N failed'");
+  test_command->add_flag("--long", test.long_tests, "Include the tests that take minutes");
+  CLI::App* check_command = app.add_subcommand("check", "Validate scenario and vehicle files, or reference vectors");
+  check_command->add_option("FILE", check.files, "Scenario or vehicle files (YAML)");
+  check_command->add_option("--golden", check.golden, "Run reference vectors (CSV) through the production code");
+  check_command->add_option("--assets", check.assets, "Folder with models/ for scenarios that read files");
+  CLI::App* diff_command = app.add_subcommand("diff", "First step, entity and field in which two runs differ");
+  diff_command->add_option("RUN_A", diff.run_a, "A results folder")->required();
+  diff_command->add_option("RUN_B", diff.run_b, "Another one")->required();
+
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
+  try {
+    app.parse(std::move(reversed));
+  } catch (const CLI::CallForHelp&) {
+    return HelpText{app.help()};  // of the command that was named, if any
+  } catch (const CLI::CallForVersion& version) {
+    return HelpText{std::string(version.what()) + "\n"};
+  } catch (const CLI::ParseError& error) {
+    throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
+  }
+  if (run_command->parsed()) return run;
+  if (test_command->parsed()) return test;
+  if (diff_command->parsed()) return diff;
+  if (check.files.empty() && check.golden.empty()) throw InputError("check: give files, or --golden FILE.csv");
+  return check;
+}
+
+}  // namespace skein::cli

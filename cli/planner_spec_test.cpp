@@ -1,0 +1,61 @@
+#include "cli/planner_spec.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+const std::vector<std::string> kFleet = {"jurong", "raffles", "sentosa"};
+
+std::vector<std::string> specs(const std::string& text) {
+  std::vector<std::string> result;
+  const std::vector<UavPlanner> planners = parse_planners(text, kFleet);
+  for (std::size_t i = 0; i < planners.size(); ++i) {
+    EXPECT_EQ(planners[i].uav, kFleet[i]);
+    result.push_back(planners[i].spec);
+  }
+  return result;
+}
+
+using Specs = std::vector<std::string>;
+
+TEST(PlannerSpec, OneNameIsForAll) { EXPECT_EQ(specs("hover"), (Specs{"hover", "hover", "hover"})); }
+
+TEST(PlannerSpec, NamedUavsDifferAndTheRestGetTheDefault) {
+  EXPECT_EQ(specs("raffles=hover"), (Specs{kDefaultPlanner, "hover", kDefaultPlanner}));
+  EXPECT_EQ(specs("hover,raffles=waypoints:tour.yaml"), (Specs{"hover", "waypoints:tour.yaml", "hover"}));
+  EXPECT_EQ(specs("sentosa=a,jurong=b,raffles=c"), (Specs{"b", "c", "a"}));
+}
+
+TEST(PlannerSpec, ParametersGoOnAfterACommaUntilAUavIsNamed) {
+  EXPECT_EQ(specs("hover:height_m=4,climb_mps=1"),
+            (Specs{"hover:height_m=4,climb_mps=1", "hover:height_m=4,climb_mps=1", "hover:height_m=4,climb_mps=1"}));
+  EXPECT_EQ(specs("jurong=hover:height_m=4,climb_mps=1,raffles=patrol,sentosa=hover"),
+            (Specs{"hover:height_m=4,climb_mps=1", "patrol", "hover"}));
+}
+
+TEST(PlannerSpec, WrongTextIsRefused) {
+  for (const char* text : {"", "jurong=", "nobody=hover", "hover,nobody=patrol", "jurong=a,jurong=b", "hover,patrol",
+                           ",hover", "hover,,jurong=a"}) {
+    EXPECT_THROW(parse_planners(text, kFleet), InputError) << text;
+  }
+}
+
+TEST(PlannerSpec, AnUnknownUavIsAnsweredWithTheNearestName) {
+  try {
+    parse_planners("juron=hover", kFleet);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("jurong"), std::string::npos) << error.what();
+  }
+}
+
+TEST(PlannerSpec, LabelIsFitForAFolder) {
+  EXPECT_EQ(planner_label("patrol"), "patrol");
+  EXPECT_EQ(planner_label("jurong=waypoints:a/../b.yaml"), "jurong_waypoints_a_.._b.yaml");
+}
+
+}  // namespace
+}  // namespace skein::cli

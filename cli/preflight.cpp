@@ -1,0 +1,64 @@
+#include "cli/preflight.hpp"
+
+#include <cstdlib>
+#include <map>
+#include <stdexcept>
+
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr std::size_t kMessageLines = 20;
+constexpr std::chrono::milliseconds kGrace{2000};
+
+std::string message_of(const ProgramSpec& program) {
+  std::string text;
+  for (const std::string& line : last_lines(program.log, kMessageLines)) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+/// Runs programs side by side until the last has ended.
+std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& programs) {
+  Supervisor supervisor;
+  for (const ProgramSpec& program : programs) supervisor.start(program);
+  std::map<std::string, ExitStatus> exits;
+  while (!supervisor.running().empty()) {
+    for (const Event& event : supervisor.wait(std::chrono::milliseconds(-1))) {
+      if (event.kind == Event::Kind::interrupt) {
+        supervisor.end_all(kGrace);
+        throw Interrupted{};
+      }
+      if (event.kind == Event::Kind::exited) exits[event.program] = event.exit;
+    }
+  }
+  return exits;
+}
+
+}  // namespace
+
+void run_checks(const std::vector<ProgramSpec>& programs) {
+  const std::map<std::string, ExitStatus> exits = run_all(programs);
+  for (const ProgramSpec& program : programs) {
+    const ExitStatus exit = exits.at(program.name);
+    if (exit.code == 2) throw InputError(message_of(program));
+    if (!exit.ok()) {
+      throw std::runtime_error(program.name + " --check ended with " + exit.text() + "\n" + message_of(program));
+    }
+  }
+}
+
+ExitStatus run_to_end(const ProgramSpec& program) { return run_all({program}).at(program.name); }
+
+ScratchDir::ScratchDir() {
+  std::string name = std::filesystem::temp_directory_path() / "skein-XXXXXX";
+  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create a temporary folder " + name);
+  path_ = name;
+}
+
+ScratchDir::~ScratchDir() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,32 @@
+// Everything that can be wrong is found before anything flies.
+#pragma once
+
+#include "cli/fleet_plan.hpp"
+
+namespace skein::cli {
+
+/// The user pressed Ctrl-C before the fleet had started.
+struct Interrupted {};
+
+/// Runs programs that only validate, all at once, and waits for them.
+/// @throws InputError with the message of the first program (in the order given) that ended with exit code 2;
+///   std::runtime_error when one failed in another way; Interrupted.
+void run_checks(const std::vector<ProgramSpec>& programs);
+
+/// Runs one program and waits for it. @throws Interrupted after ending it when the user pressed Ctrl-C.
+ExitStatus run_to_end(const ProgramSpec& program);
+
+/// A folder for one purpose, removed with all that is in it.
+class ScratchDir {
+ public:
+  ScratchDir();
+  ~ScratchDir();
+  ScratchDir(const ScratchDir&) = delete;
+  ScratchDir& operator=(const ScratchDir&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace skein::cli

@@ -1,0 +1,57 @@
+#include "cli/progress_view.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace skein::cli {
+namespace {
+
+Json progress(double t, double mission_s, const std::string& phase = "flying") {
+  return {{"type", "progress"}, {"t", t},     {"mission_s", mission_s},  {"phase", phase},
+          {"duration_s", 100},  {"alive", 2}, {"in_contact", {"alpha"}}, {"lost", Json::array()}};
+}
+
+TEST(ProgressView, PlainOutputHasALineEveryTenthOfTheMission) {
+  std::ostringstream out;
+  ProgressView view(out, false);
+  for (int i = 0; i <= 1000; ++i) view.progress(progress(2.0 + 0.1 * i, 0.1 * i), 0.01 * i);
+  view.finish();
+  const std::string text = out.str();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10) << text;
+  EXPECT_EQ(text.find('\r'), std::string::npos);
+}
+
+TEST(ProgressView, TheLineTellsTimeSpeedScoreAndContact) {
+  std::ostringstream out;
+  ProgressView view(out, false);
+  view.tally({{"type", "tally"}, {"points", 12}, {"score", 3.5}, {"earned", 4.0}});
+  view.progress(progress(0.0, 0.0), 1.0);
+  view.progress(progress(40.0, 38.0), 3.0);
+  EXPECT_EQ(out.str(), "40.0 s, mission 38 of 100 s, x20.0, points 12, score 3.5, in contact: alpha\n");
+}
+
+TEST(ProgressView, ATerminalLineIsRewrittenAndMessagesStandAboveIt) {
+  std::ostringstream out;
+  ProgressView view(out, true);
+  view.waiting_for({{"members", {"alpha", "station"}}});
+  view.progress(progress(0.5, 0.0, "waiting"), 0.1);
+  view.message("hello");
+  view.finish();
+  EXPECT_EQ(
+      out.str(),
+      "\rwaiting for alpha, station\r0.5 s, before take-off, x0.0, points 0, score 0.0, in contact: alpha\nhello\n");
+}
+
+TEST(ProgressView, WrongStatusIsHarmless) {
+  std::ostringstream out;
+  ProgressView view(out, true);
+  view.progress({{"t", "x"}, {"in_contact", 3}}, 0.0);
+  view.waiting_for(Json::object());
+  view.tally({{"points", nullptr}});
+  view.finish();
+}
+
+}  // namespace
+}  // namespace skein::cli

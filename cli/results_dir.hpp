@@ -1,0 +1,36 @@
+// The folder that a run writes its results to.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace skein::cli {
+
+/// Where a run goes when the user names no folder: runs/<scenario>-<planner>-<seed> below the current folder.
+std::filesystem::path default_results_dir(const std::string& scenario, const std::string& planner, std::uint64_t seed);
+
+/// Holds a results folder for one run: two launchers never write to the same one.
+class ResultsDir {
+ public:
+  /// Looks only; creates and changes nothing.
+  /// @throws InputError when `dir` holds a result and `force` is not set, or is no folder.
+  static void check(const std::filesystem::path& dir, bool force);
+
+  /// Checks, creates the folder where it is missing, and removes what an earlier run left of the files that a run
+  /// writes: a stale report must not pass for one of this run. Other files stay.
+  /// @throws InputError as check(), and when another run is writing there.
+  ResultsDir(const std::filesystem::path& dir, bool force);
+  ~ResultsDir();
+  ResultsDir(const ResultsDir&) = delete;
+  ResultsDir& operator=(const ResultsDir&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }  ///< absolute
+
+ private:
+  std::filesystem::path path_;
+  int lock_ = -1;
+};
+
+}  // namespace skein::cli

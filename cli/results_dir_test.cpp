@@ -1,0 +1,66 @@
+#include "cli/results_dir.hpp"
+
+#include <gtest/gtest.h>
+
+#include "cli/fake_programs.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(ResultsDir, DefaultNameTellsTheRun) {
+  EXPECT_EQ(default_results_dir("towers", "patrol", 3), "runs/towers-patrol-3");
+  EXPECT_EQ(default_results_dir("towers", "a=b:c/d", 0), "runs/towers-a_b_c_d-0");
+}
+
+TEST(ResultsDir, IsCreatedWithItsParents) {
+  const ScratchDir scratch;
+  const ResultsDir dir(scratch.path() / "a/b", false);
+  EXPECT_TRUE(fs::is_directory(dir.path()));
+}
+
+TEST(ResultsDir, AnExistingResultIsKeptUnlessForced) {
+  const ScratchDir scratch;
+  write_text(scratch.path() / "result.json", "{}");
+  EXPECT_THROW(ResultsDir::check(scratch.path(), false), InputError);
+  EXPECT_THROW(ResultsDir(scratch.path(), false), InputError);
+  EXPECT_TRUE(fs::exists(scratch.path() / "result.json"));
+  ResultsDir::check(scratch.path(), true);
+  EXPECT_TRUE(fs::exists(scratch.path() / "result.json"));
+  const ResultsDir dir(scratch.path(), true);
+  EXPECT_FALSE(fs::exists(scratch.path() / "result.json"));
+}
+
+TEST(ResultsDir, OnlyWhatARunWritesIsRemoved) {
+  const ScratchDir scratch;
+  for (const char* name : {"station.report.json", "uav_agent-alpha.log", "digests.csv", "notes.txt", "my.log"}) {
+    write_text(scratch.path() / name, "x");
+  }
+  const ResultsDir dir(scratch.path(), false);
+  EXPECT_FALSE(fs::exists(scratch.path() / "station.report.json"));
+  EXPECT_FALSE(fs::exists(scratch.path() / "uav_agent-alpha.log"));
+  EXPECT_FALSE(fs::exists(scratch.path() / "digests.csv"));
+  EXPECT_TRUE(fs::exists(scratch.path() / "notes.txt"));
+  EXPECT_TRUE(fs::exists(scratch.path() / "my.log"));
+}
+
+TEST(ResultsDir, TwoRunsNeverShareAFolder) {
+  const ScratchDir scratch;
+  {
+    const ResultsDir first(scratch.path(), false);
+    EXPECT_THROW(ResultsDir(scratch.path(), false), InputError);
+  }
+  const ResultsDir second(scratch.path(), false);
+}
+
+TEST(ResultsDir, AFileIsNoFolder) {
+  const ScratchDir scratch;
+  write_text(scratch.path() / "file", "");
+  EXPECT_THROW(ResultsDir(scratch.path() / "file", true), InputError);
+  EXPECT_THROW(ResultsDir(scratch.path() / "file/below", true), InputError);
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,192 @@
+#include "cli/run_command.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "cli/domain_block.hpp"
+#include "cli/fleet_plan.hpp"
+#include "cli/preflight.hpp"
+#include "cli/progress_view.hpp"
+#include "cli/results_dir.hpp"
+#include "cli/run_result.hpp"
+#include "core/atomic_file.hpp"
+
+namespace skein::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+/// How long the programs may take to write their reports and leave after sim_server has left.
+constexpr milliseconds kLeaveTime{10000};
+/// From SIGTERM to SIGKILL.
+constexpr milliseconds kGrace{3000};
+constexpr std::size_t kLogLines = 10;
+
+double seconds_between(Clock::time_point from, Clock::time_point until) {
+  return std::chrono::duration<double>(until - from).count();
+}
+
+/// One fleet from its start to its last process.
+class FleetRun {
+ public:
+  FleetRun(const FleetPlan& plan, const Console& console) : plan_(plan), view_(console.err, console.terminal) {
+    facts_.scenario = plan.options.scenario;
+    facts_.seed = plan.options.seed;
+    facts_.planners = plan.planners;
+    facts_.dds = dds_vendors(plan);
+    facts_.clock = plan.options.clock;
+    facts_.native = plan.options.native;
+  }
+
+  /// Starts all programs and returns when none is left.
+  void fly(int base_domain, const std::filesystem::path& out) {
+    for (const ProgramSpec& program : fleet_programs(plan_, base_domain, out)) {
+      logs_[program.name] = program.log;
+      supervisor_.start(program);
+    }
+    if (plan_.options.debug_uav) {
+      view_.message("Start the agent of " + *plan_.options.debug_uav + " yourself; the fleet waits for it:\n\n  " +
+                    debug_command(plan_, base_domain, out) + "\n");
+    }
+    watch();
+    view_.finish();
+  }
+
+  RunFacts& facts() { return facts_; }
+  ProgressView& view() { return view_; }
+  bool anything_failed() const { return failed_; }
+
+ private:
+  void watch() {
+    while (!supervisor_.running().empty()) {
+      milliseconds limit{-1};
+      if (leave_by_) {
+        limit = std::max(std::chrono::ceil<milliseconds>(*leave_by_ - Clock::now()), milliseconds(0));
+        if (limit == milliseconds(0)) end_stragglers();
+      }
+      handle_all(supervisor_.wait(limit));
+    }
+  }
+
+  void handle_all(const std::vector<Event>& events) {
+    for (const Event& event : events) {
+      if (event.kind == Event::Kind::status_line) on_status(event);
+      if (event.kind == Event::Kind::exited) on_exit(event);
+      if (event.kind == Event::Kind::interrupt) on_interrupt();
+    }
+  }
+
+  void on_status(const Event& event) {
+    const Json status = Json::parse(event.line, nullptr, false);
+    if (!status.is_object()) return;
+    const Json type = value_or(status, "type", "");
+    if (type == "waiting_for") view_.waiting_for(status);
+    if (type == "tally") {
+      facts_.points_detected = value_or(status, "points", 0);
+      facts_.score = value_or(status, "score", 0.0);
+      facts_.score_earned = value_or(status, "earned", 0.0);
+      view_.tally(status);
+    }
+    if (type == "progress") {
+      facts_.sim_time_s = value_or(status, "t", 0.0);
+      facts_.mission_time_s = value_or(status, "mission_s", 0.0);
+      if (!first_progress_) first_progress_ = Clock::now();
+      facts_.wall_time_s = seconds_between(*first_progress_, Clock::now());
+      view_.progress(status, facts_.wall_time_s);
+    }
+  }
+
+  void on_exit(const Event& event) {
+    const bool of_server = event.program == "sim_server";
+    if (!event.exit.ok() && !ending_) complain(event.program, event.exit.text());
+    if (of_server && !event.exit.ok()) {
+      end_all();  // nobody is left to tell the others how the run goes on
+    } else if (of_server) {
+      leave_by_ = Clock::now() + kLeaveTime;
+    } else if (!ending_ && !leave_by_) {
+      supervisor_.send("sim_server", "lost " + member_name(event.program));
+    }
+  }
+
+  /// First Ctrl-C: the server ends the run at its next step and all write their reports. Second: at once.
+  void on_interrupt() {
+    if (ending_) return;
+    if (facts_.interrupted) return end_all();
+    facts_.interrupted = true;
+    view_.message("ending the run; press Ctrl-C again to end it at once");
+    supervisor_.send("sim_server", "stop");
+  }
+
+  void end_stragglers() {
+    for (const std::string& program : supervisor_.running()) complain(program, "not leaving after the run's end");
+    end_all();
+  }
+
+  void end_all() {
+    if (ending_) return;
+    ending_ = true;
+    handle_all(supervisor_.end_all(kGrace));
+  }
+
+  /// Names a program that failed, with the end of its log.
+  void complain(const std::string& program, const std::string& how) {
+    failed_ = true;
+    facts_.warnings.push_back(program + " failed: " + how);
+    std::string text = program + " failed: " + how + "; the end of " + logs_[program].string() + ":";
+    for (const std::string& line : last_lines(logs_[program], kLogLines)) text += "\n    " + line;
+    view_.message(text);
+  }
+
+  const FleetPlan& plan_;
+  Supervisor supervisor_;
+  ProgressView view_;
+  RunFacts facts_;
+  std::map<std::string, std::filesystem::path> logs_;
+  std::optional<Clock::time_point> first_progress_;
+  std::optional<Clock::time_point> leave_by_;  ///< set when sim_server has left in good order
+  bool ending_ = false;                        ///< the launcher itself ends the programs
+  bool failed_ = false;
+};
+
+void check_before_flight(const FleetPlan& plan) {
+  const ScratchDir scratch;
+  run_checks(check_programs(plan, scratch.path()));
+}
+
+std::string start_line(const FleetPlan& plan, const DomainBlock& domains, const std::filesystem::path& out) {
+  return plan.scenario.name + ": " + std::to_string(plan.scenario.fleet.size()) + " UAVs, planner " +
+         plan.options.planner + ", seed " + std::to_string(plan.options.seed) + ", DDS domains " +
+         std::to_string(domains.base()) + ".." + std::to_string(domains.last()) + ", results in " + out.string();
+}
+
+}  // namespace
+
+int run_fleet(const RunOptions& options, const Console& console) {
+  const FleetPlan plan = plan_fleet(options, program_dir());
+  const std::filesystem::path dir =
+      options.out.value_or(default_results_dir(plan.scenario.name, options.planner, options.seed));
+  ResultsDir::check(dir, options.force);
+  check_before_flight(plan);
+  const DomainBlock domains(options.domain, domain_count(plan));
+  const ResultsDir out(dir, options.force);
+
+  FleetRun run(plan, console);
+  run.view().message(start_line(plan, domains, dir));
+  if (domains.last() > kLastQuietDomain) {
+    run.facts().warnings.push_back("DDS domains above " + std::to_string(kLastQuietDomain) +
+                                   " use ports that the system may give to other programs");
+  }
+  run.fly(domains.base(), out.path());
+
+  const Reports reports = read_reports(out.path(), plan.scenario);
+  if (!write_score_csv(out.path(), reports.station)) run.facts().warnings.push_back("no scene.json: no score.csv");
+  const Json result = merge_result(run.facts(), plan.scenario, reports);
+  write_file_atomically(out.path() / "result.json", result.dump(2) + "\n");
+  print_summary(console.out, result, dir);
+  if (run.facts().interrupted) return kExitInterrupted;
+  return run.anything_failed() || !result["lost_members"].empty() ? kExitProcessFailed : kExitDone;
+}
+
+}  // namespace skein::cli

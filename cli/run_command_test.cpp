@@ -1,0 +1,151 @@
+#include "cli/run_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <sstream>
+
+#include "cli/fake_programs.hpp"
+#include "cli/run_result.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// A server that waits for one control line, then ends the run and reports.
+constexpr const char* kServer = R"(
+echo '{"type":"progress","t":1.5,"mission_s":1.0,"phase":"flying","duration_s":600,"in_contact":[],"alive":2,"lost":[]}' >&3
+[ -z "$wait_for_control" ] || { read line <&4; echo "$line" > "$out/control.txt"; }
+echo '{"status":"completed","deterministic":true,"digest":"ab","sim_time_s":9.5,"mission_time_s":9,"wall_time_s":1,
+       "points_total":5,"collisions":[],"uavs":[],"lost_members":[],"warnings":[]}' > "$out/sim_server.report.json"
+echo '{"points":[[1,2,3,0,0,1]]}' > "$out/scene.json"
+echo '{"type":"ended","status":"completed"}' >&3
+)";
+
+/// A member that leaves when the server has left its report, as a real one does at the run's end.
+constexpr const char* kMember = R"(
+until [ -e "$out/scene.json" ]; do sleep 0.01; done
+)";
+
+class RunCommand : public ::testing::Test {
+ protected:
+  RunCommand() {
+    programs_.script("sim_server", kServer);
+    for (const char* name : {"comm_router", "station", "uav_agent"}) programs_.script(name, kMember);
+    options_.scenario = programs_.scenario();
+    options_.planner = "hover,beta=patrol";
+    options_.out = programs_.dir() / "out";
+  }
+
+  int run() { return run_fleet(options_, {out_, err_, false}); }
+  Json result() const { return read_json(*options_.out / "result.json"); }
+  std::string control_line() const { return read_text(*options_.out / "control.txt"); }
+  void let_the_server_wait() { programs_.script("sim_server", std::string("wait_for_control=1\n") + kServer); }
+
+  FakePrograms programs_;
+  RunOptions options_;
+  std::ostringstream out_, err_;
+};
+
+TEST_F(RunCommand, AGoodRunLeavesAResultAndATable) {
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(result()["status"], "completed");
+  EXPECT_EQ(result()["planner"], (Json{{"alpha", "hover"}, {"beta", "patrol"}}));
+  EXPECT_EQ(result()["sim_time_s"], 9.5);
+  EXPECT_TRUE(std::filesystem::exists(*options_.out / "score.csv"));
+  for (const char* name : {"sim_server", "comm_router", "station", "uav_agent-alpha", "uav_agent-beta"}) {
+    EXPECT_TRUE(std::filesystem::exists(*options_.out / (std::string(name) + ".log"))) << name;
+  }
+  EXPECT_NE(out_.str().find("alpha"), std::string::npos);
+  EXPECT_NE(out_.str().find("digest    ab"), std::string::npos);
+}
+
+TEST_F(RunCommand, AnExistingResultIsKept) {
+  ASSERT_EQ(run(), kExitDone);
+  EXPECT_THROW(run(), InputError);
+  options_.force = true;
+  EXPECT_EQ(run(), kExitDone);
+}
+
+TEST_F(RunCommand, BadInputStartsNothing) {
+  programs_.script("uav_agent", R"([ "$planner" = hover ] || exit 0)");
+  write_script(programs_.dir() / "uav_agent",
+               "case \"$*\" in *patrol*--check*) echo 'no such planner' >&2; exit 2;; esac");
+  try {
+    run();
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "no such planner");
+  }
+  EXPECT_FALSE(std::filesystem::exists(*options_.out));
+}
+
+TEST_F(RunCommand, AnUnknownDebugUavIsBadInput) {
+  options_.debug_uav = "gamma";
+  EXPECT_THROW(run(), InputError);
+}
+
+TEST_F(RunCommand, ADeadAgentIsNamedAndTheServerTold) {
+  let_the_server_wait();
+  programs_.script("uav_agent", std::string("[ $uav = alpha ] || { echo last words >&2; exit 9; }\n") + kMember);
+  EXPECT_EQ(run(), kExitProcessFailed);
+  EXPECT_EQ(control_line(), "lost beta\n");
+  EXPECT_NE(err_.str().find("uav_agent-beta failed: exit code 9"), std::string::npos) << err_.str();
+  EXPECT_NE(err_.str().find("last words"), std::string::npos);
+  EXPECT_EQ(result()["status"], "completed");
+}
+
+TEST_F(RunCommand, ADeadRouterOrStationIsTold) {
+  for (const char* program : {"comm_router", "station"}) {
+    options_.force = true;
+    let_the_server_wait();
+    for (const char* name : {"comm_router", "station"}) programs_.script(name, kMember);
+    programs_.script(program, "kill -KILL $$");
+    EXPECT_EQ(run(), kExitProcessFailed);
+    EXPECT_EQ(control_line(), std::string("lost ") + program + "\n");
+  }
+}
+
+TEST_F(RunCommand, ADeadServerEndsTheRunAsAborted) {
+  programs_.script("sim_server", R"(echo '{"type":"progress","t":12.5,"mission_s":10}' >&3; kill -SEGV $$)");
+  programs_.script("uav_agent", "trap 'exit 0' TERM; while :; do read line <&4; done");
+  EXPECT_EQ(run(), kExitProcessFailed);
+  EXPECT_EQ(result()["status"], "aborted");
+  EXPECT_EQ(result()["sim_time_s"], 12.5);
+  EXPECT_TRUE(result()["digest"].is_null());
+  EXPECT_NE(err_.str().find("sim_server failed: signal 11"), std::string::npos);
+  EXPECT_EQ(err_.str().find("uav_agent-alpha failed"), std::string::npos) << "it was ended by us";
+}
+
+TEST_F(RunCommand, CtrlCStopsTheServerAndKeepsTheResult) {
+  programs_.script("sim_server", std::string("kill -INT $PPID\nwait_for_control=1\n") + kServer);
+  EXPECT_EQ(run(), kExitInterrupted);
+  EXPECT_EQ(control_line(), "stop\n");
+  EXPECT_EQ(result()["sim_time_s"], 9.5);
+}
+
+TEST_F(RunCommand, ASecondCtrlCEndsTheRunAtOnce) {
+  programs_.script("sim_server", "kill -INT $PPID; read line <&4; kill -INT $PPID; read line <&4");
+  programs_.script("uav_agent", "read line <&4");
+  EXPECT_EQ(run(), kExitInterrupted);
+  EXPECT_EQ(result()["status"], "interrupted");
+}
+
+TEST_F(RunCommand, AMemberThatTheServerLostMakesTheRunAFailure) {
+  programs_.script("sim_server", std::string(kServer) + R"(
+    echo '{"status":"completed","lost_members":[{"member":"alpha","step":1,"time_s":0.05,"reason":"hangs"}]}' \
+        > "$out/sim_server.report.json")");
+  EXPECT_EQ(run(), kExitProcessFailed);
+  EXPECT_EQ(result()["lost_members"][0]["member"], "alpha");
+}
+
+TEST_F(RunCommand, DebugLeavesOneAgentToTheUser) {
+  options_.debug_uav = "beta";
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_FALSE(std::filesystem::exists(*options_.out / "uav_agent-beta.log"));
+  EXPECT_NE(err_.str().find("gdb --args"), std::string::npos) << err_.str();
+  EXPECT_NE(err_.str().find("--uav beta --planner patrol"), std::string::npos) << err_.str();
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,169 @@
+#include "cli/run_result.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "core/atomic_file.hpp"
+
+#ifndef SKEIN_VERSION
+#error "SKEIN_VERSION comes from CMake's project()"
+#endif
+
+namespace skein::cli {
+namespace {
+
+std::string status_of(const RunFacts& facts, const Json& sim) {
+  const Json reported = value_or(sim, "status", nullptr);
+  for (const char* known : {"completed", "no_takeoff", "interrupted", "aborted"}) {
+    if (reported == known) return known;
+  }
+  return facts.interrupted ? "interrupted" : "aborted";
+}
+
+/// One entry a UAV, in fleet order, whatever the reports hold.
+Json uav_entries(const Scenario& scenario, const Reports& reports) {
+  Json entries = Json::array();
+  const Json reported = value_or(reports.sim_server, "uavs", Json::array());
+  for (const UavConfig& uav : scenario.fleet) {
+    Json source;
+    for (const Json& entry : reported) {
+      if (value_or(entry, "name", "") == uav.name) source = entry;
+    }
+    Json entry = {{"name", uav.name}, {"role", name_of(uav.vehicle.role)}};
+    for (const char* key : {"alive", "distance_m", "max_speed_mps", "captures", "idle_s", "commands_rejected"}) {
+      entry[key] = value_or(source, key, nullptr);
+    }
+    const auto agent = reports.agents.find(uav.name);
+    entry["planner_cpu_s"] = agent == reports.agents.end() ? Json() : value_or(agent->second, "planner_cpu_s", nullptr);
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+Json score_by_uav(const Scenario& scenario, const Json& station) {
+  const Json reported = value_or(station, "score_by_uav", Json::object());
+  Json scores = Json::object();
+  for (const UavConfig& uav : scenario.fleet) scores[uav.name] = value_or(reported, uav.name.c_str(), 0.0);
+  return scores;
+}
+
+Json radio_counts(const Json& router) {
+  Json radio = Json::object();
+  for (const char* key : {"sent", "delivered", "dropped_no_los", "dropped_fault"})
+    radio[key] = value_or(router, key, 0);
+  radio["per_link"] = value_or(router, "per_link", Json::array());
+  return radio;
+}
+
+Json warnings_of(const RunFacts& facts, const Reports& reports) {
+  Json warnings = value_or(reports.sim_server, "warnings", Json::array());
+  for (const std::string& warning : facts.warnings) warnings.push_back(warning);
+  if (facts.native) warnings.push_back("--native: the digest may differ on another CPU model");
+  for (const Json& lost : value_or(reports.sim_server, "lost_members", Json::array())) {
+    std::ostringstream text;
+    text << value_or(lost, "member", "?").get<std::string>() << " was lost at "
+         << value_or(lost, "time_s", 0.0).get<double>()
+         << " s: " << value_or(lost, "reason", "no reason given").get<std::string>();
+    warnings.push_back(text.str());
+  }
+  const auto missing = [&](const Json& report, const std::string& program, const std::string& consequence) {
+    if (report.is_null()) warnings.push_back(program + " left no report: " + consequence);
+  };
+  missing(reports.sim_server, "sim_server", "times are the last that it told");
+  missing(reports.station, "station", "the score is the last that it told");
+  missing(reports.comm_router, "comm_router", "radio counts are unknown");
+  for (const auto& [uav, report] : reports.agents) {
+    missing(report, "uav_agent-" + uav, "its planner's CPU time is unknown");
+  }
+  return warnings;
+}
+
+}  // namespace
+
+Json value_or(const Json& object, const char* key, Json fallback) {
+  if (!object.is_object()) return fallback;
+  const auto found = object.find(key);
+  if (found == object.end()) return fallback;
+  const bool same_type = found->is_number() ? fallback.is_number() : found->type() == fallback.type();
+  return same_type || fallback.is_null() ? *found : fallback;
+}
+
+Reports read_reports(const std::filesystem::path& dir, const Scenario& scenario) {
+  Reports reports;
+  reports.sim_server = read_json(dir / "sim_server.report.json");
+  reports.station = read_json(dir / "station.report.json");
+  reports.comm_router = read_json(dir / "comm_router.report.json");
+  for (const UavConfig& uav : scenario.fleet) {
+    reports.agents[uav.name] = read_json(dir / ("uav_agent-" + uav.name + ".report.json"));
+  }
+  return reports;
+}
+
+Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports& reports) {
+  const Json& sim = reports.sim_server;
+  Json result;
+  result["skein_version"] = SKEIN_VERSION;
+  result["scenario"] = facts.scenario;
+  result["seed"] = facts.seed;
+  result["scene_seed"] = scenario.scene.scene_seed;
+  for (const UavPlanner& planner : facts.planners) result["planner"][planner.uav] = planner.spec;
+  for (const auto& [process, vendor] : facts.dds) result["dds"][process] = vendor;
+  result["clock"] = facts.clock;
+  result["math"] = facts.native ? "native" : "baseline";
+  result["exchange_period_s"] = scenario.exchange_period_s;
+  result["rules"] = value_or(sim, "rules", nullptr);
+  if (result["rules"].is_null()) result["rules"] = scenario.rules.preset;
+  result["status"] = status_of(facts, sim);
+  result["deterministic"] = value_or(sim, "deterministic", false);
+  result["digest"] = value_or(sim, "digest", nullptr);
+
+  const double sim_time_s = value_or(sim, "sim_time_s", facts.sim_time_s);
+  const double wall_time_s = value_or(sim, "wall_time_s", facts.wall_time_s);
+  result["sim_time_s"] = sim_time_s;
+  result["mission_time_s"] = value_or(sim, "mission_time_s", facts.mission_time_s);
+  result["wall_time_s"] = wall_time_s;
+  result["real_time_factor"] = wall_time_s > 0.0 ? sim_time_s / wall_time_s : 0.0;
+
+  result["points_total"] = value_or(sim, "points_total", nullptr);
+  result["points_detected"] = value_or(reports.station, "points_detected", facts.points_detected);
+  result["score"] = value_or(reports.station, "score", facts.score);
+  result["score_earned"] = value_or(reports.station, "score_earned", facts.score_earned);
+  result["attainable"] = {{"points", nullptr}, {"score", nullptr}};
+  result["score_by_uav"] = score_by_uav(scenario, reports.station);
+  result["collisions"] = value_or(sim, "collisions", Json::array());
+  result["uavs"] = uav_entries(scenario, reports);
+  result["radio"] = radio_counts(reports.comm_router);
+  result["faults"] = Json::array();
+  result["lost_members"] = value_or(sim, "lost_members", Json::array());
+  result["warnings"] = warnings_of(facts, reports);
+  return result;
+}
+
+bool write_score_csv(const std::filesystem::path& dir, const Json& station_report) {
+  const Json scene = read_json(dir / "scene.json");
+  if (!scene.is_object()) return false;
+  std::map<std::size_t, double> scores;
+  for (const Json& point : value_or(station_report, "points", Json::array())) {
+    scores[value_or(point, "index", 0).get<std::size_t>()] = value_or(point, "score", 0.0).get<double>();
+  }
+  std::ostringstream csv;
+  csv << "x,y,z,nx,ny,nz,score,index\n";
+  std::size_t index = 0;
+  for (const Json& point : value_or(scene, "points", Json::array())) {
+    for (const Json& number : point) csv << number.dump() << ',';
+    const auto found = scores.find(index);
+    csv << Json(found == scores.end() ? 0.0 : found->second).dump() << ',' << index << '\n';
+    ++index;
+  }
+  write_file_atomically(dir / "score.csv", csv.str());
+  return true;
+}
+
+Json read_json(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) return nullptr;
+  Json json = Json::parse(in, nullptr, false);
+  return json.is_discarded() ? Json() : json;
+}
+
+}  // namespace skein::cli

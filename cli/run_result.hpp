@@ -1,0 +1,57 @@
+// result.json: what the launcher knows and what the programs reported, put together. The keys are a contract
+// (docs/result.schema.json, docs/results.md); what nobody reported is null, or 0 where the schema wants a number.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/planner_spec.hpp"
+#include "core/scenario.hpp"
+
+namespace skein::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// What the launcher itself knows of a run.
+struct RunFacts {
+  std::string scenario;  ///< as the user named it
+  std::uint64_t seed = 0;
+  std::vector<UavPlanner> planners;        ///< fleet order
+  std::map<std::string, std::string> dds;  ///< vendor by process
+  std::string clock;
+  bool native = false;
+  bool interrupted = false;  ///< the user pressed Ctrl-C
+  std::vector<std::string> warnings;
+  /// Last words of the status lines: they stand in where a program left no report.
+  double sim_time_s = 0.0, mission_time_s = 0.0, wall_time_s = 0.0;
+  int points_detected = 0;
+  double score = 0.0, score_earned = 0.0;
+};
+
+/// What the programs left behind; null where a report is missing or cut short.
+struct Reports {
+  Json sim_server, station, comm_router;
+  std::map<std::string, Json> agents;  ///< by UAV
+};
+
+Reports read_reports(const std::filesystem::path& dir, const Scenario& scenario);
+
+/// Never throws for what a report contains or lacks: a wrong type counts as missing.
+Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports& reports);
+
+/// score.csv (x,y,z,nx,ny,nz,score,index) from scene.json and the station's report.
+/// @returns false when there is no scene.json.
+bool write_score_csv(const std::filesystem::path& dir, const Json& station_report);
+
+/// The value under `key` when it is there and of the same kind as `fallback`, else `fallback`. A null `fallback` takes
+/// any kind. Never throws.
+Json value_or(const Json& object, const char* key, Json fallback);
+
+/// Parses a JSON file. @returns null when it is not there or not JSON.
+Json read_json(const std::filesystem::path& file);
+
+}  // namespace skein::cli

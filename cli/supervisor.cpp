@@ -1,0 +1,278 @@
+#include "cli/supervisor.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/signalfd.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+extern "C" {  // glibc 2.36's header forgets it
+#include <sys/pidfd.h>
+}
+
+namespace skein::cli {
+namespace {
+
+[[noreturn]] void throw_errno(const std::string& what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+/// A file descriptor that closes itself.
+class Fd {
+ public:
+  Fd() = default;
+  explicit Fd(int fd) : fd_(fd) {}
+  Fd(Fd&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Fd& operator=(Fd&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  ~Fd() { reset(); }
+  int get() const { return fd_; }
+  void reset() {
+    if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+  }
+
+ private:
+  int fd_ = -1;
+};
+
+struct Pipe {
+  Fd read, write;
+};
+
+/// Both ends are above the numbers that a child's descriptors get, so that dup2 never overwrites one of them.
+Pipe make_pipe() {
+  int fds[2];
+  if (::pipe2(fds, O_CLOEXEC) != 0) throw_errno("pipe");
+  Fd low_read(fds[0]), low_write(fds[1]);
+  Pipe pipe{Fd(::fcntl(fds[0], F_DUPFD_CLOEXEC, kControlFd + 1)), Fd(::fcntl(fds[1], F_DUPFD_CLOEXEC, kControlFd + 1))};
+  if (pipe.read.get() < 0 || pipe.write.get() < 0) throw_errno("pipe");
+  return pipe;
+}
+
+Fd open_high(const std::filesystem::path& file, int flags) {
+  const Fd low(::open(file.c_str(), flags | O_CLOEXEC, 0644));
+  if (low.get() < 0) throw_errno(file.string());
+  Fd high(::fcntl(low.get(), F_DUPFD_CLOEXEC, kControlFd + 1));
+  if (high.get() < 0) throw_errno(file.string());
+  return high;
+}
+
+sigset_t interrupt_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
+  return set;
+}
+
+std::vector<char*> pointers(const std::vector<std::string>& strings) {
+  std::vector<char*> result;
+  for (const std::string& s : strings) result.push_back(const_cast<char*>(s.c_str()));
+  result.push_back(nullptr);
+  return result;
+}
+
+/// What the child does between fork and exec: only calls that are safe there. Writes errno to `failure` and ends when
+/// it cannot go on.
+struct ChildSetup {
+  pid_t launcher;
+  int input, log, status, control, failure;  ///< log: -1 keeps the launcher's
+  char* const* argv;
+  char* const* env;
+
+  [[noreturn]] void exec() const {
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != launcher) ::_exit(127);  // the launcher died before prctl could tell
+    sigset_t none;
+    sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    ::signal(SIGPIPE, SIG_DFL);
+    const std::array<std::pair<int, int>, 5> files = {
+        {{input, 0}, {log, 1}, {log, 2}, {status, kStatusFd}, {control, kControlFd}}};
+    bool ready = true;
+    for (const auto& [from, to] : files) ready = ready && (from < 0 || ::dup2(from, to) >= 0);
+    if (ready) ::execve(argv[0], argv, env);
+    const int error = errno;
+    [[maybe_unused]] const ssize_t written = ::write(failure, &error, sizeof error);
+    ::_exit(127);
+  }
+};
+
+}  // namespace
+
+struct Supervisor::Child {
+  std::string name;
+  pid_t pid = -1;
+  Fd pidfd, status, control;
+  std::string partial_line;
+};
+
+std::string ExitStatus::text() const {
+  if (signal != 0) return "signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
+  return "exit code " + std::to_string(code);
+}
+
+Supervisor::Supervisor() {
+  const sigset_t set = interrupt_signals();
+  if (::sigprocmask(SIG_BLOCK, &set, &former_mask_) != 0) throw_errno("sigprocmask");
+  signal_fd_ = ::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
+  if (signal_fd_ < 0) throw_errno("signalfd");
+  struct sigaction ignore {};
+  ignore.sa_handler = SIG_IGN;
+  ::sigaction(SIGPIPE, &ignore, &former_pipe_action_);
+}
+
+Supervisor::~Supervisor() {
+  for (const auto& [name, child] : children_) {
+    ::kill(-child->pid, SIGKILL);
+    ::waitpid(child->pid, nullptr, 0);
+  }
+  ::close(signal_fd_);
+  ::sigaction(SIGPIPE, &former_pipe_action_, nullptr);
+  ::sigprocmask(SIG_SETMASK, &former_mask_, nullptr);
+}
+
+void Supervisor::start(const ProgramSpec& spec) {
+  const Fd log = spec.log.empty() ? Fd() : open_high(spec.log, O_WRONLY | O_CREAT | O_TRUNC);
+  const Fd input = open_high("/dev/null", O_RDONLY);
+  Pipe status = make_pipe(), control = make_pipe(), failure = make_pipe();
+  const std::vector<char*> argv = pointers(spec.argv), env = pointers(spec.env);
+  const ChildSetup setup{::getpid(),         input.get(),         log.get(),   status.write.get(),
+                         control.read.get(), failure.write.get(), argv.data(), env.data()};
+  const pid_t pid = ::fork();
+  if (pid < 0) throw_errno("fork");
+  if (pid == 0) setup.exec();
+  ::setpgid(pid, pid);  // both sides do it, so that it is done whichever runs first
+  failure.write.reset();
+  int error = 0;
+  if (::read(failure.read.get(), &error, sizeof error) > 0) {
+    ::waitpid(pid, nullptr, 0);
+    throw std::system_error(error, std::generic_category(), "cannot start " + spec.argv[0]);
+  }
+  auto child = std::make_unique<Child>();
+  child->name = spec.name;
+  child->pid = pid;
+  child->pidfd = Fd(::pidfd_open(pid, 0));
+  if (child->pidfd.get() < 0) {
+    const int reason = errno;
+    ::kill(-pid, SIGKILL);
+    ::waitpid(pid, nullptr, 0);
+    throw std::system_error(reason, std::generic_category(), "pidfd_open");
+  }
+  child->status = std::move(status.read);
+  child->control = std::move(control.write);
+  ::fcntl(child->status.get(), F_SETFL, O_NONBLOCK);
+  ::fcntl(child->control.get(), F_SETFL, O_NONBLOCK);
+  children_[spec.name] = std::move(child);
+}
+
+std::vector<Event> Supervisor::wait(std::chrono::milliseconds limit) {
+  std::vector<pollfd> polled = {{signal_fd_, POLLIN, 0}};
+  std::vector<Child*> order;
+  for (const auto& [name, child] : children_) {
+    order.push_back(child.get());
+    polled.push_back({child->status.get(), POLLIN, 0});
+    polled.push_back({child->pidfd.get(), POLLIN, 0});
+  }
+  std::vector<Event> events;
+  if (::poll(polled.data(), polled.size(), static_cast<int>(limit.count())) <= 0) return events;
+  signalfd_siginfo info;
+  while (::read(signal_fd_, &info, sizeof info) == sizeof info) events.push_back({Event::Kind::interrupt, {}, {}, {}});
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (polled[1 + 2 * i].revents != 0) read_status(*order[i], events);
+    if (polled[2 + 2 * i].revents != 0) reap(*order[i], events);
+  }
+  return events;
+}
+
+void Supervisor::read_status(Child& child, std::vector<Event>& events) {
+  std::array<char, 4096> buffer;
+  while (child.status.get() >= 0) {
+    const ssize_t n = ::read(child.status.get(), buffer.data(), buffer.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return;                 // nothing more for now
+    if (n == 0) child.status.reset();  // poll ignores a negative descriptor from here on
+    for (ssize_t i = 0; i < n; ++i) {
+      if (buffer[i] != '\n') {
+        child.partial_line += buffer[i];
+      } else {
+        events.push_back({Event::Kind::status_line, child.name, std::exchange(child.partial_line, {}), {}});
+      }
+    }
+  }
+}
+
+void Supervisor::reap(Child& child, std::vector<Event>& events) {
+  // Its own children first: as long as the zombie is not reaped, its group's number cannot belong to anyone else.
+  ::kill(-child.pid, SIGKILL);
+  read_status(child, events);
+  siginfo_t info{};
+  if (::waitid(P_PIDFD, static_cast<id_t>(child.pidfd.get()), &info, WEXITED) != 0) throw_errno("waitid");
+  ExitStatus exit;
+  (info.si_code == CLD_EXITED ? exit.code : exit.signal) = info.si_status;
+  events.push_back({Event::Kind::exited, child.name, {}, exit});
+  children_.erase(events.back().program);
+}
+
+void Supervisor::send(const std::string& program, const std::string& line) {
+  const auto found = children_.find(program);
+  if (found == children_.end()) return;
+  const std::string text = line + "\n";
+  [[maybe_unused]] const ssize_t written = ::write(found->second->control.get(), text.data(), text.size());
+}
+
+void Supervisor::signal_all(int signal) {
+  for (const auto& [name, child] : children_) ::kill(-child->pid, signal);
+}
+
+std::vector<Event> Supervisor::end_all(std::chrono::milliseconds grace) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<Event> all;
+  signal_all(SIGTERM);
+  signal_all(SIGCONT);  // a stopped program cannot hear SIGTERM
+  const Clock::time_point deadline = Clock::now() + grace;
+  bool killed = false;
+  while (!children_.empty()) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+    bool kill_now = left.count() <= 0;
+    // After SIGKILL the end is certain: wait for it without a limit.
+    for (Event& event : wait(killed ? std::chrono::milliseconds(-1) : std::max(left, std::chrono::milliseconds(0)))) {
+      kill_now = kill_now || event.kind == Event::Kind::interrupt;
+      all.push_back(std::move(event));
+    }
+    if (kill_now && !killed) {
+      signal_all(SIGKILL);
+      killed = true;
+    }
+  }
+  return all;
+}
+
+std::vector<std::string> Supervisor::running() const {
+  std::vector<std::string> names;
+  for (const auto& [name, child] : children_) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> last_lines(const std::filesystem::path& file, std::size_t count) {
+  std::ifstream in(file);
+  std::deque<std::string> tail;
+  for (std::string line; std::getline(in, line);) {
+    tail.push_back(line);
+    if (tail.size() > count) tail.pop_front();
+  }
+  return {tail.begin(), tail.end()};
+}
+
+}  // namespace skein::cli

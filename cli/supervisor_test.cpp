@@ -1,0 +1,158 @@
+#include "cli/supervisor.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cli/environment.hpp"
+#include "cli/fake_programs.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kForever{-1};
+
+/// Programs started while it lives inherit one end of a pipe; the other end tells when the last of them is gone.
+class OpenUntilAllEnded {
+ public:
+  OpenUntilAllEnded() { EXPECT_EQ(::pipe(fds_), 0); }
+  ~OpenUntilAllEnded() { ::close(fds_[0]); }
+  /// Waits for it.
+  bool all_ended() {
+    ::close(fds_[1]);
+    char c;
+    return ::read(fds_[0], &c, 1) == 0;
+  }
+
+ private:
+  int fds_[2];
+};
+
+class SupervisorTest : public ::testing::Test {
+ protected:
+  ProgramSpec shell(const std::string& name, const std::string& script) const {
+    return {name, {"/bin/sh", "-c", script}, environment_with({}), scratch_.path() / (name + ".log")};
+  }
+
+  /// All events until no program is left.
+  std::vector<Event> run_out() {
+    std::vector<Event> all;
+    while (!supervisor_.running().empty()) {
+      for (Event& event : supervisor_.wait(kForever)) all.push_back(std::move(event));
+    }
+    return all;
+  }
+
+  ScratchDir scratch_;
+  Supervisor supervisor_;
+};
+
+TEST_F(SupervisorTest, StatusLinesComeBeforeTheExit) {
+  supervisor_.start(shell("a", "echo one >&3; echo two >&3; exit 5"));
+  const std::vector<Event> events = run_out();
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[0].line, "one");
+  EXPECT_EQ(events[1].line, "two");
+  EXPECT_EQ(events[2].kind, Event::Kind::exited);
+  EXPECT_EQ(events[2].program, "a");
+  EXPECT_EQ(events[2].exit.code, 5);
+  EXPECT_EQ(events[2].exit.text(), "exit code 5");
+}
+
+TEST_F(SupervisorTest, OutputGoesToTheLog) {
+  supervisor_.start(shell("a", "echo out; echo err >&2; for i in 1 2 3; do echo $i; done"));
+  run_out();
+  EXPECT_EQ(last_lines(scratch_.path() / "a.log", 4), (std::vector<std::string>{"err", "1", "2", "3"}));
+}
+
+TEST_F(SupervisorTest, ASignalIsNamed) {
+  supervisor_.start(shell("a", "kill -SEGV $$"));
+  const std::vector<Event> events = run_out();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].exit.signal, SIGSEGV);
+  EXPECT_EQ(events[0].exit.text(), "signal 11 (Segmentation fault)");
+}
+
+TEST_F(SupervisorTest, ControlLinesArrive) {
+  supervisor_.start(shell("a", "read line <&4; echo got $line >&3"));
+  supervisor_.send("a", "lost beta");
+  supervisor_.send("nobody", "lost beta");
+  const std::vector<Event> events = run_out();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].line, "got lost beta");
+}
+
+TEST_F(SupervisorTest, AFullControlPipeDoesNotBlock) {
+  supervisor_.start(shell("a", "read line <&3"));  // reads nothing from 4
+  for (int i = 0; i < 10000; ++i) supervisor_.send("a", std::string(100, 'x'));
+  supervisor_.end_all(std::chrono::seconds(10));
+  EXPECT_TRUE(supervisor_.running().empty());
+}
+
+TEST_F(SupervisorTest, EndAllUsesTermFirstAndKillForThoseThatIgnoreIt) {
+  supervisor_.start(shell("polite", "trap 'exit 7' TERM; echo ready >&3; while :; do read line <&4; done"));
+  supervisor_.start(shell("stubborn", "trap '' TERM; echo ready >&3; while :; do read line <&4; done"));
+  for (std::size_t ready = 0; ready < 2;) ready += supervisor_.wait(kForever).size();
+  std::map<std::string, ExitStatus> exits;
+  for (const Event& event : supervisor_.end_all(std::chrono::milliseconds(300))) exits[event.program] = event.exit;
+  EXPECT_EQ(exits["polite"].code, 7);
+  EXPECT_EQ(exits["stubborn"].signal, SIGKILL);
+}
+
+TEST_F(SupervisorTest, AStoppedProgramCanBeEnded) {
+  supervisor_.start(shell("a", "echo ready >&3; kill -STOP $$; read line <&4"));
+  while (supervisor_.wait(kForever).empty()) {
+  }
+  supervisor_.end_all(std::chrono::milliseconds(300));
+  EXPECT_TRUE(supervisor_.running().empty());
+}
+
+TEST_F(SupervisorTest, ChildrenOfAProgramEndWithIt) {
+  OpenUntilAllEnded pipe;
+  supervisor_.start(shell("a", "sleep 1000 & echo started >&3"));
+  run_out();
+  EXPECT_TRUE(pipe.all_ended());
+}
+
+TEST_F(SupervisorTest, TheTerminalsSignalsBecomeAnEventAndDoNotReachThePrograms) {
+  supervisor_.start(shell("a", "read line <&4; exit 0"));
+  ::kill(::getpid(), SIGINT);
+  const std::vector<Event> events = supervisor_.wait(kForever);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, Event::Kind::interrupt);
+  EXPECT_TRUE(supervisor_.running("a"));
+  supervisor_.send("a", "go");
+  EXPECT_TRUE(run_out().back().exit.ok());
+}
+
+TEST_F(SupervisorTest, WaitReturnsNothingAfterItsLimit) {
+  supervisor_.start(shell("a", "read line <&4"));
+  EXPECT_TRUE(supervisor_.wait(std::chrono::milliseconds(1)).empty());
+}
+
+TEST_F(SupervisorTest, AMissingBinaryIsAnErrorWithItsName) {
+  try {
+    supervisor_.start({"a", {"/does/not/exist"}, {}, scratch_.path() / "a.log"});
+    FAIL();
+  } catch (const std::system_error& error) {
+    EXPECT_NE(std::string(error.what()).find("/does/not/exist"), std::string::npos);
+  }
+  EXPECT_TRUE(supervisor_.running().empty());
+}
+
+TEST(Supervisor, NothingOutlivesAKilledLauncher) {
+  OpenUntilAllEnded pipe;
+  const pid_t launcher = ::fork();
+  if (launcher == 0) {  // a launcher that is killed while its program runs
+    Supervisor supervisor;
+    supervisor.start({"a", {"/bin/sh", "-c", "echo ready >&3; read line <&3"}, environment_with({}), {}});
+    while (supervisor.wait(kForever).empty()) {
+    }
+    ::kill(::getpid(), SIGKILL);
+  }
+  EXPECT_TRUE(pipe.all_ended());
+  EXPECT_EQ(::waitpid(launcher, nullptr, 0), launcher);
+}
+
+}  // namespace
+}  // namespace skein::cli

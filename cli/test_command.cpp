@@ -1,0 +1,85 @@
+#include "cli/test_command.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <stdexcept>
+
+#include "cli/environment.hpp"
+#include "cli/fleet_plan.hpp"
+#include "cli/preflight.hpp"
+#include "cli/run_result.hpp"
+
+namespace skein::cli {
+namespace {
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error(file.string() + ": ctest left no report");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Counts of a GoogleTest program's own report.
+TestCounts count_cases(const Json& report) {
+  TestCounts counts;
+  for (const Json& suite : value_or(report, "testsuites", Json::array())) {
+    for (const Json& test : value_or(suite, "testsuite", Json::array())) {
+      const Json result = value_or(test, "result", "");
+      if (result == "SUPPRESSED") continue;  // DISABLED_
+      if (!value_or(test, "failures", Json::array()).empty()) {
+        ++counts.failed;
+      } else {
+        ++(result == "SKIPPED" ? counts.skipped : counts.passed);
+      }
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+TestCounts count_tests(const std::filesystem::path& junit, const std::filesystem::path& reports) {
+  const std::string text = read_text(junit);
+  static const std::regex kEntry(R"re(<testcase name="([^"]*)"[^>]*\bstatus="([^"]*)"[^>]*>)re");
+  TestCounts total;
+  for (auto entry = std::sregex_iterator(text.begin(), text.end(), kEntry); entry != std::sregex_iterator(); ++entry) {
+    const std::string name = (*entry)[1], status = (*entry)[2];
+    const bool failed = status == "fail";
+    const Json report = read_json(reports / (name + ".json"));
+    if (report.is_null()) {  // no GoogleTest program, or one that crashed or timed out
+      ++(failed ? total.failed : status == "run" ? total.passed : total.skipped);
+      continue;
+    }
+    TestCounts counts = count_cases(report);
+    if (failed && counts.failed == 0) counts.failed = 1;  // all cases passed, yet the program ended badly
+    total.passed += counts.passed;
+    total.failed += counts.failed;
+    total.skipped += counts.skipped;
+  }
+  return total;
+}
+
+std::string summary_line(const TestCounts& counts) {
+  std::string line = std::to_string(counts.passed) + " passed, " + std::to_string(counts.failed) + " failed";
+  if (counts.skipped > 0) line += ", " + std::to_string(counts.skipped) + " skipped";
+  return line;
+}
+
+int run_tests(const TestOptions& options, const Console& console) {
+  const ScratchDir scratch;
+  const std::filesystem::path build_dir = std::filesystem::absolute(program_dir()).parent_path();
+  const std::filesystem::path junit = scratch.path() / "ctest.xml", reports = scratch.path() / "gtest";
+  std::map<std::string, std::string> variables = {{"GTEST_OUTPUT", "json:" + reports.string() + "/"}};
+  if (options.long_tests) variables["SKEIN_LONG"] = "1";
+  const ExitStatus exit = run_to_end({"ctest",
+                                      {"/usr/bin/env", "ctest", "--test-dir", build_dir, "-j2", "--output-on-failure",
+                                       "--no-tests=error", "--output-junit", junit},
+                                      environment_with(variables),
+                                      {}});
+  TestCounts counts = count_tests(junit, reports);
+  if (!exit.ok() && counts.failed == 0) counts.failed = 1;  // ctest itself failed
+  console.out << summary_line(counts) << std::endl;
+  return counts.failed == 0 ? kExitDone : kExitCheckFailed;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,51 @@
+#include "cli/test_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include "cli/fake_programs.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// A GoogleTest report with one case each.
+constexpr const char* kReport = R"({"testsuites": [{"name": "S", "testsuite": [
+  {"name": "a", "status": "RUN", "result": "COMPLETED"},
+  {"name": "b", "status": "RUN", "result": "COMPLETED", "failures": [{"failure": "x", "type": ""}]},
+  {"name": "c", "status": "RUN", "result": "SKIPPED"},
+  {"name": "DISABLED_d", "status": "NOTRUN", "result": "SUPPRESSED"}]}]})";
+
+class TestCommand : public ::testing::Test {
+ protected:
+  std::string counted(const std::string& entries) {
+    write_text(scratch_.path() / "ctest.xml", "<testsuite name=\"x\">" + entries + "</testsuite>");
+    return summary_line(count_tests(scratch_.path() / "ctest.xml", scratch_.path()));
+  }
+  static std::string entry(const std::string& name, const std::string& status) {
+    return "<testcase name=\"" + name + "\" classname=\"" + name + "\" time=\"0.1\" status=\"" + status +
+           "\">\n</testcase>\n";
+  }
+  ScratchDir scratch_;
+};
+
+TEST_F(TestCommand, EntriesWithoutAGoogleTestReportCountAsOne) {
+  EXPECT_EQ(counted(entry("a", "run") + entry("b", "run")), "2 passed, 0 failed");
+  EXPECT_EQ(counted(entry("a", "run") + entry("b", "fail") + entry("c", "notrun") + entry("d", "disabled")),
+            "1 passed, 1 failed, 2 skipped");
+}
+
+TEST_F(TestCommand, CasesOfAGoogleTestProgramCountSingly) {
+  write_text(scratch_.path() / "g.json", kReport);
+  EXPECT_EQ(counted(entry("g", "fail") + entry("b", "run")), "2 passed, 1 failed, 1 skipped");
+}
+
+TEST_F(TestCommand, AProgramThatEndsBadlyAfterGoodCasesIsAFailure) {
+  write_text(scratch_.path() / "g.json", R"({"testsuites": [{"testsuite": [{"name": "a", "result": "COMPLETED"}]}]})");
+  EXPECT_EQ(counted(entry("g", "fail")), "1 passed, 1 failed");
+}
+
+TEST_F(TestCommand, NoReportIsAnError) {
+  EXPECT_THROW(count_tests(scratch_.path() / "none.xml", scratch_.path()), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,93 @@
+#include "comm_router/link_gate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "core/sha256.hpp"
+
+namespace skein::router {
+
+LinkGate::LinkGate(std::vector<RadioRoute> routes, std::size_t nodes, std::unique_ptr<LinkModel> links)
+    : routes_(std::move(routes)), nodes_(nodes), model_(std::move(links)), counts_(nodes * nodes) {}
+
+GatedStep LinkGate::gate(std::uint64_t k, std::span<const std::uint8_t> links,
+                         const std::vector<RadioMessage>& messages) {
+  if (links.size() != nodes_ * nodes_) {
+    throw std::invalid_argument("a link matrix of " + std::to_string(links.size()) + " entries for " +
+                                std::to_string(nodes_) + " radio nodes");
+  }
+  for (const RadioMessage& message : messages) send(k, links, message);
+
+  GatedStep step;
+  const auto due = in_flight_.upper_bound(k + 1);
+  for (auto arrival = in_flight_.begin(); arrival != due; ++arrival) {
+    std::ranges::move(arrival->second, std::back_inserter(step.deliveries));
+  }
+  in_flight_.erase(in_flight_.begin(), due);
+  // Stable: two programs of one node may use the same topic and number; they stay in the order of sending.
+  std::ranges::stable_sort(step.deliveries, {}, [&](const Delivery& delivery) {
+    const RadioRoute& route = routes_[delivery.route];
+    return std::tuple<Node, const std::string&, std::uint64_t>(route.source, route.ros_topic, delivery.sequence);
+  });
+  for (const Delivery& delivery : step.deliveries) {
+    const RadioRoute& route = routes_[delivery.route];
+    ++counts_[route.source * nodes_ + route.targets[delivery.target].node].delivered;
+  }
+  step.digest = digest(step.deliveries);
+  return step;
+}
+
+void LinkGate::send(std::uint64_t k, std::span<const std::uint8_t> links, const RadioMessage& message) {
+  if (message.route >= routes_.size()) throw std::invalid_argument("a radio message of no route");
+  const RadioRoute& route = routes_[message.route];
+  for (std::size_t target = 0; target < route.targets.size(); ++target) {
+    const Node to = route.targets[target].node;
+    const std::size_t link = route.source * nodes_ + to;
+    ++counts_[link].sent;
+    if (links[link] == 0) {
+      ++counts_[link].dropped_no_los;
+      continue;
+    }
+    const LinkFate fate = model_->fate(k, route, to, message);
+    if (fate.dropped) {
+      ++counts_[link].dropped_fault;
+      continue;
+    }
+    in_flight_[k + 1 + fate.delay_steps].push_back({message.route, target, message.sequence, message.payload});
+  }
+}
+
+std::vector<std::uint8_t> LinkGate::digest(const std::vector<Delivery>& deliveries) const {
+  if (deliveries.empty()) return {};
+  Sha256 sha;
+  const std::vector<std::uint8_t>* hashed = nullptr;
+  std::array<std::uint8_t, 32> payload_hash{};
+  for (const Delivery& delivery : deliveries) {
+    if (delivery.payload.get() != hashed) {  // the same message for several targets lies side by side
+      hashed = delivery.payload.get();
+      payload_hash = Sha256().add(std::span(*hashed)).digest();
+    }
+    const RadioRoute& route = routes_[delivery.route];
+    sha.add(route.source).add(route.targets[delivery.target].node).add(route.ros_topic).add(delivery.sequence);
+    sha.add(std::span<const std::uint8_t>(payload_hash));
+  }
+  const auto bytes = sha.digest();
+  return {bytes.begin(), bytes.end()};
+}
+
+LinkCounts LinkGate::total() const {
+  LinkCounts sum;
+  for (const LinkCounts& link : counts_) {
+    sum.sent += link.sent;
+    sum.delivered += link.delivered;
+    sum.dropped_no_los += link.dropped_no_los;
+    sum.dropped_fault += link.dropped_fault;
+  }
+  return sum;
+}
+
+}  // namespace skein::router

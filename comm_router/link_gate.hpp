@@ -1,0 +1,99 @@
+// The radio: which of a step's messages reach whom, and when. A message sent in step k is judged with the links of
+// step k and arrives in step k + 1, or later where a link delays it. Order, counts and digest depend on nothing but
+// the messages and the links. Not thread-safe; no bus.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/radio_routes.hpp"
+#include "core/types.hpp"
+
+namespace skein::router {
+
+/// Shared, because one message goes to several targets and may wait in a delay queue: no copy for each.
+using Payload = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+/// One message as its sender put it on the air.
+struct RadioMessage {
+  std::size_t route = 0;       ///< index into radio_routes(); names source and topic
+  std::uint64_t sequence = 0;  ///< 0, 1, ... on this route since the sender joined
+  Payload payload;             ///< serialised, with encapsulation header
+};
+
+/// What a link does to one message that has line of sight.
+struct LinkFate {
+  bool dropped = false;
+  std::uint64_t delay_steps = 0;  ///< on top of the one step that every message takes
+};
+
+/// How links treat messages beyond line of sight. Called once a message and target, in a fixed order; random models
+/// must key their draws by (link, topic, sequence), so that a restarted router draws the same.
+class LinkModel {
+ public:
+  virtual ~LinkModel() = default;
+  virtual LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const RadioMessage& message) = 0;
+};
+
+/// Nothing is lost, nothing is late.
+class IdealLinks final : public LinkModel {
+ public:
+  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const RadioMessage&) override { return {}; }
+};
+
+/// One message for one target.
+struct Delivery {
+  std::size_t route = 0;   ///< index into radio_routes()
+  std::size_t target = 0;  ///< index into that route's targets
+  std::uint64_t sequence = 0;
+  Payload payload;
+};
+
+/// Messages on one directed link, since the router started. sent = delivered + dropped_* + those still delayed.
+struct LinkCounts {
+  std::uint64_t sent = 0, delivered = 0, dropped_no_los = 0, dropped_fault = 0;
+  bool operator==(const LinkCounts&) const = default;
+};
+
+/// What leaves the router after step k.
+struct GatedStep {
+  std::vector<Delivery> deliveries;  ///< by source, topic, sequence, target; equals: in the order of sending
+  /// SHA-256 over the deliveries in this order, empty when there are none: of each source node, target node, ROS topic
+  /// (length, bytes), sequence, SHA-256 of the payload; numbers as 8 bytes, little-endian (core/sha256.hpp).
+  std::vector<std::uint8_t> digest;
+};
+
+class LinkGate {
+ public:
+  /// @param nodes  number of radio nodes: the fleet and the ground station.
+  /// @param links  the model of the links; IdealLinks unless a fault file says otherwise.
+  LinkGate(std::vector<RadioRoute> routes, std::size_t nodes,
+           std::unique_ptr<LinkModel> links = std::make_unique<IdealLinks>());
+
+  /// Judges all messages of step k, and hands out what arrives in step k + 1. Steps come in order.
+  /// @param links     row-major matrix of nodes * nodes, from sender to receiver, 1 = linked.
+  /// @param messages  of all members, in an order that is the same in every run (RouterSync's).
+  /// @throws std::invalid_argument when the matrix has another size or a message names no route.
+  GatedStep gate(std::uint64_t k, std::span<const std::uint8_t> links, const std::vector<RadioMessage>& messages);
+
+  const std::vector<RadioRoute>& routes() const { return routes_; }
+  const LinkCounts& counts(Node from, Node to) const { return counts_[from * nodes_ + to]; }
+  LinkCounts total() const;
+  std::size_t nodes() const { return nodes_; }
+
+ private:
+  void send(std::uint64_t k, std::span<const std::uint8_t> links, const RadioMessage& message);
+  std::vector<std::uint8_t> digest(const std::vector<Delivery>& deliveries) const;
+
+  std::vector<RadioRoute> routes_;
+  std::size_t nodes_;
+  std::unique_ptr<LinkModel> model_;
+  std::vector<LinkCounts> counts_;                            ///< row-major, from * nodes + to
+  std::map<std::uint64_t, std::vector<Delivery>> in_flight_;  ///< by the step in which they arrive
+};
+
+}  // namespace skein::router

@@ -1,0 +1,163 @@
+#include "comm_router/link_gate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <tuple>
+
+namespace skein::router {
+namespace {
+
+constexpr std::size_t kNodes = 4;
+
+RadioRoute route(Node source, const std::string& topic, std::vector<Node> targets) {
+  RadioRoute made{source, topic, "std_msgs/msg/String", "rt" + topic, "std_msgs::msg::dds_::String_", {}};
+  for (const Node target : targets) made.targets.push_back({target, "rt" + topic + "/n" + std::to_string(target)});
+  return made;
+}
+
+/// Two topics of every node, to every other node, in an order that is not the order of delivery.
+std::vector<RadioRoute> all_to_all() {
+  std::vector<RadioRoute> routes;
+  for (const std::string topic : {"/zulu", "/alpha"}) {
+    for (Node source = kNodes; source-- > 0;) {
+      std::vector<Node> targets;
+      for (Node target = 0; target < kNodes; ++target) {
+        if (target != source) targets.push_back(target);
+      }
+      routes.push_back(route(source, topic, targets));
+    }
+  }
+  return routes;
+}
+
+RadioMessage message(std::size_t route_index, std::uint64_t sequence, const std::string& text) {
+  return {route_index, sequence, std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end())};
+}
+
+const std::vector<std::uint8_t> kAllLinked(kNodes* kNodes, 1);
+const std::vector<std::uint8_t> kNoneLinked(kNodes* kNodes, 0);
+
+/// Random links (not symmetric: the gate must look at the right half of the matrix).
+std::vector<std::uint8_t> random_links(std::mt19937& random) {
+  std::vector<std::uint8_t> links(kNodes * kNodes);
+  for (std::uint8_t& link : links) link = random() % 2;
+  return links;
+}
+
+/// Late by the sequence number modulo 3; every seventh message is lost.
+class LateLinks final : public LinkModel {
+ public:
+  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const RadioMessage& message) override {
+    return {message.sequence % 7 == 6, message.sequence % 3};
+  }
+};
+
+TEST(LinkGate, ExactlyTheLinkedTargetsGetAMessage) {
+  std::mt19937 random(1);
+  LinkGate gate(all_to_all(), kNodes);
+  for (std::uint64_t k = 0; k < 200; ++k) {
+    const std::vector<std::uint8_t> links = random_links(random);
+    std::vector<RadioMessage> messages;
+    for (std::size_t r = 0; r < gate.routes().size(); ++r) messages.push_back(message(r, k, "m"));
+    const GatedStep step = gate.gate(k, links, messages);
+    std::size_t expected = 0;
+    for (const RadioRoute& from : gate.routes()) {
+      for (const RadioTarget& to : from.targets) expected += links[from.source * kNodes + to.node];
+    }
+    EXPECT_EQ(step.deliveries.size(), expected);
+    for (const Delivery& delivery : step.deliveries) {
+      const RadioRoute& from = gate.routes()[delivery.route];
+      EXPECT_EQ(links[from.source * kNodes + from.targets[delivery.target].node], 1);
+      EXPECT_EQ(delivery.sequence, k);
+    }
+  }
+}
+
+TEST(LinkGate, DeliveriesAreOrderedBySourceTopicSequenceTarget) {
+  std::mt19937 random(2);
+  LinkGate gate(all_to_all(), kNodes);
+  std::vector<RadioMessage> messages;
+  for (std::size_t r = 0; r < gate.routes().size(); ++r) {
+    for (std::uint64_t sequence = 0; sequence < 3; ++sequence) messages.push_back(message(r, sequence, "m"));
+  }
+  const GatedStep step = gate.gate(0, kAllLinked, messages);
+  const auto key = [&](const Delivery& delivery) {
+    const RadioRoute& from = gate.routes()[delivery.route];
+    return std::tuple(from.source, from.ros_topic, delivery.sequence, from.targets[delivery.target].node);
+  };
+  EXPECT_TRUE(std::ranges::is_sorted(step.deliveries, {}, key));
+
+  // Members of other nodes may come in any order: what leaves is the same, to the digest.
+  const auto source = [&](const RadioMessage& m) { return gate.routes()[m.route].source; };
+  std::ranges::stable_sort(messages, std::greater{}, source);
+  LinkGate other(all_to_all(), kNodes);
+  EXPECT_EQ(other.gate(0, kAllLinked, messages).digest, step.digest);
+}
+
+TEST(LinkGate, CountsAddUpOnEveryLink) {
+  std::mt19937 random(3);
+  LinkGate gate(all_to_all(), kNodes, std::make_unique<LateLinks>());
+  std::vector<std::uint64_t> sequence(gate.routes().size(), 0);
+  for (std::uint64_t k = 0; k < 100; ++k) {
+    std::vector<RadioMessage> messages;
+    for (std::size_t r = 0; r < gate.routes().size(); ++r) {
+      for (std::uint64_t n = random() % 3; n > 0; --n) messages.push_back(message(r, sequence[r]++, "m"));
+    }
+    gate.gate(k, random_links(random), messages);
+  }
+  for (std::uint64_t k = 100; k < 103; ++k) gate.gate(k, kNoneLinked, {});  // what is late comes in
+  std::uint64_t sent = 0;
+  for (Node from = 0; from < kNodes; ++from) {
+    for (Node to = 0; to < kNodes; ++to) {
+      const LinkCounts& link = gate.counts(from, to);
+      EXPECT_EQ(link.sent, link.delivered + link.dropped_no_los + link.dropped_fault);
+      EXPECT_EQ(link.sent > 0, from != to);
+      sent += link.sent;
+    }
+  }
+  EXPECT_EQ(gate.total().sent, sent);
+  EXPECT_GT(gate.total().dropped_fault, 0U);
+}
+
+TEST(LinkGate, ADelayedMessageKeepsTheLinkItWasSentOn) {
+  LinkGate gate({route(1, "/x", {0})}, kNodes, std::make_unique<LateLinks>());
+  EXPECT_TRUE(gate.gate(0, kAllLinked, {message(0, 2, "two steps late")}).deliveries.empty());
+  EXPECT_TRUE(gate.gate(1, kNoneLinked, {}).deliveries.empty());
+  const GatedStep third = gate.gate(2, kNoneLinked, {message(0, 3, "no line of sight")});
+  ASSERT_EQ(third.deliveries.size(), 1U);
+  EXPECT_EQ(third.deliveries[0].sequence, 2U);
+  EXPECT_EQ(gate.counts(1, 0), (LinkCounts{2, 1, 1, 0}));
+}
+
+TEST(LinkGate, TheDigestSeesEveryFieldOfADelivery) {
+  const auto digest = [](const RadioRoute& from, const RadioMessage& sent) {
+    return LinkGate({from}, kNodes).gate(0, kAllLinked, {sent}).digest;
+  };
+  const RadioRoute base = route(1, "/x", {2});
+  const auto reference = digest(base, message(0, 5, "hello"));
+  EXPECT_EQ(reference.size(), 32U);
+  EXPECT_EQ(digest(base, message(0, 5, "hello")), reference);
+  EXPECT_NE(digest(base, message(0, 6, "hello")), reference);
+  EXPECT_NE(digest(base, message(0, 5, "hellp")), reference);
+  EXPECT_NE(digest(route(3, "/x", {2}), message(0, 5, "hello")), reference);
+  EXPECT_NE(digest(route(1, "/y", {2}), message(0, 5, "hello")), reference);
+  EXPECT_NE(digest(route(1, "/x", {3}), message(0, 5, "hello")), reference);
+}
+
+TEST(LinkGate, NoDeliveryNoDigest) {
+  LinkGate gate({route(1, "/x", {2})}, kNodes);
+  EXPECT_TRUE(gate.gate(0, kNoneLinked, {message(0, 0, "lost")}).digest.empty());
+  EXPECT_TRUE(gate.gate(1, kAllLinked, {}).digest.empty());
+}
+
+TEST(LinkGate, AMatrixOfAnotherSizeIsRefused) {
+  LinkGate gate({route(1, "/x", {2})}, kNodes);
+  EXPECT_THROW(gate.gate(0, std::vector<std::uint8_t>(9, 1), {}), std::invalid_argument);
+  EXPECT_THROW(gate.gate(0, kAllLinked, {message(1, 0, "?")}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace skein::router

@@ -1,0 +1,189 @@
+#include "comm_router/router_node.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "bus/lockstep/names.hpp"
+#include "core/topics.hpp"
+#include "idl/type_names.hpp"
+
+namespace skein::router {
+
+using bus::LockstepClient;
+
+namespace {
+
+bool listed(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bus::TopicSpec radio_spec(const std::string& topic, const std::string& type, std::size_t sources = 1) {
+  return {topic, type, bus::Qos{.reliable = true, .latched = false, .depth = topics::radio_depth(sources)}};
+}
+
+std::vector<SentCount> sent_counts(const msg::Done& done) {
+  std::vector<SentCount> counts;
+  for (const auto& sent : done.sent()) counts.push_back({sent.topic(), sent.count()});
+  return counts;
+}
+
+}  // namespace
+
+RouterNode::RouterNode(const Scenario& scenario, int base_domain, bus::Bus& bus)
+    : scenario_(scenario),
+      gate_(radio_routes(scenario), scenario.fleet.size() + 1),
+      sync_(gate_.routes()),
+      world_(bus.join(world_domain(base_domain))),
+      client_(*world_, inbox_, std::string(bus::kRouterName)) {
+  for (Node node = 0; node < gate_.nodes(); ++node) nodes_.push_back(bus.join(node_domain(base_domain, node)));
+  for (Node node = 0; node < gate_.nodes(); ++node) {
+    done_readers_.push_back(inbox_.subscribe(*nodes_[node], bus::spec(topics::done()), [this](bus::Sample&& sample) {
+      msg::Done done;
+      if (decode(sample.payload, done)) sync_.on_done(sample.source, done.k(), sent_counts(done));
+    }));
+    ready_readers_.push_back(inbox_.subscribe(*nodes_[node], bus::spec(topics::ready()), [this, node](bus::Sample&& s) {
+      on_ready(node, std::move(s));
+    }));
+  }
+  drop_reader_ = inbox_.subscribe(*world_, bus::spec(topics::drop()), [this](bus::Sample&& sample) {
+    msg::Drop drop;
+    if (decode(sample.payload, drop)) sync_.on_drop(drop.k(), drop.source());
+  });
+  client_.declare_writer(bus::spec(topics::attached()), LockstepClient::Counterpart::server);
+  client_.declare_writer(bus::spec(topics::routed()), LockstepClient::Counterpart::server);
+  client_.declare_when([this] {
+    open_radio();
+    return true;
+  });
+}
+
+// Only after the server's invitation: it stands still until we are a member, so no message is under way, and the
+// members' counts that it told us are exact.
+void RouterNode::open_radio() {
+  if (std::exchange(radio_open_, true)) return;
+  const auto& routes = gate_.routes();
+  for (std::size_t r = 0; r < routes.size(); ++r) {
+    const RadioRoute& route = routes[r];
+    radio_readers_.push_back(
+        inbox_.subscribe(*nodes_[route.source], radio_spec(route.topic, route.type), [this, r](bus::Sample&& sample) {
+          sync_.on_radio(sample.source, r, std::make_shared<const std::vector<std::uint8_t>>(std::move(sample.payload)));
+        }));
+    auto& arrivals = arrival_of_.emplace_back();
+    for (const RadioTarget& target : route.targets) arrivals.push_back(find_or_open_arrival(target, route.type));
+  }
+  for (const auto& base : client_.base()) sync_.set_base(base.source, base.topic, base.count);
+}
+
+std::size_t RouterNode::find_or_open_arrival(const RadioTarget& target, const std::string& type) {
+  const auto found = std::find_if(arrivals_.begin(), arrivals_.end(), [&](const Arrival& a) {
+    return a.node == target.node && a.topic == target.topic;
+  });
+  if (found == arrivals_.end()) {
+    arrivals_.push_back({target.node, target.topic,
+                         std::make_unique<bus::CountedWriter>(*nodes_[target.node], radio_spec(target.topic, type, gate_.nodes()))});
+    return arrivals_.size() - 1;
+  }
+  return static_cast<std::size_t>(found - arrivals_.begin());
+}
+
+void RouterNode::on_ready(Node node, bus::Sample&& sample) {
+  msg::Ready ready;
+  if (!decode(sample.payload, ready) || ready.revision() == 0) return;
+  applicants_[sample.source] = {ready.member(), node, ready.revision(), ready.reads(), ready.writes(), false};
+}
+
+bool RouterNode::endpoints_match(const Applicant& applicant, bus::ParticipantId source) const {
+  if (!bus::contains(done_readers_[applicant.node]->matched(), source)) return false;
+  const auto& routes = gate_.routes();
+  for (std::size_t r = 0; r < routes.size(); ++r) {
+    if (routes[r].source == applicant.node && listed(applicant.writes, routes[r].topic) &&
+        !bus::contains(radio_readers_[r]->matched(), source)) {
+      return false;
+    }
+  }
+  return std::all_of(arrivals_.begin(), arrivals_.end(), [&](const Arrival& arrival) {
+    return arrival.node != applicant.node || !listed(applicant.reads, arrival.topic) || arrival.writer->matches(source);
+  });
+}
+
+bool RouterNode::attach() {
+  if (!radio_open_ || client_.server() == 0) return true;
+  bool waiting = false;
+  std::erase_if(applicants_, [&](const auto& entry) {
+    const auto& [source, applicant] = entry;
+    return !applicant.attached && !bus::contains(ready_readers_[applicant.node]->matched(), source);  // it left
+  });
+  for (auto& [source, applicant] : applicants_) {
+    if (applicant.attached) continue;
+    if (!endpoints_match(applicant, source)) {
+      waiting = true;
+      continue;
+    }
+    msg::Attached attached;
+    attached.member(applicant.member);
+    attached.source(source);
+    attached.revision(applicant.revision);
+    attached.router(nodes_[applicant.node]->id());
+    client_.write(topics::attached().name, attached);
+    applicant.attached = true;
+  }
+  return waiting;
+}
+
+void RouterNode::begin_step() {
+  const msg::Step& step = client_.step();
+  std::vector<RadioMember> members;
+  for (const auto& member : step.members()) {
+    if (member.name() == bus::kRouterName) continue;
+    const auto applicant = applicants_.find(member.source());
+    if (applicant != applicants_.end()) members.push_back({member.name(), member.source(), applicant->second.node});
+  }
+  sync_.on_step(step.k(), step.epoch(), std::move(members), step.links());
+  if (step.final_step()) last_k_ = step.k();
+}
+
+void RouterNode::deliver(const StepBatch& batch) {
+  const GatedStep gated = gate_.gate(batch.k, batch.links, batch.messages);
+  std::map<Node, std::map<std::size_t, std::uint64_t>> delivered;  // by node, arrival: count
+  for (const Delivery& delivery : gated.deliveries) {
+    const std::size_t index = arrival_of_[delivery.route][delivery.target];
+    Arrival& arrival = arrivals_[index];
+    const auto [entry, first] = delivered[arrival.node].try_emplace(index, 0);
+    if (first) arrival.writer->begin_step();
+    arrival.writer->write(*delivery.payload);
+    entry->second = arrival.writer->count();
+  }
+
+  msg::Routed routed;
+  routed.k(batch.k);
+  routed.epoch(batch.epoch);
+  for (const auto& [node, counts] : delivered) {
+    msg::NodeCounts entry;
+    entry.node(scenario_.node_name(node));
+    for (const auto& [index, total] : counts) {
+      msg::TopicCount count;
+      count.topic(arrivals_[index].topic);
+      count.source(nodes_[node]->id());
+      count.count(total);
+      entry.delivered().push_back(count);
+    }
+    routed.nodes().push_back(std::move(entry));
+  }
+  routed.digest(gated.digest);
+  client_.write(topics::routed().name, routed);
+  last_step_answered_ = batch.k == last_k_;
+}
+
+int RouterNode::run(const StopSignal& stop) {
+  const bus::ClientLoop loop{.think = [this] { begin_step(); },
+                             .serve =
+                                 [this] {
+                                   const bool waiting = attach();
+                                   while (const auto batch = sync_.take()) deliver(*batch);
+                                   return waiting;
+                                 },
+                             .answered_last = [this] { return last_step_answered_; }};
+  return bus::exit_code(bus::run_client(client_, inbox_, loop, stop), "comm_router");
+}
+
+}  // namespace skein::router

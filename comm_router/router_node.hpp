@@ -1,0 +1,73 @@
+// The router as a process: hears every radio topic in every node's domain, lets through what the links allow.
+// It moves serialised payloads and knows no type. Everything happens on the thread that calls run().
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/bus.hpp"
+#include "bus/inbox.hpp"
+#include "bus/lockstep/client_loop.hpp"
+#include "comm_router/link_gate.hpp"
+#include "comm_router/router_sync.hpp"
+#include "core/scenario.hpp"
+
+namespace skein::router {
+
+class RouterNode {
+ public:
+  RouterNode(const Scenario& scenario, int base_domain, bus::Bus& bus);
+
+  /// Takes part until the last step, or until asked to stop. @returns the program's exit code.
+  int run(const StopSignal& stop);
+  /// Makes run() look at `stop`; from any thread.
+  void wake() { inbox_.wake(); }
+  const LinkGate& gate() const { return gate_; }
+
+ private:
+  /// One participant that wants its radio topics attached.
+  struct Applicant {
+    std::string member;
+    Node node = kStationNode;
+    std::uint32_t revision = 0;
+    std::vector<std::string> reads, writes;
+    bool attached = false;
+  };
+
+  /// One topic on which messages arrive at a node: all sources share it, so their order is one order.
+  struct Arrival {
+    Node node = kStationNode;
+    std::string topic;
+    std::unique_ptr<bus::CountedWriter> writer;
+  };
+
+  void open_radio();
+  std::size_t find_or_open_arrival(const RadioTarget& target, const std::string& type);
+  void on_ready(Node node, bus::Sample&& sample);
+  /// @returns true while somebody is not attached yet.
+  bool attach();
+  bool endpoints_match(const Applicant& applicant, bus::ParticipantId source) const;
+  void begin_step();
+  void deliver(const StepBatch& batch);
+
+  const Scenario& scenario_;
+  LinkGate gate_;
+  RouterSync sync_;
+  bus::Inbox inbox_;
+  std::unique_ptr<bus::Participant> world_;
+  std::vector<std::unique_ptr<bus::Participant>> nodes_;
+  bus::LockstepClient client_;
+  std::unique_ptr<bus::Reader> drop_reader_;
+  std::vector<std::unique_ptr<bus::Reader>> done_readers_, ready_readers_;       ///< by node
+  std::vector<std::unique_ptr<bus::Reader>> radio_readers_;                      ///< by route
+  std::vector<Arrival> arrivals_;
+  std::vector<std::vector<std::size_t>> arrival_of_;  ///< by route, target: index into arrivals_
+  std::map<bus::ParticipantId, Applicant> applicants_;
+  std::optional<std::uint64_t> last_k_;  ///< of the final step
+  bool radio_open_ = false, last_step_answered_ = false;
+};
+
+}  // namespace skein::router

@@ -1,0 +1,145 @@
+#include "comm_router/router_sync.hpp"
+
+#include <algorithm>
+
+namespace skein::router {
+namespace {
+
+/// A participant that is no member and still talks (a tool in a UAV's domain) must not fill the memory; nobody who
+/// becomes a member sends nearly as much before.
+constexpr std::size_t kMaxStrangerSamples = 4096;
+
+std::optional<std::uint64_t> count_of(const std::vector<SentCount>& sent, const std::string& topic) {
+  const auto found = std::ranges::find(sent, topic, &SentCount::topic);
+  return found == sent.end() ? std::nullopt : std::optional(found->count);
+}
+
+}  // namespace
+
+void RouterSync::on_step(std::uint64_t k, std::uint32_t epoch, std::vector<RadioMember> members,
+                         std::vector<std::uint8_t> links) {
+  if (last_k_ && k <= *last_k_) return;
+  for (const RadioMember& member : members) {
+    if (!gone_.contains(member.source)) senders_[member.source].member = true;
+  }
+  steps_[k] = {epoch, std::move(members), std::move(links)};
+}
+
+void RouterSync::on_done(SourceId source, std::uint64_t k, std::vector<SentCount> sent) {
+  if (gone_.contains(source) || (last_k_ && k <= *last_k_)) return;
+  senders_[source].done[k] = std::move(sent);
+}
+
+void RouterSync::on_radio(SourceId source, std::size_t route, Payload payload) {
+  if (gone_.contains(source)) return;
+  Sender& sender = senders_[source];
+  sender.lanes[routes_[route].topic].waiting.push_back(std::move(payload));
+  if (!sender.member && ++sender.waiting_as_stranger > kMaxStrangerSamples) forget(source);
+}
+
+void RouterSync::on_drop(std::uint64_t k, SourceId source) { dropped_from_.emplace(source, k); }
+
+void RouterSync::set_base(SourceId source, const std::string& topic, std::uint64_t count) {
+  if (!gone_.contains(source)) senders_[source].lanes[topic].taken = count;
+}
+
+std::optional<StepBatch> RouterSync::take() {
+  if (steps_.empty()) return std::nullopt;
+  const std::uint64_t k = steps_.begin()->first;
+  forget_the_gone(k);
+  Step& step = steps_.begin()->second;
+  const auto ready = [&](const RadioMember& member) { return complete(k, member); };
+  if (!std::ranges::all_of(step.members, ready)) return std::nullopt;
+
+  StepBatch batch{k, step.epoch, std::move(step.links), {}};
+  for (const RadioMember& member : step.members) take_messages(k, member, batch.messages);
+  steps_.erase(steps_.begin());
+  last_k_ = k;
+  return batch;
+}
+
+std::vector<std::string> RouterSync::waiting_for() const {
+  std::vector<std::string> missing;
+  if (steps_.empty()) return missing;
+  const auto& [k, step] = *steps_.begin();
+  for (const RadioMember& member : step.members) {
+    if (complete(k, member)) continue;
+    const auto sender = senders_.find(member.source);
+    if (sender == senders_.end() || !sender->second.done.contains(k)) {
+      missing.push_back(member.name + ": done");
+      continue;
+    }
+    for (const SentCount& sent : radio_counts(sender->second, k, member.node)) {
+      const std::uint64_t arrived = sender->second.arrived(sent.topic);
+      if (arrived < sent.count) {
+        missing.push_back(member.name + ": " + sent.topic + " " + std::to_string(arrived) + " of " +
+                          std::to_string(sent.count));
+      }
+    }
+  }
+  return missing;
+}
+
+std::uint64_t RouterSync::Sender::arrived(const std::string& topic) const {
+  const auto lane = lanes.find(topic);
+  return lane == lanes.end() ? 0 : lane->second.taken + lane->second.waiting.size();
+}
+
+std::vector<SentCount> RouterSync::radio_counts(const Sender& sender, std::uint64_t k, Node node) const {
+  std::vector<SentCount> counts;
+  const std::vector<SentCount>& sent = sender.done.at(k);
+  for (const RadioRoute& route : routes_) {
+    if (route.source != node) continue;
+    if (const auto count = count_of(sent, route.topic)) counts.push_back({route.topic, *count});
+  }
+  return counts;
+}
+
+bool RouterSync::complete(std::uint64_t k, const RadioMember& member) const {
+  if (gone_.contains(member.source)) return true;  // nobody waits for it, and it adds nothing
+  const auto found = senders_.find(member.source);
+  if (found == senders_.end() || !found->second.done.contains(k)) return false;
+  const std::vector<SentCount> counts = radio_counts(found->second, k, member.node);
+  return std::ranges::all_of(counts,
+                             [&](const SentCount& sent) { return found->second.arrived(sent.topic) >= sent.count; });
+}
+
+void RouterSync::take_messages(std::uint64_t k, const RadioMember& member, std::vector<RadioMessage>& messages) {
+  const auto found = senders_.find(member.source);
+  if (found == senders_.end()) return;
+  Sender& sender = found->second;
+  for (std::size_t route = 0; route < routes_.size(); ++route) {
+    if (routes_[route].source != member.node) continue;
+    const auto count = count_of(sender.done.at(k), routes_[route].topic);
+    if (!count) continue;
+    // What came beyond the count stays: it belongs to the next step.
+    Lane& lane = sender.lanes[routes_[route].topic];
+    while (lane.taken < *count) {
+      messages.push_back({route, lane.taken++, std::move(lane.waiting.front())});
+      lane.waiting.pop_front();
+    }
+  }
+  sender.done.erase(sender.done.begin(), sender.done.upper_bound(k));
+}
+
+void RouterSync::forget_the_gone(std::uint64_t k) {
+  for (const auto& [source, from_k] : dropped_from_) {
+    if (from_k <= k) forget(source);
+  }
+  const std::vector<RadioMember>& members = steps_.at(k).members;
+  const auto leaves = [&](const SourceId source) {
+    return std::ranges::find(members, source, &RadioMember::source) == members.end();
+  };
+  for (const SourceId source : members_before_) {
+    if (leaves(source)) forget(source);
+  }
+  members_before_.clear();
+  for (const RadioMember& member : members) members_before_.push_back(member.source);
+}
+
+void RouterSync::forget(SourceId source) {
+  senders_.erase(source);
+  gone_.insert(source);
+}
+
+}  // namespace skein::router

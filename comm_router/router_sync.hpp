@@ -1,0 +1,104 @@
+// The router's side of the lock-step, by counting: holds what members send until exactly the messages that the
+// senders' Done(k) announce are there, then hands them out as the batch of step k. Samples, Done, Step and Drop may
+// come in any order. Pure state machine: no bus, no clock. Not thread-safe.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "comm_router/link_gate.hpp"
+#include "core/radio_routes.hpp"
+
+namespace skein::router {
+
+/// A participant as the bus names it (bus::ParticipantId).
+using SourceId = std::uint64_t;
+
+/// A member that takes part in the radio. Two programs may share a node: the station and a program at the GCS.
+struct RadioMember {
+  std::string name;
+  SourceId source = 0;
+  Node node = kStationNode;
+};
+
+struct SentCount {
+  std::string topic;        ///< wire topic in the sender's domain
+  std::uint64_t count = 0;  ///< samples since it joined
+};
+
+/// All messages of one step.
+struct StepBatch {
+  std::uint64_t k = 0;
+  std::uint32_t epoch = 0;
+  std::vector<std::uint8_t> links;     ///< as Step_ has them
+  std::vector<RadioMessage> messages;  ///< by member as the step lists them, route, sequence
+};
+
+class RouterSync {
+ public:
+  /// @param routes  of the scenario; must outlive this.
+  explicit RouterSync(std::span<const RadioRoute> routes) : routes_(routes) {}
+
+  /// Members of step k whose messages count; leave out those without a radio (the router itself).
+  /// Who was a member before and is no longer, is forgotten with all that it sent.
+  void on_step(std::uint64_t k, std::uint32_t epoch, std::vector<RadioMember> members, std::vector<std::uint8_t> links);
+  /// Done(k). Topics that are no radio topic of the sender's node are passed over.
+  void on_done(SourceId source, std::uint64_t k, std::vector<SentCount> sent);
+  /// A sample from a reader of `routes[route]`. Those of one writer must come in the order of writing.
+  void on_radio(SourceId source, std::size_t route, Payload payload);
+  /// The server gave the member up in step k: what it sent in k and is not yet handed out is discarded, for good.
+  void on_drop(std::uint64_t k, SourceId source);
+  /// The sender had already written `count` samples on its topic when our reader matched (a restarted router).
+  void set_base(SourceId source, const std::string& topic, std::uint64_t count);
+
+  /// The batch of the lowest step that was announced and not yet handed out, once it is complete; else nullopt.
+  std::optional<StepBatch> take();
+
+  /// What take() waits for, for a human: "jurong: done", "raffles: rt/broadcast 3 of 4". Empty when it waits for
+  /// nothing but the next step.
+  std::vector<std::string> waiting_for() const;
+
+ private:
+  struct Lane {
+    std::uint64_t taken = 0;  ///< samples handed out so far, those before our time included
+    std::deque<Payload> waiting;
+  };
+  /// What a participant has sent and is not yet handed out. May exist before the step that makes it a member.
+  struct Sender {
+    std::map<std::string, Lane> lanes;                     ///< by wire topic
+    std::map<std::uint64_t, std::vector<SentCount>> done;  ///< by k
+    std::size_t waiting_as_stranger = 0;                   ///< samples that came before it was a member
+    bool member = false;
+
+    std::uint64_t arrived(const std::string& topic) const;
+  };
+  struct Step {
+    std::uint32_t epoch = 0;
+    std::vector<RadioMember> members;
+    std::vector<std::uint8_t> links;
+  };
+
+  bool complete(std::uint64_t k, const RadioMember& member) const;
+  /// What Done(k) says about the radio topics of its node, by route.
+  std::vector<SentCount> radio_counts(const Sender& sender, std::uint64_t k, Node node) const;
+  void take_messages(std::uint64_t k, const RadioMember& member, std::vector<RadioMessage>& messages);
+  void forget_the_gone(std::uint64_t k);
+  void forget(SourceId source);
+
+  std::span<const RadioRoute> routes_;
+  std::map<std::uint64_t, Step> steps_;  ///< announced, not yet handed out
+  std::map<SourceId, Sender> senders_;
+  std::map<SourceId, std::uint64_t> dropped_from_;  ///< the step from which on it does not count
+  std::vector<SourceId> members_before_;            ///< of the step that was looked at last
+  std::set<SourceId> gone_;                         ///< an identity never comes back
+  std::optional<std::uint64_t> last_k_;             ///< handed out last
+};
+
+}  // namespace skein::router

@@ -1,0 +1,241 @@
+// Property: whatever the order in which samples, Done, Step and Drop come in, the batches are those of an oracle that
+// sees everything in order.
+#include "comm_router/router_sync.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <random>
+#include <string>
+
+namespace skein::router {
+namespace {
+
+constexpr std::size_t kUavs = 4;
+
+/// Topic "/x" of every node, "/y" of the UAVs; targets do not matter here.
+std::vector<RadioRoute> some_routes() {
+  std::vector<RadioRoute> routes;
+  const std::string type = "t/msg/T", wire = "t::msg::dds_::T_";
+  for (Node node = 0; node <= kUavs; ++node) routes.push_back({node, "/x", type, "rt/x", wire, {}});
+  for (Node node = 1; node <= kUavs; ++node) routes.push_back({node, "/y", type, "rt/y", wire, {}});
+  return routes;
+}
+
+std::vector<std::size_t> routes_from(const std::vector<RadioRoute>& routes, Node node) {
+  std::vector<std::size_t> found;
+  for (std::size_t r = 0; r < routes.size(); ++r) {
+    if (routes[r].source == node) found.push_back(r);
+  }
+  return found;
+}
+
+Payload payload(const std::string& text) {
+  return std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end());
+}
+
+/// A message in a form that can be compared and printed.
+std::string describe(const RadioMessage& message) {
+  return std::to_string(message.route) + "#" + std::to_string(message.sequence) + ":" +
+         std::string(message.payload->begin(), message.payload->end());
+}
+
+std::vector<std::string> describe(const StepBatch& batch) {
+  std::vector<std::string> lines;
+  for (const RadioMessage& message : batch.messages) lines.push_back(describe(message));
+  return lines;
+}
+
+/// Events that keep their order among themselves (one writer on one topic).
+using Lane = std::vector<std::function<void(RouterSync&)>>;
+
+/// A fleet that talks at random, loses members and gets them back; it writes down what the router ought to hand out.
+class Fleet {
+ public:
+  Fleet(const std::vector<RadioRoute>& routes, std::mt19937& random) : routes_(routes), random_(random) {
+    for (Node node = 0; node <= kUavs; ++node) join(node, node == 0 ? "gcs" : "uav" + std::to_string(node));
+    join(kStationNode, "station");  // a second program at the ground station
+  }
+
+  struct Round {
+    std::vector<Lane> lanes;  ///< to be interleaved
+    std::vector<std::string> expected;
+  };
+
+  Round play(std::uint64_t k) {
+    Round round;
+    std::vector<RadioMember> members;
+    for (const Member& member : members_) members.push_back({member.name, member.source, member.node});
+    round.lanes.push_back({[=, epoch = epoch_](RouterSync& sync) { sync.on_step(k, epoch, members, {}); }});
+    std::vector<std::size_t> lost;
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+      if (random_() % 40 == 0) lost.push_back(m);
+      speak(members_[m], k, !lost.empty() && lost.back() == m, round);
+    }
+    stranger(round);
+    change_membership(lost);
+    return round;
+  }
+
+ private:
+  struct Member {
+    std::string name;
+    Node node;
+    SourceId source;
+    std::map<std::size_t, std::uint64_t> sent;  ///< by route
+  };
+
+  void join(Node node, const std::string& name) { members_.push_back({name, node, next_source_++, {}}); }
+
+  /// One member's step. One that is lost sends a part, perhaps Done as well, and is dropped.
+  void speak(Member& member, std::uint64_t k, bool lost, Round& round) {
+    std::vector<SentCount> counts;
+    for (const std::size_t r : routes_from(routes_, member.node)) {
+      Lane lane;
+      const std::uint64_t messages = random_() % 4;
+      for (std::uint64_t n = 0; n < messages; ++n) {
+        const Payload text = payload(member.name + "/" + std::to_string(random_()));
+        if (!lost) round.expected.push_back(describe({r, member.sent[r], text}));
+        ++member.sent[r];
+        lane.push_back([=, source = member.source](RouterSync& sync) { sync.on_radio(source, r, text); });
+      }
+      round.lanes.push_back(lane);
+      // A topic on which nothing was ever sent may be left out.
+      if (member.sent[r] > 0 || random_() % 2 == 0) counts.push_back({routes_[r].topic, member.sent[r]});
+    }
+    counts.push_back({"rt/uav/command/gimbal", random_()});
+    const SourceId source = member.source;
+    if (!lost) {
+      round.lanes.push_back({[=](RouterSync& sync) { sync.on_done(source, k, counts); }});
+    } else {
+      // A lying Done: more than was ever sent.
+      for (SentCount& count : counts) ++count.count;
+      if (random_() % 2 == 0) round.lanes.push_back({[=](RouterSync& sync) { sync.on_done(source, k, counts); }});
+      round.lanes.push_back({[=](RouterSync& sync) { sync.on_drop(k, source); }});
+    }
+  }
+
+  /// Somebody who is no member: heard, never counted.
+  void stranger(Round& round) {
+    const std::size_t r = random_() % routes_.size();
+    round.lanes.push_back({[=](RouterSync& sync) { sync.on_radio(99999, r, payload("stranger")); }});
+  }
+
+  void change_membership(const std::vector<std::size_t>& lost) {
+    for (std::size_t i = lost.size(); i-- > 0;) {
+      away_.push_back({members_[lost[i]].name, members_[lost[i]].node});
+      members_.erase(members_.begin() + static_cast<std::ptrdiff_t>(lost[i]));
+      ++epoch_;
+    }
+    if (!away_.empty() && random_() % 8 == 0) {  // restarted: a new participant that counts from zero
+      join(away_.back().second, away_.back().first);
+      away_.pop_back();
+      ++epoch_;
+    }
+  }
+
+  const std::vector<RadioRoute>& routes_;
+  std::mt19937& random_;
+  std::vector<Member> members_;
+  std::vector<std::pair<std::string, Node>> away_;
+  SourceId next_source_ = 1;
+  std::uint32_t epoch_ = 0;
+};
+
+TEST(RouterSync, AnyOrderOfArrivalGivesTheSameBatches) {
+  const std::vector<RadioRoute> routes = some_routes();
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    std::mt19937 random(seed);
+    Fleet fleet(routes, random);
+    RouterSync sync(routes);
+    for (std::uint64_t k = 0; k < 80; ++k) {
+      Fleet::Round round = fleet.play(k);
+      std::optional<StepBatch> batch;
+      while (true) {
+        std::erase_if(round.lanes, [](const Lane& lane) { return lane.empty(); });
+        if (round.lanes.empty()) break;
+        Lane& lane = round.lanes[random() % round.lanes.size()];
+        lane.front()(sync);
+        lane.erase(lane.begin());
+        if (auto ready = sync.take()) {
+          ASSERT_FALSE(batch) << "two batches of one step";
+          batch = std::move(ready);
+        }
+      }
+      ASSERT_TRUE(batch) << "seed " << seed << " step " << k << ": "
+                         << (sync.waiting_for().empty() ? "?" : sync.waiting_for().front());
+      ASSERT_EQ(batch->k, k);
+      ASSERT_EQ(describe(*batch), round.expected) << "seed " << seed << " step " << k;
+    }
+  }
+}
+
+TEST(RouterSync, TheNextStepsSamplesMayComeBeforeItsStep) {
+  const std::vector<RadioRoute> routes = some_routes();
+  RouterSync sync(routes);
+  sync.on_radio(7, 1, payload("a"));
+  sync.on_done(7, 0, {{"rt/x", 1}});
+  EXPECT_FALSE(sync.take());  // no step yet
+  sync.on_step(0, 0, {{"uav1", 7, 1}}, {});
+  ASSERT_EQ(describe(*sync.take()), std::vector<std::string>{"1#0:a"});
+
+  sync.on_done(7, 1, {{"rt/x", 3}});
+  sync.on_radio(7, 1, payload("b"));
+  sync.on_step(1, 0, {{"uav1", 7, 1}}, {});
+  EXPECT_FALSE(sync.take());
+  EXPECT_EQ(sync.waiting_for(), std::vector<std::string>{"uav1: rt/x 2 of 3"});
+  sync.on_radio(7, 1, payload("c"));
+  sync.on_radio(7, 1, payload("d"));  // beyond the count: of the next step
+  ASSERT_EQ(describe(*sync.take()), (std::vector<std::string>{"1#1:b", "1#2:c"}));
+
+  sync.on_step(2, 0, {{"uav1", 7, 1}}, {});
+  EXPECT_EQ(sync.waiting_for(), std::vector<std::string>{"uav1: done"});
+  sync.on_done(7, 2, {{"rt/x", 4}});
+  ASSERT_EQ(describe(*sync.take()), std::vector<std::string>{"1#3:d"});
+}
+
+TEST(RouterSync, ARestartedRouterCountsOnFromTheBase) {
+  const std::vector<RadioRoute> routes = some_routes();
+  RouterSync sync(routes);
+  sync.set_base(7, "rt/x", 40);
+  sync.on_step(12, 3, {{"uav1", 7, 1}}, {1});
+  sync.on_radio(7, 1, payload("a"));
+  sync.on_done(7, 12, {{"rt/x", 41}});
+  const std::optional<StepBatch> batch = sync.take();
+  ASSERT_TRUE(batch);
+  EXPECT_EQ(describe(*batch), std::vector<std::string>{"1#40:a"});
+  EXPECT_EQ(batch->epoch, 3U);
+  EXPECT_EQ(batch->links, std::vector<std::uint8_t>{1});
+}
+
+TEST(RouterSync, ADroppedMemberNeverComesBackUnderItsOldIdentity) {
+  const std::vector<RadioRoute> routes = some_routes();
+  RouterSync sync(routes);
+  sync.on_drop(0, 7);
+  sync.on_step(0, 0, {{"uav1", 7, 1}, {"uav2", 8, 2}}, {});
+  sync.on_radio(7, 1, payload("late"));
+  sync.on_done(7, 0, {{"rt/x", 1}});
+  EXPECT_FALSE(sync.take());
+  sync.on_done(8, 0, {});
+  EXPECT_TRUE(sync.take()->messages.empty());
+  sync.on_step(1, 1, {{"uav1", 9, 1}}, {});
+  sync.on_radio(7, 1, payload("later"));
+  sync.on_radio(9, 1, payload("fresh"));
+  sync.on_done(9, 1, {{"rt/x", 1}});
+  EXPECT_EQ(describe(*sync.take()), std::vector<std::string>{"1#0:fresh"});
+}
+
+TEST(RouterSync, AStrangerCannotFillTheMemoryNorSpeakLater) {
+  const std::vector<RadioRoute> routes = some_routes();
+  RouterSync sync(routes);
+  for (int i = 0; i < 10000; ++i) sync.on_radio(66, 1, payload("spam"));
+  sync.on_step(0, 0, {{"uav1", 66, 1}, {"uav2", 8, 2}}, {});
+  sync.on_done(8, 0, {});
+  const std::optional<StepBatch> batch = sync.take();
+  ASSERT_TRUE(batch);
+  EXPECT_TRUE(batch->messages.empty());
+}
+
+}  // namespace
+}  // namespace skein::router

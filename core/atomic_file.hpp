@@ -1,0 +1,14 @@
+// Files that appear whole or not at all. Any thread.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace skein {
+
+/// Writes a temporary file beside `path`, brings it to the disk and renames it: a reader sees the old content or the
+/// new, also after a crash. The folder must exist.
+/// @throws std::runtime_error with the system's reason; no temporary file is left.
+void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace skein

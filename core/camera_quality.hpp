@@ -1,0 +1,105 @@
+// How well one exposure shows a surface point: field of view, motion blur, resolution (q_blur, q_res).
+// The camera sits on a gimbal that removes roll and pitch of the body.
+// Frames: W world (ENU), B body (FLU), C camera (x optical axis, y left, z up).  Units: SI, radians; mm per pixel
+// where the name says so.  Source: CARIC, the sections on blur and resolution; the contest's formulas in docs/rules.md.
+#pragma once
+
+#include <optional>
+
+#include "core/scenario.hpp"
+#include "core/types.hpp"
+
+namespace skein {
+
+/// The step along the surface by which the resolution is measured.
+enum class ResolutionRule {
+  contest,  ///< as the organisers' code has it: shorter than 1 mm where the normal leans out of the step's plane
+  paper,    ///< 1 mm always
+};
+
+/// Pose and motion of the camera at one instant.
+struct CameraState {
+  Isometry3d X_WC = Isometry3d::Identity();
+  Vector3d v_WC = Vector3d::Zero();  ///< velocity of the camera's origin in W [m/s]
+  Vector3d w_WC = Vector3d::Zero();  ///< angular velocity of C in W, expressed in W [rad/s]
+};
+
+/// All that the formulas give for one point. Axes: u vertical, v horizontal for pixel_move; the other way round for
+/// mm_per_pixel (the reference's names). The optionals are empty where the formulas say nothing.
+struct PointQuality {
+  Vector3d p_C = Vector3d::Zero();  ///< the point in the camera frame [m]
+  bool in_search_radius = false;
+  bool in_fov = false;
+  double pixel_move_u = 0.0, pixel_move_v = 0.0;        ///< motion during the exposure [pixel]; valid if in_fov
+  double q_blur = 0.0;                                  ///< (0, 1]; valid if in_fov
+  std::optional<double> mm_per_pixel_u, mm_per_pixel_v; ///< empty: not in the field of view, or too close to resolve
+  std::optional<double> q_res;                          ///< [0, 1]
+  std::optional<double> score;                          ///< q_blur * q_res, before any threshold
+};
+
+/// The two qualities of a point that the camera sees.
+struct PointScore {
+  double q_blur = 0.0, q_res = 0.0;
+  double score() const { return q_blur * q_res; }
+};
+
+/// Points farther than this from the camera are not looked at [m]: the far corner of the field of view at the
+/// distance of the desired resolution, plus 5 m. The vertical half is taken by tangent, the horizontal one by
+/// 1/cosine, as the organisers' code has it. Pure.
+/// @param desired_mm_per_pixel  > 0.
+double search_radius(const CameraConfig& camera, double desired_mm_per_pixel);
+
+/// Distance at which a wall seen head-on has just the desired resolution [m]. Pure.
+double resolution_distance(const CameraConfig& camera, double desired_mm_per_pixel);
+
+/// Where the camera is and how it moves. The mount tilts with the body, the view does not:
+/// R_WC = Rz(yaw of body) Rz(gimbal yaw) Ry(gimbal pitch). Pure.
+/// @param body  pitch must not be +-pi/2, where yaw rate has no meaning.
+CameraState camera_state(const RigidBodyState& body, const GimbalState& gimbal, const CameraConfig& camera);
+
+/// One exposure, ready to judge many points: everything that does not depend on the point is computed once.
+/// Allocates nothing; const functions are safe from any thread.
+class Exposure {
+ public:
+  Exposure(const CameraState& state, const CameraConfig& camera, double desired_mm_per_pixel, ResolutionRule rule);
+
+  /// The point in the camera frame, if it lies in the field of view (borders included) and within the search
+  /// radius (border excluded).
+  std::optional<Vector3d> view(const Vector3d& p_W) const;
+
+  /// Quality of a point that view() gave; nullopt if the point is too close to resolve.
+  /// @param n_W  unit normal of the surface; its sign does not matter.
+  std::optional<PointScore> score(const Vector3d& p_C, const Vector3d& n_W) const;
+
+  /// Every intermediate value, for audits and reference vectors.
+  PointQuality evaluate(const Vector3d& p_W, const Vector3d& n_W) const;
+
+  double radius() const { return radius_; }
+  const Vector3d& position() const { return p_WC_; }
+
+ private:
+  struct PixelPair {
+    double u = 0.0, v = 0.0;
+  };
+  Vector3d to_camera(const Vector3d& p_W) const { return R_CW_ * (p_W - p_WC_); }
+  bool in_fov(const Vector3d& p_C) const;
+  PixelPair pixel_move(const Vector3d& p_C) const;
+  std::optional<PixelPair> mm_per_pixel(const Vector3d& p_C, const Vector3d& n_W) const;
+  double blur_quality(const PixelPair& move) const;
+  double resolution_quality(const PixelPair& mm) const;
+
+  Matrix3d R_CW_;
+  Vector3d p_WC_, v_C_, w_C_;  ///< velocity and angular velocity of the camera, expressed in C
+  double pixels_per_slope_;    ///< f / s
+  double tan_half_hfov_, tan_half_vfov_;
+  double exposure_s_;
+  double radius_;
+  double desired_mm_per_pixel_;
+  ResolutionRule rule_;
+};
+
+/// Quality of one point in one exposure; see Exposure where there are many points. Pure.
+PointQuality evaluate_point(const CameraState& state, const CameraConfig& camera, double desired_mm_per_pixel,
+                            const Vector3d& p_W, const Vector3d& n_W, ResolutionRule rule);
+
+}  // namespace skein

@@ -1,0 +1,107 @@
+// Properties of the quality formulas; the reference vectors are in sim_server/golden_check_test.cpp.
+#include "core/camera_quality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/euler.hpp"
+
+namespace skein {
+namespace {
+
+constexpr double kDesired = 2.0;
+
+/// A level camera at the origin that looks along +x at a wall whose normal is turned about the vertical.
+PointQuality look(double distance, double wall_turn, ResolutionRule rule, const Vector3d& v_WC = Vector3d::Zero()) {
+  CameraState state;
+  state.v_WC = v_WC;
+  return evaluate_point(state, {}, kDesired, {distance, 0, 0}, rotation_z(wall_turn) * Vector3d(-1, 0, 0), rule);
+}
+
+TEST(CameraQuality, ResolutionIsJustMetAtTheResolutionDistance) {
+  const double d = resolution_distance({}, kDesired);
+  EXPECT_NEAR(d, 7.356, 1e-3);
+  EXPECT_NEAR(*look(d, 0, ResolutionRule::contest).mm_per_pixel_u, kDesired, 1e-6);
+  EXPECT_EQ(*look(0.9 * d, 0, ResolutionRule::contest).q_res, 1.0);
+  EXPECT_NEAR(*look(2.0 * d, 0, ResolutionRule::contest).q_res, 0.5, 1e-6);
+}
+
+TEST(CameraQuality, SearchRadiusOfTheContest) {
+  EXPECT_NEAR(search_radius({}, 2.0), 15.50, 0.005);
+  EXPECT_NEAR(search_radius({}, 1.5), 12.87, 0.01);
+  EXPECT_NEAR(search_radius({}, 1.0), 10.25, 0.005);
+}
+
+TEST(CameraQuality, MoreThanOnePixelOfMotionBlurs) {
+  const double d = resolution_distance({}, kDesired);
+  const auto blur = [&](double speed) { return look(d, 0, ResolutionRule::contest, {0, speed, 0}).q_blur; };
+  EXPECT_EQ(blur(0.0), 1.0);
+  EXPECT_EQ(blur(0.99 * kDesired), 1.0);  // 1 ms at 2 m/s is 2 mm: just one pixel
+  EXPECT_NEAR(blur(2.0 * kDesired), 0.5, 1e-9);
+}
+
+TEST(CameraQuality, SignOfTheNormalDoesNotMatter) {
+  for (const auto rule : {ResolutionRule::contest, ResolutionRule::paper}) {
+    const Vector3d p(6, 1, -2), n = Vector3d(-1, 0.4, 0.3).normalized();
+    EXPECT_EQ(evaluate_point({}, {}, kDesired, p, n, rule).score, evaluate_point({}, {}, kDesired, p, -n, rule).score);
+  }
+}
+
+TEST(CameraQuality, PaperRuleNeverScoresLowerThanTheContestRule) {
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d n = rotation_z(0.37 * i) * rotation_y(0.11 * i) * Vector3d(-1, 0, 0);
+    const Vector3d p(5.0, 3.0 * std::sin(i), 2.0 * std::cos(i));
+    const auto contest = evaluate_point({}, {}, kDesired, p, n, ResolutionRule::contest);
+    const auto paper = evaluate_point({}, {}, kDesired, p, n, ResolutionRule::paper);
+    EXPECT_GE(*paper.q_res, *contest.q_res - 1e-12) << n.transpose();
+  }
+}
+
+TEST(CameraQuality, EdgeOnSurfaceHasNoResolution) {
+  for (const auto rule : {ResolutionRule::contest, ResolutionRule::paper}) {
+    const auto quality = evaluate_point({}, {}, kDesired, {5, 0, 0}, {0, 1, 0}, rule);
+    EXPECT_LT(*quality.score, 1e-9);
+  }
+}
+
+TEST(CameraQuality, FastPathAgreesWithTheAudit) {
+  RigidBodyState body;
+  body.p_WB = {1, 2, 3};
+  body.q_WB = Quaterniond(Eigen::AngleAxisd(0.4, Vector3d(0.2, 0.3, 1.0).normalized()));
+  body.v_WB = {1, -2, 0.5};
+  body.w_WB_B = {0.1, -0.2, 0.3};
+  const CameraState state = camera_state(body, {0.2, -0.3, 0.1, -0.4}, {});
+  const Exposure exposure(state, {}, kDesired, ResolutionRule::contest);
+  int seen = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Vector3d p = body.p_WB + Vector3d(18 * std::sin(1.3 * i), 18 * std::sin(2.7 * i), 18 * std::sin(4.1 * i));
+    const Vector3d n = rotation_z(i) * rotation_y(2.0 * i) * Vector3d::UnitX();
+    const auto quality = exposure.evaluate(p, n);
+    const auto p_C = exposure.view(p);
+    ASSERT_EQ(p_C.has_value(), quality.in_fov && quality.in_search_radius);
+    if (!p_C) continue;
+    ++seen;
+    const auto score = exposure.score(*p_C, n);
+    ASSERT_EQ(score.has_value(), quality.score.has_value());
+    EXPECT_DOUBLE_EQ(score ? score->score() : 0.0, quality.score.value_or(0.0));
+  }
+  EXPECT_GT(seen, 50);
+}
+
+TEST(CameraState, ViewStaysLevelWhenTheBodyTilts) {
+  RigidBodyState body;
+  body.q_WB = Quaterniond(rotation_z(0.7) * rotation_y(0.3) *
+                          Eigen::AngleAxisd(-0.4, Vector3d::UnitX()).toRotationMatrix());
+  const CameraState state = camera_state(body, {}, {});
+  EXPECT_TRUE(state.X_WC.linear().isApprox(rotation_z(0.7), 1e-12));
+  EXPECT_TRUE(state.X_WC.translation().isApprox(body.q_WB * Vector3d(0.2, 0, -0.3), 1e-12));
+}
+
+TEST(CameraState, PositivePitchLooksDown) {
+  const CameraState state = camera_state({}, {0.5, 0, 0, 0}, {});
+  EXPECT_LT(state.X_WC.linear().col(0).z(), -0.4);
+}
+
+}  // namespace
+}  // namespace skein

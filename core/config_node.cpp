@@ -1,0 +1,306 @@
+#include "core/config_node.hpp"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+#include "core/file_bytes.hpp"
+#include "core/types.hpp"
+
+namespace skein {
+namespace {
+
+/// Far above any file of ours; keeps a hostile file from eating the memory.
+constexpr std::uintmax_t kMostBytes = 16u << 20;
+constexpr std::size_t kDeepest = 32;
+
+std::string place(const std::string& origin, int line) {
+  return line > 0 ? origin + ":" + std::to_string(line) : origin;
+}
+
+/// Builds the tree from yaml-cpp's events: unlike its nodes, they show duplicate keys, quotes and anchors.
+class TreeBuilder final : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(const std::string& origin) : origin_(origin) {}
+
+  ConfigNode take() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnAnchor(const YAML::Mark& mark, const std::string&) override { refuse_anchor(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { refuse_anchor(mark); }
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    if (anchor != 0) refuse_anchor(mark);
+    ConfigNode node;
+    node.line = mark.line + 1;
+    accept(std::move(node));
+  }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    if (anchor != 0) refuse_anchor(mark);
+    if (tag != "?" && tag != "!" && !tag.empty()) refuse_tag(mark, tag);
+    const bool quoted = tag == "!";
+    ConfigNode node;
+    node.line = mark.line + 1;
+    if (quoted || (value != "~" && value != "null" && !value.empty())) {
+      node = ConfigNode::make_scalar(value, quoted);
+      node.line = mark.line + 1;
+    }
+    accept(std::move(node));
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(mark, tag, anchor, ConfigNode::make_list());
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(mark, tag, anchor, ConfigNode::make_map());
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Open {
+    ConfigNode node;
+    std::string key;
+    bool has_key = false;
+  };
+
+  [[noreturn]] void fail(int line, const std::string& message) const {
+    throw InputError(place(origin_, line) + ": " + message);
+  }
+  [[noreturn]] void refuse_anchor(const YAML::Mark& mark) const {
+    fail(mark.line + 1, "anchors and aliases (& and *) are not supported: write the value out");
+  }
+  [[noreturn]] void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
+    fail(mark.line + 1, "the tag '" + tag + "' is not supported: leave it out");
+  }
+
+  void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, ConfigNode node) {
+    if (anchor != 0) refuse_anchor(mark);
+    if (tag != "?" && tag != "!" && !tag.empty()) refuse_tag(mark, tag);
+    if (stack_.size() >= kDeepest) fail(mark.line + 1, "nested too deeply");
+    node.line = mark.line + 1;
+    if (!stack_.empty() && stack_.back().node.kind == ConfigNode::Kind::map && !stack_.back().has_key) {
+      fail(node.line, "a key must be a plain word, not " + node.what_it_is());
+    }
+    stack_.push_back({std::move(node), {}, false});
+  }
+
+  void close() {
+    ConfigNode node = std::move(stack_.back().node);
+    stack_.pop_back();
+    accept(std::move(node));
+  }
+
+  void accept(ConfigNode node) {
+    if (stack_.empty()) {
+      root_ = std::move(node);
+      return;
+    }
+    Open& parent = stack_.back();
+    if (parent.node.kind == ConfigNode::Kind::list) {
+      parent.node.items.push_back(std::move(node));
+    } else if (!parent.has_key) {
+      take_key(parent, node);
+    } else {
+      parent.node.items.push_back(std::move(node));
+      parent.has_key = false;
+    }
+  }
+
+  void take_key(Open& parent, const ConfigNode& node) {
+    if (node.kind != ConfigNode::Kind::scalar) fail(node.line, "a key must be a plain word");
+    const auto& keys = parent.node.keys;
+    const auto same = std::find(keys.begin(), keys.end(), node.scalar);
+    if (same != keys.end()) {
+      const int first = parent.node.key_lines[static_cast<std::size_t>(same - keys.begin())];
+      fail(node.line, "duplicate key '" + node.scalar + "': it stands in line " + std::to_string(first) +
+                          " already; keep one");
+    }
+    parent.node.keys.push_back(node.scalar);
+    parent.node.key_lines.push_back(node.line);
+    parent.has_key = true;
+  }
+
+  const std::string& origin_;
+  std::vector<Open> stack_;
+  ConfigNode root_;
+};
+
+/// Refuses whatever follows the first document.
+class NothingMore final : public YAML::EventHandler {
+ public:
+  explicit NothingMore(const std::string& origin) : origin_(origin) {}
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    throw InputError(place(origin_, mark.line + 1) + ": what follows from here is not part of the document above; "
+                     "one file holds one document");
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+ private:
+  const std::string& origin_;
+};
+
+/// yaml-cpp takes some control characters for its own marks.
+void refuse_binary(const std::string& text, const std::string& origin) {
+  int line = 1;
+  for (const char c : text) {
+    if (c == '\n') ++line;
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte < 0x20 && c != '\n' && c != '\r' && c != '\t') || byte == 0x7f) {
+      throw InputError(place(origin, line) + ": not a text file (control character)");
+    }
+  }
+}
+
+bool is_plain_word(const std::string& text) {
+  const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '/' ||
+                                         c == '.' || c == '-' || c == '+'; };
+  return !text.empty() && text != "-" && text != "null" && text != "---" && text != "..." &&
+         std::all_of(text.begin(), text.end(), plain);
+}
+
+std::string scalar_text(const ConfigNode& node) {
+  if (node.kind == ConfigNode::Kind::null) return "~";
+  if (!node.quoted && is_plain_word(node.scalar)) return node.scalar;
+  std::string out = "\"";
+  for (const char c : node.scalar) {
+    if (c == '\n') {
+      out += "\\n";
+    } else {
+      if (c == '"' || c == '\\') out += '\\';
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+bool is_leaf(const ConfigNode& node) {
+  return node.kind == ConfigNode::Kind::scalar || node.kind == ConfigNode::Kind::null;
+}
+
+/// Writes the node after "key:" or "-": a leaf on the same line, the rest below, indented by `indent`.
+void write_value(std::ostream& out, const ConfigNode& node, int indent, bool after_dash) {
+  if (is_leaf(node)) {
+    out << (indent > 0 ? " " : "") << scalar_text(node) << '\n';
+    return;
+  }
+  if (node.items.empty()) {
+    out << (node.kind == ConfigNode::Kind::list ? " []\n" : " {}\n");
+    return;
+  }
+  if (node.kind == ConfigNode::Kind::list && std::all_of(node.items.begin(), node.items.end(), is_leaf)) {
+    out << " [";
+    for (std::size_t i = 0; i < node.items.size(); ++i) out << (i ? ", " : "") << scalar_text(node.items[i]);
+    out << "]\n";
+    return;
+  }
+  const std::string margin(static_cast<std::size_t>(indent), ' ');
+  bool on_line = after_dash;  // the first key of a map stands beside its dash
+  if (!after_dash && indent > 0) out << '\n';
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (node.kind == ConfigNode::Kind::map) {
+      out << (on_line ? " " : margin) << scalar_text(ConfigNode::make_scalar(node.keys[i])) << ':';
+      write_value(out, node.items[i], indent + 2, false);
+    } else {
+      out << (on_line ? " " : margin) << '-';
+      write_value(out, node.items[i], indent + 2, true);
+    }
+    on_line = false;
+  }
+}
+
+}  // namespace
+
+const ConfigNode* ConfigNode::find(std::string_view key) const {
+  const auto it = std::find(keys.begin(), keys.end(), key);
+  return it == keys.end() ? nullptr : &items[static_cast<std::size_t>(it - keys.begin())];
+}
+
+std::string ConfigNode::what_it_is() const {
+  switch (kind) {
+    case Kind::null: return "nothing";
+    case Kind::list: return "a list";
+    case Kind::map: return "a map of keys";
+    case Kind::scalar: break;
+  }
+  constexpr std::size_t kShown = 40;
+  return (quoted ? "the text '" : "'") + (scalar.size() > kShown ? scalar.substr(0, kShown) + "..." : scalar) + "'";
+}
+
+ConfigNode ConfigNode::make(Kind kind) {
+  ConfigNode node;
+  node.kind = kind;
+  return node;
+}
+
+ConfigNode ConfigNode::make_scalar(std::string text, bool quoted) {
+  ConfigNode node = make(Kind::scalar);
+  node.scalar = std::move(text);
+  node.quoted = quoted;
+  return node;
+}
+
+void ConfigNode::add(std::string key, ConfigNode value) {
+  keys.push_back(std::move(key));
+  key_lines.push_back(value.line);
+  items.push_back(std::move(value));
+}
+
+ConfigDocument parse_config_document(const std::string& text, const std::string& origin) {
+  refuse_binary(text, origin);
+  std::istringstream stream(text);
+  try {
+    YAML::Parser parser(stream);
+    TreeBuilder builder(origin);
+    parser.HandleNextDocument(builder);
+    NothingMore nothing_more(origin);
+    parser.HandleNextDocument(nothing_more);
+    return {origin, builder.take()};
+  } catch (const YAML::Exception& error) {
+    throw InputError(place(origin, error.mark.line + 1) + ": not valid YAML: " + error.msg);
+  }
+}
+
+ConfigDocument read_config_document(const std::filesystem::path& file) {
+  return parse_config_document(read_file_bytes(file, kMostBytes), file.string());
+}
+
+ConfigDocument parse_assignments(const std::string& text, const std::string& origin) {
+  ConfigDocument document{origin, ConfigNode::make_map()};
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) {
+    const auto equals = part.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == part.size()) {
+      throw InputError(origin + ": '" + part + "' is not of the form key=value");
+    }
+    const std::string key = part.substr(0, equals);
+    if (document.root.find(key)) throw InputError(origin + ": '" + key + "' is given twice");
+    document.root.add(key, ConfigNode::make_scalar(part.substr(equals + 1)));
+  }
+  return document;
+}
+
+std::string to_yaml(const ConfigNode& node) {
+  std::ostringstream out;
+  write_value(out, node, 0, false);
+  return out.str();
+}
+
+}  // namespace skein

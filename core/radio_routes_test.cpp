@@ -1,0 +1,159 @@
+#include "core/radio_routes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace skein {
+namespace {
+
+Scenario three_uavs() {
+  Scenario scenario;
+  scenario.file = "towers.yaml";
+  for (const char* name : {"jurong", "raffles", "sentosa"}) {
+    UavConfig uav;
+    uav.name = name;
+    scenario.fleet.push_back(uav);
+  }
+  return scenario;
+}
+
+std::vector<RadioRoute> routes_of(const Scenario& scenario, const std::string& topic) {
+  std::vector<RadioRoute> routes = radio_routes(scenario);
+  std::erase_if(routes, [&](const RadioRoute& route) { return route.ros_topic != topic; });
+  return routes;
+}
+
+std::vector<std::string> arrivals(const RadioRoute& route) {
+  std::vector<std::string> names;
+  for (const RadioTarget& target : route.targets) names.push_back(target.topic);
+  return names;
+}
+
+/// What is said when `declared` is added to the scenario; empty when nothing is wrong.
+std::string complaint(const std::vector<RadioTopicConfig>& declared) {
+  Scenario scenario = three_uavs();
+  scenario.radio = declared;
+  try {
+    radio_routes(scenario);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(RadioRoutes, CapturesAndAcknowledgementsAreAlwaysThere) {
+  const std::vector<RadioRoute> routes = radio_routes(three_uavs());
+  ASSERT_EQ(routes.size(), 6U);
+  for (std::size_t uav = 0; uav < 3; ++uav) {
+    const RadioRoute& report = routes[2 * uav];
+    const RadioRoute& ack = routes[2 * uav + 1];
+    EXPECT_EQ(report.source, node_of_uav(uav));
+    ASSERT_EQ(report.targets.size(), 1U);
+    EXPECT_EQ(report.targets[0].node, kStationNode);
+    EXPECT_EQ(ack.source, kStationNode);
+    ASSERT_EQ(ack.targets.size(), 1U);
+    EXPECT_EQ(ack.targets[0].node, node_of_uav(uav));
+  }
+  EXPECT_EQ(routes[0].topic, topics::captures("jurong").name);
+  EXPECT_EQ(routes[0].type, "skein_msgs::msg::dds_::CaptureReports_");
+  EXPECT_EQ(routes[0].targets[0].topic, topics::captures_at_station("jurong").name);
+  EXPECT_EQ(routes[0].targets[0].topic, "rt/captures/jurong/gcs");
+  EXPECT_EQ(routes[1].topic, topics::captures_ack("jurong").name);
+  EXPECT_EQ(routes[1].targets[0].topic, topics::captures_ack_at_uav("jurong").name);
+}
+
+TEST(RadioRoutes, AllMeansEveryOtherNode) {
+  Scenario scenario = three_uavs();
+  scenario.radio = {{"/broadcast", "std_msgs/msg/String", {"all"}, {"all"}}};
+  const std::vector<RadioRoute> routes = routes_of(scenario, "/broadcast");
+  ASSERT_EQ(routes.size(), 4U);
+  for (Node source = 0; source < 4; ++source) {
+    EXPECT_EQ(routes[source].source, source);
+    EXPECT_EQ(routes[source].topic, "rt/broadcast");
+    EXPECT_EQ(routes[source].type, "std_msgs::msg::dds_::String_");
+    EXPECT_EQ(routes[source].targets.size(), 3U);
+    EXPECT_TRUE(
+        std::ranges::none_of(routes[source].targets, [&](const RadioTarget& target) { return target.node == source; }));
+  }
+  EXPECT_EQ(arrivals(routes[2]),
+            (std::vector<std::string>{"rt/broadcast/gcs", "rt/broadcast/jurong", "rt/broadcast/sentosa"}));
+}
+
+TEST(RadioRoutes, AllSourcesLeavesOutTheOnlyTarget) {
+  Scenario scenario = three_uavs();
+  scenario.radio = {{"/status", "std_msgs/msg/String", {"all"}, {"gcs"}}};
+  const std::vector<RadioRoute> routes = routes_of(scenario, "/status");
+  ASSERT_EQ(routes.size(), 3U);
+  EXPECT_EQ(routes[0].source, node_of_uav(0));
+}
+
+TEST(RadioRoutes, OneTopicMayHaveOtherTargetsForOtherSources) {
+  Scenario scenario = three_uavs();
+  scenario.radio = {{"/x", "std_msgs/msg/String", {"jurong"}, {"gcs"}},
+                    {"/x", "std_msgs/msg/String", {"sentosa", "raffles"}, {"gcs", "jurong"}}};
+  EXPECT_EQ(routes_of(scenario, "/x").size(), 3U);
+}
+
+TEST(RadioRoutes, TheStationsScoreMayGoOnTheRadio) {
+  EXPECT_EQ(complaint({{"/gcs/score", "sensor_msgs/msg/PointCloud", {"gcs"}, {"all"}}}), "");
+}
+
+struct BadDeclaration {
+  const char* what;
+  std::vector<RadioTopicConfig> declared;
+  const char* key;   ///< that the message must name
+  const char* hint;  ///< that it must contain
+};
+
+class BadRadioTopics : public testing::TestWithParam<BadDeclaration> {};
+
+TEST_P(BadRadioTopics, AreRefusedByFileAndKey) {
+  const std::string message = complaint(GetParam().declared);
+  EXPECT_TRUE(message.starts_with("towers.yaml: ")) << message;
+  EXPECT_NE(message.find(GetParam().key), std::string::npos) << message;
+  EXPECT_NE(message.find(GetParam().hint), std::string::npos) << message;
+}
+
+const std::string kString = "std_msgs/msg/String";
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadRadioTopics,
+    testing::Values(
+        BadDeclaration{"RelativeName", {{"x", kString, {"all"}, {"all"}}}, "radio.topics[0].name", "/broadcast"},
+        BadDeclaration{"Ros1Type", {{"/x", "std_msgs/String", {"all"}, {"all"}}}, "radio.topics[0].type", "/msg/"},
+        BadDeclaration{"UnknownNode", {{"/x", kString, {"changi"}, {"all"}}}, ".sources", "jurong, raffles, sentosa"},
+        BadDeclaration{"NoTarget", {{"/x", kString, {"all"}, {}}}, ".targets", "empty"},
+        BadDeclaration{"Repeated", {{"/x", kString, {"all"}, {"gcs", "gcs"}}}, ".targets", "twice"},
+        BadDeclaration{"AllAndMore", {{"/x", kString, {"all", "gcs"}, {"gcs"}}}, ".sources", "stands alone"},
+        BadDeclaration{"OnlyItself", {{"/x", kString, {"gcs"}, {"gcs"}}}, ".targets", "besides itself"},
+        BadDeclaration{"SourceTwice",
+                       {{"/x", kString, {"jurong"}, {"gcs"}}, {"/x", kString, {"all"}, {"all"}}},
+                       "radio.topics[1].sources",
+                       "before"},
+        BadDeclaration{"TwoTypes",
+                       {{"/x", kString, {"jurong"}, {"gcs"}}, {"/x", "std_msgs/msg/Bool", {"raffles"}, {"gcs"}}},
+                       "radio.topics[1].type",
+                       "one type"},
+        BadDeclaration{"SensorTopic",
+                       {{"/jurong/gimbal", "geometry_msgs/msg/TwistStamped", {"jurong"}, {"all"}}},
+                       ".name",
+                       "Skein writes"},
+        BadDeclaration{"ScoreOfAnotherType", {{"/gcs/score", kString, {"gcs"}, {"all"}}}, ".name", "PointCloud"},
+        BadDeclaration{"LockStepName", {{"/skein/step2", kString, {"all"}, {"all"}}}, ".name", "Skein's own"},
+        BadDeclaration{"CaptureTopic",
+                       {{"/captures/jurong", "skein_msgs/msg/CaptureReports", {"jurong"}, {"gcs"}}},
+                       ".sources",
+                       "before"},
+        BadDeclaration{"ArrivalIsSent",
+                       {{"/x/jurong", kString, {"jurong"}, {"gcs"}}, {"/x", kString, {"gcs"}, {"jurong"}}},
+                       "radio.topics[1].name",
+                       "sends"},
+        BadDeclaration{"SentIsArrival",
+                       {{"/x", kString, {"gcs"}, {"jurong"}}, {"/x/jurong", kString, {"jurong"}, {"gcs"}}},
+                       "radio.topics[1].name",
+                       "arrives"}),
+    [](const auto& test) { return std::string(test.param.what); });
+
+}  // namespace
+}  // namespace skein

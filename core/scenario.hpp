@@ -1,0 +1,134 @@
+// A scenario: everything that a run needs to know before it starts. Plain structs with their defaults;
+// core/scenario_reader.hpp fills them from YAML and refuses what makes no sense.
+// Units: SI and radians unless the name says otherwise. Angles in files are in degrees, as CARIC has them.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace skein {
+
+struct CameraConfig {
+  double hfov_deg = 80.0, vfov_deg = 60.0;
+  double exposure_s = 0.001;
+  double trigger_interval_s = 0.1;  ///< a capture every time strictly more than this has elapsed
+  double focal_length_m = 0.016;
+  double pixel_size_m = 4.35e-6;
+  Vector3d p_BC = {0.2, 0.0, -0.3};  ///< camera in the body frame; tilts with the body
+};
+
+struct GimbalConfig {
+  double pitch_limit_deg = 80.0, yaw_limit_deg = 90.0;
+  double rate_limit_deg_s = 60.0;
+};
+
+struct LidarConfig {
+  int rings = 16, columns = 440;
+  double vertical_fov_deg = 30.0;     ///< symmetric about the scan plane
+  double rate_hz = 10.0;
+  double range_min_m = 0.9, range_max_m = 50.0;
+  double sigma_m = 0.01;              ///< range noise; drawn only with a seed other than 0
+  double servo_rate_deg_s = 45.0;     ///< about body x, sign switched every half period
+  double servo_period_s = 8.0;
+  double servo_limit_deg = 90.0;
+};
+
+/// Gains of CARIC's position controller (`planners.md` D, golden position_control).
+struct PositionControlConfig {
+  double omega_xy = 2.0, omega_z = 4.0;
+  double zeta_xy = 1.0, zeta_z = 1.1;
+  double ki_xy = 0.03, ki_z = 0.07;
+  double thrust_scale = 159.0;
+  double max_tilt_deg = 45.0;
+};
+
+/// Gains of the attitude controller (golden attitude_control).
+struct AttitudeControlConfig {
+  double p_gain = 40.0, q_gain = 25.0, r_gain = 20.0;
+};
+
+/// One vehicle type; files in config/vehicles/.
+struct VehicleConfig {
+  std::string name;
+  Role role = Role::explorer;
+  double mass_kg = 3.385;                               ///< all-up
+  Vector3d inertia = {0.07648816666, 0.07648816666, 0.16283333333};  ///< diagonal [kg m^2]
+  double arm_m = 0.43, rotor_radius_m = 0.2, rotor_height_m = 0.074;
+  double rotor_force_constant = 2.564574e-5;            ///< thrust = constant * speed^2 [N s^2]
+  double rotor_moment_constant = 0.032;                 ///< torque = constant * thrust [m]
+  double rotor_max_speed = 900.0;                       ///< [rad/s]
+  double motor_time_constant_up_s = 0.0125, motor_time_constant_down_s = 0.025;
+  double rotor_drag = 8.06428e-5, rolling_moment = 1e-6;
+  Vector3d collision_box_m = {0.2, 0.2, 0.32};          ///< full edge lengths
+  double antenna_offset_m = 0.2;
+  double max_speed_mps = 6.0, max_acceleration_mps2 = 4.0, max_yaw_rate_deg_s = 90.0;  ///< of a command
+  PositionControlConfig position_control;
+  AttitudeControlConfig attitude_control;
+  CameraConfig camera;
+  GimbalConfig gimbal;
+  std::optional<LidarConfig> lidar;
+};
+
+struct UavConfig {
+  std::string name;
+  VehicleConfig vehicle;
+  Vector2d start = Vector2d::Zero();  ///< x, y on the ground [m]
+  double start_yaw = 0.0;
+};
+
+struct RadioTopicConfig {
+  std::string name;                  ///< ROS name, "/broadcast"
+  std::string type;                  ///< ROS type, "std_msgs/msg/String"
+  std::vector<std::string> sources;  ///< node names, or {"all"}
+  std::vector<std::string> targets;  ///< node names, or {"all"}
+};
+
+/// Where the structure comes from: files in CARIC's layout, or a procedural family.
+struct SceneConfig {
+  std::string family;                              ///< procedural: "towers"; empty: files
+  std::uint64_t scene_seed = 0;
+  std::vector<std::filesystem::path> meshes;       ///< STL, resolved
+  std::filesystem::path points;                    ///< PCD, resolved
+  std::filesystem::path boxes;                     ///< box_description.yaml, resolved
+};
+
+/// Named switches; presets `contest` and `paper`. docs/rules.md explains each.
+struct RulesConfig {
+  std::string preset = "contest";
+  bool enforce_command_limits = true;        ///< a command beyond the vehicle's limits is ignored
+  bool unnormalised_displacement = true;     ///< S4 of the reference's resolution formula
+  bool phantom_gimbal_rate = false;          ///< G1-G3: report the commanded rate at the stop
+  bool collision_voids_score = true;         ///< a UAV that collides loses its points, retroactively
+  double min_point_score = 0.2;              ///< a capture of a point below this does not count
+  double takeoff_height_m = 0.1;             ///< above rest height
+  double takeoff_speed_mps = 0.1;
+};
+
+struct Scenario {
+  std::filesystem::path file;
+  std::string name;
+  std::string description;
+  double duration_s = 600.0;              ///< mission time, from the first take-off
+  double takeoff_timeout_s = 60.0;        ///< the run ends if nobody flies by then
+  double exchange_period_s = 0.05;        ///< one lock-step round
+  double desired_mm_per_pixel = 2.0;      ///< r_des
+  Vector3d station_position = {-2.0, 8.0, 0.3};
+  double station_antenna_offset_m = 0.1;
+  SceneConfig scene;
+  RulesConfig rules;
+  std::vector<UavConfig> fleet;           ///< fleet order: node numbers, domains and ties follow it
+  std::vector<RadioTopicConfig> radio;    ///< beyond the capture topics that Skein itself declares
+
+  /// Index in fleet order. @throws InputError when no UAV has this name; the message lists the names.
+  std::size_t uav_index(const std::string& uav_name) const;
+  /// Name of a radio node: "gcs" or the UAV's.
+  const std::string& node_name(Node node) const;
+  /// Exchange period in physics ticks.
+  Tick exchange_ticks() const { return ticks(exchange_period_s); }
+};
+
+}  // namespace skein

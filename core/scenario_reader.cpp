@@ -1,0 +1,274 @@
+#include "core/scenario_reader.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+#include "core/config_writer.hpp"
+#include "core/radio_routes.hpp"
+#include "core/scenario_keys.hpp"
+#include "core/scene_families.hpp"
+#include "core/suggestion.hpp"
+#include "core/topics.hpp"
+
+namespace skein {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kLeastStartDistanceM = 0.5;
+constexpr std::size_t kMostUavs = 96;  ///< each has a DDS domain of its own, and those end near 230
+
+/// A word that may be part of a ROS name.
+bool is_ros_word(const std::string& text) {
+  const auto allowed = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
+         std::all_of(text.begin(), text.end(), allowed);
+}
+
+/// What `reject` throws as an InputError, or nothing.
+template <class Reject>
+std::string complaint(const Reject& reject) {
+  try {
+    reject();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::string index_path(const std::string& list, std::size_t i, const std::string& key = {}) {
+  return list + "[" + std::to_string(i) + "]" + (key.empty() ? "" : "." + key);
+}
+
+void check_times(const Scenario& scenario, ConfigErrors& errors) {
+  const double rest = scenario.exchange_period_s - seconds(scenario.exchange_ticks());
+  errors.check(std::abs(rest) < 1e-9, "exchange_period_s", "must be a multiple of the physics tick, 0.0025");
+  errors.check(scenario.duration_s >= scenario.exchange_period_s, "duration_s",
+               "must be at least one exchange_period_s");
+  errors.check(scenario.station_position.z() >= 0.0, "station.position", "z must be 0 or more: the ground is at 0");
+}
+
+void check_names(const ScenarioFile& file, ConfigErrors& errors) {
+  static const std::set<std::string> reserved = {"all", "clock", "gcs", "sim", "skein"};
+  errors.check(!file.fleet.empty() && file.fleet.size() <= kMostUavs, "fleet",
+               "must have 1 to " + std::to_string(kMostUavs) + " UAVs");
+  std::map<std::string, std::size_t> seen;
+  for (std::size_t i = 0; i < file.fleet.size(); ++i) {
+    const std::string& name = file.fleet[i].name;
+    const std::string key = index_path("fleet", i, "name");
+    errors.check(is_ros_word(name), key,
+                 "'" + name + "' is no ROS name: a letter, then letters, digits and underscores");
+    errors.check(!reserved.contains(name), key, "'" + name + "' is reserved; choose another name");
+    const auto [first, is_new] = seen.emplace(name, i);
+    errors.check(is_new, key, "'" + name + "' is the name of fleet[" + std::to_string(first->second) + "] already");
+  }
+}
+
+void check_starts(const ScenarioFile& file, ConfigErrors& errors) {
+  const auto& fleet = file.fleet;
+  const auto check = [&](std::size_t i, const Vector2d& other, const std::string& name) {
+    const double distance = (fleet[i].start - other).norm();
+    errors.check(distance >= kLeastStartDistanceM, index_path("fleet", i, "start"),
+                 "'" + fleet[i].name + "' starts less than 0.5 m from '" + name + "'; move one of them");
+  };
+  for (std::size_t i = 0; i < fleet.size(); ++i) {
+    check(i, file.scenario.station_position.head<2>(), "gcs");
+    for (std::size_t j = 0; j < i; ++j) check(i, fleet[j].start, fleet[j].name);
+  }
+}
+
+void check_radio(const ScenarioFile& file, ConfigErrors& errors) {
+  std::vector<std::string> nodes = {"gcs"};
+  for (const FleetEntry& uav : file.fleet) nodes.push_back(uav.name);
+  const auto check_nodes = [&](const std::string& key, const std::vector<std::string>& named) {
+    errors.check(!named.empty(), key, "must name at least one node, or be the word all");
+    const bool all = named.size() == 1 && named[0] == "all";
+    for (const std::string& node : named) {
+      errors.check(all || std::find(nodes.begin(), nodes.end(), node) != nodes.end(), key,
+                   "there is no node '" + node + "'; " + suggestion(node, nodes));
+      errors.check(std::count(named.begin(), named.end(), node) == 1, key, "'" + node + "' is named twice");
+    }
+  };
+  for (std::size_t i = 0; i < file.scenario.radio.size(); ++i) {
+    const RadioTopicConfig& topic = file.scenario.radio[i];
+    const std::string path = index_path("radio.topics", i);
+    const std::string name_complaint = complaint([&] { wire_topic(topic.name); });
+    const std::string type_complaint = complaint([&] { wire_type(topic.type); });
+    errors.check(name_complaint.empty(), path + ".name", name_complaint);
+    errors.check(type_complaint.empty(), path + ".type", type_complaint);
+    check_nodes(path + ".sources", topic.sources);
+    check_nodes(path + ".targets", topic.targets);
+  }
+}
+
+void check_scene(const SceneConfig& scene, ConfigErrors& errors) {
+  const bool files = !scene.meshes.empty() || !scene.points.empty() || !scene.boxes.empty();
+  if (scene.family.empty()) {
+    errors.check(files, "scene", "needs 'family' (a procedural scene), or 'meshes', 'points' and 'boxes' (files)");
+    errors.check(!files || !scene.meshes.empty(), "scene", "needs 'meshes': a list of STL files");
+    errors.check(!files || !scene.points.empty(), "scene", "needs 'points': a PCD file of interest points");
+    errors.check(!files || !scene.boxes.empty(), "scene", "needs 'boxes': a box_description.yaml");
+    errors.check(scene.scene_seed == 0, "scene.scene_seed", "a scene from files has no seed");
+    return;
+  }
+  errors.check(!files, "scene", "has either a 'family' or files, not both");
+  std::vector<std::string> known;
+  for (const SceneFamily& family : kSceneFamilies) known.emplace_back(family.name);
+  errors.check(std::find(known.begin(), known.end(), scene.family) != known.end(), "scene.family",
+               "there is no family '" + scene.family + "' of scenes; " + suggestion(scene.family, known));
+}
+
+/// Where the scene's files are: absolute, beside the scenario ("./x", "../x"), or in the assets folder.
+class SceneFileFinder {
+ public:
+  SceneFileFinder(const Scenario& scenario, const LoadOptions& options, ConfigErrors& errors)
+      : scenario_(scenario), must_exist_(options.needs_scene_files), errors_(errors) {
+    const char* from_environment = std::getenv("SKEIN_ASSETS");
+    assets_ = options.assets_dir;
+    if (assets_.empty() && from_environment) assets_ = from_environment;
+  }
+
+  void resolve(fs::path& file, const std::string& key) const {
+    const std::string text = file.string();
+    if (text.starts_with("./") || text.starts_with("../")) {
+      file = (scenario_.file.parent_path() / file).lexically_normal();
+    } else if (file.is_relative()) {
+      if (assets_.empty()) {
+        if (must_exist_) throw InputError(advice());
+        return;
+      }
+      file = assets_ / file;
+    }
+    std::error_code ignored;
+    errors_.check(!must_exist_ || fs::is_regular_file(file, ignored), key,
+                  "there is no file " + file.string() + "; --assets or SKEIN_ASSETS must name the folder that "
+                  "holds models/");
+  }
+
+ private:
+  std::string advice() const {
+    return scenario_.file.string() + ": scenario '" + scenario_.name +
+           "' needs CARIC's data files, which are not part of Skein: name the folder that holds models/ with "
+           "--assets DIR or SKEIN_ASSETS=DIR. The scenario 'towers' runs without any.";
+  }
+
+  const Scenario& scenario_;
+  const bool must_exist_;
+  ConfigErrors& errors_;
+  fs::path assets_;
+};
+
+void find_scene_files(Scenario& scenario, const LoadOptions& options, ConfigErrors& errors) {
+  if (!scenario.scene.family.empty()) return;
+  const SceneFileFinder finder(scenario, options, errors);
+  for (std::size_t i = 0; i < scenario.scene.meshes.size(); ++i) {
+    finder.resolve(scenario.scene.meshes[i], index_path("scene.meshes", i));
+  }
+  finder.resolve(scenario.scene.points, "scene.points");
+  finder.resolve(scenario.scene.boxes, "scene.boxes");
+}
+
+void build_fleet(const ScenarioFile& file, const fs::path& config_dir, Scenario& scenario, ConfigErrors& errors) {
+  std::map<std::string, VehicleConfig> loaded;
+  for (std::size_t i = 0; i < file.fleet.size(); ++i) {
+    const FleetEntry& entry = file.fleet[i];
+    UavConfig uav{entry.name, {}, entry.start, entry.start_yaw_deg * kRadPerDeg};
+    if (entry.vehicle.index() == 1) {
+      uav.vehicle = std::get<VehicleConfig>(entry.vehicle);
+    } else {
+      const std::string& name = std::get<std::string>(entry.vehicle);
+      fs::path vehicle_file;
+      try {
+        vehicle_file = find_config_file("vehicle", name, config_dir / "vehicles", scenario.file.parent_path());
+      } catch (const InputError& error) {
+        errors.check(false, index_path("fleet", i, "vehicle"), error.what());
+        continue;
+      }
+      const auto [it, is_new] = loaded.try_emplace(vehicle_file.string());
+      if (is_new) it->second = read_config_file<VehicleConfig>(vehicle_file);
+      uav.vehicle = it->second;
+    }
+    scenario.fleet.push_back(std::move(uav));
+  }
+}
+
+void apply_overrides(const LoadOptions& options, Scenario& scenario) {
+  if (options.duration_s) {
+    const bool fits = *options.duration_s >= scenario.exchange_period_s && *options.duration_s <= 36000.0;
+    if (!fits) throw InputError("--duration: must be a time of at least one exchange and at most 36000 s");
+    scenario.duration_s = *options.duration_s;
+  }
+  if (options.scene_seed) {
+    if (scenario.scene.family.empty()) {
+      throw InputError("--scene-seed: scenario '" + scenario.name + "' takes its scene from files and has no seed; "
+                       "leave the option out, or run 'towers'");
+    }
+    scenario.scene.scene_seed = *options.scene_seed;
+  }
+}
+
+/// Degrees that turn back into exactly these radians, with as few digits as that takes.
+double tidy_degrees(double radians) {
+  const double degrees = radians / kRadPerDeg;
+  const double rounded = std::round(degrees * 1e9) / 1e9;
+  return rounded * kRadPerDeg == radians ? rounded : degrees;
+}
+
+}  // namespace
+
+Scenario load_scenario(const std::string& name_or_path, const LoadOptions& options) {
+  const fs::path config_dir = options.config_dir.empty() ? default_config_dir() : options.config_dir;
+  const fs::path path = find_config_file("scenario", name_or_path, config_dir / "scenarios");
+  const ConfigDocument document = read_config_document(path);
+  ScenarioFile file = read_config<ScenarioFile>(document);
+  Scenario scenario = file.scenario;
+  scenario.file = path;
+  if (scenario.name.empty()) scenario.name = path.stem().string();
+
+  ConfigErrors errors(document);
+  check_times(scenario, errors);
+  check_names(file, errors);
+  check_starts(file, errors);
+  check_radio(file, errors);
+  check_scene(scenario.scene, errors);
+  build_fleet(file, config_dir, scenario, errors);
+  errors.throw_if_any();
+  find_scene_files(scenario, options, errors);
+  errors.throw_if_any();
+  radio_routes(scenario);  // rules between topics: it throws when one is broken
+  apply_overrides(options, scenario);
+  return scenario;
+}
+
+VehicleConfig load_vehicle(const std::string& name_or_path, const fs::path& config_dir) {
+  return read_config_file<VehicleConfig>(find_config_file("vehicle", name_or_path, config_dir / "vehicles"));
+}
+
+RulesConfig rules_preset(const std::string& preset) {
+  RulesConfig rules;
+  rules.preset = preset;
+  if (preset == "paper") {
+    rules.unnormalised_displacement = false;
+  } else if (preset != "contest") {
+    throw InputError("there is no rules preset '" + preset + "'; " + suggestion(preset, {"contest", "paper"}));
+  }
+  return rules;
+}
+
+std::string to_yaml(const Scenario& scenario) {
+  ScenarioFile file;
+  file.scenario = scenario;
+  for (const UavConfig& uav : scenario.fleet) {
+    file.fleet.push_back({uav.name, uav.vehicle, uav.start, tidy_degrees(uav.start_yaw)});
+  }
+  return config_to_yaml(file);
+}
+
+std::string to_yaml(const VehicleConfig& vehicle) { return config_to_yaml(vehicle); }
+
+}  // namespace skein

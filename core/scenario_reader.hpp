@@ -1,0 +1,40 @@
+// Scenario and vehicle files: YAML to the structs of core/scenario.hpp, strictly, and back to YAML.
+// Angles in files are in degrees, everything else in SI; the name of each key says so.
+// Reads files only; safe from any thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/config_files.hpp"
+#include "core/scenario.hpp"
+
+namespace skein {
+
+struct LoadOptions {
+  std::filesystem::path assets_dir = {};         ///< folder that holds models/; empty: SKEIN_ASSETS, else none
+  std::filesystem::path config_dir = {};         ///< empty: default_config_dir()
+  std::optional<double> duration_s = {};         ///< instead of the file's, (0, 36000]
+  std::optional<std::uint64_t> scene_seed = {};  ///< instead of the file's; only for a procedural scene
+  bool needs_scene_files = true;  ///< false for programs that do not look at the scene: they need no assets
+};
+
+/// @param name_or_path a name under config/scenarios/, or a path (it holds a '/' or ends in .yaml).
+/// @throws InputError when the file or a vehicle file is wrong, when a rule across keys is broken (names, starts,
+///   radio nodes), or when the scene's files are not there; the message says file, line, key and what would be right.
+Scenario load_scenario(const std::string& name_or_path, const LoadOptions& options = {});
+
+/// @param name_or_path as above, under config_dir/vehicles/.  @throws InputError.
+VehicleConfig load_vehicle(const std::string& name_or_path, const std::filesystem::path& config_dir);
+
+/// A preset's switches: "contest" or "paper".  @throws InputError for another name.
+RulesConfig rules_preset(const std::string& preset);
+
+/// The scenario with every key that it resolved to, vehicles in place; load_scenario() reads it back to the same.
+std::string to_yaml(const Scenario& scenario);
+/// The same for a vehicle file.
+std::string to_yaml(const VehicleConfig& vehicle);
+
+}  // namespace skein

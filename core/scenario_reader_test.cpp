@@ -1,0 +1,155 @@
+#include "core/scenario_reader.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <fstream>
+
+#include "core/euler.hpp"
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with files that goes away again.
+class ScenarioReader : public ::testing::Test {
+ protected:
+  ScenarioReader() {
+    std::string pattern = (fs::path(::testing::TempDir()) / "skein_scenario_XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+    ::unsetenv("SKEIN_ASSETS");
+    options_.config_dir = fs::path(SKEIN_SOURCE_DIR) / "config";
+  }
+  ~ScenarioReader() override { fs::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  std::string scenario(const std::string& scene, const std::string& more = {}) const {
+    return write("s.yaml", "desired_mm_per_pixel: 2\nscene: " + scene + "\n" + more +
+                               "fleet: [{name: jurong, vehicle: explorer, start: [0, 5], start_yaw_deg: 30},"
+                               " {name: changi, vehicle: photographer, start: [0, 3]}]\n");
+  }
+  std::string complaint(const std::string& file) const {
+    try {
+      load_scenario(file, options_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  fs::path folder_;
+  LoadOptions options_;
+};
+
+TEST_F(ScenarioReader, FillsTheFleetFromItsVehicles) {
+  const Scenario read = load_scenario(scenario("{family: towers}"), options_);
+  EXPECT_EQ(read.name, "s");
+  ASSERT_EQ(read.fleet.size(), 2u);
+  EXPECT_EQ(read.fleet[0].vehicle.role, Role::explorer);
+  EXPECT_TRUE(read.fleet[0].vehicle.lidar);
+  EXPECT_NEAR(read.fleet[0].start_yaw, 30 * kRadPerDeg, 1e-15);
+  EXPECT_EQ(read.fleet[1].vehicle.role, Role::photographer);
+  EXPECT_FALSE(read.fleet[1].vehicle.lidar);
+  EXPECT_EQ(read.fleet[1].vehicle.mass_kg, 1.545);
+}
+
+TEST_F(ScenarioReader, NamesNodes) {
+  const Scenario read = load_scenario(scenario("{family: towers}"), options_);
+  EXPECT_EQ(read.node_name(kStationNode), "gcs");
+  EXPECT_EQ(read.node_name(2), "changi");
+  EXPECT_EQ(read.uav_index("changi"), 1u);
+  EXPECT_THROW(read.uav_index("gcs"), InputError);
+}
+
+TEST_F(ScenarioReader, OverridesReplaceTheFilesValues) {
+  options_.duration_s = 12.0;
+  options_.scene_seed = 9;
+  const Scenario read = load_scenario(scenario("{family: towers}"), options_);
+  EXPECT_EQ(read.duration_s, 12.0);
+  EXPECT_EQ(read.scene.scene_seed, 9u);
+  options_.duration_s = -1.0;
+  EXPECT_NE(complaint(scenario("{family: towers}")).find("--duration"), std::string::npos);
+}
+
+TEST_F(ScenarioReader, ASwitchOverridesItsPresetWhateverTheOrder) {
+  const Scenario paper = load_scenario(
+      scenario("{family: towers}", "rules: {collision_voids_score: false, preset: paper}\n"), options_);
+  EXPECT_FALSE(paper.rules.unnormalised_displacement);
+  EXPECT_FALSE(paper.rules.collision_voids_score);
+  EXPECT_EQ(paper.rules.preset, "paper");
+  const Scenario contest = load_scenario(scenario("{family: towers}"), options_);
+  EXPECT_TRUE(contest.rules.unnormalised_displacement);
+}
+
+TEST_F(ScenarioReader, FindsSceneFilesBesideItOrInTheAssets) {
+  write("own.stl", "");
+  fs::create_directories(folder_ / "data" / "models");
+  write("data/models/p.pcd", "");
+  write("data/models/b.yaml", "");
+  const std::string file = scenario("{meshes: [./own.stl], points: models/p.pcd, boxes: models/b.yaml}");
+  const std::string advice = complaint(file);
+  EXPECT_NE(advice.find("--assets"), std::string::npos) << advice;
+  EXPECT_NE(advice.find("'towers'"), std::string::npos) << advice;
+
+  options_.assets_dir = folder_ / "data";
+  const Scenario read = load_scenario(file, options_);
+  EXPECT_TRUE(fs::equivalent(read.scene.meshes.at(0), folder_ / "own.stl"));
+  EXPECT_TRUE(fs::equivalent(read.scene.points, folder_ / "data" / "models" / "p.pcd"));
+
+  options_.assets_dir = folder_;
+  EXPECT_NE(complaint(file).find("s.yaml:2: scene.points: there is no file"), std::string::npos) << complaint(file);
+
+  options_.assets_dir.clear();
+  options_.needs_scene_files = false;
+  EXPECT_EQ(complaint(file), "accepted");
+}
+
+TEST_F(ScenarioReader, ASeedForASceneFromFilesIsRefused) {
+  options_.needs_scene_files = false;
+  options_.scene_seed = 1;
+  EXPECT_NE(complaint(scenario("{meshes: [a.stl], points: p.pcd, boxes: b.yaml}")).find("--scene-seed"),
+            std::string::npos);
+}
+
+TEST_F(ScenarioReader, AVehicleMayStandBesideTheScenario) {
+  write("tiny.yaml", "name: tiny\nrole: photographer\nmass_kg: 1.25\n");
+  const std::string file = write("s.yaml", "desired_mm_per_pixel: 2\nscene: {family: towers}\n"
+                                           "fleet: [{name: a, vehicle: ./tiny.yaml, start: [0, 0]}]\n");
+  EXPECT_EQ(load_scenario(file, options_).fleet[0].vehicle.mass_kg, 1.25);
+  write("tiny.yaml", "name: tiny\nrole: photographer\nmass_kg: heavy\n");
+  EXPECT_NE(complaint(file).find("tiny.yaml:3: mass_kg: must be a number"), std::string::npos) << complaint(file);
+}
+
+TEST_F(ScenarioReader, PrintsWhatItReads) {
+  const std::string radio =
+      "radio: {topics: [{name: /chat, type: std_msgs/msg/String, sources: all, targets: [gcs, changi]}]}\n";
+  const Scenario read = load_scenario(scenario("{family: towers, scene_seed: 4}", radio), options_);
+  const std::string printed = to_yaml(read);
+  const Scenario again = load_scenario(write("again.yaml", printed), options_);
+  EXPECT_EQ(to_yaml(again), printed);
+  EXPECT_EQ(again.fleet[0].start_yaw, read.fleet[0].start_yaw);
+  EXPECT_EQ(again.radio.at(0).sources, std::vector<std::string>{"all"});
+  EXPECT_EQ(again.radio.at(0).targets, (std::vector<std::string>{"gcs", "changi"}));
+}
+
+TEST_F(ScenarioReader, HelpsWithAMistypedScenario) {
+  EXPECT_NE(complaint("twoers").find("did you mean 'towers'?"), std::string::npos);
+  EXPECT_NE(complaint("./none.yaml").find("none.yaml: no such scenario file"), std::string::npos);
+  EXPECT_NE(complaint("").find("no scenario is called ''"), std::string::npos);
+}
+
+TEST(ConfigDir, IsWhatTheEnvironmentSays) {
+  const std::string config = std::string(SKEIN_SOURCE_DIR) + "/config";
+  ASSERT_EQ(::setenv("SKEIN_CONFIG_DIR", config.c_str(), 1), 0);
+  EXPECT_EQ(default_config_dir(), config);
+  ASSERT_EQ(::setenv("SKEIN_CONFIG_DIR", "/no/such/folder", 1), 0);
+  EXPECT_THROW(default_config_dir(), InputError);
+  ::unsetenv("SKEIN_CONFIG_DIR");
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,66 @@
+// SHA-256 over named little-endian fields: the digest of a run, and the key of every random stream.
+// Numbers enter by their bits, doubles as IEEE 754: -0.0 and 0.0 differ, and so do different NaNs. A text enters with
+// its length, so that ("ab", "c") and ("a", "bc") differ.
+// One thread at a time; copying copies the state.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "core/types.hpp"
+
+struct evp_md_ctx_st;
+
+namespace skein {
+
+class Sha256 {
+ public:
+  Sha256();
+  ~Sha256();
+  Sha256(const Sha256& other);
+  Sha256& operator=(const Sha256& other);
+  Sha256(Sha256&&) noexcept;
+  Sha256& operator=(Sha256&&) noexcept;
+
+  /// Eight bytes of any integer or bool; signed ones in two's complement.
+  template <class Integer>
+    requires std::is_integral_v<Integer>
+  Sha256& add(Integer value) {
+    return add_word(static_cast<std::uint64_t>(value));
+  }
+  Sha256& add(double value);
+  Sha256& add(const Vector3d& value);    ///< x, y, z
+  Sha256& add(const Quaterniond& value); ///< w, x, y, z; the sign as it is
+  /// The length, then the bytes.
+  Sha256& add(std::string_view text);
+  Sha256& add(const std::string& text) { return add(std::string_view(text)); }
+  Sha256& add(const char* text) { return add(std::string_view(text)); }
+  /// The bytes alone.
+  Sha256& add(std::span<const std::uint8_t> bytes);
+
+  /// Of all that was added so far; adding may go on.
+  std::array<std::uint8_t, 32> digest() const;
+  /// The same as 64 lower-case hexadecimal digits.
+  std::string hex() const;
+
+ private:
+  struct Free {
+    void operator()(evp_md_ctx_st* context) const;
+  };
+
+  Sha256& add_word(std::uint64_t value);
+  void update(const void* data, std::size_t size);
+
+  std::unique_ptr<evp_md_ctx_st, Free> context_;
+};
+
+/// Lower-case hexadecimal digits of some bytes.
+std::string to_hex(std::span<const std::uint8_t> bytes);
+
+}  // namespace skein

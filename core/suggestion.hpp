@@ -1,0 +1,17 @@
+// Helps a user who mistyped a name. Pure; safe from any thread.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace skein {
+
+/// The end of a message about an unknown name: "did you mean 'towers'?" when one of `known` is near (edit distance
+/// at most a third of the word, at least 2), else "known are: a, b, c", in the order given.
+std::string suggestion(std::string_view word, const std::vector<std::string>& known);
+
+/// "a, b, c".
+std::string joined(const std::vector<std::string>& words, std::string_view separator = ", ");
+
+}  // namespace skein

@@ -1,0 +1,97 @@
+#include "core/topics.hpp"
+
+#include <array>
+#include <cctype>
+#include <vector>
+
+namespace skein {
+namespace {
+
+bool is_name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// A ROS name token: letters, digits and underscores, not beginning with a digit.
+bool is_token(std::string_view text) {
+  if (text.empty() || std::isdigit(static_cast<unsigned char>(text.front())) != 0) return false;
+  for (const char c : text) {
+    if (!is_name_character(c)) return false;
+  }
+  return true;
+}
+
+/// "a/b/c" -> {"a", "b", "c"}; empty parts are kept.
+std::vector<std::string_view> split_at_slashes(std::string_view text) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t slash = text.find('/');
+    parts.push_back(text.substr(0, slash));
+    if (slash == std::string_view::npos) return parts;
+    text.remove_prefix(slash + 1);
+  }
+}
+
+}  // namespace
+
+std::string wire_topic(std::string_view ros_topic) {
+  const std::vector<std::string_view> parts = split_at_slashes(ros_topic);
+  bool valid = parts.size() >= 2 && parts.front().empty();
+  for (std::size_t i = 1; i < parts.size(); ++i) valid = valid && is_token(parts[i]);
+  if (!valid) {
+    throw InputError("'" + std::string(ros_topic) +
+                     "' is not an absolute topic name; write it like '/broadcast': after each '/' letters, "
+                     "digits and '_', not beginning with a digit");
+  }
+  return "rt" + std::string(ros_topic);
+}
+
+std::string wire_type(std::string_view ros_type) {
+  const std::vector<std::string_view> parts = split_at_slashes(ros_type);
+  if (parts.size() != 3 || parts[1] != "msg" || !is_token(parts[0]) || !is_token(parts[2])) {
+    throw InputError("'" + std::string(ros_type) + "' is not a message type; write it like 'std_msgs/msg/String'");
+  }
+  return std::string(parts[0]) + "::msg::dds_::" + std::string(parts[2]) + "_";
+}
+
+namespace topics {
+
+WireTopic wire(const TopicInfo& topic, std::string_view id) {
+  static constexpr std::string_view kPlaceholder = "{id}";
+  std::string name(topic.pattern);
+  if (const std::size_t at = name.find(kPlaceholder); at != std::string::npos) {
+    name.replace(at, kPlaceholder.size(), id);
+  }
+  return {wire_topic(name), wire_type(topic.type), topic.latched, topic.depth};
+}
+
+std::span<const TopicInfo> uav_topics() {
+  static constexpr std::array kAll{kOdometry,
+                                   kGimbal,
+                                   kCloud,
+                                   kSelfKeyframe,
+                                   kNeighbourKeyframe,
+                                   kNeighbourOdometry,
+                                   kDetectedPoints,
+                                   kMissionDurationRemained,
+                                   kClock,
+                                   kBoundingBoxes,
+                                   kCommandRejected,
+                                   kTrajectoryCommand,
+                                   kGimbalCommand,
+                                   kCameraTrigger,
+                                   kTrigger,
+                                   kCapture,
+                                   kCaptureStored};
+  return kAll;
+}
+
+std::span<const TopicInfo> gcs_topics() {
+  static constexpr std::array kAll{kBoundingBoxes, kClock, kMissionDurationRemained, kNeighbourOdometry, kScore};
+  return kAll;
+}
+
+std::span<const TopicInfo> lockstep_topics() {
+  static constexpr std::array kAll{kStep, kDone, kReady, kResync, kAttached, kRouted, kDrop, kLedger};
+  return kAll;
+}
+
+}  // namespace topics
+}  // namespace skein

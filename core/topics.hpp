@@ -1,0 +1,257 @@
+// The one table of topics: name, type, direction and quality of service of everything that Skein itself puts on the
+// wire, the fields of every PointCloud2, and the numbers of the DDS domains. Radio topics: core/radio_routes.hpp.
+//
+// ROS names ("/jurong/gimbal") and ROS types ("nav_msgs/msg/Odometry") are what users write; wire names
+// ("rt/jurong/gimbal", "nav_msgs::msg::dds_::Odometry_") are what DDS sees. All topics are RELIABLE and KEEP_LAST.
+// Pure; safe from any thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/types.hpp"
+
+namespace skein {
+
+/// "/x" -> "rt/x". @throws InputError when `ros_topic` is not an absolute ROS topic name.
+std::string wire_topic(std::string_view ros_topic);
+/// "std_msgs/msg/String" -> "std_msgs::msg::dds_::String_".
+/// @throws InputError when `ros_type` is not of the form package/msg/Type.
+std::string wire_type(std::string_view ros_type);
+
+/// World domain: ground truth; no agent joins it.
+constexpr int world_domain(int base) { return base; }
+constexpr int gcs_domain(int base) { return base + 1; }
+/// @param uav index in fleet order.
+constexpr int uav_domain(int base, std::size_t uav) { return base + 2 + static_cast<int>(uav); }
+/// Domain of a radio node: the ground station's or a UAV's.
+constexpr int node_domain(int base, Node node) { return base + 1 + static_cast<int>(node); }
+
+namespace topics {
+
+// ---- layout of point clouds ------------------------------------------------------------------------------------
+
+/// Numbers as in sensor_msgs/msg/PointField.
+enum class FieldType : std::uint8_t { float32 = 7, float64 = 8 };
+
+struct CloudField {
+  std::string_view name;
+  FieldType type;
+  std::uint32_t offset;  ///< bytes from the start of the point
+};
+
+/// Little-endian, no padding between points.
+struct CloudLayout {
+  std::span<const CloudField> fields;
+  std::uint32_t point_step;  ///< bytes of one point
+};
+
+inline constexpr CloudField kScanFields[] = {{"x", FieldType::float32, 0},
+                                             {"y", FieldType::float32, 4},
+                                             {"z", FieldType::float32, 8},
+                                             {"intensity", FieldType::float32, 12}};
+/// LiDAR returns in W [m].
+inline constexpr CloudLayout kScanLayout{kScanFields, 16};
+
+inline constexpr CloudField kNeighbourFields[] = {
+    {"x", FieldType::float32, 0},          {"y", FieldType::float32, 4},   {"z", FieldType::float32, 8},
+    {"intensity", FieldType::float32, 12}, {"t", FieldType::float64, 16},  {"qx", FieldType::float32, 24},
+    {"qy", FieldType::float32, 28},        {"qz", FieldType::float32, 32}, {"qw", FieldType::float32, 36},
+    {"vx", FieldType::float32, 40},        {"vy", FieldType::float32, 44}, {"vz", FieldType::float32, 48},
+    {"wx", FieldType::float32, 52},        {"wy", FieldType::float32, 56}, {"wz", FieldType::float32, 60}};
+/// One point a linked neighbour: x y z position in W [m], intensity = node number (0 = gcs), t = stamp [s],
+/// q = attitude, v = velocity and w = angular velocity, both in the neighbour's body frame as its odometry has them.
+inline constexpr CloudLayout kNeighbourLayout{kNeighbourFields, 64};
+
+inline constexpr CloudField kDetectionFields[] = {
+    {"x", FieldType::float32, 0},          {"y", FieldType::float32, 4},         {"z", FieldType::float32, 8},
+    {"intensity", FieldType::float32, 12}, {"normal_x", FieldType::float32, 16}, {"normal_y", FieldType::float32, 20},
+    {"normal_z", FieldType::float32, 24},  {"curvature", FieldType::float32, 28}};
+/// One point an interest point seen so far: intensity = best score of this UAV, curvature = index of the point.
+inline constexpr CloudLayout kDetectionLayout{kDetectionFields, 32};
+
+// ---- one entry of the table ------------------------------------------------------------------------------------
+
+enum class Direction {
+  to_agent,      ///< written by sim_server, read by on-board software (or by a program at the ground station)
+  from_agent,    ///< written by on-board software, read by sim_server
+  from_station,  ///< written by the station into the GCS domain
+  internal,      ///< lock-step and custody: between Skein's own processes and lock-step clients
+};
+
+struct TopicInfo {
+  std::string_view pattern;  ///< ROS name; {id} stands for the unit ("jurong", "gcs")
+  std::string_view type;     ///< ROS type
+  Direction direction;
+  int depth;              ///< holds at least one lock-step round
+  std::string_view rate;  ///< when a sample is written
+  bool latched = false;   ///< TRANSIENT_LOCAL
+  bool explorers_only = false;
+  const CloudLayout* cloud = nullptr;  ///< of a PointCloud2
+};
+
+/// A topic as DDS sees it, of one unit.
+struct WireTopic {
+  std::string name, type;
+  bool latched = false;
+  int depth = 0;
+};
+
+/// @param id replaces {id} in the pattern.
+WireTopic wire(const TopicInfo& topic, std::string_view id = {});
+
+inline constexpr int kStateDepth = 8;  ///< one sample a round
+inline constexpr int kCloudDepth = 8;  ///< one large sample a round at most
+inline constexpr int kCommandDepth = 64;
+inline constexpr int kRadioDepth = 256;
+/// Where messages of several sources arrive, each may send its share in one round.
+constexpr int radio_depth(std::size_t sources) { return kRadioDepth * static_cast<int>(sources); }
+
+// ---- a UAV's domain --------------------------------------------------------------------------------------------
+
+inline constexpr TopicInfo kOdometry{"/{id}/ground_truth/odometry", "nav_msgs/msg/Odometry", Direction::to_agent,
+                                     kStateDepth, "every exchange; twist in the body frame"};
+inline constexpr TopicInfo kGimbal{"/{id}/gimbal", "geometry_msgs/msg/TwistStamped", Direction::to_agent, kStateDepth,
+                                   "every exchange; angles in linear, rates in angular: y pitch, z yaw"};
+inline constexpr TopicInfo kCloud{
+    "/{id}/cloud_inW", "sensor_msgs/msg/PointCloud2", Direction::to_agent, kCloudDepth, "10 Hz", false, true,
+    &kScanLayout};
+inline constexpr TopicInfo kSelfKeyframe{
+    "/{id}/slf_kf_cloud", "sensor_msgs/msg/PointCloud2", Direction::to_agent, kCloudDepth, "on keyframe", false, true,
+    &kScanLayout};
+// Every neighbour may deliver its key frame in the same round.
+inline constexpr TopicInfo kNeighbourKeyframe{"/{id}/nbr_kf_cloud",
+                                              "sensor_msgs/msg/PointCloud2",
+                                              Direction::to_agent,
+                                              64,
+                                              "on the keyframe of a neighbour in LoS",
+                                              false,
+                                              false,
+                                              &kScanLayout};
+inline constexpr TopicInfo kNeighbourOdometry{"/{id}/nbr_odom_cloud",
+                                              "sensor_msgs/msg/PointCloud2",
+                                              Direction::to_agent,
+                                              kStateDepth,
+                                              "every exchange",
+                                              false,
+                                              false,
+                                              &kNeighbourLayout};
+inline constexpr TopicInfo kDetectedPoints{"/{id}/detected_interest_points",
+                                           "sensor_msgs/msg/PointCloud2",
+                                           Direction::to_agent,
+                                           kCloudDepth,
+                                           "every capture that found something",
+                                           false,
+                                           false,
+                                           &kDetectionLayout};
+inline constexpr TopicInfo kMissionDurationRemained{"/{id}/mission_duration_remained",
+                                                    "builtin_interfaces/msg/Duration", Direction::to_agent, kStateDepth,
+                                                    "every exchange after the first take-off"};
+inline constexpr TopicInfo kClock{"/clock", "rosgraph_msgs/msg/Clock", Direction::to_agent, kStateDepth,
+                                  "every exchange"};
+/// Eight vertices a box, box after box.
+inline constexpr TopicInfo kBoundingBoxes{
+    "/gcs/bounding_box_vertices", "sensor_msgs/msg/PointCloud", Direction::to_agent, 1, "once, latched", true};
+inline constexpr TopicInfo kCommandRejected{"/{id}/command_rejected", "skein_msgs/msg/CommandRejected",
+                                            Direction::to_agent, kCommandDepth, "when a command is ignored"};
+inline constexpr TopicInfo kTrajectoryCommand{"/{id}/command/trajectory", "trajectory_msgs/msg/MultiDOFJointTrajectory",
+                                              Direction::from_agent, kCommandDepth,
+                                              "from the agent; only points[0] is used"};
+inline constexpr TopicInfo kGimbalCommand{"/{id}/command/gimbal", "geometry_msgs/msg/Twist", Direction::from_agent,
+                                          kCommandDepth, "from the agent; linear.x > 0 angles, < 0 rates, 0 freeze"};
+/// Two names for one command: the reference documents the first and listens on the second.
+inline constexpr TopicInfo kCameraTrigger{"/{id}/command/camera_trigger", "skein_msgs/msg/BoolStamped",
+                                          Direction::from_agent, kCommandDepth, "from the agent"};
+inline constexpr TopicInfo kTrigger{"/{id}/command/trigger", "skein_msgs/msg/BoolStamped", Direction::from_agent,
+                                    kCommandDepth, "from the agent"};
+inline constexpr TopicInfo kCapture{"/skein/capture", "skein_msgs/msg/CaptureReports", Direction::internal,
+                                    kCommandDepth, "server -> agent: every capture that found something better"};
+inline constexpr TopicInfo kCaptureStored{"/skein/capture_ack", "skein_msgs/msg/CaptureAck", Direction::internal,
+                                          kCommandDepth, "agent -> server: the station has these"};
+
+/// All of a UAV's domain but lock-step and radio.
+std::span<const TopicInfo> uav_topics();
+
+// ---- the GCS domain --------------------------------------------------------------------------------------------
+
+/// Points delivered so far, channel "intensity" = best score.
+inline constexpr TopicInfo kScore{"/gcs/score", "sensor_msgs/msg/PointCloud", Direction::from_station, kStateDepth,
+                                  "when it changes"};
+
+/// All of the GCS domain but lock-step and radio: boxes, clock, time left, neighbours in LoS, score.
+std::span<const TopicInfo> gcs_topics();
+
+// ---- lock-step, ledger: see idl/skein_msgs.idl and docs/lockstep.md ---------------------------------------------
+
+inline constexpr TopicInfo kStep{"/skein/step", "skein_msgs/msg/Step", Direction::internal, 8,
+                                 "server -> every domain, every exchange"};
+inline constexpr TopicInfo kDone{"/skein/done", "skein_msgs/msg/Done", Direction::internal, 8,
+                                 "member -> its domain, every exchange"};
+// Latched where one side may come later than the other: a restarted process finds the last word of everybody else.
+inline constexpr TopicInfo kReady{"/skein/ready",
+                                  "skein_msgs/msg/Ready",
+                                  Direction::internal,
+                                  4,
+                                  "participant -> its domain, when it joins or declares anew",
+                                  true};
+inline constexpr TopicInfo kResync{"/skein/resync",
+                                   "skein_msgs/msg/Resync",
+                                   Direction::internal,
+                                   16,
+                                   "server -> the domain of a participant that joins",
+                                   true};
+inline constexpr TopicInfo kAttached{"/skein/attached",
+                                     "skein_msgs/msg/Attached",
+                                     Direction::internal,
+                                     512,
+                                     "router -> world, when a participant's radio topics are matched",
+                                     true};
+inline constexpr TopicInfo kRouted{"/skein/routed", "skein_msgs/msg/Routed", Direction::internal, 8,
+                                   "router -> world, every exchange"};
+inline constexpr TopicInfo kDrop{"/skein/drop", "skein_msgs/msg/Drop", Direction::internal, 128,
+                                 "server -> world, when a member is lost"};
+// Latched and deep: a station that starts late or again gets the whole ledger.
+inline constexpr TopicInfo kLedger{"/skein/ledger",
+                                   "skein_msgs/msg/Ledger",
+                                   Direction::internal,
+                                   100000,
+                                   "server -> world, when the referee wrote something down",
+                                   true};
+
+/// All of the above.
+std::span<const TopicInfo> lockstep_topics();
+
+// ---- short names: the wire topic of a unit ----------------------------------------------------------------------
+
+inline WireTopic odometry(std::string_view id) { return wire(kOdometry, id); }
+inline WireTopic gimbal(std::string_view id) { return wire(kGimbal, id); }
+inline WireTopic cloud(std::string_view id) { return wire(kCloud, id); }
+inline WireTopic self_keyframe(std::string_view id) { return wire(kSelfKeyframe, id); }
+inline WireTopic neighbour_keyframe(std::string_view id) { return wire(kNeighbourKeyframe, id); }
+inline WireTopic neighbour_odometry(std::string_view id) { return wire(kNeighbourOdometry, id); }
+inline WireTopic detected_points(std::string_view id) { return wire(kDetectedPoints, id); }
+inline WireTopic mission_duration_remained(std::string_view id) { return wire(kMissionDurationRemained, id); }
+inline WireTopic clock() { return wire(kClock); }
+inline WireTopic bounding_boxes() { return wire(kBoundingBoxes); }
+inline WireTopic command_rejected(std::string_view id) { return wire(kCommandRejected, id); }
+inline WireTopic trajectory_command(std::string_view id) { return wire(kTrajectoryCommand, id); }
+inline WireTopic gimbal_command(std::string_view id) { return wire(kGimbalCommand, id); }
+inline WireTopic camera_trigger(std::string_view id) { return wire(kCameraTrigger, id); }
+inline WireTopic trigger(std::string_view id) { return wire(kTrigger, id); }
+inline WireTopic capture() { return wire(kCapture); }
+inline WireTopic capture_stored() { return wire(kCaptureStored); }
+inline WireTopic score() { return wire(kScore); }
+inline WireTopic step() { return wire(kStep); }
+inline WireTopic done() { return wire(kDone); }
+inline WireTopic ready() { return wire(kReady); }
+inline WireTopic attached() { return wire(kAttached); }
+inline WireTopic routed() { return wire(kRouted); }
+inline WireTopic drop() { return wire(kDrop); }
+inline WireTopic resync() { return wire(kResync); }
+inline WireTopic ledger() { return wire(kLedger); }
+
+}  // namespace topics
+}  // namespace skein

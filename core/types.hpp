@@ -1,0 +1,113 @@
+// The words that every part of Skein shares: time, frames, roles, node numbers.
+// Frames: W world (ENU), B body (FLU), C camera (x optical axis, y left, z up), L lidar.  Units: SI, radians.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace skein {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Simulated time counts physics ticks; ages and periods are ticks, never doubles.
+using Tick = std::int64_t;
+inline constexpr double kTickS = 0.0025;
+inline constexpr Tick kTicksPerSecond = 400;
+
+/// Simulated seconds at a tick.
+inline double seconds(Tick tick) { return static_cast<double>(tick) * kTickS; }
+/// The tick nearest to a time in seconds.
+inline Tick ticks(double s) { return static_cast<Tick>(s / kTickS + (s < 0 ? -0.5 : 0.5)); }
+
+/// Names of an enum's values as files and messages write them. An enum gets names by an enum_names() beside it.
+template <class Enum>
+struct EnumName {
+  const char* name;
+  Enum value;
+};
+
+enum class Role { explorer, photographer };
+constexpr std::array<EnumName<Role>, 2> enum_names(Role) {
+  return {{{"explorer", Role::explorer}, {"photographer", Role::photographer}}};
+}
+
+/// The name of an enum's value; "?" for a value without one.
+template <class Enum>
+std::string name_of(Enum value) {
+  for (const auto& entry : enum_names(value)) {
+    if (entry.value == value) return entry.name;
+  }
+  return "?";
+}
+
+/// Radio nodes: 0 is the ground station, UAV i (in fleet order) is node i + 1.
+using Node = std::size_t;
+inline constexpr Node kStationNode = 0;
+inline Node node_of_uav(std::size_t uav) { return uav + 1; }
+
+/// What the user gave us is wrong. Programs print what() and exit with code 2.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// State of a rigid body at one instant.
+struct RigidBodyState {
+  Vector3d p_WB = Vector3d::Zero();               ///< position [m]
+  Quaterniond q_WB = Quaterniond::Identity();     ///< attitude, body to world
+  Vector3d v_WB = Vector3d::Zero();               ///< velocity in W, expressed in W [m/s]
+  Vector3d w_WB_B = Vector3d::Zero();             ///< angular velocity, expressed in B [rad/s]
+
+  Isometry3d X_WB() const { return Eigen::Translation3d(p_WB) * q_WB; }
+};
+
+/// Where the gimbal stands, relative to the yawed body (roll and pitch of the body are removed):
+/// R_WC = Rz(yaw of body) Rz(yaw) Ry(pitch). Positive yaw turns left, positive pitch looks down.
+struct GimbalState {
+  double pitch = 0.0, yaw = 0.0;            ///< [rad]
+  double pitch_rate = 0.0, yaw_rate = 0.0;  ///< [rad/s]
+};
+
+/// One set-point of a trajectory, as CARIC's controller takes it. Position, velocity and acceleration in W.
+/// |p| < 0.01 means "no position", see docs/rules.md.
+struct TrajectoryCommand {
+  Vector3d p_WB = Vector3d::Zero();
+  Vector3d v_WB = Vector3d::Zero();
+  Vector3d a_WB = Vector3d::Zero();
+  double yaw = 0.0;
+};
+
+enum class GimbalMode { angle, rate, freeze };
+
+struct GimbalCommand {
+  GimbalMode mode = GimbalMode::freeze;
+  double pitch = 0.0, yaw = 0.0;  ///< angles [rad] or rates [rad/s], by mode
+};
+
+/// Oriented box: what a UAV knows of a structure. Axes of R_WO are the box's own axes.
+struct OrientedBox {
+  std::string name;
+  Vector3d center = Vector3d::Zero();    ///< [m], in W
+  Vector3d size = Vector3d::Zero();      ///< full edge lengths along the box's axes [m]
+  Matrix3d R_WO = Matrix3d::Identity();  ///< box axes in W
+
+  bool contains(const Vector3d& p_W, double margin = 0.0) const {
+    const Vector3d p_O = R_WO.transpose() * (p_W - center);
+    return (p_O.cwiseAbs().array() <= (0.5 * size).array() + margin).all();
+  }
+};
+
+struct InterestPoint {
+  Eigen::Vector3f p_W;  ///< [m]; single precision, as the reference keeps it
+  Eigen::Vector3f n_W;  ///< unit normal; its sign does not matter
+};
+
+}  // namespace skein

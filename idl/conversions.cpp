@@ -1,0 +1,322 @@
+#include "idl/conversions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace skein {
+namespace {
+
+constexpr std::int64_t kNsPerTick = 2'500'000;
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+
+template <class Message>
+void set_xyz(Message& message, const Vector3d& v) {
+  message.x(v.x());
+  message.y(v.y());
+  message.z(v.z());
+}
+
+template <class Message>
+Vector3d xyz(const Message& message) {
+  return {message.x(), message.y(), message.z()};
+}
+
+template <class Point>
+const topics::CloudLayout& layout_of();
+template <>
+const topics::CloudLayout& layout_of<ScanPoint>() {
+  return topics::kScanLayout;
+}
+template <>
+const topics::CloudLayout& layout_of<NeighbourPoint>() {
+  return topics::kNeighbourLayout;
+}
+template <>
+const topics::CloudLayout& layout_of<DetectionPoint>() {
+  return topics::kDetectionLayout;
+}
+
+static_assert(sizeof(ScanPoint) == topics::kScanLayout.point_step);
+static_assert(sizeof(NeighbourPoint) == topics::kNeighbourLayout.point_step);
+static_assert(sizeof(DetectionPoint) == topics::kDetectionLayout.point_step);
+
+template <class Point>
+msg::PointCloud2 make_cloud(Tick tick, std::size_t size) {
+  const topics::CloudLayout& layout = layout_of<Point>();
+  msg::PointCloud2 cloud;
+  cloud.header(to_header(tick));
+  cloud.height(1);
+  cloud.width(static_cast<std::uint32_t>(size));
+  for (const topics::CloudField& field : layout.fields) {
+    msg::PointField f;
+    f.name(std::string(field.name));
+    f.offset(field.offset);
+    f.datatype(static_cast<std::uint8_t>(field.type));
+    f.count(1);
+    cloud.fields().push_back(f);
+  }
+  cloud.is_bigendian(false);
+  cloud.point_step(layout.point_step);
+  cloud.row_step(static_cast<std::uint32_t>(layout.point_step * size));
+  cloud.data().resize(layout.point_step * size);
+  cloud.is_dense(true);
+  return cloud;
+}
+
+template <class Point>
+msg::PointCloud2 pack(Tick tick, std::span<const Point> points) {
+  msg::PointCloud2 cloud = make_cloud<Point>(tick, points.size());
+  if (!points.empty()) std::memcpy(cloud.data().data(), points.data(), points.size_bytes());
+  return cloud;
+}
+
+}  // namespace
+
+msg::Time to_time(Tick tick) {
+  const std::int64_t ns = tick * kNsPerTick;
+  msg::Time time;
+  time.sec(static_cast<std::int32_t>(ns / kNsPerSecond));
+  time.nanosec(static_cast<std::uint32_t>(ns % kNsPerSecond));
+  return time;
+}
+
+msg::Header to_header(Tick tick, const std::string& frame) {
+  msg::Header header;
+  header.stamp(to_time(tick));
+  header.frame_id(frame);
+  return header;
+}
+
+msg::Duration to_duration(double seconds) {
+  const auto ns = static_cast<std::int64_t>(std::llround(seconds * 1e9));
+  msg::Duration duration;
+  duration.sec(static_cast<std::int32_t>(ns / kNsPerSecond));
+  duration.nanosec(static_cast<std::uint32_t>(ns % kNsPerSecond));
+  return duration;
+}
+
+double from_duration(const msg::Duration& duration) { return duration.sec() + duration.nanosec() * 1e-9; }
+
+msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState& state) {
+  msg::Odometry odometry;
+  odometry.header(to_header(tick));
+  odometry.child_frame_id(id + "/base_link");
+  auto& pose = odometry.pose().pose();
+  set_xyz(pose.position(), state.p_WB);
+  pose.orientation().x(state.q_WB.x());
+  pose.orientation().y(state.q_WB.y());
+  pose.orientation().z(state.q_WB.z());
+  pose.orientation().w(state.q_WB.w());
+  set_xyz(odometry.twist().twist().linear(), state.q_WB.conjugate() * state.v_WB);
+  set_xyz(odometry.twist().twist().angular(), state.w_WB_B);
+  return odometry;
+}
+
+RigidBodyState from_odometry(const msg::Odometry& odometry) {
+  RigidBodyState state;
+  const auto& pose = odometry.pose().pose();
+  const auto& q = pose.orientation();
+  state.p_WB = xyz(pose.position());
+  state.q_WB = Quaterniond(q.w(), q.x(), q.y(), q.z());
+  state.v_WB = state.q_WB * xyz(odometry.twist().twist().linear());
+  state.w_WB_B = xyz(odometry.twist().twist().angular());
+  return state;
+}
+
+msg::TwistStamped to_gimbal(Tick tick, const std::string& id, const GimbalState& gimbal) {
+  msg::TwistStamped twist;
+  twist.header(to_header(tick, id + "/gimbal"));
+  set_xyz(twist.twist().linear(), {0.0, gimbal.pitch, gimbal.yaw});
+  set_xyz(twist.twist().angular(), {0.0, gimbal.pitch_rate, gimbal.yaw_rate});
+  return twist;
+}
+
+GimbalState from_gimbal(const msg::TwistStamped& twist) {
+  return {twist.twist().linear().y(), twist.twist().linear().z(), twist.twist().angular().y(),
+          twist.twist().angular().z()};
+}
+
+msg::MultiDOFJointTrajectory to_trajectory(Tick tick, const TrajectoryCommand& command) {
+  msg::Transform transform;
+  set_xyz(transform.translation(), command.p_WB);
+  transform.rotation().z(std::sin(0.5 * command.yaw));
+  transform.rotation().w(std::cos(0.5 * command.yaw));
+  msg::Twist velocity, acceleration;
+  set_xyz(velocity.linear(), command.v_WB);
+  set_xyz(acceleration.linear(), command.a_WB);
+  msg::MultiDOFJointTrajectoryPoint point;
+  point.transforms().push_back(transform);
+  point.velocities().push_back(velocity);
+  point.accelerations().push_back(acceleration);
+  msg::MultiDOFJointTrajectory trajectory;
+  trajectory.header(to_header(tick));
+  trajectory.points().push_back(point);
+  return trajectory;
+}
+
+std::optional<TrajectoryCommand> from_trajectory(const msg::MultiDOFJointTrajectory& trajectory) {
+  if (trajectory.points().empty() || trajectory.points()[0].transforms().empty()) return std::nullopt;
+  const auto& point = trajectory.points()[0];
+  const auto& q = point.transforms()[0].rotation();
+  TrajectoryCommand command;
+  command.p_WB = xyz(point.transforms()[0].translation());
+  if (!point.velocities().empty()) command.v_WB = xyz(point.velocities()[0].linear());
+  if (!point.accelerations().empty()) command.a_WB = xyz(point.accelerations()[0].linear());
+  command.yaw = std::atan2(2.0 * (q.w() * q.z() + q.x() * q.y()), 1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()));
+  return command;
+}
+
+msg::Twist to_gimbal_command(const GimbalCommand& command) {
+  msg::Twist twist;
+  switch (command.mode) {
+    case GimbalMode::angle: set_xyz(twist.linear(), {1.0, command.pitch, command.yaw}); break;
+    case GimbalMode::rate:
+      twist.linear().x(-1.0);
+      set_xyz(twist.angular(), {0.0, command.pitch, command.yaw});
+      break;
+    case GimbalMode::freeze: break;
+  }
+  return twist;
+}
+
+GimbalCommand from_gimbal_command(const msg::Twist& twist) {
+  // Quirk G6: values in [-1e-7, 0] freeze.
+  if (twist.linear().x() > 0.0) return {GimbalMode::angle, twist.linear().y(), twist.linear().z()};
+  if (twist.linear().x() < -1e-7) return {GimbalMode::rate, twist.angular().y(), twist.angular().z()};
+  return {GimbalMode::freeze, 0.0, 0.0};
+}
+
+msg::PointCloud to_box_vertices(Tick tick, std::span<const OrientedBox> boxes) {
+  msg::PointCloud cloud;
+  cloud.header(to_header(tick));
+  for (const OrientedBox& box : boxes) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3d sign((corner & 1) ? 0.5 : -0.5, (corner & 2) ? 0.5 : -0.5, (corner & 4) ? 0.5 : -0.5);
+      const Eigen::Vector3f p = (box.center + box.R_WO * box.size.cwiseProduct(sign)).cast<float>();
+      msg::Point32 point;
+      point.x(p.x());
+      point.y(p.y());
+      point.z(p.z());
+      cloud.points().push_back(point);
+    }
+  }
+  return cloud;
+}
+
+std::vector<OrientedBox> from_box_vertices(const msg::PointCloud& cloud) {
+  std::vector<OrientedBox> boxes;
+  for (std::size_t i = 0; i + 8 <= cloud.points().size(); i += 8) {
+    const auto corner = [&](std::size_t c) { return xyz(cloud.points()[i + c]); };
+    const Vector3d p0 = corner(0), p7 = corner(7);
+    const Vector3d edges[3] = {corner(1) - p0, corner(2) - p0, corner(4) - p0};
+    OrientedBox box;
+    box.name = "box" + std::to_string(boxes.size() + 1);
+    box.center = 0.5 * (p0 + p7);
+    for (int axis = 0; axis < 3; ++axis) box.size[axis] = edges[axis].norm();
+    if (box.size.minCoeff() > 0.0) {
+      // Single precision vertices: square the axes up again.
+      const Vector3d x = edges[0].normalized();
+      const Vector3d y = (edges[1] - x * x.dot(edges[1])).normalized();
+      Vector3d z = x.cross(y);
+      if (z.dot(edges[2]) < 0.0) z = -z;
+      box.R_WO << x, y, z;
+    }
+    boxes.push_back(std::move(box));
+  }
+  return boxes;
+}
+
+msg::PointCloud2 to_cloud(Tick tick, std::span<const ScanPoint> points) { return pack(tick, points); }
+msg::PointCloud2 to_cloud(Tick tick, std::span<const NeighbourPoint> points) { return pack(tick, points); }
+msg::PointCloud2 to_cloud(Tick tick, std::span<const DetectionPoint> points) { return pack(tick, points); }
+
+msg::PointCloud2 to_cloud(Tick tick, std::span<const Eigen::Vector3f> points) {
+  msg::PointCloud2 cloud = make_cloud<ScanPoint>(tick, points.size());
+  std::uint8_t* out = cloud.data().data();
+  for (const Eigen::Vector3f& p : points) {
+    const ScanPoint point{p.x(), p.y(), p.z(), 0.0F};
+    std::memcpy(out, &point, sizeof point);
+    out += sizeof point;
+  }
+  return cloud;
+}
+
+template <class Point>
+std::vector<Point> from_cloud(const msg::PointCloud2& cloud) {
+  const topics::CloudLayout& layout = layout_of<Point>();
+  const auto& fields = cloud.fields();
+  const bool same = !cloud.is_bigendian() && cloud.point_step() == layout.point_step &&
+                    std::equal(fields.begin(), fields.end(), layout.fields.begin(), layout.fields.end(),
+                               [](const msg::PointField& a, const topics::CloudField& b) {
+                                 return a.name() == b.name && a.offset() == b.offset &&
+                                        a.datatype() == static_cast<std::uint8_t>(b.type);
+                               });
+  if (!same) return {};
+  std::vector<Point> points(cloud.data().size() / sizeof(Point));
+  if (!points.empty()) std::memcpy(points.data(), cloud.data().data(), points.size() * sizeof(Point));
+  return points;
+}
+
+template std::vector<ScanPoint> from_cloud(const msg::PointCloud2&);
+template std::vector<NeighbourPoint> from_cloud(const msg::PointCloud2&);
+template std::vector<DetectionPoint> from_cloud(const msg::PointCloud2&);
+
+msg::CaptureReport to_message(const CaptureReport& report, std::span<const std::string> fleet) {
+  msg::CaptureReport message;
+  message.uav(fleet[report.uav]);
+  message.capture(report.capture);
+  message.tick(report.tick);
+  message.token(report.token);
+  for (const CapturePoint& point : report.points) {
+    msg::CapturePoint p;
+    p.index(point.index);
+    p.q_blur(point.q_blur);
+    p.q_res(point.q_res);
+    p.q(point.q);
+    message.points().push_back(p);
+  }
+  return message;
+}
+
+std::optional<CaptureReport> from_message(const msg::CaptureReport& message, std::span<const std::string> fleet) {
+  const auto uav = std::find(fleet.begin(), fleet.end(), message.uav());
+  if (uav == fleet.end()) return std::nullopt;
+  CaptureReport report;
+  report.uav = static_cast<std::size_t>(uav - fleet.begin());
+  report.capture = message.capture();
+  report.tick = message.tick();
+  report.token = message.token();
+  for (const msg::CapturePoint& p : message.points()) {
+    report.points.push_back({p.index(), p.q_blur(), p.q_res(), p.q()});
+  }
+  return report;
+}
+
+msg::LedgerEntry to_message(const LedgerEntry& entry, std::span<const std::string> fleet) {
+  msg::LedgerEntry message;
+  message.index(entry.index);
+  message.tick(entry.tick);
+  message.uav(fleet[entry.uav]);
+  message.collision(entry.collision);
+  if (!entry.collision) message.capture(to_message(entry.capture, fleet));
+  return message;
+}
+
+std::optional<LedgerEntry> from_message(const msg::LedgerEntry& message, std::span<const std::string> fleet) {
+  const auto uav = std::find(fleet.begin(), fleet.end(), message.uav());
+  if (uav == fleet.end()) return std::nullopt;
+  LedgerEntry entry;
+  entry.index = message.index();
+  entry.tick = message.tick();
+  entry.uav = static_cast<std::size_t>(uav - fleet.begin());
+  entry.collision = message.collision();
+  if (!entry.collision) {
+    auto capture = from_message(message.capture(), fleet);
+    if (!capture) return std::nullopt;
+    entry.capture = std::move(*capture);
+  }
+  return entry;
+}
+
+}  // namespace skein

@@ -1,0 +1,85 @@
+// Between Skein's own types and the messages on the wire, CARIC's conventions included. Used at the edge of each
+// program only. Frames W and B; SI units and radians. Pure; safe from any thread.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/score_table.hpp"
+#include "core/topics.hpp"
+#include "core/types.hpp"
+#include "idl/type_names.hpp"
+
+namespace skein {
+
+msg::Time to_time(Tick tick);
+msg::Header to_header(Tick tick, const std::string& frame = "world");
+/// @param seconds  not negative.
+msg::Duration to_duration(double seconds);
+double from_duration(const msg::Duration& duration);
+
+/// Twist in the body frame, as CARIC has it.
+msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState& state);
+/// Velocity back in W.
+RigidBodyState from_odometry(const msg::Odometry& odometry);
+
+/// Angles in linear, rates in angular; y pitch, z yaw.
+msg::TwistStamped to_gimbal(Tick tick, const std::string& id, const GimbalState& gimbal);
+GimbalState from_gimbal(const msg::TwistStamped& twist);
+
+msg::MultiDOFJointTrajectory to_trajectory(Tick tick, const TrajectoryCommand& command);
+/// Only points[0] counts; missing parts are zero. @returns nullopt without a point that has a transform.
+std::optional<TrajectoryCommand> from_trajectory(const msg::MultiDOFJointTrajectory& trajectory);
+
+/// linear.x > 0 angles (linear y pitch, z yaw), < 0 rates (angular y, z), 0 freeze.
+msg::Twist to_gimbal_command(const GimbalCommand& command);
+GimbalCommand from_gimbal_command(const msg::Twist& twist);
+
+/// Eight vertices a box, box after box; the first is the corner at -x -y -z of the box's own axes, then x fastest.
+msg::PointCloud to_box_vertices(Tick tick, std::span<const OrientedBox> boxes);
+/// Boxes from such vertices, names box1, box2, ... (single precision). Groups of fewer than eight are left out.
+std::vector<OrientedBox> from_box_vertices(const msg::PointCloud& cloud);
+
+// ---- point clouds; the structs are the layouts of core/topics.hpp ------------------------------------------------
+
+struct ScanPoint {
+  float x = 0, y = 0, z = 0, intensity = 0;
+};
+struct NeighbourPoint {
+  float x = 0, y = 0, z = 0;
+  float node = 0;  ///< on the wire "intensity"
+  double t = 0;
+  float qx = 0, qy = 0, qz = 0, qw = 1;
+  float vx = 0, vy = 0, vz = 0;
+  float wx = 0, wy = 0, wz = 0;
+};
+struct DetectionPoint {
+  float x = 0, y = 0, z = 0;
+  float score = 0;  ///< on the wire "intensity"
+  float normal_x = 0, normal_y = 0, normal_z = 0;
+  float index = 0;  ///< on the wire "curvature"
+};
+
+msg::PointCloud2 to_cloud(Tick tick, std::span<const ScanPoint> points);
+msg::PointCloud2 to_cloud(Tick tick, std::span<const Eigen::Vector3f> points);  ///< a scan without intensities
+msg::PointCloud2 to_cloud(Tick tick, std::span<const NeighbourPoint> points);
+msg::PointCloud2 to_cloud(Tick tick, std::span<const DetectionPoint> points);
+/// Empty when the cloud's layout is not that of Point.
+template <class Point>
+std::vector<Point> from_cloud(const msg::PointCloud2& cloud);
+extern template std::vector<ScanPoint> from_cloud(const msg::PointCloud2&);
+extern template std::vector<NeighbourPoint> from_cloud(const msg::PointCloud2&);
+extern template std::vector<DetectionPoint> from_cloud(const msg::PointCloud2&);
+
+// ---- custody ----------------------------------------------------------------------------------------------------
+
+/// @param fleet  names in fleet order.
+msg::CaptureReport to_message(const CaptureReport& report, std::span<const std::string> fleet);
+/// nullopt when the UAV is not of the fleet.
+std::optional<CaptureReport> from_message(const msg::CaptureReport& report, std::span<const std::string> fleet);
+msg::LedgerEntry to_message(const LedgerEntry& entry, std::span<const std::string> fleet);
+std::optional<LedgerEntry> from_message(const msg::LedgerEntry& entry, std::span<const std::string> fleet);
+
+}  // namespace skein

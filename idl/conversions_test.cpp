@@ -1,0 +1,121 @@
+#include "idl/conversions.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/random_stream.hpp"
+#include "idl/cdr.hpp"
+
+namespace skein {
+namespace {
+
+Vector3d random_vector(RandomStream& random, double bound) {
+  return {random.uniform(-bound, bound), random.uniform(-bound, bound), random.uniform(-bound, bound)};
+}
+
+// Through the wire and back.
+template <class Message>
+Message travelled(const Message& message) {
+  Message received;
+  EXPECT_TRUE(decode(encode(message), received));
+  return received;
+}
+
+TEST(Conversions, OdometryKeepsPoseBitsAndTurnsTheTwist) {
+  RandomStream random(1, "odometry", 0);
+  for (int i = 0; i < 100; ++i) {
+    RigidBodyState state;
+    state.p_WB = random_vector(random, 100.0);
+    state.q_WB = Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
+    state.v_WB = random_vector(random, 8.0);
+    state.w_WB_B = random_vector(random, 3.0);
+    const msg::Odometry odometry = travelled(to_odometry(i, "jurong", state));
+    const RigidBodyState back = from_odometry(odometry);
+    EXPECT_EQ(back.p_WB, state.p_WB);
+    EXPECT_EQ(back.q_WB.coeffs(), state.q_WB.coeffs());
+    EXPECT_EQ(back.w_WB_B, state.w_WB_B);
+    EXPECT_LT((back.v_WB - state.v_WB).norm(), 1e-12);
+    const auto& linear = odometry.twist().twist().linear();
+    EXPECT_LT((Vector3d(linear.x(), linear.y(), linear.z()) - state.q_WB.conjugate() * state.v_WB).norm(), 1e-12);
+  }
+}
+
+TEST(Conversions, StampsCountNanosecondsExactly) {
+  EXPECT_EQ(to_time(1).nanosec(), 2'500'000U);
+  EXPECT_EQ(to_time(400 * 600 + 1).sec(), 600);
+  EXPECT_EQ(to_time(400 * 600 + 1).nanosec(), 2'500'000U);
+  EXPECT_DOUBLE_EQ(from_duration(to_duration(599.95)), 599.95);
+}
+
+TEST(Conversions, TrajectoryCommandComesBack) {
+  RandomStream random(2, "trajectory", 0);
+  for (int i = 0; i < 100; ++i) {
+    const TrajectoryCommand command{random_vector(random, 100.0), random_vector(random, 5.0), random_vector(random, 2.0),
+                                    random.uniform(-3.1, 3.1)};
+    const auto back = from_trajectory(travelled(to_trajectory(7, command)));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->p_WB, command.p_WB);
+    EXPECT_EQ(back->v_WB, command.v_WB);
+    EXPECT_EQ(back->a_WB, command.a_WB);
+    EXPECT_NEAR(back->yaw, command.yaw, 1e-12);
+  }
+  EXPECT_FALSE(from_trajectory(msg::MultiDOFJointTrajectory{}));
+}
+
+TEST(Conversions, GimbalModesAreSignsOfLinearX) {
+  for (const GimbalMode mode : {GimbalMode::angle, GimbalMode::rate}) {
+    const GimbalCommand back = from_gimbal_command(travelled(to_gimbal_command({mode, 0.3, -0.7})));
+    EXPECT_EQ(back.mode, mode);
+    EXPECT_EQ(back.pitch, 0.3);
+    EXPECT_EQ(back.yaw, -0.7);
+  }
+  EXPECT_EQ(from_gimbal_command(to_gimbal_command({GimbalMode::freeze, 1.0, 1.0})).mode, GimbalMode::freeze);
+  msg::Twist hardly_negative;
+  hardly_negative.linear().x(-1e-8);
+  EXPECT_EQ(from_gimbal_command(hardly_negative).mode, GimbalMode::freeze);
+}
+
+TEST(Conversions, BoxesSurviveTheirVertices) {
+  RandomStream random(3, "boxes", 0);
+  std::vector<OrientedBox> boxes;
+  for (int i = 0; i < 15; ++i) {
+    OrientedBox box;
+    box.center = random_vector(random, 60.0);
+    box.size = random_vector(random, 20.0).cwiseAbs() + Vector3d::Constant(1.0);
+    box.R_WO = Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized().toRotationMatrix();
+    boxes.push_back(box);
+  }
+  const auto back = from_box_vertices(travelled(to_box_vertices(0, boxes)));
+  ASSERT_EQ(back.size(), boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    EXPECT_LT((back[i].center - boxes[i].center).norm(), 1e-4);
+    EXPECT_LT((back[i].size - boxes[i].size).norm(), 1e-4);
+    EXPECT_LT((back[i].R_WO - boxes[i].R_WO).norm(), 1e-4);
+    EXPECT_LT((back[i].R_WO * back[i].R_WO.transpose() - Matrix3d::Identity()).norm(), 1e-12);
+  }
+}
+
+TEST(Conversions, CloudsComeBackAndOtherLayoutsAreRefused) {
+  const std::vector<NeighbourPoint> neighbours = {{.x = 1, .y = 2, .z = 3, .node = 4, .t = 5.5, .vx = 6}};
+  const msg::PointCloud2 cloud = travelled(to_cloud(9, neighbours));
+  const auto back = from_cloud<NeighbourPoint>(cloud);
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_EQ(back[0].node, 4.0F);
+  EXPECT_EQ(back[0].t, 5.5);
+  EXPECT_EQ(back[0].vx, 6.0F);
+  EXPECT_TRUE(from_cloud<ScanPoint>(cloud).empty());
+  EXPECT_TRUE(from_cloud<ScanPoint>(msg::PointCloud2{}).empty());
+}
+
+TEST(Conversions, LedgerEntriesComeBackByName) {
+  const std::vector<std::string> fleet = {"jurong", "raffles"};
+  LedgerEntry entry{.index = 3, .tick = 41, .uav = 1, .collision = false, .capture = {1, 2, 41, 77, {{5, 0.5F, 0.5F, 0.25F}}}};
+  const auto back = from_message(travelled(to_message(entry, fleet)), fleet);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(*back, entry);
+  const LedgerEntry collision{.index = 4, .tick = 50, .uav = 0, .collision = true, .capture = {}};
+  EXPECT_EQ(from_message(to_message(collision, fleet), fleet), collision);
+  EXPECT_FALSE(from_message(to_message(entry, fleet), std::vector<std::string>{"jurong"}));
+}
+
+}  // namespace
+}  // namespace skein

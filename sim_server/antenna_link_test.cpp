@@ -1,0 +1,60 @@
+// The antenna rule's corners; its counts are checked by sim_server/golden_check_test.cpp.
+#include "sim_server/antenna_link.hpp"
+
+#include <gtest/gtest.h>
+
+namespace skein::sim {
+namespace {
+
+/// An endless wall across x.
+auto wall_at(double x) {
+  return [x](const Vector3d& from, const Vector3d& to) -> std::optional<double> {
+    const double share = (x - from.x()) / (to.x() - from.x());
+    if (share < 0.0 || share > 1.0) return std::nullopt;
+    return share * (to - from).norm();
+  };
+}
+
+const AntennaNode kLeft{{0, 0, 5}, 0.2}, kRight{{20, 0, 5}, 0.1};
+
+TEST(AntennaLink, FreeSightIsALinkAndTakesOneRay) {
+  int rays = 0;
+  const auto link = trace_link(kLeft, kRight, [&](const Vector3d&, const Vector3d&) -> std::optional<double> {
+    ++rays;
+    return std::nullopt;
+  });
+  EXPECT_TRUE(link.linked);
+  EXPECT_EQ(link.range, 20.0);
+  EXPECT_EQ(rays, 1);
+}
+
+TEST(AntennaLink, WallBlocksAndTheRangeIsStillKnown) {
+  const auto link = trace_link(kLeft, kRight, wall_at(10));
+  EXPECT_FALSE(link.linked);
+  EXPECT_EQ(link.range, 20.0);
+}
+
+TEST(AntennaLink, WallRightBeforeTheEndDependsOnTheOrder) {
+  const auto wall = wall_at(19.85);
+  EXPECT_TRUE(trace_link(kLeft, kRight, wall).linked);
+  EXPECT_FALSE(trace_link(kRight, kLeft, wall).linked);
+}
+
+TEST(AntennaLink, OneFreePairOfThirtySixSuffices) {
+  const auto lid = [](const Vector3d& from, const Vector3d& to) -> std::optional<double> {
+    if (from.z() > 5.15 && to.z() > 5.05) return std::nullopt;
+    return 1.0;
+  };
+  EXPECT_TRUE(trace_link(kLeft, kRight, lid).linked);
+  EXPECT_EQ(count_sight_lines(kLeft, kRight, lid).clear, 1);
+}
+
+TEST(AntennaLink, OnlyTheLowestAntennaIsKeptAboveGround) {
+  const auto points = antennas({{3, 4, 0.05}, 0.2});
+  EXPECT_DOUBLE_EQ(points[5].z(), 0.1);
+  EXPECT_DOUBLE_EQ(points[0].z(), 0.05);
+  EXPECT_DOUBLE_EQ(points[4].z(), 0.25);
+}
+
+}  // namespace
+}  // namespace skein::sim

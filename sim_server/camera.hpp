@@ -1,0 +1,66 @@
+// A UAV's camera: which interest points one exposure shows and how well, judged on ground truth.
+// Frames: W world, B body, C camera (x optical axis, y left, z up).   Units: SI, radians.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "core/scene.hpp"
+#include "sim_server/ray_scene.hpp"
+
+namespace skein::sim {
+
+/// One interest point in one capture.
+struct Detection {
+  std::uint32_t point = 0;  ///< index of the interest point
+  double q_blur = 0.0, q_res = 0.0;
+  double q = 0.0;         ///< their product, of this capture
+  float best = 0.0F;      ///< best of this UAV so far, this capture included; single as the reference's
+  bool improved = false;  ///< this capture raised `best`
+};
+
+struct Capture {
+  Tick tick = 0;
+  std::uint64_t number = 0;           ///< 0, 1, ... for this camera
+  std::vector<Detection> detections;  ///< by point index
+  bool improved() const;              ///< any of them
+};
+
+class Camera {
+ public:
+  /// @param points  interest points of the scene; must outlive the camera.
+  /// @param uav     fleet index: its own body does not hide anything.
+  Camera(const CameraConfig& config, double desired_mm_per_pixel, const RulesConfig& rules,
+         const std::vector<InterestPoint>& points, std::size_t uav);
+
+  /// Whether strictly more than the trigger interval has passed since the last capture (0.1 s: every 41 ticks).
+  bool ready(Tick tick) const { return !last_ || tick - *last_ > interval_; }
+
+  /// Takes a picture and keeps the best score of each point. A point counts when it is within the search radius, in the
+  /// field of view, scores at least `rules.min_point_score`, and the first thing on the ray to it is met within
+  /// kSurfaceTolerance of it. Structure, ground and other UAVs hide.
+  /// @param world  with the poses of all UAVs at this tick.
+  /// Not thread-safe; cameras of different UAVs may work in parallel.
+  Capture capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world);
+
+  std::uint64_t captures() const { return next_number_; }
+  /// Best score of each interest point so far, 0 when never seen.
+  const std::vector<float>& best() const { return best_; }
+
+  static constexpr double kSurfaceTolerance = 0.025;  ///< [m], either side of the point
+
+ private:
+  CameraConfig config_;
+  double desired_mm_per_pixel_;
+  RulesConfig rules_;
+  const std::vector<InterestPoint>& points_;
+  std::size_t uav_;
+  Tick interval_;
+  std::optional<Tick> last_;
+  std::uint64_t next_number_ = 0;
+  std::vector<float> best_;
+};
+
+}  // namespace skein::sim

@@ -1,0 +1,99 @@
+// sim_server: physics, sensors, links, referee and the lock-step clock of one run.
+#include <CLI/CLI.hpp>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+
+#include "bus/program_bus.hpp"
+#include "core/program.hpp"
+#include "core/scenario_reader.hpp"
+#include "sim_server/golden_check.hpp"
+#include "sim_server/scenes/scene_source.hpp"
+#include "sim_server/sim_node.hpp"
+
+namespace {
+
+struct ServerOptions {
+  std::string clock = "lockstep";
+  std::optional<double> stop_at_s;
+  double agent_timeout_s = 60.0;
+  std::vector<std::filesystem::path> golden;
+};
+
+std::optional<double> realtime_factor(const std::string& clock) {
+  if (clock == "lockstep") return std::nullopt;
+  const std::string realtime = "realtime";
+  if (clock == realtime) return 1.0;
+  if (clock.starts_with(realtime + ":")) {
+    char* end = nullptr;
+    const std::string text = clock.substr(realtime.size() + 1);
+    const double factor = std::strtod(text.c_str(), &end);
+    if (!text.empty() && *end == '\0' && factor > 0.0 && factor <= 1000.0) return factor;
+  }
+  throw skein::InputError("--clock " + clock + ": it must be lockstep, realtime or realtime:FACTOR with a factor above 0");
+}
+
+int check_golden(const std::vector<std::filesystem::path>& files) {
+  bool passed = true;
+  for (const auto& file : files) {
+    const skein::sim::GoldenReport report = skein::sim::check_golden(file);
+    std::cout << fmt::format("{}: {}, {} rows, {} failed, worst difference {:.3g} of its tolerance ({})\n", file.string(),
+                             report.table, report.rows, report.failures, report.worst, report.worst_column);
+    for (const std::string& message : report.messages) std::cout << "  " << message << '\n';
+    passed = passed && report.failures == 0;
+  }
+  return passed ? skein::kExitDone : skein::kExitCheckFailed;
+}
+
+// Orders of the launcher; they arrive on the pipe's own thread.
+void obey(skein::sim::SimNode& node, const std::string& line) {
+  const std::string lost = "lost ";
+  if (line == "stop") {
+    node.request_stop();
+  } else if (line.starts_with(lost)) {
+    node.report_lost(line.substr(lost.size()));
+  } else {
+    spdlog::warn("unknown order: {}", line);
+  }
+}
+
+int run(const skein::ProgramOptions& options, const ServerOptions& server, skein::StopSignal& stop) {
+  if (!server.golden.empty()) return check_golden(server.golden);
+  const skein::Scenario scenario = skein::load_scenario(options.scenario, options.load_options());
+  skein::sim::SimNodeOptions node_options{.base_domain = options.domain,
+                                          .out = options.out,
+                                          .seed = options.seed,
+                                          .realtime_factor = realtime_factor(server.clock),
+                                          .stop_at_s = server.stop_at_s,
+                                          .agent_timeout_s = server.agent_timeout_s,
+                                          .startup_timeout_s = server.agent_timeout_s};
+  skein::Scene scene = skein::sim::load_scene(scenario);
+  const auto bus = skein::bus::make_bus(options);
+  if (options.check_only) {
+    skein::sim::Simulation(scenario, std::move(scene), options.seed);  // starts must be free
+    return skein::kExitDone;
+  }
+  skein::StatusPipe status(options.status_fd);
+  skein::sim::SimNode node(scenario, std::move(scene), node_options, *bus, status);
+  const skein::ControlPipe control(options.control_fd, [&](const std::string& line) { obey(node, line); });
+  stop.on_stop([&] { node.abort(); });
+  const skein::sim::RunSummary summary = node.run();
+  stop.on_stop({});
+  return summary.status == "aborted" ? skein::kExitInterrupted : skein::kExitDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ServerOptions server;
+  const auto add_options = [&](CLI::App& app) {
+    app.add_option("--clock", server.clock, "lockstep, realtime or realtime:FACTOR");
+    app.add_option("--stop-at", server.stop_at_s, "end at this simulated time [s]")->check(CLI::PositiveNumber);
+    app.add_option("--agent-timeout", server.agent_timeout_s, "wall time to wait for a member [s], 0: for ever")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--golden", server.golden, "run reference vectors through the production code, then stop");
+  };
+  return skein::run_program("sim_server", argc, argv, add_options,
+                            [&](const auto& options, auto& stop) { return run(options, server, stop); });
+}

@@ -1,0 +1,74 @@
+// Rigid bodies, gravity and contacts (Bullet, double precision, one thread): the same calls give the same bits.
+// Frames: W world (ENU), B body (FLU).  Units: SI.  A tick is kTickS = 2.5 ms.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "core/scene.hpp"
+#include "core/types.hpp"
+
+namespace skein::sim {
+
+inline constexpr double kWorldGravity = 9.8;  ///< [m/s^2]
+
+/// What a UAV can touch.
+struct BodyId {
+  enum class Kind { ground, structure, uav };
+  Kind kind = Kind::ground;
+  std::size_t uav = 0;  ///< fleet order; meaningful for Kind::uav only
+
+  bool operator==(const BodyId&) const = default;
+};
+
+/// One UAV touches something; two UAVs that touch appear once, the lower number in `uav`.
+struct Contact {
+  std::size_t uav = 0;
+  BodyId other;
+  Vector3d p_W = Vector3d::Zero();
+};
+
+/// Height of a vehicle's centre when it rests on the ground: half its collision box [m]. Pure.
+double rest_height(const VehicleConfig& vehicle);
+
+/// Radius about the vertical axis that a vehicle's body and rotors take up [m]. Pure.
+double body_radius(const VehicleConfig& vehicle);
+
+/// Ground plane z = 0, one static mesh, and the fleet. Not thread-safe.
+class PhysicsWorld {
+ public:
+  /// @param mesh  double-sided, in W; must outlive the world. Triangles within 1 cm of z = 0 count as ground.
+  explicit PhysicsWorld(const TriangleMesh& mesh);
+  ~PhysicsWorld();
+  PhysicsWorld(const PhysicsWorld&) = delete;
+  PhysicsWorld& operator=(const PhysicsWorld&) = delete;
+
+  /// Add a UAV at rest; UAVs are numbered 0, 1, ... in the order of these calls.
+  void add_uav(const VehicleConfig& vehicle, const Isometry3d& X_WB);
+
+  /// Whether a vehicle at this pose would touch the structure. Does not change the world.
+  bool touches_structure(const VehicleConfig& vehicle, const Isometry3d& X_WB) const;
+
+  /// Force and torque on a UAV's centre of mass during the next tick, both expressed in W. Calls add up.
+  void apply_wrench(std::size_t uav, const Vector3d& force_W, const Vector3d& torque_W);
+
+  /// One tick with the wrenches applied since the last; gravity comes by itself.
+  void tick();
+
+  const RigidBodyState& state(std::size_t uav) const { return states_[uav]; }
+  const std::vector<RigidBodyState>& states() const { return states_; }
+  /// Contacts of the last tick, sorted by UAV, then ground, structure and other UAVs; one per pair.
+  const std::vector<Contact>& contacts() const { return contacts_; }
+
+  /// Put a UAV somewhere, moving as given. For tests and set-up.
+  void set_state(std::size_t uav, const RigidBodyState& state);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+  std::vector<RigidBodyState> states_;
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace skein::sim

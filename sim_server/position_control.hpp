@@ -1,0 +1,68 @@
+// Trajectory controller of a multirotor, 20 Hz: set-point to tilt, yaw rate and thrust.
+// Frames: W world (ENU), B body (FLU).  Units: SI, radians; age in physics ticks.
+// Source: golden vectors `position_control`. Its odd habits (an integral without a time step, a target near the
+// world's origin that means "none") are the reference's; docs/rules.md lists them.
+#pragma once
+
+#include <optional>
+
+#include "core/scenario.hpp"
+#include "core/types.hpp"
+
+namespace skein::sim {
+
+/// What the attitude controller is asked for.
+struct ControlDemand {
+  double roll = 0.0, pitch = 0.0;  ///< [rad]
+  double yaw_rate = 0.0;           ///< [rad/s]
+  double thrust_N = 0.0;           ///< may be negative; rotors then stand still
+};
+
+enum class ControlMode {
+  idle,      ///< no command yet: no thrust
+  hold,      ///< the command is too old: stay where it lapsed
+  yaw_only,  ///< an all-zero command: stay, turn
+  moving,
+  stopped,   ///< no thrust, for good
+};
+
+/// One UAV's controller. Not thread-safe.
+class PositionController {
+ public:
+  /// A command older than this is dropped for holding; exactly this old, nothing changes.
+  static constexpr Tick kMaxAge = 40;
+
+  /// All that it remembers from step to step.
+  struct Memory {
+    ControlMode mode = ControlMode::idle;
+    TrajectoryCommand command;                         ///< in effect, after the rules on modes
+    Vector3d position_error_sum = Vector3d::Zero();    ///< [m], per axis within +-10
+    double yaw_error_sum = 0.0;                        ///< [rad], within +-1.57
+  };
+
+  explicit PositionController(const PositionControlConfig& config) : config_(config) {}
+
+  /// One step of 1/20 s.
+  /// @param new_command  arrived since the last step, if any; it replaces the one in effect.
+  /// @param command_age  time since the last command arrived; ignored while there was none.
+  ControlDemand step(const RigidBodyState& state, const std::optional<TrajectoryCommand>& new_command,
+                     Tick command_age);
+
+  /// Cut the thrust from now on: the UAV falls.
+  void stop() { memory_.mode = ControlMode::stopped; }
+
+  const Memory& memory() const { return memory_; }
+  void set_memory(const Memory& memory) { memory_ = memory; }
+  /// Acceleration asked for in the last step, after limits; z includes gravity [m/s^2].
+  const Vector3d& target_acceleration() const { return target_acceleration_; }
+
+ private:
+  void update_mode(const RigidBodyState& state, Tick command_age);
+  Vector3d demanded_acceleration(const RigidBodyState& state) const;
+
+  PositionControlConfig config_;
+  Memory memory_;
+  Vector3d target_acceleration_ = Vector3d::Zero();
+};
+
+}  // namespace skein::sim

@@ -1,0 +1,88 @@
+// Rays through the world: what stands first on a straight line, and how far the structure is. Embree inside.
+// Structure (triangles, double-sided), ground plane z = 0 and the bodies of the UAVs (boxes with rotor discs).
+// Frames: W world, B body.   Units: SI.
+//
+// Repeatable on every CPU: Embree is pinned to one instruction set and one thread, and it only names the triangle that
+// a ray meets; the distance is computed here, in double precision, because Embree divides by approximate reciprocals
+// whose last bits differ between makers of CPUs.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "core/scene.hpp"
+
+namespace skein::sim {
+
+/// What a ray meets of a UAV: its collision box about Bo and six flat rotor discs at 30 + 60 i degrees.
+struct BodyShape {
+  Vector3d box_m = Vector3d::Zero();  ///< full edge lengths
+  double arm_m = 0.0, rotor_radius_m = 0.0, rotor_height_m = 0.0;
+};
+BodyShape body_shape(const VehicleConfig& vehicle);
+
+inline constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
+
+/// What a ray may meet besides the structure.
+struct RayFilter {
+  bool ground = true;
+  bool uavs = true;
+  /// UAVs that the ray passes through: sensors and antennas sit inside or close to their own body.
+  std::size_t except_uav = kNobody, except_other_uav = kNobody;
+};
+
+enum class HitKind { structure, ground, uav };
+
+struct Hit {
+  double distance = 0.0;  ///< along the ray [m]
+  HitKind kind = HitKind::structure;
+  std::size_t uav = kNobody;  ///< fleet index, when `kind` is uav
+};
+
+class RayScene {
+ public:
+  /// Builds the search tree: about 0.1 s per 100,000 triangles.
+  /// @param mesh         structure; copied. May be empty.
+  /// @param bodies       one per UAV in fleet order; they take part from their first set_pose() on.
+  /// @param native_cpu   let Embree choose the CPU's widest instruction set (faster; not the same bits everywhere).
+  /// @throws std::runtime_error when Embree refuses (a triangle that names a missing vertex, no memory).
+  explicit RayScene(const TriangleMesh& mesh, std::vector<BodyShape> bodies = {}, bool native_cpu = false);
+  ~RayScene();
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+
+  /// Moves one UAV's body. Not while another thread asks.
+  void set_pose(std::size_t uav, const Isometry3d& X_WB);
+
+  /// The first thing that a ray meets. All queries are const and safe from any number of threads.
+  /// @param p_W  start [m].   @param direction_W  need not be a unit vector.   @param distance_max  from the start [m].
+  /// @returns nullopt when nothing is met up to `distance_max`. A surface exactly at the end may or may not count:
+  ///          who asks about a surface point overshoots it.
+  std::optional<Hit> first_hit(const Vector3d& p_W, const Vector3d& direction_W, double distance_max,
+                               const RayFilter& filter = {}) const;
+
+  /// Distance from `from_W` of the first thing on the segment to `to_W`; nullopt when the segment is clear.
+  std::optional<double> first_hit_distance(const Vector3d& from_W, const Vector3d& to_W,
+                                           const RayFilter& filter = {}) const;
+
+  /// Many rays from one point, for a LiDAR: neighbours in the list should point to similar directions.
+  /// @param directions_W  unit vectors.
+  /// @param distances     as many; receives the distance of the first hit, infinity where nothing is met.
+  void scan(const Vector3d& p_W, std::span<const Eigen::Vector3f> directions_W, double distance_max,
+            const RayFilter& filter, std::span<double> distances) const;
+
+  /// Distance of the closest point of the structure (not of ground or UAVs) [m].
+  /// @returns infinity when it is farther than `distance_max`.
+  double clearance(const Vector3d& p_W, double distance_max = std::numeric_limits<double>::infinity()) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace skein::sim

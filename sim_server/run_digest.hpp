@@ -1,0 +1,56 @@
+// The run's fingerprint: SHA-256 over what happened, exchange by exchange, little-endian. Two runs with the same
+// digest went the same way; the short hashes of each field tell where two runs parted (`skein diff`).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/score_table.hpp"
+#include "core/sha256.hpp"
+#include "core/types.hpp"
+
+namespace skein::sim {
+
+/// One exchange as the digest sees it.
+struct DigestInput {
+  struct Uav {
+    RigidBodyState state;
+    GimbalState gimbal;
+    bool alive = true;
+  };
+  std::uint64_t k = 0;
+  std::vector<Uav> uavs;                  ///< in fleet order
+  std::span<const LedgerEntry> ledger;    ///< new entries, in the ledger's order
+  std::span<const std::uint8_t> radio;    ///< the router's digest of this step's deliveries; empty if there were none
+  std::span<const std::uint8_t> tally;    ///< the station's digest of this step's changes; empty if there were none
+};
+
+/// One line of digests.csv: 8 hexadecimal digits (the first of each field's SHA-256) a column.
+struct StepDigest {
+  std::uint64_t k = 0;
+  std::string running;              ///< of all steps so far
+  std::vector<std::string> fields;  ///< as RunDigest::columns() names them
+};
+
+/// Not thread-safe.
+class RunDigest {
+ public:
+  /// @param uav_names  in fleet order.
+  explicit RunDigest(std::span<const std::string> uav_names);
+
+  /// Column names: "<uav>.position", "<uav>.attitude", ".velocity", ".body_rates", ".gimbal", ".alive" for each UAV,
+  /// then "ledger", "radio", "tally".
+  const std::vector<std::string>& columns() const { return columns_; }
+  /// Hash one exchange; they must come in order of k.
+  StepDigest add(const DigestInput& input);
+  /// 64 hexadecimal digits over all exchanges so far; more may follow.
+  std::string hex() const;
+
+ private:
+  std::vector<std::string> columns_;
+  Sha256 running_;
+};
+
+}  // namespace skein::sim

@@ -1,0 +1,53 @@
+// What the server leaves behind: trajectories.csv, digests.csv, scene.json and sim_server.report.json, from which the
+// launcher makes its part of result.json. Times in seconds of simulated time, lengths in metres.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "sim_server/run_digest.hpp"
+#include "sim_server/simulation.hpp"
+
+namespace skein::sim {
+
+/// A member that the fleet lost.
+struct LostProcess {
+  std::string name;
+  std::uint64_t step = 0;
+  Tick tick = 0;
+  std::string reason;
+};
+
+/// How a run went, beyond what the simulation itself knows.
+struct RunSummary {
+  std::string status = "completed";  ///< completed, no_takeoff, interrupted, aborted
+  bool deterministic = true;
+  std::optional<std::string> digest;
+  double wall_time_s = 0.0;  ///< without start-up
+  std::vector<Collision> collisions;
+  std::vector<LostProcess> lost;
+  std::vector<std::string> warnings;
+};
+
+class RunFiles {
+ public:
+  /// @throws std::runtime_error when the folder cannot be written.
+  RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest);
+
+  void write_scene(const Scene& scene);
+  /// One exchange: a line of digests.csv, and every 100 ms a line per UAV of trajectories.csv.
+  void add_step(const Simulation& simulation, const StepDigest& digest);
+  void write_report(const Simulation& simulation, const RunSummary& summary);
+
+ private:
+  std::filesystem::path folder_;
+  const Scenario& scenario_;
+  std::ofstream trajectories_, digests_;
+};
+
+}  // namespace skein::sim

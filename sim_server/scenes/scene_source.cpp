@@ -1,0 +1,38 @@
+#include "sim_server/scenes/scene_source.hpp"
+
+#include "core/scene_families.hpp"
+#include "sim_server/scene_files/box_file.hpp"
+#include "sim_server/scene_files/mesh_file.hpp"
+#include "sim_server/scene_files/point_file.hpp"
+#include "sim_server/scenes/towers.hpp"
+
+namespace skein::sim {
+namespace {
+
+Scene make_family(const Scenario& scenario) {
+  if (scenario.scene.family == "towers") return make_towers(scenario.scene.scene_seed);
+  std::string known;
+  for (const auto& family : kSceneFamilies) known += (known.empty() ? "" : ", ") + std::string(family.name);
+  throw InputError(scenario.file.string() + ": scene.family: no family '" + scenario.scene.family +
+                   "'; there are: " + known);
+}
+
+/// Meshes put one after the other, indices shifted.
+void append(TriangleMesh& all, const TriangleMesh& part) {
+  const auto shift = static_cast<std::uint32_t>(all.vertices.size());
+  all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (const auto& t : part.triangles) all.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+}
+
+}  // namespace
+
+Scene load_scene(const Scenario& scenario) {
+  if (!scenario.scene.family.empty()) return make_family(scenario);
+  Scene scene;
+  for (const auto& file : scenario.scene.meshes) append(scene.mesh, read_mesh(file));
+  scene.points = read_points(scenario.scene.points);
+  scene.boxes = read_boxes(scenario.scene.boxes);
+  return scene;
+}
+
+}  // namespace skein::sim

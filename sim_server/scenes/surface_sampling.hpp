@@ -1,0 +1,25 @@
+// Interest points on the surfaces of a scene: evenly spread, and only where a camera outside can see them.
+// Frame: W.   Units: m.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/scene.hpp"
+
+namespace skein::sim {
+
+/// Sample points on the triangles inside the boxes, about equally dense everywhere (no two much closer than the mean
+/// spacing), with the triangles' true normals.
+///
+/// Left out are points that no camera could see: inside another solid, covered by one within 0.4 m, lower than 0.3 m
+/// above the ground, or without a free view of some metres in any direction.
+/// The result depends on nothing but the arguments.
+/// @param mesh   closed surfaces with outward winding; they may overlap.
+/// @param count  as many points, unless the surfaces have room for fewer (they do not at sensible densities).
+/// @param seed   key of the random numbers.
+std::vector<InterestPoint> sample_surface(const TriangleMesh& mesh, std::span<const OrientedBox> boxes,
+                                          std::size_t count, std::uint64_t seed);
+
+}  // namespace skein::sim

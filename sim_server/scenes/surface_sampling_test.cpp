@@ -1,0 +1,105 @@
+// Interest points: where they lie, how evenly, and where there are none.
+#include "sim_server/scenes/surface_sampling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "sim_server/scenes/mesh_builder.hpp"
+
+namespace skein::sim {
+namespace {
+
+Isometry3d at(double x, double y, double z) { return Isometry3d(Eigen::Translation3d(x, y, z)); }
+
+OrientedBox box_around(const Vector3d& center, double edge) {
+  OrientedBox box;
+  box.center = center;
+  box.size = Vector3d::Constant(edge);
+  return box;
+}
+
+/// A cube of 10 m that hovers; 600 m^2.
+TriangleMesh cube() {
+  MeshBuilder builder;
+  builder.add_box(at(0, 0, 20), {10, 10, 10});
+  return builder.take();
+}
+
+TEST(SurfaceSampling, PointsLieOnTheSurfaceWithItsNormal) {
+  const std::vector boxes{box_around({0, 0, 20}, 11)};
+  const auto points = sample_surface(cube(), boxes, 600, 1);
+  ASSERT_EQ(points.size(), 600u);
+  for (const auto& point : points) {
+    const Vector3d p = point.p_W.cast<double>() - Vector3d(0, 0, 20), n = point.n_W.cast<double>();
+    EXPECT_NEAR(p.cwiseAbs().maxCoeff(), 5.0, 1e-5);
+    EXPECT_NEAR(p.dot(n), 5.0, 1e-5);
+    EXPECT_NEAR(n.norm(), 1.0, 1e-6);
+  }
+}
+
+TEST(SurfaceSampling, PointsAreSpreadEvenly) {
+  const std::vector boxes{box_around({0, 0, 20}, 11)};
+  const auto points = sample_surface(cube(), boxes, 600, 1);  // mean spacing 1 m
+  std::array<int, 6> on_face{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Eigen::Index axis = 0;
+    const float sign = points[i].n_W.cwiseAbs().maxCoeff(&axis) > 0 ? points[i].n_W[axis] : 0.0f;
+    ++on_face[static_cast<std::size_t>(2 * axis + (sign > 0))];
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GT((points[i].p_W - points[j].p_W).norm(), 0.5f);
+  }
+  for (const int count : on_face) EXPECT_NEAR(count, 100, 15);
+}
+
+TEST(SurfaceSampling, OnlyInsideTheBoxes) {
+  const std::vector boxes{box_around({5, 0, 20}, 4)};
+  const auto points = sample_surface(cube(), boxes, 50, 1);
+  EXPECT_EQ(points.size(), 50u);
+  for (const auto& point : points) EXPECT_TRUE(boxes[0].contains(point.p_W.cast<double>()));
+}
+
+TEST(SurfaceSampling, NothingWhereSolidsOverlapTouchOrStandOnTheGround) {
+  MeshBuilder builder;
+  builder.add_box(at(0, 0, 5), {10, 10, 10});      // on the ground
+  builder.add_box(at(4, 0, 8), {10, 4, 4});        // half inside the first
+  builder.add_box(at(0, 7.5, 5), {10, 5, 10});     // touches it
+  builder.add_box(at(0, -5.65, 5), {10, 0.7, 8});  // 0.3 m off its side
+  const std::vector boxes{box_around({0, 0, 5}, 40)};
+  const auto points = sample_surface(builder.mesh(), boxes, 800, 1);
+  EXPECT_EQ(points.size(), 800u);
+  for (const auto& point : points) {
+    const Eigen::Vector3f& p = point.p_W;
+    EXPECT_GE(p.z(), 0.3f);
+    const auto strictly_inside = [&](const Vector3d& center, const Vector3d& size) {
+      return ((p.cast<double>() - center).cwiseAbs().array() < (0.5 * size).array() - 1e-4).all();
+    };
+    EXPECT_FALSE(strictly_inside({0, 0, 5}, {10, 10, 10}));
+    EXPECT_FALSE(strictly_inside({4, 0, 8}, {10, 4, 4}));
+    const bool in_front_of_joint = std::abs(p.x()) < 5 && p.z() < 10;
+    EXPECT_FALSE(in_front_of_joint && std::abs(p.y() - 5) < 1e-4) << "between touching solids";
+    const bool behind_plate = std::abs(p.x()) < 4.9 && p.z() > 1.1 && p.z() < 8.9;
+    EXPECT_FALSE(behind_plate && p.y() < -4.99 && p.y() > -5.31) << "in a gap of 0.3 m";
+  }
+}
+
+TEST(SurfaceSampling, SameSeedSamePointsOtherSeedOthers) {
+  const std::vector boxes{box_around({0, 0, 20}, 11)};
+  const auto bytes = [&](std::uint64_t seed) {
+    const auto points = sample_surface(cube(), boxes, 100, seed);
+    std::vector<char> all(points.size() * sizeof(InterestPoint));
+    std::memcpy(all.data(), points.data(), all.size());
+    return all;
+  };
+  EXPECT_EQ(bytes(1), bytes(1));
+  EXPECT_NE(bytes(1), bytes(2));
+}
+
+TEST(SurfaceSampling, NoSurfaceNoPoints) {
+  EXPECT_TRUE(sample_surface({}, std::vector{box_around({0, 0, 0}, 5)}, 10, 1).empty());
+  EXPECT_TRUE(sample_surface(cube(), std::vector{box_around({99, 0, 0}, 5)}, 10, 1).empty());
+}
+
+}  // namespace
+}  // namespace skein::sim

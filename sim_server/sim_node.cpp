@@ -1,0 +1,261 @@
+#include "sim_server/sim_node.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bus/lockstep/names.hpp"
+#include "core/topics.hpp"
+#include "idl/conversions.hpp"
+#include "sim_server/referee.hpp"
+
+namespace skein::sim {
+namespace {
+
+using std::chrono::milliseconds;
+
+// While somebody joins, matches come in without a sample to announce them.
+constexpr milliseconds kMatchPoll{2};
+constexpr milliseconds kIdlePoll{100};
+constexpr milliseconds kProgressPeriod{200};
+
+double elapsed_s(std::chrono::steady_clock::time_point since) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+}
+
+std::vector<std::string> names_of(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const UavConfig& uav : scenario.fleet) names.push_back(uav.name);
+  return names;
+}
+
+}  // namespace
+
+SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& options, bus::Bus& bus,
+                 StatusPipe& status)
+    : scenario_(scenario),
+      options_(options),
+      status_(status),
+      uav_names_(names_of(scenario)),
+      simulation_(scenario, std::move(scene), options.seed),
+      digest_(uav_names_),
+      files_(options.out, scenario, digest_),
+      server_(inbox_) {
+  participants_.push_back(bus.join(world_domain(options.base_domain)));
+  for (Node node = 0; node <= scenario.fleet.size(); ++node) {
+    participants_.push_back(bus.join(node_domain(options.base_domain, node)));
+  }
+  declare_members();
+}
+
+SimNode::~SimNode() = default;
+
+void SimNode::declare_members() {
+  const auto world = server_.add_domain("", *participants_[0]);
+  ledger_ = std::make_unique<bus::CountedWriter>(*participants_[0], bus::spec(topics::ledger()));
+  const auto gcs = server_.add_domain(scenario_.node_name(kStationNode), *participants_[1]);
+  gcs_boxes_ = &server_.writer(gcs, bus::spec(topics::bounding_boxes()));
+  gcs_clock_ = &server_.writer(gcs, bus::spec(topics::clock()));
+  gcs_remained_ = &server_.writer(gcs, bus::spec(topics::mission_duration_remained(bus::kGcsName)));
+  gcs_neighbours_ = &server_.writer(gcs, bus::spec(topics::neighbour_odometry(bus::kGcsName)));
+  for (std::size_t i = 0; i < scenario_.fleet.size(); ++i) {
+    const auto domain = server_.add_domain(uav_names_[i], *participants_[2 + i]);
+    server_.add_place(uav_names_[i], domain, true);
+    uavs_.push_back(std::make_unique<UavNode>(i, scenario_, simulation_, server_, domain));
+  }
+  server_.add_place(std::string(bus::kGcsName), gcs, options_.expect_gcs_program);
+  server_.add_place(std::string(bus::kStationName), gcs, true);
+  server_.add_place(std::string(bus::kRouterName), world, true);
+}
+
+void SimNode::request_stop() {
+  inbox_.post([this] { stop_requested_ = true; });
+}
+
+void SimNode::abort() {
+  inbox_.post([this] { aborted_ = true; });
+}
+
+void SimNode::report_lost(const std::string& name) {
+  inbox_.post([this, name] { server_.lost(name, "its process ended"); });
+}
+
+RunSummary SimNode::run() {
+  files_.write_scene(simulation_.scene());
+  const bool joined = wait_for_members();
+  const auto started = Clock::now();
+  bool answered = joined;
+  while (answered) {
+    last_step_ = is_last_step();
+    publish_step();
+    answered = wait_for_answers();
+    if (!answered) break;
+    finish_step();
+    if (last_step_) break;
+    let_in_members();
+    pace(started);
+    if (aborted_) break;
+    simulation_.advance();
+  }
+  summary_.wall_time_s = elapsed_s(started);
+  summary_.status = end_status();
+  // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
+  if (options_.realtime_factor || summary_.status == "interrupted" || aborted_) summary_.deterministic = false;
+  if (summary_.deterministic) summary_.digest = digest_.hex();
+  files_.write_report(simulation_, summary_);
+  report_progress(true);
+  status_.send({{"type", "ended"}, {"status", summary_.status}});
+  return summary_;
+}
+
+// ---- joining ----------------------------------------------------------------------------------------------------
+
+bool SimNode::wait_for_members() {
+  const auto started = Clock::now();
+  auto told = started;
+  while (!server_.at_boundary()) {
+    inbox_.dispatch(kMatchPoll);
+    take_losses();
+    if (aborted_ || stop_requested_) return false;
+    if (Clock::now() - told > milliseconds(500)) {
+      told = Clock::now();
+      status_.send({{"type", "waiting_for"}, {"members", server_.awaited()}});
+    }
+    if (options_.startup_timeout_s > 0 && elapsed_s(started) > options_.startup_timeout_s) {
+      for (const std::string& name : server_.awaited()) server_.lost(name, "did not join in time");
+    }
+  }
+  take_losses();
+  return true;
+}
+
+// Somebody who knocks is let in before the next step; the fleet stands still meanwhile.
+void SimNode::let_in_members() {
+  const auto started = Clock::now();
+  while (!server_.at_boundary() && !aborted_) {
+    inbox_.dispatch(kMatchPoll);
+    if (options_.startup_timeout_s > 0 && elapsed_s(started) > options_.startup_timeout_s) {
+      for (const std::string& name : server_.awaited()) server_.lost(name, "did not finish joining");
+    }
+  }
+  for (const std::string& name : server_.take_rejoined()) {
+    spdlog::info("{} joined again at step {}", name, simulation_.step() + 1);
+    const auto uav = std::find(uav_names_.begin(), uav_names_.end(), name);
+    if (uav != uav_names_.end()) uavs_[static_cast<std::size_t>(uav - uav_names_.begin())]->resend_captures();
+  }
+  take_losses();
+}
+
+void SimNode::take_losses() {
+  for (const auto& lost : server_.take_lost()) {
+    spdlog::warn("{} is lost at step {}: {}; the run goes on without it", lost.name, lost.k, lost.reason);
+    summary_.lost.push_back({lost.name, lost.k, simulation_.tick(), lost.reason});
+    summary_.warnings.push_back(lost.name + " was lost: " + lost.reason);
+    summary_.deterministic = false;
+  }
+}
+
+// ---- one step ---------------------------------------------------------------------------------------------------
+
+bool SimNode::is_last_step() const {
+  const bool stop_time = options_.stop_at_s && simulation_.tick() >= ticks(*options_.stop_at_s);
+  return stop_requested_ || stop_time || simulation_.mission().phase() == Phase::ended;
+}
+
+void SimNode::publish_step() {
+  const StepEvents& events = simulation_.events();
+  publish_ledger(simulation_.referee().ledger(), events.ledger_begin);
+  for (const Collision& collision : events.collisions) summary_.collisions.push_back(collision);
+  for (const auto& uav : uavs_) uav->publish();
+
+  const Tick tick = simulation_.tick();
+  if (gcs_boxes_->count() == 0) gcs_boxes_->write(to_box_vertices(tick, simulation_.scene().boxes));
+  msg::Clock clock;
+  clock.clock(to_time(tick));
+  gcs_clock_->write(clock);
+  if (simulation_.mission().start_tick()) gcs_remained_->write(to_duration(simulation_.mission().remaining_s(tick)));
+  gcs_neighbours_->write(neighbour_cloud(simulation_, scenario_, kStationNode));
+
+  server_.publish({.k = simulation_.step(),
+                   .tick = tick,
+                   .links = simulation_.links(),
+                   .ledger_upto = events.ledger_end,
+                   .final_step = last_step_});
+}
+
+// The first message is sent even when it is empty: it tells the station how many points there are.
+void SimNode::publish_ledger(const std::vector<LedgerEntry>& entries, std::size_t begin) {
+  if (begin == entries.size() && ledger_->count() > 0) return;
+  msg::Ledger message;
+  message.interest_points(static_cast<std::uint32_t>(simulation_.scene().points.size()));
+  for (std::size_t i = begin; i < entries.size(); ++i) message.entries().push_back(to_message(entries[i], uav_names_));
+  ledger_->begin_step();
+  ledger_->write(message);
+}
+
+bool SimNode::wait_for_answers() {
+  const auto published = Clock::now();
+  while (!server_.answered()) {
+    if (!inbox_.dispatch(kIdlePoll)) report_progress(false);
+    if (aborted_) return false;
+    if (options_.agent_timeout_s > 0 && elapsed_s(published) > options_.agent_timeout_s) {
+      for (const std::string& name : server_.awaited()) {
+        server_.lost(name, fmt::format("did not answer for {} s", options_.agent_timeout_s));
+      }
+    }
+  }
+  take_losses();
+  return true;
+}
+
+void SimNode::finish_step() {
+  DigestInput input = simulation_.digest_input();
+  input.radio = server_.routed_digest();
+  input.tally = server_.station_digest();
+  files_.add_step(simulation_, digest_.add(input));
+  report_progress(false);
+}
+
+// Real time: the next step is due when the wall clock says so; what arrives meanwhile is taken in.
+void SimNode::pace(Clock::time_point started) {
+  if (!options_.realtime_factor) return;
+  const double due_s = seconds(simulation_.tick() + scenario_.exchange_ticks()) / *options_.realtime_factor;
+  const auto due = started + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
+  while (Clock::now() < due && !aborted_ && !stop_requested_) {
+    inbox_.dispatch(std::chrono::ceil<milliseconds>(due - Clock::now()));
+  }
+}
+
+void SimNode::report_progress(bool now) {
+  if (!now && Clock::now() - last_progress_ < kProgressPeriod) return;
+  last_progress_ = Clock::now();
+  const Mission& mission = simulation_.mission();
+  const auto& links = simulation_.links();
+  std::vector<std::string> in_contact, lost;
+  std::size_t alive = 0;
+  for (std::size_t i = 0; i < simulation_.size(); ++i) {
+    if (links[node_of_uav(i)]) in_contact.push_back(uav_names_[i]);
+    alive += simulation_.uav(i).alive;
+  }
+  for (const LostProcess& process : summary_.lost) lost.push_back(process.name);
+  const char* phase = mission.phase() == Phase::waiting ? "waiting" : mission.phase() == Phase::flying ? "flying" : "ended";
+  const double mission_s = mission.start_tick() ? seconds(simulation_.tick() - *mission.start_tick()) : 0.0;
+  status_.send({{"type", "progress"},
+                {"t", seconds(simulation_.tick())},
+                {"mission_s", mission_s},
+                {"phase", phase},
+                {"duration_s", scenario_.duration_s},
+                {"in_contact", in_contact},
+                {"alive", alive},
+                {"lost", lost}});
+}
+
+std::string SimNode::end_status() const {
+  if (aborted_) return "aborted";
+  if (stop_requested_) return "interrupted";
+  if (simulation_.mission().end() == MissionEnd::takeoff_timeout) return "no_takeoff";
+  return "completed";
+}
+
+}  // namespace skein::sim

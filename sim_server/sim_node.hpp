@@ -1,0 +1,82 @@
+// The server as a process: the simulation behind DDS, the lock-step clock, the launcher's pipes, the run's files.
+// Everything happens on the thread that calls run().
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/bus.hpp"
+#include "bus/inbox.hpp"
+#include "bus/lockstep/server.hpp"
+#include "core/status_pipe.hpp"
+#include "sim_server/run_files.hpp"
+#include "sim_server/simulation.hpp"
+#include "sim_server/uav_node.hpp"
+
+namespace skein::sim {
+
+struct SimNodeOptions {
+  int base_domain = 0;
+  std::filesystem::path out;
+  std::uint64_t seed = 0;
+  std::optional<double> realtime_factor;  ///< nullopt: lock-step, as fast as the machine allows
+  std::optional<double> stop_at_s;        ///< end at this simulated time
+  double agent_timeout_s = 60.0;          ///< of wall time, for an answer; 0: for ever
+  double startup_timeout_s = 60.0;        ///< of wall time, for everybody to join; 0: for ever
+  bool expect_gcs_program = false;        ///< a user's program at the ground station takes part
+};
+
+class SimNode {
+ public:
+  SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& options, bus::Bus& bus, StatusPipe& status);
+  ~SimNode();
+
+  /// Runs the mission to its end. @returns its summary; all files are written.
+  RunSummary run();
+
+  /// From other threads: end at the next step (the launcher's `stop`, a signal).
+  void request_stop();
+  /// From other threads: a process of the fleet died (the launcher's `lost NAME`).
+  void report_lost(const std::string& name);
+  /// From other threads: the process is told to end at once.
+  void abort();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void declare_members();
+  bool wait_for_members();
+  void publish_step();
+  void publish_ledger(const std::vector<LedgerEntry>& entries, std::size_t begin);
+  bool wait_for_answers();
+  void pace(Clock::time_point started);
+  void finish_step();
+  void take_losses();
+  void let_in_members();
+  bool is_last_step() const;
+  void report_progress(bool now);
+  std::string end_status() const;
+
+  const Scenario& scenario_;
+  const SimNodeOptions options_;
+  StatusPipe& status_;
+  std::vector<std::string> uav_names_;
+  Simulation simulation_;
+  RunDigest digest_;
+  RunFiles files_;
+  bus::Inbox inbox_;
+  std::vector<std::unique_ptr<bus::Participant>> participants_;  ///< world, gcs, UAVs
+  bus::LockstepServer server_;
+  std::vector<std::unique_ptr<UavNode>> uavs_;
+  std::unique_ptr<bus::CountedWriter> ledger_;
+  bus::CountedWriter *gcs_boxes_ = nullptr, *gcs_clock_ = nullptr, *gcs_remained_ = nullptr, *gcs_neighbours_ = nullptr;
+  RunSummary summary_;
+  bool stop_requested_ = false, aborted_ = false, last_step_ = false;
+  Clock::time_point last_progress_{};
+};
+
+}  // namespace skein::sim

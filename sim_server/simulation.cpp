@@ -1,0 +1,317 @@
+#include "sim_server/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim_server/antenna_link.hpp"
+#include "sim_server/command_link.hpp"
+#include "sim_server/fleet_start.hpp"
+#include "sim_server/physics_world.hpp"
+#include "sim_server/ray_scene.hpp"
+#include "sim_server/vehicle.hpp"
+
+namespace skein::sim {
+namespace {
+
+/// A UAV idles while it is slower than this and no capture has raised one of its scores for this long.
+constexpr double kIdleSpeed = 0.1;
+constexpr Tick kIdleAge = 5 * kTicksPerSecond;
+
+/// Everything that belongs to one UAV.
+struct Uav {
+  Vehicle vehicle;
+  CommandLink link;
+  Camera camera;
+  std::optional<Lidar> lidar;
+  KeyframeSelector keyframes;
+  UavView view;
+  std::optional<GimbalCommand> gimbal_command;      ///< arrived since the last control step
+  bool manual_trigger = false, triggered = false;
+  Tick last_raise = 0;                              ///< when a capture last raised a score
+  Tick idle_ticks = 0;
+};
+
+std::vector<BodyShape> body_shapes(const Scenario& scenario) {
+  std::vector<BodyShape> shapes;
+  for (const UavConfig& uav : scenario.fleet) shapes.push_back(body_shape(uav.vehicle));
+  return shapes;
+}
+
+std::vector<double> rest_heights(const Scenario& scenario) {
+  std::vector<double> heights;
+  for (const UavConfig& uav : scenario.fleet) heights.push_back(rest_height(uav.vehicle));
+  return heights;
+}
+
+}  // namespace
+
+struct Simulation::Impl {
+  Impl(const Scenario& the_scenario, Scene the_scene, std::uint64_t the_seed);
+
+  void deliver_commands();
+  void run_tick();
+  void control_and_fly();
+  void judge_mission();
+  void measure(const std::vector<RigidBodyState>& before);
+  void take_pictures();
+  void take_scans();
+  void finish_exchange();
+  void trace_links();
+  void refresh_rays();
+  void reject(std::size_t uav, RejectionEvent::Command command, std::string reason);
+  bool listening(std::size_t uav) const { return mission.alive(uav) && mission.phase() != Phase::ended; }
+
+  const Scenario scenario;
+  const Scene scene;
+  PhysicsWorld world;
+  RayScene rays;
+  Mission mission;
+  Referee referee;
+  std::vector<Uav> uavs;
+  std::vector<UavView> views;                 ///< at the step boundary
+  std::vector<std::uint8_t> links;
+  std::vector<RejectionEvent> rejections;     ///< since the last advance()
+  StepEvents events;
+  std::uint64_t step = 0;
+  Tick tick = 0;
+  Tick rays_tick = -1;                        ///< the tick whose poses `rays` has
+};
+
+Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint64_t the_seed)
+    : scenario(the_scenario),
+      scene(std::move(the_scene)),
+      world(scene.mesh),
+      rays(scene.mesh, body_shapes(scenario)),
+      mission(scenario, rest_heights(scenario)),
+      referee(the_seed, scenario.fleet.size(), scene.points.size(), scenario.rules) {
+  const auto touches = [this](const VehicleConfig& vehicle, const Isometry3d& X_WB) {
+    return world.touches_structure(vehicle, X_WB);
+  };
+  const std::vector<UavStart> starts = draw_fleet_start(scenario, the_seed, touches);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const VehicleConfig& vehicle = scenario.fleet[i].vehicle;
+    world.add_uav(vehicle, starts[i].X_WB);
+    uavs.push_back({.vehicle = Vehicle(vehicle, scenario.rules),
+                    .link = CommandLink(starts[i]),
+                    .camera = Camera(vehicle.camera, scenario.desired_mm_per_pixel, scenario.rules, scene.points, i),
+                    .lidar = {},
+                    .keyframes = {},
+                    .view = {},
+                    .gimbal_command = {}});
+    if (vehicle.lidar) uavs.back().lidar.emplace(*vehicle.lidar, i, the_seed);
+  }
+  take_scans();
+  finish_exchange();
+}
+
+void Simulation::Impl::deliver_commands() {
+  for (std::size_t i = 0; i < uavs.size(); ++i) {
+    Uav& uav = uavs[i];
+    const Commands arrived = uav.link.exchange(tick);
+    if (!listening(i)) continue;
+    if (arrived.gimbal) uav.gimbal_command = arrived.gimbal;
+    if (arrived.stop) uav.vehicle.stop();
+    if (arrived.trigger) uav.manual_trigger = uav.triggered = true;
+  }
+}
+
+void Simulation::Impl::run_tick() {
+  control_and_fly();
+  const std::vector<RigidBodyState> before = world.states();
+  world.tick();
+  ++tick;
+  judge_mission();
+  measure(before);
+  if (mission.phase() == Phase::flying) take_pictures();
+  if (mission.phase() != Phase::ended) take_scans();
+}
+
+void Simulation::Impl::control_and_fly() {
+  for (std::size_t i = 0; i < uavs.size(); ++i) {
+    Uav& uav = uavs[i];
+    const RigidBodyState& state = world.state(i);
+    if (tick % kControlTicks == 0 && listening(i)) {
+      const auto gimbal_command = std::exchange(uav.gimbal_command, std::nullopt);
+      uav.vehicle.control(tick, state, uav.link.take_trajectory(tick), gimbal_command);
+    }
+    const Wrench wrench = uav.vehicle.step(state);
+    world.apply_wrench(i, state.q_WB * wrench.force_B, state.q_WB * wrench.torque_B);
+  }
+}
+
+void Simulation::Impl::judge_mission() {
+  const bool was_waiting = mission.phase() == Phase::waiting;
+  for (const Collision& collision : mission.update(tick, world.states(), world.contacts())) {
+    uavs[collision.uav].vehicle.stop();
+    referee.enter_collision(collision.uav, tick);
+    events.collisions.push_back(collision);
+  }
+  if (was_waiting && mission.phase() == Phase::flying) {
+    for (Uav& uav : uavs) uav.last_raise = tick;
+  }
+  if (mission.end_tick() == tick) {
+    for (Uav& uav : uavs) uav.vehicle.stop();
+  }
+}
+
+void Simulation::Impl::measure(const std::vector<RigidBodyState>& before) {
+  if (mission.phase() != Phase::flying) return;
+  for (std::size_t i = 0; i < uavs.size(); ++i) {
+    if (!mission.alive(i)) continue;
+    Uav& uav = uavs[i];
+    const RigidBodyState& state = world.state(i);
+    const double speed = state.v_WB.norm();
+    if (mission.airborne(i)) {
+      uav.view.distance_m += (state.p_WB - before[i].p_WB).norm();
+      uav.view.max_speed_mps = std::max(uav.view.max_speed_mps, speed);
+    }
+    if (speed < kIdleSpeed && tick - uav.last_raise > kIdleAge) ++uav.idle_ticks;
+  }
+}
+
+void Simulation::Impl::take_pictures() {
+  for (std::size_t i = 0; i < uavs.size(); ++i) {
+    Uav& uav = uavs[i];
+    if (!mission.alive(i) || (uav.manual_trigger && !uav.triggered) || !uav.camera.ready(tick)) continue;
+    uav.triggered = false;
+    refresh_rays();
+    Capture capture = uav.camera.capture(tick, world.state(i), uav.vehicle.gimbal(), rays);
+    if (capture.detections.empty()) continue;
+    ++uav.view.captures;
+    if (capture.improved()) uav.last_raise = tick;
+    auto report = referee.enter(i, capture);
+    events.captures.push_back({i, std::move(capture), std::move(report)});
+  }
+}
+
+void Simulation::Impl::take_scans() {
+  for (std::size_t i = 0; i < uavs.size(); ++i) {
+    Uav& uav = uavs[i];
+    if (!uav.lidar || !mission.alive(i) || !uav.lidar->due(tick)) continue;
+    refresh_rays();
+    const Isometry3d X_WB = world.state(i).X_WB();
+    LidarScan scan = uav.lidar->scan(tick, X_WB, rays);
+    if (auto key_frame = uav.keyframes.offer(scan, X_WB)) {
+      events.key_frames.push_back({i, std::move(*key_frame), {}});
+    }
+    events.scans.push_back({i, std::move(scan)});
+  }
+}
+
+void Simulation::Impl::finish_exchange() {
+  trace_links();
+  views.clear();
+  for (std::size_t i = 0; i < uavs.size(); ++i) {
+    UavView& view = uavs[i].view;
+    view.state = world.state(i);
+    view.gimbal = uavs[i].vehicle.gimbal();
+    view.alive = mission.alive(i);
+    view.airborne = mission.airborne(i);
+    view.idle_s = seconds(uavs[i].idle_ticks);
+    views.push_back(view);
+  }
+  const std::size_t nodes = uavs.size() + 1;
+  for (KeyFrameEvent& event : events.key_frames) {
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      if (links[node_of_uav(event.uav) * nodes + node_of_uav(i)] != 0) event.neighbours.push_back(i);
+    }
+  }
+  events.ledger_end = referee.ledger().size();
+}
+
+void Simulation::Impl::trace_links() {
+  refresh_rays();
+  const std::size_t nodes = uavs.size() + 1;
+  links.assign(nodes * nodes, 0);
+  const auto uav_of = [](Node node) { return node == kStationNode ? kNobody : node - 1; };
+  const auto antenna = [&](Node node) {
+    if (node == kStationNode) return AntennaNode{scenario.station_position, scenario.station_antenna_offset_m};
+    const std::size_t i = uav_of(node);
+    return AntennaNode{world.state(i).p_WB, scenario.fleet[i].vehicle.antenna_offset_m};
+  };
+  const auto on_air = [&](Node node) { return node == kStationNode || mission.alive(uav_of(node)); };
+  for (Node a = 0; a < nodes; ++a) {
+    for (Node b = a + 1; b < nodes; ++b) {
+      if (!on_air(a) || !on_air(b)) continue;
+      const RayFilter filter{.except_uav = uav_of(a), .except_other_uav = uav_of(b)};
+      const auto first_hit = [&](const Vector3d& from, const Vector3d& to) {
+        return rays.first_hit_distance(from, to, filter);
+      };
+      const bool linked = trace_link(antenna(a), antenna(b), first_hit).linked;
+      links[a * nodes + b] = links[b * nodes + a] = linked ? 1 : 0;
+    }
+  }
+}
+
+void Simulation::Impl::refresh_rays() {
+  if (rays_tick == tick) return;
+  for (std::size_t i = 0; i < uavs.size(); ++i) rays.set_pose(i, world.state(i).X_WB());
+  rays_tick = tick;
+}
+
+void Simulation::Impl::reject(std::size_t uav, RejectionEvent::Command command, std::string reason) {
+  const std::uint64_t total = ++uavs[uav].view.commands_rejected;
+  rejections.push_back({uav, command, std::move(reason), total});
+}
+
+Simulation::Simulation(const Scenario& scenario, Scene scene, std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(scenario, std::move(scene), seed)) {}
+Simulation::~Simulation() = default;
+
+bool Simulation::command_trajectory(std::size_t uav, const TrajectoryCommand& command) {
+  if (!impl_->listening(uav)) return true;
+  if (auto reason = impl_->uavs[uav].vehicle.refuse(command, impl_->world.state(uav))) {
+    impl_->reject(uav, RejectionEvent::Command::trajectory, std::move(*reason));
+    return false;
+  }
+  impl_->uavs[uav].link.outbox().trajectory = command;
+  return true;
+}
+
+bool Simulation::command_gimbal(std::size_t uav, const GimbalCommand& command) {
+  if (!impl_->listening(uav)) return true;
+  if (!std::isfinite(command.pitch) || !std::isfinite(command.yaw)) {
+    impl_->reject(uav, RejectionEvent::Command::gimbal, "a gimbal command must consist of finite numbers");
+    return false;
+  }
+  impl_->uavs[uav].link.outbox().gimbal = command;
+  return true;
+}
+
+void Simulation::trigger_camera(std::size_t uav) { impl_->uavs[uav].link.outbox().trigger = true; }
+void Simulation::stop(std::size_t uav) { impl_->uavs[uav].link.outbox().stop = true; }
+
+void Simulation::advance() {
+  Impl& self = *impl_;
+  self.events = {};
+  self.events.rejections = std::exchange(self.rejections, {});
+  self.events.ledger_begin = self.referee.ledger().size();
+  ++self.step;
+  self.deliver_commands();
+  for (Tick end = self.tick + self.scenario.exchange_ticks(); self.tick < end;) self.run_tick();
+  self.finish_exchange();
+}
+
+std::uint64_t Simulation::step() const { return impl_->step; }
+Tick Simulation::tick() const { return impl_->tick; }
+std::size_t Simulation::size() const { return impl_->uavs.size(); }
+const Mission& Simulation::mission() const { return impl_->mission; }
+const UavView& Simulation::uav(std::size_t i) const { return impl_->views.at(i); }
+std::span<const UavView> Simulation::uavs() const { return impl_->views; }
+const std::vector<std::uint8_t>& Simulation::links() const { return impl_->links; }
+const StepEvents& Simulation::events() const { return impl_->events; }
+const Referee& Simulation::referee() const { return impl_->referee; }
+const Scene& Simulation::scene() const { return impl_->scene; }
+
+DigestInput Simulation::digest_input() const {
+  DigestInput input;
+  input.k = impl_->step;
+  for (const UavView& uav : impl_->views) input.uavs.push_back({uav.state, uav.gimbal, uav.alive});
+  const StepEvents& events = impl_->events;
+  input.ledger = std::span(impl_->referee.ledger())
+                     .subspan(events.ledger_begin, events.ledger_end - events.ledger_begin);
+  return input;
+}
+
+}  // namespace skein::sim

@@ -1,0 +1,125 @@
+// The whole simulated world, one exchange at a time: vehicles, sensors, radio links, mission, referee.
+// Pure and single-threaded: no middleware, no wall clock. The same scenario, scene, seed and commands give the
+// same bits. Frames: W world (ENU), B body (FLU).  Units: SI, radians; times are ticks.
+//
+// Commands are handed in at a step boundary, between two calls of advance(); what happened in the exchange is in
+// events(). LiDARs run from the beginning, cameras while the clock runs, nothing after the mission's end: motors stop
+// then. What the seed draws is said in fleet_start.hpp, lidar.hpp and referee.hpp; seed 0 draws nothing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "core/scene.hpp"
+#include "core/types.hpp"
+#include "sim_server/camera.hpp"
+#include "sim_server/keyframes.hpp"
+#include "sim_server/lidar.hpp"
+#include "sim_server/mission.hpp"
+#include "sim_server/referee.hpp"
+#include "sim_server/run_digest.hpp"
+
+namespace skein::sim {
+
+/// One UAV as it stands at the step boundary.
+struct UavView {
+  RigidBodyState state;
+  GimbalState gimbal;
+  bool alive = true;
+  bool airborne = false;
+  double distance_m = 0.0;               ///< flown
+  double max_speed_mps = 0.0;
+  double idle_s = 0.0;                   ///< slow, and no capture raised a score for 5 s; see simulation.cpp
+  std::uint64_t captures = 0;            ///< exposures that saw at least one point
+  std::uint64_t commands_rejected = 0;
+};
+
+/// A scan; all its points are of the instant `scan.tick`.
+struct LidarEvent {
+  std::size_t uav = 0;
+  LidarScan scan;
+};
+
+/// A scan that became a key frame. It goes to its own UAV, and once to the UAVs linked to it at this step.
+struct KeyFrameEvent {
+  std::size_t uav = 0;
+  Keyframe key_frame;
+  std::vector<std::size_t> neighbours;  ///< UAVs, in fleet order
+};
+
+/// An exposure that saw at least one point.
+struct CaptureEvent {
+  std::size_t uav = 0;
+  Capture capture;
+  std::optional<CaptureReport> report;  ///< what the ledger holds of it: the points not seen as well before
+};
+
+/// A command that was ignored.
+struct RejectionEvent {
+  enum class Command { trajectory, gimbal };
+  std::size_t uav = 0;
+  Command command = Command::trajectory;
+  std::string reason;       ///< a sentence for the user
+  std::uint64_t total = 0;  ///< of this UAV so far, this one included
+};
+
+/// What happened since the step before.
+struct StepEvents {
+  std::vector<LidarEvent> scans;
+  std::vector<KeyFrameEvent> key_frames;
+  std::vector<CaptureEvent> captures;
+  std::vector<Collision> collisions;
+  std::vector<RejectionEvent> rejections;
+  std::uint64_t ledger_begin = 0, ledger_end = 0;  ///< new entries of the referee: [begin, end)
+};
+
+class Simulation {
+ public:
+  /// The fleet at rest on the ground at tick 0, links traced, first scans in events().
+  /// @throws InputError if a UAV's start lies in the structure.
+  Simulation(const Scenario& scenario, Scene scene, std::uint64_t seed);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// A set-point for a UAV. Of several within one exchange the last acceptable one counts. Refused, and told in
+  /// events().rejections, if a number is not finite or, with rules.enforce_command_limits, if it is beyond the
+  /// vehicle's speed or acceleration. Dead UAVs and an ended mission ignore it silently.
+  /// @returns false when refused.
+  bool command_trajectory(std::size_t uav, const TrajectoryCommand& command);
+  /// A gimbal command; refused only if a number is not finite.
+  bool command_gimbal(std::size_t uav, const GimbalCommand& command);
+  /// Take a picture as soon as the trigger interval allows. From the first call on, this camera no longer triggers
+  /// by itself.
+  void trigger_camera(std::size_t uav);
+  /// Cut the motors, for good: the UAV falls.
+  void stop(std::size_t uav);
+
+  /// One exchange period; afterwards all getters speak of the new step.
+  void advance();
+
+  std::uint64_t step() const;  ///< exchanges so far
+  Tick tick() const;
+  std::size_t size() const;    ///< UAVs
+  const Mission& mission() const;
+  const UavView& uav(std::size_t i) const;
+  std::span<const UavView> uavs() const;
+  /// Row-major (n + 1) x (n + 1), 1 = linked, node 0 = station. Symmetric, diagonal 0; the dead have no links.
+  const std::vector<std::uint8_t>& links() const;
+  const StepEvents& events() const;
+  const Referee& referee() const;
+  const Scene& scene() const;
+  /// This step for the digest; radio and tally are the caller's to fill in.
+  DigestInput digest_input() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace skein::sim

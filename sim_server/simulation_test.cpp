@@ -1,0 +1,410 @@
+#include "sim_server/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <iostream>
+#include <functional>
+#include <limits>
+#include <memory>
+
+#include "core/scenario_reader.hpp"
+#include "sim_server/scenes/scene_source.hpp"
+#include "sim_server/test_scenes.hpp"
+
+namespace skein::sim {
+namespace {
+
+const std::filesystem::path kConfig = std::filesystem::path(SKEIN_SOURCE_DIR) / "config";
+
+/// A few UAVs on a field; a wall from y = -10 to 10 at x = 12, 20 m high, with interest points on its near side.
+class Field : public testing::Test {
+ protected:
+  Field() {
+    scenario_.file = "field.yaml";
+    scenario_.station_position = {-5, 0, 0.3};
+    scene_.mesh = {};
+    test::add_box(scene_.mesh, {12.5, 0, 10}, {1, 20, 20});
+    for (int y = -8; y <= 8; ++y) {
+      for (int z = 2; z <= 18; ++z) {
+        scene_.points.push_back({{12.0F, static_cast<float>(y), static_cast<float>(z)}, {-1, 0, 0}});
+      }
+    }
+  }
+  void add(const std::string& type, double x, double y) {
+    scenario_.fleet.push_back({.name = "uav" + std::to_string(scenario_.fleet.size()),
+                               .vehicle = load_vehicle(type, kConfig),
+                               .start = {x, y}});
+  }
+  Simulation& start(std::uint64_t seed = 0) {
+    simulation_ = std::make_unique<Simulation>(scenario_, scene_, seed);
+    return *simulation_;
+  }
+  /// All fly to their target for a time, exchange by exchange; `watch` sees every one.
+  void fly(double duration_s, const std::vector<TrajectoryCommand>& commands,
+           const std::function<void(const StepEvents&)>& watch = [](const StepEvents&) {}) {
+    for (double t = 0.0; t < duration_s - 1e-9; t += scenario_.exchange_period_s) {
+      for (std::size_t i = 0; i < commands.size(); ++i) simulation_->command_trajectory(i, commands[i]);
+      simulation_->advance();
+      watch(simulation_->events());
+    }
+  }
+
+  Scenario scenario_;
+  Scene scene_;
+  std::unique_ptr<Simulation> simulation_;
+};
+
+TrajectoryCommand to(double x, double y, double z) { return {.p_WB = {x, y, z}}; }
+
+TEST_F(Field, WaitsForTheTakeOffAndThenRunsTheClock) {
+  add("photographer", 0, 0);
+  Simulation& sim = start();
+  EXPECT_EQ(sim.step(), 0U);
+  for (int i = 0; i < 40; ++i) sim.advance();
+  EXPECT_EQ(sim.step(), 40U);
+  EXPECT_EQ(sim.tick(), 800);
+  EXPECT_EQ(sim.mission().phase(), Phase::waiting);
+  EXPECT_EQ(sim.uav(0).distance_m, 0.0);
+  fly(3.0, {to(0.5, 0, 5)});
+  ASSERT_EQ(sim.mission().phase(), Phase::flying);
+  EXPECT_TRUE(sim.uav(0).airborne);
+  const Tick begun = *sim.mission().start_tick();
+  EXPECT_GT(begun, 800);
+  EXPECT_LT(begun, 800 + kTicksPerSecond);
+  EXPECT_DOUBLE_EQ(sim.mission().remaining_s(sim.tick()), scenario_.duration_s - seconds(sim.tick() - begun));
+}
+
+TEST_F(Field, FlyingIntoTheWallKillsAndIsLogged) {
+  add("explorer", 0, 0);
+  Simulation& sim = start();
+  fly(4.0, {to(1, 3, 6)});
+  std::vector<Collision> collisions;
+  Tick seen_at = 0;
+  fly(6.0, {TrajectoryCommand{.v_WB = {3, 0, 0}}}, [&](const StepEvents& events) {
+    if (events.collisions.empty()) return;
+    EXPECT_TRUE(collisions.empty());
+    collisions = events.collisions;
+    seen_at = sim.tick();
+    EXPECT_FALSE(sim.uav(0).alive);
+  });
+  ASSERT_EQ(collisions.size(), 1U);
+  EXPECT_EQ(collisions[0].with.kind, BodyId::Kind::structure);
+  EXPECT_NEAR(collisions[0].p_W.x(), 12.0, 0.1);
+  EXPECT_NEAR(collisions[0].p_W.y(), 3.0, 0.8);
+  EXPECT_GT(collisions[0].tick, seen_at - 20);
+  EXPECT_LE(collisions[0].tick, seen_at);
+  ASSERT_FALSE(sim.referee().ledger().empty());
+  EXPECT_TRUE(sim.referee().ledger().back().collision);
+  EXPECT_EQ(sim.mission().end(), MissionEnd::nobody_flies);
+  EXPECT_LT(sim.uav(0).state.p_WB.z(), 1.5) << "the wreck falls";
+}
+
+TEST_F(Field, UavsThatMeetBothDieAndTheThirdFliesOn) {
+  add("explorer", 0, 0);
+  add("photographer", 6, 0);
+  add("photographer", 0, 8);
+  Simulation& sim = start();
+  fly(4.0, {to(0.5, 0, 6), to(6, 0, 6), to(0.5, 8, 6)});
+  std::vector<Collision> collisions;
+  fly(4.0, {to(6, 0, 6), to(6, 0, 6), to(0.5, 8, 6)}, [&](const StepEvents& events) {
+    collisions.insert(collisions.end(), events.collisions.begin(), events.collisions.end());
+  });
+  ASSERT_EQ(collisions.size(), 2U);
+  EXPECT_EQ(collisions[0].uav, 0U);
+  EXPECT_EQ(collisions[0].with, (BodyId{BodyId::Kind::uav, 1}));
+  EXPECT_EQ(collisions[1].uav, 1U);
+  EXPECT_EQ(collisions[0].p_W, collisions[1].p_W);
+  EXPECT_TRUE(sim.uav(2).alive);
+  EXPECT_EQ(sim.mission().phase(), Phase::flying);
+  for (Node node = 0; node < 4; ++node) EXPECT_EQ(sim.links()[4 + node], 0) << "the dead have no links";
+}
+
+TEST_F(Field, LandingOnTheGroundIsNoCollision) {
+  add("photographer", 0, 0);
+  Simulation& sim = start();
+  fly(3.0, {to(0.5, 0, 2)});
+  fly(8.0, {TrajectoryCommand{.v_WB = {0, 0, -0.4}}});
+  EXPECT_TRUE(sim.uav(0).alive);
+  EXPECT_EQ(sim.mission().end(), MissionEnd::nobody_flies);
+}
+
+TEST_F(Field, RefusedCommandsAreToldAndCounted) {
+  add("photographer", 0, 0);
+  Simulation& sim = start();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(sim.command_trajectory(0, {.v_WB = {20, 0, 0}}));
+  EXPECT_FALSE(sim.command_gimbal(0, {GimbalMode::angle, nan, 0}));
+  EXPECT_TRUE(sim.command_trajectory(0, to(100, 0, 5)));
+  EXPECT_TRUE(sim.events().rejections.empty());
+  sim.advance();
+  ASSERT_EQ(sim.events().rejections.size(), 2U);
+  EXPECT_EQ(sim.events().rejections[0].command, RejectionEvent::Command::trajectory);
+  EXPECT_NE(sim.events().rejections[0].reason.find("20 m/s"), std::string::npos);
+  EXPECT_EQ(sim.events().rejections[1].command, RejectionEvent::Command::gimbal);
+  EXPECT_EQ(sim.events().rejections[1].total, 2U);
+  EXPECT_EQ(sim.uav(0).commands_rejected, 2U);
+  sim.advance();
+  EXPECT_TRUE(sim.events().rejections.empty());
+}
+
+TEST_F(Field, PicturesAreTakenEvery41TicksAndEnterTheLedger) {
+  add("photographer", 0, 0);
+  Simulation& sim = start();
+  std::vector<Tick> pictures;
+  std::uint64_t entries = 0;
+  fly(12.0, {to(6, 0, 6)}, [&](const StepEvents& events) {
+    for (const CaptureEvent& event : events.captures) {
+      pictures.push_back(event.capture.tick);
+      EXPECT_FALSE(event.capture.detections.empty());
+      EXPECT_EQ(event.report.has_value(), event.capture.improved());
+    }
+    EXPECT_EQ(events.ledger_begin, entries);
+    entries = events.ledger_end;
+    EXPECT_EQ(entries, sim.referee().ledger().size());
+  });
+  ASSERT_GT(pictures.size(), 50U);
+  for (std::size_t i = 1; i < pictures.size(); ++i) EXPECT_EQ((pictures[i] - pictures[i - 1]) % 41, 0);
+  EXPECT_EQ(sim.uav(0).captures, pictures.size());
+  EXPECT_GT(sim.referee().earned().points_detected(), 20U);
+}
+
+TEST_F(Field, HandTriggeredCamerasWaitForTheTrigger) {
+  add("photographer", 0, 0);
+  Simulation& sim = start();
+  fly(6.0, {to(6, 0, 6)});
+  const std::uint64_t automatic = sim.uav(0).captures;
+  EXPECT_GT(automatic, 0U);
+  sim.trigger_camera(0);
+  fly(2.0, {to(6, 0, 6)});
+  EXPECT_EQ(sim.uav(0).captures, automatic + 1);
+  std::vector<Tick> pictures;
+  for (int i = 0; i < 20; ++i) {
+    sim.trigger_camera(0);
+    fly(0.05, {to(6, 0, 6)}, [&](const StepEvents& events) {
+      for (const CaptureEvent& event : events.captures) pictures.push_back(event.capture.tick);
+    });
+  }
+  ASSERT_GT(pictures.size(), 5U);
+  for (std::size_t i = 1; i < pictures.size(); ++i) EXPECT_GE(pictures[i] - pictures[i - 1], 41);
+}
+
+TEST_F(Field, GimbalTurnsTheCameraAndItsRateIsReported) {
+  add("photographer", 0, 0);
+  Simulation& sim = start();
+  sim.command_gimbal(0, {GimbalMode::angle, 0.3, -0.5});
+  sim.advance();
+  EXPECT_LT(sim.uav(0).gimbal.yaw_rate, -1.0);
+  for (int i = 0; i < 20; ++i) sim.advance();
+  EXPECT_NEAR(sim.uav(0).gimbal.pitch, 0.3, 1e-6);
+  EXPECT_NEAR(sim.uav(0).gimbal.yaw, -0.5, 1e-6);
+}
+
+TEST_F(Field, OnlyExplorersScanAndNeighboursInSightGetTheKeyFrame) {
+  add("explorer", 0, 0);
+  add("photographer", 3, 0);
+  add("photographer", 20, 0);  // behind the wall
+  Simulation& sim = start();
+  ASSERT_EQ(sim.events().scans.size(), 1U) << "the first scan is there before anything moves";
+  ASSERT_EQ(sim.events().key_frames.size(), 1U);
+  EXPECT_EQ(sim.events().key_frames[0].neighbours, std::vector<std::size_t>{1});
+  std::vector<Tick> scans;
+  for (int i = 0; i < 8; ++i) {
+    sim.advance();
+    for (const LidarEvent& event : sim.events().scans) {
+      EXPECT_EQ(event.uav, 0U);
+      EXPECT_FALSE(event.scan.points_W.empty());
+      scans.push_back(event.scan.tick);
+    }
+  }
+  EXPECT_EQ(scans, (std::vector<Tick>{40, 80, 120, 160}));
+}
+
+TEST_F(Field, LinksAreSymmetricAndTheWallBlocksThem) {
+  add("explorer", 0, 0);
+  add("photographer", 20, 0);
+  const Simulation& sim = start();
+  const std::vector<std::uint8_t> wanted = {0, 1, 0,  //
+                                            1, 0, 0,  //
+                                            0, 0, 0};
+  EXPECT_EQ(sim.links(), wanted);
+}
+
+TEST_F(Field, StoppedUavFallsAndIsNotDead) {
+  add("photographer", 0, 0);
+  Simulation& sim = start();
+  fly(4.0, {to(0.5, 0, 6)});
+  sim.stop(0);
+  fly(4.0, {to(0.5, 0, 6)});
+  EXPECT_LT(sim.uav(0).state.p_WB.z(), 0.5);
+  EXPECT_TRUE(sim.uav(0).alive);
+  EXPECT_EQ(sim.mission().phase(), Phase::ended);
+}
+
+TEST_F(Field, CountsDistanceSpeedAndIdleness) {
+  add("photographer", 0, -30);  // nothing to see there
+  Simulation& sim = start();
+  fly(4.0, {to(0.5, -30, 5)});
+  const UavView before = sim.uav(0);
+  fly(8.0, {to(0.5, -10, 5)});
+  EXPECT_NEAR(sim.uav(0).distance_m - before.distance_m, 20.0, 0.5);
+  EXPECT_GT(sim.uav(0).max_speed_mps, 3.0);
+  EXPECT_EQ(sim.uav(0).idle_s, before.idle_s);
+  fly(20.0, {to(0.5, -10, 5)});
+  EXPECT_GT(sim.uav(0).idle_s, 12.0);
+}
+
+TEST_F(Field, DelayedMotorsStartWithTheNewestCommand) {
+  add("photographer", 0, 0);
+  add("photographer", 0, 5);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Simulation& sim = start(seed);
+    fly(0.05, {to(0.5, 0, 40), to(0.5, 5, 40)});  // the only command of this kind
+    fly(8.0, {to(0.5, 0, 5), to(0.5, 5, 5)});
+    EXPECT_NEAR(sim.uav(0).state.p_WB.z(), 5.0, 0.3);
+    EXPECT_NEAR(sim.uav(1).state.p_WB.z(), 5.0, 0.3);
+  }
+}
+
+// ---- whole scenarios ---------------------------------------------------------------------------------------------
+
+/// Flies each UAV straight up, out over the highest box's edge, down to its height and round it, camera to the middle.
+class Surveyor {
+ public:
+  Surveyor(const Scenario& scenario, const Scene& scene) : scenario_(scenario) {
+    const auto top = [](const OrientedBox& box) { return box.center.z() + 0.5 * box.size.z(); };
+    box_ = *std::max_element(scene.boxes.begin(), scene.boxes.end(),
+                             [&](const OrientedBox& x, const OrientedBox& y) { return top(x) < top(y); });
+    for (const OrientedBox& box : scene.boxes) ceiling_ = std::max(ceiling_, top(box));
+  }
+  TrajectoryCommand at(std::size_t uav, double t) const {
+    constexpr double kClimb = 20.0, kOut = 25.0, kDown = 8.0;
+    const double i = static_cast<double>(uav), cruise = ceiling_ + 5.0 + 2.0 * i;
+    TrajectoryCommand command;
+    if (t < kClimb) {
+      command.p_WB << scenario_.fleet[uav].start + Vector2d(0.1, 0.0), cruise;
+      return command;
+    }
+    const double way = 2.0 * std::max(0.0, t - kClimb - kOut - kDown) + 25.0 * i;
+    const Vector3d p_OB = around(way, 5.0 + 0.5 * i);
+    command.p_WB = box_.center + box_.R_WO * p_OB;
+    command.p_WB.z() = t < kClimb + kOut ? cruise : box_.center.z() + 0.5 * i;
+    const Vector3d inwards = box_.center - command.p_WB;
+    command.yaw = std::atan2(inwards.y(), inwards.x());
+    return command;
+  }
+
+ private:
+  /// A point on the rectangle `margin` outside the box, after a way along it.
+  Vector3d around(double way, double margin) const {
+    const double a = box_.size.x() + 2.0 * margin, b = box_.size.y() + 2.0 * margin;
+    double s = std::fmod(way, 2.0 * (a + b));
+    if (s < a) return {s - 0.5 * a, -0.5 * b, 0.0};
+    if ((s -= a) < b) return {0.5 * a, s - 0.5 * b, 0.0};
+    if ((s -= b) < a) return {0.5 * a - s, 0.5 * b, 0.0};
+    return {-0.5 * a, 0.5 * b - (s - a), 0.0};
+  }
+
+  const Scenario& scenario_;
+  OrientedBox box_;
+  double ceiling_ = 0.0;
+};
+
+/// Runs for a time. @returns the digest.
+std::string survey(const Scenario& scenario, Simulation& sim, double duration_s) {
+  std::vector<std::string> names;
+  for (const UavConfig& uav : scenario.fleet) names.push_back(uav.name);
+  RunDigest digest(names);
+  const Surveyor surveyor(scenario, sim.scene());
+  digest.add(sim.digest_input());
+  while (seconds(sim.tick()) < duration_s) {
+    const double t = seconds(sim.tick());
+    for (std::size_t i = 0; i < sim.size(); ++i) {
+      sim.command_trajectory(i, surveyor.at(i, t));
+      sim.command_gimbal(i, {GimbalMode::rate, 0.2 * std::sin(t), 0.1 * std::cos(t)});
+    }
+    sim.advance();
+    digest.add(sim.digest_input());
+  }
+  return digest.hex();
+}
+
+std::string survey(const Scenario& scenario, const Scene& scene, std::uint64_t seed, double duration_s) {
+  Simulation sim(scenario, scene, seed);
+  return survey(scenario, sim, duration_s);
+}
+
+Scenario towers() { return load_scenario("towers", {.config_dir = kConfig}); }
+
+TEST(WholeSimulation, RepeatsBitForBitAndSeedsDiffer) {
+  const Scenario scenario = towers();
+  const Scene scene = load_scene(scenario);
+  for (const std::uint64_t seed : {0U, 7U}) {
+    const std::string first = survey(scenario, scene, seed, 30.0);
+    std::vector<std::unique_ptr<char[]>> noise;
+    for (std::size_t i = 1; i < 1000; ++i) noise.push_back(std::make_unique<char[]>(91 * i % 7000 + 1));
+    for (std::size_t i = 0; i < noise.size(); i += 3) noise[i].reset();
+    EXPECT_EQ(survey(scenario, scene, seed, 30.0), first);
+  }
+  EXPECT_NE(survey(scenario, scene, 0, 5.0), survey(scenario, scene, 1, 5.0));
+  EXPECT_NE(survey(scenario, scene, 1, 5.0), survey(scenario, scene, 2, 5.0));
+}
+
+TEST(WholeSimulation, AHundredUavs) {
+  Scenario scenario = towers();
+  const UavConfig explorer = scenario.fleet[0], photographer = scenario.fleet[2];
+  const Scene scene = load_scene(scenario);
+  scenario.fleet.clear();
+  for (int i = 0; i < 100; ++i) {
+    UavConfig uav = i % 10 == 0 ? explorer : photographer;
+    uav.name = "uav" + std::to_string(i);
+    uav.start = {-60.0 - 3.0 * (i % 10), 3.0 * (i / 10)};
+    scenario.fleet.push_back(uav);
+  }
+  Simulation sim(scenario, scene, 0);
+  const std::clock_t begin = std::clock();
+  while (seconds(sim.tick()) < 3.0) {
+    for (std::size_t i = 0; i < sim.size(); ++i) {
+      const Vector2d& start = scenario.fleet[i].start;
+      sim.command_trajectory(i, to(start.x(), start.y(), 3.0));
+    }
+    sim.advance();
+  }
+  std::cout << "[ measured ] " << static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / 3.0
+            << " s of CPU per simulated second of a hundred UAVs\n";
+  for (const UavView& uav : sim.uavs()) {
+    EXPECT_TRUE(uav.alive);
+    EXPECT_TRUE(uav.airborne);
+  }
+}
+
+void measure(const Scenario& scenario, double duration_s) {
+  const Scene scene = load_scene(scenario);
+  const std::clock_t begin = std::clock();
+  Simulation sim(scenario, scene, 0);
+  const std::clock_t built = std::clock();
+  survey(scenario, sim, duration_s);
+  const std::clock_t end = std::clock();
+  const auto in_s = [](std::clock_t t) { return static_cast<double>(t) / CLOCKS_PER_SEC; };
+  std::size_t alive = 0;
+  for (const UavView& uav : sim.uavs()) alive += uav.alive;
+  std::cout << "[ measured ] " << scenario.name << ": construction " << in_s(built - begin) << " s, "
+            << 1e3 * in_s(end - built) / duration_s << " ms of CPU per simulated second; " << alive << " of " << sim.size()
+            << " alive, " << sim.referee().earned().points_detected() << " points, score "
+            << sim.referee().earned().score() << "\n";
+  EXPECT_GT(sim.referee().earned().points_detected(), 0U);
+}
+
+TEST(WholeSimulation, SpeedOnTowers) { measure(towers(), 120.0); }
+
+TEST(WholeSimulation, SpeedOnMbs) {
+  const char* assets = std::getenv("SKEIN_ASSETS");
+  if (assets == nullptr) GTEST_SKIP() << "SKEIN_ASSETS is not set";
+  measure(load_scenario("mbs", {.assets_dir = assets, .config_dir = kConfig}), 120.0);
+}
+
+}  // namespace
+}  // namespace skein::sim

@@ -1,0 +1,51 @@
+// For the tests of the sensors: small meshes, random rays, and slow but obvious ways to intersect them.
+// Frame W.   Units: m.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/random_stream.hpp"
+#include "core/scene.hpp"
+
+namespace skein::sim::test {
+
+struct TestRay {
+  Vector3d origin, direction;  ///< unit direction
+};
+
+/// Appends a closed box of twelve triangles with shared corners.   @param size  full edge lengths.
+void add_box(TriangleMesh& mesh, const Vector3d& centre, const Vector3d& size,
+             const Matrix3d& R_WO = Matrix3d::Identity());
+
+/// Loose triangles of 0.5 to 10 m edges within 20 m of the origin.
+TriangleMesh random_triangles(std::size_t count, std::uint64_t key);
+
+/// Every n-th triangle of a mesh, beginning with the first.
+TriangleMesh every_nth_triangle(const TriangleMesh& mesh, std::size_t n);
+
+/// Structure or points of the official data; nullopt where SKEIN_ASSETS is not set.
+/// @param file  below the folder `models`, for example "mbs/mbs.stl".
+std::optional<TriangleMesh> official_mesh(const std::string& file);
+std::optional<std::vector<InterestPoint>> official_points(const std::string& file);
+
+/// Rz(yaw) Ry(pitch) Rx(roll).
+Matrix3d rotation(double roll, double pitch, double yaw);
+
+Vector3d random_in_box(RandomStream& random, const Vector3d& low, const Vector3d& high);
+Vector3d random_unit(RandomStream& random);
+
+struct BruteForceHit {
+  double distance;         ///< infinity: nothing
+  double tolerance = 0.0;  ///< how far a single-precision ray may end from there
+  bool near_edge = false;  ///< a ray that close to an edge may pass on either side
+};
+
+/// First triangle on a ray, tried one by one in double precision (Moeller and Trumbore's formulas).
+/// @param edge  a crossing closer than this to an edge, seen along the ray, is uncertain.
+BruteForceHit brute_force_distance(const TriangleMesh& mesh, const TestRay& ray, double distance_max, double edge);
+
+/// Distance to the nearest triangle, by minimising over each triangle's plane and edges.
+double brute_force_clearance(const TriangleMesh& mesh, const Vector3d& p);
+
+}  // namespace skein::sim::test

@@ -1,0 +1,163 @@
+#include "sim_server/uav_node.hpp"
+
+#include <algorithm>
+
+#include "bus/lockstep/names.hpp"
+#include "idl/conversions.hpp"
+
+namespace skein::sim {
+namespace {
+
+// Building a large message only for nobody to read it would be the most expensive thing the server does.
+template <class Make>
+void send(bus::CountedWriter& writer, Make&& make) {
+  if (writer.has_readers()) {
+    writer.write(make());
+  } else {
+    writer.skip();
+  }
+}
+
+}  // namespace
+
+msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& scenario, Node node) {
+  const std::size_t nodes = simulation.size() + 1;
+  const auto linked = [&](Node other) { return simulation.links()[node * nodes + other] != 0; };
+  std::vector<NeighbourPoint> points;
+  if (linked(kStationNode)) {
+    const Eigen::Vector3f p = scenario.station_position.cast<float>();
+    points.push_back({.x = p.x(), .y = p.y(), .z = p.z(), .node = 0, .t = seconds(simulation.tick())});
+  }
+  for (std::size_t other = 0; other < simulation.size(); ++other) {
+    if (node_of_uav(other) == node || !linked(node_of_uav(other))) continue;
+    const RigidBodyState& state = simulation.uav(other).state;
+    const Eigen::Vector3f p = state.p_WB.cast<float>(), w = state.w_WB_B.cast<float>();
+    const Eigen::Vector3f v = (state.q_WB.conjugate() * state.v_WB).cast<float>();
+    const Eigen::Quaternionf q = state.q_WB.cast<float>();
+    points.push_back({p.x(), p.y(), p.z(), static_cast<float>(node_of_uav(other)), seconds(simulation.tick()), q.x(),
+                      q.y(), q.z(), q.w(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z()});
+  }
+  return to_cloud(simulation.tick(), points);
+}
+
+UavNode::UavNode(std::size_t uav, const Scenario& scenario, Simulation& simulation, bus::LockstepServer& server,
+                 bus::LockstepServer::DomainIndex domain)
+    : uav_(uav),
+      scenario_(scenario),
+      simulation_(simulation),
+      id_(scenario.fleet[uav].name),
+      odometry_(server.writer(domain, bus::spec(topics::odometry(id_)))),
+      gimbal_(server.writer(domain, bus::spec(topics::gimbal(id_)))),
+      neighbour_odometry_(server.writer(domain, bus::spec(topics::neighbour_odometry(id_)))),
+      neighbour_keyframe_(server.writer(domain, bus::spec(topics::neighbour_keyframe(id_)))),
+      detected_(server.writer(domain, bus::spec(topics::detected_points(id_)))),
+      remained_(server.writer(domain, bus::spec(topics::mission_duration_remained(id_)))),
+      clock_(server.writer(domain, bus::spec(topics::clock()))),
+      boxes_(server.writer(domain, bus::spec(topics::bounding_boxes()))),
+      rejected_(server.writer(domain, bus::spec(topics::command_rejected(id_)))),
+      capture_(server.writer(domain, bus::spec(topics::capture()))) {
+  for (const UavConfig& member : scenario.fleet) fleet_.push_back(member.name);
+  if (scenario.fleet[uav].vehicle.lidar) {
+    cloud_ = &server.writer(domain, bus::spec(topics::cloud(id_)));
+    self_keyframe_ = &server.writer(domain, bus::spec(topics::self_keyframe(id_)));
+  }
+  server.read(domain, bus::spec(topics::trajectory_command(id_)), [this](bus::Sample&& sample) {
+    msg::MultiDOFJointTrajectory trajectory;
+    if (!decode(sample.payload, trajectory)) return;
+    if (const auto command = from_trajectory(trajectory)) simulation_.command_trajectory(uav_, *command);
+  });
+  server.read(domain, bus::spec(topics::gimbal_command(id_)), [this](bus::Sample&& sample) {
+    msg::Twist twist;
+    if (decode(sample.payload, twist)) simulation_.command_gimbal(uav_, from_gimbal_command(twist));
+  });
+  for (const topics::WireTopic& topic : {topics::camera_trigger(id_), topics::trigger(id_)}) {
+    server.read(domain, bus::spec(topic), [this](bus::Sample&& sample) {
+      msg::BoolStamped trigger;
+      if (decode(sample.payload, trigger) && trigger.data()) simulation_.trigger_camera(uav_);
+    });
+  }
+  server.read(domain, bus::spec(topics::capture_stored()), [this](bus::Sample&& sample) {
+    msg::CaptureAck ack;
+    if (!decode(sample.payload, ack)) return;
+    for (const std::uint64_t capture : ack.captures()) card_.erase(capture);
+  });
+}
+
+void UavNode::publish() {
+  publish_state();
+  publish_neighbours();
+  publish_clouds();
+  publish_captures();
+  publish_rejections();
+}
+
+void UavNode::publish_state() {
+  const Tick tick = simulation_.tick();
+  const UavView& view = simulation_.uav(uav_);
+  send(odometry_, [&] { return to_odometry(tick, id_, view.state); });
+  send(gimbal_, [&] { return to_gimbal(tick, id_, view.gimbal); });
+  send(clock_, [&] {
+    msg::Clock clock;
+    clock.clock(to_time(tick));
+    return clock;
+  });
+  if (simulation_.mission().start_tick()) {
+    send(remained_, [&] { return to_duration(simulation_.mission().remaining_s(tick)); });
+  }
+  if (!boxes_sent_) boxes_.write(to_box_vertices(tick, simulation_.scene().boxes));
+  boxes_sent_ = true;
+}
+
+void UavNode::publish_neighbours() {
+  send(neighbour_odometry_, [&] { return neighbour_cloud(simulation_, scenario_, node_of_uav(uav_)); });
+}
+
+void UavNode::publish_clouds() {
+  for (const LidarEvent& scan : simulation_.events().scans) {
+    if (scan.uav == uav_ && cloud_) send(*cloud_, [&] { return to_cloud(scan.scan.tick, scan.scan.points_W); });
+  }
+  for (const KeyFrameEvent& frame : simulation_.events().key_frames) {
+    if (frame.uav == uav_ && self_keyframe_) send(*self_keyframe_, [&] { return to_cloud(frame.key_frame.tick, frame.key_frame.points_W); });
+    const bool neighbour = std::find(frame.neighbours.begin(), frame.neighbours.end(), uav_) != frame.neighbours.end();
+    if (neighbour) send(neighbour_keyframe_, [&] { return to_cloud(frame.key_frame.tick, frame.key_frame.points_W); });
+  }
+}
+
+void UavNode::publish_captures() {
+  msg::CaptureReports reports;
+  if (resend_) {
+    for (const auto& [number, report] : card_) reports.reports().push_back(to_message(report, fleet_));
+    resend_ = false;
+  }
+  for (const CaptureEvent& event : simulation_.events().captures) {
+    if (event.uav != uav_) continue;
+    send(detected_, [&] {
+      std::vector<DetectionPoint> points;
+      for (const Detection& detection : event.capture.detections) {
+        const InterestPoint& point = simulation_.scene().points[detection.point];
+        points.push_back({point.p_W.x(), point.p_W.y(), point.p_W.z(), detection.best, point.n_W.x(), point.n_W.y(),
+                          point.n_W.z(), static_cast<float>(detection.point)});
+      }
+      return to_cloud(event.capture.tick, points);
+    });
+    if (!event.report) continue;
+    reports.reports().push_back(to_message(*event.report, fleet_));
+    card_.emplace(event.report->capture, *event.report);
+  }
+  if (!reports.reports().empty()) capture_.write(reports);
+}
+
+void UavNode::publish_rejections() {
+  for (const RejectionEvent& event : simulation_.events().rejections) {
+    if (event.uav != uav_) continue;
+    const bool trajectory = event.command == RejectionEvent::Command::trajectory;
+    msg::CommandRejected rejected;
+    rejected.header(to_header(simulation_.tick()));
+    rejected.command((trajectory ? topics::trajectory_command(id_) : topics::gimbal_command(id_)).name);
+    rejected.reason(event.reason);
+    rejected.total(event.total);
+    rejected_.write(rejected);
+  }
+}
+
+}  // namespace skein::sim

@@ -1,0 +1,45 @@
+// One UAV's domain at the server's end: publishes what its sensors say, takes its commands.
+#pragma once
+
+#include <map>
+
+#include "bus/lockstep/server.hpp"
+#include "idl/type_names.hpp"
+#include "sim_server/simulation.hpp"
+
+namespace skein::sim {
+
+/// Who is linked to `node` at this step: nbr_odom_cloud.
+msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& scenario, Node node);
+
+class UavNode {
+ public:
+  /// Declares all topics of UAV `uav` in `domain`. `simulation` gets its commands when a step is answered.
+  UavNode(std::size_t uav, const Scenario& scenario, Simulation& simulation, bus::LockstepServer& server,
+          bus::LockstepServer::DomainIndex domain);
+
+  /// Publishes the samples of the present step.
+  void publish();
+  /// The agent is new: the camera hands out again whatever was never acknowledged.
+  void resend_captures() { resend_ = true; }
+
+ private:
+  void publish_state();
+  void publish_neighbours();
+  void publish_clouds();
+  void publish_captures();
+  void publish_rejections();
+
+  std::size_t uav_;
+  const Scenario& scenario_;
+  Simulation& simulation_;
+  const std::string& id_;
+  std::vector<std::string> fleet_;
+  bus::CountedWriter &odometry_, &gimbal_, &neighbour_odometry_, &neighbour_keyframe_, &detected_, &remained_, &clock_,
+      &boxes_, &rejected_, &capture_;
+  bus::CountedWriter *cloud_ = nullptr, *self_keyframe_ = nullptr;  ///< explorers only
+  std::map<std::uint64_t, CaptureReport> card_;                      ///< captures that the agent has not released
+  bool resend_ = false, boxes_sent_ = false;
+};
+
+}  // namespace skein::sim

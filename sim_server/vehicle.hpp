@@ -1,0 +1,85 @@
+// One multirotor from command to force: trajectory controller and gimbal at 20 Hz, attitude loop, motors and
+// aerodynamics every tick. It knows no physics engine: the caller gives its state and applies its wrench.
+// Frames: W world (ENU), B body (FLU).  Units: SI, radians.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/scenario.hpp"
+#include "core/types.hpp"
+#include "sim_server/attitude_control.hpp"
+#include "sim_server/command_guard.hpp"
+#include "sim_server/gimbal.hpp"
+#include "sim_server/position_control.hpp"
+
+namespace skein::sim {
+
+/// Ticks between two steps of the 20 Hz controllers.
+inline constexpr Tick kControlTicks = 20;
+
+/// Force and torque on the centre of mass, expressed in B.
+struct Wrench {
+  Vector3d force_B = Vector3d::Zero();
+  Vector3d torque_B = Vector3d::Zero();
+};
+
+/// Six rotors: speeds that follow their demand with a first-order lag, and the forces that follow from them.
+/// Rotor i stands at 30 + 60 i degrees; even ones turn counter-clockwise, so that their drag turns the body clockwise.
+/// Model: thrust k_F w^2 along body z; torque k_M times thrust against the turn; in flight also a drag and a rolling
+/// moment, both proportional to rotor speed and to the velocity across the rotor's axis (Furrer et al., "RotorS -- A
+/// Modular Gazebo MAV Simulator Framework", 2016).
+class Rotors {
+ public:
+  explicit Rotors(const VehicleConfig& vehicle);
+
+  /// One tick towards the demanded speeds; no rotor exceeds its greatest speed.
+  void step(const RotorSpeeds& demand);
+  Wrench wrench(const RigidBodyState& state) const;
+  const RotorSpeeds& speeds() const { return speeds_; }
+
+ private:
+  double force_constant_, moment_constant_, drag_, rolling_moment_, max_speed_;
+  double blend_up_, blend_down_;  ///< share of the way to the demand covered in a tick
+  std::array<Vector3d, kRotors> p_BR_;
+  RotorSpeeds speeds_{};
+};
+
+/// Not thread-safe.
+class Vehicle {
+ public:
+  Vehicle(const VehicleConfig& vehicle, const RulesConfig& rules);
+
+  /// Why a command must be ignored; see CommandGuard.
+  std::optional<std::string> refuse(const TrajectoryCommand& command, const RigidBodyState& state) const {
+    return guard_.refuse(command, state);
+  }
+
+  /// The 20 Hz controllers: every kControlTicks. Until the first command the motors stand still; a command older than
+  /// 0.1 s lapses and the UAV holds its position.
+  /// @param command, gimbal_command  arrived since the last call, if any did.
+  void control(Tick tick, const RigidBodyState& state, const std::optional<TrajectoryCommand>& command,
+               const std::optional<GimbalCommand>& gimbal_command);
+
+  /// Attitude loop and motors: every tick. @returns the wrench during the coming tick.
+  Wrench step(const RigidBodyState& state);
+
+  /// Cut the motors, for good.
+  void stop() { position_control_.stop(); }
+
+  const GimbalState& gimbal() const { return gimbal_.state(); }
+  ControlMode mode() const { return position_control_.memory().mode; }
+  const RotorSpeeds& rotor_speeds() const { return rotors_.speeds(); }
+
+ private:
+  CommandGuard guard_;
+  PositionController position_control_;
+  AttitudeController attitude_control_;
+  Rotors rotors_;
+  Gimbal gimbal_;
+  std::optional<TrajectoryCommand> command_;  ///< the last that arrived
+  Tick command_tick_ = 0;
+  ControlDemand demand_;
+};
+
+}  // namespace skein::sim

@@ -1,0 +1,189 @@
+#include "station/journal.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "core/sha256.hpp"
+
+namespace skein::station {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::size_t kHashBytes = 8;
+constexpr std::size_t kHeadBytes = sizeof(std::uint32_t) + kHashBytes;
+
+[[noreturn]] void fail(const std::filesystem::path& file, const char* what) {
+  throw std::system_error(errno, std::generic_category(), "journal " + file.string() + ": " + what);
+}
+
+template <class Integer>
+void put(Bytes& bytes, Integer value) {
+  for (std::size_t i = 0; i < sizeof(Integer); ++i) {
+    bytes.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * i)));
+  }
+}
+
+void put(Bytes& bytes, float value) { put(bytes, std::bit_cast<std::uint32_t>(value)); }
+
+/// Reads what put() wrote; past the end it reads zeros and ok() is false.
+class Cursor {
+ public:
+  explicit Cursor(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  template <class Integer>
+  Integer get() {
+    if (bytes_.size() < sizeof(Integer)) {
+      ok_ = false;
+      return 0;
+    }
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < sizeof(Integer); ++i) value |= std::uint64_t{bytes_[i]} << (8 * i);
+    bytes_ = bytes_.subspan(sizeof(Integer));
+    return static_cast<Integer>(value);
+  }
+  float get_float() { return std::bit_cast<float>(get<std::uint32_t>()); }
+  std::size_t left() const { return bytes_.size(); }
+  bool ok() const { return ok_; }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+  bool ok_ = true;
+};
+
+Bytes encode(const TallyRecord& record) {
+  Bytes body;
+  const LedgerEntry& entry = record.entry;
+  put(body, record.tick);
+  put(body, entry.index);
+  put(body, entry.tick);
+  put(body, static_cast<std::uint64_t>(entry.uav));
+  put(body, static_cast<std::uint8_t>(entry.collision));
+  put(body, static_cast<std::uint64_t>(entry.capture.uav));
+  put(body, entry.capture.capture);
+  put(body, entry.capture.tick);
+  put(body, entry.capture.token);
+  put(body, static_cast<std::uint32_t>(entry.capture.points.size()));
+  for (const CapturePoint& point : entry.capture.points) {
+    put(body, point.index);
+    put(body, point.q_blur);
+    put(body, point.q_res);
+    put(body, point.q);
+  }
+  return body;
+}
+
+std::optional<TallyRecord> decode(std::span<const std::uint8_t> body) {
+  Cursor cursor(body);
+  TallyRecord record;
+  LedgerEntry& entry = record.entry;
+  record.tick = cursor.get<Tick>();
+  entry.index = cursor.get<std::uint64_t>();
+  entry.tick = cursor.get<Tick>();
+  entry.uav = cursor.get<std::uint64_t>();
+  entry.collision = cursor.get<std::uint8_t>() != 0;
+  entry.capture.uav = cursor.get<std::uint64_t>();
+  entry.capture.capture = cursor.get<std::uint64_t>();
+  entry.capture.tick = cursor.get<Tick>();
+  entry.capture.token = cursor.get<std::uint64_t>();
+  for (std::uint32_t left = cursor.get<std::uint32_t>(); left > 0 && cursor.ok(); --left) {
+    CapturePoint point;
+    point.index = cursor.get<std::uint32_t>();
+    point.q_blur = cursor.get_float();
+    point.q_res = cursor.get_float();
+    point.q = cursor.get_float();
+    entry.capture.points.push_back(point);
+  }
+  if (!cursor.ok() || cursor.left() > 0) return std::nullopt;
+  return record;
+}
+
+/// First bytes of the body's hash.
+std::array<std::uint8_t, kHashBytes> short_hash(std::span<const std::uint8_t> body) {
+  const auto digest = Sha256().add(body).digest();
+  std::array<std::uint8_t, kHashBytes> head;
+  std::copy_n(digest.begin(), kHashBytes, head.begin());
+  return head;
+}
+
+/// The body of the record at the start of `bytes`, or nullopt when it is cut off or broken.
+std::optional<std::span<const std::uint8_t>> whole_body(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < kHeadBytes) return std::nullopt;
+  const std::size_t length = Cursor(bytes).get<std::uint32_t>();
+  if (bytes.size() - kHeadBytes < length) return std::nullopt;
+  const auto body = bytes.subspan(kHeadBytes, length);
+  const auto hash = bytes.subspan(sizeof(std::uint32_t), kHashBytes);
+  if (!std::ranges::equal(hash, short_hash(body))) return std::nullopt;
+  return body;
+}
+
+Bytes read_all(int descriptor, const std::filesystem::path& file) {
+  Bytes bytes;
+  std::array<std::uint8_t, 65536> chunk;
+  while (true) {
+    const ssize_t got = ::read(descriptor, chunk.data(), chunk.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(file, "cannot be read");
+    if (got == 0) return bytes;
+    bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + got);
+  }
+}
+
+}  // namespace
+
+Journal::Journal(const std::filesystem::path& file) : file_(file) {
+  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) fail(file_, "cannot be opened");
+  try {
+    replay();
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+Journal::~Journal() { ::close(descriptor_); }
+
+void Journal::replay() {
+  const Bytes bytes = read_all(descriptor_, file_);
+  std::span<const std::uint8_t> rest(bytes);
+  while (const auto body = whole_body(rest)) {
+    std::optional<TallyRecord> record = decode(*body);
+    if (!record) break;
+    replayed_.push_back(std::move(*record));
+    rest = rest.subspan(kHeadBytes + body->size());
+  }
+  cut_bytes_ = rest.size();
+  if (cut_bytes_ > 0 && ::ftruncate(descriptor_, static_cast<off_t>(bytes.size() - rest.size())) != 0) {
+    fail(file_, "its broken end cannot be cut off");
+  }
+}
+
+void Journal::append(std::span<const TallyRecord> records) {
+  Bytes bytes;
+  for (const TallyRecord& record : records) {
+    const Bytes body = encode(record);
+    put(bytes, static_cast<std::uint32_t>(body.size()));
+    const auto hash = short_hash(body);
+    bytes.insert(bytes.end(), hash.begin(), hash.end());
+    bytes.insert(bytes.end(), body.begin(), body.end());
+  }
+  std::span<const std::uint8_t> rest(bytes);
+  while (!rest.empty()) {
+    const ssize_t put_out = ::write(descriptor_, rest.data(), rest.size());
+    if (put_out < 0 && errno == EINTR) continue;
+    if (put_out < 0) fail(file_, "cannot be written");
+    rest = rest.subspan(static_cast<std::size_t>(put_out));
+  }
+}
+
+}  // namespace skein::station

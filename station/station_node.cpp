@@ -1,0 +1,132 @@
+#include "station/station_node.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bus/lockstep/names.hpp"
+#include "core/radio_routes.hpp"
+#include "idl/conversions.hpp"
+#include "station/station_report.hpp"
+
+namespace skein::station {
+
+using bus::LockstepClient;
+
+namespace {
+
+constexpr std::chrono::milliseconds kStatusPeriod{200};
+
+std::vector<std::string> names_of(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const UavConfig& uav : scenario.fleet) names.push_back(uav.name);
+  return names;
+}
+
+}  // namespace
+
+StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
+                         StatusPipe& status)
+    : scenario_(scenario),
+      out_(out),
+      status_(status),
+      uavs_(names_of(scenario)),
+      journal_(out / "station.journal"),
+      world_(bus.join(world_domain(base_domain))),
+      gcs_(bus.join(gcs_domain(base_domain))),
+      score_(std::make_unique<bus::CountedWriter>(*gcs_, bus::spec(topics::score()))),
+      client_(*gcs_, inbox_, std::string(bus::kStationName)) {
+  ledger_reader_ = inbox_.subscribe(*world_, bus::spec(topics::ledger()), [this](bus::Sample&& s) { on_ledger(std::move(s)); });
+  for (std::size_t i = 0; i < uavs_.size(); ++i) {
+    client_.read(bus::spec(topics::captures_at_station(uavs_[i])), LockstepClient::Counterpart::router,
+                 [this, i](bus::Sample&& s) { on_reports(i, std::move(s)); });
+    client_.declare_writer(bus::spec(topics::captures_ack(uavs_[i])), LockstepClient::Counterpart::router);
+  }
+  client_.think_when([this](const msg::Step& step) { return scoreboard_ && scoreboard_->has_entries(step.ledger_upto()); });
+}
+
+void StationNode::on_ledger(bus::Sample&& sample) {
+  msg::Ledger ledger;
+  if (!decode(sample.payload, ledger)) return;
+  if (!scoreboard_) open_scoreboard(ledger.interest_points());
+  for (const auto& message : ledger.entries()) {
+    if (const auto entry = from_message(message, uavs_)) scoreboard_->add_entry(*entry);
+  }
+}
+
+void StationNode::open_scoreboard(std::size_t points) {
+  scoreboard_.emplace(uavs_.size(), points, scenario_.rules);
+  for (const TallyRecord& record : journal_.replayed()) scoreboard_->restore(record);
+  if (!journal_.replayed().empty()) spdlog::info("took up {} records of the journal", journal_.replayed().size());
+}
+
+void StationNode::on_reports(std::size_t source, bus::Sample&& sample) {
+  msg::CaptureReports reports;
+  if (!decode(sample.payload, reports)) return;
+  for (const auto& message : reports.reports()) {
+    if (auto report = from_message(message, uavs_)) {
+      scoreboard_->add_report(source, std::move(*report));
+    } else {
+      CaptureReport nobody;
+      nobody.uav = uavs_.size();
+      scoreboard_->add_report(source, std::move(nobody));
+    }
+  }
+}
+
+void StationNode::think() {
+  const msg::Step& step = client_.step();
+  const StepOutcome outcome = scoreboard_->end_step(step.tick(), step.ledger_upto());
+  journal_.append(outcome.records);
+  acknowledge(outcome);
+  if (outcome.score_changed && score_->has_readers()) {
+    msg::PointCloud cloud;
+    cloud.header(to_header(step.tick()));
+    msg::ChannelFloat32 index, score;
+    index.name("index");
+    score.name("intensity");
+    const auto& points = scoreboard_->delivered().points();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].q <= 0.0F) continue;
+      index.values().push_back(static_cast<float>(i));
+      score.values().push_back(points[i].q);
+    }
+    cloud.points().resize(score.values().size());
+    cloud.channels().push_back(index);
+    cloud.channels().push_back(score);
+    score_->begin_step();
+    score_->write(cloud);
+  }
+  client_.done(outcome.digest);
+  last_step_answered_ = step.final_step();
+  tell(last_step_answered_);
+}
+
+void StationNode::acknowledge(const StepOutcome& outcome) {
+  for (std::size_t i = 0; i < outcome.acks.size(); ++i) {
+    if (outcome.acks[i].empty()) continue;
+    msg::CaptureAck ack;
+    ack.uav(uavs_[i]);
+    ack.captures(outcome.acks[i]);
+    client_.write(topics::captures_ack(uavs_[i]).name, ack);
+  }
+}
+
+void StationNode::tell(bool now) {
+  const auto time = std::chrono::steady_clock::now();
+  if (!now && time - told_ < kStatusPeriod) return;
+  told_ = time;
+  status_.send({{"type", "tally"},
+                {"points", scoreboard_->delivered().points_detected()},
+                {"score", scoreboard_->delivered().score()},
+                {"earned", scoreboard_->earned().score()}});
+}
+
+int StationNode::run(const StopSignal& stop) {
+  const bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_step_answered_; }};
+  const int code = bus::exit_code(bus::run_client(client_, inbox_, loop, stop), std::string(bus::kStationName));
+  if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_);
+  return code;
+}
+
+}  // namespace skein::station

@@ -1,0 +1,93 @@
+#include "station/station_report.hpp"
+
+#include <locale>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/atomic_file.hpp"
+
+namespace skein::station {
+namespace {
+
+/// A stream for numbers as files want them: a point, no thousands, enough digits to read a double back.
+std::ostringstream number_stream() {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(9);
+  return text;
+}
+
+std::string timeline_csv(const Scoreboard& scoreboard) {
+  std::ostringstream text = number_stream();
+  text << "time_s,points,score\n";
+  for (const TimelinePoint& at : scoreboard.timeline()) {
+    text << seconds(at.tick) << ',' << at.points << ',' << at.score << '\n';
+  }
+  return text.str();
+}
+
+/// Why a point of a capture does not count; empty when it does.
+std::string reason(const Scoreboard& scoreboard, const LedgerEntry& entry, const CapturePoint& point,
+                   const Audit& audit) {
+  if (scoreboard.is_void(entry.uav)) return "uav collided";
+  if (!audit.delivered) {
+    return audit.refused ? "refused: " + std::string(to_string(*audit.refused)) : "not received";
+  }
+  const PointTally& counts = scoreboard.delivered().points()[point.index];
+  const bool is_this = counts.uav == entry.uav && counts.capture == entry.capture.capture;
+  return is_this ? "" : "better capture";
+}
+
+std::string captures_csv(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names) {
+  std::ostringstream text = number_stream();
+  text << "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q,delivered_at_s,reason\n";
+  for (const LedgerEntry& entry : scoreboard.ledger()) {
+    if (entry.collision) continue;
+    const Audit audit = scoreboard.audit(entry);
+    for (const CapturePoint& point : entry.capture.points) {
+      text << uav_names[entry.uav] << ',' << entry.capture.capture << ',' << entry.tick << ',' << seconds(entry.tick)
+           << ',' << point.index << ",1," << point.q_blur << ',' << point.q_res << ',' << point.q << ',';
+      if (audit.delivered) text << seconds(*audit.delivered);
+      text << ',' << reason(scoreboard, entry, point, audit) << '\n';
+    }
+  }
+  return text.str();
+}
+
+nlohmann::ordered_json report_json(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names) {
+  const ScoreTable& table = scoreboard.delivered();
+  nlohmann::ordered_json report;
+  report["points_detected"] = table.points_detected();
+  report["score"] = table.score();
+  report["score_earned"] = scoreboard.earned().score();
+  nlohmann::ordered_json by_uav = nlohmann::ordered_json::object();
+  const std::vector<double> scores = table.score_by_uav();
+  for (std::size_t uav = 0; uav < scores.size(); ++uav) by_uav[uav_names[uav]] = scores[uav];
+  report["score_by_uav"] = by_uav;
+  nlohmann::ordered_json points = nlohmann::ordered_json::array();
+  for (std::size_t index = 0; index < table.points().size(); ++index) {
+    const PointTally& tally = table.points()[index];
+    if (tally.q <= 0.0F) continue;
+    points.push_back({{"index", index}, {"score", tally.q}, {"uav", uav_names[tally.uav]}, {"capture", tally.capture}});
+  }
+  report["points"] = points;
+  nlohmann::ordered_json refused = nlohmann::ordered_json::object();
+  for (const Refusal why : {Refusal::unknown, Refusal::borrowed, Refusal::altered}) {
+    refused[std::string(to_string(why))] = scoreboard.refused(why);
+  }
+  report["refused"] = refused;
+  report["reports_received"] = scoreboard.reports_received();
+  report["duplicates"] = scoreboard.duplicates();
+  return report;
+}
+
+}  // namespace
+
+void write_station_report(const std::filesystem::path& folder, const Scoreboard& scoreboard,
+                          const std::vector<std::string>& uav_names) {
+  write_file_atomically(folder / "score_timeline.csv", timeline_csv(scoreboard));
+  write_file_atomically(folder / "captures.csv", captures_csv(scoreboard, uav_names));
+  write_file_atomically(folder / "station.report.json", report_json(scoreboard, uav_names).dump(2) + "\n");
+}
+
+}  // namespace skein::station

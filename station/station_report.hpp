@@ -1,0 +1,26 @@
+// What the station leaves behind: score_timeline.csv, captures.csv (what became of every capture) and
+// station.report.json, from which the launcher makes its part of result.json.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "station/scoreboard.hpp"
+
+namespace skein::station {
+
+/// Writes the three files into `folder`, each in one piece (never half a file).
+///
+/// score_timeline.csv: time_s, points, score; a line for each change.
+/// captures.csv: uav, capture, tick, time_s, point, q_seen, q_blur, q_res, q, delivered_at_s, reason; a line for each
+///   point of each capture in the ledger. `reason` says why it does not count: "not received", "refused: <why>",
+///   "uav collided", "better capture" (another one of this point counts); empty when it does.
+/// station.report.json: points_detected, score, score_earned, score_by_uav {uav: score}, points [{index, score, uav,
+///   capture}] (those that count), refused {reason: count}, reports_received, duplicates.
+/// @param uav_names  in fleet order.
+/// @throws std::runtime_error when a file cannot be written.
+void write_station_report(const std::filesystem::path& folder, const Scoreboard& scoreboard,
+                          const std::vector<std::string>& uav_names);
+
+}  // namespace skein::station

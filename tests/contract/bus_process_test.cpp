@@ -1,0 +1,146 @@
+// What every backend promises when the other process is stopped or killed.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "contract/bus_fixture.hpp"
+#include "free_domain.hpp"
+
+namespace skein::test {
+namespace {
+
+using bus::Participant;
+using bus::ParticipantId;
+using bus::Sample;
+
+/// bus_contract_peer as a child process; killed at the end.
+class Peer {
+ public:
+  Peer(const std::string& vendor, int domain) {
+    std::string program = SKEIN_BUS_PEER, vendor_arg = vendor, domain_arg = std::to_string(domain);
+    char* const argv[] = {program.data(), vendor_arg.data(), domain_arg.data(), nullptr};
+    if (posix_spawn(&pid_, program.c_str(), nullptr, nullptr, argv, environ) != 0)
+      throw std::runtime_error("cannot start " + program);
+  }
+  ~Peer() { kill(); }
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+
+  /// Returns when all its threads stand still.
+  void stop() {
+    ::kill(pid_, SIGSTOP);
+    waitpid(pid_, nullptr, WUNTRACED);
+  }
+  void resume() { ::kill(pid_, SIGCONT); }
+  void kill() {
+    if (pid_ == 0) return;
+    ::kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+    pid_ = 0;
+  }
+
+ private:
+  pid_t pid_ = 0;
+};
+
+/// Resident memory of this process [MB].
+double resident_mb() {
+  std::ifstream statm("/proc/self/statm");
+  double total = 0, resident = 0;
+  statm >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+/// Shared memory of the vendors that stands in /dev/shm.
+std::set<std::string> shared_memory() {
+  std::set<std::string> names;
+  if (!std::filesystem::exists("/dev/shm")) return names;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm")) {
+    const std::string name = entry.path().filename();
+    for (const char* mark : {"fast", "cdds", "cyclone", "iceoryx", "iox", "roudi"})
+      if (name.find(mark) != std::string::npos) names.insert(name);
+  }
+  return names;
+}
+
+class BusProcesses : public testing::TestWithParam<Pair> {
+ protected:
+  /// The peer reads; a second reader, in this process, keeps up.
+  void SetUp() override {
+    self_ = bus::make_bus({.vendor = GetParam().writer})->join(domains_.base());
+    writer_ = self_->create_writer(topic("to_peer"));
+    answers_ = self_->create_reader(topic("from_peer"), heard_.callback());
+    hello_ = self_->create_reader(topic("hello", {.latched = true, .depth = 1}), introduced_.callback());
+    live_ = bus::make_bus({.vendor = GetParam().reader})->join(domains_.base());
+    live_reader_ = live_->create_reader(topic("to_peer"), live_got_.callback());
+    const auto hello = introduced_.wait_for(1);
+    ASSERT_EQ(hello.size(), 1u);
+    peer_id_ = hello[0].source;
+    ASSERT_EQ(peer_id_, number_of(hello[0].payload));
+    ASSERT_TRUE(eventually([&] { return writer_->matched().size() == 2 && !live_reader_->matched().empty(); }));
+  }
+
+  /// Writes rounds of `depth` samples, each when the live reader has the one before.
+  void write_in_step(std::size_t count) {
+    while (written_ < count) {
+      for (int i = 0; i < 50 && written_ < count; ++i) writer_->write(numbered(written_++, 2000));
+      ASSERT_EQ(live_got_.wait_for(written_).size(), written_);
+    }
+  }
+
+  FreeDomains domains_{1};
+  Peer peer_{GetParam().reader, domains_.base()};
+  Collector heard_, introduced_, live_got_;
+  std::unique_ptr<Participant> self_, live_;
+  std::unique_ptr<bus::Writer> writer_;
+  std::unique_ptr<bus::Reader> answers_, hello_, live_reader_;
+  ParticipantId peer_id_ = 0;
+  std::size_t written_ = 0;
+};
+
+TEST_P(BusProcesses, OtherProcessAnswersInOrder) {
+  ASSERT_TRUE(eventually([&] {
+    writer_->write(numbered(1000));
+    return !heard_.numbers(0).empty();
+  }));
+  for (std::uint64_t n = 0; n < 50; ++n) writer_->write(numbered(n, 2000));
+  ASSERT_TRUE(eventually([&] {
+    const auto numbers = heard_.numbers(1);
+    return numbers.back() == 49;
+  }));
+  const auto numbers = heard_.numbers(50);
+  for (std::uint64_t n = 0; n < 50; ++n) EXPECT_EQ(numbers[numbers.size() - 50 + n], n);
+  for (const auto& sample : heard_.wait_for(1)) EXPECT_EQ(sample.source, peer_id_);
+}
+
+TEST_P(BusProcesses, StoppedReaderHoldsNobodyUp) {
+  peer_.stop();
+  write_in_step(2000);
+  const double before = resident_mb();
+  for (std::uint64_t n = 0; n < 50'000; ++n) writer_->write(numbered(n, 2000));
+  EXPECT_LT(resident_mb() - before, 100.0) << "what a stopped reader has not acknowledged piles up";
+  peer_.resume();
+}
+
+TEST_P(BusProcesses, KilledReaderHoldsNobodyUpAndIsMissed) {
+  const auto before = shared_memory();
+  peer_.kill();
+  write_in_step(2000);
+  EXPECT_TRUE(eventually([&] { return writer_->matched() == std::vector<ParticipantId>{live_->id()}; }));
+  EXPECT_TRUE(eventually([&] { return answers_->matched().empty(); }));
+  for (const auto& name : shared_memory()) EXPECT_TRUE(before.contains(name)) << name << " is left in /dev/shm";
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, BusProcesses,
+                         testing::Values(Pair{"cyclonedds", "cyclonedds"}, Pair{"fastdds", "fastdds"},
+                                         Pair{"cyclonedds", "fastdds"}, Pair{"fastdds", "cyclonedds"}),
+                         [](const auto& pair) { return name_of(pair.param); });
+
+}  // namespace
+}  // namespace skein::test

@@ -1,0 +1,132 @@
+#include "uav_agent/agent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/euler.hpp"
+#include "uav_agent/keyframe_filter.hpp"
+#include "uav_agent/tracker.hpp"
+#include "uav_agent/uplink.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kAccelerationShare = 0.7;   ///< of the vehicle's limit; the rest is for the controller to correct with
+constexpr double kBodyMarginM = 0.3;         ///< around a known body
+constexpr double kScanAgeS = 0.1;            ///< a scan is at most this much older than the positions that go with it
+
+Tracker::Config tracker_config(const VehicleConfig& vehicle) {
+  Tracker::Config config;
+  config.max_speed_mps = vehicle.max_speed_mps;
+  config.max_acceleration_mps2 = kAccelerationShare * vehicle.max_acceleration_mps2;
+  config.max_yaw_rate = std::min(config.max_yaw_rate, vehicle.max_yaw_rate_deg_s * kRadPerDeg);
+  return config;
+}
+
+/// Gimbal angles that put p_W into the middle of the image.
+GimbalCommand aim_at(const Vector3d& p_W, const RigidBodyState& state, const VehicleConfig& vehicle) {
+  const Vector3d to_point = p_W - state.X_WB() * vehicle.camera.p_BC;
+  const double body_yaw = roll_pitch_yaw(state.q_WB.toRotationMatrix()).yaw;
+  const double pitch_limit = vehicle.gimbal.pitch_limit_deg * kRadPerDeg;
+  const double yaw_limit = vehicle.gimbal.yaw_limit_deg * kRadPerDeg;
+  const double pitch = std::atan2(-to_point.z(), to_point.head<2>().norm());
+  const double yaw = wrap_angle(std::atan2(to_point.y(), to_point.x()) - body_yaw);
+  return {GimbalMode::angle, std::clamp(pitch, -pitch_limit, pitch_limit), std::clamp(yaw, -yaw_limit, yaw_limit)};
+}
+
+}  // namespace
+
+struct Agent::Impl {
+  Impl(const AgentConfig& c, std::unique_ptr<Planner> p)
+      : config(c), planner(std::move(p)), peers(c), tracker(tracker_config(c.vehicle)) {}
+
+  void perceive(const AgentInput& input);
+  std::vector<KnownBody> known_bodies(const AgentInput& input) const;
+  PlannerInput planner_input(const AgentInput& input) const;
+  void move(const PlannerOutput& decision);
+  std::optional<GimbalCommand> point_camera(const GimbalAim& new_aim, const RigidBodyState& state);
+
+  const AgentConfig config;
+  const std::unique_ptr<Planner> planner;
+  Peers peers;
+  OccupancyMap map;
+  KeyframeFilter filter;
+  Uplink uplink;
+  Tracker tracker;
+  std::vector<OrientedBox> boxes;
+  GimbalAim aim;
+};
+
+std::vector<KnownBody> Agent::Impl::known_bodies(const AgentInput& input) const {
+  const auto body = [](const Vector3d& p_W, const Vector3d& v_W, double radius) {
+    return KnownBody{p_W, radius + kBodyMarginM + kScanAgeS * v_W.norm()};
+  };
+  std::vector<KnownBody> bodies = {body(input.state.p_WB, input.state.v_WB, config.me().body_radius_m)};
+  for (const Peer& peer : peers.all()) {
+    // One that was never seen still stands where it was put.
+    if (peer.visible || !peer.seen) bodies.push_back(body(peer.p_W, peer.v_W, config.fleet[peer.uav].body_radius_m));
+  }
+  return bodies;
+}
+
+void Agent::Impl::perceive(const AgentInput& input) {
+  peers.update(input.tick, input.neighbours);
+  if (!input.boxes.empty()) boxes = input.boxes;
+  if (!input.key_frames.empty()) {
+    const std::vector<KnownBody> bodies = known_bodies(input);
+    for (const KeyFrame& frame : input.key_frames) map.insert(filter(frame.points_W, bodies), frame.p_WS);
+  }
+  uplink.take(input.capture_reports);
+  uplink.acknowledge(input.capture_acks);
+}
+
+PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
+  return PlannerInput{.k = input.k,
+                      .tick = input.tick,
+                      .state = input.state,
+                      .gimbal = input.gimbal,
+                      .tracking = tracker.tracking(),
+                      .map = map,
+                      .boxes = boxes,
+                      .peers = peers,
+                      .mission_remaining_s = input.mission_remaining_s,
+                      .station_linked = peers.station_visible(),
+                      .undelivered_captures = uplink.undelivered(),
+                      .detected = input.detected,
+                      .radio = input.radio};
+}
+
+void Agent::Impl::move(const PlannerOutput& decision) {
+  if (decision.yaw) tracker.turn_to(*decision.yaw);
+  if (const auto* path = std::get_if<Path>(&decision.motion)) tracker.follow(*path);
+  if (const auto* setpoint = std::get_if<Setpoint>(&decision.motion)) tracker.fly_to(*setpoint);
+  if (std::holds_alternative<Hold>(decision.motion)) tracker.hold();
+}
+
+std::optional<GimbalCommand> Agent::Impl::point_camera(const GimbalAim& new_aim, const RigidBodyState& state) {
+  if (!std::holds_alternative<std::monostate>(new_aim)) aim = new_aim;
+  if (const auto* command = std::get_if<GimbalCommand>(&aim)) return *command;
+  if (const auto* point = std::get_if<Vector3d>(&aim)) return aim_at(*point, state, config.vehicle);
+  return std::nullopt;
+}
+
+Agent::Agent(const AgentConfig& config, std::unique_ptr<Planner> planner)
+    : impl_(std::make_unique<Impl>(config, std::move(planner))) {}
+
+Agent::~Agent() = default;
+Agent::Agent(Agent&&) noexcept = default;
+
+AgentOutput Agent::step(const AgentInput& input) {
+  impl_->perceive(input);
+  PlannerOutput decision = impl_->planner->plan(impl_->planner_input(input));
+  impl_->move(decision);
+  AgentOutput output;
+  output.trajectory = impl_->tracker.step(input.state, impl_->config.exchange_period_s);
+  output.gimbal = impl_->point_camera(decision.gimbal, input.state);
+  output.trigger = decision.trigger;
+  output.radio = std::move(decision.radio);
+  output.captures = impl_->uplink.send(input.k, impl_->peers.station_visible());
+  return output;
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,174 @@
+#include "uav_agent/agent_node.hpp"
+
+#include <ctime>
+
+#include "bus/lockstep/names.hpp"
+#include "idl/conversions.hpp"
+
+namespace skein::agent {
+
+using bus::LockstepClient;
+using Counterpart = LockstepClient::Counterpart;
+
+namespace {
+
+// Planners talk in text, as CARIC's do.
+constexpr std::string_view kTextType = "std_msgs/msg/String";
+
+double thread_cpu_s() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace
+
+AgentNode::AgentNode(const Scenario& scenario, std::size_t uav, std::unique_ptr<Planner> planner, int base_domain,
+                     bus::Bus& bus)
+    : scenario_(scenario),
+      id_(scenario.fleet.at(uav).name),
+      node_(node_of_uav(uav)),
+      participant_(bus.join(uav_domain(base_domain, uav))),
+      client_(*participant_, inbox_, id_),
+      agent_(agent_config(scenario, uav), std::move(planner)) {
+  read_sensors();
+  read_captures();
+  declare_radio(radio_routes(scenario));
+  client_.declare_writer(bus::spec(topics::trajectory_command(id_)), Counterpart::server);
+  client_.declare_writer(bus::spec(topics::gimbal_command(id_)), Counterpart::server);
+  client_.declare_writer(bus::spec(topics::camera_trigger(id_)), Counterpart::server);
+  client_.declare_writer(bus::spec(topics::capture_stored()), Counterpart::server);
+}
+
+template <class Message>
+void AgentNode::read(const topics::WireTopic& topic, Counterpart counterpart, std::function<void(const Message&)> handler) {
+  client_.read(bus::spec(topic), counterpart, [handler = std::move(handler)](bus::Sample&& sample) {
+    Message message;
+    if (decode(sample.payload, message)) handler(message);
+  });
+}
+
+void AgentNode::read_sensors() {
+  read<msg::Odometry>(topics::odometry(id_), Counterpart::server, [this](const auto& m) { input_.state = from_odometry(m); });
+  read<msg::TwistStamped>(topics::gimbal(id_), Counterpart::server, [this](const auto& m) { input_.gimbal = from_gimbal(m); });
+  read<msg::Duration>(topics::mission_duration_remained(id_), Counterpart::server,
+                      [this](const auto& m) { input_.mission_remaining_s = from_duration(m); });
+  read<msg::PointCloud>(topics::bounding_boxes(), Counterpart::server,
+                        [this](const auto& m) { input_.boxes = from_box_vertices(m); });
+  read<msg::PointCloud2>(topics::neighbour_odometry(id_), Counterpart::server, [this](const auto& m) {
+    input_.neighbours.clear();
+    for (const NeighbourPoint& p : from_cloud<NeighbourPoint>(m)) {
+      const Eigen::Quaterniond q_WB(p.qw, p.qx, p.qy, p.qz);
+      input_.neighbours.push_back(
+          {static_cast<Node>(p.node), Vector3d(p.x, p.y, p.z), Vector3d(q_WB * Vector3d(p.vx, p.vy, p.vz))});
+    }
+  });
+  const auto add_key_frame = [this](const msg::PointCloud2& m, std::optional<Vector3d> p_WS) {
+    KeyFrame frame;
+    frame.p_WS = p_WS;
+    for (const ScanPoint& p : from_cloud<ScanPoint>(m)) frame.points_W.emplace_back(p.x, p.y, p.z);
+    input_.key_frames.push_back(std::move(frame));
+  };
+  if (scenario_.fleet[node_ - 1].vehicle.lidar) {
+    read<msg::PointCloud2>(topics::self_keyframe(id_), Counterpart::server,
+                           [this, add_key_frame](const auto& m) { add_key_frame(m, input_.state.p_WB); });
+  }
+  read<msg::PointCloud2>(topics::neighbour_keyframe(id_), Counterpart::server,
+                         [add_key_frame](const auto& m) { add_key_frame(m, std::nullopt); });
+  read<msg::PointCloud2>(topics::detected_points(id_), Counterpart::server, [this](const auto& m) {
+    for (const DetectionPoint& p : from_cloud<DetectionPoint>(m)) {
+      input_.detected.push_back({{p.x, p.y, p.z}, p.score, static_cast<std::uint32_t>(p.index)});
+    }
+  });
+}
+
+void AgentNode::read_captures() {
+  read<msg::CaptureReports>(topics::capture(), Counterpart::server, [this](const auto& m) {
+    for (const auto& report : m.reports()) input_.capture_reports.push_back({report.capture(), encode(report)});
+  });
+  read<msg::CaptureAck>(topics::captures_ack_at_uav(id_), Counterpart::router, [this](const auto& m) {
+    input_.capture_acks.insert(input_.capture_acks.end(), m.captures().begin(), m.captures().end());
+  });
+}
+
+void AgentNode::declare_radio(const std::vector<RadioRoute>& routes) {
+  client_.declare_writer(bus::spec(topics::captures(id_)), Counterpart::router);
+  for (const RadioRoute& route : routes) {
+    if (route.ros_type != kTextType) continue;
+    const topics::WireTopic out{route.topic, route.type, false, topics::kRadioDepth};
+    if (route.source == node_ && radio_out_.insert(route.ros_topic).second) {
+      client_.declare_writer(bus::spec(out), Counterpart::router);
+    }
+  }
+  // All sources of a topic arrive on one: nobody can tell them apart, as in CARIC.
+  std::set<std::string> arrivals;
+  for (const RadioRoute& route : routes) {
+    for (const RadioTarget& target : route.targets) {
+      if (target.node != node_ || route.ros_type != kTextType || !arrivals.insert(target.topic).second) continue;
+      read<msg::String>({target.topic, route.type, false, topics::radio_depth(scenario_.fleet.size() + 1)}, Counterpart::router,
+                        [this, topic = route.ros_topic](const auto& m) {
+                          input_.radio.push_back({topic, m.data(), std::nullopt});
+                        });
+    }
+  }
+}
+
+void AgentNode::think() {
+  const msg::Step& step = client_.step();
+  input_.k = step.k();
+  input_.tick = step.tick();
+  released_ = input_.capture_acks;
+  const double before = thread_cpu_s();
+  const AgentOutput output = agent_.step(input_);
+  planner_cpu_s_ += thread_cpu_s() - before;
+  write(output);
+  client_.done();
+  last_step_answered_ = step.final_step();
+  // State stays until the next sample replaces it; events are over.
+  input_.boxes.clear();
+  input_.key_frames.clear();
+  input_.detected.clear();
+  input_.capture_reports.clear();
+  input_.capture_acks.clear();
+  input_.radio.clear();
+}
+
+void AgentNode::write(const AgentOutput& output) {
+  if (output.trajectory) {
+    client_.write(topics::trajectory_command(id_).name, to_trajectory(input_.tick, *output.trajectory));
+  }
+  if (output.gimbal) client_.write(topics::gimbal_command(id_).name, to_gimbal_command(*output.gimbal));
+  if (output.trigger) {
+    msg::BoolStamped trigger;
+    trigger.header(to_header(input_.tick));
+    trigger.data(true);
+    client_.write(topics::camera_trigger(id_).name, trigger);
+  }
+  if (!released_.empty()) {
+    msg::CaptureAck ack;
+    ack.uav(id_);
+    ack.captures(released_);
+    client_.write(topics::capture_stored().name, ack);
+  }
+  if (!output.captures.empty()) {
+    msg::CaptureReports reports;
+    for (const CaptureReport& capture : output.captures) {
+      msg::CaptureReport report;
+      if (decode(capture.payload, report)) reports.reports().push_back(std::move(report));
+    }
+    client_.write(topics::captures(id_).name, reports);
+  }
+  for (const RadioMessage& message : output.radio) {
+    if (!radio_out_.contains(message.topic)) continue;
+    msg::String text;
+    text.data(message.text);
+    client_.write(wire_topic(message.topic), text);
+  }
+}
+
+int AgentNode::run(const StopSignal& stop) {
+  const bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_step_answered_; }};
+  return bus::exit_code(bus::run_client(client_, inbox_, loop, stop), id_);
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,54 @@
+// One UAV's on-board software as a process: topics in, one step of Agent, topics out. Joins its own domain only.
+// Everything happens on the thread that calls run().
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bus/bus.hpp"
+#include "bus/inbox.hpp"
+#include "bus/lockstep/client_loop.hpp"
+#include "core/radio_routes.hpp"
+#include "core/scenario.hpp"
+#include "uav_agent/agent.hpp"
+
+namespace skein::agent {
+
+class AgentNode {
+ public:
+  /// @param uav  index in fleet order.
+  AgentNode(const Scenario& scenario, std::size_t uav, std::unique_ptr<Planner> planner, int base_domain, bus::Bus& bus);
+
+  /// Takes part until the last step, or until asked to stop. @returns the program's exit code.
+  int run(const StopSignal& stop);
+  /// Makes run() look at `stop`; from any thread.
+  void wake() { inbox_.wake(); }
+  /// CPU time spent in the on-board software so far [s]; without transport.
+  double planner_cpu_s() const { return planner_cpu_s_; }
+
+ private:
+  template <class Message>
+  void read(const topics::WireTopic& topic, bus::LockstepClient::Counterpart counterpart, std::function<void(const Message&)> handler);
+  void read_sensors();
+  void read_captures();
+  void declare_radio(const std::vector<RadioRoute>& routes);
+  void think();
+  void write(const AgentOutput& output);
+
+  const Scenario& scenario_;
+  const std::string id_;
+  const Node node_;
+  bus::Inbox inbox_;
+  std::unique_ptr<bus::Participant> participant_;
+  bus::LockstepClient client_;
+  Agent agent_;
+  AgentInput input_;                    ///< being filled for the step to come
+  std::vector<std::uint64_t> released_; ///< acknowledged captures that the camera may forget
+  std::set<std::string> radio_out_;     ///< ROS topics that this UAV may send on
+  bool last_step_answered_ = false;
+  double planner_cpu_s_ = 0.0;
+};
+
+}  // namespace skein::agent

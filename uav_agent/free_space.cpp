@@ -1,0 +1,51 @@
+#include "uav_agent/free_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kSampleM = 0.5;  ///< along a segment
+
+template <class Test>
+bool all_along(const Vector3d& a, const Vector3d& b, const Test& test) {
+  const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kSampleM)));
+  for (int i = 0; i <= steps; ++i) {
+    if (!test(a + (b - a) * (static_cast<double>(i) / steps))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool FreeSpace::allowed(const Vector3d& p_W) const {
+  if (p_W.z() < config_.floor_m) return false;
+  for (const Sphere& sphere : keep_out_) {
+    if ((p_W - sphere.p_W).squaredNorm() < sphere.radius_m * sphere.radius_m) return false;
+  }
+  const bool in_box = std::any_of(boxes_.begin(), boxes_.end(), [&](const OrientedBox& box) {
+    return box.contains(p_W, config_.clearance_m);
+  });
+  if (!in_box && p_W.z() >= config_.blind_height_m) return true;
+  return config_.use_map && map_.known_free(p_W);
+}
+
+bool FreeSpace::free(const Vector3d& p_W) const {
+  return allowed(p_W) && !(config_.use_map && map_.any_occupied_within(p_W, config_.clearance_m));
+}
+
+bool FreeSpace::segment_free(const Vector3d& a_W, const Vector3d& b_W) const {
+  if (!all_along(a_W, b_W, [this](const Vector3d& p) { return allowed(p); })) return false;
+  return !config_.use_map || map_.segment_clear(a_W, b_W, config_.clearance_m);
+}
+
+bool FreeSpace::sees(const Vector3d& a_W, const Vector3d& b_W, double radius) const {
+  const bool past_boxes = all_along(a_W, b_W, [this](const Vector3d& p) {
+    return std::none_of(boxes_.begin(), boxes_.end(), [&](const OrientedBox& box) { return box.contains(p); }) ||
+           (config_.use_map && map_.known_free(p));
+  });
+  return past_boxes && (!config_.use_map || map_.segment_clear(a_W, b_W, radius));
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,51 @@
+// Where this UAV may fly, as far as it knows: not into mapped structure, not into a box whose inside it has not seen, not
+// into the low unknown between the boxes (podiums and trees are in no box), not into another UAV.
+// Frame W.   Units: metres.   Pure; threads: any, as long as the map does not change.
+#pragma once
+
+#include <vector>
+
+#include "uav_agent/occupancy_map.hpp"
+
+namespace skein::agent {
+
+/// A place to keep away from: another UAV.
+struct Sphere {
+  Vector3d p_W = Vector3d::Zero();
+  double radius_m = 0.0;
+};
+
+class FreeSpace {
+ public:
+  struct Config {
+    double clearance_m = 1.8;       ///< of the UAV's centre to mapped cells and to unknown boxes
+    double floor_m = 2.0;
+    double blind_height_m = 0.0;    ///< below, only space that was seen to be free may be entered
+    bool use_map = true;
+  };
+
+  /// @param boxes, map  must outlive this.
+  FreeSpace(const Config& config, const std::vector<OrientedBox>& boxes, const OccupancyMap& map,
+            std::vector<Sphere> keep_out = {})
+      : config_(config), boxes_(boxes), map_(map), keep_out_(std::move(keep_out)) {}
+
+  bool free(const Vector3d& p_W) const;
+  /// Every point of the segment is free.
+  bool segment_free(const Vector3d& a_W, const Vector3d& b_W) const;
+  /// Line of sight as far as map and boxes tell: no mapped cell within `radius` of the segment, no unknown box on it.
+  bool sees(const Vector3d& a_W, const Vector3d& b_W, double radius) const;
+
+  const Config& config() const { return config_; }
+  const OccupancyMap& map() const { return map_; }
+
+ private:
+  /// As free(), but without the mapped cells.
+  bool allowed(const Vector3d& p_W) const;
+
+  const Config config_;
+  const std::vector<OrientedBox>& boxes_;
+  const OccupancyMap& map_;
+  const std::vector<Sphere> keep_out_;
+};
+
+}  // namespace skein::agent

@@ -1,0 +1,47 @@
+// What reaches and leaves the on-board software, with every field named (on the wire CARIC's odd conventions apply;
+// agent_node translates). Frame W unless the name says otherwise.   Units: SI and radians.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace skein::agent {
+
+/// A radio node in line of sight at this step; the station is among them when it is linked.
+struct Neighbour {
+  Node node = kStationNode;
+  Vector3d p_W = Vector3d::Zero();
+  std::optional<Vector3d> v_W;  ///< if it is known; else Peers takes it from successive positions
+};
+
+/// One LiDAR key frame, this UAV's own or a linked neighbour's.
+struct KeyFrame {
+  std::vector<Eigen::Vector3f> points_W;  ///< hits
+  std::optional<Vector3d> p_WS;           ///< where the sensor stood, if known; free space is only marked if so
+};
+
+/// An interest point in one of this UAV's captures.
+struct DetectedPoint {
+  Eigen::Vector3f p_W = Eigen::Vector3f::Zero();
+  double score = 0.0;                   ///< best so far of this UAV, [0, 1]
+  std::optional<std::uint32_t> index;   ///< of the interest point, if known
+};
+
+/// One capture report as the camera made it. The payload is opaque: the agent keeps and forwards it.
+struct CaptureReport {
+  std::uint64_t capture = 0;  ///< 0, 1, ... for this UAV
+  std::vector<std::uint8_t> payload;
+};
+
+/// A message between planners. Radio tells nobody who sent: whoever wants to be known says so in the text.
+struct RadioMessage {
+  std::string topic;           ///< as declared in the scenario, "/broadcast"
+  std::string text;            ///< content of a std_msgs/String; any bytes but NUL
+  std::optional<Node> source;  ///< of a received one, if agent_node can tell
+};
+
+}  // namespace skein::agent

@@ -1,0 +1,35 @@
+// What a planner can ask for by way of motion. Frame W.   Units: SI and radians.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace skein::agent {
+
+/// A point to fly to now: it goes to the flight controller as it is, clamped to the vehicle's limits.
+struct Setpoint {
+  Vector3d p_WB = Vector3d::Zero();
+  double yaw = 0.0;
+  Vector3d v_WB = Vector3d::Zero();
+  Vector3d a_WB = Vector3d::Zero();
+};
+
+struct Waypoint {
+  Vector3d p_WB = Vector3d::Zero();
+  double speed_mps = 1.0;  ///< not exceeded on the leg that ends here
+};
+
+/// A polyline to follow from the present set-point on; replaces any path before. The UAV stops at its end.
+struct Path {
+  std::vector<Waypoint> waypoints;
+};
+
+/// Brake as hard as the limits allow, then stay.
+struct Hold {};
+
+/// What the set-point does now. monostate: carry on as told before; before the first motion: motors stay off.
+using Motion = std::variant<std::monostate, Setpoint, Path, Hold>;
+
+}  // namespace skein::agent

@@ -1,0 +1,97 @@
+// The interface that a planner implements, and the registry that finds it by name.
+//
+// A planner is one class in one file under planners/: a constructor that takes its Config (and, if it wants, the
+// AgentConfig), plan(), and SKEIN_REGISTER_PLANNER("name", Class) in namespace skein::agent. It is pure: what it
+// returns may depend only on its inputs and on its own past; it bounds its effort by counts, never by time.
+// Frames: W world (ENU), B body (FLU).   Units: SI and radians.   Threads: one planner is used by one thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "core/config_reader.hpp"
+#include "uav_agent/agent_config.hpp"
+#include "uav_agent/messages.hpp"
+#include "uav_agent/motion.hpp"
+#include "uav_agent/occupancy_map.hpp"
+#include "uav_agent/peers.hpp"
+
+namespace skein::agent {
+
+/// Where the camera looks: monostate: carry on; a point in W to keep in the image's centre; or a command as it is.
+using GimbalAim = std::variant<std::monostate, Vector3d, GimbalCommand>;
+
+/// How far the tracker has come with the last Path.
+struct TrackingState {
+  Setpoint setpoint;        ///< what was commanded last
+  std::size_t leg = 0;      ///< index of the waypoint being flown to; waypoints.size() when done
+  bool done = true;         ///< at rest at the end of the path, or no path
+  bool airborne = false;    ///< a first motion was commanded
+};
+
+struct PlannerInput {
+  std::uint64_t k = 0;                         ///< exchange
+  Tick tick = 0;
+  RigidBodyState state;                        ///< own; velocity in W
+  GimbalState gimbal;
+  TrackingState tracking;
+  const OccupancyMap& map;
+  const std::vector<OrientedBox>& boxes;       ///< empty until received
+  const Peers& peers;
+  std::optional<double> mission_remaining_s;   ///< nullopt before the first take-off
+  bool station_linked = false;                 ///< direct link at this step
+  std::size_t undelivered_captures = 0;
+  std::span<const DetectedPoint> detected;     ///< new at this step
+  std::span<const RadioMessage> radio;         ///< received at this step
+};
+
+struct PlannerOutput {
+  Motion motion = {};
+  std::optional<double> yaw = {};   ///< body yaw to turn to at the tracker's rate; not used with a Setpoint
+  GimbalAim gimbal = {};
+  bool trigger = false;             ///< ask for a capture; only where the camera is in manual mode
+  std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
+};
+
+class Planner {
+ public:
+  virtual ~Planner() = default;
+  /// Called once per exchange, also before take-off.
+  virtual PlannerOutput plan(const PlannerInput& input) = 0;
+};
+
+/// Makes the planner that `spec` names: "hover", "hover:height_m=4,climb_mps=1" or "patrol:params.yaml" (a YAML file
+/// with the same keys).
+/// @throws InputError naming the planner or key that is unknown, and those that exist.
+std::unique_ptr<Planner> make_planner(const std::string& spec, const AgentConfig& agent);
+
+/// Names of all registered planners, sorted.
+std::vector<std::string> planner_names();
+
+/// For SKEIN_REGISTER_PLANNER.
+using PlannerFactory = std::unique_ptr<Planner> (*)(const ConfigDocument& parameters, const AgentConfig& agent);
+bool register_planner(const std::string& name, PlannerFactory factory);
+
+/// Reads Class::Config and constructs Class(config) or Class(config, agent).
+template <class Class>
+std::unique_ptr<Planner> construct_planner(const ConfigDocument& parameters, const AgentConfig& agent) {
+  using Config = typename Class::Config;
+  const auto config = read_config<Config>(parameters);
+  if constexpr (std::is_constructible_v<Class, const Config&, const AgentConfig&>) {
+    return std::make_unique<Class>(config, agent);
+  } else {
+    return std::make_unique<Class>(config);
+  }
+}
+
+}  // namespace skein::agent
+
+/// Registers a planner under a name, before main(). Its file must be linked as an object, not from a static library.
+#define SKEIN_REGISTER_PLANNER(name, Class)                              \
+  [[maybe_unused]] const bool skein_planner_registered_##Class =         \
+      ::skein::agent::register_planner(name, &::skein::agent::construct_planner<Class>)

@@ -1,0 +1,70 @@
+// Turns what a planner wants (a set-point, a path, a stop) into one full-state set-point per exchange whose position,
+// velocity and acceleration belong together and stay within the vehicle's limits, as the simulator demands.
+// A path is followed by a point mass that heads for a spot a little ahead on the polyline: it may be replaced at any time
+// without a jump, and rounds a corner by at most about `corner_m`.
+// Frame W.   Units: SI and radians.   Pure; threads: one.
+#pragma once
+
+#include "uav_agent/planner.hpp"
+
+namespace skein::agent {
+
+class Tracker {
+ public:
+  struct Config {
+    double max_speed_mps = 6.0;
+    double max_acceleration_mps2 = 3.0;
+    double max_yaw_rate = 0.8;       ///< [rad/s]
+    double corner_m = 0.25;          ///< how far a corner may be cut
+    double slow_down_error_m = 0.6;  ///< the set-point waits for a UAV that lags this much behind it
+    double lost_error_m = 3.0;       ///< farther apart, the set-point starts again from where the UAV is
+  };
+
+  explicit Tracker(const Config& config) : config_(config) {}
+
+  void follow(const Path& path);
+  void hold();
+  void fly_to(const Setpoint& setpoint);
+  void turn_to(double yaw) { yaw_goal_ = yaw; }
+
+  /// Advances by one exchange.
+  /// @returns nullopt as long as no motion was asked for.
+  std::optional<TrajectoryCommand> step(const RigidBodyState& state, double dt_s);
+
+  TrackingState tracking() const;
+
+ private:
+  enum class Mode { off, hold, path, setpoint };
+
+  void start_from(const RigidBodyState& state);
+  void lay_out(const std::vector<Waypoint>& waypoints);
+  void advance_along_path(double pace, double dt_s);
+  void advance_progress();
+  void advance_yaw(double dt_s);
+  /// Changes the velocity towards `v_goal` as far as the acceleration limit allows, and moves.
+  void accelerate(const Vector3d& v_goal, double dt_s);
+  double speed_limit(double dt_s) const;
+  std::size_t leg_at(double s) const;
+  Vector3d point_at(double s) const;
+
+  /// One corner of the polyline. The first is where the set-point stood when the path came.
+  struct Corner {
+    Vector3d p_W;
+    double s = 0.0;           ///< arc length from the start
+    double leg_speed = 0.0;   ///< of the leg that ends here
+    double speed = 0.0;       ///< at most, when passing here; 0 at the end
+    bool sharp = false;       ///< must be touched before the next leg begins
+  };
+
+  const Config config_;
+  Mode mode_ = Mode::off;
+  bool started_ = false;
+  Setpoint ref_;                    ///< what was commanded last
+  std::optional<double> yaw_goal_;
+  std::vector<Waypoint> waypoints_; ///< as asked for
+  std::vector<Corner> corners_;     ///< laid out at the first step with a new path
+  double progress_ = 0.0;           ///< arc length reached
+  bool done_ = true;
+};
+
+}  // namespace skein::agent
