@@ -34,7 +34,7 @@ std::string joined(const Json& object, const char* key) {
 std::string uav_state(const Json& uav) {
   const auto alive = uav.find("alive");
   if (alive == uav.end() || !alive->is_boolean()) return "-";
-  return alive->get<bool>() ? "alive" : "lost";
+  return alive->get<bool>() ? "alive" : "collided";
 }
 
 }  // namespace

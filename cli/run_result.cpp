@@ -59,13 +59,6 @@ Json warnings_of(const RunFacts& facts, const Reports& reports) {
   Json warnings = value_or(reports.sim_server, "warnings", Json::array());
   for (const std::string& warning : facts.warnings) warnings.push_back(warning);
   if (facts.native) warnings.push_back("--native: the digest may differ on another CPU model");
-  for (const Json& lost : value_or(reports.sim_server, "lost_members", Json::array())) {
-    std::ostringstream text;
-    text << value_or(lost, "member", "?").get<std::string>() << " was lost at "
-         << value_or(lost, "time_s", 0.0).get<double>()
-         << " s: " << value_or(lost, "reason", "no reason given").get<std::string>();
-    warnings.push_back(text.str());
-  }
   const auto missing = [&](const Json& report, const std::string& program, const std::string& consequence) {
     if (report.is_null()) warnings.push_back(program + " left no report: " + consequence);
   };

@@ -119,7 +119,8 @@ TEST_F(RunResult, AllReportsMakeACompleteResult) {
   EXPECT_EQ(result["uavs"][1]["captures"], 9);
   EXPECT_EQ(result["uavs"][1]["planner_cpu_s"], 0.25);
   EXPECT_EQ(result["radio"]["per_link"][0]["to"], "gcs");
-  EXPECT_EQ(result["warnings"], (Json{"windy", "beta was lost at 0.6 s: died"}));
+  EXPECT_EQ(result["lost_members"][0]["member"], "beta");
+  EXPECT_EQ(result["warnings"], Json::array({"windy"}));
 }
 
 TEST_F(RunResult, NoReportsMakeAnAbortedResultOfTheLastKnownNumbers) {

@@ -40,14 +40,16 @@ TestCounts count_cases(const Json& report) {
 
 TestCounts count_tests(const std::filesystem::path& junit, const std::filesystem::path& reports) {
   const std::string text = read_text(junit);
-  static const std::regex kEntry(R"re(<testcase name="([^"]*)"[^>]*\bstatus="([^"]*)"[^>]*>)re");
+  static const std::regex kEntry(
+      R"re(<testcase name="([^"]*)"[^>]*\bstatus="([^"]*)"[^>]*>\s*(<skipped message="SKIP_)?)re");
   TestCounts total;
   for (auto entry = std::sregex_iterator(text.begin(), text.end(), kEntry); entry != std::sregex_iterator(); ++entry) {
     const std::string name = (*entry)[1], status = (*entry)[2];
-    const bool failed = status == "fail";
+    const bool skipped = status == "disabled" || (*entry)[3].matched;
+    const bool failed = !skipped && status != "run";  // also one that could not be started
     const Json report = read_json(reports / (name + ".json"));
     if (report.is_null()) {  // no GoogleTest program, or one that crashed or timed out
-      ++(failed ? total.failed : status == "run" ? total.passed : total.skipped);
+      ++(failed ? total.failed : skipped ? total.skipped : total.passed);
       continue;
     }
     TestCounts counts = count_cases(report);

@@ -20,17 +20,23 @@ class TestCommand : public ::testing::Test {
     write_text(scratch_.path() / "ctest.xml", "<testsuite name=\"x\">" + entries + "</testsuite>");
     return summary_line(count_tests(scratch_.path() / "ctest.xml", scratch_.path()));
   }
-  static std::string entry(const std::string& name, const std::string& status) {
-    return "<testcase name=\"" + name + "\" classname=\"" + name + "\" time=\"0.1\" status=\"" + status +
-           "\">\n</testcase>\n";
+  /// As ctest writes it.
+  static std::string entry(const std::string& name, const std::string& status, const std::string& inside = "") {
+    return "<testcase name=\"" + name + "\" classname=\"" + name + "\" time=\"0.1\" status=\"" + status + "\">\n\t\t" +
+           inside + "</testcase>\n";
   }
   ScratchDir scratch_;
 };
 
 TEST_F(TestCommand, EntriesWithoutAGoogleTestReportCountAsOne) {
   EXPECT_EQ(counted(entry("a", "run") + entry("b", "run")), "2 passed, 0 failed");
-  EXPECT_EQ(counted(entry("a", "run") + entry("b", "fail") + entry("c", "notrun") + entry("d", "disabled")),
+  EXPECT_EQ(counted(entry("a", "run") + entry("b", "fail") + entry("d", "disabled") +
+                    entry("c", "notrun", R"(<skipped message="SKIP_RETURN_CODE=77"/>)")),
             "1 passed, 1 failed, 2 skipped");
+}
+
+TEST_F(TestCommand, AProgramThatWasNotBuiltIsAFailure) {
+  EXPECT_EQ(counted(entry("a", "notrun", R"(<skipped message="Unable to find executable"/>)")), "0 passed, 1 failed");
 }
 
 TEST_F(TestCommand, CasesOfAGoogleTestProgramCountSingly) {

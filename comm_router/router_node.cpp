@@ -174,14 +174,21 @@ void RouterNode::deliver(const StepBatch& batch) {
   last_step_answered_ = batch.k == last_k_;
 }
 
+bool RouterNode::serve() {
+  const bool waiting = attach();
+  while (const auto batch = sync_.take()) deliver(*batch);
+  return waiting;
+}
+
+void RouterNode::poll() {
+  inbox_.dispatch(std::chrono::milliseconds(0));
+  if (client_.poll() == LockstepClient::Event::think) begin_step();
+  serve();
+}
+
 int RouterNode::run(const StopSignal& stop) {
   const bus::ClientLoop loop{.think = [this] { begin_step(); },
-                             .serve =
-                                 [this] {
-                                   const bool waiting = attach();
-                                   while (const auto batch = sync_.take()) deliver(*batch);
-                                   return waiting;
-                                 },
+                             .serve = [this] { return serve(); },
                              .answered_last = [this] { return last_step_answered_; }};
   return bus::exit_code(bus::run_client(client_, inbox_, loop, stop), "comm_router");
 }

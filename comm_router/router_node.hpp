@@ -23,6 +23,9 @@ class RouterNode {
 
   /// Takes part until the last step, or until asked to stop. @returns the program's exit code.
   int run(const StopSignal& stop);
+  /// For a test that drives it event by event instead of run(): say hello, then poll() again and again.
+  void start() { client_.start(); }
+  void poll();
   /// Makes run() look at `stop`; from any thread.
   void wake() { inbox_.wake(); }
   const LinkGate& gate() const { return gate_; }
@@ -49,6 +52,8 @@ class RouterNode {
   void on_ready(Node node, bus::Sample&& sample);
   /// @returns true while somebody is not attached yet.
   bool attach();
+  /// @returns true while it waits for matches.
+  bool serve();
   bool endpoints_match(const Applicant& applicant, bus::ParticipantId source) const;
   void begin_step();
   void deliver(const StepBatch& batch);

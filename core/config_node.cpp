@@ -17,6 +17,7 @@ namespace {
 /// Far above any file of ours; keeps a hostile file from eating the memory.
 constexpr std::uintmax_t kMostBytes = 16u << 20;
 constexpr std::size_t kDeepest = 32;
+constexpr std::size_t kLongestKey = 200;
 
 std::string place(const std::string& origin, int line) {
   return line > 0 ? origin + ":" + std::to_string(line) : origin;
@@ -118,6 +119,9 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void take_key(Open& parent, const ConfigNode& node) {
     if (node.kind != ConfigNode::Kind::scalar) fail(node.line, "a key must be a plain word");
+    if (node.scalar.size() > kLongestKey || node.scalar.find('\n') != std::string::npos) {
+      fail(node.line, "a key this long is none; is there a quote or a colon too many above?");
+    }
     const auto& keys = parent.node.keys;
     const auto same = std::find(keys.begin(), keys.end(), node.scalar);
     if (same != keys.end()) {

@@ -26,6 +26,11 @@ constexpr double kClearance = 0.5;
 // Triangles that lie in the ground plane are ground: the floor slab of a building is no obstacle to who lands there.
 constexpr float kGroundSlab = 0.01F;
 constexpr int kSolverIterations = 20;
+// A UAV without thrust that has been this slow for this long lies still and costs nothing more. Bullet has a rule of
+// its own for that; this one does not depend on a body's neighbours.
+constexpr double kStillSpeed = 0.02;          // [m/s], and [rad/s]
+constexpr int kStillTicks = 200;
+constexpr double kNoWrench = 1e-6;            // [N], [N m]
 
 btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -78,7 +83,26 @@ struct UavBody {
   std::unique_ptr<btRigidBody> body;
   double radius = 0.0;
   Vector3d inertia = Vector3d::Zero();
+  bool pushed = false;              ///< a wrench acts during the coming tick
+  int still_ticks = 0;
   std::optional<btVector3> clear_at;  ///< here nothing of the structure was within kClearance
+
+  bool asleep() const { return body->getActivationState() == DISABLE_SIMULATION; }
+  void wake() {
+    body->forceActivationState(DISABLE_DEACTIVATION);
+    still_ticks = 0;
+  }
+  /// After a tick: whether to go on.
+  void fall_asleep_if_still() {
+    const bool still = !pushed && body->getLinearVelocity().norm() < kStillSpeed &&
+                       body->getAngularVelocity().norm() < kStillSpeed;
+    pushed = false;
+    still_ticks = still ? still_ticks + 1 : 0;
+    if (still_ticks < kStillTicks) return;
+    body->setLinearVelocity(btVector3(0, 0, 0));
+    body->setAngularVelocity(btVector3(0, 0, 0));
+    body->forceActivationState(DISABLE_SIMULATION);
+  }
 };
 
 /// Turns a body through one tick so that its angular momentum is kept: Bullet knows angular velocity only, and its own
@@ -240,9 +264,14 @@ void PhysicsWorld::Impl::near_callback(btBroadphasePair& pair, btCollisionDispat
 
 void PhysicsWorld::Impl::step() {
   keepers.clear();
-  for (UavBody& uav : uavs) keepers.emplace_back(uav);
+  for (UavBody& uav : uavs) {
+    if (!uav.asleep()) keepers.emplace_back(uav);
+  }
   world.stepSimulation(kTickS, 0);
   for (MomentumKeeper& keeper : keepers) keeper.finish();
+  for (UavBody& uav : uavs) {
+    if (!uav.asleep()) uav.fall_asleep_if_still();
+  }
 }
 
 BodyId PhysicsWorld::Impl::identify(const btCollisionObject& object) const {
@@ -295,7 +324,7 @@ void PhysicsWorld::add_uav(const VehicleConfig& vehicle, const Isometry3d& X_WB)
   const Quaterniond q_WB(X_WB.linear());
   info.m_startWorldTransform = to_bullet(q_WB, X_WB.translation());
   uav.body = std::make_unique<btRigidBody>(info);
-  uav.body->setActivationState(DISABLE_DEACTIVATION);
+  uav.body->setActivationState(DISABLE_DEACTIVATION);  // UavBody sees to it
   uav.body->setFlags(0);  // no gyroscopic terms: MomentumKeeper's business
   uav.body->setUserIndex(static_cast<int>(impl_->uavs.size()));
   uav.body->setUserPointer(impl_.get());
@@ -323,9 +352,12 @@ bool PhysicsWorld::touches_structure(const VehicleConfig& vehicle, const Isometr
 }
 
 void PhysicsWorld::apply_wrench(std::size_t uav, const Vector3d& force_W, const Vector3d& torque_W) {
-  btRigidBody& body = *impl_->uavs[uav].body;
-  body.applyCentralForce(to_bullet(force_W));
-  body.applyTorque(to_bullet(torque_W));
+  UavBody& pushed = impl_->uavs[uav];
+  if (force_W.norm() < kNoWrench && torque_W.norm() < kNoWrench) return;
+  if (pushed.asleep()) pushed.wake();
+  pushed.pushed = true;
+  pushed.body->applyCentralForce(to_bullet(force_W));
+  pushed.body->applyTorque(to_bullet(torque_W));
 }
 
 void PhysicsWorld::tick() {
@@ -341,6 +373,12 @@ void PhysicsWorld::tick() {
     state.w_WB_B = to_eigen(body.getAngularVelocity() * X_WB.getBasis());  // row vector times R is R^T w
   }
   contacts_ = impl_->read_contacts();
+  for (const Contact& contact : contacts_) {
+    if (contact.other.kind != BodyId::Kind::uav) continue;
+    for (const std::size_t i : {contact.uav, contact.other.uav}) {
+      if (impl_->uavs[i].asleep()) impl_->uavs[i].wake();
+    }
+  }
 }
 
 void PhysicsWorld::set_state(std::size_t uav, const RigidBodyState& state) {
@@ -351,6 +389,7 @@ void PhysicsWorld::set_state(std::size_t uav, const RigidBodyState& state) {
   moved.body->setAngularVelocity(to_bullet(Vector3d(state.q_WB * state.w_WB_B)));
   moved.body->updateInertiaTensor();
   moved.clear_at.reset();
+  moved.wake();
   impl_->broadphase.getOverlappingPairCache()->cleanProxyFromPairs(moved.body->getBroadphaseProxy(),
                                                                    &impl_->dispatcher);
   states_[uav] = state;

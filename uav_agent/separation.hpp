@@ -23,7 +23,7 @@ class Separation {
  public:
   struct Config {
     double margin_m = 2.2;        ///< between two bodies' surfaces: nearer than this is a conflict
-    double tight_m = 0.9;         ///< nearer than this, the right of way does not count
+    double tight_m = 1.4;         ///< nearer than this, the right of way does not count
     double horizon_s = 3.0;
     double patience_s = 1.5;      ///< of waiting, before going around
   };

@@ -69,6 +69,7 @@ void LockstepClient::on_step(Sample&& sample) {
   if (phase_ != Phase::declared && phase_ != Phase::member) return;
   msg::Step step;
   if (sample.source != server_ || !decode(sample.payload, step)) return;
+  if (step_ && step.k() == step_->k()) return;  // amended, but we have answered it already
   const auto& members = step.members();
   const bool ours = std::any_of(members.begin(), members.end(),
                                 [&](const auto& m) { return m.source() == participant_.id() && m.name() == member_; });

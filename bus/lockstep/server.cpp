@@ -30,7 +30,7 @@ LockstepServer::DomainIndex LockstepServer::add_domain(const std::string& node, 
     domain->control_readers.push_back(inbox_.subscribe(participant, topic, std::move(handler)));
     return domain->control_readers.back().get();
   };
-  listen(spec(topics::ready()), [this, index](Sample&& s) { on_ready(index, std::move(s)); });
+  domain->ready_reader = listen(spec(topics::ready()), [this, index](Sample&& s) { on_ready(index, std::move(s)); });
   domain->done_reader = listen(spec(topics::done()), [this, index](Sample&& s) { on_done(index, std::move(s)); });
   if (index == 0) {
     domain->readers.emplace_back(
@@ -91,7 +91,7 @@ void LockstepServer::on_ready(DomainIndex domain, Sample&& sample) {
   msg::Ready ready;
   if (!decode(sample.payload, ready)) return;
   Place* place = find(ready.member());
-  if (place == nullptr || place->domain != domain) return;
+  if (place == nullptr || place->domain != domain || gone_.contains(sample.source)) return;
   if (place->source != 0 && place->source != sample.source) {
     place->next.emplace(sample.source, ready);  // its predecessor is not yet known to be dead
     return;
@@ -169,6 +169,8 @@ bool LockstepServer::at_boundary() {
   bool closed = true;
   for (Place* place : order) {
     if (place->member) continue;
+    // Who died before it was a member may never be reported to us: its hello outlived it.
+    if (place->source != 0 && !contains(domains_[place->domain]->ready_reader->matched(), place->source)) vacate(*place);
     if (place->source == 0 && place->next) {
       const auto [source, ready] = *place->next;
       place->next.reset();
@@ -261,6 +263,18 @@ void LockstepServer::publish(const StepInfo& info) {
     for (auto& writer : domain.writers) writer->begin_step();
     domain.step->begin_step();
     domain.step->write(step);
+    domain.last = step;
+  }
+}
+
+// The router died within a step: what it still owed will never come, and who has not answered must not wait for it.
+void LockstepServer::amend_step() {
+  for (std::size_t i = 1; i < domains_.size(); ++i) {
+    Domain& domain = *domains_[i];
+    std::erase_if(domain.last.members(), [](const msg::Member& m) { return m.name() == kRouterName; });
+    std::erase_if(domain.last.expected(),
+                  [&](const msg::TopicCount& c) { return c.source() != domain.participant->id(); });
+    domain.step->write(domain.last);
   }
 }
 
@@ -319,6 +333,12 @@ bool LockstepServer::answered() {
 
 // ---- leaving ----------------------------------------------------------------------------------------------------
 
+void LockstepServer::vacate(Place& place) {
+  place.member = place.invited = place.declared = place.answered = false;
+  place.source = 0;
+  place.sent.clear();
+}
+
 void LockstepServer::leave(Place& place, const std::string& reason) {
   domains_[place.domain]->commands.discard(place.source);
   if (place.member) {
@@ -332,12 +352,13 @@ void LockstepServer::leave(Place& place, const std::string& reason) {
     drop_->write(drop);
   }
   lost_.push_back({place.name, k_, reason});
-  place.awaited = place.member = place.invited = place.declared = place.answered = false;
-  place.source = 0;
-  place.sent.clear();
+  if (place.source != 0) gone_.insert(place.source);
+  place.awaited = false;
+  vacate(place);
   if (place.name == kRouterName) {
     delivered_.clear();
     newly_delivered_.clear();
+    if (in_step_) amend_step();
   }
 }
 

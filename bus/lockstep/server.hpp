@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <map>
 
 #include "bus/lockstep/counted.hpp"
@@ -68,9 +69,10 @@ class LockstepServer {
     std::vector<std::unique_ptr<Reader>> control_readers;
     std::vector<std::unique_ptr<CountedWriter>> writers;
     std::vector<std::uint64_t> announced;  ///< counts of `writers` that the members know
+    msg::Step last;                        ///< published
     std::vector<std::pair<std::string, std::unique_ptr<Reader>>> readers;
     CountedQueues commands;
-    const Reader* done_reader = nullptr;
+    const Reader *done_reader = nullptr, *ready_reader = nullptr;
   };
   struct Place {
     std::string name;
@@ -99,6 +101,8 @@ class LockstepServer {
   std::vector<msg::TopicCount> all_counts(const Domain& domain) const;
   std::vector<msg::TopicCount> take_new_counts(Domain& domain);
   void leave(Place& place, const std::string& reason);
+  static void vacate(Place& place);
+  void amend_step();
 
   Inbox& inbox_;
   std::vector<std::unique_ptr<Domain>> domains_;
@@ -110,6 +114,7 @@ class LockstepServer {
   std::map<std::string, std::map<std::string, msg::TopicCount>> delivered_;
   std::map<std::string, std::vector<msg::TopicCount>> newly_delivered_;
   std::vector<std::uint8_t> routed_digest_, station_digest_;
+  std::set<ParticipantId> gone_;  ///< lost; what they said may still arrive
   std::vector<LostMember> lost_;
   std::vector<std::string> rejoined_;
   std::uint64_t k_ = 0;

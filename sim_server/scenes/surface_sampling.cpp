@@ -45,7 +45,7 @@ class SolidQuery {
   }
 
  private:
-  static constexpr double kColumn = 0.5;
+  static constexpr double kColumn = 0.75;
 
   int column(double x) const { return std::clamp(int((x - extent_.min().x()) / kColumn), 0, columns_x_ - 1); }
   int row(double y) const { return std::clamp(int((y - extent_.min().y()) / kColumn), 0, columns_y_ - 1); }

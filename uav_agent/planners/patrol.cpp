@@ -83,7 +83,6 @@ class PatrolPlanner final : public Planner {
 
   PlannerOutput plan(const PlannerInput& in) override {
     PlannerOutput out;
-    if (getenv("DBG") && in.k % 100 == 0) { auto& p = in.tracking.setpoint.p_WB; const FreeSpace sp = free_space(in, {}); fprintf(stderr, "t%.0f uav%zu phase%d paused%d round%d todo%zu cur%zu s%.1f path%zu leg%zu done%d fail%d p %.1f %.1f %.1f v%.1f free%d dist%.2f\n", seconds(in.tick), agent_.self, (int)phase_, paused_, round_, to_do_.size(), current_, strip_s_, path_.waypoints.size(), in.tracking.leg, in.tracking.done, failures_, p.x(), p.y(), p.z(), in.tracking.setpoint.v_WB.norm(), sp.free(p), in.map.distance_to_occupied(p, 5).value_or(9)); }
     if (!in.boxes.empty() && !shared_) share_work(in);
     if (phase_ == Phase::ground) {
       if (separation_.may_lift_off(in.tick, in.peers)) lift_off(in, out);

@@ -1,0 +1,276 @@
+#include "tests/protocol/fleet_model.hpp"
+
+#include "bus/lockstep/client.hpp"
+#include "bus/lockstep/names.hpp"
+#include "bus/lockstep/server.hpp"
+#include "comm_router/router_node.hpp"
+#include "core/radio_routes.hpp"
+
+namespace skein::test {
+
+using bus::LockstepClient;
+
+namespace {
+
+constexpr std::chrono::milliseconds kNow{0};
+
+std::uint64_t fnv1a(std::uint64_t hash, const std::string& text) {
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
+
+bus::TopicSpec text_topic(const std::string& name, int depth) {
+  return {name, type_name<msg::String>(), bus::Qos{.reliable = true, .latched = false, .depth = depth}};
+}
+
+bus::TopicSpec sensor_topic(const std::string& id) { return text_topic("rt/" + id + "/sensor", 8); }
+bus::TopicSpec command_topic(const std::string& id) { return text_topic("rt/" + id + "/command", 8); }
+
+msg::String text_message(const std::string& text) {
+  msg::String message;
+  message.data(text);
+  return message;
+}
+
+std::string text_of(const bus::Sample& sample) {
+  msg::String message;
+  return decode(sample.payload, message) ? message.data() : "malformed";
+}
+
+Scenario make_scenario(std::size_t uavs) {
+  Scenario scenario;
+  scenario.name = "protocol";
+  for (std::size_t i = 0; i < uavs; ++i) {
+    UavConfig uav;
+    uav.name = std::string(1, static_cast<char>('a' + i));
+    scenario.fleet.push_back(uav);
+  }
+  scenario.radio.push_back({"/talk", "std_msgs/msg/String", {"all"}, {"all"}});
+  return scenario;
+}
+
+}  // namespace
+
+class ServerProcess final : public Process {
+ public:
+  ServerProcess(FleetModel& model, SimNetwork& network) : model_(model), bus_(network), server_(inbox_) {
+    const Scenario& scenario = model.scenario_;
+    participants_.push_back(bus_.join(world_domain(0)));
+    const auto world = server_.add_domain("", *participants_.back());
+    participants_.push_back(bus_.join(gcs_domain(0)));
+    const auto gcs = server_.add_domain("gcs", *participants_.back());
+    for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+      const std::string& id = scenario.fleet[i].name;
+      participants_.push_back(bus_.join(uav_domain(0, i)));
+      const auto domain = server_.add_domain(id, *participants_.back());
+      server_.add_place(id, domain, true);
+      sensors_.push_back(&server_.writer(domain, sensor_topic(id)));
+      server_.read(domain, command_topic(id),
+                   [this, id](bus::Sample&& sample) { model_.taken_[id][k_].push_back(text_of(sample)); });
+    }
+    server_.add_place(std::string(bus::kStationName), gcs, true);
+    server_.add_place(std::string(bus::kRouterName), world, true);
+  }
+
+  void poll() override {
+    inbox_.dispatch(kNow);
+    for (const auto& lost : server_.take_lost()) model_.lost_.push_back(lost.name);
+    if (finished_) return;
+    if (!in_step_) {
+      if (!server_.at_boundary()) return;
+      for (const auto& name : server_.take_rejoined()) model_.rejoined_.push_back(name);
+      publish();
+    } else if (server_.answered()) {
+      in_step_ = false;
+      finished_ = ++k_ == model_.options_.steps;
+    }
+  }
+  bool finished() const override { return finished_; }
+  void lost(const std::string& name) { server_.lost(name, "killed"); }
+  std::string awaits() const {
+    std::string text = (in_step_ ? "step " : "boundary before ") + std::to_string(k_) + " awaits";
+    for (const auto& name : server_.awaited()) text += " " + name;
+    return text;
+  }
+
+ private:
+  void publish() {
+    const std::size_t nodes = sensors_.size() + 1;
+    std::vector<std::uint8_t> links(nodes * nodes, 0);
+    for (std::size_t from = 0; from < nodes; ++from) {
+      for (std::size_t to = 0; to < nodes; ++to) links[from * nodes + to] = from != to && (from + to + k_) % 4 != 0;
+    }
+    for (std::size_t i = 0; i < sensors_.size(); ++i) {
+      for (std::uint64_t n = 0; n < (k_ + i) % 3; ++n) {
+        sensors_[i]->write(text_message("s" + std::to_string(k_) + "." + std::to_string(n)));
+      }
+    }
+    server_.publish({.k = k_,
+                     .tick = static_cast<std::int64_t>(20 * k_),
+                     .links = links,
+                     .ledger_upto = 0,
+                     .final_step = k_ + 1 == model_.options_.steps});
+    in_step_ = true;
+  }
+
+  FleetModel& model_;
+  SimBus bus_;
+  bus::Inbox inbox_{0};
+  std::vector<std::unique_ptr<bus::Participant>> participants_;
+  bus::LockstepServer server_;
+  std::vector<bus::CountedWriter*> sensors_;
+  std::uint64_t k_ = 0;
+  bool in_step_ = false, finished_ = false;
+};
+
+/// An agent, or the station: a member with a radio and no sensors.
+class AgentProcess final : public Process {
+ public:
+  AgentProcess(FleetModel& model, SimNetwork& network, const std::string& name, int domain, Node node, std::string life)
+      : model_(model),
+        bus_(network),
+        participant_(bus_.join(domain)),
+        name_(name),
+        life_(std::move(life)),
+        client_(*participant_, inbox_, name) {
+    const auto hear = [this](bus::Sample&& sample) { log_.heard.push_back(text_of(sample)); };
+    if (node != kStationNode) {
+      client_.read(sensor_topic(name), LockstepClient::Counterpart::server, hear);
+      client_.declare_writer(command_topic(name), LockstepClient::Counterpart::server);
+    }
+    arrival_ = wire_topic(arrival_topic("/talk", model.scenario_.node_name(node)));
+    client_.read(text_topic(arrival_, 1024), LockstepClient::Counterpart::router, hear);
+    client_.declare_writer(text_topic("rt/talk", 256), LockstepClient::Counterpart::router);
+    client_.start();
+  }
+
+  void poll() override {
+    inbox_.dispatch(kNow);
+    if (client_.poll() != LockstepClient::Event::think) return;
+    log_.k = client_.step().k();
+    for (const std::string& text : log_.heard) mind_ = fnv1a(mind_, text);
+    mind_ = fnv1a(mind_, std::to_string(log_.k));
+    const bool commands = name_ != bus::kStationName;
+    for (std::uint64_t n = 0; commands && n < mind_ % 3; ++n) {
+      log_.commanded.push_back(life_ + "c" + std::to_string(mind_ % 1000) + "." + std::to_string(n));
+      client_.write("rt/" + name_ + "/command", text_message(log_.commanded.back()));
+    }
+    for (std::uint64_t n = 0; n < (mind_ >> 8) % 3; ++n) {
+      const std::string said = life_ + "@" + std::to_string(log_.k) + "." + std::to_string(n) + "m" + std::to_string(mind_ % 1000);
+      if (client_.write("rt/talk", text_message(said))) log_.said.push_back(said);
+    }
+    client_.done();
+    finished_ = client_.step().final_step();
+    model_.agents_[life_].push_back(std::exchange(log_, {}));
+  }
+  bool finished() const override { return finished_; }
+  bool took_part() const override { return client_.is_member(); }
+  std::string waits() const { return life_ + ": " + client_.waiting_for(); }
+
+ private:
+  FleetModel& model_;
+  SimBus bus_;
+  bus::Inbox inbox_{0};
+  std::unique_ptr<bus::Participant> participant_;
+  std::string name_, life_, arrival_;
+  LockstepClient client_;
+  StepLog log_;
+  std::uint64_t mind_ = 0xcbf29ce484222325;
+  bool finished_ = false;
+};
+
+namespace {
+
+class RouterProcess final : public Process {
+ public:
+  RouterProcess(const Scenario& scenario, SimNetwork& network) : bus_(network), node_(scenario, 0, bus_) { node_.start(); }
+  void poll() override { node_.poll(); }
+  bool finished() const override { return true; }
+
+ private:
+  SimBus bus_;
+  router::RouterNode node_;
+};
+
+}  // namespace
+
+FleetModel::FleetModel(const FleetOptions& options, std::uint64_t schedule_seed)
+    : options_(options), scenario_(make_scenario(options.uavs)), random_(schedule_seed, "schedule", 0) {
+  start("server");
+  start(std::string(bus::kRouterName));
+  start(std::string(bus::kStationName));
+  for (const UavConfig& uav : scenario_.fleet) start(uav.name);
+}
+
+FleetModel::~FleetModel() = default;
+
+void FleetModel::start(const std::string& name) {
+  const int life = ++lives_[name];
+  const std::string life_name = life == 1 ? name : name + "#" + std::to_string(life);
+  if (name == "server") {
+    processes_[name] = std::make_unique<ServerProcess>(*this, network_);
+  } else if (name == bus::kRouterName) {
+    processes_[name] = std::make_unique<RouterProcess>(scenario_, network_);
+  } else if (name == bus::kStationName) {
+    processes_[name] = std::make_unique<AgentProcess>(*this, network_, name, gcs_domain(0), kStationNode, life_name);
+  } else {
+    const std::size_t uav = scenario_.uav_index(name);
+    processes_[name] =
+        std::make_unique<AgentProcess>(*this, network_, name, uav_domain(0, uav), node_of_uav(uav), life_name);
+  }
+}
+
+// Death, its discovery and the restart come in this order, with other events in between.
+void FleetModel::kill_and_notice() {
+  if (options_.victim.empty() || events_ < options_.kill_after || random_.bits() % 8 != 0) return;
+  auto& server = static_cast<ServerProcess&>(*processes_.at("server"));
+  if (server.finished()) return;
+  if (fate_ == Fate::alive) {
+    processes_.erase(options_.victim);
+    network_.lose_tails_of_the_dead(random_);
+    fate_ = Fate::killed;
+  } else if (fate_ == Fate::killed) {
+    server.lost(options_.victim);
+    fate_ = Fate::noticed;
+  } else if (fate_ == Fate::noticed && options_.restart) {
+    start(options_.victim);
+    fate_ = Fate::restarted;
+  }
+}
+
+bool FleetModel::all_finished() const {
+  // Who starts again when the last step is over finds nobody to invite it.
+  const bool over = processes_.at("server")->finished();
+  for (const auto& [name, process] : processes_) {
+    if (!process->finished() && !(over && !process->took_part())) return false;
+  }
+  return true;
+}
+
+std::string FleetModel::run() {
+  constexpr std::size_t kQuiet = 200;  // polls of everybody without anything new: nobody will ever move again
+  std::size_t quiet = 0;
+  while (!all_finished()) {
+    ++events_;
+    kill_and_notice();
+    const auto events = network_.events();
+    quiet = events.empty() ? quiet + 1 : 0;
+    if (quiet > kQuiet * processes_.size()) {
+      std::string text = static_cast<ServerProcess&>(*processes_.at("server")).awaits() + "\n";
+      for (const auto& [name, process] : processes_) {
+        if (const auto* agent = dynamic_cast<const AgentProcess*>(process.get())) text += agent->waits() + "\n";
+      }
+      return "deadlock\n" + text + network_.describe();
+    }
+    if (!events.empty() && random_.bits() % 3 != 0) {
+      network_.happen(events[random_.bits() % events.size()]);
+    } else {
+      auto it = processes_.begin();
+      std::advance(it, static_cast<std::ptrdiff_t>(random_.bits() % processes_.size()));
+      it->second->poll();
+    }
+  }
+  return {};
+}
+
+}  // namespace skein::test

@@ -1,0 +1,76 @@
+// A small fleet on the simulated network: the production server, router and clients, with toy minds. What an agent
+// says depends on everything that it has heard, so that the slightest difference spreads.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "tests/protocol/sim_network.hpp"
+
+namespace skein::test {
+
+/// What one member did and heard in one step.
+struct StepLog {
+  std::uint64_t k = 0;
+  std::vector<std::string> heard, said, commanded;
+};
+
+/// A program of the fleet; it acts only in poll().
+class Process {
+ public:
+  virtual ~Process() = default;
+  virtual void poll() = 0;
+  virtual bool finished() const = 0;
+  virtual bool took_part() const { return true; }
+};
+
+struct FleetOptions {
+  std::size_t uavs = 2;
+  std::uint64_t steps = 8;     ///< the last one is final
+  std::string victim = {};     ///< program to kill once, or empty
+  bool restart = false;        ///< and to start again
+  std::uint64_t kill_after = 0;  ///< events
+};
+
+/// Runs one schedule to its end.
+class FleetModel {
+ public:
+  FleetModel(const FleetOptions& options, std::uint64_t schedule_seed);
+  ~FleetModel();
+
+  /// @returns an empty string, or what went wrong: a deadlock, with the state of things.
+  std::string run();
+
+  /// Per life of an agent ("a", "a#2" after a restart): its steps.
+  const std::map<std::string, std::vector<StepLog>>& agents() const { return agents_; }
+  /// Commands that the server took, per UAV and step.
+  const std::map<std::string, std::map<std::uint64_t, std::vector<std::string>>>& taken() const { return taken_; }
+  /// Names that were told as lost, and as members again.
+  const std::vector<std::string>& lost() const { return lost_; }
+  const std::vector<std::string>& rejoined() const { return rejoined_; }
+
+ private:
+  friend class ServerProcess;
+  friend class AgentProcess;
+
+  void start(const std::string& name);
+  void kill_and_notice();
+  bool all_finished() const;
+
+  FleetOptions options_;
+  Scenario scenario_;
+  RandomStream random_;
+  SimNetwork network_;
+  std::map<std::string, std::unique_ptr<Process>> processes_;
+  std::map<std::string, std::vector<StepLog>> agents_;
+  std::map<std::string, std::map<std::uint64_t, std::vector<std::string>>> taken_;
+  std::vector<std::string> lost_, rejoined_;
+  std::map<std::string, int> lives_;
+  enum class Fate { alive, killed, noticed, restarted } fate_ = Fate::alive;
+  std::uint64_t events_ = 0;
+};
+
+}  // namespace skein::test
