@@ -1,0 +1,193 @@
+#include "bus/inbox.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <thread>
+
+#include "bus/typed.hpp"
+#include "free_domain.hpp"
+
+namespace skein::bus {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Longer than anything takes; a test that waits so long has failed.
+constexpr auto kPatience = 60s;
+
+class InboxTest : public testing::Test {
+ protected:
+  std::unique_ptr<Participant> join() { return bus_->join(domains_.base()); }
+  static TopicSpec topic(const std::string& name) { return {name, "Type_", {}}; }
+  static std::vector<std::uint8_t> payload(std::uint8_t number) { return {0, 1, 0, 0, number, 0, 0, 0}; }
+
+  test::FreeDomains domains_{1};
+  std::unique_ptr<Bus> bus_ = make_bus({.vendor = "inproc"});
+  std::unique_ptr<Participant> here_ = join(), there_ = join();
+};
+
+TEST_F(InboxTest, HandlersRunInDispatchInOrderOfArrival) {
+  Inbox inbox(0);
+  std::vector<int> got;
+  const auto note = [&got](Sample&& sample) { got.push_back(sample.payload[4]); };
+  auto reader_a = inbox.subscribe(*here_, topic("a"), note), reader_b = inbox.subscribe(*here_, topic("b"), note);
+  auto a = there_->create_writer(topic("a")), b = there_->create_writer(topic("b"));
+  a->write(payload(1));
+  b->write(payload(2));
+  inbox.post([&got] { got.push_back(3); });
+  a->write(payload(4));
+  EXPECT_TRUE(got.empty());
+  EXPECT_TRUE(inbox.dispatch(0ms));
+  EXPECT_EQ(got, (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_FALSE(inbox.dispatch(0ms));
+  EXPECT_EQ(reader_a->matched(), std::vector<ParticipantId>{there_->id()});
+}
+
+TEST_F(InboxTest, WakeEndsTheWait) {
+  Inbox inbox(0);
+  std::thread other([&inbox] { inbox.wake(); });
+  EXPECT_FALSE(inbox.dispatch(kPatience));
+  other.join();
+}
+
+TEST_F(InboxTest, WakeBeforeDispatchIsNotForgottenAndNothingIsLostByIt) {
+  Inbox inbox(0);
+  int ran = 0;
+  inbox.post([&ran] { ++ran; });
+  inbox.wake();
+  EXPECT_FALSE(inbox.dispatch(kPatience));
+  EXPECT_EQ(ran, 1);
+  inbox.post([&ran] { ++ran; });
+  EXPECT_TRUE(inbox.dispatch(kPatience));
+}
+
+TEST_F(InboxTest, WorkFromAnotherThreadRunsInTheWaitingOne) {
+  for (const unsigned chaos : {0u, 1u}) {
+    Inbox inbox(chaos);
+    std::thread::id ran_in;
+    std::thread other([&] { inbox.post([&ran_in] { ran_in = std::this_thread::get_id(); }); });
+    EXPECT_TRUE(inbox.dispatch(kPatience));
+    other.join();
+    EXPECT_EQ(ran_in, std::this_thread::get_id());
+  }
+}
+
+TEST_F(InboxTest, WhatHandlersCauseIsHandledByTheNextDispatch) {
+  Inbox inbox(0);
+  int ran = 0;
+  inbox.post([&] { inbox.post([&ran] { ++ran; }); });
+  EXPECT_TRUE(inbox.dispatch(0ms));
+  EXPECT_EQ(ran, 0);
+  EXPECT_TRUE(inbox.dispatch(0ms));
+  EXPECT_EQ(ran, 1);
+}
+
+TEST_F(InboxTest, ExceptionOfAHandlerLosesNothing) {
+  Inbox inbox(0);
+  std::vector<int> got;
+  inbox.post([&got] { got.push_back(1); });
+  inbox.post([] { throw std::runtime_error("handler"); });
+  inbox.post([&got] { got.push_back(3); });
+  EXPECT_THROW(inbox.dispatch(0ms), std::runtime_error);
+  EXPECT_TRUE(inbox.dispatch(0ms));
+  EXPECT_EQ(got, (std::vector<int>{1, 3}));
+}
+
+TEST_F(InboxTest, NothingArrivesForAReaderThatIsGone) {
+  Inbox inbox(0);
+  int got = 0;
+  auto reader = inbox.subscribe(*here_, topic("a"), [&got](Sample&&) { ++got; });
+  auto writer = there_->create_writer(topic("a"));
+  writer->write(payload(1));
+  reader.reset();
+  writer->write(payload(2));
+  inbox.dispatch(0ms);
+  EXPECT_EQ(got, 0);
+}
+
+TEST_F(InboxTest, SamplesOfManyThreadsAllArriveInOrder) {
+  constexpr int kThreads = 4, kSamples = 20'000;
+  Inbox inbox(0);
+  std::map<ParticipantId, std::uint64_t> next;
+  int got = 0, out_of_order = 0;
+  auto reader =
+      subscribe<msg::TopicCount>(inbox, *here_, "counts", Qos{}, [&](const msg::TopicCount& m, ParticipantId source) {
+        out_of_order += m.count() != next[source]++;
+        ++got;
+      });
+  std::vector<std::thread> threads;
+  for (int t = 0; t < kThreads; ++t)
+    threads.emplace_back([this] {
+      auto participant = join();
+      TypedWriter<msg::TopicCount> writer(*participant, "counts");
+      msg::TopicCount m;
+      for (int i = 0; i < kSamples; ++i) {
+        m.count(writer.count());
+        writer.write(m);
+      }
+    });
+  while (got < kThreads * kSamples && inbox.dispatch(kPatience)) {
+  }
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(got, kThreads * kSamples);
+  EXPECT_EQ(out_of_order, 0);
+  EXPECT_EQ(next.size(), static_cast<std::size_t>(kThreads));
+}
+
+TEST_F(InboxTest, ChaosReordersButNeverWithinAStream) {
+  constexpr int kWriters = 4, kTopics = 3, kSamples = 200;
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    Inbox inbox(seed);
+    std::vector<std::uint64_t> order;
+    std::map<std::pair<int, ParticipantId>, std::uint64_t> last;
+    bool ordered = true;
+    std::vector<std::unique_ptr<Reader>> readers;
+    for (int t = 0; t < kTopics; ++t)
+      readers.push_back(subscribe<msg::TopicCount>(inbox, *here_, "topic" + std::to_string(t), Qos{},
+                                                   [&, t](const msg::TopicCount& m, ParticipantId source) {
+                                                     auto& previous = last[{t, source}];
+                                                     ordered = ordered && m.count() >= previous;
+                                                     previous = m.count() + 1;
+                                                     order.push_back(m.count());
+                                                   }));
+    std::vector<std::unique_ptr<Participant>> participants;
+    std::vector<TypedWriter<msg::TopicCount>> writers;
+    for (int w = 0; w < kWriters; ++w) {
+      participants.push_back(join());
+      for (int t = 0; t < kTopics; ++t) writers.emplace_back(*participants.back(), "topic" + std::to_string(t));
+    }
+    std::uint64_t number = 0;
+    for (int i = 0; i < kSamples; ++i)
+      for (auto& writer : writers) {
+        msg::TopicCount m;
+        m.count(number++);
+        writer.write(m);
+      }
+    while (order.size() < number && inbox.dispatch(kPatience)) {
+    }
+    EXPECT_EQ(order.size(), number);
+    EXPECT_TRUE(ordered);
+    EXPECT_FALSE(std::is_sorted(order.begin(), order.end())) << "chaos did nothing";
+  }
+}
+
+TEST_F(InboxTest, MalformedSamplesAreCountedAndDropped) {
+  Inbox inbox(0);
+  int got = 0;
+  auto reader = subscribe<msg::Odometry>(inbox, *here_, "odometry", Qos{},
+                                         [&got](const msg::Odometry&, ParticipantId) { ++got; });
+  auto garbage = there_->create_writer(topic_of<msg::Odometry>("odometry"));
+  TypedWriter<msg::Odometry> good(*there_, "odometry");
+  garbage->write(payload(1));
+  good.write({});
+  garbage->write({});
+  inbox.dispatch(0ms);
+  EXPECT_EQ(got, 1);
+  EXPECT_EQ(reader->malformed(), 2u);
+}
+
+}  // namespace
+}  // namespace skein::bus

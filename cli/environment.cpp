@@ -33,7 +33,11 @@ std::vector<std::string> environment_with(const std::map<std::string, std::strin
   return environment;
 }
 
-std::vector<std::string> fleet_environment(bool native) { return environment_with(pinned(native)); }
+std::vector<std::string> fleet_environment(bool native, const std::map<std::string, std::string>& more) {
+  std::map<std::string, std::string> variables = pinned(native);
+  for (const auto& [name, value] : more) variables[name] = value;
+  return environment_with(variables);
+}
 
 std::string fleet_environment_prefix(bool native) {
   std::string prefix;

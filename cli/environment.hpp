@@ -13,7 +13,8 @@ std::vector<std::string> environment_with(const std::map<std::string, std::strin
 /// The launcher's own environment with what could change a result pinned: the C locale, one OpenMP thread, and the
 /// code that libm selects by CPU (its AVX and FMA variants of sin, exp, pow... differ from the SSE2 ones in last bits).
 /// @param native leaves libm to choose the fastest code for this CPU.
-std::vector<std::string> fleet_environment(bool native);
+/// @param more set on top of that.
+std::vector<std::string> fleet_environment(bool native, const std::map<std::string, std::string>& more = {});
 
 /// The part of it that differs from what a shell would give, as `NAME=VALUE ` words to put before a command.
 std::string fleet_environment_prefix(bool native);

@@ -10,6 +10,7 @@
 
 #include "cli/environment.hpp"
 #include "core/scenario_reader.hpp"
+#include "core/topics.hpp"
 
 namespace skein::cli {
 namespace {
@@ -47,6 +48,21 @@ Arguments command_line(const FleetPlan& plan, const std::string& binary) {
   return arguments;
 }
 
+const std::string& planner_of(const FleetPlan& plan, const std::string& program) {
+  return plan.planners[plan.scenario.uav_index(member_name(program))].spec;
+}
+
+/// What a user's command is told. It joins SKEIN_DOMAIN and no other.
+std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
+                                                  const std::filesystem::path& out) {
+  const std::string uav = member_name(program);
+  return {{"SKEIN_DOMAIN", std::to_string(uav_domain(base_domain, plan.scenario.uav_index(uav)))},
+          {"SKEIN_UAV", uav},
+          {"SKEIN_DDS", dds_vendors(plan).at(program)},
+          {"SKEIN_SCENARIO", std::filesystem::absolute(plan.scenario.file)},
+          {"SKEIN_OUT", std::filesystem::absolute(out)}};
+}
+
 /// @param program "sim_server", "comm_router", "station" or an agent's.
 Arguments run_arguments(const FleetPlan& plan, const std::string& program, int base_domain,
                         const std::filesystem::path& out) {
@@ -55,8 +71,7 @@ Arguments run_arguments(const FleetPlan& plan, const std::string& program, int b
   append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain), "--out", out});
   if (plan.options.debug_uav) arguments.push_back("--debug-leases");
   if (is_agent) {
-    const std::string uav = member_name(program);
-    append(arguments, {"--uav", uav, "--planner", plan.planners[plan.scenario.uav_index(uav)].spec});
+    append(arguments, {"--uav", member_name(program), "--planner", planner_of(plan, program)});
   }
   if (program == "sim_server") {
     append(arguments, {"--clock", plan.options.clock});
@@ -113,10 +128,21 @@ std::map<std::string, std::string> dds_vendors(const FleetPlan& plan) {
   return vendors;
 }
 
+bool is_exec(const FleetPlan& plan, const std::string& program) {
+  return program.starts_with(kAgentPrefix) && exec_command(planner_of(plan, program)).has_value();
+}
+
 std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out) {
   const std::vector<std::string> environment = fleet_environment(plan.options.native);
   std::vector<ProgramSpec> programs;
   const auto add = [&](const std::string& name) {
+    if (is_exec(plan, name)) {
+      programs.push_back({name,
+                          {"/bin/sh", "-c", *exec_command(planner_of(plan, name))},
+                          fleet_environment(plan.options.native, exec_variables(plan, name, base_domain, out)),
+                          out / (name + ".log")});
+      return;
+    }
     Arguments arguments = run_arguments(plan, name, base_domain, out);
     append(arguments, {"--status-fd", std::to_string(kStatusFd), "--control-fd", std::to_string(kControlFd)});
     programs.push_back({name, std::move(arguments), environment, out / (name + ".log")});
@@ -129,8 +155,16 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
 }
 
 std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out) {
-  std::string command = fleet_environment_prefix(plan.options.native) + "gdb --args";
-  for (const std::string& argument : run_arguments(plan, agent_program(*plan.options.debug_uav), base_domain, out)) {
+  const std::string program = agent_program(*plan.options.debug_uav);
+  std::string command = fleet_environment_prefix(plan.options.native);
+  if (is_exec(plan, program)) {
+    for (const auto& [name, value] : exec_variables(plan, program, base_domain, out)) {
+      command += name + "=" + quoted_for_shell(value) + " ";
+    }
+    return command + "/bin/sh -c " + quoted_for_shell(*exec_command(planner_of(plan, program)));
+  }
+  command += "gdb --args";
+  for (const std::string& argument : run_arguments(plan, program, base_domain, out)) {
     command += " " + quoted_for_shell(argument);
   }
   return command;
@@ -146,7 +180,7 @@ std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesy
   add("sim_server", command_line(plan, "sim_server"));
   std::set<std::string> checked;
   for (const UavPlanner& planner : plan.planners) {
-    if (!checked.insert(planner.spec).second) continue;
+    if (exec_command(planner.spec) || !checked.insert(planner.spec).second) continue;
     Arguments arguments = command_line(plan, "uav_agent");
     append(arguments, {"--uav", planner.uav, "--planner", planner.spec});
     add(agent_program(planner.uav), std::move(arguments));

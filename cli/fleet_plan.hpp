@@ -41,10 +41,14 @@ std::map<std::string, std::string> dds_vendors(const FleetPlan& plan);
 /// The whole fleet in the order in which it starts, the UAV under --debug left out.
 std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out);
 
-/// What to type to run the UAV under --debug in gdb.
+/// True when this program is a user's command (`--planner exec:CMD`) in the place of uav_agent.
+bool is_exec(const FleetPlan& plan, const std::string& program);
+
+/// What to type to run the UAV under --debug in gdb (a user's command: as it is, with its environment).
 std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out);
 
-/// Programs that only validate (--check): sim_server, then one agent for each different planner.
+/// Programs that only validate (--check): sim_server, then one agent for each different planner. A user's command is
+/// not asked: nothing is known about it.
 /// @param scratch folder for their logs.
 std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch);
 

@@ -40,7 +40,8 @@ std::string check_seconds(const std::string& text) {
 CLI::App* add_run(CLI::App& app, RunOptions& run) {
   CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
   command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
-  command->add_option("--planner", run.planner, "NAME, or UAV=NAME,... for some UAVs")->capture_default_str();
+  command->add_option("--planner", run.planner, "NAME, or UAV=NAME,... for some UAVs; exec:CMD for a program of yours")
+      ->capture_default_str();
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   command->add_option("--seed", run.seed, "What chance draws; 0 draws nothing")->check(seed)->capture_default_str();
   command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);

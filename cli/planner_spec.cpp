@@ -4,22 +4,57 @@
 #include <cctype>
 #include <map>
 #include <sstream>
+#include <string_view>
 
 #include "core/suggestion.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
+namespace {
+
+constexpr std::string_view kExec = "exec:";
+constexpr std::size_t kLongestLabel = 100;
+
+/// The pieces between commas, the last one too when it is empty: a command may end with a comma.
+std::vector<std::string> split_at_commas(const std::string& text) {
+  std::vector<std::string> items;
+  std::stringstream rest(text + ',');
+  for (std::string item; std::getline(rest, item, ',');) items.push_back(item);
+  return items;
+}
+
+/// Whether what follows a comma may still belong to this planner.
+bool goes_on(const std::string& spec, bool item_has_key) {
+  return spec.starts_with(kExec) || (item_has_key && spec.find(':') != std::string::npos);
+}
+
+void check_spec(const std::string& text, const std::string& spec) {
+  if (spec.empty()) {
+    throw InputError("--planner " + text + ": a planner's name is missing; write NAME or UAV=NAME,...");
+  }
+  const auto command = exec_command(spec);
+  if (command && command->find_first_not_of(' ') == std::string::npos) {
+    throw InputError("--planner " + text + ": a command must follow 'exec:', such as exec:./my_planner");
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> exec_command(const std::string& spec) {
+  if (!spec.starts_with(kExec)) return std::nullopt;
+  return spec.substr(kExec.size());
+}
+
 std::vector<UavPlanner> parse_planners(const std::string& text, const std::vector<std::string>& fleet) {
   std::map<std::string, std::string> named;
   std::string fallback;
   std::string* last = nullptr;  // the planner that a following parameter belongs to
-  std::stringstream items(text);
-  for (std::string item; std::getline(items, item, ',');) {
+  for (const std::string& item : split_at_commas(text)) {
     const std::size_t equals = item.find('=');
     const bool has_key = equals != std::string::npos && equals < item.find(':');
     const std::string key = has_key ? item.substr(0, equals) : "";
     const bool is_uav = has_key && std::find(fleet.begin(), fleet.end(), key) != fleet.end();
-    if (has_key && !is_uav && last != nullptr && last->find(':') != std::string::npos) {
+    if (!is_uav && last != nullptr && goes_on(*last, has_key)) {
       *last += "," + item;
       continue;
     }
@@ -27,8 +62,7 @@ std::vector<UavPlanner> parse_planners(const std::string& text, const std::vecto
       throw InputError("--planner " + text + ": no UAV is called '" + key + "'; " + suggestion(key, fleet));
     }
     const std::string spec = is_uav ? item.substr(equals + 1) : item;
-    if (spec.empty())
-      throw InputError("--planner " + text + ": a planner's name is missing; write NAME or UAV=NAME,...");
+    check_spec(text, spec);
     last = is_uav ? &named[key] : &fallback;
     if (!last->empty()) {
       throw InputError("--planner " + text + ": two planners for " + (is_uav ? "'" + key + "'" : "the same UAVs") +
@@ -36,7 +70,6 @@ std::vector<UavPlanner> parse_planners(const std::string& text, const std::vecto
     }
     *last = spec;
   }
-  if (text.empty()) throw InputError("--planner: a planner's name is missing; write NAME or UAV=NAME,...");
   if (fallback.empty()) fallback = kDefaultPlanner;
 
   std::vector<UavPlanner> planners;
@@ -48,7 +81,7 @@ std::vector<UavPlanner> parse_planners(const std::string& text, const std::vecto
 }
 
 std::string planner_label(const std::string& text) {
-  std::string label = text;
+  std::string label = text.substr(0, kLongestLabel);
   for (char& c : label) {
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-' && c != '_') c = '_';
   }

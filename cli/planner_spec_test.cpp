@@ -36,9 +36,23 @@ TEST(PlannerSpec, ParametersGoOnAfterACommaUntilAUavIsNamed) {
             (Specs{"hover:height_m=4,climb_mps=1", "patrol", "hover"}));
 }
 
+TEST(PlannerSpec, ACommandTakesThePlaceOfAPlanner) {
+  EXPECT_EQ(specs("exec:./mine"), (Specs{"exec:./mine", "exec:./mine", "exec:./mine"}));
+  EXPECT_EQ(specs("jurong=exec:./a --x=1,raffles=exec:B=2 ./b"),
+            (Specs{"exec:./a --x=1", "exec:B=2 ./b", kDefaultPlanner}));
+  EXPECT_EQ(exec_command("exec:./mine --at 1,2"), "./mine --at 1,2");
+  EXPECT_EQ(exec_command("hover:height_m=4"), std::nullopt);
+}
+
+TEST(PlannerSpec, ACommandKeepsItsCommas) {
+  EXPECT_EQ(specs("hover,sentosa=exec:./mine a,b, c=d,nobody=e,"),
+            (Specs{"hover", "hover", "exec:./mine a,b, c=d,nobody=e,"}));
+  EXPECT_EQ(specs("exec:./mine a,b,raffles=hover"), (Specs{"exec:./mine a,b", "hover", "exec:./mine a,b"}));
+}
+
 TEST(PlannerSpec, WrongTextIsRefused) {
   for (const char* text : {"", "jurong=", "nobody=hover", "hover,nobody=patrol", "jurong=a,jurong=b", "hover,patrol",
-                           ",hover", "hover,,jurong=a"}) {
+                           ",hover", "hover,,jurong=a", "hover,", "exec:", "jurong=exec: ", "nobody=exec:./mine"}) {
     EXPECT_THROW(parse_planners(text, kFleet), InputError) << text;
   }
 }
@@ -55,6 +69,7 @@ TEST(PlannerSpec, AnUnknownUavIsAnsweredWithTheNearestName) {
 TEST(PlannerSpec, LabelIsFitForAFolder) {
   EXPECT_EQ(planner_label("patrol"), "patrol");
   EXPECT_EQ(planner_label("jurong=waypoints:a/../b.yaml"), "jurong_waypoints_a_.._b.yaml");
+  EXPECT_EQ(planner_label("exec:" + std::string(5000, 'x')).size(), 100u);
 }
 
 }  // namespace

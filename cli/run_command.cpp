@@ -20,6 +20,8 @@ using std::chrono::milliseconds;
 
 /// How long the programs may take to write their reports and leave after sim_server has left.
 constexpr milliseconds kLeaveTime{10000};
+/// The same for users' commands once all others have left: they need not know that the run is over.
+constexpr milliseconds kExecLeaveTime{2000};
 /// From SIGTERM to SIGKILL.
 constexpr milliseconds kGrace{3000};
 constexpr std::size_t kLogLines = 10;
@@ -82,6 +84,8 @@ class FleetRun {
     const Json status = Json::parse(event.line, nullptr, false);
     if (!status.is_object()) return;
     const Json type = value_or(status, "type", "");
+    // A user's command has a status pipe too; what it writes there is no news of the run.
+    if (event.program != (type == "tally" ? "station" : "sim_server")) return;
     if (type == "waiting_for") view_.waiting_for(status);
     if (type == "tally") {
       facts_.points_detected = value_or(status, "points", 0);
@@ -100,6 +104,7 @@ class FleetRun {
 
   void on_exit(const Event& event) {
     const bool of_server = event.program == "sim_server";
+    facts_.memory_mb += event.exit.peak_memory_mb;
     if (!event.exit.ok() && !ending_) complain(event.program, event.exit.text());
     if (of_server && !event.exit.ok()) {
       end_all();  // nobody is left to tell the others how the run goes on
@@ -120,7 +125,9 @@ class FleetRun {
   }
 
   void end_stragglers() {
-    for (const std::string& program : supervisor_.running()) complain(program, "not leaving after the run's end");
+    for (const std::string& program : supervisor_.running()) {
+      if (!is_exec(plan_, program)) complain(program, "not leaving after the run's end");
+    }
     end_all();
   }
 

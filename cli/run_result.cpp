@@ -65,8 +65,10 @@ Json warnings_of(const RunFacts& facts, const Reports& reports) {
   missing(reports.sim_server, "sim_server", "times are the last that it told");
   missing(reports.station, "station", "the score is the last that it told");
   missing(reports.comm_router, "comm_router", "radio counts are unknown");
-  for (const auto& [uav, report] : reports.agents) {
-    missing(report, "uav_agent-" + uav, "its planner's CPU time is unknown");
+  for (const UavPlanner& planner : facts.planners) {
+    const auto report = reports.agents.find(planner.uav);
+    if (exec_command(planner.spec) || report == reports.agents.end()) continue;
+    missing(report->second, "uav_agent-" + planner.uav, "its planner's CPU time is unknown");
   }
   return warnings;
 }
@@ -116,6 +118,8 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["mission_time_s"] = value_or(sim, "mission_time_s", facts.mission_time_s);
   result["wall_time_s"] = wall_time_s;
   result["real_time_factor"] = wall_time_s > 0.0 ? sim_time_s / wall_time_s : 0.0;
+  result["memory_mb"] = facts.memory_mb;
+  result["timing"] = value_or(sim, "timing", Json::object());
 
   result["points_total"] = value_or(sim, "points_total", nullptr);
   result["points_detected"] = value_or(reports.station, "points_detected", facts.points_detected);

@@ -30,6 +30,7 @@ struct RunFacts {
   double sim_time_s = 0.0, mission_time_s = 0.0, wall_time_s = 0.0;
   int points_detected = 0;
   double score = 0.0, score_earned = 0.0;
+  double memory_mb = 0.0;  ///< sum of the programs' peaks
 };
 
 /// What the programs left behind; null where a report is missing or cut short.

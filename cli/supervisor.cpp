@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/signalfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -217,10 +218,13 @@ void Supervisor::reap(Child& child, std::vector<Event>& events) {
   // Its own children first: as long as the zombie is not reaped, its group's number cannot belong to anyone else.
   ::kill(-child.pid, SIGKILL);
   read_status(child, events);
-  siginfo_t info{};
-  if (::waitid(P_PIDFD, static_cast<id_t>(child.pidfd.get()), &info, WEXITED) != 0) throw_errno("waitid");
+  int status = 0;
+  rusage usage{};
+  if (::wait4(child.pid, &status, 0, &usage) != child.pid) throw_errno("wait4");
   ExitStatus exit;
-  (info.si_code == CLD_EXITED ? exit.code : exit.signal) = info.si_status;
+  if (WIFEXITED(status)) exit.code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) exit.signal = WTERMSIG(status);
+  exit.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024.0;
   events.push_back({Event::Kind::exited, child.name, {}, exit});
   children_.erase(events.back().program);
 }

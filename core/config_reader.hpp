@@ -1,5 +1,5 @@
-// The one strict reader of configuration. A struct lists its keys once, in describe(); reading, checking and printing
-// (config_writer.hpp) all follow that list:
+// The one strict reader of configuration. A struct lists its keys once, in describe(); reading, checking and
+// printing (config_writer.hpp) all follow that list:
 //
 //   struct LinkFault {
 //     std::string from;            ///< node name
@@ -12,13 +12,13 @@
 //   };
 //   const auto fault = read_config_file<LinkFault>("fault.yaml");
 //
-// Instead of the member, a free function `template <class R> void describe(R& r, LinkFault& fault)` beside the struct
-// does as well. Readable types: bool, integers, double, std::string, std::filesystem::path, enums with enum_names()
-// (core/types.hpp), Vector2d and Vector3d, std::array<double, N>, structs, std::vector and std::optional of all these,
-// Named<T> (a map with free keys), std::variant<std::string, T> (a text, else a T).
+// Instead of the member, a free function `template <class R> void describe(R& r, LinkFault& fault)` beside the
+// struct does as well. Readable types: bool, integers, double, std::string, std::filesystem::path, enums with
+// enum_names() (core/types.hpp), Vector2d and Vector3d, std::array<double, N>, structs, std::vector and
+// std::optional of all these, Named<T> (a map with free keys), std::variant<std::string, T> (a text, else a T).
 //
-// An unknown or duplicate key, a wrong type, a number that is out of range or not finite, a missing required key: each
-// is an error. All errors of a document are collected and thrown as one InputError, one line each:
+// An unknown or duplicate key, a wrong type, a number that is out of range or not finite, a missing required
+// key: each is an error. All errors of a document are collected and thrown as one InputError, one line each:
 // "file:line: key: what would be right".  Pure; a reader is used from one thread.
 #pragma once
 

@@ -21,8 +21,8 @@
 namespace skein {
 namespace {
 
-/// Write end of the pipe that carries signals to a thread. A signal handler can reach nothing but a global, and may do
-/// little more than write(); everything else happens in SignalThread.
+/// Write end of the pipe that carries signals to a thread. A signal handler can reach nothing but a global, and
+/// may do little more than write(); everything else happens in SignalThread.
 std::atomic<int> signal_pipe_fd = -1;
 
 extern "C" void on_signal(int) {

@@ -40,7 +40,8 @@ TEST(Program, BadInputIsOneMessageAndCodeTwo) {
 }
 
 TEST(Program, OtherFailuresAreCodeThree) {
-  const auto outcome = run({}, [](const ProgramOptions&, StopSignal&) -> int { throw std::runtime_error("disk full"); });
+  const auto outcome =
+      run({}, [](const ProgramOptions&, StopSignal&) -> int { throw std::runtime_error("disk full"); });
   EXPECT_EQ(outcome.code, kExitProcessFailed);
   EXPECT_EQ(outcome.error, "tester: failed: disk full\n");
 }

@@ -24,7 +24,8 @@ TEST(RandomStream, EveryPartOfTheKeyMatters) {
   EXPECT_EQ(firsts.size(), 6u);
 }
 
-/// Computed by an independent program. Runs recorded with one version of Skein must repeat with the next: these numbers may never change.
+/// Computed by an independent program. Runs recorded with one version of Skein must repeat with the next: these
+/// numbers may never change.
 TEST(RandomStream, KeepsItsNumbers) {
   RandomStream random(1, "start_offset", 0, 0);
   EXPECT_EQ(random.bits(), 16956927275007445757u);

@@ -1,6 +1,6 @@
-// How the launcher and its programs talk besides the bus: one line of text each, over inherited file descriptors.
-// A program reports with StatusPipe (--status-fd) and takes orders with ControlPipe (--control-fd). Without a launcher
-// both do nothing.
+// How the launcher and its programs talk besides the bus: one line of text each, over inherited file
+// descriptors. A program reports with StatusPipe (--status-fd) and takes orders with ControlPipe
+// (--control-fd). Without a launcher both do nothing.
 #pragma once
 
 #include <functional>

@@ -34,7 +34,9 @@ struct Pipe {
 std::vector<nlohmann::json> read_all(int fd) {
   std::string text;
   char chunk[4096];
-  for (ssize_t size = 0; (size = ::read(fd, chunk, sizeof chunk)) > 0;) text.append(chunk, static_cast<std::size_t>(size));
+  for (ssize_t size = 0; (size = ::read(fd, chunk, sizeof chunk)) > 0;) {
+    text.append(chunk, static_cast<std::size_t>(size));
+  }
   std::vector<nlohmann::json> messages;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) messages.push_back(nlohmann::json::parse(line));

@@ -8,15 +8,15 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kStepS = 0.05;        ///< of the control law
-constexpr double kRounding = 1e-6;     ///< a command may exceed a limit by this share
-constexpr double kGiven = 0.01;        ///< shorter vectors mean "none" to the control law
-constexpr double kTiny = 1e-9;         ///< [m]
+constexpr double kStepS = 0.05;     ///< of the control law
+constexpr double kRounding = 1e-6;  ///< a command may exceed a limit by this share
+constexpr double kGiven = 0.01;     ///< shorter vectors mean "none" to the control law
+constexpr double kTiny = 1e-9;      ///< [m]
 
 std::string beyond(const char* what, double value, double limit, const char* unit) {
   std::ostringstream text;
-  text << std::setprecision(4) << what << " of " << value << " " << unit << " is beyond the vehicle's limit of " << limit
-       << " " << unit;
+  text << std::setprecision(4) << what << " of " << value << " " << unit << " is beyond the vehicle's limit of "
+       << limit << " " << unit;
   return text.str();
 }
 
@@ -98,8 +98,7 @@ void CommandGuard::move_carrot(const TrajectoryCommand& command) {
   const Vector3d to_target = command.p_WB - carrot_->p_W;
   const double distance = to_target.norm();
   const double approach = std::min(stopping_speed(distance), distance / kStepS);
-  const Vector3d wanted =
-      shortened(command.v_WB + to_target * (approach / std::max(distance, kTiny)), max_speed_);
+  const Vector3d wanted = shortened(command.v_WB + to_target * (approach / std::max(distance, kTiny)), max_speed_);
   const double speed_step = max_acceleration_ * kStepS;
   if (distance <= speed_step * kStepS && (carrot_->v_W - command.v_WB).norm() <= speed_step) {
     carrot_ = Carrot{command.p_WB, command.v_WB};

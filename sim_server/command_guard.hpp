@@ -17,9 +17,9 @@ class CommandGuard {
  public:
   CommandGuard(const VehicleConfig& vehicle, const RulesConfig& rules);
 
-  /// Why a command must be ignored, as a sentence for the user; nullopt if it need not be.
-  /// Refused are numbers that are not finite, a velocity or acceleration beyond the vehicle's, and a bare acceleration that
-  /// would push a UAV at its speed limit beyond it. A position is never too far. Pure.
+  /// Why a command must be ignored, as a sentence for the user; nullopt if it need not be. Refused are numbers that
+  /// are not finite, a velocity or acceleration beyond the vehicle's, and a bare acceleration that would push a UAV
+  /// at its speed limit beyond it. A position is never too far. Pure.
   std::optional<std::string> refuse(const TrajectoryCommand& command, const RigidBodyState& state) const;
 
   /// The command with a position that the control law can follow within the limits. Call it once per control step

@@ -12,7 +12,7 @@ namespace {
 constexpr double kMaxOffset = 0.2;
 constexpr double kMinGap = 0.02;  ///< between two UAVs after the draw
 constexpr double kMaxDelayS = 1.0;
-constexpr int kAttempts = 100;    ///< then a UAV stays where the scenario has it
+constexpr int kAttempts = 100;  ///< then a UAV stays where the scenario has it
 
 Isometry3d start_pose(const UavConfig& uav, const Vector2d& offset) {
   const Vector3d p_WB(uav.start.x() + offset.x(), uav.start.y() + offset.y(), rest_height(uav.vehicle));
@@ -34,8 +34,7 @@ bool clear_of_others(const Scenario& scenario, const std::vector<UavStart>& draw
   for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
     if (i == self) continue;
     const Vector2d other = i < self ? Vector2d(drawn[i].X_WB.translation().head<2>()) : scenario.fleet[i].start;
-    const double needed =
-        body_radius(scenario.fleet[i].vehicle) + body_radius(scenario.fleet[self].vehicle) + kMinGap;
+    const double needed = body_radius(scenario.fleet[i].vehicle) + body_radius(scenario.fleet[self].vehicle) + kMinGap;
     if ((other - X_WB.translation().head<2>()).norm() < needed) return false;
   }
   return true;

@@ -76,9 +76,8 @@ void Mission::update_phase(Tick tick) {
     if (tick >= takeoff_timeout_) finish(tick, MissionEnd::takeoff_timeout);
     return;
   }
-  const bool nobody = std::all_of(uavs_.begin(), uavs_.end(), [](const Member& uav) {
-    return !uav.alive || (uav.has_flown && !uav.airborne);
-  });
+  const bool nobody = std::all_of(uavs_.begin(), uavs_.end(),
+                                  [](const Member& uav) { return !uav.alive || (uav.has_flown && !uav.airborne); });
   if (tick >= *start_tick_ + duration_) {
     finish(tick, MissionEnd::duration);
   } else if (nobody) {
@@ -94,9 +93,12 @@ void Mission::finish(Tick tick, MissionEnd why) {
 
 double Mission::remaining_s(Tick tick) const {
   switch (phase_) {
-    case Phase::waiting: return seconds(duration_);
-    case Phase::flying: return seconds(*start_tick_ + duration_ - tick);
-    case Phase::ended: break;
+    case Phase::waiting:
+      return seconds(duration_);
+    case Phase::flying:
+      return seconds(*start_tick_ + duration_ - tick);
+    case Phase::ended:
+      break;
   }
   return 0.0;
 }

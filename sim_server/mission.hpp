@@ -27,8 +27,9 @@ struct Collision {
 /// Watches the fleet tick by tick. Not thread-safe.
 ///
 /// A UAV is airborne once it is `takeoff_height_m` above its rest height and faster than `takeoff_speed_mps`, and
-/// grounded again once it is slow and either low or on the ground. The clock starts when the first UAV becomes airborne. The mission ends
-/// when the time is up, when every UAV is dead or has landed after a flight, or when nobody took off in time.
+/// grounded again once it is slow and either low or on the ground. The clock starts when the first UAV becomes
+/// airborne. An airborne UAV that touches anything but the ground dies; of two UAVs both do. The mission ends when the
+/// time is up, when every UAV is dead or has landed after a flight, or when nobody took off in time.
 class Mission {
  public:
   /// @param rest_heights  z of each UAV's centre at rest on the ground, in fleet order [m].

@@ -8,9 +8,7 @@ namespace {
 constexpr double kRest = 0.16;
 const BodyId kGround{BodyId::Kind::ground, 0}, kStructure{BodyId::Kind::structure, 0};
 
-RigidBodyState at(double z, double speed) {
-  return {.p_WB = {0, 0, z}, .v_WB = {0, 0, speed}};
-}
+RigidBodyState at(double z, double speed) { return {.p_WB = {0, 0, z}, .v_WB = {0, 0, speed}}; }
 RigidBodyState resting() { return at(kRest, 0.0); }
 RigidBodyState flying() { return at(10.0, 1.0); }
 
@@ -99,7 +97,8 @@ TEST_F(MissionTest, AirborneContactKillsWithPlaceAndTime) {
 
 TEST_F(MissionTest, GroundAndRestingUavsDoNotKill) {
   Mission m = mission(2);
-  m.update(1, {flying(), resting()}, {{0, kGround, Vector3d::Zero()}, {1, kGround, Vector3d::Zero()}, {1, kStructure, Vector3d::Zero()}});
+  m.update(1, {flying(), resting()},
+           {{0, kGround, Vector3d::Zero()}, {1, kGround, Vector3d::Zero()}, {1, kStructure, Vector3d::Zero()}});
   EXPECT_TRUE(m.alive(0));
   EXPECT_TRUE(m.alive(1));
 }

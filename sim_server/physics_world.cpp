@@ -28,9 +28,9 @@ constexpr float kGroundSlab = 0.01F;
 constexpr int kSolverIterations = 20;
 // A UAV without thrust that has been this slow for this long lies still and costs nothing more. Bullet has a rule of
 // its own for that; this one does not depend on a body's neighbours.
-constexpr double kStillSpeed = 0.02;          // [m/s], and [rad/s]
+constexpr double kStillSpeed = 0.02;  // [m/s], and [rad/s]
 constexpr int kStillTicks = 200;
-constexpr double kNoWrench = 1e-6;            // [N], [N m]
+constexpr double kNoWrench = 1e-6;  // [N], [N m]
 
 btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -73,8 +73,8 @@ class VehicleShape {
 
 /// Radius of the sphere about the centre that holds box and rotors.
 double bounding_radius(const VehicleConfig& vehicle) {
-  const double rotor = std::hypot(vehicle.arm_m + vehicle.rotor_radius_m,
-                                  vehicle.rotor_height_m + 0.5 * kRotorDiscThickness);
+  const double rotor =
+      std::hypot(vehicle.arm_m + vehicle.rotor_radius_m, vehicle.rotor_height_m + 0.5 * kRotorDiscThickness);
   return std::max(rotor, 0.5 * vehicle.collision_box_m.norm()) + kMargin;
 }
 
@@ -83,7 +83,7 @@ struct UavBody {
   std::unique_ptr<btRigidBody> body;
   double radius = 0.0;
   Vector3d inertia = Vector3d::Zero();
-  bool pushed = false;              ///< a wrench acts during the coming tick
+  bool pushed = false;  ///< a wrench acts during the coming tick
   int still_ticks = 0;
   std::optional<btVector3> clear_at;  ///< here nothing of the structure was within kClearance
 
@@ -94,8 +94,8 @@ struct UavBody {
   }
   /// After a tick: whether to go on.
   void fall_asleep_if_still() {
-    const bool still = !pushed && body->getLinearVelocity().norm() < kStillSpeed &&
-                       body->getAngularVelocity().norm() < kStillSpeed;
+    const bool still =
+        !pushed && body->getLinearVelocity().norm() < kStillSpeed && body->getAngularVelocity().norm() < kStillSpeed;
     pushed = false;
     still_ticks = still ? still_ticks + 1 : 0;
     if (still_ticks < kStillTicks) return;
@@ -114,9 +114,8 @@ class MomentumKeeper {
     const Vector3d w_WB = to_eigen(body_.getAngularVelocity());
     L_W_ = momentum(R_WB_, w_WB);
     const double half_turn = 0.5 * kTickS * w_WB.norm();
-    const Matrix3d R_WM = half_turn > 0.0
-                              ? Matrix3d(Eigen::AngleAxisd(half_turn, w_WB.normalized()).toRotationMatrix() * R_WB_)
-                              : R_WB_;
+    const Matrix3d R_WM =
+        half_turn > 0.0 ? Matrix3d(Eigen::AngleAxisd(half_turn, w_WB.normalized()).toRotationMatrix() * R_WB_) : R_WB_;
     w_middle_W_ = velocity(R_WM, L_W_);
     body_.setAngularVelocity(to_bullet(w_middle_W_));
   }
@@ -169,11 +168,11 @@ struct PhysicsWorld::Impl {
 
   void add_static(btCollisionShape& shape, std::unique_ptr<btRigidBody>& body, int user_index);
   bool worth_testing(UavBody& uav, const btCollisionObject& other);
-  static void near_callback(btBroadphasePair& pair, btCollisionDispatcher& dispatcher,
-                            const btDispatcherInfo& info);
+  static void near_callback(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info);
   BodyId identify(const btCollisionObject& object) const;
   void step();
   std::vector<Contact> read_contacts();
+  void wake_who_was_hit(const std::vector<Contact>& contacts);
 
   // User indices of bodies: UAVs have their number.
   static constexpr int kGroundIndex = -2, kStructureIndex = -3;
@@ -276,9 +275,12 @@ void PhysicsWorld::Impl::step() {
 
 BodyId PhysicsWorld::Impl::identify(const btCollisionObject& object) const {
   switch (object.getUserIndex()) {
-    case kGroundIndex: return {BodyId::Kind::ground, 0};
-    case kStructureIndex: return {BodyId::Kind::structure, 0};
-    default: return {BodyId::Kind::uav, static_cast<std::size_t>(object.getUserIndex())};
+    case kGroundIndex:
+      return {BodyId::Kind::ground, 0};
+    case kStructureIndex:
+      return {BodyId::Kind::structure, 0};
+    default:
+      return {BodyId::Kind::uav, static_cast<std::size_t>(object.getUserIndex())};
   }
 }
 
@@ -311,6 +313,15 @@ std::vector<Contact> PhysicsWorld::Impl::read_contacts() {
   return contacts;
 }
 
+void PhysicsWorld::Impl::wake_who_was_hit(const std::vector<Contact>& contacts) {
+  for (const Contact& contact : contacts) {
+    if (contact.other.kind != BodyId::Kind::uav) continue;
+    UavBody &a = uavs[contact.uav], &b = uavs[contact.other.uav];
+    if (a.asleep() && b.still_ticks == 0) a.wake();
+    if (b.asleep() && a.still_ticks == 0) b.wake();
+  }
+}
+
 PhysicsWorld::PhysicsWorld(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
 PhysicsWorld::~PhysicsWorld() = default;
 
@@ -325,7 +336,7 @@ void PhysicsWorld::add_uav(const VehicleConfig& vehicle, const Isometry3d& X_WB)
   info.m_startWorldTransform = to_bullet(q_WB, X_WB.translation());
   uav.body = std::make_unique<btRigidBody>(info);
   uav.body->setActivationState(DISABLE_DEACTIVATION);  // UavBody sees to it
-  uav.body->setFlags(0);  // no gyroscopic terms: MomentumKeeper's business
+  uav.body->setFlags(0);                               // no gyroscopic terms: MomentumKeeper's business
   uav.body->setUserIndex(static_cast<int>(impl_->uavs.size()));
   uav.body->setUserPointer(impl_.get());
   impl_->world.addRigidBody(uav.body.get());
@@ -373,12 +384,7 @@ void PhysicsWorld::tick() {
     state.w_WB_B = to_eigen(body.getAngularVelocity() * X_WB.getBasis());  // row vector times R is R^T w
   }
   contacts_ = impl_->read_contacts();
-  for (const Contact& contact : contacts_) {
-    if (contact.other.kind != BodyId::Kind::uav) continue;
-    for (const std::size_t i : {contact.uav, contact.other.uav}) {
-      if (impl_->uavs[i].asleep()) impl_->uavs[i].wake();
-    }
-  }
+  impl_->wake_who_was_hit(contacts_);
 }
 
 void PhysicsWorld::set_state(std::size_t uav, const RigidBodyState& state) {

@@ -59,7 +59,7 @@ class PhysicsWorld {
   const RigidBodyState& state(std::size_t uav) const { return states_[uav]; }
   const std::vector<RigidBodyState>& states() const { return states_; }
   /// Contacts of the last tick, sorted by UAV, then ground, structure and other UAVs; one per pair. A UAV that has lain
-  /// still without thrust for half a second sleeps: until it is pushed or hit it does not report what it lies on.
+  /// still without thrust for half a second sleeps until it is pushed or hit; it keeps its contacts meanwhile.
   const std::vector<Contact>& contacts() const { return contacts_; }
 
   /// Put a UAV somewhere, moving as given. For tests and set-up.

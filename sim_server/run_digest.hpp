@@ -21,10 +21,10 @@ struct DigestInput {
     bool alive = true;
   };
   std::uint64_t k = 0;
-  std::vector<Uav> uavs;                  ///< in fleet order
-  std::span<const LedgerEntry> ledger;    ///< new entries, in the ledger's order
-  std::span<const std::uint8_t> radio;    ///< the router's digest of this step's deliveries; empty if there were none
-  std::span<const std::uint8_t> tally;    ///< the station's digest of this step's changes; empty if there were none
+  std::vector<Uav> uavs;                ///< in fleet order
+  std::span<const LedgerEntry> ledger;  ///< new entries, in the ledger's order
+  std::span<const std::uint8_t> radio;  ///< the router's digest of this step's deliveries; empty if there were none
+  std::span<const std::uint8_t> tally;  ///< the station's digest of this step's changes; empty if there were none
 };
 
 /// One line of digests.csv: 8 hexadecimal digits (the first of each field's SHA-256) a column.

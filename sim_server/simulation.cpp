@@ -26,9 +26,9 @@ struct Uav {
   std::optional<Lidar> lidar;
   KeyframeSelector keyframes;
   UavView view;
-  std::optional<GimbalCommand> gimbal_command;      ///< arrived since the last control step
+  std::optional<GimbalCommand> gimbal_command;  ///< arrived since the last control step
   bool manual_trigger = false, triggered = false;
-  Tick last_raise = 0;                              ///< when a capture last raised a score
+  Tick last_raise = 0;  ///< when a capture last raised a score
   Tick idle_ticks = 0;
 };
 
@@ -69,13 +69,13 @@ struct Simulation::Impl {
   Mission mission;
   Referee referee;
   std::vector<Uav> uavs;
-  std::vector<UavView> views;                 ///< at the step boundary
+  std::vector<UavView> views;  ///< at the step boundary
   std::vector<std::uint8_t> links;
-  std::vector<RejectionEvent> rejections;     ///< since the last advance()
+  std::vector<RejectionEvent> rejections;  ///< since the last advance()
   StepEvents events;
   std::uint64_t step = 0;
   Tick tick = 0;
-  Tick rays_tick = -1;                        ///< the tick whose poses `rays` has
+  Tick rays_tick = -1;  ///< the tick whose poses `rays` has
 };
 
 Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint64_t the_seed)
@@ -309,8 +309,8 @@ DigestInput Simulation::digest_input() const {
   input.k = impl_->step;
   for (const UavView& uav : impl_->views) input.uavs.push_back({uav.state, uav.gimbal, uav.alive});
   const StepEvents& events = impl_->events;
-  input.ledger = std::span(impl_->referee.ledger())
-                     .subspan(events.ledger_begin, events.ledger_end - events.ledger_begin);
+  input.ledger =
+      std::span(impl_->referee.ledger()).subspan(events.ledger_begin, events.ledger_end - events.ledger_begin);
   return input;
 }
 

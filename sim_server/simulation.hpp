@@ -32,10 +32,10 @@ struct UavView {
   GimbalState gimbal;
   bool alive = true;
   bool airborne = false;
-  double distance_m = 0.0;               ///< flown
+  double distance_m = 0.0;  ///< flown
   double max_speed_mps = 0.0;
-  double idle_s = 0.0;                   ///< slow, and no capture raised a score for 5 s; see simulation.cpp
-  std::uint64_t captures = 0;            ///< exposures that saw at least one point
+  double idle_s = 0.0;         ///< slow, and no capture raised a score for 5 s; see simulation.cpp
+  std::uint64_t captures = 0;  ///< exposures that saw at least one point
   std::uint64_t commands_rejected = 0;
 };
 
@@ -105,7 +105,7 @@ class Simulation {
 
   std::uint64_t step() const;  ///< exchanges so far
   Tick tick() const;
-  std::size_t size() const;    ///< UAVs
+  std::size_t size() const;  ///< UAVs
   const Mission& mission() const;
   const UavView& uav(std::size_t i) const;
   std::span<const UavView> uavs() const;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
-#include <iostream>
 #include <functional>
+#include <iostream>
 #include <limits>
 #include <memory>
 
@@ -44,8 +44,9 @@ class Field : public testing::Test {
     return *simulation_;
   }
   /// All fly to their target for a time, exchange by exchange; `watch` sees every one.
-  void fly(double duration_s, const std::vector<TrajectoryCommand>& commands,
-           const std::function<void(const StepEvents&)>& watch = [](const StepEvents&) {}) {
+  void fly(
+      double duration_s, const std::vector<TrajectoryCommand>& commands,
+      const std::function<void(const StepEvents&)>& watch = [](const StepEvents&) {}) {
     for (double t = 0.0; t < duration_s - 1e-9; t += scenario_.exchange_period_s) {
       for (std::size_t i = 0; i < commands.size(); ++i) simulation_->command_trajectory(i, commands[i]);
       simulation_->advance();
@@ -392,8 +393,8 @@ void measure(const Scenario& scenario, double duration_s) {
   std::size_t alive = 0;
   for (const UavView& uav : sim.uavs()) alive += uav.alive;
   std::cout << "[ measured ] " << scenario.name << ": construction " << in_s(built - begin) << " s, "
-            << 1e3 * in_s(end - built) / duration_s << " ms of CPU per simulated second; " << alive << " of " << sim.size()
-            << " alive, " << sim.referee().earned().points_detected() << " points, score "
+            << 1e3 * in_s(end - built) / duration_s << " ms of CPU per simulated second; " << alive << " of "
+            << sim.size() << " alive, " << sim.referee().earned().points_detected() << " points, score "
             << sim.referee().earned().score() << "\n";
   EXPECT_GT(sim.referee().earned().points_detected(), 0U);
 }

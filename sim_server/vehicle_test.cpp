@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <cmath>
+#include <ctime>
 #include <functional>
 #include <iostream>
 
@@ -27,7 +27,8 @@ class Flight {
   }
   using Pilot = std::function<std::optional<TrajectoryCommand>(double t)>;
   /// Flies on for a time; `pilot` is asked at every control step, `watch` looks on after every tick.
-  void fly(double duration_s, const Pilot& pilot, const std::function<void()>& watch = [] {}) {
+  void fly(
+      double duration_s, const Pilot& pilot, const std::function<void()>& watch = [] {}) {
     for (const Tick end = tick_ + ticks(duration_s); tick_ < end; ++tick_) {
       const RigidBodyState& state = world_.state(0);
       if (tick_ % kControlTicks == 0) vehicle_.control(tick_, state, pilot(seconds(tick_)), std::nullopt);
@@ -124,7 +125,8 @@ TEST_P(VehicleKinds, HoversWithItsWeight) {
 }
 
 TEST_P(VehicleKinds, StepSettlesLikeItsNaturalFrequency) {
-  // The law itself, applied to a point mass that obeys at once, against the whole vehicle: tilt and motors cost a little.
+  // The law itself, applied to a point mass that obeys at once, against the whole vehicle, whose tilt and motors cost a
+  // little.
   const PositionControlConfig& law = config_.position_control;
   const double omega = law.omega_xy, step = 0.5;
   Flight flight(config_);
@@ -226,9 +228,7 @@ TEST_P(VehicleKinds, FollowsAFullTrajectoryClosely) {
                              .a_WB = radius * (alpha * along - w * w * out)};
   };
   double worst = 0.0;
-  flight.fly(30.0, circle, [&] {
-    worst = std::max(worst, std::abs(flight.state().p_WB.head<2>().norm() - radius));
-  });
+  flight.fly(30.0, circle, [&] { worst = std::max(worst, std::abs(flight.state().p_WB.head<2>().norm() - radius)); });
   EXPECT_LT(worst, 0.3);
   EXPECT_NEAR(flight.state().v_WB.norm(), radius * rate, 0.2);
 }
@@ -249,7 +249,8 @@ TEST(Vehicle, SpeedOfATick) {
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
       const RigidBodyState& state = world.state(i);
       if (tick % kControlTicks == 0) {
-        vehicles[i].control(tick, state, TrajectoryCommand{.p_WB = {3.0 * static_cast<double>(i), 1, 10}}, std::nullopt);
+        vehicles[i].control(tick, state, TrajectoryCommand{.p_WB = {3.0 * static_cast<double>(i), 1, 10}},
+                            std::nullopt);
       }
       const Wrench wrench = vehicles[i].step(state);
       world.apply_wrench(i, state.q_WB * wrench.force_B, state.q_WB * wrench.torque_B);

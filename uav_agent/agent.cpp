@@ -42,6 +42,7 @@ struct Agent::Impl {
 
   void perceive(const AgentInput& input);
   std::vector<KnownBody> known_bodies(const AgentInput& input) const;
+  std::optional<Vector3d> sensor_position(const KeyFrame& frame, const AgentInput& input) const;
   PlannerInput planner_input(const AgentInput& input) const;
   void move(const PlannerOutput& decision);
   std::optional<GimbalCommand> point_camera(const GimbalAim& new_aim, const RigidBodyState& state);
@@ -74,10 +75,24 @@ void Agent::Impl::perceive(const AgentInput& input) {
   if (!input.boxes.empty()) boxes = input.boxes;
   if (!input.key_frames.empty()) {
     const std::vector<KnownBody> bodies = known_bodies(input);
-    for (const KeyFrame& frame : input.key_frames) map.insert(filter(frame.points_W, bodies), frame.p_WS);
+    for (const KeyFrame& frame : input.key_frames) {
+      map.insert(filter(frame.points_W, bodies), sensor_position(frame, input));
+    }
   }
   uplink.take(input.capture_reports);
   uplink.acknowledge(input.capture_acks);
+}
+
+std::optional<Vector3d> Agent::Impl::sensor_position(const KeyFrame& frame, const AgentInput& input) const {
+  if (frame.source == node_of_uav(config.self)) return input.state.p_WB;
+  std::vector<Vector3d> with_lidar;
+  for (const Neighbour& neighbour : input.neighbours) {
+    if (frame.source == neighbour.node) return neighbour.p_W;
+    const bool in_fleet = neighbour.node != kStationNode && neighbour.node <= config.fleet.size();
+    if (in_fleet && config.fleet[neighbour.node - 1].role == Role::explorer) with_lidar.push_back(neighbour.p_W);
+  }
+  if (frame.p_WS) return frame.p_WS;
+  return with_lidar.size() == 1 ? std::optional(with_lidar.front()) : std::nullopt;
 }
 
 PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {

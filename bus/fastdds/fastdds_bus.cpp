@@ -12,6 +12,7 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -64,6 +65,15 @@ class Matches {
     return ids;
   }
 
+  /// Whether Cyclone DDS is among them: its GUIDs begin with its vendor id, 1.16.
+  bool any_cyclone() const {
+    const std::scoped_lock lock(mutex_);
+    return std::any_of(participants_.begin(), participants_.end(), [](const auto& match) {
+      const auto& prefix = match.first.guidPrefix.value;
+      return prefix[0] == 1 && prefix[1] == 16;
+    });
+  }
+
  private:
   GuidPrefix_t own_;
   mutable std::mutex mutex_;
@@ -74,6 +84,7 @@ class FastWriter : public Writer, private dds::DataWriterListener {
  public:
   FastWriter(dds::Publisher& publisher, dds::Topic& topic, const Qos& qos, const GuidPrefix_t& own)
       : publisher_(publisher),
+        reliable_(qos.reliable),
         matches_(own),
         writer_(created(publisher.create_datawriter(&topic, fastdds::writer_qos(qos), this,
                                                     dds::StatusMask::publication_matched()),
@@ -84,6 +95,10 @@ class FastWriter : public Writer, private dds::DataWriterListener {
   }
 
   void write(std::span<const std::uint8_t> payload) override {
+    // Cyclone 0.10 takes the first heartbeat of a writer for the point from which on samples are reliable, and drops
+    // what it has of older ones; the one that Fast DDS sends at the match comes too early as often as not. So a
+    // heartbeat goes ahead of each sample: this is how Fast DDS asserts liveliness.
+    if (reliable_ && matches_.any_cyclone()) writer_->assert_liveliness();
     RawSample sample = padded(payload);
     if (!writer_->write(&sample))
       spdlog::warn("{}: Fast DDS could not send a sample of {} bytes", writer_->get_topic()->get_name(),
@@ -98,6 +113,7 @@ class FastWriter : public Writer, private dds::DataWriterListener {
   }
 
   dds::Publisher& publisher_;
+  bool reliable_;
   Matches matches_;
   dds::DataWriter* writer_;
 };

@@ -79,8 +79,10 @@ DataWriterQos writer_qos(const Qos& qos) {
   dds.data_sharing().off();
   dds.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;
   // What got lost is noticed by the next heartbeat; the default of 3 s would stall a lock-step round for as long.
-  dds.reliable_writer_qos().times.heartbeatPeriod = milliseconds(50);
+  dds.reliable_writer_qos().times.heartbeatPeriod = milliseconds(20);
   dds.reliable_writer_qos().times.nackResponseDelay = milliseconds(1);
+  // Nobody watches it, but it lets FastWriter send heartbeats (fastdds_bus.cpp).
+  dds.liveliness().kind = MANUAL_BY_TOPIC_LIVELINESS_QOS;
   return dds;
 }
 

@@ -42,7 +42,9 @@ std::string ascii_stl(const std::vector<Triangle>& triangles) {
   text << "solid test\n";
   for (const Triangle& triangle : triangles) {
     text << "  facet normal 0 0 0\n    outer loop\n";
-    for (const Eigen::Vector3f& v : triangle) text << "      vertex " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+    for (const Eigen::Vector3f& v : triangle) {
+      text << "      vertex " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+    }
     text << "    endloop\n  endfacet\n";
   }
   text << "endsolid test\n";

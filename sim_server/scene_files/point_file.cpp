@@ -1,5 +1,5 @@
-// PCL reads the data, but takes the header on trust and crashes on some malformed ones (an unknown line is enough). So
-// the header is read and checked here, and PCL sees a plain one with the same content.
+// PCL reads the data, but takes the header on trust and crashes on some malformed ones (an unknown line is
+// enough). So the header is read and checked here, and PCL sees a plain one with the same content.
 #include "sim_server/scene_files/point_file.hpp"
 
 #include <pcl/PCLPointCloud2.h>
@@ -104,7 +104,8 @@ class HeaderParser {
       line >> key;
       if (key.empty() || key[0] == '#') continue;
       if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
-        throw InputError(file_.string() + ":" + std::to_string(number) + ": not a PCD file: its header has no such line");
+        throw InputError(file_.string() + ":" + std::to_string(number) +
+                         ": not a PCD file: its header has no such line");
       }
       Line& entry = lines_[key];
       if (entry.number != 0) refuse(key, "is given twice");
@@ -235,7 +236,9 @@ class Column {
       : cloud_(cloud) {
     const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(),
                                     [&](const pcl::PCLPointField& candidate) { return candidate.name == name; });
-    if (field == cloud.fields.end()) refuse(file, "has no field '" + name + "'; x, y, z and normal_x, _y, _z are needed");
+    if (field == cloud.fields.end()) {
+      refuse(file, "has no field '" + name + "'; x, y, z and normal_x, _y, _z are needed");
+    }
     if (field->count != 1 || (field->datatype != pcl::PCLPointField::FLOAT32 &&
                               field->datatype != pcl::PCLPointField::FLOAT64)) {
       refuse(file, "the field '" + name + "' must be one float (TYPE F, COUNT 1)");
@@ -279,8 +282,8 @@ std::string plain_header(const PcdHeader& header) {
   }
   std::ostringstream text;
   text << "VERSION 0.7\nFIELDS" << fields.str() << "\nSIZE" << sizes.str() << "\nTYPE" << types.str() << "\nCOUNT"
-       << counts.str() << "\nWIDTH " << header.points << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << header.points
-       << "\nDATA " << header.data << '\n';
+       << counts.str() << "\nWIDTH " << header.points << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS "
+       << header.points << "\nDATA " << header.data << '\n';
   return text.str();
 }
 

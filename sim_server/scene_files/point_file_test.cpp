@@ -31,7 +31,8 @@ void expect_points(const std::vector<InterestPoint>& points) {
 
 /// As the benchmark's files are: normals first, a padding field, 28 bytes a point.
 std::string padded(const std::string& padding_count = "4") {
-  std::string bytes = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS normal_x normal_y normal_z x y z _\n"
+  std::string bytes = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
+                      "FIELDS normal_x normal_y normal_z x y z _\n"
                       "SIZE 4 4 4 4 4 4 1\nTYPE F F F F F F U\nCOUNT 1 1 1 1 1 1 " + padding_count +
                       "\nWIDTH 9\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 9\nDATA binary\n";
   for (std::size_t i = 0; i < kPoints; ++i) {
@@ -45,8 +46,8 @@ std::string padded(const std::string& padding_count = "4") {
 
 std::string ascii(const std::string& first_number = "0") {
   std::ostringstream text;
-  text << "VERSION .7\nFIELDS x y z normal_x normal_y normal_z\nSIZE 4 4 4 4 4 4\nTYPE F F F F F F\nWIDTH 3\nHEIGHT 3\n"
-          "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 9\nDATA ascii\n";
+  text << "VERSION .7\nFIELDS x y z normal_x normal_y normal_z\nSIZE 4 4 4 4 4 4\nTYPE F F F F F F\n"
+          "WIDTH 3\nHEIGHT 3\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 9\nDATA ascii\n";
   for (std::size_t i = 0; i < kPoints; ++i) {
     text << (i == 0 ? first_number : std::to_string(position(i).x())) << ' ' << position(i).y() << ' '
          << position(i).z() << ' ' << normal(i).x() << ' ' << normal(i).y() << ' ' << normal(i).z() << '\n';
@@ -112,12 +113,14 @@ TEST_F(PointFile, SaysWhatIsWrong) {
   expect(padded().substr(0, padded().size() - 1), "truncated: 252 bytes of data are needed, 251 are there");
   expect(with(padded(), "normal_z", "curvature"), "has no field 'normal_z'");
   expect(with(padded(), "TYPE F", "TYPE U"), "the field 'normal_x' must be one float");
-  expect(with(padded(), "SIZE 4 4 4 4 4 4 1", "SIZE 4 4 4 4 4 4"), "x.pcd:4: SIZE: must have one value for each of FIELDS");
+  expect(with(padded(), "SIZE 4 4 4 4 4 4 1", "SIZE 4 4 4 4 4 4"),
+         "x.pcd:4: SIZE: must have one value for each of FIELDS");
   expect(with(padded(), "SIZE 4", "SIZE 3"), "x.pcd:4: SIZE: field 'normal_x' cannot have 3 bytes");
   expect(with(padded(), "COUNT 1", "COUNT 0"), "x.pcd:6: COUNT: must be at least 1");
   expect(with(padded(), "VIEWPOINT", "VEWPOINT"), "x.pcd:9: not a PCD file: its header has no such line");
   expect(with(padded(), "WIDTH 9", "WIDTH 8"), "x.pcd:10: POINTS: must be WIDTH times HEIGHT");
-  expect(with(padded(), "POINTS 9", "POINTS 4000000000"), "x.pcd:10: POINTS: must be a whole number within [0, 5000000]");
+  expect(with(padded(), "POINTS 9", "POINTS 4000000000"),
+         "x.pcd:10: POINTS: must be a whole number within [0, 5000000]");
   expect(with(padded(), "POINTS 9", "POINTS nine"), "x.pcd:10: POINTS: must be a whole number");
   expect(with(with(padded(), "POINTS 9", "POINTS 0"), "WIDTH 9", "WIDTH 0"), "POINTS: must be at least 1");
   expect(with(padded(), "DATA binary", "DATA base64"), "x.pcd:11: DATA: must be ascii, binary or binary_compressed");

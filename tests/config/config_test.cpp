@@ -1,5 +1,5 @@
-// Every shipped file loads; what is printed reads back; every invalid_*.yaml here is refused with what its "# expect:"
-// lines say. A new rule needs a new file, no code.
+// Every shipped file loads; what is printed reads back; every invalid_*.yaml here is refused with what its "#
+// expect:" lines say. A new rule needs a new file, no code.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -31,7 +31,9 @@ std::vector<std::string> expectations(const fs::path& file) {
   static const std::string mark = "# expect: ";
   std::vector<std::string> lines;
   std::ifstream stream(file);
-  for (std::string line; std::getline(stream, line) && line.starts_with(mark);) lines.push_back(line.substr(mark.size()));
+  for (std::string line; std::getline(stream, line) && line.starts_with(mark);) {
+    lines.push_back(line.substr(mark.size()));
+  }
   return lines;
 }
 
@@ -107,7 +109,9 @@ INSTANTIATE_TEST_SUITE_P(Config, ShippedVehicle, ::testing::ValuesIn(config_name
 
 TEST(ShippedConfig, HasTheFilesThatEveryBodyKnows) {
   EXPECT_EQ(config_names(kConfig / "vehicles"), (std::vector<std::string>{"explorer", "photographer"}));
-  for (const char* name : {"mbs", "crane", "towers"}) EXPECT_TRUE(fs::exists(kConfig / "scenarios" / (name + std::string(".yaml"))));
+  for (const char* name : {"mbs.yaml", "crane.yaml", "towers.yaml"}) {
+    EXPECT_TRUE(fs::exists(kConfig / "scenarios" / name)) << name;
+  }
 }
 
 TEST(ShippedConfig, MbsAndCraneFindTheOfficialData) {

@@ -78,7 +78,10 @@ class BusProcesses : public testing::TestWithParam<Pair> {
     answers_ = self_->create_reader(topic("from_peer"), heard_.callback());
     hello_ = self_->create_reader(topic("hello", {.latched = true, .depth = 1}), introduced_.callback());
     live_ = bus::make_bus({.vendor = GetParam().reader})->join(domains_.base());
-    live_reader_ = live_->create_reader(topic("to_peer"), live_got_.callback());
+    live_reader_ = live_->create_reader(topic("to_peer"), [keep = live_got_.callback()](Sample&& sample) {
+      sample.payload = {sample.payload.begin(), sample.payload.begin() + 12};  // memory is measured below
+      keep(std::move(sample));
+    });
     const auto hello = introduced_.wait_for(1);
     ASSERT_EQ(hello.size(), 1u);
     peer_id_ = hello[0].source;
@@ -124,7 +127,7 @@ TEST_P(BusProcesses, StoppedReaderHoldsNobodyUp) {
   write_in_step(2000);
   const double before = resident_mb();
   for (std::uint64_t n = 0; n < 50'000; ++n) writer_->write(numbered(n, 2000));
-  EXPECT_LT(resident_mb() - before, 100.0) << "what a stopped reader has not acknowledged piles up";
+  EXPECT_LT(resident_mb() - before, 50.0) << "what a stopped reader has not acknowledged piles up";
   peer_.resume();
 }
 
