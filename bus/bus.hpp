@@ -37,6 +37,9 @@ struct Sample {
   ParticipantId source = 0;  ///< who wrote it
 };
 
+/// Matches are found by either side for itself: that a writer lists a reader does not mean that the reader has found
+/// the writer, and what is written in between passes it by. Who must not lose the first sample waits until the other
+/// side has said that it is ready. What a reader has not got when a writer is destroyed may be lost to it.
 class Writer {
  public:
   virtual ~Writer() = default;
@@ -71,7 +74,7 @@ class Participant {
 struct BusConfig {
   std::string vendor = "cyclonedds";  ///< "cyclonedds", "fastdds" or "inproc"
   bool loopback_only = true;          ///< no multicast, 127.0.0.1 only; false in containers
-  bool long_leases = false;           ///< debug: a process stopped in gdb keeps its place
+  bool long_leases = false;           ///< debug: a process stopped in gdb keeps its place for an hour
 };
 
 /// Domain ids run from 0 to this one: the UDP ports of a domain begin at 7400 + 250 x domain and must stay below 65536.

@@ -18,8 +18,8 @@ inline constexpr int kMaxLocalParticipants = 32;
 /// process that gets no processor for seconds on a busy machine.
 inline constexpr int kLeaseS = 8;
 inline constexpr int kAnnounceS = 2;
-/// The lease when a process may be stopped in a debugger: a day.
-inline constexpr int kLongLeaseS = 24 * 3600;
+/// The lease when a process may be stopped in a debugger: an hour, the longest that Cyclone DDS takes.
+inline constexpr int kLongLeaseS = 3600;
 
 /// FNV-1a, 64 bit (Fowler, Noll and Vo), over a GUID prefix: the name of a participant, whatever the vendor.
 /// @param guid_prefix its 12 bytes in the order in which they stand on the wire

@@ -17,7 +17,8 @@ bool written_by_a_run(const std::string& name) {
                                                "trajectories.csv", "score_timeline.csv", "scene.json",   "report.html"};
   const bool of_a_program = name.starts_with("sim_server.") || name.starts_with("comm_router.") ||
                             name.starts_with("station.") || name.starts_with("uav_agent-");
-  return kNames.contains(name) || (of_a_program && (name.ends_with(".report.json") || name.ends_with(".log")));
+  const bool of_its_files = name.ends_with(".report.json") || name.ends_with(".journal") || name.ends_with(".log");
+  return kNames.contains(name) || (of_a_program && of_its_files);
 }
 
 }  // namespace

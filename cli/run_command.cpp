@@ -113,6 +113,12 @@ class FleetRun {
     } else if (!ending_ && !leave_by_) {
       supervisor_.send("sim_server", "lost " + member_name(event.program));
     }
+    if (leave_by_ && only_commands_run()) leave_by_ = std::min(*leave_by_, Clock::now() + kExecLeaveTime);
+  }
+
+  bool only_commands_run() const {
+    const std::vector<std::string> running = supervisor_.running();
+    return std::all_of(running.begin(), running.end(), [&](const auto& program) { return is_exec(plan_, program); });
   }
 
   /// First Ctrl-C: the server ends the run at its next step and all write their reports. Second: at once.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <regex>
 #include <sstream>
 
 #include "cli/fake_programs.hpp"
@@ -137,6 +138,50 @@ TEST_F(RunCommand, AMemberThatTheServerLostMakesTheRunAFailure) {
         > "$out/sim_server.report.json")");
   EXPECT_EQ(run(), kExitProcessFailed);
   EXPECT_EQ(result()["lost_members"][0]["member"], "alpha");
+}
+
+TEST_F(RunCommand, ACommandTakesThePlaceOfAnAgent) {
+  const std::string command = "env > \"$SKEIN_OUT/env.txt\"; echo hello, world; echo '{\"type\":\"tally\",\"score\":9}' >&3; "
+                              "until [ -e \"$SKEIN_OUT/scene.json\" ]; do sleep 0.01; done";
+  options_.planner = "hover,beta=exec:" + command;
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(result()["planner"], (Json{{"alpha", "hover"}, {"beta", "exec:" + command}}));
+  EXPECT_EQ(result()["score"], 0.0) << "what a command says of the score is no news";
+  EXPECT_EQ(read_text(*options_.out / "uav_agent-beta.log"), "hello, world\n");
+  const std::string environment = "\n" + read_text(*options_.out / "env.txt");
+  for (const std::string& variable :
+       {std::string("SKEIN_UAV=beta"), std::string("SKEIN_DDS=cyclonedds"), std::string("OMP_NUM_THREADS=1"),
+        "SKEIN_SCENARIO=" + programs_.scenario().string(), "SKEIN_OUT=" + options_.out->string()}) {
+    EXPECT_NE(environment.find("\n" + variable + "\n"), std::string::npos) << variable << environment;
+  }
+  // The fleet's second UAV has the last of its domains, and the launcher said which they are.
+  std::smatch domain;
+  ASSERT_TRUE(std::regex_search(environment, domain, std::regex("\nSKEIN_DOMAIN=([0-9]+)\n"))) << environment;
+  EXPECT_NE(err_.str().find(".." + domain[1].str() + ","), std::string::npos) << err_.str();
+  for (const Json& warning : result()["warnings"]) {
+    EXPECT_EQ(warning.get<std::string>().find("uav_agent-beta"), std::string::npos) << warning;
+  }
+}
+
+TEST_F(RunCommand, ACommandThatDoesNotNoticeTheEndIsEndedWithoutAComplaint) {
+  options_.planner = "exec:while :; do sleep 60; done";
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(err_.str().find("failed"), std::string::npos) << err_.str();
+}
+
+TEST_F(RunCommand, ACommandThatFailsIsNamedLikeAnAgent) {
+  let_the_server_wait();
+  options_.planner = "hover,beta=exec:./no_such_program";
+  EXPECT_EQ(run(), kExitProcessFailed);
+  EXPECT_EQ(control_line(), "lost beta\n");
+  EXPECT_NE(err_.str().find("uav_agent-beta failed: exit code 127"), std::string::npos) << err_.str();
+}
+
+TEST_F(RunCommand, DebugPrintsACommandWithItsEnvironment) {
+  options_.planner = "hover,beta=exec:./mine 'a b'";
+  options_.debug_uav = "beta";
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_NE(err_.str().find(" SKEIN_UAV=beta /bin/sh -c './mine '\\''a b'\\'''"), std::string::npos) << err_.str();
 }
 
 TEST_F(RunCommand, DebugLeavesOneAgentToTheUser) {

@@ -121,6 +121,7 @@ void RunFiles::write_report(const Simulation& simulation, const RunSummary& summ
         {{"member", lost.name}, {"step", lost.step}, {"time_s", seconds(lost.tick)}, {"reason", lost.reason}});
   }
   json["warnings"] = summary.warnings;
+  json["timing"] = summary.timing;
   write_file_atomically(folder_ / "sim_server.report.json", json.dump(2) + "\n");
 }
 

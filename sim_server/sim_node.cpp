@@ -85,6 +85,8 @@ RunSummary SimNode::run() {
   files_.write_scene(simulation_.scene());
   const bool joined = wait_for_members();
   const auto started = Clock::now();
+  const double cpu_before_s = thread_cpu_s();
+  simulation_.watch(&clock_);
   bool answered = joined;
   while (answered) {
     last_step_ = is_last_step();
@@ -99,6 +101,8 @@ RunSummary SimNode::run() {
     simulation_.advance();
   }
   summary_.wall_time_s = elapsed_s(started);
+  summary_.timing = clock_.summary();
+  summary_.timing["cpu_s"] = thread_cpu_s() - cpu_before_s;
   summary_.status = end_status();
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
   if (options_.realtime_factor || summary_.status == "interrupted" || aborted_) summary_.deterministic = false;
@@ -195,14 +199,18 @@ void SimNode::publish_ledger(const std::vector<LedgerEntry>& entries, std::size_
 }
 
 bool SimNode::wait_for_answers() {
-  const auto published = Clock::now();
+  auto waiting_since = Clock::now();
   while (!server_.answered()) {
     if (!inbox_.dispatch(kIdlePoll)) report_progress(false);
     if (aborted_) return false;
-    if (options_.agent_timeout_s > 0 && elapsed_s(published) > options_.agent_timeout_s) {
-      for (const std::string& name : server_.awaited()) {
+    if (options_.agent_timeout_s > 0 && elapsed_s(waiting_since) > options_.agent_timeout_s) {
+      std::vector<std::string> silent = server_.awaited();
+      // The router cannot answer before all others have: it is to blame only when nobody else is.
+      if (silent.size() > 1) std::erase(silent, bus::kRouterName);
+      for (const std::string& name : silent) {
         server_.lost(name, fmt::format("did not answer for {} s", options_.agent_timeout_s));
       }
+      waiting_since = Clock::now();
     }
   }
   take_losses();

@@ -13,6 +13,7 @@
 #include "bus/inbox.hpp"
 #include "bus/lockstep/server.hpp"
 #include "core/status_pipe.hpp"
+#include "sim_server/cpu_clock.hpp"
 #include "sim_server/run_files.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/uav_node.hpp"
@@ -65,6 +66,7 @@ class SimNode {
   const SimNodeOptions options_;
   StatusPipe& status_;
   std::vector<std::string> uav_names_;
+  CpuClock clock_;
   Simulation simulation_;
   RunDigest digest_;
   RunFiles files_;

@@ -75,6 +75,7 @@ struct Simulation::Impl {
   StepEvents events;
   std::uint64_t step = 0;
   Tick tick = 0;
+  WorkClock* clock = nullptr;
   Tick rays_tick = -1;  ///< the tick whose poses `rays` has
 };
 
@@ -176,7 +177,10 @@ void Simulation::Impl::take_pictures() {
     if (!mission.alive(i) || (uav.manual_trigger && !uav.triggered) || !uav.camera.ready(tick)) continue;
     uav.triggered = false;
     refresh_rays();
-    Capture capture = uav.camera.capture(tick, world.state(i), uav.vehicle.gimbal(), rays);
+    Capture capture = [&] {
+      const WorkSection section(clock, Work::camera);
+      return uav.camera.capture(tick, world.state(i), uav.vehicle.gimbal(), rays);
+    }();
     if (capture.detections.empty()) continue;
     ++uav.view.captures;
     if (capture.improved()) uav.last_raise = tick;
@@ -191,7 +195,10 @@ void Simulation::Impl::take_scans() {
     if (!uav.lidar || !mission.alive(i) || !uav.lidar->due(tick)) continue;
     refresh_rays();
     const Isometry3d X_WB = world.state(i).X_WB();
-    LidarScan scan = uav.lidar->scan(tick, X_WB, rays);
+    LidarScan scan = [&] {
+      const WorkSection section(clock, Work::lidar);
+      return uav.lidar->scan(tick, X_WB, rays);
+    }();
     if (auto key_frame = uav.keyframes.offer(scan, X_WB)) {
       events.key_frames.push_back({i, std::move(*key_frame), {}});
     }
@@ -221,6 +228,7 @@ void Simulation::Impl::finish_exchange() {
 }
 
 void Simulation::Impl::trace_links() {
+  const WorkSection section(clock, Work::links);
   refresh_rays();
   const std::size_t nodes = uavs.size() + 1;
   links.assign(nodes * nodes, 0);
@@ -282,8 +290,11 @@ bool Simulation::command_gimbal(std::size_t uav, const GimbalCommand& command) {
 void Simulation::trigger_camera(std::size_t uav) { impl_->uavs[uav].link.outbox().trigger = true; }
 void Simulation::stop(std::size_t uav) { impl_->uavs[uav].link.outbox().stop = true; }
 
+void Simulation::watch(WorkClock* clock) { impl_->clock = clock; }
+
 void Simulation::advance() {
   Impl& self = *impl_;
+  const WorkSection section(self.clock, Work::simulation);
   self.events = {};
   self.events.rejections = std::exchange(self.rejections, {});
   self.events.ledger_begin = self.referee.ledger().size();

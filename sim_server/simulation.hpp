@@ -23,6 +23,7 @@
 #include "sim_server/mission.hpp"
 #include "sim_server/referee.hpp"
 #include "sim_server/run_digest.hpp"
+#include "sim_server/work_clock.hpp"
 
 namespace skein::sim {
 
@@ -99,6 +100,9 @@ class Simulation {
   void trigger_camera(std::size_t uav);
   /// Cut the motors, for good: the UAV falls.
   void stop(std::size_t uav);
+
+  /// Announces work to a clock from now on. @param clock  must outlive the simulation; null: nobody.
+  void watch(WorkClock* clock);
 
   /// One exchange period; afterwards all getters speak of the new step.
   void advance();

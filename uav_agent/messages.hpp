@@ -15,7 +15,7 @@ namespace skein::agent {
 struct Neighbour {
   Node node = kStationNode;
   Vector3d p_W = Vector3d::Zero();
-  std::optional<Vector3d> v_W;  ///< if it is known; else Peers takes it from successive positions
+  std::optional<Vector3d> v_W = {};  ///< if it is known; else Peers takes it from successive positions
 };
 
 /// One LiDAR key frame, this UAV's own or a linked neighbour's. Free space is marked only if it can be told where the

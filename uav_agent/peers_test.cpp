@@ -9,7 +9,9 @@ AgentConfig fleet_of(std::size_t count, std::size_t self) {
   AgentConfig config;
   config.self = self;
   for (std::size_t i = 0; i < count; ++i) {
-    config.fleet.push_back({.name = "u" + std::to_string(i), .p_WB_start = Vector3d(5.0 * static_cast<double>(i), 0.0, 0.0)});
+    FleetMember member;
+    member.p_WB_start = Vector3d(5.0 * static_cast<double>(i), 0.0, 0.0);
+    config.fleet.push_back(member);
   }
   return config;
 }

@@ -161,7 +161,7 @@ void Tracker::advance_along_path(double pace, double dt_s) {
   const double to_end = (end.p_W - ref_.p_WB).norm();
   const double step_speed = config_.max_acceleration_mps2 * dt_s;
   if (end.s - progress_ < kTouchM && to_end <= step_speed * dt_s && ref_.v_WB.norm() <= step_speed) {
-    ref_.a_WB.setZero();
+    ref_.a_WB = -ref_.v_WB / dt_s;
     ref_.v_WB.setZero();
     ref_.p_WB = end.p_W;
     progress_ = end.s;

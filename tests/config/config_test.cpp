@@ -1,5 +1,5 @@
-// Every shipped file loads; what is printed reads back; every invalid_*.yaml here is refused with what its "#
-// expect:" lines say. A new rule needs a new file, no code.
+// Every shipped file loads; what is printed reads back; every invalid_*.yaml here is refused with
+// what its "# expect:" lines say. A new rule needs a new file, no code.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

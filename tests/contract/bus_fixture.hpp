@@ -20,7 +20,7 @@ namespace skein::test {
 using Bytes = std::vector<std::uint8_t>;
 
 /// Far longer than anything takes, on a busy machine too; a test that waits so long has failed.
-inline constexpr std::chrono::seconds kPatience{10};
+inline constexpr std::chrono::seconds kPatience{60};
 
 /// A type that nobody has compiled: all that a backend knows of it is its name.
 inline bus::TopicSpec topic(const std::string& name, const bus::Qos& qos = {}) {

@@ -250,6 +250,19 @@ TEST_P(BusContract, ReaderAndWriterMayLeaveWhileSamplesFly) {
   }
 }
 
+TEST_P(BusContract, LongLeasesAreAccepted) {
+  const auto join_for_long = [this](const std::string& vendor) {
+    return bus::make_bus({.vendor = vendor, .long_leases = true})->join(domains_.base());
+  };
+  auto a = join_for_long(GetParam().writer), b = join_for_long(GetParam().reader);
+  Collector got;
+  const auto spec = topic("long_leases", {.latched = true});
+  auto writer = a->create_writer(spec);
+  writer->write(numbered(1));
+  auto reader = b->create_reader(spec, got.callback());
+  EXPECT_EQ(got.numbers(1), count_from(1, 1));
+}
+
 TEST_P(BusContract, DomainOutOfRangeIsTheUsersError) {
   const auto bus = bus::make_bus({.vendor = GetParam().writer});
   EXPECT_THROW(bus->join(-1), InputError);

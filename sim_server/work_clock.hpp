@@ -1,0 +1,39 @@
+// Tells where the server's time goes without giving the simulation a clock of its own: it announces what it is about
+// to do, and whoever wants to know takes the time.
+#pragma once
+
+namespace skein::sim {
+
+enum class Work {
+  simulation,  ///< all of Simulation::advance(), the others included
+  lidar,       ///< one scan
+  camera,      ///< one exposure
+  links,       ///< the radio matrix of one step
+};
+inline constexpr int kWorkKinds = 4;
+
+class WorkClock {
+ public:
+  virtual ~WorkClock() = default;
+  virtual void begin(Work work) = 0;
+  virtual void end(Work work) = 0;
+};
+
+/// Announces a piece of work as long as it lives. @param clock  may be null.
+class WorkSection {
+ public:
+  WorkSection(WorkClock* clock, Work work) : clock_(clock), work_(work) {
+    if (clock_) clock_->begin(work_);
+  }
+  ~WorkSection() {
+    if (clock_) clock_->end(work_);
+  }
+  WorkSection(const WorkSection&) = delete;
+  WorkSection& operator=(const WorkSection&) = delete;
+
+ private:
+  WorkClock* const clock_;
+  const Work work_;
+};
+
+}  // namespace skein::sim

@@ -1,0 +1,103 @@
+// Wrong input: exit code 2, one message that says where and what would be right, and nothing was started.
+#include <algorithm>
+#include <regex>
+
+#include "fleet_fixture.hpp"
+#include "small_scene.hpp"
+
+namespace skein::test {
+namespace {
+
+class BadInput : public FleetTest {
+ protected:
+  /// The run must be refused with a message that holds all of `parts`.
+  void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts, std::size_t most_lines = 2) {
+    const std::string name = "run" + std::to_string(++count_);
+    SkeinRun& refused = run(name, arguments, {}, 2);
+    const std::string message = refused.err();
+    for (const std::string& part : parts) {
+      EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in: " << message;
+    }
+    const auto lines = static_cast<std::size_t>(std::count(message.begin(), message.end(), '\n'));
+    EXPECT_GE(lines, 1u);
+    EXPECT_LE(lines, most_lines) << message;
+    EXPECT_FALSE(std::regex_search(message, std::regex("terminate|what\\(\\)|backtrace|std::|Assertion"))) << message;
+    EXPECT_EQ(message.find("DDS domains"), std::string::npos) << "it was about to start";
+    EXPECT_EQ(refused.out(), "");
+    EXPECT_FALSE(std::filesystem::exists(refused.dir())) << "an empty results folder is left";
+  }
+
+  int count_ = 0;
+};
+
+TEST_F(BadInput, SmallSceneIsGood) {
+  const auto scenario = write_small_scene(folder());
+  const Json result = run("good", {scenario, "--planner", "hover", "--duration", "2"}).result();
+  EXPECT_EQ(result["status"], "completed");
+  EXPECT_EQ(result["points_total"], kSmallScenePoints);
+  EXPECT_EQ(result["uavs"].size(), 2u);
+}
+
+TEST_F(BadInput, SceneFilesAreNamed) {
+  const auto scenario = write_small_scene(folder());
+  const std::string points = folder() / "scene/points.pcd", boxes = folder() / "scene/box_description.yaml";
+  const std::string good_points = text_of(points), good_boxes = text_of(boxes);
+
+  write("scene/points.pcd", good_points.substr(0, good_points.size() - 20));
+  expect_refused({scenario}, {points});
+  write("scene/points.pcd", good_points);
+
+  std::string bad = good_boxes;
+  bad.replace(bad.find("20.0"), 4, "wide");
+  write("scene/box_description.yaml", bad);
+  const auto line = 1 + std::count(bad.begin(), bad.begin() + static_cast<std::ptrdiff_t>(bad.find("wide")), '\n');
+  expect_refused({scenario}, {boxes + ":" + std::to_string(line), "size", "wide"});
+  write("scene/box_description.yaml", good_boxes);
+
+  std::filesystem::remove(folder() / "scene/mesh.stl");
+  expect_refused({scenario}, {(folder() / "scene/mesh.stl").string()});
+}
+
+TEST_F(BadInput, ScenarioIsNamedWithTheKeyAndWhatWouldBeRight) {
+  const auto scenario = write_small_scene(folder());
+  const std::string good = text_of(scenario);
+  const auto file = write("typo.yaml", good + "duraton_s: 10\n");
+  const auto line = 1 + std::count(good.begin(), good.end(), '\n');
+  expect_refused({file}, {file.string() + ":" + std::to_string(line), "duraton_s", "duration_s"});
+  expect_refused({"twoers"}, {"twoers", "towers"});
+  expect_refused({folder() / "nowhere.yaml"}, {(folder() / "nowhere.yaml").string()});
+}
+
+TEST_F(BadInput, PlannerIsNamedWithThoseThatExist) {
+  expect_refused({"towers", "--planner", "partol"}, {"partol", "patrol"});
+  expect_refused({"towers", "--planner", "patrol:clearence_m=2"}, {"clearence_m", "clearance_m"});
+  expect_refused({"towers", "--planner", "patrol:clearance_m=near"}, {"clearance_m", "near"});
+  expect_refused({"towers", "--planner", "patrol,jurnog=hover"}, {"jurnog", "jurong"});
+}
+
+TEST_F(BadInput, OptionsAreNamed) {
+  expect_refused({"towers", "--dds", "opendds"}, {"--dds", "opendds", "fastdds"});
+  expect_refused({"towers", "--seed", "-1"}, {"--seed", "-1"});
+  expect_refused({"towers", "--domain", "199"}, {"--domain", "199"});
+  expect_refused({"towers", "--debug", "jurnog"}, {"jurnog", "jurong"});
+  expect_refused({"towers", "--sede", "1"}, {"--sede"});
+}
+
+TEST_F(BadInput, FormerResultIsKeptWithoutForce) {
+  const Arguments brief = {"towers", "--planner", "hover", "--duration", "2"};
+  const SkeinRun& first = run("kept", brief);
+  const std::string result = text_of(first.dir() / "result.json");
+  const auto changed_at = std::filesystem::last_write_time(first.dir() / "digests.csv");
+  const SkeinRun& second = run("kept", brief, {}, 2);
+  EXPECT_NE(second.err().find("--force"), std::string::npos) << second.err();
+  EXPECT_NE(second.err().find(first.dir().string()), std::string::npos) << second.err();
+  EXPECT_EQ(text_of(first.dir() / "result.json"), result);
+  EXPECT_EQ(std::filesystem::last_write_time(first.dir() / "digests.csv"), changed_at);
+
+  Arguments forced = brief;
+  forced.insert(forced.end(), {"--force", "--seed", "9"});
+  EXPECT_EQ(run("kept", forced).result()["seed"], 9);
+}
+
+}  // namespace
+}  // namespace skein::test

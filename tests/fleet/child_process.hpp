@@ -1,0 +1,60 @@
+// A program started by a test: its output goes to files, and it never outlives the test.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace skein::test {
+
+/// Far longer than anything takes, on a busy machine too; a test that waits so long has failed.
+inline constexpr std::chrono::seconds kPatience{120};
+
+using Arguments = std::vector<std::string>;
+/// Set on top of the test's own environment.
+using Environment = std::map<std::string, std::string>;
+
+/// Polls: for what nobody announces. @returns whether `condition` came true in time.
+bool eventually(const std::function<bool()>& condition, std::chrono::milliseconds limit = kPatience);
+
+std::string text_of(const std::filesystem::path& file);
+
+struct ExitStatus {
+  int code = -1;   ///< -1 when a signal ended it
+  int signal = 0;  ///< 0 unless a signal ended it
+};
+
+/// Starts at construction, in a process group of its own; killed with its group at destruction, and by the kernel when
+/// the test dies. From one thread, which must live as long as it.
+class ChildProcess {
+ public:
+  /// @param argv  argv[0] is the path of the binary. @throws std::runtime_error when it cannot be started.
+  ChildProcess(const Arguments& argv, const Environment& environment, std::filesystem::path out,
+               std::filesystem::path err);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  pid_t pid() const { return pid_; }
+  void signal(int signal) const;
+  /// @returns nullopt while it runs.
+  std::optional<ExitStatus> ended();
+  /// @returns how it ended. @throws std::runtime_error when it has not after kPatience.
+  ExitStatus wait();
+  /// What it wrote so far.
+  std::string out() const { return text_of(out_); }
+  std::string err() const { return text_of(err_); }
+
+ private:
+  pid_t pid_ = -1;
+  std::filesystem::path out_, err_;
+  std::optional<ExitStatus> exit_;
+};
+
+}  // namespace skein::test

@@ -1,0 +1,188 @@
+// Programs that are not Skein's own, and programs that hang.
+#include <signal.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "cli/domain_block.hpp"
+#include "core/radio_routes.hpp"
+#include "core/topics.hpp"
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+using topics::WireTopic;
+
+class Clients : public FleetTest {
+ protected:
+  /// A run whose fleet waits for the agent of `uav`; its domains are known.
+  SkeinRun& waiting_for(const std::string& name, const std::string& uav, Arguments arguments) {
+    arguments.insert(arguments.end(), {"--debug", uav});
+    SkeinRun& run = start(name, arguments);
+    EXPECT_TRUE(run.wait_for("gdb --args")) << run.err();
+    return run;
+  }
+
+  /// Starts the agent with the command that the launcher printed, gdb left out.
+  ChildProcess& start_printed_command(const SkeinRun& run) {
+    const std::string text = run.err(), gdb = "gdb --args ";
+    const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
+    const std::string variables = text.substr(begin, at - begin);
+    const std::string command = text.substr(at + gdb.size(), end - at - gdb.size());
+    return start_program("agent", {"/bin/sh", "-c", "exec env " + variables + command});
+  }
+};
+
+/// What a stranger in one domain hears.
+class Listener {
+ public:
+  explicit Listener(std::filesystem::path file) : file_(std::move(file)) {}
+
+  Arguments command(int domain, const std::vector<WireTopic>& topics) const {
+    Arguments argv = {SKEIN_RADIO_LISTENER, "fastdds", std::to_string(domain), file_};
+    for (const WireTopic& topic : topics) argv.insert(argv.end(), {topic.name, topic.type});
+    return argv;
+  }
+  long writers(const WireTopic& topic) const { return entry(topic).first; }
+  long samples(const WireTopic& topic) const { return entry(topic).second; }
+
+ private:
+  std::pair<long, long> entry(const WireTopic& topic) const {
+    std::istringstream text(text_of(file_));
+    std::pair<long, long> numbers;
+    for (std::string name; text >> name >> numbers.first >> numbers.second;) {
+      if (name == topic.name) return numbers;
+    }
+    return {0, 0};
+  }
+  std::filesystem::path file_;
+};
+
+long delivered(const Json& result, const std::string& from, const std::string& to) {
+  for (const Json& link : result["radio"]["per_link"]) {
+    if (link["from"] == from && link["to"] == to) return link["delivered"];
+  }
+  return 0;
+}
+
+/// All that one UAV and its software say in their own domain, and what else is not for others.
+std::vector<WireTopic> private_topics(const std::string& uav) {
+  return {topics::odometry(uav),           topics::gimbal(uav),         topics::cloud(uav),
+          topics::self_keyframe(uav),      topics::neighbour_odometry(uav), topics::detected_points(uav),
+          topics::trajectory_command(uav), topics::captures(uav),       topics::captures_at_station(uav),
+          topics::captures_ack_at_uav(uav), topics::ledger(),           topics::routed(),
+          topics::attached(),              topics::drop()};
+}
+
+TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
+  SkeinRun& run = waiting_for("run", "nanyang", {"towers", "--planner", "patrol", "--duration", "90"});
+  const int base = run.domains().first;
+  const WireTopic acks = topics::captures_ack_at_uav("nanyang"), own = topics::odometry("nanyang");
+  const auto forbidden = private_topics("raffles");
+
+  std::vector<WireTopic> at_uav = {acks, own}, at_gcs;
+  at_uav.insert(at_uav.end(), forbidden.begin(), forbidden.end());
+  for (const std::string& uav : kFleet) at_gcs.push_back(topics::captures_at_station(uav));
+  for (const WireTopic& topic : {topics::odometry("nanyang"), topics::captures("nanyang"), topics::ledger()}) {
+    at_gcs.push_back(topic);
+  }
+  const Listener uav_listener(folder() / "uav_heard"), gcs_listener(folder() / "gcs_heard");
+  start_program("uav_listener", uav_listener.command(uav_domain(base, 4), at_uav));
+  start_program("gcs_listener", gcs_listener.command(gcs_domain(base), at_gcs));
+  // The fleet waits for nanyang's agent, so nothing has been said before they listen.
+  ASSERT_TRUE(eventually([&] { return uav_listener.writers(acks) == 1 && uav_listener.writers(own) == 1; }));
+  ASSERT_TRUE(eventually([&] {
+    return std::all_of(kFleet.begin(), kFleet.end(),
+                       [&](const std::string& uav) { return gcs_listener.writers(topics::captures_at_station(uav)) == 1; });
+  }));
+  start_printed_command(run);
+  EXPECT_EQ(run.exit_code(), 0) << run.err();
+
+  const Json result = run.result();
+  EXPECT_EQ(result["status"], "completed");
+  EXPECT_TRUE(result["deterministic"]) << "a stranger's ear changes nothing";
+  const long acknowledged = delivered(result, "gcs", "nanyang");
+  ASSERT_GT(acknowledged, 0) << "no radio message to listen to";
+  EXPECT_TRUE(eventually([&] { return uav_listener.samples(acks) >= acknowledged; }, std::chrono::seconds(10)));
+  EXPECT_EQ(uav_listener.samples(acks), acknowledged);
+  EXPECT_GT(uav_listener.samples(own), 1000) << "a UAV's own topics can be listened to";
+  for (const WireTopic& topic : forbidden) EXPECT_EQ(uav_listener.samples(topic), 0) << topic.name;
+  for (const std::string& uav : kFleet) {
+    const WireTopic arrivals = topics::captures_at_station(uav);
+    const long expected = delivered(result, uav, "gcs");
+    EXPECT_TRUE(eventually([&] { return gcs_listener.samples(arrivals) >= expected; }, std::chrono::seconds(10)));
+    EXPECT_EQ(gcs_listener.samples(arrivals), expected) << uav;
+  }
+  for (const WireTopic& topic : {topics::odometry("nanyang"), topics::captures("nanyang"), topics::ledger()}) {
+    EXPECT_EQ(gcs_listener.samples(topic), 0) << topic.name;
+  }
+}
+
+TEST_F(Clients, ForeignClientTakesPartInTheLockStep) {
+  std::set<std::string> digests;
+  for (const std::string vendor : {"cyclonedds", "fastdds"}) {
+    SkeinRun& run = waiting_for(vendor, "sentosa", {"towers", "--planner", "hover", "--duration", "20"});
+    const std::string domain = std::to_string(uav_domain(run.domains().first, 2));
+    ChildProcess& client = start_program("client-" + vendor, {SKEIN_MINIMAL_CLIENT, vendor},
+                                         {{"SKEIN_DOMAIN", domain}, {"SKEIN_UAV", "sentosa"}});
+    EXPECT_EQ(run.exit_code(), 0) << run.err();
+    EXPECT_EQ(client.wait().code, 0) << client.err();
+    const Json result = run.result();
+    EXPECT_EQ(result["status"], "completed");
+    EXPECT_TRUE(result["deterministic"]);
+    EXPECT_TRUE(result["lost_members"].empty());
+    EXPECT_NEAR(result["uavs"][2]["distance_m"].get<double>(), 3.0, 0.5) << "it was heard";
+    EXPECT_EQ(result["uavs"][2]["commands_rejected"], 0);
+    digests.insert(run.digest());
+  }
+  EXPECT_EQ(digests.size(), 1u) << "the same run, whatever its vendor";
+}
+
+/// A fleet started by hand, for options that the launcher does not have.
+class Hanging : public Clients, public testing::WithParamInterface<std::string> {};
+
+TEST_P(Hanging, ProgramIsDroppedAndTheRunGoesOn) {
+  const cli::DomainBlock domains(std::nullopt, 2 + static_cast<int>(kFleet.size()));
+  const std::filesystem::path dir = folder() / "by_hand";
+  std::filesystem::create_directories(dir);
+  std::map<std::string, ChildProcess*> fleet;
+  for (const std::string& name : kPrograms) {
+    const std::size_t dash = name.find('-');
+    Arguments argv = {program(name.substr(0, dash)), "--scenario", "towers", "--duration", "40",
+                      "--domain", std::to_string(domains.base()), "--out", dir};
+    if (dash != std::string::npos) argv.insert(argv.end(), {"--uav", name.substr(dash + 1), "--planner", "patrol"});
+    if (name == "sim_server") argv.insert(argv.end(), {"--agent-timeout", "8"});
+    fleet[name] = &start_program(name, argv);
+  }
+  ASSERT_TRUE(eventually([&] { return is_flying(dir); }));
+  ChildProcess& victim = *fleet.at(GetParam());
+  victim.signal(SIGSTOP);
+
+  ChildProcess& server = *fleet.at("sim_server");
+  EXPECT_EQ(server.wait().code, 0) << server.err();
+  const Json report = Json::parse(text_of(dir / "sim_server.report.json"));
+  EXPECT_EQ(report["status"], "completed");
+  EXPECT_FALSE(report["deterministic"]);
+  ASSERT_EQ(report["lost_members"].size(), 1u) << report["lost_members"];
+  const std::string member = GetParam().substr(GetParam().find('-') + 1);
+  EXPECT_EQ(report["lost_members"][0]["member"], member);
+  EXPECT_NE(report["lost_members"][0]["reason"].get<std::string>().find("did not answer"), std::string::npos);
+  EXPECT_NE(server.err().find(member + " is lost"), std::string::npos) << server.err();
+  for (const auto& [name, process] : fleet) {
+    if (process != &victim) {
+      EXPECT_EQ(process->wait().code, 0) << name << ": " << process->err();
+    }
+  }
+  victim.signal(SIGCONT);
+  EXPECT_EQ(victim.wait().code, 3) << "it finds that the others went on without it";
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, Hanging, testing::Values("uav_agent-changi", "comm_router"), [](const auto& victim) {
+  std::string name = victim.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace skein::test

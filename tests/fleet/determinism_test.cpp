@@ -1,0 +1,96 @@
+// The same command gives the same digest, whatever the DDS vendors, the order of arrivals and the load of the machine.
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+/// Long enough that all UAVs fly, photograph and deliver.
+const Arguments kTowers = {"towers", "--planner", "patrol", "--duration", "75"};
+
+Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// A process that keeps one core busy.
+class BusyCore {
+ public:
+  explicit BusyCore(const std::filesystem::path& folder)
+      : spinner_({"/bin/sh", "-c", "while :; do :; done"}, {}, folder / "spinner.out", folder / "spinner.err") {}
+
+ private:
+  ChildProcess spinner_;
+};
+
+class Determinism : public FleetTest {
+ protected:
+  /// @returns the digest of a run that went as it should.
+  std::string digest(const std::string& name, const Arguments& arguments, const Environment& environment = {}) {
+    SkeinRun& done = run(name, arguments, environment);
+    const Json result = done.result();
+    EXPECT_EQ(result["status"], "completed") << name;
+    EXPECT_TRUE(result["deterministic"]) << name;
+    EXPECT_EQ(done.digest().size(), 64u) << name;
+    EXPECT_GT(result["radio"]["delivered"], 0) << name << ": a run without radio messages proves little";
+    return done.digest();
+  }
+
+  int diff(const std::string& a, const std::string& b, std::string& text) {
+    ChildProcess& process = skein({"diff", folder() / a, folder() / b});
+    text = process.out() + process.err();
+    return process.wait().code;
+  }
+};
+
+TEST_F(Determinism, VendorsOrderOfArrivalAndLoadDoNotShowInTheDigest) {
+  const std::string reference = digest("cyclonedds", kTowers);
+  EXPECT_EQ(digest("fastdds", kTowers + Arguments{"--dds", "fastdds"}), reference);
+  EXPECT_EQ(digest("mixed", kTowers + Arguments{"--dds", "mixed"}), reference);
+  for (int chaos = 1; chaos <= (long_tests() ? 5 : 3); ++chaos) {
+    const std::string number = std::to_string(chaos);
+    EXPECT_EQ(digest("chaos" + number, kTowers + Arguments{"--dds", chaos % 2 == 0 ? "mixed" : "cyclonedds"},
+                     {{"SKEIN_CHAOS", number}}),
+              reference)
+        << "SKEIN_CHAOS=" << number;
+  }
+  const BusyCore busy(folder());
+  EXPECT_EQ(digest("busy", kTowers), reference);
+  std::string text;
+  EXPECT_EQ(diff("cyclonedds", "busy", text), 0);
+  EXPECT_EQ(text, "the runs are the same\n");
+}
+
+TEST_F(Determinism, EverySeedIsAnotherRunAndRepeats) {
+  std::set<std::string> digests;
+  for (const std::string seed : {"1", "2"}) {
+    const Arguments seeded = kTowers + Arguments{"--seed", seed};
+    const std::string first = digest("seed" + seed, seeded);
+    EXPECT_EQ(digest("seed" + seed + "-again", seeded + Arguments{"--dds", "mixed"}), first);
+    digests.insert(first);
+  }
+  EXPECT_EQ(digests.size(), 2u);
+  std::string text;
+  EXPECT_EQ(diff("seed1", "seed2", text), 1);
+  EXPECT_NE(text.find("first difference at step 0 (0 s):\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n  jurong position\n"), std::string::npos) << text;  // its start offset was drawn
+}
+
+TEST_F(Determinism, SceneSeedIsAnotherRun) {
+  const Arguments brief = {"towers", "--planner", "hover", "--duration", "5"};
+  const auto quick = [&](const std::string& name, const Arguments& more) {
+    return run(name, brief + more).digest();
+  };
+  const std::string reference = quick("default", {});
+  EXPECT_EQ(quick("zero", {"--scene-seed", "0"}), reference);
+  EXPECT_EQ(quick("longer", {"--stop-at", "1000"}), reference) << "an end that is never reached changes nothing";
+  EXPECT_NE(quick("seeded", {"--seed", "7"}), reference);
+}
+
+TEST_F(Determinism, OfficialScene) {
+  if (std::getenv("SKEIN_ASSETS") == nullptr) GTEST_SKIP() << "SKEIN_ASSETS is not set";
+  const Arguments mbs = {"mbs", "--planner", "patrol", "--duration", "75"};
+  EXPECT_EQ(digest("mixed", mbs + Arguments{"--dds", "mixed"}, {{"SKEIN_CHAOS", "1"}}), digest("cyclonedds", mbs));
+}
+
+}  // namespace
+}  // namespace skein::test

@@ -1,0 +1,234 @@
+#include "fleet_fixture.hpp"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "json_schema.hpp"
+
+namespace skein::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::stringstream in(text);
+  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+  if (!text.empty() && text.back() == separator) parts.emplace_back();
+  return parts;
+}
+
+/// The word after `option`; empty when there is none.
+std::string value_of(const std::vector<std::string>& words, const std::string& option) {
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    if (words[i] == option) return words[i + 1];
+  }
+  return "";
+}
+
+std::set<std::string> shared_memory() {
+  std::set<std::string> names;
+  std::error_code ignored;
+  for (fs::directory_iterator it("/dev/shm", ignored), end; it != end; it.increment(ignored)) {
+    names.insert(it->path().filename());
+  }
+  return names;
+}
+
+/// Whether a process holds the lock file of a DDS domain.
+bool holds_domain(pid_t pid, int domain) {
+  const fs::path file = fs::temp_directory_path() / ("skein-domain-" + std::to_string(domain) + ".lock");
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return false;
+  const std::string inode = ":" + std::to_string(status.st_ino);
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    std::istringstream in(line);
+    std::string number, kind, mode, access, holder, place;
+    in >> number >> kind >> mode >> access >> holder >> place;
+    if (holder == std::to_string(pid) && place.ends_with(inode)) return true;
+  }
+  return false;
+}
+
+/// The shipped configuration, wherever the build folder is.
+Environment with_config(Environment environment) {
+  if (std::getenv("SKEIN_CONFIG_DIR") == nullptr) {
+    environment.try_emplace("SKEIN_CONFIG_DIR", std::string(SKEIN_SOURCE_DIR) + "/config");
+  }
+  return environment;
+}
+
+}  // namespace
+
+bool long_tests() {
+  const char* asked = std::getenv("SKEIN_LONG");
+  return asked != nullptr && std::string(asked) == "1";
+}
+
+std::string program(const std::string& name) { return std::string(SKEIN_BIN_DIR) + "/" + name; }
+
+std::vector<std::map<std::string, std::string>> read_csv(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> columns = split(line, ',');
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = split(line, ',');
+    if (cells.size() != columns.size()) throw std::runtime_error(file.string() + ": odd line: " + line);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (i == 0) rows.emplace_back();
+      rows.back()[columns[i]] = cells[i];
+    }
+  }
+  return rows;
+}
+
+std::map<std::string, pid_t> processes_of(const fs::path& dir) {
+  std::map<std::string, pid_t> found;
+  std::error_code ignored;
+  for (fs::directory_iterator it("/proc", ignored), end; it != end; it.increment(ignored)) {
+    const std::string pid = it->path().filename();
+    if (pid.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::vector<std::string> words = split(text_of(it->path() / "cmdline"), '\0');
+    if (words.empty() || value_of(words, "--out") != dir) continue;
+    const std::string uav = value_of(words, "--uav");
+    found[fs::path(words[0]).filename().string() + (uav.empty() ? "" : "-" + uav)] = std::stoi(pid);
+  }
+  return found;
+}
+
+bool is_flying(const fs::path& dir) {
+  constexpr std::uintmax_t kSomeSeconds = 20'000;
+  std::error_code missing;
+  const std::uintmax_t size = fs::file_size(dir / "trajectories.csv", missing);
+  return !missing && size > kSomeSeconds;
+}
+
+SkeinRun::SkeinRun(const fs::path& folder, const std::string& name, Arguments arguments,
+                   const Environment& environment)
+    : dir_(folder / name) {
+  Arguments argv = {program("skein"), "run"};
+  argv.insert(argv.end(), arguments.begin(), arguments.end());
+  argv.insert(argv.end(), {"--out", dir_});
+  skein_ = std::make_unique<ChildProcess>(argv, environment, folder / (name + ".out"), folder / (name + ".err"));
+}
+
+bool SkeinRun::wait_for(const std::string& text) {
+  const auto there = [&] { return err().find(text) != std::string::npos; };
+  eventually([&] { return there() || skein_->ended(); });
+  return there();
+}
+
+bool SkeinRun::wait_until_flying() {
+  eventually([&] { return is_flying(dir_) || skein_->ended(); });
+  return !skein_->ended();
+}
+
+std::pair<int, int> SkeinRun::domains() const {
+  std::smatch match;
+  const std::string text = err();
+  if (!std::regex_search(text, match, std::regex(R"(DDS domains (\d+)\.\.(\d+))"))) return {-1, -1};
+  return {std::stoi(match[1]), std::stoi(match[2])};
+}
+
+Json SkeinRun::result() const {
+  const Json json = Json::parse(text_of(dir_ / "result.json"), nullptr, false);
+  if (!json.is_object()) throw std::runtime_error("no result.json in " + dir_.string() + "\n" + err());
+  return json;
+}
+
+std::string SkeinRun::digest() const {
+  const Json digest = result()["digest"];
+  return digest.is_string() ? digest.get<std::string>() : "none";
+}
+
+FleetTest::FleetTest() : shared_memory_before_(shared_memory()) {
+  std::string pattern = fs::path(testing::TempDir()) / "skein_fleet_XXXXXX";
+  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot create " + pattern);
+  folder_ = pattern;
+}
+
+FleetTest::~FleetTest() {
+  programs_.clear();
+  runs_.clear();
+  if (HasFailure()) {
+    std::cerr << "kept for a look: " << folder_.string() << std::endl;
+  } else {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+}
+
+fs::path FleetTest::write(const std::string& name, const std::string& text) const {
+  fs::create_directories((folder_ / name).parent_path());
+  std::ofstream(folder_ / name, std::ios::binary) << text;
+  return folder_ / name;
+}
+
+SkeinRun& FleetTest::start(const std::string& name, const Arguments& arguments, const Environment& environment) {
+  runs_.push_back(std::make_unique<SkeinRun>(folder_, name, arguments, with_config(environment)));
+  return *runs_.back();
+}
+
+SkeinRun& FleetTest::run(const std::string& name, const Arguments& arguments, const Environment& environment,
+                         int exit_code) {
+  SkeinRun& run = start(name, arguments, environment);
+  EXPECT_EQ(run.exit_code(), exit_code) << run.err();
+  return run;
+}
+
+ChildProcess& FleetTest::start_program(const std::string& name, const Arguments& argv,
+                                       const Environment& environment) {
+  programs_.push_back(std::make_unique<ChildProcess>(argv, with_config(environment), folder_ / (name + ".out"),
+                                                     folder_ / (name + ".err")));
+  return *programs_.back();
+}
+
+ChildProcess& FleetTest::skein(const Arguments& arguments) {
+  Arguments argv = {program("skein")};
+  argv.insert(argv.end(), arguments.begin(), arguments.end());
+  ChildProcess& process = start_program("skein-" + std::to_string(programs_.size()), argv);
+  process.wait();
+  return process;
+}
+
+void FleetTest::expect_nothing_left() {
+  for (const auto& run : runs_) {
+    if (!run->skein().ended()) continue;  // a test that failed half-way; its end comes with the fixture's
+    std::map<std::string, pid_t> left;
+    EXPECT_TRUE(eventually([&] { return (left = processes_of(run->dir())).empty(); }, std::chrono::seconds(20)))
+        << left.begin()->first << " is still there";
+    const auto [first, last] = run->domains();
+    for (int domain = first; domain >= 0 && domain <= last; ++domain) {
+      EXPECT_FALSE(holds_domain(run->skein().pid(), domain)) << domain;
+    }
+  }
+  for (const std::string& name : shared_memory()) {
+    EXPECT_TRUE(shared_memory_before_.contains(name)) << name << " is left in /dev/shm";
+  }
+}
+
+void FleetTest::expect_complete_result(const SkeinRun& run) {
+  const Json schema = Json::parse(text_of(fs::path(SKEIN_SOURCE_DIR) / "docs" / "result.schema.json"));
+  const Json result = run.result();
+  for (const std::string& error : schema_errors(result, schema)) ADD_FAILURE() << error;
+  EXPECT_EQ(result["uavs"].size(), result["planner"].size());
+  double by_uav = 0.0;
+  for (const auto& [uav, score] : result["score_by_uav"].items()) by_uav += score.get<double>();
+  if (!result["score"].is_null() && by_uav > 0.0) {
+    EXPECT_NEAR(by_uav, result["score"].get<double>(), 1e-9);
+  }
+  if (!result["deterministic"]) {
+    EXPECT_TRUE(result["digest"].is_null()) << result["digest"];
+  }
+}
+
+}  // namespace skein::test

@@ -1,0 +1,127 @@
+// Whatever dies, hangs or is interrupted in mid-run: the run ends in good order, says so, and leaves nothing behind.
+#include <signal.h>
+
+#include <algorithm>
+
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+/// Far longer than the tests let it fly, so that nothing here depends on the machine's speed.
+const Arguments kLongRun = {"towers", "--planner", "patrol", "--duration", "2000"};
+/// Ends by itself, some seconds after the programs were found.
+const Arguments kShortRun = {"towers", "--planner", "patrol", "--duration", "60"};
+
+class Interruption : public FleetTest {
+ protected:
+  /// A run in the air with all its programs.
+  SkeinRun& flying(const Arguments& arguments) {
+    SkeinRun& run = start("run", arguments);
+    EXPECT_TRUE(run.wait_until_flying()) << run.err();
+    const auto found = processes_of(run.dir());
+    for (const std::string& name : kPrograms) EXPECT_TRUE(found.contains(name)) << name;
+    return run;
+  }
+};
+
+class KilledProgram : public Interruption, public testing::WithParamInterface<std::string> {};
+
+TEST_P(KilledProgram, IsNamedAndTheRunIsComplete) {
+  const std::string victim = GetParam();
+  const bool of_server = victim == "sim_server";
+  SkeinRun& run = flying(kShortRun);
+  ::kill(processes_of(run.dir()).at(victim), SIGKILL);
+
+  EXPECT_EQ(run.exit_code(), 3) << run.err();
+  EXPECT_NE(run.err().find(victim + " failed: signal 9"), std::string::npos) << run.err();
+  expect_complete_result(run);
+  const Json result = run.result();
+  EXPECT_EQ(result["status"], of_server ? "aborted" : "completed");
+  EXPECT_FALSE(result["deterministic"]);
+  EXPECT_TRUE(result["digest"].is_null());
+  EXPECT_FALSE(result["warnings"].empty());
+  EXPECT_TRUE(std::filesystem::exists(run.dir() / "score.csv"));
+  if (of_server) {
+    EXPECT_GT(result["sim_time_s"], 0.0) << "the last that it told";
+    return;
+  }
+  EXPECT_NEAR(result["mission_time_s"].get<double>(), 60.0, 0.1) << "the others fly on";
+  ASSERT_EQ(result["lost_members"].size(), 1u);
+  const std::string member = victim.substr(victim.find('-') + 1);
+  EXPECT_EQ(result["lost_members"][0]["member"], member);
+  EXPECT_GT(result["lost_members"][0]["step"], 0);
+  for (const Json& uav : result["uavs"]) EXPECT_EQ(uav["planner_cpu_s"].is_null(), uav["name"] == member);
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, KilledProgram,
+                         testing::Values("sim_server", "comm_router", "station", "uav_agent-jurong",
+                                         "uav_agent-nanyang"),
+                         [](const auto& victim) {
+                           std::string name = victim.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_F(Interruption, TwoKilledPrograms) {
+  SkeinRun& run = flying(kShortRun);
+  const auto found = processes_of(run.dir());
+  ::kill(found.at("comm_router"), SIGKILL);
+  ::kill(found.at("uav_agent-changi"), SIGKILL);
+  EXPECT_EQ(run.exit_code(), 3) << run.err();
+  expect_complete_result(run);
+  EXPECT_EQ(run.result()["status"], "completed");
+  EXPECT_EQ(run.result()["lost_members"].size(), 2u);
+}
+
+class StopSignalled : public Interruption, public testing::WithParamInterface<int> {};
+
+TEST_P(StopSignalled, EndsTheRunWithItsResultSoFar) {
+  SkeinRun& run = flying(kLongRun);
+  run.skein().signal(GetParam());  // the launcher alone: a terminal's Ctrl-C does not reach the others either
+  EXPECT_EQ(run.exit_code(), 130) << run.err();
+  expect_complete_result(run);
+  const Json result = run.result();
+  EXPECT_EQ(result["status"], "interrupted");
+  EXPECT_FALSE(result["deterministic"]);
+  EXPECT_GT(result["mission_time_s"], 0.0);
+  EXPECT_LT(result["mission_time_s"], 2000.0);
+  EXPECT_TRUE(result["lost_members"].empty()) << result["lost_members"];
+  for (const Json& uav : result["uavs"]) EXPECT_TRUE(uav["planner_cpu_s"].is_number()) << "all left in good order";
+  EXPECT_EQ(read_csv(run.dir() / "score.csv").size(), result["points_total"].get<std::size_t>());
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, StopSignalled, testing::Values(SIGINT, SIGTERM), [](const auto& signal) {
+  return signal.param == SIGINT ? std::string("SIGINT") : std::string("SIGTERM");
+});
+
+TEST_F(Interruption, SecondInterruptEndsItAtOnce) {
+  SkeinRun& run = flying(kLongRun);
+  ::kill(processes_of(run.dir()).at("sim_server"), SIGSTOP);  // so that the first one cannot be obeyed
+  run.skein().signal(SIGINT);
+  ASSERT_TRUE(run.wait_for("Ctrl-C again"));
+  run.skein().signal(SIGINT);
+  EXPECT_EQ(run.exit_code(), 130) << run.err();
+  expect_complete_result(run);
+}
+
+TEST_F(Interruption, ProgramsDieWithTheLauncher) {
+  SkeinRun& run = flying(kLongRun);
+  run.skein().signal(SIGKILL);
+  EXPECT_EQ(run.skein().wait().signal, SIGKILL);
+  EXPECT_TRUE(eventually([&] { return processes_of(run.dir()).empty(); }, std::chrono::seconds(20)));
+}
+
+TEST_F(Interruption, StoppedAgentIsDroppedByTheLaunchersRun) {
+  if (!long_tests()) GTEST_SKIP() << "waits for the default time-out of a minute; set SKEIN_LONG=1";
+  SkeinRun& run = flying(kShortRun);
+  ::kill(processes_of(run.dir()).at("uav_agent-sentosa"), SIGSTOP);
+  EXPECT_EQ(run.exit_code(), 3) << run.err();
+  expect_complete_result(run);
+  EXPECT_EQ(run.result()["status"], "completed");
+  ASSERT_EQ(run.result()["lost_members"].size(), 1u);
+  EXPECT_EQ(run.result()["lost_members"][0]["member"], "sentosa");
+}
+
+}  // namespace
+}  // namespace skein::test

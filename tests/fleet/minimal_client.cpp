@@ -1,0 +1,221 @@
+// The smallest program that takes part in the lock-step, written from docs/lockstep.md alone: it shares no lock-step code
+// with Skein, only the messages and the bus. It flies its UAV 3 m up and stays there.
+//   SKEIN_DOMAIN=N SKEIN_UAV=NAME minimal_client VENDOR
+// Exit code 0 after the last step, 3 when the server dropped it.
+#include <algorithm>
+#include <condition_variable>
+#include <cstdlib>
+#include <deque>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/bus.hpp"
+#include "idl/cdr.hpp"
+#include "idl/type_names.hpp"
+
+namespace {
+
+using skein::bus::ParticipantId;
+using skein::bus::Sample;
+namespace msg = skein::msg;
+
+constexpr double kHeightM = 3.0;
+constexpr skein::bus::Qos kStateQos{.reliable = true, .latched = false, .depth = 8};
+constexpr skein::bus::Qos kCommandQos{.reliable = true, .latched = false, .depth = 64};
+constexpr skein::bus::Qos kLatchedQos{.reliable = true, .latched = true, .depth = 4};
+
+template <class Message>
+skein::bus::TopicSpec topic(const std::string& name, const skein::bus::Qos& qos) {
+  return {"rt/" + name, skein::type_name<Message>(), qos};
+}
+
+/// Messages of one topic, from the vendor's threads to main().
+template <class Message>
+class Queue {
+ public:
+  Queue(skein::bus::Participant& participant, const std::string& name, const skein::bus::Qos& qos)
+      : name_("rt/" + name), reader_(participant.create_reader(topic<Message>(name, qos), [this](Sample&& sample) {
+          Message message;
+          if (!skein::decode(sample.payload, message)) return;
+          const std::scoped_lock lock(mutex_);
+          waiting_.emplace_back(sample.source, std::move(message));
+          arrived_.notify_all();
+        })) {}
+
+  /// The next message, or nullopt after a while without one.
+  std::optional<std::pair<ParticipantId, Message>> take() {
+    std::unique_lock lock(mutex_);
+    if (!arrived_.wait_for(lock, std::chrono::milliseconds(50), [this] { return !waiting_.empty(); })) return std::nullopt;
+    auto next = std::move(waiting_.front());
+    waiting_.pop_front();
+    return next;
+  }
+  bool matches(ParticipantId who) const { return contains(reader_->matched(), who); }
+  const std::string& name() const { return name_; }
+
+  static bool contains(const std::vector<ParticipantId>& list, ParticipantId who) {
+    return std::find(list.begin(), list.end(), who) != list.end();
+  }
+
+ private:
+  std::string name_;
+  std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::deque<std::pair<ParticipantId, Message>> waiting_;
+  std::unique_ptr<skein::bus::Reader> reader_;  // last: gone before what its callback uses
+};
+
+/// What a list of counts says about one topic of one source; `otherwise` when it does not mention it.
+std::uint64_t count_of(const std::vector<msg::TopicCount>& counts, const std::string& name, ParticipantId source,
+                       std::uint64_t otherwise) {
+  for (const auto& count : counts) {
+    if (count.topic() == name && count.source() == source) return count.count();
+  }
+  return otherwise;
+}
+
+class Client {
+ public:
+  Client(skein::bus::Participant& participant, std::string uav)
+      : participant_(participant),
+        uav_(std::move(uav)),
+        resyncs_(participant, "skein/resync", kLatchedQos),
+        steps_(participant, "skein/step", kStateQos),
+        done_(participant.create_writer(topic<msg::Done>("skein/done", kStateQos))),
+        ready_(participant.create_writer(topic<msg::Ready>("skein/ready", kLatchedQos))) {}
+
+  int run() {
+    say_ready(0);
+    wait_for_invitation();
+    wait_for_matches();
+    say_ready(1);
+    for (bool member = false;;) {
+      const auto step = steps_.take();
+      if (!step) {
+        if (!steps_.matches(server_)) return 3;
+        continue;
+      }
+      if (step->first != server_ || step->second.k() == answered_) continue;
+      if (!lists_us(step->second)) {
+        if (member) return 3;
+        continue;  // of the time before we were let in
+      }
+      member = true;
+      if (!answer(step->second)) return 3;
+      if (step->second.final_step()) break;
+    }
+    while (steps_.matches(server_)) steps_.take();  // leaving at once could take the answer away with us
+    return 0;
+  }
+
+ private:
+  void say_ready(std::uint32_t revision) {
+    msg::Ready ready;
+    ready.member(uav_);
+    ready.revision(revision);
+    if (revision > 0) {
+      ready.reads().push_back(odometry_->name());
+      ready.writes().push_back(command_name());
+    }
+    ready_->write(skein::encode(ready));
+  }
+
+  void wait_for_invitation() {
+    for (;;) {
+      const auto resync = resyncs_.take();
+      if (!resync || resync->second.source() != participant_.id()) continue;
+      server_ = resync->first;
+      odometry_ = std::make_unique<Queue<msg::Odometry>>(participant_, uav_ + "/ground_truth/odometry", kStateQos);
+      commands_ = participant_.create_writer({command_name(), skein::type_name<msg::MultiDOFJointTrajectory>(), kCommandQos});
+      received_ = expected_ = count_of(resync->second.base(), odometry_->name(), server_, 0);
+      return;
+    }
+  }
+
+  void wait_for_matches() {
+    const auto heard = [&](const skein::bus::Writer& writer) {
+      return Queue<msg::Step>::contains(writer.matched(), server_);
+    };
+    while (!odometry_->matches(server_) || !steps_.matches(server_) || !heard(*commands_) || !heard(*done_)) {
+      resyncs_.take();  // a pause
+    }
+  }
+
+  bool lists_us(const msg::Step& step) const {
+    return std::any_of(step.members().begin(), step.members().end(), [this](const auto& member) {
+      return member.name() == uav_ && member.source() == participant_.id();
+    });
+  }
+
+  /// @returns false when the server has gone.
+  bool answer(const msg::Step& step) {
+    expected_ = count_of(step.expected(), odometry_->name(), server_, expected_);
+    while (received_ < expected_) {
+      const auto next = odometry_->take();
+      if (!next && !odometry_->matches(server_)) return false;
+      if (!next || next->first != server_) continue;
+      ++received_;
+      if (!goal_) goal_ = next->second.pose().pose().position();
+    }
+    write_command(step);
+
+    msg::Done done;
+    done.k(step.k());
+    done.epoch(step.epoch());
+    done.member(uav_);
+    msg::TopicCount sent;
+    sent.topic(command_name());
+    sent.source(participant_.id());
+    sent.count(commands_sent_);
+    done.sent().push_back(sent);
+    done_->write(skein::encode(done));
+    answered_ = step.k();
+    return true;
+  }
+
+  void write_command(const msg::Step& step) {
+    msg::Transform transform;
+    transform.translation().x(goal_->x());
+    transform.translation().y(goal_->y());
+    transform.translation().z(goal_->z() + kHeightM);
+    transform.rotation().w(1.0);
+    msg::MultiDOFJointTrajectoryPoint point;
+    point.transforms().push_back(transform);
+    msg::MultiDOFJointTrajectory trajectory;
+    trajectory.header().stamp(step.stamp());
+    trajectory.header().frame_id("world");
+    trajectory.points().push_back(point);
+    commands_->write(skein::encode(trajectory));
+    ++commands_sent_;
+  }
+
+  std::string command_name() const { return "rt/" + uav_ + "/command/trajectory"; }
+
+  skein::bus::Participant& participant_;
+  const std::string uav_;
+  Queue<msg::Resync> resyncs_;
+  Queue<msg::Step> steps_;
+  std::unique_ptr<skein::bus::Writer> done_, ready_, commands_;
+  std::unique_ptr<Queue<msg::Odometry>> odometry_;
+  ParticipantId server_ = 0;
+  std::uint64_t received_ = 0, expected_ = 0, commands_sent_ = 0;
+  std::optional<std::uint64_t> answered_;
+  std::optional<msg::Point> goal_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const char *domain = std::getenv("SKEIN_DOMAIN"), *uav = std::getenv("SKEIN_UAV");
+  if (argc != 2 || domain == nullptr || uav == nullptr) {
+    std::cerr << "usage: SKEIN_DOMAIN=N SKEIN_UAV=NAME minimal_client VENDOR\n";
+    return 2;
+  }
+  const auto bus = skein::bus::make_bus({.vendor = argv[1]});
+  const auto participant = bus->join(std::atoi(domain));
+  return Client(*participant, uav).run();
+}

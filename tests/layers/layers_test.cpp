@@ -1,0 +1,51 @@
+// The rules on this source tree.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/layers/rules.hpp"
+
+namespace skein::layers {
+namespace {
+
+using testing::Test;
+
+class Layers : public Test {
+ protected:
+  static void SetUpTestSuite() { tree_ = read_source_tree(SKEIN_SOURCE_DIR); }
+
+  static void expect_none(const Violations& violations) {
+    for (const std::string& violation : violations) ADD_FAILURE() << violation;
+  }
+
+  inline static Tree tree_;
+};
+
+TEST_F(Layers, TheTreeIsThere) {
+  for (const char* path : {"core/types.hpp", "idl/skein_msgs.idl", "bus/bus.hpp", "sim_server/main.cpp",
+                           "uav_agent/planner.hpp", "comm_router/main.cpp", "station/main.cpp", "cli/main.cpp",
+                           "tests/layers/rules.cpp", ".ci/run", "README.md"}) {
+    EXPECT_TRUE(std::ranges::any_of(tree_, [&](const SourceFile& file) { return file.path == path; })) << path;
+  }
+}
+
+TEST_F(Layers, EachLayerIncludesOnlyThoseBelow) { expect_none(check_layers(tree_)); }
+TEST_F(Layers, OnlyNodesTalkOverTheBus) { expect_none(check_bus_users(tree_)); }
+TEST_F(Layers, OnlyAVendorsFolderSeesItsDds) { expect_none(check_dds_headers(tree_)); }
+TEST_F(Layers, LargeLibrariesStayInTheirPlace) { expect_none(check_libraries(tree_, library_rules())); }
+TEST_F(Layers, HeadersAreSafeToInclude) { expect_none(check_headers(tree_)); }
+TEST_F(Layers, NobodyPrints) { expect_none(check_printing(tree_)); }
+TEST_F(Layers, NobodySleeps) { expect_none(check_sleeping(tree_)); }
+TEST_F(Layers, FilesAreShort) { expect_none(check_length(tree_)); }
+TEST_F(Layers, NothingIsMarkedUnfinished) { expect_none(check_marks(tree_)); }
+TEST_F(Layers, NoMachineIsNamed) { expect_none(check_machine_paths(tree_)); }
+
+TEST_F(Layers, GitTracksNoProductsAndNoLargeFiles) {
+  const auto tracked = tracked_files(SKEIN_SOURCE_DIR);
+  if (!tracked) GTEST_SKIP() << "this is no git checkout, or there is no git";
+  EXPECT_FALSE(tracked->empty());
+  expect_none(check_tracked_files(SKEIN_SOURCE_DIR, *tracked));
+}
+
+}  // namespace
+}  // namespace skein::layers

@@ -1,0 +1,229 @@
+#include "tests/layers/rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <regex>
+#include <set>
+#include <tuple>
+
+namespace skein::layers {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::set<std::string>& applications() {
+  static const std::set<std::string> kNames = {"sim_server", "uav_agent", "comm_router", "station", "cli"};
+  return kNames;
+}
+
+/// Lower layers have lower numbers; applications share the highest.
+std::optional<int> layer_of(const std::string& folder) {
+  static const std::map<std::string, int> kLayers = {{"core", 0}, {"idl", 1}, {"bus", 2}};
+  if (applications().contains(folder)) return 3;
+  const auto found = kLayers.find(folder);
+  return found == kLayers.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::string first_folder(const std::string& path) { return path.substr(0, path.find('/')); }
+
+std::string at(const SourceFile& file, std::size_t line, const std::string& what) {
+  return file.path + ":" + std::to_string(line) + ": " + what;
+}
+
+bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
+  return std::ranges::any_of(prefixes, [&](const std::string& prefix) { return text.starts_with(prefix); });
+}
+
+/// main.cpp, sim_node.hpp, sim_node_test.cpp.
+bool may_use_bus(const std::string& path) {
+  static const std::regex kName(R"((^|.*/)(main\.cpp|[^/]*_node(_test)?\.[ch]pp))");
+  return std::regex_match(path, kName);
+}
+
+/// Lines of code, or of all text, that a pattern matches.
+enum class Look { code, text };
+void find_lines(const SourceFile& file, Look look, const std::regex& pattern, const std::string& what,
+                Violations& violations) {
+  const auto& lines = look == Look::code ? file.code : file.lines;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (std::regex_search(lines[i], pattern)) violations.push_back(at(file, i + 1, what));
+  }
+}
+
+}  // namespace
+
+Violations check_layers(const Tree& tree) {
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    const std::optional<int> own = layer_of(file.folder());
+    for (const Include& include : file.includes) {
+      const std::string folder = first_folder(include.path);
+      if (folder == "tests" && !file.is_test()) {
+        violations.push_back(at(file, include.line, "only tests may include " + include.path));
+      }
+      const std::optional<int> other = layer_of(folder);
+      if (!own || !other || folder == file.folder() || *other < *own) continue;
+      violations.push_back(at(file, include.line, file.folder() + " must not include " + include.path));
+    }
+  }
+  return violations;
+}
+
+Violations check_bus_users(const Tree& tree) {
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (!applications().contains(file.folder()) || may_use_bus(file.path)) continue;
+    for (const Include& include : file.includes) {
+      const bool of_a_node = include.path.starts_with(file.folder() + "/") && may_use_bus(include.path);
+      if (!include.path.starts_with("bus/") && !of_a_node) continue;
+      violations.push_back(at(file, include.line, "only main.cpp and *_node.* may include " + include.path));
+    }
+  }
+  return violations;
+}
+
+Violations check_dds_headers(const Tree& tree) {
+  using Vendor = std::pair<std::string, std::vector<std::string>>;
+  static const std::array<Vendor, 2> kVendors = {Vendor{"bus/fastdds/", {"fastdds/", "fastrtps/"}},
+                                                 Vendor{"bus/cyclonedds/", {"dds/", "ddsc/", "dds.h"}}};
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (file.folder() == "tests") continue;
+    for (const Include& include : file.includes) {
+      for (const auto& [folder, headers] : kVendors) {
+        if (!starts_with_any(include.path, headers) || file.path.starts_with(folder)) continue;
+        violations.push_back(at(file, include.line, "only " + folder + " may include " + include.path));
+      }
+    }
+  }
+  return violations;
+}
+
+const std::vector<LibraryRule>& library_rules() {
+  static const std::vector<LibraryRule> kRules = {
+      {"Bullet", {"bt", "bullet/", "BulletCollision/", "BulletDynamics/", "LinearMath/"}, {"sim_server/"}, 2},
+      {"Embree", {"embree"}, {"sim_server/"}, 2},
+      {"OctoMap", {"octomap/", "octomath/"}, {"uav_agent/"}, 2},
+      {"PCL", {"pcl/"}, {"uav_agent/", "sim_server/scene_files/"}, 2},
+      {"Assimp", {"assimp/"}, {"sim_server/scene_files/"}, 1}};
+  return kRules;
+}
+
+Violations check_libraries(const Tree& tree, const std::vector<LibraryRule>& rules) {
+  Violations violations;
+  for (const LibraryRule& rule : rules) {
+    std::map<std::string, std::size_t> users;  // by folder
+    for (const SourceFile& file : tree) {
+      const auto include = std::ranges::find_if(
+          file.includes, [&](const Include& i) { return starts_with_any(i.path, rule.prefixes); });
+      if (include == file.includes.end()) continue;
+      const auto folder = std::ranges::find_if(
+          rule.folders, [&](const std::string& f) { return file.path.starts_with(f); });
+      if (folder == rule.folders.end()) {
+        violations.push_back(at(file, include->line, rule.name + " does not belong here"));
+      } else if (file.is_header()) {
+        violations.push_back(at(file, include->line, rule.name + " must not be seen in a header"));
+      } else if (++users[*folder] > rule.most_files) {
+        violations.push_back(at(file, include->line, rule.name + " is used in more than " +
+                                                         std::to_string(rule.most_files) + " files of " + *folder));
+      }
+    }
+  }
+  return violations;
+}
+
+Violations check_headers(const Tree& tree) {
+  static const std::regex kUsing(R"(\busing\s+namespace\b)"), kOnce(R"(^\s*#\s*pragma\s+once\b)");
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (!file.is_header()) continue;
+    const bool once = std::ranges::any_of(file.code, [](const auto& line) { return std::regex_search(line, kOnce); });
+    if (!once) violations.push_back(at(file, 1, "has no #pragma once"));
+    find_lines(file, Look::code, kUsing, "a header must not say using namespace", violations);
+  }
+  return violations;
+}
+
+Violations check_printing(const Tree& tree) {
+  static const std::regex kPrinting(R"(\b(printf|fprintf|puts|fputs|putchar)\s*\(|\bstd\s*::\s*cout\b)");
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (file.folder() == "cli" || file.is_main() || file.is_test()) continue;
+    find_lines(file, Look::code, kPrinting, "prints; use the logger", violations);
+  }
+  return violations;
+}
+
+Violations check_sleeping(const Tree& tree) {
+  static const std::regex kSleeping(R"(\b(sleep_for|sleep_until|usleep|nanosleep|clock_nanosleep|sleep)\s*\()");
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (file.folder() == "tests") continue;
+    find_lines(file, Look::code, kSleeping, "sleeps; wait for an event", violations);
+  }
+  return violations;
+}
+
+Violations check_length(const Tree& tree, std::size_t most_lines) {
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (!file.is_cpp() || file.lines.size() <= most_lines) continue;
+    violations.push_back(at(file, file.lines.size(), "is longer than " + std::to_string(most_lines) + " lines"));
+  }
+  return violations;
+}
+
+Violations check_marks(const Tree& tree) {
+  static const std::regex kMarks("\\b(TO" "DO|FIX" "ME)\\b");  // in two parts, so that they are no marks themselves
+  Violations violations;
+  for (const SourceFile& file : tree) find_lines(file, Look::text, kMarks, "marks unfinished work", violations);
+  return violations;
+}
+
+Violations check_machine_paths(const Tree& tree) {
+  static const std::regex kPaths("(^|[^A-Za-z0-9_./}-])/" "(work|root|home)\\b");
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (file.folder() != "docker") find_lines(file, Look::text, kPaths, "names a path of one machine", violations);
+  }
+  return violations;
+}
+
+Violations check_tracked_files(const fs::path& root, const std::vector<std::string>& tracked,
+                               std::uintmax_t most_bytes) {
+  static const std::regex kProduct(
+      R"((^|.*/)(build[^/]*/|CMakeFiles/|CMakeCache\.txt$|compile_commands\.json$|\.ninja_).*|.*\.(o|a|so|gch|pyc)$)");
+  Violations violations;
+  for (const std::string& path : tracked) {
+    if (std::regex_match(path, kProduct)) violations.push_back(path + ":1: is a product of a build");
+    std::error_code gone;
+    const std::uintmax_t bytes = fs::file_size(root / path, gone);
+    if (!gone && bytes > most_bytes) {
+      violations.push_back(path + ":1: has " + std::to_string(bytes) + " bytes, more than " +
+                           std::to_string(most_bytes));
+    }
+  }
+  return violations;
+}
+
+std::optional<std::vector<std::string>> tracked_files(const fs::path& root) {
+  if (!fs::exists(root / ".git")) return std::nullopt;
+  const std::string command = "git -C '" + root.string() + "' ls-files -z 2>/dev/null";
+  FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return std::nullopt;
+  std::string output;
+  std::array<char, 4096> buffer;
+  for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) output.append(buffer.data(), n);
+  if (::pclose(pipe) != 0) return std::nullopt;
+  std::vector<std::string> files;
+  for (std::size_t begin = 0, end; (end = output.find('\0', begin)) != std::string::npos; begin = end + 1) {
+    files.push_back(output.substr(begin, end - begin));
+  }
+  return files;
+}
+
+}  // namespace skein::layers

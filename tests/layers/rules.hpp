@@ -1,0 +1,64 @@
+// What a source tree must not contain. Each rule returns its violations as "path:line: what is wrong", sorted by path;
+// an empty list is a pass. The architecture behind the rules: docs/architecture.md.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/layers/source_tree.hpp"
+
+namespace skein::layers {
+
+using Tree = std::vector<SourceFile>;
+using Violations = std::vector<std::string>;
+
+/// core <- idl <- bus <- applications, and no application includes another. tests/ may include everything, and only
+/// test code may include tests/.
+Violations check_layers(const Tree& tree);
+
+/// In an application only main.cpp and *_node.* include bus/, and nobody else includes their headers.
+Violations check_bus_users(const Tree& tree);
+
+/// A DDS vendor's headers are for bus/<vendor>/ alone; tests/ may talk raw DDS, to check us from outside.
+Violations check_dds_headers(const Tree& tree);
+
+/// Large libraries stay where they belong: in the folders named here, in few .cpp files, never in a header.
+struct LibraryRule {
+  std::string name;
+  std::vector<std::string> prefixes;  ///< of what is included: "pcl/"
+  std::vector<std::string> folders;   ///< "uav_agent/", "sim_server/scene_files/"
+  std::size_t most_files = 1;         ///< in each of these folders
+};
+/// The rules of this project.
+const std::vector<LibraryRule>& library_rules();
+Violations check_libraries(const Tree& tree, const std::vector<LibraryRule>& rules);
+
+/// #pragma once, no `using namespace`.
+Violations check_headers(const Tree& tree);
+
+/// No printf and no std::cout, except in cli/, main.cpp and tests.
+Violations check_printing(const Tree& tree);
+
+/// Nobody sleeps to wait for somebody else. Helpers under tests/ may poll other processes.
+Violations check_sleeping(const Tree& tree);
+
+/// No C++ file beyond `most_lines`.
+Violations check_length(const Tree& tree, std::size_t most_lines = 500);
+
+/// No marks of unfinished work.
+Violations check_marks(const Tree& tree);
+
+/// No path of somebody's machine, in any text file. docker/ may name paths inside a container.
+Violations check_machine_paths(const Tree& tree);
+
+/// No build products and no large files among `tracked` (paths below the root).
+Violations check_tracked_files(const std::filesystem::path& root, const std::vector<std::string>& tracked,
+                               std::uintmax_t most_bytes = 1'500'000);
+
+/// What git tracks below `root`; nullopt without git or a repository.
+std::optional<std::vector<std::string>> tracked_files(const std::filesystem::path& root);
+
+}  // namespace skein::layers

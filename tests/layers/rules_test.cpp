@@ -1,0 +1,208 @@
+// Every rule on a small tree that breaks it: a rule that finds nothing anywhere proves nothing.
+#include "tests/layers/rules.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+namespace skein::layers {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with files that a test makes up.
+class MadeUpTree : public ::testing::Test {
+ protected:
+  MadeUpTree() {
+    std::string name = fs::temp_directory_path() / "skein-layers-XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
+    root_ = name;
+  }
+  ~MadeUpTree() override {
+    std::error_code ignored;
+    fs::remove_all(root_, ignored);
+  }
+
+  void file(const std::string& path, const std::string& text) const {
+    fs::create_directories((root_ / path).parent_path());
+    std::ofstream(root_ / path) << text;
+  }
+  Tree tree() const { return read_source_tree(root_); }
+
+  /// "path:line" of each violation.
+  static std::vector<std::string> places(const Violations& violations) {
+    std::vector<std::string> result;
+    for (const std::string& violation : violations) result.push_back(violation.substr(0, violation.find(": ")));
+    return result;
+  }
+
+  fs::path root_;
+};
+
+using Places = std::vector<std::string>;
+
+std::string include(const std::string& path) { return "#include \"" + path + "\"\n"; }
+std::string include_system(const std::string& path) { return "#include <" + path + ">\n"; }
+
+TEST(Blanking, LeavesOnlyCode) {
+  EXPECT_EQ(blank_comments_and_literals("a // b\nc /* d\ne */ f"), "a     \nc     \n     f");
+  EXPECT_EQ(blank_comments_and_literals(R"(f("x\"y", 'z') + 1'000)"), "f(      ,    ) + 1'000");
+  EXPECT_EQ(blank_comments_and_literals("a R\"x(\" // )\" )x\" b"), "a                 b");
+  EXPECT_EQ(blank_comments_and_literals("\"never closed\nint x;"), "             \nint x;");
+  EXPECT_EQ(blank_comments_and_literals("/* never closed"), "               ");
+}
+
+TEST_F(MadeUpTree, IsReadWithoutBuildTreesAndBinaries) {
+  file("core/a.hpp", "");
+  file("build/b.hpp", "");
+  file(".git/c.hpp", "");
+  file(".ci/run", "x\n");
+  file("runs/d.csv", "");
+  file("e.bin", std::string("\0", 1));
+  Places paths;
+  for (const SourceFile& source : tree()) paths.push_back(source.path);
+  EXPECT_EQ(paths, (Places{".ci/run", "core/a.hpp"}));
+}
+
+TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
+  for (const char* path : {"core/a.hpp", "idl/a.hpp", "bus/a.hpp", "sim_server/a.hpp", "uav_agent/a.hpp", "tests/a.hpp"}) {
+    file(path, "\n");
+  }
+  file("bus/good.cpp", include("core/a.hpp") + include("idl/a.hpp") + include("bus/a.hpp"));
+  file("tests/good.cpp", include("sim_server/a.hpp") + include("uav_agent/a.hpp") + include("tests/a.hpp"));
+  file("station/good_test.cpp", include("tests/a.hpp"));
+  EXPECT_EQ(check_layers(tree()), Violations{});
+
+  file("core/bad.cpp", std::string("\n") + include("idl/a.hpp"));
+  file("idl/bad.cpp", include("core/a.hpp") + include("bus/a.hpp"));
+  file("bus/bad.hpp", include_system("sim_server/a.hpp"));
+  file("cli/bad.cpp", std::string("// ") + include("uav_agent/a.hpp") + include("../uav_agent/a.hpp"));
+  file("station/bad.cpp", include("tests/a.hpp"));
+  file("uav_agent/bad.cpp", include("sim_server/a.hpp"));
+  EXPECT_EQ(places(check_layers(tree())), (Places{"bus/bad.hpp:1", "cli/bad.cpp:2", "core/bad.cpp:2", "idl/bad.cpp:2",
+                                                  "station/bad.cpp:1", "uav_agent/bad.cpp:1"}));
+}
+
+TEST_F(MadeUpTree, OnlyNodesUseTheBus) {
+  file("bus/bus.hpp", "\n");
+  file("bus/good.cpp", include("bus/bus.hpp"));
+  for (const char* path : {"station/main.cpp", "station/station_node.hpp", "station/station_node.cpp",
+                           "station/station_node_test.cpp"}) {
+    file(path, include("bus/bus.hpp"));
+  }
+  EXPECT_EQ(check_bus_users(tree()), Violations{});
+
+  file("station/journal.cpp", include("bus/bus.hpp"));
+  file("station/tally.cpp", include("station_node.hpp"));
+  file("sim_server/node_list.cpp", include("bus/bus.hpp"));
+  EXPECT_EQ(places(check_bus_users(tree())),
+            (Places{"sim_server/node_list.cpp:1", "station/journal.cpp:1", "station/tally.cpp:1"}));
+}
+
+TEST_F(MadeUpTree, DdsIsForItsVendorsFolder) {
+  file("bus/fastdds/a.cpp", include_system("fastdds/dds/topic/Topic.hpp") + include_system("fastrtps/a.h"));
+  file("bus/cyclonedds/a.cpp", include_system("dds/dds.h") + include_system("ddsc/dds.h"));
+  file("bus/b.cpp", include("bus/fastdds/a.hpp"));
+  file("tests/fleet/client.cpp", include_system("dds/dds.h"));
+  EXPECT_EQ(check_dds_headers(tree()), Violations{});
+
+  file("bus/bus.hpp", include_system("dds/dds.h"));
+  file("bus/fastdds/bad.cpp", include_system("ddsc/dds.h"));
+  file("uav_agent/agent_node.cpp", std::string("\n\n") + include_system("fastrtps/a.h"));
+  EXPECT_EQ(places(check_dds_headers(tree())),
+            (Places{"bus/bus.hpp:1", "bus/fastdds/bad.cpp:1", "uav_agent/agent_node.cpp:3"}));
+}
+
+TEST_F(MadeUpTree, LargeLibrariesHaveFewUsers) {
+  file("sim_server/world.cpp", include_system("btBulletDynamicsCommon.h"));
+  file("sim_server/rays.cpp", include_system("embree3/rtcore.h"));
+  file("sim_server/scene_files/points.cpp", include_system("pcl/io/pcd_io.h"));
+  file("sim_server/scene_files/meshes.cpp", include_system("assimp/scene.h"));
+  file("uav_agent/map.cpp", include_system("octomap/OcTree.h") + include_system("pcl/point_types.h"));
+  EXPECT_EQ(check_libraries(tree(), library_rules()), Violations{});
+
+  file("core/scene.hpp", include_system("pcl/point_types.h"));
+  file("sim_server/map.cpp", include_system("octomap/OcTree.h"));
+  file("sim_server/rays.hpp", include_system("embree3/rtcore.h"));
+  file("uav_agent/flight.cpp", include_system("LinearMath/btVector3.h"));
+  file("uav_agent/map2.cpp", include_system("pcl/point_types.h"));
+  file("uav_agent/map3.cpp", include_system("pcl/point_types.h"));
+  EXPECT_EQ(places(check_libraries(tree(), library_rules())),
+            (Places{"uav_agent/flight.cpp:1", "sim_server/rays.hpp:1", "sim_server/map.cpp:1", "core/scene.hpp:1",
+                    "uav_agent/map3.cpp:1"}));
+}
+
+TEST_F(MadeUpTree, HeadersNeedAGuardAndLeakNoNames) {
+  file("core/good.hpp", "// using namespace std;\n#pragma once\nusing std::string;\n");
+  file("core/good.cpp", "using namespace std;\n");
+  EXPECT_EQ(check_headers(tree()), Violations{});
+
+  file("core/bad.hpp", "#pragma once\nusing  namespace std;\n");
+  file("core/bare.hpp", "// #pragma once\n");
+  EXPECT_EQ(places(check_headers(tree())), (Places{"core/bad.hpp:2", "core/bare.hpp:1"}));
+}
+
+TEST_F(MadeUpTree, PrintingIsForTheCommandLine) {
+  for (const char* path : {"cli/a.cpp", "station/main.cpp", "core/a_test.cpp", "tests/a.cpp"}) {
+    file(path, "std::cout << 1; printf(text);\n");
+  }
+  file("core/good.cpp", "// printf(x)\nsnprintf(b, n, f); log(\"std::cout\"); sprintf_like(x);\n");
+  EXPECT_EQ(check_printing(tree()), Violations{});
+
+  file("core/bad.cpp", "\nstd::cout << 1;\nstd::printf (text);\n");
+  EXPECT_EQ(places(check_printing(tree())), (Places{"core/bad.cpp:2", "core/bad.cpp:3"}));
+}
+
+TEST_F(MadeUpTree, NobodySleepsOutsideOfTests) {
+  file("tests/a.cpp", "std::this_thread::sleep_for(t);\n");
+  file("core/good.cpp", "fall_asleep_if_still(); // sleep_for(t)\nbool asleep();\n");
+  EXPECT_EQ(check_sleeping(tree()), Violations{});
+
+  file("bus/bad.cpp", "std::this_thread::sleep_for(t);\nusleep(3);\n");
+  file("bus/bad_test.cpp", "sleep(1);\n");
+  EXPECT_EQ(places(check_sleeping(tree())), (Places{"bus/bad.cpp:1", "bus/bad.cpp:2", "bus/bad_test.cpp:1"}));
+}
+
+TEST_F(MadeUpTree, LongFilesAreFound) {
+  file("docs/long.md", "1\n2\n3\n4\n");
+  file("core/good.cpp", "1\n2\n3\n");
+  file("core/long.cpp", "1\n2\n3\n4\n");
+  EXPECT_EQ(places(check_length(tree(), 3)), Places{"core/long.cpp:4"});
+}
+
+TEST_F(MadeUpTree, UnfinishedWorkIsFoundInAnyText) {
+  file("core/good.cpp", "int todo; // METHOD" "OLOGY\n");
+  EXPECT_EQ(check_marks(tree()), Violations{});
+
+  file("core/bad.cpp", "\n// TO" "DO: think\n");
+  file("docs/bad.md", "FIX" "ME\n");
+  EXPECT_EQ(places(check_marks(tree())), (Places{"core/bad.cpp:2", "docs/bad.md:1"}));
+}
+
+TEST_F(MadeUpTree, PathsOfAMachineAreFoundInAnyText) {
+  const std::string home = std::string("/") + "home/me", work = std::string("/") + "work";
+  file("docker/Dockerfile", std::string("WORKDIR ") + home + "\n");
+  file("core/good.cpp", std::string("// teamwork/") + home.substr(1) + ", a" + work + ", " + work + "ing, ./x" + home + "\n");
+  EXPECT_EQ(check_machine_paths(tree()), Violations{});
+
+  file("core/bad.cpp", "\nopen(\"" + home + "/x\");\n");
+  file("config/bad.yaml", "file: " + work + "/x\n");
+  file("docs/bad.md", work + "\n");
+  EXPECT_EQ(places(check_machine_paths(tree())), (Places{"config/bad.yaml:1", "core/bad.cpp:2", "docs/bad.md:1"}));
+}
+
+TEST_F(MadeUpTree, ProductsAndLargeFilesAreFoundAmongTheTracked) {
+  file("docs/large.png", std::string(11, 'x'));
+  file("docs/small.png", std::string(10, 'x'));
+  const std::vector<std::string> tracked = {"build/a.txt",     "core/build-x/a.txt", "core/CMakeLists.txt", "docs/building.md",
+                                            "docs/large.png",  "docs/small.png",     "lib/a.so",            "x/CMakeFiles/a",
+                                            "x/CMakeCache.txt"};
+  EXPECT_EQ(places(check_tracked_files(root_, tracked, 10)),
+            (Places{"build/a.txt:1", "core/build-x/a.txt:1", "docs/large.png:1", "lib/a.so:1", "x/CMakeFiles/a:1",
+                    "x/CMakeCache.txt:1"}));
+  EXPECT_EQ(tracked_files(root_), std::nullopt);
+}
+
+}  // namespace
+}  // namespace skein::layers
