@@ -44,7 +44,6 @@ std::string config_to_yaml(const T& value) {
 
 template <class T>
 std::optional<ConfigNode> ConfigWriter::node_of(const T& value) {
-  using namespace config_detail;
   if constexpr (std::is_same_v<T, bool>) {
     return ConfigNode::make_scalar(value ? "true" : "false");
   } else if constexpr (std::is_integral_v<T>) {
@@ -57,22 +56,22 @@ std::optional<ConfigNode> ConfigWriter::node_of(const T& value) {
     return text(value.string());
   } else if constexpr (std::is_enum_v<T>) {
     return text(name_of(value));
-  } else if constexpr (IsOptional<T>::value) {
+  } else if constexpr (config_detail::IsOptional<T>::value) {
     return value ? node_of(*value) : std::nullopt;
-  } else if constexpr (IsTextOr<T>::value) {
+  } else if constexpr (config_detail::IsTextOr<T>::value) {
     return value.index() == 0 ? node_of(std::get<0>(value)) : node_of(std::get<1>(value));
-  } else if constexpr (IsNamed<T>::value) {
+  } else if constexpr (config_detail::IsNamed<T>::value) {
     ConfigNode map = ConfigNode::make_map();
     for (const auto& [key, item] : value) map.add(key, node_of(item).value_or(ConfigNode{}));
     return map;
-  } else if constexpr (IsNumbers<T>::value || IsVector<T>::value) {
+  } else if constexpr (config_detail::IsNumbers<T>::value || config_detail::IsVector<T>::value) {
     ConfigNode list = ConfigNode::make_list();
     for (const auto& item : value) list.items.push_back(node_of(item).value_or(ConfigNode{}));
     return list;
   } else {
     ConfigWriter writer;
     T copy = value;  // describe() serves reading too and so takes no const
-    call_describe(writer, copy);
+    config_detail::call_describe(writer, copy);
     return writer.take();
   }
 }

@@ -6,7 +6,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSampleM = 0.5;  ///< along a segment
+constexpr double kSampleM = 0.5;      ///< along a segment
+constexpr double kSeenAroundM = 1.0;  ///< how far around a place must be known to be free
 
 template <class Test>
 bool all_along(const Vector3d& a, const Vector3d& b, const Test& test) {
@@ -24,11 +25,20 @@ bool FreeSpace::allowed(const Vector3d& p_W) const {
   for (const Sphere& sphere : keep_out_) {
     if ((p_W - sphere.p_W).squaredNorm() < sphere.radius_m * sphere.radius_m) return false;
   }
-  const bool in_box = std::any_of(boxes_.begin(), boxes_.end(), [&](const OrientedBox& box) {
-    return box.contains(p_W, config_.clearance_m);
-  });
-  if (!in_box && p_W.z() >= config_.blind_height_m) return true;
-  return config_.use_map && map_.known_free(p_W);
+  if (!must_be_seen(p_W)) return true;
+  if (!config_.use_map || !map_.known_free(p_W)) return false;
+  // A ray or two through a coarse cell do not prove that all of it is free: what lies around must have been seen, too.
+  for (int i = 0; i < 6; ++i) {
+    const Vector3d q = p_W + (i % 2 == 0 ? kSeenAroundM : -kSeenAroundM) * Vector3d::Unit(i / 2);
+    if (must_be_seen(q) && !map_.known_free(q)) return false;
+  }
+  return true;
+}
+
+bool FreeSpace::must_be_seen(const Vector3d& p_W) const {
+  return p_W.z() < config_.blind_height_m ||
+         std::any_of(boxes_.begin(), boxes_.end(),
+                     [&](const OrientedBox& box) { return box.contains(p_W, config_.clearance_m); });
 }
 
 bool FreeSpace::free(const Vector3d& p_W) const {

@@ -39,6 +39,8 @@ class FreeSpace {
   const OccupancyMap& map() const { return map_; }
 
  private:
+  /// In or near a box, or low: not free until a LiDAR has seen that it is.
+  bool must_be_seen(const Vector3d& p_W) const;
   /// As free(), but without the mapped cells.
   bool allowed(const Vector3d& p_W) const;
 

@@ -25,7 +25,8 @@ LoopEnd run_client(LockstepClient& client, Inbox& inbox, const ClientLoop& loop,
     was_member = was_member || client.is_member();
     waiting = serving || client.waits_for_matches();
     if (loop.answered_last()) break;
-    if (!arrived && !waiting && was_member && !client.server_present()) return LoopEnd::server_gone;
+    // Also while a match is awaited: a program that was stopped may find nobody left to match.
+    if (!arrived && was_member && !client.server_present()) return LoopEnd::server_gone;
   }
   if (stop.requested()) return LoopEnd::stopped;
   // Leaving at once could take the last answer away with us before it has arrived.

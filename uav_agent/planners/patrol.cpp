@@ -33,6 +33,7 @@ constexpr double kLinkPatienceS = 4.0;      ///< at a delivery place without a l
 constexpr double kNoBoxesHeightM = 3.0;
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the side, by round [rad]
 constexpr int kMaxFailures = 3;
+constexpr double kDetourAgainS = 20.0;
 constexpr double kWatchM = 0.5, kWatchS = 12.0;  ///< no further than this for so long: something is wrong
 
 }  // namespace
@@ -150,6 +151,7 @@ class PatrolPlanner final : public Planner {
   double strip_s_ = 0.0;               ///< where on the strip the present run begins
   Tick refit_at_ = 0, idle_until_ = 0;
   int failures_ = 0;
+  std::optional<Tick> detour_at_;      ///< when it last went around somebody
   Vector3d watched_p_W_ = Vector3d::Zero();
   Tick watched_since_ = 0;
 
@@ -266,9 +268,13 @@ bool PatrolPlanner::gives_way(const PlannerInput& in, PlannerOutput& out) {
         out.motion = Hold{};
       }
       return true;
-    case Traffic::go_around:
-      if (!goes_around(rest, in, out)) give_up(in, out);
+    case Traffic::go_around: {
+      // One detour is worth a try. If it led to nothing, the other UAV has work here: something else first.
+      const bool again = detour_at_ && seconds(in.tick - *detour_at_) < kDetourAgainS;
+      detour_at_ = in.tick;
+      if (again || !goes_around(rest, in, out)) give_up(in, out);
       return true;
+    }
   }
   return false;
 }
