@@ -39,6 +39,10 @@ std::vector<Eigen::Vector3f> sample_uniformly(std::span<const Eigen::Vector3f> p
   return kept;
 }
 
+KeyframeSelector::Pose KeyframeSelector::pose_of(Tick tick, const Isometry3d& X_WB) {
+  return {tick, X_WB.translation(), roll_pitch_yaw(X_WB.linear()).yaw};
+}
+
 bool KeyframeSelector::wanted(const Pose& pose) const {
   if (kept_.empty()) {
     return true;
@@ -57,7 +61,7 @@ bool KeyframeSelector::wanted(const Pose& pose) const {
 }
 
 std::optional<Keyframe> KeyframeSelector::offer(const LidarScan& scan, const Isometry3d& X_WB) {
-  const Pose pose{scan.tick, X_WB.translation(), roll_pitch_yaw(X_WB.linear()).yaw};
+  const Pose pose = pose_of(scan.tick, X_WB);
   if (!wanted(pose)) {
     return std::nullopt;
   }

@@ -33,6 +33,8 @@ class KeyframeSelector {
   static constexpr std::size_t kNeighbours = 5;
   static constexpr double kCell = 0.5;  ///< [m]
 
+  /// Whether a scan from this pose would become a key frame.
+  bool wants(Tick tick, const Isometry3d& X_WB) const { return wanted(pose_of(tick, X_WB)); }
   /// @returns the key frame that this scan becomes, or nullopt. X_WB is the body's pose at the scan's tick.
   std::optional<Keyframe> offer(const LidarScan& scan, const Isometry3d& X_WB);
 
@@ -42,6 +44,7 @@ class KeyframeSelector {
     Vector3d p_WB;
     double yaw;
   };
+  static Pose pose_of(Tick tick, const Isometry3d& X_WB);
   bool wanted(const Pose& pose) const;
 
   std::vector<Pose> kept_;

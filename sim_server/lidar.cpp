@@ -60,7 +60,7 @@ Lidar::Lidar(const LidarConfig& config, std::size_t uav, std::uint64_t seed)
 LidarScan Lidar::scan(Tick tick, const Isometry3d& X_WB, const RayScene& world) {
   LidarScan scan;
   scan.tick = tick;
-  scan.number = next_number_++;
+  scan.number = static_cast<std::uint64_t>(tick / period_);
   scan.servo_angle = servo_angle(config_, seconds(tick + phase_));
   const Eigen::AngleAxisd R_BS(scan.servo_angle, Vector3d::UnitX());
   scan.X_WL =

@@ -38,7 +38,7 @@ class Lidar {
   /// Whether a scan falls on this tick: tick 0 and every period after it.
   bool due(Tick tick) const { return tick % period_ == 0; }
 
-  /// One whole scan at one instant: no motion distortion. Scan numbers count the calls.
+  /// One whole scan at one instant: no motion distortion. Its number counts periods, whether they were scanned or not.
   /// @param world  with the poses of all UAVs at this tick.
   LidarScan scan(Tick tick, const Isometry3d& X_WB, const RayScene& world);
 
@@ -48,7 +48,6 @@ class Lidar {
   std::uint64_t seed_;
   Tick period_;
   Tick phase_ = 0;  ///< how long the servo has been running at tick 0
-  std::uint64_t next_number_ = 0;
   Eigen::Matrix3Xf directions_L_;  ///< of all beams, in the order of the cloud
   std::vector<Eigen::Vector3f> directions_W_;
   std::vector<double> ranges_;

@@ -28,6 +28,7 @@ struct Uav {
   UavView view;
   std::optional<GimbalCommand> gimbal_command;  ///< arrived since the last control step
   bool manual_trigger = false, triggered = false;
+  bool scans_wanted = true;
   Tick last_raise = 0;  ///< when a capture last raised a score
   Tick idle_ticks = 0;
 };
@@ -193,8 +194,9 @@ void Simulation::Impl::take_scans() {
   for (std::size_t i = 0; i < uavs.size(); ++i) {
     Uav& uav = uavs[i];
     if (!uav.lidar || !mission.alive(i) || !uav.lidar->due(tick)) continue;
-    refresh_rays();
     const Isometry3d X_WB = world.state(i).X_WB();
+    if (!uav.scans_wanted && !uav.keyframes.wants(tick, X_WB)) continue;
+    refresh_rays();
     LidarScan scan = [&] {
       const WorkSection section(clock, Work::lidar);
       return uav.lidar->scan(tick, X_WB, rays);
@@ -290,6 +292,7 @@ bool Simulation::command_gimbal(std::size_t uav, const GimbalCommand& command) {
 void Simulation::trigger_camera(std::size_t uav) { impl_->uavs[uav].link.outbox().trigger = true; }
 void Simulation::stop(std::size_t uav) { impl_->uavs[uav].link.outbox().stop = true; }
 
+void Simulation::want_scans(std::size_t uav, bool wanted) { impl_->uavs[uav].scans_wanted = wanted; }
 void Simulation::watch(WorkClock* clock) { impl_->clock = clock; }
 
 void Simulation::advance() {

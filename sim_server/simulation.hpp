@@ -101,6 +101,9 @@ class Simulation {
   /// Cut the motors, for good: the UAV falls.
   void stop(std::size_t uav);
 
+  /// Whether anybody reads this UAV's scans (they do, until told otherwise). Those that nobody reads and that would
+  /// not become key frames are not computed: the LiDAR is the most expensive sensor. Nothing else depends on it.
+  void want_scans(std::size_t uav, bool wanted);
   /// Announces work to a clock from now on. @param clock  must outlive the simulation; null: nobody.
   void watch(WorkClock* clock);
 

@@ -354,6 +354,32 @@ TEST(WholeSimulation, RepeatsBitForBitAndSeedsDiffer) {
   EXPECT_NE(survey(scenario, scene, 1, 5.0), survey(scenario, scene, 2, 5.0));
 }
 
+TEST(WholeSimulation, ScansThatNobodyReadsChangeNothingElse) {
+  const Scenario scenario = towers();
+  const Scene scene = load_scene(scenario);
+  Simulation all(scenario, scene, 3), lazy(scenario, scene, 3);
+  for (std::size_t i = 0; i < lazy.size(); ++i) lazy.want_scans(i, false);
+  const Surveyor surveyor(scenario, scene);
+  std::size_t scans = 0, lazy_scans = 0, key_frames = 0;
+  while (seconds(all.tick()) < 20.0) {
+    for (Simulation* sim : {&all, &lazy}) {
+      for (std::size_t i = 0; i < sim->size(); ++i) sim->command_trajectory(i, surveyor.at(i, seconds(sim->tick())));
+      sim->advance();
+    }
+    scans += all.events().scans.size();
+    lazy_scans += lazy.events().scans.size();
+    key_frames += all.events().key_frames.size();
+    ASSERT_EQ(all.events().key_frames.size(), lazy.events().key_frames.size());
+    for (std::size_t i = 0; i < all.events().key_frames.size(); ++i) {
+      ASSERT_EQ(all.events().key_frames[i].key_frame.points_W, lazy.events().key_frames[i].key_frame.points_W);
+    }
+    ASSERT_EQ(all.links(), lazy.links());
+    for (std::size_t i = 0; i < all.size(); ++i) ASSERT_EQ(all.uav(i).state.p_WB, lazy.uav(i).state.p_WB);
+  }
+  EXPECT_GT(key_frames, 3U);
+  EXPECT_LT(10 * lazy_scans, 5 * scans);
+}
+
 TEST(WholeSimulation, AHundredUavs) {
   Scenario scenario = towers();
   const UavConfig explorer = scenario.fleet[0], photographer = scenario.fleet[2];

@@ -113,6 +113,7 @@ void UavNode::publish_neighbours() {
 }
 
 void UavNode::publish_clouds() {
+  simulation_.want_scans(uav_, cloud_ && cloud_->has_readers());
   for (const LidarEvent& scan : simulation_.events().scans) {
     if (scan.uav == uav_ && cloud_) send(*cloud_, [&] { return to_cloud(scan.scan.tick, scan.scan.points_W); });
   }

@@ -15,7 +15,8 @@
 namespace skein::test {
 
 /// Reserves consecutive domain ids for its lifetime, by locks on files in the folder for temporary files. The locks go
-/// with the process, however it ends; the empty files stay. Domains below kFirst are left to users.
+/// with the process, however it ends; the empty files stay. They are those of the launcher (cli/domain_block.hpp), so that
+/// no fleet comes in between. Domains below kFirst are left to users.
 class FreeDomains {
  public:
   static constexpr int kFirst = 10;
@@ -42,7 +43,7 @@ class FreeDomains {
   bool lock_all(int count) {
     for (int domain = base_; domain < base_ + count; ++domain) {
       const auto path =
-          std::filesystem::temp_directory_path() / ("skein-test-domain-" + std::to_string(domain) + ".lock");
+          std::filesystem::temp_directory_path() / ("skein-domain-" + std::to_string(domain) + ".lock");
       const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
       if (file < 0) throw std::runtime_error("cannot create " + path.string());
       files_.push_back(file);

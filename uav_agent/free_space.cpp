@@ -26,19 +26,24 @@ bool FreeSpace::allowed(const Vector3d& p_W) const {
     if ((p_W - sphere.p_W).squaredNorm() < sphere.radius_m * sphere.radius_m) return false;
   }
   if (!must_be_seen(p_W)) return true;
-  if (!config_.use_map || !map_.known_free(p_W)) return false;
-  // A ray or two through a coarse cell do not prove that all of it is free: what lies around must have been seen, too.
+  if (!config_.use_map || !map_.known_free(p_W, config_.rays)) return false;
+  // A few rays through a coarse cell do not prove that all of it is free: what lies around must have been seen, too.
   for (int i = 0; i < 6; ++i) {
     const Vector3d q = p_W + (i % 2 == 0 ? kSeenAroundM : -kSeenAroundM) * Vector3d::Unit(i / 2);
-    if (must_be_seen(q) && !map_.known_free(q)) return false;
+    if (must_be_seen(q) && !map_.known_free(q, config_.rays)) return false;
   }
-  return true;
+  return config_.enter_near_W.empty() || !near_box(p_W) ||
+         std::any_of(config_.enter_near_W.begin(), config_.enter_near_W.end(),
+                     [&](const Vector3d& place) { return (place - p_W).norm() < config_.enter_radius_m; });
+}
+
+bool FreeSpace::near_box(const Vector3d& p_W) const {
+  return std::any_of(boxes_.begin(), boxes_.end(),
+                     [&](const OrientedBox& box) { return box.contains(p_W, config_.clearance_m); });
 }
 
 bool FreeSpace::must_be_seen(const Vector3d& p_W) const {
-  return p_W.z() < config_.blind_height_m ||
-         std::any_of(boxes_.begin(), boxes_.end(),
-                     [&](const OrientedBox& box) { return box.contains(p_W, config_.clearance_m); });
+  return p_W.z() < config_.blind_height_m || near_box(p_W);
 }
 
 bool FreeSpace::free(const Vector3d& p_W) const {

@@ -21,6 +21,11 @@ class FreeSpace {
     double clearance_m = 1.8;       ///< of the UAV's centre to mapped cells and to unknown boxes
     double floor_m = 2.0;
     double blind_height_m = 0.0;    ///< below, only space that was seen to be free may be entered
+    int rays = 8;                   ///< that must have passed a place where only what was seen may be entered
+    /// If not empty, boxes may only be entered this near to one of these places, however much was seen of their inside:
+    /// a way from here to there does not lead through a building.
+    std::vector<Vector3d> enter_near_W = {};
+    double enter_radius_m = 9.0;
     bool use_map = true;
   };
 
@@ -39,6 +44,7 @@ class FreeSpace {
   const OccupancyMap& map() const { return map_; }
 
  private:
+  bool near_box(const Vector3d& p_W) const;
   /// In or near a box, or low: not free until a LiDAR has seen that it is.
   bool must_be_seen(const Vector3d& p_W) const;
   /// As free(), but without the mapped cells.

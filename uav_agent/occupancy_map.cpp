@@ -9,10 +9,9 @@
 namespace skein::agent {
 namespace {
 
-// Log-odds in the tree of free space: this much per ray, and this few rays make a cell known to be free.
+// Log-odds in the tree of free space count rays, up to a number.
 constexpr float kMissPerRay = -0.1F;
-constexpr float kFreeBelow = -0.25F;
-constexpr float kMissFloor = -2.0F;
+constexpr int kCountedRays = 20;
 constexpr int kFineSteps = 8;  ///< of cast(), for each coarse one; even
 
 /// Occupied cells in blocks of 4 x 4 x 4, one bit each, found by hash: only ever looked up, never walked through.
@@ -95,7 +94,7 @@ octomap::point3d to_octomap(const Vector3d& p) {
 
 struct OccupancyMap::Impl {
   explicit Impl(const Config& c) : config(c), hits(c.resolution_m), free(c.free_resolution_m), cells(c.resolution_m) {
-    free.setClampingThresMin(octomap::probability(kMissFloor));
+    free.setClampingThresMin(octomap::probability(kMissPerRay * kCountedRays));
   }
 
   void mark_free(const std::vector<Eigen::Vector3f>& hits_W, const Vector3d& p_WS);
@@ -150,9 +149,11 @@ std::uint64_t OccupancyMap::revision() const { return impl_->revision; }
 
 bool OccupancyMap::occupied(const Vector3d& p_W) const { return impl_->cells.test(p_W); }
 
-bool OccupancyMap::known_free(const Vector3d& p_W) const {
+bool OccupancyMap::known_free(const Vector3d& p_W, int rays) const {
   const octomap::OcTreeNode* node = impl_->free.search(to_octomap(p_W));
-  return node != nullptr && node->getLogOdds() < kFreeBelow && !occupied(p_W);
+  // Half a ray is taken off: sums of floats.
+  const float enough = kMissPerRay * (static_cast<float>(std::min(rays, kCountedRays)) - 0.5F);
+  return node != nullptr && node->getLogOdds() < enough && !occupied(p_W);
 }
 
 bool OccupancyMap::any_occupied_within(const Vector3d& p_W, double radius) const {

@@ -39,8 +39,8 @@ class OccupancyMap {
 
   /// True when the cell of p holds a hit.
   bool occupied(const Vector3d& p_W) const;
-  /// True when a ray passed the coarse cell of p and nothing was hit there.
-  bool known_free(const Vector3d& p_W) const;
+  /// True when at least so many rays (20 at most) passed the coarse cell of p, and nothing was hit at p.
+  bool known_free(const Vector3d& p_W, int rays = 3) const;
   /// True when the centre of an occupied cell lies within `radius` of p.
   bool any_occupied_within(const Vector3d& p_W, double radius) const;
   /// Distance from p to the nearest centre of an occupied cell, or nullopt if there is none within `max_distance`.

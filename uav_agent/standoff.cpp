@@ -11,6 +11,8 @@ constexpr double kOutsideM = 4.0;          ///< casts begin this far outside the
 constexpr double kCastRadiusM = 0.8;       ///< wide enough not to slip between the hits of a sparse map
 constexpr double kSearchStepM = 0.5;       ///< between stand-offs that are tried
 constexpr double kSearchInM = 4.0, kSearchOutM = 7.0;  ///< around the one wished for
+constexpr double kAsideM[] = {0.0, -1.5, 1.5, -3.0, 3.0};  ///< to the side of the strip, where it is blocked
+constexpr double kAsideCost = 3.0;         ///< a metre
 constexpr double kTooNearCost = 2.0;       ///< a metre too near costs as much as two too far: the image gets smaller
 constexpr double kBendCost = 0.5;          ///< a metre of difference to the sample before
 constexpr double kSteepest = 1.2;          ///< change of stand-off per metre along the strip
@@ -24,10 +26,9 @@ struct Sample {
   double wish = 0.0;         ///< distance from the face, outwards
 };
 
-/// Where the line stands so far.
-struct Placed {
-  bool any = false;
-  double standoff = 0.0;
+/// A place for the UAV: so far off the face, so far to the side of the strip.
+struct Place {
+  double standoff = 0.0, aside = 0.0;
   Vector3d p_W = Vector3d::Zero();
 };
 
@@ -41,25 +42,27 @@ Sample sample_at(const Strip& strip, bool reversed, double s, const FreeSpace& s
   return sample;
 }
 
-/// The stand-off nearest to the wish that is free and can be reached from where the line stands.
-std::optional<double> choose(const Sample& sample, const Strip& strip, const Placed& before, const FreeSpace& space,
-                             double step_m) {
-  std::optional<double> best;
+/// The free place that is nearest to the wish and can be reached from the one before.
+std::optional<Place> choose(const Sample& sample, const Strip& strip, const Place* before, const FreeSpace& space,
+                            double step_m) {
+  std::optional<Place> best;
   double best_cost = 0.0;
   const int in = static_cast<int>(kSearchInM / kSearchStepM), out = static_cast<int>(kSearchOutM / kSearchStepM);
-  for (int j = -in; j <= out; ++j) {
-    const double standoff = sample.wish + j * kSearchStepM;
-    double cost = j < 0 ? -kTooNearCost * j * kSearchStepM : j * kSearchStepM;
-    if (before.any) {
-      const double bend = std::abs(standoff - before.standoff);
-      if (bend > kSteepest * step_m + 1e-9) continue;
-      cost += kBendCost * bend;
+  for (const double aside : kAsideM) {
+    for (int j = -in; j <= out; ++j) {
+      Place place{sample.wish + j * kSearchStepM, aside, {}};
+      double cost = (j < 0 ? -kTooNearCost * j : j) * kSearchStepM + kAsideCost * std::abs(aside);
+      if (before) {
+        const double bend = std::hypot(place.standoff - before->standoff, place.aside - before->aside);
+        if (bend > kSteepest * step_m + 1e-9) continue;
+        cost += kBendCost * bend;
+      }
+      if (best && cost >= best_cost) continue;
+      place.p_W = sample.face_W + place.standoff * strip.out_W + aside * strip.across_W;
+      if (!space.free(place.p_W) || (before && !space.segment_free(before->p_W, place.p_W))) continue;
+      best = place;
+      best_cost = cost;
     }
-    if (best && cost >= best_cost) continue;
-    const Vector3d p = sample.face_W + standoff * strip.out_W;
-    if (!space.free(p) || (before.any && !space.segment_free(before.p_W, p))) continue;
-    best = standoff;
-    best_cost = cost;
   }
   return best;
 }
@@ -82,24 +85,24 @@ std::optional<double> surface_depth(const Strip& strip, const Vector3d& on_face_
 std::vector<Run> fit_strip(const Strip& strip, bool reversed, double from_s, const std::optional<Vector3d>& p_W_now,
                            const FreeSpace& space, const CameraReach& reach, const StandoffConfig& config) {
   std::vector<Run> runs;
-  Placed before;
-  if (p_W_now) before = {true, (*p_W_now - strip.begin_W).dot(strip.out_W), *p_W_now};
+  std::optional<Place> before;
+  if (p_W_now) {
+    const Vector3d from_strip = *p_W_now - strip.begin_W;
+    before = Place{from_strip.dot(strip.out_W), from_strip.dot(strip.across_W), *p_W_now};
+  }
   const double length = strip.length();
   const int steps = std::max(1, static_cast<int>(std::ceil((length - from_s) / config.step_m)));
   for (int i = 0; i <= steps; ++i) {
     const double s = std::min(length, from_s + i * config.step_m);
     const Sample sample = sample_at(strip, reversed, s, space, reach, config);
-    const auto standoff = choose(sample, strip, before, space, config.step_m);
-    if (!standoff) {
-      before.any = false;
-      continue;
+    const auto place = choose(sample, strip, before ? &*before : nullptr, space, config.step_m);
+    if (place) {
+      if (!before || runs.empty()) runs.push_back(Run{.waypoints = {}, .first_s = s});
+      const double distance = std::max(1.0, place->standoff + sample.depth);
+      const double speed = config.speed_gain * reach.blur_speed_mps * distance / reach.sharp_distance_m;
+      runs.back().waypoints.push_back({place->p_W, std::clamp(speed, config.min_speed_mps, config.max_speed_mps)});
     }
-    if (!before.any || runs.empty()) runs.push_back(Run{.waypoints = {}, .first_s = s});
-    const Vector3d p = sample.face_W + *standoff * strip.out_W;
-    const double distance = std::max(1.0, *standoff + sample.depth);
-    const double speed = config.speed_gain * reach.blur_speed_mps * distance / reach.sharp_distance_m;
-    runs.back().waypoints.push_back({p, std::clamp(speed, config.min_speed_mps, config.max_speed_mps)});
-    before = {true, *standoff, p};
+    before = place;
   }
   // A single point is not worth the way.
   std::erase_if(runs, [](const Run& run) { return run.waypoints.size() < 2; });

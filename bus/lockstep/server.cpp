@@ -376,9 +376,9 @@ std::vector<std::string> LockstepServer::take_rejoined() { return std::exchange(
 std::vector<std::string> LockstepServer::awaited() const {
   std::vector<std::string> names;
   for (const Place& place : places_) {
-    if (in_step_ ? place.member && !place.answered : !place.member && (place.awaited || place.source != 0)) {
-      names.push_back(place.name);
-    }
+    // Who announced commands that never came has not answered either.
+    const bool silent = place.member && (!place.answered || !domains_[place.domain]->commands.complete());
+    if (in_step_ ? silent : !place.member && (place.awaited || place.source != 0)) names.push_back(place.name);
   }
   return names;
 }

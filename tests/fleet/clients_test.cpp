@@ -93,8 +93,9 @@ TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
   // The fleet waits for nanyang's agent, so nothing has been said before they listen.
   ASSERT_TRUE(eventually([&] { return uav_listener.writers(acks) == 1 && uav_listener.writers(own) == 1; }));
   ASSERT_TRUE(eventually([&] {
-    return std::all_of(kFleet.begin(), kFleet.end(),
-                       [&](const std::string& uav) { return gcs_listener.writers(topics::captures_at_station(uav)) == 1; });
+    return std::all_of(kFleet.begin(), kFleet.end(), [&](const std::string& uav) {
+      return gcs_listener.writers(topics::captures_at_station(uav)) == 1;
+    });
   }));
   start_printed_command(run);
   EXPECT_EQ(run.exit_code(), 0) << run.err();
@@ -139,41 +140,62 @@ TEST_F(Clients, ForeignClientTakesPartInTheLockStep) {
   EXPECT_EQ(digests.size(), 1u) << "the same run, whatever its vendor";
 }
 
-/// A fleet started by hand, for options that the launcher does not have.
-class Hanging : public Clients, public testing::WithParamInterface<std::string> {};
+/// A fleet started by hand, for options that the launcher does not have. It waits 8 s for an answer.
+class ByHand : public FleetTest {
+ protected:
+  ByHand() { std::filesystem::create_directories(dir_); }
 
-TEST_P(Hanging, ProgramIsDroppedAndTheRunGoesOn) {
-  const cli::DomainBlock domains(std::nullopt, 2 + static_cast<int>(kFleet.size()));
-  const std::filesystem::path dir = folder() / "by_hand";
-  std::filesystem::create_directories(dir);
-  std::map<std::string, ChildProcess*> fleet;
-  for (const std::string& name : kPrograms) {
-    const std::size_t dash = name.find('-');
-    Arguments argv = {program(name.substr(0, dash)), "--scenario", "towers", "--duration", "40",
-                      "--domain", std::to_string(domains.base()), "--out", dir};
-    if (dash != std::string::npos) argv.insert(argv.end(), {"--uav", name.substr(dash + 1), "--planner", "patrol"});
-    if (name == "sim_server") argv.insert(argv.end(), {"--agent-timeout", "8"});
-    fleet[name] = &start_program(name, argv);
-  }
-  ASSERT_TRUE(eventually([&] { return is_flying(dir); }));
-  ChildProcess& victim = *fleet.at(GetParam());
-  victim.signal(SIGSTOP);
-
-  ChildProcess& server = *fleet.at("sim_server");
-  EXPECT_EQ(server.wait().code, 0) << server.err();
-  const Json report = Json::parse(text_of(dir / "sim_server.report.json"));
-  EXPECT_EQ(report["status"], "completed");
-  EXPECT_FALSE(report["deterministic"]);
-  ASSERT_EQ(report["lost_members"].size(), 1u) << report["lost_members"];
-  const std::string member = GetParam().substr(GetParam().find('-') + 1);
-  EXPECT_EQ(report["lost_members"][0]["member"], member);
-  EXPECT_NE(report["lost_members"][0]["reason"].get<std::string>().find("did not answer"), std::string::npos);
-  EXPECT_NE(server.err().find(member + " is lost"), std::string::npos) << server.err();
-  for (const auto& [name, process] : fleet) {
-    if (process != &victim) {
-      EXPECT_EQ(process->wait().code, 0) << name << ": " << process->err();
+  /// Starts all programs. @param instead_of  an agent in whose place this client flies.
+  void start_fleet(const std::string& instead_of = "", const Arguments& client = {}) {
+    for (const std::string& name : kPrograms) {
+      const std::string base = std::to_string(domains_.base()), uav = member(name);
+      if (name == instead_of) {
+        const auto index = std::find(kFleet.begin(), kFleet.end(), uav) - kFleet.begin();
+        const std::string domain = std::to_string(uav_domain(domains_.base(), static_cast<std::size_t>(index)));
+        fleet_[name] = &start_program(name, client, {{"SKEIN_DOMAIN", domain}, {"SKEIN_UAV", uav}});
+        continue;
+      }
+      Arguments argv = {program(name.substr(0, name.find('-'))), "--scenario", "towers", "--duration", "40", "--domain",
+                        base, "--out", dir_};
+      if (uav != name) argv.insert(argv.end(), {"--uav", uav, "--planner", "patrol"});
+      if (name == "sim_server") argv.insert(argv.end(), {"--agent-timeout", "8"});
+      fleet_[name] = &start_program(name, argv);
     }
   }
+
+  /// The run ends by itself without `victim`, which was dropped for `reason`, and all others end in good order.
+  void expect_run_without(const std::string& victim, const std::string& reason) {
+    EXPECT_EQ(fleet_.at("sim_server")->wait().code, 0) << fleet_.at("sim_server")->err();
+    const Json report = Json::parse(text_of(dir_ / "sim_server.report.json"));
+    EXPECT_EQ(report["status"], "completed");
+    EXPECT_FALSE(report["deterministic"]);
+    ASSERT_EQ(report["lost_members"].size(), 1u) << report["lost_members"];
+    const Json lost = report["lost_members"][0];
+    EXPECT_EQ(lost["member"], member(victim));
+    EXPECT_NE(lost["reason"].get<std::string>().find(reason), std::string::npos) << lost["reason"];
+    EXPECT_NE(fleet_.at("sim_server")->err().find(member(victim) + " is lost"), std::string::npos);
+    for (const auto& [name, process] : fleet_) {
+      if (name != victim) {
+        EXPECT_EQ(process->wait().code, 0) << name << ": " << process->err();
+      }
+    }
+  }
+
+  static std::string member(const std::string& program) { return program.substr(program.find('-') + 1); }
+
+  const std::filesystem::path dir_ = folder() / "by_hand";
+  const cli::DomainBlock domains_{std::nullopt, 2 + static_cast<int>(kFleet.size())};
+  std::map<std::string, ChildProcess*> fleet_;
+};
+
+class Hanging : public ByHand, public testing::WithParamInterface<std::string> {};
+
+TEST_P(Hanging, ProgramIsDroppedAndTheRunGoesOn) {
+  start_fleet();
+  ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
+  ChildProcess& victim = *fleet_.at(GetParam());
+  victim.signal(SIGSTOP);
+  expect_run_without(GetParam(), "did not answer");
   victim.signal(SIGCONT);
   EXPECT_EQ(victim.wait().code, 3) << "it finds that the others went on without it";
 }
@@ -183,6 +205,17 @@ INSTANTIATE_TEST_SUITE_P(Programs, Hanging, testing::Values("uav_agent-changi", 
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 });
+
+class Lying : public ByHand, public testing::WithParamInterface<std::string> {};
+
+TEST_P(Lying, ClientIsDroppedAndTheRunGoesOn) {
+  start_fleet("uav_agent-sentosa", {SKEIN_MINIMAL_CLIENT, "cyclonedds", GetParam()});
+  expect_run_without("uav_agent-sentosa", GetParam() == "boast" ? "did not" : "sent more than it announced");
+  EXPECT_EQ(fleet_.at("uav_agent-sentosa")->wait().code, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Clients, Lying, testing::Values("smuggle", "boast"),
+                         [](const auto& lie) { return lie.param; });
 
 }  // namespace
 }  // namespace skein::test

@@ -10,8 +10,8 @@ namespace {
 
 /// Far longer than the tests let it fly, so that nothing here depends on the machine's speed.
 const Arguments kLongRun = {"towers", "--planner", "patrol", "--duration", "2000"};
-/// Ends by itself, some seconds after the programs were found.
-const Arguments kShortRun = {"towers", "--planner", "patrol", "--duration", "60"};
+/// Ends by itself, some seconds after the programs were found. With both vendors: each must cope with a sudden death.
+const Arguments kShortRun = {"towers", "--planner", "patrol", "--duration", "60", "--dds", "mixed"};
 
 class Interruption : public FleetTest {
  protected:

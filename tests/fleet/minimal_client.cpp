@@ -1,7 +1,8 @@
-// The smallest program that takes part in the lock-step, written from docs/lockstep.md alone: it shares no lock-step code
-// with Skein, only the messages and the bus. It flies its UAV 3 m up and stays there.
-//   SKEIN_DOMAIN=N SKEIN_UAV=NAME minimal_client VENDOR
-// Exit code 0 after the last step, 3 when the server dropped it.
+// The smallest program that takes part in the lock-step, written from docs/lockstep.md alone: it shares no lock-step
+// code with Skein, only the messages and the bus. It flies its UAV 3 m up and stays there.
+//   SKEIN_DOMAIN=N SKEIN_UAV=NAME minimal_client VENDOR [boast|smuggle]
+// Exit code 0 after the last step, 3 when the server dropped it. To see what becomes of a broken client: from a certain
+// step on, "boast" announces a command more than it sends, "smuggle" one less.
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
@@ -24,6 +25,7 @@ using skein::bus::Sample;
 namespace msg = skein::msg;
 
 constexpr double kHeightM = 3.0;
+constexpr std::uint64_t kFirstLie = 40;
 constexpr skein::bus::Qos kStateQos{.reliable = true, .latched = false, .depth = 8};
 constexpr skein::bus::Qos kCommandQos{.reliable = true, .latched = false, .depth = 64};
 constexpr skein::bus::Qos kLatchedQos{.reliable = true, .latched = true, .depth = 4};
@@ -49,7 +51,8 @@ class Queue {
   /// The next message, or nullopt after a while without one.
   std::optional<std::pair<ParticipantId, Message>> take() {
     std::unique_lock lock(mutex_);
-    if (!arrived_.wait_for(lock, std::chrono::milliseconds(50), [this] { return !waiting_.empty(); })) return std::nullopt;
+    const auto something = [this] { return !waiting_.empty(); };
+    if (!arrived_.wait_for(lock, std::chrono::milliseconds(50), something)) return std::nullopt;
     auto next = std::move(waiting_.front());
     waiting_.pop_front();
     return next;
@@ -80,9 +83,10 @@ std::uint64_t count_of(const std::vector<msg::TopicCount>& counts, const std::st
 
 class Client {
  public:
-  Client(skein::bus::Participant& participant, std::string uav)
+  Client(skein::bus::Participant& participant, std::string uav, std::string lie)
       : participant_(participant),
         uav_(std::move(uav)),
+        lie_(std::move(lie)),
         resyncs_(participant, "skein/resync", kLatchedQos),
         steps_(participant, "skein/step", kStateQos),
         done_(participant.create_writer(topic<msg::Done>("skein/done", kStateQos))),
@@ -130,7 +134,8 @@ class Client {
       if (!resync || resync->second.source() != participant_.id()) continue;
       server_ = resync->first;
       odometry_ = std::make_unique<Queue<msg::Odometry>>(participant_, uav_ + "/ground_truth/odometry", kStateQos);
-      commands_ = participant_.create_writer({command_name(), skein::type_name<msg::MultiDOFJointTrajectory>(), kCommandQos});
+      commands_ = participant_.create_writer(
+          topic<msg::MultiDOFJointTrajectory>(uav_ + "/command/trajectory", kCommandQos));
       received_ = expected_ = count_of(resync->second.base(), odometry_->name(), server_, 0);
       return;
     }
@@ -170,7 +175,7 @@ class Client {
     msg::TopicCount sent;
     sent.topic(command_name());
     sent.source(participant_.id());
-    sent.count(commands_sent_);
+    sent.count(step.k() < kFirstLie ? commands_sent_ : told());
     done.sent().push_back(sent);
     done_->write(skein::encode(done));
     answered_ = step.k();
@@ -193,10 +198,15 @@ class Client {
     ++commands_sent_;
   }
 
+  /// What it says that it sent.
+  std::uint64_t told() const {
+    if (lie_ == "boast") return commands_sent_ + 1;
+    return lie_ == "smuggle" ? commands_sent_ - 1 : commands_sent_;
+  }
   std::string command_name() const { return "rt/" + uav_ + "/command/trajectory"; }
 
   skein::bus::Participant& participant_;
-  const std::string uav_;
+  const std::string uav_, lie_;
   Queue<msg::Resync> resyncs_;
   Queue<msg::Step> steps_;
   std::unique_ptr<skein::bus::Writer> done_, ready_, commands_;
@@ -211,11 +221,11 @@ class Client {
 
 int main(int argc, char** argv) {
   const char *domain = std::getenv("SKEIN_DOMAIN"), *uav = std::getenv("SKEIN_UAV");
-  if (argc != 2 || domain == nullptr || uav == nullptr) {
-    std::cerr << "usage: SKEIN_DOMAIN=N SKEIN_UAV=NAME minimal_client VENDOR\n";
+  if (argc < 2 || domain == nullptr || uav == nullptr) {
+    std::cerr << "usage: SKEIN_DOMAIN=N SKEIN_UAV=NAME minimal_client VENDOR [boast|smuggle]\n";
     return 2;
   }
   const auto bus = skein::bus::make_bus({.vendor = argv[1]});
   const auto participant = bus->join(std::atoi(domain));
-  return Client(*participant, uav).run();
+  return Client(*participant, uav, argc > 2 ? argv[2] : "").run();
 }

@@ -36,7 +36,9 @@ int main(int argc, char** argv) {
   }
   for (std::string before;;) {
     std::ostringstream now;
-    for (const Heard& topic : heard) now << topic.topic << ' ' << topic.reader->matched().size() << ' ' << topic.count << '\n';
+    for (const Heard& topic : heard) {
+      now << topic.topic << ' ' << topic.reader->matched().size() << ' ' << topic.count << '\n';
+    }
     if (now.str() != before) skein::write_file_atomically(argv[3], before = now.str());
     std::this_thread::sleep_for(std::chrono::milliseconds(20));  // between two looks; nothing waits for it
   }

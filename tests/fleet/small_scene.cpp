@@ -87,9 +87,10 @@ std::string write_small_scene(const std::filesystem::path& folder, const SmallSc
   write_mesh(mesh, scene.blocks);
   write_points(points, scene.points);
   write_boxes(boxes, scene.boxes);
-  scenario << "name: small\ndescription: a few blocks, for a test\nduration_s: " << scene.duration_s
-           << "\ndesired_mm_per_pixel: 2.0\nstation: {position: [-6, 0, 0.3], antenna_offset_m: 0.1}\nscene:\n  meshes: [./scene/mesh.stl]\n"
-           << "  points: ./scene/points.pcd\n  boxes: ./scene/box_description.yaml\nfleet:\n"
+  scenario << "name: small\ndescription: a few blocks, for a test\nduration_s: " << scene.duration_s << "\n"
+           << "desired_mm_per_pixel: 2.0\nstation: {position: [-6, 0, 0.3], antenna_offset_m: 0.1}\n"
+           << "scene:\n  meshes: [./scene/mesh.stl]\n  points: ./scene/points.pcd\n"
+           << "  boxes: ./scene/box_description.yaml\nfleet:\n"
            << scene.fleet;
   return folder / "scenario.yaml";
 }

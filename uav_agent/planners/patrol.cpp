@@ -33,6 +33,7 @@ constexpr double kLinkPatienceS = 4.0;      ///< at a delivery place without a l
 constexpr double kNoBoxesHeightM = 3.0;
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the side, by round [rad]
 constexpr int kMaxFailures = 3;
+constexpr double kMinClearanceM = 1.8;      ///< of the UAV's centre: the map's cells are coarse, however small the UAV is
 constexpr double kDetourAgainS = 20.0;
 constexpr double kWatchM = 0.5, kWatchS = 12.0;  ///< no further than this for so long: something is wrong
 
@@ -84,12 +85,13 @@ class PatrolPlanner final : public Planner {
 
   PlannerOutput plan(const PlannerInput& in) override {
     PlannerOutput out;
+    if (getenv("DBG") && in.k % 100 == 0) { auto& p = in.tracking.setpoint.p_WB; const FreeSpace sp = free_space(in); fprintf(stderr, "t%.0f uav%zu phase%d paused%d round%d todo%zu cur%zu s%.1f path%zu leg%zu done%d fail%d p %.1f %.1f %.1f v%.1f free%d dist%.2f flown%d link%d und%zu\n", seconds(in.tick), agent_.self, (int)phase_, paused_, round_, to_do_.size(), current_, strip_s_, path_.waypoints.size(), in.tracking.leg, in.tracking.done, failures_, p.x(), p.y(), p.z(), in.tracking.setpoint.v_WB.norm(), sp.free(p), in.map.distance_to_occupied(p, 5).value_or(9), flown_any_, in.station_linked, in.undelivered_captures); }
     if (!in.boxes.empty() && !shared_) share_work(in);
     if (phase_ == Phase::ground) {
       if (separation_.may_lift_off(in.tick, in.peers)) lift_off(in, out);
       return out;
     }
-    const FreeSpace space = free_space(in, {});
+    const FreeSpace space = free_space(in);
     if (in.undelivered_captures == 0) delivered_at_ = in.tick;
     if (phase_ != Phase::deliver && must_deliver(in)) {
       begin_delivery(in, space, out);
@@ -106,7 +108,9 @@ class PatrolPlanner final : public Planner {
  private:
   enum class Phase { ground, climb, survey, transit, strip, deliver, idle };
 
-  FreeSpace free_space(const PlannerInput& in, std::vector<Sphere> keep_out) const;
+  FreeSpace::Config space_config() const;
+  FreeSpace free_space(const PlannerInput& in) const;
+  FreeSpace way_space(const PlannerInput& in, const Vector3d& goal) const;
   void share_work(const PlannerInput& in);
   void lift_off(const PlannerInput& in, PlannerOutput& out);
   bool gives_way(const PlannerInput& in, PlannerOutput& out);
@@ -161,12 +165,23 @@ class PatrolPlanner final : public Planner {
   std::optional<Tick> unlinked_since_;
 };
 
-FreeSpace PatrolPlanner::free_space(const PlannerInput& in, std::vector<Sphere> keep_out) const {
+FreeSpace::Config PatrolPlanner::space_config() const {
   FreeSpace::Config config;
-  config.clearance_m = agent_.me().body_radius_m + config_.clearance_m;
+  config.clearance_m = std::max(kMinClearanceM, agent_.me().body_radius_m + config_.clearance_m);
   config.use_map = config_.use_map;
   config.blind_height_m = blind_height_m_;
-  return {config, in.boxes, in.map, std::move(keep_out)};
+  return config;
+}
+
+/// Where strips may be flown.
+FreeSpace PatrolPlanner::free_space(const PlannerInput& in) const { return {space_config(), in.boxes, in.map}; }
+
+/// Where the way to a goal may lead.
+FreeSpace PatrolPlanner::way_space(const PlannerInput& in, const Vector3d& goal) const {
+  FreeSpace::Config config = space_config();
+  const Vector3d here = in.tracking.setpoint.p_WB;
+  config.enter_near_W = {here, goal};
+  return {config, in.boxes, in.map, separation_.keep_out(here, in.peers)};
 }
 
 StandoffConfig PatrolPlanner::standoff_config() const {
@@ -281,7 +296,7 @@ bool PatrolPlanner::gives_way(const PlannerInput& in, PlannerOutput& out) {
 
 /// Leaves the path for a way around whoever stands on it, and comes back to it behind them.
 bool PatrolPlanner::goes_around(const std::vector<Waypoint>& rest, const PlannerInput& in, PlannerOutput& out) {
-  const FreeSpace space = free_space(in, separation_.keep_out(in.tracking.setpoint.p_WB, in.peers));
+  const FreeSpace space = way_space(in, rest.back().p_WB);
   std::size_t back = 0;
   while (back + 1 < rest.size() && !space.free(rest[back].p_WB)) ++back;
   const auto way = find_path(space, in.boxes, in.tracking.setpoint.p_WB, rest[back].p_WB);
@@ -362,8 +377,7 @@ void PatrolPlanner::idle(Tick until, PlannerOutput& out) {
 }
 
 bool PatrolPlanner::fly_to(const Vector3d& goal, const PlannerInput& in, PlannerOutput& out) {
-  const FreeSpace space = free_space(in, separation_.keep_out(in.tracking.setpoint.p_WB, in.peers));
-  const auto corners = find_path(space, in.boxes, in.tracking.setpoint.p_WB, goal);
+  const auto corners = find_path(way_space(in, goal), in.boxes, in.tracking.setpoint.p_WB, goal);
   if (!corners) return false;
   Path path;
   for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.transit_mps});
