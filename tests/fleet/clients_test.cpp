@@ -120,27 +120,36 @@ TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
   }
 }
 
+const std::string kForeignPlanner = std::string("hover,sentosa=exec:") + SKEIN_MINIMAL_CLIENT;
+
 TEST_F(Clients, ForeignClientTakesPartInTheLockStep) {
   std::set<std::string> digests;
   for (const std::string vendor : {"cyclonedds", "fastdds"}) {
-    SkeinRun& run = waiting_for(vendor, "sentosa", {"towers", "--planner", "hover", "--duration", "20"});
-    const std::string domain = std::to_string(uav_domain(run.domains().first, 2));
-    ChildProcess& client = start_program("client-" + vendor, {SKEIN_MINIMAL_CLIENT, vendor},
-                                         {{"SKEIN_DOMAIN", domain}, {"SKEIN_UAV", "sentosa"}});
-    EXPECT_EQ(run.exit_code(), 0) << run.err();
-    EXPECT_EQ(client.wait().code, 0) << client.err();
-    const Json result = run.result();
+    SkeinRun& done = run(vendor, {"towers", "--duration", "20", "--dds", vendor, "--planner", kForeignPlanner});
+    const Json result = done.result();
     EXPECT_EQ(result["status"], "completed");
     EXPECT_TRUE(result["deterministic"]);
     EXPECT_TRUE(result["lost_members"].empty());
     EXPECT_NEAR(result["uavs"][2]["distance_m"].get<double>(), 3.0, 0.5) << "it was heard";
     EXPECT_EQ(result["uavs"][2]["commands_rejected"], 0);
-    digests.insert(run.digest());
+    digests.insert(done.digest());
   }
   EXPECT_EQ(digests.size(), 1u) << "the same run, whatever its vendor";
 }
 
-/// A fleet started by hand, for options that the launcher does not have. It waits 8 s for an answer.
+TEST_F(Clients, ForeignClientIsWatchedLikeTheOthers) {
+  SkeinRun& run = start("run", {"towers", "--duration", "60", "--planner", kForeignPlanner});
+  ASSERT_TRUE(run.wait_until_flying()) << run.err();
+  ::kill(processes_of(run.dir()).at("uav_agent-sentosa"), SIGKILL);
+  EXPECT_EQ(run.exit_code(), 3) << run.err();
+  EXPECT_NE(run.err().find("uav_agent-sentosa failed: "), std::string::npos) << run.err();
+  expect_complete_result(run);
+  EXPECT_EQ(run.result()["status"], "completed");
+  ASSERT_EQ(run.result()["lost_members"].size(), 1u);
+  EXPECT_EQ(run.result()["lost_members"][0]["member"], "sentosa");
+}
+
+/// A fleet started by hand, for options that the launcher does not have. It waits 12 s for an answer.
 class ByHand : public FleetTest {
  protected:
   ByHand() { std::filesystem::create_directories(dir_); }
@@ -152,13 +161,14 @@ class ByHand : public FleetTest {
       if (name == instead_of) {
         const auto index = std::find(kFleet.begin(), kFleet.end(), uav) - kFleet.begin();
         const std::string domain = std::to_string(uav_domain(domains_.base(), static_cast<std::size_t>(index)));
-        fleet_[name] = &start_program(name, client, {{"SKEIN_DOMAIN", domain}, {"SKEIN_UAV", uav}});
+        fleet_[name] =
+            &start_program(name, client, {{"SKEIN_DOMAIN", domain}, {"SKEIN_UAV", uav}, {"SKEIN_DDS", "cyclonedds"}});
         continue;
       }
       Arguments argv = {program(name.substr(0, name.find('-'))), "--scenario", "towers", "--duration", "40", "--domain",
                         base, "--out", dir_};
       if (uav != name) argv.insert(argv.end(), {"--uav", uav, "--planner", "patrol"});
-      if (name == "sim_server") argv.insert(argv.end(), {"--agent-timeout", "8"});
+      if (name == "sim_server") argv.insert(argv.end(), {"--agent-timeout", "12"});
       fleet_[name] = &start_program(name, argv);
     }
   }
@@ -209,7 +219,7 @@ INSTANTIATE_TEST_SUITE_P(Programs, Hanging, testing::Values("uav_agent-changi", 
 class Lying : public ByHand, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Lying, ClientIsDroppedAndTheRunGoesOn) {
-  start_fleet("uav_agent-sentosa", {SKEIN_MINIMAL_CLIENT, "cyclonedds", GetParam()});
+  start_fleet("uav_agent-sentosa", {SKEIN_MINIMAL_CLIENT, GetParam()});
   expect_run_without("uav_agent-sentosa", GetParam() == "boast" ? "did not" : "sent more than it announced");
   EXPECT_EQ(fleet_.at("uav_agent-sentosa")->wait().code, 3);
 }

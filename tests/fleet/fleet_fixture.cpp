@@ -32,6 +32,14 @@ std::string value_of(const std::vector<std::string>& words, const std::string& o
   return "";
 }
 
+/// What `name` is set to; empty when it is not.
+std::string variable(const std::vector<std::string>& variables, const std::string& name) {
+  for (const std::string& entry : variables) {
+    if (entry.starts_with(name + "=")) return entry.substr(name.size() + 1);
+  }
+  return "";
+}
+
 std::set<std::string> shared_memory() {
   std::set<std::string> names;
   std::error_code ignored;
@@ -46,13 +54,13 @@ bool holds_domain(pid_t pid, int domain) {
   const fs::path file = fs::temp_directory_path() / ("skein-domain-" + std::to_string(domain) + ".lock");
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) return false;
-  const std::string inode = ":" + std::to_string(status.st_ino);
+  const std::string inode = std::to_string(status.st_ino);
   std::ifstream locks("/proc/locks");
   for (std::string line; std::getline(locks, line);) {
     std::istringstream in(line);
     std::string number, kind, mode, access, holder, place;
     in >> number >> kind >> mode >> access >> holder >> place;
-    if (holder == std::to_string(pid) && place.ends_with(inode)) return true;
+    if (holder == std::to_string(pid) && place.substr(place.rfind(':') + 1) == inode) return true;  // device:inode
   }
   return false;
 }
@@ -98,9 +106,14 @@ std::map<std::string, pid_t> processes_of(const fs::path& dir) {
     const std::string pid = it->path().filename();
     if (pid.find_first_not_of("0123456789") != std::string::npos) continue;
     const std::vector<std::string> words = split(text_of(it->path() / "cmdline"), '\0');
-    if (words.empty() || value_of(words, "--out") != dir) continue;
-    const std::string uav = value_of(words, "--uav");
-    found[fs::path(words[0]).filename().string() + (uav.empty() ? "" : "-" + uav)] = std::stoi(pid);
+    if (words.empty()) continue;
+    const std::vector<std::string> variables = split(text_of(it->path() / "environ"), '\0');
+    if (value_of(words, "--out") == dir) {
+      const std::string uav = value_of(words, "--uav");
+      found[fs::path(words[0]).filename().string() + (uav.empty() ? "" : "-" + uav)] = std::stoi(pid);
+    } else if (variable(variables, "SKEIN_OUT") == dir) {
+      found["uav_agent-" + variable(variables, "SKEIN_UAV")] = std::stoi(pid);
+    }
   }
   return found;
 }

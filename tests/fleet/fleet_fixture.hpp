@@ -28,7 +28,8 @@ std::string program(const std::string& name);
 /// Every row of a CSV file with a header, by column.
 std::vector<std::map<std::string, std::string>> read_csv(const std::filesystem::path& file);
 
-/// Processes that were started with `--out dir`, by the names that Skein's messages give them.
+/// Processes that were started with `--out dir`, or as a user's command with SKEIN_OUT=dir, by the names that Skein's
+/// messages give them.
 std::map<std::string, pid_t> processes_of(const std::filesystem::path& dir);
 
 /// True once the server has written some simulated seconds of trajectories: it writes them in blocks.

@@ -1,8 +1,8 @@
 // The smallest program that takes part in the lock-step, written from docs/lockstep.md alone: it shares no lock-step
 // code with Skein, only the messages and the bus. It flies its UAV 3 m up and stays there.
-//   SKEIN_DOMAIN=N SKEIN_UAV=NAME minimal_client VENDOR [boast|smuggle]
-// Exit code 0 after the last step, 3 when the server dropped it. To see what becomes of a broken client: from a certain
-// step on, "boast" announces a command more than it sends, "smuggle" one less.
+//   skein run --planner hover,UAV=exec:minimal_client    (the launcher sets SKEIN_DOMAIN, SKEIN_UAV, SKEIN_DDS)
+// Exit code 0 after the last step, 3 when the server dropped it. To see what becomes of a broken client: with an argument
+// it lies from a certain step on; "boast" announces a command more than it sends, "smuggle" one less.
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
@@ -220,12 +220,12 @@ class Client {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const char *domain = std::getenv("SKEIN_DOMAIN"), *uav = std::getenv("SKEIN_UAV");
-  if (argc < 2 || domain == nullptr || uav == nullptr) {
-    std::cerr << "usage: SKEIN_DOMAIN=N SKEIN_UAV=NAME minimal_client VENDOR [boast|smuggle]\n";
+  const char *domain = std::getenv("SKEIN_DOMAIN"), *uav = std::getenv("SKEIN_UAV"), *vendor = std::getenv("SKEIN_DDS");
+  if (domain == nullptr || uav == nullptr || vendor == nullptr) {
+    std::cerr << "usage: SKEIN_DOMAIN=N SKEIN_UAV=NAME SKEIN_DDS=VENDOR minimal_client [boast|smuggle]\n";
     return 2;
   }
-  const auto bus = skein::bus::make_bus({.vendor = argv[1]});
+  const auto bus = skein::bus::make_bus({.vendor = vendor});
   const auto participant = bus->join(std::atoi(domain));
-  return Client(*participant, uav, argc > 2 ? argv[2] : "").run();
+  return Client(*participant, uav, argc > 1 ? argv[1] : "").run();
 }

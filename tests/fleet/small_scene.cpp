@@ -1,6 +1,7 @@
 #include "small_scene.hpp"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <sstream>
@@ -14,9 +15,11 @@ template <class Numbers>
 std::string list_of(const Numbers& numbers) {
   std::ostringstream text;
   for (const double value : numbers) {
-    text << (text.tellp() > 0 ? ", " : "") << value << (value == static_cast<long>(value) ? ".0" : "");
+    const bool whole = value == std::trunc(value);
+    text << (text.tellp() > 0 ? ", " : "[") << value << (whole ? ".0" : "");
   }
-  return "[" + text.str() + "]";
+  text << ']';
+  return text.str();
 }
 
 /// Twelve triangles a block, ASCII.

@@ -34,6 +34,12 @@ constexpr double kNoBoxesHeightM = 3.0;
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the side, by round [rad]
 constexpr int kMaxFailures = 3;
 constexpr double kMinClearanceM = 1.8;      ///< of the UAV's centre: the map's cells are coarse, however small the UAV is
+constexpr int kMaxClimbs = 20;
+/// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere; in the end it takes
+/// the low space outside all boxes to be free.
+constexpr int kRays[] = {8, 4, 2, 2};
+constexpr double kTrailStepM = 1.0, kRetreatM = 10.0;
+constexpr std::size_t kTrailCount = 100;
 constexpr double kDetourAgainS = 20.0;
 constexpr double kWatchM = 0.5, kWatchS = 12.0;  ///< no further than this for so long: something is wrong
 
@@ -85,13 +91,13 @@ class PatrolPlanner final : public Planner {
 
   PlannerOutput plan(const PlannerInput& in) override {
     PlannerOutput out;
-    if (getenv("DBG") && in.k % 100 == 0) { auto& p = in.tracking.setpoint.p_WB; const FreeSpace sp = free_space(in); fprintf(stderr, "t%.0f uav%zu phase%d paused%d round%d todo%zu cur%zu s%.1f path%zu leg%zu done%d fail%d p %.1f %.1f %.1f v%.1f free%d dist%.2f flown%d link%d und%zu\n", seconds(in.tick), agent_.self, (int)phase_, paused_, round_, to_do_.size(), current_, strip_s_, path_.waypoints.size(), in.tracking.leg, in.tracking.done, failures_, p.x(), p.y(), p.z(), in.tracking.setpoint.v_WB.norm(), sp.free(p), in.map.distance_to_occupied(p, 5).value_or(9), flown_any_, in.station_linked, in.undelivered_captures); }
     if (!in.boxes.empty() && !shared_) share_work(in);
     if (phase_ == Phase::ground) {
       if (separation_.may_lift_off(in.tick, in.peers)) lift_off(in, out);
       return out;
     }
     const FreeSpace space = free_space(in);
+    leave_trail(in);
     if (in.undelivered_captures == 0) delivered_at_ = in.tick;
     if (phase_ != Phase::deliver && must_deliver(in)) {
       begin_delivery(in, space, out);
@@ -117,8 +123,11 @@ class PatrolPlanner final : public Planner {
   bool goes_around(const std::vector<Waypoint>& rest, const PlannerInput& in, PlannerOutput& out);
   bool stops_for_obstacle(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out);
   bool stands_still(const PlannerInput& in);
+  void leave_trail(const PlannerInput& in);
+  bool retreat(PlannerOutput& out);
   void give_up(const PlannerInput& in, PlannerOutput& out);
   void carry_on(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out);
+  void finish_climb(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out);
   void begin_survey(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out);
   void next_strip(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out);
   void approach(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out);
@@ -151,16 +160,20 @@ class PatrolPlanner final : public Planner {
   std::deque<std::size_t> to_do_;      ///< of this round: indices into tour_
   int round_ = -1;
   bool flown_any_ = true;              ///< in this round
+  std::size_t boldness_ = 0;           ///< index into kRays
   std::size_t current_ = 0;            ///< index into tour_
   double strip_s_ = 0.0;               ///< where on the strip the present run begins
   Tick refit_at_ = 0, idle_until_ = 0;
   int failures_ = 0;
+  Vector3d climb_to_ = Vector3d::Zero();
+  std::deque<Vector3d> trail_;         ///< where it was, a metre apart
   std::optional<Tick> detour_at_;      ///< when it last went around somebody
   Vector3d watched_p_W_ = Vector3d::Zero();
   Tick watched_since_ = 0;
 
   std::vector<Vector3d> places_;       ///< for delivery
   std::size_t place_ = 0;
+  bool heading_home_ = false;
   Tick delivered_at_ = 0;
   std::optional<Tick> unlinked_since_;
 };
@@ -169,7 +182,8 @@ FreeSpace::Config PatrolPlanner::space_config() const {
   FreeSpace::Config config;
   config.clearance_m = std::max(kMinClearanceM, agent_.me().body_radius_m + config_.clearance_m);
   config.use_map = config_.use_map;
-  config.blind_height_m = blind_height_m_;
+  config.rays = kRays[boldness_];
+  config.blind_height_m = boldness_ + 1 < std::size(kRays) ? blind_height_m_ : 0.0;
   return config;
 }
 
@@ -250,11 +264,12 @@ void PatrolPlanner::lift_off(const PlannerInput& in, PlannerOutput& out) {
     const double bottom = box.center.z() - half.z();
     const double below = bottom - agent_.me().body_radius_m - config_.clearance_m;
     const bool under = box.contains(Vector3d(p.x(), p.y(), box.center.z()), 1.0) && bottom > p.z();
-    if (under) height = std::min(height, std::max(below, p.z() + 1.0));
+    if (under) height = std::min(height, std::max(below, p.z() + kNoBoxesHeightM));
   }
   phase_ = Phase::climb;
   delivered_at_ = in.tick;
-  follow(Path{{{Vector3d(p.x(), p.y(), std::max(height, p.z())), config_.climb_mps}}}, out);
+  climb_to_ = Vector3d(p.x(), p.y(), std::max(height, p.z()));
+  follow(Path{{{climb_to_, config_.climb_mps}}}, out);
   out.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
 }
 
@@ -287,7 +302,7 @@ bool PatrolPlanner::gives_way(const PlannerInput& in, PlannerOutput& out) {
       // One detour is worth a try. If it led to nothing, the other UAV has work here: something else first.
       const bool again = detour_at_ && seconds(in.tick - *detour_at_) < kDetourAgainS;
       detour_at_ = in.tick;
-      if (again || !goes_around(rest, in, out)) give_up(in, out);
+      if (phase_ == Phase::climb || again || !goes_around(rest, in, out)) give_up(in, out);
       return true;
     }
   }
@@ -317,6 +332,13 @@ void PatrolPlanner::give_up(const PlannerInput& in, PlannerOutput& out) {
     path_.waypoints.clear();
     paused_ = false;
     out.motion = Hold{};
+    return;
+  }
+  if (phase_ == Phase::climb) {
+    path_.waypoints.clear();
+    paused_ = false;
+    out.motion = Hold{};
+    idle_until_ = in.tick + ticks(kRetryS);
     return;
   }
   if (phase_ == Phase::transit || phase_ == Phase::strip) to_do_.push_back(current_);
@@ -350,7 +372,7 @@ bool PatrolPlanner::stops_for_obstacle(const PlannerInput& in, const FreeSpace& 
   if (clear) return false;
   out.motion = Hold{};
   path_.waypoints.clear();
-  if (phase_ == Phase::deliver) {
+  if (phase_ == Phase::deliver || phase_ == Phase::climb) {
     idle_until_ = in.tick + ticks(kRetryS);
   } else if (phase_ == Phase::strip) {
     strip_s_ += standoff_config().step_m * static_cast<double>(in.tracking.leg);
@@ -359,6 +381,29 @@ bool PatrolPlanner::stops_for_obstacle(const PlannerInput& in, const FreeSpace& 
     if (phase_ == Phase::transit && ++failures_ <= kMaxFailures) to_do_.push_front(current_);
     idle(in.tick, out);
   }
+  return true;
+}
+
+/// Remembers where it was: what was free once is free now.
+void PatrolPlanner::leave_trail(const PlannerInput& in) {
+  const Vector3d here = in.tracking.setpoint.p_WB;
+  if (!trail_.empty() && (trail_.back() - here).norm() < kTrailStepM) return;
+  trail_.push_back(here);
+  if (trail_.size() > kTrailCount) trail_.pop_front();
+}
+
+/// Some metres back the way it came, out of a corner where no path begins.
+bool PatrolPlanner::retreat(PlannerOutput& out) {
+  Path path;
+  double length = 0.0;
+  while (trail_.size() > 1 && length < kRetreatM) {
+    const Vector3d from = trail_.back();
+    trail_.pop_back();
+    length += (trail_.back() - from).norm();
+    path.waypoints.push_back({trail_.back(), config_.survey_mps});
+  }
+  if (path.waypoints.empty()) return false;
+  follow(std::move(path), out);
   return true;
 }
 
@@ -388,9 +433,7 @@ bool PatrolPlanner::fly_to(const Vector3d& goal, const PlannerInput& in, Planner
 void PatrolPlanner::carry_on(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out) {
   switch (phase_) {
     case Phase::climb:
-      if (!in.tracking.done) return;
-      if (!shared_) return;  // stays where it is until it knows the boxes
-      begin_survey(in, space, out);
+      if (in.tracking.done) finish_climb(in, space, out);
       return;
     case Phase::survey:
       if (in.tracking.done) idle(in.tick, out);
@@ -410,10 +453,24 @@ void PatrolPlanner::carry_on(const PlannerInput& in, const FreeSpace& space, Pla
       deliver(in, out);
       return;
     case Phase::idle:
-      if (in.tick >= idle_until_) next_strip(in, space, out);
+      if (in.tick >= idle_until_ && in.tracking.done) next_strip(in, space, out);
       return;
     case Phase::ground:
       return;
+  }
+}
+
+/// At the top: on to work. Stopped on the way: tries again for a while.
+void PatrolPlanner::finish_climb(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out) {
+  const bool short_of_top = (climb_to_ - in.tracking.setpoint.p_WB).norm() > 0.5;
+  if (short_of_top && failures_ < kMaxClimbs) {
+    if (in.tick < idle_until_) return;
+    ++failures_;
+    follow(Path{{{climb_to_, config_.climb_mps}}}, out);
+  } else if (shared_) {  // else it stays where it is until it knows the boxes
+    failures_ = 0;
+    trail_.clear();  // it leads down to the ground
+    begin_survey(in, space, out);
   }
 }
 
@@ -438,7 +495,9 @@ void PatrolPlanner::next_strip(const PlannerInput& in, const FreeSpace& space, P
   if (to_do_.empty()) {
     if (!flown_any_ || tour_.empty()) {
       flown_any_ = true;
+      boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
       idle(in.tick + ticks(kRestS), out);
+      if (!tour_.empty()) retreat(out);
       return;
     }
     // The next round begins where the last one ended.
@@ -492,6 +551,7 @@ void PatrolPlanner::fly_strip(const PlannerInput& in, const FreeSpace& space, Pl
     return;
   }
   flown_any_ = true;
+  boldness_ = 0;
   phase_ = Phase::strip;
   refit_at_ = in.tick + ticks(kRefitS);
   follow(Path{runs.front().waypoints}, out);
@@ -564,8 +624,8 @@ void PatrolPlanner::deliver(const PlannerInput& in, PlannerOutput& out) {
     unlinked_since_.reset();
     return;
   }
-  const bool there = path_.waypoints.size() > 0 && in.tracking.done;
-  if (there) {
+  if (!path_.waypoints.empty() && in.tracking.done && !heading_home_) path_.waypoints.clear();  // after a retreat
+  if (!path_.waypoints.empty() && in.tracking.done) {
     if (!unlinked_since_) unlinked_since_ = in.tick;
     if (seconds(in.tick - *unlinked_since_) < kLinkPatienceS) return;
     unlinked_since_.reset();
@@ -574,7 +634,10 @@ void PatrolPlanner::deliver(const PlannerInput& in, PlannerOutput& out) {
   }
   if (path_.waypoints.empty() && in.tick >= idle_until_) {
     idle_until_ = in.tick + ticks(kRetryS);
-    if (!fly_to(home(), in, out)) place_ = (place_ + 1) % (places_.size() + 1);
+    heading_home_ = fly_to(home(), in, out);
+    if (heading_home_) return;
+    place_ = (place_ + 1) % (places_.size() + 1);
+    if (++failures_ % kMaxFailures == 0) retreat(out);
   }
 }
 
