@@ -1,5 +1,7 @@
 #include "tests/protocol/fleet_model.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include "bus/lockstep/client.hpp"
 #include "bus/lockstep/names.hpp"
 #include "bus/lockstep/server.hpp"
@@ -102,7 +104,7 @@ class ServerProcess final : public Process {
     }
     for (std::size_t i = 0; i < sensors_.size(); ++i) {
       for (std::uint64_t n = 0; n < (k_ + i) % 3; ++n) {
-        sensors_[i]->write(text_message("s" + std::to_string(k_) + "." + std::to_string(n)));
+        sensors_[i]->write(text_message(fmt::format("s{}.{}", k_, n)));
       }
     }
     server_.publish({.k = k_,

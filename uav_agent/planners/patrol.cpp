@@ -27,7 +27,8 @@ constexpr int kLookAheadCount = 13;
 constexpr double kStopSlackM = 0.4;         ///< the safety stop is this much less careful than planning
 constexpr double kRefitS = 2.0;             ///< between two looks at the map while on a strip
 constexpr double kRetryS = 1.0;             ///< after nothing could be done
-constexpr double kRestS = 5.0;              ///< after a round in which no strip could be flown
+constexpr double kRestS = 3.0;              ///< after a round in which no strip could be flown
+constexpr double kLookAroundTurn = 0.8;     ///< meanwhile [rad]
 constexpr double kLayerM = 2.0;             ///< between the heights to which two UAVs climb
 constexpr double kLinkPatienceS = 4.0;      ///< at a delivery place without a link
 constexpr double kNoBoxesHeightM = 3.0;
@@ -498,6 +499,8 @@ void PatrolPlanner::next_strip(const PlannerInput& in, const FreeSpace& space, P
       boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
       idle(in.tick + ticks(kRestS), out);
       if (!tour_.empty()) retreat(out);
+      // A LiDAR that has turned makes a new key frame.
+      out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
       return;
     }
     // The next round begins where the last one ended.
