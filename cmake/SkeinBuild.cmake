@@ -28,6 +28,8 @@ add_compile_options(-Wall -Wextra -Wshadow -Wno-psabi -Wno-restrict -ffp-contrac
 if(SKEIN_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -O1 -g1)
   add_link_options(-fsanitize=address,undefined)
+  # Debian's libpcl frees with plain free() what Eigen allocates here; without this it would not be the same allocator.
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
 # skein_add_library(NAME [OBJECT] SOURCES ... PUBLIC libs... PRIVATE libs...)
@@ -67,6 +69,9 @@ function(skein_add_test name)
   add_test(NAME ${name} COMMAND ${name})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
+  endif()
+  if(SKEIN_SANITIZE)
+    math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")
   endif()
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)

@@ -125,6 +125,8 @@ struct Scenario {
 
   /// Index in fleet order. @throws InputError when no UAV has this name; the message lists the names.
   std::size_t uav_index(const std::string& uav_name) const;
+  /// Names in fleet order.
+  std::vector<std::string> uav_names() const;
   /// Name of a radio node: "gcs" or the UAV's.
   const std::string& node_name(Node node) const;
   /// Exchange period in physics ticks.

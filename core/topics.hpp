@@ -122,7 +122,7 @@ inline constexpr TopicInfo kCloud{
 inline constexpr TopicInfo kSelfKeyframe{
     "/{id}/slf_kf_cloud", "sensor_msgs/msg/PointCloud2", Direction::to_agent, kCloudDepth, "on keyframe", false, true,
     &kScanLayout};
-// Every neighbour may deliver its key frame in the same round.
+// Every neighbour may deliver its key frame in the same round; intensity = its node number.
 inline constexpr TopicInfo kNeighbourKeyframe{"/{id}/nbr_kf_cloud",
                                               "sensor_msgs/msg/PointCloud2",
                                               Direction::to_agent,

@@ -231,11 +231,11 @@ msg::PointCloud2 to_cloud(Tick tick, std::span<const ScanPoint> points) { return
 msg::PointCloud2 to_cloud(Tick tick, std::span<const NeighbourPoint> points) { return pack(tick, points); }
 msg::PointCloud2 to_cloud(Tick tick, std::span<const DetectionPoint> points) { return pack(tick, points); }
 
-msg::PointCloud2 to_cloud(Tick tick, std::span<const Eigen::Vector3f> points) {
+msg::PointCloud2 to_cloud(Tick tick, std::span<const Eigen::Vector3f> points, float intensity) {
   msg::PointCloud2 cloud = make_cloud<ScanPoint>(tick, points.size());
   std::uint8_t* out = cloud.data().data();
   for (const Eigen::Vector3f& p : points) {
-    const ScanPoint point{p.x(), p.y(), p.z(), 0.0F};
+    const ScanPoint point{p.x(), p.y(), p.z(), intensity};
     std::memcpy(out, &point, sizeof point);
     out += sizeof point;
   }

@@ -63,7 +63,8 @@ struct DetectionPoint {
 };
 
 msg::PointCloud2 to_cloud(Tick tick, std::span<const ScanPoint> points);
-msg::PointCloud2 to_cloud(Tick tick, std::span<const Eigen::Vector3f> points);  ///< a scan without intensities
+/// A scan whose points all have one intensity: a neighbour's key frame carries its node number there.
+msg::PointCloud2 to_cloud(Tick tick, std::span<const Eigen::Vector3f> points, float intensity = 0.0F);
 msg::PointCloud2 to_cloud(Tick tick, std::span<const NeighbourPoint> points);
 msg::PointCloud2 to_cloud(Tick tick, std::span<const DetectionPoint> points);
 /// Empty when the cloud's layout is not that of Point.

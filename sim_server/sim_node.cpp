@@ -24,12 +24,6 @@ double elapsed_s(std::chrono::steady_clock::time_point since) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
 }
 
-std::vector<std::string> names_of(const Scenario& scenario) {
-  std::vector<std::string> names;
-  for (const UavConfig& uav : scenario.fleet) names.push_back(uav.name);
-  return names;
-}
-
 }  // namespace
 
 SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& options, bus::Bus& bus,
@@ -37,7 +31,7 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
     : scenario_(scenario),
       options_(options),
       status_(status),
-      uav_names_(names_of(scenario)),
+      uav_names_(scenario.uav_names()),
       simulation_(scenario, std::move(scene), options.seed),
       digest_(uav_names_),
       files_(options.out, scenario, digest_),

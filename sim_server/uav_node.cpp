@@ -46,6 +46,7 @@ UavNode::UavNode(std::size_t uav, const Scenario& scenario, Simulation& simulati
       scenario_(scenario),
       simulation_(simulation),
       id_(scenario.fleet[uav].name),
+      fleet_(scenario.uav_names()),
       odometry_(server.writer(domain, bus::spec(topics::odometry(id_)))),
       gimbal_(server.writer(domain, bus::spec(topics::gimbal(id_)))),
       neighbour_odometry_(server.writer(domain, bus::spec(topics::neighbour_odometry(id_)))),
@@ -56,7 +57,6 @@ UavNode::UavNode(std::size_t uav, const Scenario& scenario, Simulation& simulati
       boxes_(server.writer(domain, bus::spec(topics::bounding_boxes()))),
       rejected_(server.writer(domain, bus::spec(topics::command_rejected(id_)))),
       capture_(server.writer(domain, bus::spec(topics::capture()))) {
-  for (const UavConfig& member : scenario.fleet) fleet_.push_back(member.name);
   if (scenario.fleet[uav].vehicle.lidar) {
     cloud_ = &server.writer(domain, bus::spec(topics::cloud(id_)));
     self_keyframe_ = &server.writer(domain, bus::spec(topics::self_keyframe(id_)));
@@ -120,7 +120,10 @@ void UavNode::publish_clouds() {
   for (const KeyFrameEvent& frame : simulation_.events().key_frames) {
     if (frame.uav == uav_ && self_keyframe_) send(*self_keyframe_, [&] { return to_cloud(frame.key_frame.tick, frame.key_frame.points_W); });
     const bool neighbour = std::find(frame.neighbours.begin(), frame.neighbours.end(), uav_) != frame.neighbours.end();
-    if (neighbour) send(neighbour_keyframe_, [&] { return to_cloud(frame.key_frame.tick, frame.key_frame.points_W); });
+    if (neighbour) {
+      const auto source = static_cast<float>(node_of_uav(frame.uav));
+      send(neighbour_keyframe_, [&] { return to_cloud(frame.key_frame.tick, frame.key_frame.points_W, source); });
+    }
   }
 }
 

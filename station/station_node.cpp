@@ -17,12 +17,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kStatusPeriod{200};
 
-std::vector<std::string> names_of(const Scenario& scenario) {
-  std::vector<std::string> names;
-  for (const UavConfig& uav : scenario.fleet) names.push_back(uav.name);
-  return names;
-}
-
 }  // namespace
 
 StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
@@ -30,7 +24,7 @@ StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bu
     : scenario_(scenario),
       out_(out),
       status_(status),
-      uavs_(names_of(scenario)),
+      uavs_(scenario.uav_names()),
       journal_(out / "station.journal"),
       world_(bus.join(world_domain(base_domain))),
       gcs_(bus.join(gcs_domain(base_domain))),

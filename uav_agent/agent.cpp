@@ -11,9 +11,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAccelerationShare = 0.7;   ///< of the vehicle's limit; the rest is for the controller to correct with
-constexpr double kBodyMarginM = 0.3;         ///< around a known body
-constexpr double kScanAgeS = 0.1;            ///< a scan is at most this much older than the positions that go with it
+constexpr double kAccelerationShare = 0.7;  ///< of the vehicle's limit; the controller corrects with the rest
+constexpr double kBodyMarginM = 0.3;        ///< around a known body
+constexpr double kScanAgeS = 0.1;           ///< a scan is at most this much older than the positions with it
 
 Tracker::Config tracker_config(const VehicleConfig& vehicle) {
   Tracker::Config config;
@@ -65,7 +65,8 @@ std::vector<KnownBody> Agent::Impl::known_bodies(const AgentInput& input) const 
   std::vector<KnownBody> bodies = {body(input.state.p_WB, input.state.v_WB, config.me().body_radius_m)};
   for (const Peer& peer : peers.all()) {
     // One that was never seen still stands where it was put.
-    if (peer.visible || !peer.seen) bodies.push_back(body(peer.p_W, peer.v_W, config.fleet[peer.uav].body_radius_m));
+    if (!peer.visible && peer.seen) continue;
+    bodies.push_back(body(peer.p_W, peer.v_W, config.fleet[peer.uav].body_radius_m));
   }
   return bodies;
 }

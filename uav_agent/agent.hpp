@@ -24,7 +24,7 @@ struct AgentInput {
   std::vector<Neighbour> neighbours;          ///< in line of sight now
   std::vector<KeyFrame> key_frames;           ///< in order: own first, then neighbours'
   std::vector<DetectedPoint> detected;
-  std::vector<CaptureReport> capture_reports; ///< from the camera; after a restart it repeats all unacknowledged ones
+  std::vector<CaptureReport> capture_reports; ///< from the camera; it may repeat unacknowledged ones
   std::vector<std::uint64_t> capture_acks;    ///< capture numbers that the station has journalled
   std::vector<RadioMessage> radio;            ///< from other planners
 };

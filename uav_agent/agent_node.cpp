@@ -63,18 +63,19 @@ void AgentNode::read_sensors() {
           {static_cast<Node>(p.node), Vector3d(p.x, p.y, p.z), Vector3d(q_WB * Vector3d(p.vx, p.vy, p.vz))});
     }
   });
-  const auto add_key_frame = [this](const msg::PointCloud2& m, std::optional<Vector3d> p_WS) {
-    KeyFrame frame;
-    frame.p_WS = p_WS;
-    for (const ScanPoint& p : from_cloud<ScanPoint>(m)) frame.points_W.emplace_back(p.x, p.y, p.z);
-    input_.key_frames.push_back(std::move(frame));
+  const auto read_key_frames = [this](const topics::WireTopic& topic, std::optional<Node> source) {
+    read<msg::PointCloud2>(topic, Counterpart::server, [this, source](const auto& m) {
+      KeyFrame frame;
+      frame.source = source;
+      for (const ScanPoint& p : from_cloud<ScanPoint>(m)) {
+        frame.points_W.emplace_back(p.x, p.y, p.z);
+        if (!source) frame.source = static_cast<Node>(p.intensity);
+      }
+      input_.key_frames.push_back(std::move(frame));
+    });
   };
-  if (scenario_.fleet[node_ - 1].vehicle.lidar) {
-    read<msg::PointCloud2>(topics::self_keyframe(id_), Counterpart::server,
-                           [this, add_key_frame](const auto& m) { add_key_frame(m, input_.state.p_WB); });
-  }
-  read<msg::PointCloud2>(topics::neighbour_keyframe(id_), Counterpart::server,
-                         [add_key_frame](const auto& m) { add_key_frame(m, std::nullopt); });
+  if (scenario_.fleet[node_ - 1].vehicle.lidar) read_key_frames(topics::self_keyframe(id_), node_);
+  read_key_frames(topics::neighbour_keyframe(id_), std::nullopt);
   read<msg::PointCloud2>(topics::detected_points(id_), Counterpart::server, [this](const auto& m) {
     for (const DetectionPoint& p : from_cloud<DetectionPoint>(m)) {
       input_.detected.push_back({{p.x, p.y, p.z}, p.score, static_cast<std::uint32_t>(p.index)});

@@ -13,6 +13,10 @@ constexpr double kLayerM = 3.0;          ///< between the heights of two UAVs
 constexpr double kSightRadiusM = 0.8;    ///< of the tube that must be clear of mapped cells
 constexpr double kStationM = 3.0;        ///< the station's own surroundings are mapped: they do not count
 constexpr int kDirections = 12;
+constexpr double kAboveAllM = 6.0;       ///< where no place is known
+constexpr double kRetryS = 1.0;          ///< after no way was found
+constexpr double kLinkPatienceS = 4.0;   ///< at a place without a link
+constexpr int kFailuresToRetreat = 3;
 constexpr double kOutwards[] = {4.0, 8.0, 14.0, 22.0, 32.0};
 
 }  // namespace
@@ -46,6 +50,67 @@ std::vector<Vector3d> delivery_places(const AgentConfig& agent, const FreeSpace&
 
 double time_home_s(const Vector3d& from_W, const Vector3d& place_W, double speed_mps) {
   return kDetour * (place_W - from_W).norm() / speed_mps + kFixedS;
+}
+
+Vector3d Delivery::home() const {
+  if (place_ < places_.size()) return places_[place_];
+  const double height = top_m_ + kAboveAllM + kLayerM * static_cast<double>(agent_.self);
+  return {agent_.station_position.x(), agent_.station_position.y(), height};
+}
+
+void Delivery::update(const PlannerInput& in, double top_m) {
+  top_m_ = top_m;
+  if (!delivered_at_ || in.undelivered_captures == 0) delivered_at_ = in.tick;
+}
+
+bool Delivery::due(const PlannerInput& in) const {
+  if (!in.mission_remaining_s || !delivered_at_) return false;
+  const double way_s = time_home_s(in.state.p_WB, home(), config_.speed_mps);
+  if (*in.mission_remaining_s < way_s + config_.margin_s) return true;
+  return in.undelivered_captures > 0 && seconds(in.tick - *delivered_at_) > config_.every_s;
+}
+
+void Delivery::begin(const PlannerInput& in, const FreeSpace::Config& space, double lowest_m, PlannerOutput& out) {
+  places_ = delivery_places(agent_, FreeSpace(space, in.boxes, in.map), lowest_m);
+  place_ = 0;
+  failures_ = 0;
+  unlinked_since_.reset();
+  next_try_ = in.tick;
+  pilot_.stop(out);
+  step(in, space, out);
+}
+
+bool Delivery::step(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
+  const bool all_delivered = in.station_linked && in.undelivered_captures == 0;
+  const double way_s = time_home_s(in.state.p_WB, home(), config_.speed_mps);
+  const bool last_time = in.mission_remaining_s && *in.mission_remaining_s < 2.0 * (way_s + config_.margin_s);
+  if (all_delivered && !last_time) return true;
+  if (all_delivered || (in.station_linked && in.tracking.done)) {
+    unlinked_since_.reset();
+    return false;
+  }
+  if (pilot_.arrived(in) && !heading_home_) pilot_.stop(out);  // after a retreat
+  if (pilot_.arrived(in)) {
+    if (!unlinked_since_) unlinked_since_ = in.tick;
+    if (seconds(in.tick - *unlinked_since_) < kLinkPatienceS) return false;
+    unlinked_since_.reset();
+    next_place();
+    pilot_.stop(out);
+  }
+  if (pilot_.has_path() || in.tick < next_try_) return false;
+  next_try_ = in.tick + ticks(kRetryS);
+  heading_home_ = pilot_.fly_to(home(), in, space, out);
+  if (heading_home_) return false;
+  next_place();
+  if (++failures_ % kFailuresToRetreat == 0) pilot_.retreat(out);
+  return false;
+}
+
+void Delivery::try_again(const PlannerInput& in) { next_try_ = in.tick + ticks(kRetryS); }
+
+void Delivery::try_elsewhere(const PlannerInput& in) {
+  next_place();
+  try_again(in);
 }
 
 }  // namespace skein::agent

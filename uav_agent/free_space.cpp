@@ -27,7 +27,8 @@ bool FreeSpace::allowed(const Vector3d& p_W) const {
   }
   if (!must_be_seen(p_W)) return true;
   if (!config_.use_map || !map_.known_free(p_W, config_.rays)) return false;
-  // A few rays through a coarse cell do not prove that all of it is free: what lies around must have been seen, too.
+  // A few rays through a coarse cell do not prove that all of it is free: what lies around must have been
+  // seen, too.
   for (int i = 0; i < 6; ++i) {
     const Vector3d q = p_W + (i % 2 == 0 ? kSeenAroundM : -kSeenAroundM) * Vector3d::Unit(i / 2);
     if (must_be_seen(q) && !map_.known_free(q, config_.rays)) return false;

@@ -1,5 +1,5 @@
-// Where this UAV may fly, as far as it knows: not into mapped structure, not into a box whose inside it has not seen, not
-// into the low unknown between the boxes (podiums and trees are in no box), not into another UAV.
+// Where this UAV may fly, as far as it knows: not into mapped structure, not into a box whose inside it has
+// not seen, not into the low unknown between the boxes (podiums and trees are in no box), not into another UAV.
 // Frame W.   Units: metres.   Pure; threads: any, as long as the map does not change.
 #pragma once
 
@@ -22,8 +22,8 @@ class FreeSpace {
     double floor_m = 2.0;
     double blind_height_m = 0.0;    ///< below, only space that was seen to be free may be entered
     int rays = 8;                   ///< that must have passed a place where only what was seen may be entered
-    /// If not empty, boxes may only be entered this near to one of these places, however much was seen of their inside:
-    /// a way from here to there does not lead through a building.
+    /// If not empty, boxes may only be entered this near to one of these places, however much was seen of
+    /// their inside: a way from here to there does not lead through a building.
     std::vector<Vector3d> enter_near_W = {};
     double enter_radius_m = 9.0;
     bool use_map = true;
@@ -37,7 +37,8 @@ class FreeSpace {
   bool free(const Vector3d& p_W) const;
   /// Every point of the segment is free.
   bool segment_free(const Vector3d& a_W, const Vector3d& b_W) const;
-  /// Line of sight as far as map and boxes tell: no mapped cell within `radius` of the segment, no unknown box on it.
+  /// Line of sight as far as map and boxes tell: no mapped cell within `radius` of the segment, no unknown box
+  /// on it.
   bool sees(const Vector3d& a_W, const Vector3d& b_W, double radius) const;
 
   const Config& config() const { return config_; }

@@ -1,5 +1,5 @@
-// Cleans a LiDAR key frame before it enters the map: other UAVs' bodies, lone and absurd points are taken out, and what
-// remains is thinned to one point a voxel. Frame W.   Units: metres.   Pure: same cloud, same result.
+// Cleans a LiDAR key frame before it enters the map: other UAVs' bodies, lone and absurd points are taken out,
+// and what remains is thinned to one point a voxel. Frame W.   Units: metres.   Pure: same cloud, same result.
 #pragma once
 
 #include <vector>

@@ -31,7 +31,8 @@ TEST(KeyframeFilter, ThinsOutButLeavesNoHole) {
 TEST(KeyframeFilter, TakesBodiesOutAndNothingElse) {
   auto cloud = wall_at(3.0F);
   const KnownBody body{{2.0, 5.0, 6.5}, 0.9};
-  for (float a = 0.0F; a < 6.2F; a += 0.3F) cloud.emplace_back(2.0F + 0.6F * std::cos(a), 5.0F + 0.6F * std::sin(a), 6.5F);
+  for (float a = 0.0F; a < 6.2F; a += 0.3F)
+    cloud.emplace_back(2.0F + 0.6F * std::cos(a), 5.0F + 0.6F * std::sin(a), 6.5F);
   const auto kept = KeyframeFilter()(cloud, {body});
   for (const auto& p : kept) EXPECT_GT((p.cast<double>() - body.p_W).norm(), 0.9);
   EXPECT_LT(nearest(kept, {3.0, 5.0, 6.5}), 0.3) << "the wall behind the body stays";

@@ -18,8 +18,9 @@ struct Neighbour {
   std::optional<Vector3d> v_W = {};  ///< if it is known; else Peers takes it from successive positions
 };
 
-/// One LiDAR key frame, this UAV's own or a linked neighbour's. Free space is marked only if it can be told where the
-/// sensor stood: from `source` and the positions of this step, else from `p_WS`, else if only one linked UAV has a LiDAR.
+/// One LiDAR key frame, this UAV's own or a linked neighbour's. Free space is marked only if it can be told
+/// where the sensor stood: from `source` and the positions of this step, else from `p_WS`, else if only one
+/// linked UAV has a LiDAR.
 struct KeyFrame {
   std::vector<Eigen::Vector3f> points_W = {};  ///< hits
   std::optional<Vector3d> p_WS = {};           ///< the sensor's position, if the message tells

@@ -93,7 +93,8 @@ octomap::point3d to_octomap(const Vector3d& p) {
 }  // namespace
 
 struct OccupancyMap::Impl {
-  explicit Impl(const Config& c) : config(c), hits(c.resolution_m), free(c.free_resolution_m), cells(c.resolution_m) {
+  explicit Impl(const Config& c)
+      : config(c), hits(c.resolution_m), free(c.free_resolution_m), cells(c.resolution_m) {
     free.setClampingThresMin(octomap::probability(kMissPerRay * kCountedRays));
   }
 

@@ -24,8 +24,8 @@ std::uint64_t key_of(const Cell& c) {
 
 class Search {
  public:
-  Search(const FreeSpace& space, const std::vector<OrientedBox>& structure, const Vector3d& from, const Vector3d& to,
-         const PathSearchConfig& config)
+  Search(const FreeSpace& space, const std::vector<OrientedBox>& structure, const Vector3d& from,
+         const Vector3d& to, const PathSearchConfig& config)
       : space_(space), from_(from), to_(to), config_(config), lo_(from.cwiseMin(to)), hi_(from.cwiseMax(to)) {
     for (const OrientedBox& box : structure) {
       const Vector3d half = box.R_WO.cwiseAbs() * (0.5 * box.size);
@@ -75,8 +75,8 @@ class Search {
     return (p.array() >= lo_.array()).all() && (p.array() <= hi_.array()).all() && space_.free(p);
   }
 
-  /// The cell to begin with: the nearest one that can be reached on a straight line, for a start that is not free itself
-  /// one that is free.
+  /// The cell to begin with: the nearest one that can be reached on a straight line, for a start that is not
+  /// free itself one that is free.
   std::optional<Cell> start_cell() const {
     const Cell own = (from_ / config_.cell_m).array().floor().matrix().cast<int>();
     const bool start_is_free = space_.free(from_);

@@ -16,8 +16,9 @@ struct PathSearchConfig {
 };
 
 /// @param structure  boxes that the search may have to go around.
-/// @returns corners from the first after `from_W` up to `to_W`, or nullopt if there is no path or none was found in time.
-///          A start that is not free itself (something new was seen near by) is left by the nearest way.
+/// @returns corners from the first after `from_W` up to `to_W`, or nullopt if there is no path or none was
+/// found in time.          A start that is not free itself (something new was seen near by) is left by the
+/// nearest way.
 std::optional<std::vector<Vector3d>> find_path(const FreeSpace& space, const std::vector<OrientedBox>& structure,
                                                const Vector3d& from_W, const Vector3d& to_W,
                                                const PathSearchConfig& config = {});

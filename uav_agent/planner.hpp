@@ -65,8 +65,8 @@ class Planner {
   virtual PlannerOutput plan(const PlannerInput& input) = 0;
 };
 
-/// Makes the planner that `spec` names: "hover", "hover:height_m=4,climb_mps=1" or "patrol:params.yaml" (a YAML file
-/// with the same keys).
+/// Makes the planner that `spec` names: "hover", "hover:height_m=4,climb_mps=1" or "patrol:params.yaml" (a
+/// YAML file with the same keys).
 /// @throws InputError naming the planner or key that is unknown, and those that exist.
 std::unique_ptr<Planner> make_planner(const std::string& spec, const AgentConfig& agent);
 
@@ -91,7 +91,8 @@ std::unique_ptr<Planner> construct_planner(const ConfigDocument& parameters, con
 
 }  // namespace skein::agent
 
-/// Registers a planner under a name, before main(). Its file must be linked as an object, not from a static library.
+/// Registers a planner under a name, before main(). Its file must be linked as an object, not from a static
+/// library.
 #define SKEIN_REGISTER_PLANNER(name, Class)                              \
   [[maybe_unused]] const bool skein_planner_registered_##Class =         \
       ::skein::agent::register_planner(name, &::skein::agent::construct_planner<Class>)

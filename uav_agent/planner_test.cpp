@@ -51,8 +51,10 @@ TEST(Planner, AWrongNameOrKeySaysWhatWouldBeRight) {
 }
 
 TEST(Planner, ReadsParametersFromAFile) {
-  EXPECT_EQ(message_of("patrol:" + write_file("patrol.yaml", "use_map: false\noverlap: 0.3\n").string()), "no error");
-  EXPECT_NE(message_of("patrol:" + write_file("bad.yaml", "use_mop: false\n").string()).find("use_map"), std::string::npos);
+  EXPECT_EQ(message_of("patrol:" + write_file("patrol.yaml", "use_map: false\noverlap: 0.3\n").string()),
+            "no error");
+  EXPECT_NE(message_of("patrol:" + write_file("bad.yaml", "use_mop: false\n").string()).find("use_map"),
+            std::string::npos);
   EXPECT_NE(message_of("patrol:missing.yaml").find("missing.yaml"), std::string::npos);
 }
 
@@ -62,7 +64,8 @@ TEST(Planner, WaypointsNamesTheUavThatIsNotInTheFleet) {
 }
 
 /// Flies an agent whose UAV is exactly where it was told to be.
-std::vector<Vector3d> fly(const std::string& spec, double seconds_to_fly, std::vector<GimbalCommand>* gimbal = nullptr) {
+std::vector<Vector3d> fly(const std::string& spec, double seconds_to_fly,
+                          std::vector<GimbalCommand>* gimbal = nullptr) {
   const AgentConfig config = lone_explorer();
   Agent agent(config, make_planner(spec, config));
   AgentInput input;

@@ -75,7 +75,8 @@ std::vector<Sphere> Separation::keep_out(const Vector3d& p_W_now, const Peers& p
   std::vector<Sphere> spheres;
   for (const Peer& peer : peers.all()) {
     const bool near = (peer.p_W - p_W_now).norm() < kPlanAroundM;
-    if (peer.visible && near) spheres.push_back({peer.p_W, contact_m(peer.uav) + config_.margin_m + kKeepOutExtraM});
+    if (peer.visible && near)
+      spheres.push_back({peer.p_W, contact_m(peer.uav) + config_.margin_m + kKeepOutExtraM});
   }
   return spheres;
 }

@@ -13,7 +13,7 @@ constexpr double kSearchStepM = 0.5;       ///< between stand-offs that are trie
 constexpr double kSearchInM = 4.0, kSearchOutM = 7.0;  ///< around the one wished for
 constexpr double kAsideM[] = {0.0, -1.5, 1.5, -3.0, 3.0};  ///< to the side of the strip, where it is blocked
 constexpr double kAsideCost = 3.0;         ///< a metre
-constexpr double kTooNearCost = 2.0;       ///< a metre too near costs as much as two too far: the image gets smaller
+constexpr double kTooNearCost = 2.0;       ///< a metre too near costs as two too far: the image gets smaller
 constexpr double kBendCost = 0.5;          ///< a metre of difference to the sample before
 constexpr double kSteepest = 1.2;          ///< change of stand-off per metre along the strip
 constexpr double kUnknownDepthM = 3.0;     ///< for the speed only, where the map knows no surface
@@ -38,7 +38,8 @@ Sample sample_at(const Strip& strip, bool reversed, double s, const FreeSpace& s
   Sample sample{.s = s, .face_W = from + (to - from).normalized() * s};
   const auto depth = space.config().use_map ? surface_depth(strip, sample.face_W, space.map()) : std::nullopt;
   sample.depth = depth.value_or(kUnknownDepthM);
-  sample.wish = depth ? config.ratio * reach.sharp_distance_m - *depth : config.blind_ratio * reach.sharp_distance_m;
+  sample.wish =
+      depth ? config.ratio * reach.sharp_distance_m - *depth : config.blind_ratio * reach.sharp_distance_m;
   return sample;
 }
 

@@ -90,7 +90,8 @@ std::vector<Strip> cut_into_strips(const std::vector<OrientedBox>& boxes, const 
         swap_axes();
         swath = height;
       }
-    } else if (cut_along(face.w_m, face.u_m, width, speed).seconds < cut_along(face.u_m, face.w_m, width, speed).seconds) {
+    } else if (cut_along(face.w_m, face.u_m, width, speed).seconds <
+               cut_along(face.u_m, face.w_m, width, speed).seconds) {
       swap_axes();
     }
     const int count = cut_along(face.u_m, face.w_m, swath, speed).count;
@@ -138,14 +139,16 @@ double tour_seconds(const std::vector<Visit>& tour, const std::vector<Strip>& st
   return length / transit_mps;
 }
 
-void shorten(std::vector<Visit>& tour, const std::vector<Strip>& strips, const Vector3d& start, double transit_mps) {
+void shorten(std::vector<Visit>& tour, const std::vector<Strip>& strips, const Vector3d& start,
+             double transit_mps) {
   double best = tour_seconds(tour, strips, start, transit_mps);
   for (int pass = 0; pass < kTwoOptPasses; ++pass) {
     bool better = false;
     for (std::size_t i = 0; i < tour.size(); ++i) {
       for (std::size_t j = i; j < tour.size(); ++j) {
         std::vector<Visit> other = tour;
-        std::reverse(other.begin() + static_cast<std::ptrdiff_t>(i), other.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+        std::reverse(other.begin() + static_cast<std::ptrdiff_t>(i),
+                     other.begin() + static_cast<std::ptrdiff_t>(j) + 1);
         for (std::size_t k = i; k <= j; ++k) other[k].reversed = !other[k].reversed;
         const double seconds = tour_seconds(other, strips, start, transit_mps);
         if (seconds >= best - 1e-9) continue;

@@ -1,5 +1,6 @@
-// The work, cut into pieces: each face of each box in parallel strips as wide as what the camera sees of it, and who of the
-// fleet flies which. Everyone computes the same from boxes and nominal starts alone: no message is needed.
+// The work, cut into pieces: each face of each box in parallel strips as wide as what the camera sees of it,
+// and who of the fleet flies which. Everyone computes the same from boxes and nominal starts alone: no message
+// is needed.
 // Frame W.   Units: SI and radians.   Pure.
 #pragma once
 

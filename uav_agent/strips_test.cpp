@@ -60,7 +60,8 @@ TEST(Strips, CoverEveryFaceOfAnyBox) {
 
 TEST(Strips, AreNoLongerThanAsked) {
   RandomStream random(11, "boxes", 0);
-  const auto strips = cut_into_strips({random_box(random), random_box(random)}, camera_reach({}, 2.0), {.max_length_m = 20.0});
+  const auto strips =
+      cut_into_strips({random_box(random), random_box(random)}, camera_reach({}, 2.0), {.max_length_m = 20.0});
   for (const Strip& strip : strips) EXPECT_LE(strip.length(), 20.0 + 1e-9);
 }
 
@@ -76,7 +77,8 @@ TEST_P(SharedStrips, EveryStripIsSomebodysExactlyOnceAndNobodyHasMuchMore) {
     std::vector<double> work;
     for (const Strip& strip : strips) work.push_back(strip.length() / 1.84);
     std::vector<Vector3d> starts;
-    for (std::size_t i = 0; i < uavs; ++i) starts.emplace_back(random.uniform(-60, 60), random.uniform(-60, 60), 0.0);
+    for (std::size_t i = 0; i < uavs; ++i)
+      starts.emplace_back(random.uniform(-60, 60), random.uniform(-60, 60), 0.0);
     const std::vector<double> free_at(uavs, 0.0);
     const auto tours = share_strips(strips, work, starts, free_at, 4.5);
     ASSERT_EQ(tours.size(), uavs);

@@ -39,15 +39,16 @@ std::vector<Vector2d> ring_around(const std::vector<Vector2d>& hull, double stan
     const Vector2d along = (b - a).normalized();
     const Vector2d out(along.y(), -along.x());
     const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kRingStepM)));
-    for (int j = 0; j <= steps; ++j) ring.push_back(a + (b - a) * (static_cast<double>(j) / steps) + standoff_m * out);
+    for (int j = 0; j <= steps; ++j)
+      ring.push_back(a + (b - a) * (static_cast<double>(j) / steps) + standoff_m * out);
   }
   return ring;
 }
 
 }  // namespace
 
-std::vector<Vector3d> survey_ring(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, double standoff_m,
-                                  double height_m) {
+std::vector<Vector3d> survey_ring(const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
+                                  double standoff_m, double height_m) {
   if (agent.me().role != Role::explorer || boxes.empty()) return {};
   std::vector<Vector2d> corners;
   for (const OrientedBox& box : boxes) {
@@ -58,7 +59,8 @@ std::vector<Vector3d> survey_ring(const AgentConfig& agent, const std::vector<Or
   }
   const std::vector<Vector2d> ring = ring_around(convex_hull(corners), standoff_m);
 
-  // The first explorer's share begins where the ring is nearest to its start, the others' follow at equal distances.
+  // The first explorer's share begins where the ring is nearest to its start, the others' follow at equal
+  // distances.
   const FleetMember* first = nullptr;
   std::size_t explorers = 0, rank = 0;
   for (std::size_t i = 0; i < agent.fleet.size(); ++i) {

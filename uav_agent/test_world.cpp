@@ -94,7 +94,8 @@ OrientedBox make_box(const Vector3d& centre, const Vector3d& size, double yaw) {
 
 TestScene two_towers() {
   TestScene scene;
-  scene.solids = {make_box({0.0, 12.0, 14.0}, {16.0, 8.0, 28.0}), make_box({30.0, 14.0, 12.0}, {14.0, 10.0, 24.0}, 0.3),
+  scene.solids = {make_box({0.0, 12.0, 14.0}, {16.0, 8.0, 28.0}),
+                  make_box({30.0, 14.0, 12.0}, {14.0, 10.0, 24.0}, 0.3),
                   make_box({14.0, 2.0, 2.0}, {8.0, 6.0, 4.0})};
   for (std::size_t i = 0; i < 2; ++i) {
     OrientedBox loose = scene.solids[i];
@@ -118,12 +119,14 @@ struct TestWorld::Impl {
   Impl(TestScene s, double d) : scene(std::move(s)), surface(sample_surface(scene.solids)), duration_s(d) {}
 
   bool in_sight(const Vector3d& a, const Vector3d& b) const {
-    return std::none_of(scene.solids.begin(), scene.solids.end(), [&](const OrientedBox& box) { return hits(box, a, b); });
+    return std::none_of(scene.solids.begin(), scene.solids.end(),
+                        [&](const OrientedBox& box) { return hits(box, a, b); });
   }
   std::vector<Eigen::Vector3f> scan(const Vector3d& p_W) const {
     std::vector<Eigen::Vector3f> points;
     for (const SurfacePoint& point : surface) {
-      if ((point.p_W - p_W).norm() < kLidarRangeM && in_sight(p_W, point.p_W)) points.push_back(point.p_W.cast<float>());
+      if ((point.p_W - p_W).norm() < kLidarRangeM && in_sight(p_W, point.p_W))
+        points.push_back(point.p_W.cast<float>());
     }
     for (double x = -24.0; x <= 24.0; x += 3.0) {  // the ground
       for (double y = -24.0; y <= 24.0; y += 3.0) {
@@ -230,7 +233,8 @@ void TestWorld::Impl::step() {
   }
 }
 
-TestWorld::TestWorld(TestScene scene, const std::vector<TestUav>& fleet, const std::string& planner, double duration_s)
+TestWorld::TestWorld(TestScene scene, const std::vector<TestUav>& fleet, const std::string& planner,
+                     double duration_s)
     : impl_(std::make_unique<Impl>(std::move(scene), duration_s)) {
   AgentConfig config;
   config.duration_s = duration_s;

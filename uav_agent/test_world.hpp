@@ -1,5 +1,6 @@
-// A small world for tests of planners: solid boxes, UAVs that are exactly where they were told to be, and a LiDAR that sees
-// all surface points in line of sight. No physics, no noise: what goes wrong here is the planner's fault.
+// A small world for tests of planners: solid boxes, UAVs that are exactly where they were told to be, and a
+// LiDAR that sees all surface points in line of sight. No physics, no noise: what goes wrong here is the
+// planner's fault.
 // Frame W.   Units: SI and radians.
 #pragma once
 
@@ -44,7 +45,8 @@ class TestWorld {
   double clearance() const;
   /// Smallest distance between two UAVs' centres, both off the ground.
   double separation() const;
-  /// Share of the solids' surface points outside the ground and other solids that a camera saw from a sharp distance.
+  /// Share of the solids' surface points outside the ground and other solids that a camera saw from a sharp
+  /// distance.
   double coverage() const;
   std::size_t undelivered() const;
   double highest_m(std::size_t uav) const;

@@ -1,7 +1,7 @@
-// Turns what a planner wants (a set-point, a path, a stop) into one full-state set-point per exchange whose position,
-// velocity and acceleration belong together and stay within the vehicle's limits, as the simulator demands.
-// A path is followed by a point mass that heads for a spot a little ahead on the polyline: it may be replaced at any time
-// without a jump, and rounds a corner by about `corner_m`, in the
+// Turns what a planner wants (a set-point, a path, a stop) into one full-state set-point per exchange whose
+// position, velocity and acceleration belong together and stay within the vehicle's limits, as the simulator
+// demands. A path is followed by a point mass that heads for a spot a little ahead on the polyline: it may be
+// replaced at any time without a jump, and rounds a corner by about `corner_m`, in the
 // worst zigzag by twice that.
 // Frame W.   Units: SI and radians.   Pure; threads: one.
 #pragma once

@@ -17,7 +17,8 @@ double distance_to_polyline(const Vector3d& p, const std::vector<Vector3d>& line
   double best = 1e9;
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Vector3d ab = line[i] - line[i - 1];
-    const double t = ab.squaredNorm() < 1e-12 ? 0.0 : std::clamp((p - line[i - 1]).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+    const double t =
+        ab.squaredNorm() < 1e-12 ? 0.0 : std::clamp((p - line[i - 1]).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
     best = std::min(best, (p - line[i - 1] - t * ab).norm());
   }
   return best;
@@ -63,7 +64,8 @@ TEST(Tracker, FollowsRandomPolylines) {
     const int corners = 1 + static_cast<int>(random.bits() % 7);
     for (int i = 0; i < corners; ++i) {
       const double size = random.uniform() < 0.3 ? 0.4 : 15.0;  // short legs, too
-      const Vector3d p = line.back() + Vector3d(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
+      const Vector3d p = line.back() + Vector3d(random.uniform(-size, size), random.uniform(-size, size),
+                                                random.uniform(-size, size));
       line.push_back(p);
       path.waypoints.push_back({p, random.uniform(0.5, 5.5)});
     }

@@ -1,6 +1,6 @@
 // Delivery of captures: on-board custody from the camera to the station's acknowledgement.
-// Every report is kept until the station acknowledges it, and sent whenever there is a *direct* link to the station:
-// nobody relays. Units: bytes and exchanges.   Threads: one.
+// Every report is kept until the station acknowledges it, and sent whenever there is a *direct* link to the
+// station: nobody relays. Units: bytes and exchanges.   Threads: one.
 #pragma once
 
 #include <cstddef>

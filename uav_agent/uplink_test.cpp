@@ -55,7 +55,8 @@ TEST(Uplink, IgnoresWhatTheCameraRepeatsAfterARestart) {
   EXPECT_EQ(uplink.undelivered(), 2U);
 }
 
-// Radio that loses messages and links both ways, whatever the order of events: all arrives, and nothing but what was taken.
+// Radio that loses messages and links both ways, whatever the order of events: all arrives, and nothing but
+// what was taken.
 TEST(Uplink, DeliversEverythingThroughABadRadio) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "radio", 0);

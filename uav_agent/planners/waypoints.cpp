@@ -1,5 +1,5 @@
-// Flies fixed paths from a file, one list for each UAV: for demonstrations, and to measure sensors and scoring along a
-// known path. Example:
+// Flies fixed paths from a file, one list for each UAV: for demonstrations, and to measure sensors and scoring
+// along a known path. Example:
 //
 //   repeat: true
 //   paths:
