@@ -68,29 +68,27 @@ class TypedReader : public Reader {
 /// Calls `handler` inside inbox.dispatch() for each message on a topic, with the participant that wrote it.
 /// Malformed samples are dropped and counted; the first of them is logged.
 template <class T, class Handler>
-  requires std::invocable<Handler&, const T&, ParticipantId>
-std::unique_ptr<TypedReader> subscribe(Inbox& inbox, Participant& participant, const TopicSpec& topic,
-                                       Handler handler) {
+requires std::invocable<Handler&, const T&, ParticipantId> std::unique_ptr<TypedReader> subscribe(
+    Inbox& inbox, Participant& participant, const TopicSpec& topic, Handler handler) {
   auto malformed = std::make_shared<std::atomic<std::uint64_t>>(0);
   auto reader = inbox.subscribe(
-      participant, topic,
-      [name = topic.name, malformed, handler = std::move(handler)](Sample&& sample) mutable {
+      participant, topic, [name = topic.name, malformed, handler = std::move(handler)](Sample&& sample) mutable {
         T message;
         if (decode(sample.payload, message))
           handler(std::as_const(message), sample.source);
         else if ((*malformed)++ == 0)
-          spdlog::warn("{}: dropped a malformed sample of {} bytes from participant {:016x}; further ones are only "
-                       "counted",
-                       name, sample.payload.size(), sample.source);
+          spdlog::warn(
+              "{}: dropped a malformed sample of {} bytes from participant {:016x}; further ones are only "
+              "counted",
+              name, sample.payload.size(), sample.source);
       });
   return std::make_unique<TypedReader>(std::move(reader), std::move(malformed));
 }
 
 /// The same for the topic `name` of messages T.
 template <class T, class Handler>
-  requires std::invocable<Handler&, const T&, ParticipantId>
-std::unique_ptr<TypedReader> subscribe(Inbox& inbox, Participant& participant, std::string name, const Qos& qos,
-                                       Handler handler) {
+requires std::invocable<Handler&, const T&, ParticipantId> std::unique_ptr<TypedReader> subscribe(
+    Inbox& inbox, Participant& participant, std::string name, const Qos& qos, Handler handler) {
   return subscribe<T>(inbox, participant, topic_of<T>(std::move(name), qos), std::move(handler));
 }
 

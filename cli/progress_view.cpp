@@ -101,7 +101,8 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
       << " s, " << result["collisions"].size() << " collision" << (result["collisions"].size() == 1 ? "" : "s") << '\n'
       << "speed     x" << cell(result, "real_time_factor", 1) << " (" << cell(result, "sim_time_s", 1)
       << " s simulated in " << cell(result, "wall_time_s", 1) << " s), memory " << cell(result, "memory_mb", 0)
-      << " MB, LiDAR " << cell(result.contains("timing") ? result["timing"] : result, "lidar_ms_per_scan", 2) << " ms a scan\n"
+      << " MB, LiDAR " << cell(result.contains("timing") ? result["timing"] : result, "lidar_ms_per_scan", 2)
+      << " ms a scan\n"
       << "digest    " << (result["digest"].is_string() ? result["digest"].get<std::string>() : "none") << "\n\n";
   std::size_t width = 3;
   for (const Json& uav : result["uavs"]) width = std::max(width, uav["name"].get<std::string>().size());

@@ -141,8 +141,9 @@ TEST_F(RunCommand, AMemberThatTheServerLostMakesTheRunAFailure) {
 }
 
 TEST_F(RunCommand, ACommandTakesThePlaceOfAnAgent) {
-  const std::string command = "env > \"$SKEIN_OUT/env.txt\"; echo hello, world; echo '{\"type\":\"tally\",\"score\":9}' >&3; "
-                              "until [ -e \"$SKEIN_OUT/scene.json\" ]; do sleep 0.01; done";
+  const std::string command =
+      "env > \"$SKEIN_OUT/env.txt\"; echo hello, world; echo '{\"type\":\"tally\",\"score\":9}' >&3; "
+      "until [ -e \"$SKEIN_OUT/scene.json\" ]; do sleep 0.01; done";
   options_.planner = "hover,beta=exec:" + command;
   EXPECT_EQ(run(), kExitDone) << err_.str();
   EXPECT_EQ(result()["planner"], (Json{{"alpha", "hover"}, {"beta", "exec:" + command}}));

@@ -26,7 +26,7 @@ struct ProgramSpec {
 
 struct ExitStatus {
   int code = 0;
-  int signal = 0;  ///< 0 unless a signal ended it
+  int signal = 0;               ///< 0 unless a signal ended it
   double peak_memory_mb = 0.0;  ///< largest resident set, shared pages included
   bool ok() const { return code == 0 && signal == 0; }
   /// "exit code 3" or "signal 11 (Segmentation fault)".

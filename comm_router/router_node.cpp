@@ -41,9 +41,8 @@ RouterNode::RouterNode(const Scenario& scenario, int base_domain, bus::Bus& bus)
       msg::Done done;
       if (decode(sample.payload, done)) sync_.on_done(sample.source, done.k(), sent_counts(done));
     }));
-    ready_readers_.push_back(inbox_.subscribe(*nodes_[node], bus::spec(topics::ready()), [this, node](bus::Sample&& s) {
-      on_ready(node, std::move(s));
-    }));
+    ready_readers_.push_back(inbox_.subscribe(*nodes_[node], bus::spec(topics::ready()),
+                                              [this, node](bus::Sample&& s) { on_ready(node, std::move(s)); }));
   }
   drop_reader_ = inbox_.subscribe(*world_, bus::spec(topics::drop()), [this](bus::Sample&& sample) {
     msg::Drop drop;
@@ -66,7 +65,8 @@ void RouterNode::open_radio() {
     const RadioRoute& route = routes[r];
     radio_readers_.push_back(
         inbox_.subscribe(*nodes_[route.source], radio_spec(route.topic, route.type), [this, r](bus::Sample&& sample) {
-          sync_.on_radio(sample.source, r, std::make_shared<const std::vector<std::uint8_t>>(std::move(sample.payload)));
+          sync_.on_radio(sample.source, r,
+                         std::make_shared<const std::vector<std::uint8_t>>(std::move(sample.payload)));
         }));
     auto& arrivals = arrival_of_.emplace_back();
     for (const RadioTarget& target : route.targets) arrivals.push_back(find_or_open_arrival(target, route.type));
@@ -75,12 +75,12 @@ void RouterNode::open_radio() {
 }
 
 std::size_t RouterNode::find_or_open_arrival(const RadioTarget& target, const std::string& type) {
-  const auto found = std::find_if(arrivals_.begin(), arrivals_.end(), [&](const Arrival& a) {
-    return a.node == target.node && a.topic == target.topic;
-  });
+  const auto found = std::find_if(arrivals_.begin(), arrivals_.end(),
+                                  [&](const Arrival& a) { return a.node == target.node && a.topic == target.topic; });
   if (found == arrivals_.end()) {
-    arrivals_.push_back({target.node, target.topic,
-                         std::make_unique<bus::CountedWriter>(*nodes_[target.node], radio_spec(target.topic, type, gate_.nodes()))});
+    arrivals_.push_back(
+        {target.node, target.topic,
+         std::make_unique<bus::CountedWriter>(*nodes_[target.node], radio_spec(target.topic, type, gate_.nodes()))});
     return arrivals_.size() - 1;
   }
   return static_cast<std::size_t>(found - arrivals_.begin());

@@ -66,8 +66,8 @@ class RouterNode {
   std::vector<std::unique_ptr<bus::Participant>> nodes_;
   bus::LockstepClient client_;
   std::unique_ptr<bus::Reader> drop_reader_;
-  std::vector<std::unique_ptr<bus::Reader>> done_readers_, ready_readers_;       ///< by node
-  std::vector<std::unique_ptr<bus::Reader>> radio_readers_;                      ///< by route
+  std::vector<std::unique_ptr<bus::Reader>> done_readers_, ready_readers_;  ///< by node
+  std::vector<std::unique_ptr<bus::Reader>> radio_readers_;                 ///< by route
   std::vector<Arrival> arrivals_;
   std::vector<std::vector<std::size_t>> arrival_of_;  ///< by route, target: index into arrivals_
   std::map<bus::ParticipantId, Applicant> applicants_;

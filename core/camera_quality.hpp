@@ -30,11 +30,11 @@ struct PointQuality {
   Vector3d p_C = Vector3d::Zero();  ///< the point in the camera frame [m]
   bool in_search_radius = false;
   bool in_fov = false;
-  double pixel_move_u = 0.0, pixel_move_v = 0.0;        ///< motion during the exposure [pixel]; valid if in_fov
-  double q_blur = 0.0;                                  ///< (0, 1]; valid if in_fov
-  std::optional<double> mm_per_pixel_u, mm_per_pixel_v; ///< empty: not in the field of view, or too close to resolve
-  std::optional<double> q_res;                          ///< [0, 1]
-  std::optional<double> score;                          ///< q_blur * q_res, before any threshold
+  double pixel_move_u = 0.0, pixel_move_v = 0.0;         ///< motion during the exposure [pixel]; valid if in_fov
+  double q_blur = 0.0;                                   ///< (0, 1]; valid if in_fov
+  std::optional<double> mm_per_pixel_u, mm_per_pixel_v;  ///< empty: not in the field of view, or too close to resolve
+  std::optional<double> q_res;                           ///< [0, 1]
+  std::optional<double> score;                           ///< q_blur * q_res, before any threshold
 };
 
 /// The two qualities of a point that the camera sees.

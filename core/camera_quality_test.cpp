@@ -91,8 +91,8 @@ TEST(CameraQuality, FastPathAgreesWithTheAudit) {
 
 TEST(CameraState, ViewStaysLevelWhenTheBodyTilts) {
   RigidBodyState body;
-  body.q_WB = Quaterniond(rotation_z(0.7) * rotation_y(0.3) *
-                          Eigen::AngleAxisd(-0.4, Vector3d::UnitX()).toRotationMatrix());
+  body.q_WB =
+      Quaterniond(rotation_z(0.7) * rotation_y(0.3) * Eigen::AngleAxisd(-0.4, Vector3d::UnitX()).toRotationMatrix());
   const CameraState state = camera_state(body, {}, {});
   EXPECT_TRUE(state.X_WC.linear().isApprox(rotation_z(0.7), 1e-12));
   EXPECT_TRUE(state.X_WC.translation().isApprox(body.q_WB * Vector3d(0.2, 0, -0.3), 1e-12));

@@ -33,8 +33,8 @@ fs::path default_config_dir() {
 fs::path find_config_file(const std::string& what, const std::string& name_or_path, const fs::path& folder,
                           const fs::path& base) {
   std::error_code ignored;
-  const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".yaml") ||
-                       name_or_path.ends_with(".yml");
+  const bool is_path =
+      name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".yaml") || name_or_path.ends_with(".yml");
   if (is_path) {
     const fs::path file = fs::path(name_or_path).is_absolute() ? fs::path(name_or_path) : base / name_or_path;
     if (!fs::is_regular_file(file, ignored)) throw InputError(file.string() + ": no such " + what + " file");

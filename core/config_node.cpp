@@ -126,8 +126,8 @@ class TreeBuilder final : public YAML::EventHandler {
     const auto same = std::find(keys.begin(), keys.end(), node.scalar);
     if (same != keys.end()) {
       const int first = parent.node.key_lines[static_cast<std::size_t>(same - keys.begin())];
-      fail(node.line, "duplicate key '" + node.scalar + "': it stands in line " + std::to_string(first) +
-                          " already; keep one");
+      fail(node.line,
+           "duplicate key '" + node.scalar + "': it stands in line " + std::to_string(first) + " already; keep one");
     }
     parent.node.keys.push_back(node.scalar);
     parent.node.key_lines.push_back(node.line);
@@ -145,7 +145,8 @@ class NothingMore final : public YAML::EventHandler {
   explicit NothingMore(const std::string& origin) : origin_(origin) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    throw InputError(place(origin_, mark.line + 1) + ": what follows from here is not part of the document above; "
+    throw InputError(place(origin_, mark.line + 1) +
+                     ": what follows from here is not part of the document above; "
                      "one file holds one document");
   }
   void OnDocumentEnd() override {}
@@ -174,8 +175,9 @@ void refuse_binary(const std::string& text, const std::string& origin) {
 }
 
 bool is_plain_word(const std::string& text) {
-  const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '/' ||
-                                         c == '.' || c == '-' || c == '+'; };
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '/' || c == '.' || c == '-' || c == '+';
+  };
   return !text.empty() && text != "-" && text != "null" && text != "---" && text != "..." &&
          std::all_of(text.begin(), text.end(), plain);
 }
@@ -239,10 +241,14 @@ const ConfigNode* ConfigNode::find(std::string_view key) const {
 
 std::string ConfigNode::what_it_is() const {
   switch (kind) {
-    case Kind::null: return "nothing";
-    case Kind::list: return "a list";
-    case Kind::map: return "a map of keys";
-    case Kind::scalar: break;
+    case Kind::null:
+      return "nothing";
+    case Kind::list:
+      return "a list";
+    case Kind::map:
+      return "a map of keys";
+    case Kind::scalar:
+      break;
   }
   constexpr std::size_t kShown = 40;
   return (quoted ? "the text '" : "'") + (scalar.size() > kShown ? scalar.substr(0, kShown) + "..." : scalar) + "'";

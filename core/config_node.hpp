@@ -17,12 +17,12 @@ struct ConfigNode {
   enum class Kind { null, scalar, list, map };
 
   Kind kind = Kind::null;
-  int line = 0;                    ///< counted from 1; 0 means no place in a file
-  bool quoted = false;             ///< a scalar in quotes: text, never a number
-  std::string scalar;              ///< of a scalar
-  std::vector<ConfigNode> items;   ///< of a list; of a map, the values in the file's order
-  std::vector<std::string> keys;   ///< of a map, in the file's order
-  std::vector<int> key_lines;      ///< of a map
+  int line = 0;                   ///< counted from 1; 0 means no place in a file
+  bool quoted = false;            ///< a scalar in quotes: text, never a number
+  std::string scalar;             ///< of a scalar
+  std::vector<ConfigNode> items;  ///< of a list; of a map, the values in the file's order
+  std::vector<std::string> keys;  ///< of a map, in the file's order
+  std::vector<int> key_lines;     ///< of a map
 
   /// The value under `key`, or nullptr.
   const ConfigNode* find(std::string_view key) const;

@@ -118,8 +118,8 @@ void Place::refuse(const std::string& what) const {
 
 void read_bool(const Place& place, bool& value) {
   const ConfigNode& node = place.node;
-  const bool is_bool = node.kind == ConfigNode::Kind::scalar && !node.quoted &&
-                       (node.scalar == "true" || node.scalar == "false");
+  const bool is_bool =
+      node.kind == ConfigNode::Kind::scalar && !node.quoted && (node.scalar == "true" || node.scalar == "false");
   if (!is_bool) return place.refuse("true or false");
   value = node.scalar == "true";
 }
@@ -173,8 +173,8 @@ bool expect_numbers(const Place& place, std::size_t count) {
   if (place.node.kind != ConfigNode::Kind::list) {
     place.refuse(what);
   } else {
-    place.errors.add(place.node.line, place.path + ": must be " + what + ", not of " +
-                                          std::to_string(place.node.items.size()));
+    place.errors.add(place.node.line,
+                     place.path + ": must be " + what + ", not of " + std::to_string(place.node.items.size()));
   }
   return false;
 }

@@ -148,8 +148,8 @@ TEST(ConfigReader, NumbersAreStrict) {
   for (const char* number : {"1.", ".5", "1e3", "+2", "-0", "007"}) {
     EXPECT_EQ(complaint("real: " + std::string(number)), "accepted") << number;
   }
-  for (const char* number : {"inf", ".inf", ".nan", "nan", "0x10", "1_000", "1,5", "1 2", "'1'", "1e999", "+-1",
-                             "--1", "one", "1m", "~", "[1]", "true"}) {
+  for (const char* number : {"inf", ".inf", ".nan", "nan", "0x10", "1_000", "1,5", "1 2", "'1'", "1e999", "+-1", "--1",
+                             "one", "1m", "~", "[1]", "true"}) {
     EXPECT_NE(complaint("real: " + std::string(number)), "accepted") << number;
   }
 }

@@ -14,8 +14,7 @@ ConfigNode ConfigWriter::number(double value) {
 }
 
 ConfigNode ConfigWriter::text(const std::string& value) {
-  const bool starts_as_word =
-      !value.empty() && (std::isalpha(static_cast<unsigned char>(value[0])) || value[0] == '/');
+  const bool starts_as_word = !value.empty() && (std::isalpha(static_cast<unsigned char>(value[0])) || value[0] == '/');
   return ConfigNode::make_scalar(value, !starts_as_word || value == "true" || value == "false");
 }
 

@@ -71,13 +71,13 @@ class SignalThread {
   }
 
   std::array<int, 2> pipe_{};
-  struct sigaction old_interrupt_ {}, old_terminate_ {};
+  struct sigaction old_interrupt_ {
+  }, old_terminate_{};
   std::thread thread_;
 };
 
 void add_common_options(CLI::App& app, ProgramOptions& options) {
-  app.add_option("--scenario", options.scenario, "Name under config/scenarios/, or a YAML file")
-      ->capture_default_str();
+  app.add_option("--scenario", options.scenario, "Name under config/scenarios/, or a YAML file")->capture_default_str();
   app.add_option("--assets", options.assets, "Folder that holds CARIC's models/ (default: SKEIN_ASSETS)");
   app.add_option("--dds", options.dds, "DDS vendor")->capture_default_str();
   app.add_option("--domain", options.domain, "First DDS domain of the fleet")
@@ -94,8 +94,9 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--status-fd", options.status_fd, "File descriptor for status lines")->group("Launcher");
   app.add_option("--control-fd", options.control_fd, "File descriptor with orders")->group("Launcher");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error or off (default: SKEIN_LOG)");
-  app.add_flag_callback("--network", [&options] { options.loopback_only = false; },
-                        "Use the real network interfaces instead of the loopback alone");
+  app.add_flag_callback(
+      "--network", [&options] { options.loopback_only = false; },
+      "Use the real network interfaces instead of the loopback alone");
   app.add_flag("--debug-leases", options.long_leases, "A process that stops in a debugger keeps its place");
 }
 

@@ -36,20 +36,20 @@ inline constexpr int kExitInterrupted = 130;
 
 /// Options that all programs understand.
 struct ProgramOptions {
-  std::string scenario = "towers";         ///< --scenario: name or path
-  std::filesystem::path assets;            ///< --assets: folder that holds models/
-  std::string dds = "cyclonedds";          ///< --dds: vendor
-  int domain = 0;                          ///< --domain: base of the DDS domains, [0, 200]
-  std::filesystem::path out = ".";         ///< --out: folder for what the program writes
-  std::uint64_t seed = 0;                  ///< --seed: 0 draws nothing
-  std::optional<std::uint64_t> scene_seed; ///< --scene-seed
-  std::optional<double> duration_s;        ///< --duration
-  bool check_only = false;                 ///< --check: validate the input, then stop
-  int status_fd = -1;                      ///< --status-fd: where status_pipe.hpp writes; -1: nowhere
-  int control_fd = -1;                     ///< --control-fd: where orders come from; -1: nowhere
-  std::string log_level;                   ///< --log-level; empty: SKEIN_LOG, else info
-  bool loopback_only = true;               ///< --network turns it off
-  bool long_leases = false;                ///< --debug-leases: a process stopped in gdb keeps its place
+  std::string scenario = "towers";          ///< --scenario: name or path
+  std::filesystem::path assets;             ///< --assets: folder that holds models/
+  std::string dds = "cyclonedds";           ///< --dds: vendor
+  int domain = 0;                           ///< --domain: base of the DDS domains, [0, 200]
+  std::filesystem::path out = ".";          ///< --out: folder for what the program writes
+  std::uint64_t seed = 0;                   ///< --seed: 0 draws nothing
+  std::optional<std::uint64_t> scene_seed;  ///< --scene-seed
+  std::optional<double> duration_s;         ///< --duration
+  bool check_only = false;                  ///< --check: validate the input, then stop
+  int status_fd = -1;                       ///< --status-fd: where status_pipe.hpp writes; -1: nowhere
+  int control_fd = -1;                      ///< --control-fd: where orders come from; -1: nowhere
+  std::string log_level;                    ///< --log-level; empty: SKEIN_LOG, else info
+  bool loopback_only = true;                ///< --network turns it off
+  bool long_leases = false;                 ///< --debug-leases: a process stopped in gdb keeps its place
 
   /// For load_scenario().
   LoadOptions load_options() const;

@@ -17,8 +17,7 @@ std::array<std::uint64_t, 4> state_of(const Sha256& key) {
 
 }  // namespace
 
-RandomStream::RandomStream(std::uint64_t seed, std::string_view purpose, std::uint64_t entity,
-                           std::uint64_t sequence)
+RandomStream::RandomStream(std::uint64_t seed, std::string_view purpose, std::uint64_t entity, std::uint64_t sequence)
     : state_(state_of(Sha256().add(seed).add(purpose).add("number").add(entity).add(sequence))) {}
 
 RandomStream::RandomStream(std::uint64_t seed, std::string_view purpose, std::string_view entity,

@@ -28,11 +28,11 @@ struct GimbalConfig {
 
 struct LidarConfig {
   int rings = 16, columns = 440;
-  double vertical_fov_deg = 30.0;     ///< symmetric about the scan plane
+  double vertical_fov_deg = 30.0;  ///< symmetric about the scan plane
   double rate_hz = 10.0;
   double range_min_m = 0.9, range_max_m = 50.0;
-  double sigma_m = 0.01;              ///< range noise; drawn only with a seed other than 0
-  double servo_rate_deg_s = 45.0;     ///< about body x, sign switched every half period
+  double sigma_m = 0.01;           ///< range noise; drawn only with a seed other than 0
+  double servo_rate_deg_s = 45.0;  ///< about body x, sign switched every half period
   double servo_period_s = 8.0;
   double servo_limit_deg = 90.0;
 };
@@ -55,15 +55,15 @@ struct AttitudeControlConfig {
 struct VehicleConfig {
   std::string name;
   Role role = Role::explorer;
-  double mass_kg = 3.385;                               ///< all-up
+  double mass_kg = 3.385;                                            ///< all-up
   Vector3d inertia = {0.07648816666, 0.07648816666, 0.16283333333};  ///< diagonal [kg m^2]
   double arm_m = 0.43, rotor_radius_m = 0.2, rotor_height_m = 0.074;
-  double rotor_force_constant = 2.564574e-5;            ///< thrust = constant * speed^2 [N s^2]
-  double rotor_moment_constant = 0.032;                 ///< torque = constant * thrust [m]
-  double rotor_max_speed = 900.0;                       ///< [rad/s]
+  double rotor_force_constant = 2.564574e-5;  ///< thrust = constant * speed^2 [N s^2]
+  double rotor_moment_constant = 0.032;       ///< torque = constant * thrust [m]
+  double rotor_max_speed = 900.0;             ///< [rad/s]
   double motor_time_constant_up_s = 0.0125, motor_time_constant_down_s = 0.025;
   double rotor_drag = 8.06428e-5, rolling_moment = 1e-6;
-  Vector3d collision_box_m = {0.2, 0.2, 0.32};          ///< full edge lengths
+  Vector3d collision_box_m = {0.2, 0.2, 0.32};  ///< full edge lengths
   double antenna_offset_m = 0.2;
   double max_speed_mps = 6.0, max_acceleration_mps2 = 4.0, max_yaw_rate_deg_s = 90.0;  ///< of a command
   PositionControlConfig position_control;
@@ -89,22 +89,22 @@ struct RadioTopicConfig {
 
 /// Where the structure comes from: files in CARIC's layout, or a procedural family.
 struct SceneConfig {
-  std::string family;                              ///< procedural: "towers"; empty: files
+  std::string family;  ///< procedural: "towers"; empty: files
   std::uint64_t scene_seed = 0;
-  std::vector<std::filesystem::path> meshes;       ///< STL, resolved
-  std::filesystem::path points;                    ///< PCD, resolved
-  std::filesystem::path boxes;                     ///< box_description.yaml, resolved
+  std::vector<std::filesystem::path> meshes;  ///< STL, resolved
+  std::filesystem::path points;               ///< PCD, resolved
+  std::filesystem::path boxes;                ///< box_description.yaml, resolved
 };
 
 /// Named switches; presets `contest` and `paper`. docs/rules.md explains each.
 struct RulesConfig {
   std::string preset = "contest";
-  bool enforce_command_limits = true;        ///< a command beyond the vehicle's limits is ignored
-  bool unnormalised_displacement = true;     ///< S4 of the reference's resolution formula
-  bool phantom_gimbal_rate = false;          ///< G1-G3: report the commanded rate at the stop
-  bool collision_voids_score = true;         ///< a UAV that collides loses its points, retroactively
-  double min_point_score = 0.2;              ///< a capture of a point below this does not count
-  double takeoff_height_m = 0.1;             ///< above rest height
+  bool enforce_command_limits = true;     ///< a command beyond the vehicle's limits is ignored
+  bool unnormalised_displacement = true;  ///< S4 of the reference's resolution formula
+  bool phantom_gimbal_rate = false;       ///< G1-G3: report the commanded rate at the stop
+  bool collision_voids_score = true;      ///< a UAV that collides loses its points, retroactively
+  double min_point_score = 0.2;           ///< a capture of a point below this does not count
+  double takeoff_height_m = 0.1;          ///< above rest height
   double takeoff_speed_mps = 0.1;
 };
 
@@ -112,16 +112,16 @@ struct Scenario {
   std::filesystem::path file;
   std::string name;
   std::string description;
-  double duration_s = 600.0;              ///< mission time, from the first take-off
-  double takeoff_timeout_s = 60.0;        ///< the run ends if nobody flies by then
-  double exchange_period_s = 0.05;        ///< one lock-step round
-  double desired_mm_per_pixel = 2.0;      ///< r_des
+  double duration_s = 600.0;          ///< mission time, from the first take-off
+  double takeoff_timeout_s = 60.0;    ///< the run ends if nobody flies by then
+  double exchange_period_s = 0.05;    ///< one lock-step round
+  double desired_mm_per_pixel = 2.0;  ///< r_des
   Vector3d station_position = {-2.0, 8.0, 0.3};
   double station_antenna_offset_m = 0.1;
   SceneConfig scene;
   RulesConfig rules;
-  std::vector<UavConfig> fleet;           ///< fleet order: node numbers, domains and ties follow it
-  std::vector<RadioTopicConfig> radio;    ///< beyond the capture topics that Skein itself declares
+  std::vector<UavConfig> fleet;         ///< fleet order: node numbers, domains and ties follow it
+  std::vector<RadioTopicConfig> radio;  ///< beyond the capture topics that Skein itself declares
 
   /// Index in fleet order. @throws InputError when no UAV has this name; the message lists the names.
   std::size_t uav_index(const std::string& uav_name) const;

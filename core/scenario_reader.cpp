@@ -146,8 +146,9 @@ class SceneFileFinder {
     }
     std::error_code ignored;
     errors_.check(!must_exist_ || fs::is_regular_file(file, ignored), key,
-                  "there is no file " + file.string() + "; --assets or SKEIN_ASSETS must name the folder that "
-                  "holds models/");
+                  "there is no file " + file.string() +
+                      "; --assets or SKEIN_ASSETS must name the folder that "
+                      "holds models/");
   }
 
  private:
@@ -205,7 +206,8 @@ void apply_overrides(const LoadOptions& options, Scenario& scenario) {
   }
   if (options.scene_seed) {
     if (scenario.scene.family.empty()) {
-      throw InputError("--scene-seed: scenario '" + scenario.name + "' takes its scene from files and has no seed; "
+      throw InputError("--scene-seed: scenario '" + scenario.name +
+                       "' takes its scene from files and has no seed; "
                        "leave the option out, or run 'towers'");
     }
     scenario.scene.scene_seed = *options.scene_seed;

@@ -76,8 +76,8 @@ TEST_F(ScenarioReader, OverridesReplaceTheFilesValues) {
 }
 
 TEST_F(ScenarioReader, ASwitchOverridesItsPresetWhateverTheOrder) {
-  const Scenario paper = load_scenario(
-      scenario("{family: towers}", "rules: {collision_voids_score: false, preset: paper}\n"), options_);
+  const Scenario paper =
+      load_scenario(scenario("{family: towers}", "rules: {collision_voids_score: false, preset: paper}\n"), options_);
   EXPECT_FALSE(paper.rules.unnormalised_displacement);
   EXPECT_FALSE(paper.rules.collision_voids_score);
   EXPECT_EQ(paper.rules.preset, "paper");
@@ -117,8 +117,9 @@ TEST_F(ScenarioReader, ASeedForASceneFromFilesIsRefused) {
 
 TEST_F(ScenarioReader, AVehicleMayStandBesideTheScenario) {
   write("tiny.yaml", "name: tiny\nrole: photographer\nmass_kg: 1.25\n");
-  const std::string file = write("s.yaml", "desired_mm_per_pixel: 2\nscene: {family: towers}\n"
-                                           "fleet: [{name: a, vehicle: ./tiny.yaml, start: [0, 0]}]\n");
+  const std::string file = write("s.yaml",
+                                 "desired_mm_per_pixel: 2\nscene: {family: towers}\n"
+                                 "fleet: [{name: a, vehicle: ./tiny.yaml, start: [0, 0]}]\n");
   EXPECT_EQ(load_scenario(file, options_).fleet[0].vehicle.mass_kg, 1.25);
   write("tiny.yaml", "name: tiny\nrole: photographer\nmass_kg: heavy\n");
   EXPECT_NE(complaint(file).find("tiny.yaml:3: mass_kg: must be a number"), std::string::npos) << complaint(file);

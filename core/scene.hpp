@@ -16,9 +16,9 @@ struct TriangleMesh {
 };
 
 struct Scene {
-  TriangleMesh mesh;                   ///< all structures together
+  TriangleMesh mesh;  ///< all structures together
   std::vector<InterestPoint> points;
-  std::vector<OrientedBox> boxes;      ///< all that a UAV is told
+  std::vector<OrientedBox> boxes;  ///< all that a UAV is told
 };
 
 }  // namespace skein

@@ -38,9 +38,7 @@ Sha256& Sha256::add(double value) { return add_word(std::bit_cast<std::uint64_t>
 
 Sha256& Sha256::add(const Vector3d& value) { return add(value.x()).add(value.y()).add(value.z()); }
 
-Sha256& Sha256::add(const Quaterniond& value) {
-  return add(value.w()).add(value.x()).add(value.y()).add(value.z());
-}
+Sha256& Sha256::add(const Quaterniond& value) { return add(value.w()).add(value.x()).add(value.y()).add(value.z()); }
 
 Sha256& Sha256::add(std::string_view text) {
   add_word(text.size());
@@ -60,9 +58,7 @@ Sha256& Sha256::add_word(std::uint64_t value) {
   return *this;
 }
 
-void Sha256::update(const void* data, std::size_t size) {
-  must(EVP_DigestUpdate(context_.get(), data, size) == 1);
-}
+void Sha256::update(const void* data, std::size_t size) { must(EVP_DigestUpdate(context_.get(), data, size) == 1); }
 
 std::array<std::uint8_t, 32> Sha256::digest() const {
   const Sha256 finished(*this);  // finishing ends a context; this one goes on

@@ -30,13 +30,12 @@ class Sha256 {
 
   /// Eight bytes of any integer or bool; signed ones in two's complement.
   template <class Integer>
-    requires std::is_integral_v<Integer>
-  Sha256& add(Integer value) {
+  requires std::is_integral_v<Integer> Sha256& add(Integer value) {
     return add_word(static_cast<std::uint64_t>(value));
   }
   Sha256& add(double value);
-  Sha256& add(const Vector3d& value);    ///< x, y, z
-  Sha256& add(const Quaterniond& value); ///< w, x, y, z; the sign as it is
+  Sha256& add(const Vector3d& value);     ///< x, y, z
+  Sha256& add(const Quaterniond& value);  ///< w, x, y, z; the sign as it is
   /// The length, then the bytes.
   Sha256& add(std::string_view text);
   Sha256& add(const std::string& text) { return add(std::string_view(text)); }

@@ -61,10 +61,10 @@ class InputError : public std::runtime_error {
 
 /// State of a rigid body at one instant.
 struct RigidBodyState {
-  Vector3d p_WB = Vector3d::Zero();               ///< position [m]
-  Quaterniond q_WB = Quaterniond::Identity();     ///< attitude, body to world
-  Vector3d v_WB = Vector3d::Zero();               ///< velocity in W, expressed in W [m/s]
-  Vector3d w_WB_B = Vector3d::Zero();             ///< angular velocity, expressed in B [rad/s]
+  Vector3d p_WB = Vector3d::Zero();            ///< position [m]
+  Quaterniond q_WB = Quaterniond::Identity();  ///< attitude, body to world
+  Vector3d v_WB = Vector3d::Zero();            ///< velocity in W, expressed in W [m/s]
+  Vector3d w_WB_B = Vector3d::Zero();          ///< angular velocity, expressed in B [rad/s]
 
   Isometry3d X_WB() const { return Eigen::Translation3d(p_WB) * q_WB; }
 };

@@ -170,12 +170,15 @@ std::optional<TrajectoryCommand> from_trajectory(const msg::MultiDOFJointTraject
 msg::Twist to_gimbal_command(const GimbalCommand& command) {
   msg::Twist twist;
   switch (command.mode) {
-    case GimbalMode::angle: set_xyz(twist.linear(), {1.0, command.pitch, command.yaw}); break;
+    case GimbalMode::angle:
+      set_xyz(twist.linear(), {1.0, command.pitch, command.yaw});
+      break;
     case GimbalMode::rate:
       twist.linear().x(-1.0);
       set_xyz(twist.angular(), {0.0, command.pitch, command.yaw});
       break;
-    case GimbalMode::freeze: break;
+    case GimbalMode::freeze:
+      break;
   }
   return twist;
 }

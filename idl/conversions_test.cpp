@@ -49,8 +49,8 @@ TEST(Conversions, StampsCountNanosecondsExactly) {
 TEST(Conversions, TrajectoryCommandComesBack) {
   RandomStream random(2, "trajectory", 0);
   for (int i = 0; i < 100; ++i) {
-    const TrajectoryCommand command{random_vector(random, 100.0), random_vector(random, 5.0), random_vector(random, 2.0),
-                                    random.uniform(-3.1, 3.1)};
+    const TrajectoryCommand command{random_vector(random, 100.0), random_vector(random, 5.0),
+                                    random_vector(random, 2.0), random.uniform(-3.1, 3.1)};
     const auto back = from_trajectory(travelled(to_trajectory(7, command)));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->p_WB, command.p_WB);
@@ -81,7 +81,8 @@ TEST(Conversions, BoxesSurviveTheirVertices) {
     OrientedBox box;
     box.center = random_vector(random, 60.0);
     box.size = random_vector(random, 20.0).cwiseAbs() + Vector3d::Constant(1.0);
-    box.R_WO = Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized().toRotationMatrix();
+    box.R_WO =
+        Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized().toRotationMatrix();
     boxes.push_back(box);
   }
   const auto back = from_box_vertices(travelled(to_box_vertices(0, boxes)));
@@ -108,7 +109,8 @@ TEST(Conversions, CloudsComeBackAndOtherLayoutsAreRefused) {
 
 TEST(Conversions, LedgerEntriesComeBackByName) {
   const std::vector<std::string> fleet = {"jurong", "raffles"};
-  LedgerEntry entry{.index = 3, .tick = 41, .uav = 1, .collision = false, .capture = {1, 2, 41, 77, {{5, 0.5F, 0.5F, 0.25F}}}};
+  LedgerEntry entry{
+      .index = 3, .tick = 41, .uav = 1, .collision = false, .capture = {1, 2, 41, 77, {{5, 0.5F, 0.5F, 0.25F}}}};
   const auto back = from_message(travelled(to_message(entry, fleet)), fleet);
   ASSERT_TRUE(back);
   EXPECT_EQ(*back, entry);

@@ -29,54 +29,54 @@ std::string type_name() {
 }  // namespace skein
 
 /// All types, as X(package, Name): for this table, and for tests that go through every type.
-#define SKEIN_ALL_TYPES(X)                     \
-  X(builtin_interfaces, Time)                  \
-  X(builtin_interfaces, Duration)              \
-  X(std_msgs, Header)                          \
-  X(std_msgs, String)                          \
-  X(rosgraph_msgs, Clock)                      \
-  X(geometry_msgs, Vector3)                    \
-  X(geometry_msgs, Point)                      \
-  X(geometry_msgs, Point32)                    \
-  X(geometry_msgs, Quaternion)                 \
-  X(geometry_msgs, Pose)                       \
-  X(geometry_msgs, PoseWithCovariance)         \
-  X(geometry_msgs, Twist)                      \
-  X(geometry_msgs, TwistStamped)               \
-  X(geometry_msgs, TwistWithCovariance)        \
-  X(geometry_msgs, Transform)                  \
-  X(nav_msgs, Odometry)                        \
-  X(sensor_msgs, PointField)                   \
-  X(sensor_msgs, PointCloud2)                  \
-  X(sensor_msgs, ChannelFloat32)               \
-  X(sensor_msgs, PointCloud)                   \
-  X(trajectory_msgs, MultiDOFJointTrajectory)  \
+#define SKEIN_ALL_TYPES(X)                         \
+  X(builtin_interfaces, Time)                      \
+  X(builtin_interfaces, Duration)                  \
+  X(std_msgs, Header)                              \
+  X(std_msgs, String)                              \
+  X(rosgraph_msgs, Clock)                          \
+  X(geometry_msgs, Vector3)                        \
+  X(geometry_msgs, Point)                          \
+  X(geometry_msgs, Point32)                        \
+  X(geometry_msgs, Quaternion)                     \
+  X(geometry_msgs, Pose)                           \
+  X(geometry_msgs, PoseWithCovariance)             \
+  X(geometry_msgs, Twist)                          \
+  X(geometry_msgs, TwistStamped)                   \
+  X(geometry_msgs, TwistWithCovariance)            \
+  X(geometry_msgs, Transform)                      \
+  X(nav_msgs, Odometry)                            \
+  X(sensor_msgs, PointField)                       \
+  X(sensor_msgs, PointCloud2)                      \
+  X(sensor_msgs, ChannelFloat32)                   \
+  X(sensor_msgs, PointCloud)                       \
+  X(trajectory_msgs, MultiDOFJointTrajectory)      \
   X(trajectory_msgs, MultiDOFJointTrajectoryPoint) \
-  X(skein_msgs, TopicCount)                    \
-  X(skein_msgs, Member)                        \
-  X(skein_msgs, Step)                          \
-  X(skein_msgs, Done)                          \
-  X(skein_msgs, NodeCounts)                    \
-  X(skein_msgs, Routed)                        \
-  X(skein_msgs, Drop)                          \
-  X(skein_msgs, Ready)                         \
-  X(skein_msgs, Attached)                      \
-  X(skein_msgs, Resync)                        \
-  X(skein_msgs, BoolStamped)                   \
-  X(skein_msgs, CommandRejected)               \
-  X(skein_msgs, CapturePoint)                  \
-  X(skein_msgs, CaptureReport)                 \
-  X(skein_msgs, CaptureReports)                \
-  X(skein_msgs, CaptureAck)                    \
-  X(skein_msgs, LedgerEntry)                   \
+  X(skein_msgs, TopicCount)                        \
+  X(skein_msgs, Member)                            \
+  X(skein_msgs, Step)                              \
+  X(skein_msgs, Done)                              \
+  X(skein_msgs, NodeCounts)                        \
+  X(skein_msgs, Routed)                            \
+  X(skein_msgs, Drop)                              \
+  X(skein_msgs, Ready)                             \
+  X(skein_msgs, Attached)                          \
+  X(skein_msgs, Resync)                            \
+  X(skein_msgs, BoolStamped)                       \
+  X(skein_msgs, CommandRejected)                   \
+  X(skein_msgs, CapturePoint)                      \
+  X(skein_msgs, CaptureReport)                     \
+  X(skein_msgs, CaptureReports)                    \
+  X(skein_msgs, CaptureAck)                        \
+  X(skein_msgs, LedgerEntry)                       \
   X(skein_msgs, Ledger)
 
-#define SKEIN_DEFINE_TYPE(package, name)                             \
-  namespace skein::msg {                                             \
-  using name = ::package::msg::dds_::name##_;                        \
-  }                                                                  \
-  template <>                                                        \
-  struct skein::TypeName<::package::msg::dds_::name##_> {            \
+#define SKEIN_DEFINE_TYPE(package, name)                                      \
+  namespace skein::msg {                                                      \
+  using name = ::package::msg::dds_::name##_;                                 \
+  }                                                                           \
+  template <>                                                                 \
+  struct skein::TypeName<::package::msg::dds_::name##_> {                     \
     static constexpr const char* kValue = #package "::msg::dds_::" #name "_"; \
   };
 SKEIN_ALL_TYPES(SKEIN_DEFINE_TYPE)

@@ -13,8 +13,8 @@ constexpr double kLowestAntenna = 0.1;
 std::array<Vector3d, kAntennas> antennas(const AntennaNode& node) {
   const Vector3d& p = node.p_W;
   const double d = node.offset_m;
-  return {p + Vector3d(d, 0, 0), p - Vector3d(d, 0, 0), p + Vector3d(0, d, 0), p - Vector3d(0, d, 0),
-          p + Vector3d(0, 0, d), Vector3d(p.x(), p.y(), std::max(p.z() - d, kLowestAntenna))};
+  return {p + Vector3d(d, 0, 0), p - Vector3d(d, 0, 0), p + Vector3d(0, d, 0),
+          p - Vector3d(0, d, 0), p + Vector3d(0, 0, d), Vector3d(p.x(), p.y(), std::max(p.z() - d, kLowestAntenna))};
 }
 
 SightLine judge_sight_line(double length, const std::optional<double>& hit) {

@@ -20,7 +20,7 @@ double integrated(double sum, double error) { return std::clamp(sum + error, -kI
 
 AttitudeController::AttitudeController(const VehicleConfig& vehicle)
     : gains_(vehicle.attitude_control), inertia_(vehicle.inertia) {
-  Eigen::Matrix<double, 4, kRotors> allocation;  // rows roll, pitch, yaw, thrust; columns rotors
+  Eigen::Matrix<double, 4, kRotors> allocation;   // rows roll, pitch, yaw, thrust; columns rotors
   allocation << 0.5, 1.0, 0.5, -0.5, -1.0, -0.5,  //
       -kC, 0.0, kC, kC, 0.0, -kC,                 //
       -1.0, 1.0, -1.0, 1.0, -1.0, 1.0,            //
@@ -37,13 +37,11 @@ RotorSpeeds AttitudeController::step(const Quaterniond& q_WB, const Vector3d& w_
   const double pitch_error = demand.pitch - rpy.pitch;
   integrators_.roll = integrated(integrators_.roll, roll_error);
   integrators_.pitch = integrated(integrators_.pitch, pitch_error);
-  angular_acceleration_ = {
-      kTiltGain * roll_error - gains_.p_gain * w_WB_B.x() + kIntegralGain * integrators_.roll,
-      kTiltGain * pitch_error - gains_.q_gain * w_WB_B.y() + kIntegralGain * integrators_.pitch,
-      gains_.r_gain * (demand.yaw_rate - w_WB_B.z())};
+  angular_acceleration_ = {kTiltGain * roll_error - gains_.p_gain * w_WB_B.x() + kIntegralGain * integrators_.roll,
+                           kTiltGain * pitch_error - gains_.q_gain * w_WB_B.y() + kIntegralGain * integrators_.pitch,
+                           gains_.r_gain * (demand.yaw_rate - w_WB_B.z())};
 
-  const Vector3d torque =
-      inertia_.cwiseProduct(angular_acceleration_) - w_WB_B.cross(inertia_.cwiseProduct(w_WB_B));
+  const Vector3d torque = inertia_.cwiseProduct(angular_acceleration_) - w_WB_B.cross(inertia_.cwiseProduct(w_WB_B));
   const Eigen::Vector4d wanted(torque.x(), torque.y(), torque.z(), demand.thrust_N);
   const Eigen::Matrix<double, kRotors, 1> squares = mixer_ * wanted;
   RotorSpeeds speeds;

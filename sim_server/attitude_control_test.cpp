@@ -30,8 +30,8 @@ TEST(AttitudeController, RotorsGiveTheTorqueAndThrustAskedFor) {
     const Vector3d w(0.1 * std::sin(i), 0.1 * std::cos(2.0 * i), 0.05 * std::sin(3.0 * i));
     const ControlDemand demand{0.02 * std::sin(5.0 * i), 0.02 * std::cos(7.0 * i), 0.05 * std::sin(i), 33.0};
     const RotorSpeeds speeds = controller.step(Quaterniond::Identity(), w, demand);
-    const Vector3d torque = vehicle.inertia.cwiseProduct(controller.angular_acceleration()) -
-                            w.cross(vehicle.inertia.cwiseProduct(w));
+    const Vector3d torque =
+        vehicle.inertia.cwiseProduct(controller.angular_acceleration()) - w.cross(vehicle.inertia.cwiseProduct(w));
     const Eigen::Vector4d made = wrench(vehicle, speeds);
     EXPECT_NEAR(made[0], torque.x(), 1e-4);  // the mixer's cos 30 degrees has six digits
     EXPECT_NEAR(made[1], torque.y(), 1e-4);

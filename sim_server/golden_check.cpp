@@ -163,8 +163,8 @@ GoldenReport check_position_control(const GoldenTable& table) {
     body.p_WB = table.vector(row, "p");
     body.q_WB = table.quaternion(row);
     body.v_WB = table.vector(row, "vel_world_");
-    const TrajectoryCommand command{table.vector(row, "cmd_p"), table.vector(row, "cmd_v"),
-                                    table.vector(row, "cmd_a"), number("cmd_yaw")};
+    const TrajectoryCommand command{table.vector(row, "cmd_p"), table.vector(row, "cmd_v"), table.vector(row, "cmd_a"),
+                                    number("cmd_yaw")};
     // Rounded up: an age of 0.1005 s is more than 40 ticks.
     const auto age = static_cast<Tick>(std::ceil(number("command_age_s") / kTickS));
 
@@ -192,8 +192,7 @@ GoldenReport check_attitude_control(const GoldenTable& table) {
     const auto number = [&](const char* column) { return table.number(row, column); };
     AttitudeController controller(reference_vehicle(table.text(row, "role")));
     controller.set_integrators({number("roll_int"), number("pitch_int")});
-    const ControlDemand demand{number("roll_cmd"), number("pitch_cmd"), number("yaw_rate_cmd"),
-                               number("thrust_cmd_N")};
+    const ControlDemand demand{number("roll_cmd"), number("pitch_cmd"), number("yaw_rate_cmd"), number("thrust_cmd_N")};
 
     const RotorSpeeds speeds = controller.step(table.quaternion(row), table.vector(row, "w_B_"), demand);
     compare.number("roll_int_out", controller.integrators().roll, kRest);
@@ -223,8 +222,7 @@ struct Boxes {
 
  private:
   /// Share of the way at which the segment enters the box.
-  static std::optional<double> entry_share(const Eigen::AlignedBox3d& box, const Vector3d& from,
-                                           const Vector3d& way) {
+  static std::optional<double> entry_share(const Eigen::AlignedBox3d& box, const Vector3d& from, const Vector3d& way) {
     double enter = 0.0, leave = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
       if (way[axis] == 0.0) {

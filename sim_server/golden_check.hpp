@@ -8,7 +8,7 @@
 namespace skein::sim {
 
 struct GoldenReport {
-  std::string table;                  ///< scoring, gimbal, position_control, attitude_control or los_antenna
+  std::string table;  ///< scoring, gimbal, position_control, attitude_control or los_antenna
   std::size_t rows = 0;
   std::size_t failures = 0;           ///< rows in which a value is beyond its tolerance, or a flag differs
   double worst = 0.0;                 ///< greatest difference, as a share of its tolerance (<= 1 passes)

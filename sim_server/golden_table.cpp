@@ -48,8 +48,8 @@ GoldenTable::GoldenTable(const std::filesystem::path& file) : file_(file) {
     drop_carriage_return(line);
     auto cells = split(line);
     if (cells.size() != header.size()) {
-      throw InputError(place(rows_.size()) + ": " +
-                       std::to_string(cells.size()) + " cells, the header has " + std::to_string(header.size()));
+      throw InputError(place(rows_.size()) + ": " + std::to_string(cells.size()) + " cells, the header has " +
+                       std::to_string(header.size()));
     }
     rows_.push_back(std::move(cells));
   }
@@ -67,8 +67,7 @@ std::optional<double> GoldenTable::cell(std::size_t row, const std::string& colu
   double value = 0.0;
   const auto [end, error] = std::from_chars(content.data(), content.data() + content.size(), value);
   if (error != std::errc{} || end != content.data() + content.size()) {
-    throw InputError(place(row) + ": column '" + column + "': '" + content +
-                     "' is not a number");
+    throw InputError(place(row) + ": column '" + column + "': '" + content + "' is not a number");
   }
   return value;
 }

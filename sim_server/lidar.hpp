@@ -47,7 +47,7 @@ class Lidar {
   std::size_t uav_;
   std::uint64_t seed_;
   Tick period_;
-  Tick phase_ = 0;  ///< how long the servo has been running at tick 0
+  Tick phase_ = 0;                 ///< how long the servo has been running at tick 0
   Eigen::Matrix3Xf directions_L_;  ///< of all beams, in the order of the cloud
   std::vector<Eigen::Vector3f> directions_W_;
   std::vector<double> ranges_;

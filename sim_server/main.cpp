@@ -1,7 +1,7 @@
 // sim_server: physics, sensors, links, referee and the lock-step clock of one run.
-#include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <iostream>
 
@@ -31,15 +31,17 @@ std::optional<double> realtime_factor(const std::string& clock) {
     const double factor = std::strtod(text.c_str(), &end);
     if (!text.empty() && *end == '\0' && factor > 0.0 && factor <= 1000.0) return factor;
   }
-  throw skein::InputError("--clock " + clock + ": it must be lockstep, realtime or realtime:FACTOR with a factor above 0");
+  throw skein::InputError("--clock " + clock +
+                          ": it must be lockstep, realtime or realtime:FACTOR with a factor above 0");
 }
 
 int check_golden(const std::vector<std::filesystem::path>& files) {
   bool passed = true;
   for (const auto& file : files) {
     const skein::sim::GoldenReport report = skein::sim::check_golden(file);
-    std::cout << fmt::format("{}: {}, {} rows, {} failed, worst difference {:.3g} of its tolerance ({})\n", file.string(),
-                             report.table, report.rows, report.failures, report.worst, report.worst_column);
+    std::cout << fmt::format("{}: {}, {} rows, {} failed, worst difference {:.3g} of its tolerance ({})\n",
+                             file.string(), report.table, report.rows, report.failures, report.worst,
+                             report.worst_column);
     for (const std::string& message : report.messages) std::cout << "  " << message << '\n';
     passed = passed && report.failures == 0;
   }

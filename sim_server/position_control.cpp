@@ -9,12 +9,12 @@ namespace skein::sim {
 namespace {
 
 constexpr double kGravity = 9.781;
-constexpr double kHoverFactor = 0.19;        ///< thrust scale * this = thrust at hover
-constexpr double kNone = 0.01;               ///< a shorter vector means "not given"
-constexpr double kAtTarget = 0.05;           ///< a target nearer than this does not make the UAV move [m]
-constexpr double kMaxHorizontal = 10.0;      ///< [m/s^2]
+constexpr double kHoverFactor = 0.19;    ///< thrust scale * this = thrust at hover
+constexpr double kNone = 0.01;           ///< a shorter vector means "not given"
+constexpr double kAtTarget = 0.05;       ///< a target nearer than this does not make the UAV move [m]
+constexpr double kMaxHorizontal = 10.0;  ///< [m/s^2]
 constexpr double kMinVertical = 0.3 * kGravity, kMaxVertical = 2.0 * kGravity;
-constexpr double kPositionSumLimit = 10.0;   ///< [m]
+constexpr double kPositionSumLimit = 10.0;  ///< [m]
 constexpr double kYawGain = 2.0, kYawIntegralGain = 0.02;
 constexpr double kYawSumLimit = 1.57;
 constexpr double kMaxYawRate = 90.0 * kRadPerDeg;
@@ -40,8 +40,8 @@ Tilt tilt_towards(const Vector3d& acceleration, double yaw) {
 
 }  // namespace
 
-ControlDemand PositionController::step(const RigidBodyState& state,
-                                       const std::optional<TrajectoryCommand>& new_command, Tick command_age) {
+ControlDemand PositionController::step(const RigidBodyState& state, const std::optional<TrajectoryCommand>& new_command,
+                                       Tick command_age) {
   if (memory_.mode == ControlMode::stopped) return {};
   if (new_command) memory_.command = *new_command;
   if (memory_.mode == ControlMode::idle) {

@@ -23,7 +23,7 @@ enum class ControlMode {
   hold,      ///< the command is too old: stay where it lapsed
   yaw_only,  ///< an all-zero command: stay, turn
   moving,
-  stopped,   ///< no thrust, for good
+  stopped,  ///< no thrust, for good
 };
 
 /// One UAV's controller. Not thread-safe.
@@ -35,9 +35,9 @@ class PositionController {
   /// All that it remembers from step to step.
   struct Memory {
     ControlMode mode = ControlMode::idle;
-    TrajectoryCommand command;                         ///< in effect, after the rules on modes
-    Vector3d position_error_sum = Vector3d::Zero();    ///< [m], per axis within +-10
-    double yaw_error_sum = 0.0;                        ///< [rad], within +-1.57
+    TrajectoryCommand command;                       ///< in effect, after the rules on modes
+    Vector3d position_error_sum = Vector3d::Zero();  ///< [m], per axis within +-10
+    double yaw_error_sum = 0.0;                      ///< [rad], within +-1.57
   };
 
   explicit PositionController(const PositionControlConfig& config) : config_(config) {}

@@ -22,9 +22,12 @@ nlohmann::json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 std::string collided_with(const Collision& collision, const Scenario& scenario) {
   switch (collision.with.kind) {
-    case BodyId::Kind::ground: return "ground";
-    case BodyId::Kind::structure: return "structure";
-    case BodyId::Kind::uav: return scenario.fleet[collision.with.uav].name;
+    case BodyId::Kind::ground:
+      return "ground";
+    case BodyId::Kind::structure:
+      return "structure";
+    case BodyId::Kind::uav:
+      return scenario.fleet[collision.with.uav].name;
   }
   return "structure";
 }
@@ -48,8 +51,10 @@ void RunFiles::write_scene(const Scene& scene) {
   for (const OrientedBox& box : scene.boxes) {
     nlohmann::json rotation = nlohmann::json::array();
     for (int row = 0; row < 3; ++row) rotation.push_back(vector_json(box.R_WO.row(row)));
-    json["boxes"].push_back(
-        {{"name", box.name}, {"center", vector_json(box.center)}, {"size", vector_json(box.size)}, {"rotation", rotation}});
+    json["boxes"].push_back({{"name", box.name},
+                             {"center", vector_json(box.center)},
+                             {"size", vector_json(box.size)},
+                             {"rotation", rotation}});
   }
   nlohmann::json meshes = nlohmann::json::array();
   for (const auto& mesh : scenario_.scene.meshes) meshes.push_back(mesh.filename().string());
@@ -59,7 +64,8 @@ void RunFiles::write_scene(const Scene& scene) {
                   {"triangles", scene.mesh.triangles.size()}};
   json["points"] = nlohmann::json::array();
   for (const InterestPoint& point : scene.points) {
-    json["points"].push_back({point.p_W.x(), point.p_W.y(), point.p_W.z(), point.n_W.x(), point.n_W.y(), point.n_W.z()});
+    json["points"].push_back(
+        {point.p_W.x(), point.p_W.y(), point.p_W.z(), point.n_W.x(), point.n_W.y(), point.n_W.z()});
   }
   write_file_atomically(folder_ / "scene.json", json.dump());
 }

@@ -32,7 +32,7 @@ struct RunSummary {
   std::vector<Collision> collisions;
   std::vector<LostProcess> lost;
   std::vector<std::string> warnings;
-  nlohmann::json timing;     ///< CPU time by kind of work
+  nlohmann::json timing;  ///< CPU time by kind of work
 };
 
 class RunFiles {

@@ -241,7 +241,9 @@ void SimNode::report_progress(bool now) {
     alive += simulation_.uav(i).alive;
   }
   for (const LostProcess& process : summary_.lost) lost.push_back(process.name);
-  const char* phase = mission.phase() == Phase::waiting ? "waiting" : mission.phase() == Phase::flying ? "flying" : "ended";
+  const char* phase = mission.phase() == Phase::waiting  ? "waiting"
+                      : mission.phase() == Phase::flying ? "flying"
+                                                         : "ended";
   const double mission_s = mission.start_tick() ? seconds(simulation_.tick() - *mission.start_tick()) : 0.0;
   status_.send({{"type", "progress"},
                 {"t", seconds(simulation_.tick())},

@@ -118,7 +118,8 @@ void UavNode::publish_clouds() {
     if (scan.uav == uav_ && cloud_) send(*cloud_, [&] { return to_cloud(scan.scan.tick, scan.scan.points_W); });
   }
   for (const KeyFrameEvent& frame : simulation_.events().key_frames) {
-    if (frame.uav == uav_ && self_keyframe_) send(*self_keyframe_, [&] { return to_cloud(frame.key_frame.tick, frame.key_frame.points_W); });
+    if (frame.uav == uav_ && self_keyframe_)
+      send(*self_keyframe_, [&] { return to_cloud(frame.key_frame.tick, frame.key_frame.points_W); });
     const bool neighbour = std::find(frame.neighbours.begin(), frame.neighbours.end(), uav_) != frame.neighbours.end();
     if (neighbour) {
       const auto source = static_cast<float>(node_of_uav(frame.uav));

@@ -38,7 +38,7 @@ class UavNode {
   bus::CountedWriter &odometry_, &gimbal_, &neighbour_odometry_, &neighbour_keyframe_, &detected_, &remained_, &clock_,
       &boxes_, &rejected_, &capture_;
   bus::CountedWriter *cloud_ = nullptr, *self_keyframe_ = nullptr;  ///< explorers only
-  std::map<std::uint64_t, CaptureReport> card_;                      ///< captures that the agent has not released
+  std::map<std::uint64_t, CaptureReport> card_;                     ///< captures that the agent has not released
   bool resend_ = false, boxes_sent_ = false;
 };
 

@@ -30,13 +30,15 @@ StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bu
       gcs_(bus.join(gcs_domain(base_domain))),
       score_(std::make_unique<bus::CountedWriter>(*gcs_, bus::spec(topics::score()))),
       client_(*gcs_, inbox_, std::string(bus::kStationName)) {
-  ledger_reader_ = inbox_.subscribe(*world_, bus::spec(topics::ledger()), [this](bus::Sample&& s) { on_ledger(std::move(s)); });
+  ledger_reader_ =
+      inbox_.subscribe(*world_, bus::spec(topics::ledger()), [this](bus::Sample&& s) { on_ledger(std::move(s)); });
   for (std::size_t i = 0; i < uavs_.size(); ++i) {
     client_.read(bus::spec(topics::captures_at_station(uavs_[i])), LockstepClient::Counterpart::router,
                  [this, i](bus::Sample&& s) { on_reports(i, std::move(s)); });
     client_.declare_writer(bus::spec(topics::captures_ack(uavs_[i])), LockstepClient::Counterpart::router);
   }
-  client_.think_when([this](const msg::Step& step) { return scoreboard_ && scoreboard_->has_entries(step.ledger_upto()); });
+  client_.think_when(
+      [this](const msg::Step& step) { return scoreboard_ && scoreboard_->has_entries(step.ledger_upto()); });
 }
 
 void StationNode::on_ledger(bus::Sample&& sample) {

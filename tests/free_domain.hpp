@@ -42,8 +42,7 @@ class FreeDomains {
  private:
   bool lock_all(int count) {
     for (int domain = base_; domain < base_ + count; ++domain) {
-      const auto path =
-          std::filesystem::temp_directory_path() / ("skein-domain-" + std::to_string(domain) + ".lock");
+      const auto path = std::filesystem::temp_directory_path() / ("skein-domain-" + std::to_string(domain) + ".lock");
       const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
       if (file < 0) throw std::runtime_error("cannot create " + path.string());
       files_.push_back(file);

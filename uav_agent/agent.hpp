@@ -17,16 +17,16 @@ namespace skein::agent {
 struct AgentInput {
   std::uint64_t k = 0;
   Tick tick = 0;
-  RigidBodyState state;                       ///< odometry, twist already turned into W
+  RigidBodyState state;  ///< odometry, twist already turned into W
   GimbalState gimbal;
   std::optional<double> mission_remaining_s;  ///< nullopt before the first take-off
   std::vector<OrientedBox> boxes;             ///< when they arrived at this step; else empty
   std::vector<Neighbour> neighbours;          ///< in line of sight now
   std::vector<KeyFrame> key_frames;           ///< in order: own first, then neighbours'
   std::vector<DetectedPoint> detected;
-  std::vector<CaptureReport> capture_reports; ///< from the camera; it may repeat unacknowledged ones
-  std::vector<std::uint64_t> capture_acks;    ///< capture numbers that the station has journalled
-  std::vector<RadioMessage> radio;            ///< from other planners
+  std::vector<CaptureReport> capture_reports;  ///< from the camera; it may repeat unacknowledged ones
+  std::vector<std::uint64_t> capture_acks;     ///< capture numbers that the station has journalled
+  std::vector<RadioMessage> radio;             ///< from other planners
 };
 
 struct AgentOutput {
@@ -34,7 +34,7 @@ struct AgentOutput {
   std::optional<GimbalCommand> gimbal;
   bool trigger = false;
   std::vector<RadioMessage> radio;
-  std::vector<CaptureReport> captures;          ///< to send to the station now
+  std::vector<CaptureReport> captures;  ///< to send to the station now
 };
 
 class Agent {

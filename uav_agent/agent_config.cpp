@@ -14,8 +14,8 @@ AgentConfig agent_config(const Scenario& scenario, std::size_t self) {
   config.self = self;
   config.vehicle = scenario.fleet.at(self).vehicle;
   for (const UavConfig& uav : scenario.fleet) {
-    config.fleet.push_back({uav.name, uav.vehicle.role, Vector3d(uav.start.x(), uav.start.y(), 0.0),
-                            body_radius_m(uav.vehicle)});
+    config.fleet.push_back(
+        {uav.name, uav.vehicle.role, Vector3d(uav.start.x(), uav.start.y(), 0.0), body_radius_m(uav.vehicle)});
   }
   config.desired_mm_per_pixel = scenario.desired_mm_per_pixel;
   config.duration_s = scenario.duration_s;

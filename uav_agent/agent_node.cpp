@@ -41,7 +41,8 @@ AgentNode::AgentNode(const Scenario& scenario, std::size_t uav, std::unique_ptr<
 }
 
 template <class Message>
-void AgentNode::read(const topics::WireTopic& topic, Counterpart counterpart, std::function<void(const Message&)> handler) {
+void AgentNode::read(const topics::WireTopic& topic, Counterpart counterpart,
+                     std::function<void(const Message&)> handler) {
   client_.read(bus::spec(topic), counterpart, [handler = std::move(handler)](bus::Sample&& sample) {
     Message message;
     if (decode(sample.payload, message)) handler(message);
@@ -49,8 +50,10 @@ void AgentNode::read(const topics::WireTopic& topic, Counterpart counterpart, st
 }
 
 void AgentNode::read_sensors() {
-  read<msg::Odometry>(topics::odometry(id_), Counterpart::server, [this](const auto& m) { input_.state = from_odometry(m); });
-  read<msg::TwistStamped>(topics::gimbal(id_), Counterpart::server, [this](const auto& m) { input_.gimbal = from_gimbal(m); });
+  read<msg::Odometry>(topics::odometry(id_), Counterpart::server,
+                      [this](const auto& m) { input_.state = from_odometry(m); });
+  read<msg::TwistStamped>(topics::gimbal(id_), Counterpart::server,
+                          [this](const auto& m) { input_.gimbal = from_gimbal(m); });
   read<msg::Duration>(topics::mission_duration_remained(id_), Counterpart::server,
                       [this](const auto& m) { input_.mission_remaining_s = from_duration(m); });
   read<msg::PointCloud>(topics::bounding_boxes(), Counterpart::server,
@@ -106,8 +109,8 @@ void AgentNode::declare_radio(const std::vector<RadioRoute>& routes) {
   for (const RadioRoute& route : routes) {
     for (const RadioTarget& target : route.targets) {
       if (target.node != node_ || route.ros_type != kTextType || !arrivals.insert(target.topic).second) continue;
-      read<msg::String>({target.topic, route.type, false, topics::radio_depth(scenario_.fleet.size() + 1)}, Counterpart::router,
-                        [this, topic = route.ros_topic](const auto& m) {
+      read<msg::String>({target.topic, route.type, false, topics::radio_depth(scenario_.fleet.size() + 1)},
+                        Counterpart::router, [this, topic = route.ros_topic](const auto& m) {
                           input_.radio.push_back({topic, m.data(), std::nullopt});
                         });
     }

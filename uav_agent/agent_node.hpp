@@ -19,7 +19,8 @@ namespace skein::agent {
 class AgentNode {
  public:
   /// @param uav  index in fleet order.
-  AgentNode(const Scenario& scenario, std::size_t uav, std::unique_ptr<Planner> planner, int base_domain, bus::Bus& bus);
+  AgentNode(const Scenario& scenario, std::size_t uav, std::unique_ptr<Planner> planner, int base_domain,
+            bus::Bus& bus);
 
   /// Takes part until the last step, or until asked to stop. @returns the program's exit code.
   int run(const StopSignal& stop);
@@ -30,7 +31,8 @@ class AgentNode {
 
  private:
   template <class Message>
-  void read(const topics::WireTopic& topic, bus::LockstepClient::Counterpart counterpart, std::function<void(const Message&)> handler);
+  void read(const topics::WireTopic& topic, bus::LockstepClient::Counterpart counterpart,
+            std::function<void(const Message&)> handler);
   void read_sensors();
   void read_captures();
   void declare_radio(const std::vector<RadioRoute>& routes);
@@ -44,9 +46,9 @@ class AgentNode {
   std::unique_ptr<bus::Participant> participant_;
   bus::LockstepClient client_;
   Agent agent_;
-  AgentInput input_;                    ///< being filled for the step to come
-  std::vector<std::uint64_t> released_; ///< acknowledged captures that the camera may forget
-  std::set<std::string> radio_out_;     ///< ROS topics that this UAV may send on
+  AgentInput input_;                     ///< being filled for the step to come
+  std::vector<std::uint64_t> released_;  ///< acknowledged captures that the camera may forget
+  std::set<std::string> radio_out_;      ///< ROS topics that this UAV may send on
   bool last_step_answered_ = false;
   double planner_cpu_s_ = 0.0;
 };

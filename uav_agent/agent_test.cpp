@@ -43,9 +43,7 @@ AgentConfig fleet_of_three() {
 
 class AgentTest : public testing::Test {
  protected:
-  AgentTest() : agent_(fleet_of_three(), std::make_unique<TapePlanner>(tape_)) {
-    input_.state.p_WB = {0.0, 0.0, 10.0};
-  }
+  AgentTest() : agent_(fleet_of_three(), std::make_unique<TapePlanner>(tape_)) { input_.state.p_WB = {0.0, 0.0, 10.0}; }
 
   AgentOutput step() {
     const AgentOutput output = agent_.step(input_);
@@ -106,8 +104,7 @@ TEST_F(AgentTest, KeepsThePointOfAimInTheImage) {
 
 TEST_F(AgentTest, AnUnseenPeerIsStillWhereItStood) {
   auto points = wall();
-  for (float a = 0.0F; a < 6.0F; a += 0.4F)
-    points.emplace_back(20.0F + 0.5F * std::cos(a), 0.5F * std::sin(a), 0.6F);
+  for (float a = 0.0F; a < 6.0F; a += 0.4F) points.emplace_back(20.0F + 0.5F * std::cos(a), 0.5F * std::sin(a), 0.6F);
   input_.key_frames = {{.points_W = points}};
   step();
   const std::size_t with_body = tape_.cells;

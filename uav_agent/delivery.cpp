@@ -8,14 +8,14 @@ namespace skein::agent {
 namespace {
 
 constexpr double kDetour = 1.5;
-constexpr double kFixedS = 6.0;          ///< to stop, turn and speed up
-constexpr double kLayerM = 3.0;          ///< between the heights of two UAVs
-constexpr double kSightRadiusM = 0.8;    ///< of the tube that must be clear of mapped cells
-constexpr double kStationM = 3.0;        ///< the station's own surroundings are mapped: they do not count
+constexpr double kFixedS = 6.0;        ///< to stop, turn and speed up
+constexpr double kLayerM = 3.0;        ///< between the heights of two UAVs
+constexpr double kSightRadiusM = 0.8;  ///< of the tube that must be clear of mapped cells
+constexpr double kStationM = 3.0;      ///< the station's own surroundings are mapped: they do not count
 constexpr int kDirections = 12;
-constexpr double kAboveAllM = 6.0;       ///< where no place is known
-constexpr double kRetryS = 1.0;          ///< after no way was found
-constexpr double kLinkPatienceS = 4.0;   ///< at a place without a link
+constexpr double kAboveAllM = 6.0;      ///< where no place is known
+constexpr double kRetryS = 1.0;         ///< after no way was found
+constexpr double kLinkPatienceS = 4.0;  ///< at a place without a link
 constexpr int kFailuresToRetreat = 3;
 constexpr double kOutwards[] = {4.0, 8.0, 14.0, 22.0, 32.0};
 
@@ -35,8 +35,7 @@ std::vector<Vector3d> delivery_places(const AgentConfig& agent, const FreeSpace&
       const double turn = 2.0 * std::numbers::pi * i / kDirections;
       const Vector3d p(agent.station_position.x() + outwards * std::cos(own_direction + turn),
                        agent.station_position.y() + outwards * std::sin(own_direction + turn), height);
-      const Vector3d above_station =
-          agent.station_position + (p - agent.station_position).normalized() * kStationM;
+      const Vector3d above_station = agent.station_position + (p - agent.station_position).normalized() * kStationM;
       if (!space.free(p) || !space.sees(p, above_station, kSightRadiusM)) continue;
       candidates.push_back({outwards * (1.0 + std::min(i, kDirections - i)), p});
     }

@@ -23,8 +23,8 @@ double time_home_s(const Vector3d& from_W, const Vector3d& place_W, double speed
 class Delivery {
  public:
   struct Config {
-    double every_s = 240.0;    ///< go when something has been undelivered for this long
-    double margin_s = 12.0;    ///< spare time at the end of the mission
+    double every_s = 240.0;  ///< go when something has been undelivered for this long
+    double margin_s = 12.0;  ///< spare time at the end of the mission
     double speed_mps = 4.5;
   };
 
@@ -53,9 +53,9 @@ class Delivery {
   const AgentConfig& agent_;
   Pilot& pilot_;
   double top_m_ = 0.0;
-  std::optional<Tick> delivered_at_;    ///< when nothing was undelivered
+  std::optional<Tick> delivered_at_;  ///< when nothing was undelivered
   std::vector<Vector3d> places_;
-  std::size_t place_ = 0;               ///< places_.size() stands for high above everything
+  std::size_t place_ = 0;  ///< places_.size() stands for high above everything
   bool heading_home_ = false;
   Tick next_try_ = 0;
   int failures_ = 0;

@@ -43,9 +43,7 @@ bool FreeSpace::near_box(const Vector3d& p_W) const {
                      [&](const OrientedBox& box) { return box.contains(p_W, config_.clearance_m); });
 }
 
-bool FreeSpace::must_be_seen(const Vector3d& p_W) const {
-  return p_W.z() < config_.blind_height_m || near_box(p_W);
-}
+bool FreeSpace::must_be_seen(const Vector3d& p_W) const { return p_W.z() < config_.blind_height_m || near_box(p_W); }
 
 bool FreeSpace::free(const Vector3d& p_W) const {
   return allowed(p_W) && !(config_.use_map && map_.any_occupied_within(p_W, config_.clearance_m));

@@ -18,10 +18,10 @@ struct Sphere {
 class FreeSpace {
  public:
   struct Config {
-    double clearance_m = 1.8;       ///< of the UAV's centre to mapped cells and to unknown boxes
+    double clearance_m = 1.8;  ///< of the UAV's centre to mapped cells and to unknown boxes
     double floor_m = 2.0;
-    double blind_height_m = 0.0;    ///< below, only space that was seen to be free may be entered
-    int rays = 8;                   ///< that must have passed a place where only what was seen may be entered
+    double blind_height_m = 0.0;  ///< below, only space that was seen to be free may be entered
+    int rays = 8;                 ///< that must have passed a place where only what was seen may be entered
     /// If not empty, boxes may only be entered this near to one of these places, however much was seen of
     /// their inside: a way from here to there does not lead through a building.
     std::vector<Vector3d> enter_near_W = {};

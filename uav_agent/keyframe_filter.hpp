@@ -17,11 +17,11 @@ struct KnownBody {
 class KeyframeFilter {
  public:
   struct Config {
-    double lowest_m = -1.0;        ///< points outside these heights are dropped
+    double lowest_m = -1.0;  ///< points outside these heights are dropped
     double highest_m = 500.0;
-    double voxel_m = 0.25;         ///< finer than the map's cells, or hits would wander between them
-    double lone_radius_m = 2.0;    ///< a point with no other point this near is dropped...
-    int lone_min_neighbours = 1;   ///< ...0 keeps all; thin members must survive, so this stays low
+    double voxel_m = 0.25;        ///< finer than the map's cells, or hits would wander between them
+    double lone_radius_m = 2.0;   ///< a point with no other point this near is dropped...
+    int lone_min_neighbours = 1;  ///< ...0 keeps all; thin members must survive, so this stays low
   };
 
   KeyframeFilter() : KeyframeFilter(Config()) {}

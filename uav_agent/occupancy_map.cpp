@@ -64,9 +64,7 @@ class CellBlocks {
  private:
   static constexpr int kEdge = 4;
 
-  Eigen::Vector3i cell(const Vector3d& p) const {
-    return (p / cell_m_).array().floor().matrix().cast<int>();
-  }
+  Eigen::Vector3i cell(const Vector3d& p) const { return (p / cell_m_).array().floor().matrix().cast<int>(); }
   static Eigen::Vector3i block(const Eigen::Vector3i& c) { return {c.x() >> 2, c.y() >> 2, c.z() >> 2}; }
   static std::uint64_t bit_of(const Eigen::Vector3i& c) {
     return std::uint64_t{1} << ((c.x() & 3) | (c.y() & 3) << 2 | (c.z() & 3) << 4);
@@ -93,8 +91,7 @@ octomap::point3d to_octomap(const Vector3d& p) {
 }  // namespace
 
 struct OccupancyMap::Impl {
-  explicit Impl(const Config& c)
-      : config(c), hits(c.resolution_m), free(c.free_resolution_m), cells(c.resolution_m) {
+  explicit Impl(const Config& c) : config(c), hits(c.resolution_m), free(c.free_resolution_m), cells(c.resolution_m) {
     free.setClampingThresMin(octomap::probability(kMissPerRay * kCountedRays));
   }
 

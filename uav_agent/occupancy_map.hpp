@@ -15,11 +15,11 @@ namespace skein::agent {
 class OccupancyMap {
  public:
   struct Config {
-    double resolution_m = 0.5;        ///< edge of an occupied cell
-    double free_resolution_m = 2.0;   ///< free space is traced on a grid this coarse
-    double ground_m = 0.3;            ///< hits below end a ray, but are no obstacle
-    double free_range_m = 30.0;       ///< and only this far from the sensor
-    int max_free_rays = 400;          ///< a key frame; evenly picked
+    double resolution_m = 0.5;       ///< edge of an occupied cell
+    double free_resolution_m = 2.0;  ///< free space is traced on a grid this coarse
+    double ground_m = 0.3;           ///< hits below end a ray, but are no obstacle
+    double free_range_m = 30.0;      ///< and only this far from the sensor
+    int max_free_rays = 400;         ///< a key frame; evenly picked
   };
 
   OccupancyMap();

@@ -106,8 +106,7 @@ TEST_F(OccupancyMapTest, VisitsTheCellsOfABoxAlwaysInTheSameOrder) {
   map_.visit_occupied(box, [&](const Vector3d& p) { first.push_back(p); });
   backwards.visit_occupied(box, [&](const Vector3d& p) { second.push_back(p); });
   EXPECT_EQ(first, second);
-  const auto inside =
-      std::count_if(cells_.begin(), cells_.end(), [&](const Vector3d& c) { return box.contains(c); });
+  const auto inside = std::count_if(cells_.begin(), cells_.end(), [&](const Vector3d& c) { return box.contains(c); });
   EXPECT_EQ(first.size(), static_cast<std::size_t>(inside));
 }
 

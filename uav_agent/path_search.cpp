@@ -24,8 +24,8 @@ std::uint64_t key_of(const Cell& c) {
 
 class Search {
  public:
-  Search(const FreeSpace& space, const std::vector<OrientedBox>& structure, const Vector3d& from,
-         const Vector3d& to, const PathSearchConfig& config)
+  Search(const FreeSpace& space, const std::vector<OrientedBox>& structure, const Vector3d& from, const Vector3d& to,
+         const PathSearchConfig& config)
       : space_(space), from_(from), to_(to), config_(config), lo_(from.cwiseMin(to)), hi_(from.cwiseMax(to)) {
     for (const OrientedBox& box : structure) {
       const Vector3d half = box.R_WO.cwiseAbs() * (0.5 * box.size);
@@ -170,7 +170,7 @@ class Search {
   const Vector3d from_, to_;
   const PathSearchConfig config_;
   Vector3d lo_, hi_;
-  std::unordered_map<std::uint64_t, Node> nodes_;      // looked up only, never walked through
+  std::unordered_map<std::uint64_t, Node> nodes_;  // looked up only, never walked through
   std::unordered_map<std::uint64_t, bool> passable_;
   std::priority_queue<Entry, std::vector<Entry>, Later> queue_;
   std::uint64_t sequence_ = 0;

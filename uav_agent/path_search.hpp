@@ -12,7 +12,7 @@ namespace skein::agent {
 struct PathSearchConfig {
   double cell_m = 2.0;
   int max_expansions = 6000;
-  double margin_m = 25.0;   ///< the search stays in the box around start, goal and all structure, widened by this
+  double margin_m = 25.0;  ///< the search stays in the box around start, goal and all structure, widened by this
 };
 
 /// @param structure  boxes that the search may have to go around.

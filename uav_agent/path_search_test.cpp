@@ -98,8 +98,7 @@ TEST(PathSearch, IsRepeatableAndBounded) {
   RandomStream random(3, "clutter", 0);
   std::vector<Eigen::Vector3f> clutter;
   for (int i = 0; i < 4000; ++i) {
-    clutter.emplace_back(
-        Vector3d(random.uniform(-30, 30), random.uniform(-8, 8), random.uniform(2, 40)).cast<float>());
+    clutter.emplace_back(Vector3d(random.uniform(-30, 30), random.uniform(-8, 8), random.uniform(2, 40)).cast<float>());
   }
   OccupancyMap map;
   map.insert(clutter, std::nullopt);

@@ -3,8 +3,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMaxGapS = 0.25;        ///< two sightings further apart give no velocity
-constexpr double kVelocityGain = 0.5;    ///< of the newest difference; smooths the 20 Hz positions
+constexpr double kMaxGapS = 0.25;      ///< two sightings further apart give no velocity
+constexpr double kVelocityGain = 0.5;  ///< of the newest difference; smooths the 20 Hz positions
 
 }  // namespace
 

@@ -11,11 +11,11 @@
 namespace skein::agent {
 
 struct Peer {
-  std::size_t uav = 0;                  ///< index in the fleet
-  Vector3d p_W = Vector3d::Zero();      ///< when last seen; the nominal start before
-  Vector3d v_W = Vector3d::Zero();      ///< as told, or from sightings at most 0.25 s apart; else zero
-  std::optional<Tick> seen;             ///< nullopt: never
-  bool visible = false;                 ///< in line of sight at this step
+  std::size_t uav = 0;              ///< index in the fleet
+  Vector3d p_W = Vector3d::Zero();  ///< when last seen; the nominal start before
+  Vector3d v_W = Vector3d::Zero();  ///< as told, or from sightings at most 0.25 s apart; else zero
+  std::optional<Tick> seen;         ///< nullopt: never
+  bool visible = false;             ///< in line of sight at this step
 };
 
 class Peers {

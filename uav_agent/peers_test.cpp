@@ -42,8 +42,7 @@ TEST(Peers, TakeVelocityFromSuccessivePositionsAndForgetItAfterAGap) {
 
 TEST(Peers, RememberWhereSomebodyWasLastSeen) {
   Peers peers(fleet_of(2, 0));
-  peers.update(
-      20, {{.node = kStationNode, .p_W = Vector3d::Zero()}, {.node = 2, .p_W = {1.0, 2.0, 3.0}}, {.node = 9}});
+  peers.update(20, {{.node = kStationNode, .p_W = Vector3d::Zero()}, {.node = 2, .p_W = {1.0, 2.0, 3.0}}, {.node = 9}});
   EXPECT_TRUE(peers.station_visible());
   EXPECT_TRUE(peers.all()[0].visible);
   peers.update(40, {});

@@ -7,7 +7,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kLookAheadDtS = 0.25;           ///< of the predictions for safety and traffic
+constexpr double kLookAheadDtS = 0.25;  ///< of the predictions for safety and traffic
 constexpr int kLookAheadCount = 13;
 constexpr std::uint64_t kObstacleSteps = 4;      ///< exchanges between two looks at the map
 constexpr double kStopSlackM = 0.4;              ///< the safety stop is this much less careful than planning
@@ -32,8 +32,7 @@ std::vector<Waypoint> Pilot::rest_of_path(const PlannerInput& in) const {
   return {path_.waypoints.begin() + static_cast<std::ptrdiff_t>(leg), path_.waypoints.end()};
 }
 
-Situation Pilot::look_out(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour,
-                          PlannerOutput& out) {
+Situation Pilot::look_out(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour, PlannerOutput& out) {
   leave_trail(in.tracking.setpoint.p_WB);
   const Situation traffic = give_way(in, space, may_detour, out);
   if (traffic != Situation::flying_on) return traffic;
@@ -44,8 +43,7 @@ Situation Pilot::look_out(const PlannerInput& in, const FreeSpace::Config& space
   return stands_still(in) ? Situation::stuck : Situation::flying_on;
 }
 
-Situation Pilot::give_way(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour,
-                          PlannerOutput& out) {
+Situation Pilot::give_way(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour, PlannerOutput& out) {
   const std::vector<Waypoint> rest = rest_of_path(in);
   if (rest.empty()) return Situation::flying_on;
   const auto ahead = positions_ahead(in.tracking.setpoint.p_WB, rest, kLookAheadDtS, kLookAheadCount);
@@ -144,8 +142,7 @@ void Pilot::stop(PlannerOutput& out) {
   if (std::holds_alternative<std::monostate>(out.motion)) out.motion = Hold{};
 }
 
-bool Pilot::fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space,
-                   PlannerOutput& out) {
+bool Pilot::fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
   const auto corners = find_path(way_space(in, space, goal), in.boxes, in.tracking.setpoint.p_WB, goal);
   if (!corners) return false;
   Path path;

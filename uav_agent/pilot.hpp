@@ -27,13 +27,12 @@ enum class Situation {
 class Pilot {
  public:
   struct Config {
-    double speed_mps = 4.5;    ///< from here to there
+    double speed_mps = 4.5;  ///< from here to there
     double retreat_mps = 4.0;
   };
 
   /// @param agent  must outlive this.
-  Pilot(const Config& config, const AgentConfig& agent)
-      : config_(config), separation_(Separation::Config(), agent) {}
+  Pilot(const Config& config, const AgentConfig& agent) : config_(config), separation_(Separation::Config(), agent) {}
 
   /// To be asked first in every exchange once in the air; may set out.motion, and has then decided this
   /// exchange's motion.
@@ -68,10 +67,10 @@ class Pilot {
 
   const Config config_;
   Separation separation_;
-  Path path_;                         ///< being flown, or to be taken up again after a pause
-  bool paused_ = false;               ///< gives way
-  std::deque<Vector3d> trail_;        ///< where it was, a metre apart
-  std::optional<Tick> detour_at_;     ///< when it last met somebody who stood in the way
+  Path path_;                      ///< being flown, or to be taken up again after a pause
+  bool paused_ = false;            ///< gives way
+  std::deque<Vector3d> trail_;     ///< where it was, a metre apart
+  std::optional<Tick> detour_at_;  ///< when it last met somebody who stood in the way
   Vector3d watched_p_W_ = Vector3d::Zero();
   Tick watched_since_ = 0;
 };

@@ -36,8 +36,7 @@ std::unique_ptr<Planner> make_planner(const std::string& spec, const AgentConfig
     throw InputError("--planner: there is no planner '" + name + "'; " + suggestion(name, planner_names()));
   }
   const bool is_file = !parameters.empty() && parameters.find('=') == std::string::npos;
-  return found->second(is_file ? read_config_document(parameters)
-                               : parse_assignments(parameters, "--planner " + name),
+  return found->second(is_file ? read_config_document(parameters) : parse_assignments(parameters, "--planner " + name),
                        agent);
 }
 

@@ -28,33 +28,33 @@ using GimbalAim = std::variant<std::monostate, Vector3d, GimbalCommand>;
 
 /// How far the tracker has come with the last Path.
 struct TrackingState {
-  Setpoint setpoint;        ///< what was commanded last
-  std::size_t leg = 0;      ///< index of the waypoint being flown to; waypoints.size() when done
-  bool done = true;         ///< at rest at the end of the path, or no path
-  bool airborne = false;    ///< a first motion was commanded
+  Setpoint setpoint;      ///< what was commanded last
+  std::size_t leg = 0;    ///< index of the waypoint being flown to; waypoints.size() when done
+  bool done = true;       ///< at rest at the end of the path, or no path
+  bool airborne = false;  ///< a first motion was commanded
 };
 
 struct PlannerInput {
-  std::uint64_t k = 0;                         ///< exchange
+  std::uint64_t k = 0;  ///< exchange
   Tick tick = 0;
-  RigidBodyState state;                        ///< own; velocity in W
+  RigidBodyState state;  ///< own; velocity in W
   GimbalState gimbal;
   TrackingState tracking;
   const OccupancyMap& map;
-  const std::vector<OrientedBox>& boxes;       ///< empty until received
+  const std::vector<OrientedBox>& boxes;  ///< empty until received
   const Peers& peers;
-  std::optional<double> mission_remaining_s;   ///< nullopt before the first take-off
-  bool station_linked = false;                 ///< direct link at this step
+  std::optional<double> mission_remaining_s;  ///< nullopt before the first take-off
+  bool station_linked = false;                ///< direct link at this step
   std::size_t undelivered_captures = 0;
-  std::span<const DetectedPoint> detected;     ///< new at this step
-  std::span<const RadioMessage> radio;         ///< received at this step
+  std::span<const DetectedPoint> detected;  ///< new at this step
+  std::span<const RadioMessage> radio;      ///< received at this step
 };
 
 struct PlannerOutput {
   Motion motion = {};
-  std::optional<double> yaw = {};   ///< body yaw to turn to at the tracker's rate; not used with a Setpoint
+  std::optional<double> yaw = {};  ///< body yaw to turn to at the tracker's rate; not used with a Setpoint
   GimbalAim gimbal = {};
-  bool trigger = false;             ///< ask for a capture; only where the camera is in manual mode
+  bool trigger = false;                  ///< ask for a capture; only where the camera is in manual mode
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
 };
 
@@ -93,6 +93,6 @@ std::unique_ptr<Planner> construct_planner(const ConfigDocument& parameters, con
 
 /// Registers a planner under a name, before main(). Its file must be linked as an object, not from a static
 /// library.
-#define SKEIN_REGISTER_PLANNER(name, Class)                              \
-  [[maybe_unused]] const bool skein_planner_registered_##Class =         \
+#define SKEIN_REGISTER_PLANNER(name, Class)                      \
+  [[maybe_unused]] const bool skein_planner_registered_##Class = \
       ::skein::agent::register_planner(name, &::skein::agent::construct_planner<Class>)

@@ -51,8 +51,7 @@ TEST(Planner, AWrongNameOrKeySaysWhatWouldBeRight) {
 }
 
 TEST(Planner, ReadsParametersFromAFile) {
-  EXPECT_EQ(message_of("patrol:" + write_file("patrol.yaml", "use_map: false\noverlap: 0.3\n").string()),
-            "no error");
+  EXPECT_EQ(message_of("patrol:" + write_file("patrol.yaml", "use_map: false\noverlap: 0.3\n").string()), "no error");
   EXPECT_NE(message_of("patrol:" + write_file("bad.yaml", "use_mop: false\n").string()).find("use_map"),
             std::string::npos);
   EXPECT_NE(message_of("patrol:missing.yaml").find("missing.yaml"), std::string::npos);
@@ -95,9 +94,8 @@ TEST(WaypointsPlanner, VisitsAllStopsLooksAndStays) {
                                "    - {position: [10, 0, 1], speed_mps: 1}\n");
   std::vector<GimbalCommand> gimbal;
   const auto track = fly("waypoints:" + file.string(), 40.0, &gimbal);
-  const auto at_second = std::count_if(track.begin(), track.end(), [](const Vector3d& p) {
-    return (p - Vector3d(10, 0, 5)).norm() < 0.01;
-  });
+  const auto at_second = std::count_if(track.begin(), track.end(),
+                                       [](const Vector3d& p) { return (p - Vector3d(10, 0, 5)).norm() < 0.01; });
   EXPECT_GE(at_second, 40) << "two seconds";
   EXPECT_NEAR((track.back() - Vector3d(10, 0, 1)).norm(), 0.0, 1e-9);
   ASSERT_FALSE(gimbal.empty());

@@ -6,14 +6,14 @@ namespace skein::agent {
 namespace {
 
 constexpr double kStandingMps = 0.3;
-constexpr double kApproachM = 0.05;         ///< a distance that does not shrink by this is no approach
-constexpr double kPatiencePerRankS = 0.5;   ///< two UAVs that wait for each other do not lose patience together
-constexpr double kMovingPatience = 3.0;     ///< times as much with somebody who moves
-constexpr double kPlanAroundM = 15.0;       ///< whoever is farther away will be elsewhere when this UAV comes
+constexpr double kApproachM = 0.05;        ///< a distance that does not shrink by this is no approach
+constexpr double kPatiencePerRankS = 0.5;  ///< two UAVs that wait for each other do not lose patience together
+constexpr double kMovingPatience = 3.0;    ///< times as much with somebody who moves
+constexpr double kPlanAroundM = 15.0;      ///< whoever is farther away will be elsewhere when this UAV comes
 constexpr double kKeepOutExtraM = 0.3;
-constexpr double kCrowdM = 6.0;             ///< starts nearer than this wait for each other
-constexpr double kClearHeightM = 3.0;       ///< the one before is this far up, or gone: the next may start
-constexpr double kStartPatienceS = 4.0;     ///< for each one before; after that it is taken to be broken
+constexpr double kCrowdM = 6.0;          ///< starts nearer than this wait for each other
+constexpr double kClearHeightM = 3.0;    ///< the one before is this far up, or gone: the next may start
+constexpr double kStartPatienceS = 4.0;  ///< for each one before; after that it is taken to be broken
 
 }  // namespace
 
@@ -75,8 +75,7 @@ std::vector<Sphere> Separation::keep_out(const Vector3d& p_W_now, const Peers& p
   std::vector<Sphere> spheres;
   for (const Peer& peer : peers.all()) {
     const bool near = (peer.p_W - p_W_now).norm() < kPlanAroundM;
-    if (peer.visible && near)
-      spheres.push_back({peer.p_W, contact_m(peer.uav) + config_.margin_m + kKeepOutExtraM});
+    if (peer.visible && near) spheres.push_back({peer.p_W, contact_m(peer.uav) + config_.margin_m + kKeepOutExtraM});
   }
   return spheres;
 }

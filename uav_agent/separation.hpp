@@ -22,10 +22,10 @@ enum class Traffic {
 class Separation {
  public:
   struct Config {
-    double margin_m = 2.2;        ///< between two bodies' surfaces: nearer than this is a conflict
-    double tight_m = 1.4;         ///< nearer than this, the right of way does not count
+    double margin_m = 2.2;  ///< between two bodies' surfaces: nearer than this is a conflict
+    double tight_m = 1.4;   ///< nearer than this, the right of way does not count
     double horizon_s = 3.0;
-    double patience_s = 1.5;      ///< of waiting, before going around
+    double patience_s = 1.5;  ///< of waiting, before going around
   };
 
   Separation(const Config& config, const AgentConfig& agent) : config_(config), agent_(agent) {}

@@ -54,8 +54,7 @@ TEST(Separation, GoesAroundWhoeverStandsInTheWayForAWhile) {
   EXPECT_EQ(separation.judge(0, eastwards(4.0), kDtS, peers), Traffic::wait);
   Tick tick = 0;
   Traffic last = Traffic::wait;
-  while (tick < ticks(5.0) && last == Traffic::wait)
-    last = separation.judge(tick += 20, eastwards(4.0), kDtS, peers);
+  while (tick < ticks(5.0) && last == Traffic::wait) last = separation.judge(tick += 20, eastwards(4.0), kDtS, peers);
   EXPECT_EQ(last, Traffic::go_around);
   EXPECT_EQ(separation.keep_out({0.0, 0.0, 10.0}, peers).size(), 1U);
   EXPECT_TRUE(separation.keep_out({90.0, 0.0, 10.0}, peers).empty()) << "far away";

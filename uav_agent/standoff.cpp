@@ -7,23 +7,23 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kOutsideM = 4.0;          ///< casts begin this far outside the face
-constexpr double kCastRadiusM = 0.8;       ///< wide enough not to slip between the hits of a sparse map
-constexpr double kSearchStepM = 0.5;       ///< between stand-offs that are tried
-constexpr double kSearchInM = 4.0, kSearchOutM = 7.0;  ///< around the one wished for
+constexpr double kOutsideM = 4.0;                          ///< casts begin this far outside the face
+constexpr double kCastRadiusM = 0.8;                       ///< wide enough not to slip between the hits of a sparse map
+constexpr double kSearchStepM = 0.5;                       ///< between stand-offs that are tried
+constexpr double kSearchInM = 4.0, kSearchOutM = 7.0;      ///< around the one wished for
 constexpr double kAsideM[] = {0.0, -1.5, 1.5, -3.0, 3.0};  ///< to the side of the strip, where it is blocked
-constexpr double kAsideCost = 3.0;         ///< a metre
-constexpr double kTooNearCost = 2.0;       ///< a metre too near costs as two too far: the image gets smaller
-constexpr double kBendCost = 0.5;          ///< a metre of difference to the sample before
-constexpr double kSteepest = 1.2;          ///< change of stand-off per metre along the strip
-constexpr double kUnknownDepthM = 3.0;     ///< for the speed only, where the map knows no surface
+constexpr double kAsideCost = 3.0;                         ///< a metre
+constexpr double kTooNearCost = 2.0;    ///< a metre too near costs as two too far: the image gets smaller
+constexpr double kBendCost = 0.5;       ///< a metre of difference to the sample before
+constexpr double kSteepest = 1.2;       ///< change of stand-off per metre along the strip
+constexpr double kUnknownDepthM = 3.0;  ///< for the speed only, where the map knows no surface
 
 /// What is wanted at one point of the strip.
 struct Sample {
-  double s = 0.0;            ///< along the direction of flight
+  double s = 0.0;  ///< along the direction of flight
   Vector3d face_W;
-  double depth = 0.0;        ///< of the surface behind the face, or a guess
-  double wish = 0.0;         ///< distance from the face, outwards
+  double depth = 0.0;  ///< of the surface behind the face, or a guess
+  double wish = 0.0;   ///< distance from the face, outwards
 };
 
 /// A place for the UAV: so far off the face, so far to the side of the strip.
@@ -38,8 +38,7 @@ Sample sample_at(const Strip& strip, bool reversed, double s, const FreeSpace& s
   Sample sample{.s = s, .face_W = from + (to - from).normalized() * s};
   const auto depth = space.config().use_map ? surface_depth(strip, sample.face_W, space.map()) : std::nullopt;
   sample.depth = depth.value_or(kUnknownDepthM);
-  sample.wish =
-      depth ? config.ratio * reach.sharp_distance_m - *depth : config.blind_ratio * reach.sharp_distance_m;
+  sample.wish = depth ? config.ratio * reach.sharp_distance_m - *depth : config.blind_ratio * reach.sharp_distance_m;
   return sample;
 }
 

@@ -13,10 +13,10 @@
 namespace skein::agent {
 
 struct StandoffConfig {
-  double ratio = 0.92;            ///< distance to the surface, in units of d*
-  double blind_ratio = 0.55;      ///< the same off the box's face, where the map knows no surface
-  double step_m = 1.5;            ///< along the strip
-  double speed_gain = 1.0;        ///< 1: as fast as no blur allows
+  double ratio = 0.92;        ///< distance to the surface, in units of d*
+  double blind_ratio = 0.55;  ///< the same off the box's face, where the map knows no surface
+  double step_m = 1.5;        ///< along the strip
+  double speed_gain = 1.0;    ///< 1: as fast as no blur allows
   double min_speed_mps = 0.5, max_speed_mps = 4.0;
 };
 

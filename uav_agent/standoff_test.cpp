@@ -38,8 +38,8 @@ void add_wall(OccupancyMap& map, const Depth& depth, std::optional<Vector3d> see
 TEST(Standoff, WithoutAMapTheFaceCounts) {
   const Facade facade;
   const OccupancyMap map;
-  const auto runs = fit_strip(facade.strip, false, 0.0, {}, FreeSpace({.clearance_m = 1.8}, facade.boxes, map),
-                              facade.reach, {});
+  const auto runs =
+      fit_strip(facade.strip, false, 0.0, {}, FreeSpace({.clearance_m = 1.8}, facade.boxes, map), facade.reach, {});
   ASSERT_EQ(runs.size(), 1U);
   for (const Waypoint& w : runs[0].waypoints) EXPECT_NEAR(-w.p_WB.y(), 0.55 * facade.reach.sharp_distance_m, 0.3);
   EXPECT_NEAR(runs[0].waypoints.front().p_WB.z(), 15.0, 1e-9);
@@ -51,8 +51,8 @@ TEST(Standoff, FollowsALeaningSurfaceAtTheSharpDistance) {
   const auto depth = [](double z) { return 1.0 + 0.15 * (z - 11.0); };
   OccupancyMap map;
   for (const double z : {12.0, 20.0, 30.0, 40.0, 48.0}) add_wall(map, depth, Vector3d(0.0, -12.0, z));
-  const auto runs = fit_strip(facade.strip, false, 0.0, {}, FreeSpace({.clearance_m = 1.8}, facade.boxes, map),
-                              facade.reach, {});
+  const auto runs =
+      fit_strip(facade.strip, false, 0.0, {}, FreeSpace({.clearance_m = 1.8}, facade.boxes, map), facade.reach, {});
   ASSERT_EQ(runs.size(), 1U);
   for (const Waypoint& w : runs[0].waypoints) {
     EXPECT_NEAR(depth(w.p_WB.z()) - w.p_WB.y(), 0.92 * facade.reach.sharp_distance_m, 1.3);
@@ -63,9 +63,10 @@ TEST(Standoff, FollowsALeaningSurfaceAtTheSharpDistance) {
 TEST(Standoff, DoesNotEnterTheBoxWhereNobodyHasLooked) {
   const Facade facade;
   OccupancyMap map;
-  add_wall(map, [](double) { return 11.0; }, std::nullopt);  // hits alone do not prove that the way is free
-  const auto runs = fit_strip(facade.strip, false, 0.0, {}, FreeSpace({.clearance_m = 1.8}, facade.boxes, map),
-                              facade.reach, {});
+  add_wall(
+      map, [](double) { return 11.0; }, std::nullopt);  // hits alone do not prove that the way is free
+  const auto runs =
+      fit_strip(facade.strip, false, 0.0, {}, FreeSpace({.clearance_m = 1.8}, facade.boxes, map), facade.reach, {});
   for (const auto& run : runs) {
     for (const Waypoint& w : run.waypoints) EXPECT_LT(w.p_WB.y(), -1.79);
   }
@@ -78,8 +79,8 @@ TEST(Standoff, LeavesOutWhatAnotherBoxHides) {
   roof.size = {40.0, 40.0, 10.0};
   facade.boxes.push_back(roof);
   const OccupancyMap map;
-  const auto runs = fit_strip(facade.strip, true, 0.0, {}, FreeSpace({.clearance_m = 1.8}, facade.boxes, map),
-                              facade.reach, {});
+  const auto runs =
+      fit_strip(facade.strip, true, 0.0, {}, FreeSpace({.clearance_m = 1.8}, facade.boxes, map), facade.reach, {});
   ASSERT_EQ(runs.size(), 1U);
   for (const Waypoint& w : runs[0].waypoints) EXPECT_LT(w.p_WB.z(), 37.0 - 1.79);
   EXPECT_GT(runs[0].first_s, 9.0) << "reversed: it begins at the top";
@@ -89,8 +90,8 @@ TEST(Standoff, GoesOnFromWhereTheUavIs) {
   const Facade facade;
   const OccupancyMap map;
   const Vector3d now(0.0, -6.5, 25.0);
-  const auto runs = fit_strip(facade.strip, false, 10.5, now,
-                              FreeSpace({.clearance_m = 1.8}, facade.boxes, map), facade.reach, {});
+  const auto runs =
+      fit_strip(facade.strip, false, 10.5, now, FreeSpace({.clearance_m = 1.8}, facade.boxes, map), facade.reach, {});
   ASSERT_FALSE(runs.empty());
   EXPECT_NEAR((runs[0].waypoints.front().p_WB - now).norm(), 1.0, 1.2) << "no jump to another stand-off";
 }

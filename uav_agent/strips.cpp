@@ -8,9 +8,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kTurnS = 3.0;         ///< what a change of strip costs at least
-constexpr double kFlatFace = 0.7;      ///< |n_z| above: top or bottom
-constexpr double kMinBottomM = 3.0;    ///< a bottom face lower than this above the stand-off cannot be looked at
+constexpr double kTurnS = 3.0;       ///< what a change of strip costs at least
+constexpr double kFlatFace = 0.7;    ///< |n_z| above: top or bottom
+constexpr double kMinBottomM = 3.0;  ///< a bottom face lower than this above the stand-off cannot be looked at
 constexpr int kTwoOptPasses = 20;
 
 struct Face {
@@ -56,8 +56,7 @@ CameraReach camera_reach(const CameraConfig& camera, double desired_mm_per_pixel
   reach.sharp_distance_m = desired_mm_per_pixel * 1e-3 * camera.focal_length_m / camera.pixel_size_m;
   reach.half_width_slope = std::tan(0.5 * camera.hfov_deg * kRadPerDeg);
   reach.half_height_slope = std::tan(0.5 * camera.vfov_deg * kRadPerDeg);
-  reach.blur_speed_mps =
-      camera.pixel_size_m / camera.focal_length_m / camera.exposure_s * reach.sharp_distance_m;
+  reach.blur_speed_mps = camera.pixel_size_m / camera.focal_length_m / camera.exposure_s * reach.sharp_distance_m;
   return reach;
 }
 
@@ -139,8 +138,7 @@ double tour_seconds(const std::vector<Visit>& tour, const std::vector<Strip>& st
   return length / transit_mps;
 }
 
-void shorten(std::vector<Visit>& tour, const std::vector<Strip>& strips, const Vector3d& start,
-             double transit_mps) {
+void shorten(std::vector<Visit>& tour, const std::vector<Strip>& strips, const Vector3d& start, double transit_mps) {
   double best = tour_seconds(tour, strips, start, transit_mps);
   for (int pass = 0; pass < kTwoOptPasses; ++pass) {
     bool better = false;

@@ -15,7 +15,7 @@ struct CameraReach {
   double sharp_distance_m = 7.36;  ///< a wall this far away, seen head-on, has just the desired resolution (d*)
   double half_width_slope = 0.84;  ///< half of the image's width and height, per metre of depth
   double half_height_slope = 0.58;
-  double blur_speed_mps = 2.0;     ///< sideways at d* without blur; in proportion to the depth
+  double blur_speed_mps = 2.0;  ///< sideways at d* without blur; in proportion to the depth
 };
 
 /// d* = r_des f / (1000 pixel); a point may move by one pixel during the exposure.

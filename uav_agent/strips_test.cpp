@@ -77,8 +77,7 @@ TEST_P(SharedStrips, EveryStripIsSomebodysExactlyOnceAndNobodyHasMuchMore) {
     std::vector<double> work;
     for (const Strip& strip : strips) work.push_back(strip.length() / 1.84);
     std::vector<Vector3d> starts;
-    for (std::size_t i = 0; i < uavs; ++i)
-      starts.emplace_back(random.uniform(-60, 60), random.uniform(-60, 60), 0.0);
+    for (std::size_t i = 0; i < uavs; ++i) starts.emplace_back(random.uniform(-60, 60), random.uniform(-60, 60), 0.0);
     const std::vector<double> free_at(uavs, 0.0);
     const auto tours = share_strips(strips, work, starts, free_at, 4.5);
     ASSERT_EQ(tours.size(), uavs);

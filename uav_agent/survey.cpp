@@ -14,9 +14,8 @@ double cross(const Vector2d& o, const Vector2d& a, const Vector2d& b) {
 
 /// Convex hull, counter-clockwise (Andrew's monotone chain).
 std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
+  std::sort(points.begin(), points.end(),
+            [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
   std::vector<Vector2d> hull;
   for (int side = 0; side < 2; ++side) {
     const std::size_t base = hull.size();
@@ -39,16 +38,15 @@ std::vector<Vector2d> ring_around(const std::vector<Vector2d>& hull, double stan
     const Vector2d along = (b - a).normalized();
     const Vector2d out(along.y(), -along.x());
     const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kRingStepM)));
-    for (int j = 0; j <= steps; ++j)
-      ring.push_back(a + (b - a) * (static_cast<double>(j) / steps) + standoff_m * out);
+    for (int j = 0; j <= steps; ++j) ring.push_back(a + (b - a) * (static_cast<double>(j) / steps) + standoff_m * out);
   }
   return ring;
 }
 
 }  // namespace
 
-std::vector<Vector3d> survey_ring(const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
-                                  double standoff_m, double height_m) {
+std::vector<Vector3d> survey_ring(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, double standoff_m,
+                                  double height_m) {
   if (agent.me().role != Role::explorer || boxes.empty()) return {};
   std::vector<Vector2d> corners;
   for (const OrientedBox& box : boxes) {

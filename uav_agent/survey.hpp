@@ -11,7 +11,7 @@ namespace skein::agent {
 /// The explorer's share of a ring around the convex hull of all boxes, seen from above.
 /// @param standoff_m  of the ring from the hull.   @param height_m  of the ring.
 /// @returns corners in the order of flight; empty for a UAV without LiDAR.
-std::vector<Vector3d> survey_ring(const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
-                                  double standoff_m, double height_m);
+std::vector<Vector3d> survey_ring(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, double standoff_m,
+                                  double height_m);
 
 }  // namespace skein::agent

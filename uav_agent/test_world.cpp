@@ -94,8 +94,7 @@ OrientedBox make_box(const Vector3d& centre, const Vector3d& size, double yaw) {
 
 TestScene two_towers() {
   TestScene scene;
-  scene.solids = {make_box({0.0, 12.0, 14.0}, {16.0, 8.0, 28.0}),
-                  make_box({30.0, 14.0, 12.0}, {14.0, 10.0, 24.0}, 0.3),
+  scene.solids = {make_box({0.0, 12.0, 14.0}, {16.0, 8.0, 28.0}), make_box({30.0, 14.0, 12.0}, {14.0, 10.0, 24.0}, 0.3),
                   make_box({14.0, 2.0, 2.0}, {8.0, 6.0, 4.0})};
   for (std::size_t i = 0; i < 2; ++i) {
     OrientedBox loose = scene.solids[i];
@@ -109,7 +108,8 @@ TestScene two_towers() {
 std::vector<TestUav> test_fleet(std::size_t count) {
   std::vector<TestUav> fleet;
   for (std::size_t i = 0; i < count; ++i) {
-    fleet.push_back({"uav" + std::to_string(i), i % 2 == 0 ? Role::explorer : Role::photographer,
+    fleet.push_back({"uav" + std::to_string(i),
+                     i % 2 == 0 ? Role::explorer : Role::photographer,
                      {3.0 * static_cast<double>(i) - 8.0, -14.0}});
   }
   return fleet;
@@ -233,15 +233,14 @@ void TestWorld::Impl::step() {
   }
 }
 
-TestWorld::TestWorld(TestScene scene, const std::vector<TestUav>& fleet, const std::string& planner,
-                     double duration_s)
+TestWorld::TestWorld(TestScene scene, const std::vector<TestUav>& fleet, const std::string& planner, double duration_s)
     : impl_(std::make_unique<Impl>(std::move(scene), duration_s)) {
   AgentConfig config;
   config.duration_s = duration_s;
   config.station_position = impl_->scene.station;
   for (const TestUav& uav : fleet) {
-    config.fleet.push_back({uav.name, uav.role, Vector3d(uav.start.x(), uav.start.y(), 0.0),
-                            uav.role == Role::explorer ? 0.63 : 0.32});
+    config.fleet.push_back(
+        {uav.name, uav.role, Vector3d(uav.start.x(), uav.start.y(), 0.0), uav.role == Role::explorer ? 0.63 : 0.32});
   }
   for (config.self = 0; config.self < fleet.size(); ++config.self) {
     impl_->uavs.emplace_back(config, planner);

@@ -17,7 +17,7 @@ struct TestScene {
   std::vector<OrientedBox> boxes;   ///< what the UAVs are told, at boxes_at_s
   Vector3d station = {-12.0, -12.0, 0.3};
   double boxes_at_s = 0.0;
-  bool radio = true;                ///< false: nobody ever sees anybody
+  bool radio = true;  ///< false: nobody ever sees anybody
 };
 
 OrientedBox make_box(const Vector3d& centre, const Vector3d& size, double yaw = 0.0);

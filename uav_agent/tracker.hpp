@@ -51,20 +51,20 @@ class Tracker {
   /// One corner of the polyline. The first is where the set-point stood when the path came.
   struct Corner {
     Vector3d p_W;
-    double s = 0.0;           ///< arc length from the start
-    double leg_speed = 0.0;   ///< of the leg that ends here
-    double speed = 0.0;       ///< at most, when passing here; 0 at the end
-    bool sharp = false;       ///< must be touched before the next leg begins
+    double s = 0.0;          ///< arc length from the start
+    double leg_speed = 0.0;  ///< of the leg that ends here
+    double speed = 0.0;      ///< at most, when passing here; 0 at the end
+    bool sharp = false;      ///< must be touched before the next leg begins
   };
 
   const Config config_;
   Mode mode_ = Mode::off;
   bool started_ = false;
-  Setpoint ref_;                    ///< what was commanded last
+  Setpoint ref_;  ///< what was commanded last
   std::optional<double> yaw_goal_;
-  std::vector<Waypoint> waypoints_; ///< as asked for
-  std::vector<Corner> corners_;     ///< laid out at the first step with a new path
-  double progress_ = 0.0;           ///< arc length reached
+  std::vector<Waypoint> waypoints_;  ///< as asked for
+  std::vector<Corner> corners_;      ///< laid out at the first step with a new path
+  double progress_ = 0.0;            ///< arc length reached
   bool done_ = true;
 };
 

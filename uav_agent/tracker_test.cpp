@@ -64,8 +64,8 @@ TEST(Tracker, FollowsRandomPolylines) {
     const int corners = 1 + static_cast<int>(random.bits() % 7);
     for (int i = 0; i < corners; ++i) {
       const double size = random.uniform() < 0.3 ? 0.4 : 15.0;  // short legs, too
-      const Vector3d p = line.back() + Vector3d(random.uniform(-size, size), random.uniform(-size, size),
-                                                random.uniform(-size, size));
+      const Vector3d p =
+          line.back() + Vector3d(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
       line.push_back(p);
       path.waypoints.push_back({p, random.uniform(0.5, 5.5)});
     }

@@ -15,7 +15,7 @@ struct WorkShareConfig {
   StripConfig strips;
   StandoffConfig standoff;
   double transit_mps = 4.5;
-  bool survey = true;              ///< explorers fly around everything first; see survey.hpp
+  bool survey = true;  ///< explorers fly around everything first; see survey.hpp
   double survey_standoff_m = 10.0;
   double survey_mps = 4.0;
 };

@@ -19,9 +19,7 @@ namespace cyclonedds {
 namespace {
 
 /// dds_guid_t holds the bytes as they are on the wire.
-ParticipantId id_of(const dds_guid_t& guid) {
-  return participant_id(std::span<const std::uint8_t, 12>(guid.v, 12));
-}
+ParticipantId id_of(const dds_guid_t& guid) { return participant_id(std::span<const std::uint8_t, 12>(guid.v, 12)); }
 
 struct DeleteQos {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
@@ -32,8 +30,7 @@ using QosPtr = std::unique_ptr<dds_qos_t, DeleteQos>;
 QosPtr common_qos(const Qos& qos) {
   QosPtr dds(dds_create_qos());
   // The blocking time counts only above the high watermark, which is out of reach (domain.cpp).
-  dds_qset_reliability(dds.get(), qos.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
-                       DDS_MSECS(10));
+  dds_qset_reliability(dds.get(), qos.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, DDS_MSECS(10));
   dds_qset_durability(dds.get(), qos.latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   dds_qset_ignorelocal(dds.get(), DDS_IGNORELOCAL_PARTICIPANT);
   const std::array<dds_data_representation_id_t, 1> representations{DDS_DATA_REPRESENTATION_XCDR1};
@@ -135,9 +132,8 @@ class CycloneReader : public Reader {
       : on_sample_(std::move(on_sample)) {
     const RawTopic raw(participant, topic);
     dds_listener_t* listener = dds_create_listener(this);
-    dds_lset_data_available(listener, [](dds_entity_t reader, void* self) {
-      static_cast<CycloneReader*>(self)->take(reader);
-    });
+    dds_lset_data_available(listener,
+                            [](dds_entity_t reader, void* self) { static_cast<CycloneReader*>(self)->take(reader); });
     // Noted at the match, since a writer that leaves right after its last sample can no longer be looked up.
     dds_lset_subscription_matched(
         listener, [](dds_entity_t reader, const dds_subscription_matched_status_t status, void* self) {
@@ -162,8 +158,7 @@ class CycloneReader : public Reader {
     std::array<ddsi_serdata*, 16> samples{};
     std::array<dds_sample_info_t, 16> infos;
     for (;;) {
-      const dds_return_t count =
-          dds_takecdr(reader, samples.data(), samples.size(), infos.data(), DDS_ANY_STATE);
+      const dds_return_t count = dds_takecdr(reader, samples.data(), samples.size(), infos.data(), DDS_ANY_STATE);
       if (count <= 0) return;
       for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         // Samples without data tell that a writer has left; they have no type either.

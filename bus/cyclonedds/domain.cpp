@@ -33,15 +33,14 @@ std::string domain_configuration(const BusConfig& config) {
   // Loopback: no multicast, so participants take fixed ports and announce themselves to all of these. Datagrams as
   // large as UDP has them; fragments fill one, or else a 4 MB sample is thousands of them.
   const std::string network =
-      config.loopback_only
-          ? "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
-            "<AllowMulticast>false</AllowMulticast>"
-            "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>60000B</FragmentSize></General>"
-          : "";
-  const std::string peers =
-      config.loopback_only ? "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" + last_index +
-                                 "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
+      config.loopback_only ? "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+                             "<AllowMulticast>false</AllowMulticast>"
+                             "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>60000B</FragmentSize></General>"
                            : "";
+  const std::string peers = config.loopback_only
+                                ? "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" + last_index +
+                                      "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
+                                : "";
   // Watermarks: a writer waits once its unacknowledged bytes exceed WhcHigh. History is KEEP_LAST and bounds them
   // already, so the mark is put out of reach and a stopped reader holds nobody up.
   return "<CycloneDDS xmlns=\"https://cdds.io/config\"><Domain Id=\"any\">" + network + "<Discovery>" + peers +

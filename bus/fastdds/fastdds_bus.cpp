@@ -1,5 +1,6 @@
 #include "bus/fastdds/fastdds_bus.hpp"
 
+#include <spdlog/spdlog.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -10,7 +11,6 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <map>
@@ -86,9 +86,9 @@ class FastWriter : public Writer, private dds::DataWriterListener {
       : publisher_(publisher),
         reliable_(qos.reliable),
         matches_(own),
-        writer_(created(publisher.create_datawriter(&topic, fastdds::writer_qos(qos), this,
-                                                    dds::StatusMask::publication_matched()),
-                        "a writer on " + topic.get_name())) {}
+        writer_(created(
+            publisher.create_datawriter(&topic, fastdds::writer_qos(qos), this, dds::StatusMask::publication_matched()),
+            "a writer on " + topic.get_name())) {}
   ~FastWriter() override {
     writer_->set_listener(nullptr);
     publisher_.delete_datawriter(writer_);
@@ -126,10 +126,10 @@ class FastReader : public Reader, private dds::DataReaderListener {
         own_(own),
         on_sample_(std::move(on_sample)),
         matches_(own),
-        reader_(created(subscriber.create_datareader(
-                            &topic, fastdds::reader_qos(qos), this,
-                            dds::StatusMask::data_available() << dds::StatusMask::subscription_matched()),
-                        "a reader on " + topic.get_name())) {}
+        reader_(created(
+            subscriber.create_datareader(&topic, fastdds::reader_qos(qos), this,
+                                         dds::StatusMask::data_available() << dds::StatusMask::subscription_matched()),
+            "a reader on " + topic.get_name())) {}
   /// Returns after the last callback has.
   ~FastReader() override {
     reader_->set_listener(nullptr);
@@ -227,8 +227,6 @@ class FastBus : public Bus {
 }  // namespace
 }  // namespace fastdds
 
-std::unique_ptr<Bus> make_fastdds_bus(const BusConfig& config) {
-  return std::make_unique<fastdds::FastBus>(config);
-}
+std::unique_ptr<Bus> make_fastdds_bus(const BusConfig& config) { return std::make_unique<fastdds::FastBus>(config); }
 
 }  // namespace skein::bus

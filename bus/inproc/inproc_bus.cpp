@@ -31,8 +31,7 @@ struct WriterEnd : Endpoint {
 bool match(const WriterEnd& writer, const ReaderEnd& reader) {
   return writer.domain == reader.domain && writer.participant != reader.participant &&
          writer.topic.name == reader.topic.name && writer.topic.type == reader.topic.type &&
-         writer.topic.qos.reliable >= reader.topic.qos.reliable &&
-         writer.topic.qos.latched >= reader.topic.qos.latched;
+         writer.topic.qos.reliable >= reader.topic.qos.reliable && writer.topic.qos.latched >= reader.topic.qos.latched;
 }
 
 /// All endpoints of this process. One lock for all domains, recursive, since callbacks write and subscribe.

@@ -14,10 +14,13 @@ void LockstepClient::read(const TopicSpec& topic, Counterpart counterpart, Count
   readings_.push_back({topic, counterpart, nullptr});
 }
 
-void LockstepClient::declare_writer(const TopicSpec& topic, Counterpart counterpart) { writings_.push_back({topic, counterpart, nullptr}); }
+void LockstepClient::declare_writer(const TopicSpec& topic, Counterpart counterpart) {
+  writings_.push_back({topic, counterpart, nullptr});
+}
 
 void LockstepClient::start() {
-  resync_reader_ = inbox_.subscribe(participant_, spec(topics::resync()), [this](Sample&& s) { on_resync(std::move(s)); });
+  resync_reader_ =
+      inbox_.subscribe(participant_, spec(topics::resync()), [this](Sample&& s) { on_resync(std::move(s)); });
   step_reader_ = inbox_.subscribe(participant_, spec(topics::step()), [this](Sample&& s) { on_step(std::move(s)); });
   done_ = std::make_unique<CountedWriter>(participant_, spec(topics::done()));
   ready_ = std::make_unique<CountedWriter>(participant_, spec(topics::ready()));
@@ -38,11 +41,12 @@ void LockstepClient::on_resync(Sample&& sample) {
 // and the bases it told us are exact.
 void LockstepClient::create_endpoints() {
   for (Reading& reading : readings_) {
-    reading.reader = inbox_.subscribe(
-        participant_, reading.topic, [this, name = reading.topic.name, counterpart = reading.counterpart](Sample&& s) {
-          // The router delivers only after we answered a step that names it, so it is known by now.
-          if (s.source == (counterpart == Counterpart::server ? server_ : router_)) queues_.arrive(name, std::move(s));
-        });
+    reading.reader = inbox_.subscribe(participant_, reading.topic,
+                                      [this, name = reading.topic.name, counterpart = reading.counterpart](Sample&& s) {
+                                        // The router delivers only after we answered a step that names it, so it is known by now.
+                                        if (s.source == (counterpart == Counterpart::server ? server_ : router_))
+                                          queues_.arrive(name, std::move(s));
+                                      });
   }
   for (Writing& writing : writings_) writing.writer = std::make_unique<CountedWriter>(participant_, writing.topic);
   for (const auto& base : base_) {
@@ -91,8 +95,9 @@ void LockstepClient::on_step(Sample&& sample) {
 }
 
 bool LockstepClient::matched(Counterpart counterpart, ParticipantId who) const {
-  return std::all_of(readings_.begin(), readings_.end(),
-                     [&](const Reading& r) { return r.counterpart != counterpart || contains(r.reader->matched(), who); }) &&
+  return std::all_of(
+             readings_.begin(), readings_.end(),
+             [&](const Reading& r) { return r.counterpart != counterpart || contains(r.reader->matched(), who); }) &&
          std::all_of(writings_.begin(), writings_.end(),
                      [&](const Writing& w) { return w.counterpart != counterpart || w.writer->matches(who); });
 }
@@ -116,7 +121,8 @@ LockstepClient::Event LockstepClient::poll() {
 }
 
 bool LockstepClient::write(const std::string& topic, std::span<const std::uint8_t> payload) {
-  const auto it = std::find_if(writings_.begin(), writings_.end(), [&](const Writing& w) { return w.topic.name == topic; });
+  const auto it =
+      std::find_if(writings_.begin(), writings_.end(), [&](const Writing& w) { return w.topic.name == topic; });
   if (it == writings_.end()) throw std::logic_error("topic was not declared: " + topic);
   // While the router is away there is no radio: the message is lost as it would be in the air.
   if (it->counterpart == Counterpart::router && router_ == 0) return false;
@@ -148,12 +154,18 @@ bool LockstepClient::waits_for_matches() const {
 
 std::string LockstepClient::waiting_for() const {
   switch (phase_) {
-    case Phase::created: return "start";
-    case Phase::hello: return "an invitation from sim_server";
-    case Phase::matching: return "topics to match with sim_server";
-    case Phase::declared: return "the first step";
-    case Phase::dropped: return "nothing: dropped by sim_server";
-    case Phase::member: break;
+    case Phase::created:
+      return "start";
+    case Phase::hello:
+      return "an invitation from sim_server";
+    case Phase::matching:
+      return "topics to match with sim_server";
+    case Phase::declared:
+      return "the first step";
+    case Phase::dropped:
+      return "nothing: dropped by sim_server";
+    case Phase::member:
+      break;
   }
   if (!pending_) return "the next step";
   std::string text = "samples announced by sim_server:";

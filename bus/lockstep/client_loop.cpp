@@ -36,10 +36,16 @@ LoopEnd run_client(LockstepClient& client, Inbox& inbox, const ClientLoop& loop,
 
 int exit_code(LoopEnd end, const std::string& member) {
   switch (end) {
-    case LoopEnd::finished: return 0;
-    case LoopEnd::stopped: return 0;
-    case LoopEnd::server_gone: spdlog::error("{}: sim_server is gone", member); return 3;
-    case LoopEnd::dropped: spdlog::error("{}: sim_server goes on without us", member); return 3;
+    case LoopEnd::finished:
+      return 0;
+    case LoopEnd::stopped:
+      return 0;
+    case LoopEnd::server_gone:
+      spdlog::error("{}: sim_server is gone", member);
+      return 3;
+    case LoopEnd::dropped:
+      spdlog::error("{}: sim_server goes on without us", member);
+      return 3;
   }
   return 3;
 }

@@ -21,7 +21,9 @@ bool CountedWriter::write(std::span<const std::uint8_t> payload) {
   return true;
 }
 
-void CountedQueues::add_topic(const std::string& topic, Handler handler) { topics_[topic].handler = std::move(handler); }
+void CountedQueues::add_topic(const std::string& topic, Handler handler) {
+  topics_[topic].handler = std::move(handler);
+}
 
 void CountedQueues::set_base(const std::string& topic, ParticipantId source, std::uint64_t count) {
   const auto it = topics_.find(topic);

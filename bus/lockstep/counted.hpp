@@ -18,7 +18,9 @@ namespace skein::bus {
 
 /// A generated message type, as opposed to bytes.
 template <class T>
-concept WireMessage = requires { TypeName<T>::kValue; };
+concept WireMessage = requires {
+  TypeName<T>::kValue;
+};
 
 /// True when `who` is among the participants that an endpoint has matched.
 bool contains(const std::vector<ParticipantId>& matched, ParticipantId who);

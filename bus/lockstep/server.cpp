@@ -65,7 +65,8 @@ void LockstepServer::read(DomainIndex domain, const TopicSpec& topic, CountedQue
   d.commands.add_topic(topic.name, std::move(handler));
   d.readers.emplace_back(topic.name, inbox_.subscribe(*d.participant, topic, [this, &d, name = topic.name](Sample&& s) {
     // Strangers may write into this domain; only who knocked can become a member, so the rest is not even kept.
-    const bool known = std::any_of(places_.begin(), places_.end(), [&](const Place& p) { return p.source == s.source; });
+    const bool known =
+        std::any_of(places_.begin(), places_.end(), [&](const Place& p) { return p.source == s.source; });
     if (known) d.commands.arrive(name, std::move(s));
   }));
 }
@@ -76,8 +77,8 @@ LockstepServer::Place* LockstepServer::find(std::string_view name) {
 }
 
 const LockstepServer::Place* LockstepServer::router() const {
-  const auto it = std::find_if(places_.begin(), places_.end(),
-                               [](const Place& p) { return p.name == kRouterName && p.member; });
+  const auto it =
+      std::find_if(places_.begin(), places_.end(), [](const Place& p) { return p.name == kRouterName && p.member; });
   return it == places_.end() ? nullptr : &*it;
 }
 
@@ -170,7 +171,8 @@ bool LockstepServer::at_boundary() {
   for (Place* place : order) {
     if (place->member) continue;
     // Who died before it was a member may never be reported to us: its hello outlived it.
-    if (place->source != 0 && !contains(domains_[place->domain]->ready_reader->matched(), place->source)) vacate(*place);
+    if (place->source != 0 && !contains(domains_[place->domain]->ready_reader->matched(), place->source))
+      vacate(*place);
     if (place->source == 0 && place->next) {
       const auto [source, ready] = *place->next;
       place->next.reset();

@@ -3,9 +3,9 @@
 // Threads: all calls from the thread that dispatches the inbox.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
-#include <map>
 
 #include "bus/lockstep/counted.hpp"
 #include "idl/type_names.hpp"
@@ -78,11 +78,11 @@ class LockstepServer {
     std::string name;
     DomainIndex domain = 0;
     bool awaited = false, member = false, was_member = false;
-    ParticipantId source = 0;        ///< of the member, or of who knocks
+    ParticipantId source = 0;  ///< of the member, or of who knocks
     bool invited = false, declared = false;
     std::vector<std::string> reads, writes;
     bool answered = false;
-    std::vector<CountedQueues::Expected> sent;  ///< by its last Done
+    std::vector<CountedQueues::Expected> sent;                 ///< by its last Done
     std::optional<std::pair<ParticipantId, msg::Ready>> next;  ///< knocked while the place was taken
   };
 

@@ -36,7 +36,8 @@ struct BoxEntry {
     r.check(orthogonal && R.determinant() > 0.0, "orientation",
             "the upper left 3x3 must be a rotation: columns of length 1, at right angles, right-handed");
     const bool row_major = std::abs(orientation[12]) + std::abs(orientation[13]) + std::abs(orientation[14]) +
-                               std::abs(orientation[15] - 1.0) <= 1e-6;
+                               std::abs(orientation[15] - 1.0) <=
+                           1e-6;
     r.check(row_major, "orientation", "the last row must be 0, 0, 0, 1: the matrix is row-major");
   }
 };

@@ -35,9 +35,9 @@ constexpr std::size_t kLongestHeader = 8192;  // bytes
 
 struct PcdField {
   std::string name;
-  char type = 'F';         ///< F float, I signed, U unsigned
-  std::size_t size = 4;    ///< bytes of one element
-  std::size_t count = 1;   ///< elements
+  char type = 'F';        ///< F float, I signed, U unsigned
+  std::size_t size = 4;   ///< bytes of one element
+  std::size_t count = 1;  ///< elements
 };
 
 struct PcdHeader {
@@ -232,15 +232,14 @@ class QuietPcl {
 /// One float field of each point, whatever lies between.
 class Column {
  public:
-  Column(const std::filesystem::path& file, const pcl::PCLPointCloud2& cloud, const std::string& name)
-      : cloud_(cloud) {
+  Column(const std::filesystem::path& file, const pcl::PCLPointCloud2& cloud, const std::string& name) : cloud_(cloud) {
     const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(),
                                     [&](const pcl::PCLPointField& candidate) { return candidate.name == name; });
     if (field == cloud.fields.end()) {
       refuse(file, "has no field '" + name + "'; x, y, z and normal_x, _y, _z are needed");
     }
-    if (field->count != 1 || (field->datatype != pcl::PCLPointField::FLOAT32 &&
-                              field->datatype != pcl::PCLPointField::FLOAT64)) {
+    if (field->count != 1 ||
+        (field->datatype != pcl::PCLPointField::FLOAT32 && field->datatype != pcl::PCLPointField::FLOAT64)) {
       refuse(file, "the field '" + name + "' must be one float (TYPE F, COUNT 1)");
     }
     offset_ = field->offset;
@@ -282,8 +281,8 @@ std::string plain_header(const PcdHeader& header) {
   }
   std::ostringstream text;
   text << "VERSION 0.7\nFIELDS" << fields.str() << "\nSIZE" << sizes.str() << "\nTYPE" << types.str() << "\nCOUNT"
-       << counts.str() << "\nWIDTH " << header.points << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS "
-       << header.points << "\nDATA " << header.data << '\n';
+       << counts.str() << "\nWIDTH " << header.points << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << header.points
+       << "\nDATA " << header.data << '\n';
   return text.str();
 }
 
@@ -304,10 +303,9 @@ pcl::PCLPointCloud2 read_cloud(const std::filesystem::path& file, const PcdHeade
       cloud.data.resize(std::size_t{cloud.point_step} * header.points);
       stream.clear();
       stream.seekg(body);
-      failed = header.data == "ascii"
-                   ? reader.readBodyASCII(stream, cloud, version)
-                   : reader.readBodyBinary(reinterpret_cast<const unsigned char*>(text.data()), cloud, version,
-                                           header.data == "binary_compressed", body);
+      failed = header.data == "ascii" ? reader.readBodyASCII(stream, cloud, version)
+                                      : reader.readBodyBinary(reinterpret_cast<const unsigned char*>(text.data()),
+                                                              cloud, version, header.data == "binary_compressed", body);
     }
   } catch (const std::exception& error) {
     refuse(file, std::string("not a readable PCD file: ") + error.what());

@@ -31,10 +31,11 @@ void expect_points(const std::vector<InterestPoint>& points) {
 
 /// As the benchmark's files are: normals first, a padding field, 28 bytes a point.
 std::string padded(const std::string& padding_count = "4") {
-  std::string bytes = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
-                      "FIELDS normal_x normal_y normal_z x y z _\n"
-                      "SIZE 4 4 4 4 4 4 1\nTYPE F F F F F F U\nCOUNT 1 1 1 1 1 1 " + padding_count +
-                      "\nWIDTH 9\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 9\nDATA binary\n";
+  std::string bytes =
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
+      "FIELDS normal_x normal_y normal_z x y z _\n"
+      "SIZE 4 4 4 4 4 4 1\nTYPE F F F F F F U\nCOUNT 1 1 1 1 1 1 " +
+      padding_count + "\nWIDTH 9\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 9\nDATA binary\n";
   for (std::size_t i = 0; i < kPoints; ++i) {
     for (const Eigen::Vector3f& vector : {normal(i), position(i)}) {
       for (int axis = 0; axis < 3; ++axis) bytes.append(reinterpret_cast<const char*>(&vector[axis]), 4);
@@ -76,9 +77,10 @@ std::string compressed() {
     packed += static_cast<char>(piece.size() - 1);
     packed += piece;
   }
-  std::string bytes = "VERSION 0.7\nFIELDS x y z normal_x normal_y normal_z\nSIZE 8 8 8 4 4 4\nTYPE F F F F F F\n"
-                      "COUNT 1 1 1 1 1 1\nWIDTH 9\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 9\n"
-                      "DATA binary_compressed\n";
+  std::string bytes =
+      "VERSION 0.7\nFIELDS x y z normal_x normal_y normal_z\nSIZE 8 8 8 4 4 4\nTYPE F F F F F F\n"
+      "COUNT 1 1 1 1 1 1\nWIDTH 9\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 9\n"
+      "DATA binary_compressed\n";
   append_bytes(bytes, static_cast<std::uint32_t>(packed.size()));
   append_bytes(bytes, static_cast<std::uint32_t>(plain.size()));
   return bytes + packed;

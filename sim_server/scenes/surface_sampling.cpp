@@ -10,11 +10,11 @@ namespace {
 
 constexpr std::size_t kCandidatesPerPoint = 8;
 constexpr std::size_t kDrawsPerCandidate = 50;  ///< at most, where the boxes hold but a part of the surface
-constexpr double kLowest = 0.3;         ///< points below this height are hidden by the ground
-constexpr double kCovered = 0.4;        ///< another solid this close in front hides a point
-constexpr double kFreeView = 4.5;       ///< length of a view that counts as free
-constexpr double kViewHeight = 0.8;     ///< a view must not end lower than this
-constexpr double kViewTilt = 0.7;       ///< tangent of the angle at which slanted views leave the surface
+constexpr double kLowest = 0.3;                 ///< points below this height are hidden by the ground
+constexpr double kCovered = 0.4;                ///< another solid this close in front hides a point
+constexpr double kFreeView = 4.5;               ///< length of a view that counts as free
+constexpr double kViewHeight = 0.8;             ///< a view must not end lower than this
+constexpr double kViewTilt = 0.7;               ///< tangent of the angle at which slanted views leave the surface
 constexpr double kFirstProbe = 0.1, kNearStep = 0.1, kFarStep = 0.3;  ///< along a view
 
 Vector3d vertex(const TriangleMesh& mesh, std::uint32_t index) { return mesh.vertices[index].cast<double>(); }
@@ -117,8 +117,8 @@ class Candidates {
     for (; draws < kDrawsPerCandidate * wanted && points.size() < wanted; ++draws) {
       const double where = random.uniform(0.0, area);
       const auto found = std::upper_bound(area_up_to.begin(), area_up_to.end(), where);
-      const auto& triangle = mesh.triangles[static_cast<std::size_t>(
-          std::min(found, area_up_to.end() - 1) - area_up_to.begin())];
+      const auto& triangle =
+          mesh.triangles[static_cast<std::size_t>(std::min(found, area_up_to.end() - 1) - area_up_to.begin())];
       const double root = std::sqrt(random.uniform()), share = random.uniform();
       const Vector3d a = vertex(mesh, triangle[0]), b = vertex(mesh, triangle[1]), c = vertex(mesh, triangle[2]);
       const Vector3d p = (1.0 - root) * a + root * (1.0 - share) * b + root * share * c;

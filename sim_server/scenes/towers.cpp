@@ -15,12 +15,12 @@ namespace {
 constexpr std::size_t kPoints = 4000;
 constexpr double kBoxMargin = 0.5;
 constexpr double kStripHeading = -0.3;  ///< of the row of the starts, in W
-constexpr double kSunk = -0.2;           ///< solids begin a little below the ground, so that none has a gap under it
+constexpr double kSunk = -0.2;          ///< solids begin a little below the ground, so that none has a gap under it
 
 /// Where everything stands. The site is a strip along the row of the starts, which run from its origin towards +x
 /// within y = 0..5 (one more at x = -8, y = 18.5): nothing may be built nearer than 3 m to those.
 struct Site {
-  double heading = 0.0;  ///< of the deck, in W
+  double heading = 0.0;                      ///< of the deck, in W
   Isometry3d X_WD = Isometry3d::Identity();  ///< deck: origin on the ground below its middle, x along it
   double deck_length = 0.0, deck_width = 0.0, deck_bottom = 0.0, deck_height = 0.0;
 };
@@ -148,8 +148,8 @@ OrientedBox add_tower(MeshBuilder& builder, const Site& site, int number, std::u
   const double height = site.deck_bottom + 1.5;  // its head is inside the deck
   const std::size_t first = builder.mesh().vertices.size();
   Tower(builder, standing_at(foot, site.heading + turn), height, random).build(random);
-  return enclosing_box("tower_" + std::to_string(number + 1), builder.mesh(), first,
-                       rotation_z(site.heading + turn), kBoxMargin);
+  return enclosing_box("tower_" + std::to_string(number + 1), builder.mesh(), first, rotation_z(site.heading + turn),
+                       kBoxMargin);
 }
 
 // ------------------------------------------------------------------------------------------------------------ deck
@@ -165,7 +165,7 @@ void add_hull(MeshBuilder& builder, const Site& site, double bow) {
     const double keel = bottom + 2.5 * std::pow(std::abs(t), 8.0);
     const double y = bow * (0.5 - t * t);
     const Vector2d section[] = {{-0.62 * w, keel}, {0.62 * w, keel}, {0.9 * w, bottom + 3.0}, {w, bottom + 4.5},
-                                {w, top}, {-w, top}, {-w, bottom + 4.5}, {-0.9 * w, bottom + 3.0}};
+                                {w, top},          {-w, top},        {-w, bottom + 4.5},      {-0.9 * w, bottom + 3.0}};
     Ring ring;
     const double x = 0.5 * site.deck_length * t;
     for (const Vector2d& p : section) ring.push_back(site.X_WD * Vector3d(x, y + p.x(), p.y()));

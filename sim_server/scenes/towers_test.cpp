@@ -80,9 +80,8 @@ class Towers : public testing::TestWithParam<std::uint64_t> {
  private:
   bool can_leave(const Vector3d& from) const {
     const auto all = directions();
-    return std::any_of(all.begin(), all.end(), [&](const Vector3d& way) {
-      return way.z() >= 0.0 && is_free(from, from + 300.0 * way);
-    });
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Vector3d& way) { return way.z() >= 0.0 && is_free(from, from + 300.0 * way); });
   }
 
   static std::vector<Vector3d> directions() {
@@ -153,8 +152,8 @@ TEST_P(Towers, PointsCanBeSeenFromOutside) {
 TEST_P(Towers, StartsAndTheColumnsAboveAreFree) {
   // No edge comes near, seen from above, and no triangle stands over the start itself.
   constexpr double kClearance = 3.0;
-  for (const Vector2d& start : {Vector2d(0, 5), Vector2d(31, 0), Vector2d(58, -13), Vector2d(0, 4), Vector2d(-2, 25),
-                                Vector2d(-2, 8)}) {
+  for (const Vector2d& start :
+       {Vector2d(0, 5), Vector2d(31, 0), Vector2d(58, -13), Vector2d(0, 4), Vector2d(-2, 25), Vector2d(-2, 8)}) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const auto& [points, extent] : facets_) {
       for (std::size_t i = 0; i < 3; ++i) {

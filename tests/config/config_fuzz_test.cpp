@@ -26,9 +26,10 @@ std::size_t below(RandomStream& random, std::size_t limit) { return limit == 0 ?
 
 /// One damage: a byte, a cut, a doubled or moved piece, or a piece of YAML's own syntax in the wrong place.
 void damage(RandomStream& random, std::string& text) {
-  static const std::vector<std::string> pieces = {":", "\n", "- ", "[", "]", "{", "}", "\"", "'", "&a ", "*a", "!!x ",
-                                                  "? ", "| ", "> ", "#", "%YAML 9\n", "---\n", "...\n", "\t", "  ",
-                                                  "1e999", "-", ".nan", "~", "\xff", "<<: ", "@", "`", "\\", ","};
+  static const std::vector<std::string> pieces = {":",         "\n",    "- ",    "[",    "]",  "{",     "}",  "\"",
+                                                  "'",         "&a ",   "*a",    "!!x ", "? ", "| ",    "> ", "#",
+                                                  "%YAML 9\n", "---\n", "...\n", "\t",   "  ", "1e999", "-",  ".nan",
+                                                  "~",         "\xff",  "<<: ",  "@",    "`",  "\\",    ","};
   const std::size_t at = below(random, text.size());
   const std::size_t length = below(random, 40);
   switch (below(random, 6)) {

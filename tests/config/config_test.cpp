@@ -69,8 +69,7 @@ TEST_P(InvalidFile, IsRefusedWithAUsefulMessage) {
   for (const std::string& part : expected) EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 
-INSTANTIATE_TEST_SUITE_P(Config, InvalidFile, ::testing::ValuesIn(bad_files()),
-                         test_name);
+INSTANTIATE_TEST_SUITE_P(Config, InvalidFile, ::testing::ValuesIn(bad_files()), test_name);
 
 class ShippedScenario : public ::testing::TestWithParam<std::string> {};
 
@@ -90,8 +89,7 @@ TEST_P(ShippedScenario, ReadsBackFromWhatIsPrinted) {
   fs::remove(copy);
 }
 
-INSTANTIATE_TEST_SUITE_P(Config, ShippedScenario, ::testing::ValuesIn(config_names(kConfig / "scenarios")),
-                         test_name);
+INSTANTIATE_TEST_SUITE_P(Config, ShippedScenario, ::testing::ValuesIn(config_names(kConfig / "scenarios")), test_name);
 
 class ShippedVehicle : public ::testing::TestWithParam<std::string> {};
 
@@ -104,8 +102,7 @@ TEST_P(ShippedVehicle, LoadsAndNamesEveryKey) {
   for (const std::string& key : printed.root.keys) EXPECT_NE(text.find(key + ":"), std::string::npos) << key;
 }
 
-INSTANTIATE_TEST_SUITE_P(Config, ShippedVehicle, ::testing::ValuesIn(config_names(kConfig / "vehicles")),
-                         test_name);
+INSTANTIATE_TEST_SUITE_P(Config, ShippedVehicle, ::testing::ValuesIn(config_names(kConfig / "vehicles")), test_name);
 
 TEST(ShippedConfig, HasTheFilesThatEveryBodyKnows) {
   EXPECT_EQ(config_names(kConfig / "vehicles"), (std::vector<std::string>{"explorer", "photographer"}));

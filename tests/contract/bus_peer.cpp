@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   auto hello = participant->create_writer(topic("hello", {.latched = true, .depth = 1}));
   hello->write(numbered(participant->id()));
   auto answer = participant->create_writer(topic("from_peer"));
-  auto reader = participant->create_reader(
-      topic("to_peer"), [&answer](skein::bus::Sample&& sample) { answer->write(sample.payload); });
+  auto reader = participant->create_reader(topic("to_peer"),
+                                           [&answer](skein::bus::Sample&& sample) { answer->write(sample.payload); });
   for (;;) pause();
 }

@@ -68,11 +68,20 @@ long delivered(const Json& result, const std::string& from, const std::string& t
 
 /// All that one UAV and its software say in their own domain, and what else is not for others.
 std::vector<WireTopic> private_topics(const std::string& uav) {
-  return {topics::odometry(uav),           topics::gimbal(uav),         topics::cloud(uav),
-          topics::self_keyframe(uav),      topics::neighbour_odometry(uav), topics::detected_points(uav),
-          topics::trajectory_command(uav), topics::captures(uav),       topics::captures_at_station(uav),
-          topics::captures_ack_at_uav(uav), topics::ledger(),           topics::routed(),
-          topics::attached(),              topics::drop()};
+  return {topics::odometry(uav),
+          topics::gimbal(uav),
+          topics::cloud(uav),
+          topics::self_keyframe(uav),
+          topics::neighbour_odometry(uav),
+          topics::detected_points(uav),
+          topics::trajectory_command(uav),
+          topics::captures(uav),
+          topics::captures_at_station(uav),
+          topics::captures_ack_at_uav(uav),
+          topics::ledger(),
+          topics::routed(),
+          topics::attached(),
+          topics::drop()};
 }
 
 TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
@@ -165,8 +174,15 @@ class ByHand : public FleetTest {
             &start_program(name, client, {{"SKEIN_DOMAIN", domain}, {"SKEIN_UAV", uav}, {"SKEIN_DDS", "cyclonedds"}});
         continue;
       }
-      Arguments argv = {program(name.substr(0, name.find('-'))), "--scenario", "towers", "--duration", "40", "--domain",
-                        base, "--out", dir_};
+      Arguments argv = {program(name.substr(0, name.find('-'))),
+                        "--scenario",
+                        "towers",
+                        "--duration",
+                        "40",
+                        "--domain",
+                        base,
+                        "--out",
+                        dir_};
       if (uav != name) argv.insert(argv.end(), {"--uav", uav, "--planner", "patrol"});
       if (name == "sim_server") argv.insert(argv.end(), {"--agent-timeout", "12"});
       fleet_[name] = &start_program(name, argv);

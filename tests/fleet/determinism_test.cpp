@@ -85,9 +85,7 @@ TEST_F(Determinism, TwoFleetsAtOnceKeepApart) {
 
 TEST_F(Determinism, OnlyWhatMattersEntersTheDigest) {
   const Arguments brief = {"towers", "--planner", "hover", "--duration", "5"};
-  const auto quick = [&](const std::string& name, const Arguments& more) {
-    return run(name, brief + more).digest();
-  };
+  const auto quick = [&](const std::string& name, const Arguments& more) { return run(name, brief + more).digest(); };
   const std::string reference = quick("default", {});
   EXPECT_EQ(quick("zero", {"--scene-seed", "0"}), reference);
   EXPECT_EQ(quick("longer", {"--stop-at", "1000"}), reference) << "an end that is never reached changes nothing";

@@ -125,8 +125,7 @@ bool is_flying(const fs::path& dir) {
   return !missing && size > kSomeSeconds;
 }
 
-SkeinRun::SkeinRun(const fs::path& folder, const std::string& name, Arguments arguments,
-                   const Environment& environment)
+SkeinRun::SkeinRun(const fs::path& folder, const std::string& name, Arguments arguments, const Environment& environment)
     : dir_(folder / name) {
   Arguments argv = {program("skein"), "run"};
   argv.insert(argv.end(), arguments.begin(), arguments.end());
@@ -198,8 +197,7 @@ SkeinRun& FleetTest::run(const std::string& name, const Arguments& arguments, co
   return run;
 }
 
-ChildProcess& FleetTest::start_program(const std::string& name, const Arguments& argv,
-                                       const Environment& environment) {
+ChildProcess& FleetTest::start_program(const std::string& name, const Arguments& argv, const Environment& environment) {
   programs_.push_back(std::make_unique<ChildProcess>(argv, with_config(environment), folder_ / (name + ".out"),
                                                      folder_ / (name + ".err")));
   return *programs_.back();

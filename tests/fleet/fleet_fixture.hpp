@@ -15,9 +15,9 @@ using Json = nlohmann::json;
 
 /// The fleet of the bundled scenario, in its order.
 inline const std::vector<std::string> kFleet = {"jurong", "raffles", "sentosa", "changi", "nanyang"};
-inline const std::vector<std::string> kPrograms = {"sim_server",        "comm_router",       "station",
-                                                   "uav_agent-jurong",  "uav_agent-raffles", "uav_agent-sentosa",
-                                                   "uav_agent-changi",  "uav_agent-nanyang"};
+inline const std::vector<std::string> kPrograms = {"sim_server",       "comm_router",       "station",
+                                                   "uav_agent-jurong", "uav_agent-raffles", "uav_agent-sentosa",
+                                                   "uav_agent-changi", "uav_agent-nanyang"};
 
 /// True when the environment asks for the tests that take minutes.
 bool long_tests();

@@ -47,8 +47,10 @@ std::vector<std::string> schema_errors(const Json& value, const Json& schema, co
     }
     const Json properties = schema.value("properties", Json::object());
     for (const auto& [key, part] : value.items()) {
-      if (properties.contains(key)) go_into(part, properties[key], path + "." + key);
-      else if (schema.contains("additionalProperties")) go_into(part, schema["additionalProperties"], path + "." + key);
+      if (properties.contains(key))
+        go_into(part, properties[key], path + "." + key);
+      else if (schema.contains("additionalProperties"))
+        go_into(part, schema["additionalProperties"], path + "." + key);
     }
   }
   return errors;

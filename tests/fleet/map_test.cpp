@@ -17,8 +17,9 @@ SmallScene hidden_podium() {
   for (double y = -14.0; y <= 14.0; y += 2.0) {
     for (double z = 6.5; z <= 17.0; z += 2.5) scene.points.push_back({24.0, y, z, -1.0, 0.0, 0.0});
   }
-  scene.fleet = "  - {name: jurong, vehicle: explorer, start: [0, 9], start_yaw_deg: 0}\n"
-                "  - {name: changi, vehicle: photographer, start: [0, -9], start_yaw_deg: 0}\n";
+  scene.fleet =
+      "  - {name: jurong, vehicle: explorer, start: [0, 9], start_yaw_deg: 0}\n"
+      "  - {name: changi, vehicle: photographer, start: [0, -9], start_yaw_deg: 0}\n";
   scene.duration_s = 120.0;
   return scene;
 }

@@ -134,8 +134,8 @@ class Client {
       if (!resync || resync->second.source() != participant_.id()) continue;
       server_ = resync->first;
       odometry_ = std::make_unique<Queue<msg::Odometry>>(participant_, uav_ + "/ground_truth/odometry", kStateQos);
-      commands_ = participant_.create_writer(
-          topic<msg::MultiDOFJointTrajectory>(uav_ + "/command/trajectory", kCommandQos));
+      commands_ =
+          participant_.create_writer(topic<msg::MultiDOFJointTrajectory>(uav_ + "/command/trajectory", kCommandQos));
       received_ = expected_ = count_of(resync->second.base(), odometry_->name(), server_, 0);
       return;
     }

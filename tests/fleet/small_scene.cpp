@@ -78,8 +78,9 @@ SmallScene default_scene() {
   for (int i = 0; i < kSmallScenePoints; ++i) {
     scene.points.push_back({20.0, -4.5 + 0.8 * i, 3.0 + 0.5 * i, -1.0, 0.0, 0.0});
   }
-  scene.fleet = "  - {name: jurong, vehicle: explorer, start: [0, 5], start_yaw_deg: 0}\n"
-                "  - {name: changi, vehicle: photographer, start: [0, -5], start_yaw_deg: 0}\n";
+  scene.fleet =
+      "  - {name: jurong, vehicle: explorer, start: [0, 5], start_yaw_deg: 0}\n"
+      "  - {name: changi, vehicle: photographer, start: [0, -5], start_yaw_deg: 0}\n";
   return scene;
 }
 

@@ -14,10 +14,10 @@ struct Block {
 };
 
 struct SmallScene {
-  std::vector<Block> blocks;             ///< the mesh
-  std::vector<Block> boxes;              ///< what the UAVs are told
+  std::vector<Block> blocks;                  ///< the mesh
+  std::vector<Block> boxes;                   ///< what the UAVs are told
   std::vector<std::array<double, 6>> points;  ///< position and normal
-  std::string fleet;                     ///< YAML list
+  std::string fleet;                          ///< YAML list
   double duration_s = 60.0;
 };
 

@@ -118,18 +118,19 @@ Violations check_libraries(const Tree& tree, const std::vector<LibraryRule>& rul
   for (const LibraryRule& rule : rules) {
     std::map<std::string, std::size_t> users;  // by folder
     for (const SourceFile& file : tree) {
-      const auto include = std::ranges::find_if(
-          file.includes, [&](const Include& i) { return starts_with_any(i.path, rule.prefixes); });
+      const auto include =
+          std::ranges::find_if(file.includes, [&](const Include& i) { return starts_with_any(i.path, rule.prefixes); });
       if (include == file.includes.end()) continue;
-      const auto folder = std::ranges::find_if(
-          rule.folders, [&](const std::string& f) { return file.path.starts_with(f); });
+      const auto folder =
+          std::ranges::find_if(rule.folders, [&](const std::string& f) { return file.path.starts_with(f); });
       if (folder == rule.folders.end()) {
         violations.push_back(at(file, include->line, rule.name + " does not belong here"));
       } else if (file.is_header()) {
         violations.push_back(at(file, include->line, rule.name + " must not be seen in a header"));
       } else if (++users[*folder] > rule.most_files) {
-        violations.push_back(at(file, include->line, rule.name + " is used in more than " +
-                                                         std::to_string(rule.most_files) + " files of " + *folder));
+        violations.push_back(
+            at(file, include->line,
+               rule.name + " is used in more than " + std::to_string(rule.most_files) + " files of " + *folder));
       }
     }
   }
@@ -178,14 +179,19 @@ Violations check_length(const Tree& tree, std::size_t most_lines) {
 }
 
 Violations check_marks(const Tree& tree) {
-  static const std::regex kMarks("\\b(TO" "DO|FIX" "ME)\\b");  // in two parts, so that they are no marks themselves
+  static const std::regex kMarks(
+      "\\b(TO"
+      "DO|FIX"
+      "ME)\\b");  // in two parts, so that they are no marks themselves
   Violations violations;
   for (const SourceFile& file : tree) find_lines(file, Look::text, kMarks, "marks unfinished work", violations);
   return violations;
 }
 
 Violations check_machine_paths(const Tree& tree) {
-  static const std::regex kPaths("(^|[^A-Za-z0-9_./}-])/" "(work|root|home)\\b");
+  static const std::regex kPaths(
+      "(^|[^A-Za-z0-9_./}-])/"
+      "(work|root|home)\\b");
   Violations violations;
   for (const SourceFile& file : tree) {
     if (file.folder() != "docker") find_lines(file, Look::text, kPaths, "names a path of one machine", violations);

@@ -66,7 +66,8 @@ TEST_F(MadeUpTree, IsReadWithoutBuildTreesAndBinaries) {
 }
 
 TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
-  for (const char* path : {"core/a.hpp", "idl/a.hpp", "bus/a.hpp", "sim_server/a.hpp", "uav_agent/a.hpp", "tests/a.hpp"}) {
+  for (const char* path :
+       {"core/a.hpp", "idl/a.hpp", "bus/a.hpp", "sim_server/a.hpp", "uav_agent/a.hpp", "tests/a.hpp"}) {
     file(path, "\n");
   }
   file("bus/good.cpp", include("core/a.hpp") + include("idl/a.hpp") + include("bus/a.hpp"));
@@ -87,8 +88,8 @@ TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
 TEST_F(MadeUpTree, OnlyNodesUseTheBus) {
   file("bus/bus.hpp", "\n");
   file("bus/good.cpp", include("bus/bus.hpp"));
-  for (const char* path : {"station/main.cpp", "station/station_node.hpp", "station/station_node.cpp",
-                           "station/station_node_test.cpp"}) {
+  for (const char* path :
+       {"station/main.cpp", "station/station_node.hpp", "station/station_node.cpp", "station/station_node_test.cpp"}) {
     file(path, include("bus/bus.hpp"));
   }
   EXPECT_EQ(check_bus_users(tree()), Violations{});
@@ -172,18 +173,25 @@ TEST_F(MadeUpTree, LongFilesAreFound) {
 }
 
 TEST_F(MadeUpTree, UnfinishedWorkIsFoundInAnyText) {
-  file("core/good.cpp", "int todo; // METHOD" "OLOGY\n");
+  file("core/good.cpp",
+       "int todo; // METHOD"
+       "OLOGY\n");
   EXPECT_EQ(check_marks(tree()), Violations{});
 
-  file("core/bad.cpp", "\n// TO" "DO: think\n");
-  file("docs/bad.md", "FIX" "ME\n");
+  file("core/bad.cpp",
+       "\n// TO"
+       "DO: think\n");
+  file("docs/bad.md",
+       "FIX"
+       "ME\n");
   EXPECT_EQ(places(check_marks(tree())), (Places{"core/bad.cpp:2", "docs/bad.md:1"}));
 }
 
 TEST_F(MadeUpTree, PathsOfAMachineAreFoundInAnyText) {
   const std::string home = std::string("/") + "home/me", work = std::string("/") + "work";
   file("docker/Dockerfile", std::string("WORKDIR ") + home + "\n");
-  file("core/good.cpp", std::string("// teamwork/") + home.substr(1) + ", a" + work + ", " + work + "ing, ./x" + home + "\n");
+  file("core/good.cpp",
+       std::string("// teamwork/") + home.substr(1) + ", a" + work + ", " + work + "ing, ./x" + home + "\n");
   EXPECT_EQ(check_machine_paths(tree()), Violations{});
 
   file("core/bad.cpp", "\nopen(\"" + home + "/x\");\n");
@@ -195,9 +203,9 @@ TEST_F(MadeUpTree, PathsOfAMachineAreFoundInAnyText) {
 TEST_F(MadeUpTree, ProductsAndLargeFilesAreFoundAmongTheTracked) {
   file("docs/large.png", std::string(11, 'x'));
   file("docs/small.png", std::string(10, 'x'));
-  const std::vector<std::string> tracked = {"build/a.txt",     "core/build-x/a.txt", "core/CMakeLists.txt", "docs/building.md",
-                                            "docs/large.png",  "docs/small.png",     "lib/a.so",            "x/CMakeFiles/a",
-                                            "x/CMakeCache.txt"};
+  const std::vector<std::string> tracked = {"build/a.txt",      "core/build-x/a.txt", "core/CMakeLists.txt",
+                                            "docs/building.md", "docs/large.png",     "docs/small.png",
+                                            "lib/a.so",         "x/CMakeFiles/a",     "x/CMakeCache.txt"};
   EXPECT_EQ(places(check_tracked_files(root_, tracked, 10)),
             (Places{"build/a.txt:1", "core/build-x/a.txt:1", "docs/large.png:1", "lib/a.so:1", "x/CMakeFiles/a:1",
                     "x/CMakeCache.txt:1"}));

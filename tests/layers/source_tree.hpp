@@ -13,10 +13,10 @@ struct Include {
 };
 
 struct SourceFile {
-  std::string path;                 ///< below the root: "core/types.hpp"
-  std::vector<std::string> lines;   ///< as they are
-  std::vector<std::string> code;    ///< C++ only: the same with blanks for comments, characters and strings
-  std::vector<Include> includes;    ///< C++ only
+  std::string path;                ///< below the root: "core/types.hpp"
+  std::vector<std::string> lines;  ///< as they are
+  std::vector<std::string> code;   ///< C++ only: the same with blanks for comments, characters and strings
+  std::vector<Include> includes;   ///< C++ only
 
   bool is_header() const;
   bool is_cpp() const { return !code.empty(); }

@@ -158,7 +158,8 @@ class AgentProcess final : public Process {
       client_.write("rt/" + name_ + "/command", text_message(log_.commanded.back()));
     }
     for (std::uint64_t n = 0; n < (mind_ >> 8) % 3; ++n) {
-      const std::string said = life_ + "@" + std::to_string(log_.k) + "." + std::to_string(n) + "m" + std::to_string(mind_ % 1000);
+      const std::string said =
+          life_ + "@" + std::to_string(log_.k) + "." + std::to_string(n) + "m" + std::to_string(mind_ % 1000);
       if (client_.write("rt/talk", text_message(said))) log_.said.push_back(said);
     }
     client_.done();
@@ -185,7 +186,9 @@ namespace {
 
 class RouterProcess final : public Process {
  public:
-  RouterProcess(const Scenario& scenario, SimNetwork& network) : bus_(network), node_(scenario, 0, bus_) { node_.start(); }
+  RouterProcess(const Scenario& scenario, SimNetwork& network) : bus_(network), node_(scenario, 0, bus_) {
+    node_.start();
+  }
   void poll() override { node_.poll(); }
   bool finished() const override { return true; }
 

@@ -29,9 +29,9 @@ class Process {
 
 struct FleetOptions {
   std::size_t uavs = 2;
-  std::uint64_t steps = 8;     ///< the last one is final
-  std::string victim = {};     ///< program to kill once, or empty
-  bool restart = false;        ///< and to start again
+  std::uint64_t steps = 8;       ///< the last one is final
+  std::string victim = {};       ///< program to kill once, or empty
+  bool restart = false;          ///< and to start again
   std::uint64_t kill_after = 0;  ///< events
 };
 

@@ -6,7 +6,8 @@ namespace skein::test {
 
 class SimWriter final : public bus::Writer {
  public:
-  SimWriter(SimNetwork& network, std::shared_ptr<SimNetwork::WriterEnd> end) : network_(network), end_(std::move(end)) {}
+  SimWriter(SimNetwork& network, std::shared_ptr<SimNetwork::WriterEnd> end)
+      : network_(network), end_(std::move(end)) {}
   ~SimWriter() override { network_.remove(end_); }
   void write(std::span<const std::uint8_t> payload) override { network_.write(end_, payload); }
   std::vector<bus::ParticipantId> matched() const override { return end_->matched; }
@@ -18,7 +19,8 @@ class SimWriter final : public bus::Writer {
 
 class SimReader final : public bus::Reader {
  public:
-  SimReader(SimNetwork& network, std::shared_ptr<SimNetwork::ReaderEnd> end) : network_(network), end_(std::move(end)) {}
+  SimReader(SimNetwork& network, std::shared_ptr<SimNetwork::ReaderEnd> end)
+      : network_(network), end_(std::move(end)) {}
   ~SimReader() override { network_.remove(end_); }
   std::vector<bus::ParticipantId> matched() const override { return end_->matched; }
 
@@ -55,7 +57,9 @@ class SimParticipant final : public bus::Participant {
   const bus::ParticipantId id_;
 };
 
-std::unique_ptr<bus::Participant> SimBus::join(int domain) { return std::make_unique<SimParticipant>(network_, domain); }
+std::unique_ptr<bus::Participant> SimBus::join(int domain) {
+  return std::make_unique<SimParticipant>(network_, domain);
+}
 
 void SimNetwork::add(std::shared_ptr<WriterEnd> writer) {
   for (const auto& reader : readers_) connect(writer, reader);
@@ -68,7 +72,8 @@ void SimNetwork::add(std::shared_ptr<ReaderEnd> reader) {
 }
 
 void SimNetwork::connect(const std::shared_ptr<WriterEnd>& writer, const std::shared_ptr<ReaderEnd>& reader) {
-  if (writer->domain != reader->domain || writer->topic.name != reader->topic.name || writer->who == reader->who) return;
+  if (writer->domain != reader->domain || writer->topic.name != reader->topic.name || writer->who == reader->who)
+    return;
   connections_.push_back({writer, reader, false, false, {}});
 }
 
@@ -161,7 +166,8 @@ std::string SimNetwork::describe() const {
   for (const Connection& c : connections_) {
     if (c.under_way.empty() && c.writer_matched && c.reader_matched) continue;
     text += c.writer->topic.name + " " + std::to_string(c.writer->who) + "->" + std::to_string(c.reader->who) +
-            (c.writer_matched ? " w" : " -") + (c.reader_matched ? "r " : "- ") + std::to_string(c.under_way.size()) + "\n";
+            (c.writer_matched ? " w" : " -") + (c.reader_matched ? "r " : "- ") + std::to_string(c.under_way.size()) +
+            "\n";
   }
   return text;
 }

@@ -6,7 +6,7 @@ namespace skein::agent {
 class HoverPlanner final : public Planner {
  public:
   struct Config {
-    double height_m = 3.0;   ///< above the start
+    double height_m = 3.0;  ///< above the start
     double climb_mps = 1.0;
 
     template <class R>

@@ -23,12 +23,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kRefitS = 2.0;                      ///< between two looks at the map while on a strip
-constexpr double kRetryS = 1.0;                      ///< after a climb was stopped
+constexpr double kRefitS = 2.0;  ///< between two looks at the map while on a strip
+constexpr double kRetryS = 1.0;  ///< after a climb was stopped
 constexpr int kMaxClimbs = 20;
-constexpr double kRestS = 3.0;                       ///< after a round in which no strip could be flown
-constexpr double kLookAroundTurn = 0.8;              ///< meanwhile [rad]
-constexpr double kLayerM = 2.0;                      ///< between the heights to which two UAVs climb
+constexpr double kRestS = 3.0;           ///< after a round in which no strip could be flown
+constexpr double kLookAroundTurn = 0.8;  ///< meanwhile [rad]
+constexpr double kLayerM = 2.0;          ///< between the heights to which two UAVs climb
 constexpr double kNoBoxesHeightM = 3.0;
 constexpr double kLowestPlaceM = 6.0;                ///< for delivery
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the side, by round [rad]
@@ -44,14 +44,14 @@ constexpr int kRays[] = {8, 4, 2, 2};
 class PatrolPlanner final : public Planner {
  public:
   struct Config {
-    bool use_map = true;               ///< false: knows nothing but the boxes; for comparison
-    bool survey = true;                ///< explorers fly once around everything first
-    bool top = true, bottom = true;    ///< look at these faces, too
-    double clearance_m = 1.2;          ///< from the UAV's body to anything mapped
+    bool use_map = true;             ///< false: knows nothing but the boxes; for comparison
+    bool survey = true;              ///< explorers fly once around everything first
+    bool top = true, bottom = true;  ///< look at these faces, too
+    double clearance_m = 1.2;        ///< from the UAV's body to anything mapped
     double transit_mps = 4.5, survey_mps = 4.0, climb_mps = 2.5;
     double survey_standoff_m = 10.0;
-    double standoff_ratio = 0.92;      ///< distance to the surface in units of d*
-    double blind_ratio = 0.55;         ///< distance to a box's face where no surface is mapped
+    double standoff_ratio = 0.92;  ///< distance to the surface in units of d*
+    double blind_ratio = 0.55;     ///< distance to a box's face where no surface is mapped
     double overlap = 0.2;
     double speed_gain = 1.0;           ///< 1: no blur
     double blind_height_ratio = 0.45;  ///< of the highest box: below it, only space that was seen free is entered
@@ -119,18 +119,18 @@ class PatrolPlanner final : public Planner {
   Phase phase_ = Phase::ground;
   Tick idle_until_ = 0;
   Vector3d climb_to_ = Vector3d::Zero();
-  int failures_ = 0;                   ///< of this climb or strip
+  int failures_ = 0;  ///< of this climb or strip
 
-  bool shared_ = false;                ///< the boxes have come
+  bool shared_ = false;  ///< the boxes have come
   double top_m_ = 0.0, blind_height_m_ = 0.0;
   WorkShare share_;
-  std::deque<std::size_t> to_do_;      ///< of this round: indices into share_.tour
+  std::deque<std::size_t> to_do_;  ///< of this round: indices into share_.tour
   int round_ = -1;
-  bool flown_any_ = true;              ///< in this round
-  std::size_t boldness_ = 0;           ///< index into kRays
-  std::size_t current_ = 0;            ///< index into share_.tour
-  double strip_s_ = 0.0;               ///< where on the strip the present run begins
-  std::size_t run_length_ = 0;         ///< waypoints of it
+  bool flown_any_ = true;       ///< in this round
+  std::size_t boldness_ = 0;    ///< index into kRays
+  std::size_t current_ = 0;     ///< index into share_.tour
+  double strip_s_ = 0.0;        ///< where on the strip the present run begins
+  std::size_t run_length_ = 0;  ///< waypoints of it
   Tick refit_at_ = 0;
 };
 
@@ -178,9 +178,8 @@ StandoffConfig PatrolPlanner::standoff_config() const {
 void PatrolPlanner::share_work(const PlannerInput& in) {
   shared_ = true;
   top_m_ = top_of(in.boxes);
-  const bool lidar_in_fleet = std::any_of(agent_.fleet.begin(), agent_.fleet.end(), [](const FleetMember& member) {
-    return member.role == Role::explorer;
-  });
+  const bool lidar_in_fleet = std::any_of(agent_.fleet.begin(), agent_.fleet.end(),
+                                          [](const FleetMember& member) { return member.role == Role::explorer; });
   if (lidar_in_fleet && config_.use_map) blind_height_m_ = config_.blind_height_ratio * top_m_;
   WorkShareConfig config;
   config.strips.standoff_ratio = config_.standoff_ratio;
@@ -366,8 +365,8 @@ void PatrolPlanner::fly_strip(const PlannerInput& in, PlannerOutput& out) {
     idle(in.tick, out);
     return;
   }
-  const auto runs = fit_strip(strip, visit.reversed, strip_s_, in.tracking.setpoint.p_WB, free_space(in), reach_,
-                              standoff_config());
+  const auto runs =
+      fit_strip(strip, visit.reversed, strip_s_, in.tracking.setpoint.p_WB, free_space(in), reach_, standoff_config());
   if (runs.empty()) {
     idle(in.tick, out);
     return;
@@ -397,8 +396,8 @@ void PatrolPlanner::refit(const PlannerInput& in, PlannerOutput& out) {
   const Strip& strip = share_.strips[visit.strip];
   const double s = run_s(in.tracking.leg);
   if (s >= strip.length()) return;
-  const auto runs = fit_strip(strip, visit.reversed, s, in.tracking.setpoint.p_WB, free_space(in), reach_,
-                              standoff_config());
+  const auto runs =
+      fit_strip(strip, visit.reversed, s, in.tracking.setpoint.p_WB, free_space(in), reach_, standoff_config());
   if (runs.empty() || runs.front().first_s > s) return;  // the safety stop will see to it
   strip_s_ = s;
   run_length_ = runs.front().waypoints.size();

@@ -37,8 +37,8 @@ class WaypointsPlanner final : public Planner {
   };
 
   struct Config {
-    bool repeat = false;                    ///< begin again after the last stop
-    Named<std::vector<Stop>> paths;         ///< by UAV
+    bool repeat = false;             ///< begin again after the last stop
+    Named<std::vector<Stop>> paths;  ///< by UAV
 
     template <class R>
     void describe(R& r) {
