@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -151,14 +152,14 @@ void describe(R& r, RadioTopicConfig& topic) {
 struct FleetEntry {
   std::string name;
   std::variant<std::string, VehicleConfig> vehicle;
-  Vector2d start = Vector2d::Zero();
-  double start_yaw_deg = 0.0;
+  std::optional<Vector2d> start;  ///< none: the procedural scene's place of this UAV
+  std::optional<double> start_yaw_deg;
 
   template <class R>
   void describe(R& r) {
     r.required("name", name);
     r.required("vehicle", vehicle);
-    r.required("start", start, within(-1e4, 1e4));
+    r.field("start", start, within(-1e4, 1e4));
     r.field("start_yaw_deg", start_yaw_deg, within(-360.0, 360.0));
   }
 };

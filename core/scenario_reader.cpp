@@ -69,16 +69,40 @@ void check_names(const ScenarioFile& file, ConfigErrors& errors) {
   }
 }
 
+/// Degrees that turn back into exactly these radians, with as few digits as that takes.
+double tidy_degrees(double radians) {
+  const double degrees = radians / kRadPerDeg;
+  const double rounded = std::round(degrees * 1e9) / 1e9;
+  return rounded * kRadPerDeg == radians ? rounded : degrees;
+}
+
+/// Entries without a start of their own take the places of the procedural scene, in fleet order.
+void find_starts(const Scenario& scenario, std::vector<FleetEntry>& fleet, ConfigErrors& errors) {
+  const SceneFamily* family = find_scene_family(scenario.scene.family);
+  const std::vector<StartPlace> places =
+      family ? scene_starts(*family, scenario.scene.scene_seed) : std::vector<StartPlace>{};
+  for (std::size_t i = 0; i < fleet.size(); ++i) {
+    const bool placed = fleet[i].start || i < places.size();
+    const std::string why = family ? "the scene has places for " + std::to_string(places.size()) + " UAVs only"
+                                   : "a scene from files has no places of its own";
+    errors.check(placed, index_path("fleet", i), "'" + fleet[i].name + "' needs a 'start: [x, y]': " + why);
+    if (!fleet[i].start_yaw_deg && !fleet[i].start && placed) {
+      fleet[i].start_yaw_deg = tidy_degrees(places[i].yaw);
+    }
+    if (!fleet[i].start) fleet[i].start = placed ? places[i].p_W : Vector2d::Zero();
+  }
+}
+
 void check_starts(const ScenarioFile& file, ConfigErrors& errors) {
   const auto& fleet = file.fleet;
   const auto check = [&](std::size_t i, const Vector2d& other, const std::string& name) {
-    const double distance = (fleet[i].start - other).norm();
+    const double distance = (*fleet[i].start - other).norm();
     errors.check(distance >= kLeastStartDistanceM, index_path("fleet", i, "start"),
                  "'" + fleet[i].name + "' starts less than 0.5 m from '" + name + "'; move one of them");
   };
   for (std::size_t i = 0; i < fleet.size(); ++i) {
     check(i, file.scenario.station_position.head<2>(), "gcs");
-    for (std::size_t j = 0; j < i; ++j) check(i, fleet[j].start, fleet[j].name);
+    for (std::size_t j = 0; j < i; ++j) check(i, *fleet[j].start, fleet[j].name);
   }
 }
 
@@ -118,7 +142,7 @@ void check_scene(const SceneConfig& scene, ConfigErrors& errors) {
   }
   errors.check(!files, "scene", "has either a 'family' or files, not both");
   std::vector<std::string> known;
-  for (const SceneFamily& family : kSceneFamilies) known.emplace_back(family.name);
+  for (const SceneFamily& family : scene_families()) known.emplace_back(family.name);
   errors.check(std::find(known.begin(), known.end(), scene.family) != known.end(), "scene.family",
                "there is no family '" + scene.family + "' of scenes; " + suggestion(scene.family, known));
 }
@@ -178,7 +202,7 @@ void build_fleet(const ScenarioFile& file, const fs::path& config_dir, Scenario&
   std::map<std::string, VehicleConfig> loaded;
   for (std::size_t i = 0; i < file.fleet.size(); ++i) {
     const FleetEntry& entry = file.fleet[i];
-    UavConfig uav{entry.name, {}, entry.start, entry.start_yaw_deg * kRadPerDeg};
+    UavConfig uav{entry.name, {}, *entry.start, entry.start_yaw_deg.value_or(0.0) * kRadPerDeg};
     if (entry.vehicle.index() == 1) {
       uav.vehicle = std::get<VehicleConfig>(entry.vehicle);
     } else {
@@ -214,13 +238,6 @@ void apply_overrides(const LoadOptions& options, Scenario& scenario) {
   }
 }
 
-/// Degrees that turn back into exactly these radians, with as few digits as that takes.
-double tidy_degrees(double radians) {
-  const double degrees = radians / kRadPerDeg;
-  const double rounded = std::round(degrees * 1e9) / 1e9;
-  return rounded * kRadPerDeg == radians ? rounded : degrees;
-}
-
 }  // namespace
 
 Scenario load_scenario(const std::string& name_or_path, const LoadOptions& options) {
@@ -235,15 +252,16 @@ Scenario load_scenario(const std::string& name_or_path, const LoadOptions& optio
   ConfigErrors errors(document);
   check_times(scenario, errors);
   check_names(file, errors);
+  check_scene(scenario.scene, errors);
+  apply_overrides(options, scenario);
+  find_starts(scenario, file.fleet, errors);
   check_starts(file, errors);
   check_radio(file, errors);
-  check_scene(scenario.scene, errors);
   build_fleet(file, config_dir, scenario, errors);
   errors.throw_if_any();
   find_scene_files(scenario, options, errors);
   errors.throw_if_any();
   radio_routes(scenario);  // rules between topics: it throws when one is broken
-  apply_overrides(options, scenario);
   return scenario;
 }
 

@@ -1,17 +1,35 @@
-// The families of procedural scenes that a scenario may name. sim_server/scenes/ builds them, one file a family.
+// The families of procedural scenes that a scenario may name: what every program may know of them. sim_server/scenes/
+// builds the structures, one file a family.
 #pragma once
 
-#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
 
 namespace skein {
+
+/// A place on the ground where a UAV may start. Frame W; m, rad.
+struct StartPlace {
+  Vector2d p_W = Vector2d::Zero();
+  double yaw = 0.0;
+};
 
 struct SceneFamily {
   const char* name;
   const char* description;
+  std::vector<Vector2d> starts;  ///< of scene seed 0, in fleet order; nothing may be built within 4 m of one
 };
 
-inline constexpr std::array kSceneFamilies = {
-    SceneFamily{"towers", "three towers under a roof deck, in the manner of the benchmark's MBS"},
-};
+/// All families, in the order in which they are listed to a user.
+std::span<const SceneFamily> scene_families();
+/// @returns nullptr when no family has this name.
+const SceneFamily* find_scene_family(const std::string& name);
+
+/// Where a fleet starts in one member of a family: with seed 0 its nominal places and yaw 0, otherwise places up to
+/// 2 m from those, and any yaw. In fleet order. Pure.
+std::vector<StartPlace> scene_starts(const SceneFamily& family, std::uint64_t scene_seed);
 
 }  // namespace skein

@@ -1,5 +1,8 @@
 #include "sim_server/scenes/scene_source.hpp"
 
+#include <map>
+#include <string>
+
 #include "core/scene_families.hpp"
 #include "sim_server/scene_files/box_file.hpp"
 #include "sim_server/scene_files/mesh_file.hpp"
@@ -9,10 +12,16 @@
 namespace skein::sim {
 namespace {
 
+/// One line a family, as in core/scene_families.cpp.
+const std::map<std::string, Scene (*)(std::uint64_t scene_seed)> kBuilders = {
+    {"towers", &make_towers},
+};
+
 Scene make_family(const Scenario& scenario) {
-  if (scenario.scene.family == "towers") return make_towers(scenario.scene.scene_seed);
+  const auto builder = kBuilders.find(scenario.scene.family);
+  if (builder != kBuilders.end()) return builder->second(scenario.scene.scene_seed);
   std::string known;
-  for (const auto& family : kSceneFamilies) known += (known.empty() ? "" : ", ") + std::string(family.name);
+  for (const auto& family : scene_families()) known += (known.empty() ? "" : ", ") + std::string(family.name);
   throw InputError(scenario.file.string() + ": scene.family: no family '" + scenario.scene.family +
                    "'; there are: " + known);
 }

@@ -12,7 +12,7 @@ namespace skein::sim {
 namespace {
 
 TEST(SceneSource, EveryFamilyIsBuilt) {
-  for (const auto& family : kSceneFamilies) {
+  for (const auto& family : scene_families()) {
     Scenario scenario;
     scenario.scene.family = family.name;
     const Scene scene = load_scene(scenario);
