@@ -48,6 +48,8 @@ class Writer {
   virtual void write(std::span<const std::uint8_t> payload) = 0;
   /// Participants with a reader that this writer has matched, one entry a reader.
   virtual std::vector<ParticipantId> matched() const = 0;
+  /// Whether there are any; cheap enough to ask before each sample.
+  virtual bool has_readers() const { return !matched().empty(); }
 };
 
 class Reader {
@@ -69,6 +71,22 @@ class Participant {
   virtual std::unique_ptr<Writer> create_writer(const TopicSpec& topic) = 0;
   /// A participant never hears its own writers.
   virtual std::unique_ptr<Reader> create_reader(const TopicSpec& topic, OnSample on_sample) = 0;
+  /// What this thread writes from now on may wait until it calls release(), to travel together. Both do nothing when
+  /// they were called already; nobody may wait for an answer in between. See Burst.
+  virtual void hold() {}
+  virtual void release() {}
+};
+
+/// Samples that are written in a row and of use only together: a step's. Sends them at the latest when it ends.
+class Burst {
+ public:
+  explicit Burst(Participant& participant) : participant_(participant) { participant_.hold(); }
+  ~Burst() { participant_.release(); }
+  Burst(const Burst&) = delete;
+  Burst& operator=(const Burst&) = delete;
+
+ private:
+  Participant& participant_;
 };
 
 struct BusConfig {

@@ -1,5 +1,6 @@
 #include "bus/inbox.hpp"
 
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 /// One subscription; what has arrived for it is dropped once its reader is gone.
 struct Subscription {
   Inbox::Handler handler;
+  Bell bell = Bell::rings;
   std::atomic<bool> alive = true;
 };
 
@@ -29,6 +31,8 @@ struct Arrival {
   std::shared_ptr<Subscription> subscription;
   Sample sample;
   std::function<void()> work;
+
+  bool rings() const { return subscription && subscription->bell == Bell::rings; }
 
   void run() {
     if (work)
@@ -77,12 +81,34 @@ struct Inbox::Impl {
   explicit Impl(unsigned chaos_seed) : chaos(chaos_seed != 0), delay(chaos_seed) {}
 
   void push(Arrival&& arrival) {
-    const std::scoped_lock lock(mutex);
-    if (chaos)
-      hold(std::move(arrival));
-    else
-      ready.push_back(std::move(arrival));
-    if (waiting) changed.notify_one();
+    {
+      const std::scoped_lock lock(mutex);
+      if (chaos)
+        hold(std::move(arrival));
+      else
+        add(std::move(arrival));
+      // Under chaos the waiting thread must look again when the first of those held back is due.
+      if (!waiting || !(chaos || enough(wanted_rings))) return;
+      waiting = false;  // it is told once
+    }
+    changed.notify_one();
+  }
+
+  void add(Arrival&& arrival) {
+    if (arrival.work) posted = true;
+    if (arrival.rings()) ++rings;
+    ready.push_back(std::move(arrival));
+  }
+
+  bool enough(std::size_t wanted) const {
+    return posted || woken || (wanted == 0 ? !ready.empty() : rings >= wanted);
+  }
+
+  /// Takes all that is ready.
+  std::vector<Arrival> take() {
+    rings = 0;
+    posted = false;
+    return std::exchange(ready, {});
   }
 
   /// Never before what came earlier in the same stream: equal times keep their order in a multimap.
@@ -96,19 +122,18 @@ struct Inbox::Impl {
   /// Moves what is due from `held` to `ready`.
   void release() {
     const auto end = held.upper_bound(Clock::now());
-    for (auto it = held.begin(); it != end; ++it) ready.push_back(std::move(it->second));
+    for (auto it = held.begin(); it != end; ++it) add(std::move(it->second));
     held.erase(held.begin(), end);
   }
 
-  /// Waits until something is ready, someone woke us, or the time is over.
-  void wait(std::unique_lock<std::mutex>& lock, Clock::time_point deadline) {
-    waiting = true;
+  /// Waits until enough is ready, someone woke us, or the time is over.
+  void wait(std::unique_lock<std::mutex>& lock, Clock::time_point deadline, std::size_t wanted) {
+    wanted_rings = wanted;
     for (;;) {
       release();
-      const auto now = Clock::now();
-      if (!ready.empty() || woken || now >= deadline) break;
-      const auto next = held.empty() ? deadline : std::min(deadline, held.begin()->first);
-      changed.wait_until(lock, next);
+      if (enough(wanted) || Clock::now() >= deadline) break;
+      waiting = true;
+      changed.wait_until(lock, held.empty() ? deadline : std::min(deadline, held.begin()->first));
     }
     waiting = false;
   }
@@ -117,7 +142,10 @@ struct Inbox::Impl {
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<Arrival> ready;
-  bool waiting = false;
+  std::size_t rings = 0;  ///< of those in `ready`
+  bool posted = false;    ///< work is among them
+  bool waiting = false;   ///< and nobody has notified it yet
+  std::size_t wanted_rings = 0;
   bool woken = false;
 
   ChaosDelay delay;
@@ -148,22 +176,24 @@ Inbox::Inbox(unsigned chaos) : impl_(std::make_unique<Impl>(chaos)) {}
 
 Inbox::~Inbox() = default;
 
-std::unique_ptr<Reader> Inbox::subscribe(Participant& participant, const TopicSpec& topic, Handler handler) {
+std::unique_ptr<Reader> Inbox::subscribe(Participant& participant, const TopicSpec& topic, Handler handler,
+                                         Bell bell) {
   auto subscription = std::make_shared<Subscription>();
   subscription->handler = std::move(handler);
+  subscription->bell = bell;
   auto reader = participant.create_reader(topic, [impl = impl_.get(), subscription](Sample&& sample) {
     impl->push({subscription, std::move(sample), nullptr});
   });
   return std::make_unique<InboxReader>(std::move(subscription), std::move(reader));
 }
 
-bool Inbox::dispatch(std::chrono::milliseconds timeout) {
+bool Inbox::dispatch(std::chrono::milliseconds timeout, std::size_t rings) {
   std::vector<Arrival> batch;
   bool woken = false;
   {
     std::unique_lock lock(impl_->mutex);
-    impl_->wait(lock, Clock::now() + timeout);
-    batch.swap(impl_->ready);
+    impl_->wait(lock, Clock::now() + timeout, rings);
+    batch = impl_->take();
     woken = std::exchange(impl_->woken, false);
   }
   std::size_t done = 0;
@@ -172,11 +202,18 @@ bool Inbox::dispatch(std::chrono::milliseconds timeout) {
   } catch (...) {
     // A handler may throw to its program; the samples behind it are not lost by that.
     const std::scoped_lock lock(impl_->mutex);
-    impl_->ready.insert(impl_->ready.begin(), std::make_move_iterator(batch.begin() + static_cast<long>(done)),
-                        std::make_move_iterator(batch.end()));
+    std::vector<Arrival> later = impl_->take();
+    for (; done < batch.size(); ++done) impl_->add(std::move(batch[done]));
+    for (Arrival& arrival : later) impl_->add(std::move(arrival));
     throw;
   }
   return !batch.empty() && !woken;
+}
+
+bool Inbox::ready(std::size_t rings) {
+  const std::scoped_lock lock(impl_->mutex);
+  impl_->release();
+  return impl_->enough(rings);
 }
 
 void Inbox::wake() {
@@ -186,5 +223,12 @@ void Inbox::wake() {
 }
 
 void Inbox::post(std::function<void()> work) { impl_->push({nullptr, {}, std::move(work)}); }
+
+void Inbox::note_malformed(const std::string& topic, const Sample& sample) {
+  ++malformed_;
+  if (!told_.insert(topic).second) return;
+  spdlog::warn("{}: dropped a malformed sample of {} bytes from participant {:016x}; further ones are only counted",
+               topic, sample.payload.size(), sample.source);
+}
 
 }  // namespace skein::bus

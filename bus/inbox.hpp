@@ -5,12 +5,19 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "bus/bus.hpp"
 
 namespace skein::bus {
+
+/// Waking a thread costs more than handling a sample. In lock-step most samples are of no use before the one that
+/// says how many there are: those topics are silent, and only the others ring.
+enum class Bell { rings, silent };
 
 class Inbox {
  public:
@@ -23,19 +30,32 @@ class Inbox {
   using Handler = std::function<void(Sample&&)>;
   /// Creates a reader on `participant` whose samples reach `handler` through this inbox.
   /// The reader must be destroyed before the inbox.
-  std::unique_ptr<Reader> subscribe(Participant& participant, const TopicSpec& topic, Handler handler);
+  std::unique_ptr<Reader> subscribe(Participant& participant, const TopicSpec& topic, Handler handler,
+                                    Bell bell = Bell::rings);
 
-  /// Runs handlers for all that has arrived; waits for at least one arrival, but no longer than `timeout`.
+  /// Runs handlers for all that has arrived, silent or not; waits until that is worth it, but no longer than `timeout`.
+  /// @param rings  wait for so many samples of topics that ring; 0: for any sample. Posted work is never waited over.
+  ///   Who asks for n must know that fewer cannot change anything, or it sleeps through what it waits for.
   /// @returns false when nothing arrived in time or wake() was called.
-  bool dispatch(std::chrono::milliseconds timeout);
+  bool dispatch(std::chrono::milliseconds timeout, std::size_t rings = 0);
+  /// True when dispatch() would not wait. For tests that may not let time pass.
+  bool ready(std::size_t rings = 0);
   /// Makes a waiting dispatch() return; from any thread, and from signal handlers' helper threads.
   void wake();
   /// Hands in something from another thread (a control pipe, a timer) to run inside dispatch(), in order of arrival.
   void post(std::function<void()> work);
 
+  /// Counts a sample that was no message of its topic's type (typed.hpp); tells of the first one on each topic.
+  /// Inside dispatch(), or on its thread.
+  void note_malformed(const std::string& topic, const Sample& sample);
+  /// Malformed samples so far, on all topics.
+  std::uint64_t malformed() const { return malformed_; }
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+  std::uint64_t malformed_ = 0;
+  std::set<std::string> told_;  ///< topics with malformed samples
 };
 
 }  // namespace skein::bus

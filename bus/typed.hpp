@@ -2,12 +2,8 @@
 // service is as bus.hpp and inbox.hpp say.
 #pragma once
 
-#include <spdlog/spdlog.h>
-
-#include <atomic>
 #include <concepts>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -50,46 +46,27 @@ class TypedWriter {
   std::uint64_t count_ = 0;
 };
 
-/// A subscription; ends when it is destroyed, before its inbox and its participant.
-class TypedReader : public Reader {
- public:
-  TypedReader(std::unique_ptr<Reader> reader, std::shared_ptr<const std::atomic<std::uint64_t>> malformed)
-      : reader_(std::move(reader)), malformed_(std::move(malformed)) {}
-
-  std::vector<ParticipantId> matched() const override { return reader_->matched(); }
-  /// Samples that were no message of this type, and were dropped.
-  std::uint64_t malformed() const { return *malformed_; }
-
- private:
-  std::unique_ptr<Reader> reader_;
-  std::shared_ptr<const std::atomic<std::uint64_t>> malformed_;
-};
-
-/// Calls `handler` inside inbox.dispatch() for each message on a topic, with the participant that wrote it.
-/// Malformed samples are dropped and counted; the first of them is logged.
+/// A handler of raw samples that hands messages to `handler`: as (message) or (message, participant that wrote it).
+/// Samples that are no T are dropped, counted by `inbox` (which must outlive the handler), and told once a topic.
 template <class T, class Handler>
-requires std::invocable<Handler&, const T&, ParticipantId> std::unique_ptr<TypedReader> subscribe(
-    Inbox& inbox, Participant& participant, const TopicSpec& topic, Handler handler) {
-  auto malformed = std::make_shared<std::atomic<std::uint64_t>>(0);
-  auto reader = inbox.subscribe(
-      participant, topic, [name = topic.name, malformed, handler = std::move(handler)](Sample&& sample) mutable {
-        T message;
-        if (decode(sample.payload, message))
-          handler(std::as_const(message), sample.source);
-        else if ((*malformed)++ == 0)
-          spdlog::warn(
-              "{}: dropped a malformed sample of {} bytes from participant {:016x}; further ones are only "
-              "counted",
-              name, sample.payload.size(), sample.source);
-      });
-  return std::make_unique<TypedReader>(std::move(reader), std::move(malformed));
+Inbox::Handler decoding(Inbox& inbox, std::string topic, Handler handler) {
+  return [&inbox, topic = std::move(topic), handler = std::move(handler)](Sample&& sample) mutable {
+    T message;
+    if (!decode(sample.payload, message)) {
+      inbox.note_malformed(topic, sample);
+    } else if constexpr (std::invocable<Handler&, T&, ParticipantId>) {
+      handler(message, sample.source);
+    } else {
+      handler(message);
+    }
+  };
 }
 
-/// The same for the topic `name` of messages T.
+/// A subscription whose samples arrive decoded, inside inbox.dispatch().
 template <class T, class Handler>
-requires std::invocable<Handler&, const T&, ParticipantId> std::unique_ptr<TypedReader> subscribe(
-    Inbox& inbox, Participant& participant, std::string name, const Qos& qos, Handler handler) {
-  return subscribe<T>(inbox, participant, topic_of<T>(std::move(name), qos), std::move(handler));
+std::unique_ptr<Reader> subscribe(Inbox& inbox, Participant& participant, const TopicSpec& topic, Handler handler,
+                                  Bell bell = Bell::rings) {
+  return inbox.subscribe(participant, topic, decoding<T>(inbox, topic.name, std::move(handler)), bell);
 }
 
 }  // namespace skein::bus

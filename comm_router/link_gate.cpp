@@ -53,11 +53,13 @@ void LinkGate::send(std::uint64_t k, std::span<const std::uint8_t> links, const 
       continue;
     }
     const LinkFate fate = model_->fate(k, route, to, message);
-    if (fate.dropped) {
-      ++counts_[link].dropped_fault;
-      continue;
+    counts_[link].dropped_fault += fate.loss == LinkLoss::fault;
+    counts_[link].dropped_overflow += fate.loss == LinkLoss::overflow;
+    if (fate.loss != LinkLoss::none) continue;
+    counts_[link].duplicated += static_cast<std::uint64_t>(fate.copies - 1);
+    for (int copy = 0; copy < fate.copies; ++copy) {
+      in_flight_[k + 1 + fate.delay_steps].push_back({message.route, target, message.sequence, message.payload});
     }
-    in_flight_[k + 1 + fate.delay_steps].push_back({message.route, target, message.sequence, message.payload});
   }
 }
 
@@ -86,6 +88,8 @@ LinkCounts LinkGate::total() const {
     sum.delivered += link.delivered;
     sum.dropped_no_los += link.dropped_no_los;
     sum.dropped_fault += link.dropped_fault;
+    sum.dropped_overflow += link.dropped_overflow;
+    sum.duplicated += link.duplicated;
   }
   return sum;
 }

@@ -25,10 +25,18 @@ struct RadioMessage {
   Payload payload;             ///< serialised, with encapsulation header
 };
 
+/// Why a link drops a message that has line of sight.
+enum class LinkLoss {
+  none,
+  fault,    ///< loss, or a cut
+  overflow  ///< no room in the queue for its bandwidth
+};
+
 /// What a link does to one message that has line of sight.
 struct LinkFate {
-  bool dropped = false;
+  LinkLoss loss = LinkLoss::none;
   std::uint64_t delay_steps = 0;  ///< on top of the one step that every message takes
+  int copies = 1;                 ///< that arrive, side by side
 };
 
 /// How links treat messages beyond line of sight. Called once a message and target, in a fixed order; random models
@@ -53,9 +61,11 @@ struct Delivery {
   Payload payload;
 };
 
-/// Messages on one directed link, since the router started. sent = delivered + dropped_* + those still delayed.
+/// Messages on one directed link, since the router started.
+/// sent + duplicated = delivered + dropped_no_los + dropped_fault + dropped_overflow + those still delayed.
 struct LinkCounts {
   std::uint64_t sent = 0, delivered = 0, dropped_no_los = 0, dropped_fault = 0;
+  std::uint64_t dropped_overflow = 0, duplicated = 0;
   bool operator==(const LinkCounts&) const = default;
 };
 

@@ -51,7 +51,7 @@ std::vector<std::uint8_t> random_links(std::mt19937& random) {
 class LateLinks final : public LinkModel {
  public:
   LinkFate fate(std::uint64_t, const RadioRoute&, Node, const RadioMessage& message) override {
-    return {message.sequence % 7 == 6, message.sequence % 3};
+    return {message.sequence % 7 == 6 ? LinkLoss::fault : LinkLoss::none, message.sequence % 3};
   }
 };
 

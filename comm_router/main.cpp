@@ -9,14 +9,18 @@
 namespace {
 
 void write_report(const std::filesystem::path& folder, const skein::Scenario& scenario,
-                  const skein::router::LinkGate& gate) {
+                  const skein::router::RouterNode& node) {
+  const skein::router::LinkGate& gate = node.gate();
   const auto counts_json = [](const skein::router::LinkCounts& counts) {
     return nlohmann::json{{"sent", counts.sent},
                           {"delivered", counts.delivered},
                           {"dropped_no_los", counts.dropped_no_los},
-                          {"dropped_fault", counts.dropped_fault}};
+                          {"dropped_fault", counts.dropped_fault},
+                          {"dropped_overflow", counts.dropped_overflow},
+                          {"duplicated", counts.duplicated}};
   };
   nlohmann::json json = counts_json(gate.total());
+  json["malformed"] = node.malformed();
   json["per_link"] = nlohmann::json::array();
   for (skein::Node from = 0; from < gate.nodes(); ++from) {
     for (skein::Node to = 0; to < gate.nodes(); ++to) {
@@ -36,11 +40,11 @@ int run(const skein::ProgramOptions& options, skein::StopSignal& stop) {
   const skein::Scenario scenario = skein::load_scenario(options.scenario, load);
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) return skein::kExitDone;
-  skein::router::RouterNode node(scenario, options.domain, *bus);
+  skein::router::RouterNode node(scenario, options.seed, options.domain, *bus);
   stop.on_stop([&node] { node.wake(); });
   const int code = node.run(stop);
   stop.on_stop({});
-  write_report(options.out, scenario, node.gate());
+  write_report(options.out, scenario, node);
   return code;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bus/lockstep/names.hpp"
+#include "comm_router/link_stages.hpp"
 #include "core/topics.hpp"
 #include "idl/type_names.hpp"
 
@@ -29,25 +30,26 @@ std::vector<SentCount> sent_counts(const msg::Done& done) {
 
 }  // namespace
 
-RouterNode::RouterNode(const Scenario& scenario, int base_domain, bus::Bus& bus)
+RouterNode::RouterNode(const Scenario& scenario, std::uint64_t seed, int base_domain, bus::Bus& bus)
     : scenario_(scenario),
-      gate_(radio_routes(scenario), scenario.fleet.size() + 1),
+      gate_(radio_routes(scenario), scenario.fleet.size() + 1,
+            std::make_unique<LinkStages>(scenario, FaultPlan{}, seed)),
       sync_(gate_.routes()),
       world_(bus.join(world_domain(base_domain))),
       client_(*world_, inbox_, std::string(bus::kRouterName)) {
   for (Node node = 0; node < gate_.nodes(); ++node) nodes_.push_back(bus.join(node_domain(base_domain, node)));
   for (Node node = 0; node < gate_.nodes(); ++node) {
-    done_readers_.push_back(inbox_.subscribe(*nodes_[node], bus::spec(topics::done()), [this](bus::Sample&& sample) {
-      msg::Done done;
-      if (decode(sample.payload, done)) sync_.on_done(sample.source, done.k(), sent_counts(done));
-    }));
-    ready_readers_.push_back(inbox_.subscribe(*nodes_[node], bus::spec(topics::ready()),
-                                              [this, node](bus::Sample&& s) { on_ready(node, std::move(s)); }));
+    done_readers_.push_back(
+        bus::subscribe<msg::Done>(inbox_, *nodes_[node], bus::spec(topics::done()),
+                                  [this](const msg::Done& done, bus::ParticipantId source) {
+                                    sync_.on_done(source, done.k(), sent_counts(done));
+                                  }));
+    ready_readers_.push_back(bus::subscribe<msg::Ready>(
+        inbox_, *nodes_[node], bus::spec(topics::ready()),
+        [this, node](const msg::Ready& ready, bus::ParticipantId source) { on_ready(node, ready, source); }));
   }
-  drop_reader_ = inbox_.subscribe(*world_, bus::spec(topics::drop()), [this](bus::Sample&& sample) {
-    msg::Drop drop;
-    if (decode(sample.payload, drop)) sync_.on_drop(drop.k(), drop.source());
-  });
+  drop_reader_ = bus::subscribe<msg::Drop>(inbox_, *world_, bus::spec(topics::drop()),
+                                           [this](const msg::Drop& drop) { sync_.on_drop(drop.k(), drop.source()); });
   client_.declare_writer(bus::spec(topics::attached()), LockstepClient::Counterpart::server);
   client_.declare_writer(bus::spec(topics::routed()), LockstepClient::Counterpart::server);
   client_.declare_when([this] {
@@ -63,11 +65,12 @@ void RouterNode::open_radio() {
   const auto& routes = gate_.routes();
   for (std::size_t r = 0; r < routes.size(); ++r) {
     const RadioRoute& route = routes[r];
-    radio_readers_.push_back(
-        inbox_.subscribe(*nodes_[route.source], radio_spec(route.topic, route.type), [this, r](bus::Sample&& sample) {
-          sync_.on_radio(sample.source, r,
-                         std::make_shared<const std::vector<std::uint8_t>>(std::move(sample.payload)));
-        }));
+    const auto queue = [this, r](bus::Sample&& sample) {
+      sync_.on_radio(sample.source, r, std::make_shared<const std::vector<std::uint8_t>>(std::move(sample.payload)));
+    };
+    // Of no use before the Done that counts them; once all of those are here, rings() waits for any sample.
+    radio_readers_.push_back(inbox_.subscribe(*nodes_[route.source], radio_spec(route.topic, route.type), queue,
+                                              bus::Bell::silent));
     auto& arrivals = arrival_of_.emplace_back();
     for (const RadioTarget& target : route.targets) arrivals.push_back(find_or_open_arrival(target, route.type));
   }
@@ -86,10 +89,9 @@ std::size_t RouterNode::find_or_open_arrival(const RadioTarget& target, const st
   return static_cast<std::size_t>(found - arrivals_.begin());
 }
 
-void RouterNode::on_ready(Node node, bus::Sample&& sample) {
-  msg::Ready ready;
-  if (!decode(sample.payload, ready) || ready.revision() == 0) return;
-  applicants_[sample.source] = {ready.member(), node, ready.revision(), ready.reads(), ready.writes(), false};
+void RouterNode::on_ready(Node node, const msg::Ready& ready, bus::ParticipantId source) {
+  if (ready.revision() == 0) return;
+  applicants_[source] = {ready.member(), node, ready.revision(), ready.reads(), ready.writes(), false};
 }
 
 bool RouterNode::endpoints_match(const Applicant& applicant, bus::ParticipantId source) const {
@@ -180,15 +182,19 @@ bool RouterNode::serve() {
   return waiting;
 }
 
+std::size_t RouterNode::rings() const { return sync_.waiting() ? sync_.missing_answers() : client_.rings(); }
+
 void RouterNode::poll() {
+  if (!attaching_ && !client_.waits_for_matches() && !inbox_.ready(rings())) return;
   inbox_.dispatch(std::chrono::milliseconds(0));
   if (client_.poll() == LockstepClient::Event::think) begin_step();
-  serve();
+  attaching_ = serve();
 }
 
 int RouterNode::run(const StopSignal& stop) {
   const bus::ClientLoop loop{.think = [this] { begin_step(); },
                              .serve = [this] { return serve(); },
+                             .rings = [this] { return rings(); },
                              .answered_last = [this] { return last_step_answered_; }};
   return bus::exit_code(bus::run_client(client_, inbox_, loop, stop), "comm_router");
 }

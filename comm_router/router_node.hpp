@@ -19,16 +19,20 @@ namespace skein::router {
 
 class RouterNode {
  public:
-  RouterNode(const Scenario& scenario, int base_domain, bus::Bus& bus);
+  /// @param seed  of the run: what links that are not ideal draw from.
+  RouterNode(const Scenario& scenario, std::uint64_t seed, int base_domain, bus::Bus& bus);
 
   /// Takes part until the last step, or until asked to stop. @returns the program's exit code.
   int run(const StopSignal& stop);
-  /// For a test that drives it event by event instead of run(): say hello, then poll() again and again.
+  /// For a test that drives it event by event instead of run(): say hello, then poll() again and again. It does what
+  /// run() would do by then, and nothing when run() would sleep.
   void start() { client_.start(); }
   void poll();
   /// Makes run() look at `stop`; from any thread.
   void wake() { inbox_.wake(); }
   const LinkGate& gate() const { return gate_; }
+  /// Samples received that were no message of their topic's type.
+  std::uint64_t malformed() const { return inbox_.malformed(); }
 
  private:
   /// One participant that wants its radio topics attached.
@@ -49,11 +53,13 @@ class RouterNode {
 
   void open_radio();
   std::size_t find_or_open_arrival(const RadioTarget& target, const std::string& type);
-  void on_ready(Node node, bus::Sample&& sample);
+  void on_ready(Node node, const msg::Ready& ready, bus::ParticipantId source);
   /// @returns true while somebody is not attached yet.
   bool attach();
   /// @returns true while it waits for matches.
   bool serve();
+  /// For Inbox::dispatch(): how many rings there must be before it can do more than it did.
+  std::size_t rings() const;
   bool endpoints_match(const Applicant& applicant, bus::ParticipantId source) const;
   void begin_step();
   void deliver(const StepBatch& batch);
@@ -72,7 +78,7 @@ class RouterNode {
   std::vector<std::vector<std::size_t>> arrival_of_;  ///< by route, target: index into arrivals_
   std::map<bus::ParticipantId, Applicant> applicants_;
   std::optional<std::uint64_t> last_k_;  ///< of the final step
-  bool radio_open_ = false, last_step_answered_ = false;
+  bool radio_open_ = false, attaching_ = false, last_step_answered_ = false;
 };
 
 }  // namespace skein::router

@@ -58,6 +58,15 @@ std::optional<StepBatch> RouterSync::take() {
   return batch;
 }
 
+std::size_t RouterSync::missing_answers() const {
+  if (steps_.empty()) return 0;
+  const auto& [k, step] = *steps_.begin();
+  return static_cast<std::size_t>(std::ranges::count_if(step.members, [&, k = k](const RadioMember& member) {
+    const auto sender = senders_.find(member.source);
+    return !gone_.contains(member.source) && (sender == senders_.end() || !sender->second.done.contains(k));
+  }));
+}
+
 std::vector<std::string> RouterSync::waiting_for() const {
   std::vector<std::string> missing;
   if (steps_.empty()) return missing;

@@ -61,6 +61,10 @@ class RouterSync {
   /// The batch of the lowest step that was announced and not yet handed out, once it is complete; else nullopt.
   std::optional<StepBatch> take();
 
+  /// Whether a step was announced that take() has not handed out.
+  bool waiting() const { return !steps_.empty(); }
+  /// How many members have not answered that step: take() needs a Done, or a Drop, of each of them.
+  std::size_t missing_answers() const;
   /// What take() waits for, for a human: "jurong: done", "raffles: rt/broadcast 3 of 4". Empty when it waits for
   /// nothing but the next step.
   std::vector<std::string> waiting_for() const;

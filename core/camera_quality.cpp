@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/euler.hpp"
 
@@ -56,6 +57,13 @@ Exposure::Exposure(const CameraState& state, const CameraConfig& camera, double 
       radius_(search_radius(camera, desired_mm_per_pixel)),
       desired_mm_per_pixel_(desired_mm_per_pixel),
       rule_(rule) {}
+
+Exposure::Exposure(const CameraState& state, const CameraConfig& camera, double desired_mm_per_pixel,
+                   const RulesConfig& rules)
+    : Exposure(state, camera, desired_mm_per_pixel,
+               rules.unnormalised_displacement ? ResolutionRule::contest : ResolutionRule::paper) {
+  if (!rules.limit_search_radius) radius_ = std::numeric_limits<double>::infinity();
+}
 
 bool Exposure::in_fov(const Vector3d& p_C) const {
   return p_C.x() > 0.0 && std::abs(p_C.y()) <= tan_half_hfov_ * p_C.x() &&

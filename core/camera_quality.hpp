@@ -61,7 +61,10 @@ CameraState camera_state(const RigidBodyState& body, const GimbalState& gimbal, 
 /// Allocates nothing; const functions are safe from any thread.
 class Exposure {
  public:
+  /// By the organisers' search radius.
   Exposure(const CameraState& state, const CameraConfig& camera, double desired_mm_per_pixel, ResolutionRule rule);
+  /// By the rules of a scenario: resolution rule, and whether there is a search radius (infinite if not).
+  Exposure(const CameraState& state, const CameraConfig& camera, double desired_mm_per_pixel, const RulesConfig& rules);
 
   /// The point in the camera frame, if it lies in the field of view (borders included) and within the search
   /// radius (border excluded).

@@ -33,6 +33,21 @@ TEST(CameraQuality, SearchRadiusOfTheContest) {
   EXPECT_NEAR(search_radius({}, 1.0), 10.25, 0.005);
 }
 
+TEST(CameraQuality, TheSearchRadiusIsASwitch) {
+  // 20 m away a point still has a quality of 0.37; the organisers' camera does not look so far.
+  const double d = resolution_distance({}, kDesired);
+  RulesConfig rules;
+  const Exposure contest({}, {}, kDesired, rules);
+  EXPECT_EQ(contest.radius(), search_radius({}, kDesired));
+  EXPECT_FALSE(contest.view({20, 0, 0}));
+  rules.limit_search_radius = false;
+  const Exposure paper({}, {}, kDesired, rules);
+  const auto p_C = paper.view({20, 0, 0});
+  ASSERT_TRUE(p_C);
+  EXPECT_NEAR(paper.score(*p_C, {-1, 0, 0})->score(), d / 20.0, 1e-6);
+  EXPECT_FALSE(paper.view({-20, 0, 0})) << "behind it is behind it";
+}
+
 TEST(CameraQuality, MoreThanOnePixelOfMotionBlurs) {
   const double d = resolution_distance({}, kDesired);
   const auto blur = [&](double speed) { return look(d, 0, ResolutionRule::contest, {0, speed, 0}).q_blur; };

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/link_effect.hpp"
 #include "core/types.hpp"
 
 namespace skein {
@@ -99,12 +100,14 @@ struct SceneConfig {
 /// Named switches; presets `contest` and `paper`. docs/rules.md explains each.
 struct RulesConfig {
   std::string preset = "contest";
-  bool enforce_command_limits = true;     ///< a command beyond the vehicle's limits is ignored
-  bool unnormalised_displacement = true;  ///< S4 of the reference's resolution formula
-  bool phantom_gimbal_rate = false;       ///< G1-G3: report the commanded rate at the stop
-  bool collision_voids_score = true;      ///< a UAV that collides loses its points, retroactively
-  double min_point_score = 0.2;           ///< a capture of a point below this does not count
-  double takeoff_height_m = 0.1;          ///< above rest height
+  bool reject_commands_beyond_limits = true;  ///< a velocity, acceleration or yaw rate beyond the vehicle's is ignored
+  bool guard_position_commands = true;        ///< a position and a yaw are approached within the vehicle's limits
+  bool limit_search_radius = true;            ///< S1: the camera looks no farther than the search radius
+  bool unnormalised_displacement = true;      ///< S4 of the reference's resolution formula
+  bool phantom_gimbal_rate = false;           ///< G1-G3: report the commanded rate at the stop
+  bool collision_voids_score = true;          ///< a UAV that collides loses its points, retroactively
+  double min_point_score = 0.2;               ///< a capture of a point below this does not count
+  double takeoff_height_m = 0.1;              ///< above rest height
   double takeoff_speed_mps = 0.1;
 };
 
@@ -122,6 +125,7 @@ struct Scenario {
   RulesConfig rules;
   std::vector<UavConfig> fleet;         ///< fleet order: node numbers, domains and ties follow it
   std::vector<RadioTopicConfig> radio;  ///< beyond the capture topics that Skein itself declares
+  std::vector<LinkEffect> links;        ///< how radio links differ from ideal ones, all through the run
 
   /// Index in fleet order. @throws InputError when no UAV has this name; the message lists the names.
   std::size_t uav_index(const std::string& uav_name) const;

@@ -120,7 +120,9 @@ void describe(R& r, RulesConfig& rules) {
     r.check(known, "preset", "must be one of contest, paper, not '" + rules.preset + "'");
     if (known) rules = rules_preset(rules.preset);
   }
-  r.field("enforce_command_limits", rules.enforce_command_limits);
+  r.field("reject_commands_beyond_limits", rules.reject_commands_beyond_limits);
+  r.field("guard_position_commands", rules.guard_position_commands);
+  r.field("limit_search_radius", rules.limit_search_radius);
   r.field("unnormalised_displacement", rules.unnormalised_displacement);
   r.field("phantom_gimbal_rate", rules.phantom_gimbal_rate);
   r.field("collision_voids_score", rules.collision_voids_score);
@@ -180,6 +182,7 @@ struct RadioKeys {
   template <class R>
   void describe(R& r) {
     r.field("topics", scenario.radio);
+    r.field("links", scenario.links);
   }
 };
 

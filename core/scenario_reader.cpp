@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kLeastStartDistanceM = 0.5;
-constexpr std::size_t kMostUavs = 96;  ///< each has a DDS domain of its own, and those end near 230
+constexpr std::size_t kMostUavs = 128;  ///< each has a DDS domain of its own, and those end near 230
 
 /// A word that may be part of a ROS name.
 bool is_ros_word(const std::string& text) {
@@ -127,6 +127,10 @@ void check_radio(const ScenarioFile& file, ConfigErrors& errors) {
     errors.check(type_complaint.empty(), path + ".type", type_complaint);
     check_nodes(path + ".sources", topic.sources);
     check_nodes(path + ".targets", topic.targets);
+  }
+  for (std::size_t i = 0; i < file.scenario.links.size(); ++i) {
+    check_nodes(index_path("radio.links", i, "from"), file.scenario.links[i].from);
+    check_nodes(index_path("radio.links", i, "to"), file.scenario.links[i].to);
   }
 }
 
@@ -273,6 +277,7 @@ RulesConfig rules_preset(const std::string& preset) {
   RulesConfig rules;
   rules.preset = preset;
   if (preset == "paper") {
+    rules.limit_search_radius = false;
     rules.unnormalised_displacement = false;
   } else if (preset != "contest") {
     throw InputError("there is no rules preset '" + preset + "'; " + suggestion(preset, {"contest", "paper"}));

@@ -85,6 +85,52 @@ TEST_F(ScenarioReader, ASwitchOverridesItsPresetWhateverTheOrder) {
   EXPECT_TRUE(contest.rules.unnormalised_displacement);
 }
 
+TEST_F(ScenarioReader, PresetsDifferInTheFormulasOnly) {
+  const RulesConfig contest = rules_preset("contest"), paper = rules_preset("paper");
+  EXPECT_TRUE(contest.limit_search_radius);
+  EXPECT_TRUE(contest.unnormalised_displacement);
+  EXPECT_FALSE(paper.limit_search_radius);
+  EXPECT_FALSE(paper.unnormalised_displacement);
+  for (const RulesConfig& rules : {contest, paper}) {
+    EXPECT_TRUE(rules.reject_commands_beyond_limits);
+    EXPECT_TRUE(rules.guard_position_commands);
+    EXPECT_TRUE(rules.collision_voids_score);
+    EXPECT_FALSE(rules.phantom_gimbal_rate);
+    EXPECT_EQ(rules.min_point_score, 0.2);
+    EXPECT_EQ(rules.takeoff_height_m, 0.1);
+    EXPECT_EQ(rules.takeoff_speed_mps, 0.1);
+  }
+}
+
+TEST_F(ScenarioReader, EveryRuleHasItsSwitch) {
+  const Scenario read = load_scenario(
+      scenario("{family: towers}",
+               "rules: {reject_commands_beyond_limits: false, guard_position_commands: false, limit_search_radius: "
+               "false, unnormalised_displacement: false, phantom_gimbal_rate: true, collision_voids_score: false, "
+               "min_point_score: 0.1, takeoff_height_m: 0.5, takeoff_speed_mps: 0.2}\n"),
+      options_);
+  EXPECT_FALSE(read.rules.reject_commands_beyond_limits || read.rules.guard_position_commands ||
+               read.rules.limit_search_radius || read.rules.unnormalised_displacement ||
+               read.rules.collision_voids_score);
+  EXPECT_TRUE(read.rules.phantom_gimbal_rate);
+  EXPECT_EQ(read.rules.min_point_score, 0.1);
+  EXPECT_EQ(read.rules.takeoff_height_m, 0.5);
+  EXPECT_EQ(read.rules.takeoff_speed_mps, 0.2);
+}
+
+TEST_F(ScenarioReader, ShippedVehiclesAndTimesAreTheBenchmarks) {
+  const VehicleConfig explorer = load_vehicle("explorer", options_.config_dir);
+  const VehicleConfig photographer = load_vehicle("photographer", options_.config_dir);
+  EXPECT_EQ(explorer.max_speed_mps, 6.0);
+  EXPECT_EQ(explorer.max_acceleration_mps2, 4.0);
+  EXPECT_EQ(photographer.max_speed_mps, 8.0);
+  EXPECT_EQ(photographer.max_acceleration_mps2, 6.0);
+  options_.needs_scene_files = false;
+  for (const auto& [name, budget_s] : {std::pair{"mbs", 600.0}, {"crane", 600.0}, {"hangar", 240.0}}) {
+    EXPECT_EQ(load_scenario(name, options_).duration_s, budget_s) << name;
+  }
+}
+
 TEST_F(ScenarioReader, FindsSceneFilesBesideItOrInTheAssets) {
   write("own.stl", "");
   fs::create_directories(folder_ / "data" / "models");

@@ -17,6 +17,18 @@ std::span<const SceneFamily> scene_families() {
       {"towers",
        "three towers under a roof deck, in the manner of the benchmark's MBS",
        {{0, 5}, {31, 0}, {58, -13}, {0, -0.5}, {-2, 25}, {-8, 3}, {-8, 12}, {-8, -5}}},
+      {"hangar",
+       "an airliner of about 70 x 64 x 20 m at the mouth of an open hangar",
+       {{-4, 0}, {-4, 8}, {-4, -8}, {-4, 16}, {-4, -16}, {-12, 4}, {-12, -4}, {-12, 12}}},
+      {"cranes",
+       "two tower cranes and a gantry crane, lattice members down to 5 cm",
+       {{8, 6}, {84, 6}, {22, 2}, {46, 5}, {70, 2}, {34, 6}, {58, 6}, {-4, 2}}},
+      {"sail",
+       "a tall curved shell with terraces and an outer frame, a small one apart",
+       {{0, 0}, {0, 8}, {0, -8}, {0, 16}, {0, -16}, {-8, 4}, {-8, -4}, {-8, 12}}},
+      {"spire",
+       "a stepped tower of 120 m on a wide podium with an arcade",
+       {{12, 2}, {60, 2}, {24, -1}, {36, 3}, {48, -1}, {0, 4}, {72, 4}, {-10, -2}}},
   };
   return families;
 }

@@ -83,6 +83,7 @@ struct TrajectoryCommand {
   Vector3d v_WB = Vector3d::Zero();
   Vector3d a_WB = Vector3d::Zero();
   double yaw = 0.0;
+  double yaw_rate = 0.0;  ///< [rad/s]; the control law has no use for it, the vehicle's limit applies to it
 };
 
 enum class GimbalMode { angle, rate, freeze };

@@ -144,6 +144,7 @@ msg::MultiDOFJointTrajectory to_trajectory(Tick tick, const TrajectoryCommand& c
   transform.rotation().w(std::cos(0.5 * command.yaw));
   msg::Twist velocity, acceleration;
   set_xyz(velocity.linear(), command.v_WB);
+  velocity.angular().z(command.yaw_rate);
   set_xyz(acceleration.linear(), command.a_WB);
   msg::MultiDOFJointTrajectoryPoint point;
   point.transforms().push_back(transform);
@@ -161,7 +162,10 @@ std::optional<TrajectoryCommand> from_trajectory(const msg::MultiDOFJointTraject
   const auto& q = point.transforms()[0].rotation();
   TrajectoryCommand command;
   command.p_WB = xyz(point.transforms()[0].translation());
-  if (!point.velocities().empty()) command.v_WB = xyz(point.velocities()[0].linear());
+  if (!point.velocities().empty()) {
+    command.v_WB = xyz(point.velocities()[0].linear());
+    command.yaw_rate = point.velocities()[0].angular().z();
+  }
   if (!point.accelerations().empty()) command.a_WB = xyz(point.accelerations()[0].linear());
   command.yaw = std::atan2(2.0 * (q.w() * q.z() + q.x() * q.y()), 1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()));
   return command;

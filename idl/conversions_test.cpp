@@ -50,13 +50,14 @@ TEST(Conversions, TrajectoryCommandComesBack) {
   RandomStream random(2, "trajectory", 0);
   for (int i = 0; i < 100; ++i) {
     const TrajectoryCommand command{random_vector(random, 100.0), random_vector(random, 5.0),
-                                    random_vector(random, 2.0), random.uniform(-3.1, 3.1)};
+                                    random_vector(random, 2.0), random.uniform(-3.1, 3.1), random.uniform(-2.0, 2.0)};
     const auto back = from_trajectory(travelled(to_trajectory(7, command)));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->p_WB, command.p_WB);
     EXPECT_EQ(back->v_WB, command.v_WB);
     EXPECT_EQ(back->a_WB, command.a_WB);
     EXPECT_NEAR(back->yaw, command.yaw, 1e-12);
+    EXPECT_EQ(back->yaw_rate, command.yaw_rate);
   }
   EXPECT_FALSE(from_trajectory(msg::MultiDOFJointTrajectory{}));
 }

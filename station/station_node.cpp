@@ -30,20 +30,19 @@ StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bu
       gcs_(bus.join(gcs_domain(base_domain))),
       score_(std::make_unique<bus::CountedWriter>(*gcs_, bus::spec(topics::score()))),
       client_(*gcs_, inbox_, std::string(bus::kStationName)) {
-  ledger_reader_ =
-      inbox_.subscribe(*world_, bus::spec(topics::ledger()), [this](bus::Sample&& s) { on_ledger(std::move(s)); });
+  ledger_reader_ = bus::subscribe<msg::Ledger>(inbox_, *world_, bus::spec(topics::ledger()),
+                                               [this](const msg::Ledger& ledger) { on_ledger(ledger); });
   for (std::size_t i = 0; i < uavs_.size(); ++i) {
-    client_.read(bus::spec(topics::captures_at_station(uavs_[i])), LockstepClient::Counterpart::router,
-                 [this, i](bus::Sample&& s) { on_reports(i, std::move(s)); });
+    client_.read<msg::CaptureReports>(
+        bus::spec(topics::captures_at_station(uavs_[i])), LockstepClient::Counterpart::router,
+        [this, i](const msg::CaptureReports& reports) { on_reports(i, reports); });
     client_.declare_writer(bus::spec(topics::captures_ack(uavs_[i])), LockstepClient::Counterpart::router);
   }
   client_.think_when(
       [this](const msg::Step& step) { return scoreboard_ && scoreboard_->has_entries(step.ledger_upto()); });
 }
 
-void StationNode::on_ledger(bus::Sample&& sample) {
-  msg::Ledger ledger;
-  if (!decode(sample.payload, ledger)) return;
+void StationNode::on_ledger(const msg::Ledger& ledger) {
   if (!scoreboard_) open_scoreboard(ledger.interest_points());
   for (const auto& message : ledger.entries()) {
     if (const auto entry = from_message(message, uavs_)) scoreboard_->add_entry(*entry);
@@ -56,9 +55,7 @@ void StationNode::open_scoreboard(std::size_t points) {
   if (!journal_.replayed().empty()) spdlog::info("took up {} records of the journal", journal_.replayed().size());
 }
 
-void StationNode::on_reports(std::size_t source, bus::Sample&& sample) {
-  msg::CaptureReports reports;
-  if (!decode(sample.payload, reports)) return;
+void StationNode::on_reports(std::size_t source, const msg::CaptureReports& reports) {
   for (const auto& message : reports.reports()) {
     if (auto report = from_message(message, uavs_)) {
       scoreboard_->add_report(source, std::move(*report));
@@ -74,6 +71,7 @@ void StationNode::think() {
   const msg::Step& step = client_.step();
   const StepOutcome outcome = scoreboard_->end_step(step.tick(), step.ledger_upto());
   journal_.append(outcome.records);
+  const bus::Burst burst(*gcs_);
   acknowledge(outcome);
   if (outcome.score_changed && score_->has_readers()) {
     msg::PointCloud cloud;
@@ -121,7 +119,7 @@ void StationNode::tell(bool now) {
 int StationNode::run(const StopSignal& stop) {
   const bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_step_answered_; }};
   const int code = bus::exit_code(bus::run_client(client_, inbox_, loop, stop), std::string(bus::kStationName));
-  if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_);
+  if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, inbox_.malformed());
   return code;
 }
 

@@ -31,8 +31,8 @@ class StationNode {
   void wake() { inbox_.wake(); }
 
  private:
-  void on_reports(std::size_t source, bus::Sample&& sample);
-  void on_ledger(bus::Sample&& sample);
+  void on_reports(std::size_t source, const msg::CaptureReports& reports);
+  void on_ledger(const msg::Ledger& ledger);
   void open_scoreboard(std::size_t points);
   void think();
   void acknowledge(const StepOutcome& outcome);

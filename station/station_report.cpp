@@ -54,7 +54,8 @@ std::string captures_csv(const Scoreboard& scoreboard, const std::vector<std::st
   return text.str();
 }
 
-nlohmann::ordered_json report_json(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names) {
+nlohmann::ordered_json report_json(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names,
+                                   std::uint64_t malformed) {
   const ScoreTable& table = scoreboard.delivered();
   nlohmann::ordered_json report;
   report["points_detected"] = table.points_detected();
@@ -78,16 +79,17 @@ nlohmann::ordered_json report_json(const Scoreboard& scoreboard, const std::vect
   report["refused"] = refused;
   report["reports_received"] = scoreboard.reports_received();
   report["duplicates"] = scoreboard.duplicates();
+  report["malformed"] = malformed;
   return report;
 }
 
 }  // namespace
 
 void write_station_report(const std::filesystem::path& folder, const Scoreboard& scoreboard,
-                          const std::vector<std::string>& uav_names) {
+                          const std::vector<std::string>& uav_names, std::uint64_t malformed) {
   write_file_atomically(folder / "score_timeline.csv", timeline_csv(scoreboard));
   write_file_atomically(folder / "captures.csv", captures_csv(scoreboard, uav_names));
-  write_file_atomically(folder / "station.report.json", report_json(scoreboard, uav_names).dump(2) + "\n");
+  write_file_atomically(folder / "station.report.json", report_json(scoreboard, uav_names, malformed).dump(2) + "\n");
 }
 
 }  // namespace skein::station

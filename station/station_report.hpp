@@ -17,10 +17,11 @@ namespace skein::station {
 ///   point of each capture in the ledger. `reason` says why it does not count: "not received", "refused: <why>",
 ///   "uav collided", "better capture" (another one of this point counts); empty when it does.
 /// station.report.json: points_detected, score, score_earned, score_by_uav {uav: score}, points [{index, score, uav,
-///   capture}] (those that count), refused {reason: count}, reports_received, duplicates.
+///   capture}] (those that count), refused {reason: count}, reports_received, duplicates, malformed.
 /// @param uav_names  in fleet order.
+/// @param malformed  samples received that were no message of their topic's type.
 /// @throws std::runtime_error when a file cannot be written.
 void write_station_report(const std::filesystem::path& folder, const Scoreboard& scoreboard,
-                          const std::vector<std::string>& uav_names);
+                          const std::vector<std::string>& uav_names, std::uint64_t malformed = 0);
 
 }  // namespace skein::station

@@ -75,7 +75,7 @@ TEST_F(StationReport, TheReportHoldsWhatTheResultNeeds) {
     "score_by_uav": {"jurong": 0.75, "raffles": 0.0, "changi": 0.0},
     "points": [{"index": 2, "score": 0.75, "uav": "jurong", "capture": 0}],
     "refused": {"unknown": 0, "borrowed": 0, "altered": 1},
-    "reports_received": 5, "duplicates": 1})"));
+    "reports_received": 5, "duplicates": 1, "malformed": 0})"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/euler.hpp"
+#include "uav_agent/block_work.hpp"
 #include "uav_agent/keyframe_filter.hpp"
 #include "uav_agent/tracker.hpp"
 #include "uav_agent/uplink.hpp"
@@ -51,7 +52,10 @@ struct Agent::Impl {
   const std::unique_ptr<Planner> planner;
   Peers peers;
   OccupancyMap map;
-  KeyframeFilter filter;
+  const KeyframeFilter filter;
+  /// A lone hit may be a UAV out of sight; but far off, it is all that a LiDAR finds of a thin member, and where one
+  /// box holds everything, UAVs fly between members that were only seen from afar.
+  const KeyframeFilter filter_keeping_lone_hits{{.lone_min_neighbours = 0}};
   Uplink uplink;
   Tracker tracker;
   std::vector<OrientedBox> boxes;
@@ -76,8 +80,10 @@ void Agent::Impl::perceive(const AgentInput& input) {
   if (!input.boxes.empty()) boxes = input.boxes;
   if (!input.key_frames.empty()) {
     const std::vector<KnownBody> bodies = known_bodies(input);
+    const bool roomy = std::any_of(boxes.begin(), boxes.end(), is_roomy);
+    const KeyframeFilter& chosen = roomy ? filter_keeping_lone_hits : filter;
     for (const KeyFrame& frame : input.key_frames) {
-      map.insert(filter(frame.points_W, bodies), sensor_position(frame, input));
+      map.insert(chosen(frame.points_W, bodies), sensor_position(frame, input));
     }
   }
   uplink.take(input.capture_reports);

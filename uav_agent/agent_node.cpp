@@ -1,8 +1,7 @@
 #include "uav_agent/agent_node.hpp"
 
-#include <ctime>
-
 #include "bus/lockstep/names.hpp"
+#include "core/thread_cpu.hpp"
 #include "idl/conversions.hpp"
 
 namespace skein::agent {
@@ -14,12 +13,6 @@ namespace {
 
 // Planners talk in text, as CARIC's do.
 constexpr std::string_view kTextType = "std_msgs/msg/String";
-
-double thread_cpu_s() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 }  // namespace
 
@@ -43,10 +36,7 @@ AgentNode::AgentNode(const Scenario& scenario, std::size_t uav, std::unique_ptr<
 template <class Message>
 void AgentNode::read(const topics::WireTopic& topic, Counterpart counterpart,
                      std::function<void(const Message&)> handler) {
-  client_.read(bus::spec(topic), counterpart, [handler = std::move(handler)](bus::Sample&& sample) {
-    Message message;
-    if (decode(sample.payload, message)) handler(message);
-  });
+  client_.read<Message>(bus::spec(topic), counterpart, std::move(handler));
 }
 
 void AgentNode::read_sensors() {
@@ -125,8 +115,11 @@ void AgentNode::think() {
   const double before = thread_cpu_s();
   const AgentOutput output = agent_.step(input_);
   planner_cpu_s_ += thread_cpu_s() - before;
-  write(output);
-  client_.done();
+  {
+    const bus::Burst burst(*participant_);
+    write(output);
+    client_.done();
+  }
   last_step_answered_ = step.final_step();
   // State stays until the next sample replaces it; events are over.
   input_.boxes.clear();

@@ -28,6 +28,8 @@ class AgentNode {
   void wake() { inbox_.wake(); }
   /// CPU time spent in the on-board software so far [s]; without transport.
   double planner_cpu_s() const { return planner_cpu_s_; }
+  /// Samples received that were no message of their topic's type.
+  std::uint64_t malformed() const { return inbox_.malformed(); }
 
  private:
   template <class Message>

@@ -101,7 +101,7 @@ bool Delivery::step(const PlannerInput& in, const FreeSpace::Config& space, Plan
   heading_home_ = pilot_.fly_to(home(), in, space, out);
   if (heading_home_) return false;
   next_place();
-  if (++failures_ % kFailuresToRetreat == 0) pilot_.retreat(out);
+  if (++failures_ % kFailuresToRetreat == 0) pilot_.retreat(out, false);
   return false;
 }
 

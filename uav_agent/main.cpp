@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
         stop.on_stop([&node] { node.wake(); });
         const int code = node.run(stop);
         stop.on_stop({});
-        const nlohmann::json report = {{"planner_cpu_s", node.planner_cpu_s()}};
+        const nlohmann::json report = {{"planner_cpu_s", node.planner_cpu_s()},
+                                       {"malformed", node.malformed()}};
         skein::write_file_atomically(options.out / ("uav_agent-" + uav + ".report.json"), report.dump(2) + "\n");
         return code;
       });

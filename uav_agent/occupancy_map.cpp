@@ -9,9 +9,7 @@
 namespace skein::agent {
 namespace {
 
-// Log-odds in the tree of free space count rays, up to a number.
-constexpr float kMissPerRay = -0.1F;
-constexpr int kCountedRays = 20;
+constexpr int kCountedRays = 20;  ///< through a coarse cell; more make no difference
 constexpr int kFineSteps = 8;  ///< of cast(), for each coarse one; even
 
 /// Occupied cells in blocks of 4 x 4 x 4, one bit each, found by hash: only ever looked up, never walked through.
@@ -90,31 +88,56 @@ octomap::point3d to_octomap(const Vector3d& p) {
 
 }  // namespace
 
-struct OccupancyMap::Impl {
-  explicit Impl(const Config& c) : config(c), hits(c.resolution_m), free(c.free_resolution_m), cells(c.resolution_m) {
-    free.setClampingThresMin(octomap::probability(kMissPerRay * kCountedRays));
+/// How many rays have passed each cell of a coarse grid. By hash, since it is asked far more often than the octree
+/// that lends its keys could answer: only ever looked up, never walked through.
+class RayCounts {
+ public:
+  explicit RayCounts(double cell_m) : grid_(cell_m) {}
+
+  void add_ray(const Vector3d& from, const Vector3d& to) {
+    if (!grid_.computeRayKeys(to_octomap(from), to_octomap(to), ray_)) return;
+    for (const octomap::OcTreeKey& key : ray_) {
+      std::uint8_t& count = counts_[packed(key)];
+      if (count < kCountedRays) ++count;
+    }
   }
+  int at(const Vector3d& p) const {
+    octomap::OcTreeKey key;
+    if (!grid_.coordToKeyChecked(to_octomap(p), key)) return 0;
+    const auto found = counts_.find(packed(key));
+    return found == counts_.end() ? 0 : found->second;
+  }
+
+ private:
+  static std::uint64_t packed(const octomap::OcTreeKey& key) {
+    return std::uint64_t{key[0]} | std::uint64_t{key[1]} << 16 | std::uint64_t{key[2]} << 32;
+  }
+
+  const octomap::OcTree grid_;  ///< empty
+  octomap::KeyRay ray_;
+  std::unordered_map<std::uint64_t, std::uint8_t> counts_;
+};
+
+struct OccupancyMap::Impl {
+  explicit Impl(const Config& c) : config(c), hits(c.resolution_m), free(c.free_resolution_m), cells(c.resolution_m) {}
 
   void mark_free(const std::vector<Eigen::Vector3f>& hits_W, const Vector3d& p_WS);
 
   const Config config;
   octomap::OcTree hits;  ///< fine; only hits
-  octomap::OcTree free;  ///< coarse; only what rays passed
+  RayCounts free;        ///< coarse; only what rays passed
   CellBlocks cells;      ///< the same cells as `hits`
   std::uint64_t revision = 0;
 };
 
 void OccupancyMap::Impl::mark_free(const std::vector<Eigen::Vector3f>& hits_W, const Vector3d& p_WS) {
   const std::size_t stride = std::max<std::size_t>(1, hits_W.size() / std::max(1, config.max_free_rays));
-  octomap::KeyRay ray;
   for (std::size_t i = 0; i < hits_W.size(); i += stride) {
     const Vector3d to_hit = hits_W[i].cast<double>() - p_WS;
     // The cell of the hit itself is not free, and one cell short of it the ray only grazes what it will hit.
     const double length = std::min(to_hit.norm() - config.free_resolution_m, config.free_range_m);
     if (length <= 0.0) continue;
-    const Vector3d end = p_WS + to_hit.normalized() * length;
-    if (!free.computeRayKeys(to_octomap(p_WS), to_octomap(end), ray)) continue;
-    for (const octomap::OcTreeKey& key : ray) free.updateNode(key, kMissPerRay, true);
+    free.add_ray(p_WS, p_WS + to_hit.normalized() * length);
   }
 }
 
@@ -148,10 +171,8 @@ std::uint64_t OccupancyMap::revision() const { return impl_->revision; }
 bool OccupancyMap::occupied(const Vector3d& p_W) const { return impl_->cells.test(p_W); }
 
 bool OccupancyMap::known_free(const Vector3d& p_W, int rays) const {
-  const octomap::OcTreeNode* node = impl_->free.search(to_octomap(p_W));
-  // Half a ray is taken off: sums of floats.
-  const float enough = kMissPerRay * (static_cast<float>(std::min(rays, kCountedRays)) - 0.5F);
-  return node != nullptr && node->getLogOdds() < enough && !occupied(p_W);
+  const int passed = impl_->free.at(p_W);
+  return passed > 0 && passed >= std::min(rays, kCountedRays) && !occupied(p_W);
 }
 
 bool OccupancyMap::any_occupied_within(const Vector3d& p_W, double radius) const {

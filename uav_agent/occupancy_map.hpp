@@ -1,5 +1,5 @@
-// What this UAV knows of the space around it, from LiDAR key frames: an octree of hits and coarse free space
-// (OctoMap), and beside it a hashed grid of occupied cells that answers clearance queries fast.
+// What this UAV knows of the space around it, from LiDAR key frames: an octree of hits (OctoMap), beside it a hashed
+// grid of occupied cells that answers clearance queries fast, and a coarse one of free space.
 // Frame W.   Units: metres.   Threads: one.   Deterministic: no answer depends on a hash order.
 #pragma once
 

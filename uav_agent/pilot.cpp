@@ -11,6 +11,8 @@ constexpr double kLookAheadDtS = 0.25;  ///< of the predictions for safety and t
 constexpr int kLookAheadCount = 13;
 constexpr std::uint64_t kObstacleSteps = 4;      ///< exchanges between two looks at the map
 constexpr double kStopSlackM = 0.4;              ///< the safety stop is this much less careful than planning
+constexpr double kDriftDtS = 0.125;              ///< of where its velocity carries a UAV, whatever it was told
+constexpr int kDriftCount = 4;                   ///< no farther than it overshoots a corner that it brakes for
 constexpr double kApproachM = 0.1;               ///< who is too near to something may come nearer by this, not more
 constexpr double kDetourAgainS = 20.0;           ///< a second meeting within this time is no accident
 constexpr double kWatchM = 0.5, kWatchS = 12.0;  ///< no further than this for so long: something is wrong
@@ -33,7 +35,7 @@ std::vector<Waypoint> Pilot::rest_of_path(const PlannerInput& in) const {
 }
 
 Situation Pilot::look_out(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour, PlannerOutput& out) {
-  leave_trail(in.tracking.setpoint.p_WB);
+  if (leaves_trail_) add_to_trail(in.tracking.setpoint.p_WB);
   const Situation traffic = give_way(in, space, may_detour, out);
   if (traffic != Situation::flying_on) return traffic;
   if (obstacle_ahead(in, space)) {
@@ -46,7 +48,8 @@ Situation Pilot::look_out(const PlannerInput& in, const FreeSpace::Config& space
 Situation Pilot::give_way(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour, PlannerOutput& out) {
   const std::vector<Waypoint> rest = rest_of_path(in);
   if (rest.empty()) return Situation::flying_on;
-  const auto ahead = positions_ahead(in.tracking.setpoint.p_WB, rest, kLookAheadDtS, kLookAheadCount);
+  // The others see where this UAV is, not what it was told: so does it.
+  const auto ahead = positions_ahead(in.state.p_WB, rest, kLookAheadDtS, kLookAheadCount);
   switch (separation_.judge(in.tick, ahead, kLookAheadDtS, in.peers)) {
     case Traffic::clear:
       if (!paused_) return Situation::flying_on;
@@ -89,13 +92,19 @@ bool Pilot::obstacle_ahead(const PlannerInput& in, const FreeSpace::Config& spac
   if (!space.use_map || in.k % kObstacleSteps != 0) return false;
   const std::vector<Waypoint> rest = rest_of_path(in);
   if (rest.empty()) return false;
-  const Vector3d here = in.tracking.setpoint.p_WB;
   // Whoever is too near to something already may still move away from it.
-  double limit = space.clearance_m - kStopSlackM;
-  if (const auto now = in.map.distance_to_occupied(here, limit)) limit = std::max(0.0, *now - kApproachM);
-  const auto ahead = positions_ahead(here, rest, kLookAheadDtS, kLookAheadCount);
-  return std::any_of(ahead.begin() + 1, ahead.end(),
-                     [&](const Vector3d& p) { return in.map.any_occupied_within(p, limit); });
+  const auto comes_too_near = [&](const std::vector<Vector3d>& ahead) {
+    double limit = space.clearance_m - kStopSlackM;
+    if (const auto now = in.map.distance_to_occupied(ahead.front(), limit)) limit = std::max(0.0, *now - kApproachM);
+    return std::any_of(ahead.begin() + 1, ahead.end(),
+                       [&](const Vector3d& p) { return in.map.any_occupied_within(p, limit); });
+  };
+  // Both where it was told to go and where it is really going.
+  const Vector3d demanded = in.tracking.setpoint.p_WB;
+  if (comes_too_near(positions_ahead(demanded, rest, kLookAheadDtS, kLookAheadCount))) return true;
+  std::vector<Vector3d> drift;
+  for (int i = 0; i < kDriftCount; ++i) drift.push_back(in.state.p_WB + i * kDriftDtS * in.state.v_WB);
+  return comes_too_near(drift) || comes_too_near({in.state.p_WB, 0.5 * (in.state.p_WB + demanded), demanded});
 }
 
 bool Pilot::stands_still(const PlannerInput& in) {
@@ -110,13 +119,13 @@ bool Pilot::stands_still(const PlannerInput& in) {
 }
 
 /// Remembers where it was: what was free once is free now.
-void Pilot::leave_trail(const Vector3d& p_W) {
+void Pilot::add_to_trail(const Vector3d& p_W) {
   if (!trail_.empty() && (trail_.back() - p_W).norm() < kTrailStepM) return;
   trail_.push_back(p_W);
   if (trail_.size() > kTrailCount) trail_.pop_front();
 }
 
-bool Pilot::retreat(PlannerOutput& out) {
+bool Pilot::retreat(PlannerOutput& out, bool leave_trail) {
   Path path;
   double length = 0.0;
   while (trail_.size() > 1 && length < kRetreatM) {
@@ -127,18 +136,21 @@ bool Pilot::retreat(PlannerOutput& out) {
   }
   if (path.waypoints.empty()) return false;
   follow(std::move(path), out);
+  leaves_trail_ = leave_trail;
   return true;
 }
 
 void Pilot::follow(Path path, PlannerOutput& out) {
   path_ = std::move(path);
   paused_ = false;
+  leaves_trail_ = true;
   out.motion = path_;
 }
 
 void Pilot::stop(PlannerOutput& out) {
   path_.waypoints.clear();
   paused_ = false;
+  leaves_trail_ = true;
   if (std::holds_alternative<std::monostate>(out.motion)) out.motion = Hold{};
 }
 

@@ -44,7 +44,8 @@ class Pilot {
   bool fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
   /// Some metres back the way it came, out of a corner where no path begins. @returns false if it came from
   /// nowhere.
-  bool retreat(PlannerOutput& out);
+  /// @param leave_trail  false: another retreat from there goes farther back, instead of forth again.
+  bool retreat(PlannerOutput& out, bool leave_trail = true);
   /// Brakes and forgets the path. A motion that was set in this exchange stays.
   void stop(PlannerOutput& out);
 
@@ -62,13 +63,14 @@ class Pilot {
                  PlannerOutput& out);
   bool obstacle_ahead(const PlannerInput& in, const FreeSpace::Config& space) const;
   bool stands_still(const PlannerInput& in);
-  void leave_trail(const Vector3d& p_W);
+  void add_to_trail(const Vector3d& p_W);
   FreeSpace way_space(const PlannerInput& in, const FreeSpace::Config& space, const Vector3d& goal) const;
 
   const Config config_;
   Separation separation_;
-  Path path_;                      ///< being flown, or to be taken up again after a pause
-  bool paused_ = false;            ///< gives way
+  Path path_;            ///< being flown, or to be taken up again after a pause
+  bool paused_ = false;  ///< gives way
+  bool leaves_trail_ = true;
   std::deque<Vector3d> trail_;     ///< where it was, a metre apart
   std::optional<Tick> detour_at_;  ///< when it last met somebody who stood in the way
   Vector3d watched_p_W_ = Vector3d::Zero();

@@ -28,7 +28,7 @@ using GimbalAim = std::variant<std::monostate, Vector3d, GimbalCommand>;
 
 /// How far the tracker has come with the last Path.
 struct TrackingState {
-  Setpoint setpoint;      ///< what was commanded last
+  Setpoint setpoint;      ///< where the next path begins; what is commanded follows it smoothly (tracker.hpp)
   std::size_t leg = 0;    ///< index of the waypoint being flown to; waypoints.size() when done
   bool done = true;       ///< at rest at the end of the path, or no path
   bool airborne = false;  ///< a first motion was commanded

@@ -11,7 +11,14 @@ namespace {
 
 constexpr double kDtS = 0.05;
 
-Tracker::Config limits() { return {.max_speed_mps = 6.0, .max_acceleration_mps2 = 2.8}; }
+constexpr double kSmoothingS = 0.5, kSinkMps2 = 2.0;
+
+Tracker::Config limits() {
+  return {.max_speed_mps = 6.0,
+          .max_acceleration_mps2 = 2.8,
+          .max_sink_acceleration_mps2 = kSinkMps2,
+          .smoothing_s = kSmoothingS};
+}
 
 double distance_to_polyline(const Vector3d& p, const std::vector<Vector3d>& line) {
   double best = 1e9;
@@ -39,6 +46,8 @@ struct PerfectUav {
     const TrajectoryCommand before = last;
     EXPECT_LE(now.v_WB.norm(), 6.0 + 1e-9);
     EXPECT_LE(now.a_WB.norm(), 2.8 + 1e-9);
+    EXPECT_GE(now.a_WB.z(), -kSinkMps2 - 1e-9);
+    EXPECT_LE((now.a_WB - before.a_WB).norm(), 2.0 * 2.8 * kDtS / kSmoothingS + 1e-9) << "jerk";
     EXPECT_NEAR((before.v_WB + now.a_WB * kDtS - now.v_WB).norm(), 0.0, 0.06) << "acceleration belongs to velocity";
     EXPECT_NEAR((before.p_WB + 0.5 * (before.v_WB + now.v_WB) * kDtS - now.p_WB).norm(), 0.0, 0.02);
     last = now;
@@ -121,7 +130,52 @@ TEST(Tracker, HoldStopsWithinTheBrakingDistance) {
   uav.tracker.hold();
   for (int i = 0; i < 80; ++i) uav.step();
   EXPECT_EQ(uav.last.v_WB, Vector3d::Zero());
-  EXPECT_LT((uav.last.p_WB - from).norm(), 6.0 * 6.0 / (2.0 * 2.8) + 0.5);
+  EXPECT_LT((uav.last.p_WB - from).norm(), 6.0 * 6.0 / (2.0 * 2.8) + 0.5 * kSmoothingS * 6.0 + 0.1);
+}
+
+// What the pilot looks ahead from is where the point mass is: nothing that is commanded goes beyond its stop.
+TEST(Tracker, AStopEndsWhereThePilotExpectsItAndStaysOnTheLine) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    RandomStream random(seed, "stop", 0);
+    PerfectUav uav({0.0, 0.0, 40.0});
+    const Vector3d direction =
+        Vector3d(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)).normalized();
+    uav.tracker.follow({{{uav.state.p_WB + 60.0 * direction, random.uniform(1.0, 6.0)}}});
+    const int steps = 5 + static_cast<int>(random.bits() % 80);
+    for (int i = 0; i < steps; ++i) uav.step();
+    const Setpoint mass = uav.tracker.tracking().setpoint;
+    uav.tracker.hold();
+    for (int i = 0; i < 100; ++i) {
+      uav.step();
+      const double ahead = (uav.last.p_WB - mass.p_WB).dot(direction);
+      const double braking = direction.z() > 0.0 ? std::min(2.8, kSinkMps2 / direction.z()) : 2.8;
+      ASSERT_LT(ahead, mass.v_WB.squaredNorm() / (2.0 * braking) + 0.01) << "seed " << seed;
+    }
+    EXPECT_TRUE(uav.last.v_WB.isZero(0.0));
+    EXPECT_LT((uav.last.p_WB - Vector3d(0.0, 0.0, 40.0)).cross(direction).norm(), 1e-6);
+  }
+}
+
+TEST(Tracker, IsNotDoneBeforeWhatIsCommandedIsAtRest) {
+  PerfectUav uav({0.0, 0.0, 10.0});
+  uav.tracker.follow({{{{12.0, 0.0, 10.0}, 4.0}}});
+  while (!uav.tracker.tracking().done) uav.step();
+  EXPECT_TRUE(uav.last.v_WB.isZero(0.0));
+  EXPECT_EQ(uav.last.p_WB, Vector3d(12.0, 0.0, 10.0));
+}
+
+TEST(Tracker, GoesOnSmoothlyFromASetpointOfThePlanners) {
+  PerfectUav uav({0.0, 0.0, 20.0});
+  const Vector3d v(3.0, 0.0, 1.0);
+  for (int i = 0; i < 20; ++i) {
+    uav.tracker.fly_to({.p_WB = Vector3d(0.0, 0.0, 20.0) + i * kDtS * v, .v_WB = v});
+    uav.last.v_WB = v;
+    uav.last.p_WB = Vector3d(0.0, 0.0, 20.0) + (i - 1) * kDtS * v;
+    uav.step();
+  }
+  uav.tracker.hold();
+  for (int i = 0; i < 60; ++i) uav.step();  // checks that nothing jumps
+  EXPECT_TRUE(uav.last.v_WB.isZero(0.0));
 }
 
 TEST(Tracker, WaitsForAUavThatDoesNotMoveAndStartsAnewWhenItIsLost) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bus/cyclonedds/domain.hpp"
+#include "bus/cyclonedds/packing.hpp"
 #include "bus/wire.hpp"
 
 namespace skein::bus {
@@ -100,9 +101,10 @@ std::vector<ParticipantId> matched_participants(dds_entity_t entity, List list, 
 
 class CycloneWriter : public Writer {
  public:
-  CycloneWriter(dds_entity_t participant, const TopicSpec& topic) : name_(topic.name) {
+  CycloneWriter(dds_entity_t participant, Packing& packing, const TopicSpec& topic) : name_(topic.name) {
     const RawTopic raw(participant, topic);
     type_ = raw.type();
+    packing.install(type_);
     entity_ = check(dds_create_writer(participant, raw.entity(), writer_qos(topic.qos).get(), nullptr),
                     "cannot create a writer on " + topic.name);
   }
@@ -118,6 +120,12 @@ class CycloneWriter : public Writer {
 
   std::vector<ParticipantId> matched() const override {
     return matched_participants(entity_, dds_get_matched_subscriptions, dds_get_matched_subscription_data);
+  }
+
+  bool has_readers() const override {
+    dds_publication_matched_status_t status;
+    check(dds_get_publication_matched_status(entity_, &status), "cannot count the readers of " + name_);
+    return status.current_count > 0;
   }
 
  private:
@@ -200,20 +208,27 @@ class CycloneParticipant : public Participant {
     check(dds_get_guid(entity_, &guid), "participant without GUID");
     id_ = id_of(guid);
   }
-  ~CycloneParticipant() override { dds_delete(entity_); }
+  ~CycloneParticipant() override {
+    packing_.release();
+    dds_delete(entity_);
+  }
 
   ParticipantId id() const override { return id_; }
 
   std::unique_ptr<Writer> create_writer(const TopicSpec& topic) override {
-    return std::make_unique<CycloneWriter>(entity_, topic);
+    return std::make_unique<CycloneWriter>(entity_, packing_, topic);
   }
 
   std::unique_ptr<Reader> create_reader(const TopicSpec& topic, OnSample on_sample) override {
     return std::make_unique<CycloneReader>(entity_, topic, std::move(on_sample));
   }
 
+  void hold() override { packing_.hold(); }
+  void release() override { packing_.release(); }
+
  private:
   Domain domain_;
+  Packing packing_;
   dds_entity_t entity_;
   ParticipantId id_ = 0;
 };

@@ -19,19 +19,20 @@ void LockstepClient::declare_writer(const TopicSpec& topic, Counterpart counterp
 }
 
 void LockstepClient::start() {
-  resync_reader_ =
-      inbox_.subscribe(participant_, spec(topics::resync()), [this](Sample&& s) { on_resync(std::move(s)); });
-  step_reader_ = inbox_.subscribe(participant_, spec(topics::step()), [this](Sample&& s) { on_step(std::move(s)); });
+  resync_reader_ = subscribe<msg::Resync>(
+      inbox_, participant_, spec(topics::resync()),
+      [this](const msg::Resync& resync, ParticipantId source) { on_resync(resync, source); });
+  step_reader_ = subscribe<msg::Step>(inbox_, participant_, spec(topics::step()),
+                                      [this](msg::Step& step, ParticipantId source) { on_step(step, source); });
   done_ = std::make_unique<CountedWriter>(participant_, spec(topics::done()));
   ready_ = std::make_unique<CountedWriter>(participant_, spec(topics::ready()));
   phase_ = Phase::hello;
   say_ready(0);
 }
 
-void LockstepClient::on_resync(Sample&& sample) {
-  msg::Resync resync;
-  if (phase_ != Phase::hello || !decode(sample.payload, resync) || resync.source() != participant_.id()) return;
-  server_ = sample.source;
+void LockstepClient::on_resync(const msg::Resync& resync, ParticipantId source) {
+  if (phase_ != Phase::hello || resync.source() != participant_.id()) return;
+  server_ = source;
   for (const auto& base : resync.base()) base_.push_back({base.topic(), base.source(), base.count()});
   create_endpoints();
   phase_ = Phase::matching;
@@ -41,12 +42,12 @@ void LockstepClient::on_resync(Sample&& sample) {
 // and the bases it told us are exact.
 void LockstepClient::create_endpoints() {
   for (Reading& reading : readings_) {
-    reading.reader = inbox_.subscribe(participant_, reading.topic,
-                                      [this, name = reading.topic.name, counterpart = reading.counterpart](Sample&& s) {
-                                        // The router delivers only after we answered a step that names it, so it is known by now.
-                                        if (s.source == (counterpart == Counterpart::server ? server_ : router_))
-                                          queues_.arrive(name, std::move(s));
-                                      });
+    const auto queue = [this, name = reading.topic.name, counterpart = reading.counterpart](Sample&& s) {
+      // The router delivers only after we answered a step that names it, so it is known by now.
+      if (s.source == (counterpart == Counterpart::server ? server_ : router_)) queues_.arrive(name, std::move(s));
+    };
+    // Of no use before the step that counts them; once that is here, rings() waits for any sample.
+    reading.reader = inbox_.subscribe(participant_, reading.topic, queue, Bell::silent);
   }
   for (Writing& writing : writings_) writing.writer = std::make_unique<CountedWriter>(participant_, writing.topic);
   for (const auto& base : base_) {
@@ -69,10 +70,8 @@ void LockstepClient::say_ready(std::uint32_t revision) {
   ready_->write(ready);
 }
 
-void LockstepClient::on_step(Sample&& sample) {
-  if (phase_ != Phase::declared && phase_ != Phase::member) return;
-  msg::Step step;
-  if (sample.source != server_ || !decode(sample.payload, step)) return;
+void LockstepClient::on_step(msg::Step& step, ParticipantId source) {
+  if ((phase_ != Phase::declared && phase_ != Phase::member) || source != server_) return;
   if (step_ && step.k() == step_->k()) return;  // amended, but we have answered it already
   const auto& members = step.members();
   const bool ours = std::any_of(members.begin(), members.end(),
@@ -102,6 +101,11 @@ bool LockstepClient::matched(Counterpart counterpart, ParticipantId who) const {
                      [&](const Writing& w) { return w.counterpart != counterpart || w.writer->matches(who); });
 }
 
+bool LockstepClient::router_matched() {
+  if (router_ != matched_router_ && matched(Counterpart::router, router_)) matched_router_ = router_;
+  return router_ == 0 || router_ == matched_router_;
+}
+
 LockstepClient::Event LockstepClient::poll() {
   if (phase_ == Phase::dropped) return Event::dropped;
   if (phase_ == Phase::matching && matched(Counterpart::server, server_) && done_->matches(server_) &&
@@ -111,7 +115,7 @@ LockstepClient::Event LockstepClient::poll() {
   }
   if (!pending_) return Event::none;
   // A router that (re)joined delivers nothing before this step's answer, so its match can be awaited here.
-  if (router_ != 0 && !matched(Counterpart::router, router_)) return Event::none;
+  if (!router_matched()) return Event::none;
   if (!queues_.complete() || (think_condition_ && !think_condition_(*pending_))) return Event::none;
   step_ = std::move(pending_);
   pending_.reset();
@@ -149,7 +153,7 @@ void LockstepClient::done(const std::vector<std::uint8_t>& digest) {
 bool LockstepClient::server_present() const { return server_ != 0 && contains(step_reader_->matched(), server_); }
 
 bool LockstepClient::waits_for_matches() const {
-  return phase_ == Phase::matching || (pending_ && router_ != 0 && !matched(Counterpart::router, router_));
+  return phase_ == Phase::matching || (pending_ && router_ != 0 && router_ != matched_router_);
 }
 
 std::string LockstepClient::waiting_for() const {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "bus/lockstep/counted.hpp"
-#include "idl/type_names.hpp"
+#include "bus/typed.hpp"
 
 namespace skein::bus {
 
@@ -25,6 +25,11 @@ class LockstepClient {
 
   /// Declarations, before start(). Handlers run inside poll(), in an order that depends on nothing but the announcement.
   void read(const TopicSpec& topic, Counterpart counterpart, CountedQueues::Handler handler);
+  /// The same for messages: `handler` gets (message); what is no Message is dropped and counted (typed.hpp).
+  template <WireMessage Message, class Handler>
+  void read(const TopicSpec& topic, Counterpart counterpart, Handler handler) {
+    read(topic, counterpart, decoding<Message>(inbox_, topic.name, std::move(handler)));
+  }
   /// The writer exists once the server has invited us: use write() below from the first think on.
   void declare_writer(const TopicSpec& topic, Counterpart counterpart);
 
@@ -59,6 +64,8 @@ class LockstepClient {
   void think_when(std::function<bool(const Step&)> condition) { think_condition_ = std::move(condition); }
   /// True while it waits for matches, which no sample announces: poll often.
   bool waits_for_matches() const;
+  /// For Inbox::dispatch(): how many rings there must be before poll() can do more than it did.
+  std::size_t rings() const { return phase_ == Phase::member && !pending_ ? 1 : 0; }
   /// What it waits for, for a human.
   std::string waiting_for() const;
 
@@ -75,17 +82,19 @@ class LockstepClient {
   };
   enum class Phase { created, hello, matching, declared, member, dropped };
 
-  void on_resync(Sample&& sample);
-  void on_step(Sample&& sample);
+  void on_resync(const msg::Resync& resync, ParticipantId source);
+  void on_step(msg::Step& step, ParticipantId source);
   void create_endpoints();
   void say_ready(std::uint32_t revision);
   bool matched(Counterpart counterpart, ParticipantId who) const;
+  bool router_matched();
 
   Participant& participant_;
   Inbox& inbox_;
   std::string member_;
   Phase phase_ = Phase::created;
   ParticipantId server_ = 0, router_ = 0;
+  ParticipantId matched_router_ = 0;  ///< found once, there is no need to look again at every step
   std::vector<Reading> readings_;
   std::vector<Writing> writings_;
   CountedQueues queues_;

@@ -17,7 +17,8 @@ LoopEnd run_client(LockstepClient& client, Inbox& inbox, const ClientLoop& loop,
   client.start();
   bool was_member = false;
   for (bool waiting = true; !stop.requested();) {
-    const bool arrived = inbox.dispatch(waiting ? kMatchPoll : kIdlePoll);
+    const std::size_t rings = waiting ? 0 : loop.rings ? loop.rings() : client.rings();
+    const bool arrived = inbox.dispatch(waiting ? kMatchPoll : kIdlePoll, rings);
     const LockstepClient::Event event = client.poll();
     if (event == LockstepClient::Event::dropped) return LoopEnd::dropped;
     if (event == LockstepClient::Event::think) loop.think();

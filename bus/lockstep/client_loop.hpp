@@ -14,6 +14,8 @@ struct ClientLoop {
   std::function<void()> think;
   /// Called after every dispatch. @returns true while it waits for something that no sample announces (a match).
   std::function<bool()> serve = [] { return false; };
+  /// For Inbox::dispatch(), while it waits for nothing else; by default what the client needs.
+  std::function<std::size_t()> rings = nullptr;
   /// Whether the answer to the last step is out.
   std::function<bool()> answered_last;
 };

@@ -40,7 +40,7 @@ class CountedWriter {
   /// Counts a sample that nobody reads without the cost of building it; see has_readers().
   void skip() { ++count_; }
 
-  bool has_readers() const { return !writer_->matched().empty(); }
+  bool has_readers() const { return writer_->has_readers(); }
   bool matches(ParticipantId who) const { return contains(writer_->matched(), who); }
   std::uint64_t count() const { return count_; }
   std::uint64_t refused() const { return refused_; }

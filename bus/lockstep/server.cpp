@@ -26,19 +26,22 @@ LockstepServer::DomainIndex LockstepServer::add_domain(const std::string& node, 
   domain->participant = &participant;
   domain->step = std::make_unique<CountedWriter>(participant, spec(topics::step()));
   domain->resync = std::make_unique<CountedWriter>(participant, spec(topics::resync()));
-  const auto listen = [&](const TopicSpec& topic, Inbox::Handler handler) {
-    domain->control_readers.push_back(inbox_.subscribe(participant, topic, std::move(handler)));
-    return domain->control_readers.back().get();
-  };
-  domain->ready_reader = listen(spec(topics::ready()), [this, index](Sample&& s) { on_ready(index, std::move(s)); });
-  domain->done_reader = listen(spec(topics::done()), [this, index](Sample&& s) { on_done(index, std::move(s)); });
+  domain->ready_reader = subscribe<msg::Ready>(
+      inbox_, participant, spec(topics::ready()),
+      [this, index](const msg::Ready& ready, ParticipantId source) { on_ready(index, ready, source); });
+  domain->done_reader = subscribe<msg::Done>(
+      inbox_, participant, spec(topics::done()),
+      [this, index](const msg::Done& done, ParticipantId source) { on_done(index, done, source); });
   if (index == 0) {
+    const TopicSpec routed = spec(topics::routed()), attached = spec(topics::attached());
     domain->readers.emplace_back(
-        spec(topics::routed()).name,
-        inbox_.subscribe(participant, spec(topics::routed()), [this](Sample&& s) { on_routed(std::move(s)); }));
+        routed.name, subscribe<msg::Routed>(inbox_, participant, routed,
+                                            [this](const auto& m, ParticipantId source) { on_routed(m, source); }));
     domain->readers.emplace_back(
-        spec(topics::attached()).name,
-        inbox_.subscribe(participant, spec(topics::attached()), [this](Sample&& s) { on_attached(std::move(s)); }));
+        attached.name,
+        subscribe<msg::Attached>(inbox_, participant, attached, [this](const auto& m, ParticipantId source) {
+          attached_[{source, m.source()}] = m.router();
+        }));
     drop_ = std::make_unique<CountedWriter>(participant, spec(topics::drop()));
   }
   domains_.push_back(std::move(domain));
@@ -63,12 +66,14 @@ CountedWriter& LockstepServer::writer(DomainIndex domain, const TopicSpec& topic
 void LockstepServer::read(DomainIndex domain, const TopicSpec& topic, CountedQueues::Handler handler) {
   Domain& d = *domains_.at(domain);
   d.commands.add_topic(topic.name, std::move(handler));
-  d.readers.emplace_back(topic.name, inbox_.subscribe(*d.participant, topic, [this, &d, name = topic.name](Sample&& s) {
+  const auto queue = [this, &d, name = topic.name](Sample&& s) {
     // Strangers may write into this domain; only who knocked can become a member, so the rest is not even kept.
     const bool known =
         std::any_of(places_.begin(), places_.end(), [&](const Place& p) { return p.source == s.source; });
     if (known) d.commands.arrive(name, std::move(s));
-  }));
+  };
+  // Of no use before the Done that counts them; once all of those are here, rings() waits for any sample.
+  d.readers.emplace_back(topic.name, inbox_.subscribe(*d.participant, topic, queue, Bell::silent));
 }
 
 LockstepServer::Place* LockstepServer::find(std::string_view name) {
@@ -88,16 +93,14 @@ bool LockstepServer::is_member(const std::string& name) const {
 
 // ---- joining ----------------------------------------------------------------------------------------------------
 
-void LockstepServer::on_ready(DomainIndex domain, Sample&& sample) {
-  msg::Ready ready;
-  if (!decode(sample.payload, ready)) return;
+void LockstepServer::on_ready(DomainIndex domain, const msg::Ready& ready, ParticipantId source) {
   Place* place = find(ready.member());
-  if (place == nullptr || place->domain != domain || gone_.contains(sample.source)) return;
-  if (place->source != 0 && place->source != sample.source) {
-    place->next.emplace(sample.source, ready);  // its predecessor is not yet known to be dead
+  if (place == nullptr || place->domain != domain || gone_.contains(source)) return;
+  if (place->source != 0 && place->source != source) {
+    place->next.emplace(source, ready);  // its predecessor is not yet known to be dead
     return;
   }
-  take_ready(*place, sample.source, ready);
+  take_ready(*place, source, ready);
 }
 
 void LockstepServer::take_ready(Place& place, ParticipantId source, const msg::Ready& ready) {
@@ -142,11 +145,6 @@ bool LockstepServer::endpoints_matched(const Place& place) const {
     if (listed(place.writes, topic) && !contains(reader->matched(), place.source)) return false;
   }
   return place.name != kRouterName || drop_->matches(place.source);
-}
-
-void LockstepServer::on_attached(Sample&& sample) {
-  msg::Attached attached;
-  if (decode(sample.payload, attached)) attached_[{sample.source, attached.source()}] = attached.router();
 }
 
 bool LockstepServer::attached_by_router(const Place& place) const {
@@ -233,6 +231,10 @@ ParticipantId LockstepServer::source_in(DomainIndex domain, const Place& member)
   return 0;
 }
 
+void LockstepServer::hold() {
+  for (const auto& domain : domains_) domain->participant->hold();
+}
+
 void LockstepServer::publish(const StepInfo& info) {
   if (membership_changed_) ++epoch_;
   membership_changed_ = false;
@@ -265,6 +267,7 @@ void LockstepServer::publish(const StepInfo& info) {
     for (auto& writer : domain.writers) writer->begin_step();
     domain.step->begin_step();
     domain.step->write(step);
+    domain.participant->release();
     domain.last = step;
   }
 }
@@ -280,25 +283,23 @@ void LockstepServer::amend_step() {
   }
 }
 
-void LockstepServer::on_done(DomainIndex domain, Sample&& sample) {
-  msg::Done done;
-  if (!in_step_ || !decode(sample.payload, done)) return;
+void LockstepServer::on_done(DomainIndex domain, const msg::Done& done, ParticipantId source) {
+  if (!in_step_) return;
   Place* place = find(done.member());
-  if (place == nullptr || !place->member || place->domain != domain || place->source != sample.source ||
+  if (place == nullptr || !place->member || place->domain != domain || place->source != source ||
       done.k() != k_ || done.epoch() != epoch_) {
     return;
   }
   place->sent.clear();
-  for (const auto& sent : done.sent()) place->sent.push_back({sent.topic(), sample.source, sent.count()});
+  for (const auto& sent : done.sent()) place->sent.push_back({sent.topic(), source, sent.count()});
   place->answered = true;
   if (place->name == kStationName) station_digest_ = done.digest();
 }
 
-void LockstepServer::on_routed(Sample&& sample) {
-  msg::Routed routed;
+void LockstepServer::on_routed(const msg::Routed& routed, ParticipantId source) {
   Place* place = find(kRouterName);
-  if (!in_step_ || place == nullptr || !place->member || place->source != sample.source ||
-      !decode(sample.payload, routed) || routed.k() != k_ || routed.epoch() != epoch_) {
+  if (!in_step_ || place == nullptr || !place->member || place->source != source ||
+      routed.k() != k_ || routed.epoch() != epoch_) {
     return;
   }
   for (const auto& node : routed.nodes()) {
@@ -331,6 +332,11 @@ bool LockstepServer::answered() {
   }
   for (const auto& domain : domains_) domain->commands.release();
   return true;
+}
+
+std::size_t LockstepServer::rings() const {
+  return static_cast<std::size_t>(
+      std::count_if(places_.begin(), places_.end(), [](const Place& p) { return p.member && !p.answered; }));
 }
 
 // ---- leaving ----------------------------------------------------------------------------------------------------

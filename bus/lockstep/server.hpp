@@ -8,7 +8,7 @@
 #include <set>
 
 #include "bus/lockstep/counted.hpp"
-#include "idl/type_names.hpp"
+#include "bus/typed.hpp"
 
 namespace skein::bus {
 
@@ -40,12 +40,21 @@ class LockstepServer {
   CountedWriter& writer(DomainIndex domain, const TopicSpec& topic);
   /// Topic that a member of this domain writes and whose samples are handed out when the step is answered.
   void read(DomainIndex domain, const TopicSpec& topic, CountedQueues::Handler handler);
+  /// The same for messages: `handler` gets (message); what is no Message is dropped and counted (typed.hpp).
+  template <WireMessage Message, class Handler>
+  void read(DomainIndex domain, const TopicSpec& topic, Handler handler) {
+    read(domain, topic, decoding<Message>(inbox_, topic.name, std::move(handler)));
+  }
 
   /// At a boundary: lets in whoever knocks. @returns true when nobody is at the door any more: publish() may follow.
   bool at_boundary();
+  /// What is written from here on leaves with the step: call it before the first sample of a step.
+  void hold();
   void publish(const StepInfo& info);
   /// @returns true when everybody has answered the published step; handlers of read() have run then, member by member.
   bool answered();
+  /// For Inbox::dispatch(), while answered() is false: each answer that is missing rings once at least.
+  std::size_t rings() const;
 
   /// A process died (launcher), hangs (time-out) or left: nobody waits for it any longer.
   void lost(const std::string& member, const std::string& reason);
@@ -66,13 +75,12 @@ class LockstepServer {
     std::string node;
     Participant* participant = nullptr;
     std::unique_ptr<CountedWriter> step, resync;
-    std::vector<std::unique_ptr<Reader>> control_readers;
+    std::unique_ptr<Reader> done_reader, ready_reader;
     std::vector<std::unique_ptr<CountedWriter>> writers;
     std::vector<std::uint64_t> announced;  ///< counts of `writers` that the members know
     msg::Step last;                        ///< published
     std::vector<std::pair<std::string, std::unique_ptr<Reader>>> readers;
     CountedQueues commands;
-    const Reader *done_reader = nullptr, *ready_reader = nullptr;
   };
   struct Place {
     std::string name;
@@ -86,10 +94,9 @@ class LockstepServer {
     std::optional<std::pair<ParticipantId, msg::Ready>> next;  ///< knocked while the place was taken
   };
 
-  void on_ready(DomainIndex domain, Sample&& sample);
-  void on_done(DomainIndex domain, Sample&& sample);
-  void on_routed(Sample&& sample);
-  void on_attached(Sample&& sample);
+  void on_ready(DomainIndex domain, const msg::Ready& ready, ParticipantId source);
+  void on_done(DomainIndex domain, const msg::Done& done, ParticipantId source);
+  void on_routed(const msg::Routed& routed, ParticipantId source);
   void take_ready(Place& place, ParticipantId source, const msg::Ready& ready);
   void invite(Place& place);
   bool endpoints_matched(const Place& place) const;

@@ -75,6 +75,8 @@ class ServerProcess final : public Process {
   }
 
   void poll() override {
+    // In a step it sleeps until it rings, as SimNode does.
+    if (in_step_ && !inbox_.ready(server_.rings())) return;
     inbox_.dispatch(kNow);
     for (const auto& lost : server_.take_lost()) model_.lost_.push_back(lost.name);
     if (finished_) return;
@@ -88,7 +90,9 @@ class ServerProcess final : public Process {
     }
   }
   bool finished() const override { return finished_; }
-  void lost(const std::string& name) { server_.lost(name, "killed"); }
+  void lost(const std::string& name) {
+    inbox_.post([this, name] { server_.lost(name, "killed"); });
+  }
   std::string awaits() const {
     std::string text = (in_step_ ? "step " : "boundary before ") + std::to_string(k_) + " awaits";
     for (const auto& name : server_.awaited()) text += " " + name;
@@ -147,6 +151,8 @@ class AgentProcess final : public Process {
   }
 
   void poll() override {
+    // Asleep until it rings, as run_client() is: a fleet that needs a time-out to go on is found to be deadlocked.
+    if (!client_.waits_for_matches() && !inbox_.ready(client_.rings())) return;
     inbox_.dispatch(kNow);
     if (client_.poll() != LockstepClient::Event::think) return;
     log_.k = client_.step().k();
@@ -186,7 +192,7 @@ namespace {
 
 class RouterProcess final : public Process {
  public:
-  RouterProcess(const Scenario& scenario, SimNetwork& network) : bus_(network), node_(scenario, 0, bus_) {
+  RouterProcess(const Scenario& scenario, SimNetwork& network) : bus_(network), node_(scenario, 0, 0, bus_) {
     node_.start();
   }
   void poll() override { node_.poll(); }

@@ -5,13 +5,15 @@
 // In turn: lift off straight up, each UAV to a height of its own; explorers fly once around everything; then
 // each UAV flies its share of the strips (strips.hpp), closing in on the real surface as the map fills
 // (standoff.hpp), goes to where the station sees it from time to time and in good time before the end
-// (delivery.hpp), and begins its share again with the camera turned a little. Whatever it does, it stops
-// before anything that the map shows in its way, and gives way.
+// (delivery.hpp), and begins its share again with the camera turned a little. In a box that is too large to say
+// where the structure is, the strips come from the map (block_work.hpp). Whatever it does, it stops before
+// anything that the map shows in its way, and gives way.
 #include <algorithm>
 #include <cmath>
 #include <deque>
 
 #include "core/euler.hpp"
+#include "uav_agent/block_work.hpp"
 #include "uav_agent/delivery.hpp"
 #include "uav_agent/path_search.hpp"
 #include "uav_agent/pilot.hpp"
@@ -33,11 +35,19 @@ constexpr double kNoBoxesHeightM = 3.0;
 constexpr double kLowestPlaceM = 6.0;                ///< for delivery
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the side, by round [rad]
 constexpr int kMaxFailures = 3;
+constexpr int kMaxFailedTasks = 8;
+constexpr double kAnywhereM = 1e6;
+constexpr double kRoomyAsideM = 4.0, kRoomyAboveM = 4.0;  ///< where starts are in a box, and how far above it is out
 /// Of the UAV's centre to anything mapped, however small the UAV is: the map's cells are coarse.
 constexpr double kMinClearanceM = 1.8;
 /// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere; in the
 /// end it takes the low space outside all boxes to be free.
 constexpr int kRays[] = {8, 4, 2, 2};
+/// In a roomy box all structure lies where only rays say what is free, and thin members take many to be found.
+constexpr int kRoomyRays[] = {16, 12, 8, 8};
+/// A site no higher than this is surveyed from above, and nothing below its top is entered before it was seen:
+/// there may be a roof over what the boxes hold. Higher up, all that there is stands in a box.
+constexpr double kLowSiteM = 40.0;
 
 }  // namespace
 
@@ -48,7 +58,7 @@ class PatrolPlanner final : public Planner {
     bool survey = true;              ///< explorers fly once around everything first
     bool top = true, bottom = true;  ///< look at these faces, too
     double clearance_m = 1.2;        ///< from the UAV's body to anything mapped
-    double transit_mps = 4.5, survey_mps = 4.0, climb_mps = 2.5;
+    double transit_mps = 5.0, survey_mps = 4.5, climb_mps = 3.0;
     double survey_standoff_m = 10.0;
     double standoff_ratio = 0.92;  ///< distance to the surface in units of d*
     double blind_ratio = 0.55;     ///< distance to a box's face where no surface is mapped
@@ -106,6 +116,7 @@ class PatrolPlanner final : public Planner {
   void fly_strip(const PlannerInput& in, PlannerOutput& out);
   void refit(const PlannerInput& in, PlannerOutput& out);
   void face_strip(PlannerOutput& out) const;
+  bool next_block(const PlannerInput& in, PlannerOutput& out);
   void idle(Tick until, PlannerOutput& out);
   /// Where on the strip the waypoint `leg` of the present run is.
   double run_s(std::size_t leg) const { return strip_s_ + standoff_config().step_m * static_cast<double>(leg); }
@@ -126,9 +137,15 @@ class PatrolPlanner final : public Planner {
   WorkShare share_;
   std::deque<std::size_t> to_do_;  ///< of this round: indices into share_.tour
   int round_ = -1;
-  bool flown_any_ = true;       ///< in this round
-  std::size_t boldness_ = 0;    ///< index into kRays
+  bool flown_any_ = true;     ///< in this round
+  std::size_t boldness_ = 0;  ///< index into kRays
+  std::optional<BlockWork> blocks_;
+  std::optional<BlockWork::Task> task_;  ///< of blocks_; else the current strip is of the tour
+  bool task_flown_ = false;
+  int failed_tasks_ = 0;        ///< one after the other
   std::size_t current_ = 0;     ///< index into share_.tour
+  Strip strip_;                 ///< the current one
+  bool reversed_ = false;       ///< its direction
   double strip_s_ = 0.0;        ///< where on the strip the present run begins
   std::size_t run_length_ = 0;  ///< waypoints of it
   Tick refit_at_ = 0;
@@ -162,6 +179,10 @@ FreeSpace::Config PatrolPlanner::space_config() const {
   config.clearance_m = std::max(kMinClearanceM, agent_.me().body_radius_m + config_.clearance_m);
   config.use_map = config_.use_map;
   config.rays = kRays[boldness_];
+  if (blocks_ && blocks_->any()) {
+    config.rays = kRoomyRays[boldness_];
+    config.enter_radius_m = kAnywhereM;  // ways through a roomy box do not lead through a building
+  }
   config.blind_height_m = boldness_ + 1 < std::size(kRays) ? blind_height_m_ : 0.0;
   return config;
 }
@@ -180,7 +201,8 @@ void PatrolPlanner::share_work(const PlannerInput& in) {
   top_m_ = top_of(in.boxes);
   const bool lidar_in_fleet = std::any_of(agent_.fleet.begin(), agent_.fleet.end(),
                                           [](const FleetMember& member) { return member.role == Role::explorer; });
-  if (lidar_in_fleet && config_.use_map) blind_height_m_ = config_.blind_height_ratio * top_m_;
+  const bool by_map = lidar_in_fleet && config_.use_map;
+  if (by_map) blind_height_m_ = (top_m_ < kLowSiteM ? 1.0 : config_.blind_height_ratio) * top_m_;
   WorkShareConfig config;
   config.strips.standoff_ratio = config_.standoff_ratio;
   config.strips.overlap = config_.overlap;
@@ -191,7 +213,11 @@ void PatrolPlanner::share_work(const PlannerInput& in) {
   config.survey = config_.survey && config_.use_map;
   config.survey_standoff_m = config_.survey_standoff_m;
   config.survey_mps = config_.survey_mps;
-  share_ = own_share(agent_, in.boxes, reach_, 0.5 * top_m_, config);
+  const BlockWork::Config blocks{.strips = config.strips, .transit_mps = config_.transit_mps};
+  blocks_.emplace(blocks, agent_, reach_, by_map ? in.boxes : std::vector<OrientedBox>());
+  std::vector<OrientedBox> tight = in.boxes;
+  if (by_map) std::erase_if(tight, is_roomy);
+  share_ = own_share(agent_, tight, reach_, 0.5 * top_m_, config);
 }
 
 void PatrolPlanner::lift_off(const PlannerInput& in, PlannerOutput& out) {
@@ -204,6 +230,9 @@ void PatrolPlanner::lift_off(const PlannerInput& in, PlannerOutput& out) {
     const double below = bottom - agent_.me().body_radius_m - config_.clearance_m;
     const bool under = box.contains(Vector3d(p.x(), p.y(), box.center.z()), 1.0) && bottom > p.z();
     if (under) height = std::min(height, std::max(below, p.z() + kNoBoxesHeightM));
+    // Inside a roomy one nothing is known of the space around; above it there is nothing.
+    const bool inside = is_roomy(box) && !under && box.contains(Vector3d(p.x(), p.y(), box.center.z()), kRoomyAsideM);
+    if (inside) height = std::max(height, 2.0 * box.center.z() - bottom + kRoomyAboveM + kLayerM * others);
   }
   phase_ = Phase::climb;
   climb_to_ = Vector3d(p.x(), p.y(), std::max(height, p.z()));
@@ -232,8 +261,9 @@ void PatrolPlanner::react(Situation situation, const PlannerInput& in, PlannerOu
     strip_s_ = run_s(in.tracking.leg);
     phase_ = Phase::transit;  // at its end already: fits the rest of the strip anew
   } else {
-    if (on_strip && situation != Situation::obstacle) to_do_.push_back(current_);
-    if (on_strip && situation == Situation::obstacle && ++failures_ <= kMaxFailures) to_do_.push_front(current_);
+    const bool of_tour = on_strip && !task_;  // of a block: is offered again anyway
+    if (of_tour && situation != Situation::obstacle) to_do_.push_back(current_);
+    if (of_tour && situation == Situation::obstacle && ++failures_ <= kMaxFailures) to_do_.push_front(current_);
     idle(in.tick, out);
   }
 }
@@ -318,7 +348,31 @@ void PatrolPlanner::begin_round() {
   for (std::size_t i = 0; i < share_.tour.size(); ++i) to_do_.push_back(i);
 }
 
+/// Takes up a strip in a block, or waits for the map to show one. @returns false if there is other work.
+bool PatrolPlanner::next_block(const PlannerInput& in, PlannerOutput& out) {
+  if (task_ && !task_flown_) {
+    blocks_->failed(*task_, in.tick);
+    if (++failed_tasks_ % kMaxFailedTasks == 0) boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
+  }
+  task_ = blocks_->next(in.tick, in.tracking.setpoint.p_WB, in.map);
+  const bool again = task_ && task_->flown > round_;
+  if (!share_.tour.empty() && (!task_ || again)) return false;
+  if (!task_) {
+    idle(in.tick + ticks(kRestS), out);
+    return true;
+  }
+  task_flown_ = false;
+  strip_ = task_->strip;
+  reversed_ = task_->reversed;
+  strip_s_ = 0.0;
+  approach(in, out);
+  return true;
+}
+
 void PatrolPlanner::next_strip(const PlannerInput& in, PlannerOutput& out) {
+  const bool shares_done = to_do_.empty() && (round_ >= 0 || share_.tour.empty());
+  if (blocks_->any() && shares_done && next_block(in, out)) return;
+  task_.reset();
   if (to_do_.empty() && !flown_any_ && !share_.tour.empty()) {
     // Nothing could be flown: tries from elsewhere, less carefully. A LiDAR that has turned makes a new key frame.
     flown_any_ = true;
@@ -335,6 +389,8 @@ void PatrolPlanner::next_strip(const PlannerInput& in, PlannerOutput& out) {
   }
   current_ = to_do_.front();
   to_do_.pop_front();
+  strip_ = share_.strips[share_.tour[current_].strip];
+  reversed_ = share_.tour[current_].reversed;
   strip_s_ = 0.0;
   approach(in, out);
 }
@@ -342,11 +398,9 @@ void PatrolPlanner::next_strip(const PlannerInput& in, PlannerOutput& out) {
 /// Flies to the beginning of what can be flown of the current strip from strip_s_ on, or gives it up for this
 /// round.
 void PatrolPlanner::approach(const PlannerInput& in, PlannerOutput& out) {
-  const Visit& visit = share_.tour[current_];
-  const Strip& strip = share_.strips[visit.strip];
-  if (strip_s_ < strip.length()) {
+  if (strip_s_ < strip_.length()) {
     const FreeSpace space = free_space(in);
-    for (const Run& run : fit_strip(strip, visit.reversed, strip_s_, {}, space, reach_, standoff_config())) {
+    for (const Run& run : fit_strip(strip_, reversed_, strip_s_, {}, space, reach_, standoff_config())) {
       if (!pilot_.fly_to(run.waypoints.front().p_WB, in, space_config(), out)) continue;
       strip_s_ = run.first_s;
       phase_ = Phase::transit;
@@ -359,14 +413,12 @@ void PatrolPlanner::approach(const PlannerInput& in, PlannerOutput& out) {
 }
 
 void PatrolPlanner::fly_strip(const PlannerInput& in, PlannerOutput& out) {
-  const Visit& visit = share_.tour[current_];
-  const Strip& strip = share_.strips[visit.strip];
-  if (strip_s_ >= strip.length()) {
+  if (strip_s_ >= strip_.length()) {
     idle(in.tick, out);
     return;
   }
   const auto runs =
-      fit_strip(strip, visit.reversed, strip_s_, in.tracking.setpoint.p_WB, free_space(in), reach_, standoff_config());
+      fit_strip(strip_, reversed_, strip_s_, in.tracking.setpoint.p_WB, free_space(in), reach_, standoff_config());
   if (runs.empty()) {
     idle(in.tick, out);
     return;
@@ -382,6 +434,9 @@ void PatrolPlanner::fly_strip(const PlannerInput& in, PlannerOutput& out) {
   }
   flown_any_ = true;
   boldness_ = 0;
+  failed_tasks_ = 0;
+  if (task_ && !task_flown_) blocks_->flown(*task_);
+  task_flown_ = true;
   phase_ = Phase::strip;
   refit_at_ = in.tick + ticks(kRefitS);
   run_length_ = runs.front().waypoints.size();
@@ -392,12 +447,10 @@ void PatrolPlanner::fly_strip(const PlannerInput& in, PlannerOutput& out) {
 /// The map may have grown: fits what is left of the strip again.
 void PatrolPlanner::refit(const PlannerInput& in, PlannerOutput& out) {
   refit_at_ = in.tick + ticks(kRefitS);
-  const Visit& visit = share_.tour[current_];
-  const Strip& strip = share_.strips[visit.strip];
   const double s = run_s(in.tracking.leg);
-  if (s >= strip.length()) return;
+  if (s >= strip_.length()) return;
   const auto runs =
-      fit_strip(strip, visit.reversed, s, in.tracking.setpoint.p_WB, free_space(in), reach_, standoff_config());
+      fit_strip(strip_, reversed_, s, in.tracking.setpoint.p_WB, free_space(in), reach_, standoff_config());
   if (runs.empty() || runs.front().first_s > s) return;  // the safety stop will see to it
   strip_s_ = s;
   run_length_ = runs.front().waypoints.size();
@@ -405,19 +458,19 @@ void PatrolPlanner::refit(const PlannerInput& in, PlannerOutput& out) {
 }
 
 void PatrolPlanner::face_strip(PlannerOutput& out) const {
-  const Strip& strip = share_.strips[share_.tour[current_].strip];
   const double pitch_limit = agent_.vehicle.gimbal.pitch_limit_deg * kRadPerDeg;
-  if (strip.kind == FaceKind::side) {
-    out.yaw = std::atan2(-strip.out_W.y(), -strip.out_W.x());
-    const double turn = kViewTurns[static_cast<std::size_t>(std::max(0, round_)) % std::size(kViewTurns)];
+  if (strip_.kind == FaceKind::side) {
+    out.yaw = std::atan2(-strip_.out_W.y(), -strip_.out_W.x());
+    const int round = task_ ? task_->flown : std::max(0, round_);
+    const double turn = kViewTurns[static_cast<std::size_t>(round) % std::size(kViewTurns)];
     out.gimbal = GimbalCommand{GimbalMode::angle, 0.0, turn};
     return;
   }
   // Along the strip and always the same way, so that the image's full width lies across it and nothing turns
   // in between.
-  const Vector3d along = strip.end_W - strip.begin_W;
+  const Vector3d along = strip_.end_W - strip_.begin_W;
   out.yaw = std::atan2(along.y(), along.x());
-  out.gimbal = GimbalCommand{GimbalMode::angle, strip.kind == FaceKind::top ? pitch_limit : -pitch_limit, 0.0};
+  out.gimbal = GimbalCommand{GimbalMode::angle, strip_.kind == FaceKind::top ? pitch_limit : -pitch_limit, 0.0};
 }
 
 SKEIN_REGISTER_PLANNER("patrol", PatrolPlanner);

@@ -1,0 +1,110 @@
+#include "comm_router/link_stages.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random_stream.hpp"
+
+namespace skein::router {
+
+LinkStages::LinkStages(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed)
+    : scenario_(scenario),
+      faults_(faults),
+      seed_(seed),
+      nodes_(scenario.fleet.size() + 1),
+      stages_(nodes_ * nodes_) {
+  for (std::size_t i = 0; i < scenario.links.size(); ++i) {
+    add_effect(scenario.links[i], "radio.links[" + std::to_string(i) + "]", 0, ~std::uint64_t{0});
+  }
+  for (std::size_t i = 0; i < faults.faults.size(); ++i) {
+    const Fault& fault = faults.faults[i];
+    const auto* effect = std::get_if<LinkEffect>(&fault.action);
+    if (!effect) continue;
+    add_effect(*effect, "faults[" + std::to_string(i) + "]", step_of(fault.begin()),
+               fault.end() ? step_of(*fault.end()) : ~std::uint64_t{0});
+  }
+}
+
+void LinkStages::add_effect(const LinkEffect& effect, const std::string& name, std::uint64_t first, std::uint64_t end) {
+  for (Node from = 0; from < nodes_; ++from) {
+    for (Node to = 0; to < nodes_; ++to) {
+      const std::string &source = scenario_.node_name(from), &target = scenario_.node_name(to);
+      if (from == to || !names_node(effect.from, source) || !names_node(effect.to, target)) continue;
+      Stage stage{.effect = effect, .name = name + " " + source + " " + target, .first = first, .end = end};
+      stage.burst_step = first;
+      stages_[from * nodes_ + to].push_back(std::move(stage));
+    }
+  }
+}
+
+LinkFate LinkStages::fate(std::uint64_t k, const RadioRoute& route, Node target, const RadioMessage& message) {
+  if (is_cut(k, route.source, target)) return {.loss = LinkLoss::fault};
+  Passage passage;
+  for (Stage& stage : stages_[route.source * nodes_ + target]) {
+    if (k < stage.first || k >= stage.end) continue;
+    pass(stage, k, route, message, passage);
+    if (passage.loss != LinkLoss::none) return {.loss = passage.loss};
+  }
+  const auto delay = static_cast<std::uint64_t>(std::ceil(passage.delay_s / scenario_.exchange_period_s - 1e-9));
+  return {.delay_steps = delay, .copies = passage.twice ? 2 : 1};
+}
+
+// All numbers are drawn for every message, whether they are needed or not, so that each effect sees the same ones
+// whatever the others are set to.
+void LinkStages::pass(Stage& stage, std::uint64_t k, const RadioRoute& route, const RadioMessage& message,
+                      Passage& passage) {
+  const LinkEffect& effect = stage.effect;
+  RandomStream random(seed_, "link", stage.name + " " + route.ros_topic, message.sequence);
+  const double loss = random.uniform(), burst_loss = random.uniform(), jitter = random.uniform();
+  const double duplication = random.uniform(), reordering = random.uniform();
+  const bool lost_in_burst = effect.burst_loss && in_burst(stage, k) && burst_loss < effect.burst_loss->loss;
+  if (loss < effect.loss || lost_in_burst) {
+    passage.loss = LinkLoss::fault;
+    return;
+  }
+  if (effect.bandwidth_bit_s &&
+      !queue(stage, k, static_cast<double>(message.payload->size()), passage.delay_s)) {
+    passage.loss = LinkLoss::overflow;
+    return;
+  }
+  passage.delay_s += effect.latency_s + jitter * effect.jitter_s;
+  if (effect.reordering && reordering < effect.reordering->probability) passage.delay_s += effect.reordering->delay_s;
+  passage.twice = passage.twice || duplication < effect.duplication;
+}
+
+bool LinkStages::queue(Stage& stage, std::uint64_t k, double size_bytes, double& delay_s) const {
+  const double bytes_per_s = *stage.effect.bandwidth_bit_s / 8.0;
+  const double now_s = seconds(static_cast<Tick>(k) * scenario_.exchange_ticks()) + delay_s;
+  const double waiting_bytes = std::max(0.0, stage.free_at_s - now_s) * bytes_per_s;
+  if (waiting_bytes > 0.0 && waiting_bytes + size_bytes > static_cast<double>(stage.effect.queue_bytes)) return false;
+  stage.free_at_s = std::max(stage.free_at_s, now_s) + size_bytes / bytes_per_s;
+  delay_s += stage.free_at_s - now_s;
+  return true;
+}
+
+// The chain of states begins good with the effect itself; a router that starts in the middle walks it from there.
+bool LinkStages::in_burst(Stage& stage, std::uint64_t k) const {
+  const BurstLoss& burst = *stage.effect.burst_loss;
+  while (stage.burst_step < k) {
+    ++stage.burst_step;
+    const double mean_s = stage.in_burst ? burst.mean_burst_s : burst.mean_good_s;
+    const double change = RandomStream(seed_, "link_burst", stage.name, stage.burst_step).uniform();
+    if (change < scenario_.exchange_period_s / mean_s) stage.in_burst = !stage.in_burst;
+  }
+  return stage.in_burst;
+}
+
+std::uint64_t LinkStages::step_of(Tick tick) const {
+  const Tick period = scenario_.exchange_ticks();
+  return static_cast<std::uint64_t>((tick + period - 1) / period);
+}
+
+bool LinkStages::is_cut(std::uint64_t k, Node from, Node to) {
+  if (cut_step_ != k) {
+    cut_ = cut_links(faults_, scenario_, static_cast<Tick>(k) * scenario_.exchange_ticks());
+    cut_step_ = k;
+  }
+  return !cut_.empty() && cut_[from * nodes_ + to] != 0;
+}
+
+}  // namespace skein::router

@@ -1,0 +1,198 @@
+// Links that lose, delay, double and cut: statistics, windows, and that nothing but the keys decides.
+#include "comm_router/link_stages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein::router {
+namespace {
+
+constexpr Node kA = 1, kB = 2;
+constexpr std::uint64_t kSeed = 7;
+
+Scenario two_uavs() {
+  Scenario scenario;
+  for (const char* name : {"a", "b"}) {
+    UavConfig uav;
+    uav.name = name;
+    scenario.fleet.push_back(uav);
+  }
+  return scenario;
+}
+
+const RadioRoute kRoute{kA, "/x", "std_msgs/msg/String", "rt/x", "std_msgs::msg::dds_::String_", {{kB, "rt/x/b"}}};
+
+RadioMessage message(std::uint64_t sequence, std::size_t bytes = 100) {
+  return {0, sequence, std::make_shared<const std::vector<std::uint8_t>>(bytes)};
+}
+
+FaultPlan plan_of(const FaultAction& action, double at_s = 0.0, std::optional<double> until_s = {}) {
+  FaultPlan plan;
+  plan.faults.push_back({at_s, until_s, action});
+  return plan;
+}
+
+LinkStages stages_of(const FaultPlan& plan, std::uint64_t seed = kSeed) { return {two_uavs(), plan, seed}; }
+
+double lost_share(LinkStages& stages, std::uint64_t messages) {
+  std::uint64_t lost = 0;
+  for (std::uint64_t i = 0; i < messages; ++i) lost += stages.fate(i, kRoute, kB, message(i)).loss == LinkLoss::fault;
+  return static_cast<double>(lost) / static_cast<double>(messages);
+}
+
+bool same(const LinkFate& a, const LinkFate& b) {
+  return a.loss == b.loss && a.delay_steps == b.delay_steps && a.copies == b.copies;
+}
+
+TEST(LinkStages, WithoutEffectsLinksAreIdeal) {
+  LinkStages stages = stages_of({});
+  EXPECT_TRUE(same(stages.fate(3, kRoute, kB, message(0)), {}));
+}
+
+TEST(LinkStages, LossIsAsFrequentAsItSays) {
+  for (const double loss : {0.0, 0.1, 0.5, 0.9, 1.0}) {
+    LinkEffect effect;
+    effect.loss = loss;
+    LinkStages stages = stages_of(plan_of(effect));
+    EXPECT_NEAR(lost_share(stages, 20000), loss, 4.0 * std::sqrt(loss * (1.0 - loss) / 20000.0) + 1e-12);
+  }
+}
+
+TEST(LinkStages, ActsOnItsLinkAndInItsWindowOnly) {
+  LinkEffect effect;
+  effect.from = {"a"};
+  effect.to = {"b"};
+  effect.loss = 1.0;
+  LinkStages stages = stages_of(plan_of(effect, 1.0, 2.0));  // steps 20 to 39
+  RadioRoute back = kRoute;
+  back.source = kB;
+  for (std::uint64_t k = 0; k < 60; ++k) {
+    EXPECT_EQ(stages.fate(k, kRoute, kB, message(k)).loss == LinkLoss::fault, k >= 20 && k < 40) << k;
+    EXPECT_EQ(stages.fate(k, back, kA, message(k)).loss, LinkLoss::none) << k;
+  }
+}
+
+TEST(LinkStages, LatencyIsRoundedUpToExchangesAndJitterStaysInItsRange) {
+  LinkEffect effect;
+  effect.latency_s = 0.12;
+  LinkStages fixed = stages_of(plan_of(effect));
+  EXPECT_EQ(fixed.fate(0, kRoute, kB, message(0)).delay_steps, 3u);
+  effect.latency_s = 0.1;
+  LinkStages exact = stages_of(plan_of(effect));
+  EXPECT_EQ(exact.fate(0, kRoute, kB, message(0)).delay_steps, 2u);
+  effect.jitter_s = 0.2;
+  LinkStages shaky = stages_of(plan_of(effect));
+  std::vector<int> seen(7);
+  for (std::uint64_t i = 0; i < 4000; ++i) ++seen.at(shaky.fate(i, kRoute, kB, message(i)).delay_steps);
+  EXPECT_EQ(seen[0] + seen[1], 0);
+  for (const int steps : {3, 4, 5, 6}) EXPECT_NEAR(seen[static_cast<std::size_t>(steps)], 1000, 150) << steps;
+}
+
+TEST(LinkStages, DuplicatesAndReorders) {
+  LinkEffect effect;
+  effect.duplication = 0.25;
+  effect.reordering = Reordering{0.5, 0.5};
+  LinkStages stages = stages_of(plan_of(effect));
+  int doubled = 0, late = 0;
+  for (std::uint64_t i = 0; i < 8000; ++i) {
+    const LinkFate fate = stages.fate(i, kRoute, kB, message(i));
+    doubled += fate.copies == 2;
+    late += fate.delay_steps == 10;
+    EXPECT_TRUE(fate.delay_steps == 0 || fate.delay_steps == 10);
+  }
+  EXPECT_NEAR(doubled, 2000, 160);
+  EXPECT_NEAR(late, 4000, 180);
+}
+
+TEST(LinkStages, BurstsLastAndComeAsOftenAsTheySay) {
+  LinkEffect effect;
+  effect.burst_loss = BurstLoss{4.0, 1.0, 1.0};
+  LinkStages stages = stages_of(plan_of(effect));
+  std::uint64_t bursts = 0, lost_steps = 0;
+  bool before = false;
+  constexpr std::uint64_t kSteps = 200000;
+  for (std::uint64_t k = 0; k < kSteps; ++k) {
+    const bool lost = stages.fate(k, kRoute, kB, message(k)).loss != LinkLoss::none;
+    bursts += lost && !before;
+    lost_steps += lost;
+    before = lost;
+  }
+  EXPECT_NEAR(static_cast<double>(lost_steps) / kSteps, 0.2, 0.02);
+  EXPECT_NEAR(static_cast<double>(lost_steps) / static_cast<double>(bursts), 20.0, 2.0);  // steps of 0.05 s
+}
+
+TEST(LinkStages, BandwidthDelaysAndOverflows) {
+  LinkEffect effect;
+  effect.bandwidth_bit_s = 8000.0;  // 1,000 bytes a second: 50 a step
+  effect.queue_bytes = 250;
+  LinkStages stages = stages_of(plan_of(effect));
+  std::vector<LinkFate> fates;
+  for (std::uint64_t i = 0; i < 5; ++i) fates.push_back(stages.fate(0, kRoute, kB, message(i)));
+  EXPECT_EQ(fates[0].delay_steps, 2u);
+  EXPECT_EQ(fates[1].delay_steps, 4u);
+  EXPECT_EQ(fates[2].loss, LinkLoss::overflow);  // 200 bytes wait or are under way, 100 more do not fit
+  EXPECT_EQ(fates[4].loss, LinkLoss::overflow);
+  EXPECT_EQ(stages.fate(2, kRoute, kB, message(5)).delay_steps, 4u);    // 100 bytes have gone
+  EXPECT_EQ(stages.fate(1000, kRoute, kB, message(6)).delay_steps, 2u);  // idle again
+  EXPECT_EQ(stages.fate(2000, kRoute, kB, message(7, 4000)).loss, LinkLoss::none) << "what meets no queue always fits";
+}
+
+TEST(LinkStages, DrawsDependOnKeysAlone) {
+  LinkEffect effect;
+  effect.loss = 0.3;
+  effect.jitter_s = 0.3;
+  effect.duplication = 0.3;
+  effect.burst_loss = BurstLoss{1.0, 1.0, 0.5};
+  const FaultPlan plan = plan_of(effect, 5.0);
+  LinkStages all = stages_of(plan);
+  std::vector<LinkFate> fates;
+  for (std::uint64_t i = 0; i < 2000; ++i) fates.push_back(all.fate(i, kRoute, kB, message(i)));
+
+  LinkStages restarted = stages_of(plan);  // sees the second half only
+  for (std::uint64_t i = 1000; i < 2000; ++i) EXPECT_TRUE(same(restarted.fate(i, kRoute, kB, message(i)), fates[i]));
+
+  LinkStages other_traffic = stages_of(plan);
+  RadioRoute other = kRoute;
+  other.ros_topic = "/y";
+  int differing = 0;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    differing += !same(other_traffic.fate(i, other, kB, message(i)), fates[i]);
+    EXPECT_TRUE(same(other_traffic.fate(i, kRoute, kB, message(i)), fates[i]));
+  }
+  EXPECT_GT(differing, 500) << "another topic draws its own numbers";
+
+  LinkStages other_seed = stages_of(plan, kSeed + 1);
+  int changed = 0;
+  for (std::uint64_t i = 0; i < 2000; ++i) changed += !same(other_seed.fate(i, kRoute, kB, message(i)), fates[i]);
+  EXPECT_GT(changed, 500);
+}
+
+TEST(LinkStages, CutsLinks) {
+  const auto lost = [](const FaultPlan& plan, std::uint64_t k) {
+    LinkStages stages = stages_of(plan);
+    return stages.fate(k, kRoute, kB, message(0)).loss == LinkLoss::fault;
+  };
+  EXPECT_TRUE(lost(plan_of(Blackout{"a"}), 0));
+  EXPECT_TRUE(lost(plan_of(Blackout{"b"}), 0));
+  EXPECT_FALSE(lost(plan_of(StationOutage{}), 0));
+  EXPECT_TRUE(lost(plan_of(Partition{{{"a", "gcs"}, {"b"}}}), 0));
+  EXPECT_FALSE(lost(plan_of(Partition{{{"a", "b"}, {"gcs"}}}), 0));
+  EXPECT_TRUE(lost(plan_of(Partition{{{"a"}}}), 0)) << "who is in no group is alone";
+  EXPECT_FALSE(lost(plan_of(Blackout{"a"}, 1.0, 2.0), 19));
+  EXPECT_TRUE(lost(plan_of(Blackout{"a"}, 1.0, 2.0), 20));
+  EXPECT_FALSE(lost(plan_of(Blackout{"a"}, 1.0, 2.0), 40));
+}
+
+TEST(LinkStages, StagesActOneAfterTheOther) {
+  Scenario scenario = two_uavs();
+  LinkEffect latency;
+  latency.latency_s = 0.1;
+  scenario.links = {latency, latency};
+  LinkStages stages(scenario, plan_of(latency), kSeed);
+  EXPECT_EQ(stages.fate(0, kRoute, kB, message(0)).delay_steps, 6u);
+}
+
+}  // namespace
+}  // namespace skein::router

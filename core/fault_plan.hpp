@@ -1,0 +1,109 @@
+// A fault file: what goes wrong in a run, when, and until when. The same file gives the same faults, bit for bit, in
+// every run of the same scenario and seed: times are simulated and mean the first exchange at or after them, and
+// random links draw from keyed streams. docs/faults.md lists all faults for users; config/faults/ has worked examples.
+// Pure; files are read by load_fault_plan().
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/link_effect.hpp"
+#include "core/scenario.hpp"
+
+namespace skein {
+
+/// Messages pass between nodes of one group only; who is in no group is in a group of its own.
+struct Partition {
+  std::vector<std::vector<std::string>> groups;
+};
+/// A UAV's radio is dead: no message, key frame or neighbour's odometry goes in or out.
+struct Blackout {
+  std::string uav;
+};
+/// The ground station's radio is dead.
+struct StationOutage {};
+/// A program is killed (SIGKILL) at the fault's beginning and started again at its end.
+struct Kill {
+  std::string member;  ///< UAV, "station", "comm_router" or "gcs"
+};
+/// A program is stopped (SIGSTOP) at the fault's beginning and goes on (SIGCONT) at its end: it misses all between.
+struct Pause {
+  std::string member;
+};
+/// No scans, no key frames.
+struct LidarFailure {
+  std::string uav;
+};
+/// No captures.
+struct CameraFailure {
+  std::string uav;
+};
+/// A rotor gives only a part of its thrust and torque.
+struct MotorFailure {
+  std::string uav;
+  int rotor = 0;        ///< 0..5, at 30 + 60 rotor degrees from the body's x axis
+  double thrust = 0.0;  ///< share that is left, [0, 1)
+
+  template <class R>
+  void describe(R& r) {
+    r.required("uav", uav);
+    r.required("rotor", rotor, within(0, 5));
+    r.field("thrust", thrust, within(0.0, 0.999));
+  }
+};
+/// A UAV's commands take effect later.
+struct CommandDelay {
+  std::string uav;
+  int exchanges = 0;
+
+  template <class R>
+  void describe(R& r) {
+    r.required("uav", uav);
+    r.required("exchanges", exchanges, within(1, 1200));
+  }
+};
+
+using FaultAction = std::variant<LinkEffect, Partition, Blackout, StationOutage, Kill, Pause, LidarFailure,
+                                 CameraFailure, MotorFailure, CommandDelay>;
+
+struct Fault {
+  double at_s = 0.0;              ///< simulated time since the start of the run
+  std::optional<double> until_s;  ///< none: to the end of the run
+  FaultAction action;
+
+  /// Whether it is in force in the exchange at this tick: from the first one at or after `at_s` to the last one
+  /// before `until_s`.
+  bool active(Tick tick) const { return tick >= begin() && (!end() || tick < *end()); }
+  Tick begin() const;              ///< in ticks, rounded up
+  std::optional<Tick> end() const;
+};
+
+struct FaultPlan {
+  std::filesystem::path file;  ///< empty: no faults
+  std::string name, description;
+  std::vector<Fault> faults;  ///< in the file's order
+
+  bool empty() const { return faults.empty(); }
+};
+
+/// The kind of a fault as files spell it ("partition") and whom it concerns ("jurong", "gcs jurong | raffles"); for
+/// results and logs.
+std::string fault_kind(const Fault& fault);
+std::string fault_target(const Fault& fault);
+
+/// Which directed links blackouts, outages and partitions cut in the exchange at this tick: row-major
+/// (n + 1) x (n + 1) by node, 1 = cut. Empty when there is nothing to cut.
+std::vector<std::uint8_t> cut_links(const FaultPlan& plan, const Scenario& scenario, Tick tick);
+
+/// @param file      empty: an empty plan.
+/// @param scenario  whose nodes may be named, and whose mission's end no time may exceed.
+/// @throws InputError naming file, line and key: a node, UAV or program that does not exist, a time after the end, an
+///   end before its beginning, a probability above 1, an event with no action or two, and events that contradict each
+///   other (the same thing failing twice at once).
+FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& scenario);
+
+}  // namespace skein

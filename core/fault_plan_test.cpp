@@ -1,0 +1,126 @@
+// Fault files: what is read, when faults act, and what is refused with which words.
+#include "core/fault_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace skein {
+namespace {
+
+Scenario fleet() {
+  Scenario scenario;
+  scenario.name = "small";
+  scenario.duration_s = 300.0;
+  for (const char* name : {"jurong", "changi"}) {
+    UavConfig uav;
+    uav.name = name;
+    scenario.fleet.push_back(uav);
+  }
+  scenario.fleet[0].vehicle.lidar.emplace();
+  return scenario;
+}
+
+class FaultFile : public testing::Test {
+ protected:
+  FaultFile() {
+    std::string name = std::string("skein_") + testing::UnitTest::GetInstance()->current_test_info()->name();
+    file_ = std::filesystem::temp_directory_path() / (name + std::to_string(::getpid()) + ".yaml");
+  }
+  ~FaultFile() override { std::filesystem::remove(file_); }
+
+  FaultPlan load(const std::string& text) {
+    std::ofstream(file_) << text;
+    return load_fault_plan(file_, fleet());
+  }
+  void refused(const std::string& text, const std::string& words) {
+    try {
+      load(text);
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(file_.string()), std::string::npos) << error.what();
+    }
+  }
+
+  std::filesystem::path file_;
+};
+
+TEST_F(FaultFile, NoFileMeansNoFaults) { EXPECT_TRUE(load_fault_plan({}, fleet()).empty()); }
+
+TEST_F(FaultFile, EveryKindIsRead) {
+  const FaultPlan plan = load(
+      "name: all\n"
+      "faults:\n"
+      "  - {at_s: 1, until_s: 2, link: {from: [jurong], to: gcs, loss: 0.5, burst_loss: {mean_good_s: 5, mean_burst_s: 1}}}\n"
+      "  - {at_s: 1, partition: [[gcs, jurong], [changi]]}\n"
+      "  - {at_s: 1, blackout: changi}\n"
+      "  - {at_s: 1, until_s: 3, station_outage: true}\n"
+      "  - {at_s: 1, until_s: 9, kill: comm_router}\n"
+      "  - {at_s: 1, until_s: 9, pause: jurong}\n"
+      "  - {at_s: 1, lidar_failure: jurong}\n"
+      "  - {at_s: 1, camera_failure: changi}\n"
+      "  - {at_s: 1, motor_failure: {uav: changi, rotor: 3, thrust: 0.5}}\n"
+      "  - {at_s: 1, command_delay: {uav: changi, exchanges: 3}}\n");
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {"link", "jurong > gcs"},     {"partition", "gcs jurong | changi"}, {"blackout", "changi"},
+      {"station_outage", "gcs"},    {"kill", "comm_router"},              {"pause", "jurong"},
+      {"lidar_failure", "jurong"},  {"camera_failure", "changi"},         {"motor_failure", "changi"},
+      {"command_delay", "changi"}};
+  ASSERT_EQ(plan.faults.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(fault_kind(plan.faults[i]), expected[i].first);
+    EXPECT_EQ(fault_target(plan.faults[i]), expected[i].second);
+  }
+}
+
+TEST_F(FaultFile, ActsFromItsFirstTickToBeforeItsLast) {
+  const FaultPlan plan = load("faults: [{at_s: 10, until_s: 12.5, blackout: jurong}]");
+  EXPECT_FALSE(plan.faults[0].active(ticks(10.0) - 1));
+  EXPECT_TRUE(plan.faults[0].active(ticks(10.0)));
+  EXPECT_TRUE(plan.faults[0].active(ticks(12.5) - 1));
+  EXPECT_FALSE(plan.faults[0].active(ticks(12.5)));
+}
+
+TEST_F(FaultFile, WrongOnesAreRefusedWithLineAndKey) {
+  refused("faults: [{at_s: 1, blackout: changy}]", ":1: faults[0].blackout: there is no UAV 'changy'; did you mean 'changi'?");
+  refused("faults:\n  - {at_s: 1, kill: router}", ":2: faults[0].kill: there is no program 'router'");
+  refused("faults: [{at_s: 300, blackout: changi}]", "faults[0].at_s: is after the end: the mission of 'small' lasts 300 s");
+  refused("faults: [{at_s: 1, until_s: 301, blackout: changi}]", "faults[0].until_s: is after the end");
+  refused("faults: [{at_s: 5, until_s: 5, blackout: changi}]", "faults[0].until_s: must be later than at_s, 5");
+  refused("faults: [{at_s: 1, link: {loss: 1.5}}]", "faults[0].link.loss: must be a number within [0, 1], not '1.5'");
+  refused("faults: [{at_s: 1, link: {to: nobody}}]", "faults[0].link.to: there is no node 'nobody'");
+  refused("faults: [{at_s: 1}]", "faults[0]: must have exactly one of link, partition");
+  refused("faults: [{at_s: 1, blackout: jurong, kill: changi}]", "it has 2");
+  refused("faults: [{at_s: 1, station_outage: false}]", "station_outage: must be true");
+  refused("faults: [{at_s: 1, lidar_failure: changi}]", "'changi' has no LiDAR");
+  refused("faults: [{at_s: 1, partition: [[jurong], [changi, jurong]]}]", "'jurong' is in two groups");
+  refused("faults: [{at_s: 1, blackot: jurong}]", "unknown key 'faults[0].blackot'");
+  refused("faults: [{blackout: jurong}]", "missing key 'faults[0].at_s'");
+  refused("faults: [{at_s: 1, motor_failure: {uav: changi, rotor: 6}}]", "rotor");
+  refused("faults: {at_s: 1", "");
+}
+
+TEST_F(FaultFile, ContradictionsAreRefused) {
+  const std::string kill = "{at_s: 10, until_s: 20, kill: changi}";
+  refused("faults: [" + kill + ", {at_s: 15, pause: changi}]",
+          "faults[1]: contradicts faults[0]: both take hold of the process of changi at the same time");
+  refused("faults: [{at_s: 5, blackout: jurong}, {at_s: 100, until_s: 110, blackout: jurong}]", "the radio of jurong");
+  EXPECT_NO_THROW(load("faults: [" + kill + ", {at_s: 20, until_s: 25, pause: changi}, {at_s: 12, kill: jurong}]"));
+  EXPECT_NO_THROW(load("faults: [{at_s: 1, link: {loss: 0.1}}, {at_s: 1, link: {loss: 0.2}}]"));
+}
+
+TEST_F(FaultFile, CutLinksFollowThePlan) {
+  const FaultPlan plan = load("faults: [{at_s: 10, until_s: 20, blackout: jurong}, {at_s: 15, station_outage: true}]");
+  EXPECT_TRUE(cut_links(plan, fleet(), ticks(5.0)).empty());
+  const std::vector<std::uint8_t> jurong = {0, 1, 0, 1, 0, 1, 0, 1, 0};  // gcs, jurong, changi
+  EXPECT_EQ(cut_links(plan, fleet(), ticks(10.0)), jurong);
+  const std::vector<std::uint8_t> both = {0, 1, 1, 1, 0, 1, 1, 1, 0};
+  EXPECT_EQ(cut_links(plan, fleet(), ticks(15.0)), both);
+  const std::vector<std::uint8_t> station = {0, 1, 1, 1, 0, 0, 1, 0, 0};
+  EXPECT_EQ(cut_links(plan, fleet(), ticks(20.0)), station);
+}
+
+}  // namespace
+}  // namespace skein
