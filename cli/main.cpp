@@ -4,11 +4,14 @@
 #include <exception>
 #include <iostream>
 
+#include "cli/bench_command.hpp"
 #include "cli/check_command.hpp"
 #include "cli/options.hpp"
+#include "cli/oracle_command.hpp"
 #include "cli/preflight.hpp"
 #include "cli/run_command.hpp"
 #include "cli/run_diff.hpp"
+#include "cli/scene_command.hpp"
 #include "cli/test_command.hpp"
 #include "core/types.hpp"
 
@@ -32,6 +35,9 @@ struct Execute {
   int operator()(const RunOptions& options) const { return run_fleet(options, console); }
   int operator()(const TestOptions& options) const { return run_tests(options, console); }
   int operator()(const CheckOptions& options) const { return check_files(options, console); }
+  int operator()(const SceneOptions& options) const { return export_scene(options); }
+  int operator()(const BenchOptions& options) const { return run_bench(options, console); }
+  int operator()(const OracleOptions& options) const { return consult_oracle(options, console); }
   int operator()(const DiffOptions& options) const { return diff_runs(options, console); }
   int operator()(const HelpText& help) const {
     console.out << help.text;

@@ -62,6 +62,46 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   return command;
 }
 
+CLI::App* add_scene(CLI::App& app, SceneOptions& scene) {
+  CLI::App* command = app.add_subcommand("scene", "Write a scene as STL, PCD and boxes, with a scenario that flies it");
+  command->add_option("SCENARIO", scene.scenario, "A name under config/scenarios/ or a YAML file")->required();
+  command->add_option("--scene-seed", scene.scene_seed, "Which scene of a procedural family")
+      ->check(CLI::Validator(check_seed, ""));
+  command->add_option("--out", scene.out, "Folder to write to")->required();
+  command->add_option("--assets", scene.assets, "Folder with models/ for scenarios that read files");
+  command->add_flag("--force", scene.force, "Overwrite an earlier export");
+  return command;
+}
+
+CLI::App* add_bench(CLI::App& app, BenchOptions& bench) {
+  CLI::App* command = app.add_subcommand("bench", "Measure speed, scale and memory on this machine");
+  command->add_flag("--quick", bench.quick, "Less of everything: a first impression in less than a minute");
+  command->add_option("--scenario", bench.scenarios, "Scenarios of the speed runs (default: towers; mbs with --assets)");
+  command->add_option("--assets", bench.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--dds", bench.dds, "DDS vendor: cyclonedds or fastdds")
+      ->check(CLI::IsMember({"cyclonedds", "fastdds"}))
+      ->capture_default_str();
+  command->add_option("--sizes", bench.sizes, "Sizes of fleet, as 1,5,20")->delimiter(',')->check(CLI::Range(1, 128));
+  command->add_option("--repeat", bench.repeats, "Runs of each kind; medians are reported")->check(CLI::Range(1, 100));
+  command->add_option("--duration", bench.duration_s, "Mission time of the speed runs [s], instead of the scenario's")
+      ->check(CLI::Validator(check_seconds, ""));
+  command->add_option("--json", bench.json, "File for all figures");
+  return command;
+}
+
+CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
+  CLI::App* command = app.add_subcommand("oracle", "What could be had of a scenario with full knowledge of its scene");
+  command->add_option("SCENARIO", oracle.scenario, "A name under config/scenarios/ or a YAML file")->required();
+  command->add_option("--scene-seed", oracle.scene_seed, "Which scene of a procedural family")
+      ->check(CLI::Validator(check_seed, ""));
+  command->add_option("--assets", oracle.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--clearance", oracle.clearance_m, "Of the cameras from the structure [m] (default 0.5)")
+      ->check(CLI::Range(0.0, 100.0));
+  command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");
+  command->add_flag("--json", oracle.json, "All figures, for programs");
+  return command;
+}
+
 }  // namespace
 
 Command parse_command_line(const std::vector<std::string>& arguments) {
@@ -72,6 +112,9 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   RunOptions run;
   TestOptions test;
   CheckOptions check;
+  SceneOptions scene;
+  BenchOptions bench;
+  OracleOptions oracle;
   DiffOptions diff;
 
   const CLI::App* run_command = add_run(app, run);
@@ -81,6 +124,9 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   check_command->add_option("FILE", check.files, "Scenario or vehicle files (YAML)");
   check_command->add_option("--golden", check.golden, "Run reference vectors (CSV) through the production code");
   check_command->add_option("--assets", check.assets, "Folder with models/ for scenarios that read files");
+  const CLI::App* scene_command = add_scene(app, scene);
+  const CLI::App* bench_command = add_bench(app, bench);
+  const CLI::App* oracle_command = add_oracle(app, oracle);
   CLI::App* diff_command = app.add_subcommand("diff", "First step, entity and field in which two runs differ");
   diff_command->add_option("RUN_A", diff.run_a, "A results folder")->required();
   diff_command->add_option("RUN_B", diff.run_b, "Another one")->required();
@@ -97,6 +143,9 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   }
   if (run_command->parsed()) return run;
   if (test_command->parsed()) return test;
+  if (scene_command->parsed()) return scene;
+  if (bench_command->parsed()) return bench;
+  if (oracle_command->parsed()) return oracle;
   if (diff_command->parsed()) return diff;
   if (check.files.empty() && check.golden.empty()) throw InputError("check: give files, or --golden FILE.csv");
   return check;

@@ -27,6 +27,7 @@ struct RunOptions {
   std::optional<double> stop_at_s;
   std::optional<std::filesystem::path> out;
   bool force = false;
+  bool attainable = true;  ///< ask the oracle after the run
 };
 
 struct TestOptions {
@@ -39,6 +40,34 @@ struct CheckOptions {
   std::optional<std::filesystem::path> assets;
 };
 
+struct SceneOptions {
+  std::string scenario;
+  std::optional<std::uint64_t> scene_seed;
+  std::filesystem::path out;
+  std::optional<std::filesystem::path> assets;
+  bool force = false;
+};
+
+struct BenchOptions {
+  bool quick = false;
+  std::vector<std::string> scenarios;  ///< of the speed runs; empty: towers, and mbs with --assets
+  std::optional<std::filesystem::path> assets;
+  std::string dds = "cyclonedds";
+  std::vector<std::size_t> sizes;  ///< of fleets; empty: the usual ones
+  std::optional<int> repeats;
+  std::optional<double> duration_s;  ///< mission time of the speed runs
+  std::optional<std::filesystem::path> json;
+};
+
+struct OracleOptions {
+  std::string scenario;
+  std::optional<std::uint64_t> scene_seed;
+  std::optional<std::filesystem::path> assets;
+  std::optional<double> clearance_m;  ///< instead of the oracle's own
+  bool outside_only = false;
+  bool json = false;
+};
+
 struct DiffOptions {
   std::filesystem::path run_a, run_b;
 };
@@ -48,7 +77,8 @@ struct HelpText {
   std::string text;
 };
 
-using Command = std::variant<RunOptions, TestOptions, CheckOptions, DiffOptions, HelpText>;
+using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
+                             HelpText>;
 
 /// @param arguments without the program's name. @throws InputError for anything that does not fit.
 Command parse_command_line(const std::vector<std::string>& arguments);

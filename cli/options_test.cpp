@@ -49,6 +49,13 @@ TEST(Options, RunReadsAll) {
 
 TEST(Options, OtherCommands) {
   EXPECT_TRUE(parse<TestOptions>({"test", "--long"}).long_tests);
+  const auto scene = parse<SceneOptions>({"scene", "towers", "--scene-seed", "4", "--out", "there", "--force"});
+  EXPECT_EQ(scene.scenario, "towers");
+  EXPECT_EQ(scene.scene_seed, 4u);
+  EXPECT_EQ(scene.out, "there");
+  EXPECT_TRUE(scene.force);
+  EXPECT_THROW(parse<SceneOptions>({"scene", "towers"}), InputError);
+  EXPECT_THROW(parse<SceneOptions>({"scene", "towers", "--out", "there", "--scene-seed", "-1"}), InputError);
   EXPECT_EQ(parse<CheckOptions>({"check", "a.yaml", "b.yaml"}).files, (std::vector<std::string>{"a.yaml", "b.yaml"}));
   EXPECT_EQ(parse<CheckOptions>({"check", "--golden", "a.csv", "b.csv"}).golden,
             (std::vector<std::string>{"a.csv", "b.csv"}));
@@ -56,6 +63,35 @@ TEST(Options, OtherCommands) {
   EXPECT_NE(parse<HelpText>({"--help"}).text.find("diff"), std::string::npos);
   EXPECT_NE(parse<HelpText>({"run", "--help"}).text.find("--stop-at"), std::string::npos);
   EXPECT_EQ(parse<HelpText>({"--version"}).text.find("skein "), 0u);
+}
+
+TEST(Options, OracleReadsAll) {
+  const auto oracle = parse<OracleOptions>({"oracle", "towers", "--scene-seed", "4", "--assets", "data", "--clearance",
+                                            "0.75", "--outside", "--json"});
+  EXPECT_EQ(oracle.scenario, "towers");
+  EXPECT_EQ(oracle.scene_seed, 4u);
+  EXPECT_EQ(oracle.assets, "data");
+  EXPECT_EQ(oracle.clearance_m, 0.75);
+  EXPECT_TRUE(oracle.outside_only && oracle.json);
+  EXPECT_FALSE(parse<OracleOptions>({"oracle", "towers"}).clearance_m);
+  for (const char* clearance : {"-1", "nan", "x", "1000"}) {
+    EXPECT_THROW(parse_command_line({"oracle", "towers", "--clearance", clearance}), InputError) << clearance;
+  }
+  EXPECT_THROW(parse_command_line({"oracle"}), InputError);
+}
+
+TEST(Options, BenchReadsAll) {
+  EXPECT_TRUE(parse<BenchOptions>({"bench"}).sizes.empty());
+  const auto bench = parse<BenchOptions>({"bench", "--quick", "--sizes", "1,20", "--repeat", "5", "--scenario", "mbs",
+                                          "--assets", "data", "--dds", "fastdds", "--json", "b.json", "--duration",
+                                          "30"});
+  EXPECT_TRUE(bench.quick);
+  EXPECT_EQ(bench.sizes, (std::vector<std::size_t>{1, 20}));
+  EXPECT_EQ(bench.scenarios, std::vector<std::string>{"mbs"});
+  EXPECT_EQ(bench.repeats, 5);
+  EXPECT_EQ(bench.duration_s, 30.0);
+  EXPECT_EQ(bench.json, "b.json");
+  for (const char* size : {"0", "129", "x"}) EXPECT_THROW(parse_command_line({"bench", "--sizes", size}), InputError);
 }
 
 TEST(Options, WhatDoesNotFitIsRefused) {

@@ -93,10 +93,14 @@ void ProgressView::show(const std::string& text) {
 
 void print_summary(std::ostream& out, const Json& result, const std::filesystem::path& dir) {
   const double score = number(result, "score"), earned = number(result, "score_earned");
+  const Json attainable = value_or(result, "attainable", Json::object());
+  const double possible = number(attainable, "score");
   out << '\n'
       << "score     " << fixed(score, 3) << " of " << fixed(earned, 3) << " earned"
-      << (earned > 0.0 ? " (" + fixed(100.0 * score / earned, 1) + " % delivered)" : "") << '\n'
-      << "points    " << cell(result, "points_detected", 0) << " of " << cell(result, "points_total", 0) << '\n'
+      << (earned > 0.0 ? " (" + fixed(100.0 * score / earned, 1) + " % delivered)" : "")
+      << (possible > 0.0 ? ", " + fixed(100.0 * score / possible, 1) + " % of attainable" : "") << '\n'
+      << "points    " << cell(result, "points_detected", 0) << " of " << cell(result, "points_total", 0)
+      << (possible > 0.0 ? ", " + cell(attainable, "points", 0) + " attainable" : "") << '\n'
       << "status    " << result["status"].get<std::string>() << ", mission " << cell(result, "mission_time_s", 1)
       << " s, " << result["collisions"].size() << " collision" << (result["collisions"].size() == 1 ? "" : "s") << '\n'
       << "speed     x" << cell(result, "real_time_factor", 1) << " (" << cell(result, "sim_time_s", 1)

@@ -53,5 +53,19 @@ TEST(ProgressView, WrongStatusIsHarmless) {
   view.finish();
 }
 
+TEST(Summary, TellsHowMuchOfTheAttainableItIs) {
+  Json result = {{"score", 30.0}, {"score_earned", 40.0}, {"points_detected", 31}, {"points_total", 99},
+                 {"attainable", {{"points", 80}, {"score", 75.0}}},
+                 {"status", "completed"}, {"collisions", Json::array()}, {"digest", nullptr},
+                 {"uavs", Json::array()}, {"warnings", Json::array()}};
+  std::ostringstream known, unknown;
+  print_summary(known, result, "there");
+  EXPECT_NE(known.str().find("30.000 of 40.000 earned (75.0 % delivered), 40.0 % of attainable\n"), std::string::npos);
+  EXPECT_NE(known.str().find("31 of 99, 80 attainable\n"), std::string::npos) << known.str();
+  result["attainable"] = {{"points", nullptr}, {"score", nullptr}};
+  print_summary(unknown, result, "there");
+  EXPECT_EQ(unknown.str().find("attainable"), std::string::npos) << unknown.str();
+}
+
 }  // namespace
 }  // namespace skein::cli

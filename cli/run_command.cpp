@@ -6,6 +6,7 @@
 
 #include "cli/domain_block.hpp"
 #include "cli/fleet_plan.hpp"
+#include "cli/oracle_command.hpp"
 #include "cli/preflight.hpp"
 #include "cli/progress_view.hpp"
 #include "cli/results_dir.hpp"
@@ -93,18 +94,37 @@ class FleetRun {
       facts_.score_earned = value_or(status, "earned", 0.0);
       view_.tally(status);
     }
+    if (type == "ended") note_use();
     if (type == "progress") {
       facts_.sim_time_s = value_or(status, "t", 0.0);
       facts_.mission_time_s = value_or(status, "mission_s", 0.0);
-      if (!first_progress_) first_progress_ = Clock::now();
+      if (!first_progress_) on_first_step();
       facts_.wall_time_s = seconds_between(*first_progress_, Clock::now());
       view_.progress(status, facts_.wall_time_s);
     }
   }
 
+  /// What the programs did before is start-up.
+  void on_first_step() {
+    first_progress_ = Clock::now();
+    facts_.startup_s = seconds_between(started_, *first_progress_);
+    for (const std::string& program : supervisor_.running()) cpu_before_s_[program] = supervisor_.cpu_s(program);
+  }
+
+  /// What the programs do from here on is leaving.
+  void note_use() {
+    over_ = true;
+    for (const std::string& program : supervisor_.running()) {
+      facts_.processes[program].cpu_s = supervisor_.cpu_s(program) - cpu_before_s_[program];
+      facts_.processes[program].memory_share_mb = supervisor_.memory_share_mb(program);
+    }
+  }
+
   void on_exit(const Event& event) {
     const bool of_server = event.program == "sim_server";
-    facts_.memory_mb += event.exit.peak_memory_mb;
+    ProcessUse& use = facts_.processes[event.program];
+    use.peak_memory_mb = event.exit.peak_memory_mb;
+    if (!over_) use.cpu_s = event.exit.cpu_s - cpu_before_s_[event.program];
     if (!event.exit.ok() && !ending_) complain(event.program, event.exit.text());
     if (of_server && !event.exit.ok()) {
       end_all();  // nobody is left to tell the others how the run goes on
@@ -157,9 +177,12 @@ class FleetRun {
   ProgressView view_;
   RunFacts facts_;
   std::map<std::string, std::filesystem::path> logs_;
+  const Clock::time_point started_ = Clock::now();
   std::optional<Clock::time_point> first_progress_;
-  std::optional<Clock::time_point> leave_by_;  ///< set when sim_server has left in good order
-  bool ending_ = false;                        ///< the launcher itself ends the programs
+  std::map<std::string, double> cpu_before_s_;  ///< of each program at the first step
+  std::optional<Clock::time_point> leave_by_;   ///< set when sim_server has left in good order
+  bool over_ = false;                           ///< the last step is done
+  bool ending_ = false;                         ///< the launcher itself ends the programs
   bool failed_ = false;
 };
 
@@ -195,8 +218,15 @@ int run_fleet(const RunOptions& options, const Console& console) {
 
   const Reports reports = read_reports(out.path(), plan.scenario);
   if (!write_score_csv(out.path(), reports.station)) run.facts().warnings.push_back("no scene.json: no score.csv");
-  const Json result = merge_result(run.facts(), plan.scenario, reports);
-  write_file_atomically(out.path() / "result.json", result.dump(2) + "\n");
+  Json result = merge_result(run.facts(), plan.scenario, reports);
+  const auto write_result = [&] { write_file_atomically(out.path() / "result.json", result.dump(2) + "\n"); };
+  write_result();  // before all that may still go wrong
+  if (options.attainable && result["status"] == "completed") {
+    const AttainableAnswer answer = attainable_of(options);
+    if (!answer.hint.empty()) result["warnings"].push_back(answer.hint);
+    if (answer.attainable.is_object()) result["attainable"] = answer.attainable;
+    write_result();
+  }
   print_summary(console.out, result, dir);
   if (run.facts().interrupted) return kExitInterrupted;
   return run.anything_failed() || !result["lost_members"].empty() ? kExitProcessFailed : kExitDone;

@@ -61,6 +61,25 @@ TEST_F(RunCommand, AGoodRunLeavesAResultAndATable) {
   EXPECT_NE(out_.str().find("digest    ab"), std::string::npos);
 }
 
+TEST_F(RunCommand, TheOracleIsAskedOnceTheRunIsOver) {
+  const std::string oracle = R"(
+case "$*" in *--oracle*)
+  while [ "$1" != --oracle ]; do shift; done
+  echo '{"clearance_m": 0.5, "reachable": {"points": 4, "score": 3.5}, "outside": {"points": 2, "score": 1}}' > "$2"
+  exit 0 ;;
+esac
+)";
+  write_script(programs_.dir() / "sim_server", oracle + kReadOptions + kServer);
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(result()["attainable"], Json::parse(R"({"points": 4, "score": 3.5, "clearance_m": 0.5,
+                                                    "outside": {"points": 2, "score": 1}})"));
+  EXPECT_NE(out_.str().find("of 5, 4 attainable"), std::string::npos) << out_.str();
+  options_.force = true;
+  options_.attainable = false;
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_TRUE(result()["attainable"]["score"].is_null());
+}
+
 TEST_F(RunCommand, AnExistingResultIsKept) {
   ASSERT_EQ(run(), kExitDone);
   EXPECT_THROW(run(), InputError);

@@ -47,9 +47,21 @@ Json score_by_uav(const Scenario& scenario, const Json& station) {
   return scores;
 }
 
+void add_processes(const RunFacts& facts, Json& result) {
+  double memory_mb = 0.0;
+  Json processes = Json::object();
+  for (const auto& [name, use] : facts.processes) {
+    memory_mb += use.peak_memory_mb;
+    processes[name] = {
+        {"cpu_s", use.cpu_s}, {"peak_memory_mb", use.peak_memory_mb}, {"memory_share_mb", use.memory_share_mb}};
+  }
+  result["memory_mb"] = memory_mb;
+  result["processes"] = std::move(processes);
+}
+
 Json radio_counts(const Json& router) {
   Json radio = Json::object();
-  for (const char* key : {"sent", "delivered", "dropped_no_los", "dropped_fault"})
+  for (const char* key : {"sent", "delivered", "dropped_no_los", "dropped_fault", "dropped_overflow", "duplicated"})
     radio[key] = value_or(router, key, 0);
   radio["per_link"] = value_or(router, "per_link", Json::array());
   return radio;
@@ -118,13 +130,15 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["mission_time_s"] = value_or(sim, "mission_time_s", facts.mission_time_s);
   result["wall_time_s"] = wall_time_s;
   result["real_time_factor"] = wall_time_s > 0.0 ? sim_time_s / wall_time_s : 0.0;
-  result["memory_mb"] = facts.memory_mb;
+  result["startup_s"] = facts.startup_s;
+  add_processes(facts, result);
   result["timing"] = value_or(sim, "timing", Json::object());
 
   result["points_total"] = value_or(sim, "points_total", nullptr);
   result["points_detected"] = value_or(reports.station, "points_detected", facts.points_detected);
   result["score"] = value_or(reports.station, "score", facts.score);
   result["score_earned"] = value_or(reports.station, "score_earned", facts.score_earned);
+  // The oracle is asked afterwards.
   result["attainable"] = {{"points", nullptr}, {"score", nullptr}};
   result["score_by_uav"] = score_by_uav(scenario, reports.station);
   result["collisions"] = value_or(sim, "collisions", Json::array());

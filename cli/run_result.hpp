@@ -16,6 +16,13 @@ namespace skein::cli {
 
 using Json = nlohmann::ordered_json;
 
+/// What a program took of the machine.
+struct ProcessUse {
+  double cpu_s = 0.0;  ///< of all threads, from the first step to the last (all of it when the run never got there)
+  double peak_memory_mb = 0.0;
+  double memory_share_mb = 0.0;  ///< at the end, shared pages in parts (PSS)
+};
+
 /// What the launcher itself knows of a run.
 struct RunFacts {
   std::string scenario;  ///< as the user named it
@@ -30,7 +37,8 @@ struct RunFacts {
   double sim_time_s = 0.0, mission_time_s = 0.0, wall_time_s = 0.0;
   int points_detected = 0;
   double score = 0.0, score_earned = 0.0;
-  double memory_mb = 0.0;  ///< sum of the programs' peaks
+  double startup_s = 0.0;  ///< of wall time, from the first program's start to the first step
+  std::map<std::string, ProcessUse> processes;
 };
 
 /// What the programs left behind; null where a report is missing or cut short.

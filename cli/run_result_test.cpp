@@ -123,6 +123,14 @@ TEST_F(RunResult, AllReportsMakeACompleteResult) {
   EXPECT_EQ(result["warnings"], Json::array({"windy"}));
 }
 
+TEST_F(RunResult, MemoryIsTheSumOfTheProcesses) {
+  facts_.processes = {{"sim_server", {2.5, 100.0}}, {"station", {0.25, 50.0}}};
+  const Json result = merged();
+  EXPECT_EQ(schema_errors(result), std::vector<std::string>{});
+  EXPECT_EQ(result["memory_mb"], 150.0);
+  EXPECT_EQ(result["processes"]["sim_server"]["cpu_s"], 2.5);
+}
+
 TEST_F(RunResult, NoReportsMakeAnAbortedResultOfTheLastKnownNumbers) {
   facts_.sim_time_s = 20.0;
   facts_.wall_time_s = 2.0;

@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <deque>
 #include <fstream>
 #include <system_error>
@@ -74,6 +75,10 @@ sigset_t interrupt_signals() {
   sigemptyset(&set);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
   return set;
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 std::vector<char*> pointers(const std::vector<std::string>& strings) {
@@ -225,8 +230,31 @@ void Supervisor::reap(Child& child, std::vector<Event>& events) {
   if (WIFEXITED(status)) exit.code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) exit.signal = WTERMSIG(status);
   exit.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024.0;
+  exit.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   events.push_back({Event::Kind::exited, child.name, {}, exit});
   children_.erase(events.back().program);
+}
+
+double Supervisor::cpu_s(const std::string& program) const {
+  const auto found = children_.find(program);
+  clockid_t clock{};
+  timespec time{};
+  if (found == children_.end() || ::clock_getcpuclockid(found->second->pid, &clock) != 0 ||
+      ::clock_gettime(clock, &time) != 0) {
+    return 0.0;
+  }
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double Supervisor::memory_share_mb(const std::string& program) const {
+  const auto found = children_.find(program);
+  if (found == children_.end()) return 0.0;
+  std::ifstream in("/proc/" + std::to_string(found->second->pid) + "/smaps_rollup");
+  double kilobytes = 0.0;
+  for (std::string word; in >> word;) {
+    if (word == "Pss:" && in >> kilobytes) break;
+  }
+  return kilobytes / 1024.0;
 }
 
 void Supervisor::send(const std::string& program, const std::string& line) {

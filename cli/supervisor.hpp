@@ -28,6 +28,7 @@ struct ExitStatus {
   int code = 0;
   int signal = 0;               ///< 0 unless a signal ended it
   double peak_memory_mb = 0.0;  ///< largest resident set, shared pages included
+  double cpu_s = 0.0;           ///< of all its threads, from its start to its end
   bool ok() const { return code == 0 && signal == 0; }
   /// "exit code 3" or "signal 11 (Segmentation fault)".
   std::string text() const;
@@ -69,6 +70,10 @@ class Supervisor {
   std::vector<Event> end_all(std::chrono::milliseconds grace);
 
   bool running(const std::string& program) const { return children_.contains(program); }
+  /// CPU time of a running program so far, all threads [s]; 0 when it does not run.
+  double cpu_s(const std::string& program) const;
+  /// Its share of the memory that it uses now [MB]: pages that several programs share count in parts (PSS).
+  double memory_share_mb(const std::string& program) const;
   /// Names of the programs that run, in the order of their names.
   std::vector<std::string> running() const;
 

@@ -47,6 +47,17 @@ class SupervisorTest : public ::testing::Test {
   Supervisor supervisor_;
 };
 
+TEST_F(SupervisorTest, ProcessorTimeIsToldWhileAProgramRunsAndAtItsEnd) {
+  supervisor_.start(shell("a", "i=0; while [ $i -lt 20000 ]; do i=$((i + 1)); done; echo >&3; read line <&4"));
+  EXPECT_EQ(supervisor_.wait(kForever).at(0).kind, Event::Kind::status_line);
+  const double so_far_s = supervisor_.cpu_s("a");
+  EXPECT_GT(so_far_s, 0.0);
+  EXPECT_GT(supervisor_.memory_share_mb("a"), 0.0);
+  supervisor_.send("a", "go");
+  EXPECT_GT(run_out().back().exit.cpu_s, 0.9 * so_far_s);
+  EXPECT_EQ(supervisor_.cpu_s("a"), 0.0);
+}
+
 TEST_F(SupervisorTest, StatusLinesComeBeforeTheExit) {
   supervisor_.start(shell("a", "echo one >&3; echo two >&3; exit 5"));
   const std::vector<Event> events = run_out();

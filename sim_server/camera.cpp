@@ -6,14 +6,8 @@
 #include "core/camera_quality.hpp"
 
 namespace skein::sim {
-namespace {
 
-ResolutionRule resolution_rule(const RulesConfig& rules) {
-  return rules.unnormalised_displacement ? ResolutionRule::contest : ResolutionRule::paper;
-}
-
-/// Whether the first thing on the way from the camera is the surface that the point lies on.
-bool visible(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world) {
+bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world) {
   const Vector3d ray = p_W - p_WC;
   const double distance = ray.norm();
   RayFilter filter;
@@ -22,8 +16,6 @@ bool visible(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, con
   const auto hit = world.first_hit(p_WC, ray, distance + 2.0 * Camera::kSurfaceTolerance, filter);
   return hit && std::abs(hit->distance - distance) <= Camera::kSurfaceTolerance;
 }
-
-}  // namespace
 
 bool Capture::improved() const { return std::ranges::any_of(detections, &Detection::improved); }
 
@@ -38,7 +30,7 @@ Camera::Camera(const CameraConfig& config, double desired_mm_per_pixel, const Ru
       best_(points.size(), 0.0F) {}
 
 Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world) {
-  const Exposure exposure(camera_state(body, gimbal, config_), config_, desired_mm_per_pixel_, resolution_rule(rules_));
+  const Exposure exposure(camera_state(body, gimbal, config_), config_, desired_mm_per_pixel_, rules_);
   const Vector3d& p_WC = exposure.position();
   // A first sieve in single precision, a hair wide: most points of a scene are out of reach.
   const Eigen::Vector3f centre = p_WC.cast<float>();
@@ -54,7 +46,7 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
     const auto p_C = exposure.view(p_W);
     const auto quality = p_C ? exposure.score(*p_C, points_[i].n_W.cast<double>()) : std::nullopt;
     // The ray comes last: it costs more than all formulas together.
-    if (!quality || quality->score() < rules_.min_point_score || !visible(p_WC, p_W, uav_, world)) {
+    if (!quality || quality->score() < rules_.min_point_score || !in_sight(p_WC, p_W, uav_, world)) {
       continue;
     }
     const double q = quality->score();

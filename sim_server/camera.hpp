@@ -12,6 +12,10 @@
 
 namespace skein::sim {
 
+/// Whether the first thing on the way from a camera is the surface that the point lies on: Camera's own test.
+/// @param own_uav  whose body does not hide; kNobody: every body does.
+bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world);
+
 /// One interest point in one capture.
 struct Detection {
   std::uint32_t point = 0;  ///< index of the interest point

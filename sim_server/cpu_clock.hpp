@@ -1,4 +1,4 @@
-// CPU time of this thread by kind of work.
+// CPU time of this thread by kind of work. What the thread does between its kinds of work is the exchange.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@ class CpuClock final : public WorkClock {
  public:
   void begin(Work work) override;
   void end(Work work) override;
-  /// Seconds by kind of work (`physics_s` is what the simulation did besides the others), and lidar_ms_per_scan.
+  /// Seconds by kind of work: `physics_s` is what the simulation did besides LiDAR, camera and links. Also the number of
+  /// scans and exposures that were computed, and lidar_ms_per_scan when there was one.
   nlohmann::json summary() const;
 
  private:
@@ -23,8 +24,5 @@ class CpuClock final : public WorkClock {
   };
   std::array<Account, kWorkKinds> accounts_{};
 };
-
-/// CPU time of the calling thread [s].
-double thread_cpu_s();
 
 }  // namespace skein::sim

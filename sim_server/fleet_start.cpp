@@ -51,17 +51,23 @@ Isometry3d draw_pose(const Scenario& scenario, const std::vector<UavStart>& draw
   return start_pose(uav, Vector2d::Zero());
 }
 
+[[noreturn]] void refuse_start(const Scenario& scenario, const UavConfig& uav, const std::string& why) {
+  std::ostringstream message;
+  message << scenario.file.string() << ": the start of " << uav.name << " at (" << uav.start.x() << ", "
+          << uav.start.y() << ") " << why << "; choose one that is clear of it";
+  throw InputError(message.str());
+}
+
 }  // namespace
 
-std::vector<UavStart> draw_fleet_start(const Scenario& scenario, std::uint64_t seed, const TouchesStructure& touches) {
+std::vector<UavStart> draw_fleet_start(const Scenario& scenario, std::uint64_t seed, const TouchesStructure& touches,
+                                       const IsEnclosed& enclosed) {
   std::vector<UavStart> starts;
   for (const UavConfig& uav : scenario.fleet) {
     UavStart start{.X_WB = start_pose(uav, Vector2d::Zero())};
-    if (touches(uav.vehicle, start.X_WB)) {
-      std::ostringstream message;
-      message << scenario.file.string() << ": the start of " << uav.name << " at (" << uav.start.x() << ", "
-              << uav.start.y() << ") lies in the structure; choose one that is clear of it";
-      throw InputError(message.str());
+    if (touches(uav.vehicle, start.X_WB)) refuse_start(scenario, uav, "lies in the structure");
+    if (enclosed(start.X_WB.translation())) {
+      refuse_start(scenario, uav, "is enclosed by the structure: no line of sight leads out of it");
     }
     if (seed != 0) {
       const std::size_t i = starts.size();

@@ -26,8 +26,12 @@ struct UavStart {
 /// Whether a vehicle at a pose touches the structure.
 using TouchesStructure = std::function<bool(const VehicleConfig&, const Isometry3d& X_WB)>;
 
+/// Whether the structure shuts in a place: see enclosure.hpp.
+using IsEnclosed = std::function<bool(const Vector3d& p_WB)>;
+
 /// One start per UAV, in fleet order. Pure.
-/// @throws InputError if a start in the scenario lies in the structure.
-std::vector<UavStart> draw_fleet_start(const Scenario& scenario, std::uint64_t seed, const TouchesStructure& touches);
+/// @throws InputError if a start in the scenario lies in the structure or is enclosed by it; it names the UAV.
+std::vector<UavStart> draw_fleet_start(const Scenario& scenario, std::uint64_t seed, const TouchesStructure& touches,
+                                       const IsEnclosed& enclosed);
 
 }  // namespace skein::sim

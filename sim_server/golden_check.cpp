@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "core/camera_quality.hpp"
@@ -15,8 +16,12 @@ namespace skein::sim {
 namespace {
 
 /// The reference's two vehicles, as far as its controllers know them.
-VehicleConfig reference_vehicle(const std::string& role) {
+VehicleConfig reference_vehicle(const GoldenTable& table, std::size_t row) {
+  const std::string& role = table.text(row, "role");
   VehicleConfig vehicle;
+  if (role != "explorer" && role != "photographer") {
+    throw InputError(table.place(row) + ": column 'role': '" + role + "'; explorer or photographer is expected");
+  }
   if (role == "photographer") {
     vehicle.role = Role::photographer;
     vehicle.inertia = {0.034756, 0.045893, 0.0977};
@@ -77,14 +82,6 @@ GoldenReport check_scoring(const GoldenTable& table) {
   return compare.report();
 }
 
-GimbalMode mode_of(const std::string& number) {
-  return number == "0" ? GimbalMode::freeze : number == "1" ? GimbalMode::angle : GimbalMode::rate;
-}
-
-std::string number_of(GimbalMode mode) {
-  return mode == GimbalMode::freeze ? "0" : mode == GimbalMode::angle ? "1" : "-1";
-}
-
 /// The flags that name the reference's quirks, either axis.
 struct GimbalQuirks {
   bool saturated = false, partial = false, stale = false;
@@ -101,36 +98,50 @@ struct GimbalQuirks {
   static constexpr double kRounding = 1e-12;  ///< [rad]
 };
 
+double number_of(GimbalMode mode) { return mode == GimbalMode::freeze ? 0.0 : mode == GimbalMode::angle ? 1.0 : -1.0; }
+
+/// A gimbal under test, and the tick that it expects next.
+struct GimbalSequence {
+  Gimbal gimbal;
+  double next_tick = 0.0;
+};
+
 GoldenReport check_gimbal(const GoldenTable& table) {
   constexpr Tolerance kTolerance{1e-8};
   GoldenComparison compare(table, "gimbal");
-  std::optional<Gimbal> gimbal;
+  std::map<std::string, GimbalSequence> sequences;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     compare.begin_row(row);
     const auto number = [&](const char* column) { return table.number(row, column); };
+    const std::string& id = table.text(row, "sequence_id");
     if (number("tick") == 0.0) {
-      gimbal.emplace(GimbalConfig{number("pitch_limit_deg"), number("yaw_limit_deg"), number("rate_limit_deg_s")},
-                     /*phantom_rate=*/true);
+      const GimbalConfig limits{number("pitch_limit_deg"), number("yaw_limit_deg"), number("rate_limit_deg_s")};
+      sequences.insert_or_assign(id, GimbalSequence{Gimbal(limits, /*phantom_rate=*/true)});
     }
-    if (!gimbal) throw InputError(table.place(row) + ": a gimbal sequence starts with tick 0");
-    const GimbalState before = gimbal->state();
+    const auto sequence = sequences.find(id);
+    if (sequence == sequences.end() || sequence->second.next_tick++ != number("tick")) {
+      throw InputError(table.place(row) + ": the ticks of a gimbal sequence are 0, 1, 2, ...");
+    }
+    Gimbal& gimbal = sequence->second.gimbal;
+    const GimbalState before = gimbal.state();
     compare.number("pitch_before", before.pitch, kTolerance);
     compare.number("yaw_before", before.yaw, kTolerance);
 
     std::optional<GimbalCommand> command;
     if (number("ticks_since_command") == 0.0) {
-      command = GimbalCommand{mode_of(table.text(row, "mode")), number("cmd_pitch"), number("cmd_yaw")};
+      command = GimbalCommand{gimbal_mode(number("mode")), number("cmd_pitch"), number("cmd_yaw")};
     }
-    gimbal->step(command);
-    const GimbalState& state = gimbal->state();
-    compare.text("effective_mode", number_of(gimbal->mode()));
+    gimbal.step(command);
+    const GimbalState& state = gimbal.state();
+    const double mode = number("effective_mode");  // any number of the same kind
+    compare.number("effective_mode", gimbal_mode(mode) == gimbal.mode() ? mode : number_of(gimbal.mode()), {});
     compare.number("pitch", state.pitch, kTolerance);
     compare.number("yaw", state.yaw, kTolerance);
     compare.number("pitch_rate", state.pitch_rate, kTolerance);
     compare.number("yaw_rate", state.yaw_rate, kTolerance);
     GimbalQuirks quirks;
-    quirks.add_axis(gimbal->mode(), before.pitch, state.pitch, state.pitch_rate);
-    quirks.add_axis(gimbal->mode(), before.yaw, state.yaw, state.yaw_rate);
+    quirks.add_axis(gimbal.mode(), before.pitch, state.pitch, state.pitch_rate);
+    quirks.add_axis(gimbal.mode(), before.yaw, state.yaw, state.yaw_rate);
     compare.flag("saturated_reference_quirk", quirks.saturated);
     compare.flag("partial_saturation_quirk", quirks.partial);
     compare.flag("stale_rate_quirk", quirks.stale);
@@ -138,12 +149,19 @@ GoldenReport check_gimbal(const GoldenTable& table) {
   return compare.report();
 }
 
-ControlMode control_mode(const std::string& name) {
-  return name == "hold" ? ControlMode::hold : name == "yaw_only" ? ControlMode::yaw_only : ControlMode::moving;
+ControlMode control_mode(const GoldenTable& table, std::size_t row) {
+  const std::string& name = table.text(row, "state_before");
+  for (const ControlMode mode : {ControlMode::hold, ControlMode::yaw_only, ControlMode::moving}) {
+    if (name == name_of(mode)) return mode;
+  }
+  throw InputError(table.place(row) + ": column 'state_before': '" + name + "'; hold, yaw_only or moving is expected");
 }
 
-std::string name_of(ControlMode mode) {
-  return mode == ControlMode::hold ? "hold" : mode == ControlMode::yaw_only ? "yaw_only" : "moving";
+/// An age in ticks that falls on the same side of the limit: younger, just as old, older.
+Tick age_of(double age_s) {
+  constexpr Tick kLimit = PositionController::kMaxAge;
+  if (age_s == seconds(kLimit)) return kLimit;
+  return age_s < seconds(kLimit) ? std::min(ticks(age_s), kLimit - 1) : std::max(ticks(age_s), kLimit + 1);
 }
 
 GoldenReport check_position_control(const GoldenTable& table) {
@@ -153,9 +171,9 @@ GoldenReport check_position_control(const GoldenTable& table) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     compare.begin_row(row);
     const auto number = [&](const char* column) { return table.number(row, column); };
-    PositionController controller(reference_vehicle(table.text(row, "role")).position_control);
+    PositionController controller(reference_vehicle(table, row).position_control);
     PositionController::Memory memory;
-    memory.mode = control_mode(table.text(row, "state_before"));
+    memory.mode = control_mode(table, row);
     memory.position_error_sum = table.vector(row, "pos_err_acc_");
     memory.yaw_error_sum = number("yaw_err_acc");
     controller.set_memory(memory);
@@ -165,10 +183,8 @@ GoldenReport check_position_control(const GoldenTable& table) {
     body.v_WB = table.vector(row, "vel_world_");
     const TrajectoryCommand command{table.vector(row, "cmd_p"), table.vector(row, "cmd_v"), table.vector(row, "cmd_a"),
                                     number("cmd_yaw")};
-    // Rounded up: an age of 0.1005 s is more than 40 ticks.
-    const auto age = static_cast<Tick>(std::ceil(number("command_age_s") / kTickS));
 
-    const ControlDemand demand = controller.step(body, command, age);
+    const ControlDemand demand = controller.step(body, command, age_of(number("command_age_s")));
     const auto& after = controller.memory();
     compare.text("state_after", name_of(after.mode));
     compare.vector("eff_cmd_p", after.command.p_WB, kPositionSum);
@@ -190,7 +206,7 @@ GoldenReport check_attitude_control(const GoldenTable& table) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     compare.begin_row(row);
     const auto number = [&](const char* column) { return table.number(row, column); };
-    AttitudeController controller(reference_vehicle(table.text(row, "role")));
+    AttitudeController controller(reference_vehicle(table, row));
     controller.set_integrators({number("roll_int"), number("pitch_int")});
     const ControlDemand demand{number("roll_cmd"), number("pitch_cmd"), number("yaw_rate_cmd"), number("thrust_cmd_N")};
 
@@ -252,8 +268,8 @@ GoldenReport check_los_antenna(const GoldenTable& table) {
     const LinkResult link = trace_link(from, to, obstacles);
     const LinkCounts counts = count_sight_lines(from, to, obstacles);
     compare.number("centre_distance", link.range, {1e-9});
-    compare.text("pairs_clear", std::to_string(counts.clear));
-    compare.text("pairs_within_tolerance", std::to_string(counts.within_tolerance));
+    compare.count("pairs_clear", counts.clear);
+    compare.count("pairs_within_tolerance", counts.within_tolerance);
     compare.flag("linked", link.linked);
   }
   return compare.report();

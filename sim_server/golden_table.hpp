@@ -12,16 +12,18 @@
 
 namespace skein::sim {
 
-/// A table in memory: a header row, then rows of as many cells.
+/// A table in memory: a header row, then rows of as many cells, in any order of columns. Empty lines and lines that
+/// begin with # are passed over, as are blanks and quotes around a cell, carriage returns and a mark of UTF-8.
 class GoldenTable {
  public:
-  /// @throws InputError if the file cannot be read or a row's length differs from the header's.
+  /// @throws InputError if the file cannot be read, has no rows, names a column twice, or a row's length differs from
+  ///         the header's.
   explicit GoldenTable(const std::filesystem::path& file);
 
   std::size_t rows() const { return rows_.size(); }
   bool has(const std::string& column) const { return columns_.count(column) > 0; }
   /// Line in the file of a row, counted from 1.
-  static std::size_t line(std::size_t row) { return row + 2; }
+  std::size_t line(std::size_t row) const { return lines_[row]; }
   /// "file:line" of a row, for messages.
   std::string place(std::size_t row) const { return file_.string() + ":" + std::to_string(line(row)); }
 
@@ -40,6 +42,7 @@ class GoldenTable {
   std::filesystem::path file_;
   std::unordered_map<std::string, std::size_t> columns_;  // looked up only, never walked through
   std::vector<std::vector<std::string>> rows_;
+  std::vector<std::size_t> lines_;  ///< of the rows in the file
 };
 
 struct Tolerance {
@@ -58,7 +61,9 @@ class GoldenComparison {
   void vector(const std::string& prefix, const Vector3d& computed, const Tolerance& tolerance);
   /// Angles that differ by whole turns are the same.
   void angle(const std::string& column, double computed, const Tolerance& tolerance);
+  /// 0 or 1.
   void flag(const std::string& column, bool computed);
+  void count(const std::string& column, int computed);
   void text(const std::string& column, const std::string& computed);
 
   const GoldenReport& report() const { return report_; }

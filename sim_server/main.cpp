@@ -3,12 +3,17 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <iostream>
+#include <thread>
 
 #include "bus/program_bus.hpp"
+#include "core/atomic_file.hpp"
 #include "core/program.hpp"
 #include "core/scenario_reader.hpp"
 #include "sim_server/golden_check.hpp"
+#include "sim_server/oracle_cache.hpp"
+#include "sim_server/scene_export.hpp"
 #include "sim_server/scenes/scene_source.hpp"
 #include "sim_server/sim_node.hpp"
 
@@ -19,6 +24,11 @@ struct ServerOptions {
   std::optional<double> stop_at_s;
   double agent_timeout_s = 60.0;
   std::vector<std::filesystem::path> golden;
+  std::filesystem::path export_scene;  ///< folder; empty: none
+  bool overwrite_export = false;
+  std::filesystem::path oracle;  ///< file for its answer; empty: it is not asked
+  double clearance_m = skein::sim::OracleConfig{}.clearance_m;
+  std::optional<double> oracle_patience_s;
 };
 
 std::optional<double> realtime_factor(const std::string& clock) {
@@ -48,6 +58,30 @@ int check_golden(const std::vector<std::filesystem::path>& files) {
   return passed ? skein::kExitDone : skein::kExitCheckFailed;
 }
 
+int export_scene(const skein::Scenario& scenario, const ServerOptions& server) {
+  const auto files = skein::sim::scene_export(scenario, skein::sim::load_scene(scenario));
+  skein::sim::write_export(files, server.export_scene, server.overwrite_export);
+  for (const skein::sim::ExportedFile& file : files) {
+    std::cout << (server.export_scene / file.path).string() << ": " << file.summary << '\n';
+  }
+  return skein::kExitDone;
+}
+
+int ask_oracle(const skein::Scenario& scenario, const ServerOptions& server) {
+  skein::sim::OracleRequest request;
+  request.config.clearance_m = server.clearance_m;
+  request.config.threads = std::max(1U, std::thread::hardware_concurrency());
+  request.patience_s = server.oracle_patience_s;
+  request.cache = skein::sim::user_cache_folder();
+  const skein::sim::OracleReply reply =
+      skein::sim::ask_oracle(scenario, skein::sim::load_scene(scenario), request);
+  for (const std::string& warning : reply.warnings) spdlog::warn("{}", warning);
+  const nlohmann::ordered_json answer =
+      reply.summary ? to_json(*reply.summary) : nlohmann::ordered_json{{"expected_s", reply.expected_s}};
+  skein::write_file_atomically(server.oracle, answer.dump(2) + "\n");
+  return skein::kExitDone;
+}
+
 // Orders of the launcher; they arrive on the pipe's own thread.
 void obey(skein::sim::SimNode& node, const std::string& line) {
   const std::string lost = "lost ";
@@ -63,6 +97,8 @@ void obey(skein::sim::SimNode& node, const std::string& line) {
 int run(const skein::ProgramOptions& options, const ServerOptions& server, skein::StopSignal& stop) {
   if (!server.golden.empty()) return check_golden(server.golden);
   const skein::Scenario scenario = skein::load_scenario(options.scenario, options.load_options());
+  if (!server.export_scene.empty()) return export_scene(scenario, server);
+  if (!server.oracle.empty()) return ask_oracle(scenario, server);
   skein::sim::SimNodeOptions node_options{.base_domain = options.domain,
                                           .out = options.out,
                                           .seed = options.seed,
@@ -95,6 +131,14 @@ int main(int argc, char** argv) {
     app.add_option("--agent-timeout", server.agent_timeout_s, "wall time to wait for a member [s], 0: for ever")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--golden", server.golden, "run reference vectors through the production code, then stop");
+    app.add_option("--export-scene", server.export_scene, "write the scene's files to this folder, then stop");
+    app.add_flag("--overwrite-export", server.overwrite_export, "replace the files of an earlier export");
+    app.add_option("--oracle", server.oracle, "write what is attainable in the scenario to this file, then stop");
+    app.add_option("--clearance", server.clearance_m, "with --oracle: of the camera from the structure [m]")
+        ->check(CLI::Range(0.0, 100.0))
+        ->capture_default_str();
+    app.add_option("--oracle-patience", server.oracle_patience_s,
+                   "with --oracle: no answer that takes longer to compute [s]");
   };
   return skein::run_program("sim_server", argc, argv, add_options,
                             [&](const auto& options, auto& stop) { return run(options, server, stop); });

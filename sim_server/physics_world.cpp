@@ -12,6 +12,8 @@
 #include <tuple>
 #include <utility>
 
+#include "sim_server/bullet_clearance.hpp"
+
 namespace skein::sim {
 namespace {
 
@@ -21,8 +23,13 @@ constexpr double kMargin = 0.001;
 // A rotor sweeps a disc. As thick as the travel of one tick at 10 m/s, so that no sheet of the structure passes
 // through it between two ticks.
 constexpr double kRotorDiscThickness = 0.025;
-// A UAV further from the structure than this need not be tested again until it has moved that far.
-constexpr double kClearance = 0.5;
+// A UAV is tested for contacts when its sphere comes nearer than this: far beyond the distance at which Bullet keeps
+// contact points, and more than the travel of a tick.
+constexpr double kContactReach = 0.15;
+// How far around that sphere the nearest triangle is looked for. Finding none, a UAV may fly so far untested.
+constexpr double kLookAround = 1.5;
+// With less room than this, looking for the nearest triangle at every tick would cost more than the test.
+constexpr double kLeastRoom = 0.02;
 // Triangles that lie in the ground plane are ground: the floor slab of a building is no obstacle to who lands there.
 constexpr float kGroundSlab = 0.01F;
 constexpr int kSolverIterations = 20;
@@ -85,14 +92,16 @@ struct UavBody {
   Vector3d inertia = Vector3d::Zero();
   bool pushed = false;  ///< a wrench acts during the coming tick
   int still_ticks = 0;
-  std::optional<btVector3> clear_at;  ///< here nothing of the structure was within kClearance
+  bool tested = false;                ///< for contacts with the structure, when last asked
+  std::optional<btVector3> clear_at;  ///< around here it cannot touch the structure ...
+  double room = 0.0;                  ///< ... as long as it is no farther away than this
 
   bool asleep() const { return body->getActivationState() == DISABLE_SIMULATION; }
   void wake() {
     body->forceActivationState(DISABLE_DEACTIVATION);
     still_ticks = 0;
   }
-  /// After a tick: whether to go on.
+  /// After a step: whether to go on.
   void fall_asleep_if_still() {
     const bool still =
         !pushed && body->getLinearVelocity().norm() < kStillSpeed && body->getAngularVelocity().norm() < kStillSpeed;
@@ -105,21 +114,21 @@ struct UavBody {
   }
 };
 
-/// Turns a body through one tick so that its angular momentum is kept: Bullet knows angular velocity only, and its own
+/// Turns a body through one step so that its angular momentum is kept: Bullet knows angular velocity only, and its own
 /// gyroscopic terms cost a spinning body 2 % of its energy in a second. Here Bullet turns the body at the velocity that
-/// belongs to the middle of the tick, and what its forces and contacts added to that is added to the momentum.
+/// belongs to the middle of the step, and what its forces and contacts added to that is added to the momentum.
 class MomentumKeeper {
  public:
-  explicit MomentumKeeper(UavBody& uav) : body_(*uav.body), inertia_(uav.inertia), R_WB_(rotation()) {
+  MomentumKeeper(UavBody& uav, double step_s) : body_(*uav.body), inertia_(uav.inertia), R_WB_(rotation()) {
     const Vector3d w_WB = to_eigen(body_.getAngularVelocity());
     L_W_ = momentum(R_WB_, w_WB);
-    const double half_turn = 0.5 * kTickS * w_WB.norm();
+    const double half_turn = 0.5 * step_s * w_WB.norm();
     const Matrix3d R_WM =
         half_turn > 0.0 ? Matrix3d(Eigen::AngleAxisd(half_turn, w_WB.normalized()).toRotationMatrix() * R_WB_) : R_WB_;
     w_middle_W_ = velocity(R_WM, L_W_);
     body_.setAngularVelocity(to_bullet(w_middle_W_));
   }
-  /// After the tick: the velocity that the momentum now amounts to.
+  /// After the step: the velocity that the momentum now amounts to.
   void finish() {
     L_W_ += momentum(R_WB_, to_eigen(body_.getAngularVelocity()) - w_middle_W_);
     body_.setAngularVelocity(to_bullet(velocity(rotation(), L_W_)));
@@ -145,15 +154,6 @@ class MomentumKeeper {
   Vector3d L_W_, w_middle_W_;
 };
 
-/// Notes whether any triangle touches the box that was asked for.
-struct AnyTriangle final : btTriangleCallback {
-  btVector3 low, high;
-  bool found = false;
-  void processTriangle(btVector3* triangle, int, int) override {
-    found = found || TestTriangleAgainstAabb2(triangle, low, high);
-  }
-};
-
 }  // namespace
 
 double rest_height(const VehicleConfig& vehicle) { return 0.5 * vehicle.collision_box_m.z(); }
@@ -163,11 +163,12 @@ double body_radius(const VehicleConfig& vehicle) {
 }
 
 struct PhysicsWorld::Impl {
-  explicit Impl(const TriangleMesh& mesh);
+  Impl(const TriangleMesh& mesh, double the_step_s);
   ~Impl();
 
   void add_static(btCollisionShape& shape, std::unique_ptr<btRigidBody>& body, int user_index);
   bool worth_testing(UavBody& uav, const btCollisionObject& other);
+  bool near_structure(UavBody& uav, const btVector3& centre) const;
   static void near_callback(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info);
   BodyId identify(const btCollisionObject& object) const;
   void step();
@@ -190,10 +191,11 @@ struct PhysicsWorld::Impl {
   std::unique_ptr<btBvhTriangleMeshShape> structure_shape;
   std::unique_ptr<btRigidBody> structure;
   std::vector<UavBody> uavs;
-  std::vector<MomentumKeeper> keepers;  ///< of the tick under way
+  std::vector<MomentumKeeper> keepers;  ///< of the step under way
+  const double step_s;
 };
 
-PhysicsWorld::Impl::Impl(const TriangleMesh& mesh) {
+PhysicsWorld::Impl::Impl(const TriangleMesh& mesh, double the_step_s) : step_s(the_step_s) {
   world.setGravity(btVector3(0, 0, -kWorldGravity));
   world.setForceUpdateAllAabbs(false);
   world.getDispatchInfo().m_deterministicOverlappingPairs = true;
@@ -235,20 +237,21 @@ void PhysicsWorld::Impl::add_static(btCollisionShape& shape, std::unique_ptr<btR
 }
 
 bool PhysicsWorld::Impl::worth_testing(UavBody& uav, const btCollisionObject& other) {
-  const btVector3& centre = uav.body->getWorldTransform().getOrigin();
   // Bullet refreshes a pair's contact points only when it tests the pair. Skipping is safe as the distances at which
   // it begins are far beyond those at which points are kept.
-  if (other.getUserIndex() == kGroundIndex) return centre.z() < uav.radius + kClearance;
-  if (other.getUserIndex() != kStructureIndex) return true;
-  if (uav.clear_at && uav.clear_at->distance2(centre) < kClearance * kClearance) return false;
-  AnyTriangle near;
-  const double reach = uav.radius + 2.0 * kClearance;
-  near.low = centre - btVector3(reach, reach, reach);
-  near.high = centre + btVector3(reach, reach, reach);
-  structure_shape->processAllTriangles(&near, near.low, near.high);
+  const btVector3& centre = uav.body->getWorldTransform().getOrigin();
+  if (other.getUserIndex() == kGroundIndex) return centre.z() < uav.radius + kContactReach;
+  return other.getUserIndex() != kStructureIndex || near_structure(uav, centre);
+}
+
+bool PhysicsWorld::Impl::near_structure(UavBody& uav, const btVector3& centre) const {
+  if (uav.clear_at && uav.clear_at->distance2(centre) < uav.room * uav.room) return false;
+  const double sphere = uav.radius + kContactReach;
   uav.clear_at.reset();
-  if (!near.found) uav.clear_at = centre;
-  return near.found;
+  uav.room = clearance(*structure_shape, to_eigen(centre), sphere + kLookAround) - sphere;
+  if (uav.room > kLeastRoom) uav.clear_at = centre;
+  // One test more where there is room again, so that Bullet drops what it remembers.
+  return std::exchange(uav.tested, !uav.clear_at) || uav.tested;
 }
 
 void PhysicsWorld::Impl::near_callback(btBroadphasePair& pair, btCollisionDispatcher& dispatcher,
@@ -264,9 +267,9 @@ void PhysicsWorld::Impl::near_callback(btBroadphasePair& pair, btCollisionDispat
 void PhysicsWorld::Impl::step() {
   keepers.clear();
   for (UavBody& uav : uavs) {
-    if (!uav.asleep()) keepers.emplace_back(uav);
+    if (!uav.asleep()) keepers.emplace_back(uav, step_s);
   }
-  world.stepSimulation(kTickS, 0);
+  world.stepSimulation(step_s, 0);
   for (MomentumKeeper& keeper : keepers) keeper.finish();
   for (UavBody& uav : uavs) {
     if (!uav.asleep()) uav.fall_asleep_if_still();
@@ -322,7 +325,7 @@ void PhysicsWorld::Impl::wake_who_was_hit(const std::vector<Contact>& contacts) 
   }
 }
 
-PhysicsWorld::PhysicsWorld(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
+PhysicsWorld::PhysicsWorld(const TriangleMesh& mesh, double step_s) : impl_(std::make_unique<Impl>(mesh, step_s)) {}
 PhysicsWorld::~PhysicsWorld() = default;
 
 void PhysicsWorld::add_uav(const VehicleConfig& vehicle, const Isometry3d& X_WB) {

@@ -1,5 +1,5 @@
 // Rigid bodies, gravity and contacts (Bullet, double precision, one thread): the same calls give the same bits.
-// Frames: W world (ENU), B body (FLU).  Units: SI.  A tick is kTickS = 2.5 ms.
+// Frames: W world (ENU), B body (FLU).  Units: SI.  A tick is kTickS = 2.5 ms, and one step of the integration.
 #pragma once
 
 #include <memory>
@@ -39,7 +39,8 @@ double body_radius(const VehicleConfig& vehicle);
 class PhysicsWorld {
  public:
   /// @param mesh  double-sided, in W; must outlive the world. Triangles within 1 cm of z = 0 count as ground.
-  explicit PhysicsWorld(const TriangleMesh& mesh);
+  /// @param step_s  another step than a tick, to see what the step does to a result; tick() then takes such a step.
+  explicit PhysicsWorld(const TriangleMesh& mesh, double step_s = kTickS);
   ~PhysicsWorld();
   PhysicsWorld(const PhysicsWorld&) = delete;
   PhysicsWorld& operator=(const PhysicsWorld&) = delete;

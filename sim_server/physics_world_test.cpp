@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "sim_server/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {
@@ -154,6 +157,38 @@ TEST(PhysicsWorld, ReportsAWallAtEverySpeedAndFromBothSides) {
       EXPECT_TRUE(touched) << speed;
     }
   }
+}
+
+TEST(PhysicsWorld, MissesNoTouchOnTheWay) {
+  // Contacts are only looked for where the structure is near. Whatever a body overlaps at the beginning of a tick must
+  // be a contact of that tick, however it came there: tumbling through loose triangles, from far away, fast or slow.
+  const TriangleMesh mesh = test::random_triangles(400, 11);
+  const VehicleConfig vehicle = photographer();
+  RandomStream random(4, "flights", 0);
+  int touches = 0, flights_that_touch = 0;
+  for (int flight = 0; flight < 30; ++flight) {
+    PhysicsWorld world(mesh);
+    const Vector3d start = test::random_in_box(random, {-40, -40, 5}, {40, 40, 40});
+    world.add_uav(vehicle, at(start.x(), start.y(), start.z()));
+    const double speed = flight % 2 == 0 ? 12.0 : 1.5;
+    world.set_state(0, {.p_WB = start,
+                        .v_WB = speed * (Vector3d(0, 0, 8) - start).normalized(),
+                        .w_WB_B = 3.0 * test::random_unit(random)});
+    int here = 0;
+    for (int i = 0; i < 1200 && here < 20; ++i) {
+      const bool overlaps = world.touches_structure(vehicle, world.state(0).X_WB());
+      world.apply_wrench(0, {0, 0, vehicle.mass_kg * kWorldGravity}, Vector3d::Zero());
+      world.tick();
+      if (!overlaps) continue;
+      ++here;
+      const auto is_structure = [](const Contact& c) { return c.other.kind == BodyId::Kind::structure; };
+      ASSERT_TRUE(std::ranges::any_of(world.contacts(), is_structure)) << "flight " << flight << ", tick " << i;
+    }
+    touches += here;
+    flights_that_touch += here > 0;
+  }
+  EXPECT_GT(touches, 60);
+  EXPECT_GT(flights_that_touch, 8);
 }
 
 TEST(PhysicsWorld, AnticipatesNoContactBeyondTheSurface) {

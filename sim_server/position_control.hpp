@@ -4,6 +4,7 @@
 // world's origin that means "none") are the reference's; docs/rules.md lists them.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "core/scenario.hpp"
@@ -25,6 +26,13 @@ enum class ControlMode {
   moving,
   stopped,  ///< no thrust, for good
 };
+constexpr std::array<EnumName<ControlMode>, 5> enum_names(ControlMode) {
+  return {{{"idle", ControlMode::idle},
+           {"hold", ControlMode::hold},
+           {"yaw_only", ControlMode::yaw_only},
+           {"moving", ControlMode::moving},
+           {"stopped", ControlMode::stopped}}};
+}
 
 /// One UAV's controller. Not thread-safe.
 class PositionController {

@@ -34,6 +34,13 @@ std::string collided_with(const Collision& collision, const Scenario& scenario) 
 
 }  // namespace
 
+std::string describe(const Collision& collision, const Scenario& scenario) {
+  const Vector3d& p = collision.p_W;
+  return fmt::format("{} collided with {} at {:.4f} s, at ({:.2f}, {:.2f}, {:.2f}): it is out",
+                     scenario.fleet[collision.uav].name, collided_with(collision, scenario), seconds(collision.tick),
+                     p.x(), p.y(), p.z());
+}
+
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest)
     : folder_(folder),
       scenario_(scenario),
@@ -127,6 +134,7 @@ void RunFiles::write_report(const Simulation& simulation, const RunSummary& summ
         {{"member", lost.name}, {"step", lost.step}, {"time_s", seconds(lost.tick)}, {"reason", lost.reason}});
   }
   json["warnings"] = summary.warnings;
+  json["malformed"] = summary.malformed;
   json["timing"] = summary.timing;
   write_file_atomically(folder_ / "sim_server.report.json", json.dump(2) + "\n");
 }

@@ -32,8 +32,12 @@ struct RunSummary {
   std::vector<Collision> collisions;
   std::vector<LostProcess> lost;
   std::vector<std::string> warnings;
+  std::uint64_t malformed = 0;  ///< samples received that were no message of their topic's type
   nlohmann::json timing;  ///< CPU time by kind of work
 };
+
+/// Who, with what, when and where: a line for the log.
+std::string describe(const Collision& collision, const Scenario& scenario);
 
 class RunFiles {
  public:

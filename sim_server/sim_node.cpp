@@ -6,9 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/lockstep/names.hpp"
+#include "core/thread_cpu.hpp"
 #include "core/topics.hpp"
 #include "idl/conversions.hpp"
 #include "sim_server/referee.hpp"
+#include "sim_server/scene_warnings.hpp"
 
 namespace skein::sim {
 namespace {
@@ -77,6 +79,10 @@ void SimNode::report_lost(const std::string& name) {
 
 RunSummary SimNode::run() {
   files_.write_scene(simulation_.scene());
+  for (std::string& warning : scene_warnings(simulation_.scene())) {
+    spdlog::warn("{}", warning);
+    summary_.warnings.push_back(std::move(warning));
+  }
   const bool joined = wait_for_members();
   const auto started = Clock::now();
   const double cpu_before_s = thread_cpu_s();
@@ -97,6 +103,7 @@ RunSummary SimNode::run() {
   summary_.wall_time_s = elapsed_s(started);
   summary_.timing = clock_.summary();
   summary_.timing["cpu_s"] = thread_cpu_s() - cpu_before_s;
+  summary_.malformed = inbox_.malformed();
   summary_.status = end_status();
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
   if (options_.realtime_factor || summary_.status == "interrupted" || aborted_) summary_.deterministic = false;
@@ -162,9 +169,13 @@ bool SimNode::is_last_step() const {
 }
 
 void SimNode::publish_step() {
+  server_.hold();
   const StepEvents& events = simulation_.events();
   publish_ledger(simulation_.referee().ledger(), events.ledger_begin);
-  for (const Collision& collision : events.collisions) summary_.collisions.push_back(collision);
+  for (const Collision& collision : events.collisions) {
+    spdlog::warn("{}", describe(collision, scenario_));
+    summary_.collisions.push_back(collision);
+  }
   for (const auto& uav : uavs_) uav->publish();
 
   const Tick tick = simulation_.tick();
@@ -195,7 +206,7 @@ void SimNode::publish_ledger(const std::vector<LedgerEntry>& entries, std::size_
 bool SimNode::wait_for_answers() {
   auto waiting_since = Clock::now();
   while (!server_.answered()) {
-    if (!inbox_.dispatch(kIdlePoll)) report_progress(false);
+    if (!inbox_.dispatch(kIdlePoll, server_.rings())) report_progress(false);
     if (aborted_) return false;
     if (options_.agent_timeout_s > 0 && elapsed_s(waiting_since) > options_.agent_timeout_s) {
       std::vector<std::string> silent = server_.awaited();
@@ -212,6 +223,7 @@ bool SimNode::wait_for_answers() {
 }
 
 void SimNode::finish_step() {
+  const WorkSection section(&clock_, Work::recording);
   DigestInput input = simulation_.digest_input();
   input.radio = server_.routed_digest();
   input.tally = server_.station_digest();

@@ -6,6 +6,7 @@
 
 #include "sim_server/antenna_link.hpp"
 #include "sim_server/command_link.hpp"
+#include "sim_server/enclosure.hpp"
 #include "sim_server/fleet_start.hpp"
 #include "sim_server/physics_world.hpp"
 #include "sim_server/ray_scene.hpp"
@@ -59,6 +60,7 @@ struct Simulation::Impl {
   void take_scans();
   void finish_exchange();
   void trace_links();
+  bool in_range(Node from, Node to, double distance_m) const;
   void refresh_rays();
   void reject(std::size_t uav, RejectionEvent::Command command, std::string reason);
   bool listening(std::size_t uav) const { return mission.alive(uav) && mission.phase() != Phase::ended; }
@@ -90,7 +92,8 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
   const auto touches = [this](const VehicleConfig& vehicle, const Isometry3d& X_WB) {
     return world.touches_structure(vehicle, X_WB);
   };
-  const std::vector<UavStart> starts = draw_fleet_start(scenario, the_seed, touches);
+  const auto enclosed = [this](const Vector3d& p_WB) { return is_enclosed(rays, p_WB); };
+  const std::vector<UavStart> starts = draw_fleet_start(scenario, the_seed, touches, enclosed);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const VehicleConfig& vehicle = scenario.fleet[i].vehicle;
     world.add_uav(vehicle, starts[i].X_WB);
@@ -249,9 +252,18 @@ void Simulation::Impl::trace_links() {
         return rays.first_hit_distance(from, to, filter);
       };
       const bool linked = trace_link(antenna(a), antenna(b), first_hit).linked;
-      links[a * nodes + b] = links[b * nodes + a] = linked ? 1 : 0;
+      const double distance_m = (antenna(a).p_W - antenna(b).p_W).norm();
+      links[a * nodes + b] = linked && in_range(a, b, distance_m);
+      links[b * nodes + a] = linked && in_range(b, a, distance_m);
     }
   }
+}
+
+bool Simulation::Impl::in_range(Node from, Node to, double distance_m) const {
+  return std::none_of(scenario.links.begin(), scenario.links.end(), [&](const LinkEffect& effect) {
+    return effect.range_m && distance_m > *effect.range_m && names_node(effect.from, scenario.node_name(from)) &&
+           names_node(effect.to, scenario.node_name(to));
+  });
 }
 
 void Simulation::Impl::refresh_rays() {

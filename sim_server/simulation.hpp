@@ -89,8 +89,8 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// A set-point for a UAV. Of several within one exchange the last acceptable one counts. Refused, and told in
-  /// events().rejections, if a number is not finite or, with rules.enforce_command_limits, if it is beyond the
-  /// vehicle's speed or acceleration. Dead UAVs and an ended mission ignore it silently.
+  /// events().rejections, if a number is not finite or, with rules.reject_commands_beyond_limits, if it is
+  /// beyond the vehicle's speed, acceleration or yaw rate. Dead UAVs and an ended mission ignore it silently.
   /// @returns false when refused.
   bool command_trajectory(std::size_t uav, const TrajectoryCommand& command);
   /// A gimbal command; refused only if a number is not finite.
@@ -116,7 +116,8 @@ class Simulation {
   const Mission& mission() const;
   const UavView& uav(std::size_t i) const;
   std::span<const UavView> uavs() const;
-  /// Row-major (n + 1) x (n + 1), 1 = linked, node 0 = station. Symmetric, diagonal 0; the dead have no links.
+  /// Row-major (n + 1) x (n + 1), from sender to receiver, 1 = linked, node 0 = station; the dead have
+  /// no links. Symmetric unless the scenario limits the range of some links.
   const std::vector<std::uint8_t>& links() const;
   const StepEvents& events() const;
   const Referee& referee() const;

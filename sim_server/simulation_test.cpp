@@ -100,6 +100,9 @@ TEST_F(Field, FlyingIntoTheWallKillsAndIsLogged) {
   EXPECT_LE(collisions[0].tick, seen_at);
   ASSERT_FALSE(sim.referee().ledger().empty());
   EXPECT_TRUE(sim.referee().ledger().back().collision);
+  EXPECT_EQ(sim.referee().ledger().back().tick, collisions[0].tick);
+  EXPECT_GT(sim.uav(0).captures, 10U);
+  EXPECT_EQ(sim.referee().earned().score(), 0.0) << "only UAVs without a collision count";
   EXPECT_EQ(sim.mission().end(), MissionEnd::nobody_flies);
   EXPECT_LT(sim.uav(0).state.p_WB.z(), 1.5) << "the wreck falls";
 }
@@ -232,6 +235,18 @@ TEST_F(Field, LinksAreSymmetricAndTheWallBlocksThem) {
                                             1, 0, 0,  //
                                             0, 0, 0};
   EXPECT_EQ(sim.links(), wanted);
+}
+
+TEST_F(Field, LinksEndAtTheirRange) {
+  add("explorer", 0, 0);
+  add("photographer", 8, 0);
+  LinkEffect short_way_back;
+  short_way_back.from = {scenario_.fleet[1].name};
+  short_way_back.range_m = 7.0;
+  scenario_.links = {short_way_back};
+  const Simulation& sim = start();
+  EXPECT_EQ(sim.links()[1 * 3 + 2], 1);
+  EXPECT_EQ(sim.links()[2 * 3 + 1], 0) << "8 m";
 }
 
 TEST_F(Field, StoppedUavFallsAndIsNotDead) {

@@ -61,24 +61,19 @@ UavNode::UavNode(std::size_t uav, const Scenario& scenario, Simulation& simulati
     cloud_ = &server.writer(domain, bus::spec(topics::cloud(id_)));
     self_keyframe_ = &server.writer(domain, bus::spec(topics::self_keyframe(id_)));
   }
-  server.read(domain, bus::spec(topics::trajectory_command(id_)), [this](bus::Sample&& sample) {
-    msg::MultiDOFJointTrajectory trajectory;
-    if (!decode(sample.payload, trajectory)) return;
-    if (const auto command = from_trajectory(trajectory)) simulation_.command_trajectory(uav_, *command);
-  });
-  server.read(domain, bus::spec(topics::gimbal_command(id_)), [this](bus::Sample&& sample) {
-    msg::Twist twist;
-    if (decode(sample.payload, twist)) simulation_.command_gimbal(uav_, from_gimbal_command(twist));
+  server.read<msg::MultiDOFJointTrajectory>(
+      domain, bus::spec(topics::trajectory_command(id_)), [this](const msg::MultiDOFJointTrajectory& trajectory) {
+        if (const auto command = from_trajectory(trajectory)) simulation_.command_trajectory(uav_, *command);
+      });
+  server.read<msg::Twist>(domain, bus::spec(topics::gimbal_command(id_)), [this](const msg::Twist& twist) {
+    simulation_.command_gimbal(uav_, from_gimbal_command(twist));
   });
   for (const topics::WireTopic& topic : {topics::camera_trigger(id_), topics::trigger(id_)}) {
-    server.read(domain, bus::spec(topic), [this](bus::Sample&& sample) {
-      msg::BoolStamped trigger;
-      if (decode(sample.payload, trigger) && trigger.data()) simulation_.trigger_camera(uav_);
+    server.read<msg::BoolStamped>(domain, bus::spec(topic), [this](const msg::BoolStamped& trigger) {
+      if (trigger.data()) simulation_.trigger_camera(uav_);
     });
   }
-  server.read(domain, bus::spec(topics::capture_stored()), [this](bus::Sample&& sample) {
-    msg::CaptureAck ack;
-    if (!decode(sample.payload, ack)) return;
+  server.read<msg::CaptureAck>(domain, bus::spec(topics::capture_stored()), [this](const msg::CaptureAck& ack) {
     for (const std::uint64_t capture : ack.captures()) card_.erase(capture);
   });
 }

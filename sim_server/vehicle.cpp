@@ -7,14 +7,14 @@
 
 namespace skein::sim {
 
-Rotors::Rotors(const VehicleConfig& vehicle)
+Rotors::Rotors(const VehicleConfig& vehicle, double step_s)
     : force_constant_(vehicle.rotor_force_constant),
       moment_constant_(vehicle.rotor_moment_constant),
       drag_(vehicle.rotor_drag),
       rolling_moment_(vehicle.rolling_moment),
       max_speed_(vehicle.rotor_max_speed),
-      blend_up_(1.0 - std::exp(-kTickS / vehicle.motor_time_constant_up_s)),
-      blend_down_(1.0 - std::exp(-kTickS / vehicle.motor_time_constant_down_s)) {
+      blend_up_(1.0 - std::exp(-step_s / vehicle.motor_time_constant_up_s)),
+      blend_down_(1.0 - std::exp(-step_s / vehicle.motor_time_constant_down_s)) {
   for (std::size_t i = 0; i < kRotors; ++i) {
     const double angle = (30.0 + 60.0 * static_cast<double>(i)) * kRadPerDeg;
     p_BR_[i] = {vehicle.arm_m * std::cos(angle), vehicle.arm_m * std::sin(angle), vehicle.rotor_height_m};
@@ -44,11 +44,11 @@ Wrench Rotors::wrench(const RigidBodyState& state) const {
   return sum;
 }
 
-Vehicle::Vehicle(const VehicleConfig& vehicle, const RulesConfig& rules)
+Vehicle::Vehicle(const VehicleConfig& vehicle, const RulesConfig& rules, double step_s)
     : guard_(vehicle, rules),
       position_control_(vehicle.position_control),
       attitude_control_(vehicle),
-      rotors_(vehicle),
+      rotors_(vehicle, step_s),
       gimbal_(vehicle.gimbal, rules.phantom_gimbal_rate) {}
 
 void Vehicle::control(Tick tick, const RigidBodyState& state, const std::optional<TrajectoryCommand>& command,
@@ -69,11 +69,16 @@ void Vehicle::control(Tick tick, const RigidBodyState& state, const std::optiona
     guard_.reset();
   }
   demand_ = position_control_.step(state, new_command, age);
+  demand_.yaw_rate = guard_.limit_yaw_rate(demand_.yaw_rate);
 }
 
-Wrench Vehicle::step(const RigidBodyState& state) {
+void Vehicle::control_attitude(const RigidBodyState& state) {
   const bool powered = mode() != ControlMode::idle && mode() != ControlMode::stopped;
-  rotors_.step(powered ? attitude_control_.step(state.q_WB, state.w_WB_B, demand_) : RotorSpeeds{});
+  rotor_demand_ = powered ? attitude_control_.step(state.q_WB, state.w_WB_B, demand_) : RotorSpeeds{};
+}
+
+Wrench Vehicle::fly(const RigidBodyState& state) {
+  rotors_.step(rotor_demand_);
   return rotors_.wrench(state);
 }
 

@@ -31,16 +31,17 @@ struct Wrench {
 /// Modular Gazebo MAV Simulator Framework", 2016).
 class Rotors {
  public:
-  explicit Rotors(const VehicleConfig& vehicle);
+  /// @param step_s  time that a step takes.
+  explicit Rotors(const VehicleConfig& vehicle, double step_s = kTickS);
 
-  /// One tick towards the demanded speeds; no rotor exceeds its greatest speed.
+  /// One step towards the demanded speeds; no rotor exceeds its greatest speed.
   void step(const RotorSpeeds& demand);
   Wrench wrench(const RigidBodyState& state) const;
   const RotorSpeeds& speeds() const { return speeds_; }
 
  private:
   double force_constant_, moment_constant_, drag_, rolling_moment_, max_speed_;
-  double blend_up_, blend_down_;  ///< share of the way to the demand covered in a tick
+  double blend_up_, blend_down_;  ///< share of the way to the demand covered in a step
   std::array<Vector3d, kRotors> p_BR_;
   RotorSpeeds speeds_{};
 };
@@ -48,7 +49,8 @@ class Rotors {
 /// Not thread-safe.
 class Vehicle {
  public:
-  Vehicle(const VehicleConfig& vehicle, const RulesConfig& rules);
+  /// @param step_s  step of the physics: kTickS, or a whole part of it, with several calls of fly() a tick.
+  Vehicle(const VehicleConfig& vehicle, const RulesConfig& rules, double step_s = kTickS);
 
   /// Why a command must be ignored; see CommandGuard.
   std::optional<std::string> refuse(const TrajectoryCommand& command, const RigidBodyState& state) const {
@@ -61,14 +63,25 @@ class Vehicle {
   void control(Tick tick, const RigidBodyState& state, const std::optional<TrajectoryCommand>& command,
                const std::optional<GimbalCommand>& gimbal_command);
 
-  /// Attitude loop and motors: every tick. @returns the wrench during the coming tick.
-  Wrench step(const RigidBodyState& state);
+  /// Attitude loop: every tick.
+  void control_attitude(const RigidBodyState& state);
+  /// Motors: every step of the physics. @returns the wrench during the coming step.
+  Wrench fly(const RigidBodyState& state);
+  /// Both, where a step is a tick.
+  Wrench step(const RigidBodyState& state) {
+    control_attitude(state);
+    return fly(state);
+  }
 
   /// Cut the motors, for good.
   void stop() { position_control_.stop(); }
 
   const GimbalState& gimbal() const { return gimbal_.state(); }
   ControlMode mode() const { return position_control_.memory().mode; }
+  /// What the trajectory controller asked for in its last step, the vehicle's yaw rate considered.
+  const ControlDemand& demand() const { return demand_; }
+  /// Acceleration that it asked for; z includes gravity [m/s^2].
+  const Vector3d& target_acceleration() const { return position_control_.target_acceleration(); }
   const RotorSpeeds& rotor_speeds() const { return rotors_.speeds(); }
 
  private:
@@ -80,6 +93,7 @@ class Vehicle {
   std::optional<TrajectoryCommand> command_;  ///< the last that arrived
   Tick command_tick_ = 0;
   ControlDemand demand_;
+  RotorSpeeds rotor_demand_{};
 };
 
 }  // namespace skein::sim

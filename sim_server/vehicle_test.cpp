@@ -4,60 +4,18 @@
 
 #include <cmath>
 #include <ctime>
-#include <functional>
 #include <iostream>
 
 #include "core/euler.hpp"
-#include "core/scenario_reader.hpp"
-#include "sim_server/physics_world.hpp"
+#include "sim_server/test_flight.hpp"
 
 namespace skein::sim {
 namespace {
 
-VehicleConfig vehicle_named(const std::string& name) {
-  return load_vehicle(name, std::filesystem::path(SKEIN_SOURCE_DIR) / "config");
-}
-
-/// One UAV over open ground.
-class Flight {
- public:
-  explicit Flight(const VehicleConfig& config, double height = 50.0, const RulesConfig& rules = {})
-      : config_(config), vehicle_(config, rules) {
-    world_.add_uav(config, Isometry3d(Eigen::Translation3d(0.0, 0.0, height)));
-  }
-  using Pilot = std::function<std::optional<TrajectoryCommand>(double t)>;
-  /// Flies on for a time; `pilot` is asked at every control step, `watch` looks on after every tick.
-  void fly(
-      double duration_s, const Pilot& pilot, const std::function<void()>& watch = [] {}) {
-    for (const Tick end = tick_ + ticks(duration_s); tick_ < end; ++tick_) {
-      const RigidBodyState& state = world_.state(0);
-      if (tick_ % kControlTicks == 0) vehicle_.control(tick_, state, pilot(seconds(tick_)), std::nullopt);
-      const Wrench wrench = vehicle_.step(state);
-      world_.apply_wrench(0, state.q_WB * wrench.force_B, state.q_WB * wrench.torque_B);
-      world_.tick();
-      watch();
-    }
-  }
-  const RigidBodyState& state() const { return world_.state(0); }
-  Vehicle& vehicle() { return vehicle_; }
-  PhysicsWorld& world() { return world_; }
-  double thrust() const {
-    double sum = 0.0;
-    for (const double speed : vehicle_.rotor_speeds()) sum += config_.rotor_force_constant * speed * speed;
-    return sum;
-  }
-
- private:
-  VehicleConfig config_;
-  PhysicsWorld world_{{}};
-  Vehicle vehicle_;
-  Tick tick_ = 0;
-};
-
-Flight::Pilot hover_at(const Vector3d& p_WB, double yaw = 0.0) {
-  return [=](double) { return TrajectoryCommand{.p_WB = p_WB, .yaw = yaw}; };
-}
-std::optional<TrajectoryCommand> silent(double) { return std::nullopt; }
+using test::Flight;
+using test::hover_at;
+using test::silent;
+using test::vehicle_named;
 
 class VehicleKinds : public testing::TestWithParam<const char*> {
  protected:
@@ -116,52 +74,6 @@ TEST_P(VehicleKinds, RestsUntilTheFirstCommand) {
   EXPECT_LT((flight.state().p_WB - Vector3d(0, 0, rest_height(config_))).norm(), 1e-3);
 }
 
-TEST_P(VehicleKinds, HoversWithItsWeight) {
-  Flight flight(config_);
-  flight.fly(25.0, hover_at({1, 2, 50.5}));
-  EXPECT_NEAR(flight.thrust(), config_.mass_kg * kWorldGravity, 0.01 * config_.mass_kg * kWorldGravity);
-  EXPECT_LT(flight.state().v_WB.norm(), 0.02);
-  EXPECT_LT((flight.state().p_WB - Vector3d(1, 2, 50.5)).norm(), 0.05);
-}
-
-TEST_P(VehicleKinds, StepSettlesLikeItsNaturalFrequency) {
-  // The law itself, applied to a point mass that obeys at once, against the whole vehicle, whose tilt and motors cost a
-  // little.
-  const PositionControlConfig& law = config_.position_control;
-  const double omega = law.omega_xy, step = 0.5;
-  Flight flight(config_);
-  flight.fly(20.0, hover_at({1, 0, 50}));
-
-  double x = 1.0, v = 0.0, a = 0.0, error_sum = 0.0, worst = 0.0, farthest = 0.0;
-  Tick tick = 0;
-  flight.fly(8.0, hover_at({1 + step, 0, 50}), [&] {
-    if (tick++ % kControlTicks == 0) {
-      error_sum += 1 + step - x;
-      a = omega * omega * (1 + step - x) - 2.0 * law.zeta_xy * omega * v + law.ki_xy * error_sum;
-    }
-    v += a * kTickS;
-    x += v * kTickS;
-    worst = std::max(worst, std::abs(flight.state().p_WB.x() - x));
-    farthest = std::max(farthest, flight.state().p_WB.x());
-  });
-  EXPECT_LT(worst, 0.2 * step);
-  EXPECT_LT(farthest - 1.0, 1.2 * step);
-  EXPECT_NEAR(flight.state().p_WB.x(), x, 0.02);
-}
-
-TEST_P(VehicleKinds, TiltStaysWithinItsLimit) {
-  RulesConfig rules;
-  rules.enforce_command_limits = false;
-  Flight flight(config_, 50.0, rules);
-  double steepest = 0.0;
-  flight.fly(3.0, hover_at({100, 60, 50}), [&] {
-    const RollPitchYaw rpy = roll_pitch_yaw(flight.state().q_WB.toRotationMatrix());
-    steepest = std::max({steepest, std::abs(rpy.roll), std::abs(rpy.pitch)});
-  });
-  EXPECT_GT(steepest, 0.3);
-  EXPECT_LT(steepest, 1.1 * config_.position_control.max_tilt_deg * kRadPerDeg);
-}
-
 TEST_P(VehicleKinds, TurnsToTheCommandedYaw) {
   Flight flight(config_);
   double fastest = 0.0;
@@ -180,17 +92,6 @@ TEST_P(VehicleKinds, HoldsWhereACommandLapsed) {
   flight.fly(10.0, silent);
   EXPECT_LT(flight.state().v_WB.norm(), 0.05);
   EXPECT_NEAR(flight.state().p_WB.x(), x, 1.0);
-}
-
-TEST_P(VehicleKinds, FallsFreelyAfterStop) {
-  Flight flight(config_, 200.0);
-  flight.fly(5.0, hover_at({1, 0, 200}));
-  flight.vehicle().stop();
-  flight.fly(0.5, hover_at({1, 0, 200}));  // the motors run down
-  const double v0 = flight.state().v_WB.z();
-  flight.fly(2.0, hover_at({1, 0, 200}));
-  EXPECT_NEAR(flight.state().v_WB.z() - v0, -2.0 * kWorldGravity, 1e-3);
-  EXPECT_LT(flight.thrust(), 1e-6);
 }
 
 TEST_P(VehicleKinds, FarPositionIsReachedWithinTheLimits) {

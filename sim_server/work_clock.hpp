@@ -9,8 +9,9 @@ enum class Work {
   lidar,       ///< one scan
   camera,      ///< one exposure
   links,       ///< the radio matrix of one step
+  recording,   ///< digest and files of one step; no part of the simulation
 };
-inline constexpr int kWorkKinds = 4;
+inline constexpr int kWorkKinds = 5;
 
 class WorkClock {
  public:

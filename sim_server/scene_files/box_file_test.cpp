@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <iterator>
 
+#include "core/random_stream.hpp"
 #include "sim_server/scene_files/mesh_file.hpp"
 #include "sim_server/scene_files/scratch_files.hpp"
 
@@ -70,7 +71,53 @@ TEST_F(BoxFile, SaysWhatIsWrong) {
   EXPECT_NE(wrong(with("size: [100", "sise: [100")).find("did you mean 'size'?"), std::string::npos);
 }
 
-TEST_F(BoxFile, DamageIsHarmless) { expect_only_input_errors(kBoxes, read_boxes); }
+TEST_F(BoxFile, NoRotationIsShownByItsNumbers) {
+  const auto wrong = [&](const std::string& row) {
+    return complaint(read_boxes, write("x.yaml", with("[1, 0, 0, 0,  0, 1, 0, 0,", row)));
+  };
+  EXPECT_NE(wrong("[1, 0.1, 0, 0,  0, 1, 0, 0,").find("lengths 1, 1.00499, 1 where 1 is needed, and products"),
+            std::string::npos);
+  EXPECT_NE(wrong("[1, 0.1, 0, 0,  0, 1, 0, 0,").find(" 0.1, 0, 0 where 0 is needed"), std::string::npos);
+  EXPECT_NE(wrong("[0, 0, 0, 0,  0, 0, 0, 0,").find("lengths 0, 0, 1"), std::string::npos);
+  EXPECT_NE(wrong("[0, 1, 0, 0,  1, 0, 0, 0,")
+                .find("x.yaml:13: deck.orientation: the upper left 3x3 must be "
+                      "right-handed: its determinant is -1"),
+            std::string::npos);
+}
+
+TEST_F(BoxFile, WhatIsWrittenReadsBackBitForBit) {
+  std::vector<OrientedBox> boxes;
+  for (int i = 0; i < 20; ++i) {
+    RandomStream random(1, "boxes", static_cast<std::uint64_t>(i));
+    const auto draw = [&](double least, double most) {
+      return Vector3d(random.uniform(least, most), random.uniform(least, most), random.uniform(least, most));
+    };
+    const double angle = random.uniform(-3.0, 3.0);
+    const Vector3d axis = i % 2 ? Vector3d(Vector3d::UnitZ()) : Vector3d(draw(-1.0, 1.0).normalized());
+    boxes.push_back({"box " + std::to_string(i) + (i % 3 ? "" : ": no"), draw(-50.0, 50.0), draw(1e-3, 100.0),
+                     Eigen::AngleAxisd(angle, axis).toRotationMatrix()});
+  }
+  const auto read = read_boxes(write("b.yaml", to_box_description(boxes)));
+  ASSERT_EQ(read.size(), boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    EXPECT_EQ(read[i].name, boxes[i].name);
+    EXPECT_EQ(read[i].center, boxes[i].center);
+    EXPECT_EQ(read[i].size, boxes[i].size);
+    EXPECT_EQ(read[i].R_WO, boxes[i].R_WO) << i;
+  }
+}
+
+TEST_F(BoxFile, TheSurfaceIsClosedAndOutward) {
+  const OrientedBox box{"b", {1, 2, 3}, {4, 5, 6}, Eigen::AngleAxisd(0.7, Vector3d::UnitX()).toRotationMatrix()};
+  const TriangleMesh mesh = box_surface(box);
+  double volume = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    volume +=
+        mesh.vertices[a].cast<double>().dot(mesh.vertices[b].cast<double>().cross(mesh.vertices[c].cast<double>())) /
+        6.0;
+  }
+  EXPECT_NEAR(volume, 4.0 * 5.0 * 6.0, 1e-3);
+}
 
 /// The meshes box*.stl beside the official file show where the boxes really are.
 TEST_F(BoxFile, OfficialBoxesStandWhereTheirMeshesDo) {

@@ -1,5 +1,6 @@
 #include "sim_server/scene_files/mesh_file.hpp"
 
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -79,10 +80,13 @@ TEST_F(MeshFile, SaysWhatIsWrong) {
   EXPECT_NE(wrong("not a mesh").find("too short"), std::string::npos);
   EXPECT_NE(wrong(binary_stl({})).find("has no triangles"), std::string::npos);
   EXPECT_NE(wrong("solid nothing\nendsolid nothing\n").find("has no triangles"), std::string::npos);
-  EXPECT_NE(wrong(binary.substr(0, binary.size() - 60)).find("truncated: its head promises 3 triangles"),
+  EXPECT_NE(wrong(binary.substr(0, binary.size() - 60)).find("truncated, or not an STL file: its head promises 3"),
             std::string::npos);
   EXPECT_NE(wrong(ascii.substr(0, ascii.size() - 40)).find("truncated"), std::string::npos);
-  EXPECT_NE(wrong(binary + "more").find("not an STL file"), std::string::npos);
+  EXPECT_NE(wrong(binary + "more").find("a binary STL has 234 bytes, not 238"), std::string::npos);
+  const std::string says_solid = binary_stl(kTriangles, "solid, but binary");
+  EXPECT_NE(wrong(says_solid.substr(0, says_solid.size() - 1)).find("truncated, or not an STL file"),
+            std::string::npos);
   auto bad = kTriangles;
   bad[1][2].y() = std::numeric_limits<float>::quiet_NaN();
   EXPECT_NE(wrong(binary_stl(bad)).find("triangle 1 has a vertex that is not finite"), std::string::npos);
@@ -91,17 +95,89 @@ TEST_F(MeshFile, SaysWhatIsWrong) {
 }
 
 TEST_F(MeshFile, RefusesAnAbsurdNumberOfTriangles) {
-  std::string bytes = binary_stl({});
-  const std::uint32_t count = 5'000'001;
-  std::memcpy(bytes.data() + 80, &count, sizeof count);
-  const auto file = write("huge.stl", bytes);
-  std::filesystem::resize_file(file, 84 + 50ull * count);  // sparse
-  EXPECT_NE(complaint(read_mesh, file).find("more than the 5000000"), std::string::npos);
+  for (const std::uint32_t count : {2'000'001u, 10'000'000u}) {
+    std::string bytes = binary_stl({});
+    std::memcpy(bytes.data() + 80, &count, sizeof count);
+    const auto file = write("huge.stl", bytes);
+    std::filesystem::resize_file(file, 84 + 50ull * count);  // sparse
+    EXPECT_NE(complaint(read_mesh, file).find("has " + std::to_string(count) + " triangles, more than the 2000000"),
+              std::string::npos);
+  }
 }
 
-TEST_F(MeshFile, DamageIsHarmless) {
-  expect_only_input_errors(binary_stl(kTriangles), read_mesh);
-  expect_only_input_errors(ascii_stl(kTriangles), read_mesh);
+TEST_F(MeshFile, AsciiMayBeWrittenInManyWays) {
+  const std::string text =
+      "\n SOLID facet of a house\r\n"
+      "FACET NORMAL nan nan -nan(ind)\r\nouter loop\r\nvertex +0 0 0\r\nvertex 1.0E0 0 1e-60\r\n"
+      "vertex -0.0 1e0 0\r\nendloop\r\nendfacet\r\nendsolid\r\nsolid another\nendsolid another\n";
+  const TriangleMesh mesh = read_mesh(write("a.stl", text));
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.vertices[1], Eigen::Vector3f(1, 0, 0));
+  EXPECT_EQ(mesh.vertices[2], Eigen::Vector3f(0, 1, 0));
+}
+
+/// Whatever way they are written in, whole part and decimals as far as 64 bits or beyond.
+TEST_F(MeshFile, AsciiNumbersAreReadToOneUnitInTheLastPlace) {
+  for (const char* number :
+       {"0.1", "-0.1", "1.23456789e-3", "-98765.4321", "123456789012345678901234567890e-26",
+        "1000000000000000000000e-20", "0.0000000000000000000000000000123e30", "99999.99",
+        "3.14159265358979323846264338327950288", "1E+4", "7.", ".5", "0.001e0000000000000000000000001", "2.5e-7"}) {
+    std::string text = ascii_stl({kTriangles[0]});
+    text.replace(text.find("vertex 1 0 0"), 12, std::string("vertex 1 ") + number + " 0");
+    const float expected = std::strtof(number, nullptr), read = read_mesh(write("n.stl", text)).vertices.at(1).y();
+    EXPECT_GE(read, std::nextafter(expected, -1e9F)) << number;
+    EXPECT_LE(read, std::nextafter(expected, 1e9F)) << number;
+  }
+}
+
+TEST_F(MeshFile, HeadAndAttributesOfABinaryFileDoNotMatter) {
+  using namespace std::string_literals;
+  for (const std::string& head : {"\xef\xbb\xbf with a byte order mark"s, "\xff\xfe"s, "\xff\xfe\0\0"s, "\xfe\xff"s,
+                                  std::string(74, ' ') + "COLOR=", "COLOR=\xff\xff\xff\xff"s}) {
+    std::string bytes = binary_stl(kTriangles, head);
+    for (std::size_t end = 84 + 50; end <= bytes.size(); end += 50) bytes.replace(end - 2, 2, "\xff\xff");
+    expect_triangles(read_mesh(write("h.stl", bytes)));
+  }
+}
+
+TEST_F(MeshFile, AsciiSaysWhereItIsWrong) {
+  const std::string ascii = ascii_stl(kTriangles);
+  const auto wrong = [&](const std::string& old, const std::string& replacement) {
+    std::string text = ascii;
+    return complaint(read_mesh, write("x.stl", text.replace(text.find(old), old.size(), replacement)));
+  };
+  EXPECT_NE(wrong("vertex 1 0 0", "vertex 1 0,5 0").find("x.stl:5: not an ASCII STL: a number is needed, not '0,5'"),
+            std::string::npos);
+  EXPECT_NE(wrong("vertex 1 0 0", "vertex 1 0").find("x.stl:6: not an ASCII STL: a number is needed, not 'vertex'"),
+            std::string::npos);
+  EXPECT_NE(wrong("    endloop", "      vertex 1 1 1\n    endloop").find("'endloop' is needed, not 'vertex'"),
+            std::string::npos);
+  EXPECT_NE(wrong("vertex 1 0 0", "vertex nan 0 0").find("triangle 0 has a vertex that is not finite"),
+            std::string::npos);
+  EXPECT_NE(wrong("vertex 1 0 0", "vertex 1e39 0 0").find("triangle 0 has a vertex that is not finite"),
+            std::string::npos);
+  EXPECT_NE(wrong("vertex 1 0 0", "vertex 2e5 0 0").find("triangle 0 has a vertex farther than 100 km"),
+            std::string::npos);
+}
+
+TEST_F(MeshFile, TrianglesWithoutAreaStay) {
+  auto triangles = kTriangles;
+  triangles[1] = {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
+  triangles[2] = {{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}};
+  EXPECT_EQ(read_mesh(write("d.stl", binary_stl(triangles))).triangles.size(), 3u);
+}
+
+TEST_F(MeshFile, WhatIsWrittenReadsBackBitForBit) {
+  TriangleMesh shared{{{0, 0, 0}, {1e-30F, -0.0F, 3}, {0.1F, 2, 3}, {4, 5, 6}}, {{2, 1, 0}, {1, 3, 2}, {0, 0, 0}}};
+  const TriangleMesh read = read_mesh(write("m.stl", to_stl(shared)));
+  ASSERT_EQ(read.triangles.size(), shared.triangles.size());
+  for (std::size_t t = 0; t < read.triangles.size(); ++t) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Eigen::Vector3f &a = read.vertices[read.triangles[t][corner]],
+                            &b = shared.vertices[shared.triangles[t][corner]];
+      EXPECT_EQ(std::memcmp(a.data(), b.data(), sizeof a), 0) << t;
+    }
+  }
 }
 
 TEST_F(MeshFile, ReadsTheOfficialMeshes) {

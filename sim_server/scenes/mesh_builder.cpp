@@ -1,9 +1,12 @@
 #include "sim_server/scenes/mesh_builder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+
+#include "core/euler.hpp"
 
 namespace skein::sim {
 namespace {
@@ -47,6 +50,13 @@ Polygon rectangle(const Vector2d& center, const Vector2d& size, double chamfer) 
           {x1 - c, y1}, {x0 + c, y1}, {x0, y1 - c}, {x0, y0 + c}};
 }
 
+Isometry3d standing_at(const Vector2d& p_W, double heading) {
+  Isometry3d X = Isometry3d::Identity();
+  X.translation() << p_W, 0.0;
+  X.linear() = rotation_z(heading);
+  return X;
+}
+
 std::uint32_t MeshBuilder::add_vertex(const Vector3d& p) {
   mesh_.vertices.push_back(p.cast<float>());
   return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
@@ -54,6 +64,11 @@ std::uint32_t MeshBuilder::add_vertex(const Vector3d& p) {
 
 void MeshBuilder::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   mesh_.triangles.push_back({a, b, c});
+}
+
+void MeshBuilder::add_quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+  add_triangle(a, b, c);
+  add_triangle(a, c, d);
 }
 
 void MeshBuilder::add_loft(std::span<const Ring> rings, const std::optional<Vector3d>& first_apex,
@@ -74,8 +89,7 @@ void MeshBuilder::add_loft(std::span<const Ring> rings, const std::optional<Vect
   };
   for (std::size_t ring = 0; ring + 1 < rings.size(); ++ring) {
     for (std::size_t i = 0; i < n; ++i) {
-      add_triangle(corner(ring, i), corner(ring, i + 1), corner(ring + 1, i + 1));
-      add_triangle(corner(ring, i), corner(ring + 1, i + 1), corner(ring + 1, i));
+      add_quad(corner(ring, i), corner(ring, i + 1), corner(ring + 1, i + 1), corner(ring + 1, i));
     }
   }
   const std::uint32_t first = add_vertex(first_apex.value_or(centre(rings.front())));
@@ -83,6 +97,42 @@ void MeshBuilder::add_loft(std::span<const Ring> rings, const std::optional<Vect
   for (std::size_t i = 0; i < n; ++i) {
     add_triangle(first, corner(0, i + 1), corner(0, i));
     add_triangle(last, corner(rings.size() - 1, i), corner(rings.size() - 1, i + 1));
+  }
+}
+
+void MeshBuilder::add_sheet(std::span<const Ring> front, std::span<const Ring> back) {
+  const std::size_t rows = front.size(), columns = rows == 0 ? 0 : front[0].size();
+  if (rows < 2 || columns < 2) throw std::invalid_argument("a sheet needs two rows and two columns");
+  const auto fits = [&](const Ring& row) { return row.size() == columns; };
+  if (back.size() != rows || !std::ranges::all_of(front, fits) || !std::ranges::all_of(back, fits)) {
+    throw std::invalid_argument("a sheet's rows must have equally many points");
+  }
+
+  const auto base = static_cast<std::uint32_t>(mesh_.vertices.size());
+  const auto other_side = static_cast<std::uint32_t>(rows * columns);
+  for (const auto& side : {front, back}) {
+    for (const Ring& row : side) {
+      for (const Vector3d& p : row) add_vertex(p);
+    }
+  }
+  const auto at = [&](std::size_t row, std::size_t column) {
+    return base + static_cast<std::uint32_t>(row * columns + column);
+  };
+  for (std::size_t r = 0; r + 1 < rows; ++r) {
+    for (std::size_t c = 0; c + 1 < columns; ++c) {
+      const std::uint32_t quad[] = {at(r, c), at(r, c + 1), at(r + 1, c + 1), at(r + 1, c)};
+      add_quad(quad[0], quad[1], quad[2], quad[3]);
+      add_quad(quad[3] + other_side, quad[2] + other_side, quad[1] + other_side, quad[0] + other_side);
+    }
+  }
+  std::vector<std::uint32_t> rim;  // once around, as the front turns
+  for (std::size_t c = 0; c + 1 < columns; ++c) rim.push_back(at(0, c));
+  for (std::size_t r = 0; r + 1 < rows; ++r) rim.push_back(at(r, columns - 1));
+  for (std::size_t c = columns - 1; c > 0; --c) rim.push_back(at(rows - 1, c));
+  for (std::size_t r = rows - 1; r > 0; --r) rim.push_back(at(r, 0));
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const std::uint32_t from = rim[i], to = rim[(i + 1) % rim.size()];
+    add_quad(to, from, from + other_side, to + other_side);
   }
 }
 

@@ -20,6 +20,9 @@ Polygon regular_polygon(int corners, double radius, double phase = 0.0);
 /// Axis-aligned rectangle about `center`, its corners cut off by `chamfer`; counter-clockwise. Pure.
 Polygon rectangle(const Vector2d& center, const Vector2d& size, double chamfer = 0.0);
 
+/// The frame of a structure that stands on the ground: origin at z = 0, turned about z. Pure.
+Isometry3d standing_at(const Vector2d& p_W, double heading);
+
 /// Collects shapes. Vertices are kept in single precision, as every mesh has them.
 class MeshBuilder {
  public:
@@ -29,6 +32,11 @@ class MeshBuilder {
   /// @throws std::invalid_argument for fewer than two rings, fewer than three corners, or unequal rings.
   void add_loft(std::span<const Ring> rings, const std::optional<Vector3d>& first_apex = std::nullopt,
                 const std::optional<Vector3d>& last_apex = std::nullopt);
+
+  /// A curved sheet between two grids of points, closed along its rim. A grid is a list of rows of equally many points;
+  /// (along a row) x (from row to row) points out of the front. The back lies behind the front, point by point.
+  /// @throws std::invalid_argument for fewer than two rows or columns, or unequal ones.
+  void add_sheet(std::span<const Ring> front, std::span<const Ring> back);
 
   /// A polygon of the local xy plane, extruded from z0 up to z1.
   void add_prism(const Isometry3d& X_WL, const Polygon& polygon, double z0, double z1);
@@ -51,6 +59,7 @@ class MeshBuilder {
  private:
   std::uint32_t add_vertex(const Vector3d& p);
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  void add_quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
 
   TriangleMesh mesh_;
 };

@@ -74,6 +74,25 @@ TEST(MeshBuilder, DomeIsHalfAnEllipsoid) {
   EXPECT_NEAR(volume(builder.mesh()), 2.0 / 3.0 * std::numbers::pi * 24.0, 0.3);
 }
 
+TEST(MeshBuilder, SheetIsClosedAndAsThickAsItsGridsAreApart) {
+  std::vector<Ring> front, back;
+  for (int row = 0; row <= 8; ++row) {
+    front.emplace_back();
+    back.emplace_back();
+    for (int column = 0; column <= 5; ++column) {
+      const Vector3d p(column, row, 0.3 * row * row - 0.2 * column);
+      front.back().push_back(somewhere() * p);
+      back.back().push_back(somewhere() * Vector3d(p - Vector3d(0, 0, 0.5)));
+    }
+  }
+  MeshBuilder builder;
+  builder.add_sheet(front, back);
+  EXPECT_TRUE(is_closed(builder.mesh()));
+  EXPECT_NEAR(volume(builder.mesh()), 5.0 * 8.0 * 0.5, 1e-2);
+  EXPECT_THROW(builder.add_sheet(front, std::vector<Ring>{front[0]}), std::invalid_argument);
+  EXPECT_THROW(builder.add_sheet(std::vector<Ring>{front[0]}, std::vector<Ring>{back[0]}), std::invalid_argument);
+}
+
 TEST(MeshBuilder, BadLoftsAreRefused) {
   MeshBuilder builder;
   const Ring three(3, Vector3d::Zero()), four(4, Vector3d::Zero());

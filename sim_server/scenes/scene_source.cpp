@@ -5,8 +5,13 @@
 
 #include "core/scene_families.hpp"
 #include "sim_server/scene_files/box_file.hpp"
+#include "sim_server/scene_files/limits.hpp"
 #include "sim_server/scene_files/mesh_file.hpp"
 #include "sim_server/scene_files/point_file.hpp"
+#include "sim_server/scenes/cranes.hpp"
+#include "sim_server/scenes/hangar.hpp"
+#include "sim_server/scenes/sail.hpp"
+#include "sim_server/scenes/spire.hpp"
 #include "sim_server/scenes/towers.hpp"
 
 namespace skein::sim {
@@ -14,7 +19,8 @@ namespace {
 
 /// One line a family, as in core/scene_families.cpp.
 const std::map<std::string, Scene (*)(std::uint64_t scene_seed)> kBuilders = {
-    {"towers", &make_towers},
+    {"towers", &make_towers}, {"hangar", &make_hangar}, {"cranes", &make_cranes},
+    {"sail", &make_sail},     {"spire", &make_spire},
 };
 
 Scene make_family(const Scenario& scenario) {
@@ -38,7 +44,12 @@ void append(TriangleMesh& all, const TriangleMesh& part) {
 Scene load_scene(const Scenario& scenario) {
   if (!scenario.scene.family.empty()) return make_family(scenario);
   Scene scene;
-  for (const auto& file : scenario.scene.meshes) append(scene.mesh, read_mesh(file));
+  for (const auto& file : scenario.scene.meshes) {
+    append(scene.mesh, read_mesh(file));
+    if (scene.mesh.triangles.size() <= kMostTriangles) continue;
+    throw InputError(scenario.file.string() + ": scene.meshes: together they have more than the " +
+                     std::to_string(kMostTriangles) + " triangles that are accepted; simplify them");
+  }
   scene.points = read_points(scenario.scene.points);
   scene.boxes = read_boxes(scenario.scene.boxes);
   return scene;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/random_stream.hpp"
+#include "sim_server/ray_scene.hpp"
 
 namespace skein::sim {
 namespace {
@@ -14,8 +15,9 @@ constexpr double kLowest = 0.3;                 ///< points below this height ar
 constexpr double kCovered = 0.4;                ///< another solid this close in front hides a point
 constexpr double kFreeView = 4.5;               ///< length of a view that counts as free
 constexpr double kViewHeight = 0.8;             ///< a view must not end lower than this
+constexpr double kViewRoom = 0.6;               ///< around the end of a view, for a UAV
 constexpr double kViewTilt = 0.7;               ///< tangent of the angle at which slanted views leave the surface
-constexpr double kFirstProbe = 0.1, kNearStep = 0.1, kFarStep = 0.3;  ///< along a view
+constexpr double kLift = 0.001;                 ///< by which views start off the surface; thinner gaps count as none
 
 Vector3d vertex(const TriangleMesh& mesh, std::uint32_t index) { return mesh.vertices[index].cast<double>(); }
 
@@ -79,25 +81,34 @@ class SolidQuery {
   std::vector<std::vector<std::uint32_t>> columns_;
 };
 
-bool free_way(const SolidQuery& solids, const Vector3d& p, const Vector3d& direction, double length, double step) {
-  for (double s = kFirstProbe; s < length + 0.5 * step; s += step) {
-    if (!solids.outside(p + s * direction)) return false;
-  }
-  return true;
-}
+/// Whether cameras some metres off could see places on the surfaces: straight on, or slantwise. Rays are exact, so that
+/// thin members are neither missed nor seen through.
+class ViewQuery {
+ public:
+  explicit ViewQuery(const TriangleMesh& mesh) : solids_(mesh), rays_(mesh) {}
 
-/// Whether a camera some metres off could see the point: straight on, or slantwise.
-bool can_be_seen(const SolidQuery& solids, const Vector3d& p, const Vector3d& n) {
-  if (p.z() < kLowest || !free_way(solids, p, n, kCovered, kNearStep)) return false;
-  const Vector3d helper = std::abs(n.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX();
-  const Vector3d u = helper.cross(n).normalized(), v = n.cross(u);
-  for (const Vector3d& lean : {Vector3d(0, 0, 0), u, Vector3d(-u), v, Vector3d(-v)}) {
-    const Vector3d direction = (n + kViewTilt * lean).normalized();
-    if (p.z() + kFreeView * direction.z() < kViewHeight) continue;
-    if (free_way(solids, p, direction, kFreeView, kFarStep)) return true;
+  bool can_be_seen(const Vector3d& p, const Vector3d& n) const {
+    const Vector3d from = p + kLift * n;
+    if (p.z() < kLowest || !solids_.outside(from) || !free_way(from, n, kCovered)) return false;
+    const Vector3d helper = std::abs(n.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX();
+    const Vector3d u = helper.cross(n).normalized(), v = n.cross(u);
+    for (const Vector3d& lean : {Vector3d(0, 0, 0), u, Vector3d(-u), v, Vector3d(-v)}) {
+      const Vector3d direction = (n + kViewTilt * lean).normalized();
+      const Vector3d camera = from + kFreeView * direction;
+      if (camera.z() < kViewHeight || !free_way(from, direction, kFreeView)) continue;
+      if (rays_.clearance(camera, kViewRoom) > kViewRoom) return true;
+    }
+    return false;
   }
-  return false;
-}
+
+ private:
+  bool free_way(const Vector3d& from, const Vector3d& direction, double length) const {
+    return !rays_.first_hit(from, direction, length, {.ground = false, .uavs = false});
+  }
+
+  SolidQuery solids_;
+  RayScene rays_;
+};
 
 /// Points drawn uniformly by area from the triangles; those that count as seen, in the order of drawing.
 class Candidates {
@@ -111,7 +122,7 @@ class Candidates {
       area_up_to.push_back(area);
     }
     if (area <= 0.0) return;
-    const SolidQuery solids(mesh);
+    const ViewQuery views(mesh);
     RandomStream random(seed, "surface_sampling", 0);
     std::size_t draws = 0;
     for (; draws < kDrawsPerCandidate * wanted && points.size() < wanted; ++draws) {
@@ -124,7 +135,7 @@ class Candidates {
       const Vector3d p = (1.0 - root) * a + root * (1.0 - share) * b + root * share * c;
       const Vector3d n = (b - a).cross(c - a).normalized();
       const auto holds = [&](const OrientedBox& box) { return box.contains(p); };
-      if (std::any_of(boxes.begin(), boxes.end(), holds) && can_be_seen(solids, p, n)) {
+      if (std::any_of(boxes.begin(), boxes.end(), holds) && views.can_be_seen(p, n)) {
         points.push_back({p.cast<float>(), n.cast<float>()});
       }
     }
@@ -138,22 +149,24 @@ class Candidates {
 /// Accepted points by grid cell, to ask whether one is near.
 class Neighbours {
  public:
-  Neighbours(const std::vector<InterestPoint>& all, double cell) : cell_(cell) {
-    for (const auto& point : all) extent_.extend(point.p_W);
+  Neighbours(const Eigen::AlignedBox3f& extent, double cell) : cell_(cell), extent_(extent) {
     size_ = (extent_.sizes().cast<double>() / cell).cast<int>() + Eigen::Vector3i::Ones();
     cells_.resize(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()) *
                   static_cast<std::size_t>(size_.z()));
   }
 
+  /// Those on the far side of a thin wall or member do not count.
   /// @param radius  at most the cell's edge.
-  bool any_within(const Eigen::Vector3f& p, double radius) const {
-    const Eigen::Vector3i at = cell_of(p);
+  bool any_within(const InterestPoint& point, double radius) const {
+    const Eigen::Vector3i at = cell_of(point.p_W);
     const Eigen::Vector3i low = (at.array() - 1).max(0), high = (at.array() + 1).min(size_.array() - 1);
     for (int z = low.z(); z <= high.z(); ++z) {
       for (int y = low.y(); y <= high.y(); ++y) {
         for (int x = low.x(); x <= high.x(); ++x) {
-          for (const auto& q : cells_[index({x, y, z})]) {
-            if ((p - q).cast<double>().squaredNorm() < radius * radius) return true;
+          for (const InterestPoint& other : cells_[index({x, y, z})]) {
+            const bool back_to_back = point.n_W.dot(other.n_W) < -0.5f;
+            const double distance_sq = (point.p_W - other.p_W).cast<double>().squaredNorm();
+            if (!back_to_back && distance_sq < radius * radius) return true;
           }
         }
       }
@@ -161,7 +174,7 @@ class Neighbours {
     return false;
   }
 
-  void add(const Eigen::Vector3f& p) { cells_[index(cell_of(p))].push_back(p); }
+  void add(const InterestPoint& point) { cells_[index(cell_of(point.p_W))].push_back(point); }
 
  private:
   Eigen::Vector3i cell_of(const Eigen::Vector3f& p) const {
@@ -174,26 +187,60 @@ class Neighbours {
   double cell_;
   Eigen::AlignedBox3f extent_;
   Eigen::Vector3i size_;
-  std::vector<std::vector<Eigen::Vector3f>> cells_;
+  std::vector<std::vector<InterestPoint>> cells_;
 };
+
+/// A number by which places near to each other come near to each other (Morton's order).
+std::uint64_t place_in_order(const Vector3d& share) {
+  constexpr int kBits = 10;
+  std::uint64_t key = 0;
+  for (int bit = kBits - 1; bit >= 0; --bit) {
+    for (const double s : share) key = 2 * key + (static_cast<std::uint64_t>(s * ((1 << kBits) - 1)) >> bit & 1);
+  }
+  return key;
+}
+
+/// For each candidate the region that it lies in. Regions hold equally many candidates, so equal areas.
+std::vector<std::size_t> regions(const std::vector<InterestPoint>& candidates, const Eigen::AlignedBox3f& extent,
+                                 std::size_t count) {
+  const double edge = std::max(1e-9, static_cast<double>(extent.sizes().maxCoeff()));
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    order.emplace_back(place_in_order((candidates[i].p_W - extent.min()).cast<double>() / edge), i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> region(candidates.size());
+  for (std::size_t rank = 0; rank < order.size(); ++rank) region[order[rank].second] = rank * count / order.size();
+  return region;
+}
 
 }  // namespace
 
 std::vector<InterestPoint> sample_surface(const TriangleMesh& mesh, std::span<const OrientedBox> boxes,
                                           std::size_t count, std::uint64_t seed) {
-  // Darts keep their distance; whenever no more fit, the distance shrinks a little, until there are enough.
+  // Darts keep their distance; whenever no more fit, the distance shrinks a little, until there are enough. As thin
+  // members have room for more darts than their area is worth, each region takes but its share.
   constexpr double kFirstDistance = 0.85, kShrink = 0.96, kLastDistance = 0.3;  // of the mean spacing
+  constexpr std::size_t kPointsPerRegion = 20;
   std::vector<InterestPoint> chosen;
   const Candidates candidates(mesh, boxes, count * kCandidatesPerPoint, seed);
   if (candidates.points.empty()) return chosen;
+  Eigen::AlignedBox3f extent;
+  for (const InterestPoint& point : candidates.points) extent.extend(point.p_W);
+  const std::size_t region_count = std::max<std::size_t>(1, count / kPointsPerRegion);
+  const std::vector<std::size_t> region = regions(candidates.points, extent, region_count);
+  std::vector<std::size_t> room(region_count);
+  for (std::size_t i = 0; i < region_count; ++i) room[i] = (i + 1) * count / region_count - i * count / region_count;
+
   const double spacing = std::sqrt(candidates.visible_area / static_cast<double>(count));
-  Neighbours neighbours(candidates.points, kFirstDistance * spacing);
+  Neighbours neighbours(extent, kFirstDistance * spacing);
   for (double share = kFirstDistance; share > kLastDistance; share *= kShrink) {
-    for (const InterestPoint& point : candidates.points) {
-      if (chosen.size() == count) return chosen;
-      if (neighbours.any_within(point.p_W, share * spacing)) continue;
-      neighbours.add(point.p_W);
+    for (std::size_t i = 0; i < candidates.points.size(); ++i) {
+      const InterestPoint& point = candidates.points[i];
+      if (room[region[i]] == 0 || neighbours.any_within(point, share * spacing)) continue;
+      neighbours.add(point);
       chosen.push_back(point);
+      --room[region[i]];
     }
   }
   return chosen;

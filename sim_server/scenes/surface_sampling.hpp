@@ -10,11 +10,12 @@
 
 namespace skein::sim {
 
-/// Sample points on the triangles inside the boxes, about equally dense everywhere (no two much closer than the mean
-/// spacing), with the triangles' true normals.
+/// Sample points on the triangles inside the boxes, with the triangles' true normals. All surfaces get their share by
+/// area, thin members and both sides of thin plates too. Of points that face the same way no two are much closer than
+/// the mean spacing.
 ///
 /// Left out are points that no camera could see: inside another solid, covered by one within 0.4 m, lower than 0.3 m
-/// above the ground, or without a free view of some metres in any direction.
+/// above the ground, or without a free view of some metres from a place with room for a UAV.
 /// The result depends on nothing but the arguments.
 /// @param mesh   closed surfaces with outward winding; they may overlap.
 /// @param count  as many points, unless the surfaces have room for fewer (they do not at sensible densities).

@@ -84,6 +84,47 @@ TEST(SurfaceSampling, NothingWhereSolidsOverlapTouchOrStandOnTheGround) {
   }
 }
 
+TEST(SurfaceSampling, ThinMembersGetTheShareOfTheirArea) {
+  MeshBuilder builder;
+  builder.add_box(at(0, 0, 20), {10, 10, 10});  // 600 m^2
+  for (int i = 0; i < 100; ++i) {
+    builder.add_member({40, -30.0 + 2.0 * i / 3.0, 10}, {40, -30.0 + 2.0 * i / 3.0, 40}, 0.05);  // 6 m^2 each
+  }
+  const std::vector boxes{box_around({20, 0, 20}, 100)};
+  const auto points = sample_surface(builder.mesh(), boxes, 2400, 1);
+  EXPECT_EQ(points.size(), 2400u);
+  const auto on_members = std::ranges::count_if(points, [](const auto& point) { return point.p_W.x() > 39; });
+  EXPECT_NEAR(static_cast<double>(on_members), 1200.0, 60.0);
+}
+
+TEST(SurfaceSampling, BothSidesOfAThinPlateGetTheirShare) {
+  MeshBuilder builder;
+  builder.add_box(at(0, 0, 20), {10, 10, 0.02});
+  builder.add_box(at(30, 0, 20), {10, 5, 5});
+  const std::vector boxes{box_around({15, 0, 20}, 100)};
+  const auto points = sample_surface(builder.mesh(), boxes, 450, 1);
+  const auto on_plate = [&](float side) {
+    return std::ranges::count_if(points, [&](const auto& p) { return p.p_W.x() < 15 && p.n_W.z() * side > 0.5f; });
+  };
+  EXPECT_NEAR(static_cast<double>(on_plate(1)), 100.0, 15.0);
+  EXPECT_NEAR(static_cast<double>(on_plate(-1)), 100.0, 15.0);
+}
+
+TEST(SurfaceSampling, AThinMemberHidesWhatIsCloseBehindIt) {
+  MeshBuilder builder;
+  builder.add_box(at(0, 0, 20), {4, 4, 4});
+  for (int i = 0; i <= 40; ++i) {  // a grate of bars 5 cm wide before the top
+    builder.add_box(at(-2.0 + 0.1 * i, 0, 22.25), {0.05, 4, 0.05});
+  }
+  const std::vector boxes{box_around({0, 0, 20}, 4.001)};  // without the grate
+  const auto points = sample_surface(builder.mesh(), boxes, 300, 1);
+  for (const auto& point : points) {
+    if (point.n_W.z() < 0.5f) continue;
+    const double off = std::remainder(static_cast<double>(point.p_W.x()), 0.1);
+    EXPECT_GT(std::abs(off), 0.0249) << "below a bar: " << point.p_W.transpose();
+  }
+}
+
 TEST(SurfaceSampling, SameSeedSamePointsOtherSeedOthers) {
   const std::vector boxes{box_around({0, 0, 20}, 11)};
   const auto bytes = [&](std::uint64_t seed) {

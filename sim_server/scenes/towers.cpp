@@ -8,6 +8,7 @@
 #include "core/random_stream.hpp"
 #include "sim_server/scenes/mesh_builder.hpp"
 #include "sim_server/scenes/surface_sampling.hpp"
+#include "sim_server/scenes/variation.hpp"
 
 namespace skein::sim {
 namespace {
@@ -17,20 +18,12 @@ constexpr double kBoxMargin = 0.5;
 constexpr double kStripHeading = -0.3;  ///< of the row of the starts, in W
 constexpr double kSunk = -0.2;          ///< solids begin a little below the ground, so that none has a gap under it
 
-/// Where everything stands. The site is a strip along the row of the starts, which run from its origin towards +x
-/// within y = 0..5 (one more at x = -8, y = 18.5): nothing may be built nearer than 3 m to those.
+/// Where everything stands. The site is a strip along the row of the starts (core/scene_families.cpp).
 struct Site {
   double heading = 0.0;                      ///< of the deck, in W
   Isometry3d X_WD = Isometry3d::Identity();  ///< deck: origin on the ground below its middle, x along it
   double deck_length = 0.0, deck_width = 0.0, deck_bottom = 0.0, deck_height = 0.0;
 };
-
-Isometry3d standing_at(const Vector2d& p_W, double heading) {
-  Isometry3d X = Isometry3d::Identity();
-  X.translation() << p_W, 0.0;
-  X.linear() = rotation_z(heading);
-  return X;
-}
 
 /// A place on the strip, in W.
 Vector2d on_strip(double along, double across) {
@@ -62,7 +55,7 @@ class Tower {
         height_(height),
         width_(random.uniform(23.0, 25.5)),
         depth_(random.uniform(14.0, 17.0)),
-        lean_(random.uniform(-1.2, 1.2), random.uniform(-2.0, 2.0)),
+        lean_{random.uniform(-1.2, 1.2), random.uniform(-2.0, 2.0)},
         splay_(random.uniform(0.06, 0.14)),
         recess_(random.uniform(1.6, 2.4)),
         core_width_(random.uniform(4.0, 6.0)) {}
@@ -242,7 +235,8 @@ void add_petal(MeshBuilder& builder, const Isometry3d& X_WM, double azimuth, dou
 
 OrientedBox add_museum(MeshBuilder& builder, std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "towers_museum", 0);
-  const Vector2d p_W = on_strip(92.0 + random.uniform(-4.0, 4.0), -15.0 + random.uniform(-3.0, 3.0));
+  const Vector2d place{92.0 + random.uniform(-4.0, 4.0), -15.0 + random.uniform(-3.0, 3.0)};
+  const Vector2d p_W = on_strip(place.x(), place.y());
   const Isometry3d X_WM = standing_at(p_W, random.uniform(-0.4, 0.4));
   const std::size_t first = builder.mesh().vertices.size();
   const int petals = 7 + static_cast<int>(random.uniform(0.0, 4.0));
@@ -250,8 +244,8 @@ OrientedBox add_museum(MeshBuilder& builder, std::uint64_t scene_seed) {
   for (int i = 0; i < petals; ++i) {
     const double azimuth = 2.0 * std::numbers::pi * (i + random.uniform(-0.12, 0.12)) / petals;
     const double rise = 0.5 + 0.5 * std::cos(azimuth - tallest);
-    add_petal(builder, X_WM, azimuth, random.uniform(10.0, 12.0) + 1.5 * rise,
-              random.uniform(6.0, 7.5) + random.uniform(6.0, 7.5) * rise);
+    const double reach = random.uniform(10.0, 12.0) + 1.5 * rise, foot = random.uniform(6.0, 7.5);
+    add_petal(builder, X_WM, azimuth, reach, foot + random.uniform(6.0, 7.5) * rise);
   }
   builder.add_prism(X_WM, regular_polygon(18, random.uniform(4.2, 5.2)), kSunk, 2.5);
   builder.add_dome(X_WM * Eigen::Translation3d(0, 0, 2.3), {4.0, 4.0, random.uniform(2.0, 3.0)}, -0.3);
@@ -262,10 +256,11 @@ OrientedBox add_museum(MeshBuilder& builder, std::uint64_t scene_seed) {
 
 OrientedBox add_kiosk(MeshBuilder& builder, std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "towers_kiosk", 0);
-  const Vector2d p_W = on_strip(14.0 + random.uniform(-5.0, 5.0), -32.0 + random.uniform(-5.0, 5.0));
+  const Vector2d place{14.0 + random.uniform(-5.0, 5.0), -32.0 + random.uniform(-5.0, 5.0)};
+  const Vector2d p_W = on_strip(place.x(), place.y());
   const Isometry3d X_WK = standing_at(p_W, random.uniform(-0.7, 0.7));
   const std::size_t first = builder.mesh().vertices.size();
-  const Vector2d size(random.uniform(7.0, 9.5), random.uniform(5.5, 7.5));
+  const Vector2d size{random.uniform(7.0, 9.5), random.uniform(5.5, 7.5)};
   const double height = random.uniform(4.0, 6.0);
   builder.add_prism(X_WK, rectangle({0, 0}, size), kSunk, height);
   builder.add_prism(X_WK, rectangle({0.8, 0}, size + Vector2d(3.0, 1.6)), height - 0.2, height + 0.3);  // canopy
@@ -290,6 +285,7 @@ Scene make_towers(std::uint64_t scene_seed) {
   scene.boxes.push_back(add_museum(builder, scene_seed));
   scene.boxes.push_back(add_kiosk(builder, scene_seed));
   scene.mesh = builder.take();
+  vary_boxes(scene, scene_seed);
   scene.points = sample_surface(scene.mesh, scene.boxes, kPoints, scene_seed);
   return scene;
 }

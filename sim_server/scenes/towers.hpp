@@ -10,8 +10,7 @@
 namespace skein::sim {
 
 /// Builds one member of the family. Sizes, angles, positions and relief follow from the seed alone.
-/// Six boxes: deck, three towers, museum, kiosk. Some 4,000 interest points, all inside the boxes.
-/// The starts of the MBS fleet and its ground station, and the columns above them, are free by 3 m and more.
+/// Six boxes before they vary: deck, three towers, museum, kiosk. 4,000 interest points, all inside the boxes.
 Scene make_towers(std::uint64_t scene_seed);
 
 }  // namespace skein::sim

@@ -79,6 +79,53 @@ TEST_P(BusContract, LargeSamplesArriveWhole) {
   for (std::size_t i = 0; i < sizes.size(); ++i) EXPECT_TRUE(samples[i].payload == numbered(sizes[i], sizes[i])) << i;
 }
 
+TEST_P(BusContract, BurstsOfManyWritersArriveWholeAndInOrder) {
+  auto a = writing_side(), b = reading_side();
+  constexpr std::size_t kWriters = 5, kRounds = 20;
+  std::vector<Collector> got(kWriters);
+  std::vector<std::unique_ptr<bus::Reader>> readers;
+  std::vector<std::unique_ptr<bus::Writer>> writers;
+  for (std::size_t w = 0; w < kWriters; ++w) {
+    const auto spec = topic("burst" + std::to_string(w), {.depth = 8});
+    readers.push_back(b->create_reader(spec, got[w].callback()));
+    writers.push_back(a->create_writer(spec));
+    connect(*writers[w], *readers[w]);
+  }
+  // A datagram's worth, several, and more than one datagram takes, in changing order.
+  const std::vector<std::size_t> sizes{8, 300, 5'000, 13'960, 100'000};
+  for (std::size_t round = 0; round < kRounds; ++round) {
+    {
+      const bus::Burst burst(*a);
+      for (std::size_t w = 0; w < kWriters; ++w) writers[w]->write(numbered(round, sizes[(w + round) % sizes.size()]));
+    }
+    for (std::size_t w = 0; w < kWriters; ++w) {
+      const auto samples = got[w].wait_for(round + 1);
+      ASSERT_EQ(samples.size(), round + 1);
+      EXPECT_TRUE(samples.back().payload == numbered(round, sizes[(w + round) % sizes.size()]));
+      EXPECT_EQ(samples.back().source, a->id());
+    }
+  }
+}
+
+TEST_P(BusContract, BurstsOfTwoParticipantsKeepTheirSources) {
+  auto a = writing_side(), c = writing_side(), b = reading_side();
+  Collector got;
+  auto reader = b->create_reader(topic("sources"), got.callback());
+  auto from_a = a->create_writer(topic("sources")), from_c = c->create_writer(topic("sources"));
+  connect(*from_a, *reader);
+  connect(*from_c, *reader);
+  ASSERT_TRUE(eventually([&] { return reader->matched().size() == 2; }));
+  {
+    const bus::Burst burst_a(*a), burst_c(*c);
+    for (std::uint64_t n = 0; n < 10; ++n) (n % 2 == 0 ? from_a : from_c)->write(numbered(n));
+  }
+  const auto samples = got.wait_for(10);
+  ASSERT_EQ(samples.size(), 10u);
+  for (const Sample& sample : samples) {
+    EXPECT_EQ(sample.source, number_of(sample.payload) % 2 == 0 ? a->id() : c->id());
+  }
+}
+
 TEST_P(BusContract, OddLengthsArePaddedWithZeros) {
   auto a = writing_side(), b = reading_side();
   Collector got;

@@ -65,8 +65,9 @@ bool holds_domain(pid_t pid, int domain) {
   return false;
 }
 
-/// The shipped configuration, wherever the build folder is.
-Environment with_config(Environment environment) {
+/// The shipped configuration, wherever the build folder is, and no cache but the test's own.
+Environment with_config(Environment environment, const fs::path& folder) {
+  environment.try_emplace("XDG_CACHE_HOME", folder / "cache");
   if (std::getenv("SKEIN_CONFIG_DIR") == nullptr) {
     environment.try_emplace("SKEIN_CONFIG_DIR", std::string(SKEIN_SOURCE_DIR) + "/config");
   }
@@ -186,7 +187,7 @@ fs::path FleetTest::write(const std::string& name, const std::string& text) cons
 }
 
 SkeinRun& FleetTest::start(const std::string& name, const Arguments& arguments, const Environment& environment) {
-  runs_.push_back(std::make_unique<SkeinRun>(folder_, name, arguments, with_config(environment)));
+  runs_.push_back(std::make_unique<SkeinRun>(folder_, name, arguments, with_config(environment, folder_)));
   return *runs_.back();
 }
 
@@ -198,7 +199,7 @@ SkeinRun& FleetTest::run(const std::string& name, const Arguments& arguments, co
 }
 
 ChildProcess& FleetTest::start_program(const std::string& name, const Arguments& argv, const Environment& environment) {
-  programs_.push_back(std::make_unique<ChildProcess>(argv, with_config(environment), folder_ / (name + ".out"),
+  programs_.push_back(std::make_unique<ChildProcess>(argv, with_config(environment, folder_), folder_ / (name + ".out"),
                                                      folder_ / (name + ".err")));
   return *programs_.back();
 }

@@ -1,0 +1,29 @@
+// The floor under the lock-step: the same processes, exchanging the same messages in the same order over a vendor's
+// own API, with nothing in between: no counting, no inbox, no codec, no physics, no planner.
+#pragma once
+
+#include <cstdint>
+
+#include "bench/floor/vendor.hpp"
+
+namespace skein::bench {
+
+struct FloorOptions {
+  std::size_t uavs = 5;
+  std::uint64_t rounds = 1000;
+  int base_domain = 0;
+};
+
+struct FloorResult {
+  std::uint64_t rounds = 0;
+  double wall_s = 0.0;                    ///< of all rounds, from the server's first write to its last arrival
+  double cpu_s = 0.0;                     ///< of all processes in that time
+  double server_cpu_s = 0.0;              ///< of the server alone
+  std::uint64_t messages = 0, bytes = 0;  ///< delivered per round (payloads)
+};
+
+/// Forks a process for each seat but the server's, which this one takes. Call it before any other thread exists.
+/// @throws std::runtime_error when a process fails or a round takes longer than a minute.
+FloorResult run_floor(const FloorOptions& options);
+
+}  // namespace skein::bench

@@ -1,0 +1,217 @@
+#include "cli/bench_command.hpp"
+
+#include <sched.h>
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "cli/bench_report.hpp"
+#include "cli/bench_scenario.hpp"
+#include "cli/bench_table.hpp"
+#include "cli/domain_block.hpp"
+#include "cli/environment.hpp"
+#include "cli/fleet_plan.hpp"
+#include "cli/preflight.hpp"
+#include "core/atomic_file.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr std::size_t kFleetSize = 5, kLargeFleet = 21;  ///< from where on shorter runs must do
+constexpr double kExchangeS = 0.05, kOneTickS = 0.0025;
+
+/// How much is measured.
+struct Effort {
+  int repeats = 3;
+  std::optional<double> mission_s;  ///< of the speed runs; none: the scenario's own
+  double scale_mission_s = 60.0, scale_mission_of_large_s = 10.0;
+  int rounds = 2000, rounds_of_large = 400;
+  std::vector<std::size_t> sizes = {1, 5, 10, 20, 50, 100};
+};
+
+Effort effort_of(const BenchOptions& options) {
+  Effort effort;
+  if (options.quick) effort = {1, 60.0, 10.0, 4.0, 400, 100, {1, 5, 20}};
+  if (options.duration_s) effort.mission_s = options.duration_s;
+  if (options.repeats) effort.repeats = *options.repeats;
+  if (!options.sizes.empty()) effort.sizes = options.sizes;
+  return effort;
+}
+
+Json machine() {
+  Json machine = Json::object();
+  std::ifstream cpus("/proc/cpuinfo");
+  for (std::string line; std::getline(cpus, line);) {
+    if (!line.starts_with("model name")) continue;
+    machine["cpu"] = line.substr(std::min(line.size(), line.find(':') + 2));
+    break;
+  }
+  cpu_set_t usable;
+  CPU_ZERO(&usable);
+  ::sched_getaffinity(0, sizeof usable, &usable);
+  machine["cores"] = CPU_COUNT(&usable);
+  double load = 0.0;
+  ::getloadavg(&load, 1);
+  machine["load"] = load;
+  utsname kernel{};
+  ::uname(&kernel);
+  machine["kernel"] = kernel.release;
+  return machine;
+}
+
+/// One call of `skein bench`.
+class Bench {
+ public:
+  Bench(const BenchOptions& options, const Console& console)
+      : options_(options), effort_(effort_of(options)), console_(console) {}
+
+  int run() {
+    report_["machine"] = machine();
+    report_["quick"] = options_.quick;
+    report_["dds"] = options_.dds;
+    report_["repeats"] = effort_.repeats;
+    measure_speed();
+    measure_rounds();
+    measure_scale();
+    report_["targets"] = targets_of(report_);
+    print_bench(console_.out, report_);
+    if (options_.json) write_file_atomically(*options_.json, report_.dump(2) + "\n");
+    return failed_ ? kExitProcessFailed : kExitDone;
+  }
+
+ private:
+  std::vector<std::string> scenarios() const {
+    if (!options_.scenarios.empty()) return options_.scenarios;
+    if (options_.assets) return {"towers", "mbs"};
+    return {"towers"};
+  }
+
+  void measure_speed() {
+    report_["speed"] = Json::array();
+    for (const std::string& scenario : scenarios()) {
+      RunOptions run = fleet_run(scenario, "patrol");
+      run.duration_s = effort_.mission_s;
+      std::vector<Json> results;
+      for (int i = 0; i < effort_.repeats; ++i) results.push_back(fly(run, "speed, " + scenario, i));
+      report_["speed"].push_back(speed_entry(results, every_scan(run)));
+    }
+  }
+
+  /// The sizes with the chosen vendor, and the fleet of five with the other one too.
+  void measure_rounds() {
+    report_["rounds"] = Json::array();
+    for (const std::size_t uavs : effort_.sizes) measure_rounds_of(options_.dds, uavs);
+    if (!options_.quick) measure_rounds_of(options_.dds == "fastdds" ? "cyclonedds" : "fastdds", kFleetSize);
+  }
+
+  void measure_rounds_of(const std::string& vendor, std::size_t uavs) {
+    const int rounds = uavs >= kLargeFleet ? effort_.rounds_of_large : effort_.rounds;
+    // Who hovers flies for ever: the run is ended by the number of rounds.
+    RunOptions run = fleet_run(write_scenario({uavs, 600.0, kOneTickS}, "rounds"), "hover");
+    run.dds = vendor;
+    run.stop_at_s = rounds * kOneTickS;
+    const std::string what = "rounds, " + std::to_string(uavs) + " UAVs, " + vendor;
+    std::vector<RoundsPair> pairs;
+    for (int i = 0; i < effort_.repeats; ++i) pairs.push_back({fly(run, what, i), floor(vendor, uavs, rounds)});
+    report_["rounds"].push_back(rounds_entry(vendor, uavs, pairs));
+  }
+
+  void measure_scale() {
+    report_["scale"] = Json::array();
+    for (const std::size_t uavs : effort_.sizes) {
+      const double mission_s = uavs >= kLargeFleet ? effort_.scale_mission_of_large_s : effort_.scale_mission_s;
+      const RunOptions run = fleet_run(write_scenario({uavs, mission_s, kExchangeS}, "scale"), "patrol");
+      std::vector<Json> results;
+      for (int i = 0; i < effort_.repeats; ++i) {
+        results.push_back(fly(run, "scale, " + std::to_string(uavs) + " UAVs", i));
+      }
+      report_["scale"].push_back(scale_entry(uavs, results));
+    }
+  }
+
+  RunOptions fleet_run(const std::string& scenario, const std::string& planner) const {
+    RunOptions run;
+    run.scenario = scenario;
+    run.planner = planner;
+    run.assets = options_.assets;
+    run.dds = options_.dds;
+    run.out = scratch_.path() / "run";
+    run.force = true;
+    run.attainable = false;  // the oracle is no part of a run
+    return run;
+  }
+
+  std::string write_scenario(const BenchFleet& fleet, const std::string& use) const {
+    const std::filesystem::path file = scratch_.path() / (use + std::to_string(fleet.uavs) + ".yaml");
+    write_file_atomically(file, bench_scenario(fleet));
+    return file;
+  }
+
+  /// One `skein run`. @returns its result.json.
+  Json fly(const RunOptions& run, const std::string& what, int repeat) {
+    tell(what + ", run " + std::to_string(repeat + 1) + " of " + std::to_string(effort_.repeats));
+    std::ostringstream out, err;
+    const int code = run_fleet(run, {out, err, false});
+    if (code == kExitInterrupted) throw Interrupted{};
+    Json result = read_json(*run.out / "result.json");
+    if (code != kExitDone || !ran_to_the_end(result)) {
+      failed_ = true;
+      tell(what + " did not go well:\n" + err.str());
+    }
+    return result;
+  }
+
+  /// The production LiDAR at all poses of the run that was just flown.
+  Json every_scan(const RunOptions& run) {
+    std::vector<std::string> argv = {program_dir() / "bench_lidar", "--scenario", run.scenario, "--trajectories",
+                                     *run.out / "trajectories.csv"};
+    if (run.assets) argv.insert(argv.end(), {"--assets", *run.assets});
+    return report_of("bench_lidar", argv);
+  }
+
+  Json floor(const std::string& vendor, std::size_t uavs, int rounds) {
+    const DomainBlock domains(std::nullopt, 2 + static_cast<int>(uavs));
+    const std::string name = "bench_floor_" + vendor;
+    return report_of(name, {program_dir() / name, "--uavs", std::to_string(uavs), "--rounds", std::to_string(rounds),
+                            "--domain", std::to_string(domains.base())});
+  }
+
+  /// Runs a program that ends by writing one line of JSON. @returns null when it fails.
+  Json report_of(const std::string& name, const std::vector<std::string>& argv) {
+    const std::filesystem::path log = scratch_.path() / (name + ".log");
+    const ExitStatus exit = run_to_end({name, argv, fleet_environment(false), log});
+    const std::vector<std::string> last = last_lines(log, 1);
+    Json report = last.empty() ? Json() : Json::parse(last.front(), nullptr, false);
+    if (exit.ok() && report.is_object()) return report;
+    failed_ = true;
+    tell(name + " failed: " + exit.text() + (last.empty() ? "" : "\n" + last.front()));
+    return nullptr;
+  }
+
+  void tell(const std::string& text) const { console_.err << "bench: " << text << std::endl; }
+
+  const BenchOptions& options_;
+  const Effort effort_;
+  const Console& console_;
+  const ScratchDir scratch_;
+  Json report_ = Json::object();
+  bool failed_ = false;
+};
+
+}  // namespace
+
+int run_bench(const BenchOptions& options, const Console& console) {
+  for (const char* program : {"bench_floor_cyclonedds", "bench_floor_fastdds", "bench_lidar"}) {
+    if (!std::filesystem::exists(program_dir() / program)) {
+      throw InputError(std::string("bench: ") + program + " is not built; `./skein bench` builds it");
+    }
+  }
+  return Bench(options, console).run();
+}
+
+}  // namespace skein::cli

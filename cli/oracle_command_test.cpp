@@ -1,0 +1,95 @@
+#include "cli/oracle_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "cli/fake_programs.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// A sim_server that writes this answer to the file after --oracle, and its arguments beside itself.
+std::string oracle_script(const std::filesystem::path& dir, const std::string& answer) {
+  return "echo \"$*\" > '" + (dir / "arguments").string() +
+         "'\nwhile [ \"$1\" != --oracle ]; do shift; done\ncat > \"$2\" <<'END'\n" + answer + "\nEND\n";
+}
+
+constexpr const char* kAnswer = R"({"points_total": 9, "clearance_m": 0.5, "outside_berth_m": 2.5, "directions": 256,
+  "reachable": {"points": 8, "score": 7.5, "coarse_points": 8, "coarse_score": 7.25, "change_percent": 3.448},
+  "outside": {"points": 5, "score": 4.5, "coarse_points": 5, "coarse_score": 4.5, "change_percent": 0.0}})";
+
+RunOptions run_of(const std::string& scenario) {
+  RunOptions options;
+  options.scenario = scenario;
+  return options;
+}
+
+class OracleCommand : public ::testing::Test {
+ protected:
+  void answer(const std::string& text) const {
+    write_script(programs_.dir() / "sim_server", oracle_script(programs_.dir(), text));
+  }
+  OracleCommand() { options_.scenario = "mbs"; }
+  int run() { return consult_oracle(options_, {out_, err_, false}); }
+  std::string arguments() const { return read_text(programs_.dir() / "arguments"); }
+
+  FakePrograms programs_;
+  OracleOptions options_;
+  std::ostringstream out_, err_;
+};
+
+TEST_F(OracleCommand, PrintsBothAnswersOrOne) {
+  answer(kAnswer);
+  EXPECT_EQ(run(), 0);
+  EXPECT_NE(out_.str().find("mbs: 9 interest points, cameras 0.5 m clear"), std::string::npos) << out_.str();
+  EXPECT_NE(out_.str().find("reachable          8         7.5     +3.45 %"), std::string::npos) << out_.str();
+  EXPECT_NE(out_.str().find("outside            5         4.5     +0.00 %"), std::string::npos) << out_.str();
+  out_.str("");
+  options_.outside_only = true;
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(out_.str().find("reachable"), std::string::npos);
+  EXPECT_NE(out_.str().find("less than 5 m wide"), std::string::npos);
+}
+
+TEST_F(OracleCommand, HandsOnWhatItIsAskedAndPrintsJson) {
+  answer(kAnswer);
+  options_.scene_seed = 4;
+  options_.assets = "data";
+  options_.clearance_m = 0.75;
+  options_.json = true;
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(Json::parse(out_.str()), Json::parse(kAnswer));
+  for (const char* words : {"--scenario mbs", "--scene-seed 4", "--assets data", "--clearance 0.75"}) {
+    EXPECT_NE(arguments().find(words), std::string::npos) << arguments();
+  }
+  EXPECT_EQ(arguments().find("--oracle-patience"), std::string::npos);
+}
+
+TEST_F(OracleCommand, FailuresAreTold) {
+  write_script(programs_.dir() / "sim_server", "echo 'no such scenario' >&2; exit 2");
+  EXPECT_THROW(run(), InputError);
+  write_script(programs_.dir() / "sim_server", "exit 3");
+  EXPECT_THROW(run(), std::runtime_error);
+  EXPECT_NE(attainable_of({}).hint.find("failed"), std::string::npos);
+  answer("half a {");
+  EXPECT_THROW(run(), std::runtime_error);
+}
+
+TEST_F(OracleCommand, ARunGetsItsNumbersOrAHint) {
+  answer(kAnswer);
+  const AttainableAnswer known = attainable_of(run_of("mbs"));
+  EXPECT_EQ(known.attainable, Json::parse(R"({"points": 8, "score": 7.5, "clearance_m": 0.5,
+                                              "outside": {"points": 5, "score": 4.5}})"));
+  EXPECT_TRUE(known.hint.empty());
+  EXPECT_NE(arguments().find("--oracle-patience"), std::string::npos);
+
+  answer(R"({"expected_s": 99.0})");
+  const AttainableAnswer unknown = attainable_of(run_of("big.yaml"));
+  EXPECT_TRUE(unknown.attainable.is_null());
+  EXPECT_NE(unknown.hint.find("skein oracle big.yaml"), std::string::npos) << unknown.hint;
+}
+
+}  // namespace
+}  // namespace skein::cli

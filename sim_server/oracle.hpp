@@ -1,0 +1,69 @@
+// What could be had: with full knowledge of the scene, the best picture of every interest point.
+// An upper bound for planners, not a plan: no time, no route, no radio, a camera that stands still (so no blur).
+// Frames: W world, ground z = 0; C camera.   Units: SI, radians.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "core/scene.hpp"
+
+namespace skein::sim {
+
+struct OracleConfig {
+  double clearance_m = 0.5;  ///< of the camera from the structure, and on its way there; >= 0
+  /// What can be reached with this berth is outside. Openings less than twice as wide are windows and doors, and
+  /// what lies behind them is inside. At least the clearance is used.
+  double outside_berth_m = 2.5;
+  /// Directions from which each point is looked at before the best of them are refined. The oracle does it once with as
+  /// many and once with twice as many, to tell how far it has converged.
+  std::size_t directions = 128;
+  /// How many threads share the work; the result does not depend on it.
+  unsigned threads = 1;
+};
+
+/// The best picture of one point that was found: from where, and how R_WC = Rz(yaw) Ry(pitch) is turned.
+struct PointView {
+  Vector3d p_WC = Vector3d::Zero();
+  double yaw = 0.0, pitch = 0.0;
+  double q = 0.0;  ///< 0: it cannot be seen
+};
+
+/// Points with q of at least the scenario's `min_point_score`, and the sum of these q.
+struct Attainable {
+  std::size_t points = 0;
+  double score = 0.0;
+  bool operator==(const Attainable&) const = default;
+};
+
+/// What can be had from one set of places.
+struct OracleAnswer {
+  std::vector<PointView> best;  ///< by interest point
+  Attainable attainable;        ///< of `best`
+  Attainable coarse;            ///< with half as many directions
+};
+
+struct OracleReport {
+  /// From all places that hang together with the open sky or a start (open_space.hpp).
+  OracleAnswer reachable;
+  /// From those close to what hangs together with a wide berth too; never more than `reachable`.
+  OracleAnswer outside;
+};
+
+/// A point counts as the referee would have it: in the search radius and the picture, first thing on the ray within
+/// the camera's tolerance, quality by the scenario's formula. The camera keeps its clearance from the structure, stays
+/// above the ground, has any heading, and pitches as far as its gimbal does. Of several kinds of camera in a fleet each
+/// point gets the best.
+///
+/// Along one direction from the point quality only falls with distance. So the nearest place that is free is the best
+/// one there, and it is found exactly; what is searched is the sphere of directions. More directions never lower a q.
+/// Depends on nothing but its arguments.
+/// @throws std::invalid_argument for a clearance or a number of directions that makes no sense.
+OracleReport consult_oracle(const Scenario& scenario, const Scene& scene, const OracleConfig& config);
+
+/// About how long that takes on an ordinary machine that has nothing else to do [s]: from the numbers of points and of
+/// grid lines, not from a clock. Pure.
+double expected_seconds(const Scenario& scenario, const Scene& scene, const OracleConfig& config);
+
+}  // namespace skein::sim

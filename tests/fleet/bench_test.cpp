@@ -1,0 +1,67 @@
+// `skein bench` with as little as it can measure: that every part is measured and reported, not how fast it is.
+#include "fleet_fixture.hpp"
+#include "tests/free_domain.hpp"
+
+namespace skein::test {
+namespace {
+
+using BenchTest = FleetTest;
+
+TEST_F(BenchTest, ASmallOneReportsEveryPart) {
+  const auto json = folder() / "bench.json";
+  ChildProcess& bench = skein({"bench", "--quick", "--duration", "2", "--sizes", "1", "--json", json});
+  ASSERT_EQ(bench.wait().code, 0) << bench.err();
+  for (const char* word : {"real time", "exchange", "times the floor", "to the end", "targets"}) {
+    EXPECT_NE(bench.out().find(word), std::string::npos) << word << "\n" << bench.out();
+  }
+
+  const Json report = Json::parse(text_of(json));
+  EXPECT_GE(report["machine"]["cores"], 1);
+  ASSERT_EQ(report["speed"].size(), 1u);
+  const Json& speed = report["speed"][0];
+  EXPECT_EQ(speed["uavs"], 5);
+  EXPECT_GT(speed["real_time_factor"]["median"], 0.0);
+  EXPECT_GT(speed["lidar"]["every_scan"]["scans"], 40);  // two explorers, ten scans a second
+  EXPECT_GT(speed["lidar"]["every_scan"]["mean_returns"], 0.0);
+  double share = 0.0;
+  for (const auto& [kind, work] : speed["work"].items()) {
+    EXPECT_GE(work["cpu_s"], 0.0) << kind;
+    share += work["share"].get<double>();
+  }
+  EXPECT_NEAR(share, 1.0, 1e-9);
+
+  ASSERT_EQ(report["rounds"].size(), 1u);
+  const Json& rounds = report["rounds"][0];
+  EXPECT_EQ(rounds["vendor"], "cyclonedds");
+  EXPECT_GT(rounds["fleet_rounds_per_s"]["median"], 0.0);
+  EXPECT_GT(rounds["floor_rounds_per_s"]["median"], 0.0);
+  EXPECT_NEAR(rounds["times_floor"]["median"].get<double>() * rounds["fleet_rounds_per_s"]["median"].get<double>(),
+              rounds["floor_rounds_per_s"]["median"], 1e-6 * rounds["floor_rounds_per_s"]["median"].get<double>());
+
+  ASSERT_EQ(report["scale"].size(), 1u);
+  EXPECT_EQ(report["scale"][0]["to_the_end"], true);
+  EXPECT_GT(report["scale"][0]["memory_mb"]["median"], 0.0);
+  EXPECT_GE(report["targets"].size(), 4u);
+}
+
+TEST_F(BenchTest, TheFloorHoldsOverBothVendors) {
+  for (const std::string vendor : {"cyclonedds", "fastdds"}) {
+    const FreeDomains domains(4);
+    ChildProcess& floor = start_program(vendor, {program("bench_floor_" + vendor), "--uavs", "2", "--rounds", "50",
+                                                 "--domain", std::to_string(domains.base())});
+    ASSERT_EQ(floor.wait().code, 0) << floor.err();
+    const Json report = Json::parse(floor.out());
+    EXPECT_EQ(report["rounds"], 50);
+    EXPECT_GT(report["cpu_s"], 0.0);
+    EXPECT_EQ(report["messages"], 23);  // nine a UAV, five on the ground
+  }
+}
+
+TEST_F(BenchTest, NonsenseIsRefused) {
+  for (const Arguments& arguments : std::vector<Arguments>{{"bench", "--sizes", "0"}, {"bench", "--dds", "mixed"}}) {
+    EXPECT_EQ(skein(arguments).wait().code, 2);
+  }
+}
+
+}  // namespace
+}  // namespace skein::test
