@@ -36,6 +36,7 @@ struct LidarConfig {
   double servo_rate_deg_s = 45.0;  ///< about body x, sign switched every half period
   double servo_period_s = 8.0;
   double servo_limit_deg = 90.0;
+  bool motion_distortion = false;  ///< beams leave one after the other, while body and servo move
 };
 
 /// Gains of CARIC's position controller (`planners.md` D, golden position_control).

@@ -46,6 +46,7 @@ void describe(R& r, LidarConfig& lidar) {
   r.field("servo_rate_deg_s", lidar.servo_rate_deg_s, within(0.0, 720.0));
   r.field("servo_period_s", lidar.servo_period_s, within(0.1, 600.0));
   r.field("servo_limit_deg", lidar.servo_limit_deg, within(0.0, 180.0));
+  r.field("motion_distortion", lidar.motion_distortion);
   r.check(lidar.range_min_m < lidar.range_max_m, "range_min_m", "must be less than range_max_m");
 }
 

@@ -15,7 +15,7 @@ constexpr double kTurnStep = 2.0 * std::numbers::pi / kTurns;
 constexpr std::array<double, 7> kLifts = {0.0, -0.4, 0.4, -0.8, 0.8, -1.0, 1.0};  ///< of half the vertical field of view
 constexpr std::size_t kStarts = 5;    ///< of the search on the finer scale
 constexpr double kLeastScore = 0.01;  ///< where rules count even less, this is as far as the oracle looks
-constexpr double kHopeful = 0.7;  ///< a hill whose foot is lower than this part of the best top is not climbed
+constexpr double kHopeful = 0.5;  ///< a hill whose foot is lower than this part of the best top is not climbed
 constexpr double kFinest = 0.1 * kRadPerDeg;
 
 /// Quality is at most (d* / d) sqrt(1 + h^2) sqrt(1 + h^2 + v^2), h and v being the slopes of the picture's corner,
@@ -89,10 +89,11 @@ Aim BestAim::look(const Heading& heading, double lift) const {
 BestAim::Try BestAim::climb(const Vector3d& ray_W, const Vector3d& n_W, Try best) const {
   for (double step = 0.5 * kTurnStep; step > kFinest && best.aim.q < 1.0;) {
     const Try centre = best;
-    for (const int side : {-1, 0, 1}) {
+    // Where the two resolutions are equal there is a ridge, and on it few directions lead up.
+    for (const int side : {-2, -1, 0, 1, 2}) {
       const double turn = centre.turn + side * step;
       const Heading heading(ray_W, n_W, turn);
-      for (const int up : {-1, 0, 1}) {
+      for (const int up : {-2, -1, 0, 1, 2}) {
         const double lift = centre.lift + up * step;
         best.improve({turn, lift, look(heading, lift)});
       }
@@ -106,8 +107,9 @@ Aim BestAim::find(const Vector3d& ray_W, const Vector3d& n_W) const {
   if (ray_W.squaredNorm() >= reach_ * reach_) return {};
   Try best{0.0, 0.0, look({ray_W, n_W, 0.0}, 0.0)};
   if (best.aim.q >= 1.0) return best.aim;
-  // The quarters of the picture, each with a hill of its own: the worse of two resolutions counts.
-  std::array<Try, 4> hills;
+  // The quarters of the picture, each with a hill of its own, as the worse of two resolutions counts; and once more
+  // for headings away from the point, which show it when it is far below or above.
+  std::array<Try, 8> hills;
   for (int i = -kTurns / 2; i < kTurns / 2; ++i) {
     const double turn = i * kTurnStep;
     const Heading heading(ray_W, n_W, turn);
@@ -116,7 +118,7 @@ Aim BestAim::find(const Vector3d& ray_W, const Vector3d& n_W) const {
     if (std::abs(ray.y()) > tan_half_hfov_ * std::hypot(ray.x(), ray.z())) continue;
     for (const double part : kLifts) {
       const Try next{turn, part * half_vfov_, look(heading, part * half_vfov_)};
-      hills[(ray.y() < 0.0 ? 0 : 1) + (part < 0.0 ? 0 : 2)].improve(next);
+      hills[(ray.y() < 0.0 ? 0 : 1) + (part < 0.0 ? 0 : 2) + (ray.x() < 0.0 ? 0 : 4)].improve(next);
     }
   }
   for (const Try& hill : hills) {

@@ -24,9 +24,9 @@ double quality(const CameraKind& kind, const RulesConfig& rules, double yaw, dou
   return score ? score->score() : 0.0;
 }
 
-/// All headings and pitches, three degrees apart.
+/// All headings and pitches, two degrees apart.
 double best_of_grid(const CameraKind& kind, const RulesConfig& rules, const Vector3d& ray, const Vector3d& n_W) {
-  const double step = 3.0 * kRadPerDeg, limit = kind.gimbal.pitch_limit_deg * kRadPerDeg;
+  const double step = 2.0 * kRadPerDeg, limit = kind.gimbal.pitch_limit_deg * kRadPerDeg;
   double best = 0.0;
   for (double yaw = -std::numbers::pi; yaw < std::numbers::pi; yaw += step) {
     for (double pitch = -limit; pitch <= limit; pitch += step) {

@@ -50,10 +50,45 @@ Lidar::Lidar(const LidarConfig& config, std::size_t uav, std::uint64_t seed)
       seed_(seed),
       period_(std::max<Tick>(1, ticks(1.0 / config.rate_hz))),
       directions_L_(beam_directions(config)),
-      directions_W_(static_cast<std::size_t>(directions_L_.cols())),
-      ranges_(directions_W_.size()) {
+      ranges_(static_cast<std::size_t>(directions_L_.cols())) {
   if (seed != 0) {
     phase_ = ticks(config.servo_period_s * RandomStream(seed, "lidar_phase", uav, 0).uniform());
+  }
+}
+
+void Lidar::move(Tick tick, const Isometry3d& X_WB) {
+  if (!config_.motion_distortion) return;
+  if (past_.empty()) past_.assign(static_cast<std::size_t>(period_), X_WB);
+  past_[static_cast<std::size_t>(tick % period_)] = X_WB;
+}
+
+Isometry3d Lidar::pose(Tick tick, const Isometry3d& X_WB) const {
+  const Eigen::AngleAxisd R_BS(servo_angle(config_, seconds(tick + phase_)), Vector3d::UnitX());
+  return X_WB * Eigen::Translation3d(kLidarServo_p_BS) * R_BS *
+         Eigen::Translation3d(0.0, 0.0, kLidarCentreAboveServo);
+}
+
+/// Fires some neighbouring columns from one pose.
+void Lidar::trace(const Isometry3d& X_WL, int first_column, int columns, const RayScene& world) {
+  const Eigen::Matrix3f R_WL = X_WL.linear().cast<float>();
+  const auto beams = static_cast<std::size_t>(config_.rings * columns);
+  directions_W_.resize(beams);
+  distances_.resize(beams);
+  const auto beam = [&](int ring, int column) { return ring * config_.columns + first_column + column; };
+  for (int ring = 0; ring < config_.rings; ++ring) {
+    for (int column = 0; column < columns; ++column) {
+      directions_W_[static_cast<std::size_t>(ring * columns + column)] =
+          R_WL * directions_L_.col(beam(ring, column));
+    }
+  }
+  RayFilter filter;
+  filter.except_uav = uav_;
+  world.scan(X_WL.translation(), directions_W_, config_.range_max_m, filter, distances_);
+  for (int ring = 0; ring < config_.rings; ++ring) {
+    for (int column = 0; column < columns; ++column) {
+      ranges_[static_cast<std::size_t>(beam(ring, column))] =
+          distances_[static_cast<std::size_t>(ring * columns + column)];
+    }
   }
 }
 
@@ -62,17 +97,19 @@ LidarScan Lidar::scan(Tick tick, const Isometry3d& X_WB, const RayScene& world) 
   scan.tick = tick;
   scan.number = static_cast<std::uint64_t>(tick / period_);
   scan.servo_angle = servo_angle(config_, seconds(tick + phase_));
-  const Eigen::AngleAxisd R_BS(scan.servo_angle, Vector3d::UnitX());
-  scan.X_WL =
-      X_WB * Eigen::Translation3d(kLidarServo_p_BS) * R_BS * Eigen::Translation3d(0.0, 0.0, kLidarCentreAboveServo);
-
-  const Eigen::Matrix3f R_WL = scan.X_WL.linear().cast<float>();
-  for (std::size_t i = 0; i < directions_W_.size(); ++i) {
-    directions_W_[i] = R_WL * directions_L_.col(static_cast<Eigen::Index>(i));
+  scan.X_WL = pose(tick, X_WB);
+  if (!config_.motion_distortion || tick < period_) {
+    trace(scan.X_WL, 0, config_.columns, world);
+  } else {
+    const auto period = static_cast<int>(period_);
+    for (int part = 0; part < period; ++part) {
+      const int first = part * config_.columns / period, end = (part + 1) * config_.columns / period;
+      const Tick fired = tick - period_ + 1 + part;
+      const Isometry3d& X_WB_then = past_.empty() ? X_WB : past_[static_cast<std::size_t>(fired % period_)];
+      if (first < end) trace(pose(fired, X_WB_then), first, end - first, world);
+    }
   }
-  RayFilter filter;
-  filter.except_uav = uav_;
-  world.scan(scan.X_WL.translation(), directions_W_, config_.range_max_m, filter, ranges_);
+  const Eigen::Matrix3f R_WL = scan.X_WL.linear().cast<float>();
 
   const bool noisy = seed_ != 0 && config_.sigma_m > 0.0;
   RandomStream noise(seed_, "lidar_noise", uav_, scan.number);
@@ -82,7 +119,8 @@ LidarScan Lidar::scan(Tick tick, const Isometry3d& X_WB, const RayScene& world) 
       continue;
     }
     const double range = noisy ? ranges_[i] + config_.sigma_m * noise.normal() : ranges_[i];
-    scan.points_W.push_back((scan.X_WL.translation() + range * directions_W_[i].cast<double>()).cast<float>());
+    const Eigen::Vector3f direction_W = R_WL * directions_L_.col(static_cast<Eigen::Index>(i));
+    scan.points_W.push_back((scan.X_WL.translation() + range * direction_W.cast<double>()).cast<float>());
   }
   return scan;
 }

@@ -38,19 +38,33 @@ class Lidar {
   /// Whether a scan falls on this tick: tick 0 and every period after it.
   bool due(Tick tick) const { return tick % period_ == 0; }
 
-  /// One whole scan at one instant: no motion distortion. Its number counts periods, whether they were scanned or not.
+  /// Tells where the body was at a tick, before scan() of that tick. Needed with `motion_distortion` only, at every tick;
+  /// without it this does nothing.
+  void move(Tick tick, const Isometry3d& X_WB);
+
+  /// One whole scan. Its number counts periods, whether they were scanned or not.
+  ///
+  /// Usually of one instant. With `motion_distortion` it took the period up to this tick: column c of n was fired when
+  /// c / n of the period had passed, from where body and servo were then, to the tick. Its points are placed from
+  /// X_WL of the end, as a driver does that knows nothing of the motion: they are not corrected for it. The other UAVs
+  /// stand where they are at the end.
   /// @param world  with the poses of all UAVs at this tick.
   LidarScan scan(Tick tick, const Isometry3d& X_WB, const RayScene& world);
 
  private:
+  Isometry3d pose(Tick tick, const Isometry3d& X_WB) const;
+  void trace(const Isometry3d& X_WL, int first_column, int columns, const RayScene& world);
+
   LidarConfig config_;
   std::size_t uav_;
   std::uint64_t seed_;
   Tick period_;
   Tick phase_ = 0;                 ///< how long the servo has been running at tick 0
   Eigen::Matrix3Xf directions_L_;  ///< of all beams, in the order of the cloud
+  std::vector<Isometry3d> past_;   ///< X_WB by tick modulo the period
   std::vector<Eigen::Vector3f> directions_W_;
-  std::vector<double> ranges_;
+  std::vector<double> distances_;  ///< of the columns traced last
+  std::vector<double> ranges_;     ///< of all beams
 };
 
 }  // namespace skein::sim

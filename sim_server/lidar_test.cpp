@@ -115,6 +115,52 @@ TEST_F(LidarRoom, AllBeamsMeetTheWalls) {
   }
 }
 
+/// Where a body that turns and drifts was at a tick.
+Isometry3d moving_body(const Isometry3d& X_WB, Tick tick) {
+  const double t = seconds(tick - 80);
+  return Eigen::Translation3d(2.0 * t, -1.0 * t, 0.5 * t) * X_WB *
+         Eigen::AngleAxisd(1.2 * t, Vector3d(0.2, -0.1, 1.0).normalized());
+}
+
+TEST_F(LidarRoom, MotionDuringAScanLeavesNoTraceOfAStillOne) {
+  const RayScene world = room();
+  LidarConfig config;
+  config.servo_rate_deg_s = 0.0;
+  Lidar instant(config, 0, 7);
+  config.motion_distortion = true;
+  Lidar sweeping(config, 0, 7);
+  for (Tick tick = 0; tick <= 80; ++tick) sweeping.move(tick, X_WB_);
+  EXPECT_EQ(sweeping.scan(80, X_WB_, world).points_W, instant.scan(80, X_WB_, world).points_W);
+}
+
+TEST_F(LidarRoom, MotionDuringAScanDistortsAsGeometrySays) {
+  const RayScene world = room();
+  LidarConfig config;
+  config.motion_distortion = true;
+  Lidar lidar(config, 0, 0);
+  for (Tick tick = 0; tick <= 80; ++tick) lidar.move(tick, moving_body(X_WB_, tick));
+  const LidarScan scan = lidar.scan(80, moving_body(X_WB_, 80), world);
+  ASSERT_EQ(scan.points_W.size(), 16U * 440U);
+  double farthest = 0.0;
+  for (int ring = 0; ring < 16; ++ring) {
+    for (int column = 0; column < 440; ++column) {
+      const Tick fired = 41 + column / 11;  // 40 ticks of 11 columns
+      const Isometry3d X_WL = moving_body(X_WB_, fired) * Eigen::Translation3d(0.0, 0.0, 0.2) *
+                              Eigen::AngleAxisd(servo_angle(config, seconds(fired)), Vector3d::UnitX()) *
+                              Eigen::Translation3d(0.0, 0.0, 0.00185);
+      const double elevation = (-15.0 + 2.0 * ring) * kDeg, azimuth = (-180.0 + 360.0 * column / 440.0) * kDeg;
+      const Vector3d beam(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                          std::sin(elevation));
+      const Vector3d direction = X_WL.linear() * beam;
+      const double range = wall_distance(X_WL.translation(), direction);
+      const Vector3d point = scan.points_W[static_cast<std::size_t>(ring * 440 + column)].cast<double>();
+      ASSERT_LT((point - scan.X_WL * Vector3d(range * beam)).norm(), 1e-4) << ring << ' ' << column;
+      farthest = std::max(farthest, (point - X_WL.translation() - range * direction).norm());
+    }
+  }
+  EXPECT_GT(farthest, 0.5) << "the oldest beams are a tenth of a second old";
+}
+
 TEST_F(LidarRoom, ScanNumbersCountPeriods) {
   const RayScene world = room();
   Lidar lidar(LidarConfig{}, 0, 0);

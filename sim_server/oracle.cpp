@@ -49,11 +49,11 @@ Attainable sum_up(const std::vector<PointView>& views, double least) {
 }  // namespace
 
 double expected_seconds(const Scenario& scenario, const Scene& scene, const OracleConfig& config) {
-  constexpr double kPerLine = 1.5e-4, kPerPoint = 6e-6;
+  constexpr double kPerLine = 1.5e-4, kPerLook = 5e-6;
   const double lines = static_cast<double>(OpenSpace::line_count(extent(scene.mesh), config.clearance_m) +
                                            OpenSpace::line_count(extent(scene.mesh), berth(config)));
   const double looks = static_cast<double>(scene.points.size() * config.directions * camera_kinds(scenario).size());
-  return (kPerLine * lines + kPerPoint * looks) / std::max(1U, config.threads);
+  return (kPerLine * lines + kPerLook * looks) / std::max(1U, config.threads);
 }
 
 OracleReport consult_oracle(const Scenario& scenario, const Scene& scene, const OracleConfig& config) {

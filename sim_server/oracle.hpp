@@ -18,7 +18,7 @@ struct OracleConfig {
   double outside_berth_m = 2.5;
   /// Directions from which each point is looked at before the best of them are refined. The oracle does it once with as
   /// many and once with twice as many, to tell how far it has converged.
-  std::size_t directions = 128;
+  std::size_t directions = 256;
   /// How many threads share the work; the result does not depend on it.
   unsigned threads = 1;
 };

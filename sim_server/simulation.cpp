@@ -196,7 +196,9 @@ void Simulation::Impl::take_pictures() {
 void Simulation::Impl::take_scans() {
   for (std::size_t i = 0; i < uavs.size(); ++i) {
     Uav& uav = uavs[i];
-    if (!uav.lidar || !mission.alive(i) || !uav.lidar->due(tick)) continue;
+    if (!uav.lidar || !mission.alive(i)) continue;
+    uav.lidar->move(tick, world.state(i).X_WB());
+    if (!uav.lidar->due(tick)) continue;
     const Isometry3d X_WB = world.state(i).X_WB();
     if (!uav.scans_wanted && !uav.keyframes.wants(tick, X_WB)) continue;
     refresh_rays();
