@@ -89,6 +89,14 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench) {
   return command;
 }
 
+/// Unlike CLI::Range this refuses "nan" too.
+std::string check_clearance(const std::string& text) {
+  char* end = nullptr;
+  const double clearance = std::strtod(text.c_str(), &end);
+  const bool fits = end != text.c_str() && *end == '\0' && clearance >= 0.0 && clearance <= 100.0;
+  return fits ? "" : "must be a number within [0, 100], not '" + text + "'";
+}
+
 CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
   CLI::App* command = app.add_subcommand("oracle", "What could be had of a scenario with full knowledge of its scene");
   command->add_option("SCENARIO", oracle.scenario, "A name under config/scenarios/ or a YAML file")->required();
@@ -96,7 +104,7 @@ CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
       ->check(CLI::Validator(check_seed, ""));
   command->add_option("--assets", oracle.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--clearance", oracle.clearance_m, "Of the cameras from the structure [m] (default 0.5)")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(CLI::Validator(check_clearance, ""));
   command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");
   command->add_flag("--json", oracle.json, "All figures, for programs");
   return command;
