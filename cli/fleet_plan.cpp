@@ -39,6 +39,7 @@ Arguments scenario_arguments(const FleetPlan& plan) {
   if (options.assets) append(arguments, {"--assets", std::filesystem::absolute(*options.assets)});
   if (options.scene_seed) append(arguments, {"--scene-seed", std::to_string(*options.scene_seed)});
   if (options.duration_s) append(arguments, {"--duration", text_of(*options.duration_s)});
+  if (options.faults) append(arguments, {"--faults", std::filesystem::absolute(*options.faults)});
   return arguments;
 }
 
@@ -96,7 +97,8 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   load.assets_dir = options.assets.value_or("");
   load.duration_s = options.duration_s;
   load.scene_seed = options.scene_seed;
-  FleetPlan plan{options, load_scenario(options.scenario, load), {}, bin_dir};
+  FleetPlan plan{options, load_scenario(options.scenario, load), {}, bin_dir, {}};
+  plan.faults = load_fault_plan(options.faults.value_or(""), plan.scenario);
   std::vector<std::string> names;
   for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
   plan.planners = parse_planners(options.planner, names);

@@ -9,6 +9,7 @@
 #include "cli/options.hpp"
 #include "cli/planner_spec.hpp"
 #include "cli/supervisor.hpp"
+#include "core/fault_plan.hpp"
 #include "core/scenario.hpp"
 
 namespace skein::cli {
@@ -19,6 +20,7 @@ struct FleetPlan {
   Scenario scenario;
   std::vector<UavPlanner> planners;  ///< fleet order
   std::filesystem::path bin_dir;     ///< where the programs are
+  FaultPlan faults;                  ///< of --faults
 };
 
 /// Loads the scenario and takes the planners apart. @throws InputError for whatever is wrong in them.

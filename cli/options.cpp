@@ -47,6 +47,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
   command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
+  command->add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when");
   command->add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
       ->capture_default_str();

@@ -19,6 +19,7 @@ struct RunOptions {
   std::optional<std::uint64_t> scene_seed;
   std::optional<std::filesystem::path> assets;
   std::optional<double> duration_s;
+  std::optional<std::filesystem::path> faults;  ///< fault file
   std::string dds = "cyclonedds";  ///< a vendor or "mixed"
   std::string clock = "lockstep";  ///< "lockstep", "realtime" or "realtime:FACTOR"
   std::optional<std::string> debug_uav;

@@ -38,9 +38,10 @@ int run(const skein::ProgramOptions& options, skein::StopSignal& stop) {
   auto load = options.load_options();
   load.needs_scene_files = false;
   const skein::Scenario scenario = skein::load_scenario(options.scenario, load);
+  const skein::FaultPlan faults = skein::load_fault_plan(options.faults, scenario);
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) return skein::kExitDone;
-  skein::router::RouterNode node(scenario, options.seed, options.domain, *bus);
+  skein::router::RouterNode node(scenario, options.seed, options.domain, *bus, faults);
   stop.on_stop([&node] { node.wake(); });
   const int code = node.run(stop);
   stop.on_stop({});

@@ -30,10 +30,11 @@ std::vector<SentCount> sent_counts(const msg::Done& done) {
 
 }  // namespace
 
-RouterNode::RouterNode(const Scenario& scenario, std::uint64_t seed, int base_domain, bus::Bus& bus)
+RouterNode::RouterNode(const Scenario& scenario, std::uint64_t seed, int base_domain, bus::Bus& bus,
+                       const FaultPlan& faults)
     : scenario_(scenario),
       gate_(radio_routes(scenario), scenario.fleet.size() + 1,
-            std::make_unique<LinkStages>(scenario, FaultPlan{}, seed)),
+            std::make_unique<LinkStages>(scenario, faults, seed)),
       sync_(gate_.routes()),
       world_(bus.join(world_domain(base_domain))),
       client_(*world_, inbox_, std::string(bus::kRouterName)) {

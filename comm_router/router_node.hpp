@@ -13,14 +13,16 @@
 #include "bus/lockstep/client_loop.hpp"
 #include "comm_router/link_gate.hpp"
 #include "comm_router/router_sync.hpp"
+#include "core/fault_plan.hpp"
 #include "core/scenario.hpp"
 
 namespace skein::router {
 
 class RouterNode {
  public:
-  /// @param seed  of the run: what links that are not ideal draw from.
-  RouterNode(const Scenario& scenario, std::uint64_t seed, int base_domain, bus::Bus& bus);
+  /// @param seed    of the run: what links that are not ideal draw from.
+  /// @param faults  what goes wrong with the links, and when.
+  RouterNode(const Scenario& scenario, std::uint64_t seed, int base_domain, bus::Bus& bus, const FaultPlan& faults = {});
 
   /// Takes part until the last step, or until asked to stop. @returns the program's exit code.
   int run(const StopSignal& stop);

@@ -90,6 +90,7 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--scene-seed", options.scene_seed, "Seed of a procedural scene, instead of the scenario's")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--duration", options.duration_s, "Mission time [s], instead of the scenario's");
+  app.add_option("--faults", options.faults, "Fault file: what goes wrong, and when");
   app.add_flag("--check", options.check_only, "Validate the input, then stop");
   app.add_option("--status-fd", options.status_fd, "File descriptor for status lines")->group("Launcher");
   app.add_option("--control-fd", options.control_fd, "File descriptor with orders")->group("Launcher");

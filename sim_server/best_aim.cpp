@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kTurns = 36;  ///< all around: a point straight below may be shown with any heading
 constexpr double kTurnStep = 2.0 * std::numbers::pi / kTurns;
-constexpr std::array<double, 7> kLifts = {0.0, -0.4, 0.4, -0.8, 0.8, -1.0, 1.0};  ///< of half the vertical field of view
-constexpr std::size_t kStarts = 5;    ///< of the search on the finer scale
+/// Of half the vertical field of view.
+constexpr std::array<double, 7> kLifts = {0.0, -0.4, 0.4, -0.8, 0.8, -1.0, 1.0};
 constexpr double kLeastScore = 0.01;  ///< where rules count even less, this is as far as the oracle looks
 constexpr double kHopeful = 0.5;  ///< a hill whose foot is lower than this part of the best top is not climbed
 constexpr double kFinest = 0.1 * kRadPerDeg;

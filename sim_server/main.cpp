@@ -45,6 +45,13 @@ std::optional<double> realtime_factor(const std::string& clock) {
                           ": it must be lockstep, realtime or realtime:FACTOR with a factor above 0");
 }
 
+// Each member adds participants whose discovery the others pay for: on two cores a hundred UAVs take half a minute.
+double startup_timeout_s(const ServerOptions& server, const skein::Scenario& scenario) {
+  constexpr double kPerUav_s = 2.0;
+  if (server.agent_timeout_s <= 0.0) return 0.0;  // for ever
+  return server.agent_timeout_s + kPerUav_s * static_cast<double>(scenario.fleet.size());
+}
+
 int check_golden(const std::vector<std::filesystem::path>& files) {
   bool passed = true;
   for (const auto& file : files) {
@@ -105,7 +112,8 @@ int run(const skein::ProgramOptions& options, const ServerOptions& server, skein
                                           .realtime_factor = realtime_factor(server.clock),
                                           .stop_at_s = server.stop_at_s,
                                           .agent_timeout_s = server.agent_timeout_s,
-                                          .startup_timeout_s = server.agent_timeout_s};
+                                          .startup_timeout_s = startup_timeout_s(server, scenario),
+                                          .faults = skein::load_fault_plan(options.faults, scenario)};
   skein::Scene scene = skein::sim::load_scene(scenario);
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) {

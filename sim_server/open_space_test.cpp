@@ -34,7 +34,8 @@ TEST(OpenSpace, AClosedHouseIsNotReachedButAllAroundItIs) {
   for (const double clearance : {0.0, 0.1, 0.5, 1.0}) {
     const OpenSpace space(world, kHouse, clearance, {});
     EXPECT_FALSE(space.reaches(kInside)) << clearance;
-    for (const Vector3d& outside : {Vector3d(0, 0, 8.5), Vector3d(7.5, 0, 1), Vector3d(-8, -8, 0.1), Vector3d(0, 70, 3)}) {
+    for (const Vector3d& outside :
+         {Vector3d(0, 0, 8.5), Vector3d(7.5, 0, 1), Vector3d(-8, -8, 0.1), Vector3d(0, 70, 3)}) {
       EXPECT_TRUE(space.reaches(outside)) << clearance << ": " << outside.transpose();
     }
   }

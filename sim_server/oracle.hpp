@@ -57,7 +57,8 @@ struct OracleReport {
 /// point gets the best.
 ///
 /// Along one direction from the point quality only falls with distance. So the nearest place that is free is the best
-/// one there, and it is found exactly; what is searched is the sphere of directions. More directions never lower a q.
+/// one there, and it is found to some centimetres; what is searched is the sphere of directions. More of them never
+/// lower a q.
 /// Depends on nothing but its arguments.
 /// @throws std::invalid_argument for a clearance or a number of directions that makes no sense.
 OracleReport consult_oracle(const Scenario& scenario, const Scene& scene, const OracleConfig& config);

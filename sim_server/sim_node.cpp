@@ -242,9 +242,10 @@ void SimNode::pace(Clock::time_point started) {
 }
 
 void SimNode::report_progress(bool now) {
-  if (!now && Clock::now() - last_progress_ < kProgressPeriod) return;
-  last_progress_ = Clock::now();
   const Mission& mission = simulation_.mission();
+  if (!now && mission.phase() == last_phase_ && Clock::now() - last_progress_ < kProgressPeriod) return;
+  last_progress_ = Clock::now();
+  last_phase_ = mission.phase();
   const auto& links = simulation_.links();
   std::vector<std::string> in_contact, lost;
   std::size_t alive = 0;

@@ -12,6 +12,7 @@
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "bus/lockstep/server.hpp"
+#include "core/fault_plan.hpp"
 #include "core/status_pipe.hpp"
 #include "sim_server/cpu_clock.hpp"
 #include "sim_server/run_files.hpp"
@@ -29,6 +30,7 @@ struct SimNodeOptions {
   double agent_timeout_s = 60.0;          ///< of wall time, for an answer; 0: for ever
   double startup_timeout_s = 60.0;        ///< of wall time, for everybody to join; 0: for ever
   bool expect_gcs_program = false;        ///< a user's program at the ground station takes part
+  FaultPlan faults;
 };
 
 class SimNode {
@@ -79,6 +81,7 @@ class SimNode {
   RunSummary summary_;
   bool stop_requested_ = false, aborted_ = false, last_step_ = false;
   Clock::time_point last_progress_{};
+  Phase last_phase_ = Phase::waiting;  ///< as last told
 };
 
 }  // namespace skein::sim

@@ -137,9 +137,10 @@ ViewSearch::Trial ViewSearch::try_direction(const InterestPoint& point, const Ve
 void ViewSearch::refine(const InterestPoint& point, double step, Best& best) const {
   const auto starts = best.trials();
   for (Trial trial : starts) {
+    if (trial.openness <= 0.0) continue;  // nothing to go by
     double turn = step;
-    for (int i = 0; i < (trial.view.q > 0.0 ? kMostRefinements : kMostUnseen) && turn > kFinestTurn && !best.perfect(); ++i) {
-      if (trial.openness <= 0.0) break;  // nothing to go by
+    for (int i = 0; turn > kFinestTurn && !best.perfect(); ++i) {
+      if (i == (trial.view.q > 0.0 ? kMostRefinements : kMostUnseen)) break;
       const Vector3d u = trial.direction.unitOrthogonal(), v = trial.direction.cross(u);
       Trial next = trial;
       for (const auto& [a, b] : kNeighbours) {
