@@ -144,7 +144,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["collisions"] = value_or(sim, "collisions", Json::array());
   result["uavs"] = uav_entries(scenario, reports);
   result["radio"] = radio_counts(reports.comm_router);
-  result["faults"] = Json::array();
+  result["faults"] = value_or(sim, "faults", Json::array());
   result["lost_members"] = value_or(sim, "lost_members", Json::array());
   result["warnings"] = warnings_of(facts, reports);
   return result;

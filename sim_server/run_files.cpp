@@ -133,6 +133,7 @@ void RunFiles::write_report(const Simulation& simulation, const RunSummary& summ
     json["lost_members"].push_back(
         {{"member", lost.name}, {"step", lost.step}, {"time_s", seconds(lost.tick)}, {"reason", lost.reason}});
   }
+  json["faults"] = summary.faults;
   json["warnings"] = summary.warnings;
   json["malformed"] = summary.malformed;
   json["timing"] = summary.timing;

@@ -33,7 +33,8 @@ struct RunSummary {
   std::vector<LostProcess> lost;
   std::vector<std::string> warnings;
   std::uint64_t malformed = 0;  ///< samples received that were no message of their topic's type
-  nlohmann::json timing;  ///< CPU time by kind of work
+  nlohmann::json timing;        ///< CPU time by kind of work
+  nlohmann::json faults = nlohmann::json::array();  ///< as FaultTimeline tells
 };
 
 /// Who, with what, when and where: a line for the log.

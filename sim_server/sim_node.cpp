@@ -34,7 +34,8 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       options_(options),
       status_(status),
       uav_names_(scenario.uav_names()),
-      simulation_(scenario, std::move(scene), options.seed),
+      simulation_(scenario, std::move(scene), options.seed, options.faults),
+      fault_timeline_(options.faults),
       digest_(uav_names_),
       files_(options.out, scenario, digest_),
       server_(inbox_) {
@@ -104,6 +105,7 @@ RunSummary SimNode::run() {
   summary_.timing = clock_.summary();
   summary_.timing["cpu_s"] = thread_cpu_s() - cpu_before_s;
   summary_.malformed = inbox_.malformed();
+  summary_.faults = fault_timeline_.to_json();
   summary_.status = end_status();
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
   if (options_.realtime_factor || summary_.status == "interrupted" || aborted_) summary_.deterministic = false;
@@ -169,6 +171,9 @@ bool SimNode::is_last_step() const {
 }
 
 void SimNode::publish_step() {
+  for (const std::string& line : fault_timeline_.enter_step(simulation_.step(), simulation_.tick())) {
+    spdlog::info("{}", line);
+  }
   server_.hold();
   const StepEvents& events = simulation_.events();
   publish_ledger(simulation_.referee().ledger(), events.ledger_begin);
@@ -246,7 +251,7 @@ void SimNode::report_progress(bool now) {
   if (!now && mission.phase() == last_phase_ && Clock::now() - last_progress_ < kProgressPeriod) return;
   last_progress_ = Clock::now();
   last_phase_ = mission.phase();
-  const auto& links = simulation_.links();
+  const auto& links = simulation_.open_links();
   std::vector<std::string> in_contact, lost;
   std::size_t alive = 0;
   for (std::size_t i = 0; i < simulation_.size(); ++i) {

@@ -15,6 +15,7 @@
 #include "core/fault_plan.hpp"
 #include "core/status_pipe.hpp"
 #include "sim_server/cpu_clock.hpp"
+#include "sim_server/fault_timeline.hpp"
 #include "sim_server/run_files.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/uav_node.hpp"
@@ -70,6 +71,7 @@ class SimNode {
   std::vector<std::string> uav_names_;
   CpuClock clock_;
   Simulation simulation_;
+  FaultTimeline fault_timeline_;
   RunDigest digest_;
   RunFiles files_;
   bus::Inbox inbox_;

@@ -11,6 +11,7 @@
 #include "sim_server/physics_world.hpp"
 #include "sim_server/ray_scene.hpp"
 #include "sim_server/vehicle.hpp"
+#include "sim_server/vehicle_faults.hpp"
 
 namespace skein::sim {
 namespace {
@@ -28,6 +29,7 @@ struct Uav {
   KeyframeSelector keyframes;
   UavView view;
   std::optional<GimbalCommand> gimbal_command;  ///< arrived since the last control step
+  VehicleCondition condition;                   ///< in this exchange
   bool manual_trigger = false, triggered = false;
   bool scans_wanted = true;
   Tick last_raise = 0;  ///< when a capture last raised a score
@@ -49,8 +51,9 @@ std::vector<double> rest_heights(const Scenario& scenario) {
 }  // namespace
 
 struct Simulation::Impl {
-  Impl(const Scenario& the_scenario, Scene the_scene, std::uint64_t the_seed);
+  Impl(const Scenario& the_scenario, Scene the_scene, std::uint64_t the_seed, const FaultPlan& the_faults);
 
+  void meet_faults();
   void deliver_commands();
   void run_tick();
   void control_and_fly();
@@ -60,6 +63,7 @@ struct Simulation::Impl {
   void take_scans();
   void finish_exchange();
   void trace_links();
+  void cut_links();
   bool in_range(Node from, Node to, double distance_m) const;
   void refresh_rays();
   void reject(std::size_t uav, RejectionEvent::Command command, std::string reason);
@@ -67,13 +71,14 @@ struct Simulation::Impl {
 
   const Scenario scenario;
   const Scene scene;
+  const FaultPlan faults;
   PhysicsWorld world;
   RayScene rays;
   Mission mission;
   Referee referee;
   std::vector<Uav> uavs;
   std::vector<UavView> views;  ///< at the step boundary
-  std::vector<std::uint8_t> links;
+  std::vector<std::uint8_t> links, open_links;
   std::vector<RejectionEvent> rejections;  ///< since the last advance()
   StepEvents events;
   std::uint64_t step = 0;
@@ -82,9 +87,11 @@ struct Simulation::Impl {
   Tick rays_tick = -1;  ///< the tick whose poses `rays` has
 };
 
-Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint64_t the_seed)
+Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint64_t the_seed,
+                       const FaultPlan& the_faults)
     : scenario(the_scenario),
       scene(std::move(the_scene)),
+      faults(the_faults),
       world(scene.mesh),
       rays(scene.mesh, body_shapes(scenario)),
       mission(scenario, rest_heights(scenario)),
@@ -103,21 +110,34 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
                     .lidar = {},
                     .keyframes = {},
                     .view = {},
-                    .gimbal_command = {}});
+                    .gimbal_command = {},
+                    .condition = {}});
     if (vehicle.lidar) uavs.back().lidar.emplace(*vehicle.lidar, i, the_seed);
   }
+  meet_faults();
   take_scans();
   finish_exchange();
+}
+
+void Simulation::Impl::meet_faults() {
+  if (faults.empty()) return;
+  const std::vector<VehicleCondition> conditions = vehicle_conditions(faults, scenario.uav_names(), tick);
+  for (std::size_t i = 0; i < uavs.size(); ++i) {
+    uavs[i].condition = conditions[i];
+    uavs[i].vehicle.damage_rotors(conditions[i].rotor_shares);
+    if (!conditions[i].camera_works) uavs[i].triggered = false;
+  }
 }
 
 void Simulation::Impl::deliver_commands() {
   for (std::size_t i = 0; i < uavs.size(); ++i) {
     Uav& uav = uavs[i];
-    const Commands arrived = uav.link.exchange(tick);
+    const Commands arrived = uav.link.exchange(tick, uav.condition.command_delay);
     if (!listening(i)) continue;
     if (arrived.gimbal) uav.gimbal_command = arrived.gimbal;
     if (arrived.stop) uav.vehicle.stop();
-    if (arrived.trigger) uav.manual_trigger = uav.triggered = true;
+    if (arrived.trigger) uav.manual_trigger = true;
+    uav.triggered |= arrived.trigger && uav.condition.camera_works;
   }
 }
 
@@ -178,7 +198,8 @@ void Simulation::Impl::measure(const std::vector<RigidBodyState>& before) {
 void Simulation::Impl::take_pictures() {
   for (std::size_t i = 0; i < uavs.size(); ++i) {
     Uav& uav = uavs[i];
-    if (!mission.alive(i) || (uav.manual_trigger && !uav.triggered) || !uav.camera.ready(tick)) continue;
+    if (!mission.alive(i) || !uav.condition.camera_works) continue;
+    if ((uav.manual_trigger && !uav.triggered) || !uav.camera.ready(tick)) continue;
     uav.triggered = false;
     refresh_rays();
     Capture capture = [&] {
@@ -198,7 +219,7 @@ void Simulation::Impl::take_scans() {
     Uav& uav = uavs[i];
     if (!uav.lidar || !mission.alive(i)) continue;
     uav.lidar->move(tick, world.state(i).X_WB());
-    if (!uav.lidar->due(tick)) continue;
+    if (!uav.condition.lidar_works || !uav.lidar->due(tick)) continue;
     const Isometry3d X_WB = world.state(i).X_WB();
     if (!uav.scans_wanted && !uav.keyframes.wants(tick, X_WB)) continue;
     refresh_rays();
@@ -215,6 +236,7 @@ void Simulation::Impl::take_scans() {
 
 void Simulation::Impl::finish_exchange() {
   trace_links();
+  cut_links();
   views.clear();
   for (std::size_t i = 0; i < uavs.size(); ++i) {
     UavView& view = uavs[i].view;
@@ -228,7 +250,7 @@ void Simulation::Impl::finish_exchange() {
   const std::size_t nodes = uavs.size() + 1;
   for (KeyFrameEvent& event : events.key_frames) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
-      if (links[node_of_uav(event.uav) * nodes + node_of_uav(i)] != 0) event.neighbours.push_back(i);
+      if (open_links[node_of_uav(event.uav) * nodes + node_of_uav(i)] != 0) event.neighbours.push_back(i);
     }
   }
   events.ledger_end = referee.ledger().size();
@@ -261,6 +283,12 @@ void Simulation::Impl::trace_links() {
   }
 }
 
+void Simulation::Impl::cut_links() {
+  open_links = links;
+  const std::vector<std::uint8_t> cut = skein::cut_links(faults, scenario, tick);
+  for (std::size_t i = 0; i < cut.size(); ++i) open_links[i] &= static_cast<std::uint8_t>(cut[i] == 0);
+}
+
 bool Simulation::Impl::in_range(Node from, Node to, double distance_m) const {
   return std::none_of(scenario.links.begin(), scenario.links.end(), [&](const LinkEffect& effect) {
     return effect.range_m && distance_m > *effect.range_m && names_node(effect.from, scenario.node_name(from)) &&
@@ -279,8 +307,8 @@ void Simulation::Impl::reject(std::size_t uav, RejectionEvent::Command command, 
   rejections.push_back({uav, command, std::move(reason), total});
 }
 
-Simulation::Simulation(const Scenario& scenario, Scene scene, std::uint64_t seed)
-    : impl_(std::make_unique<Impl>(scenario, std::move(scene), seed)) {}
+Simulation::Simulation(const Scenario& scenario, Scene scene, std::uint64_t seed, const FaultPlan& faults)
+    : impl_(std::make_unique<Impl>(scenario, std::move(scene), seed, faults)) {}
 Simulation::~Simulation() = default;
 
 bool Simulation::command_trajectory(std::size_t uav, const TrajectoryCommand& command) {
@@ -316,6 +344,7 @@ void Simulation::advance() {
   self.events.rejections = std::exchange(self.rejections, {});
   self.events.ledger_begin = self.referee.ledger().size();
   ++self.step;
+  self.meet_faults();
   self.deliver_commands();
   for (Tick end = self.tick + self.scenario.exchange_ticks(); self.tick < end;) self.run_tick();
   self.finish_exchange();
@@ -328,6 +357,7 @@ const Mission& Simulation::mission() const { return impl_->mission; }
 const UavView& Simulation::uav(std::size_t i) const { return impl_->views.at(i); }
 std::span<const UavView> Simulation::uavs() const { return impl_->views; }
 const std::vector<std::uint8_t>& Simulation::links() const { return impl_->links; }
+const std::vector<std::uint8_t>& Simulation::open_links() const { return impl_->open_links; }
 const StepEvents& Simulation::events() const { return impl_->events; }
 const Referee& Simulation::referee() const { return impl_->referee; }
 const Scene& Simulation::scene() const { return impl_->scene; }

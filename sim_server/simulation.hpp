@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fault_plan.hpp"
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
 #include "core/types.hpp"
@@ -50,7 +51,7 @@ struct LidarEvent {
 struct KeyFrameEvent {
   std::size_t uav = 0;
   Keyframe key_frame;
-  std::vector<std::size_t> neighbours;  ///< UAVs, in fleet order
+  std::vector<std::size_t> neighbours;  ///< UAVs that hear it, in fleet order
 };
 
 /// An exposure that saw at least one point.
@@ -82,8 +83,9 @@ struct StepEvents {
 class Simulation {
  public:
   /// The fleet at rest on the ground at tick 0, links traced, first scans in events().
+  /// @param faults  of which sensors, rotors, commands and what neighbours hear of each other are its business.
   /// @throws InputError if a UAV's start lies in the structure.
-  Simulation(const Scenario& scenario, Scene scene, std::uint64_t seed);
+  Simulation(const Scenario& scenario, Scene scene, std::uint64_t seed, const FaultPlan& faults = {});
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -119,6 +121,8 @@ class Simulation {
   /// Row-major (n + 1) x (n + 1), from sender to receiver, 1 = linked, node 0 = station; the dead have
   /// no links. Symmetric unless the scenario limits the range of some links.
   const std::vector<std::uint8_t>& links() const;
+  /// links() less those that blackouts, outages and partitions cut: who gets whose odometry and key frames.
+  const std::vector<std::uint8_t>& open_links() const;
   const StepEvents& events() const;
   const Referee& referee() const;
   const Scene& scene() const;

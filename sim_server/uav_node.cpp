@@ -22,7 +22,7 @@ void send(bus::CountedWriter& writer, Make&& make) {
 
 msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& scenario, Node node) {
   const std::size_t nodes = simulation.size() + 1;
-  const auto linked = [&](Node other) { return simulation.links()[node * nodes + other] != 0; };
+  const auto linked = [&](Node other) { return simulation.open_links()[other * nodes + node] != 0; };
   std::vector<NeighbourPoint> points;
   if (linked(kStationNode)) {
     const Eigen::Vector3f p = scenario.station_position.cast<float>();

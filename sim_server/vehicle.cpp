@@ -15,6 +15,7 @@ Rotors::Rotors(const VehicleConfig& vehicle, double step_s)
       max_speed_(vehicle.rotor_max_speed),
       blend_up_(1.0 - std::exp(-step_s / vehicle.motor_time_constant_up_s)),
       blend_down_(1.0 - std::exp(-step_s / vehicle.motor_time_constant_down_s)) {
+  shares_.fill(1.0);
   for (std::size_t i = 0; i < kRotors; ++i) {
     const double angle = (30.0 + 60.0 * static_cast<double>(i)) * kRadPerDeg;
     p_BR_[i] = {vehicle.arm_m * std::cos(angle), vehicle.arm_m * std::sin(angle), vehicle.rotor_height_m};
@@ -36,10 +37,11 @@ Wrench Rotors::wrench(const RigidBodyState& state) const {
     const double thrust = force_constant_ * speed * speed;
     Vector3d v_across = v_WB_B + state.w_WB_B.cross(p_BR_[i]);
     v_across.z() = 0.0;
-    const Vector3d force = thrust * Vector3d::UnitZ() - drag_ * speed * v_across;
-    const double reaction = (i % 2 == 0 ? -1.0 : 1.0) * moment_constant_ * thrust;
+    const Vector3d force = shares_[i] * (thrust * Vector3d::UnitZ() - drag_ * speed * v_across);
+    const double reaction = (i % 2 == 0 ? -1.0 : 1.0) * shares_[i] * moment_constant_ * thrust;
     sum.force_B += force;
-    sum.torque_B += p_BR_[i].cross(force) + reaction * Vector3d::UnitZ() - rolling_moment_ * speed * v_across;
+    sum.torque_B +=
+        p_BR_[i].cross(force) + reaction * Vector3d::UnitZ() - shares_[i] * rolling_moment_ * speed * v_across;
   }
   return sum;
 }

@@ -37,6 +37,8 @@ class Rotors {
   /// One step towards the demanded speeds; no rotor exceeds its greatest speed.
   void step(const RotorSpeeds& demand);
   Wrench wrench(const RigidBodyState& state) const;
+  /// Damage. @param shares  of thrust and torque that each rotor gives at its speed, [0, 1].
+  void damage(const std::array<double, kRotors>& shares) { shares_ = shares; }
   const RotorSpeeds& speeds() const { return speeds_; }
 
  private:
@@ -44,6 +46,7 @@ class Rotors {
   double blend_up_, blend_down_;  ///< share of the way to the demand covered in a step
   std::array<Vector3d, kRotors> p_BR_;
   RotorSpeeds speeds_{};
+  std::array<double, kRotors> shares_;
 };
 
 /// Not thread-safe.
@@ -73,6 +76,8 @@ class Vehicle {
     return fly(state);
   }
 
+  /// Rotors that give only a share of their thrust and torque, from now on; the controllers do not know.
+  void damage_rotors(const std::array<double, kRotors>& shares) { rotors_.damage(shares); }
   /// Cut the motors, for good.
   void stop() { position_control_.stop(); }
 

@@ -1,0 +1,34 @@
+// When each fault of a plan began and ended in a run: for the log and for result.json. Pure.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fault_plan.hpp"
+
+namespace skein::sim {
+
+class FaultTimeline {
+ public:
+  explicit FaultTimeline(const FaultPlan& plan) : faults_(plan.faults), entries_(plan.faults.size()) {}
+
+  /// Call it once an exchange, in order, as the exchange begins.
+  /// @returns a line for the log for each fault that begins or ends with it, in the plan's order.
+  std::vector<std::string> enter_step(std::uint64_t step, Tick tick);
+
+  /// One entry a fault, in the plan's order: kind, target, at_s, until_s (null: to the end), began_step, ended_step
+  /// (null: not in this run).
+  nlohmann::json to_json() const;
+
+ private:
+  struct Entry {
+    std::optional<std::uint64_t> began, ended;
+  };
+
+  std::vector<Fault> faults_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace skein::sim
