@@ -28,27 +28,30 @@ FileKind kind_of(const std::string& file) {
                    "file for the waypoints planner 'paths'");
 }
 
-/// What the programs themselves say to a scenario and planner.
-void check_with_programs(const CheckOptions& options, const std::string& scenario, const std::string& planner) {
+/// What the programs themselves say to a scenario and planner. Warnings are passed on.
+void check_with_programs(const CheckOptions& options, const std::string& scenario, const std::string& planner,
+                         const Console& console) {
   RunOptions run;
   run.scenario = scenario;
   run.planner = planner;
   run.assets = options.assets;
   const ScratchDir scratch;
-  run_checks(check_programs(plan_fleet(run, program_dir()), scratch.path()));
+  for (const std::string& warning : run_checks(check_programs(plan_fleet(run, program_dir()), scratch.path()))) {
+    console.err << warning << std::endl;
+  }
 }
 
-std::string check_file(const CheckOptions& options, const std::string& file) {
+std::string check_file(const CheckOptions& options, const std::string& file, const Console& console) {
   const std::string path = std::filesystem::absolute(file);
   switch (kind_of(file)) {
     case FileKind::vehicle:
       load_vehicle(path, default_config_dir());
       return "vehicle";
     case FileKind::waypoints:
-      check_with_programs(options, RunOptions{}.scenario, "waypoints:" + path);
+      check_with_programs(options, RunOptions{}.scenario, "waypoints:" + path, console);
       return "waypoints";
     case FileKind::scenario:
-      check_with_programs(options, path, kDefaultPlanner);
+      check_with_programs(options, path, kDefaultPlanner, console);
       return "scenario";
   }
   return {};
@@ -67,7 +70,7 @@ int check_golden(const std::string& file) {
 
 int check_files(const CheckOptions& options, const Console& console) {
   for (const std::string& file : options.files) {
-    const std::string kind = check_file(options, file);
+    const std::string kind = check_file(options, file, console);
     console.out << file << ": OK (" << kind << ")" << std::endl;
   }
   int worst = kExitDone;

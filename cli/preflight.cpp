@@ -37,15 +37,20 @@ std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& progra
 
 }  // namespace
 
-void run_checks(const std::vector<ProgramSpec>& programs) {
+std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs) {
   const std::map<std::string, ExitStatus> exits = run_all(programs);
+  std::vector<std::string> warnings;
   for (const ProgramSpec& program : programs) {
     const ExitStatus exit = exits.at(program.name);
     if (exit.code == 2) throw InputError(message_of(program));
     if (!exit.ok()) {
       throw std::runtime_error(program.name + " --check ended with " + exit.text() + "\n" + message_of(program));
     }
+    for (std::string& line : last_lines(program.log, kMessageLines)) {
+      if (line.find("] warning ") != std::string::npos) warnings.push_back(std::move(line));
+    }
   }
+  return warnings;
 }
 
 ExitStatus run_to_end(const ProgramSpec& program) { return run_all({program}).at(program.name); }

@@ -9,9 +9,10 @@ namespace skein::cli {
 struct Interrupted {};
 
 /// Runs programs that only validate, all at once, and waits for them.
+/// @returns what they warn of, line by line.
 /// @throws InputError with the message of the first program (in the order given) that ended with exit code 2;
 ///   std::runtime_error when one failed in another way; Interrupted.
-void run_checks(const std::vector<ProgramSpec>& programs);
+std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs);
 
 /// Runs one program and waits for it. @throws Interrupted after ending it when the user pressed Ctrl-C.
 ExitStatus run_to_end(const ProgramSpec& program);

@@ -14,6 +14,7 @@
 #include "sim_server/golden_check.hpp"
 #include "sim_server/oracle_cache.hpp"
 #include "sim_server/scene_export.hpp"
+#include "sim_server/scene_warnings.hpp"
 #include "sim_server/scenes/scene_source.hpp"
 #include "sim_server/sim_node.hpp"
 
@@ -117,6 +118,7 @@ int run(const skein::ProgramOptions& options, const ServerOptions& server, skein
   skein::Scene scene = skein::sim::load_scene(scenario);
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) {
+    for (const std::string& warning : skein::sim::scene_warnings(scene)) spdlog::warn("{}", warning);
     skein::sim::Simulation(scenario, std::move(scene), options.seed);  // starts must be free
     return skein::kExitDone;
   }

@@ -92,6 +92,15 @@ TEST_F(Determinism, OnlyWhatMattersEntersTheDigest) {
   EXPECT_NE(quick("seeded", {"--seed", "7"}), reference);
 }
 
+TEST_F(Determinism, AnExportedSceneIsTheSameScene) {
+  const std::string folder = this->folder() / "exported";
+  ChildProcess& scene = skein({"scene", "spire", "--scene-seed", "2", "--out", folder});
+  ASSERT_EQ(scene.wait().code, 0) << scene.err();
+  const Arguments brief = {"--planner", "patrol", "--duration", "20"};
+  EXPECT_EQ(digest("loaded", Arguments{folder + "/spire.yaml"} + brief),
+            digest("made", Arguments{"spire", "--scene-seed", "2"} + brief));
+}
+
 TEST_F(Determinism, OfficialScene) {
   if (std::getenv("SKEIN_ASSETS") == nullptr) GTEST_SKIP() << "SKEIN_ASSETS is not set";
   const Arguments mbs = {"mbs", "--planner", "patrol", "--duration", "75"};
