@@ -5,7 +5,6 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kEndTolerance = 0.1;
 constexpr double kLowestAntenna = 0.1;
 
 }  // namespace

@@ -36,6 +36,8 @@ concept FirstHit = requires(F f, const Vector3d& p) {
 };
 
 inline constexpr std::size_t kAntennas = 6;
+/// A sight line that is hit no farther than this before its end is free.
+inline constexpr double kEndTolerance = 0.1;
 
 /// Antenna positions in W. Pure.
 std::array<Vector3d, kAntennas> antennas(const AntennaNode& node);

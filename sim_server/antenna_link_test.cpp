@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "sim_server/sight_memory.hpp"
+#include "sim_server/test_scenes.hpp"
+
 namespace skein::sim {
 namespace {
 
@@ -54,6 +57,33 @@ TEST(AntennaLink, OnlyTheLowestAntennaIsKeptAboveGround) {
   EXPECT_DOUBLE_EQ(points[5].z(), 0.1);
   EXPECT_DOUBLE_EQ(points[0].z(), 0.05);
   EXPECT_DOUBLE_EQ(points[4].z(), 0.25);
+}
+
+/// Two nodes on their way through clutter, and one that jumps about: the memory changes no answer.
+TEST(AntennaLink, SightMemoryAnswersAsRaysAlone) {
+  RandomStream random(1, "antenna_link_test", 0, 0);
+  int linked = 0, blocked = 0;
+  for (const std::size_t triangles : {40U, 150U}) {
+    RayScene world(test::random_triangles(triangles, triangles), {body_shape(VehicleConfig{})});
+    for (int flight = 0; flight < 8; ++flight) {
+      const auto place = [&] { return test::random_in_box(random, {-25.0, -25.0, 0.0}, {25.0, 25.0, 20.0}); };
+      const Vector3d start = place(), end = place(), station = place();
+      SightMemory memory;
+      for (int step = 0; step <= 200; ++step) {
+        const AntennaNode a{station, 0.2};
+        const AntennaNode b{step % 20 == 19 ? place() : Vector3d(start + 0.005 * step * (end - start)), 0.1};
+        world.set_pose(0, Isometry3d(Eigen::Translation3d(0.5 * (a.p_W + b.p_W))));
+        const RayFilter filter{.except_uav = step % 2 == 0 ? 0 : kNobody};
+        const bool expected = trace_link(a, b, [&](const Vector3d& p, const Vector3d& q) {
+                                return world.first_hit_distance(p, q, filter);
+                              }).linked;
+        ASSERT_EQ(memory.linked(a, b, world, filter), expected) << "flight " << flight << " step " << step;
+        (expected ? linked : blocked) += 1;
+      }
+    }
+  }
+  EXPECT_GT(linked, 500);
+  EXPECT_GT(blocked, 500);
 }
 
 }  // namespace

@@ -83,12 +83,10 @@ void Lidar::trace(const Isometry3d& X_WL, int first_column, int columns, const R
   }
   RayFilter filter;
   filter.except_uav = uav_;
-  world.scan(X_WL.translation(), directions_W_, config_.range_max_m, filter, distances_);
+  world.scan(X_WL.translation(), directions_W_, static_cast<std::size_t>(columns), config_.range_max_m, filter,
+             distances_);
   for (int ring = 0; ring < config_.rings; ++ring) {
-    for (int column = 0; column < columns; ++column) {
-      ranges_[static_cast<std::size_t>(beam(ring, column))] =
-          distances_[static_cast<std::size_t>(ring * columns + column)];
-    }
+    std::copy_n(distances_.begin() + ring * columns, columns, ranges_.begin() + beam(ring, 0));
   }
 }
 
@@ -98,7 +96,8 @@ LidarScan Lidar::scan(Tick tick, const Isometry3d& X_WB, const RayScene& world) 
   scan.number = static_cast<std::uint64_t>(tick / period_);
   scan.servo_angle = servo_angle(config_, seconds(tick + phase_));
   scan.X_WL = pose(tick, X_WB);
-  if (!config_.motion_distortion || tick < period_) {
+  const bool instant = !config_.motion_distortion || tick < period_;
+  if (instant) {
     trace(scan.X_WL, 0, config_.columns, world);
   } else {
     const auto period = static_cast<int>(period_);
@@ -119,7 +118,8 @@ LidarScan Lidar::scan(Tick tick, const Isometry3d& X_WB, const RayScene& world) 
       continue;
     }
     const double range = noisy ? ranges_[i] + config_.sigma_m * noise.normal() : ranges_[i];
-    const Eigen::Vector3f direction_W = R_WL * directions_L_.col(static_cast<Eigen::Index>(i));
+    const Eigen::Vector3f direction_W =
+        instant ? directions_W_[i] : Eigen::Vector3f(R_WL * directions_L_.col(static_cast<Eigen::Index>(i)));
     scan.points_W.push_back((scan.X_WL.translation() + range * direction_W.cast<double>()).cast<float>());
   }
   return scan;

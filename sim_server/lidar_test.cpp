@@ -228,6 +228,48 @@ TEST_F(LidarRoom, NoiseIsSeeded) {
   EXPECT_NEAR(std::sqrt(sum2 / n), 0.01, 0.0005);
 }
 
+/// Walls of a narrow and a wide room, just inside and just outside of 0.9 m and 50 m.
+TEST(Lidar, SeesFromNinetyCentimetresToFiftyMetres) {
+  const auto farthest_and_nearest = [](double half_size) {
+    TriangleMesh mesh;
+    test::add_box(mesh, {0.0, 0.0, 200.0 + 0.2 + 0.00185}, Vector3d::Constant(2.0 * half_size));
+    const RayScene world(mesh);
+    const LidarScan scan =
+        Lidar(LidarConfig{}, 0, 0).scan(0, Isometry3d(Eigen::Translation3d(0.0, 0.0, 200.0)), world);
+    std::pair ranges{0.0, 1e9};
+    for (const Eigen::Vector3f& p : scan.points_W) {
+      const double range = (p.cast<double>() - scan.X_WL.translation()).norm();
+      ranges = {std::max(ranges.first, range), std::min(ranges.second, range)};
+    }
+    return ranges;
+  };
+  const auto [far_in_narrow, near_in_narrow] = farthest_and_nearest(0.8);
+  EXPECT_GE(near_in_narrow, 0.9 - 1e-4);
+  EXPECT_LT(near_in_narrow, 0.92);
+  EXPECT_GT(far_in_narrow, 1.1);
+  const auto [far_in_wide, near_in_wide] = farthest_and_nearest(48.0);
+  EXPECT_LE(far_in_wide, 50.0 + 1e-3);
+  EXPECT_GT(far_in_wide, 49.5);
+  EXPECT_NEAR(near_in_wide, 48.0, 0.05);
+}
+
+TEST_F(LidarRoom, NoiseFollowsSigma) {
+  const RayScene world = room();
+  LidarConfig config;
+  config.servo_rate_deg_s = 0.0;
+  const LidarScan clean = Lidar(config, 0, 0).scan(0, X_WB_, world);
+  for (const double sigma : {0.0, 0.003, 0.05}) {
+    config.sigma_m = sigma;
+    const LidarScan scan = Lidar(config, 0, 5).scan(0, X_WB_, world);
+    ASSERT_EQ(scan.points_W.size(), clean.points_W.size());
+    double sum2 = 0.0;
+    for (std::size_t i = 0; i < scan.points_W.size(); ++i) {
+      sum2 += (scan.points_W[i] - clean.points_W[i]).cast<double>().squaredNorm();
+    }
+    EXPECT_NEAR(std::sqrt(sum2 / static_cast<double>(scan.points_W.size())), sigma, 0.03 * sigma + 1e-6);
+  }
+}
+
 TEST(Lidar, SeedDrawsThePhaseOnce) {
   const RayScene world(TriangleMesh{});
   const auto angle_at_start = [&world](std::size_t uav, std::uint64_t seed) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "sim_server/ray_fan.hpp"
 #include "sim_server/ray_shapes.hpp"
 
 namespace skein::sim {
@@ -59,6 +60,7 @@ struct RayScene::Impl {
   Device device;
   EmbreeScene scene;
   TriangleMesh mesh;
+  RayFan fan{TriangleMesh{}};
   std::vector<Plane> planes;
   std::vector<Body> bodies;
 
@@ -90,6 +92,7 @@ struct RayScene::Impl {
       const Vector3d normal = (b - a).cross(c - a).stableNormalized();
       planes.push_back({normal, normal.dot(a)});
     }
+    fan = RayFan(mesh);
     const auto geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<Eigen::Vector3f*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f), mesh.vertices.size()));
@@ -111,8 +114,8 @@ struct RayScene::Impl {
             mesh.vertices[triangle[2]].cast<double>()};
   }
 
-  /// Where a ray meets the triangle that Embree named for it.
-  /// @param ray  as Embree had it, rounded to single precision: the one that it found inside the triangle.
+  /// Where a ray meets the triangle that Embree or the fan named for it.
+  /// @param ray  as they had it, rounded to single precision: the one that they found inside the triangle.
   double structure_distance(const Ray& ray, unsigned triangle) const {
     const Plane& plane = planes[triangle];
     const double slope = plane.normal.dot(ray.direction);
@@ -133,8 +136,8 @@ struct RayScene::Impl {
     return bodies[uav].placed && uav != filter.except_uav && uav != filter.except_other_uav;
   }
 
-  /// Distance of the structure on a single ray; infinity when there is none up to `distance_max`.
-  double first_structure(const Ray& ray, double distance_max) const {
+  /// The structure on a single ray; nullopt when there is none up to `distance_max`.
+  std::optional<Hit> first_structure(const Ray& ray, double distance_max) const {
     const Eigen::Vector3f origin = ray.origin.cast<float>(), direction = ray.direction.cast<float>();
     RTCRayHit query{};
     query.ray.org_x = origin.x();
@@ -149,17 +152,17 @@ struct RayScene::Impl {
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_NONE);
     rtcIntersect1(scene.get(), &context, &query);
-    return query.hit.geomID == RTC_INVALID_GEOMETRY_ID
-               ? kInfinity
-               : structure_distance({origin.cast<double>(), direction.cast<double>()}, query.hit.primID);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return Hit{.distance = structure_distance({origin.cast<double>(), direction.cast<double>()}, query.hit.primID),
+               .triangle = query.hit.primID};
   }
 
   std::optional<Hit> first_hit(const Ray& ray, double distance_max, const RayFilter& filter) const {
-    Hit nearest{distance_max, HitKind::structure, kNobody};
+    Hit nearest{.distance = distance_max};
     bool any = false;
     if (filter.ground) {
       if (const double t = ground_distance(ray); t <= nearest.distance) {
-        nearest = {t, HitKind::ground, kNobody};
+        nearest = {t, HitKind::ground, kNobody, kNoTriangle};
         any = true;
       }
     }
@@ -174,52 +177,50 @@ struct RayScene::Impl {
         continue;
       }
       if (const double t = bodies[uav].distance(ray); t <= nearest.distance) {
-        nearest = {t, HitKind::uav, uav};
+        nearest = {t, HitKind::uav, uav, kNoTriangle};
         any = true;
       }
     }
-    if (const double t = first_structure(ray, nearest.distance); std::isfinite(t)) {
-      nearest = {t, HitKind::structure, kNobody};
-      any = true;
+    if (const auto hit = first_structure(ray, nearest.distance)) {
+      return hit;
     }
     return any ? std::optional(nearest) : std::nullopt;
   }
 
-  /// Distances to the structure, and to the ground, which ends a ray before it is traced. Four rays at a time: the
-  /// widest packet that the pinned instruction set knows.
-  void scan_structure(const Vector3d& origin, std::span<const Eigen::Vector3f> directions, double distance_max,
-                      bool ground, std::span<double> distances) const {
-    constexpr std::size_t kWidth = 4;
-    const Eigen::Vector3f rounded_origin = origin.cast<float>();
-    RTCRayHit4 packet{};
-    std::ranges::fill(packet.ray.org_x, rounded_origin.x());
-    std::ranges::fill(packet.ray.org_y, rounded_origin.y());
-    std::ranges::fill(packet.ray.org_z, rounded_origin.z());
-    std::ranges::fill(packet.ray.mask, ~0U);
-    RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
-    for (std::size_t begin = 0; begin < directions.size(); begin += kWidth) {
-      const std::size_t count = std::min(kWidth, directions.size() - begin);
-      alignas(16) std::array<int, kWidth> valid{};
-      for (std::size_t i = 0; i < count; ++i) {
-        const Eigen::Vector3f& direction = directions[begin + i];
-        const double t = ground ? ground_distance({origin, direction.cast<double>()}) : kInfinity;
-        distances[begin + i] = t <= distance_max ? t : kInfinity;
-        valid[i] = -1;
-        packet.ray.dir_x[i] = direction.x();
-        packet.ray.dir_y[i] = direction.y();
-        packet.ray.dir_z[i] = direction.z();
-        packet.ray.tfar[i] = static_cast<float>(std::min(t, distance_max));
-        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-      }
-      rtcIntersect4(valid.data(), scene.get(), &context, &packet);
-      for (std::size_t i = 0; i < count; ++i) {
-        if (packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
-          distances[begin + i] = structure_distance(
-              {rounded_origin.cast<double>(), directions[begin + i].cast<double>()}, packet.hit.primID[i]);
-        }
-      }
+  /// Distances to the structure, and to the ground, which ends a ray before it is traced.
+  void scan_structure(const Vector3d& origin, std::span<const Eigen::Vector3f> directions, std::size_t columns,
+                      double distance_max, bool ground, std::span<double> distances) const {
+    std::vector<float> reaches(directions.size());
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      const double t = ground ? ground_distance({origin, directions[i].cast<double>()}) : kInfinity;
+      distances[i] = t <= distance_max ? t : kInfinity;
+      reaches[i] = static_cast<float>(std::min(t, distance_max));
     }
+    const Eigen::Vector3f rounded_origin = origin.cast<float>();
+    std::vector<std::uint32_t> triangles(directions.size());
+    fan.trace(rounded_origin, directions, columns, reaches, triangles);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      if (triangles[i] == RayFan::kNothing) continue;
+      distances[i] = structure_distance({rounded_origin.cast<double>(), directions[i].cast<double>()}, triangles[i]);
+    }
+  }
+
+  bool surely_blocked_by(std::uint32_t triangle, const Vector3d& from, const Vector3d& to, double distance_max) const {
+    const auto [a, b, c] = corners(mesh.triangles[triangle]);
+    const Vector3d normal = (b - a).cross(c - a), way = to - from;
+    const double area2 = normal.norm(), length = way.norm();
+    const double slope = normal.dot(way);  // area2 * length * sine of the angle between plane and ray
+    const double share = normal.dot(a - from) / slope;
+    // Rays are rounded to single precision: a tenth of a millimetre at a hundred metres is a generous bound of that.
+    constexpr double kLeastSine = 0.02, kInside = 1e-4 / kLeastSine;
+    if (!(std::abs(slope) > kLeastSine * area2 * length && share > 0.0)) return false;
+    const double distance = share * length;
+    if (distance < kInside || distance > distance_max - kInside) return false;
+    const Vector3d p = from + share * way;
+    const auto inside = [&](const Vector3d& start, const Vector3d& end) {
+      return normal.dot((end - start).cross(p - start)) > kInside * (end - start).norm() * area2;
+    };
+    return inside(a, b) && inside(b, c) && inside(c, a);
   }
 
   /// Shortens the distances of the rays that meet this body.
@@ -298,12 +299,20 @@ std::optional<double> RayScene::first_hit_distance(const Vector3d& from_W, const
   return hit ? std::optional(hit->distance) : std::nullopt;
 }
 
-void RayScene::scan(const Vector3d& p_W, std::span<const Eigen::Vector3f> directions_W, double distance_max,
-                    const RayFilter& filter, std::span<double> distances) const {
+bool RayScene::surely_blocked_by(std::uint32_t triangle, const Vector3d& from_W, const Vector3d& to_W,
+                                 double distance_max) const {
+  return triangle != kNoTriangle && impl_->surely_blocked_by(triangle, from_W, to_W, distance_max);
+}
+
+void RayScene::scan(const Vector3d& p_W, std::span<const Eigen::Vector3f> directions_W, std::size_t columns,
+                    double distance_max, const RayFilter& filter, std::span<double> distances) const {
   if (distances.size() != directions_W.size()) {
     throw std::invalid_argument("RayScene::scan: one distance for each direction");
   }
-  impl_->scan_structure(p_W, directions_W, distance_max, filter.ground, distances);
+  if (columns == 0 || directions_W.size() % columns != 0) {
+    throw std::invalid_argument("RayScene::scan: the directions make no whole rows");
+  }
+  impl_->scan_structure(p_W, directions_W, columns, distance_max, filter.ground, distances);
   for (std::size_t uav = 0; filter.uavs && uav < impl_->bodies.size(); ++uav) {
     if (impl_->takes_part(uav, filter)) {
       impl_->scan_body(impl_->bodies[uav], p_W, directions_W, distance_max, distances);

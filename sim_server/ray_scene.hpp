@@ -1,13 +1,15 @@
-// Rays through the world: what stands first on a straight line, and how far the structure is. Embree inside.
+// Rays through the world: what stands first on a straight line, and how far the structure is. Embree inside, and RayFan
+// for many rays from one point.
 // Structure (triangles, double-sided), ground plane z = 0 and the bodies of the UAVs (boxes with rotor discs).
 // Frames: W world, B body.   Units: SI.
 //
 // Repeatable on every CPU: Embree is pinned to one instruction set and one thread, and it only names the triangle that
 // a ray meets; the distance is computed here, in double precision, because Embree divides by approximate reciprocals
-// whose last bits differ between makers of CPUs.
+// whose last bits differ between makers of CPUs. RayFan, too, only names triangles.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -27,6 +29,7 @@ struct BodyShape {
 BodyShape body_shape(const VehicleConfig& vehicle);
 
 inline constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
+inline constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
 
 /// What a ray may meet besides the structure.
 struct RayFilter {
@@ -42,6 +45,7 @@ struct Hit {
   double distance = 0.0;  ///< along the ray [m]
   HitKind kind = HitKind::structure;
   std::size_t uav = kNobody;  ///< fleet index, when `kind` is uav
+  std::uint32_t triangle = kNoTriangle;  ///< of the structure, when `kind` is structure
 };
 
 class RayScene {
@@ -70,11 +74,21 @@ class RayScene {
   std::optional<double> first_hit_distance(const Vector3d& from_W, const Vector3d& to_W,
                                            const RayFilter& filter = {}) const;
 
-  /// Many rays from one point, for a LiDAR: neighbours in the list should point to similar directions.
-  /// @param directions_W  unit vectors.
-  /// @param distances     as many; receives the distance of the first hit, infinity where nothing is met.
-  void scan(const Vector3d& p_W, std::span<const Eigen::Vector3f> directions_W, double distance_max,
-            const RayFilter& filter, std::span<double> distances) const;
+  /// Whether a triangle of the structure surely blocks a segment: it is crossed well inside its edges, no farther than
+  /// `distance_max` from the start. Then a ray along the segment meets something up to there, if not that triangle
+  /// itself. Much cheaper than a ray: what blocked a view a moment ago mostly still does.
+  /// @param triangle  as in Hit; kNoTriangle blocks nothing.
+  bool surely_blocked_by(std::uint32_t triangle, const Vector3d& from_W, const Vector3d& to_W,
+                         double distance_max) const;
+
+  /// Many rays from one point, for a LiDAR; through RayFan instead of Embree.
+  /// @param directions_W  unit vectors, row by row of a grid in which neighbours point to similar directions, each row
+  ///                      and each column in one sense. Any list will do, at the price of speed.
+  /// @param columns       length of a row, >= 1; divides the number of directions.
+  /// @param distance_max  > 0.
+  /// @param distances     as many as directions; receives the distance of the first hit, infinity where nothing is met.
+  void scan(const Vector3d& p_W, std::span<const Eigen::Vector3f> directions_W, std::size_t columns,
+            double distance_max, const RayFilter& filter, std::span<double> distances) const;
 
   /// Distance of the closest point of the structure (not of ground or UAVs) [m].
   /// @returns infinity when it is farther than `distance_max`.
