@@ -1,16 +1,23 @@
 #include "cli/run_command.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <chrono>
+#include <csignal>
+#include <fstream>
 #include <optional>
+#include <utility>
 
 #include "cli/domain_block.hpp"
 #include "cli/fleet_plan.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/preflight.hpp"
+#include "cli/process_orders.hpp"
 #include "cli/progress_view.hpp"
 #include "cli/results_dir.hpp"
 #include "cli/run_result.hpp"
+#include "cli/security.hpp"
 #include "core/atomic_file.hpp"
 
 namespace skein::cli {
@@ -34,26 +41,32 @@ double seconds_between(Clock::time_point from, Clock::time_point until) {
 /// One fleet from its start to its last process.
 class FleetRun {
  public:
-  FleetRun(const FleetPlan& plan, const Console& console) : plan_(plan), view_(console.err, console.terminal) {
+  FleetRun(const FleetPlan& plan, const Console& console)
+      : plan_(plan), orders_(supervisor_), view_(console.err, console.terminal) {
     facts_.scenario = plan.options.scenario;
     facts_.seed = plan.options.seed;
     facts_.planners = plan.planners;
+    facts_.ground_program = plan.ground;
     facts_.dds = dds_vendors(plan);
     facts_.clock = plan.options.clock;
     facts_.native = plan.options.native;
   }
 
   /// Starts all programs and returns when none is left.
-  void fly(int base_domain, const std::filesystem::path& out) {
-    for (const ProgramSpec& program : fleet_programs(plan_, base_domain, out)) {
-      logs_[program.name] = program.log;
+  void fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure) {
+    for (const ProgramSpec& program : fleet_programs(plan_, base_domain, out, secure)) {
+      programs_[program.name] = program;
       supervisor_.start(program);
     }
     if (plan_.options.debug_uav) {
       view_.message("Start the agent of " + *plan_.options.debug_uav + " yourself; the fleet waits for it:\n\n  " +
-                    debug_command(plan_, base_domain, out) + "\n");
+                    debug_command(plan_, base_domain, out, secure) + "\n");
     }
     watch();
+    for (const auto& [program, books] : {std::pair("station", "station.journal"), {"comm_router", "comm_router.counts"}}) {
+      const bool reported = std::filesystem::exists(out / (std::string(program) + ".report.json"));
+      if (!reported && std::filesystem::exists(out / books)) settle(program);
+    }
     view_.finish();
   }
 
@@ -69,7 +82,8 @@ class FleetRun {
         limit = std::max(std::chrono::ceil<milliseconds>(*leave_by_ - Clock::now()), milliseconds(0));
         if (limit == milliseconds(0)) end_stragglers();
       }
-      handle_all(supervisor_.wait(limit));
+      handle_all(supervisor_.wait(orders_.limit(limit)));
+      for (const std::string& program : orders_.take_returning()) bring_back(program);
     }
   }
 
@@ -94,7 +108,12 @@ class FleetRun {
       facts_.score_earned = value_or(status, "earned", 0.0);
       view_.tally(status);
     }
-    if (type == "ended") note_use();
+    if (type == "order") on_order(status);
+    if (type == "rejoined") orders_.returned(program_of(value_or(status, "member", "")));
+    if (type == "ended") {
+      note_use();
+      if (!leave_by_) leave_by_ = Clock::now() + kLeaveTime;
+    }
     if (type == "progress") {
       facts_.sim_time_s = value_or(status, "t", 0.0);
       facts_.mission_time_s = value_or(status, "mission_s", 0.0);
@@ -102,6 +121,45 @@ class FleetRun {
       facts_.wall_time_s = seconds_between(*first_progress_, Clock::now());
       view_.progress(status, facts_.wall_time_s);
     }
+  }
+
+  /// A fault takes a program out of the run, or lets it back.
+  void on_order(const Json& status) {
+    const std::string program = program_of(value_or(status, "member", "")), order = value_or(status, "order", "");
+    const std::string when = fmt::format("at {:.2f} s: ", value_or(status, "t", 0.0).get<double>());
+    if (order == "kill" || order == "stop") {
+      view_.message(when + "a fault " + order + "s " + program);
+      orders_.take_out(program, order == "kill", is_exec(plan_, program));
+    } else {
+      view_.message(when + program + (order == "start" ? " is started again" : " goes on"));
+      orders_.let_back(program);
+    }
+  }
+
+  /// What was killed starts again, what was stopped goes on.
+  void bring_back(const std::string& program) {
+    const auto spec = programs_.find(program);
+    if (supervisor_.running(program) || spec == programs_.end()) return supervisor_.signal(program, SIGCONT);
+    spec->second.append_log = true;
+    std::ofstream(spec->second.log, std::ios::app) << "[skein] a fault killed this program; here it starts again\n";
+    supervisor_.start(spec->second);
+  }
+
+  std::string program_of(const std::string& member) const {
+    const auto found = std::find_if(programs_.begin(), programs_.end(),
+                                    [&](const auto& entry) { return member_name(entry.first) == member; });
+    return found == programs_.end() ? member : found->first;
+  }
+
+  /// A program that died left books of what it did: it makes its report of them.
+  void settle(const std::string& program) {
+    ProgramSpec spec = programs_.at(program);
+    spec.argv.push_back("--settle");
+    spec.append_log = true;
+    supervisor_.start(spec);
+    const Clock::time_point deadline = Clock::now() + kLeaveTime;
+    while (supervisor_.running(program) && Clock::now() < deadline) supervisor_.wait(kGrace);
+    supervisor_.end_all(kGrace);
   }
 
   /// What the programs did before is start-up.
@@ -115,7 +173,7 @@ class FleetRun {
   void note_use() {
     over_ = true;
     for (const std::string& program : supervisor_.running()) {
-      facts_.processes[program].cpu_s = supervisor_.cpu_s(program) - cpu_before_s_[program];
+      facts_.processes[program].cpu_s += supervisor_.cpu_s(program) - cpu_before_s_[program];
       facts_.processes[program].memory_share_mb = supervisor_.memory_share_mb(program);
     }
   }
@@ -123,9 +181,14 @@ class FleetRun {
   void on_exit(const Event& event) {
     const bool of_server = event.program == "sim_server";
     ProcessUse& use = facts_.processes[event.program];
-    use.peak_memory_mb = event.exit.peak_memory_mb;
-    if (!over_) use.cpu_s = event.exit.cpu_s - cpu_before_s_[event.program];
+    use.peak_memory_mb = std::max(use.peak_memory_mb, event.exit.peak_memory_mb);
+    if (!over_) use.cpu_s += event.exit.cpu_s - std::exchange(cpu_before_s_[event.program], 0.0);
+    if (orders_.on_exit(event.program, event.exit)) return;  // as it should
     if (!event.exit.ok() && !ending_) complain(event.program, event.exit.text());
+    if (of_server) {
+      facts_.out_by_fault = orders_.out();
+      orders_.end();
+    }
     if (of_server && !event.exit.ok()) {
       end_all();  // nobody is left to tell the others how the run goes on
     } else if (of_server) {
@@ -167,16 +230,17 @@ class FleetRun {
   void complain(const std::string& program, const std::string& how) {
     failed_ = true;
     facts_.warnings.push_back(program + " failed: " + how);
-    std::string text = program + " failed: " + how + "; the end of " + logs_[program].string() + ":";
-    for (const std::string& line : last_lines(logs_[program], kLogLines)) text += "\n    " + line;
+    std::string text = program + " failed: " + how + "; the end of " + programs_.at(program).log.string() + ":";
+    for (const std::string& line : last_lines(programs_.at(program).log, kLogLines)) text += "\n    " + line;
     view_.message(text);
   }
 
   const FleetPlan& plan_;
   Supervisor supervisor_;
+  ProcessOrders orders_;
   ProgressView view_;
   RunFacts facts_;
-  std::map<std::string, std::filesystem::path> logs_;
+  std::map<std::string, ProgramSpec> programs_;
   const Clock::time_point started_ = Clock::now();
   std::optional<Clock::time_point> first_progress_;
   std::map<std::string, double> cpu_before_s_;  ///< of each program at the first step
@@ -187,8 +251,9 @@ class FleetRun {
 };
 
 void check_before_flight(const FleetPlan& plan) {
+  const auto agent_user = plan.options.secure ? check_agents_access(plan) : std::nullopt;
   const ScratchDir scratch;
-  run_checks(check_programs(plan, scratch.path()));
+  run_checks(check_programs(plan, scratch.path(), agent_user));
 }
 
 std::string start_line(const FleetPlan& plan, const DomainBlock& domains, const std::filesystem::path& out) {
@@ -214,7 +279,17 @@ int run_fleet(const RunOptions& options, const Console& console) {
     run.facts().warnings.push_back("DDS domains above " + std::to_string(kLastQuietDomain) +
                                    " use ports that the system may give to other programs");
   }
-  run.fly(domains.base(), out.path());
+  std::optional<SecureRun> secure;
+  if (options.secure) {
+    secure.emplace(plan, domains.base(), out.path());
+    for (const std::string& warning : exposed_files(plan)) {
+      run.view().message(warning);
+      run.facts().warnings.push_back(warning);
+    }
+  }
+  run.fly(domains.base(), out.path(), secure ? secure->folders() : SecureFolders{});
+  if (secure) secure->collect();
+  secure.reset();
 
   const Reports reports = read_reports(out.path(), plan.scenario);
   if (!write_score_csv(out.path(), reports.station)) run.facts().warnings.push_back("no scene.json: no score.csv");

@@ -59,6 +59,14 @@ void add_processes(const RunFacts& facts, Json& result) {
   result["processes"] = std::move(processes);
 }
 
+/// Samples, on all topics of all programs, that were no messages of their topics' types.
+std::uint64_t malformed_samples(const Reports& reports) {
+  const auto count = [](const Json& report) { return value_or(report, "malformed", 0).get<std::uint64_t>(); };
+  std::uint64_t sum = count(reports.sim_server) + count(reports.station) + count(reports.comm_router);
+  for (const auto& [uav, report] : reports.agents) sum += count(report);
+  return sum;
+}
+
 Json radio_counts(const Json& router) {
   Json radio = Json::object();
   for (const char* key : {"sent", "delivered", "dropped_no_los", "dropped_fault", "dropped_overflow", "duplicated"})
@@ -72,7 +80,8 @@ Json warnings_of(const RunFacts& facts, const Reports& reports) {
   for (const std::string& warning : facts.warnings) warnings.push_back(warning);
   if (facts.native) warnings.push_back("--native: the digest may differ on another CPU model");
   const auto missing = [&](const Json& report, const std::string& program, const std::string& consequence) {
-    if (report.is_null()) warnings.push_back(program + " left no report: " + consequence);
+    const bool expected = facts.out_by_fault.contains(program);  // and told by `faults`
+    if (report.is_null() && !expected) warnings.push_back(program + " left no report: " + consequence);
   };
   missing(reports.sim_server, "sim_server", "times are the last that it told");
   missing(reports.station, "station", "the score is the last that it told");
@@ -81,6 +90,9 @@ Json warnings_of(const RunFacts& facts, const Reports& reports) {
     const auto report = reports.agents.find(planner.uav);
     if (exec_command(planner.spec) || report == reports.agents.end()) continue;
     missing(report->second, "uav_agent-" + planner.uav, "its planner's CPU time is unknown");
+  }
+  if (const std::uint64_t malformed = malformed_samples(reports); malformed > 0) {
+    warnings.push_back(std::to_string(malformed) + " malformed samples were received and dropped; the logs name topics");
   }
   return warnings;
 }
@@ -114,6 +126,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["seed"] = facts.seed;
   result["scene_seed"] = scenario.scene.scene_seed;
   for (const UavPlanner& planner : facts.planners) result["planner"][planner.uav] = planner.spec;
+  if (facts.ground_program) result["planner"]["gcs"] = *facts.ground_program;
   for (const auto& [process, vendor] : facts.dds) result["dds"][process] = vendor;
   result["clock"] = facts.clock;
   result["math"] = facts.native ? "native" : "baseline";
@@ -144,6 +157,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["collisions"] = value_or(sim, "collisions", Json::array());
   result["uavs"] = uav_entries(scenario, reports);
   result["radio"] = radio_counts(reports.comm_router);
+  result["radio"]["malformed"] = malformed_samples(reports);
   result["faults"] = value_or(sim, "faults", Json::array());
   result["lost_members"] = value_or(sim, "lost_members", Json::array());
   result["warnings"] = warnings_of(facts, reports);

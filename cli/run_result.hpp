@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct RunFacts {
   std::string scenario;  ///< as the user named it
   std::uint64_t seed = 0;
   std::vector<UavPlanner> planners;        ///< fleet order
+  std::optional<std::string> ground_program = {};
   std::map<std::string, std::string> dds;  ///< vendor by process
   std::string clock;
   bool native = false;
@@ -37,6 +39,7 @@ struct RunFacts {
   double sim_time_s = 0.0, mission_time_s = 0.0, wall_time_s = 0.0;
   int points_detected = 0;
   double score = 0.0, score_earned = 0.0;
+  std::set<std::string> out_by_fault;  ///< programs that a fault kept out of the run at its end
   double startup_s = 0.0;  ///< of wall time, from the first program's start to the first step
   std::map<std::string, ProcessUse> processes;
 };

@@ -1,6 +1,7 @@
 #include "cli/supervisor.hpp"
 
 #include <fcntl.h>
+#include <grp.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -95,10 +96,13 @@ struct ChildSetup {
   int input, log, status, control, failure;  ///< log: -1 keeps the launcher's
   char* const* argv;
   char* const* env;
+  const UserId* user;  ///< null: the launcher's
 
   [[noreturn]] void exec() const {
     ::setpgid(0, 0);
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    bool ready =
+        user == nullptr || (::setgroups(0, nullptr) == 0 && ::setgid(user->gid) == 0 && ::setuid(user->uid) == 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // after setuid, which would undo it
     if (::getppid() != launcher) ::_exit(127);  // the launcher died before prctl could tell
     sigset_t none;
     sigemptyset(&none);
@@ -106,7 +110,6 @@ struct ChildSetup {
     ::signal(SIGPIPE, SIG_DFL);
     const std::array<std::pair<int, int>, 5> files = {
         {{input, 0}, {log, 1}, {log, 2}, {status, kStatusFd}, {control, kControlFd}}};
-    bool ready = true;
     for (const auto& [from, to] : files) ready = ready && (from < 0 || ::dup2(from, to) >= 0);
     if (ready) ::execve(argv[0], argv, env);
     const int error = errno;
@@ -150,12 +153,13 @@ Supervisor::~Supervisor() {
 }
 
 void Supervisor::start(const ProgramSpec& spec) {
-  const Fd log = spec.log.empty() ? Fd() : open_high(spec.log, O_WRONLY | O_CREAT | O_TRUNC);
+  const Fd log = spec.log.empty() ? Fd() : open_high(spec.log, O_WRONLY | O_CREAT | (spec.append_log ? O_APPEND : O_TRUNC));
   const Fd input = open_high("/dev/null", O_RDONLY);
   Pipe status = make_pipe(), control = make_pipe(), failure = make_pipe();
   const std::vector<char*> argv = pointers(spec.argv), env = pointers(spec.env);
   const ChildSetup setup{::getpid(),         input.get(),         log.get(),   status.write.get(),
-                         control.read.get(), failure.write.get(), argv.data(), env.data()};
+                         control.read.get(), failure.write.get(), argv.data(), env.data(),
+                         spec.user ? &*spec.user : nullptr};
   const pid_t pid = ::fork();
   if (pid < 0) throw_errno("fork");
   if (pid == 0) setup.exec();
@@ -195,9 +199,15 @@ std::vector<Event> Supervisor::wait(std::chrono::milliseconds limit) {
   if (::poll(polled.data(), polled.size(), static_cast<int>(limit.count())) <= 0) return events;
   signalfd_siginfo info;
   while (::read(signal_fd_, &info, sizeof info) == sizeof info) events.push_back({Event::Kind::interrupt, {}, {}, {}});
+  const auto ended = [&](std::size_t i) { return polled[2 + 2 * i].revents != 0; };
+  bool any_ended = false;
+  for (std::size_t i = 0; i < order.size(); ++i) any_ended = any_ended || ended(i);
+  // Of all programs when one has ended: another one may have said why after it was polled.
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (polled[1 + 2 * i].revents != 0) read_status(*order[i], events);
-    if (polled[2 + 2 * i].revents != 0) reap(*order[i], events);
+    if (any_ended || polled[1 + 2 * i].revents != 0) read_status(*order[i], events);
+  }
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (ended(i)) reap(*order[i], events);
   }
   return events;
 }
@@ -262,6 +272,18 @@ void Supervisor::send(const std::string& program, const std::string& line) {
   if (found == children_.end()) return;
   const std::string text = line + "\n";
   [[maybe_unused]] const ssize_t written = ::write(found->second->control.get(), text.data(), text.size());
+}
+
+void Supervisor::signal(const std::string& program, int signal) {
+  const auto found = children_.find(program);
+  if (found != children_.end()) ::kill(-found->second->pid, signal);
+}
+
+bool Supervisor::has_stopped(const std::string& program) {
+  const auto found = children_.find(program);
+  siginfo_t info{};
+  return found != children_.end() &&
+         ::waitid(P_PID, static_cast<id_t>(found->second->pid), &info, WSTOPPED | WNOHANG) == 0 && info.si_pid != 0;
 }
 
 void Supervisor::signal_all(int signal) {

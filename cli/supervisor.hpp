@@ -8,8 +8,11 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <sys/types.h>
 
 namespace skein::cli {
 
@@ -17,11 +20,18 @@ namespace skein::cli {
 inline constexpr int kStatusFd = 3;
 inline constexpr int kControlFd = 4;
 
+struct UserId {
+  uid_t uid = 0;
+  gid_t gid = 0;
+};
+
 struct ProgramSpec {
   std::string name;               ///< unique; names the log file too
   std::vector<std::string> argv;  ///< argv[0] is the path of the binary
   std::vector<std::string> env;   ///< the whole environment, NAME=VALUE
-  std::filesystem::path log;      ///< takes stdout and stderr, overwritten; empty: they go where the launcher's go
+  std::filesystem::path log;      ///< takes stdout and stderr; empty: they go where the launcher's go
+  bool append_log = false;        ///< or overwritten
+  std::optional<UserId> user{};   ///< as whom it runs, in no other group; only root can choose
 };
 
 struct ExitStatus {
@@ -59,11 +69,17 @@ class Supervisor {
   /// @throws std::system_error when the log cannot be written or the binary cannot be started.
   void start(const ProgramSpec& spec);
 
-  /// Waits until something happens, at most `limit`. @returns what happened, in order; empty after `limit`.
+  /// Waits until something happens, at most `limit`. @returns what happened, in order; empty after `limit`. What any
+  /// program wrote before another one ended comes before that end.
   std::vector<Event> wait(std::chrono::milliseconds limit);
 
   /// Writes one line to a program's control pipe; nothing happens when the program is gone or does not read.
   void send(const std::string& program, const std::string& line);
+
+  /// Sends a signal to a program and its children; nothing happens when it is gone.
+  void signal(const std::string& program, int signal);
+  /// Whether a program has been stopped (SIGSTOP) since this was last true for it.
+  bool has_stopped(const std::string& program);
 
   /// SIGTERM to all, SIGKILL to what is left after `grace` or at once when the user interrupts again.
   /// @returns all events until the last program ended.

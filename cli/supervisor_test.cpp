@@ -118,6 +118,26 @@ TEST_F(SupervisorTest, AStoppedProgramCanBeEnded) {
   EXPECT_TRUE(supervisor_.running().empty());
 }
 
+TEST_F(SupervisorTest, AProgramThatStopsItselfIsSeenOnceAndCanBeContinued) {
+  supervisor_.start(shell("a", "echo stopping >&3; kill -STOP $$; echo going on >&3"));
+  EXPECT_EQ(supervisor_.wait(kForever).at(0).line, "stopping");
+  while (!supervisor_.has_stopped("a")) supervisor_.wait(std::chrono::milliseconds(1));
+  EXPECT_FALSE(supervisor_.has_stopped("a"));
+  supervisor_.signal("a", SIGCONT);
+  EXPECT_EQ(run_out().at(0).line, "going on");
+  EXPECT_FALSE(supervisor_.has_stopped("a"));
+}
+
+TEST_F(SupervisorTest, ALogCanBeGoneOnWith) {
+  ProgramSpec program = shell("a", "echo life");
+  supervisor_.start(program);
+  run_out();
+  program.append_log = true;
+  supervisor_.start(program);
+  run_out();
+  EXPECT_EQ(read_text(program.log), "life\nlife\n");
+}
+
 TEST_F(SupervisorTest, ChildrenOfAProgramEndWithIt) {
   OpenUntilAllEnded pipe;
   supervisor_.start(shell("a", "sleep 1000 & echo started >&3"));

@@ -45,7 +45,8 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario
     : folder_(folder),
       scenario_(scenario),
       trajectories_(open(folder / "trajectories.csv")),
-      digests_(open(folder / "digests.csv")) {
+      digests_(open(folder / "digests.csv")),
+      events_(folder, scenario) {
   trajectories_ << "time_s,uav,x,y,z,qw,qx,qy,qz,vx,vy,vz,gimbal_pitch,gimbal_yaw,alive\n";
   digests_ << "k,digest";
   for (const std::string& column : digest.columns()) digests_ << ',' << column;
@@ -97,6 +98,7 @@ void RunFiles::add_step(const Simulation& simulation, const StepDigest& digest) 
 void RunFiles::write_report(const Simulation& simulation, const RunSummary& summary) {
   trajectories_.flush();
   digests_.flush();
+  events_.flush();
   const Mission& mission = simulation.mission();
   nlohmann::json json;
   json["status"] = summary.status;

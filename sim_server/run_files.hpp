@@ -1,5 +1,5 @@
-// What the server leaves behind: trajectories.csv, digests.csv, scene.json and sim_server.report.json, from which the
-// launcher makes its part of result.json. Times in seconds of simulated time, lengths in metres.
+// What the server leaves behind: trajectories.csv, digests.csv, events.csv, scene.json and sim_server.report.json, from
+// which the launcher makes its part of result.json. Times in seconds of simulated time, lengths in metres.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "sim_server/event_log.hpp"
 #include "sim_server/run_digest.hpp"
 #include "sim_server/simulation.hpp"
 
@@ -46,6 +47,7 @@ class RunFiles {
   RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest);
 
   void write_scene(const Scene& scene);
+  EventLog& events() { return events_; }
   /// One exchange: a line of digests.csv, and every 100 ms a line per UAV of trajectories.csv.
   void add_step(const Simulation& simulation, const StepDigest& digest);
   void write_report(const Simulation& simulation, const RunSummary& summary);
@@ -54,6 +56,7 @@ class RunFiles {
   std::filesystem::path folder_;
   const Scenario& scenario_;
   std::ofstream trajectories_, digests_;
+  EventLog events_;
 };
 
 }  // namespace skein::sim

@@ -43,6 +43,10 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
   for (Node node = 0; node <= scenario.fleet.size(); ++node) {
     participants_.push_back(bus.join(node_domain(options.base_domain, node)));
   }
+  for (const Fault& fault : options.faults.faults) {
+    const bool of_process = std::holds_alternative<Kill>(fault.action) || std::holds_alternative<Pause>(fault.action);
+    if (of_process) process_faults_.push_back({fault});
+  }
   declare_members();
 }
 
@@ -96,6 +100,7 @@ RunSummary SimNode::run() {
     if (!answered) break;
     finish_step();
     if (last_step_) break;
+    end_process_faults();
     let_in_members();
     pace(started);
     if (aborted_) break;
@@ -140,7 +145,7 @@ bool SimNode::wait_for_members() {
 // Somebody who knocks is let in before the next step; the fleet stands still meanwhile.
 void SimNode::let_in_members() {
   const auto started = Clock::now();
-  while (!server_.at_boundary() && !aborted_) {
+  while (!server_.at_boundary() && !aborted_ && !stop_requested_) {
     inbox_.dispatch(kMatchPoll);
     if (options_.startup_timeout_s > 0 && elapsed_s(started) > options_.startup_timeout_s) {
       for (const std::string& name : server_.awaited()) server_.lost(name, "did not finish joining");
@@ -148,10 +153,42 @@ void SimNode::let_in_members() {
   }
   for (const std::string& name : server_.take_rejoined()) {
     spdlog::info("{} joined again at step {}", name, simulation_.step() + 1);
+    status_.send_surely({{"type", "rejoined"}, {"member", name}});
     const auto uav = std::find(uav_names_.begin(), uav_names_.end(), name);
     if (uav != uav_names_.end()) uavs_[static_cast<std::size_t>(uav - uav_names_.begin())]->resend_captures();
   }
   take_losses();
+}
+
+// At the boundary before step k + 1. The order to carry on comes from the launcher: the program cannot hear us.
+void SimNode::end_process_faults() {
+  const Tick next_tick = simulation_.tick() + scenario_.exchange_ticks();
+  for (ProcessFault& fault : process_faults_) {
+    if (!fault.acting || fault.fault.active(next_tick)) continue;
+    fault.acting = false;
+    const std::string member = fault_target(fault.fault);
+    if (server_.let_back(member)) tell_order(member, fault.kill() ? "start" : "continue", next_tick);
+  }
+}
+
+// Before step k is published, which then tells the victims what to do.
+void SimNode::begin_process_faults() {
+  const Tick tick = simulation_.tick();
+  for (ProcessFault& fault : process_faults_) {
+    if (fault.acting || !fault.fault.active(tick)) continue;
+    fault.acting = true;
+    const std::string member = fault_target(fault.fault);
+    const std::string_view order = fault.kill() ? bus::kOrderKill : bus::kOrderStop;
+    if (server_.take_out(member, order)) {
+      tell_order(member, std::string(order), tick);
+    } else {
+      summary_.warnings.push_back(fault_kind(fault.fault) + " " + member + ": it took no part in the run then");
+    }
+  }
+}
+
+void SimNode::tell_order(const std::string& member, const std::string& order, Tick tick) {
+  status_.send_surely({{"type", "order"}, {"member", member}, {"order", order}, {"t", seconds(tick)}});
 }
 
 void SimNode::take_losses() {
@@ -174,6 +211,7 @@ void SimNode::publish_step() {
   for (const std::string& line : fault_timeline_.enter_step(simulation_.step(), simulation_.tick())) {
     spdlog::info("{}", line);
   }
+  begin_process_faults();
   server_.hold();
   const StepEvents& events = simulation_.events();
   publish_ledger(simulation_.referee().ledger(), events.ledger_begin);
@@ -233,6 +271,12 @@ void SimNode::finish_step() {
   input.radio = server_.routed_digest();
   input.tally = server_.station_digest();
   files_.add_step(simulation_, digest_.add(input));
+  files_.events().add_step(simulation_, [this](const std::string& member) { return server_.is_member(member); });
+  for (std::size_t i = 0; i < uavs_.size(); ++i) {
+    for (const std::uint64_t capture : uavs_[i]->take_released()) {
+      files_.events().add_release(simulation_, uav_names_[i], capture);
+    }
+  }
   report_progress(false);
 }
 

@@ -51,6 +51,12 @@ class SimNode {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// A fault that kills or stops a program.
+  struct ProcessFault {
+    Fault fault;
+    bool acting = false;
+    bool kill() const { return std::holds_alternative<Kill>(fault.action); }
+  };
 
   void declare_members();
   bool wait_for_members();
@@ -61,6 +67,9 @@ class SimNode {
   void finish_step();
   void take_losses();
   void let_in_members();
+  void begin_process_faults();
+  void end_process_faults();
+  void tell_order(const std::string& member, const std::string& order, Tick tick);
   bool is_last_step() const;
   void report_progress(bool now);
   std::string end_status() const;
@@ -80,6 +89,7 @@ class SimNode {
   std::vector<std::unique_ptr<UavNode>> uavs_;
   std::unique_ptr<bus::CountedWriter> ledger_;
   bus::CountedWriter *gcs_boxes_ = nullptr, *gcs_clock_ = nullptr, *gcs_remained_ = nullptr, *gcs_neighbours_ = nullptr;
+  std::vector<ProcessFault> process_faults_;
   RunSummary summary_;
   bool stop_requested_ = false, aborted_ = false, last_step_ = false;
   Clock::time_point last_progress_{};

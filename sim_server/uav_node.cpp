@@ -74,7 +74,9 @@ UavNode::UavNode(std::size_t uav, const Scenario& scenario, Simulation& simulati
     });
   }
   server.read<msg::CaptureAck>(domain, bus::spec(topics::capture_stored()), [this](const msg::CaptureAck& ack) {
-    for (const std::uint64_t capture : ack.captures()) card_.erase(capture);
+    for (const std::uint64_t capture : ack.captures()) {
+      if (card_.erase(capture) > 0) released_.push_back(capture);
+    }
   });
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "bus/lockstep/server.hpp"
 #include "idl/type_names.hpp"
@@ -22,6 +24,8 @@ class UavNode {
   void publish();
   /// The agent is new: the camera hands out again whatever was never acknowledged.
   void resend_captures() { resend_ = true; }
+  /// Captures that the agent has released since the last call: the station has them.
+  std::vector<std::uint64_t> take_released() { return std::exchange(released_, {}); }
 
  private:
   void publish_state();
@@ -39,6 +43,7 @@ class UavNode {
       &boxes_, &rejected_, &capture_;
   bus::CountedWriter *cloud_ = nullptr, *self_keyframe_ = nullptr;  ///< explorers only
   std::map<std::uint64_t, CaptureReport> card_;                     ///< captures that the agent has not released
+  std::vector<std::uint64_t> released_;
   bool resend_ = false, boxes_sent_ = false;
 };
 

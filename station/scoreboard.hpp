@@ -83,6 +83,7 @@ class Scoreboard {
 
   const ScoreTable& delivered() const { return delivered_; }
   const ScoreTable& earned() const { return earned_; }  ///< as if every standing capture were delivered
+  std::uint64_t standing() const { return standing_; }  ///< entries of the ledger that stand
   std::uint64_t reports_received() const { return received_; }
   std::uint64_t duplicates() const { return duplicates_; }
   std::uint64_t refused(Refusal reason) const { return refused_[static_cast<std::size_t>(reason)]; }

@@ -69,7 +69,10 @@ void StationNode::on_reports(std::size_t source, const msg::CaptureReports& repo
 
 void StationNode::think() {
   const msg::Step& step = client_.step();
+  const std::uint64_t stood = scoreboard_->standing();
   const StepOutcome outcome = scoreboard_->end_step(step.tick(), step.ledger_upto());
+  // Should we be killed for good, the last that we told stands for what was earned.
+  const bool news = outcome.score_changed || scoreboard_->standing() != stood;
   journal_.append(outcome.records);
   const bus::Burst burst(*gcs_);
   acknowledge(outcome);
@@ -93,7 +96,7 @@ void StationNode::think() {
   }
   client_.done(outcome.digest);
   last_step_answered_ = step.final_step();
-  tell(last_step_answered_);
+  tell(news || last_step_answered_);
 }
 
 void StationNode::acknowledge(const StepOutcome& outcome) {
@@ -116,11 +119,12 @@ void StationNode::tell(bool now) {
                 {"earned", scoreboard_->earned().score()}});
 }
 
-int StationNode::run(const StopSignal& stop) {
+std::optional<int> StationNode::run(const StopSignal& stop) {
   const bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_step_answered_; }};
-  const int code = bus::exit_code(bus::run_client(client_, inbox_, loop, stop), std::string(bus::kStationName));
+  const bus::LoopEnd end = bus::run_client(client_, inbox_, loop, stop);
+  if (end == bus::LoopEnd::resumed) return std::nullopt;
   if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, inbox_.malformed());
-  return code;
+  return bus::exit_code(end, std::string(bus::kStationName));
 }
 
 }  // namespace skein::station

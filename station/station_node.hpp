@@ -25,8 +25,8 @@ class StationNode {
               StatusPipe& status);
 
   /// Takes part until the last step, or until asked to stop; then writes the report.
-  /// @returns the program's exit code.
-  int run(const StopSignal& stop);
+  /// @returns the program's exit code; nothing when a fault stopped it and is over: go on with a new node.
+  std::optional<int> run(const StopSignal& stop);
   /// Makes run() look at `stop`; from any thread.
   void wake() { inbox_.wake(); }
 

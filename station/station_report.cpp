@@ -60,7 +60,7 @@ nlohmann::ordered_json report_json(const Scoreboard& scoreboard, const std::vect
   nlohmann::ordered_json report;
   report["points_detected"] = table.points_detected();
   report["score"] = table.score();
-  report["score_earned"] = scoreboard.earned().score();
+  if (scoreboard.standing() > 0 || scoreboard.ledger().empty()) report["score_earned"] = scoreboard.earned().score();
   nlohmann::ordered_json by_uav = nlohmann::ordered_json::object();
   const std::vector<double> scores = table.score_by_uav();
   for (std::size_t uav = 0; uav < scores.size(); ++uav) by_uav[uav_names[uav]] = scores[uav];

@@ -16,7 +16,7 @@ namespace skein::station {
 /// captures.csv: uav, capture, tick, time_s, point, q_seen, q_blur, q_res, q, delivered_at_s, reason; a line for each
 ///   point of each capture in the ledger. `reason` says why it does not count: "not received", "refused: <why>",
 ///   "uav collided", "better capture" (another one of this point counts); empty when it does.
-/// station.report.json: points_detected, score, score_earned, score_by_uav {uav: score}, points [{index, score, uav,
+/// station.report.json: points_detected, score, score_earned (left out when no entry of the ledger stands), score_by_uav {uav: score}, points [{index, score, uav,
 ///   capture}] (those that count), refused {reason: count}, reports_received, duplicates, malformed.
 /// @param uav_names  in fleet order.
 /// @param malformed  samples received that were no message of their topic's type.

@@ -3,40 +3,45 @@
 #include "bus/lockstep/names.hpp"
 #include "core/thread_cpu.hpp"
 #include "idl/conversions.hpp"
+#include "uav_agent/neighbours.hpp"
 
 namespace skein::agent {
 
 using bus::LockstepClient;
 using Counterpart = LockstepClient::Counterpart;
 
-namespace {
-
-// Planners talk in text, as CARIC's do.
-constexpr std::string_view kTextType = "std_msgs/msg/String";
-
-}  // namespace
-
 AgentNode::AgentNode(const Scenario& scenario, std::size_t uav, std::unique_ptr<Planner> planner, int base_domain,
                      bus::Bus& bus)
     : scenario_(scenario),
+      bus_(bus),
+      domain_(uav_domain(base_domain, uav)),
       id_(scenario.fleet.at(uav).name),
       node_(node_of_uav(uav)),
-      participant_(bus.join(uav_domain(base_domain, uav))),
-      client_(*participant_, inbox_, id_),
+      radio_(scenario, node_),
       agent_(agent_config(scenario, uav), std::move(planner)) {
+  join();
+}
+
+// Who was stopped by a fault comes back as somebody new on the network; what it had in mind stays.
+void AgentNode::join() {
+  client_.reset();
+  participant_.reset();
+  participant_ = bus_.join(domain_);
+  client_.emplace(*participant_, inbox_, id_);
   read_sensors();
   read_captures();
-  declare_radio(radio_routes(scenario));
-  client_.declare_writer(bus::spec(topics::trajectory_command(id_)), Counterpart::server);
-  client_.declare_writer(bus::spec(topics::gimbal_command(id_)), Counterpart::server);
-  client_.declare_writer(bus::spec(topics::camera_trigger(id_)), Counterpart::server);
-  client_.declare_writer(bus::spec(topics::capture_stored()), Counterpart::server);
+  radio_.declare(*client_, input_.radio);
+  client_->declare_writer(bus::spec(topics::captures(id_)), Counterpart::router);
+  client_->declare_writer(bus::spec(topics::trajectory_command(id_)), Counterpart::server);
+  client_->declare_writer(bus::spec(topics::gimbal_command(id_)), Counterpart::server);
+  client_->declare_writer(bus::spec(topics::camera_trigger(id_)), Counterpart::server);
+  client_->declare_writer(bus::spec(topics::capture_stored()), Counterpart::server);
 }
 
 template <class Message>
 void AgentNode::read(const topics::WireTopic& topic, Counterpart counterpart,
                      std::function<void(const Message&)> handler) {
-  client_.read<Message>(bus::spec(topic), counterpart, std::move(handler));
+  client_->read<Message>(bus::spec(topic), counterpart, std::move(handler));
 }
 
 void AgentNode::read_sensors() {
@@ -48,21 +53,15 @@ void AgentNode::read_sensors() {
                       [this](const auto& m) { input_.mission_remaining_s = from_duration(m); });
   read<msg::PointCloud>(topics::bounding_boxes(), Counterpart::server,
                         [this](const auto& m) { input_.boxes = from_box_vertices(m); });
-  read<msg::PointCloud2>(topics::neighbour_odometry(id_), Counterpart::server, [this](const auto& m) {
-    input_.neighbours.clear();
-    for (const NeighbourPoint& p : from_cloud<NeighbourPoint>(m)) {
-      const Eigen::Quaterniond q_WB(p.qw, p.qx, p.qy, p.qz);
-      input_.neighbours.push_back(
-          {static_cast<Node>(p.node), Vector3d(p.x, p.y, p.z), Vector3d(q_WB * Vector3d(p.vx, p.vy, p.vz))});
-    }
-  });
+  read<msg::PointCloud2>(topics::neighbour_odometry(id_), Counterpart::server,
+                         [this](const auto& m) { input_.neighbours = neighbours_of(m); });
   const auto read_key_frames = [this](const topics::WireTopic& topic, std::optional<Node> source) {
     read<msg::PointCloud2>(topic, Counterpart::server, [this, source](const auto& m) {
       KeyFrame frame;
       frame.source = source;
       for (const ScanPoint& p : from_cloud<ScanPoint>(m)) {
         frame.points_W.emplace_back(p.x, p.y, p.z);
-        if (!source) frame.source = static_cast<Node>(p.intensity);
+        if (!source) frame.source = whole_number(p.intensity);
       }
       input_.key_frames.push_back(std::move(frame));
     });
@@ -71,7 +70,7 @@ void AgentNode::read_sensors() {
   read_key_frames(topics::neighbour_keyframe(id_), std::nullopt);
   read<msg::PointCloud2>(topics::detected_points(id_), Counterpart::server, [this](const auto& m) {
     for (const DetectionPoint& p : from_cloud<DetectionPoint>(m)) {
-      input_.detected.push_back({{p.x, p.y, p.z}, p.score, static_cast<std::uint32_t>(p.index)});
+      if (const auto index = whole_number(p.index)) input_.detected.push_back({{p.x, p.y, p.z}, p.score, *index});
     }
   });
 }
@@ -85,30 +84,8 @@ void AgentNode::read_captures() {
   });
 }
 
-void AgentNode::declare_radio(const std::vector<RadioRoute>& routes) {
-  client_.declare_writer(bus::spec(topics::captures(id_)), Counterpart::router);
-  for (const RadioRoute& route : routes) {
-    if (route.ros_type != kTextType) continue;
-    const topics::WireTopic out{route.topic, route.type, false, topics::kRadioDepth};
-    if (route.source == node_ && radio_out_.insert(route.ros_topic).second) {
-      client_.declare_writer(bus::spec(out), Counterpart::router);
-    }
-  }
-  // All sources of a topic arrive on one: nobody can tell them apart, as in CARIC.
-  std::set<std::string> arrivals;
-  for (const RadioRoute& route : routes) {
-    for (const RadioTarget& target : route.targets) {
-      if (target.node != node_ || route.ros_type != kTextType || !arrivals.insert(target.topic).second) continue;
-      read<msg::String>({target.topic, route.type, false, topics::radio_depth(scenario_.fleet.size() + 1)},
-                        Counterpart::router, [this, topic = route.ros_topic](const auto& m) {
-                          input_.radio.push_back({topic, m.data(), std::nullopt});
-                        });
-    }
-  }
-}
-
 void AgentNode::think() {
-  const msg::Step& step = client_.step();
+  const msg::Step& step = client_->step();
   input_.k = step.k();
   input_.tick = step.tick();
   released_ = input_.capture_acks;
@@ -118,7 +95,7 @@ void AgentNode::think() {
   {
     const bus::Burst burst(*participant_);
     write(output);
-    client_.done();
+    client_->done();
   }
   last_step_answered_ = step.final_step();
   // State stays until the next sample replaces it; events are over.
@@ -132,20 +109,20 @@ void AgentNode::think() {
 
 void AgentNode::write(const AgentOutput& output) {
   if (output.trajectory) {
-    client_.write(topics::trajectory_command(id_).name, to_trajectory(input_.tick, *output.trajectory));
+    client_->write(topics::trajectory_command(id_).name, to_trajectory(input_.tick, *output.trajectory));
   }
-  if (output.gimbal) client_.write(topics::gimbal_command(id_).name, to_gimbal_command(*output.gimbal));
+  if (output.gimbal) client_->write(topics::gimbal_command(id_).name, to_gimbal_command(*output.gimbal));
   if (output.trigger) {
     msg::BoolStamped trigger;
     trigger.header(to_header(input_.tick));
     trigger.data(true);
-    client_.write(topics::camera_trigger(id_).name, trigger);
+    client_->write(topics::camera_trigger(id_).name, trigger);
   }
   if (!released_.empty()) {
     msg::CaptureAck ack;
     ack.uav(id_);
     ack.captures(released_);
-    client_.write(topics::capture_stored().name, ack);
+    client_->write(topics::capture_stored().name, ack);
   }
   if (!output.captures.empty()) {
     msg::CaptureReports reports;
@@ -153,19 +130,19 @@ void AgentNode::write(const AgentOutput& output) {
       msg::CaptureReport report;
       if (decode(capture.payload, report)) reports.reports().push_back(std::move(report));
     }
-    client_.write(topics::captures(id_).name, reports);
+    client_->write(topics::captures(id_).name, reports);
   }
-  for (const RadioMessage& message : output.radio) {
-    if (!radio_out_.contains(message.topic)) continue;
-    msg::String text;
-    text.data(message.text);
-    client_.write(wire_topic(message.topic), text);
-  }
+  radio_.send(*client_, output.radio);
 }
 
 int AgentNode::run(const StopSignal& stop) {
   const bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_step_answered_; }};
-  return bus::exit_code(bus::run_client(client_, inbox_, loop, stop), id_);
+  bus::LoopEnd end = bus::run_client(*client_, inbox_, loop, stop);
+  while (end == bus::LoopEnd::resumed) {
+    join();
+    end = bus::run_client(*client_, inbox_, loop, stop);
+  }
+  return bus::exit_code(end, id_);
 }
 
 }  // namespace skein::agent

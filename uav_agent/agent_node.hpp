@@ -3,16 +3,16 @@
 #pragma once
 
 #include <memory>
-#include <set>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "bus/lockstep/client_loop.hpp"
-#include "core/radio_routes.hpp"
 #include "core/scenario.hpp"
 #include "uav_agent/agent.hpp"
+#include "uav_agent/radio_node.hpp"
 
 namespace skein::agent {
 
@@ -32,25 +32,27 @@ class AgentNode {
   std::uint64_t malformed() const { return inbox_.malformed(); }
 
  private:
+  void join();
   template <class Message>
   void read(const topics::WireTopic& topic, bus::LockstepClient::Counterpart counterpart,
             std::function<void(const Message&)> handler);
   void read_sensors();
   void read_captures();
-  void declare_radio(const std::vector<RadioRoute>& routes);
   void think();
   void write(const AgentOutput& output);
 
   const Scenario& scenario_;
+  bus::Bus& bus_;
+  const int domain_;
   const std::string id_;
   const Node node_;
+  const RadioNode radio_;
   bus::Inbox inbox_;
   std::unique_ptr<bus::Participant> participant_;
-  bus::LockstepClient client_;
+  std::optional<bus::LockstepClient> client_;
   Agent agent_;
   AgentInput input_;                     ///< being filled for the step to come
   std::vector<std::uint64_t> released_;  ///< acknowledged captures that the camera may forget
-  std::set<std::string> radio_out_;      ///< ROS topics that this UAV may send on
   bool last_step_answered_ = false;
   double planner_cpu_s_ = 0.0;
 };

@@ -13,12 +13,15 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "bus/fastdds/raw_type.hpp"
+#include "bus/fastdds/security.hpp"
 #include "bus/fastdds/settings.hpp"
 #include "bus/wire.hpp"
 
@@ -41,6 +44,9 @@ Entity* created(Entity* entity, const std::string& what) {
   if (entity == nullptr) throw std::runtime_error("Fast DDS: cannot create " + what);
   return entity;
 }
+
+/// Cyclone DDS: its GUIDs begin with its vendor id, 1.16.
+bool is_cyclone(const GuidPrefix_t& prefix) { return prefix.value[0] == 1 && prefix.value[1] == 16; }
 
 /// The endpoints that one endpoint has matched, kept by its listener. Fast DDS matches endpoints of one participant
 /// too; these do not count.
@@ -65,13 +71,11 @@ class Matches {
     return ids;
   }
 
-  /// Whether Cyclone DDS is among them: its GUIDs begin with its vendor id, 1.16.
+  /// Whether Cyclone DDS is among them.
   bool any_cyclone() const {
     const std::scoped_lock lock(mutex_);
-    return std::any_of(participants_.begin(), participants_.end(), [](const auto& match) {
-      const auto& prefix = match.first.guidPrefix.value;
-      return prefix[0] == 1 && prefix[1] == 16;
-    });
+    return std::any_of(participants_.begin(), participants_.end(),
+                       [](const auto& match) { return is_cyclone(match.first.guidPrefix); });
   }
 
  private:
@@ -91,6 +95,10 @@ class FastWriter : public Writer, private dds::DataWriterListener {
             "a writer on " + topic.get_name())) {}
   ~FastWriter() override {
     writer_->set_listener(nullptr);
+    // Fast DDS 2.9 gives the samples of a writer that goes back to their pool while its heartbeat may still look at
+    // them; where a dead reader had left some unacknowledged it then counted gaps for ever. Without samples it is safe.
+    std::size_t removed = 0;
+    writer_->clear_history(&removed);
     publisher_.delete_datawriter(writer_);
   }
 
@@ -123,6 +131,7 @@ class FastReader : public Reader, private dds::DataReaderListener {
   FastReader(dds::Subscriber& subscriber, dds::Topic& topic, const Qos& qos, const GuidPrefix_t& own,
              OnSample on_sample)
       : subscriber_(subscriber),
+        latched_(qos.latched),
         own_(own),
         on_sample_(std::move(on_sample)),
         matches_(own),
@@ -145,8 +154,19 @@ class FastReader : public Reader, private dds::DataReaderListener {
     dds::SampleInfo info;
     while (reader->take_next_sample(&payload, &info) == ReturnCode_t::RETCODE_OK) {
       const GuidPrefix_t& source = info.sample_identity.writer_guid().guidPrefix;
-      if (info.valid_data && source != own_) on_sample_({std::move(payload), id_of(source)});
+      if (info.valid_data && source != own_ && is_for_us(info)) on_sample_({std::move(payload), id_of(source)});
     }
+  }
+
+  // What was written before a volatile reader was made is none of its business, but Cyclone 0.10 repeats for whoever
+  // asks what it still keeps for another reader, such as one that was killed; and Fast DDS asks. Times tell: both
+  // ends run on one machine, or on machines whose clocks agree. Once a writer's samples are new, all that follow are.
+  bool is_for_us(const dds::SampleInfo& info) {
+    const GUID_t& writer = info.sample_identity.writer_guid();
+    if (latched_ || !is_cyclone(writer.guidPrefix) || up_to_date_.contains(writer)) return true;
+    if (info.source_timestamp.to_ns() < created_ns_) return false;
+    up_to_date_.insert(writer);
+    return true;
   }
 
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
@@ -154,6 +174,10 @@ class FastReader : public Reader, private dds::DataReaderListener {
   }
 
   dds::Subscriber& subscriber_;
+  const bool latched_;
+  const std::int64_t created_ns_ =
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+  std::set<GUID_t> up_to_date_;  ///< writers
   GuidPrefix_t own_;
   OnSample on_sample_;
   std::mutex taking_;
@@ -165,7 +189,8 @@ class FastParticipant : public Participant {
  public:
   FastParticipant(int domain, const BusConfig& config)
       : participant_(created(dds::DomainParticipantFactory::get_instance()->create_participant(
-                                 static_cast<std::uint32_t>(domain), participant_qos(domain, config)),
+                                 static_cast<std::uint32_t>(domain), participant_qos(domain, config),
+                                 config.security.empty() ? nullptr : &stranger_watch_, dds::StatusMask::none()),
                              "a participant in domain " + std::to_string(domain))),
         prefix_(participant_->guid().guidPrefix),
         publisher_(created(participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT), "a publisher")),
@@ -203,6 +228,7 @@ class FastParticipant : public Participant {
     return *topic;
   }
 
+  StrangerWatch stranger_watch_;
   dds::DomainParticipant* participant_;
   GuidPrefix_t prefix_;
   dds::Publisher* publisher_;

@@ -1,13 +1,27 @@
 #include "bus/lockstep/client.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
+#include <csignal>
 
 #include "bus/lockstep/names.hpp"
 
 namespace skein::bus {
 
+namespace {
+
+// A stopped process returns from raise() when somebody has continued it.
+void raise_on_ourselves(LockstepClient::Order order) {
+  const bool kill = order == LockstepClient::Order::kill;
+  spdlog::info("a fault {} this program", kill ? "kills" : "stops");
+  std::raise(kill ? SIGKILL : SIGSTOP);
+}
+
+}  // namespace
+
 LockstepClient::LockstepClient(Participant& participant, Inbox& inbox, std::string member)
-    : participant_(participant), inbox_(inbox), member_(std::move(member)) {}
+    : participant_(participant), inbox_(inbox), member_(std::move(member)), obey_(raise_on_ourselves) {}
 
 void LockstepClient::read(const TopicSpec& topic, Counterpart counterpart, CountedQueues::Handler handler) {
   queues_.add_topic(topic.name, std::move(handler));
@@ -41,14 +55,7 @@ void LockstepClient::on_resync(const msg::Resync& resync, ParticipantId source) 
 // Data endpoints are made only now: the server stands still until we are a member, so nothing is in flight on them
 // and the bases it told us are exact.
 void LockstepClient::create_endpoints() {
-  for (Reading& reading : readings_) {
-    const auto queue = [this, name = reading.topic.name, counterpart = reading.counterpart](Sample&& s) {
-      // The router delivers only after we answered a step that names it, so it is known by now.
-      if (s.source == (counterpart == Counterpart::server ? server_ : router_)) queues_.arrive(name, std::move(s));
-    };
-    // Of no use before the step that counts them; once that is here, rings() waits for any sample.
-    reading.reader = inbox_.subscribe(participant_, reading.topic, queue, Bell::silent);
-  }
+  for (Reading& reading : readings_) open_reader(reading);
   for (Writing& writing : writings_) writing.writer = std::make_unique<CountedWriter>(participant_, writing.topic);
   for (const auto& base : base_) {
     // What is latched is received again, so it counts again.
@@ -56,6 +63,50 @@ void LockstepClient::create_endpoints() {
       return r.topic.name == base.topic && r.topic.qos.latched;
     });
     if (!latched) queues_.set_base(base.topic, base.source, base.count);
+  }
+}
+
+void LockstepClient::open_reader(Reading& reading) {
+  const auto queue = [this, name = reading.topic.name, counterpart = reading.counterpart](Sample&& s) {
+    // The router delivers only after we answered a step that names it, so it is known by now.
+    if (s.source == (counterpart == Counterpart::server ? server_ : router_)) queues_.arrive(name, std::move(s));
+  };
+  // Of no use before the step that counts them; once that is here, rings() waits for any sample.
+  reading.reader = inbox_.subscribe(participant_, reading.topic, queue, Bell::silent);
+}
+
+void LockstepClient::add_radio_writer(const TopicSpec& topic) {
+  const auto same = [&](const Writing& writing) { return writing.topic.name == topic.name; };
+  if (std::any_of(writings_.begin(), writings_.end(), same)) return;
+  writings_.push_back({topic, Counterpart::router, std::make_unique<CountedWriter>(participant_, topic), true, false});
+}
+
+void LockstepClient::open_radio_writer(const std::string& topic) {
+  for (Writing& writing : writings_) writing.open = writing.open || writing.topic.name == topic;
+  matched_router_ = 0;
+}
+
+// Made only now, since all deliveries that the present step counts are over: a volatile reader gets none of them.
+void LockstepClient::open_radio_reader(const TopicSpec& topic, CountedQueues::Handler handler) {
+  queues_.add_topic(topic.name, std::move(handler));
+  queues_.set_base(topic.name, router_, delivered_[topic.name]);
+  readings_.push_back({topic, Counterpart::router, nullptr, true});
+  open_reader(readings_.back());
+  matched_router_ = 0;
+}
+
+// A new router knows nothing of what was registered with another.
+void LockstepClient::change_router(ParticipantId router) {
+  queues_.discard(router_);
+  delivered_.clear();
+  for (const Reading& reading : readings_) {
+    if (reading.registered) queues_.remove_topic(reading.topic.name);
+  }
+  std::erase_if(readings_, [](const Reading& reading) { return reading.registered; });
+  for (Writing& writing : writings_) writing.open = writing.open && !writing.registered;
+  router_ = router;
+  for (const auto& base : base_) {
+    if (base.source == router) delivered_[base.topic] = base.count;
   }
 }
 
@@ -72,7 +123,13 @@ void LockstepClient::say_ready(std::uint32_t revision) {
 
 void LockstepClient::on_step(msg::Step& step, ParticipantId source) {
   if ((phase_ != Phase::declared && phase_ != Phase::member) || source != server_) return;
-  if (step_ && step.k() == step_->k()) return;  // amended, but we have answered it already
+  if (step_ && step.k() == step_->k() && !handed_out_) return;  // amended, but we have answered it already
+  for (const auto& order : step.orders()) {
+    if (order.source() != participant_.id()) continue;
+    order_ = order.order() == kOrderStop ? Order::stop : Order::kill;
+    phase_ = Phase::ordered;
+    return;
+  }
   const auto& members = step.members();
   const bool ours = std::any_of(members.begin(), members.end(),
                                 [&](const auto& m) { return m.source() == participant_.id() && m.name() == member_; });
@@ -85,10 +142,13 @@ void LockstepClient::on_step(msg::Step& step, ParticipantId source) {
   for (const auto& m : members) {
     if (m.name() == kRouterName) router = m.source();
   }
-  if (router != router_) queues_.discard(router_);
-  router_ = router;
+  if (router != router_) change_router(router);
+  if (handed_out_) return;  // amended, since the router died: nothing of it is to be waited for any more
   std::vector<CountedQueues::Expected> expected;
-  for (const auto& e : step.expected()) expected.push_back({e.topic(), e.source(), e.count()});
+  for (const auto& e : step.expected()) {
+    expected.push_back({e.topic(), e.source(), e.count()});
+    if (e.source() == router_) delivered_[e.topic()] = e.count();
+  }
   queues_.expect(expected);
   pending_ = std::move(step);
 }
@@ -98,7 +158,7 @@ bool LockstepClient::matched(Counterpart counterpart, ParticipantId who) const {
              readings_.begin(), readings_.end(),
              [&](const Reading& r) { return r.counterpart != counterpart || contains(r.reader->matched(), who); }) &&
          std::all_of(writings_.begin(), writings_.end(),
-                     [&](const Writing& w) { return w.counterpart != counterpart || w.writer->matches(who); });
+                     [&](const Writing& w) { return w.counterpart != counterpart || !w.open || w.writer->matches(who); });
 }
 
 bool LockstepClient::router_matched() {
@@ -108,19 +168,29 @@ bool LockstepClient::router_matched() {
 
 LockstepClient::Event LockstepClient::poll() {
   if (phase_ == Phase::dropped) return Event::dropped;
+  if (phase_ == Phase::ordered) {
+    obey_(order_);
+    phase_ = Phase::dropped;  // the fleet went on, and nobody kept for us what we missed
+    return Event::resumed;
+  }
   if (phase_ == Phase::matching && matched(Counterpart::server, server_) && done_->matches(server_) &&
       contains(step_reader_->matched(), server_) && (!declare_condition_ || declare_condition_())) {
     say_ready(1);
     phase_ = Phase::declared;
   }
-  if (!pending_) return Event::none;
+  if (!pending_ && !handed_out_) return Event::none;
   // A router that (re)joined delivers nothing before this step's answer, so its match can be awaited here.
   if (!router_matched()) return Event::none;
-  if (!queues_.complete() || (think_condition_ && !think_condition_(*pending_))) return Event::none;
-  step_ = std::move(pending_);
-  pending_.reset();
-  for (Writing& writing : writings_) writing.writer->begin_step();
-  queues_.release();
+  if (!handed_out_) {
+    if (!queues_.complete() || (think_condition_ && !think_condition_(*pending_))) return Event::none;
+    step_ = std::move(pending_);
+    pending_.reset();
+    for (Writing& writing : writings_) writing.writer->begin_step();
+    handed_out_ = true;
+    queues_.release();
+    if (!router_matched()) return Event::none;  // a handler has opened something
+  }
+  handed_out_ = false;
   return Event::think;
 }
 
@@ -153,7 +223,7 @@ void LockstepClient::done(const std::vector<std::uint8_t>& digest) {
 bool LockstepClient::server_present() const { return server_ != 0 && contains(step_reader_->matched(), server_); }
 
 bool LockstepClient::waits_for_matches() const {
-  return phase_ == Phase::matching || (pending_ && router_ != 0 && router_ != matched_router_);
+  return phase_ == Phase::matching || ((pending_ || handed_out_) && router_ != 0 && router_ != matched_router_);
 }
 
 std::string LockstepClient::waiting_for() const {
@@ -166,11 +236,13 @@ std::string LockstepClient::waiting_for() const {
       return "topics to match with sim_server";
     case Phase::declared:
       return "the first step";
+    case Phase::ordered:
     case Phase::dropped:
       return "nothing: dropped by sim_server";
     case Phase::member:
       break;
   }
+  if (handed_out_) return "radio topics to match with comm_router";
   if (!pending_) return "the next step";
   std::string text = "samples announced by sim_server:";
   for (const auto& m : queues_.missing()) text += " " + m + ";";

@@ -3,6 +3,7 @@
 // Threads: all calls from the thread that dispatches the inbox.
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "bus/lockstep/counted.hpp"
@@ -18,7 +19,10 @@ class LockstepClient {
     none,     ///< nothing to do yet
     think,    ///< step() is complete, handlers have run: think, write, then call done()
     dropped,  ///< the server goes on without us
+    resumed,  ///< a fault stopped us and is over: join again, with a new participant and a new client
   };
+  /// What a fault file does to this program (docs/lockstep.md).
+  enum class Order { kill, stop };
 
   /// @param member  UAV name, "gcs", "station" or "comm_router".
   LockstepClient(Participant& participant, Inbox& inbox, std::string member);
@@ -32,6 +36,15 @@ class LockstepClient {
   }
   /// The writer exists once the server has invited us: use write() below from the first think on.
   void declare_writer(const TopicSpec& topic, Counterpart counterpart);
+
+  /// Radio topics that are registered with the router while the run lasts (radio_topics.hpp tells when to call these).
+  /// A writer, from now on, unless there is one; what it sends counts once it is open.
+  void add_radio_writer(const TopicSpec& topic);
+  /// The router hears it: the present step is not thought about before it is matched. Inside a handler.
+  void open_radio_writer(const std::string& topic);
+  /// A reader of what arrives from the next step on; the present one is not thought about before it is matched. Inside
+  /// a handler.
+  void open_radio_reader(const TopicSpec& topic, CountedQueues::Handler handler);
 
   /// Says hello; poll() does the rest.
   void start();
@@ -53,6 +66,8 @@ class LockstepClient {
   bool is_member() const { return phase_ == Phase::member; }
   /// True as long as the server's step writer is there: after the last step, stay until it has gone.
   bool server_present() const;
+  /// Our participant.
+  ParticipantId id() const { return participant_.id(); }
   /// Who the server and the router are; 0 when unknown or absent.
   ParticipantId server() const { return server_; }
   ParticipantId router() const { return router_; }
@@ -62,10 +77,12 @@ class LockstepClient {
   void declare_when(std::function<bool()> condition) { declare_condition_ = std::move(condition); }
   /// A further condition that must hold before a step is thought about (the station: the ledger).
   void think_when(std::function<bool(const Step&)> condition) { think_condition_ = std::move(condition); }
+  /// How an order is carried out: by raising SIGKILL or SIGSTOP on this process, unless a test does otherwise.
+  void obey_with(std::function<void(Order)> obey) { obey_ = std::move(obey); }
   /// True while it waits for matches, which no sample announces: poll often.
   bool waits_for_matches() const;
   /// For Inbox::dispatch(): how many rings there must be before poll() can do more than it did.
-  std::size_t rings() const { return phase_ == Phase::member && !pending_ ? 1 : 0; }
+  std::size_t rings() const { return phase_ == Phase::member && !pending_ && !handed_out_ ? 1 : 0; }
   /// What it waits for, for a human.
   std::string waiting_for() const;
 
@@ -74,17 +91,22 @@ class LockstepClient {
     TopicSpec topic;
     Counterpart counterpart;
     std::unique_ptr<Reader> reader;
+    bool registered = false;  ///< not declared at the start
   };
   struct Writing {
     TopicSpec topic;
     Counterpart counterpart;
     std::unique_ptr<CountedWriter> writer;
+    bool registered = false;
+    bool open = true;  ///< its counterpart is to match it
   };
-  enum class Phase { created, hello, matching, declared, member, dropped };
+  enum class Phase { created, hello, matching, declared, member, ordered, dropped };
 
   void on_resync(const msg::Resync& resync, ParticipantId source);
   void on_step(msg::Step& step, ParticipantId source);
+  void change_router(ParticipantId router);
   void create_endpoints();
+  void open_reader(Reading& reading);
   void say_ready(std::uint32_t revision);
   bool matched(Counterpart counterpart, ParticipantId who) const;
   bool router_matched();
@@ -99,11 +121,15 @@ class LockstepClient {
   std::vector<Writing> writings_;
   CountedQueues queues_;
   std::vector<CountedQueues::Expected> base_;
+  std::map<std::string, std::uint64_t> delivered_;  ///< by the present router, by topic, whether we read it or not
   std::function<bool()> declare_condition_;
   std::function<bool(const Step&)> think_condition_;
+  std::function<void(Order)> obey_;
+  Order order_ = Order::kill;  ///< in phase `ordered`
   std::unique_ptr<CountedWriter> ready_, done_;
   std::unique_ptr<Reader> resync_reader_, step_reader_;
   std::optional<Step> pending_, step_;
+  bool handed_out_ = false;  ///< the handlers have run for step(), which still waits for what they opened to match
 };
 
 }  // namespace skein::bus

@@ -21,6 +21,7 @@ LoopEnd run_client(LockstepClient& client, Inbox& inbox, const ClientLoop& loop,
     const bool arrived = inbox.dispatch(waiting ? kMatchPoll : kIdlePoll, rings);
     const LockstepClient::Event event = client.poll();
     if (event == LockstepClient::Event::dropped) return LoopEnd::dropped;
+    if (event == LockstepClient::Event::resumed) return LoopEnd::resumed;
     if (event == LockstepClient::Event::think) loop.think();
     const bool serving = loop.serve();
     was_member = was_member || client.is_member();
@@ -44,6 +45,7 @@ int exit_code(LoopEnd end, const std::string& member) {
     case LoopEnd::server_gone:
       spdlog::error("{}: sim_server is gone", member);
       return 3;
+    case LoopEnd::resumed:
     case LoopEnd::dropped:
       spdlog::error("{}: sim_server goes on without us", member);
       return 3;

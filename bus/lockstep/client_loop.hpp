@@ -25,6 +25,7 @@ enum class LoopEnd {
   stopped,      ///< asked to stop
   server_gone,  ///< the server vanished in the middle of the run
   dropped,      ///< the server went on without us
+  resumed,      ///< a fault stopped us and is over: join again, with a new participant and a new client
 };
 
 /// Starts the client and runs it on this thread. @param stop  asked now and then; inbox.wake() makes it look at once.

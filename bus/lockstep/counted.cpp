@@ -25,6 +25,11 @@ void CountedQueues::add_topic(const std::string& topic, Handler handler) {
   topics_[topic].handler = std::move(handler);
 }
 
+void CountedQueues::remove_topic(const std::string& topic) {
+  topics_.erase(topic);
+  std::erase_if(expected_, [&](const Expected& e) { return e.topic == topic; });
+}
+
 void CountedQueues::set_base(const std::string& topic, ParticipantId source, std::uint64_t count) {
   const auto it = topics_.find(topic);
   if (it == topics_.end()) return;

@@ -13,6 +13,10 @@ inline constexpr std::string_view kRouterName = "comm_router";
 inline constexpr std::string_view kStationName = "station";
 inline constexpr std::string_view kGcsName = "gcs";
 
+/// Orders in a Step.
+inline constexpr std::string_view kOrderKill = "kill";
+inline constexpr std::string_view kOrderStop = "stop";
+
 /// A topic of the one table (core/topics.hpp) as a backend takes it.
 inline TopicSpec spec(const topics::WireTopic& topic) {
   return {topic.name, topic.type, Qos{.reliable = true, .latched = topic.latched, .depth = topic.depth}};

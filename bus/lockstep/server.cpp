@@ -176,8 +176,9 @@ bool LockstepServer::at_boundary() {
       place->next.reset();
       take_ready(*place, source, ready);
     }
+    if (place->order) continue;
     if (place->source == 0) {
-      closed = closed && (started_ || !place->awaited);
+      closed = closed && !place->awaited;
       continue;
     }
     if (!place->invited) invite(*place);
@@ -186,6 +187,7 @@ bool LockstepServer::at_boundary() {
       continue;
     }
     place->member = true;
+    place->awaited = false;
     membership_changed_ = true;
     if (place->was_member) rejoined_.push_back(place->name);
     place->was_member = true;
@@ -238,7 +240,7 @@ void LockstepServer::hold() {
 void LockstepServer::publish(const StepInfo& info) {
   if (membership_changed_) ++epoch_;
   membership_changed_ = false;
-  started_ = in_step_ = true;
+  in_step_ = true;
   k_ = info.k;
   routed_digest_.clear();
   station_digest_.clear();
@@ -254,8 +256,11 @@ void LockstepServer::publish(const StepInfo& info) {
   for (std::size_t i = 0; i < domains_.size(); ++i) {
     Domain& domain = *domains_[i];
     step.members().clear();
+    step.orders().clear();
     for (Place& place : places_) {
       place.answered = false;
+      // In each step, since the history of this topic may be over before a slow victim has read the first.
+      if (place.order && place.domain == i) step.orders().push_back(*place.order);
       if (!place.member || (i != 0 && place.domain != i && place.name != kRouterName)) continue;
       msg::Member member;
       member.name(place.name);
@@ -362,18 +367,47 @@ void LockstepServer::leave(Place& place, const std::string& reason) {
   lost_.push_back({place.name, k_, reason});
   if (place.source != 0) gone_.insert(place.source);
   place.awaited = false;
+  place.order.reset();
   vacate(place);
   if (place.name == kRouterName) {
-    delivered_.clear();
-    newly_delivered_.clear();
+    forget_deliveries();
     if (in_step_) amend_step();
   }
+}
+
+// Its last deliveries are lost with it: nobody could repeat them to whom they have not reached.
+void LockstepServer::forget_deliveries() {
+  delivered_.clear();
+  newly_delivered_.clear();
+}
+
+bool LockstepServer::take_out(const std::string& member, std::string_view order) {
+  Place* place = find(member);
+  if (place == nullptr || !place->member) return false;
+  domains_[place->domain]->commands.discard(place->source);
+  gone_.insert(place->source);
+  msg::Order& told = place->order.emplace();
+  told.member(member);
+  told.source(place->source);
+  told.order(std::string(order));
+  membership_changed_ = true;
+  vacate(*place);
+  if (place->name == kRouterName) forget_deliveries();
+  return true;
+}
+
+bool LockstepServer::let_back(const std::string& member) {
+  Place* place = find(member);
+  if (place == nullptr || !place->order) return false;
+  place->order.reset();
+  place->awaited = true;
+  return true;
 }
 
 void LockstepServer::lost(const std::string& member, const std::string& reason) {
   Place* place = find(member);
   if (place == nullptr) return;
-  if (place->source == 0 && started_) return;
+  if (place->source == 0 && !place->awaited && !place->order) return;
   leave(*place, reason);
 }
 
@@ -386,7 +420,8 @@ std::vector<std::string> LockstepServer::awaited() const {
   for (const Place& place : places_) {
     // Who announced commands that never came has not answered either.
     const bool silent = place.member && (!place.answered || !domains_[place.domain]->commands.complete());
-    if (in_step_ ? silent : !place.member && (place.awaited || place.source != 0)) names.push_back(place.name);
+    const bool at_the_door = !place.member && !place.order && (place.awaited || place.source != 0);
+    if (in_step_ ? silent : at_the_door) names.push_back(place.name);
   }
   return names;
 }

@@ -56,6 +56,14 @@ class LockstepServer {
   /// For Inbox::dispatch(), while answered() is false: each answer that is missing rings once at least.
   std::size_t rings() const;
 
+  /// At a boundary, before publish(): a fault takes this member out, and the steps to come tell it what to do to itself.
+  /// That is no loss. Nobody gets its place until let_back(). @param order  kOrderKill or kOrderStop (names.hpp).
+  /// @returns false, with nothing done, when it is no member.
+  bool take_out(const std::string& member, std::string_view order);
+  /// At a boundary: the fault is over; at_boundary() waits until the member has joined again.
+  /// @returns false when it has been lost meanwhile.
+  bool let_back(const std::string& member);
+
   /// A process died (launcher), hangs (time-out) or left: nobody waits for it any longer.
   void lost(const std::string& member, const std::string& reason);
   /// Members and joiners that are lost since the last call.
@@ -85,7 +93,9 @@ class LockstepServer {
   struct Place {
     std::string name;
     DomainIndex domain = 0;
-    bool awaited = false, member = false, was_member = false;
+    bool awaited = false;  ///< at_boundary() waits for it
+    bool member = false, was_member = false;
+    std::optional<msg::Order> order;  ///< taken out by a fault: who knocks waits at the door
     ParticipantId source = 0;  ///< of the member, or of who knocks
     bool invited = false, declared = false;
     std::vector<std::string> reads, writes;
@@ -109,6 +119,7 @@ class LockstepServer {
   std::vector<msg::TopicCount> take_new_counts(Domain& domain);
   void leave(Place& place, const std::string& reason);
   static void vacate(Place& place);
+  void forget_deliveries();
   void amend_step();
 
   Inbox& inbox_;
@@ -126,7 +137,7 @@ class LockstepServer {
   std::vector<std::string> rejoined_;
   std::uint64_t k_ = 0;
   std::uint32_t epoch_ = 0;
-  bool membership_changed_ = true, in_step_ = false, started_ = false;
+  bool membership_changed_ = true, in_step_ = false;
 };
 
 }  // namespace skein::bus

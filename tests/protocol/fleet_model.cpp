@@ -1,9 +1,10 @@
 #include "tests/protocol/fleet_model.hpp"
 
+#include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 
-#include "bus/lockstep/client.hpp"
 #include "bus/lockstep/names.hpp"
+#include "bus/lockstep/radio_topics.hpp"
 #include "bus/lockstep/server.hpp"
 #include "comm_router/router_node.hpp"
 #include "core/radio_routes.hpp"
@@ -80,9 +81,18 @@ class ServerProcess final : public Process {
     inbox_.dispatch(kNow);
     for (const auto& lost : server_.take_lost()) model_.lost_.push_back(lost.name);
     if (finished_) return;
+    const ProcessFault& fault = model_.options_.fault;
     if (!in_step_) {
+      // In the order in which SimNode does it.
+      if (out_ && k_ == fault.end) {
+        out_ = false;
+        if (server_.let_back(fault.victim)) model_.called_back_.insert(fault.victim);
+      }
       if (!server_.at_boundary()) return;
       for (const auto& name : server_.take_rejoined()) model_.rejoined_.push_back(name);
+      if (!fault.victim.empty() && k_ == fault.begin) {
+        out_ = server_.take_out(fault.victim, fault.kill ? bus::kOrderKill : bus::kOrderStop);
+      }
       publish();
     } else if (server_.answered()) {
       in_step_ = false;
@@ -104,7 +114,7 @@ class ServerProcess final : public Process {
     const std::size_t nodes = sensors_.size() + 1;
     std::vector<std::uint8_t> links(nodes * nodes, 0);
     for (std::size_t from = 0; from < nodes; ++from) {
-      for (std::size_t to = 0; to < nodes; ++to) links[from * nodes + to] = from != to && (from + to + k_) % 4 != 0;
+      for (std::size_t to = 0; to < nodes; ++to) links[from * nodes + to] = linked_in_model(from, to, k_);
     }
     for (std::size_t i = 0; i < sensors_.size(); ++i) {
       for (std::uint64_t n = 0; n < (k_ + i) % 3; ++n) {
@@ -126,63 +136,99 @@ class ServerProcess final : public Process {
   bus::LockstepServer server_;
   std::vector<bus::CountedWriter*> sensors_;
   std::uint64_t k_ = 0;
-  bool in_step_ = false, finished_ = false;
+  bool in_step_ = false, finished_ = false, out_ = false;
 };
 
 /// An agent, or the station: a member with a radio and no sensors.
 class AgentProcess final : public Process {
  public:
   AgentProcess(FleetModel& model, SimNetwork& network, const std::string& name, int domain, Node node, std::string life)
-      : model_(model),
-        bus_(network),
-        participant_(bus_.join(domain)),
-        name_(name),
-        life_(std::move(life)),
-        client_(*participant_, inbox_, name) {
-    const auto hear = [this](bus::Sample&& sample) { log_.heard.push_back(text_of(sample)); };
-    if (node != kStationNode) {
-      client_.read(sensor_topic(name), LockstepClient::Counterpart::server, hear);
-      client_.declare_writer(command_topic(name), LockstepClient::Counterpart::server);
-    }
-    arrival_ = wire_topic(arrival_topic("/talk", model.scenario_.node_name(node)));
-    client_.read(text_topic(arrival_, 1024), LockstepClient::Counterpart::router, hear);
-    client_.declare_writer(text_topic("rt/talk", 256), LockstepClient::Counterpart::router);
-    client_.start();
+      : model_(model), bus_(network), name_(name), domain_(domain), node_(node), life_(std::move(life)) {
+    join();
   }
 
   void poll() override {
     // Asleep until it rings, as run_client() is: a fleet that needs a time-out to go on is found to be deadlocked.
-    if (!client_.waits_for_matches() && !inbox_.ready(client_.rings())) return;
+    if (!client_->waits_for_matches() && !inbox_.ready(client_->rings())) return;
     inbox_.dispatch(kNow);
-    if (client_.poll() != LockstepClient::Event::think) return;
-    log_.k = client_.step().k();
+    if (client_->poll() != LockstepClient::Event::think) return;
+    log_.k = client_->step().k();
     for (const std::string& text : log_.heard) mind_ = fnv1a(mind_, text);
     mind_ = fnv1a(mind_, std::to_string(log_.k));
     const bool commands = name_ != bus::kStationName;
     for (std::uint64_t n = 0; commands && n < mind_ % 3; ++n) {
       log_.commanded.push_back(life_ + "c" + std::to_string(mind_ % 1000) + "." + std::to_string(n));
-      client_.write("rt/" + name_ + "/command", text_message(log_.commanded.back()));
+      client_->write("rt/" + name_ + "/command", text_message(log_.commanded.back()));
     }
     for (std::uint64_t n = 0; n < (mind_ >> 8) % 3; ++n) {
       const std::string said =
           life_ + "@" + std::to_string(log_.k) + "." + std::to_string(n) + "m" + std::to_string(mind_ % 1000);
-      if (client_.write("rt/talk", text_message(said))) log_.said.push_back(said);
+      if (client_->write("rt/talk", text_message(said))) log_.said.push_back(said);
     }
-    client_.done();
-    finished_ = client_.step().final_step();
+    chat();
+    client_->done();
+    finished_ = client_->step().final_step();
     model_.agents_[life_].push_back(std::exchange(log_, {}));
   }
+  /// The same mind, as somebody new on the network.
+  void resume() override {
+    radio_.reset();
+    client_.reset();
+    join();
+  }
   bool finished() const override { return finished_; }
-  bool took_part() const override { return client_.is_member(); }
-  std::string waits() const { return life_ + ": " + client_.waiting_for(); }
+  bool took_part() const override { return client_->is_member(); }
+  std::string waits() const { return life_ + ": " + client_->waiting_for(); }
 
  private:
+  void join() {
+    participant_ = bus_.join(domain_);
+    client_.emplace(*participant_, inbox_, name_);
+    client_->obey_with(model_.obey(name_));
+    radio_.emplace(*client_, model_.scenario_.node_name(node_));
+    turn_ = 0;
+    const auto hear = [this](bus::Sample&& sample) { log_.heard.push_back(text_of(sample)); };
+    if (node_ != kStationNode) {
+      client_->read(sensor_topic(name_), LockstepClient::Counterpart::server, hear);
+      client_->declare_writer(command_topic(name_), LockstepClient::Counterpart::server);
+    }
+    const std::string arrival = wire_topic(arrival_topic("/talk", model_.scenario_.node_name(node_)));
+    client_->read(text_topic(arrival, 1024), LockstepClient::Counterpart::router, hear);
+    client_->declare_writer(text_topic("rt/talk", 256), LockstepClient::Counterpart::router);
+    client_->start();
+  }
+
+  /// What it says on a topic that is registered while the run lasts; how that stands is part of what it hears.
+  void chat() {
+    const std::string topic = "/chat", type = "std_msgs/msg/String";
+    radio_->begin_step();
+    ++turn_;
+    if (turn_ == (node_ == kStationNode ? 2 : 1)) {
+      radio_->listen(topic, type, [this](bus::Sample&& sample) { log_.heard.push_back(text_of(sample)); });
+    }
+    if (turn_ == 2) radio_->send(topic, type, {"all"});
+    if (turn_ == 3) radio_->send("/talk", "std_msgs/msg/Other", {"all"});
+    log_.listening = radio_->listening(topic).open;
+    std::string status = "chat " + std::to_string(log_.listening) + std::to_string(radio_->sending(topic).open);
+    for (const std::string& node : radio_->sending(topic).unheard) status += " " + node;
+    log_.heard.push_back(status + radio_->sending("/talk").refusal);
+    for (std::uint64_t n = 0; n < 2; ++n) {
+      const std::string said = life_ + "@" + std::to_string(log_.k) + ".chat" + std::to_string(n);
+      if (radio_->write(topic, encode(text_message(said)))) log_.said.push_back(said);
+    }
+  }
+
   FleetModel& model_;
   SimBus bus_;
   bus::Inbox inbox_{0};
   std::unique_ptr<bus::Participant> participant_;
-  std::string name_, life_, arrival_;
-  LockstepClient client_;
+  const std::string name_;
+  const int domain_;
+  const Node node_;
+  const std::string life_;
+  std::optional<LockstepClient> client_;
+  std::optional<bus::RadioTopics> radio_;
+  int turn_ = 0;  ///< since it joined
   StepLog log_;
   std::uint64_t mind_ = 0xcbf29ce484222325;
   bool finished_ = false;
@@ -192,15 +238,26 @@ namespace {
 
 class RouterProcess final : public Process {
  public:
-  RouterProcess(const Scenario& scenario, SimNetwork& network) : bus_(network), node_(scenario, 0, 0, bus_) {
-    node_.start();
+  using Obey = std::function<void(LockstepClient::Order)>;
+  RouterProcess(const Scenario& scenario, SimNetwork& network, Obey obey)
+      : scenario_(scenario), bus_(network), obey_(std::move(obey)) {
+    resume();
   }
-  void poll() override { node_.poll(); }
+  void poll() override { node_->poll(); }
+  void resume() override {
+    node_.reset();
+    node_ = std::make_unique<router::RouterNode>(scenario_, 0, 0, bus_);
+    node_->obey_with(obey_);
+    node_->start();
+  }
   bool finished() const override { return true; }
+  std::string waits() const { return node_->waiting_for(); }
 
  private:
+  const Scenario& scenario_;
   SimBus bus_;
-  router::RouterNode node_;
+  Obey obey_;
+  std::unique_ptr<router::RouterNode> node_;
 };
 
 }  // namespace
@@ -221,7 +278,7 @@ void FleetModel::start(const std::string& name) {
   if (name == "server") {
     processes_[name] = std::make_unique<ServerProcess>(*this, network_);
   } else if (name == bus::kRouterName) {
-    processes_[name] = std::make_unique<RouterProcess>(scenario_, network_);
+    processes_[name] = std::make_unique<RouterProcess>(scenario_, network_, obey(name));
   } else if (name == bus::kStationName) {
     processes_[name] = std::make_unique<AgentProcess>(*this, network_, name, gcs_domain(0), kStationNode, life_name);
   } else {
@@ -229,6 +286,31 @@ void FleetModel::start(const std::string& name) {
     processes_[name] =
         std::make_unique<AgentProcess>(*this, network_, name, uav_domain(0, uav), node_of_uav(uav), life_name);
   }
+}
+
+std::function<void(LockstepClient::Order)> FleetModel::obey(const std::string& name) {
+  return [this, name](LockstepClient::Order order) {
+    EXPECT_EQ(order == LockstepClient::Order::kill, options_.fault.kill);
+    struck_.insert(name);
+  };
+}
+
+// Who has obeyed dies or stands still; the launcher starts it again, or continues it, when the server says so and it
+// has seen that it is dead or stopped.
+void FleetModel::carry_out_faults() {
+  for (const std::string& name : std::exchange(struck_, {})) {
+    if (options_.fault.kill) {
+      processes_.erase(name);
+      network_.lose_tails_of_the_dead(random_);
+      dead_.insert(name);
+    } else {
+      stopped_.insert(name);
+    }
+  }
+  const std::string& victim = options_.fault.victim;
+  const bool called_back = called_back_.contains(victim);
+  if ((called_back || options_.fault.returns_early) && dead_.erase(victim) > 0) start(victim);
+  if (called_back && stopped_.erase(victim) > 0) processes_.at(victim)->resume();
 }
 
 // Death, its discovery and the restart come in this order, with other events in between.
@@ -253,6 +335,7 @@ bool FleetModel::all_finished() const {
   // Who starts again when the last step is over finds nobody to invite it.
   const bool over = processes_.at("server")->finished();
   for (const auto& [name, process] : processes_) {
+    if (stopped_.contains(name)) continue;
     if (!process->finished() && !(over && !process->took_part())) return false;
   }
   return true;
@@ -270,18 +353,24 @@ std::string FleetModel::run() {
       std::string text = static_cast<ServerProcess&>(*processes_.at("server")).awaits() + "\n";
       for (const auto& [name, process] : processes_) {
         if (const auto* agent = dynamic_cast<const AgentProcess*>(process.get())) text += agent->waits() + "\n";
+        if (const auto* router = dynamic_cast<const RouterProcess*>(process.get())) text += router->waits() + "\n";
       }
       return "deadlock\n" + text + network_.describe();
     }
     if (!events.empty() && random_.bits() % 3 != 0) {
       network_.happen(events[random_.bits() % events.size()]);
     } else {
-      auto it = processes_.begin();
-      std::advance(it, static_cast<std::ptrdiff_t>(random_.bits() % processes_.size()));
-      it->second->poll();
+      poll_one();
     }
+    carry_out_faults();
   }
   return {};
+}
+
+void FleetModel::poll_one() {
+  auto it = processes_.begin();
+  std::advance(it, static_cast<std::ptrdiff_t>(random_.bits() % processes_.size()));
+  if (!stopped_.contains(it->first)) it->second->poll();
 }
 
 }  // namespace skein::test

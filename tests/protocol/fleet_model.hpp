@@ -2,11 +2,14 @@
 // says depends on everything that it has heard, so that the slightest difference spreads.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "bus/lockstep/client.hpp"
 #include "core/scenario.hpp"
 #include "tests/protocol/sim_network.hpp"
 
@@ -16,7 +19,13 @@ namespace skein::test {
 struct StepLog {
   std::uint64_t k = 0;
   std::vector<std::string> heard, said, commanded;
+  bool listening = false;  ///< to the topic that is registered at run time
 };
+
+/// The links of the model's world.
+constexpr bool linked_in_model(std::size_t from, std::size_t to, std::uint64_t k) {
+  return from != to && (from + to + k) % 4 != 0;
+}
 
 /// A program of the fleet; it acts only in poll().
 class Process {
@@ -25,6 +34,17 @@ class Process {
   virtual void poll() = 0;
   virtual bool finished() const = 0;
   virtual bool took_part() const { return true; }
+  /// Goes on after a fault has stopped it.
+  virtual void resume() {}
+};
+
+/// A fault of the server's plan: takes a program out at one step and lets it back at another.
+struct ProcessFault {
+  std::string victim = {};  ///< empty: none
+  bool kill = true;         ///< or stop
+  std::uint64_t begin = 0, end = 1000;
+  /// A killed program starts again as soon as it is dead, and waits at the door; else when the server lets it back.
+  bool returns_early = false;
 };
 
 struct FleetOptions {
@@ -33,6 +53,7 @@ struct FleetOptions {
   std::string victim = {};       ///< program to kill once, or empty
   bool restart = false;          ///< and to start again
   std::uint64_t kill_after = 0;  ///< events
+  ProcessFault fault = {};
 };
 
 /// Runs one schedule to its end.
@@ -57,7 +78,10 @@ class FleetModel {
   friend class AgentProcess;
 
   void start(const std::string& name);
+  std::function<void(bus::LockstepClient::Order)> obey(const std::string& name);
   void kill_and_notice();
+  void carry_out_faults();
+  void poll_one();
   bool all_finished() const;
 
   FleetOptions options_;
@@ -70,6 +94,8 @@ class FleetModel {
   std::vector<std::string> lost_, rejoined_;
   std::map<std::string, int> lives_;
   enum class Fate { alive, killed, noticed, restarted } fate_ = Fate::alive;
+  std::set<std::string> struck_;  ///< have obeyed, and are still there
+  std::set<std::string> stopped_, dead_, called_back_;
   std::uint64_t events_ = 0;
 };
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
 #include <set>
 
+#include "bus/lockstep/names.hpp"
 #include "tests/protocol/fleet_model.hpp"
 
 namespace skein::test {
@@ -48,6 +50,35 @@ TEST(Protocol, EveryOrderOfArrivalGivesTheSameRun) {
 }
 
 std::uint64_t step_of(const std::string& said) { return std::stoull(said.substr(said.find('@') + 1)); }
+
+/// Every message on a registered topic that was said in sight of somebody who listened, and no other, was heard.
+void expect_heard_by_whom_it_may(const FleetModel& model, const std::vector<std::string>& nodes) {
+  std::size_t heard = 0;
+  for (std::size_t from = 0; from < nodes.size(); ++from) {
+    for (const StepLog& step : model.agents().at(nodes[from])) {
+      for (std::size_t to = 0; to < nodes.size(); ++to) {
+        const auto& steps = model.agents().at(nodes[to]);
+        if (step.k + 1 >= steps.size()) continue;
+        const bool expected = linked_in_model(from, to, step.k) && steps[step.k].listening;
+        for (const std::string& said : step.said) {
+          if (said.find("chat") == std::string::npos) continue;
+          const auto count = std::ranges::count(steps[step.k + 1].heard, said);
+          ASSERT_EQ(count, expected ? 1 : 0) << said << " at " << nodes[to];
+          heard += static_cast<std::size_t>(count);
+        }
+      }
+    }
+  }
+  EXPECT_GT(heard, 5U);
+}
+
+TEST(Protocol, RegisteredTopicsCarryEveryMessage) {
+  for (std::uint64_t seed = 0; seed < schedules(20); ++seed) {
+    FleetModel model({.uavs = 3}, seed);
+    ASSERT_EQ(model.run(), "") << "schedule " << seed;
+    ASSERT_NO_FATAL_FAILURE(expect_heard_by_whom_it_may(model, {"station", "a", "b", "c"}));
+  }
+}
 
 /// What must hold in every run, whoever dies: steps without gaps; a radio message is heard one step after it was
 /// said, once, as it was said; a command is taken once, in the step of its sender, in order.
@@ -111,6 +142,65 @@ INSTANTIATE_TEST_SUITE_P(All, ProtocolLoss,
                                          Loss{"station", true}, Loss{"comm_router", false}, Loss{"comm_router", true}),
                          [](const auto& loss) {
                            return std::string(loss.param.victim) + (loss.param.restart ? "Restarts" : "Dies");
+                         });
+
+/// Who is out neither thinks nor is heard, and nobody else misses a step; without a router nobody hears anybody.
+void check_absence(const FleetModel& model, const ProcessFault& fault, std::uint64_t seed) {
+  const auto out = [&](std::uint64_t k) { return k >= fault.begin && k < fault.end; };
+  std::map<std::string, std::set<std::uint64_t>> steps;
+  for (const auto& [life, logs] : model.agents()) {
+    for (const StepLog& log : logs) {
+      steps[life.substr(0, life.find('#'))].insert(log.k);
+      const bool deaf = fault.victim == bus::kRouterName && (out(log.k) || log.k == fault.end);
+      for (const std::string& text : log.heard) {
+        if (text.find('@') == std::string::npos) continue;  // a sensor
+        ASSERT_FALSE(deaf) << life << " heard " << text << " in step " << log.k << " schedule " << seed;
+        ASSERT_EQ(step_of(text) + 1, log.k) << life << " schedule " << seed;
+      }
+    }
+  }
+  for (const std::string name : {"a", "b", "station"}) {
+    for (std::uint64_t k = 0; k < 9; ++k) {
+      ASSERT_EQ(steps[name].contains(k), name != fault.victim || !out(k)) << name << " step " << k;
+    }
+  }
+}
+
+struct Fault {
+  const char* victim;
+  bool kill;
+};
+
+class ScriptedFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(ScriptedFault, EveryOrderOfEventsGivesTheSameRun) {
+  const std::string victim = GetParam().victim;
+  const bool kill = GetParam().kill;
+  for (const auto& [begin, end] : {std::pair{3, 6}, std::pair{0, 1}, std::pair{5, 1000}}) {
+    std::unique_ptr<FleetModel> first;
+    for (std::uint64_t seed = 0; seed < schedules(40); ++seed) {
+      const ProcessFault fault{.victim = victim,
+                               .kill = kill,
+                               .begin = static_cast<std::uint64_t>(begin),
+                               .end = static_cast<std::uint64_t>(end),
+                               .returns_early = seed % 2 == 1};
+      auto model = std::make_unique<FleetModel>(FleetOptions{.uavs = 2, .steps = 9, .fault = fault}, seed);
+      ASSERT_EQ(model->run(), "") << victim << " schedule " << seed;
+      ASSERT_TRUE(model->lost().empty()) << "a fault is no loss; schedule " << seed;
+      ASSERT_EQ(model->rejoined().size(), end < 9 ? 1U : 0U) << "schedule " << seed;
+      ASSERT_NO_FATAL_FAILURE(check_absence(*model, fault, seed));
+      if (first) ASSERT_NO_FATAL_FAILURE(expect_same(*first, *model, seed));
+      if (!first) first = std::move(model);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ScriptedFault,
+                         testing::Values(Fault{"a", true}, Fault{"a", false}, Fault{"station", true},
+                                         Fault{"station", false}, Fault{"comm_router", true},
+                                         Fault{"comm_router", false}),
+                         [](const auto& fault) {
+                           return std::string(fault.param.victim) + (fault.param.kill ? "Killed" : "Stopped");
                          });
 
 }  // namespace

@@ -1,0 +1,96 @@
+// Each program killed in turn at times that a seed draws, by fault file and from outside: the run ends, and what the
+// station acknowledged is never lost. SKEIN_LONG=1 draws more seeds.
+#include <signal.h>
+
+#include <map>
+
+#include "core/random_stream.hpp"
+#include "fleet_fixture.hpp"
+#include "station/journal.hpp"
+
+namespace skein::test {
+namespace {
+
+const Arguments kTowers = {"towers", "--planner", "patrol", "--duration", "60"};
+const std::vector<std::string> kVictims = {"comm_router", "station", "sentosa", "changi", "nanyang", "jurong"};
+
+std::string program_of(const std::string& member) {
+  return member == "comm_router" || member == "station" ? member : "uav_agent-" + member;
+}
+
+class KillMatrix : public FleetTest, public testing::WithParamInterface<std::uint64_t> {
+ protected:
+  /// What the journal holds was acknowledged, and nothing else was: the account of the captures and the score agree.
+  static void expect_custody(const SkeinRun& run) {
+    using Key = std::pair<std::string, std::uint64_t>;
+    std::map<Key, double> journalled, delivered;
+    const station::Journal journal(run.dir() / "station.journal");
+    for (const station::TallyRecord& record : journal.replayed()) {
+      if (record.entry.collision) continue;
+      const Key key{kFleet.at(record.entry.uav), record.entry.capture.capture};
+      EXPECT_TRUE(journalled.emplace(key, seconds(record.tick)).second) << key.first << " " << key.second << " twice";
+    }
+    std::map<std::string, double> best;
+    for (const auto& row : read_csv(run.dir() / "captures.csv")) {
+      if (row.at("delivered_at_s").empty()) continue;
+      delivered[{row.at("uav"), std::stoull(row.at("capture"))}] = std::stod(row.at("delivered_at_s"));
+      best[row.at("point")] = std::max(best[row.at("point")], std::stod(row.at("q")));
+    }
+    EXPECT_EQ(delivered.size(), journalled.size());
+    for (const auto& [key, time_s] : journalled) {
+      ASSERT_TRUE(delivered.contains(key)) << key.first << " " << key.second << " was acknowledged and is missing";
+      EXPECT_NEAR(delivered.at(key), time_s, 1e-6);
+    }
+    double score = 0.0;
+    for (const auto& [point, q] : best) score += q;
+    EXPECT_NEAR(run.result()["score"].get<double>(), score, 1e-3);
+  }
+};
+
+TEST_P(KillMatrix, ByFaultFile) {
+  RandomStream random(GetParam(), "kill_matrix", 0);
+  std::string faults = "faults:\n";
+  for (const std::string& victim : kVictims) {
+    const double at_s = 10.0 + 35.0 * random.uniform(), until_s = at_s + 0.05 + 8.0 * random.uniform();
+    faults += "  - {at_s: " + std::to_string(at_s) + ", until_s: " + std::to_string(until_s) + ", kill: " + victim + "}\n";
+  }
+  Arguments arguments = kTowers;
+  arguments.insert(arguments.end(), {"--dds", GetParam() % 2 == 0 ? "mixed" : "cyclonedds", "--faults",
+                                     write("faults.yaml", faults)});
+  SkeinRun& done = run("scripted", arguments);
+  expect_complete_result(done);
+  const Json result = done.result();
+  EXPECT_TRUE(result["deterministic"]) << faults;
+  EXPECT_TRUE(result["lost_members"].empty()) << result["lost_members"];
+  EXPECT_EQ(result["faults"].size(), kVictims.size());
+  EXPECT_GT(result["score"], 10.0) << faults;
+  expect_custody(done);
+}
+
+TEST_P(KillMatrix, FromOutside) {
+  const std::string victim = kVictims[GetParam() % kVictims.size()];
+  Arguments arguments = kTowers;
+  arguments.insert(arguments.end(), {"--dds", "mixed"});
+  SkeinRun& hit = start("outside", arguments);
+  // A moment that depends on the machine: whatever it is, the books must be right.
+  const std::uintmax_t bytes = 20'000 + RandomStream(GetParam(), "kill_matrix", 1).bits() % 100'000;
+  const bool there = eventually([&] {
+    std::error_code missing;
+    const std::uintmax_t size = std::filesystem::file_size(hit.dir() / "trajectories.csv", missing);
+    return (!missing && size > bytes) || hit.skein().ended();
+  });
+  ASSERT_TRUE(there && !hit.skein().ended()) << hit.err();
+  ::kill(processes_of(hit.dir()).at(program_of(victim)), SIGKILL);
+  EXPECT_EQ(hit.exit_code(), 3) << hit.err();
+  expect_complete_result(hit);
+  const Json result = hit.result();
+  EXPECT_EQ(result["status"], "completed");
+  ASSERT_EQ(result["lost_members"].size(), 1U);
+  EXPECT_EQ(result["lost_members"][0]["member"], victim);
+  expect_custody(hit);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, KillMatrix, testing::Range<std::uint64_t>(1, long_tests() ? 21 : 5));
+
+}  // namespace
+}  // namespace skein::test
