@@ -13,6 +13,7 @@ namespace skein::cli {
 namespace {
 
 constexpr std::string_view kExec = "exec:";
+constexpr std::string_view kGround = "gcs";
 constexpr std::size_t kLongestLabel = 100;
 
 /// The pieces between commas, the last one too when it is empty: a command may end with a comma.
@@ -45,7 +46,9 @@ std::optional<std::string> exec_command(const std::string& spec) {
   return spec.substr(kExec.size());
 }
 
-std::vector<UavPlanner> parse_planners(const std::string& text, const std::vector<std::string>& fleet) {
+Planners parse_planners(const std::string& text, const std::vector<std::string>& fleet) {
+  std::vector<std::string> nodes = fleet;
+  nodes.emplace_back(kGround);
   std::map<std::string, std::string> named;
   std::string fallback;
   std::string* last = nullptr;  // the planner that a following parameter belongs to
@@ -53,13 +56,13 @@ std::vector<UavPlanner> parse_planners(const std::string& text, const std::vecto
     const std::size_t equals = item.find('=');
     const bool has_key = equals != std::string::npos && equals < item.find(':');
     const std::string key = has_key ? item.substr(0, equals) : "";
-    const bool is_uav = has_key && std::find(fleet.begin(), fleet.end(), key) != fleet.end();
+    const bool is_uav = has_key && std::find(nodes.begin(), nodes.end(), key) != nodes.end();
     if (!is_uav && last != nullptr && goes_on(*last, has_key)) {
       *last += "," + item;
       continue;
     }
     if (has_key && !is_uav) {
-      throw InputError("--planner " + text + ": no UAV is called '" + key + "'; " + suggestion(key, fleet));
+      throw InputError("--planner " + text + ": no UAV is called '" + key + "'; " + suggestion(key, nodes));
     }
     const std::string spec = is_uav ? item.substr(equals + 1) : item;
     check_spec(text, spec);
@@ -72,11 +75,12 @@ std::vector<UavPlanner> parse_planners(const std::string& text, const std::vecto
   }
   if (fallback.empty()) fallback = kDefaultPlanner;
 
-  std::vector<UavPlanner> planners;
+  Planners planners{{}, std::nullopt, fallback};
   for (const std::string& uav : fleet) {
     const auto found = named.find(uav);
-    planners.push_back({uav, found == named.end() ? fallback : found->second});
+    planners.uavs.push_back({uav, found == named.end() ? fallback : found->second});
   }
+  if (const auto found = named.find(std::string(kGround)); found != named.end()) planners.ground = found->second;
   return planners;
 }
 

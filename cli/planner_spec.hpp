@@ -1,4 +1,4 @@
-// What the user wrote after --planner, taken apart: which planner flies which UAV.
+// What the user wrote after --planner, taken apart: which planner flies which UAV, and what runs on the ground.
 #pragma once
 
 #include <optional>
@@ -18,13 +18,21 @@ std::optional<std::string> exec_command(const std::string& spec);
 /// Flown by every UAV for which the user named none.
 inline constexpr const char* kDefaultPlanner = "patrol";
 
+struct Planners {
+  std::vector<UavPlanner> uavs;  ///< fleet order
+  /// What the ground station runs, if the user said so: a strategy, "exec:CMD" or "none".
+  std::optional<std::string> ground;
+  std::string fallback;  ///< what flies the UAVs that were not named
+};
+
 /// Reads `NAME`, `UAV=NAME,...` or both (`patrol,jurong=hover`: patrol for all but jurong). A comma after a planner
 /// with parameters continues its parameters unless a UAV's name and '=' follow: `jurong=kios:voxel=4,reserve=2`.
 /// In place of NAME may stand `exec:CMD`. CMD goes on, commas and all, to the end of the text or to a comma that a UAV's
 /// name and '=' follow; so a planner for all others stands before it: `hover,jurong=exec:./mine --speed 3`.
-/// @param fleet names of all UAVs. @returns one entry a UAV, in the order of `fleet`.
+/// `gcs=NAME` names the program at the ground station.
+/// @param fleet names of all UAVs.
 /// @throws InputError for an unknown UAV, an empty name or command, or two planners for one UAV.
-std::vector<UavPlanner> parse_planners(const std::string& text, const std::vector<std::string>& fleet);
+Planners parse_planners(const std::string& text, const std::vector<std::string>& fleet);
 
 /// The text made fit for a folder's name: letters, digits, '.', '_' and '-' stay, all else becomes '_'; the first 100
 /// characters.

@@ -11,7 +11,7 @@ const std::vector<std::string> kFleet = {"jurong", "raffles", "sentosa"};
 
 std::vector<std::string> specs(const std::string& text) {
   std::vector<std::string> result;
-  const std::vector<UavPlanner> planners = parse_planners(text, kFleet);
+  const std::vector<UavPlanner> planners = parse_planners(text, kFleet).uavs;
   for (std::size_t i = 0; i < planners.size(); ++i) {
     EXPECT_EQ(planners[i].uav, kFleet[i]);
     result.push_back(planners[i].spec);
@@ -48,6 +48,15 @@ TEST(PlannerSpec, ACommandKeepsItsCommas) {
   EXPECT_EQ(specs("hover,sentosa=exec:./mine a,b, c=d,nobody=e,"),
             (Specs{"hover", "hover", "exec:./mine a,b, c=d,nobody=e,"}));
   EXPECT_EQ(specs("exec:./mine a,b,raffles=hover"), (Specs{"exec:./mine a,b", "hover", "exec:./mine a,b"}));
+}
+
+TEST(PlannerSpec, TheGroundStationHasAProgramOfItsOwn) {
+  EXPECT_EQ(parse_planners("hover", kFleet).ground, std::nullopt);
+  EXPECT_EQ(parse_planners("hover,gcs=listen:longest_text=3", kFleet).ground, "listen:longest_text=3");
+  EXPECT_EQ(parse_planners("gcs=exec:./mine a,b,jurong=hover", kFleet).ground, "exec:./mine a,b");
+  EXPECT_EQ(parse_planners("gcs=none,jurong=hover", kFleet).fallback, kDefaultPlanner);
+  EXPECT_EQ(specs("gcs=none,jurong=hover"), (Specs{"hover", kDefaultPlanner, kDefaultPlanner}));
+  EXPECT_THROW(parse_planners("gcs=listen,gcs=none", kFleet), InputError);
 }
 
 TEST(PlannerSpec, WrongTextIsRefused) {

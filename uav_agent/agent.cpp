@@ -6,6 +6,7 @@
 #include "core/euler.hpp"
 #include "uav_agent/block_work.hpp"
 #include "uav_agent/keyframe_filter.hpp"
+#include "uav_agent/planning/aiming.hpp"
 #include "uav_agent/tracker.hpp"
 #include "uav_agent/uplink.hpp"
 
@@ -22,17 +23,6 @@ Tracker::Config tracker_config(const VehicleConfig& vehicle) {
   config.max_acceleration_mps2 = kAccelerationShare * vehicle.max_acceleration_mps2;
   config.max_yaw_rate = std::min(config.max_yaw_rate, vehicle.max_yaw_rate_deg_s * kRadPerDeg);
   return config;
-}
-
-/// Gimbal angles that put p_W into the middle of the image.
-GimbalCommand aim_at(const Vector3d& p_W, const RigidBodyState& state, const VehicleConfig& vehicle) {
-  const Vector3d to_point = p_W - state.X_WB() * vehicle.camera.p_BC;
-  const double body_yaw = roll_pitch_yaw(state.q_WB.toRotationMatrix()).yaw;
-  const double pitch_limit = vehicle.gimbal.pitch_limit_deg * kRadPerDeg;
-  const double yaw_limit = vehicle.gimbal.yaw_limit_deg * kRadPerDeg;
-  const double pitch = std::atan2(-to_point.z(), to_point.head<2>().norm());
-  const double yaw = wrap_angle(std::atan2(to_point.y(), to_point.x()) - body_yaw);
-  return {GimbalMode::angle, std::clamp(pitch, -pitch_limit, pitch_limit), std::clamp(yaw, -yaw_limit, yaw_limit)};
 }
 
 }  // namespace
@@ -137,6 +127,7 @@ Agent::Agent(const AgentConfig& config, std::unique_ptr<Planner> planner)
 
 Agent::~Agent() = default;
 Agent::Agent(Agent&&) noexcept = default;
+Agent& Agent::operator=(Agent&&) noexcept = default;
 
 AgentOutput Agent::step(const AgentInput& input) {
   impl_->perceive(input);

@@ -43,6 +43,7 @@ class Agent {
   Agent(const AgentConfig& config, std::unique_ptr<Planner> planner);
   ~Agent();
   Agent(Agent&&) noexcept;
+  Agent& operator=(Agent&&) noexcept;
 
   /// One exchange. Inputs must come in order of k.
   AgentOutput step(const AgentInput& input);

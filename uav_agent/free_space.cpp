@@ -25,13 +25,14 @@ bool FreeSpace::allowed(const Vector3d& p_W) const {
   for (const Sphere& sphere : keep_out_) {
     if ((p_W - sphere.p_W).squaredNorm() < sphere.radius_m * sphere.radius_m) return false;
   }
+  if (near_hearsay(p_W)) return false;
   if (!must_be_seen(p_W)) return true;
-  if (!config_.use_map || !map_.known_free(p_W, config_.rays)) return false;
+  if (!config_.use_map || !seen_free(p_W)) return false;
   // A few rays through a coarse cell do not prove that all of it is free: what lies around must have been
   // seen, too.
   for (int i = 0; i < 6; ++i) {
     const Vector3d q = p_W + (i % 2 == 0 ? kSeenAroundM : -kSeenAroundM) * Vector3d::Unit(i / 2);
-    if (must_be_seen(q) && !map_.known_free(q, config_.rays)) return false;
+    if (must_be_seen(q) && !seen_free(q)) return false;
   }
   return config_.enter_near_W.empty() || !near_box(p_W) ||
          std::any_of(config_.enter_near_W.begin(), config_.enter_near_W.end(),
@@ -44,6 +45,25 @@ bool FreeSpace::near_box(const Vector3d& p_W) const {
 }
 
 bool FreeSpace::must_be_seen(const Vector3d& p_W) const { return p_W.z() < config_.blind_height_m || near_box(p_W); }
+
+bool FreeSpace::seen_free(const Vector3d& p_W) const {
+  if (map_.known_free(p_W, config_.rays)) return true;
+  const auto id = config_.hearsay ? config_.hearsay->at(p_W) : std::nullopt;
+  return id && config_.hearsay->state(*id) == VoxelState::free;
+}
+
+bool FreeSpace::near_hearsay(const Vector3d& p_W) const {
+  if (!config_.hearsay) return false;
+  const auto taken = [this](const Vector3d& q) {
+    const auto id = config_.hearsay->at(q);
+    return id && config_.hearsay->state(*id) == VoxelState::occupied;
+  };
+  if (taken(p_W)) return true;
+  for (int i = 0; i < 6; ++i) {
+    if (taken(p_W + (i % 2 == 0 ? config_.clearance_m : -config_.clearance_m) * Vector3d::Unit(i / 2))) return true;
+  }
+  return false;
+}
 
 bool FreeSpace::free(const Vector3d& p_W) const {
   return allowed(p_W) && !(config_.use_map && map_.any_occupied_within(p_W, config_.clearance_m));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "uav_agent/occupancy_map.hpp"
+#include "uav_agent/planning/voxel_grid.hpp"
 
 namespace skein::agent {
 
@@ -27,6 +28,9 @@ class FreeSpace {
     std::vector<Vector3d> enter_near_W = {};
     double enter_radius_m = 9.0;
     bool use_map = true;
+    /// What others have told, if anything: what is occupied there is kept clear of, what is free counts as seen.
+    /// Must outlive this.
+    const VoxelGrid* hearsay = nullptr;
   };
 
   /// @param boxes, map  must outlive this.
@@ -48,6 +52,9 @@ class FreeSpace {
   bool near_box(const Vector3d& p_W) const;
   /// In or near a box, or low: not free until a LiDAR has seen that it is.
   bool must_be_seen(const Vector3d& p_W) const;
+  bool seen_free(const Vector3d& p_W) const;
+  /// Whether others told of something within reach of p.
+  bool near_hearsay(const Vector3d& p_W) const;
   /// As free(), but without the mapped cells.
   bool allowed(const Vector3d& p_W) const;
 

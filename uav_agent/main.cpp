@@ -1,5 +1,7 @@
-// uav_agent: one UAV's on-board software with the planner of the user's choice.
+// uav_agent: one UAV's on-board software with the planner of the user's choice; with `--role gcs`, that strategy's
+// program at the ground station.
 #include <CLI/CLI.hpp>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "bus/program_bus.hpp"
@@ -7,30 +9,73 @@
 #include "core/program.hpp"
 #include "core/scenario_reader.hpp"
 #include "uav_agent/agent_node.hpp"
+#include "uav_agent/ground_node.hpp"
+
+namespace {
+
+struct AgentOptions {
+  std::string role = "uav";
+  std::string uav, planner = "patrol";
+  bool list = false;
+};
+
+/// For the launcher and for people: which strategies there are, and which have a program at the ground station.
+int list_strategies() {
+  const nlohmann::ordered_json list = {{"planners", skein::agent::planner_names()},
+                                       {"ground_programs", skein::agent::ground_program_names()}};
+  std::cout << list.dump() << std::endl;
+  return skein::kExitDone;
+}
+
+template <class Node>
+int fly(Node& node, const std::filesystem::path& report_file, skein::StopSignal& stop) {
+  stop.on_stop([&node] { node.wake(); });
+  const int code = node.run(stop);
+  stop.on_stop({});
+  const nlohmann::json report = {{"planner_cpu_s", node.planner_cpu_s()}, {"malformed", node.malformed()}};
+  skein::write_file_atomically(report_file, report.dump(2) + "\n");
+  return code;
+}
+
+int run_uav(const skein::Scenario& scenario, const skein::ProgramOptions& options, const AgentOptions& agent,
+            skein::StopSignal& stop) {
+  const std::string uav = agent.uav.empty() ? scenario.fleet.front().name : agent.uav;
+  const std::size_t index = scenario.uav_index(uav);
+  auto planner = skein::agent::make_planner(agent.planner, skein::agent::agent_config(scenario, index));
+  const auto bus = skein::bus::make_bus(options);
+  if (options.check_only) return skein::kExitDone;
+  skein::agent::AgentNode node(scenario, index, std::move(planner), options.domain, *bus);
+  return fly(node, options.out / ("uav_agent-" + uav + ".report.json"), stop);
+}
+
+int run_ground(const skein::Scenario& scenario, const skein::ProgramOptions& options, const AgentOptions& agent,
+               skein::StopSignal& stop) {
+  auto program = skein::agent::make_ground_program(agent.planner, skein::agent::ground_config(scenario));
+  const auto bus = skein::bus::make_bus(options);
+  if (options.check_only) return skein::kExitDone;
+  skein::agent::GroundNode node(scenario, std::move(program), options.domain, *bus);
+  return fly(node, options.out / "uav_agent-gcs.report.json", stop);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  std::string uav, planner_spec = "patrol";
+  AgentOptions agent;
   const auto add_options = [&](CLI::App& app) {
-    app.add_option("--uav", uav, "UAV whose software this is (default: the first of the fleet)");
-    app.add_option("--planner", planner_spec, "NAME or NAME:key=value,... or NAME:file.yaml");
+    app.add_option("--role", agent.role, "uav, or gcs: the strategy's program at the ground station")
+        ->check(CLI::IsMember({"uav", "gcs"}))
+        ->capture_default_str();
+    app.add_option("--uav", agent.uav, "UAV whose software this is (default: the first of the fleet)");
+    app.add_option("--planner", agent.planner, "NAME or NAME:key=value,... or NAME:file.yaml");
+    app.add_flag("--list-planners", agent.list, "Print the strategies' names as JSON, then stop");
   };
-  return skein::run_program(
-      "uav_agent", argc, argv, add_options, [&](const skein::ProgramOptions& options, skein::StopSignal& stop) {
-        auto load = options.load_options();
-        load.needs_scene_files = false;
-        const skein::Scenario scenario = skein::load_scenario(options.scenario, load);
-        if (uav.empty()) uav = scenario.fleet.front().name;
-        const std::size_t index = scenario.uav_index(uav);
-        auto planner = skein::agent::make_planner(planner_spec, skein::agent::agent_config(scenario, index));
-        const auto bus = skein::bus::make_bus(options);
-        if (options.check_only) return skein::kExitDone;
-        skein::agent::AgentNode node(scenario, index, std::move(planner), options.domain, *bus);
-        stop.on_stop([&node] { node.wake(); });
-        const int code = node.run(stop);
-        stop.on_stop({});
-        const nlohmann::json report = {{"planner_cpu_s", node.planner_cpu_s()},
-                                       {"malformed", node.malformed()}};
-        skein::write_file_atomically(options.out / ("uav_agent-" + uav + ".report.json"), report.dump(2) + "\n");
-        return code;
-      });
+  return skein::run_program("uav_agent", argc, argv, add_options,
+                            [&](const skein::ProgramOptions& options, skein::StopSignal& stop) {
+                              if (agent.list) return list_strategies();
+                              auto load = options.load_options();
+                              load.needs_scene_files = false;
+                              const skein::Scenario scenario = skein::load_scenario(options.scenario, load);
+                              return agent.role == "gcs" ? run_ground(scenario, options, agent, stop)
+                                                         : run_uav(scenario, options, agent, stop);
+                            });
 }

@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "uav_agent/motion.hpp"
 #include "uav_agent/occupancy_map.hpp"
 #include "uav_agent/peers.hpp"
+#include "uav_agent/strategy_registry.hpp"
 
 namespace skein::agent {
 
@@ -73,26 +73,8 @@ std::unique_ptr<Planner> make_planner(const std::string& spec, const AgentConfig
 /// Names of all registered planners, sorted.
 std::vector<std::string> planner_names();
 
-/// For SKEIN_REGISTER_PLANNER.
-using PlannerFactory = std::unique_ptr<Planner> (*)(const ConfigDocument& parameters, const AgentConfig& agent);
-bool register_planner(const std::string& name, PlannerFactory factory);
-
-/// Reads Class::Config and constructs Class(config) or Class(config, agent).
-template <class Class>
-std::unique_ptr<Planner> construct_planner(const ConfigDocument& parameters, const AgentConfig& agent) {
-  using Config = typename Class::Config;
-  const auto config = read_config<Config>(parameters);
-  if constexpr (std::is_constructible_v<Class, const Config&, const AgentConfig&>) {
-    return std::make_unique<Class>(config, agent);
-  } else {
-    return std::make_unique<Class>(config);
-  }
-}
-
 }  // namespace skein::agent
 
 /// Registers a planner under a name, before main(). Its file must be linked as an object, not from a static
 /// library.
-#define SKEIN_REGISTER_PLANNER(name, Class)                      \
-  [[maybe_unused]] const bool skein_planner_registered_##Class = \
-      ::skein::agent::register_planner(name, &::skein::agent::construct_planner<Class>)
+#define SKEIN_REGISTER_PLANNER(name, Class) SKEIN_REGISTER_STRATEGY(Planner, name, Class)

@@ -68,10 +68,11 @@ std::vector<SurfacePoint> sample_surface(const std::vector<OrientedBox>& solids)
 }
 
 struct Uav {
-  Uav(const AgentConfig& c, const std::string& planner) : agent(c, make_planner(planner, c)), config(c) {
+  Uav(const AgentConfig& c, const std::string& p) : planner(p), agent(c, make_planner(p, c)), config(c) {
     state.p_WB = c.me().p_WB_start + Vector3d(0.0, 0.0, 0.16);
   }
 
+  std::string planner;
   Agent agent;
   AgentConfig config;
   RigidBodyState state;
@@ -79,6 +80,7 @@ struct Uav {
   double highest_m = 0.0;
   std::uint64_t captures = 0;
   std::vector<std::uint64_t> acks;
+  std::vector<RadioMessage> mail;  ///< to be heard at the next step
   std::size_t undelivered = 0;
 };
 
@@ -153,6 +155,7 @@ struct TestWorld::Impl {
   void mix(double value) { fingerprint = (fingerprint ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211ULL; }
 
   AgentInput sense(std::size_t i, const std::vector<std::vector<Eigen::Vector3f>>& scans) const;
+  void deliver_radio(const std::vector<AgentOutput>& outputs);
   void move(Uav& uav, const AgentOutput& output);
   void step();
 
@@ -162,6 +165,7 @@ struct TestWorld::Impl {
   std::vector<Uav> uavs;
   std::uint64_t k = 0, fingerprint = 14695981039346656037ULL;
   double clearance = 1e9, separation = 1e9;
+  std::size_t bad_commands = 0, longest_message = 0;
 };
 
 AgentInput TestWorld::Impl::sense(std::size_t i, const std::vector<std::vector<Eigen::Vector3f>>& scans) const {
@@ -188,10 +192,21 @@ AgentInput TestWorld::Impl::sense(std::size_t i, const std::vector<std::vector<E
   }
   if (k % 40 == 0) input.capture_reports.push_back({uav.captures, std::vector<std::uint8_t>(200)});
   input.capture_acks = uav.acks;
+  input.radio = uav.mail;
   return input;
 }
 
 void TestWorld::Impl::move(Uav& uav, const AgentOutput& output) {
+  if (output.trajectory) {
+    const TrajectoryCommand& command = *output.trajectory;
+    const VehicleConfig& vehicle = uav.config.vehicle;
+    const bool finite = command.p_WB.allFinite() && command.v_WB.allFinite() && command.a_WB.allFinite() &&
+                        std::isfinite(command.yaw) && std::isfinite(command.yaw_rate);
+    const bool within = command.v_WB.norm() <= vehicle.max_speed_mps + 1e-6 &&
+                        command.a_WB.norm() <= vehicle.max_acceleration_mps2 + 1e-6;
+    if (!finite || !within) ++bad_commands;
+  }
+  if (output.gimbal && !(std::isfinite(output.gimbal->pitch) && std::isfinite(output.gimbal->yaw))) ++bad_commands;
   if (output.trajectory) {
     uav.state.p_WB = output.trajectory->p_WB;
     uav.state.v_WB = output.trajectory->v_WB;
@@ -213,6 +228,20 @@ void TestWorld::Impl::move(Uav& uav, const AgentOutput& output) {
   mix(uav.gimbal.yaw);
 }
 
+/// Everybody in sight hears everything, at the next step.
+void TestWorld::Impl::deliver_radio(const std::vector<AgentOutput>& outputs) {
+  for (std::size_t to = 0; to < uavs.size(); ++to) {
+    uavs[to].mail.clear();
+    for (std::size_t from = 0; from < uavs.size() && scene.radio; ++from) {
+      for (const RadioMessage& message : outputs[from].radio) {
+        longest_message = std::max(longest_message, message.text.size());
+      }
+      if (from == to || !scene.talk || !in_sight(uavs[from].state.p_WB, uavs[to].state.p_WB)) continue;
+      uavs[to].mail.insert(uavs[to].mail.end(), outputs[from].radio.begin(), outputs[from].radio.end());
+    }
+  }
+}
+
 void TestWorld::Impl::step() {
   std::vector<std::vector<Eigen::Vector3f>> scans(uavs.size());
   for (std::size_t i = 0; i < uavs.size(); ++i) {
@@ -220,6 +249,7 @@ void TestWorld::Impl::step() {
   }
   std::vector<AgentOutput> outputs;
   for (std::size_t i = 0; i < uavs.size(); ++i) outputs.push_back(uavs[i].agent.step(sense(i, scans)));
+  deliver_radio(outputs);
   for (std::size_t i = 0; i < uavs.size(); ++i) move(uavs[i], outputs[i]);
   ++k;
   for (std::size_t i = 0; i < uavs.size(); ++i) {
@@ -254,6 +284,13 @@ void TestWorld::run(double seconds_to_run) {
   for (std::uint64_t i = 0; i < steps; ++i) impl_->step();
 }
 
+void TestWorld::restart(std::size_t uav) {
+  Uav& again = impl_->uavs.at(uav);
+  again.agent = Agent(again.config, make_planner(again.planner, again.config));
+}
+
+std::size_t TestWorld::bad_commands() const { return impl_->bad_commands; }
+std::size_t TestWorld::longest_message() const { return impl_->longest_message; }
 std::uint64_t TestWorld::fingerprint() const { return impl_->fingerprint; }
 double TestWorld::clearance() const { return impl_->clearance; }
 double TestWorld::separation() const { return impl_->separation; }

@@ -18,6 +18,7 @@ struct TestScene {
   Vector3d station = {-12.0, -12.0, 0.3};
   double boxes_at_s = 0.0;
   bool radio = true;  ///< false: nobody ever sees anybody
+  bool talk = true;   ///< false: they see each other, but no planner hears another
 };
 
 OrientedBox make_box(const Vector3d& centre, const Vector3d& size, double yaw = 0.0);
@@ -38,6 +39,8 @@ class TestWorld {
   ~TestWorld();
 
   void run(double seconds_to_run);
+  /// The on-board software of one UAV begins anew, in flight, and knows nothing.
+  void restart(std::size_t uav);
 
   /// Everything that the agents said, as one number: equal runs have equal ones.
   std::uint64_t fingerprint() const;
@@ -49,6 +52,10 @@ class TestWorld {
   /// distance.
   double coverage() const;
   std::size_t undelivered() const;
+  /// Commands that were not finite, or beyond the vehicle's limits of speed and acceleration.
+  std::size_t bad_commands() const;
+  /// The longest text that a planner sent.
+  std::size_t longest_message() const;
   double highest_m(std::size_t uav) const;
   Vector3d position(std::size_t uav) const;
 

@@ -18,6 +18,7 @@
 #include "uav_agent/path_search.hpp"
 #include "uav_agent/pilot.hpp"
 #include "uav_agent/planner.hpp"
+#include "uav_agent/planning/lift_off.hpp"
 #include "uav_agent/standoff.hpp"
 #include "uav_agent/survey.hpp"
 #include "uav_agent/work_share.hpp"
@@ -30,14 +31,11 @@ constexpr double kRetryS = 1.0;  ///< after a climb was stopped
 constexpr int kMaxClimbs = 20;
 constexpr double kRestS = 3.0;           ///< after a round in which no strip could be flown
 constexpr double kLookAroundTurn = 0.8;  ///< meanwhile [rad]
-constexpr double kLayerM = 2.0;          ///< between the heights to which two UAVs climb
-constexpr double kNoBoxesHeightM = 3.0;
 constexpr double kLowestPlaceM = 6.0;                ///< for delivery
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the side, by round [rad]
 constexpr int kMaxFailures = 3;
 constexpr int kMaxFailedTasks = 8;
 constexpr double kAnywhereM = 1e6;
-constexpr double kRoomyAsideM = 4.0, kRoomyAboveM = 4.0;  ///< where starts are in a box, and how far above it is out
 /// Of the UAV's centre to anything mapped, however small the UAV is: the map's cells are coarse.
 constexpr double kMinClearanceM = 1.8;
 /// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere; in the
@@ -45,9 +43,6 @@ constexpr double kMinClearanceM = 1.8;
 constexpr int kRays[] = {8, 4, 2, 2};
 /// In a roomy box all structure lies where only rays say what is free, and thin members take many to be found.
 constexpr int kRoomyRays[] = {16, 12, 8, 8};
-/// A site no higher than this is surveyed from above, and nothing below its top is entered before it was seen:
-/// there may be a roof over what the boxes hold. Higher up, all that there is stands in a box.
-constexpr double kLowSiteM = 40.0;
 
 }  // namespace
 
@@ -202,7 +197,7 @@ void PatrolPlanner::share_work(const PlannerInput& in) {
   const bool lidar_in_fleet = std::any_of(agent_.fleet.begin(), agent_.fleet.end(),
                                           [](const FleetMember& member) { return member.role == Role::explorer; });
   const bool by_map = lidar_in_fleet && config_.use_map;
-  if (by_map) blind_height_m_ = (top_m_ < kLowSiteM ? 1.0 : config_.blind_height_ratio) * top_m_;
+  if (by_map) blind_height_m_ = blind_height_m(in.boxes, config_.blind_height_ratio);
   WorkShareConfig config;
   config.strips.standoff_ratio = config_.standoff_ratio;
   config.strips.overlap = config_.overlap;
@@ -222,20 +217,8 @@ void PatrolPlanner::share_work(const PlannerInput& in) {
 
 void PatrolPlanner::lift_off(const PlannerInput& in, PlannerOutput& out) {
   const Vector3d p = in.state.p_WB;
-  const auto others = static_cast<double>(agent_.fleet.size() - 1 - agent_.self);
-  double height = kNoBoxesHeightM + kLayerM * others;
-  if (shared_) height = std::max(height, blind_height_m_ + 1.0 + kLayerM * others);
-  for (const OrientedBox& box : in.boxes) {  // no higher than below whatever hangs over the start
-    const double bottom = box.center.z() - (box.R_WO.cwiseAbs() * (0.5 * box.size)).z();
-    const double below = bottom - agent_.me().body_radius_m - config_.clearance_m;
-    const bool under = box.contains(Vector3d(p.x(), p.y(), box.center.z()), 1.0) && bottom > p.z();
-    if (under) height = std::min(height, std::max(below, p.z() + kNoBoxesHeightM));
-    // Inside a roomy one nothing is known of the space around; above it there is nothing.
-    const bool inside = is_roomy(box) && !under && box.contains(Vector3d(p.x(), p.y(), box.center.z()), kRoomyAsideM);
-    if (inside) height = std::max(height, 2.0 * box.center.z() - bottom + kRoomyAboveM + kLayerM * others);
-  }
   phase_ = Phase::climb;
-  climb_to_ = Vector3d(p.x(), p.y(), std::max(height, p.z()));
+  climb_to_ = {p.x(), p.y(), lift_off_height_m(agent_, in.boxes, p, blind_height_m_, config_.clearance_m)};
   pilot_.follow(Path{{{climb_to_, config_.climb_mps}}}, out);
   out.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
 }

@@ -1,0 +1,18 @@
+// What runs at the ground station.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "cli/planner_spec.hpp"
+
+namespace skein::cli {
+
+/// What the user named for `gcs`; where they named nothing, the strategy that flies the UAVs which they did not name
+/// either, if it has a program at the ground station. uav_agent is asked which have.
+/// @param bin_dir  where uav_agent is.
+/// @returns a strategy, with its parameters if any, or "exec:CMD"; nullopt: nothing runs there ("gcs=none" too).
+std::optional<std::string> ground_program(const Planners& planners, const std::filesystem::path& bin_dir);
+
+}  // namespace skein::cli

@@ -1,0 +1,23 @@
+// Neighbours' odometry as the server sends it (CARIC's PointCloud2, one point a node in line of sight).
+#pragma once
+
+#include <vector>
+
+#include "idl/conversions.hpp"
+#include "uav_agent/messages.hpp"
+
+namespace skein::agent {
+
+inline std::vector<Neighbour> neighbours_of(const msg::PointCloud2& cloud) {
+  std::vector<Neighbour> neighbours;
+  for (const NeighbourPoint& p : from_cloud<NeighbourPoint>(cloud)) {
+    const auto node = whole_number(p.node);
+    if (!node) continue;
+    const Eigen::Quaterniond q_WB(p.qw, p.qx, p.qy, p.qz);
+    neighbours.push_back(
+        {*node, Vector3d(p.x, p.y, p.z), Vector3d(q_WB * Vector3d(p.vx, p.vy, p.vz))});
+  }
+  return neighbours;
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,39 @@
+// Who visits what, and in which order: a heuristic for the multiple travelling salesmen problem with the longest tour
+// as short as possible. Everybody begins elsewhere and ends anywhere. Whoever has least to do takes the task that
+// lengthens its tour least (cheapest insertion); then every tour is shortened on its own, and tasks move from longer
+// tours to shorter ones or change places with theirs, as long as that helps.
+// Pure and deterministic: ties go to the lower number; effort is bounded by a count of evaluated moves.
+// Source: reconstructs the distributed mTSP of KIOS, whose paper was not to be had; STAR's task assignment.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "uav_agent/planning/tours.hpp"
+
+namespace skein::agent {
+
+struct FleetTourProblem {
+  std::size_t agents = 1;
+  /// Nodes 0 to agents - 1 are where the agents are, the others are tasks. Ways to an agent's node are not used.
+  CostMatrix costs{1};
+  std::vector<double> service = {};  ///< cost of each task itself, by task (node - agents); empty: none
+  std::vector<double> ahead = {};    ///< cost that each agent has before it begins; empty: none
+};
+
+struct FleetTourConfig {
+  std::size_t max_evaluations = 300'000;
+  double total_weight = 0.02;  ///< of the sum of all tours beside the longest one
+};
+
+struct FleetTours {
+  std::vector<Tour> tours;  ///< by agent: nodes of its tasks in the order of visit
+  double longest = 0.0, total = 0.0;
+};
+
+FleetTours solve_fleet_tours(const FleetTourProblem& problem, const FleetTourConfig& config = {});
+
+/// longest and total of given tours, as solve_fleet_tours() counts them.
+FleetTours measure_fleet_tours(const FleetTourProblem& problem, std::vector<Tour> tours);
+
+}  // namespace skein::agent

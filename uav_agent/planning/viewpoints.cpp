@@ -1,0 +1,78 @@
+#include "uav_agent/planning/viewpoints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/euler.hpp"
+
+namespace skein::agent {
+
+std::vector<Vector3d> ring_around(const Vector3d& target_W, const RingConfig& config) {
+  std::vector<Vector3d> places;
+  for (int ring = 0; ring < config.rings; ++ring) {
+    const double share = config.rings > 1 ? static_cast<double>(ring) / (config.rings - 1) : 0.0;
+    const double radius = config.inner_m + share * (config.outer_m - config.inner_m);
+    for (const double height : config.heights_m) {
+      for (int i = 0; i < config.directions; ++i) {
+        const double turn = 2.0 * std::numbers::pi * i / config.directions;
+        places.push_back(target_W + Vector3d(radius * std::cos(turn), radius * std::sin(turn), height));
+      }
+    }
+  }
+  return places;
+}
+
+std::vector<std::size_t> visible_targets(const VoxelGrid& grid, const Vector3d& from_W, double yaw, double pitch,
+                                         const std::vector<Vector3d>& targets_W, const ViewLimits& limits) {
+  const Matrix3d R_CW = (rotation_z(yaw) * rotation_y(pitch)).transpose();
+  std::vector<std::size_t> visible;
+  for (std::size_t i = 0; i < targets_W.size(); ++i) {
+    const Vector3d to_target = targets_W[i] - from_W;
+    if (to_target.norm() > limits.range_m) continue;
+    const Vector3d p_C = R_CW * to_target;
+    const double aside = std::abs(std::atan2(p_C.y(), p_C.x())), above = std::abs(std::atan2(p_C.z(), p_C.x()));
+    if (aside > limits.half_width || above > limits.half_height) continue;
+    if (grid.sees(from_W, targets_W[i])) visible.push_back(i);
+  }
+  return visible;
+}
+
+std::vector<std::vector<std::size_t>> visibility_clusters(const VoxelGrid& grid, const std::vector<Vector3d>& places_W,
+                                                          double radius_m) {
+  std::vector<std::vector<std::size_t>> clusters;
+  std::vector<bool> taken(places_W.size(), false);
+  for (std::size_t first = 0; first < places_W.size(); ++first) {
+    if (taken[first]) continue;
+    std::vector<std::size_t> cluster = {first};
+    for (std::size_t other = first + 1; other < places_W.size(); ++other) {
+      const bool near = !taken[other] && (places_W[other] - places_W[first]).norm() <= radius_m;
+      if (!near || !grid.sees(places_W[first], places_W[other])) continue;
+      taken[other] = true;
+      cluster.push_back(other);
+    }
+    clusters.push_back(std::move(cluster));
+  }
+  return clusters;
+}
+
+std::vector<std::size_t> cover(const std::vector<std::vector<std::size_t>>& seen, std::size_t targets,
+                               std::size_t min_gain) {
+  std::vector<bool> covered(targets, false);
+  std::vector<std::size_t> chosen;
+  while (true) {
+    std::size_t best = 0, best_gain = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const auto gain = static_cast<std::size_t>(
+          std::ranges::count_if(seen[i], [&](std::size_t target) { return !covered[target]; }));
+      if (gain <= best_gain) continue;
+      best = i;
+      best_gain = gain;
+    }
+    if (best_gain == 0 || best_gain < min_gain) return chosen;
+    chosen.push_back(best);
+    for (const std::size_t target : seen[best]) covered[target] = true;
+  }
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,112 @@
+#include "uav_agent/planning/viewpoints.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/euler.hpp"
+
+namespace skein::agent {
+namespace {
+
+using Id = VoxelGrid::Id;
+
+class Draw {
+ public:
+  double operator()(double lo, double hi) {
+    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return lo + (hi - lo) * static_cast<double>(state_ >> 11) * 0x1.0p-53;
+  }
+
+ private:
+  std::uint64_t state_ = 7;
+};
+
+VoxelGrid scattered(double share) {
+  VoxelGrid grid(Isometry3d::Identity(), {20, 20, 10}, 1.0);
+  Draw draw;
+  for (Id id = 0; id < grid.count(); ++id) {
+    if (draw(0.0, 1.0) < share) grid.raise(id, VoxelState::occupied);
+  }
+  return grid;
+}
+
+/// Marches along the segment in millimetres; corners that are only grazed count neither way.
+bool sees_by_marching(const VoxelGrid& grid, const Vector3d& a, const Vector3d& b) {
+  const auto from = grid.at(a), to = grid.at(b);
+  const int steps = static_cast<int>((b - a).norm() / 0.001);
+  for (int i = 0; i <= steps; ++i) {
+    const auto id = grid.at(Vector3d(a + (b - a) * (static_cast<double>(i) / std::max(1, steps))));
+    if (id && id != from && id != to && grid.state(*id) == VoxelState::occupied) return false;
+  }
+  return true;
+}
+
+TEST(Viewpoints, VisibilityIsWhatRaysSay) {
+  const VoxelGrid grid = scattered(0.08);
+  Draw draw;
+  int visible = 0, hidden = 0, differing = 0;
+  for (int i = 0; i < 150; ++i) {
+    const Vector3d from(draw(0, 20), draw(0, 20), draw(0, 10)), to(draw(0, 20), draw(0, 20), draw(0, 10));
+    const bool seen = grid.sees(from, to);
+    ++(seen ? visible : hidden);
+    differing += seen != sees_by_marching(grid, from, to);
+  }
+  EXPECT_GT(visible, 20);
+  EXPECT_GT(hidden, 20);
+  EXPECT_LE(differing, 1) << "a corner passed by less than a millimetre";
+}
+
+TEST(Viewpoints, TargetsMustBeInRangeInTheImageAndUnhidden) {
+  VoxelGrid grid(Isometry3d::Identity(), {20, 20, 10}, 1.0);
+  grid.raise(*grid.at(Vector3d(10.5, 14.5, 5.5)), VoxelState::occupied);
+  const Vector3d from(10.5, 10.5, 5.5);
+  const std::vector<Vector3d> targets = {{14.5, 10.5, 5.5}, {6.5, 10.5, 5.5}, {14.5, 13.0, 5.5},
+                                         {10.5, 17.5, 5.5}, {19.5, 10.5, 5.5}, {12.0, 10.5, 9.5}};
+  const ViewLimits camera{8.0, 40.0 * kRadPerDeg, 30.0 * kRadPerDeg};
+  EXPECT_EQ(visible_targets(grid, from, 0.0, 0.0, targets, camera), (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(visible_targets(grid, from, 0.0, -60.0 * kRadPerDeg, targets, camera), std::vector<std::size_t>{5});
+  EXPECT_EQ(visible_targets(grid, from, 0.0, 0.0, targets, ViewLimits{8.0}), (std::vector<std::size_t>{0, 1, 2, 5}))
+      << "all around, but one is hidden and one is far";
+}
+
+TEST(Viewpoints, RingsHaveTheirRadii) {
+  const Vector3d target(1.0, 2.0, 3.0);
+  const RingConfig rings{.inner_m = 2.0, .outer_m = 6.0, .rings = 3, .directions = 8, .heights_m = {0.0, 1.0}};
+  const auto places = ring_around(target, rings);
+  ASSERT_EQ(places.size(), 48U);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_NEAR((places[i] - target).head<2>().norm(), 2.0 + 2.0 * static_cast<double>(i / 16), 1e-12);
+  }
+}
+
+TEST(Viewpoints, ClustersAreNearAndSeeTheirFirst) {
+  const VoxelGrid grid = scattered(0.1);
+  Draw draw;
+  std::vector<Vector3d> places;
+  for (int i = 0; i < 120; ++i) places.emplace_back(draw(0, 20), draw(0, 20), draw(0, 10));
+  const auto clusters = visibility_clusters(grid, places, 5.0);
+  std::set<std::size_t> all;
+  for (const auto& cluster : clusters) {
+    for (const std::size_t i : cluster) {
+      EXPECT_TRUE(all.insert(i).second) << "in one cluster only";
+      EXPECT_LE((places[i] - places[cluster[0]]).norm(), 5.0);
+      EXPECT_TRUE(grid.sees(places[cluster[0]], places[i]));
+    }
+  }
+  EXPECT_EQ(all.size(), places.size());
+  EXPECT_LT(clusters.size(), places.size());
+}
+
+TEST(Viewpoints, CoverTakesTheBestAndLeavesNothingThatIsWorthIt) {
+  const std::vector<std::vector<std::size_t>> seen = {{0, 1}, {1, 2, 3}, {4}, {0, 1, 2}, {}};
+  EXPECT_EQ(cover(seen, 5, 1), (std::vector<std::size_t>{1, 0, 2}));
+  EXPECT_EQ(cover(seen, 5, 2), std::vector<std::size_t>{1});
+  EXPECT_TRUE(cover({}, 5, 1).empty());
+}
+
+}  // namespace
+}  // namespace skein::agent
