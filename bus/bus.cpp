@@ -1,14 +1,32 @@
 #include "bus/bus.hpp"
 
+#include <fstream>
+
 #include "bus/cyclonedds/cyclonedds_bus.hpp"
 #include "bus/fastdds/fastdds_bus.hpp"
 #include "bus/inproc/inproc_bus.hpp"
 #include "bus/wire.hpp"
+#include "core/security_files.hpp"
 #include "core/types.hpp"
 
 namespace skein::bus {
 
+namespace {
+
+void check_security(const BusConfig& config) {
+  if (config.security.empty()) return;
+  if (config.vendor == "inproc") throw InputError("security: inproc has none; use cyclonedds or fastdds");
+  for (const char* name : security_files::kAll) {
+    if (!std::ifstream(config.security / name).good()) {
+      throw InputError("--security " + config.security.string() + ": " + name + " cannot be read");
+    }
+  }
+}
+
+}  // namespace
+
 std::unique_ptr<Bus> make_bus(const BusConfig& config) {
+  check_security(config);
   if (config.vendor == "cyclonedds") return make_cyclonedds_bus(config);
   if (config.vendor == "fastdds") return make_fastdds_bus(config);
   if (config.vendor == "inproc") return make_inproc_bus();

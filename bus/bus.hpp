@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -93,6 +94,7 @@ struct BusConfig {
   std::string vendor = "cyclonedds";  ///< "cyclonedds", "fastdds" or "inproc"
   bool loopback_only = true;          ///< no multicast, 127.0.0.1 only; false in containers
   bool long_leases = false;           ///< debug: a process stopped in gdb keeps its place for an hour
+  std::filesystem::path security{};   ///< folder with the files of core/security_files.hpp; empty: an open domain
 };
 
 /// Domain ids run from 0 to this one: the UDP ports of a domain begin at 7400 + 250 x domain and must stay below 65536.
@@ -106,7 +108,8 @@ class Bus {
   virtual std::unique_ptr<Participant> join(int domain) = 0;
 };
 
-/// @throws InputError (core/types.hpp) for an unknown vendor; the message lists the known ones.
+/// @throws InputError (core/types.hpp) for an unknown vendor; the message lists the known ones. Also when a file of
+/// `security` cannot be read; inproc has no security.
 std::unique_ptr<Bus> make_bus(const BusConfig& config);
 /// Names of all vendors, in the order in which `mixed` deals them out: cyclonedds, fastdds. inproc is not among them.
 std::vector<std::string> dds_vendors();

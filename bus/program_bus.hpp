@@ -8,8 +8,10 @@ namespace skein::bus {
 
 /// @throws InputError for an unknown vendor.
 inline std::unique_ptr<Bus> make_bus(const ProgramOptions& options) {
-  return make_bus(
-      BusConfig{.vendor = options.dds, .loopback_only = options.loopback_only, .long_leases = options.long_leases});
+  return make_bus(BusConfig{.vendor = options.dds,
+                            .loopback_only = options.loopback_only,
+                            .long_leases = options.long_leases,
+                            .security = options.security});
 }
 
 }  // namespace skein::bus

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "cli/environment.hpp"
+#include "cli/ground_program.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/topics.hpp"
 
@@ -19,6 +20,7 @@ using Arguments = std::vector<std::string>;
 
 constexpr std::array<const char*, 2> kVendors = {"cyclonedds", "fastdds"};
 constexpr const char* kAgentPrefix = "uav_agent-";
+const std::string kGroundProgram = "uav_agent-gcs";
 
 void append(Arguments& arguments, const Arguments& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -50,36 +52,55 @@ Arguments command_line(const FleetPlan& plan, const std::string& binary) {
 }
 
 const std::string& planner_of(const FleetPlan& plan, const std::string& program) {
+  if (program == kGroundProgram) return *plan.ground;
   return plan.planners[plan.scenario.uav_index(member_name(program))].spec;
 }
 
 /// What a user's command is told. It joins SKEIN_DOMAIN and no other.
 std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
-                                                  const std::filesystem::path& out) {
+                                                  const std::filesystem::path& out, const SecureFolder& secure) {
   const std::string uav = member_name(program);
-  return {{"SKEIN_DOMAIN", std::to_string(uav_domain(base_domain, plan.scenario.uav_index(uav)))},
-          {"SKEIN_UAV", uav},
-          {"SKEIN_DDS", dds_vendors(plan).at(program)},
-          {"SKEIN_SCENARIO", std::filesystem::absolute(plan.scenario.file)},
-          {"SKEIN_OUT", std::filesystem::absolute(out)}};
+  std::map<std::string, std::string> variables = {
+      {"SKEIN_DOMAIN", std::to_string(agent_domain(plan, program, base_domain))},
+      {"SKEIN_UAV", uav},
+      {"SKEIN_DDS", dds_vendors(plan).at(program)},
+      {"SKEIN_SCENARIO", std::filesystem::absolute(plan.scenario.file)},
+      {"SKEIN_OUT", std::filesystem::absolute(secure.out.empty() ? out : secure.out)}};
+  if (!secure.keys.empty()) variables["SKEIN_SECURITY"] = secure.keys;
+  if (secure.user) variables["HOME"] = secure.out;  // the launcher's is closed to it
+  return variables;
+}
+
+/// Whose software an agent is.
+Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
+  const Arguments planner = {"--planner", planner_of(plan, program)};
+  Arguments arguments = {"--uav", member_name(program)};
+  if (program == kGroundProgram) arguments = {"--role", "gcs"};
+  append(arguments, planner);
+  return arguments;
 }
 
 /// @param program "sim_server", "comm_router", "station" or an agent's.
 Arguments run_arguments(const FleetPlan& plan, const std::string& program, int base_domain,
-                        const std::filesystem::path& out) {
-  const bool is_agent = program.starts_with(kAgentPrefix);
-  Arguments arguments = command_line(plan, is_agent ? "uav_agent" : program);
-  append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain), "--out", out});
+                        const std::filesystem::path& out, const SecureFolder& secure) {
+  Arguments arguments = command_line(plan, is_agent(program) ? "uav_agent" : program);
+  append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain), "--out",
+                     secure.out.empty() ? out : secure.out});
+  if (!secure.keys.empty()) append(arguments, {"--security", secure.keys});
   if (plan.options.debug_uav) arguments.push_back("--debug-leases");
-  if (is_agent) {
-    append(arguments, {"--uav", member_name(program), "--planner", planner_of(plan, program)});
-  }
+  if (is_agent(program)) append(arguments, role_arguments(plan, program));
   if (program == "sim_server") {
     append(arguments, {"--clock", plan.options.clock});
     if (plan.options.stop_at_s) append(arguments, {"--stop-at", text_of(*plan.options.stop_at_s)});
     if (plan.options.debug_uav) append(arguments, {"--agent-timeout", "0"});
+    if (plan.ground) arguments.push_back("--ground-program");
   }
   return arguments;
+}
+
+SecureFolder secure_folder(const SecureFolders& secure, const std::string& program) {
+  const auto found = secure.find(program);
+  return found == secure.end() ? SecureFolder{} : found->second;
 }
 
 std::string quoted_for_shell(const std::string& word) {
@@ -97,11 +118,17 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   load.assets_dir = options.assets.value_or("");
   load.duration_s = options.duration_s;
   load.scene_seed = options.scene_seed;
+  if (options.secure && options.dds == "mixed") {
+    throw InputError(
+        "--secure --dds mixed: the vendors' security does not work together reliably; choose cyclonedds or fastdds");
+  }
   FleetPlan plan{options, load_scenario(options.scenario, load), {}, bin_dir, {}};
   plan.faults = load_fault_plan(options.faults.value_or(""), plan.scenario);
   std::vector<std::string> names;
   for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
-  plan.planners = parse_planners(options.planner, names);
+  const Planners planners = parse_planners(options.planner, names);
+  plan.planners = planners.uavs;
+  plan.ground = ground_program(planners, bin_dir);
   if (options.debug_uav) plan.scenario.uav_index(*options.debug_uav);  // throws for an unknown name
   return plan;
 }
@@ -116,13 +143,21 @@ int domain_count(const FleetPlan& plan) { return 2 + static_cast<int>(plan.scena
 
 std::string agent_program(const std::string& uav) { return kAgentPrefix + uav; }
 
+bool is_agent(const std::string& program) { return program.starts_with(kAgentPrefix); }
+
+int agent_domain(const FleetPlan& plan, const std::string& program, int base_domain) {
+  if (program == kGroundProgram) return gcs_domain(base_domain);
+  return uav_domain(base_domain, plan.scenario.uav_index(member_name(program)));
+}
+
 std::string member_name(const std::string& program) {
-  return program.starts_with(kAgentPrefix) ? program.substr(std::string(kAgentPrefix).size()) : program;
+  return is_agent(program) ? program.substr(std::string(kAgentPrefix).size()) : program;
 }
 
 std::map<std::string, std::string> dds_vendors(const FleetPlan& plan) {
   std::vector<std::string> programs = {"sim_server", "comm_router", "station"};
   for (const UavConfig& uav : plan.scenario.fleet) programs.push_back(agent_program(uav.name));
+  if (plan.ground) programs.push_back(kGroundProgram);
   std::map<std::string, std::string> vendors;
   for (std::size_t i = 0; i < programs.size(); ++i) {
     vendors[programs[i]] = plan.options.dds == "mixed" ? kVendors[i % kVendors.size()] : plan.options.dds;
@@ -131,21 +166,23 @@ std::map<std::string, std::string> dds_vendors(const FleetPlan& plan) {
 }
 
 bool is_exec(const FleetPlan& plan, const std::string& program) {
-  return program.starts_with(kAgentPrefix) && exec_command(planner_of(plan, program)).has_value();
+  return is_agent(program) && exec_command(planner_of(plan, program)).has_value();
 }
 
-std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out) {
+std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
+                                        const SecureFolders& secure) {
   const std::vector<std::string> environment = fleet_environment(plan.options.native);
   std::vector<ProgramSpec> programs;
   const auto add = [&](const std::string& name) {
+    const SecureFolder own = secure_folder(secure, name);
     if (is_exec(plan, name)) {
       programs.push_back({name,
                           {"/bin/sh", "-c", *exec_command(planner_of(plan, name))},
-                          fleet_environment(plan.options.native, exec_variables(plan, name, base_domain, out)),
+                          fleet_environment(plan.options.native, exec_variables(plan, name, base_domain, out, own)),
                           out / (name + ".log")});
       return;
     }
-    Arguments arguments = run_arguments(plan, name, base_domain, out);
+    Arguments arguments = run_arguments(plan, name, base_domain, out, own);
     append(arguments, {"--status-fd", std::to_string(kStatusFd), "--control-fd", std::to_string(kControlFd)});
     programs.push_back({name, std::move(arguments), environment, out / (name + ".log")});
   };
@@ -153,31 +190,39 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
   for (const UavConfig& uav : plan.scenario.fleet) {
     if (plan.options.debug_uav != uav.name) add(agent_program(uav.name));
   }
+  if (plan.ground) add(kGroundProgram);
+  for (ProgramSpec& program : programs) program.user = secure_folder(secure, program.name).user;
   return programs;
 }
 
-std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out) {
+std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
+                          const SecureFolders& secure) {
   const std::string program = agent_program(*plan.options.debug_uav);
+  SecureFolder own = secure_folder(secure, program);
+  if (own.user) own.out.clear();  // whoever types the command may write to the results folder
+  own.user.reset();
   std::string command = fleet_environment_prefix(plan.options.native);
   if (is_exec(plan, program)) {
-    for (const auto& [name, value] : exec_variables(plan, program, base_domain, out)) {
+    for (const auto& [name, value] : exec_variables(plan, program, base_domain, out, own)) {
       command += name + "=" + quoted_for_shell(value) + " ";
     }
     return command + "/bin/sh -c " + quoted_for_shell(*exec_command(planner_of(plan, program)));
   }
   command += "gdb --args";
-  for (const std::string& argument : run_arguments(plan, program, base_domain, out)) {
+  for (const std::string& argument : run_arguments(plan, program, base_domain, out, own)) {
     command += " " + quoted_for_shell(argument);
   }
   return command;
 }
 
-std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch) {
+std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch,
+                                        const std::optional<UserId>& agent_user) {
   const std::vector<std::string> environment = fleet_environment(plan.options.native);
   std::vector<ProgramSpec> programs;
   const auto add = [&](const std::string& name, Arguments arguments) {
     arguments.push_back("--check");
     programs.push_back({name, std::move(arguments), environment, scratch / (name + ".log")});
+    if (is_agent(name)) programs.back().user = agent_user;
   };
   add("sim_server", command_line(plan, "sim_server"));
   std::set<std::string> checked;
@@ -186,6 +231,11 @@ std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesy
     Arguments arguments = command_line(plan, "uav_agent");
     append(arguments, {"--uav", planner.uav, "--planner", planner.spec});
     add(agent_program(planner.uav), std::move(arguments));
+  }
+  if (plan.ground && !exec_command(*plan.ground)) {
+    Arguments arguments = command_line(plan, "uav_agent");
+    append(arguments, role_arguments(plan, kGroundProgram));
+    add(kGroundProgram, std::move(arguments));
   }
   return programs;
 }

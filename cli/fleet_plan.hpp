@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,16 @@ struct FleetPlan {
   std::vector<UavPlanner> planners;  ///< fleet order
   std::filesystem::path bin_dir;     ///< where the programs are
   FaultPlan faults;                  ///< of --faults
+  std::optional<std::string> ground = {};  ///< what runs at the ground station: a strategy or "exec:CMD"
 };
+
+/// What a program of a secured fleet is given (cli/security.hpp).
+struct SecureFolder {
+  std::filesystem::path keys;  ///< its key, certificate and permissions
+  std::filesystem::path out;   ///< where it writes instead of the results folder; empty: there
+  std::optional<UserId> user;  ///< as whom it runs; nullopt: as the launcher
+};
+using SecureFolders = std::map<std::string, SecureFolder>;  ///< by program
 
 /// Loads the scenario and takes the planners apart. @throws InputError for whatever is wrong in them.
 FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir);
@@ -34,6 +44,9 @@ int domain_count(const FleetPlan& plan);
 
 /// The program that runs a UAV's on-board software: "uav_agent-jurong".
 std::string agent_program(const std::string& uav);
+bool is_agent(const std::string& program);
+/// The only DDS domain that an agent joins.
+int agent_domain(const FleetPlan& plan, const std::string& program, int base_domain);
 /// How sim_server calls a program's member: the UAV's name, "comm_router" or "station".
 std::string member_name(const std::string& program);
 
@@ -41,17 +54,21 @@ std::string member_name(const std::string& program);
 std::map<std::string, std::string> dds_vendors(const FleetPlan& plan);
 
 /// The whole fleet in the order in which it starts, the UAV under --debug left out.
-std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out);
+/// @param secure  of all programs, or of none
+std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
+                                        const SecureFolders& secure = {});
 
 /// True when this program is a user's command (`--planner exec:CMD`) in the place of uav_agent.
 bool is_exec(const FleetPlan& plan, const std::string& program);
 
 /// What to type to run the UAV under --debug in gdb (a user's command: as it is, with its environment).
-std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out);
+std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
+                          const SecureFolders& secure = {});
 
 /// Programs that only validate (--check): sim_server, then one agent for each different planner. A user's command is
 /// not asked: nothing is known about it.
-/// @param scratch folder for their logs.
-std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch);
+/// @param scratch folder for their logs. @param agent_user  as whom agents will run
+std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch,
+                                        const std::optional<UserId>& agent_user = {});
 
 }  // namespace skein::cli

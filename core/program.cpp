@@ -94,6 +94,8 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_flag("--check", options.check_only, "Validate the input, then stop");
   app.add_option("--status-fd", options.status_fd, "File descriptor for status lines")->group("Launcher");
   app.add_option("--control-fd", options.control_fd, "File descriptor with orders")->group("Launcher");
+  app.add_option("--security", options.security, "Folder with the process's key, certificate and permissions")
+      ->group("Launcher");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error or off (default: SKEIN_LOG)");
   app.add_flag_callback(
       "--network", [&options] { options.loopback_only = false; },

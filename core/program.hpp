@@ -51,6 +51,7 @@ struct ProgramOptions {
   std::string log_level;                    ///< --log-level; empty: SKEIN_LOG, else info
   bool loopback_only = true;                ///< --network turns it off
   bool long_leases = false;                 ///< --debug-leases: a process stopped in gdb keeps its place
+  std::filesystem::path security;           ///< --security: folder of core/security_files.hpp; empty: not secured
 
   /// For load_scenario().
   LoadOptions load_options() const;

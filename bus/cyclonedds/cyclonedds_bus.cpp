@@ -12,6 +12,7 @@
 
 #include "bus/cyclonedds/domain.hpp"
 #include "bus/cyclonedds/packing.hpp"
+#include "bus/cyclonedds/security.hpp"
 #include "bus/wire.hpp"
 
 namespace skein::bus {
@@ -207,6 +208,7 @@ class CycloneParticipant : public Participant {
     dds_guid_t guid;
     check(dds_get_guid(entity_, &guid), "participant without GUID");
     id_ = id_of(guid);
+    if (!config.security.empty()) watch_strangers(domain, entity_);
   }
   ~CycloneParticipant() override {
     packing_.release();

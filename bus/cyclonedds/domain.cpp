@@ -4,6 +4,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "bus/cyclonedds/security.hpp"
 #include "bus/wire.hpp"
 
 namespace skein::bus::cyclonedds {
@@ -51,7 +52,8 @@ std::string domain_configuration(const BusConfig& config) {
          "<WhcAdaptive>false</WhcAdaptive></Watermarks>"
          "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"8s\">50ms</HeartbeatInterval>"
          "<NackDelay>5ms</NackDelay><GenerateKeyhash>true</GenerateKeyhash>"
-         "<SocketReceiveBufferSize min=\"default\" max=\"4MB\"/></Internal>"
+         "<SocketReceiveBufferSize min=\"default\" max=\"4MB\"/></Internal>" +
+         security_configuration(config.security) +
          "</Domain></CycloneDDS>";
 }
 
@@ -61,6 +63,7 @@ dds_return_t check(dds_return_t result, const std::string& what) {
 }
 
 Domain::Domain(int id, const BusConfig& config) : id_(id) {
+  if (!config.security.empty()) log_refusals();
   Register& known = domain_register();
   const std::scoped_lock lock(known.mutex);
   Register::Entry& entry = known.domains[id];

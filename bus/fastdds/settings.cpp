@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "bus/fastdds/security.hpp"
 #include "bus/wire.hpp"
 
 namespace skein::bus::fastdds {
@@ -62,6 +63,10 @@ DomainParticipantQos participant_qos(int domain, const BusConfig& config) {
   // The first announcements come fast, since others may just be starting as well.
   discovery.initial_announcements.count = 10;
   discovery.initial_announcements.period = milliseconds(20);
+  if (!config.security.empty()) {
+    qos.properties() = security_properties(config.security);
+    log_refusals();
+  }
   return qos;
 }
 

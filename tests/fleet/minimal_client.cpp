@@ -2,7 +2,8 @@
 // code with Skein, only the messages and the bus. It flies its UAV 3 m up and stays there.
 //   skein run --planner hover,UAV=exec:minimal_client    (the launcher sets SKEIN_DOMAIN, SKEIN_UAV, SKEIN_DDS)
 // Exit code 0 after the last step, 3 when the server dropped it. To see what becomes of a broken client: with an argument
-// it lies from a certain step on; "boast" announces a command more than it sends, "smuggle" one less.
+// it lies from a certain step on; "boast" announces a command more than it sends, "smuggle" one less;
+// "forge" tells the station of captures that no camera took.
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
@@ -28,6 +29,7 @@ constexpr double kHeightM = 3.0;
 constexpr std::uint64_t kFirstLie = 40;
 constexpr skein::bus::Qos kStateQos{.reliable = true, .latched = false, .depth = 8};
 constexpr skein::bus::Qos kCommandQos{.reliable = true, .latched = false, .depth = 64};
+constexpr skein::bus::Qos kRadioQos{.reliable = true, .latched = false, .depth = 256};
 constexpr skein::bus::Qos kLatchedQos{.reliable = true, .latched = true, .depth = 4};
 
 template <class Message>
@@ -124,6 +126,7 @@ class Client {
     if (revision > 0) {
       ready.reads().push_back(odometry_->name());
       ready.writes().push_back(command_name());
+      if (reports_) ready.writes().push_back(reports_name());
     }
     ready_->write(skein::encode(ready));
   }
@@ -136,6 +139,9 @@ class Client {
       odometry_ = std::make_unique<Queue<msg::Odometry>>(participant_, uav_ + "/ground_truth/odometry", kStateQos);
       commands_ =
           participant_.create_writer(topic<msg::MultiDOFJointTrajectory>(uav_ + "/command/trajectory", kCommandQos));
+      if (lie_ == "forge") {
+        reports_ = participant_.create_writer(topic<msg::CaptureReports>("captures/" + uav_, kRadioQos));
+      }
       received_ = expected_ = count_of(resync->second.base(), odometry_->name(), server_, 0);
       return;
     }
@@ -145,7 +151,8 @@ class Client {
     const auto heard = [&](const skein::bus::Writer& writer) {
       return Queue<msg::Step>::contains(writer.matched(), server_);
     };
-    while (!odometry_->matches(server_) || !steps_.matches(server_) || !heard(*commands_) || !heard(*done_)) {
+    while (!odometry_->matches(server_) || !steps_.matches(server_) || !heard(*commands_) || !heard(*done_) ||
+           (reports_ && !reports_->has_readers())) {
       resyncs_.take();  // a pause
     }
   }
@@ -167,6 +174,7 @@ class Client {
       if (!goal_) goal_ = next->second.pose().pose().position();
     }
     write_command(step);
+    if (reports_ && step.k() >= kFirstLie) write_forged_report(step);
 
     msg::Done done;
     done.k(step.k());
@@ -177,6 +185,11 @@ class Client {
     sent.source(participant_.id());
     sent.count(step.k() < kFirstLie ? commands_sent_ : told());
     done.sent().push_back(sent);
+    if (reports_) {
+      sent.topic(reports_name());
+      sent.count(reports_sent_);
+      done.sent().push_back(sent);
+    }
     done_->write(skein::encode(done));
     answered_ = step.k();
     return true;
@@ -198,21 +211,38 @@ class Client {
     ++commands_sent_;
   }
 
+  void write_forged_report(const msg::Step& step) {
+    msg::CapturePoint point;
+    point.q_blur(1.0F);
+    point.q_res(1.0F);
+    point.q(1.0F);
+    msg::CaptureReport report;
+    report.uav(uav_);
+    report.capture(reports_sent_);
+    report.token(step.k());
+    report.points().push_back(point);
+    msg::CaptureReports reports;
+    reports.reports().push_back(report);
+    reports_->write(skein::encode(reports));
+    ++reports_sent_;
+  }
+
   /// What it says that it sent.
   std::uint64_t told() const {
     if (lie_ == "boast") return commands_sent_ + 1;
     return lie_ == "smuggle" ? commands_sent_ - 1 : commands_sent_;
   }
   std::string command_name() const { return "rt/" + uav_ + "/command/trajectory"; }
+  std::string reports_name() const { return "rt/captures/" + uav_; }
 
   skein::bus::Participant& participant_;
   const std::string uav_, lie_;
   Queue<msg::Resync> resyncs_;
   Queue<msg::Step> steps_;
-  std::unique_ptr<skein::bus::Writer> done_, ready_, commands_;
+  std::unique_ptr<skein::bus::Writer> done_, ready_, commands_, reports_;
   std::unique_ptr<Queue<msg::Odometry>> odometry_;
   ParticipantId server_ = 0;
-  std::uint64_t received_ = 0, expected_ = 0, commands_sent_ = 0;
+  std::uint64_t received_ = 0, expected_ = 0, commands_sent_ = 0, reports_sent_ = 0;
   std::optional<std::uint64_t> answered_;
   std::optional<msg::Point> goal_;
 };
@@ -222,10 +252,11 @@ class Client {
 int main(int argc, char** argv) {
   const char *domain = std::getenv("SKEIN_DOMAIN"), *uav = std::getenv("SKEIN_UAV"), *vendor = std::getenv("SKEIN_DDS");
   if (domain == nullptr || uav == nullptr || vendor == nullptr) {
-    std::cerr << "usage: SKEIN_DOMAIN=N SKEIN_UAV=NAME SKEIN_DDS=VENDOR minimal_client [boast|smuggle]\n";
+    std::cerr << "usage: SKEIN_DOMAIN=N SKEIN_UAV=NAME SKEIN_DDS=VENDOR minimal_client [boast|smuggle|forge]\n";
     return 2;
   }
-  const auto bus = skein::bus::make_bus({.vendor = vendor});
+  const char* security = std::getenv("SKEIN_SECURITY");  // set with --secure
+  const auto bus = skein::bus::make_bus({.vendor = vendor, .security = security != nullptr ? security : ""});
   const auto participant = bus->join(std::atoi(domain));
   return Client(*participant, uav, argc > 1 ? argv[1] : "").run();
 }

@@ -1,0 +1,128 @@
+#include "bus/cyclonedds/security.hpp"
+
+#include <dds/dds.h>
+#include <dds/ddsrt/log.h>
+#include <dlfcn.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <array>
+#include <atomic>
+#include <span>
+#include <string_view>
+
+#include "bus/cyclonedds/domain.hpp"
+#include "bus/vendor_log.hpp"
+#include "core/security_files.hpp"
+#include "core/types.hpp"
+
+namespace skein::bus::cyclonedds {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Cyclone loads its plugins by path. Debian keeps them in a folder beside the library, others beside it.
+fs::path plugin(const std::string& name) {
+  Dl_info library{};
+  if (::dladdr(reinterpret_cast<const void*>(&dds_create_domain), &library) == 0 || library.dli_fname == nullptr) {
+    throw InputError("--security: the library of Cyclone DDS cannot be found");
+  }
+  const fs::path folder = fs::canonical(library.dli_fname).parent_path();
+  const std::string file = "lib" + name + ".so";
+  for (const fs::path& candidate : {folder / "libddsc0debian" / file, folder / file}) {
+    if (fs::exists(candidate)) return candidate;
+  }
+  throw InputError("--security: Cyclone DDS has no " + file + " in " + folder.string() +
+                   "; on Debian it is in the package libddsc0debian");
+}
+
+std::string escaped(const std::string& text) {
+  std::string xml;
+  for (const char c : text) {
+    if (c == '&') xml += "&amp;";
+    else if (c == '<') xml += "&lt;";
+    else if (c == '"') xml += "&quot;";
+    else xml += c;
+  }
+  return xml;
+}
+
+/// Domains in which this process has a participant. Cyclone's log is one for the whole process: hence static.
+std::atomic<bool>& has_participant(std::uint32_t domain) {
+  static std::array<std::atomic<bool>, kMaxDomain + 1> domains{};
+  static std::atomic<bool> none = true;
+  return domain < domains.size() ? domains[domain] : none;
+}
+
+/// Between the creation of a domain and that of its participant Cyclone hears the others already and refuses them, for
+/// want of somebody to speak with; they come again.
+bool is_premature(std::string_view text, std::uint32_t domain) {
+  return text.starts_with("Remote secure participant ") && !has_participant(domain);
+}
+
+/// The first bit of a GUID tells whether it is bound to a certificate (DDS Security 1.1, 9.3.3).
+bool is_bound(const dds_guid_t& guid) { return (guid.v[0] & 0x80) != 0; }
+
+std::string text_of(const dds_guid_t& guid) {
+  std::string text;
+  for (const std::uint8_t byte : std::span(guid.v).first<12>()) text += fmt::format("{:02x}", byte);
+  return text;
+}
+
+/// Cyclone calls it with each participant that comes or goes.
+void look_at_newcomers(dds_entity_t reader, void*) {
+  std::array<void*, 8> samples{};
+  std::array<dds_sample_info_t, 8> infos;
+  for (;;) {
+    const dds_return_t count = dds_take(reader, samples.data(), infos.data(), samples.size(), samples.size());
+    if (count <= 0) return;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      const auto* newcomer = static_cast<const dds_builtintopic_participant_t*>(samples[i]);
+      if (infos[i].valid_data && infos[i].instance_state == DDS_IST_ALIVE && !is_bound(newcomer->key)) {
+        log_refusal("cyclonedds", "participant " + text_of(newcomer->key) + " has no certificate and is ignored");
+      }
+    }
+    dds_return_loan(reader, samples.data(), count);
+  }
+}
+
+std::string library_element(const std::string& name) {
+  return "<Library path=\"" + escaped(plugin(name)) + "\"/>";
+}
+
+}  // namespace
+
+std::string security_configuration(const fs::path& folder) {
+  if (folder.empty()) return "";
+  const fs::path absolute = fs::absolute(folder);
+  const auto file = [&](const std::string& element, const char* name) {
+    return "<" + element + ">file:" + escaped(absolute / name) + "</" + element + ">";
+  };
+  return "<Security><Authentication>" + library_element("dds_security_auth") +
+         file("IdentityCA", security_files::kIdentityCa) +
+         file("IdentityCertificate", security_files::kCertificate) + file("PrivateKey", security_files::kKey) +
+         "</Authentication><Cryptographic>" + library_element("dds_security_crypto") +
+         "</Cryptographic><AccessControl>" + library_element("dds_security_ac") +
+         file("PermissionsCA", security_files::kPermissionsCa) + file("Governance", security_files::kGovernance) +
+         file("Permissions", security_files::kPermissions) + "</AccessControl></Security>";
+}
+
+void log_refusals() {
+  dds_set_log_sink(
+      [](void*, const dds_log_data_t* entry) {
+        if ((entry->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_WARNING)) == 0) return;
+        const std::string_view text(entry->message, entry->size);
+        if (!is_premature(text, entry->domid)) log_refusal("cyclonedds", text);
+      },
+      nullptr);
+}
+
+void watch_strangers(int domain, dds_entity_t participant) {
+  has_participant(static_cast<std::uint32_t>(domain)) = true;
+  dds_listener_t* listener = dds_create_listener(nullptr);
+  dds_lset_data_available(listener, look_at_newcomers);
+  check(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, listener), "cannot see newcomers");
+  dds_delete_listener(listener);
+}
+
+}  // namespace skein::bus::cyclonedds

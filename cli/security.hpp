@@ -1,0 +1,55 @@
+// What a secured run (`skein run --secure`) is given before it starts, and takes back at its end: keys and permissions
+// of each program in a folder that nobody else can read, and, when the launcher is root, a user id of its own for each
+// agent. What this protects, and what not: docs/security.md. From one thread.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/fleet_plan.hpp"
+#include "cli/preflight.hpp"
+
+namespace skein::cli {
+
+/// The user of the agent in this DDS domain, when the launcher may choose one (it is root); nullopt otherwise.
+/// @throws InputError when the user id belongs to somebody.
+std::optional<UserId> agent_user(int domain);
+
+/// Before anything starts: what can be wrong with a secured fleet's agents under user ids of their own.
+/// @returns such a user, for the agents' own checks; nullopt when agents run as the launcher.
+/// @throws InputError when they cannot read the programs or the configuration; it names the path and what helps.
+std::optional<UserId> check_agents_access(const FleetPlan& plan);
+
+/// Files that hold the scenario's ground truth and that agents can read all the same, each as a warning.
+std::vector<std::string> exposed_files(const FleetPlan& plan);
+
+/// While it lives, the keys of a run exist.
+class SecureRun {
+ public:
+  /// @param out  the results folder, which holds ground truth too: closed to others until the run is over, if agents
+  ///   are such others.
+  /// @throws InputError when the agents cannot get at their keys; std::runtime_error when something fails.
+  SecureRun(const FleetPlan& plan, int base_domain, std::filesystem::path out);
+  /// Removes all keys.
+  ~SecureRun();
+  SecureRun(const SecureRun&) = delete;
+  SecureRun& operator=(const SecureRun&) = delete;
+
+  const SecureFolders& folders() const { return folders_; }
+
+  /// Copies what agents under their own user ids wrote from their own folders to the results folder, once all programs
+  /// have ended: plain files of theirs, under names that begin with the program's.
+  void collect() const;
+
+ private:
+  void make_folders(const FleetPlan& plan, int base_domain);
+
+  ScratchDir scratch_;
+  std::filesystem::path out_;
+  std::filesystem::perms out_perms_;
+  SecureFolders folders_;
+};
+
+}  // namespace skein::cli

@@ -1,0 +1,200 @@
+// `skein run --secure`: the same flight, and nobody else gets anything of it.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "cli/security.hpp"
+#include "cli/security_keys.hpp"
+#include "cli/security_rules.hpp"
+#include "core/security_files.hpp"
+#include "core/topics.hpp"
+#include "fleet_fixture.hpp"
+#include "small_scene.hpp"
+
+namespace skein::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kVictim = "changi", kOther = "jurong";  // the small scene's fleet, in reverse order
+constexpr int kVictimsDomain = 3, kOthersDomain = 2;      // from the first one on
+
+bool is_root() { return ::geteuid() == 0; }
+
+class Secure : public FleetTest {
+ protected:
+  Secure() {
+    fs::permissions(folder(), fs::perms(0755));  // agents read the scenario as users of their own
+    scenario_ = write_small_scene(folder() / "small");
+  }
+
+  Arguments arguments(const std::string& vendor, const Arguments& more = {}) const {
+    Arguments all = {scenario_, "--planner", "patrol", "--duration", "30", "--dds", vendor};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  std::string scenario_;
+};
+
+/// A secured fleet that waits for the agent of kVictim, so that there is time to knock at its doors.
+class Waiting : public Secure, public testing::WithParamInterface<std::string> {
+ protected:
+  void start_fleet() {
+    run_ = &start("secure", arguments(GetParam(), {"--secure", "--debug", kVictim}));
+    ASSERT_TRUE(run_->wait_for("gdb --args")) << run_->err();
+    const std::string text = run_->err(), gdb = "gdb --args ";
+    const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
+    command_ = text.substr(begin, at - begin) + text.substr(at + gdb.size(), end - at - gdb.size());
+    std::istringstream words(command_);
+    for (std::string word; words >> word;) {
+      if (word == "--security") words >> keys_;
+    }
+    ASSERT_TRUE(fs::is_directory(keys_)) << command_;
+  }
+
+  /// Somebody who reads the victim's topic, in the victim's domain. @param keys  that he shows, if any.
+  ChildProcess& listen(const std::string& name, const std::string& vendor, const fs::path& keys) {
+    Arguments argv = {SKEIN_RADIO_LISTENER, vendor, domain(kVictimsDomain), heard(name), topic_.name, topic_.type};
+    return start_program(name, argv, keys.empty() ? Environment{} : Environment{{"SKEIN_SECURITY", keys}});
+  }
+
+  std::string domain(int offset) const { return std::to_string(run_->domains().first + offset); }
+  fs::path heard(const std::string& name) const { return folder() / (name + ".heard"); }
+  /// Writers that he has matched, and samples that he has heard; -1 when he never got so far as to listen.
+  std::pair<long, long> ears(const std::string& name) const {
+    std::istringstream text(text_of(heard(name)));
+    std::string topic;
+    std::pair<long, long> numbers{-1, -1};
+    text >> topic >> numbers.first >> numbers.second;
+    return numbers;
+  }
+
+  /// Keys for the victim's domain from another authority.
+  fs::path forged_keys() const {
+    const fs::path dir = folder() / "forged";
+    fs::create_directories(dir);
+    const cli::Authority identities("identities"), documents("permissions");
+    const cli::Identity identity = identities.issue("uav_agent-" + kVictim);
+    const int number = run_->domains().first + kVictimsDomain;
+    const auto write = [&](const char* name, const std::string& text) { std::ofstream(dir / name) << text; };
+    write(security_files::kIdentityCa, identities.certificate());
+    write(security_files::kCertificate, identity.certificate);
+    write(security_files::kKey, identity.key);
+    write(security_files::kPermissionsCa, documents.certificate());
+    write(security_files::kGovernance, documents.sign(cli::governance(number, number)));
+    write(security_files::kPermissions, documents.sign(cli::permissions(identity.subject, {number, number, {}})));
+    return dir;
+  }
+
+  /// The log of sim_server, which is in all domains.
+  std::string log() const { return text_of(run_->dir() / "sim_server.log"); }
+
+  const topics::WireTopic topic_ = topics::odometry(kVictim);
+  SkeinRun* run_ = nullptr;
+  std::string command_;
+  fs::path keys_;  ///< the victim's
+};
+
+TEST_P(Waiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
+  const std::string vendor = GetParam(), other_vendor = vendor == "fastdds" ? "cyclonedds" : "fastdds";
+  SkeinRun& open = run("open", arguments(vendor));
+  start_fleet();
+  const fs::path others_keys = keys_.parent_path() / ("uav_agent-" + kOther);
+  listen("friend", vendor, keys_);
+  listen("nobody", vendor, {});
+  listen("foreigner", other_vendor, {});
+  listen("forger", vendor, forged_keys());
+  listen("neighbour", vendor, others_keys);
+  start_program("impostor", {SKEIN_IMPOSTOR, vendor, domain(kOthersDomain), domain(kVictimsDomain), heard("impostor"),
+                             others_keys, topic_.name, topic_.type});
+  // Whoever has the victim's own certificate hears, so the others had the time to.
+  EXPECT_TRUE(eventually([&] { return ears("friend").first == 1; }));
+  const std::string refusal = vendor == "fastdds" ? "Not found a rule allowing to use the domain" : "denied by default";
+  const std::string forgery = "certificate signature failure";
+  for (const std::string& text : {std::string("has no certificate"), refusal, forgery}) {
+    EXPECT_TRUE(eventually([&] { return log().find(text) != std::string::npos; }, std::chrono::seconds(20)))
+        << text << " is not in the log:\n" << log();
+  }
+  start_program("agent", {"/bin/sh", "-c", "exec env " + command_});
+  EXPECT_EQ(run_->exit_code(), 0) << run_->err();
+
+  EXPECT_GT(ears("friend").second, 100);
+  for (const char* name : {"nobody", "foreigner", "forger", "neighbour", "impostor"}) {
+    EXPECT_LE(ears(name).first, 0) << name;
+    EXPECT_LE(ears(name).second, 0) << name;
+  }
+  const Json open_result = open.result(), result = run_->result();
+  EXPECT_EQ(run_->digest(), open.digest());
+  EXPECT_EQ(result["score"], open_result["score"]);
+  EXPECT_GT(result["score"].get<double>(), 0.0);
+  EXPECT_TRUE(result["deterministic"]);
+  expect_complete_result(*run_);
+
+  EXPECT_FALSE(fs::exists(keys_.parent_path()));
+  for (const auto& entry : fs::directory_iterator(run_->dir())) {
+    EXPECT_EQ(text_of(entry.path()).find("PRIVATE KEY"), std::string::npos) << entry.path();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, Waiting, testing::Values("cyclonedds", "fastdds"),
+                         [](const auto& vendor) { return vendor.param; });
+
+TEST_F(Secure, AgentsCannotLookAtWhatIsNotTheirs) {
+  if (!is_root()) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
+  fs::permissions(folder() / "small/scene/points.pcd", fs::perms(0600));
+  // What an agent tries, on the launcher too; each line names what it could read.
+  const fs::path script = write("look.sh", "mine=${SKEIN_SECURITY%/*}\n"
+                                           "for file in $mine/station/key.pem $mine/uav_agent-" + kVictim + "/key.pem " +
+                                           (folder() / "small/scene/points.pcd").string() + " " +
+                                           (folder() / "probed/scene.json").string() +
+                                           " /proc/$PPID/environ; do\n"
+                                           "  cat $file > /dev/null 2>&1 && echo can read $file\n"
+                                           "done > $SKEIN_OUT/looked\n"
+                                           "cat $SKEIN_SECURITY/key.pem > /dev/null && id -u >> $SKEIN_OUT/looked\n"
+                                           "kill -0 $PPID 2> /dev/null && echo can kill >> $SKEIN_OUT/looked\n"
+                                           "exec " SKEIN_MINIMAL_CLIENT "\n");
+  SkeinRun& probed = run("probed", {scenario_, "--secure", "--duration", "10", "--planner",
+                                    "hover," + kOther + "=exec:exec /bin/sh " + script.string()});
+  const std::string uid = std::to_string(60700 + probed.domains().first + kOthersDomain);
+  EXPECT_EQ(text_of(probed.dir() / ("uav_agent-" + kOther + ".looked")), uid + "\n") << "its own key and no more";
+  EXPECT_TRUE(probed.result()["deterministic"]);
+  for (const Json& warning : probed.result()["warnings"]) {
+    EXPECT_EQ(warning.get<std::string>().find("points.pcd"), std::string::npos) << warning;
+  }
+  EXPECT_EQ(fs::status(probed.dir()).permissions(), fs::perms(0755)) << "open again";
+}
+
+TEST_F(Secure, ForgedReportsAreRefusedAndCounted) {
+  SkeinRun& forged = run("forged", {scenario_, "--secure", "--duration", "10", "--planner",
+                                    "hover," + kOther + "=exec:exec " SKEIN_MINIMAL_CLIENT " forge"});
+  const Json station = Json::parse(text_of(forged.dir() / "station.report.json"));
+  EXPECT_GT(station["reports_received"], 100);
+  EXPECT_GT(station["refused"]["unknown"], 100);
+  EXPECT_EQ(station["points_detected"], 0);
+  EXPECT_EQ(forged.result()["score"], 0.0);
+}
+
+TEST_F(Secure, WhatIsReadableAllTheSameIsTold) {
+  SkeinRun& told = run("told", {scenario_, "--secure", "--duration", "5", "--planner", "hover"});
+  const std::string expected = is_root() ? "small/scene/points.pcd" : "without root";
+  const Json warnings = told.result()["warnings"];
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [&](const Json& warning) {
+    return warning.get<std::string>().find(expected) != std::string::npos;
+  })) << warnings;
+}
+
+TEST_F(Secure, BadRequestsAreRefusedBeforeAnythingStarts) {
+  SkeinRun& mixed = run("mixed", arguments("mixed", {"--secure"}), {}, 2);
+  EXPECT_NE(mixed.err().find("--secure --dds mixed"), std::string::npos) << mixed.err();
+  if (!is_root()) return;
+  fs::permissions(folder() / "small", fs::perms(0700));
+  SkeinRun& closed = run("closed", arguments("cyclonedds", {"--secure"}), {}, 2);
+  EXPECT_NE(closed.err().find("chmod o+rX " + (folder() / "small").string()), std::string::npos) << closed.err();
+}
+
+}  // namespace
+}  // namespace skein::test
