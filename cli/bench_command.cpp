@@ -23,7 +23,9 @@ namespace skein::cli {
 namespace {
 
 constexpr std::size_t kFleetSize = 5, kLargeFleet = 21;  ///< from where on shorter runs must do
+constexpr std::size_t kTalkers = 20;  ///< of the radio load, unless only smaller fleets are asked for
 constexpr double kExchangeS = 0.05, kOneTickS = 0.0025;
+constexpr double kShortS = 600.0, kHourS = 3600.0;
 
 /// How much is measured.
 struct Effort {
@@ -32,11 +34,13 @@ struct Effort {
   double scale_mission_s = 60.0, scale_mission_of_large_s = 10.0;
   int rounds = 2000, rounds_of_large = 400;
   std::vector<std::size_t> sizes = {1, 5, 10, 20, 50, 100};
+  int relayed = 4000;    ///< messages through router and relay
+  double load_s = 30.0;  ///< of talking in real time
 };
 
 Effort effort_of(const BenchOptions& options) {
   Effort effort;
-  if (options.quick) effort = {1, 60.0, 10.0, 4.0, 400, 100, {1, 5, 20}};
+  if (options.quick) effort = {1, 60.0, 10.0, 4.0, 400, 100, {1, 5, 20}, 500, 5.0};
   if (options.duration_s) effort.mission_s = options.duration_s;
   if (options.repeats) effort.repeats = *options.repeats;
   if (!options.sizes.empty()) effort.sizes = options.sizes;
@@ -78,6 +82,8 @@ class Bench {
     measure_speed();
     measure_rounds();
     measure_scale();
+    measure_radio();
+    if (options_.hour) measure_memory();
     report_["targets"] = targets_of(report_);
     print_bench(console_.out, report_);
     if (options_.json) write_file_atomically(*options_.json, report_.dump(2) + "\n");
@@ -132,6 +138,38 @@ class Bench {
       }
       report_["scale"].push_back(scale_entry(uavs, results));
     }
+  }
+
+  /// Latency against a bare relay, and twenty UAVs that talk to everybody in real time.
+  void measure_radio() {
+    const std::string one = write_scenario({1, 600.0, kExchangeS}, "relay");
+    report_["relay"] = Json::array();
+    for (const std::string vendor : {"cyclonedds", "fastdds"}) {
+      std::vector<Json> reports;
+      for (int i = 0; i < effort_.repeats; ++i) reports.push_back(relay(vendor, one));
+      report_["relay"].push_back(relay_entry(vendor, reports));
+    }
+    const std::size_t uavs = std::clamp<std::size_t>(std::ranges::max(effort_.sizes), 2, kTalkers);
+    RunOptions run = fleet_run(write_scenario({uavs, 600.0, kExchangeS}, "load"),
+                               "exec:" + (program_dir() / "bench_chatter").string());
+    run.clock = "realtime";
+    run.stop_at_s = effort_.load_s;
+    report_["load"] = load_entry(uavs, {fly(run, "radio load, " + std::to_string(uavs) + " UAVs", 0)});
+  }
+
+  Json relay(const std::string& vendor, const std::string& scenario) {
+    const DomainBlock domains(std::nullopt, 5);
+    return report_of("bench_relay", {program_dir() / "bench_relay", "--dds", vendor, "--scenario", scenario, "--router",
+                                     program_dir() / "comm_router", "--out", scratch_.path(), "--messages",
+                                     std::to_string(effort_.relayed), "--domain", std::to_string(domains.base())});
+  }
+
+  void measure_memory() {
+    RunOptions run = fleet_run("towers", "patrol");
+    run.duration_s = kShortS;
+    const Json ten_minutes = fly(run, "memory, ten minutes", 0);
+    run.duration_s = kHourS;
+    report_["memory"] = memory_entry(ten_minutes, fly(run, "memory, an hour", 0));
   }
 
   RunOptions fleet_run(const std::string& scenario, const std::string& planner) const {
@@ -206,7 +244,8 @@ class Bench {
 }  // namespace
 
 int run_bench(const BenchOptions& options, const Console& console) {
-  for (const char* program : {"bench_floor_cyclonedds", "bench_floor_fastdds", "bench_lidar"}) {
+  for (const char* program :
+       {"bench_floor_cyclonedds", "bench_floor_fastdds", "bench_lidar", "bench_relay", "bench_chatter"}) {
     if (!std::filesystem::exists(program_dir() / program)) {
       throw InputError(std::string("bench: ") + program + " is not built; `./skein bench` builds it");
     }

@@ -215,6 +215,39 @@ Json scale_entry(std::size_t uavs, const std::vector<Json>& results) {
           {"work", work_of(run)}};
 }
 
+Json relay_entry(const std::string& vendor, const std::vector<Json>& reports) {
+  const auto median_in = [](const char* key) {
+    return [key](const Json& report) { return number(value_or(report, key, Json::object()), "median"); };
+  };
+  return {{"vendor", vendor},
+          {"bytes", reports.empty() ? Json() : value_or(reports.front(), "bytes", nullptr)},
+          {"router_us", figure_of(reports, median_in("router_us"))},
+          {"relay_us", figure_of(reports, median_in("relay_us"))},
+          {"times_relay", figure_of(reports, [](const Json& report) { return number(report, "times_relay"); })}};
+}
+
+Json load_entry(std::size_t uavs, const std::vector<Json>& results) {
+  const auto radio = [](const Json& result, const char* key) {
+    return number(value_or(result, "radio", Json::object()), key);
+  };
+  const auto in_sight = [=](const Json& r) { return radio(r, "sent") - radio(r, "dropped_no_los"); };
+  return {{"uavs", uavs},
+          {"to_the_end", std::ranges::all_of(results, ran_to_the_end)},
+          {"messages_per_s",
+           figure_of(results, [=](const Json& r) { return ratio(radio(r, "sent"), number(r, "sim_time_s")); })},
+          {"lost", figure_of(results, [=](const Json& r) { return in_sight(r) - radio(r, "delivered"); })},
+          {"arrived", figure_of(results, [=](const Json& r) { return ratio(radio(r, "delivered"), in_sight(r)); })},
+          {"real_time_factor", figure_of(results, real_time_factor)}};
+}
+
+Json memory_entry(const Json& short_run, const Json& long_run) {
+  return {{"short_s", number(short_run, "sim_time_s")},
+          {"long_s", number(long_run, "sim_time_s")},
+          {"short_mb", memory_mb(short_run)},
+          {"long_mb", memory_mb(long_run)},
+          {"growth", ratio(memory_mb(long_run), memory_mb(short_run))}};
+}
+
 Json targets_of(const Json& report) {
   Json targets = Json::array();
   for (const Json& speed : value_or(report, "speed", Json::array())) {
@@ -237,6 +270,17 @@ Json targets_of(const Json& report) {
   const Json* hundred = of_size(100);
   const Json ended = hundred == nullptr ? Json() : Json(value_or(*hundred, "to_the_end", false) ? 1 : 0);
   targets.push_back(target("100 UAVs run to the end", true, 1.0, ended, "(1: yes)"));
+  for (const Json& relay : value_or(report, "relay", Json::array())) {
+    targets.push_back(target("router against a bare relay, " + value_or(relay, "vendor", "").get<std::string>(), false,
+                             1.5, value_in(&relay, "times_relay"), "times its latency"));
+  }
+  const Json memory = value_or(report, "memory", Json::object());
+  const Json measured_load = value_or(report, "load", Json::object());
+  const Json load = number(measured_load, "uavs") == 20.0 ? measured_load : Json::object();
+  targets.push_back(target("radio, 20 UAVs x 20 topics x 20 Hz: arrived", true, 1.0, value_in(&load, "arrived"), ""));
+  targets.push_back(target("and in real time", true, 0.98, value_in(&load, "real_time_factor"), "x"));
+  const Json growth = value_or(memory, "growth", nullptr);
+  targets.push_back(target("memory after an hour", false, 1.1, growth, "times that of ten minutes"));
   return targets;
 }
 

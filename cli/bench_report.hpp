@@ -33,7 +33,17 @@ Json rounds_entry(const std::string& vendor, std::size_t uavs, const std::vector
 /// One size of fleet.
 Json scale_entry(std::size_t uavs, const std::vector<Json>& results);
 
-/// The targets beside what `report` (speed, rounds, scale) says: name, kind (at_least or at_most), target,
+/// One vendor's radio latency through the router and through a bare relay; `reports` are bench_relay's.
+Json relay_entry(const std::string& vendor, const std::vector<Json>& reports);
+
+/// A fleet in which everybody talks to everybody in every exchange, in real time. `lost` are messages that had line of
+/// sight and did not arrive; they are to be none.
+Json load_entry(std::size_t uavs, const std::vector<Json>& results);
+
+/// Memory at the end of a short run and of a long one of the same fleet; `growth` is their ratio.
+Json memory_entry(const Json& short_run, const Json& long_run);
+
+/// The targets beside what `report` (speed, rounds, scale, relay, load, memory) says: name, kind (at_least or at_most), target,
 /// value, met (null when it was not measured) and factor: how many times as good as asked for, below 1 when missed.
 Json targets_of(const Json& report);
 

@@ -107,7 +107,7 @@ TEST(BenchReport, TargetsSayByHowMuch) {
                        {"rounds", {rounds_entry("fastdds", 5, {}), five}},
                        {"scale", {scale_entry(20, {result(10.0)}), scale_entry(100, {result()})}}};
   const Json targets = targets_of(report);
-  ASSERT_EQ(targets.size(), 5u);
+  ASSERT_EQ(targets.size(), 8u);
   EXPECT_EQ(targets[0]["value"], 20.0);  // real-time factor, at least 30
   EXPECT_EQ(targets[0]["met"], false);
   EXPECT_DOUBLE_EQ(targets[0]["factor"], 20.0 / 30.0);
@@ -122,7 +122,7 @@ TEST(BenchReport, TargetsSayByHowMuch) {
 
 TEST(BenchReport, WhatWasNotMeasuredIsNeitherMetNorMissed) {
   const Json targets = targets_of({{"scale", {scale_entry(5, {result()})}}});
-  ASSERT_EQ(targets.size(), 2u);
+  ASSERT_EQ(targets.size(), 5u);
   for (const Json& target : targets) EXPECT_TRUE(target["met"].is_null() && target["value"].is_null()) << target;
 }
 
@@ -134,6 +134,24 @@ TEST(BenchReport, ARunWithoutAMemberIsNoRunToTheEnd) {
   Json aborted = result();
   aborted["status"] = "aborted";
   EXPECT_FALSE(ran_to_the_end(aborted));
+}
+
+TEST(BenchReport, RadioCountsWhatWasInSightAndTheMedianOfRelays) {
+  const Json relay = relay_entry("fastdds", {{{"bytes", 200},
+                                              {"router_us", {{"median", 90.0}}},
+                                              {"relay_us", {{"median", 60.0}}},
+                                              {"times_relay", 1.5}}});
+  Json run = {{"status", "completed"}, {"sim_time_s", 10.0}, {"wall_time_s", 10.0}, {"real_time_factor", 1.0}};
+  run["radio"] = {{"sent", 80000}, {"dropped_no_los", 1000}, {"delivered", 79000}};
+  const Json load = load_entry(20, {run});
+  EXPECT_EQ(load["lost"]["median"], 0.0);
+  EXPECT_EQ(load["messages_per_s"]["median"], 8000.0);
+  const Json memory = memory_entry({{"processes", {{"a", {{"memory_share_mb", 100.0}}}}}},
+                                   {{"processes", {{"a", {{"memory_share_mb", 105.0}}}}}});
+  EXPECT_DOUBLE_EQ(memory["growth"], 1.05);
+  const Json targets = targets_of({{"relay", {relay}}, {"load", load}, {"memory", memory}});
+  ASSERT_EQ(targets.size(), 6u);
+  for (std::size_t i = 2; i < targets.size(); ++i) EXPECT_EQ(targets[i]["met"], true) << targets[i];
 }
 
 }  // namespace

@@ -77,6 +77,24 @@ void print_scale(std::ostream& out, const Json& scale) {
   }
 }
 
+void print_radio(std::ostream& out, const Json& report) {
+  const Json relays = part(report, "relay");
+  if (!relays.empty()) out << "\nradio latency [us] through comm_router / through a bare relay of the same vendor\n";
+  for (const Json& relay : relays) {
+    out << fmt::format("  {:<12}{:>22}{:>22}{:>22} times\n", value_or(relay, "vendor", "").get<std::string>(),
+                       spread(relay, "router_us", 0), spread(relay, "relay_us", 0), spread(relay, "times_relay", 2));
+  }
+  if (const Json load = value_or(report, "load", Json::object()); !load.empty()) {
+    out << fmt::format("\nradio load, {} UAVs in real time: {:.0f} messages/s, {:.0f} lost, x{} real time\n",
+                       number(load, "uavs"), middle(load, "messages_per_s"), middle(load, "lost"),
+                       spread(load, "real_time_factor", 3));
+  }
+  if (const Json memory = value_or(report, "memory", Json::object()); !memory.empty()) {
+    out << fmt::format("\nmemory: {:.0f} MB after {:.0f} s, {:.0f} MB after {:.0f} s\n", number(memory, "short_mb"),
+                       number(memory, "short_s"), number(memory, "long_mb"), number(memory, "long_s"));
+  }
+}
+
 void print_targets(std::ostream& out, const Json& targets) {
   out << "\ntargets (2 cores, Cyclone DDS)\n";
   for (const Json& target : targets) {
@@ -102,6 +120,7 @@ void print_bench(std::ostream& out, const Json& report) {
   for (const Json& speed : part(report, "speed")) print_speed(out, speed);
   print_rounds(out, part(report, "rounds"));
   print_scale(out, part(report, "scale"));
+  print_radio(out, report);
   print_targets(out, part(report, "targets"));
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "cli/environment.hpp"
+#include "cli/fault_test.hpp"
 #include "cli/fleet_plan.hpp"
 #include "cli/preflight.hpp"
 #include "core/config_node.hpp"
@@ -12,33 +13,55 @@
 namespace skein::cli {
 namespace {
 
-enum class FileKind { scenario, vehicle, waypoints };
+enum class FileKind { scenario, vehicle, waypoints, faults, fault_test };
 
 /// Told by the first key that only one kind of file has, so that a file that lacks a required key is still recognised.
 FileKind kind_of(const std::string& file) {
   static const std::map<std::string, FileKind> kTellingKeys = {
       {"fleet", FileKind::scenario}, {"scene", FileKind::scenario},  {"desired_mm_per_pixel", FileKind::scenario},
       {"role", FileKind::vehicle},   {"mass_kg", FileKind::vehicle}, {"camera", FileKind::vehicle},
-      {"lidar", FileKind::vehicle},  {"paths", FileKind::waypoints}};
-  for (const std::string& key : read_config_document(file).root.keys) {
+      {"lidar", FileKind::vehicle},  {"paths", FileKind::waypoints}, {"faults", FileKind::faults}};
+  const ConfigNode root = read_config_document(file).root;
+  if (is_fault_test(root)) return FileKind::fault_test;
+  for (const std::string& key : root.keys) {
     const auto found = kTellingKeys.find(key);
     if (found != kTellingKeys.end()) return found->second;
   }
   throw InputError(file + ":1: is of no known kind: a scenario has the keys 'scene' and 'fleet', a vehicle 'role', a " +
-                   "file for the waypoints planner 'paths'");
+                   "file for the waypoints planner 'paths', a fault file 'faults', a fault test 'expect' too");
 }
 
-/// What the programs themselves say to a scenario and planner. Warnings are passed on.
+/// What the programs themselves say to a plan. Warnings are passed on.
+void check_with_programs(const FleetPlan& plan, const Console& console) {
+  const ScratchDir scratch;
+  for (const std::string& warning : run_checks(check_programs(plan, scratch.path()))) {
+    console.err << warning << std::endl;
+  }
+}
+
 void check_with_programs(const CheckOptions& options, const std::string& scenario, const std::string& planner,
                          const Console& console) {
   RunOptions run;
   run.scenario = scenario;
   run.planner = planner;
   run.assets = options.assets;
-  const ScratchDir scratch;
-  for (const std::string& warning : run_checks(check_programs(plan_fleet(run, program_dir()), scratch.path()))) {
-    console.err << warning << std::endl;
-  }
+  check_with_programs(plan_fleet(run, program_dir()), console);
+}
+
+/// @returns the name of the scenario that it was checked with.
+std::string check_fault_file(const CheckOptions& options, const std::filesystem::path& file) {
+  LoadOptions load;
+  load.assets_dir = options.assets.value_or("");
+  load.needs_scene_files = false;  // only the fleet and the times matter
+  const Scenario scenario = load_scenario(options.scenario, load);
+  load_fault_plan(file, scenario);
+  return scenario.name;
+}
+
+std::string check_fault_test(const CheckOptions& options, const std::filesystem::path& file, const Console& console) {
+  const FaultTest test = load_fault_test(file, options.assets);
+  check_with_programs(test.plan, console);
+  return test.plan.scenario.name;
 }
 
 std::string check_file(const CheckOptions& options, const std::string& file, const Console& console) {
@@ -53,6 +76,10 @@ std::string check_file(const CheckOptions& options, const std::string& file, con
     case FileKind::scenario:
       check_with_programs(options, path, kDefaultPlanner, console);
       return "scenario";
+    case FileKind::faults:
+      return "fault file, with " + check_fault_file(options, path);
+    case FileKind::fault_test:
+      return "fault test, with " + check_fault_test(options, path, console);
   }
   return {};
 }

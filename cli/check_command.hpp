@@ -1,4 +1,4 @@
-// `skein check`: is this file right? Scenarios, vehicles, and tables of reference vectors.
+// `skein check`: is this file right? Scenarios, vehicles, fault files, fault tests, and tables of reference vectors.
 #pragma once
 
 #include "cli/options.hpp"

@@ -28,6 +28,26 @@ TEST_F(CheckCommand, GoodFilesAreNamedWithTheirKind) {
   EXPECT_EQ(out_.str(), programs_.scenario().string() + ": OK (scenario)\n" + vehicle + ": OK (vehicle)\n");
 }
 
+TEST_F(CheckCommand, FaultFilesAreCheckedWithAScenario) {
+  const std::string towers = file("f.yaml", "faults: [{at_s: 10, blackout: changi}]");
+  const std::string mine = file("m.yaml", "faults: [{at_s: 10, blackout: alpha}]");
+  EXPECT_EQ(check({{towers}, {}, {}}), kExitDone);
+  EXPECT_EQ(out_.str(), towers + ": OK (fault file, with towers)\n");
+  EXPECT_THROW(check({{mine}, {}, {}}), InputError) << "alpha is not of towers";
+  CheckOptions options{{mine}, {}, {}};
+  options.scenario = programs_.scenario();
+  EXPECT_EQ(check(options), kExitDone);
+}
+
+TEST_F(CheckCommand, FaultTestsNameTheirScenario) {
+  const std::string faults = "run: {scenario: ./small.yaml}\nfaults: [{at_s: 10, blackout: alpha}]\n";
+  const std::string test = file("t.yaml", faults + "expect: {score: {at_least: 1}}");
+  EXPECT_EQ(check({{test}, {}, {}}), kExitDone);
+  EXPECT_EQ(out_.str(), test + ": OK (fault test, with small)\n");
+  EXPECT_THROW(check({{file("u.yaml", faults)}, {}, {}}), InputError) << "nothing is expected";
+  EXPECT_THROW(check({{file("w.yaml", faults + "expect: {scor: 1}")}, {}, {}}), InputError);
+}
+
 TEST_F(CheckCommand, WrongFilesAreRefused) {
   EXPECT_THROW(check({{"/does/not/exist.yaml"}, {}, {}}), InputError);
   EXPECT_THROW(check({{file("a.yaml", "{colour: red}")}, {}, {}}), InputError);

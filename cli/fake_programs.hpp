@@ -27,7 +27,7 @@ inline constexpr const char* kReadOptions = R"(
 check=no
 while [ $# -gt 0 ]; do
   case $1 in
-    --check|--oracle) check=yes ;;
+    --check|--oracle|--list-planners) check=yes ;;
     --out) out=$2; shift ;;
     --uav) uav=$2; shift ;;
     --planner) planner=$2; shift ;;

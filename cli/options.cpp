@@ -56,10 +56,42 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
       ->capture_default_str();
   command->add_option("--debug", run.debug_uav, "Leave this UAV's agent to you and your debugger");
   command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
+  command->add_flag("--secure", run.secure, "Enforce the isolation of agents: certificates, encryption, user ids");
   command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
   command->add_option("--out", run.out, "Results folder (default runs/<scenario>-<planner>-<seed>)");
   command->add_flag("--force", run.force, "Overwrite an existing result");
+  return command;
+}
+
+CLI::App* add_test(CLI::App& app, TestOptions& test) {
+  CLI::App* command =
+      app.add_subcommand("test", "Run the test suite, or your fault tests; the last line is 'N passed, N failed'");
+  command->add_flag("--long", test.long_tests,
+                    "Include the tests that take minutes; with --faults: repeat each in every way");
+  CLI::Option* faults = command->add_option("--faults", test.faults,
+                                            "A fault test (YAML) or a folder of them, instead of the suite");
+  command->add_option("--repeat", test.repeat,
+                      "Fly each fault test again and compare digests: again, cyclonedds, fastdds, mixed, chaos")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"again", "cyclonedds", "fastdds", "mixed", "chaos"}))
+      ->needs(faults);
+  command->add_flag("--rotate", test.rotate, "Only one of the repetitions a test, in turn")->needs("--repeat");
+  command->add_option("--out", test.out, "Folder of the fault tests' results")->needs(faults)->capture_default_str();
+  command->add_option("--assets", test.assets, "Folder with models/ for scenarios that read files")->needs(faults);
+  command->footer("A fault test is described in docs/how-to-test-faults.md; config/faults/ has examples.\n"
+                  "Exit codes: 0 all passed, 1 one failed, 2 a file is wrong.");
+  return command;
+}
+
+CLI::App* add_check(CLI::App& app, CheckOptions& check) {
+  CLI::App* command =
+      app.add_subcommand("check", "Validate scenarios, vehicles, fault files and fault tests, or reference vectors");
+  command->add_option("FILE", check.files, "YAML files of any of these kinds");
+  command->add_option("--golden", check.golden, "Run reference vectors (CSV) through the production code");
+  command->add_option("--assets", check.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--scenario", check.scenario, "What fault files are for that name no scenario themselves")
+      ->capture_default_str();
   return command;
 }
 
@@ -77,6 +109,7 @@ CLI::App* add_scene(CLI::App& app, SceneOptions& scene) {
 CLI::App* add_bench(CLI::App& app, BenchOptions& bench) {
   CLI::App* command = app.add_subcommand("bench", "Measure speed, scale and memory on this machine");
   command->add_flag("--quick", bench.quick, "Less of everything: a first impression in less than a minute");
+  command->add_flag("--hour", bench.hour, "Memory over an hour of simulated time too: minutes more");
   command->add_option("--scenario", bench.scenarios, "Scenarios of the speed runs (default: towers; mbs with --assets)");
   command->add_option("--assets", bench.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--dds", bench.dds, "DDS vendor: cyclonedds or fastdds")
@@ -127,12 +160,8 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   DiffOptions diff;
 
   const CLI::App* run_command = add_run(app, run);
-  CLI::App* test_command = app.add_subcommand("test", "Run the test suite; the last line is 'N passed, N failed'");
-  test_command->add_flag("--long", test.long_tests, "Include the tests that take minutes");
-  CLI::App* check_command = app.add_subcommand("check", "Validate scenario and vehicle files, or reference vectors");
-  check_command->add_option("FILE", check.files, "Scenario or vehicle files (YAML)");
-  check_command->add_option("--golden", check.golden, "Run reference vectors (CSV) through the production code");
-  check_command->add_option("--assets", check.assets, "Folder with models/ for scenarios that read files");
+  const CLI::App* test_command = add_test(app, test);
+  add_check(app, check);
   const CLI::App* scene_command = add_scene(app, scene);
   const CLI::App* bench_command = add_bench(app, bench);
   const CLI::App* oracle_command = add_oracle(app, oracle);

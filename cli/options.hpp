@@ -24,6 +24,7 @@ struct RunOptions {
   std::string clock = "lockstep";  ///< "lockstep", "realtime" or "realtime:FACTOR"
   std::optional<std::string> debug_uav;
   bool native = false;
+  bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
   std::optional<int> domain;
   std::optional<double> stop_at_s;
   std::optional<std::filesystem::path> out;
@@ -33,12 +34,18 @@ struct RunOptions {
 
 struct TestOptions {
   bool long_tests = false;
+  std::optional<std::filesystem::path> faults;  ///< a fault test, or a folder of them, instead of the suite
+  std::vector<std::string> repeat;              ///< further runs of each fault test: names of enum Repeat
+  bool rotate = false;                          ///< one of `repeat` a test, in turn
+  std::filesystem::path out = "runs/faults";    ///< results of fault tests
+  std::optional<std::filesystem::path> assets;
 };
 
 struct CheckOptions {
   std::vector<std::string> files;
   std::vector<std::string> golden;  ///< CSV files of reference vectors
   std::optional<std::filesystem::path> assets;
+  std::string scenario = "towers";  ///< that fault files are for, unless they name one themselves
 };
 
 struct SceneOptions {
@@ -51,6 +58,7 @@ struct SceneOptions {
 
 struct BenchOptions {
   bool quick = false;
+  bool hour = false;                   ///< memory over an hour of simulated time too
   std::vector<std::string> scenarios;  ///< of the speed runs; empty: towers, and mbs with --assets
   std::optional<std::filesystem::path> assets;
   std::string dds = "cyclonedds";

@@ -49,6 +49,15 @@ TEST(Options, RunReadsAll) {
 
 TEST(Options, OtherCommands) {
   EXPECT_TRUE(parse<TestOptions>({"test", "--long"}).long_tests);
+  const auto faults = parse<TestOptions>({"test", "--faults", "mine", "--repeat", "again,chaos", "--rotate", "--out", "o"});
+  EXPECT_EQ(faults.faults, "mine");
+  EXPECT_EQ(faults.repeat, (std::vector<std::string>{"again", "chaos"}));
+  EXPECT_TRUE(faults.rotate);
+  EXPECT_EQ(faults.out, "o");
+  EXPECT_THROW(parse<TestOptions>({"test", "--faults", "mine", "--repeat", "twice"}), InputError);
+  EXPECT_THROW(parse<TestOptions>({"test", "--repeat", "again"}), InputError) << "of what?";
+  EXPECT_EQ(parse<CheckOptions>({"check", "a.yaml"}).scenario, "towers");
+  EXPECT_EQ(parse<CheckOptions>({"check", "a.yaml", "--scenario", "mbs"}).scenario, "mbs");
   const auto scene = parse<SceneOptions>({"scene", "towers", "--scene-seed", "4", "--out", "there", "--force"});
   EXPECT_EQ(scene.scenario, "towers");
   EXPECT_EQ(scene.scene_seed, 4u);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "cli/environment.hpp"
+#include "cli/fault_test_command.hpp"
 #include "cli/fleet_plan.hpp"
 #include "cli/preflight.hpp"
 #include "cli/run_result.hpp"
@@ -68,6 +69,7 @@ std::string summary_line(const TestCounts& counts) {
 }
 
 int run_tests(const TestOptions& options, const Console& console) {
+  if (options.faults) return run_fault_tests(options, console);
   const ScratchDir scratch;
   const std::filesystem::path build_dir = std::filesystem::absolute(program_dir()).parent_path();
   const std::filesystem::path junit = scratch.path() / "ctest.xml", reports = scratch.path() / "gtest";

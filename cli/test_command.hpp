@@ -1,4 +1,4 @@
-// `skein test`: the suite that stands beside this build.
+// `skein test`: the suite that stands beside this build, or a user's fault tests.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ TestCounts count_tests(const std::filesystem::path& junit, const std::filesystem
 /// "N passed, N failed", with ", N skipped" when there are any.
 std::string summary_line(const TestCounts& counts);
 
-/// Runs the suite; the summary is the last line.
+/// Runs the suite, or with --faults what fault_test_command.hpp says; the summary is the last line.
 int run_tests(const TestOptions& options, const Console& console);
 
 }  // namespace skein::cli

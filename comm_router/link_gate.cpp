@@ -14,6 +14,11 @@ namespace skein::router {
 LinkGate::LinkGate(std::vector<RadioRoute> routes, std::size_t nodes, std::unique_ptr<LinkModel> links)
     : routes_(std::move(routes)), nodes_(nodes), model_(std::move(links)), counts_(nodes * nodes) {}
 
+void LinkGate::put(std::size_t number, const RadioRoute& route) {
+  if (number == routes_.size()) routes_.emplace_back();
+  routes_.at(number) = route;
+}
+
 GatedStep LinkGate::gate(std::uint64_t k, std::span<const std::uint8_t> links,
                          const std::vector<RadioMessage>& messages) {
   if (links.size() != nodes_ * nodes_) {
@@ -28,10 +33,12 @@ GatedStep LinkGate::gate(std::uint64_t k, std::span<const std::uint8_t> links,
     std::ranges::move(arrival->second, std::back_inserter(step.deliveries));
   }
   in_flight_.erase(in_flight_.begin(), due);
-  // Stable: two programs of one node may use the same topic and number; they stay in the order of sending.
+  // Stable: two programs of one node may use the same topic and number; for each target they stay in the order of
+  // sending. Targets count by their node, since a route may have got them one by one.
   std::ranges::stable_sort(step.deliveries, {}, [&](const Delivery& delivery) {
     const RadioRoute& route = routes_[delivery.route];
-    return std::tuple<Node, const std::string&, std::uint64_t>(route.source, route.ros_topic, delivery.sequence);
+    return std::tuple<Node, const std::string&, std::uint64_t, Node>(route.source, route.ros_topic, delivery.sequence,
+                                                                     route.targets[delivery.target].node);
   });
   for (const Delivery& delivery : step.deliveries) {
     const RadioRoute& route = routes_[delivery.route];

@@ -90,7 +90,12 @@ class LinkGate {
   /// @throws std::invalid_argument when the matrix has another size or a message names no route.
   GatedStep gate(std::uint64_t k, std::span<const std::uint8_t> links, const std::vector<RadioMessage>& messages);
 
+  /// Counts of an earlier life, by link: counting goes on from there.
+  void restore(std::vector<LinkCounts> counts) { counts_ = std::move(counts); }
+
   const std::vector<RadioRoute>& routes() const { return routes_; }
+  /// A route that is new, with the next number, or that has got further targets.
+  void put(std::size_t number, const RadioRoute& route);
   const LinkCounts& counts(Node from, Node to) const { return counts_[from * nodes_ + to]; }
   LinkCounts total() const;
   std::size_t nodes() const { return nodes_; }

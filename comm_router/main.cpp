@@ -1,5 +1,7 @@
 // comm_router: relays radio messages between the domains of the nodes, as far as there is line of sight.
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bus/program_bus.hpp"
 #include "comm_router/router_node.hpp"
@@ -9,8 +11,7 @@
 namespace {
 
 void write_report(const std::filesystem::path& folder, const skein::Scenario& scenario,
-                  const skein::router::RouterNode& node) {
-  const skein::router::LinkGate& gate = node.gate();
+                  const skein::router::LinkGate& gate, std::uint64_t malformed) {
   const auto counts_json = [](const skein::router::LinkCounts& counts) {
     return nlohmann::json{{"sent", counts.sent},
                           {"delivered", counts.delivered},
@@ -20,7 +21,7 @@ void write_report(const std::filesystem::path& folder, const skein::Scenario& sc
                           {"duplicated", counts.duplicated}};
   };
   nlohmann::json json = counts_json(gate.total());
-  json["malformed"] = node.malformed();
+  json["malformed"] = malformed;
   json["per_link"] = nlohmann::json::array();
   for (skein::Node from = 0; from < gate.nodes(); ++from) {
     for (skein::Node to = 0; to < gate.nodes(); ++to) {
@@ -34,21 +35,47 @@ void write_report(const std::filesystem::path& folder, const skein::Scenario& sc
   skein::write_file_atomically(folder / "comm_router.report.json", json.dump(2) + "\n");
 }
 
-int run(const skein::ProgramOptions& options, skein::StopSignal& stop) {
+/// A router that died for good has left its counts: makes its report of them.
+int settle(const std::filesystem::path& folder, const std::filesystem::path& counts, const skein::Scenario& scenario) {
+  const skein::Node nodes = scenario.fleet.size() + 1;
+  skein::router::LinkGate gate({}, nodes);
+  gate.restore(skein::router::CountStore(counts, nodes).earlier_counts());
+  write_report(folder, scenario, gate, 0);
+  std::filesystem::remove(counts);
+  return skein::kExitDone;
+}
+
+int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSignal& stop) {
   auto load = options.load_options();
   load.needs_scene_files = false;
   const skein::Scenario scenario = skein::load_scenario(options.scenario, load);
   const skein::FaultPlan faults = skein::load_fault_plan(options.faults, scenario);
+  const std::filesystem::path counts = options.out / "comm_router.counts";
+  if (settle_only) return settle(options.out, counts, scenario);
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) return skein::kExitDone;
-  skein::router::RouterNode node(scenario, options.seed, options.domain, *bus, faults);
-  stop.on_stop([&node] { node.wake(); });
-  const int code = node.run(stop);
-  stop.on_stop({});
-  write_report(options.out, scenario, node);
-  return code;
+  std::optional<int> code;
+  while (!code) {  // once more after a fault that stopped us: what waited in the router is lost, as after its death
+    skein::router::CountStore store(counts, scenario.fleet.size() + 1);
+    skein::router::RouterNode node(scenario, options.seed, options.domain, *bus, faults, options.out);
+    node.keep_counts(store);
+    stop.on_stop([&node] { node.wake(); });
+    code = node.run(stop);
+    stop.on_stop({});
+    if (code) write_report(options.out, scenario, node.gate(), node.malformed());
+  }
+  std::filesystem::remove(counts);
+  return *code;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return skein::run_program("comm_router", argc, argv, {}, run); }
+int main(int argc, char** argv) {
+  bool settle_only = false;
+  const auto add_options = [&](CLI::App& app) {
+    app.add_flag("--settle", settle_only, "Write the report of a router that died in this folder, then stop")
+        ->group("Launcher");
+  };
+  return skein::run_program("comm_router", argc, argv, add_options,
+                            [&](const auto& options, auto& stop) { return run(options, settle_only, stop); });
+}

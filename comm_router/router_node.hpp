@@ -2,6 +2,8 @@
 // It moves serialised payloads and knows no type. Everything happens on the thread that calls run().
 #pragma once
 
+#include <chrono>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,7 +13,9 @@
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "bus/lockstep/client_loop.hpp"
+#include "comm_router/count_store.hpp"
 #include "comm_router/link_gate.hpp"
+#include "comm_router/radio_registry.hpp"
 #include "comm_router/router_sync.hpp"
 #include "core/fault_plan.hpp"
 #include "core/scenario.hpp"
@@ -22,14 +26,22 @@ class RouterNode {
  public:
   /// @param seed    of the run: what links that are not ideal draw from.
   /// @param faults  what goes wrong with the links, and when.
-  RouterNode(const Scenario& scenario, std::uint64_t seed, int base_domain, bus::Bus& bus, const FaultPlan& faults = {});
+  /// @param out     folder for what that does to capture reports (link_record.hpp); empty: it is not written down.
+  RouterNode(const Scenario& scenario, std::uint64_t seed, int base_domain, bus::Bus& bus, const FaultPlan& faults = {},
+             const std::filesystem::path& out = {});
 
-  /// Takes part until the last step, or until asked to stop. @returns the program's exit code.
-  int run(const StopSignal& stop);
+  /// Takes part until the last step, or until asked to stop.
+  /// @returns the program's exit code; nothing when a fault stopped it and is over: go on with a new node.
+  std::optional<int> run(const StopSignal& stop);
   /// For a test that drives it event by event instead of run(): say hello, then poll() again and again. It does what
   /// run() would do by then, and nothing when run() would sleep.
   void start() { client_.start(); }
+  void obey_with(std::function<void(bus::LockstepClient::Order)> obey) { client_.obey_with(std::move(obey)); }
   void poll();
+  /// What it waits for, for a human.
+  std::string waiting_for() const;
+  /// Counts on from what the store holds, and keeps it there from now on. It must outlive this.
+  void keep_counts(CountStore& store);
   /// Makes run() look at `stop`; from any thread.
   void wake() { inbox_.wake(); }
   const LinkGate& gate() const { return gate_; }
@@ -54,6 +66,10 @@ class RouterNode {
   };
 
   void open_radio();
+  void open_requests(Node node);
+  void open_route(std::size_t number);
+  RadioEndpoints endpoints();
+  std::vector<RadioRequest> read_requests(const StepBatch& batch);
   std::size_t find_or_open_arrival(const RadioTarget& target, const std::string& type);
   void on_ready(Node node, const msg::Ready& ready, bus::ParticipantId source);
   /// @returns true while somebody is not attached yet.
@@ -64,20 +80,31 @@ class RouterNode {
   std::size_t rings() const;
   bool endpoints_match(const Applicant& applicant, bus::ParticipantId source) const;
   void begin_step();
+  /// Counts so far of the arrival topics that got something in this step, by node, index into arrivals_.
+  using Delivered = std::map<Node, std::map<std::size_t, std::uint64_t>>;
   void deliver(const StepBatch& batch);
+  void reply(Delivered& delivered);
+  void write_arrival(std::size_t index, std::span<const std::uint8_t> payload, Delivered& delivered);
 
   const Scenario& scenario_;
+  RadioTable table_;
   LinkGate gate_;
   RouterSync sync_;
+  RadioRegistry registry_;
+  CountStore* count_store_ = nullptr;
   bus::Inbox inbox_;
   std::unique_ptr<bus::Participant> world_;
   std::vector<std::unique_ptr<bus::Participant>> nodes_;
   bus::LockstepClient client_;
   std::unique_ptr<bus::Reader> drop_reader_;
   std::vector<std::unique_ptr<bus::Reader>> done_readers_, ready_readers_;  ///< by node
+  std::vector<std::unique_ptr<bus::Reader>> request_readers_;               ///< by node
   std::vector<std::unique_ptr<bus::Reader>> radio_readers_;                 ///< by route
   std::vector<Arrival> arrivals_;
   std::vector<std::vector<std::size_t>> arrival_of_;  ///< by route, target: index into arrivals_
+  std::vector<std::size_t> replies_of_;               ///< by node: likewise, where it gets its replies
+  std::optional<StepBatch> batch_;                    ///< while its registrations wait for matches
+  std::chrono::steady_clock::time_point patience_end_;
   std::map<bus::ParticipantId, Applicant> applicants_;
   std::optional<std::uint64_t> last_k_;  ///< of the final step
   bool radio_open_ = false, attaching_ = false, last_step_answered_ = false;

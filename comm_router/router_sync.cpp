@@ -9,6 +9,11 @@ namespace {
 /// becomes a member sends nearly as much before.
 constexpr std::size_t kMaxStrangerSamples = 4096;
 
+/// A member answers the step that it was asked; who answers so many that nobody asked is none.
+constexpr std::size_t kMaxAnswers = 64;
+
+const std::string kRequests = topics::radio_request().name;
+
 std::optional<std::uint64_t> count_of(const std::vector<SentCount>& sent, const std::string& topic) {
   const auto found = std::ranges::find(sent, topic, &SentCount::topic);
   return found == sent.end() ? std::nullopt : std::optional(found->count);
@@ -27,14 +32,33 @@ void RouterSync::on_step(std::uint64_t k, std::uint32_t epoch, std::vector<Radio
 
 void RouterSync::on_done(SourceId source, std::uint64_t k, std::vector<SentCount> sent) {
   if (gone_.contains(source) || (last_k_ && k <= *last_k_)) return;
-  senders_[source].done[k] = std::move(sent);
+  Sender& sender = senders_[source];
+  sender.done[k] = std::move(sent);
+  if (sender.done.size() > kMaxAnswers) forget(source);
 }
 
 void RouterSync::on_radio(SourceId source, std::size_t route, Payload payload) {
+  // Who has not registered it may talk as it likes: it is not heard, and nothing is kept.
+  const auto sender = senders_.find(source);
+  if (route >= declared_ && (sender == senders_.end() || !sender->second.opened.contains(route))) return;
+  queue(source, routes_[route].topic, std::move(payload));
+}
+
+void RouterSync::on_request(SourceId source, Payload payload) { queue(source, kRequests, std::move(payload)); }
+
+void RouterSync::queue(SourceId source, const std::string& topic, Payload payload) {
   if (gone_.contains(source)) return;
   Sender& sender = senders_[source];
-  sender.lanes[routes_[route].topic].waiting.push_back(std::move(payload));
+  sender.lanes[topic].waiting.push_back(std::move(payload));
   if (!sender.member && ++sender.waiting_as_stranger > kMaxStrangerSamples) forget(source);
+}
+
+void RouterSync::open(SourceId source, std::size_t route) {
+  const auto found = senders_.find(source);
+  if (found == senders_.end() || route < declared_ || !found->second.opened.insert(route).second) return;
+  Sender& sender = found->second;
+  const std::string& topic = routes_[route].topic;
+  sender.lanes[topic] = {.taken = count_of(sender.last_done, topic).value_or(0), .waiting = {}};
 }
 
 void RouterSync::on_drop(std::uint64_t k, SourceId source) { dropped_from_.emplace(source, k); }
@@ -51,8 +75,8 @@ std::optional<StepBatch> RouterSync::take() {
   const auto ready = [&](const RadioMember& member) { return complete(k, member); };
   if (!std::ranges::all_of(step.members, ready)) return std::nullopt;
 
-  StepBatch batch{k, step.epoch, std::move(step.links), {}};
-  for (const RadioMember& member : step.members) take_messages(k, member, batch.messages);
+  StepBatch batch{k, step.epoch, std::move(step.links), {}, {}};
+  for (const RadioMember& member : step.members) take_messages(k, member, batch);
   steps_.erase(steps_.begin());
   last_k_ = k;
   return batch;
@@ -97,11 +121,16 @@ std::uint64_t RouterSync::Sender::arrived(const std::string& topic) const {
 std::vector<SentCount> RouterSync::radio_counts(const Sender& sender, std::uint64_t k, Node node) const {
   std::vector<SentCount> counts;
   const std::vector<SentCount>& sent = sender.done.at(k);
-  for (const RadioRoute& route : routes_) {
-    if (route.source != node) continue;
-    if (const auto count = count_of(sent, route.topic)) counts.push_back({route.topic, *count});
+  if (const auto count = count_of(sent, kRequests)) counts.push_back({kRequests, *count});
+  for (std::size_t route = 0; route < routes_.size(); ++route) {
+    if (!this->counts(sender, route, node)) continue;
+    if (const auto count = count_of(sent, routes_[route].topic)) counts.push_back({routes_[route].topic, *count});
   }
   return counts;
+}
+
+bool RouterSync::counts(const Sender& sender, std::size_t route, Node node) const {
+  return routes_[route].source == node && (route < declared_ || sender.opened.contains(route));
 }
 
 bool RouterSync::complete(std::uint64_t k, const RadioMember& member) const {
@@ -113,22 +142,31 @@ bool RouterSync::complete(std::uint64_t k, const RadioMember& member) const {
                              [&](const SentCount& sent) { return found->second.arrived(sent.topic) >= sent.count; });
 }
 
-void RouterSync::take_messages(std::uint64_t k, const RadioMember& member, std::vector<RadioMessage>& messages) {
+void RouterSync::take_messages(std::uint64_t k, const RadioMember& member, StepBatch& batch) {
   const auto found = senders_.find(member.source);
   if (found == senders_.end()) return;
   Sender& sender = found->second;
-  for (std::size_t route = 0; route < routes_.size(); ++route) {
-    if (routes_[route].source != member.node) continue;
-    const auto count = count_of(sender.done.at(k), routes_[route].topic);
-    if (!count) continue;
-    // What came beyond the count stays: it belongs to the next step.
-    Lane& lane = sender.lanes[routes_[route].topic];
+  sender.last_done = std::move(sender.done.at(k));
+  sender.done.erase(sender.done.begin(), sender.done.upper_bound(k));
+  // What came beyond the count stays: it belongs to the next step.
+  const auto take = [&](const std::string& topic, auto&& use) {
+    const auto count = count_of(sender.last_done, topic);
+    if (!count) return;
+    Lane& lane = sender.lanes[topic];
     while (lane.taken < *count) {
-      messages.push_back({route, lane.taken++, std::move(lane.waiting.front())});
+      use(lane.taken++, std::move(lane.waiting.front()));
       lane.waiting.pop_front();
     }
+  };
+  take(kRequests, [&](std::uint64_t, Payload&& payload) {
+    batch.requests.push_back({member.source, member.node, std::move(payload)});
+  });
+  for (std::size_t route = 0; route < routes_.size(); ++route) {
+    if (!counts(sender, route, member.node)) continue;
+    take(routes_[route].topic, [&](std::uint64_t sequence, Payload&& payload) {
+      batch.messages.push_back({route, sequence, std::move(payload)});
+    });
   }
-  sender.done.erase(sender.done.begin(), sender.done.upper_bound(k));
 }
 
 void RouterSync::forget_the_gone(std::uint64_t k) {

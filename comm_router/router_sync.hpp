@@ -9,7 +9,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -33,18 +32,26 @@ struct SentCount {
   std::uint64_t count = 0;  ///< samples since it joined
 };
 
+/// A member's request for a radio topic, as it came (idl/skein_msgs.idl: RadioRequest_).
+struct RequestSample {
+  SourceId source = 0;
+  Node node = kStationNode;
+  Payload payload;
+};
+
 /// All messages of one step.
 struct StepBatch {
   std::uint64_t k = 0;
   std::uint32_t epoch = 0;
   std::vector<std::uint8_t> links;     ///< as Step_ has them
   std::vector<RadioMessage> messages;  ///< by member as the step lists them, route, sequence
+  std::vector<RequestSample> requests;  ///< by member as the step lists them, sequence
 };
 
 class RouterSync {
  public:
-  /// @param routes  of the scenario; must outlive this.
-  explicit RouterSync(std::span<const RadioRoute> routes) : routes_(routes) {}
+  /// @param routes  those of the scenario. Must outlive this; others may be added at its end, for open().
+  explicit RouterSync(const std::vector<RadioRoute>& routes) : routes_(routes), declared_(routes.size()) {}
 
   /// Members of step k whose messages count; leave out those without a radio (the router itself).
   /// Who was a member before and is no longer, is forgotten with all that it sent.
@@ -53,6 +60,11 @@ class RouterSync {
   void on_done(SourceId source, std::uint64_t k, std::vector<SentCount> sent);
   /// A sample from a reader of `routes[route]`. Those of one writer must come in the order of writing.
   void on_radio(SourceId source, std::size_t route, Payload payload);
+  /// A request for a radio topic; counted and handed out like messages.
+  void on_request(SourceId source, Payload payload);
+  /// From the next step on, what a member sends on a route counts that is not the scenario's. A sender's earlier
+  /// samples of it, as its last Done counts them, never will: nobody listened.
+  void open(SourceId source, std::size_t route);
   /// The server gave the member up in step k: what it sent in k and is not yet handed out is discarded, for good.
   void on_drop(std::uint64_t k, SourceId source);
   /// The sender had already written `count` samples on its topic when our reader matched (a restarted router).
@@ -61,6 +73,8 @@ class RouterSync {
   /// The batch of the lowest step that was announced and not yet handed out, once it is complete; else nullopt.
   std::optional<StepBatch> take();
 
+  /// Whether a participant was a member and is no longer, or is about to be none.
+  bool lost(SourceId source) const { return gone_.contains(source) || dropped_from_.contains(source); }
   /// Whether a step was announced that take() has not handed out.
   bool waiting() const { return !steps_.empty(); }
   /// How many members have not answered that step: take() needs a Done, or a Drop, of each of them.
@@ -78,6 +92,8 @@ class RouterSync {
   struct Sender {
     std::map<std::string, Lane> lanes;                     ///< by wire topic
     std::map<std::uint64_t, std::vector<SentCount>> done;  ///< by k
+    std::vector<SentCount> last_done;                      ///< of the step handed out last
+    std::set<std::size_t> opened;                          ///< routes beside the scenario's
     std::size_t waiting_as_stranger = 0;                   ///< samples that came before it was a member
     bool member = false;
 
@@ -90,13 +106,16 @@ class RouterSync {
   };
 
   bool complete(std::uint64_t k, const RadioMember& member) const;
-  /// What Done(k) says about the radio topics of its node, by route.
+  void queue(SourceId source, const std::string& topic, Payload payload);
+  bool counts(const Sender& sender, std::size_t route, Node node) const;
+  /// What Done(k) says about its requests and the radio topics of its node, by route.
   std::vector<SentCount> radio_counts(const Sender& sender, std::uint64_t k, Node node) const;
-  void take_messages(std::uint64_t k, const RadioMember& member, std::vector<RadioMessage>& messages);
+  void take_messages(std::uint64_t k, const RadioMember& member, StepBatch& batch);
   void forget_the_gone(std::uint64_t k);
   void forget(SourceId source);
 
-  std::span<const RadioRoute> routes_;
+  const std::vector<RadioRoute>& routes_;
+  const std::size_t declared_;           ///< the first so many are the scenario's
   std::map<std::uint64_t, Step> steps_;  ///< announced, not yet handed out
   std::map<SourceId, Sender> senders_;
   std::map<SourceId, std::uint64_t> dropped_from_;  ///< the step from which on it does not count

@@ -273,6 +273,15 @@ void ConfigNode::add(std::string key, ConfigNode value) {
   items.push_back(std::move(value));
 }
 
+void ConfigNode::remove(std::string_view key) {
+  const auto found = std::find(keys.begin(), keys.end(), key);
+  if (found == keys.end()) return;
+  const auto i = found - keys.begin();
+  items.erase(items.begin() + i);
+  key_lines.erase(key_lines.begin() + i);
+  keys.erase(found);
+}
+
 ConfigDocument parse_config_document(const std::string& text, const std::string& origin) {
   refuse_binary(text, origin);
   std::istringstream stream(text);

@@ -34,6 +34,8 @@ struct ConfigNode {
   static ConfigNode make_list() { return make(Kind::list); }
   /// Appends to a map.
   void add(std::string key, ConfigNode value);
+  /// Forgets a key of a map, if it is there.
+  void remove(std::string_view key);
 
  private:
   static ConfigNode make(Kind kind);

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "core/config_files.hpp"
 #include "core/config_node.hpp"
 #include "core/config_reader.hpp"
 #include "core/suggestion.hpp"
@@ -67,7 +68,7 @@ struct FaultEntry {
 
 struct FaultFile {
   std::string name, description;
-  std::vector<FaultEntry> faults;
+  std::variant<std::string, std::vector<FaultEntry>> faults;  ///< a text: the file that lists them
 
   template <class R>
   void describe(R& r) {
@@ -77,39 +78,55 @@ struct FaultFile {
   }
 };
 
+/// Without what only `skein test --faults` looks at (cli/fault_test.hpp).
+ConfigDocument read_fault_file(const std::filesystem::path& file) {
+  ConfigDocument document = read_config_document(file);
+  for (const char* key : {"run", "expect"}) document.root.remove(key);
+  return document;
+}
+
+/// The fault file that another one names.
+std::filesystem::path file_named(const std::string& name, const ConfigDocument& by,
+                                 const std::filesystem::path& beside) {
+  ConfigErrors errors(by);
+  try {
+    return find_config_file("fault file", name, default_config_dir() / "faults", beside);
+  } catch (const InputError& error) {
+    errors.check(false, "faults", error.what());
+  }
+  errors.throw_if_any();
+  return {};
+}
+
 // ---- checks -----------------------------------------------------------------------------------------------------
 
 const char* key_of(const FaultAction& action) {
-  return std::visit(Overloaded{[](const LinkEffect&) { return "link"; },
-                               [](const Partition&) { return "partition"; },
-                               [](const Blackout&) { return "blackout"; },
-                               [](const StationOutage&) { return "station_outage"; },
-                               [](const Kill&) { return "kill"; },
-                               [](const Pause&) { return "pause"; },
-                               [](const LidarFailure&) { return "lidar_failure"; },
-                               [](const CameraFailure&) { return "camera_failure"; },
-                               [](const MotorFailure&) { return "motor_failure"; },
-                               [](const CommandDelay&) { return "command_delay"; }},
-                    action);
+  return std::visit(
+      Overloaded{
+          [](const LinkEffect&) { return "link"; }, [](const Partition&) { return "partition"; },
+          [](const Blackout&) { return "blackout"; }, [](const StationOutage&) { return "station_outage"; },
+          [](const Kill&) { return "kill"; }, [](const Pause&) { return "pause"; },
+          [](const LidarFailure&) { return "lidar_failure"; }, [](const CameraFailure&) { return "camera_failure"; },
+          [](const MotorFailure&) { return "motor_failure"; }, [](const CommandDelay&) { return "command_delay"; }},
+      action);
 }
 
 /// What a fault takes hold of: two that hold the same thing at once contradict each other. Links hold nothing, since
 /// several effects may act on one link.
 std::optional<std::string> held_by(const FaultAction& action) {
   using Text = std::optional<std::string>;
-  return std::visit(Overloaded{[](const LinkEffect&) -> Text { return std::nullopt; },
-                               [](const Partition&) -> Text { return "the partition"; },
-                               [](const Blackout& f) -> Text { return "the radio of " + f.uav; },
-                               [](const StationOutage&) -> Text { return "the radio of gcs"; },
-                               [](const Kill& f) -> Text { return "the process of " + f.member; },
-                               [](const Pause& f) -> Text { return "the process of " + f.member; },
-                               [](const LidarFailure& f) -> Text { return "the LiDAR of " + f.uav; },
-                               [](const CameraFailure& f) -> Text { return "the camera of " + f.uav; },
-                               [](const MotorFailure& f) -> Text {
-                                 return "rotor " + std::to_string(f.rotor) + " of " + f.uav;
-                               },
-                               [](const CommandDelay& f) -> Text { return "the commands of " + f.uav; }},
-                    action);
+  return std::visit(
+      Overloaded{[](const LinkEffect&) -> Text { return std::nullopt; },
+                 [](const Partition&) -> Text { return "the partition"; },
+                 [](const Blackout& f) -> Text { return "the radio of " + f.uav; },
+                 [](const StationOutage&) -> Text { return "the radio of gcs"; },
+                 [](const Kill& f) -> Text { return "the process of " + f.member; },
+                 [](const Pause& f) -> Text { return "the process of " + f.member; },
+                 [](const LidarFailure& f) -> Text { return "the LiDAR of " + f.uav; },
+                 [](const CameraFailure& f) -> Text { return "the camera of " + f.uav; },
+                 [](const MotorFailure& f) -> Text { return "rotor " + std::to_string(f.rotor) + " of " + f.uav; },
+                 [](const CommandDelay& f) -> Text { return "the commands of " + f.uav; }},
+      action);
 }
 
 class FaultChecker {
@@ -189,9 +206,11 @@ class FaultChecker {
     const auto held = held_by(fault.action);
     if (!held) return;
     for (const auto& [other, other_path] : holders_[*held]) {
-      const bool apart = (other.end() && *other.end() <= fault.begin()) || (fault.end() && *fault.end() <= other.begin());
-      errors_.check(apart, path,
-                    "contradicts " + other_path + ": both take hold of " + *held + " at the same time; part their times");
+      const bool apart =
+          (other.end() && *other.end() <= fault.begin()) || (fault.end() && *fault.end() <= other.begin());
+      errors_.check(
+          apart, path,
+          "contradicts " + other_path + ": both take hold of " + *held + " at the same time; part their times");
     }
     holders_[*held].emplace_back(fault, path);
   }
@@ -264,15 +283,22 @@ std::vector<std::uint8_t> cut_links(const FaultPlan& plan, const Scenario& scena
 FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& scenario) {
   FaultPlan plan;
   if (file.empty()) return plan;
-  const ConfigDocument document = read_config_document(file);
-  const FaultFile content = read_config<FaultFile>(document);
+  ConfigDocument document = read_fault_file(file);
+  FaultFile content = read_config<FaultFile>(document);
   plan.file = file;
   plan.name = content.name.empty() ? file.stem().string() : content.name;
   plan.description = content.description;
+  if (const auto* named = std::get_if<std::string>(&content.faults)) {
+    document = read_fault_file(file_named(*named, document, file.parent_path()));
+    content = read_config<FaultFile>(document);
+  }
   ConfigErrors errors(document);
+  const auto* faults = std::get_if<std::vector<FaultEntry>>(&content.faults);
+  errors.check(faults != nullptr, "faults", "must be a list of faults here: another file names this one");
+  errors.throw_if_any();
   FaultChecker checker(scenario, errors);
-  for (std::size_t i = 0; i < content.faults.size(); ++i) {
-    const FaultEntry& entry = content.faults[i];
+  for (std::size_t i = 0; i < faults->size(); ++i) {
+    const FaultEntry& entry = (*faults)[i];
     const std::string path = "faults[" + std::to_string(i) + "]";
     const std::vector<FaultAction> actions = entry.actions();
     errors.check(actions.size() == 1, path,

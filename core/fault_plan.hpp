@@ -99,6 +99,8 @@ std::string fault_target(const Fault& fault);
 /// (n + 1) x (n + 1) by node, 1 = cut. Empty when there is nothing to cut.
 std::vector<std::uint8_t> cut_links(const FaultPlan& plan, const Scenario& scenario, Tick tick);
 
+/// Of a file that is a fault test too, `run` and `expect` are not looked at. `faults` may name another fault file, of
+/// config/faults/ or beside this one.
 /// @param file      empty: an empty plan.
 /// @param scenario  whose nodes may be named, and whose mission's end no time may exceed.
 /// @throws InputError naming file, line and key: a node, UAV or program that does not exist, a time after the end, an

@@ -53,7 +53,8 @@ TEST_F(FaultFile, EveryKindIsRead) {
   const FaultPlan plan = load(
       "name: all\n"
       "faults:\n"
-      "  - {at_s: 1, until_s: 2, link: {from: [jurong], to: gcs, loss: 0.5, burst_loss: {mean_good_s: 5, mean_burst_s: 1}}}\n"
+      "  - {at_s: 1, until_s: 2, link: {from: [jurong], to: gcs, loss: 0.5, burst_loss: {mean_good_s: 5, mean_burst_s: "
+      "1}}}\n"
       "  - {at_s: 1, partition: [[gcs, jurong], [changi]]}\n"
       "  - {at_s: 1, blackout: changi}\n"
       "  - {at_s: 1, until_s: 3, station_outage: true}\n"
@@ -64,15 +65,31 @@ TEST_F(FaultFile, EveryKindIsRead) {
       "  - {at_s: 1, motor_failure: {uav: changi, rotor: 3, thrust: 0.5}}\n"
       "  - {at_s: 1, command_delay: {uav: changi, exchanges: 3}}\n");
   const std::vector<std::pair<std::string, std::string>> expected = {
-      {"link", "jurong > gcs"},     {"partition", "gcs jurong | changi"}, {"blackout", "changi"},
-      {"station_outage", "gcs"},    {"kill", "comm_router"},              {"pause", "jurong"},
-      {"lidar_failure", "jurong"},  {"camera_failure", "changi"},         {"motor_failure", "changi"},
-      {"command_delay", "changi"}};
+      {"link", "jurong > gcs"},    {"partition", "gcs jurong | changi"},
+      {"blackout", "changi"},      {"station_outage", "gcs"},
+      {"kill", "comm_router"},     {"pause", "jurong"},
+      {"lidar_failure", "jurong"}, {"camera_failure", "changi"},
+      {"motor_failure", "changi"}, {"command_delay", "changi"}};
   ASSERT_EQ(plan.faults.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_EQ(fault_kind(plan.faults[i]), expected[i].first);
     EXPECT_EQ(fault_target(plan.faults[i]), expected[i].second);
   }
+}
+
+TEST_F(FaultFile, MayBeAFaultTestAndMayNameAnother) {
+  ::setenv("SKEIN_CONFIG_DIR", SKEIN_SOURCE_DIR "/config", 1);
+  EXPECT_EQ(load("faults: [{at_s: 1, blackout: changi}]\nrun: {seed: 1}\nexpect: {}\n").faults.size(), 1u);
+  const std::filesystem::path other = file_.string() + "_other.yaml";
+  std::filesystem::copy_file(file_, other);
+  const FaultPlan plan = load("name: mine\nfaults: ./" + other.filename().string());
+  EXPECT_EQ(plan.name, "mine");
+  ASSERT_EQ(plan.faults.size(), 1u);
+  EXPECT_EQ(fault_target(plan.faults[0]), "changi");
+  std::filesystem::copy_file(file_, other, std::filesystem::copy_options::overwrite_existing);
+  EXPECT_THROW(load("faults: ./" + other.filename().string()), InputError) << "one that names another itself";
+  std::filesystem::remove(other);
+  ::unsetenv("SKEIN_CONFIG_DIR");
 }
 
 TEST_F(FaultFile, ActsFromItsFirstTickToBeforeItsLast) {
@@ -84,9 +101,11 @@ TEST_F(FaultFile, ActsFromItsFirstTickToBeforeItsLast) {
 }
 
 TEST_F(FaultFile, WrongOnesAreRefusedWithLineAndKey) {
-  refused("faults: [{at_s: 1, blackout: changy}]", ":1: faults[0].blackout: there is no UAV 'changy'; did you mean 'changi'?");
+  refused("faults: [{at_s: 1, blackout: changy}]",
+          ":1: faults[0].blackout: there is no UAV 'changy'; did you mean 'changi'?");
   refused("faults:\n  - {at_s: 1, kill: router}", ":2: faults[0].kill: there is no program 'router'");
-  refused("faults: [{at_s: 300, blackout: changi}]", "faults[0].at_s: is after the end: the mission of 'small' lasts 300 s");
+  refused("faults: [{at_s: 300, blackout: changi}]",
+          "faults[0].at_s: is after the end: the mission of 'small' lasts 300 s");
   refused("faults: [{at_s: 1, until_s: 301, blackout: changi}]", "faults[0].until_s: is after the end");
   refused("faults: [{at_s: 5, until_s: 5, blackout: changi}]", "faults[0].until_s: must be later than at_s, 5");
   refused("faults: [{at_s: 1, link: {loss: 1.5}}]", "faults[0].link.loss: must be a number within [0, 1], not '1.5'");

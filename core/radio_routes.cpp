@@ -28,10 +28,12 @@ struct NodeList {
   bool all = false;
 };
 
-/// Builds the table declaration by declaration; knows every name that is taken.
-class RouteBuilder {
+}  // namespace
+
+/// Builds the table declaration by declaration.
+class RadioTable::Builder {
  public:
-  explicit RouteBuilder(const Scenario& scenario) : scenario_(scenario), uses_(scenario.fleet.size() + 1) {
+  explicit Builder(const Scenario& scenario) : scenario_(scenario), uses_(scenario.fleet.size() + 1) {
     for (Node node = 0; node < uses_.size(); ++node) {
       reserve(node, node == kStationNode ? topics::gcs_topics() : topics::uav_topics());
       reserve(node, topics::lockstep_topics());
@@ -39,38 +41,55 @@ class RouteBuilder {
   }
 
   void declare(const RadioTopicConfig& declared, const std::string& where) {
-    where_ = where;
-    const std::string topic = checked("name", [&] { return wire_topic(declared.name); });
-    const std::string type = checked("type", [&] { return wire_type(declared.type); });
-    if (declared.name.starts_with("/skein/")) fail("name", "names under /skein/ are Skein's own; choose another");
-    const auto [known, fresh] = types_.emplace(declared.name, declared.type);
-    if (!fresh && known->second != declared.type) {
-      fail("type", "'" + declared.name + "' was declared as " + known->second + " before; a topic has one type");
-    }
+    where_ = scenario_.file.string() + ": " + where + ".";
+    const RadioRoute checked = check_names(declared.name, declared.type);
+    types_.emplace(declared.name, declared.type);
     const NodeList sources = nodes("sources", declared.sources);
     const NodeList targets = nodes("targets", declared.targets);
     for (const Node source : sources.nodes) {
-      RadioRoute route{source, declared.name, declared.type, topic, type, {}};
-      for (const Node target : targets.nodes) {
-        if (target == source) continue;  // a message never comes back to its source
-        route.targets.push_back({target, wire_topic(arrival_topic(declared.name, name(target)))});
-      }
+      RadioRoute route = checked;
+      route.source = source;
+      add_targets(route, targets);
       if (route.targets.empty()) {
         if (sources.all && sources.nodes.size() > 1) continue;  // "all" means: all that have somebody to talk to
         fail("targets", "'" + name(source) + "' has no target besides itself; name another node or 'all'");
       }
-      occupy(route);
+      occupy_source(route);
+      occupy_targets(route);
       routes_.push_back(std::move(route));
     }
   }
 
-  std::vector<RadioRoute> take() { return std::move(routes_); }
+  std::size_t open(Node source, const std::string& ros_topic, const std::string& ros_type,
+                   const std::vector<std::string>& wanted) {
+    const auto types = types_;
+    const auto uses = uses_;
+    try {
+      return add_route(source, ros_topic, ros_type, wanted);
+    } catch (const InputError&) {
+      types_ = types;
+      uses_ = uses;
+      throw;
+    }
+  }
+
+  RadioTarget arrival(Node node, const std::string& ros_topic, const std::string& ros_type) {
+    where_.clear();
+    check_names(ros_topic, ros_type);
+    RadioTarget target{node, wire_topic(arrival_topic(ros_topic, name(node)))};
+    if (const auto taken = uses_[node].find(target.topic); taken != uses_[node].end()) {
+      check_arrival(ros_topic, target, taken->second);
+    }
+    return target;
+  }
+
+  const std::vector<RadioRoute>& routes() const { return routes_; }
 
  private:
   const std::string& name(Node node) const { return scenario_.node_name(node); }
 
   [[noreturn]] void fail(const std::string& key, const std::string& what) const {
-    throw InputError(scenario_.file.string() + ": " + where_ + "." + key + ": " + what);
+    throw InputError(where_ + key + ": " + what);
   }
 
   template <class Work>
@@ -124,27 +143,81 @@ class RouteBuilder {
     }
   }
 
-  /// Enters the names that a route uses in the domains of its source and its targets.
-  void occupy(const RadioRoute& route) {
+  /// A route of this name and type, without its ends.
+  RadioRoute check_names(const std::string& ros_topic, const std::string& ros_type) const {
+    const std::string topic = checked("name", [&] { return wire_topic(ros_topic); });
+    const std::string type = checked("type", [&] { return wire_type(ros_type); });
+    if (ros_topic.starts_with("/skein/")) fail("name", "names under /skein/ are Skein's own; choose another");
+    const auto known = types_.find(ros_topic);
+    if (known != types_.end() && known->second != ros_type) {
+      fail("type", "'" + ros_topic + "' was declared as " + known->second + " before; a topic has one type");
+    }
+    return {kStationNode, ros_topic, ros_type, topic, type, {}};
+  }
+
+  /// Those of `wanted` that it has not got; a message never comes back to its source.
+  void add_targets(RadioRoute& route, const NodeList& wanted) const {
+    for (const Node target : wanted.nodes) {
+      const bool known = std::ranges::find(route.targets, target, &RadioTarget::node) != route.targets.end();
+      if (known || target == route.source) continue;
+      route.targets.push_back({target, wire_topic(arrival_topic(route.ros_topic, name(target)))});
+    }
+  }
+
+  std::size_t add_route(Node source, const std::string& ros_topic, const std::string& ros_type,
+                        const std::vector<std::string>& wanted) {
+    where_.clear();
+    RadioRoute route = check_names(ros_topic, ros_type);
+    if (ros_topic.starts_with("/captures/") || ros_topic.starts_with("/captures_ack/")) {
+      fail("name", "names under /captures/ and /captures_ack/ carry the score; choose another");
+    }
+    const NodeList targets = nodes("targets", wanted);
+    if (!targets.all && std::ranges::find(targets.nodes, source) != targets.nodes.end()) {
+      fail("targets", "'" + name(source) + "' is the source itself; a message never comes back to it");
+    }
+    const auto same = [&](const RadioRoute& r) { return r.source == source && r.ros_topic == ros_topic; };
+    const auto known = std::ranges::find_if(routes_, same);
+    const bool fresh = known == routes_.end();
+    if (!fresh) route = *known;
+    route.source = source;
+    add_targets(route, targets);
+    if (route.targets.empty()) fail("targets", "there is no other node than '" + name(source) + "'");
+    if (fresh) occupy_source(route);
+    occupy_targets(route);
+    types_.emplace(ros_topic, ros_type);
+    const auto number = static_cast<std::size_t>(known - routes_.begin());
+    if (fresh) routes_.emplace_back();
+    routes_[number] = std::move(route);
+    return number;
+  }
+
+  /// Enters the name that a route uses in the domain of its source.
+  void occupy_source(const RadioRoute& route) {
     const auto [at_source, fresh] =
         uses_[route.source].emplace(route.topic, Use{Use::Kind::sent, route.ros_topic, route.type});
-    if (!fresh) {
-      Use& taken = at_source->second;
-      if (taken.kind == Use::Kind::sent) {
-        fail("sources", "'" + name(route.source) + "' was declared as a source of " + route.ros_topic + " before");
-      }
-      if (taken.kind != Use::Kind::standard_own || taken.type != route.type) {
-        refuse(route.ros_topic, route.source, taken);
-      }
-      taken.kind = Use::Kind::sent;
+    if (fresh) return;
+    Use& taken = at_source->second;
+    if (taken.kind == Use::Kind::sent) {
+      fail("sources", "'" + name(route.source) + "' was declared as a source of " + route.ros_topic + " before");
     }
+    if (taken.kind != Use::Kind::standard_own || taken.type != route.type) {
+      refuse(route.ros_topic, route.source, taken);
+    }
+    taken.kind = Use::Kind::sent;
+  }
+
+  /// Enters the names that a route uses in the domains of its targets.
+  void occupy_targets(const RadioRoute& route) {
     for (const RadioTarget& target : route.targets) {
       const Use use{Use::Kind::arriving, route.ros_topic, route.type};
-      const auto [at_target, unused] = uses_[target.node].emplace(target.topic, use);
-      const Use& taken = at_target->second;
-      const bool same_topic = taken.kind == Use::Kind::arriving && taken.ros_topic == route.ros_topic;
-      if (!unused && !same_topic) refuse(arrival_topic(route.ros_topic, name(target.node)), target.node, taken);
+      const auto [at_target, fresh] = uses_[target.node].emplace(target.topic, use);
+      if (!fresh) check_arrival(route.ros_topic, target, at_target->second);
     }
+  }
+
+  void check_arrival(const std::string& ros_topic, const RadioTarget& target, const Use& taken) const {
+    if (taken.kind == Use::Kind::arriving && taken.ros_topic == ros_topic) return;
+    refuse(arrival_topic(ros_topic, name(target.node)), target.node, taken);
   }
 
   [[noreturn]] void refuse(const std::string& ros_name, Node node, const Use& taken) const {
@@ -167,26 +240,42 @@ class RouteBuilder {
   }
 
   const Scenario& scenario_;
-  std::string where_;
+  std::string where_;                             ///< what is being read: prefix of messages
   std::map<std::string, std::string> types_;      ///< ROS topic to ROS type
   std::vector<std::map<std::string, Use>> uses_;  ///< by node: wire topic to its use
   std::vector<RadioRoute> routes_;
 };
 
-}  // namespace
-
-std::vector<RadioRoute> radio_routes(const Scenario& scenario) {
-  RouteBuilder builder(scenario);
+RadioTable::RadioTable(const Scenario& scenario) : builder_(std::make_unique<Builder>(scenario)) {
   const std::string& station = scenario.node_name(kStationNode);
   for (const UavConfig& uav : scenario.fleet) {
-    builder.declare({captures_topic(uav.name), std::string(kCapturesType), {uav.name}, {station}}, "radio");
-    builder.declare({captures_ack_topic(uav.name), std::string(kCapturesAckType), {station}, {uav.name}}, "radio");
+    builder_->declare({captures_topic(uav.name), std::string(kCapturesType), {uav.name}, {station}}, "radio");
+    builder_->declare({captures_ack_topic(uav.name), std::string(kCapturesAckType), {station}, {uav.name}}, "radio");
   }
   for (std::size_t i = 0; i < scenario.radio.size(); ++i) {
-    builder.declare(scenario.radio[i], "radio.topics[" + std::to_string(i) + "]");
+    builder_->declare(scenario.radio[i], "radio.topics[" + std::to_string(i) + "]");
   }
-  return builder.take();
+  const bool own_plan = std::ranges::any_of(scenario.radio, [](const auto& topic) { return topic.name == kPlanTopic; });
+  if (!own_plan && !scenario.fleet.empty()) {
+    const std::vector<std::string> all{std::string(kAll)};
+    builder_->declare({std::string(kPlanTopic), "std_msgs/msg/String", all, all}, "radio");
+  }
 }
+
+RadioTable::~RadioTable() = default;
+
+const std::vector<RadioRoute>& RadioTable::routes() const { return builder_->routes(); }
+
+std::size_t RadioTable::open(Node source, const std::string& ros_topic, const std::string& ros_type,
+                             const std::vector<std::string>& targets) {
+  return builder_->open(source, ros_topic, ros_type, targets);
+}
+
+RadioTarget RadioTable::arrival(Node node, const std::string& ros_topic, const std::string& ros_type) const {
+  return builder_->arrival(node, ros_topic, ros_type);
+}
+
+std::vector<RadioRoute> radio_routes(const Scenario& scenario) { return RadioTable(scenario).routes(); }
 
 std::string arrival_topic(std::string_view ros_topic, std::string_view target) {
   return std::string(ros_topic) + "/" + std::string(target);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,20 +25,49 @@ struct RadioRoute {
   std::string ros_type;              ///< "std_msgs/msg/String"
   std::string topic;                 ///< on the wire of the source's domain: "rt/x"
   std::string type;                  ///< on the wire: "std_msgs::msg::dds_::String_"
-  std::vector<RadioTarget> targets;  ///< ascending nodes, without the source
+  std::vector<RadioTarget> targets;  ///< ascending nodes (of each registration), without the source
 };
 
 /// All routes of a scenario: first those that carry captures and their acknowledgements (always there: for each UAV
 /// "/captures/<id>" to the station and "/captures_ack/<id>" back), then the declared topics in the scenario's order,
-/// sources ascending. The index in this list is the route's number in every process of a run.
+/// sources ascending, and last "/plan" from all to all, unless the scenario declares that topic itself. The index in
+/// this list is the route's number in every process of a run.
 /// @throws InputError, naming the scenario file and the key, for: a malformed topic or type; an unknown or repeated
 ///   node; no source or no target besides the source itself; one source declared twice for a topic; a topic with two
 ///   types; a name that is taken in a domain by another use (a standard topic that the source does not write itself,
 ///   or another topic's arrivals).
 std::vector<RadioRoute> radio_routes(const Scenario& scenario);
 
+/// The routes of a run, to which nodes add theirs while it lasts (docs/radio.md). Knows every name that is taken.
+/// Routes are never taken away and keep their numbers. Not thread-safe.
+class RadioTable {
+ public:
+  /// @param scenario  must outlive this. @throws InputError as radio_routes() does.
+  explicit RadioTable(const Scenario& scenario);
+  ~RadioTable();
+
+  const std::vector<RadioRoute>& routes() const;
+  /// A route for what `source` sends on a topic; targets that an older one of the same name lacks are added to it.
+  /// @param targets  names of other nodes, or {"all"}
+  /// @returns the route's number
+  /// @throws InputError, and changes nothing, for: a malformed or reserved name; a malformed type, or another type than
+  ///   the topic has; an unknown or repeated target, the source among them, or none; a name that is taken at either end.
+  std::size_t open(Node source, const std::string& ros_topic, const std::string& ros_type,
+                   const std::vector<std::string>& targets);
+  /// Type on the wire of what arrives at a node on a topic that need not exist yet.
+  /// @throws InputError for a malformed name or type, for another type than the topic has, and for a taken name.
+  RadioTarget arrival(Node node, const std::string& ros_topic, const std::string& ros_type) const;
+
+ private:
+  class Builder;
+  std::unique_ptr<Builder> builder_;
+};
+
 /// Name under which a radio topic arrives: ("/x", "jurong") -> "/x/jurong".
 std::string arrival_topic(std::string_view ros_topic, std::string_view target);
+
+/// Radio topic on which planners talk to each other and to the station: std_msgs/String, always there.
+inline constexpr std::string_view kPlanTopic = "/plan";
 
 /// Radio topics of a UAV's captures (UAV to station) and of their acknowledgements (station to UAV): ROS names.
 std::string captures_topic(std::string_view uav);

@@ -44,7 +44,7 @@ std::string complaint(const std::vector<RadioTopicConfig>& declared) {
 
 TEST(RadioRoutes, CapturesAndAcknowledgementsAreAlwaysThere) {
   const std::vector<RadioRoute> routes = radio_routes(three_uavs());
-  ASSERT_EQ(routes.size(), 6U);
+  ASSERT_EQ(routes.size(), 10U) << "and those of /plan";
   for (std::size_t uav = 0; uav < 3; ++uav) {
     const RadioRoute& report = routes[2 * uav];
     const RadioRoute& ack = routes[2 * uav + 1];
@@ -61,6 +61,14 @@ TEST(RadioRoutes, CapturesAndAcknowledgementsAreAlwaysThere) {
   EXPECT_EQ(routes[0].targets[0].topic, "rt/captures/jurong/gcs");
   EXPECT_EQ(routes[1].topic, topics::captures_ack("jurong").name);
   EXPECT_EQ(routes[1].targets[0].topic, topics::captures_ack_at_uav("jurong").name);
+}
+
+TEST(RadioRoutes, PlannersCanTalkUnlessTheScenarioRulesIt) {
+  EXPECT_EQ(routes_of(three_uavs(), "/plan").size(), 4U) << "all to all";
+  EXPECT_EQ(routes_of(Scenario(), "/plan").size(), 0U) << "nobody to talk to";
+  Scenario restricted = three_uavs();
+  restricted.radio = {{"/plan", "std_msgs/msg/String", {"jurong"}, {"sentosa"}}};
+  EXPECT_EQ(routes_of(restricted, "/plan").size(), 1U);
 }
 
 TEST(RadioRoutes, AllMeansEveryOtherNode) {
@@ -154,6 +162,61 @@ INSTANTIATE_TEST_SUITE_P(
                        "radio.topics[1].name",
                        "arrives"}),
     [](const auto& test) { return std::string(test.param.what); });
+
+// ---- registered while the run lasts ------------------------------------------------------------------------------
+
+std::string refusal(RadioTable& table, Node source, const std::string& name, const std::string& type,
+                    const std::vector<std::string>& targets) {
+  try {
+    table.open(source, name, type, targets);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(RadioTable, GrowsWithoutChangingNumbers) {
+  const Scenario scenario = three_uavs();
+  RadioTable table(scenario);
+  const std::size_t declared = table.routes().size();
+  EXPECT_EQ(table.open(1, "/note", "some/msg/Note", {"sentosa"}), declared);
+  EXPECT_EQ(table.open(2, "/note", "some/msg/Note", {"all"}), declared + 1);
+  EXPECT_EQ(table.open(1, "/note", "some/msg/Note", {"gcs", "sentosa"}), declared) << "more targets, the same route";
+  EXPECT_EQ(arrivals(table.routes()[declared]), (std::vector<std::string>{"rt/note/sentosa", "rt/note/gcs"}));
+  EXPECT_EQ(arrivals(table.routes()[declared + 1]),
+            (std::vector<std::string>{"rt/note/gcs", "rt/note/jurong", "rt/note/sentosa"}));
+  EXPECT_EQ(table.arrival(2, "/note", "some/msg/Note").topic, "rt/note/raffles");
+}
+
+TEST(RadioTable, RefusalsSayWhyAndChangeNothing) {
+  const Scenario scenario = three_uavs();
+  RadioTable table(scenario);
+  table.open(1, "/note", "some/msg/Note", {"sentosa"});
+  const std::size_t before = table.routes().size();
+  const struct {
+    std::string name, type;
+    std::vector<std::string> targets;
+    std::string reason;
+  } wrong[] = {{"note", "some/msg/Note", {"all"}, "name: 'note' is not an absolute topic name"},
+               {"/note2", "Note", {"all"}, "type: 'Note' is not a message type"},
+               {"/note", "some/msg/Other", {"all"}, "type: '/note' was declared as some/msg/Note"},
+               {"/note2", "some/msg/Note", {"jurong"}, "targets: 'jurong' is the source itself"},
+               {"/note2", "some/msg/Note", {"sentosa", "sentosa"}, "targets: names 'sentosa' twice"},
+               {"/note2", "some/msg/Note", {"sentosa", "nobody"}, "there is no node 'nobody'"},
+               {"/note2", "some/msg/Note", {}, "targets: is empty"},
+               {"/skein/note", "some/msg/Note", {"all"}, "Skein's own"},
+               {"/captures/jurong2", "some/msg/Note", {"all"}, "carry the score"},
+               {"/clock", "some/msg/Note", {"all"}, "is taken by a topic that Skein writes"},
+               {"/jurong", "some/msg/Note", {"all"}, ""}};
+  for (const auto& w : wrong) {
+    const std::string said = refusal(table, 1, w.name, w.type, w.targets);
+    EXPECT_NE(said.find(w.reason), std::string::npos) << w.name << ": " << said;
+    EXPECT_EQ(said.empty(), w.reason.empty()) << said;
+  }
+  EXPECT_EQ(table.routes().size(), before + 1) << "the last one made sense";
+  EXPECT_THROW(table.arrival(1, "/note", "some/msg/Other"), InputError);
+  EXPECT_NO_THROW(table.arrival(1, "/not_yet", "some/msg/Other"));
+}
 
 }  // namespace
 }  // namespace skein

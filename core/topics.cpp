@@ -89,7 +89,8 @@ std::span<const TopicInfo> gcs_topics() {
 }
 
 std::span<const TopicInfo> lockstep_topics() {
-  static constexpr std::array kAll{kStep, kDone, kReady, kResync, kAttached, kRouted, kDrop, kLedger};
+  static constexpr std::array kAll{kStep,   kDone, kReady,  kResync,       kAttached,
+                                   kRouted, kDrop, kLedger, kRadioRequest, kRadioReply};
   return kAll;
 }
 

@@ -221,6 +221,12 @@ inline constexpr TopicInfo kLedger{"/skein/ledger",
                                    "server -> world, when the referee wrote something down",
                                    true};
 
+// Registration of radio topics (docs/radio.md).
+inline constexpr TopicInfo kRadioRequest{"/skein/radio_request", "skein_msgs/msg/RadioRequest", Direction::internal,
+                                         kCommandDepth, "member -> router: opens a radio topic"};
+inline constexpr TopicInfo kRadioReply{"/skein/radio_reply", "skein_msgs/msg/RadioReply", Direction::internal, 1024,
+                                       "router -> member: what became of it, and when that changes"};
+
 /// All of the above.
 std::span<const TopicInfo> lockstep_topics();
 
@@ -252,6 +258,8 @@ inline WireTopic routed() { return wire(kRouted); }
 inline WireTopic drop() { return wire(kDrop); }
 inline WireTopic resync() { return wire(kResync); }
 inline WireTopic ledger() { return wire(kLedger); }
+inline WireTopic radio_request() { return wire(kRadioRequest); }
+inline WireTopic radio_reply() { return wire(kRadioReply); }
 
 }  // namespace topics
 }  // namespace skein

@@ -269,6 +269,11 @@ template std::vector<ScanPoint> from_cloud(const msg::PointCloud2&);
 template std::vector<NeighbourPoint> from_cloud(const msg::PointCloud2&);
 template std::vector<DetectionPoint> from_cloud(const msg::PointCloud2&);
 
+std::optional<std::uint32_t> whole_number(float value) {
+  if (!(value >= 0.0F) || !(value < 4294967296.0F) || std::trunc(value) != value) return std::nullopt;
+  return static_cast<std::uint32_t>(value);
+}
+
 msg::CaptureReport to_message(const CaptureReport& report, std::span<const std::string> fleet) {
   msg::CaptureReport message;
   message.uav(fleet[report.uav]);

@@ -74,6 +74,10 @@ extern template std::vector<ScanPoint> from_cloud(const msg::PointCloud2&);
 extern template std::vector<NeighbourPoint> from_cloud(const msg::PointCloud2&);
 extern template std::vector<DetectionPoint> from_cloud(const msg::PointCloud2&);
 
+/// A number that counts or names something and travels as a float. nullopt when it is none: a fraction, below zero, not
+/// finite, or beyond 32 bits.
+std::optional<std::uint32_t> whole_number(float value);
+
 // ---- custody ----------------------------------------------------------------------------------------------------
 
 /// @param fleet  names in fleet order.

@@ -54,6 +54,7 @@ std::string type_name() {
   X(trajectory_msgs, MultiDOFJointTrajectoryPoint) \
   X(skein_msgs, TopicCount)                        \
   X(skein_msgs, Member)                            \
+  X(skein_msgs, Order)                             \
   X(skein_msgs, Step)                              \
   X(skein_msgs, Done)                              \
   X(skein_msgs, NodeCounts)                        \
@@ -62,6 +63,8 @@ std::string type_name() {
   X(skein_msgs, Ready)                             \
   X(skein_msgs, Attached)                          \
   X(skein_msgs, Resync)                            \
+  X(skein_msgs, RadioRequest)                      \
+  X(skein_msgs, RadioReply)                        \
   X(skein_msgs, BoolStamped)                       \
   X(skein_msgs, CommandRejected)                   \
   X(skein_msgs, CapturePoint)                      \

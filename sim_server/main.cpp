@@ -27,6 +27,7 @@ struct ServerOptions {
   std::vector<std::filesystem::path> golden;
   std::filesystem::path export_scene;  ///< folder; empty: none
   bool overwrite_export = false;
+  bool ground_program = false;
   std::filesystem::path oracle;  ///< file for its answer; empty: it is not asked
   double clearance_m = skein::sim::OracleConfig{}.clearance_m;
   std::optional<double> oracle_patience_s;
@@ -114,6 +115,7 @@ int run(const skein::ProgramOptions& options, const ServerOptions& server, skein
                                           .stop_at_s = server.stop_at_s,
                                           .agent_timeout_s = server.agent_timeout_s,
                                           .startup_timeout_s = startup_timeout_s(server, scenario),
+                                          .expect_gcs_program = server.ground_program,
                                           .faults = skein::load_fault_plan(options.faults, scenario)};
   skein::Scene scene = skein::sim::load_scene(scenario);
   const auto bus = skein::bus::make_bus(options);
@@ -140,6 +142,7 @@ int main(int argc, char** argv) {
     app.add_option("--stop-at", server.stop_at_s, "end at this simulated time [s]")->check(CLI::PositiveNumber);
     app.add_option("--agent-timeout", server.agent_timeout_s, "wall time to wait for a member [s], 0: for ever")
         ->check(CLI::NonNegativeNumber);
+    app.add_flag("--ground-program", server.ground_program, "wait for a program at the ground station before the start");
     app.add_option("--golden", server.golden, "run reference vectors through the production code, then stop");
     app.add_option("--export-scene", server.export_scene, "write the scene's files to this folder, then stop");
     app.add_flag("--overwrite-export", server.overwrite_export, "replace the files of an earlier export");

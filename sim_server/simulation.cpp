@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "sim_server/antenna_link.hpp"
 #include "sim_server/command_link.hpp"
 #include "sim_server/enclosure.hpp"
 #include "sim_server/fleet_start.hpp"
 #include "sim_server/physics_world.hpp"
 #include "sim_server/ray_scene.hpp"
+#include "sim_server/sight_memory.hpp"
 #include "sim_server/vehicle.hpp"
 #include "sim_server/vehicle_faults.hpp"
 
@@ -79,6 +79,7 @@ struct Simulation::Impl {
   std::vector<Uav> uavs;
   std::vector<UavView> views;  ///< at the step boundary
   std::vector<std::uint8_t> links, open_links;
+  std::vector<SightMemory> sights;         ///< by pair of nodes
   std::vector<RejectionEvent> rejections;  ///< since the last advance()
   StepEvents events;
   std::uint64_t step = 0;
@@ -261,6 +262,7 @@ void Simulation::Impl::trace_links() {
   refresh_rays();
   const std::size_t nodes = uavs.size() + 1;
   links.assign(nodes * nodes, 0);
+  sights.resize(nodes * nodes);
   const auto uav_of = [](Node node) { return node == kStationNode ? kNobody : node - 1; };
   const auto antenna = [&](Node node) {
     if (node == kStationNode) return AntennaNode{scenario.station_position, scenario.station_antenna_offset_m};
@@ -272,10 +274,7 @@ void Simulation::Impl::trace_links() {
     for (Node b = a + 1; b < nodes; ++b) {
       if (!on_air(a) || !on_air(b)) continue;
       const RayFilter filter{.except_uav = uav_of(a), .except_other_uav = uav_of(b)};
-      const auto first_hit = [&](const Vector3d& from, const Vector3d& to) {
-        return rays.first_hit_distance(from, to, filter);
-      };
-      const bool linked = trace_link(antenna(a), antenna(b), first_hit).linked;
+      const bool linked = sights[a * nodes + b].linked(antenna(a), antenna(b), rays, filter);
       const double distance_m = (antenna(a).p_W - antenna(b).p_W).norm();
       links[a * nodes + b] = linked && in_range(a, b, distance_m);
       links[b * nodes + a] = linked && in_range(b, a, distance_m);
@@ -290,10 +289,16 @@ void Simulation::Impl::cut_links() {
 }
 
 bool Simulation::Impl::in_range(Node from, Node to, double distance_m) const {
-  return std::none_of(scenario.links.begin(), scenario.links.end(), [&](const LinkEffect& effect) {
+  const auto ends_before = [&](const LinkEffect& effect) {
     return effect.range_m && distance_m > *effect.range_m && names_node(effect.from, scenario.node_name(from)) &&
            names_node(effect.to, scenario.node_name(to));
-  });
+  };
+  const auto fails_before = [&](const Fault& fault) {
+    const auto* effect = std::get_if<LinkEffect>(&fault.action);
+    return effect != nullptr && fault.active(tick) && ends_before(*effect);
+  };
+  return std::none_of(scenario.links.begin(), scenario.links.end(), ends_before) &&
+         std::none_of(faults.faults.begin(), faults.faults.end(), fails_before);
 }
 
 void Simulation::Impl::refresh_rays() {

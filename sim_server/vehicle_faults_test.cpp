@@ -183,6 +183,20 @@ TEST_F(Faulty, DelayedCommandsActThatMuchLater) {
   }
 }
 
+TEST_F(Faulty, ALinkMayEndBeforeWithinItsTimeAndOneWayOnly) {
+  LinkEffect short_one;
+  short_one.from = {"lead"};
+  short_one.to = {"other"};
+  short_one.range_m = 3.0;  // they are 6 m apart
+  bool as_told = true;
+  fly(plan({fault(4.0, 6.0, short_one)}), 8.0, [&](double) {
+    const double t = seconds(simulation_->tick());
+    const bool there = simulation_->links()[1 * 3 + 2] != 0, back = simulation_->links()[2 * 3 + 1] != 0;
+    as_told &= back && there == (t < 4.0 || t >= 6.0);
+  });
+  EXPECT_TRUE(as_told);
+}
+
 TEST_F(Faulty, ABlackoutSilencesBothWaysButNotTheLineOfSight) {
   bool cut_all_through = true, seen_before = false, key_frames_out = false;
   fly(plan({fault(10.0, 15.0, Blackout{"lead"})}), 12.0, [&](double t) {

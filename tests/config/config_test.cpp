@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/config_node.hpp"
+#include "core/fault_plan.hpp"
 #include "core/scenario_reader.hpp"
 
 namespace skein {
@@ -44,6 +45,13 @@ LoadOptions without_assets() {
   return options;
 }
 
+/// The shipped configuration, wherever this program is.
+class ConfigFolder {
+ public:
+  ConfigFolder() { ::setenv("SKEIN_CONFIG_DIR", kConfig.c_str(), 1); }
+  ~ConfigFolder() { ::unsetenv("SKEIN_CONFIG_DIR"); }
+};
+
 std::string test_name(const ::testing::TestParamInfo<std::string>& parameter) { return parameter.param; }
 
 class InvalidFile : public ::testing::TestWithParam<std::string> {};
@@ -56,6 +64,9 @@ TEST_P(InvalidFile, IsRefusedWithAUsefulMessage) {
   try {
     if (GetParam().starts_with("invalid_vehicle_")) {
       load_vehicle(file.string(), kConfig);
+    } else if (GetParam().starts_with("invalid_faults_")) {
+      const ConfigFolder folder;
+      load_fault_plan(file, load_scenario("towers", without_assets()));
     } else {
       LoadOptions options;
       options.config_dir = kConfig;

@@ -1,9 +1,10 @@
 // A stranger in a DDS domain: subscribes to topics, counts what it hears, and is no member of anything.
 //   radio_listener VENDOR DOMAIN FILE TOPIC TYPE [TOPIC TYPE]...
-// Keeps FILE up to date with one line a topic: TOPIC, the number of writers matched, the number of samples heard.
+// With SKEIN_SECURITY it shows the certificate in that folder, else none. Keeps FILE up to date with one line a topic: TOPIC, the number of writers matched, the number of samples heard.
 // Runs until it is killed.
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <deque>
 #include <sstream>
 #include <string>
@@ -24,7 +25,8 @@ struct Heard {
 
 int main(int argc, char** argv) {
   if (argc < 6) return 2;
-  const auto bus = skein::bus::make_bus({.vendor = argv[1]});
+  const char* security = std::getenv("SKEIN_SECURITY");
+  const auto bus = skein::bus::make_bus({.vendor = argv[1], .security = security != nullptr ? security : ""});
   const auto participant = bus->join(std::stoi(argv[2]));
   std::deque<Heard> heard;
   for (int i = 4; i + 1 < argc; i += 2) {

@@ -1,0 +1,120 @@
+// bench_chatter: software of a UAV that does nothing but talk, for `skein bench` and for tests. It registers one unicast
+// radio topic to every other node, of a type that exists nowhere else, listens to what the others send it, and sends on
+// each topic in every step.
+//   skein run FILE --planner exec:bench_chatter        (the launcher sets SKEIN_DOMAIN, SKEIN_UAV, SKEIN_DDS, ...)
+// Each message says which one it is; one that comes twice, out of order or damaged ends the program with exit code 1.
+// Its last line on stdout is JSON: messages heard.
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "bus/lockstep/client_loop.hpp"
+#include "bus/lockstep/radio_topics.hpp"
+#include "bus/program_bus.hpp"
+#include "core/scenario_reader.hpp"
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+const std::string kType = "skein_bench/msg/Chatter";
+constexpr std::size_t kHeader = 4;
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  if (value == nullptr)
+    throw skein::InputError(std::string("bench_chatter: ") + name + " is not set; run it by skein run");
+  return value;
+}
+
+/// Message number n: encapsulation header, the number, and what follows from it.
+Bytes message(std::uint64_t n, std::size_t size) {
+  Bytes bytes(kHeader + size);
+  bytes[1] = 1;
+  for (std::size_t i = 0; i < size; ++i) {
+    bytes[kHeader + i] = static_cast<std::uint8_t>(i < 8 ? n >> (8 * i) : (n + i) * 31);
+  }
+  return bytes;
+}
+
+std::uint64_t number_of(const Bytes& bytes) {
+  std::uint64_t n = 0;
+  for (std::size_t i = 0; i < 8 && kHeader + i < bytes.size(); ++i) n |= std::uint64_t{bytes[kHeader + i]} << (8 * i);
+  return n;
+}
+
+class Chatter {
+ public:
+  Chatter(const skein::Scenario& scenario, skein::bus::Participant& participant, std::string uav, std::size_t bytes)
+      : uav_(std::move(uav)), bytes_(bytes), client_(participant, inbox_, uav_), radio_(client_, uav_) {
+    for (skein::Node node = 0; node <= scenario.fleet.size(); ++node) {
+      if (scenario.node_name(node) != uav_) others_.push_back(scenario.node_name(node));
+    }
+  }
+
+  int run() {
+    const skein::bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_; }};
+    const int code = skein::bus::exit_code(skein::bus::run_client(client_, inbox_, loop, stop_), uav_);
+    std::cout << nlohmann::json{{"heard", heard_}} << std::endl;
+    return code;
+  }
+
+ private:
+  static std::string topic(const std::string& from, const std::string& to) { return "/chatter_" + from + "_" + to; }
+
+  void think() {
+    const std::uint64_t k = client_.step().k();
+    radio_.begin_step();
+    if (!started_) {
+      for (const std::string& other : others_) {
+        radio_.send(topic(uav_, other), kType, {other});
+        radio_.listen(topic(other, uav_), kType,
+                      [this, other](skein::bus::Sample&& sample) { hear(other, sample.payload); });
+      }
+    }
+    started_ = true;
+    const Bytes bytes = message(k, bytes_);
+    for (const std::string& other : others_) radio_.write(topic(uav_, other), bytes);
+    client_.done();
+    last_ = client_.step().final_step();
+  }
+
+  void hear(const std::string& from, const Bytes& bytes) {
+    const std::uint64_t n = number_of(bytes);
+    Bytes expected = message(n, bytes_);
+    expected.resize((expected.size() + 3) / 4 * 4);
+    if (bytes != expected) throw std::runtime_error("a damaged message came from " + from);
+    const auto [last, first] = last_heard_.try_emplace(from, n);
+    if (!first && n <= last->second) throw std::runtime_error("a message came twice or late from " + from);
+    last->second = n;
+    ++heard_;
+  }
+
+  const std::string uav_;
+  const std::size_t bytes_;
+  std::vector<std::string> others_;
+  skein::bus::Inbox inbox_;
+  skein::bus::LockstepClient client_;
+  skein::bus::RadioTopics radio_;
+  skein::StopSignal stop_;
+  std::map<std::string, std::uint64_t> last_heard_;
+  std::uint64_t heard_ = 0;
+  bool started_ = false, last_ = false;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  std::size_t bytes = 200;
+  CLI::App app("Talks to every other node in every step");
+  app.add_option("--bytes", bytes, "Of each message")->check(CLI::Range(8, 4'000'000));
+  CLI11_PARSE(app, argc, argv);
+  const skein::Scenario scenario = skein::load_scenario(variable("SKEIN_SCENARIO"), {.needs_scene_files = false});
+  const auto bus = skein::bus::make_bus({.vendor = variable("SKEIN_DDS")});
+  const auto participant = bus->join(std::stoi(variable("SKEIN_DOMAIN")));
+  return Chatter(scenario, *participant, variable("SKEIN_UAV"), bytes).run();
+} catch (const std::exception& error) {
+  std::cerr << error.what() << std::endl;
+  return skein::kExitProcessFailed;
+}

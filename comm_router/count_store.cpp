@@ -1,0 +1,49 @@
+#include "comm_router/count_store.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <type_traits>
+
+namespace skein::router {
+
+static_assert(std::is_trivially_copyable_v<LinkCounts>);
+
+CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes) {
+  const std::size_t links = nodes * nodes, bytes = links * sizeof(LinkCounts);
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  void* memory = MAP_FAILED;
+  if (descriptor >= 0 && ::ftruncate(descriptor, static_cast<off_t>(bytes)) == 0) {
+    memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+  }
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (memory == MAP_FAILED) throw std::system_error(reason, std::generic_category(), "counts " + file.string());
+  counts_ = {static_cast<LinkCounts*>(memory), links};
+}
+
+CountStore::~CountStore() { ::munmap(counts_.data(), counts_.size_bytes()); }
+
+std::vector<LinkCounts> CountStore::earlier_counts() const {
+  std::vector<LinkCounts> counts(counts_.begin(), counts_.end());
+  for (LinkCounts& link : counts) {
+    link.dropped_fault = link.sent + link.duplicated - link.delivered - link.dropped_no_los - link.dropped_overflow;
+  }
+  return counts;
+}
+
+void CountStore::save(const LinkGate& gate, const GatedStep& last) {
+  const std::size_t nodes = gate.nodes();
+  for (Node from = 0; from < nodes; ++from) {
+    for (Node to = 0; to < nodes; ++to) counts_[from * nodes + to] = gate.counts(from, to);
+  }
+  for (const Delivery& delivery : last.deliveries) {
+    const RadioRoute& route = gate.routes()[delivery.route];
+    --counts_[route.source * nodes + route.targets[delivery.target].node].delivered;
+  }
+}
+
+}  // namespace skein::router

@@ -1,0 +1,71 @@
+#include "comm_router/count_store.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace skein::router {
+namespace {
+
+/// From "a", node 1, to the station and to "b".
+std::vector<RadioRoute> routes() {
+  Scenario scenario;
+  scenario.fleet.resize(2);
+  scenario.fleet[0].name = "a";
+  scenario.fleet[1].name = "b";
+  scenario.radio.push_back({"/talk", "std_msgs/msg/String", {"a"}, {"all"}});
+  return radio_routes(scenario);
+}
+
+/// Holds each message back for some steps.
+class SlowLinks final : public LinkModel {
+ public:
+  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const RadioMessage& message) override {
+    return {.delay_steps = message.sequence};
+  }
+};
+
+class CountStoreTest : public testing::Test {
+ protected:
+  CountStoreTest() { std::filesystem::remove(file_); }
+  ~CountStoreTest() override { std::filesystem::remove(file_); }
+
+  std::size_t talk() const {
+    const auto all = routes();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].ros_topic == "/talk") return i;
+    }
+    return all.size();
+  }
+  RadioMessage message(std::uint64_t sequence) const {
+    return {talk(), sequence, std::make_shared<const std::vector<std::uint8_t>>(8, std::uint8_t{1})};
+  }
+
+  const std::filesystem::path file_ =
+      std::filesystem::path(testing::TempDir()) / ("skein_counts_" + std::to_string(::getpid()));
+  const std::vector<std::uint8_t> linked_{0, 1, 1, 1, 0, 1, 1, 1, 0};
+};
+
+TEST_F(CountStoreTest, ANewFileHasCountedNothing) {
+  const CountStore store(file_, 3);
+  for (const LinkCounts& link : store.earlier_counts()) EXPECT_EQ(link, LinkCounts{});
+}
+
+TEST_F(CountStoreTest, WhatItHadAtHandWhenItDiedIsLost) {
+  LinkGate gate(routes(), 3, std::make_unique<SlowLinks>());
+  {
+    CountStore store(file_, 3);
+    store.save(gate, gate.gate(0, linked_, {message(0)}));
+    store.save(gate, gate.gate(1, linked_, {message(1), message(2)}));  // under way for one and two steps more
+    store.save(gate, gate.gate(2, linked_, {}));                        // delivers the first of them, and dies
+  }
+  const LinkCounts to_b = CountStore(file_, 3).earlier_counts()[1 * 3 + 2];
+  EXPECT_EQ(to_b.sent, 3U);
+  EXPECT_EQ(to_b.delivered, 1U);
+  EXPECT_EQ(to_b.dropped_fault, 2U);
+
+  gate.restore(CountStore(file_, 3).earlier_counts());
+  EXPECT_EQ(gate.counts(1, 2), to_b);
+}
+
+}  // namespace
+}  // namespace skein::router

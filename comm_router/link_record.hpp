@@ -1,0 +1,30 @@
+// capture_messages.csv: what links that are not ideal did to messages with capture reports. One line for each message
+// with line of sight that was lost or late: the step in which it was sent, the UAV, the step in which it arrives (none:
+// it was lost). A restarted router writes on. Not thread-safe; no bus.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "comm_router/link_gate.hpp"
+#include "core/scenario.hpp"
+
+namespace skein::router {
+
+/// Asks another model, and writes down what it says of capture reports.
+class LinkRecord final : public LinkModel {
+ public:
+  /// @param scenario  must outlive this.
+  LinkRecord(std::unique_ptr<LinkModel> links, const Scenario& scenario, const std::filesystem::path& folder);
+
+  LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const RadioMessage& message) override;
+
+ private:
+  std::unique_ptr<LinkModel> links_;
+  const Scenario& scenario_;
+  std::filesystem::path file_;
+  std::ofstream out_;  ///< opened with the first line: most runs have none
+};
+
+}  // namespace skein::router

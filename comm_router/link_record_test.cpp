@@ -1,0 +1,66 @@
+// Only capture reports that a link spoiled are written down, across a restart of the router too.
+#include "comm_router/link_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <iterator>
+
+#include "core/radio_routes.hpp"
+
+namespace skein::router {
+namespace {
+
+/// Does as it is told.
+class ToldLinks final : public LinkModel {
+ public:
+  explicit ToldLinks(LinkFate fate) : fate_(fate) {}
+  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const RadioMessage&) override { return fate_; }
+
+ private:
+  LinkFate fate_;
+};
+
+class LinkRecordTest : public testing::Test {
+ protected:
+  LinkRecordTest() : folder_(std::filesystem::path(testing::TempDir()) / "skein_link_record") {
+    std::filesystem::create_directories(folder_);
+    UavConfig uav;
+    uav.name = "changi";
+    scenario_.fleet.push_back(uav);
+  }
+  ~LinkRecordTest() override { std::filesystem::remove_all(folder_); }
+
+  /// A router's life with links that do this to all messages.
+  void send(LinkFate fate, std::uint64_t k, const std::string& topic = captures_topic("changi"),
+            Node target = kStationNode) {
+    RadioRoute route;
+    route.source = 1;
+    route.ros_topic = topic;
+    LinkRecord record(std::make_unique<ToldLinks>(fate), scenario_, folder_);
+    EXPECT_EQ(record.fate(k, route, target, {}).delay_steps, fate.delay_steps);
+  }
+  std::string written() const {
+    std::ifstream in(folder_ / "capture_messages.csv");
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  std::filesystem::path folder_;
+  Scenario scenario_;
+};
+
+TEST_F(LinkRecordTest, IdealLinksLeaveNoFile) {
+  send({}, 5);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "capture_messages.csv"));
+}
+
+TEST_F(LinkRecordTest, LossAndDelayOfCaptureReportsAreTold) {
+  send({.loss = LinkLoss::fault}, 5);
+  send({.delay_steps = 3}, 6);
+  send({.loss = LinkLoss::overflow}, 7);
+  send({.loss = LinkLoss::fault}, 8, "/broadcast");
+  send({.loss = LinkLoss::fault}, 9, captures_topic("changi"), 2);
+  EXPECT_EQ(written(), "step,uav,arrives\n5,changi,\n6,changi,10\n7,changi,\n");
+}
+
+}  // namespace
+}  // namespace skein::router

@@ -1,0 +1,148 @@
+#include "comm_router/radio_registry.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace skein::router {
+namespace {
+
+constexpr const char* kNoWriter =
+    "name: no fitting writer of this topic was found at the asker: create it before asking, RELIABLE and of this type "
+    "(a BEST_EFFORT writer may lose messages, so it has no place in lock-step)";
+
+constexpr const char* kNoReader =
+    "name: no fitting reader of what arrives on this topic was found at the asker: open it when the reply says so, of "
+    "this type and VOLATILE";
+
+}  // namespace
+
+RadioRegistry::RadioRegistry(const Scenario& scenario, RadioTable& table, RadioEndpoints endpoints)
+    : scenario_(scenario), table_(table), endpoints_(std::move(endpoints)) {}
+
+void RadioRegistry::begin_step(const std::vector<RadioRequest>& requests) {
+  forget_the_lost();
+  for (const RadioRequest& request : requests) {
+    try {
+      request.listen ? listen(request) : send(request);
+    } catch (const InputError& error) {
+      refuse(request.asker, error.what());
+    }
+  }
+}
+
+void RadioRegistry::forget_the_lost() {
+  const auto lost = [&](const auto& entry) { return endpoints_.lost(entry.asker.source); };
+  std::erase_if(sendings_, lost);
+  std::erase_if(listenings_, lost);
+}
+
+void RadioRegistry::send(const RadioRequest& request) {
+  const std::string& own = scenario_.node_name(request.asker.node);
+  if (request.source != own) {
+    throw InputError("source: '" + request.source + "' is not the asking node, which is '" + own + "'");
+  }
+  const auto by_asker = [&](const Sending& s) { return s.asker.source == request.asker.source; };
+  if (std::ranges::count_if(sendings_, by_asker) >= static_cast<std::ptrdiff_t>(kMaxTopics)) {
+    throw InputError("name: a member may send on " + std::to_string(kMaxTopics) + " registered topics at most");
+  }
+  const std::size_t route = table_.open(request.asker.node, request.name, request.type, request.targets);
+  endpoints_.open(route);
+  // Asking again is allowed; the last request is the one that is answered.
+  std::erase_if(sendings_, [&](const Sending& s) { return by_asker(s) && s.route == route; });
+  sendings_.push_back({.asker = request.asker, .route = route});
+}
+
+void RadioRegistry::listen(const RadioRequest& request) {
+  const RadioTarget arrival = table_.arrival(request.asker.node, request.name, request.type);
+  const auto by_asker = [&](const Listening& l) { return l.asker.source == request.asker.source; };
+  std::erase_if(listenings_, [&](const Listening& l) { return by_asker(l) && l.arrival.topic == arrival.topic; });
+  if (std::ranges::count_if(listenings_, by_asker) >= static_cast<std::ptrdiff_t>(kMaxTopics)) {
+    throw InputError("name: a member may listen to " + std::to_string(kMaxTopics) + " registered topics at most");
+  }
+  listenings_.push_back(
+      {.asker = request.asker, .ros_topic = request.name, .ros_type = request.type, .arrival = arrival});
+}
+
+void RadioRegistry::refuse(const Asker& asker, const std::string& reason) {
+  replies_.push_back({.asker = asker, .reason = reason});
+}
+
+bool RadioRegistry::is_matched(const Sending& sending) const {
+  return sending.state != State::asked || endpoints_.hears(sending.route, sending.asker.source);
+}
+
+bool RadioRegistry::is_matched(const Listening& listening) const {
+  return listening.state != State::open || listening.matched ||
+         endpoints_.reaches(listening.arrival, listening.asker.source);
+}
+
+bool RadioRegistry::waiting() const {
+  const auto waits = [&](const auto& entry) { return !is_matched(entry) && !endpoints_.lost(entry.asker.source); };
+  return std::ranges::any_of(sendings_, waits) || std::ranges::any_of(listenings_, waits);
+}
+
+bool RadioRegistry::heard(const RadioTarget& target) const {
+  return endpoints_.declared(target) || std::ranges::any_of(listenings_, [&](const Listening& listening) {
+           return listening.matched && listening.arrival.node == target.node && listening.arrival.topic == target.topic;
+         });
+}
+
+std::vector<RadioReply> RadioRegistry::end_step() {
+  forget_the_lost();
+  for (Listening& listening : listenings_) {
+    if (listening.state != State::open) continue;
+    listening.matched = is_matched(listening);
+    if (listening.matched) continue;
+    listening.state = State::refused;
+    refuse(listening.asker, kNoReader);
+  }
+  settle_sendings();
+  settle_listenings();
+  return std::exchange(replies_, {});
+}
+
+void RadioRegistry::settle_sendings() {
+  for (Sending& sending : sendings_) {
+    RadioReply reply{.asker = sending.asker, .open = true};
+    if (!is_matched(sending)) {
+      sending.state = State::refused;
+      refuse(sending.asker, kNoWriter);
+      continue;
+    }
+    if (sending.state == State::asked) endpoints_.admit(sending.route, sending.asker.source);
+    sending.state = State::open;
+    for (const RadioTarget& target : table_.routes()[sending.route].targets) {
+      if (!heard(target)) reply.unheard.push_back(scenario_.node_name(target.node));
+    }
+    tell(reply, sending.told);
+  }
+  std::erase_if(sendings_, [](const Sending& sending) { return sending.state == State::refused; });
+}
+
+void RadioRegistry::settle_listenings() {
+  for (Listening& listening : listenings_) {
+    if (listening.state != State::asked) continue;  // refused, or told already
+    const auto arrives = [&](const RadioRoute& route) {
+      return route.ros_topic == listening.ros_topic &&
+             std::ranges::find(route.targets, listening.asker.node, &RadioTarget::node) != route.targets.end();
+    };
+    const auto route = std::ranges::find_if(table_.routes(), arrives);
+    RadioReply reply{.asker = listening.asker, .open = route != table_.routes().end()};
+    if (reply.open) listening.state = State::open;
+    if (reply.open && route->ros_type != listening.ros_type) {
+      listening.state = State::refused;
+      reply.open = false;
+      reply.reason = "type: '" + listening.ros_topic + "' is of type " + route->ros_type;
+    }
+    tell(reply, listening.told);
+  }
+  std::erase_if(listenings_, [](const Listening& listening) { return listening.state == State::refused; });
+}
+
+void RadioRegistry::tell(const RadioReply& reply, std::optional<RadioReply>& told) {
+  if (told == reply) return;
+  told = reply;
+  replies_.push_back(reply);
+}
+
+}  // namespace skein::router

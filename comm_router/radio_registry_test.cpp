@@ -1,0 +1,137 @@
+// Registrations against a world of endpoints that match when the test says so.
+#include "comm_router/radio_registry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace skein::router {
+namespace {
+
+constexpr SourceId kA = 11, kB = 12, kStation = 10;
+const std::string kType = "some/msg/Type";
+
+class Registry : public testing::Test {
+ protected:
+  static Scenario three_nodes() {
+    Scenario scenario;
+    for (const char* name : {"a", "b"}) {
+      UavConfig uav;
+      uav.name = name;
+      scenario.fleet.push_back(uav);
+    }
+    return scenario;
+  }
+
+  static RadioRequest sending(SourceId source, std::uint32_t id, std::vector<std::string> targets = {"all"}) {
+    return {.asker = {source, node(source), id},
+            .listen = false,
+            .source = three_nodes().node_name(node(source)),
+            .targets = std::move(targets),
+            .name = "/x",
+            .type = kType};
+  }
+  static RadioRequest listening(SourceId source, std::uint32_t id, const std::string& type = kType) {
+    return {
+        .asker = {source, node(source), id}, .listen = true, .source = "", .targets = {}, .name = "/x", .type = type};
+  }
+  static Node node(SourceId source) { return source - kStation; }
+
+  std::vector<RadioReply> step(const std::vector<RadioRequest>& requests = {}) {
+    registry_.begin_step(requests);
+    return registry_.end_step();
+  }
+
+  const Scenario scenario_ = three_nodes();
+  RadioTable table_{scenario_};
+  std::set<std::size_t> opened_;
+  std::set<SourceId> hears_{kA, kB, kStation}, reaches_{kA, kB, kStation}, admitted_, lost_;
+  std::set<Node> declared_;
+  RadioRegistry registry_{scenario_,
+                          table_,
+                          {.open = [this](std::size_t route) { opened_.insert(route); },
+                           .hears = [this](std::size_t, SourceId source) { return hears_.contains(source); },
+                           .reaches = [this](const RadioTarget&, SourceId who) { return reaches_.contains(who); },
+                           .declared = [this](const RadioTarget& target) { return declared_.contains(target.node); },
+                           .admit = [this](std::size_t, SourceId source) { admitted_.insert(source); },
+                           .lost = [this](SourceId source) { return lost_.contains(source); }}};
+};
+
+TEST_F(Registry, OpensOnceTheWriterIsFound) {
+  hears_.clear();
+  registry_.begin_step({sending(kA, 5)});
+  EXPECT_EQ(opened_.size(), 1U);
+  EXPECT_TRUE(registry_.waiting());
+  hears_ = {kA};
+  EXPECT_FALSE(registry_.waiting());
+  const auto replies = registry_.end_step();
+  ASSERT_EQ(replies.size(), 1U);
+  EXPECT_EQ(replies[0], (RadioReply{.asker = {kA, 1, 5}, .open = true, .unheard = {"gcs", "b"}}));
+  EXPECT_EQ(admitted_, std::set<SourceId>{kA});
+  EXPECT_TRUE(step().empty()) << "nothing has changed";
+}
+
+TEST_F(Registry, SaysThatThereIsNoFittingWriter) {
+  hears_.clear();
+  const auto replies = step({sending(kA, 5)});
+  ASSERT_EQ(replies.size(), 1U);
+  EXPECT_FALSE(replies[0].open);
+  EXPECT_NE(replies[0].reason.find("BEST_EFFORT"), std::string::npos);
+  EXPECT_TRUE(admitted_.empty());
+  hears_ = {kA};
+  EXPECT_TRUE(step({sending(kA, 6)}).at(0).open) << "it may ask again";
+}
+
+TEST_F(Registry, ListenersMayComeFirstOrLater) {
+  EXPECT_EQ(step({listening(kB, 1)}).at(0), (RadioReply{.asker = {kB, 2, 1}})) << "nobody sends yet";
+  const auto replies = step({sending(kA, 1)});
+  ASSERT_EQ(replies.size(), 2U);
+  EXPECT_EQ(replies[0].unheard, (std::vector<std::string>{"gcs", "b"})) << "b has yet to open its reader";
+  EXPECT_EQ(replies[1], (RadioReply{.asker = {kB, 2, 1}, .open = true}));
+  reaches_.clear();
+  registry_.begin_step({listening(kStation, 1)});
+  EXPECT_TRUE(registry_.waiting()) << "b says by its answer that it has found us; we wait until we have found it";
+  reaches_ = {kA, kB, kStation};
+  const auto more = registry_.end_step();
+  ASSERT_EQ(more.size(), 2U);
+  EXPECT_EQ(more[0].unheard, std::vector<std::string>{"gcs"});
+  EXPECT_TRUE(more[1].open);
+  EXPECT_TRUE(step().at(0).unheard.empty()) << "both ends of all are matched";
+}
+
+TEST_F(Registry, DeclaredReadersHear) {
+  declared_ = {0, 2};
+  EXPECT_TRUE(step({sending(kA, 1)}).at(0).unheard.empty());
+}
+
+TEST_F(Registry, ListenerOfAnotherTypeIsRefused) {
+  EXPECT_TRUE(step({listening(kB, 1, "other/msg/Type")}).at(0).reason.empty()) << "it may still become right";
+  const auto replies = step({sending(kA, 1), listening(kStation, 1, "other/msg/Type")});
+  ASSERT_EQ(replies.size(), 3U);
+  for (const RadioReply& reply : replies) EXPECT_EQ(reply.open, reply.asker.source == kA) << reply.asker.source;
+}
+
+TEST_F(Registry, TheLostAreForgotten) {
+  step({sending(kA, 1), listening(kB, 1)});
+  EXPECT_EQ(step().at(0).unheard, std::vector<std::string>{"gcs"});
+  lost_ = {kB};
+  EXPECT_EQ(step().at(0).unheard, (std::vector<std::string>{"gcs", "b"})) << "nobody listens there any more";
+  hears_.clear();
+  lost_ = {kB, kA};
+  registry_.begin_step({});
+  EXPECT_FALSE(registry_.waiting());
+  EXPECT_TRUE(registry_.end_step().empty());
+}
+
+TEST_F(Registry, MoreTargetsMayBeAddedAndTheSourceIsTheAsker) {
+  EXPECT_EQ(step({sending(kA, 1, {"b"})}).at(0).unheard, std::vector<std::string>{"b"});
+  EXPECT_EQ(step({sending(kA, 2, {"gcs"})}).at(0).unheard, (std::vector<std::string>{"b", "gcs"}));
+  RadioRequest false_source = sending(kA, 3);
+  false_source.source = "b";
+  EXPECT_NE(step({false_source}).at(0).reason.find("'b' is not the asking node"), std::string::npos);
+  EXPECT_NE(step({sending(kA, 4, {"a"})}).at(0).reason.find("is the source itself"), std::string::npos);
+  EXPECT_EQ(table_.routes().back().targets.size(), 2U) << "a refused request changes nothing";
+}
+
+}  // namespace
+}  // namespace skein::router

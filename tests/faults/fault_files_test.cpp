@@ -1,0 +1,99 @@
+// The shipped fault tests and what the pages say about faults: every file loads, every table is complete.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+
+#include "cli/fault_test.hpp"
+#include "core/config_files.hpp"
+#include "core/scenario_reader.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = SKEIN_SOURCE_DIR;
+
+std::string page(const std::string& name) {
+  std::ifstream in(kRoot / "docs" / name);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The YAML blocks of a page.
+std::vector<std::string> examples(const std::string& text) {
+  static const std::string begin_mark = "```yaml\n", end_mark = "```\n";
+  std::vector<std::string> blocks;
+  for (std::size_t at = 0; (at = text.find(begin_mark, at)) != std::string::npos;) {
+    at += begin_mark.size();
+    const std::size_t end = text.find(end_mark, at);
+    blocks.push_back(text.substr(at, end - at));
+    at = end;
+  }
+  return blocks;
+}
+
+class FaultFiles : public testing::Test {
+ protected:
+  FaultFiles() {
+    ::setenv("SKEIN_CONFIG_DIR", (kRoot / "config").c_str(), 1);
+    file_ = fs::path(testing::TempDir()) / ("skein_fault_files_" + std::to_string(::getpid()) + ".yaml");
+  }
+  ~FaultFiles() override { fs::remove(file_); }
+
+  fs::path written(const std::string& text) {
+    std::ofstream(file_) << text;
+    return file_;
+  }
+  static std::vector<std::string> shipped() { return config_names(kRoot / "config" / "faults"); }
+
+  fs::path file_;
+};
+
+TEST_F(FaultFiles, EveryShippedOneIsAFaultTestNamedAfterItsFile) {
+  EXPECT_GE(shipped().size(), 12u);
+  for (const std::string& name : shipped()) {
+    const FaultTest test = load_fault_test(kRoot / "config" / "faults" / (name + ".yaml"));
+    EXPECT_EQ(test.plan.faults.name, name);
+    EXPECT_FALSE(test.plan.faults.description.empty()) << name;
+    EXPECT_LE(*test.plan.options.duration_s, 60.0) << name << ": the suite should stay short";
+  }
+}
+
+TEST_F(FaultFiles, TheShippedOnesShowEveryKindOfFault) {
+  std::set<std::string> kinds;
+  for (const std::string& name : shipped()) {
+    const FaultTest test = load_fault_test(kRoot / "config" / "faults" / (name + ".yaml"));
+    for (const Fault& fault : test.plan.faults.faults) kinds.insert(fault_kind(fault));
+  }
+  EXPECT_EQ(kinds.size(), std::variant_size_v<FaultAction>);
+}
+
+TEST_F(FaultFiles, ThePageOfFaultsIsRight) {
+  const std::string text = page("faults.md");
+  const Scenario towers = load_scenario("towers", {});
+  const auto blocks = examples(text);
+  ASSERT_FALSE(blocks.empty());
+  for (const std::string& block : blocks) EXPECT_NO_THROW(load_fault_plan(written(block), towers)) << block;
+  for (const std::string& name : shipped()) EXPECT_NE(text.find("`" + name + "`"), std::string::npos) << name;
+}
+
+TEST_F(FaultFiles, ExamplesOfThePageOfTestsLoad) {
+  const auto blocks = examples(page("how-to-test-faults.md"));
+  ASSERT_GE(blocks.size(), 2u);
+  for (const std::string& block : blocks) EXPECT_NO_THROW(load_fault_test(written(block))) << block;
+}
+
+TEST_F(FaultFiles, ThePageOfTestsListsEveryExpectation) {
+  const std::string text = page("how-to-test-faults.md");
+  for (const ExpectationKind& kind : expectation_kinds()) {
+    const std::string usual = kind.usual.empty() ? " " : " `" + kind.usual + "` ";
+    const std::regex row("\n\\|[^|]*`" + kind.key + "`[^|]*\\|" +
+                         std::regex_replace(usual, std::regex(R"([\[\]])"), R"(\$&)") + "\\|");
+    EXPECT_TRUE(std::regex_search(text, row)) << kind.key;
+  }
+}
+
+}  // namespace
+}  // namespace skein::cli

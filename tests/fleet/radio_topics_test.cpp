@@ -1,0 +1,47 @@
+// Radio topics that two programs of a user register in the middle of a fleet, of a type that nobody else has: what they
+// carry arrives whole and in order, the same in every run.
+#include <sstream>
+
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+const std::string kTalkers =
+    "hover,sentosa=exec:" + program("bench_chatter") + ",changi=exec:" + program("bench_chatter");
+
+class RadioTopics : public FleetTest {
+ protected:
+  /// Messages that a talker heard: its last line.
+  static long heard(const SkeinRun& run, const std::string& uav) {
+    std::istringstream log(text_of(run.dir() / ("uav_agent-" + uav + ".log")));
+    std::string line, last;
+    while (std::getline(log, line)) last = line;
+    const Json report = Json::parse(last, nullptr, false);
+    return report.is_object() ? report["heard"].get<long>() : -1;
+  }
+};
+
+TEST_F(RadioTopics, TwoTalkersHearEachOtherOnBothVendors) {
+  std::set<std::string> digests;
+  for (const std::string vendor : {"cyclonedds", "fastdds", "mixed"}) {
+    SkeinRun& done = run(vendor, {"towers", "--duration", "10", "--dds", vendor, "--planner", kTalkers});
+    const Json result = done.result();
+    EXPECT_EQ(result["status"], "completed");
+    EXPECT_TRUE(result["deterministic"]);
+    for (const Json& link : result["radio"]["per_link"]) {
+      const bool between = link["from"] == "sentosa" && link["to"] == "changi";
+      if (between) {
+        EXPECT_EQ(heard(done, "changi"), link["delivered"].get<long>() - 1)
+            << "what the last step sends comes too late";
+      }
+    }
+    EXPECT_GT(heard(done, "sentosa"), 150);
+    EXPECT_EQ(result["radio"]["malformed"], 0);
+    digests.insert(done.digest());
+  }
+  EXPECT_EQ(digests.size(), 1U);
+}
+
+}  // namespace
+}  // namespace skein::test
