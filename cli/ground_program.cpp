@@ -9,8 +9,10 @@
 namespace skein::cli {
 namespace {
 
-/// Names of strategies that have a program at the ground station; none when uav_agent does not tell.
+/// Names of strategies that have a program at the ground station; none when uav_agent does not tell, or is missing,
+/// which is said where it is needed.
 Json listed_ground_programs(const std::filesystem::path& bin_dir) {
+  if (!std::filesystem::exists(bin_dir / "uav_agent")) return Json::array();
   const ScratchDir scratch;
   const std::filesystem::path list = scratch.path() / "strategies.json";
   run_to_end({"uav_agent", {bin_dir / "uav_agent", "--list-planners"}, fleet_environment(false), list});
