@@ -76,6 +76,7 @@ Rights rights_of(const FleetPlan& plan, const std::string& program, int base_dom
   std::vector<std::string> names = server_topics(is_station ? all_units : std::vector{member_name(program)});
   names.push_back(topics::attached().name);
   names.push_back(topics::routed().name);
+  names.push_back(topics::radio_reply().name);
   if (is_station) return {world_domain(base_domain), gcs_domain(base_domain), std::move(names)};
   const int own = agent_domain(plan, program, base_domain);
   return {own, own, std::move(names)};

@@ -33,6 +33,8 @@ TEST_F(SecurityRules, AnAgentIsInItsOwnDomainAndSpeaksForItself) {
   EXPECT_FALSE(may_publish(rights, topics::odometry("beta").name));
   EXPECT_FALSE(may_publish(rights, topics::step().name));
   EXPECT_FALSE(may_publish(rights, topics::ledger().name));
+  EXPECT_FALSE(may_publish(rights, topics::radio_reply().name));
+  EXPECT_TRUE(may_publish(rights, topics::radio_request().name));
   EXPECT_TRUE(may_publish(rights, topics::trajectory_command("beta").name));
   EXPECT_TRUE(may_publish(rights, topics::done().name));
   EXPECT_TRUE(may_publish(rights, topics::capture_stored().name));
