@@ -6,6 +6,8 @@
 #include <cstring>
 #include <string>
 
+#include "idl/filled_message.hpp"
+
 namespace skein {
 namespace {
 
@@ -137,28 +139,11 @@ TEST(Cdr, NamesAreThoseOfRos) {
 // ---- every type ------------------------------------------------------------------------------------------------
 
 template <class T>
-class EveryType : public testing::Test {
- protected:
-  /// A message in which each sequence has an element: what the bytes 01 00 00 00 01 00 00 00 ... say, since all
-  /// lengths stand at multiples of four.
-  static T filled() {
-    Bytes ones(4096);
-    for (std::size_t i = 4; i < ones.size(); i += 4) ones[i] = 1;
-    ones[1] = 1;
-    T message;
-    EXPECT_TRUE(decode(ones, message));
-    return message;
-  }
-};
-
-/// All types of the table; the first stands for the comma that the table does not leave out.
-#define SKEIN_COMMA_TYPE(package, name) , msg::name
-using AllTypes = testing::Types<msg::Time SKEIN_ALL_TYPES(SKEIN_COMMA_TYPE)>;
-#undef SKEIN_COMMA_TYPE
-TYPED_TEST_SUITE(EveryType, AllTypes);
+class EveryType : public testing::Test {};
+TYPED_TEST_SUITE(EveryType, AllMessageTypes);
 
 TYPED_TEST(EveryType, SurvivesTheRoundTrip) {
-  const TypeParam message = this->filled();
+  const TypeParam message = filled_message<TypeParam>();
   const Bytes payload = encode(message);
   EXPECT_EQ(payload.size() % 4, 0u);
   TypeParam again;
@@ -168,7 +153,7 @@ TYPED_TEST(EveryType, SurvivesTheRoundTrip) {
 }
 
 TYPED_TEST(EveryType, SurvivesTruncationAnywhere) {
-  const TypeParam message = this->filled();
+  const TypeParam message = filled_message<TypeParam>();
   const Bytes payload = encode(message);
   for (std::size_t size = 0; size < payload.size(); ++size) {
     // A copy, so that a memory checker sees what is read behind its end.
@@ -183,7 +168,7 @@ TYPED_TEST(EveryType, SurvivesTruncationAnywhere) {
 }
 
 TYPED_TEST(EveryType, SurvivesAnyWordBeingHuge) {
-  const Bytes payload = encode(this->filled());
+  const Bytes payload = encode(filled_message<TypeParam>());
   for (const std::uint32_t huge : {0xffffffffu, 0x7fffffffu, 0x10000000u, static_cast<std::uint32_t>(payload.size())})
     for (std::size_t at = 4; at + 4 <= payload.size(); at += 4) {
       Bytes damaged = payload;

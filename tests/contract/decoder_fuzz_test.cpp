@@ -13,6 +13,7 @@
 #include "core/random_stream.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
+#include "idl/filled_message.hpp"
 
 namespace {
 
@@ -150,27 +151,12 @@ void truncate_everywhere(const T& message) {
 // ---- every type ------------------------------------------------------------------------------------------------
 
 template <class T>
-class EveryDecoder : public testing::Test {
- protected:
-  /// A message in which each sequence has an element (idl/cdr_test.cpp).
-  static T filled() {
-    Bytes ones(4096);
-    for (std::size_t i = 4; i < ones.size(); i += 4) ones[i] = 1;
-    ones[1] = 1;
-    T message;
-    EXPECT_TRUE(decode(ones, message));
-    return message;
-  }
-};
-
-#define SKEIN_COMMA_TYPE(package, name) , msg::name
-using AllTypes = testing::Types<msg::Time SKEIN_ALL_TYPES(SKEIN_COMMA_TYPE)>;
-#undef SKEIN_COMMA_TYPE
-TYPED_TEST_SUITE(EveryDecoder, AllTypes);
+class EveryDecoder : public testing::Test {};
+TYPED_TEST_SUITE(EveryDecoder, AllMessageTypes);
 
 TYPED_TEST(EveryDecoder, SurvivesDamage) {
-  truncate_everywhere(this->filled());
-  fuzz(this->filled(), rounds(5000), [](const TypeParam&) {});
+  truncate_everywhere(filled_message<TypeParam>());
+  fuzz(filled_message<TypeParam>(), rounds(5000), [](const TypeParam&) {});
 }
 
 // ---- what programs make of what they have read -------------------------------------------------------------------

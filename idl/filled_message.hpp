@@ -1,0 +1,31 @@
+// For tests over every message type: the list of all types, and a message of each in which nothing is empty.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "idl/cdr.hpp"
+#include "idl/type_names.hpp"
+
+namespace skein {
+
+/// All types of the table; the first stands for the comma that the table does not leave out.
+#define SKEIN_COMMA_TYPE(package, name) , msg::name
+using AllMessageTypes = testing::Types<msg::Time SKEIN_ALL_TYPES(SKEIN_COMMA_TYPE)>;
+#undef SKEIN_COMMA_TYPE
+
+/// A message in which each sequence has an element: what the bytes 01 00 00 00 01 00 00 00 ... say, since all
+/// lengths stand at multiples of four.
+template <class T>
+T filled_message() {
+  std::vector<std::uint8_t> ones(4096);
+  for (std::size_t i = 4; i < ones.size(); i += 4) ones[i] = 1;
+  ones[1] = 1;
+  T message;
+  EXPECT_TRUE(decode(ones, message));
+  return message;
+}
+
+}  // namespace skein
