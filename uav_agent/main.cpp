@@ -27,8 +27,7 @@ int list_strategies() {
   return skein::kExitDone;
 }
 
-template <class Node>
-int fly(Node& node, const std::filesystem::path& report_file, skein::StopSignal& stop) {
+int fly(skein::agent::MemberNode& node, const std::filesystem::path& report_file, skein::StopSignal& stop) {
   stop.on_stop([&node] { node.wake(); });
   const int code = node.run(stop);
   stop.on_stop({});

@@ -1,0 +1,38 @@
+#include "uav_agent/member_node.hpp"
+
+#include "core/thread_cpu.hpp"
+
+namespace skein::agent {
+
+int MemberNode::run(const StopSignal& stop) {
+  const bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_step_answered_; }};
+  bus::LoopEnd end = bus::LoopEnd::resumed;
+  while (end == bus::LoopEnd::resumed) {
+    join();
+    end = bus::run_client(*client_, inbox_, loop, stop);
+  }
+  return bus::exit_code(end, member_);
+}
+
+// Who was stopped by a fault comes back as somebody new on the network; what it had in mind stays.
+void MemberNode::join() {
+  client_.reset();
+  participant_.reset();
+  participant_ = bus_.join(domain_);
+  client_.emplace(*participant_, inbox_, member_);
+  declare(*client_);
+}
+
+void MemberNode::think() {
+  const double before = thread_cpu_s();
+  work(client_->step());
+  planner_cpu_s_ += thread_cpu_s() - before;
+  {
+    const bus::Burst burst(*participant_);
+    send(*client_);
+    client_->done();
+  }
+  last_step_answered_ = client_->step().final_step();
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,58 @@
+// What the two programs of a strategy have in common, the one on board and the one at the ground station: a place in the
+// lock-step, in one domain and no other. Everything happens on the thread that calls run().
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bus/bus.hpp"
+#include "bus/inbox.hpp"
+#include "bus/lockstep/client_loop.hpp"
+
+namespace skein::agent {
+
+class MemberNode {
+ public:
+  virtual ~MemberNode() = default;
+  MemberNode(const MemberNode&) = delete;
+  MemberNode& operator=(const MemberNode&) = delete;
+
+  /// Takes part until the last step, or until asked to stop. @returns the program's exit code.
+  int run(const StopSignal& stop);
+  /// Makes run() look at `stop`; from any thread.
+  void wake() { inbox_.wake(); }
+  /// CPU time spent in the strategy so far [s]; without transport.
+  double planner_cpu_s() const { return planner_cpu_s_; }
+  /// Samples received that were no message of their topic's type.
+  std::uint64_t malformed() const { return inbox_.malformed(); }
+
+ protected:
+  /// @param member  name in the lock-step: a UAV's, or "gcs".
+  MemberNode(bus::Bus& bus, int domain, std::string member)
+      : bus_(bus), domain_(domain), member_(std::move(member)) {}
+
+  /// Declares what it reads and writes, each time that it joins; handlers may refer to this node.
+  virtual void declare(bus::LockstepClient& client) = 0;
+  /// One step of the strategy: all that was announced has been read.
+  virtual void work(const bus::LockstepClient::Step& step) = 0;
+  /// Sends what the step brought forth, and forgets the events of this step.
+  virtual void send(bus::LockstepClient& client) = 0;
+
+  const std::string& member() const { return member_; }
+
+ private:
+  void join();
+  void think();
+
+  bus::Bus& bus_;
+  const int domain_;
+  const std::string member_;
+  bus::Inbox inbox_;
+  std::unique_ptr<bus::Participant> participant_;
+  std::optional<bus::LockstepClient> client_;
+  bool last_step_answered_ = false;
+  double planner_cpu_s_ = 0.0;
+};
+
+}  // namespace skein::agent
