@@ -10,17 +10,14 @@
 // Its weaknesses are the published ones: photographers idle while the explorers map; one quick pass on coarse cubes
 // misses thin members; without anybody in line of sight a UAV plans for itself alone and does others' work again.
 // Not published, and so our choice: every number below, where in a free cube it stops (kios_stops.hpp), the lanes
-// (kios_lanes.hpp), the messages (kios_talk.hpp), starts and safety (pilot.hpp), the way home at the end
-// (delivery.hpp), and that waypoints around the boxes do where nobody has a LiDAR.
+// (kios_lanes.hpp), the messages (kios_talk.hpp), starts, safety and the way home at the end (sortie.hpp), and that waypoints around the boxes do where nobody has a LiDAR.
 #include <algorithm>
 #include <cmath>
 #include <deque>
 
 #include "core/euler.hpp"
 #include "uav_agent/block_work.hpp"
-#include "uav_agent/delivery.hpp"
 #include "uav_agent/path_search.hpp"
-#include "uav_agent/pilot.hpp"
 #include "uav_agent/planner.hpp"
 #include "uav_agent/planners/kios_config.hpp"
 #include "uav_agent/planners/kios_lanes.hpp"
@@ -29,6 +26,7 @@
 #include "uav_agent/planning/aiming.hpp"
 #include "uav_agent/planning/lift_off.hpp"
 #include "uav_agent/planning/voxel_route.hpp"
+#include "uav_agent/sortie.hpp"
 #include "uav_agent/work_share.hpp"
 
 namespace skein::agent {
@@ -37,12 +35,10 @@ namespace {
 constexpr double kAutoVoxelRatio = 0.7, kSmallestVoxelM = 2.5, kLargestVoxelM = 5.0;  ///< of d*; recommended
 constexpr double kMinClearanceM = 1.8;     ///< of the UAV's centre to anything mapped: the map's cells are coarse
 constexpr double kLookAtMapS = 1.0;        ///< between two looks at what the LiDARs saw
-constexpr double kAirborneM = 2.0;         ///< a planner that begins at such a height was restarted in flight
 constexpr double kRestS = 1.0;             ///< when there is nothing to do
 constexpr double kAimPatienceS = 4.0;      ///< at a waypoint; some directions are out of the gimbal's reach
-constexpr double kLowestPlaceM = 6.0;      ///< for delivery
 constexpr double kBlindFloorRatio = 0.25;  ///< of the highest box: without any LiDAR nobody flies lower
-constexpr int kMaxClimbs = 20, kMaxLaneFailures = 4;
+constexpr int kMaxLaneFailures = 4;
 constexpr std::size_t kCandidates = 5;     ///< stops tried in one decision
 constexpr int kFruitlessToBold = 2, kFruitlessToRetreat = 9;
 constexpr double kBoldS = 40.0;            ///< for so long
@@ -64,8 +60,9 @@ class KiosPlanner final : public Planner {
       : config_(config),
         agent_(agent),
         reach_(camera_reach(agent.vehicle.camera, agent.desired_mm_per_pixel)),
-        pilot_({.speed_mps = config.transit_mps, .retreat_mps = config.transit_mps}, agent_),
-        delivery_({config.deliver_every_s, config.return_margin_s, config.transit_mps}, agent_, pilot_),
+        sortie_({config.climb_mps, config.transit_mps, config.transit_mps, config.clearance_m, config.deliver_every_s,
+                 config.return_margin_s},
+                agent_),
         talk_({.share_s = config.share_s, .claim_s = config.claim_s}, agent_),
         stops_(stops_config()),
         mapper_({.min_hits = config.min_hits}) {}
@@ -73,7 +70,7 @@ class KiosPlanner final : public Planner {
   PlannerOutput plan(const PlannerInput& in) override;
 
  private:
-  enum class Phase { ground, climb, map, wait, decide, fly, look, deliver };
+  enum class Phase { map, wait, decide, fly, look };
   using Id = VoxelGrid::Id;
 
   KiosStops::Config stops_config() const;
@@ -83,10 +80,8 @@ class KiosPlanner final : public Planner {
 
   void survey_site(const PlannerInput& in);
   void look_at_map(const PlannerInput& in);
-  void leave_ground(const PlannerInput& in, PlannerOutput& out);
-  void react(Situation situation, const PlannerInput& in, PlannerOutput& out);
+  void blocked(const PlannerInput& in, PlannerOutput& out);
   void carry_on(const PlannerInput& in, PlannerOutput& out);
-  void finish_climb(const PlannerInput& in, PlannerOutput& out);
   void next_lane(const PlannerInput& in, PlannerOutput& out);
   void lane_failed();
   bool map_is_ready(const PlannerInput& in) const;
@@ -101,17 +96,15 @@ class KiosPlanner final : public Planner {
   const Config config_;
   const AgentConfig agent_;
   const CameraReach reach_;
-  Pilot pilot_;
-  Delivery delivery_;
+  Sortie sortie_;
   KiosTalk talk_;
   KiosStops stops_;
   VoxelMapper mapper_;
 
-  Phase phase_ = Phase::ground;
+  Phase phase_ = Phase::map;
   Tick not_before_ = 0;  ///< of what comes next in this phase
   Tick waiting_since_ = 0;
-  Vector3d climb_to_ = Vector3d::Zero();
-  int failures_ = 0;                   ///< of this climb or lane
+  int failures_ = 0;                   ///< of this lane
   std::optional<VoxelGrid> grid_;      ///< once the boxes have come
   std::optional<VoxelGrid> hearsay_;   ///< of it, what this UAV did not see itself
   double top_m_ = 0.0, blind_height_m_ = 0.0;
@@ -133,21 +126,22 @@ PlannerOutput KiosPlanner::plan(const PlannerInput& in) {
     talk_.listen(in, *grid_);
     look_at_map(in);
   }
-  if (phase_ == Phase::ground) {
-    leave_ground(in, out);
-  } else {
-    delivery_.update(in, top_m_);
-    const bool working = phase_ != Phase::climb && phase_ != Phase::deliver;
-    if (grid_ && working && delivery_.due(in)) {
-      phase_ = Phase::deliver;
-      stop_.reset();
-      delivery_.begin(in, space_config(), std::max(blind_height_m_ + 2.0, kLowestPlaceM), out);
-    } else if (const Situation situation = pilot_.look_out(in, space_config(), phase_ != Phase::climb, out);
-               situation == Situation::flying_on) {
+  switch (sortie_.step(in, space_config(), out)) {
+    case Sortie::Turn::begin:
+      next_lane(in, out);
+      break;
+    case Sortie::Turn::work:
       carry_on(in, out);
-    } else {
-      react(situation, in, out);
-    }
+      break;
+    case Sortie::Turn::blocked:
+      blocked(in, out);
+      break;
+    case Sortie::Turn::leave:
+      stop_.reset();
+      break;
+    case Sortie::Turn::nothing:
+    case Sortie::Turn::detour:
+      break;
   }
   if (grid_) talk_.speak(in, *grid_, own_word(in), out);
   return out;
@@ -190,8 +184,9 @@ void KiosPlanner::survey_site(const PlannerInput& in) {
   const double voxel = config_.voxel_m > 0.0 ? config_.voxel_m : by_camera;
   // One cube of free space around everything, to look at the outermost faces from.
   grid_.emplace(operational_volume(in.boxes, starts, voxel, 0.0, voxel));
+  if (lidar_in_fleet) blind_height_m_ = blind_height_m(in.boxes, config_.blind_height_ratio);
+  sortie_.know_site(top_m_, blind_height_m_);
   if (lidar_in_fleet) {
-    blind_height_m_ = blind_height_m(in.boxes, config_.blind_height_ratio);
     const auto corners = mapping_lanes(agent_, *grid_, in.boxes, blind_height_m_ + 2.0, config_.lanes);
     lanes_.assign(corners.begin(), corners.end());
     return;
@@ -213,44 +208,21 @@ void KiosPlanner::look_at_map(const PlannerInput& in) {
   hearsay_.emplace(*grid_).forget_occupied([&](Id id) { return mapper_.hits(id) >= many; });
 }
 
-void KiosPlanner::leave_ground(const PlannerInput& in, PlannerOutput& out) {
-  const Vector3d p = in.state.p_WB;
-  if (p.z() > kAirborneM) {
-    pilot_.stop(out);
-    next_lane(in, out);
-    return;
-  }
-  if (!pilot_.may_lift_off(in)) return;
-  phase_ = Phase::climb;
-  climb_to_ = {p.x(), p.y(), lift_off_height_m(agent_, in.boxes, p, blind_height_m_, config_.clearance_m)};
-  pilot_.follow(Path{{{climb_to_, config_.climb_mps}}}, out);
-  out.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
-}
-
 /// Something came between this UAV and what it was about.
-void KiosPlanner::react(Situation situation, const PlannerInput& in, PlannerOutput& out) {
-  if (situation == Situation::waiting || situation == Situation::detour) return;
-  pilot_.stop(out);
-  if (phase_ == Phase::climb) {
-    not_before_ = in.tick + ticks(kRestS);
-  } else if (phase_ == Phase::deliver) {
-    situation == Situation::obstacle ? delivery_.try_again(in) : delivery_.try_elsewhere(in);
-  } else if (phase_ == Phase::map) {
+void KiosPlanner::blocked(const PlannerInput& in, PlannerOutput& out) {
+  if (phase_ == Phase::map) {
     lane_failed();
     not_before_ = in.tick + ticks(kRestS);
-  } else {
-    if (stop_) stops_.failed(stop_->id, in.tick);
-    rest(in.tick, out);
+    return;
   }
+  if (stop_) stops_.failed(stop_->id, in.tick);
+  rest(in.tick, out);
 }
 
 void KiosPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
   switch (phase_) {
-    case Phase::climb:
-      if (in.tracking.done) finish_climb(in, out);
-      return;
     case Phase::map:
-      if (pilot_.arrived(in) && !lanes_.empty()) lanes_.pop_front();
+      if (sortie_.pilot().arrived(in) && !lanes_.empty()) lanes_.pop_front();
       if (in.tracking.done && in.tick >= not_before_) next_lane(in, out);
       return;
     case Phase::wait:
@@ -272,11 +244,6 @@ void KiosPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
       look(in);
       if (!stop_) decide(in, out);
       return;
-    case Phase::deliver:
-      if (delivery_.step(in, space_config(), out)) rest(in.tick, out);
-      return;
-    case Phase::ground:
-      return;
   }
 }
 
@@ -284,21 +251,7 @@ void KiosPlanner::rest(Tick until, PlannerOutput& out) {
   phase_ = Phase::decide;
   not_before_ = until;
   stop_.reset();
-  pilot_.stop(out);
-}
-
-/// At the top: on to work. Stopped on the way: tries again for a while.
-void KiosPlanner::finish_climb(const PlannerInput& in, PlannerOutput& out) {
-  const bool short_of_top = (climb_to_ - in.tracking.setpoint.p_WB).norm() > 0.5;
-  if (short_of_top && failures_ < kMaxClimbs) {
-    if (in.tick < not_before_) return;
-    ++failures_;
-    pilot_.follow(Path{{{climb_to_, config_.climb_mps}}}, out);
-  } else if (grid_) {  // else it stays where it is until it knows the boxes
-    failures_ = 0;
-    pilot_.forget_trail();
-    next_lane(in, out);
-  }
+  sortie_.pilot().stop(out);
 }
 
 /// On to the next corner of a lane; one that cannot be reached is given up after some tries. After the last one, or
@@ -311,7 +264,7 @@ void KiosPlanner::next_lane(const PlannerInput& in, PlannerOutput& out) {
     if (corners) {
       Path path;
       for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.map_mps});
-      pilot_.follow(std::move(path), out);
+      sortie_.pilot().follow(std::move(path), out);
       boldness_ = 0;
       return;
     }
@@ -403,7 +356,7 @@ void KiosPlanner::nothing_to_reach(const PlannerInput& in, bool stops_left, Plan
     boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
     bold_until_ = in.tick + ticks(kBoldS);
   }
-  if (fruitless_ % kFruitlessToRetreat == 0) pilot_.retreat(out);
+  if (fruitless_ % kFruitlessToRetreat == 0) sortie_.pilot().retreat(out);
 }
 
 /// Through the graph; or, where cubes are too coarse to find a way, on the finer map.
@@ -415,7 +368,7 @@ bool KiosPlanner::fly_to(const KiosStop& stop, const FreeSpace& space, bool fine
   if (!corners) return false;
   Path path;
   for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.transit_mps});
-  pilot_.follow(std::move(path), out);
+  sortie_.pilot().follow(std::move(path), out);
   phase_ = Phase::fly;
   stop_ = stop;
   way_ = *corners;

@@ -5,7 +5,7 @@
 // In turn: lift off straight up, each UAV to a height of its own; explorers fly once around everything; then
 // each UAV flies its share of the strips (strips.hpp), closing in on the real surface as the map fills
 // (standoff.hpp), goes to where the station sees it from time to time and in good time before the end
-// (delivery.hpp), and begins its share again with the camera turned a little. In a box that is too large to say
+// (sortie.hpp), and begins its share again with the camera turned a little. In a box that is too large to say
 // where the structure is, the strips come from the map (block_work.hpp). Whatever it does, it stops before
 // anything that the map shows in its way, and gives way.
 #include <algorithm>
@@ -14,11 +14,10 @@
 
 #include "core/euler.hpp"
 #include "uav_agent/block_work.hpp"
-#include "uav_agent/delivery.hpp"
 #include "uav_agent/path_search.hpp"
-#include "uav_agent/pilot.hpp"
 #include "uav_agent/planner.hpp"
 #include "uav_agent/planning/lift_off.hpp"
+#include "uav_agent/sortie.hpp"
 #include "uav_agent/standoff.hpp"
 #include "uav_agent/survey.hpp"
 #include "uav_agent/work_share.hpp"
@@ -27,11 +26,8 @@ namespace skein::agent {
 namespace {
 
 constexpr double kRefitS = 2.0;  ///< between two looks at the map while on a strip
-constexpr double kRetryS = 1.0;  ///< after a climb was stopped
-constexpr int kMaxClimbs = 20;
 constexpr double kRestS = 3.0;           ///< after a round in which no strip could be flown
 constexpr double kLookAroundTurn = 0.8;  ///< meanwhile [rad]
-constexpr double kLowestPlaceM = 6.0;                ///< for delivery
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the side, by round [rad]
 constexpr int kMaxFailures = 3;
 constexpr int kMaxFailedTasks = 8;
@@ -88,22 +84,22 @@ class PatrolPlanner final : public Planner {
       : config_(config),
         agent_(agent),
         reach_(camera_reach(agent.vehicle.camera, agent.desired_mm_per_pixel)),
-        pilot_({.speed_mps = config.transit_mps, .retreat_mps = config.survey_mps}, agent_),
-        delivery_({config.deliver_every_s, config.return_margin_s, config.transit_mps}, agent_, pilot_) {}
+        sortie_({config.climb_mps, config.transit_mps, config.survey_mps, config.clearance_m, config.deliver_every_s,
+                 config.return_margin_s},
+                agent_) {}
 
   PlannerOutput plan(const PlannerInput& in) override;
 
  private:
-  enum class Phase { ground, climb, survey, transit, strip, deliver, idle };
+  enum class Phase { survey, transit, strip, idle };
 
   FreeSpace::Config space_config() const;
   FreeSpace free_space(const PlannerInput& in) const { return {space_config(), in.boxes, in.map}; }
   StandoffConfig standoff_config() const;
   void share_work(const PlannerInput& in);
-  void lift_off(const PlannerInput& in, PlannerOutput& out);
-  void react(Situation situation, const PlannerInput& in, PlannerOutput& out);
+  void left_strip();
+  void blocked(const PlannerInput& in, PlannerOutput& out);
   void carry_on(const PlannerInput& in, PlannerOutput& out);
-  void finish_climb(const PlannerInput& in, PlannerOutput& out);
   void begin_survey(const PlannerInput& in, PlannerOutput& out);
   void next_strip(const PlannerInput& in, PlannerOutput& out);
   void begin_round();
@@ -119,13 +115,12 @@ class PatrolPlanner final : public Planner {
   const Config config_;
   const AgentConfig agent_;
   const CameraReach reach_;
-  Pilot pilot_;
-  Delivery delivery_;
+  Sortie sortie_;
 
-  Phase phase_ = Phase::ground;
+  Phase phase_ = Phase::idle;
   Tick idle_until_ = 0;
-  Vector3d climb_to_ = Vector3d::Zero();
-  int failures_ = 0;  ///< of this climb or strip
+  int failures_ = 0;  ///< of this strip
+  bool surveyed_ = false;
 
   bool shared_ = false;  ///< the boxes have come
   double top_m_ = 0.0, blind_height_m_ = 0.0;
@@ -149,22 +144,22 @@ class PatrolPlanner final : public Planner {
 PlannerOutput PatrolPlanner::plan(const PlannerInput& in) {
   PlannerOutput out;
   if (!in.boxes.empty() && !shared_) share_work(in);
-  if (phase_ == Phase::ground) {
-    if (pilot_.may_lift_off(in)) lift_off(in, out);
-    return out;
-  }
-  delivery_.update(in, top_m_);
-  const bool working = phase_ != Phase::climb && phase_ != Phase::deliver;
-  if (shared_ && working && delivery_.due(in)) {
-    phase_ = Phase::deliver;
-    delivery_.begin(in, space_config(), std::max(blind_height_m_ + 2.0, kLowestPlaceM), out);
-    return out;
-  }
-  const Situation situation = pilot_.look_out(in, space_config(), phase_ != Phase::climb, out);
-  if (situation == Situation::flying_on) {
-    carry_on(in, out);
-  } else {
-    react(situation, in, out);
+  switch (sortie_.step(in, space_config(), out)) {
+    case Sortie::Turn::begin:
+      surveyed_ ? idle(in.tick, out) : begin_survey(in, out);
+      break;
+    case Sortie::Turn::work:
+      carry_on(in, out);
+      break;
+    case Sortie::Turn::detour:
+      if (phase_ == Phase::strip) left_strip();
+      break;
+    case Sortie::Turn::blocked:
+      blocked(in, out);
+      break;
+    case Sortie::Turn::nothing:
+    case Sortie::Turn::leave:
+      break;
   }
   return out;
 }
@@ -198,6 +193,7 @@ void PatrolPlanner::share_work(const PlannerInput& in) {
                                           [](const FleetMember& member) { return member.role == Role::explorer; });
   const bool by_map = lidar_in_fleet && config_.use_map;
   if (by_map) blind_height_m_ = blind_height_m(in.boxes, config_.blind_height_ratio);
+  sortie_.know_site(top_m_, blind_height_m_);
   WorkShareConfig config;
   config.strips.standoff_ratio = config_.standoff_ratio;
   config.strips.overlap = config_.overlap;
@@ -215,47 +211,29 @@ void PatrolPlanner::share_work(const PlannerInput& in) {
   share_ = own_share(agent_, tight, reach_, 0.5 * top_m_, config);
 }
 
-void PatrolPlanner::lift_off(const PlannerInput& in, PlannerOutput& out) {
-  const Vector3d p = in.state.p_WB;
-  phase_ = Phase::climb;
-  climb_to_ = {p.x(), p.y(), lift_off_height_m(agent_, in.boxes, p, blind_height_m_, config_.clearance_m)};
-  pilot_.follow(Path{{{climb_to_, config_.climb_mps}}}, out);
-  out.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
+/// The detour ends with the rest of this run; what comes behind it is fitted there.
+void PatrolPlanner::left_strip() {
+  strip_s_ = run_s(run_length_);
+  phase_ = Phase::transit;
 }
 
 /// Something came between this UAV and what it was about.
-void PatrolPlanner::react(Situation situation, const PlannerInput& in, PlannerOutput& out) {
-  if (situation == Situation::waiting) return;
-  const bool on_strip = phase_ == Phase::transit || phase_ == Phase::strip;
-  if (situation == Situation::detour) {
-    // The detour ends with the rest of this run; what comes behind it is fitted there.
-    if (phase_ == Phase::strip) {
-      strip_s_ = run_s(run_length_);
-      phase_ = Phase::transit;
-    }
-    return;
-  }
-  pilot_.stop(out);
-  if (phase_ == Phase::climb) {
-    idle_until_ = in.tick + ticks(kRetryS);
-  } else if (phase_ == Phase::deliver) {
-    situation == Situation::obstacle ? delivery_.try_again(in) : delivery_.try_elsewhere(in);
-  } else if (situation == Situation::obstacle && phase_ == Phase::strip) {
+void PatrolPlanner::blocked(const PlannerInput& in, PlannerOutput& out) {
+  const bool obstacle = sortie_.situation() == Situation::obstacle;
+  if (obstacle && phase_ == Phase::strip) {
     strip_s_ = run_s(in.tracking.leg);
     phase_ = Phase::transit;  // at its end already: fits the rest of the strip anew
-  } else {
-    const bool of_tour = on_strip && !task_;  // of a block: is offered again anyway
-    if (of_tour && situation != Situation::obstacle) to_do_.push_back(current_);
-    if (of_tour && situation == Situation::obstacle && ++failures_ <= kMaxFailures) to_do_.push_front(current_);
-    idle(in.tick, out);
+    return;
   }
+  const bool on_strip = phase_ == Phase::transit || phase_ == Phase::strip;
+  const bool of_tour = on_strip && !task_;  // of a block: is offered again anyway
+  if (of_tour && !obstacle) to_do_.push_back(current_);
+  if (of_tour && obstacle && ++failures_ <= kMaxFailures) to_do_.push_front(current_);
+  idle(in.tick, out);
 }
 
 void PatrolPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
   switch (phase_) {
-    case Phase::climb:
-      if (in.tracking.done) finish_climb(in, out);
-      return;
     case Phase::survey:
       if (in.tracking.done) idle(in.tick, out);
       return;
@@ -270,13 +248,8 @@ void PatrolPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
         refit(in, out);
       }
       return;
-    case Phase::deliver:
-      if (delivery_.step(in, space_config(), out)) idle(in.tick, out);
-      return;
     case Phase::idle:
       if (in.tick >= idle_until_ && in.tracking.done) next_strip(in, out);
-      return;
-    case Phase::ground:
       return;
   }
 }
@@ -284,24 +257,11 @@ void PatrolPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
 void PatrolPlanner::idle(Tick until, PlannerOutput& out) {
   phase_ = Phase::idle;
   idle_until_ = until;
-  pilot_.stop(out);
-}
-
-/// At the top: on to work. Stopped on the way: tries again for a while.
-void PatrolPlanner::finish_climb(const PlannerInput& in, PlannerOutput& out) {
-  const bool short_of_top = (climb_to_ - in.tracking.setpoint.p_WB).norm() > 0.5;
-  if (short_of_top && failures_ < kMaxClimbs) {
-    if (in.tick < idle_until_) return;
-    ++failures_;
-    pilot_.follow(Path{{{climb_to_, config_.climb_mps}}}, out);
-  } else if (shared_) {  // else it stays where it is until it knows the boxes
-    failures_ = 0;
-    pilot_.forget_trail();
-    begin_survey(in, out);
-  }
+  sortie_.pilot().stop(out);
 }
 
 void PatrolPlanner::begin_survey(const PlannerInput& in, PlannerOutput& out) {
+  surveyed_ = true;
   idle(in.tick, out);
   if (!config_.survey || !config_.use_map) return;
   const FreeSpace space = free_space(in);
@@ -316,7 +276,7 @@ void PatrolPlanner::begin_survey(const PlannerInput& in, PlannerOutput& out) {
   }
   if (path.waypoints.empty()) return;
   phase_ = Phase::survey;
-  pilot_.follow(std::move(path), out);
+  sortie_.pilot().follow(std::move(path), out);
 }
 
 /// Begins the share again, where the last round ended.
@@ -361,7 +321,7 @@ void PatrolPlanner::next_strip(const PlannerInput& in, PlannerOutput& out) {
     flown_any_ = true;
     boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
     idle(in.tick + ticks(kRestS), out);
-    pilot_.retreat(out);
+    sortie_.pilot().retreat(out);
     out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
     return;
   }
@@ -384,7 +344,7 @@ void PatrolPlanner::approach(const PlannerInput& in, PlannerOutput& out) {
   if (strip_s_ < strip_.length()) {
     const FreeSpace space = free_space(in);
     for (const Run& run : fit_strip(strip_, reversed_, strip_s_, {}, space, reach_, standoff_config())) {
-      if (!pilot_.fly_to(run.waypoints.front().p_WB, in, space_config(), out)) continue;
+      if (!sortie_.pilot().fly_to(run.waypoints.front().p_WB, in, space_config(), out)) continue;
       strip_s_ = run.first_s;
       phase_ = Phase::transit;
       face_strip(out);
@@ -423,7 +383,7 @@ void PatrolPlanner::fly_strip(const PlannerInput& in, PlannerOutput& out) {
   phase_ = Phase::strip;
   refit_at_ = in.tick + ticks(kRefitS);
   run_length_ = runs.front().waypoints.size();
-  pilot_.follow(Path{runs.front().waypoints}, out);
+  sortie_.pilot().follow(Path{runs.front().waypoints}, out);
   face_strip(out);
 }
 
@@ -437,7 +397,7 @@ void PatrolPlanner::refit(const PlannerInput& in, PlannerOutput& out) {
   if (runs.empty() || runs.front().first_s > s) return;  // the safety stop will see to it
   strip_s_ = s;
   run_length_ = runs.front().waypoints.size();
-  pilot_.follow(Path{runs.front().waypoints}, out);
+  sortie_.pilot().follow(Path{runs.front().waypoints}, out);
 }
 
 void PatrolPlanner::face_strip(PlannerOutput& out) const {
