@@ -16,6 +16,7 @@ constexpr int kDirections = 12;
 constexpr double kAboveAllM = 6.0;      ///< where no place is known
 constexpr double kRetryS = 1.0;         ///< after no way was found
 constexpr double kLinkPatienceS = 4.0;  ///< at a place without a link
+constexpr double kLinkAgeS = 1.0;       ///< between two sightings: a link that lasts
 constexpr int kFailuresToRetreat = 3;
 constexpr double kOutwards[] = {4.0, 8.0, 14.0, 22.0, 32.0};
 
@@ -60,18 +61,38 @@ Vector3d Delivery::home() const {
 void Delivery::update(const PlannerInput& in, double top_m) {
   top_m_ = top_m;
   if (!delivered_at_ || in.undelivered_captures == 0) delivered_at_ = in.tick;
+  note_link(in);
+}
+
+/// The place that is kept lies at least kLinkAgeS before the end of the link: not where it just broke.
+void Delivery::note_link(const PlannerInput& in) {
+  if (!in.station_linked) {
+    sighting_.reset();
+  } else if (!sighting_ || seconds(in.tick - sighting_->tick) >= kLinkAgeS) {
+    if (sighting_) linked_at_W_ = sighting_->p_WB;
+    sighting_ = {in.tick, in.tracking.setpoint.p_WB};
+  }
+}
+
+double Delivery::way_home_s(const PlannerInput& in) const {
+  const double way_s = time_home_s(in.state.p_WB, home(), config_.speed_mps);
+  if (!linked_at_W_) return way_s;
+  return std::min(way_s, time_home_s(in.state.p_WB, *linked_at_W_, config_.speed_mps));
 }
 
 bool Delivery::due(const PlannerInput& in) const {
   if (!in.mission_remaining_s || !delivered_at_) return false;
-  const double way_s = time_home_s(in.state.p_WB, home(), config_.speed_mps);
-  if (*in.mission_remaining_s < way_s + config_.margin_s) return true;
+  if (*in.mission_remaining_s < way_home_s(in) + config_.margin_s) return true;
   return in.undelivered_captures > 0 && seconds(in.tick - *delivered_at_) > config_.every_s;
 }
 
 void Delivery::begin(const PlannerInput& in, const FreeSpace::Config& space, double lowest_m, PlannerOutput& out) {
   places_ = delivery_places(agent_, FreeSpace(space, in.boxes, in.map), lowest_m);
   place_ = 0;
+  if (linked_at_W_) {
+    const double way_s = time_home_s(in.state.p_WB, home(), config_.speed_mps);
+    if (way_home_s(in) < way_s) places_.insert(places_.begin(), *linked_at_W_);
+  }
   failures_ = 0;
   unlinked_since_.reset();
   next_try_ = in.tick;
@@ -81,8 +102,8 @@ void Delivery::begin(const PlannerInput& in, const FreeSpace::Config& space, dou
 
 bool Delivery::step(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
   const bool all_delivered = in.station_linked && in.undelivered_captures == 0;
-  const double way_s = time_home_s(in.state.p_WB, home(), config_.speed_mps);
-  const bool last_time = in.mission_remaining_s && *in.mission_remaining_s < 2.0 * (way_s + config_.margin_s);
+  const bool last_time =
+      in.mission_remaining_s && *in.mission_remaining_s < 2.0 * (way_home_s(in) + config_.margin_s);
   if (all_delivered && !last_time) return true;
   if (all_delivered || (in.station_linked && in.tracking.done)) {
     unlinked_since_.reset();

@@ -1,5 +1,5 @@
 // Bringing captures home: where a UAV goes to be in direct line of sight of the station, when it must leave,
-// and the trip.
+// and the trip. The nearest such place is often the one where it last had the link: it comes first.
 // Frame W.   Units: SI.   Threads: one.
 #pragma once
 
@@ -32,7 +32,7 @@ class Delivery {
   Delivery(const Config& config, const AgentConfig& agent, Pilot& pilot)
       : config_(config), agent_(agent), pilot_(pilot) {}
 
-  /// Once per exchange in the air: takes note of what has been delivered. @param top_m  of all structure.
+  /// Once per exchange in the air: takes note of links and of what has been delivered. @param top_m  of all structure.
   void update(const PlannerInput& in, double top_m);
   /// Whether it is time to leave.
   bool due(const PlannerInput& in) const;
@@ -47,6 +47,8 @@ class Delivery {
 
  private:
   Vector3d home() const;
+  void note_link(const PlannerInput& in);
+  double way_home_s(const PlannerInput& in) const;
   void next_place() { place_ = (place_ + 1) % (places_.size() + 1); }
 
   const Config config_;
@@ -60,6 +62,12 @@ class Delivery {
   Tick next_try_ = 0;
   int failures_ = 0;
   std::optional<Tick> unlinked_since_;  ///< at the place
+  struct Sighting {
+    Tick tick = 0;
+    Vector3d p_WB = Vector3d::Zero();
+  };
+  std::optional<Sighting> sighting_;    ///< of the station, in the present link
+  std::optional<Vector3d> linked_at_W_;  ///< where it last had a link for a while, and somewhat before that ended
 };
 
 }  // namespace skein::agent

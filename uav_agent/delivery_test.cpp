@@ -62,6 +62,71 @@ TEST(TimeHome, GrowsWithDistanceAndLeavesTimeToSpare) {
   EXPECT_GT(time_home_s({0, 0, 0}, {90, 0, 0}, 4.5), time_home_s({0, 0, 0}, {45, 0, 0}, 4.5));
 }
 
+/// A UAV far from the station that has a link as long as it is told so.
+class FarOut : public testing::Test {
+ protected:
+  FarOut() { boxes_ = {tower()}; }
+
+  PlannerInput input(const Vector3d& p_WB, bool linked, double remaining_s) {
+    state_.p_WB = p_WB;
+    TrackingState tracking;
+    tracking.setpoint.p_WB = p_WB;
+    tick_ += ticks(0.05);
+    return {.tick = tick_,
+            .state = state_,
+            .gimbal = {},
+            .tracking = tracking,
+            .map = map_,
+            .boxes = boxes_,
+            .peers = peers_,
+            .mission_remaining_s = remaining_s,
+            .station_linked = linked,
+            .undelivered_captures = 3,
+            .detected = {},
+            .radio = {}};
+  }
+  /// Flies on for some seconds.
+  void fly(const Vector3d& from_W, const Vector3d& v_W, double time_s, bool linked) {
+    for (double t = 0.0; t < time_s; t += 0.05) delivery_.update(input(from_W + t * v_W, linked, 500.0), 40.0);
+  }
+
+  AgentConfig agent_ = fleet_of(1, 0);
+  Pilot pilot_{{}, agent_};
+  Delivery delivery_{{.margin_s = 10.0, .speed_mps = 4.0}, agent_, pilot_};
+  OccupancyMap map_;
+  std::vector<OrientedBox> boxes_;
+  Peers peers_{agent_};
+  RigidBodyState state_;
+  Tick tick_ = 0;
+};
+
+TEST_F(FarOut, LeavesInTimeForThePlaceWhereItLastHadALink) {
+  fly({100.0, 0.0, 20.0}, {0.0, 0.0, 0.0}, 1.0, false);
+  EXPECT_TRUE(delivery_.due(input({100.0, 0.0, 20.0}, false, 40.0))) << "home is 40 s away";
+  fly({90.0, 0.0, 20.0}, {0.0, 4.0, 0.0}, 5.0, true);
+  fly({90.0, 20.0, 20.0}, {4.0, 0.0, 0.0}, 2.0, false);
+  EXPECT_FALSE(delivery_.due(input({98.0, 20.0, 20.0}, false, 40.0))) << "that place is 3 s away";
+  EXPECT_TRUE(delivery_.due(input({98.0, 20.0, 20.0}, false, 15.0)));
+}
+
+TEST_F(FarOut, GoesToThatPlaceAndNotToWhereTheLinkBroke) {
+  fly({90.0, 0.0, 20.0}, {0.0, 4.0, 0.0}, 5.0, true);
+  fly({90.0, 20.0, 20.0}, {4.0, 0.0, 0.0}, 2.0, false);
+  PlannerOutput out;
+  delivery_.begin(input({98.0, 20.0, 20.0}, false, 15.0), {}, 12.0, out);
+  const Path* path = std::get_if<Path>(&out.motion);
+  ASSERT_NE(path, nullptr);
+  const Vector3d goal = path->waypoints.back().p_WB;
+  EXPECT_NEAR(goal.x(), 90.0, 1e-9);
+  EXPECT_LE(goal.y(), 16.0) << "a second before the link ended";
+  EXPECT_GE(goal.y(), 8.0);
+}
+
+TEST_F(FarOut, AGlimpseOfTheStationIsNoPlaceToDeliver) {
+  fly({90.0, 0.0, 20.0}, {0.0, 4.0, 0.0}, 0.5, true);
+  EXPECT_TRUE(delivery_.due(input({90.0, 2.0, 20.0}, false, 30.0)));
+}
+
 TEST(SurveyRing, ExplorersShareTheWholeRingAtADistance) {
   for (const double yaw : {0.0, 0.4, 1.2}) {
     const std::vector<OrientedBox> boxes = {tower(yaw)};

@@ -40,8 +40,9 @@ bool FreeSpace::allowed(const Vector3d& p_W) const {
 }
 
 bool FreeSpace::near_box(const Vector3d& p_W) const {
+  const double margin = std::max(config_.clearance_m, config_.jut_m);
   return std::any_of(boxes_.begin(), boxes_.end(),
-                     [&](const OrientedBox& box) { return box.contains(p_W, config_.clearance_m); });
+                     [&](const OrientedBox& box) { return box.contains(p_W, margin); });
 }
 
 bool FreeSpace::must_be_seen(const Vector3d& p_W) const { return p_W.z() < config_.blind_height_m || near_box(p_W); }

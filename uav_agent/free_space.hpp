@@ -1,5 +1,5 @@
-// Where this UAV may fly, as far as it knows: not into mapped structure, not into a box whose inside it has
-// not seen, not into the low unknown between the boxes (podiums and trees are in no box), not into another UAV.
+// Where this UAV may fly, as far as it knows: not into mapped structure, not into a box, or near to one, whose inside
+// it has not seen, not into the low unknown between the boxes (podiums and trees are in no box), not into another UAV.
 // Frame W.   Units: metres.   Pure; threads: any, as long as the map does not change.
 #pragma once
 
@@ -22,6 +22,7 @@ class FreeSpace {
     double clearance_m = 1.8;  ///< of the UAV's centre to mapped cells and to unknown boxes
     double floor_m = 2.0;
     double blind_height_m = 0.0;  ///< below, only space that was seen to be free may be entered
+    double jut_m = 3.0;           ///< so far outside a box there may be structure, too; never less than clearance_m
     int rays = 8;                 ///< that must have passed a place where only what was seen may be entered
     /// If not empty, boxes may only be entered this near to one of these places, however much was seen of
     /// their inside: a way from here to there does not lead through a building.

@@ -32,7 +32,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAutoVoxelRatio = 0.7, kSmallestVoxelM = 2.5, kLargestVoxelM = 5.0;  ///< of d*; recommended
+constexpr double kAutoVoxelRatio = 0.9, kSmallestVoxelM = 2.5, kLargestVoxelM = 6.0;  ///< of d*
 constexpr double kMinClearanceM = 1.8;     ///< of the UAV's centre to anything mapped: the map's cells are coarse
 constexpr double kLookAtMapS = 1.0;        ///< between two looks at what the LiDARs saw
 constexpr double kRestS = 1.0;             ///< when there is nothing to do
@@ -42,9 +42,11 @@ constexpr int kMaxLaneFailures = 4;
 constexpr std::size_t kCandidates = 5;     ///< stops tried in one decision
 constexpr int kFruitlessToBold = 2, kFruitlessToRetreat = 9;
 constexpr double kBoldS = 40.0;            ///< for so long
-/// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere.
-constexpr int kRays[] = {8, 6, 4};
-constexpr int kRoomyRays[] = {16, 12, 8};
+/// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere; in the end it
+/// takes the low space away from all boxes to be free.
+constexpr int kRays[] = {8, 6, 4, 4};
+constexpr int kRoomyRays[] = {16, 12, 8, 8};
+constexpr double kLookAroundTurn = 0.8;    ///< in vain: a LiDAR that has turned makes a new key frame [rad]
 /// An occupied cube with hits in so large a share of what a wall through it would give is known well enough to fly by
 /// the finer map; of others, this UAV may have seen only a part.
 constexpr double kKnownShare = 0.2, kMapCellM = 0.5;
@@ -151,6 +153,7 @@ KiosStops::Config KiosPlanner::stops_config() const {
   KiosStops::Config config;
   config.sharp_m = reach_.sharp_distance_m;
   config.standoff_ratio = config_.standoff_ratio;
+  config.nearest_ratio = config_.nearest_ratio;
   config.clearance_m = clearance_m();
   config.speed_mps = config_.transit_mps;
   config.stop_s = config_.stop_s;
@@ -162,8 +165,9 @@ KiosStops::Config KiosPlanner::stops_config() const {
 FreeSpace::Config KiosPlanner::space_config() const {
   FreeSpace::Config config;
   config.clearance_m = clearance_m();
+  config.jut_m = config_.jut_m;
   config.rays = roomy_ ? kRoomyRays[boldness_] : kRays[boldness_];
-  config.blind_height_m = blind_height_m_;
+  config.blind_height_m = boldness_ + 1 < std::size(kRays) ? blind_height_m_ : 0.0;
   if (blind_fleet_) config.floor_m = std::max(config.floor_m, kBlindFloorRatio * top_m_);
   config.hearsay = hearsay_ ? &*hearsay_ : nullptr;
   return config;
@@ -270,6 +274,7 @@ void KiosPlanner::next_lane(const PlannerInput& in, PlannerOutput& out) {
     }
     not_before_ = in.tick + ticks(kRestS);
     boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
+    out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
     lane_failed();
     return;
   }
@@ -352,6 +357,7 @@ void KiosPlanner::nothing_to_reach(const PlannerInput& in, bool stops_left, Plan
   rest(in.tick + ticks(kRestS), out);
   if (!stops_left) return;
   ++fruitless_;
+  out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
   if (fruitless_ % kFruitlessToBold == 0) {
     boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
     bold_until_ = in.tick + ticks(kBoldS);

@@ -8,12 +8,14 @@
 namespace skein::agent {
 
 struct KiosConfig {
-  double voxel_m = 0.0;      ///< edge of a cube; 0: 0.7 d*, but 2.5 to 5 m
-  int lanes = 2;             ///< of the mapping stage, in all; at least one for each explorer
+  double voxel_m = 0.0;      ///< edge of a cube; 0: 0.9 d*, but 2.5 to 6 m
+  int lanes = 1;             ///< of the mapping stage, in all; at least one for each explorer
   int min_hits = 1;          ///< mapped cells (0.5 m) that make a cube occupied
   double clearance_m = 1.2;  ///< from the UAV's body to anything mapped
   double map_mps = 4.5, transit_mps = 4.0, climb_mps = 3.0;
   double standoff_ratio = 0.92;  ///< most distance to the surface, in units of d*
+  double nearest_ratio = 0.6;    ///< least distance to it where there is room, in units of d*
+  double jut_m = 3.0;            ///< so far outside a box only space that was seen free is entered, too
   double settle_mps = 0.3;       ///< slower than this, ...
   double aim_deg = 5.0;          ///< ... with the camera this near to its direction, ...
   double dwell_s = 0.25;         ///< ... it stays so long: two pictures
@@ -37,6 +39,8 @@ struct KiosConfig {
     r.field("transit_mps", transit_mps, within(0.5, 20.0));
     r.field("climb_mps", climb_mps, within(0.2, 10.0));
     r.field("standoff_ratio", standoff_ratio, within(0.2, 1.5));
+    r.field("nearest_ratio", nearest_ratio, within(0.0, 1.5));
+    r.field("jut_m", jut_m, within(0.0, 50.0));
     r.field("settle_mps", settle_mps, within(0.01, 5.0));
     r.field("aim_deg", aim_deg, within(0.1, 90.0));
     r.field("dwell_s", dwell_s, within(0.0, 10.0));

@@ -39,11 +39,13 @@ KiosStops::Open KiosStops::open_stops(const VoxelGrid& grid, const VoxelMapper& 
 std::optional<KiosStop> KiosStops::stop_at(std::uint32_t id, const Vector3d& middle_W, const Vector3d& out_W,
                                            const Vector3d& surface_W, const FreeSpace& space) const {
   KiosStop stop{id, middle_W, surface_W, out_W};
-  // The middle of the free cube, unless that is too near to the surface to fly or too far to see it sharply.
+  // The middle of the free cube, unless that is too near to the surface to see much or too far to see it sharply;
+  // nearer only where there is no room.
   const double depth = (middle_W - surface_W).dot(out_W);
-  const double nearest = config_.clearance_m + kSpareM;
+  const double touch = config_.clearance_m + kSpareM;
+  const double nearest = std::max(touch, config_.nearest_ratio * config_.sharp_m);
   const double farthest = std::max(nearest, config_.standoff_ratio * config_.sharp_m);
-  for (const double distance : {std::clamp(depth, nearest, farthest), farthest}) {
+  for (const double distance : {std::clamp(depth, nearest, farthest), farthest, touch}) {
     stop.p_WB = middle_W + (distance - depth) * out_W;
     stop.p_WB.z() = std::max(stop.p_WB.z(), space.config().floor_m + kSpareM);
     if (space.free(stop.p_WB)) return stop;

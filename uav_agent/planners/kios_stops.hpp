@@ -33,6 +33,7 @@ class KiosStops {
  public:
   struct Config {
     double sharp_m = 7.36;         ///< d*: no farther from the surface
+    double nearest_ratio = 0.6;    ///< no nearer to it where there is room, of d*
     double standoff_ratio = 0.92;  ///< at most, of d*
     double clearance_m = 1.8;      ///< no nearer to it, and a little more
     double speed_mps = 4.0;        ///< between stops

@@ -168,6 +168,7 @@ FreeSpace::Config PatrolPlanner::space_config() const {
   FreeSpace::Config config;
   config.clearance_m = std::max(kMinClearanceM, agent_.me().body_radius_m + config_.clearance_m);
   config.use_map = config_.use_map;
+  config.jut_m = 0.0;  // it works at a fixed distance from the boxes' faces, seen or not
   config.rays = kRays[boldness_];
   if (blocks_ && blocks_->any()) {
     config.rays = kRoomyRays[boldness_];

@@ -42,8 +42,11 @@ void Frontiers::update(const VoxelGrid& grid, const std::vector<Id>& changed) {
 }
 
 std::vector<Frontiers::Cluster> Frontiers::clusters(const VoxelGrid& grid, double max_m, std::size_t min_cubes) const {
-  std::vector<Cluster> result;
-  std::set<Id> left = cubes_;
+  return clusters_of(grid, cubes_, max_m, min_cubes);
+}
+
+std::vector<CubeCluster> clusters_of(const VoxelGrid& grid, std::set<Id> left, double max_m, std::size_t min_cubes) {
+  std::vector<CubeCluster> result;
   while (!left.empty()) {
     std::vector<Id> together = {*left.begin()};
     left.erase(left.begin());

@@ -12,6 +12,11 @@
 
 namespace skein::agent {
 
+struct CubeCluster {
+  std::vector<VoxelGrid::Id> cubes;  ///< ascending
+  Vector3d middle_W = Vector3d::Zero();
+};
+
 class Frontiers {
  public:
   using Id = VoxelGrid::Id;
@@ -24,10 +29,7 @@ class Frontiers {
   /// What a frontier is; for whoever wants to know it of one cube.
   static bool is_frontier(const VoxelGrid& grid, Id id);
 
-  struct Cluster {
-    std::vector<Id> cubes;  ///< ascending
-    Vector3d middle_W = Vector3d::Zero();
-  };
+  using Cluster = CubeCluster;
   /// Frontier cubes that touch (26 neighbours), in pieces of at most `max_m` along their direction of greatest spread.
   /// @param min_cubes  smaller clusters are left out.
   std::vector<Cluster> clusters(const VoxelGrid& grid, double max_m, std::size_t min_cubes) const;
@@ -35,6 +37,10 @@ class Frontiers {
  private:
   std::set<Id> cubes_;
 };
+
+/// Cubes of any kind that touch (26 neighbours), in pieces as above.
+std::vector<CubeCluster> clusters_of(const VoxelGrid& grid, std::set<VoxelGrid::Id> cubes, double max_m,
+                                     std::size_t min_cubes);
 
 /// Cuts a set of cubes in halves across its direction of greatest spread until no piece is longer than `max_m`.
 void split_by_spread(const VoxelGrid& grid, std::vector<VoxelGrid::Id> cubes, double max_m,

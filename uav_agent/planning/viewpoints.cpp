@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/euler.hpp"
@@ -73,6 +74,34 @@ std::vector<std::size_t> cover(const std::vector<std::vector<std::size_t>>& seen
     chosen.push_back(best);
     for (const std::size_t target : seen[best]) covered[target] = true;
   }
+}
+
+std::vector<std::size_t> shortest_through(const Vector3d& from_W, const std::vector<std::vector<Vector3d>>& options) {
+  std::vector<Vector3d> before = {from_W};
+  std::vector<double> length = {0.0};
+  std::vector<std::vector<std::size_t>> came_from;
+  for (const std::vector<Vector3d>& layer : options) {
+    std::vector<double> best(layer.size(), std::numeric_limits<double>::infinity());
+    std::vector<std::size_t> parent(layer.size(), 0);
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+      for (std::size_t j = 0; j < before.size(); ++j) {
+        const double way = length[j] + (layer[i] - before[j]).norm();
+        if (way >= best[i]) continue;
+        best[i] = way;
+        parent[i] = j;
+      }
+    }
+    before = layer;
+    length = std::move(best);
+    came_from.push_back(std::move(parent));
+  }
+  std::vector<std::size_t> choice(options.size());
+  auto at = static_cast<std::size_t>(std::ranges::min_element(length) - length.begin());
+  for (std::size_t stop = options.size(); stop-- > 0;) {
+    choice[stop] = at;
+    at = came_from[stop][at];
+  }
+  return choice;
 }
 
 }  // namespace skein::agent

@@ -41,4 +41,9 @@ std::vector<std::vector<std::size_t>> visibility_clusters(const VoxelGrid& grid,
 std::vector<std::size_t> cover(const std::vector<std::vector<std::size_t>>& seen, std::size_t targets,
                                std::size_t min_gain);
 
+/// One place of several at each stop, so that the way from `from_W` through all stops is shortest. (FUEL's refinement
+/// of the next viewpoints: Dijkstra in a graph of layers, which comes to going through them one by one.)
+/// @param options  places by stop; none may be empty.   @returns an index for each stop; ties go to the lower one.
+std::vector<std::size_t> shortest_through(const Vector3d& from_W, const std::vector<std::vector<Vector3d>>& options);
+
 }  // namespace skein::agent

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -106,6 +107,36 @@ TEST(Viewpoints, CoverTakesTheBestAndLeavesNothingThatIsWorthIt) {
   EXPECT_EQ(cover(seen, 5, 1), (std::vector<std::size_t>{1, 0, 2}));
   EXPECT_EQ(cover(seen, 5, 2), std::vector<std::size_t>{1});
   EXPECT_TRUE(cover({}, 5, 1).empty());
+}
+
+/// Every combination, one after the other.
+double shortest_by_force(const Vector3d& from_W, const std::vector<std::vector<Vector3d>>& options, std::size_t stop) {
+  if (stop == options.size()) return 0.0;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Vector3d& p : options[stop]) {
+    shortest = std::min(shortest, (p - from_W).norm() + shortest_by_force(p, options, stop + 1));
+  }
+  return shortest;
+}
+
+TEST(Viewpoints, TheWayThroughOneOfSeveralPlacesEachIsShortest) {
+  Draw draw;
+  const Vector3d from(0.0, 0.0, 0.0);
+  for (std::size_t stops = 0; stops < 6; ++stops) {
+    std::vector<std::vector<Vector3d>> options(stops);
+    for (auto& places : options) {
+      for (int i = 0; i < 4; ++i) places.emplace_back(draw(0, 20), draw(0, 20), draw(0, 10));
+    }
+    const auto choice = shortest_through(from, options);
+    ASSERT_EQ(choice.size(), stops);
+    double length = 0.0;
+    Vector3d at = from;
+    for (std::size_t i = 0; i < stops; ++i) {
+      length += (options[i].at(choice[i]) - at).norm();
+      at = options[i][choice[i]];
+    }
+    EXPECT_NEAR(length, shortest_by_force(from, options, 0), 1e-9);
+  }
 }
 
 }  // namespace
