@@ -8,8 +8,10 @@
 #include <cstring>
 #include <set>
 
+#include "cli/agent_file.hpp"
 #include "cli/environment.hpp"
 #include "cli/ground_program.hpp"
+#include "core/config_files.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/topics.hpp"
 
@@ -45,8 +47,8 @@ Arguments scenario_arguments(const FleetPlan& plan) {
   return arguments;
 }
 
-Arguments command_line(const FleetPlan& plan, const std::string& binary) {
-  Arguments arguments = {plan.bin_dir / binary};
+Arguments command_line(const FleetPlan& plan, const std::filesystem::path& binary) {
+  Arguments arguments = {binary};
   append(arguments, scenario_arguments(plan));
   return arguments;
 }
@@ -54,6 +56,12 @@ Arguments command_line(const FleetPlan& plan, const std::string& binary) {
 const std::string& planner_of(const FleetPlan& plan, const std::string& program) {
   if (program == kGroundProgram) return *plan.ground;
   return plan.planners[plan.scenario.uav_index(member_name(program))].spec;
+}
+
+/// An agent from elsewhere does not find the configuration beside it.
+std::map<std::string, std::string> config_variable(const FleetPlan& plan) {
+  if (!plan.agent) return {};
+  return {{"SKEIN_CONFIG_DIR", std::filesystem::absolute(default_config_dir())}};
 }
 
 /// What a user's command is told. It joins SKEIN_DOMAIN and no other.
@@ -83,7 +91,7 @@ Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
 /// @param program "sim_server", "comm_router", "station" or an agent's.
 Arguments run_arguments(const FleetPlan& plan, const std::string& program, int base_domain,
                         const std::filesystem::path& out, const SecureFolder& secure) {
-  Arguments arguments = command_line(plan, is_agent(program) ? "uav_agent" : program);
+  Arguments arguments = command_line(plan, is_agent(program) ? agent_file(plan) : plan.bin_dir / program);
   append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain), "--out",
                      secure.out.empty() ? out : secure.out});
   if (!secure.keys.empty()) append(arguments, {"--security", secure.keys});
@@ -128,10 +136,13 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
   const Planners planners = parse_planners(options.planner, names);
   plan.planners = planners.uavs;
-  plan.ground = ground_program(planners, bin_dir);
+  plan.agent = own_agent(options.agent);
+  plan.ground = ground_program(planners, agent_file(plan));
   if (options.debug_uav) plan.scenario.uav_index(*options.debug_uav);  // throws for an unknown name
   return plan;
 }
+
+std::filesystem::path agent_file(const FleetPlan& plan) { return plan.agent.value_or(plan.bin_dir / "uav_agent"); }
 
 std::filesystem::path program_dir() {
   const char* chosen = std::getenv("SKEIN_BIN_DIR");
@@ -171,7 +182,7 @@ bool is_exec(const FleetPlan& plan, const std::string& program) {
 
 std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
                                         const SecureFolders& secure) {
-  const std::vector<std::string> environment = fleet_environment(plan.options.native);
+  const std::vector<std::string> environment = fleet_environment(plan.options.native, config_variable(plan));
   std::vector<ProgramSpec> programs;
   const auto add = [&](const std::string& name) {
     const SecureFolder own = secure_folder(secure, name);
@@ -208,6 +219,7 @@ std::string debug_command(const FleetPlan& plan, int base_domain, const std::fil
     }
     return command + "/bin/sh -c " + quoted_for_shell(*exec_command(planner_of(plan, program)));
   }
+  for (const auto& [name, value] : config_variable(plan)) command += name + "=" + quoted_for_shell(value) + " ";
   command += "gdb --args";
   for (const std::string& argument : run_arguments(plan, program, base_domain, out, own)) {
     command += " " + quoted_for_shell(argument);
@@ -217,23 +229,23 @@ std::string debug_command(const FleetPlan& plan, int base_domain, const std::fil
 
 std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch,
                                         const std::optional<UserId>& agent_user) {
-  const std::vector<std::string> environment = fleet_environment(plan.options.native);
+  const std::vector<std::string> environment = fleet_environment(plan.options.native, config_variable(plan));
   std::vector<ProgramSpec> programs;
   const auto add = [&](const std::string& name, Arguments arguments) {
     arguments.push_back("--check");
     programs.push_back({name, std::move(arguments), environment, scratch / (name + ".log")});
     if (is_agent(name)) programs.back().user = agent_user;
   };
-  add("sim_server", command_line(plan, "sim_server"));
+  add("sim_server", command_line(plan, plan.bin_dir / "sim_server"));
   std::set<std::string> checked;
   for (const UavPlanner& planner : plan.planners) {
     if (exec_command(planner.spec) || !checked.insert(planner.spec).second) continue;
-    Arguments arguments = command_line(plan, "uav_agent");
+    Arguments arguments = command_line(plan, agent_file(plan));
     append(arguments, {"--uav", planner.uav, "--planner", planner.spec});
     add(agent_program(planner.uav), std::move(arguments));
   }
   if (plan.ground && !exec_command(*plan.ground)) {
-    Arguments arguments = command_line(plan, "uav_agent");
+    Arguments arguments = command_line(plan, agent_file(plan));
     append(arguments, role_arguments(plan, kGroundProgram));
     add(kGroundProgram, std::move(arguments));
   }

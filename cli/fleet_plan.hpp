@@ -23,7 +23,11 @@ struct FleetPlan {
   std::filesystem::path bin_dir;     ///< where the programs are
   FaultPlan faults;                  ///< of --faults
   std::optional<std::string> ground = {};  ///< what runs at the ground station: a strategy or "exec:CMD"
+  std::optional<std::filesystem::path> agent = {};  ///< flies in the place of uav_agent
 };
+
+/// The program that the UAVs' on-board software is.
+std::filesystem::path agent_file(const FleetPlan& plan);
 
 /// What a program of a secured fleet is given (cli/security.hpp).
 struct SecureFolder {

@@ -10,9 +10,9 @@
 namespace skein::cli {
 
 /// What the user named for `gcs`; where they named nothing, the strategy that flies the UAVs which they did not name
-/// either, if it has a program at the ground station. uav_agent is asked which have.
-/// @param bin_dir  where uav_agent is.
+/// either, if it has a program at the ground station. The agent is asked which have.
+/// @param agent  the program that flies them.
 /// @returns a strategy, with its parameters if any, or "exec:CMD"; nullopt: nothing runs there ("gcs=none" too).
-std::optional<std::string> ground_program(const Planners& planners, const std::filesystem::path& bin_dir);
+std::optional<std::string> ground_program(const Planners& planners, const std::filesystem::path& agent);
 
 }  // namespace skein::cli

@@ -12,6 +12,7 @@
 #include "cli/run_command.hpp"
 #include "cli/run_diff.hpp"
 #include "cli/scene_command.hpp"
+#include "cli/study_command.hpp"
 #include "cli/test_command.hpp"
 #include "core/types.hpp"
 
@@ -39,6 +40,7 @@ struct Execute {
   int operator()(const BenchOptions& options) const { return run_bench(options, console); }
   int operator()(const OracleOptions& options) const { return consult_oracle(options, console); }
   int operator()(const DiffOptions& options) const { return diff_runs(options, console); }
+  int operator()(const StudyOptions& options) const { return run_study(options, console); }
   int operator()(const HelpText& help) const {
     console.out << help.text;
     return kExitDone;

@@ -42,6 +42,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
   command->add_option("--planner", run.planner, "NAME, or UAV=NAME,... for some UAVs; exec:CMD for a program of yours")
       ->capture_default_str();
+  command->add_option("--agent", run.agent, "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   command->add_option("--seed", run.seed, "What chance draws; 0 draws nothing")->check(seed)->capture_default_str();
   command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
@@ -144,6 +145,58 @@ CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
   return command;
 }
 
+/// What `skein contest` and `skein compare` have in common.
+void add_study_options(CLI::App& command, StudyOptions& study) {
+  const CLI::Validator seconds(check_seconds, "");
+  command
+      .add_option("--planners", study.planner_lists, "A,B,... with parameters if any: kios,xxh:faithful=true,star")
+      ->allow_extra_args(false);
+  command.add_option("--planner", study.planners, "One more, as for `skein run`: fleets of several, any command")
+      ->allow_extra_args(false);
+  command.add_option("--scenarios", study.scenarios, "Names under config/scenarios/ or YAML files, with commas between")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--assets", study.assets, "Folder with models/ for scenarios that read files");
+  command.add_option("--duration", study.duration_s, "Mission time [s], instead of the scenarios'")->check(seconds);
+  command.add_option("--dds", study.dds, "DDS vendor: cyclonedds, fastdds or mixed")
+      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
+      ->capture_default_str();
+  command.add_option("--agent", study.agent, "Agent program with planners of your own, as for `skein run`");
+  command.add_option("--out", study.out, "Folder of flights and report (default runs/" + command.get_name() + ")");
+  command.add_option("--jobs", study.jobs, "Flights at once; results do not depend on it")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command.add_flag("--force", study.force, "Go on in a folder of other settings; flights that fit are kept");
+  command.footer("The same command again goes on where it was stopped. docs/how-to-compare-planners.md has more.");
+}
+
+CLI::App* add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
+  CLI::App* command = app.add_subcommand("contest", "The contest's protocol: tests of all scenes, totals and a ranking");
+  add_study_options(*command, contest);
+  command->add_option("--tests", tests, "Number of tests; test N is seed N of every scene")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  const auto set_rank = [&contest](const std::string& by) {
+    contest.rank = by == "max" ? Rank::maximum : by == "median" ? Rank::median : Rank::worst;
+  };
+  command
+      ->add_option_function<std::string>("--rank", set_rank,
+                                         "By the greatest total of a test (max), the median or the worst")
+      ->check(CLI::IsMember({"max", "median", "worst"}))
+      ->default_str("max");
+  return command;
+}
+
+CLI::App* add_compare(CLI::App& app, StudyOptions& study) {
+  CLI::App* command = app.add_subcommand("compare", "Planners side by side over any scenes and seeds");
+  add_study_options(*command, study);
+  command->add_option("--seeds", study.seeds, "How many (seeds 0 to K-1), or which: 3,5,8 or 1-5")
+      ->capture_default_str();
+  command->add_option("--scene-seed", study.scene_seed, "Which scene of a procedural family")
+      ->check(CLI::Validator(check_seed, ""));
+  return command;
+}
+
 }  // namespace
 
 Command parse_command_line(const std::vector<std::string>& arguments) {
@@ -158,6 +211,9 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   BenchOptions bench;
   OracleOptions oracle;
   DiffOptions diff;
+  StudyOptions contest, compare;
+  contest.contest = true;
+  int tests = 5;
 
   const CLI::App* run_command = add_run(app, run);
   const CLI::App* test_command = add_test(app, test);
@@ -165,6 +221,8 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   const CLI::App* scene_command = add_scene(app, scene);
   const CLI::App* bench_command = add_bench(app, bench);
   const CLI::App* oracle_command = add_oracle(app, oracle);
+  const CLI::App* contest_command = add_contest(app, contest, tests);
+  const CLI::App* compare_command = add_compare(app, compare);
   CLI::App* diff_command = app.add_subcommand("diff", "First step, entity and field in which two runs differ");
   diff_command->add_option("RUN_A", diff.run_a, "A results folder")->required();
   diff_command->add_option("RUN_B", diff.run_b, "Another one")->required();
@@ -185,6 +243,9 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (bench_command->parsed()) return bench;
   if (oracle_command->parsed()) return oracle;
   if (diff_command->parsed()) return diff;
+  contest.seeds = "1-" + std::to_string(tests);
+  if (contest_command->parsed()) return contest;
+  if (compare_command->parsed()) return compare;
   if (check.files.empty() && check.golden.empty()) throw InputError("check: give files, or --golden FILE.csv");
   return check;
 }

@@ -22,6 +22,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> faults;  ///< fault file
   std::string dds = "cyclonedds";  ///< a vendor or "mixed"
   std::string clock = "lockstep";  ///< "lockstep", "realtime" or "realtime:FACTOR"
+  std::optional<std::filesystem::path> agent;  ///< program that flies in the place of uav_agent
   std::optional<std::string> debug_uav;
   bool native = false;
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
@@ -81,13 +82,34 @@ struct DiffOptions {
   std::filesystem::path run_a, run_b;
 };
 
+/// Which of a planner's totals over the tests decides its rank.
+enum class Rank { maximum, median, worst };
+
+/// `skein contest` and `skein compare`: every planner flies every scenario with every seed.
+struct StudyOptions {
+  bool contest = false;                    ///< by the contest's protocol: a test is one seed of all scenarios
+  std::vector<std::string> planner_lists;  ///< of --planners: lists
+  std::vector<std::string> planners;       ///< of --planner: each as `skein run` takes it
+  std::vector<std::string> scenarios;      ///< empty: the usual ones
+  std::string seeds = "5";                 ///< as --seeds takes them
+  Rank rank = Rank::maximum;
+  std::optional<std::uint64_t> scene_seed;
+  std::optional<std::filesystem::path> assets;
+  std::optional<double> duration_s;  ///< mission time, instead of the scenarios'
+  std::string dds = "cyclonedds";    ///< a vendor or "mixed"
+  std::optional<std::filesystem::path> agent;  ///< as in RunOptions
+  std::optional<std::filesystem::path> out;
+  int jobs = 1;  ///< flights at once
+  bool force = false;
+};
+
 /// --help or --version: what to print.
 struct HelpText {
   std::string text;
 };
 
 using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
-                             HelpText>;
+                             StudyOptions, HelpText>;
 
 /// @param arguments without the program's name. @throws InputError for anything that does not fit.
 Command parse_command_line(const std::vector<std::string>& arguments);

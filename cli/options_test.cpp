@@ -89,6 +89,37 @@ TEST(Options, OracleReadsAll) {
   EXPECT_THROW(parse_command_line({"oracle"}), InputError);
 }
 
+TEST(Options, ContestAndCompareReadAll) {
+  const auto contest = parse<StudyOptions>({"contest", "--planners", "kios,xxh:faithful=true", "--planners", "star",
+                                            "--planner", "patrol,jurong=hover", "--tests", "3", "--rank", "median",
+                                            "--scenarios", "towers,sail", "--assets", "data", "--duration", "60",
+                                            "--dds", "mixed", "--jobs", "2", "--out", "o", "--force"});
+  EXPECT_TRUE(contest.contest && contest.force);
+  EXPECT_EQ(contest.planner_lists, (std::vector<std::string>{"kios,xxh:faithful=true", "star"}));
+  EXPECT_EQ(contest.planners, std::vector<std::string>{"patrol,jurong=hover"});
+  EXPECT_EQ(contest.seeds, "1-3");
+  EXPECT_EQ(contest.rank, Rank::median);
+  EXPECT_EQ(contest.scenarios, (std::vector<std::string>{"towers", "sail"}));
+  EXPECT_EQ(contest.assets, "data");
+  EXPECT_EQ(contest.duration_s, 60.0);
+  EXPECT_EQ(contest.dds, "mixed");
+  EXPECT_EQ(contest.jobs, 2);
+  EXPECT_EQ(contest.out, "o");
+  EXPECT_EQ(parse<StudyOptions>({"contest", "--planners", "a"}).seeds, "1-5");
+  EXPECT_EQ(parse<StudyOptions>({"contest", "--planners", "a"}).rank, Rank::maximum);
+
+  const auto compare = parse<StudyOptions>({"compare", "--planners", "a,b", "--seeds", "3,5", "--scene-seed", "4"});
+  EXPECT_FALSE(compare.contest);
+  EXPECT_EQ(compare.seeds, "3,5");
+  EXPECT_EQ(compare.scene_seed, 4u);
+  EXPECT_EQ(parse<StudyOptions>({"compare"}).seeds, "5");
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+           {"contest", "--tests", "0"}, {"contest", "--rank", "mean"}, {"contest", "--rank", "0"}, {"contest", "--seeds", "3"},
+           {"compare", "--tests", "3"}, {"compare", "--jobs", "0"}, {"compare", "--scene-seed", "-1"}}) {
+    EXPECT_THROW(parse_command_line(wrong), InputError) << wrong[1];
+  }
+}
+
 TEST(Options, BenchReadsAll) {
   EXPECT_TRUE(parse<BenchOptions>({"bench"}).sizes.empty());
   const auto bench = parse<BenchOptions>({"bench", "--quick", "--sizes", "1,20", "--repeat", "5", "--scenario", "mbs",

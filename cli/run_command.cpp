@@ -47,6 +47,7 @@ class FleetRun {
     facts_.seed = plan.options.seed;
     facts_.planners = plan.planners;
     facts_.ground_program = plan.ground;
+    facts_.agent = plan.agent;
     facts_.dds = dds_vendors(plan);
     facts_.clock = plan.options.clock;
     facts_.native = plan.options.native;

@@ -48,6 +48,38 @@ class RunCommand : public ::testing::Test {
   std::ostringstream out_, err_;
 };
 
+TEST_F(RunCommand, AnAgentOfOnesOwnFliesInThePlaceOfUavAgent) {
+  programs_.script("uav_agent", "exit 9\n");
+  write_script(programs_.dir() / "mine",
+               "[ \"$1\" != --list-planners ] || { echo '{\"planners\":[\"hover\"],\"ground_programs\":[]}'; exit; }\n" +
+                   std::string(kReadOptions) + "echo \"config $SKEIN_CONFIG_DIR\"\n" + kMember);
+  options_.agent = programs_.dir() / "mine";
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(result()["agent"], (programs_.dir() / "mine").string());
+  EXPECT_NE(read_text(*options_.out / "uav_agent-beta.log").find("config " SKEIN_SOURCE_DIR "/config"), std::string::npos);
+}
+
+TEST_F(RunCommand, WhatIsNoAgentIsRefusedBeforeTheStart) {
+  write_text(programs_.dir() / "text", "no program");
+  write_script(programs_.dir() / "other", "exit 0\n");
+  for (const char* name : {"missing", "text", "other"}) {
+    options_.agent = programs_.dir() / name;
+    EXPECT_THROW(run(), InputError) << name;
+  }
+  write_script(programs_.dir() / "broken", "echo two of a kind\nexit 3\n");
+  options_.agent = programs_.dir() / "broken";
+  try {
+    run();
+    ADD_FAILURE() << "it flew";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("two of a kind"), std::string::npos) << error.what();
+  }
+  options_.agent.reset();
+  ::setenv("SKEIN_AGENT", (programs_.dir() / "missing").c_str(), 1);
+  EXPECT_THROW(run(), InputError);
+  ::unsetenv("SKEIN_AGENT");
+}
+
 TEST_F(RunCommand, AGoodRunLeavesAResultAndATable) {
   EXPECT_EQ(run(), kExitDone) << err_.str();
   EXPECT_EQ(result()["status"], "completed");

@@ -127,6 +127,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["scene_seed"] = scenario.scene.scene_seed;
   for (const UavPlanner& planner : facts.planners) result["planner"][planner.uav] = planner.spec;
   if (facts.ground_program) result["planner"]["gcs"] = *facts.ground_program;
+  if (facts.agent) result["agent"] = facts.agent->string();
   for (const auto& [process, vendor] : facts.dds) result["dds"][process] = vendor;
   result["clock"] = facts.clock;
   result["math"] = facts.native ? "native" : "baseline";

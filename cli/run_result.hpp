@@ -30,6 +30,7 @@ struct RunFacts {
   std::uint64_t seed = 0;
   std::vector<UavPlanner> planners;        ///< fleet order
   std::optional<std::string> ground_program = {};
+  std::optional<std::filesystem::path> agent = {};  ///< that flew in the place of uav_agent
   std::map<std::string, std::string> dds;  ///< vendor by process
   std::string clock;
   bool native = false;

@@ -128,7 +128,7 @@ std::optional<UserId> agent_user(int domain) {
 std::optional<UserId> check_agents_access(const FleetPlan& plan) {
   const auto user = agent_user(kDomainOfNoAgent);
   if (!user) return user;
-  require_access(plan.bin_dir / "uav_agent", *user);
+  require_access(agent_file(plan), *user);
   require_access(plan.scenario.file, *user);
   if (plan.options.faults) require_access(*plan.options.faults, *user);
   for (const auto& entry : fs::recursive_directory_iterator(default_config_dir())) {

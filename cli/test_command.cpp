@@ -72,6 +72,9 @@ int run_tests(const TestOptions& options, const Console& console) {
   if (options.faults) return run_fault_tests(options, console);
   const ScratchDir scratch;
   const std::filesystem::path build_dir = std::filesystem::absolute(program_dir()).parent_path();
+  if (!std::filesystem::exists(build_dir / "CTestTestfile.cmake")) {
+    throw InputError("test: there are no tests beside this skein; ./skein test in the source tree builds and runs them");
+  }
   const std::filesystem::path junit = scratch.path() / "ctest.xml", reports = scratch.path() / "gtest";
   std::map<std::string, std::string> variables = {{"GTEST_OUTPUT", "json:" + reports.string() + "/"}};
   if (options.long_tests) variables["SKEIN_LONG"] = "1";

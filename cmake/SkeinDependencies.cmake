@@ -1,24 +1,10 @@
 # Every package that Skein uses, all from Debian 12. Which folder may use which is checked by tests/layers.
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(yaml-cpp REQUIRED)
-find_package(nlohmann_json 3.11 REQUIRED)
-find_package(CLI11 REQUIRED)
-find_package(spdlog REQUIRED)
-find_package(OpenSSL REQUIRED COMPONENTS Crypto)
-find_package(Threads REQUIRED)
-
-find_package(fastcdr REQUIRED)
-find_package(fastrtps REQUIRED)
-find_package(CycloneDDS REQUIRED)
+include(SkeinAgentDependencies)  # what an agent needs: planners outside of this tree link it, too
 find_program(FASTDDSGEN fastddsgen REQUIRED)
 
-find_package(PkgConfig REQUIRED)
 # Double precision Bullet (Debian ships both).
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
 find_package(embree 3 REQUIRED)
-pkg_check_modules(OCTOMAP REQUIRED IMPORTED_TARGET octomap)
-# PCL is asked for by module, through pkg-config: its CMake package drags VTK and Qt into every target.
-pkg_check_modules(PCL REQUIRED IMPORTED_TARGET pcl_common pcl_filters)
 pkg_check_modules(PCL_IO REQUIRED IMPORTED_TARGET pcl_io)
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
 

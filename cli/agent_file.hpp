@@ -1,0 +1,20 @@
+// Which program the UAVs' on-board software is, and which strategies it knows.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace skein::cli {
+
+/// The program to fly with, where it is not the uav_agent beside the launcher: `chosen` (--agent), else SKEIN_AGENT.
+/// @returns its absolute path; nullopt: uav_agent.
+/// @throws InputError when there is no such program, or it is no agent.
+std::optional<std::filesystem::path> own_agent(const std::optional<std::filesystem::path>& chosen);
+
+/// Names of an agent program's strategies that have a program at the ground station.
+/// @returns none when it is missing or does not tell.
+std::vector<std::string> ground_programs_of(const std::filesystem::path& agent);
+
+}  // namespace skein::cli

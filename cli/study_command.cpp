@@ -1,0 +1,133 @@
+#include "cli/study_command.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "cli/html.hpp"
+#include "cli/results_dir.hpp"
+#include "cli/study_columns.hpp"
+#include "cli/study_csv.hpp"
+#include "cli/study_page.hpp"
+#include "core/atomic_file.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSettings = "study.json";
+constexpr std::size_t kLongestName = 40;  ///< of a planner on the terminal
+
+/// @throws InputError when the folder is of a study with other settings, unless that is wanted.
+void check_settings(const StudyPlan& plan) {
+  const Json then = read_json(plan.out / kSettings);
+  if (then.is_null() || plan.options.force) return;
+  const std::vector<std::string> differences = differing_settings(then, plan.settings);
+  if (differences.empty()) return;
+  std::string text = plan.out.string() + " holds a study with other settings:";
+  for (const std::string& difference : differences) text += "\n  " + difference;
+  throw InputError(text + "\nChoose another --out, or go on there with --force: flights that fit are kept.");
+}
+
+StudyPictures pictures_of(const Study& study) {
+  StudyPictures pictures;
+  for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
+    for (std::size_t p = 0; p < study.planners.size(); ++p) {
+      if (const FlightEntry* best = study.best(p, s)) pictures.emplace(std::pair(s, p), read_picture(best->dir));
+    }
+  }
+  return pictures;
+}
+
+void write_report(const Study& study, const fs::path& out) {
+  write_file_atomically(out / "flights.csv", flights_csv(study));
+  write_file_atomically(out / "summary.csv", summary_csv(study));
+  if (study.contest) write_file_atomically(out / "totals.csv", totals_csv(study));
+  write_file_atomically(out / "report.html", study_page(study, pictures_of(study)));
+}
+
+std::string range_text(const Spread& spread, int digits) {
+  return fixed(spread.median, digits) + " (" + fixed(spread.min, digits) + "-" + fixed(spread.max, digits) + ")";
+}
+
+}  // namespace
+
+Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
+  Study study{plan.options.contest,
+              plan.options.rank,
+              plan.planners,
+              plan.scenarios,
+              plan.seeds,
+              {},
+              plan.command_line,
+              plan.settings["skein_version"],
+              plan.settings["programs"],
+              plan.options.dds,
+              plan.options.jobs};
+  if (plan.options.duration_s) study.conditions = fmt::format("missions of {} s", *plan.options.duration_s);
+  if (plan.options.scene_seed) {
+    study.conditions += (study.conditions.empty() ? "" : ", ") + fmt::format("scene seed {}", *plan.options.scene_seed);
+  }
+  for (std::size_t i = 0; i < plan.flights.size(); ++i) {
+    const StudyFlight& flight = plan.flights[i];
+    const StudyOutcome& outcome = outcomes.flights[i];
+    FlightEntry entry{flight.planner, flight.scenario, flight.seed, flight.dir, std::nullopt, outcome.problem};
+    if (outcome.result.is_object()) entry.figures = figures_of(outcome.result);
+    study.flights.push_back(std::move(entry));
+  }
+  return study;
+}
+
+void print_study(std::ostream& out, const Study& study) {
+  const auto name_of = [&](std::size_t planner) { return shortened(study.planners[planner], kLongestName); };
+  if (study.contest) {
+    out << fmt::format("\n{:<7}{:<42}{:>12}   {}\n", "place", "planner", rank_name(study.rank) + " total",
+                       "totals by test");
+    for (const Standing& standing : standings(study)) {
+      std::string totals;
+      for (const std::optional<double>& total : standing.totals) totals += "  " + (total ? fixed(*total, 1) : "-");
+      out << fmt::format("{:<7}{:<42}{:>12} {}\n", standing.decides ? std::to_string(standing.place) : "-",
+                         name_of(standing.planner), standing.decides ? fixed(*standing.decides, 1) : "-", totals);
+    }
+  }
+  const StudyColumn& score = study_columns().front();
+  for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
+    out << fmt::format("\n{:<49}{:>28}{:>12}{:>12}\n", study.scenarios[s], "score", "points", "collisions");
+    for (std::size_t p = 0; p < study.planners.size(); ++p) {
+      const auto flights = study.cell(p, s);
+      std::vector<double> points;
+      int collisions = 0;
+      for (const FlightEntry* flight : flights) {
+        points.push_back(flight->figures->points_detected);
+        collisions += flight->figures->collisions;
+      }
+      out << fmt::format("  {:<47}{:>28}{:>12}{:>12}\n", name_of(p),
+                         flights.empty() ? "no flight" : range_text(spread_of(column_values(score, flights)), 1),
+                         fixed(spread_of(points).median, 0), collisions);
+    }
+  }
+  out << "\nmedians over the seeds, and from the least to the greatest; collisions of all flights\n";
+}
+
+int run_study(const StudyOptions& options, const Console& console) {
+  const StudyPlan plan = plan_study(options);
+  check_settings(plan);
+  const ResultsDir out(plan.out, false);
+  write_file_atomically(plan.out / kSettings, plan.settings.dump(2) + "\n");
+  console.err << plan.flights.size() << " flights, results in " << plan.out.string() << std::endl;
+
+  const StudyOutcomes outcomes = fly_study(plan, console);
+  const Study study = study_of(plan, outcomes);
+  write_report(study, plan.out);
+  print_study(console.out, study);
+  console.out << "report: " << (plan.out / "report.html").string() << std::endl;
+  if (outcomes.interrupted) {
+    console.err << "interrupted; the same command goes on from here" << std::endl;
+    return kExitInterrupted;
+  }
+  return study.any_problem() ? kExitProcessFailed : kExitDone;
+}
+
+}  // namespace skein::cli

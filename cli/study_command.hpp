@@ -1,0 +1,22 @@
+// `skein contest` and `skein compare`: fly a study and write its report.
+#pragma once
+
+#include "cli/run_command.hpp"
+#include "cli/study_figures.hpp"
+#include "cli/study_flights.hpp"
+
+namespace skein::cli {
+
+/// Flies what has not been flown yet, then writes report.html, flights.csv, summary.csv and, of a contest, totals.csv;
+/// also after Ctrl-C and with flights that failed.
+/// @returns the exit code: kExitProcessFailed when a flight failed. @throws InputError before anything flies;
+///   Interrupted while the input is checked.
+int run_study(const StudyOptions& options, const Console& console);
+
+/// The figures of what was flown.
+Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes);
+
+/// The ranking of a contest, then median scores by scene and planner.
+void print_study(std::ostream& out, const Study& study);
+
+}  // namespace skein::cli

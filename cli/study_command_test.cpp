@@ -1,0 +1,211 @@
+#include "cli/study_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "cli/fake_programs.hpp"
+#include "cli/study_flights.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// In the place of `skein run`: notes that it was called, and leaves a result whose score is 10 times the seed, and
+/// 1000 more for patrol.
+constexpr const char* kFlight = R"(
+for argument; do
+  case $argument in
+    --out=*) out=${argument#--out=} ;;
+    --seed=*) seed=${argument#--seed=} ;;
+    --planner=*) planner=${argument#--planner=} ;;
+  esac
+done
+here=$(dirname "$0")
+echo "$planner $seed" >> "$here/flights.txt"
+score=$((10 * seed))
+[ "$planner" != patrol ] || score=$((score + 1000))
+code=0
+[ ! -e "$here/hook" ] || . "$here/hook"
+echo "{\"seed\": $seed, \"status\": \"completed\", \"score\": $score, \"points_detected\": 5}" > "$out/result.json"
+exit $code
+)";
+
+class StudyCommand : public ::testing::Test {
+ protected:
+  StudyCommand() {
+    write_script(programs_.dir() / "skein", kFlight);
+    options_.contest = true;
+    options_.planner_lists = {"hover,patrol"};
+    options_.scenarios = {programs_.scenario()};
+    options_.seeds = "1-3";
+    options_.out = programs_.dir() / "out";
+  }
+
+  int run() {
+    out_.str("");
+    err_.str("");
+    write_text(programs_.dir() / "flights.txt", "");
+    return run_study(options_, {out_, err_, false});
+  }
+  /// What was flown in the last call, a line each.
+  std::string flown() const { return read_text(programs_.dir() / "flights.txt"); }
+  void hook(const std::string& body) const { write_text(programs_.dir() / "hook", body); }
+  std::string file(const std::string& name) const { return read_text(*options_.out / name); }
+  std::string refusal() try {
+    run();
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+
+  FakePrograms programs_;
+  StudyOptions options_;
+  std::ostringstream out_, err_;
+};
+
+TEST_F(StudyCommand, FliesAllAndReports) {
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(flown(), "hover 1\npatrol 1\nhover 2\npatrol 2\nhover 3\npatrol 3\n");
+  EXPECT_NE(file("totals.csv").find("\n1,patrol,max,1010,1020,1030,1030,1020,1010\n"), std::string::npos)
+      << file("totals.csv");
+  EXPECT_NE(file("report.html").find("Ranking"), std::string::npos);
+  EXPECT_NE(file("flights.csv").find(",hover,2,completed,20,"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(*options_.out / "flights/small/patrol/seed-3/result.json"));
+  EXPECT_NE(err_.str().find("6 of 6: "), std::string::npos) << err_.str();
+  EXPECT_NE(err_.str().find(" left"), std::string::npos);
+  EXPECT_LT(out_.str().find("patrol"), out_.str().find("hover")) << out_.str();
+}
+
+TEST_F(StudyCommand, WhatHasFlownIsNotFlownAgain) {
+  ASSERT_EQ(run(), kExitDone);
+  const std::string report = file("report.html"), flights = file("flights.csv");
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(flown(), "");
+  EXPECT_EQ(file("report.html"), report);
+  const auto lost = *options_.out / "flights/small/hover/seed-2";
+  std::filesystem::remove(lost / "result.json");
+  write_text(*options_.out / "flights/small/patrol/seed-1/result.json", "{\"status\": \"interrupted\", \"seed\": 1}");
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(flown(), "patrol 1\nhover 2\n");
+  EXPECT_EQ(file("flights.csv"), flights);
+  options_.rank = Rank::worst;
+  EXPECT_EQ(run(), kExitDone) << "another ranking needs no flight";
+  EXPECT_EQ(flown(), "");
+}
+
+TEST_F(StudyCommand, OtherSettingsInTheSameFolderAreRefusedUnlessForced) {
+  ASSERT_EQ(run(), kExitDone);
+  options_.planner_lists = {"hover,patrol", "kios"};
+  EXPECT_NE(refusal().find("planners: then hover, patrol, now hover, patrol, kios"), std::string::npos) << refusal();
+  EXPECT_EQ(flown(), "");
+  options_.force = true;
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(flown(), "kios 1\nkios 2\nkios 3\n") << "the others fit";
+  options_.duration_s = 30.0;
+  options_.force = false;
+  EXPECT_NE(refusal().find("duration_s: then null, now 30"), std::string::npos) << refusal();
+  options_.duration_s.reset();
+  programs_.script("station", "# another build\n");
+  EXPECT_NE(refusal().find("built anew"), std::string::npos) << refusal();
+  options_.force = true;
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(std::ranges::count(flown(), '\n'), 9) << "flights of another build do not count";
+}
+
+TEST_F(StudyCommand, AChangedParameterFileMakesANewFlight) {
+  const auto parameters = programs_.dir() / "mine.yaml";
+  write_text(parameters, "a: 1\n");
+  options_.planner_lists = {"hover:" + parameters.string()};
+  ASSERT_EQ(run(), kExitDone);
+  write_text(parameters, "a: 2\n");
+  EXPECT_NE(refusal().find("parameters are not the same"), std::string::npos) << refusal();
+}
+
+TEST_F(StudyCommand, AFlightThatFailsIsNotedAndTheOthersGoOn) {
+  hook(
+      "if [ $seed = 2 ] && [ $planner = hover ]; then code=3; echo 'uav_agent-alpha failed: exit code 9' >&2; fi\n"
+      "if [ $seed = 3 ] && [ $planner = patrol ]; then echo no result >&2; exit 3; fi\n");
+  EXPECT_EQ(run(), kExitProcessFailed);
+  EXPECT_EQ(std::ranges::count(flown(), '\n'), 6);
+  EXPECT_NE(file("report.html").find("uav_agent-alpha failed: exit code 9"), std::string::npos);
+  EXPECT_NE(file("flights.csv").find(",hover,2,completed,20,"), std::string::npos) << "it went to its end";
+  EXPECT_NE(file("flights.csv").find(",patrol,3,,"), std::string::npos) << file("flights.csv");
+  EXPECT_NE(file("totals.csv").find("\n1,patrol,max,1010,1020,,1020,1015,1010\n"), std::string::npos)
+      << file("totals.csv");
+  hook("");
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(flown(), "hover 2\npatrol 3\n");
+}
+
+TEST_F(StudyCommand, CtrlCStopsAndTheSameCommandGoesOn) {
+  hook("if [ $seed = 2 ]; then kill -INT $PPID; trap 'exit 130' INT; for i in $(seq 1000); do sleep 0.01; done; fi\n");
+  EXPECT_EQ(run(), kExitInterrupted);
+  EXPECT_EQ(flown(), "hover 1\npatrol 1\nhover 2\n");
+  EXPECT_NE(err_.str().find("goes on from here"), std::string::npos) << err_.str();
+  EXPECT_NE(file("report.html").find("2 of 6 flights count"), std::string::npos);
+  hook("");
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(flown(), "hover 2\npatrol 2\nhover 3\npatrol 3\n");
+}
+
+TEST_F(StudyCommand, SeveralFlightsAtOnceGiveTheSame) {
+  ASSERT_EQ(run(), kExitDone);
+  const std::string flights = file("flights.csv"), totals = file("totals.csv");
+  options_.out = programs_.dir() / "at_once";
+  options_.jobs = 4;
+  ASSERT_EQ(run(), kExitDone);
+  EXPECT_EQ(file("flights.csv"), flights);
+  EXPECT_EQ(file("totals.csv"), totals);
+}
+
+TEST_F(StudyCommand, ACompareHasNoTotals) {
+  options_.contest = false;
+  options_.seeds = "2";
+  options_.duration_s = 60.0;
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(flown(), "hover 0\npatrol 0\nhover 1\npatrol 1\n");
+  EXPECT_FALSE(std::filesystem::exists(*options_.out / "totals.csv"));
+  EXPECT_NE(file("report.html").find("./skein compare --planners hover,patrol"), std::string::npos);
+  EXPECT_NE(file("report.html").find("missions of 60 s"), std::string::npos);
+}
+
+TEST_F(StudyCommand, WhatIsWrongIsToldBeforeAnythingFlies) {
+  const StudyOptions good = options_;
+  const auto refused = [&](const std::string& with) {
+    const std::string message = refusal();
+    EXPECT_NE(message.find(with), std::string::npos) << message;
+    EXPECT_EQ(flown(), "");
+    EXPECT_FALSE(std::filesystem::exists(*options_.out));
+    options_ = good;
+  };
+  options_.planner_lists = {};
+  refused("--planners A,B");
+  options_.planner_lists = {"hover,hover"};
+  refused("'hover' is named twice");
+  options_.scenarios = {"towrs"};
+  refused("did you mean 'towers'?");
+  options_.seeds = "x";
+  refused("'x' is no seed");
+  options_.planners = {"gamma=hover"};
+  refused("no UAV is called 'gamma'");
+  write_script(programs_.dir() / "uav_agent",
+               "case \"$*\" in *patrol*--check*) echo 'no such planner' >&2; exit 2;; esac");
+  refused("planner patrol: no such planner");
+}
+
+TEST_F(StudyCommand, AFolderOfARunIsNotTaken) {
+  std::filesystem::create_directories(*options_.out);
+  write_text(*options_.out / "result.json", "{}");
+  EXPECT_NE(refusal().find("holds a result already"), std::string::npos);
+}
+
+TEST(StudyFlights, DurationsAreReadable) {
+  EXPECT_EQ(duration_text(0.2), "0 s");
+  EXPECT_EQ(duration_text(89.0), "89 s");
+  EXPECT_EQ(duration_text(600.0), "10 min");
+  EXPECT_EQ(duration_text(12000.0), "3 h 20 min");
+}
+
+}  // namespace
+}  // namespace skein::cli

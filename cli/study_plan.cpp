@@ -1,0 +1,242 @@
+#include "cli/study_plan.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <set>
+
+#include "cli/fleet_plan.hpp"
+#include "cli/preflight.hpp"
+#include "cli/study_spec.hpp"
+#include "core/file_bytes.hpp"
+#include "core/scenario_reader.hpp"
+#include "core/sha256.hpp"
+#include "core/suggestion.hpp"
+#include "core/types.hpp"
+
+#ifndef SKEIN_VERSION
+#error "SKEIN_VERSION comes from CMake's project()"
+#endif
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestFile = 2'000'000'000;
+
+/// The scenes that need no files, then the contest's own.
+const std::vector<std::string> kProcedural = {"towers", "hangar", "cranes", "spire", "sail"};
+const std::vector<std::string> kWithAssets = {"mbs", "crane"};
+
+void refuse_doubles(const std::string& what, const std::vector<std::string>& names) {
+  std::set<std::string> seen;
+  for (const std::string& name : names) {
+    if (!seen.insert(name).second) throw InputError(what + " '" + name + "' is named twice");
+  }
+}
+
+std::vector<std::string> planners_of(const StudyOptions& options) {
+  std::vector<std::string> planners;
+  for (const std::string& list : options.planner_lists) {
+    for (std::string& planner : split_planners(list)) planners.push_back(std::move(planner));
+  }
+  planners.insert(planners.end(), options.planners.begin(), options.planners.end());
+  if (planners.empty()) throw InputError("which planners? Give them as --planners A,B");
+  refuse_doubles("planner", planners);
+  return planners;
+}
+
+std::vector<std::string> scenarios_of(const StudyOptions& options) {
+  std::vector<std::string> scenarios = options.scenarios;
+  if (scenarios.empty() && !options.contest) scenarios = {RunOptions{}.scenario};
+  if (scenarios.empty()) {
+    scenarios = kProcedural;
+    if (options.assets) scenarios.insert(scenarios.end(), kWithAssets.begin(), kWithAssets.end());
+  }
+  refuse_doubles("scenario", scenarios);
+  return scenarios;
+}
+
+RunOptions run_options(const StudyOptions& options, const std::string& scenario, const std::string& planner) {
+  RunOptions run;
+  run.scenario = scenario;
+  run.planner = planner;
+  run.scene_seed = options.scene_seed;
+  run.assets = options.assets;
+  run.duration_s = options.duration_s;
+  run.dds = options.dds;
+  run.agent = options.agent;
+  return run;
+}
+
+/// Of all programs that fly; the launcher only watches.
+std::string programs_digest(const FleetPlan& plan) {
+  Sha256 hash;
+  for (const char* name : {"sim_server", "comm_router", "station"}) {
+    hash.add(read_file_bytes(plan.bin_dir / name, kLargestFile));
+  }
+  return hash.add(read_file_bytes(agent_file(plan), kLargestFile)).hex();
+}
+
+/// The file that a planner takes its parameters from, if any: "kios:mine.yaml,voxel_m=4".
+std::optional<fs::path> parameter_file(const std::string& spec) {
+  const std::size_t colon = spec.find(':');
+  if (colon == std::string::npos || exec_command(spec)) return std::nullopt;
+  const fs::path file = spec.substr(colon + 1, spec.find(',', colon) - colon - 1);
+  return fs::is_regular_file(file) ? std::optional(file) : std::nullopt;
+}
+
+/// Of the scenario with all its vehicles and files, and of the planners' files.
+std::string input_digest(const FleetPlan& plan) {
+  const SceneConfig& scene = plan.scenario.scene;
+  Sha256 hash;
+  hash.add(to_yaml(plan.scenario));
+  std::vector<fs::path> files = scene.meshes;
+  if (scene.family.empty()) files.insert(files.end(), {scene.points, scene.boxes});
+  std::vector<std::string> specs;
+  for (const UavPlanner& planner : plan.planners) specs.push_back(planner.spec);
+  if (plan.ground) specs.push_back(*plan.ground);
+  for (const std::string& spec : specs) {
+    if (const auto file = parameter_file(spec)) files.push_back(*file);
+  }
+  for (const fs::path& file : files) hash.add(read_file_bytes(file, kLargestFile));
+  return hash.hex();
+}
+
+/// The programs' own checks; sim_server is asked once a scenario.
+void check_with_programs(const FleetPlan& plan, bool with_server) {
+  const ScratchDir scratch;
+  std::vector<ProgramSpec> programs = check_programs(plan, scratch.path());
+  std::erase_if(programs, [&](const ProgramSpec& program) { return program.name == "sim_server" && !with_server; });
+  try {
+    run_checks(programs);
+  } catch (const InputError& error) {
+    throw InputError(plan.options.scenario + ", planner " + plan.options.planner + ": " + error.what());
+  }
+}
+
+Json flight_command(const FleetPlan& plan, const std::string& programs) {
+  return {{"skein_version", SKEIN_VERSION},  {"programs", programs},        {"scenario", plan.options.scenario},
+          {"planner", plan.options.planner}, {"input", input_digest(plan)}, {"dds", plan.options.dds}};
+}
+
+std::string command_line(const StudyPlan& plan) {
+  const StudyOptions& options = plan.options;
+  std::string line = options.contest ? "./skein contest" : "./skein compare";
+  const auto add = [&](const std::string& option, const std::string& value) {
+    line += " " + option + " " + shell_word(value);
+  };
+  for (const std::string& list : options.planner_lists) add("--planners", list);
+  for (const std::string& planner : options.planners) add("--planner", planner);
+  add("--scenarios", joined(plan.scenarios, ","));
+  if (options.contest) {
+    add("--tests", std::to_string(plan.seeds.size()));
+    if (options.rank != Rank::maximum) add("--rank", options.rank == Rank::median ? "median" : "worst");
+  } else {
+    add("--seeds", options.seeds);
+  }
+  if (options.scene_seed) add("--scene-seed", std::to_string(*options.scene_seed));
+  if (options.assets) add("--assets", *options.assets);
+  if (options.duration_s) add("--duration", fmt::format("{}", *options.duration_s));
+  if (options.dds != StudyOptions{}.dds) add("--dds", options.dds);
+  if (options.agent) add("--agent", *options.agent);
+  return line;
+}
+
+/// For a message: texts without quotes.
+std::string plain(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::vector<std::string> items;
+  for (const Json& item : value) items.push_back(plain(item));
+  return joined(items);
+}
+
+}  // namespace
+
+StudyPlan plan_study(const StudyOptions& options) {
+  StudyPlan plan{options, planners_of(options), scenarios_of(options), parse_seeds(options.seeds), {}, {}, {}, {}};
+  plan.out = fs::absolute(options.out.value_or(fs::path("runs") / (options.contest ? "contest" : "compare")));
+  std::vector<std::string> stems;
+  for (const std::string& scenario : plan.scenarios) stems.push_back(fs::path(scenario).stem());
+  const std::vector<std::string> planner_folders = folder_names(plan.planners), scenario_folders = folder_names(stems);
+
+  std::string programs;
+  std::vector<StudyFlight> of_one_seed;
+  Json inputs = Json::object();
+  for (std::size_t s = 0; s < plan.scenarios.size(); ++s) {
+    for (std::size_t p = 0; p < plan.planners.size(); ++p) {
+      const FleetPlan fleet = plan_fleet(run_options(options, plan.scenarios[s], plan.planners[p]), program_dir());
+      check_with_programs(fleet, p == 0);
+      if (programs.empty()) programs = programs_digest(fleet);
+      const fs::path dir = plan.out / "flights" / scenario_folders[s] / planner_folders[p];
+      const Json command = flight_command(fleet, programs);
+      of_one_seed.push_back({p, s, 0, dir, fleet.scenario.duration_s, command});
+      inputs[plan.scenarios[s] + ", " + plan.planners[p]] = command["input"];
+    }
+  }
+  for (const std::uint64_t seed : plan.seeds) {
+    for (StudyFlight flight : of_one_seed) {
+      flight.seed = seed;
+      flight.dir /= "seed-" + std::to_string(seed);
+      flight.command["seed"] = seed;
+      plan.flights.push_back(std::move(flight));
+    }
+  }
+  plan.settings = {{"command", options.contest ? "contest" : "compare"},
+                   {"skein_version", SKEIN_VERSION},
+                   {"planners", plan.planners},
+                   {"scenarios", plan.scenarios},
+                   {"seeds", plan.seeds},
+                   {"scene_seed", options.scene_seed ? Json(*options.scene_seed) : Json()},
+                   {"duration_s", options.duration_s ? Json(*options.duration_s) : Json()},
+                   {"dds", options.dds},
+                   {"programs", programs},
+                   {"inputs", inputs}};
+  plan.command_line = command_line(plan);
+  return plan;
+}
+
+std::vector<std::string> differing_settings(const Json& then, const Json& now) {
+  std::vector<std::string> differences;
+  for (const auto& [key, value] : now.items()) {
+    const Json former = value_or(then, key.c_str(), nullptr);
+    if (former == value || key == "inputs") continue;
+    if (key == "programs") {
+      differences.push_back("the programs were built anew");
+    } else {
+      differences.push_back(key + ": then " + plain(former) + ", now " + plain(value));
+    }
+  }
+  // Of flights that both know: a scenario, vehicle or parameter file has changed, or an option that has been told.
+  const Json former = value_or(then, "inputs", Json::object()), inputs = value_or(now, "inputs", Json::object());
+  std::vector<std::string> changed;
+  for (const auto& [flight, input] : inputs.items()) {
+    if (former.contains(flight) && former[flight] != input) changed.push_back(flight);
+  }
+  if (!changed.empty() && differences.empty()) {
+    differences.push_back("files of scenario, vehicles, scene or parameters are not the same for " +
+                          joined(changed, "; "));
+  }
+  return differences;
+}
+
+std::vector<std::string> flight_arguments(const StudyPlan& plan, const StudyFlight& flight, const fs::path& skein) {
+  const StudyOptions& options = plan.options;
+  std::vector<std::string> arguments = {skein,
+                                        "run",
+                                        plan.scenarios[flight.scenario],
+                                        "--planner=" + plan.planners[flight.planner],
+                                        "--seed=" + std::to_string(flight.seed),
+                                        "--dds=" + options.dds,
+                                        "--out=" + flight.dir.string(),
+                                        "--force"};
+  if (options.scene_seed) arguments.push_back("--scene-seed=" + std::to_string(*options.scene_seed));
+  if (options.assets) arguments.push_back("--assets=" + options.assets->string());
+  if (options.duration_s) arguments.push_back("--duration=" + fmt::format("{}", *options.duration_s));
+  if (options.agent) arguments.push_back("--agent=" + options.agent->string());
+  return arguments;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,26 @@
+// What the user wrote after --planners and --seeds of `skein contest` and `skein compare`, taken apart. Pure.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace skein::cli {
+
+/// The planners of a list `A,B,...`, each as `skein run --planner` takes it. An item `KEY=VALUE` without a colon goes
+/// on with the parameters of the planner before it, which therefore has some (`xxh:faithful=true,teams=2,star` is two
+/// planners). "exec:CMD" ends at the next comma.
+/// @throws InputError for an empty item, or one with '=' that continues nothing.
+std::vector<std::string> split_planners(const std::string& list);
+
+/// `K`: the seeds 0..K-1. `3,5,8` and `1-5`, also mixed (`0,4-6`): these.
+/// @throws InputError for anything else, a seed named twice, or more than 1000 of them.
+std::vector<std::uint64_t> parse_seeds(const std::string& text);
+
+/// A folder's name for each text (planner_label), with "-2", "-3"... after those that came before.
+std::vector<std::string> folder_names(const std::vector<std::string>& texts);
+
+/// A word as a shell takes it, in quotes where it needs them.
+std::string shell_word(const std::string& word);
+
+}  // namespace skein::cli

@@ -1,0 +1,31 @@
+# Agent programs with planners of one's own. Used by this build's tests and, installed, by find_package(skein).
+
+# skein_add_agent(NAME SOURCES ... [LIBS ...])
+# A program like uav_agent: with all planners of Skein, and those that the sources register.
+function(skein_add_agent name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE skein::agent_main skein::agent skein::lockstep ${ARG_LIBS})
+  skein_compile_as_skein(${name})
+endfunction()
+
+# skein_add_planner_test(NAME PLANNERS ... SOURCES ... [LIBS ...])
+# A GoogleTest program and a CTest entry: what every planner must do and must never do, for some planners by name.
+function(skein_add_planner_test name)
+  cmake_parse_arguments(ARG "" "" "PLANNERS;SOURCES;LIBS" ${ARGN})
+  find_package(GTest REQUIRED)
+  add_executable(${name} ${ARG_SOURCES} ${SKEIN_CONTRACT_DIR}/planner_contract_test.cpp ${SKEIN_CONTRACT_DIR}/test_world.cpp)
+  target_link_libraries(${name} PRIVATE skein::agent GTest::gtest GTest::gtest_main ${ARG_LIBS})
+  skein_compile_as_skein(${name})
+  list(TRANSFORM ARG_PLANNERS PREPEND "*/")
+  list(JOIN ARG_PLANNERS ":" filter)
+  add_test(NAME ${name} COMMAND ${name} --gtest_filter=${filter})
+endfunction()
+
+# As Skein itself is compiled: C++20, optimised unless asked otherwise, and no fused multiply-add, so that a result does
+# not depend on the optimiser's mood.
+function(skein_compile_as_skein name)
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  set_target_properties(${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_compile_options(${name} PRIVATE -ffp-contract=off -Wno-psabi $<$<CONFIG:>:-O2>)
+endfunction()

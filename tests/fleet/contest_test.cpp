@@ -1,0 +1,102 @@
+// `skein contest` and `skein compare` with real fleets, as short as they can be: resumed, and one or two at a time.
+#include <csignal>
+
+#include "fleet_fixture.hpp"
+#include "small_scene.hpp"
+
+namespace skein::test {
+namespace {
+
+class ContestTest : public FleetTest {
+ protected:
+  /// Two UAVs before one block of 12 points.
+  const std::string scene_ = write_small_scene(folder());
+  Arguments contest(const std::string& out) const {
+    return {
+        "contest", "--planners",  "hover:height_m=4,patrol", "--scenarios", scene_, "--tests", "2", "--duration", "40",
+        "--out",   folder() / out};
+  }
+  std::string file(const std::string& out, const std::string& name) const { return text_of(folder() / out / name); }
+};
+
+/// Scores and digests: what does not depend on the machine.
+std::vector<std::string> what_repeats(const std::filesystem::path& flights) {
+  std::vector<std::string> rows;
+  for (auto row : read_csv(flights)) {
+    rows.push_back(row["planner"] + " " + row["seed"] + " " + row["score"] + " " + row["digest"]);
+  }
+  return rows;
+}
+
+TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
+  ChildProcess& first = skein(contest("one"));
+  ASSERT_EQ(first.wait().code, 0) << first.err();
+  EXPECT_NE(first.err().find("4 of 4: " + scene_ + ", patrol, seed 2: score"), std::string::npos) << first.err();
+  EXPECT_NE(first.out().find("report.html"), std::string::npos);
+
+  const auto totals = read_csv(folder() / "one" / "totals.csv");
+  ASSERT_EQ(totals.size(), 2u);
+  EXPECT_EQ(totals[0].at("planner"), "patrol") << "who hovers sees nothing";
+  EXPECT_EQ(totals[0].at("place"), "1");
+  EXPECT_EQ(totals[1].at("place"), "2");
+  EXPECT_GT(std::stod(totals[0].at("worst")), 0.0);
+  const auto flights = read_csv(folder() / "one" / "flights.csv");
+  ASSERT_EQ(flights.size(), 4u);
+  for (const auto& flight : flights) {
+    EXPECT_EQ(flight.at("status"), "completed");
+    EXPECT_EQ(flight.at("problem"), "");
+    EXPECT_GE(std::stod(flight.at("attainable_percent")), 0.0) << "the oracle was asked";
+  }
+  const std::string page = file("one", "report.html");
+  EXPECT_NE(page.find("points detected"), std::string::npos);
+  EXPECT_NE(page.find("class=\"track"), std::string::npos);
+
+  // A flight that was stopped halfway leaves no mark; it alone is flown again, to the same digest.
+  std::filesystem::remove(folder() / "one/flights/scenario/patrol/seed-1/flight.json");
+  ChildProcess& again = skein(contest("one"));
+  ASSERT_EQ(again.wait().code, 0) << again.err();
+  EXPECT_NE(again.err().find("3 of 4 flights are there already"), std::string::npos) << again.err();
+  const auto repeated = read_csv(folder() / "one" / "flights.csv");
+  ASSERT_EQ(repeated.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(repeated[i].at("digest"), flights[i].at("digest"));
+}
+
+TEST_F(ContestTest, TwoAtOnceFlyTheSame) {
+  for (const auto& [out, jobs] : {std::pair("one", "1"), {"two", "2"}}) {
+    ChildProcess& compare = skein({"compare", "--planners", "patrol", "--scenarios", "towers", "--seeds", "1,4",
+                                   "--duration", "5", "--jobs", jobs, "--out", folder() / out});
+    ASSERT_EQ(compare.wait().code, 0) << compare.err();
+  }
+  EXPECT_EQ(what_repeats(folder() / "one" / "flights.csv"), what_repeats(folder() / "two" / "flights.csv"));
+}
+
+TEST_F(ContestTest, CtrlCEndsTheFlightInTheAirAndNothingIsLeft) {
+  ChildProcess& study = start_program(
+      "study", {program("skein"), "compare", "--planners", "patrol", "--seeds", "3", "--out", folder() / "out"});
+  ASSERT_TRUE(eventually([&] { return is_flying(folder() / "out/flights/towers/patrol/seed-0"); })) << study.err();
+  study.signal(SIGINT);
+  EXPECT_EQ(study.wait().code, 130);
+  EXPECT_NE(study.err().find("goes on from here"), std::string::npos) << study.err();
+  const Json result = Json::parse(file("out", "flights/towers/patrol/seed-0/result.json"));
+  EXPECT_EQ(result["status"], "interrupted");
+  EXPECT_FALSE(std::filesystem::exists(folder() / "out/flights/towers/patrol/seed-1"));
+}
+
+TEST_F(ContestTest, WhatIsWrongIsToldBeforeAnythingFlies) {
+  const auto refused = [&](const Arguments& arguments, const std::string& with) {
+    Arguments all = arguments;
+    all.insert(all.end(), {"--out", folder() / "out"});
+    ChildProcess& study = skein(all);
+    EXPECT_EQ(study.wait().code, 2);
+    EXPECT_NE(study.err().find(with), std::string::npos) << study.err();
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+  };
+  refused({"contest", "--planners", "patrol,patrl"}, "patrol");
+  refused({"contest", "--planners", "patrol", "--scenarios", "towers,hanger"}, "hangar");
+  refused({"compare", "--planners", "patrol", "--seeds", "5-1"}, "upwards");
+  refused({"compare", "--planners", "kios:no_such_key=1"}, "no_such_key");
+  refused({"contest"}, "--planners A,B");
+}
+
+}  // namespace
+}  // namespace skein::test

@@ -1,0 +1,59 @@
+// docs/how-to-add-a-planner.md, followed word for word.
+#include <fstream>
+
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::minutes kCompilersPatience{10};
+
+using PlannerPage = FleetTest;
+
+/// The page's folder beside the checkout, with its files in it; the checkout is there by its build folder.
+void lay_out(const fs::path& folder, bool with_tests) {
+  fs::create_directories(folder / "my_planners");
+  fs::create_directories(folder / "skein" / "build");
+  fs::create_directory_symlink(SKEIN_BUILD_DIR, folder / "skein" / "build" / "release");
+  const fs::path page = SKEIN_PAGE_DIR;
+  fs::copy_file(page / "orbit.cpp", folder / "my_planners" / "orbit.cpp");
+  fs::copy_file(page / "outside.sh", folder / "outside.sh");
+  std::ofstream(folder / "my_planners" / "CMakeLists.txt")
+      << text_of(page / "CMakeLists.txt") << (with_tests ? text_of(page / "tests.cmake") : "");
+}
+
+TEST_F(PlannerPage, ItsPlannerFliesTheSameInTheTreeAndOutOfIt) {
+  lay_out(folder(), long_tests());
+  // Nothing may help the installed programs to find their configuration.
+  const std::string follow = "cd " + folder().string() + " && unset SKEIN_CONFIG_DIR SKEIN_BIN_DIR && set -e && . ./outside.sh" +
+                             (long_tests() ? " && ctest --test-dir my_planners/build --output-on-failure" : "");
+  Environment environment = {{"XDG_CACHE_HOME", folder() / "cache"}};
+  if (const std::string launcher = SKEIN_COMPILER_LAUNCHER; !launcher.empty()) {
+    environment["CMAKE_CXX_COMPILER_LAUNCHER"] = launcher;
+  }
+  ChildProcess outside({"/bin/sh", "-c", follow}, environment, folder() / "outside.out", folder() / "outside.err");
+  ASSERT_TRUE(eventually([&] { return outside.ended().has_value(); }, kCompilersPatience));
+  ASSERT_EQ(outside.ended()->code, 0) << outside.out() << outside.err();
+  SkeinRun& inside = run("inside", {"towers", "--agent", SKEIN_HOWTO_AGENT, "--planner", "orbit", "--duration", "20"});
+
+  const Json there = Json::parse(text_of(folder() / "runs" / "towers-orbit-0" / "result.json"));
+  EXPECT_EQ(there["status"], "completed");
+  EXPECT_EQ(there["digest"], inside.digest());
+  EXPECT_EQ(there["planner"]["gcs"], "orbit");
+  EXPECT_EQ(fs::path(there["agent"].get<std::string>()).filename(), "my_agent");
+  EXPECT_TRUE(there["collisions"].empty());
+  EXPECT_GT(there["score_earned"], 0.0) << "it inspects";
+  expect_complete_result(inside);
+}
+
+TEST_F(PlannerPage, AnAgentOfOnesOwnKnowsTheOtherPlannersAndNamesThem) {
+  SkeinRun& unknown = run("unknown", {"towers", "--agent", SKEIN_HOWTO_AGENT, "--planner", "orbits"}, {}, 2);
+  EXPECT_NE(unknown.err().find("did you mean 'orbit'"), std::string::npos) << unknown.err();
+  const std::string plain = skein({"run", "towers", "--planner", "orbit", "--out", folder() / "plain"}).err();
+  EXPECT_NE(plain.find("patrol"), std::string::npos) << plain;
+}
+
+}  // namespace
+}  // namespace skein::test
