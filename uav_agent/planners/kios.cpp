@@ -44,7 +44,7 @@ constexpr int kFruitlessToBold = 2, kFruitlessToRetreat = 9;
 constexpr double kBoldS = 40.0;            ///< for so long
 /// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere; in the end it
 /// takes the low space away from all boxes to be free.
-constexpr int kRays[] = {8, 6, 4, 4};
+constexpr int kRays[] = {12, 9, 6, 6};
 constexpr int kRoomyRays[] = {16, 12, 8, 8};
 constexpr double kLookAroundTurn = 0.8;    ///< in vain: a LiDAR that has turned makes a new key frame [rad]
 /// An occupied cube with hits in so large a share of what a wall through it would give is known well enough to fly by
