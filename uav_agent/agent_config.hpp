@@ -3,7 +3,9 @@
 // Frame W (world, ENU).   Units: SI and radians unless the name says otherwise.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,11 @@ struct AgentConfig {
   Vector3d station_position = Vector3d::Zero();
 
   const FleetMember& me() const { return fleet.at(self); }
+  /// Whether something that is done every `every_s` falls into exchange k; whoever has another `offset` does it in
+  /// another one, so that not all do it at once.
+  bool due(std::uint64_t k, double every_s, std::size_t offset) const {
+    return (k + offset) % static_cast<std::uint64_t>(std::max(1.0, every_s / exchange_period_s)) == 0;
+  }
 };
 
 /// Radius of the sphere around the body's origin that holds arms, rotors and camera [m].

@@ -7,7 +7,6 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAirborneM = 2.0;      ///< who begins at such a height was restarted in flight
 constexpr double kAtTopM = 0.5;
 constexpr double kRetryS = 1.0;         ///< after a climb was stopped
 constexpr int kMaxClimbs = 20;

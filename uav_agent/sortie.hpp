@@ -14,6 +14,8 @@ namespace skein::agent {
 
 class Sortie {
  public:
+  static constexpr double kAirborneM = 2.0;  ///< who begins at such a height was restarted in flight
+
   struct Config {
     double climb_mps = 3.0;
     double transit_mps = 4.0;   ///< from here to there, and home

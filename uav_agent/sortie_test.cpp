@@ -24,7 +24,7 @@ class OneSortie : public testing::Test {
     tracking.airborne = p_WB_.z() > 0.5;
     RigidBodyState state;
     state.p_WB = p_WB_;
-    const PlannerInput in{.k = tick_ / 20,
+    const PlannerInput in{.k = static_cast<std::uint64_t>(tick_ / 20),
                           .tick = tick_,
                           .state = state,
                           .gimbal = {},

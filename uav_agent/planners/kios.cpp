@@ -10,13 +10,13 @@
 // Its weaknesses are the published ones: photographers idle while the explorers map; one quick pass on coarse cubes
 // misses thin members; without anybody in line of sight a UAV plans for itself alone and does others' work again.
 // Not published, and so our choice: every number below, where in a free cube it stops (kios_stops.hpp), the lanes
-// (kios_lanes.hpp), the messages (kios_talk.hpp), starts, safety and the way home at the end (sortie.hpp), and that waypoints around the boxes do where nobody has a LiDAR.
+// (kios_lanes.hpp), the messages (kios_talk.hpp), starts, safety and the way home at the end (sortie.hpp), and that
+// waypoints around the boxes do where nobody has a LiDAR.
 #include <algorithm>
 #include <cmath>
 #include <deque>
 
 #include "core/euler.hpp"
-#include "uav_agent/block_work.hpp"
 #include "uav_agent/path_search.hpp"
 #include "uav_agent/planner.hpp"
 #include "uav_agent/planners/kios_config.hpp"
@@ -24,20 +24,18 @@
 #include "uav_agent/planners/kios_stops.hpp"
 #include "uav_agent/planners/kios_talk.hpp"
 #include "uav_agent/planning/aiming.hpp"
-#include "uav_agent/planning/lift_off.hpp"
 #include "uav_agent/planning/voxel_route.hpp"
+#include "uav_agent/site.hpp"
 #include "uav_agent/sortie.hpp"
-#include "uav_agent/work_share.hpp"
+#include "uav_agent/strips.hpp"
 
 namespace skein::agent {
 namespace {
 
 constexpr double kAutoVoxelRatio = 0.9, kSmallestVoxelM = 2.5, kLargestVoxelM = 6.0;  ///< of d*
-constexpr double kMinClearanceM = 1.8;     ///< of the UAV's centre to anything mapped: the map's cells are coarse
 constexpr double kLookAtMapS = 1.0;        ///< between two looks at what the LiDARs saw
 constexpr double kRestS = 1.0;             ///< when there is nothing to do
 constexpr double kAimPatienceS = 4.0;      ///< at a waypoint; some directions are out of the gimbal's reach
-constexpr double kBlindFloorRatio = 0.25;  ///< of the highest box: without any LiDAR nobody flies lower
 constexpr int kMaxLaneFailures = 4;
 constexpr std::size_t kCandidates = 5;     ///< stops tried in one decision
 constexpr int kFruitlessToBold = 2, kFruitlessToRetreat = 9;
@@ -47,9 +45,6 @@ constexpr double kBoldS = 40.0;            ///< for so long
 constexpr int kRays[] = {12, 9, 6, 6};
 constexpr int kRoomyRays[] = {16, 12, 8, 8};
 constexpr double kLookAroundTurn = 0.8;    ///< in vain: a LiDAR that has turned makes a new key frame [rad]
-/// An occupied cube with hits in so large a share of what a wall through it would give is known well enough to fly by
-/// the finer map; of others, this UAV may have seen only a part.
-constexpr double kKnownShare = 0.2, kMapCellM = 0.5;
 constexpr double kWaitFactor = 1.5, kWaitExtraS = 20.0;  ///< patience with explorers, beside the time that lanes take
 
 }  // namespace
@@ -76,7 +71,7 @@ class KiosPlanner final : public Planner {
   using Id = VoxelGrid::Id;
 
   KiosStops::Config stops_config() const;
-  double clearance_m() const { return std::max(kMinClearanceM, agent_.me().body_radius_m + config_.clearance_m); }
+  double clearance_m() const { return centre_clearance_m(agent_, config_.clearance_m); }
   FreeSpace::Config space_config() const;
   FreeSpace free_space(const PlannerInput& in) const { return {space_config(), in.boxes, in.map}; }
 
@@ -109,9 +104,7 @@ class KiosPlanner final : public Planner {
   int failures_ = 0;                   ///< of this lane
   std::optional<VoxelGrid> grid_;      ///< once the boxes have come
   std::optional<VoxelGrid> hearsay_;   ///< of it, what this UAV did not see itself
-  double top_m_ = 0.0, blind_height_m_ = 0.0;
-  bool roomy_ = false;
-  bool blind_fleet_ = false;  ///< nobody has a LiDAR
+  Site site_;
   std::deque<Vector3d> lanes_;  ///< corners left
   std::optional<KiosStop> stop_;
   std::vector<Vector3d> way_;   ///< to it
@@ -166,50 +159,33 @@ FreeSpace::Config KiosPlanner::space_config() const {
   FreeSpace::Config config;
   config.clearance_m = clearance_m();
   config.jut_m = config_.jut_m;
-  config.rays = roomy_ ? kRoomyRays[boldness_] : kRays[boldness_];
-  config.blind_height_m = boldness_ + 1 < std::size(kRays) ? blind_height_m_ : 0.0;
-  if (blind_fleet_) config.floor_m = std::max(config.floor_m, kBlindFloorRatio * top_m_);
+  config.rays = site_.roomy ? kRoomyRays[boldness_] : kRays[boldness_];
+  config.blind_height_m = boldness_ + 1 < std::size(kRays) ? site_.blind_height_m : 0.0;
+  config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = hearsay_ ? &*hearsay_ : nullptr;
   return config;
 }
 
 /// The operational volume and all that follows from the boxes.
 void KiosPlanner::survey_site(const PlannerInput& in) {
-  top_m_ = top_of(in.boxes);
-  roomy_ = std::ranges::any_of(in.boxes, is_roomy);
+  site_ = site_of(agent_, in.boxes, config_.blind_height_ratio);
+  sortie_.know_site(site_.top_m, site_.blind_height_m);
   std::vector<Vector3d> starts;
-  bool lidar_in_fleet = false;
-  for (const FleetMember& member : agent_.fleet) {
-    starts.push_back(member.p_WB_start);
-    lidar_in_fleet |= member.role == Role::explorer;
-  }
+  for (const FleetMember& member : agent_.fleet) starts.push_back(member.p_WB_start);
   const double by_camera =
       std::clamp(kAutoVoxelRatio * reach_.sharp_distance_m, kSmallestVoxelM, kLargestVoxelM);
   const double voxel = config_.voxel_m > 0.0 ? config_.voxel_m : by_camera;
   // One cube of free space around everything, to look at the outermost faces from.
   grid_.emplace(operational_volume(in.boxes, starts, voxel, 0.0, voxel));
-  if (lidar_in_fleet) blind_height_m_ = blind_height_m(in.boxes, config_.blind_height_ratio);
-  sortie_.know_site(top_m_, blind_height_m_);
-  if (lidar_in_fleet) {
-    const auto corners = mapping_lanes(agent_, *grid_, in.boxes, blind_height_m_ + 2.0, config_.lanes);
-    lanes_.assign(corners.begin(), corners.end());
-    return;
-  }
-  blind_fleet_ = true;
-  for (Id id = 0; id < grid_->count(); ++id) {
-    const Vector3d centre = grid_->centre_W(id);
-    const bool inside = std::ranges::any_of(in.boxes, [&](const OrientedBox& box) { return box.contains(centre); });
-    if (inside) grid_->raise(id, VoxelState::occupied);
-  }
+  if (site_.blind_fleet) return fill_boxes(in.boxes, *grid_);
+  const auto corners = mapping_lanes(agent_, *grid_, in.boxes, site_.blind_height_m + 2.0, config_.lanes);
+  lanes_.assign(corners.begin(), corners.end());
 }
 
 void KiosPlanner::look_at_map(const PlannerInput& in) {
-  const auto period = static_cast<std::uint64_t>(kLookAtMapS / agent_.exchange_period_s);
-  if ((in.k + agent_.self) % std::max<std::uint64_t>(1, period) != 0) return;
+  if (!agent_.due(in.k, kLookAtMapS, agent_.self)) return;
   mapper_.update(in.map, *grid_);
-  const double cells = grid_->voxel_m() / kMapCellM;
-  const int many = static_cast<int>(kKnownShare * cells * cells);
-  hearsay_.emplace(*grid_).forget_occupied([&](Id id) { return mapper_.hits(id) >= many; });
+  hearsay_ = mapper_.hearsay(*grid_);
 }
 
 /// Something came between this UAV and what it was about.

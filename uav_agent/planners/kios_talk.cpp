@@ -28,9 +28,7 @@ void KiosTalk::listen(const PlannerInput& in, VoxelGrid& grid) {
 }
 
 void KiosTalk::speak(const PlannerInput& in, const VoxelGrid& grid, const Word& own, PlannerOutput& out) {
-  const double steps = std::max(1.0, config_.share_s / agent_.exchange_period_s);
-  const auto period = static_cast<std::uint64_t>(steps);
-  if ((in.k + 2 * agent_.self) % period != 0) return;  // not all at once
+  if (!agent_.due(in.k, config_.share_s, 2 * agent_.self)) return;
   PayloadWriter writer;
   writer.u8(own.mapping ? 1 : 0);
   writer.u32(own.stop);

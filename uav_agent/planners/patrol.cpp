@@ -16,7 +16,7 @@
 #include "uav_agent/block_work.hpp"
 #include "uav_agent/path_search.hpp"
 #include "uav_agent/planner.hpp"
-#include "uav_agent/planning/lift_off.hpp"
+#include "uav_agent/site.hpp"
 #include "uav_agent/sortie.hpp"
 #include "uav_agent/standoff.hpp"
 #include "uav_agent/survey.hpp"
@@ -32,8 +32,6 @@ constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the s
 constexpr int kMaxFailures = 3;
 constexpr int kMaxFailedTasks = 8;
 constexpr double kAnywhereM = 1e6;
-/// Of the UAV's centre to anything mapped, however small the UAV is: the map's cells are coarse.
-constexpr double kMinClearanceM = 1.8;
 /// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere; in the
 /// end it takes the low space outside all boxes to be free.
 constexpr int kRays[] = {8, 4, 2, 2};
@@ -166,7 +164,7 @@ PlannerOutput PatrolPlanner::plan(const PlannerInput& in) {
 
 FreeSpace::Config PatrolPlanner::space_config() const {
   FreeSpace::Config config;
-  config.clearance_m = std::max(kMinClearanceM, agent_.me().body_radius_m + config_.clearance_m);
+  config.clearance_m = centre_clearance_m(agent_, config_.clearance_m);
   config.use_map = config_.use_map;
   config.jut_m = 0.0;  // it works at a fixed distance from the boxes' faces, seen or not
   config.rays = kRays[boldness_];
@@ -189,11 +187,10 @@ StandoffConfig PatrolPlanner::standoff_config() const {
 
 void PatrolPlanner::share_work(const PlannerInput& in) {
   shared_ = true;
-  top_m_ = top_of(in.boxes);
-  const bool lidar_in_fleet = std::any_of(agent_.fleet.begin(), agent_.fleet.end(),
-                                          [](const FleetMember& member) { return member.role == Role::explorer; });
-  const bool by_map = lidar_in_fleet && config_.use_map;
-  if (by_map) blind_height_m_ = blind_height_m(in.boxes, config_.blind_height_ratio);
+  const Site site = site_of(agent_, in.boxes, config_.blind_height_ratio);
+  top_m_ = site.top_m;
+  const bool by_map = !site.blind_fleet && config_.use_map;
+  if (by_map) blind_height_m_ = site.blind_height_m;
   sortie_.know_site(top_m_, blind_height_m_);
   WorkShareConfig config;
   config.strips.standoff_ratio = config_.standoff_ratio;

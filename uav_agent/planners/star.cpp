@@ -16,7 +16,6 @@
 // Not published for this contest, and so our choice: all numbers (star_config.hpp), the messages, and safety.
 #include <algorithm>
 
-#include "uav_agent/block_work.hpp"
 #include "uav_agent/planner.hpp"
 #include "uav_agent/planners/star_camera.hpp"
 #include "uav_agent/planners/star_explorer.hpp"
@@ -26,17 +25,15 @@
 #include "uav_agent/planners/star_teams.hpp"
 #include "uav_agent/planners/star_tour.hpp"
 #include "uav_agent/planners/star_way.hpp"
-#include "uav_agent/planning/lift_off.hpp"
+#include "uav_agent/site.hpp"
 #include "uav_agent/sortie.hpp"
-#include "uav_agent/work_share.hpp"
+#include "uav_agent/strips.hpp"
 
 namespace skein::agent {
 namespace {
 
-constexpr double kMinClearanceM = 1.8;     ///< of the UAV's centre to anything mapped: the map's cells are coarse
 constexpr double kLookAtMapS = 1.0;        ///< between two looks at what the LiDARs saw
 constexpr std::uint64_t kCameraSteps = 4;  ///< exchanges between two looks at what the camera saw
-constexpr double kBlindFloorRatio = 0.25;  ///< of the highest box: without any LiDAR nobody flies lower
 constexpr double kAboveBlindM = 2.0;
 constexpr double kReachedM = 1.0;          ///< a place is reached this near to it
 constexpr double kRestS = 1.0;             ///< when there is nothing to do
@@ -48,9 +45,6 @@ constexpr double kBoldS = 40.0;            ///< for so long
 /// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere.
 constexpr int kRays[] = {8, 6, 4};
 constexpr int kRoomyRays[] = {16, 12, 8};
-/// An occupied cube with hits in so large a share of what a wall through it would give is known well enough to fly by
-/// the finer map; of others, this UAV may have seen only a part.
-constexpr double kKnownShare = 0.2, kMapCellM = 0.5;
 constexpr std::size_t kMaxLooks = 40'000;  ///< at unknown cubes, in one look at the map
 
 }  // namespace
@@ -85,7 +79,7 @@ class StarPlanner final : public Planner {
     bool empty() const { return views.empty() && goals.empty(); }
   };
 
-  double clearance_m() const { return std::max(kMinClearanceM, agent_.me().body_radius_m + config_.clearance_m); }
+  double clearance_m() const { return centre_clearance_m(agent_, config_.clearance_m); }
   bool has_lidar() const { return agent_.me().role == Role::explorer; }
   FreeSpace::Config space_config() const;
   StarTourConfig tour_config() const;
@@ -124,9 +118,7 @@ class StarPlanner final : public Planner {
   std::size_t leader_ = 0;            ///< of the team
   std::vector<std::size_t> boxes_;    ///< of the team, in the order of visit
   std::vector<Id> cubes_;             ///< in them
-  double blind_height_m_ = 0.0;
-  bool roomy_ = false;
-  bool blind_fleet_ = false;          ///< nobody has a LiDAR
+  Site site_;
 
   std::size_t at_box_ = 0;            ///< index into boxes_; the end: explored
   int approaches_ = 0;                ///< to this box
@@ -179,9 +171,9 @@ PlannerOutput StarPlanner::plan(const PlannerInput& in) {
 FreeSpace::Config StarPlanner::space_config() const {
   FreeSpace::Config config;
   config.clearance_m = clearance_m();
-  config.rays = roomy_ ? kRoomyRays[boldness_] : kRays[boldness_];
-  config.blind_height_m = blind_height_m_;
-  if (blind_fleet_) config.floor_m = std::max(config.floor_m, blind_height_m_);
+  config.rays = site_.roomy ? kRoomyRays[boldness_] : kRays[boldness_];
+  config.blind_height_m = site_.safe_height_m();
+  config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = hearsay_ ? &*hearsay_ : nullptr;
   return config;
 }
@@ -198,12 +190,9 @@ StarTourConfig StarPlanner::tour_config() const {
 /// The teams, and all that follows from the boxes.
 void StarPlanner::survey_site(const PlannerInput& in) {
   grid_.emplace(star_grid(in.boxes, config_, sharp_m_));
-  roomy_ = std::ranges::any_of(in.boxes, is_roomy);
-  blind_fleet_ = std::ranges::none_of(agent_.fleet, [](const FleetMember& uav) { return uav.role == Role::explorer; });
-  if (blind_fleet_) fill_boxes(in.boxes, *grid_);
-  const double top = top_of(in.boxes);
-  blind_height_m_ = blind_fleet_ ? kBlindFloorRatio * top : blind_height_m(in.boxes, config_.blind_height_ratio);
-  sortie_.know_site(top, blind_height_m_);
+  site_ = site_of(agent_, in.boxes, config_.blind_height_ratio);
+  if (site_.blind_fleet) fill_boxes(in.boxes, *grid_);
+  sortie_.know_site(site_.top_m, site_.safe_height_m());
 
   const StarTeam team = own_team(agent_.fleet, agent_.self, in.boxes, config_.volume_weight, !config_.faithful);
   leader_ = team.uavs.front();
@@ -217,14 +206,11 @@ void StarPlanner::survey_site(const PlannerInput& in) {
 
 void StarPlanner::look_at_map(const PlannerInput& in) {
   if (in.k % kCameraSteps == 0 && sortie_.working()) surfaces_->mark_seen(in.state, in.gimbal, mapper_, *grid_);
-  const auto period = static_cast<std::uint64_t>(kLookAtMapS / agent_.exchange_period_s);
-  if ((in.k + agent_.self) % std::max<std::uint64_t>(1, period) != 0) return;
+  if (!agent_.due(in.k, kLookAtMapS, agent_.self)) return;
   mapper_.update(in.map, *grid_);
   const std::vector<Id> changed = grid_->take_changed();
   if (has_lidar()) explorer_->look(*grid_, changed, in.state.p_WB);
-  const double cells = grid_->voxel_m() / kMapCellM;
-  const int many = static_cast<int>(kKnownShare * cells * cells);
-  hearsay_.emplace(*grid_).forget_occupied([&](Id id) { return mapper_.hits(id) >= many; });
+  hearsay_ = mapper_.hearsay(*grid_);
 }
 
 void StarPlanner::forget_target() {
@@ -341,7 +327,7 @@ bool StarPlanner::approach(const PlannerInput& in, const FreeSpace& space, std::
     return true;
   }
   const auto places =
-      places_beside(in.boxes[box], space, in.tracking.setpoint.p_WB, blind_height_m_ + kAboveBlindM);
+      places_beside(in.boxes[box], space, in.tracking.setpoint.p_WB, site_.safe_height_m() + kAboveBlindM);
   // From another side each time.
   const std::size_t first = kSidesApart * static_cast<std::size_t>(approaches_ - 1) + rounds_;
   for (std::size_t i = 0; i < std::min(places.size(), kCandidates); ++i) {

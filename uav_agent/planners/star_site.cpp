@@ -21,13 +21,7 @@ constexpr double kSpareM = 0.3;      ///< beside the clearance, from a viewpoint
 VoxelGrid star_grid(const std::vector<OrientedBox>& boxes, const StarConfig& config, double sharp_m) {
   double voxel = config.voxel_m;
   if (voxel == 0.0) voxel = std::clamp(kAutoVoxelRatio * sharp_m, kSmallestVoxelM, kLargestVoxelM);
-  Eigen::AlignedBox3d all;
-  for (const OrientedBox& box : boxes) {
-    const Vector3d half = box.R_WO.cwiseAbs() * (0.5 * box.size);
-    all.extend(Vector3d(box.center - half));
-    all.extend(Vector3d(box.center + half));
-  }
-  const Vector3d edges = all.sizes().array() + 2.0 * kAroundM;
+  const Vector3d edges = extent_of(boxes).sizes().array() + 2.0 * kAroundM;
   while ((edges / voxel).array().ceil().prod() > config.max_voxels) voxel *= kGrowth;
   return operational_volume(boxes, {}, kAroundM, 0.0, voxel);
 }
@@ -43,14 +37,6 @@ std::vector<VoxelGrid::Id> cubes_of_boxes(const VoxelGrid& grid, const std::vect
     if (std::ranges::count(own_boxes, static_cast<std::size_t>(holder - boxes.begin())) > 0) cubes.push_back(id);
   }
   return cubes;
-}
-
-void fill_boxes(const std::vector<OrientedBox>& boxes, VoxelGrid& grid) {
-  for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
-    const Vector3d centre = grid.centre_W(id);
-    const bool inside = std::ranges::any_of(boxes, [&](const OrientedBox& box) { return box.contains(centre); });
-    if (inside) grid.raise(id, VoxelState::occupied);
-  }
 }
 
 std::vector<Vector3d> places_beside(const OrientedBox& box, const FreeSpace& space, const Vector3d& p_W,

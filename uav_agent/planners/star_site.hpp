@@ -20,9 +20,6 @@ VoxelGrid star_grid(const std::vector<OrientedBox>& boxes, const StarConfig& con
 std::vector<VoxelGrid::Id> cubes_of_boxes(const VoxelGrid& grid, const std::vector<OrientedBox>& boxes,
                                           const std::vector<std::size_t>& own_boxes);
 
-/// Makes every cube in a box occupied: for a fleet that has nothing to find out with what is inside.
-void fill_boxes(const std::vector<OrientedBox>& boxes, VoxelGrid& grid);
-
 /// Places to look at a box from, beside it at half its height, the one nearest to `p_W` first.
 /// @param lowest_m  none is lower.
 std::vector<Vector3d> places_beside(const OrientedBox& box, const FreeSpace& space, const Vector3d& p_W,

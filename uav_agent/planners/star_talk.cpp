@@ -40,8 +40,7 @@ void StarTalk::listen(const PlannerInput& in, VoxelGrid& grid) {
 }
 
 void StarTalk::speak(const PlannerInput& in, const VoxelGrid& grid, const Word& own, PlannerOutput& out) {
-  const auto period = static_cast<std::uint64_t>(std::max(1.0, config_.share_s / agent_.exchange_period_s));
-  if ((in.k + 2 * agent_.self) % period != 0) return;  // not all at once
+  if (!agent_.due(in.k, config_.share_s, 2 * agent_.self)) return;
   PayloadWriter writer;
   writer.u8(static_cast<std::uint8_t>((own.explored ? kExplored : 0) | (own.goal_W ? kHasGoal : 0)));
   writer.u16(static_cast<std::uint16_t>(own.box));

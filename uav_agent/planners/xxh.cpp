@@ -32,7 +32,6 @@ namespace {
 
 constexpr double kSpareM = 0.3;       ///< of stops, beside the clearance
 constexpr double kLookAtMapS = 1.0;   ///< between two looks at what the LiDARs saw
-constexpr double kAirborneM = 2.0;    ///< a planner that begins at such a height was restarted in flight
 constexpr double kRestS = 1.0;        ///< when there is nothing to do
 constexpr double kShortRestS = 0.25;  ///< when another cell may be tried
 constexpr double kLowestM = 2.5;      ///< of places on the spiral and of stops
@@ -146,18 +145,16 @@ void XxhPlanner::prepare(const PlannerInput& in) {
   if (!in.boxes.empty() && !site_known_) {
     site_known_ = true;
     ways_.know_site(in.boxes);
-    sortie_.know_site(ways_.top_m(), ways_.blind_height_m());
+    sortie_.know_site(ways_.site().top_m, ways_.site().blind_height_m);
   }
   talk_.listen(in, shared_grid());
-  restarted_ |= !crew_.assigned() && in.state.p_WB.z() > kAirborneM;
+  restarted_ |= !crew_.assigned() && in.state.p_WB.z() > Sortie::kAirborneM;
   if (crew_.seek_assignment(in, restarted_)) {
     assigned_at_ = in.tick;
     came_from_W_ = agent_.fleet[crew_.leader()].p_WB_start;
     enter_region(0, in);
   }
-  const auto period = static_cast<std::uint64_t>(kLookAtMapS / agent_.exchange_period_s);
-  const bool look = (in.k + agent_.self) % std::max<std::uint64_t>(1, period) == 0;
-  if (region_ && !solid_ && look) region_->update(in.map);
+  if (region_ && !solid_ && agent_.due(in.k, kLookAtMapS, agent_.self)) region_->update(in.map);
 }
 
 void XxhPlanner::fly(const PlannerInput& in, PlannerOutput& out) {
@@ -378,8 +375,8 @@ std::vector<Vector3d> XxhPlanner::posts() const {
   out.z() = 0.0;
   if (out.norm() < 1.0) out = Vector3d::UnitX();
   const Vector3d place = entry_W_ + kPostM * static_cast<double>(crew_.rank() + 1) * out.normalized();
-  const double lowest = std::max(place.z(), ways_.safe_height_m() + kPostM);
-  const double highest = std::max(lowest, ways_.top_m() + kPostM * static_cast<double>(agent_.self + 2));
+  const double lowest = std::max(place.z(), ways_.site().safe_height_m() + kPostM);
+  const double highest = std::max(lowest, ways_.site().top_m + kPostM * static_cast<double>(agent_.self + 2));
   std::vector<Vector3d> posts;
   for (int i = 0; i < kPostHeights; ++i) {
     posts.emplace_back(place.x(), place.y(), lowest + (highest - lowest) * i / (kPostHeights - 1));
@@ -399,14 +396,14 @@ void XxhPlanner::stay_at_post(const PlannerInput& in, PlannerOutput& out) {
 void XxhPlanner::go_home(const PlannerInput& in, PlannerOutput& out) {
   if (at_post_ || !free_for_something(in)) return;
   Vector3d home = agent_.me().p_WB_start;
-  home.z() = ways_.safe_height_m() + kPostM * static_cast<double>(agent_.self + 1);
+  home.z() = ways_.site().safe_height_m() + kPostM * static_cast<double>(agent_.self + 1);
   at_post_ = ways_.fly_to(home, config_.transit_mps, in, out);
   not_before_ = in.tick + ticks(kRestS);
 }
 
 XxhWord XxhPlanner::own_word(const PlannerInput& in) const {
   XxhWord word;
-  word.start_W = in.state.p_WB.z() < kAirborneM ? in.state.p_WB : agent_.me().p_WB_start;
+  word.start_W = in.state.p_WB.z() < Sortie::kAirborneM ? in.state.p_WB : agent_.me().p_WB_start;
   word.has_plan = crew_.assigned();
   word.region = static_cast<std::uint16_t>(region_index_);
   word.explored = static_cast<std::uint8_t>(explored_);

@@ -73,7 +73,7 @@ void XxhExplorer::give_up() {
 
 /// From the lowest height above the place that can be reached; once, and only where it is low.
 bool XxhExplorer::look_from_above(const Vector3d& place_W, const PlannerInput& in, PlannerOutput& out) {
-  const double highest = ways_.safe_height_m() + kAboveM;
+  const double highest = ways_.site().safe_height_m() + kAboveM;
   if (place_W.z() >= highest || looked_down_at_ == place_W) return false;
   looked_down_at_ = place_W;
   for (double z = std::min(place_W.z() + kLiftM, highest);; z = std::min(z + kLiftM, highest)) {

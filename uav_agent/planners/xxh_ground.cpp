@@ -28,8 +28,7 @@ class XxhGround final : public GroundProgram {
     }
     if (!plan_ && list_is_closed(in)) make_plan(in);
     lacking_ |= somebody_lacks_it;
-    const auto period = static_cast<std::uint64_t>(config_.assign_every_s / ground_.exchange_period_s);
-    if (!plan_ || !lacking_ || in.k % std::max<std::uint64_t>(1, period) != 0) return {};
+    if (!plan_ || !lacking_ || !ground_.due(in.k, config_.assign_every_s, 0)) return {};
     lacking_ = false;
     return {plan_message(*plan_, ground_.fleet.size())};
   }

@@ -11,7 +11,6 @@ namespace {
 constexpr double kPlacesM = 6.0;      ///< between two places on the spiral
 constexpr double kSameM = 1.0;        ///< places nearer than this to the last one are left out
 constexpr double kBoxMarginM = 0.5;   ///< surface this far outside the box still belongs to it
-constexpr double kKnownShare = 0.2, kMapCellM = 0.5;  ///< of a wall's hits: such a cell is known well enough
 constexpr double kUnknownShare = 0.1;  ///< of a section's cells that may be unknown when it is said to be empty
 constexpr double kTilt = 0.8;          ///< of another place to look from, up and down
 constexpr std::size_t kMostTries = 120;  ///< cells whose stops are tried in one search
@@ -40,19 +39,14 @@ XxhRegionMap::XxhRegionMap(const Config& config, const OrientedBox& box, int axi
 
 void XxhRegionMap::update(const OccupancyMap& map) {
   mapper_.update(map, grid_);
-  const double cells = config_.voxel_m / kMapCellM;
-  const int many = static_cast<int>(kKnownShare * cells * cells);
-  hearsay_ = grid_;
-  hearsay_.forget_occupied([&](VoxelGrid::Id id) { return mapper_.hits(id) >= many; });
+  hearsay_ = mapper_.hearsay(grid_);
   for (VoxelGrid::Id id = 0; id < grid_.count() && !anything_; ++id) {
     anything_ = grid_.state(id) == VoxelState::occupied && box_.contains(grid_.centre_W(id));
   }
 }
 
 void XxhRegionMap::assume_solid() {
-  for (VoxelGrid::Id id = 0; id < grid_.count(); ++id) {
-    if (box_.contains(grid_.centre_W(id))) grid_.raise(id, VoxelState::occupied);
-  }
+  fill_boxes({box_}, grid_);
   anything_ = true;
 }
 

@@ -75,8 +75,7 @@ void XxhTalk::listen(const PlannerInput& in, VoxelGrid* grid) {
 }
 
 void XxhTalk::speak(const PlannerInput& in, const VoxelGrid* grid, const XxhWord& own, PlannerOutput& out) {
-  const auto period = static_cast<std::uint64_t>(std::max(1.0, config_.share_s / agent_.exchange_period_s));
-  if ((in.k + 2 * agent_.self) % period != 0) return;  // not all at once
+  if (!agent_.due(in.k, config_.share_s, 2 * agent_.self)) return;
   PayloadWriter writer;
   write_word(own, writer);
   if (grid && exchange_) exchange_->write(*grid, in.peers, in.tick, writer);

@@ -2,16 +2,11 @@
 
 #include <algorithm>
 
-#include "uav_agent/block_work.hpp"
 #include "uav_agent/path_search.hpp"
-#include "uav_agent/planning/lift_off.hpp"
-#include "uav_agent/work_share.hpp"
 
 namespace skein::agent {
 namespace {
 
-constexpr double kMinClearanceM = 1.8;     ///< of the UAV's centre to anything mapped: the map's cells are coarse
-constexpr double kBlindFloorRatio = 0.25;  ///< of the highest box: without any LiDAR nobody flies lower
 /// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere.
 constexpr int kRays[] = {8, 6, 4};
 constexpr int kRoomyFactor = 2;
@@ -24,27 +19,18 @@ constexpr int kFaithfulExpansions = 1000;
 }  // namespace
 
 void XxhWays::know_site(const std::vector<OrientedBox>& boxes) {
-  top_m_ = top_of(boxes);
-  roomy_ = std::ranges::any_of(boxes, is_roomy);
-  blind_fleet_ = std::ranges::none_of(agent_.fleet, [](const FleetMember& m) { return m.role == Role::explorer; });
-  if (!blind_fleet_) blind_height_m_ = agent::blind_height_m(boxes, config_.blind_height_ratio);
+  site_ = site_of(agent_, boxes, config_.blind_height_ratio);
 }
 
-double XxhWays::safe_height_m() const {
-  return std::max(blind_height_m_, blind_fleet_ ? kBlindFloorRatio * top_m_ : 0.0);
-}
-
-double XxhWays::clearance_m() const {
-  return std::max(kMinClearanceM, agent_.me().body_radius_m + config_.clearance_m);
-}
+double XxhWays::clearance_m() const { return centre_clearance_m(agent_, config_.clearance_m); }
 
 FreeSpace::Config XxhWays::space() const {
   FreeSpace::Config config;
   config.clearance_m = clearance_m();
   const int boldness = std::min(std::max(fruitless_ / kFruitlessToBold, dared_), 2);
-  config.rays = (roomy_ ? kRoomyFactor : 1) * kRays[boldness];
-  config.blind_height_m = blind_height_m_;
-  if (blind_fleet_) config.floor_m = std::max(config.floor_m, safe_height_m());
+  config.rays = (site_.roomy ? kRoomyFactor : 1) * kRays[boldness];
+  config.blind_height_m = site_.blind_height_m;
+  config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = hearsay_;
   return config;
 }

@@ -11,6 +11,7 @@
 #include "uav_agent/pilot.hpp"
 #include "uav_agent/planners/xxh_config.hpp"
 #include "uav_agent/planners/xxh_talk.hpp"
+#include "uav_agent/site.hpp"
 
 namespace skein::agent {
 
@@ -22,10 +23,7 @@ class XxhWays {
 
   /// Once, when the boxes have come.
   void know_site(const std::vector<OrientedBox>& boxes);
-  double top_m() const { return top_m_; }
-  double blind_height_m() const { return blind_height_m_; }
-  /// Higher than this is never unseen low space.
-  double safe_height_m() const;
+  const Site& site() const { return site_; }
   double clearance_m() const;
 
   /// What others told of the region at hand; nullptr: nothing. Must outlive its use.
@@ -56,8 +54,7 @@ class XxhWays {
   const AgentConfig& agent_;
   const XxhTalk& talk_;
   Pilot& pilot_;
-  bool roomy_ = false, blind_fleet_ = false;
-  double top_m_ = 0.0, blind_height_m_ = 0.0;
+  Site site_;
   const VoxelGrid* hearsay_ = nullptr;
   int fruitless_ = 0, dared_ = 0;
   std::vector<Vector3d> corners_;  ///< of the path being flown

@@ -206,15 +206,28 @@ bool VoxelGrid::merge_chunk(std::size_t chunk, PayloadReader& reader) {
   return true;
 }
 
-VoxelGrid operational_volume(const std::vector<OrientedBox>& boxes, const std::vector<Vector3d>& points_W,
-                             double margin_m, double lowest_m, double voxel_m, std::size_t chunk_voxels) {
+void fill_boxes(const std::vector<OrientedBox>& boxes, VoxelGrid& grid) {
+  for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
+    const Vector3d centre = grid.centre_W(id);
+    const bool inside = std::ranges::any_of(boxes, [&](const OrientedBox& box) { return box.contains(centre); });
+    if (inside) grid.raise(id, VoxelState::occupied);
+  }
+}
+
+Eigen::AlignedBox3d extent_of(const std::vector<OrientedBox>& boxes) {
   Eigen::AlignedBox3d all;
-  for (const Vector3d& p : points_W) all.extend(p);
   for (const OrientedBox& box : boxes) {
     const Vector3d half = box.R_WO.cwiseAbs() * (0.5 * box.size);
     all.extend(Vector3d(box.center - half));
     all.extend(Vector3d(box.center + half));
   }
+  return all;
+}
+
+VoxelGrid operational_volume(const std::vector<OrientedBox>& boxes, const std::vector<Vector3d>& points_W,
+                             double margin_m, double lowest_m, double voxel_m, std::size_t chunk_voxels) {
+  Eigen::AlignedBox3d all = extent_of(boxes);
+  for (const Vector3d& p : points_W) all.extend(p);
   if (all.isEmpty()) all.extend(Vector3d::Zero());
   Vector3d lo = all.min().array() - margin_m;
   Vector3d size = (all.max().array() + margin_m).matrix() - lo;

@@ -96,6 +96,12 @@ class VoxelGrid {
   std::vector<Id> changed_;
 };
 
+/// Makes every cube with its middle in a box occupied: for whoever has nothing to find out with what is inside.
+void fill_boxes(const std::vector<OrientedBox>& boxes, VoxelGrid& grid);
+
+/// The smallest box along W's axes that holds all boxes; empty without any.
+Eigen::AlignedBox3d extent_of(const std::vector<OrientedBox>& boxes);
+
 /// The smallest grid with axes along W's that holds all boxes and points, and `margin_m` more on each side; nothing
 /// of it is below `lowest_m`. KIOS's operational volume.
 VoxelGrid operational_volume(const std::vector<OrientedBox>& boxes, const std::vector<Vector3d>& points_W,

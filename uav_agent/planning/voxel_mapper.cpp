@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace skein::agent {
+namespace {
+
+/// Of the hits that a wall through the cube would give, on a map with cells of this size: that is well known.
+constexpr double kKnownShare = 0.2, kMapCellM = 0.5;
+
+}  // namespace
 
 void VoxelMapper::update(const OccupancyMap& map, VoxelGrid& grid) {
   hits_.resize(grid.count());
@@ -42,6 +48,14 @@ void VoxelMapper::find_free(const OccupancyMap& map, VoxelGrid& grid) {
     }
     if (seen) grid.raise(id, VoxelState::free);
   }
+}
+
+VoxelGrid VoxelMapper::hearsay(const VoxelGrid& grid) const {
+  const double cells = grid.voxel_m() / kMapCellM;
+  const int many = static_cast<int>(kKnownShare * cells * cells);
+  VoxelGrid told = grid;
+  told.forget_occupied([&](VoxelGrid::Id id) { return hits(id) >= many; });
+  return told;
 }
 
 std::optional<Vector3d> VoxelMapper::surface_W(VoxelGrid::Id id) const {

@@ -28,6 +28,9 @@ class VoxelMapper {
 
   /// The mean of the hits in a cube; nullopt if this UAV knows of none (others may have told of them).
   std::optional<Vector3d> surface_W(VoxelGrid::Id id) const;
+  /// What others have told beyond what this UAV knows well itself, for FreeSpace::Config::hearsay: the grid without
+  /// the occupied cubes that hold so many hits of its own that the finer map is good enough to fly by.
+  VoxelGrid hearsay(const VoxelGrid& grid) const;
   /// Mapped cells in a cube, of those that this UAV knows of.
   int hits(VoxelGrid::Id id) const { return id < hits_.size() ? hits_[id].count : 0; }
 

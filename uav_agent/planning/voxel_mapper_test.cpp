@@ -48,6 +48,21 @@ TEST(VoxelMapper, AFewHitsMayBeTooFew) {
   EXPECT_EQ(lax.state(id), VoxelState::occupied);
 }
 
+TEST(VoxelMapper, HearsayIsWhatItDoesNotKnowWellItself) {
+  const OccupancyMap map = scanned_wall();
+  VoxelGrid grid = grid_of_site();
+  VoxelMapper mapper;
+  mapper.update(map, grid);
+  const Id seen = *grid.at(Vector3d(20.2, 0.0, 8.0)), told = *grid.at(Vector3d(27.5, 0.0, 8.0));
+  const Id free = *grid.at(Vector3d(7.5, 0.0, 8.0));
+  grid.raise(told, VoxelState::occupied);
+  const VoxelGrid hearsay = mapper.hearsay(grid);
+  EXPECT_EQ(hearsay.state(seen), VoxelState::unknown) << "a whole wall of hits";
+  EXPECT_EQ(hearsay.state(told), VoxelState::occupied);
+  EXPECT_EQ(hearsay.state(free), VoxelState::free);
+  EXPECT_EQ(grid.state(seen), VoxelState::occupied) << "the grid that is exchanged stays";
+}
+
 TEST(VoxelMapper, LooksInTurnsFindTheSame) {
   const OccupancyMap map = scanned_wall();
   VoxelGrid at_once = grid_of_site(), in_turns = grid_of_site();

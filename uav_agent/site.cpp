@@ -1,0 +1,35 @@
+#include "uav_agent/site.hpp"
+
+#include <algorithm>
+
+#include "uav_agent/block_work.hpp"
+#include "uav_agent/planning/lift_off.hpp"
+#include "uav_agent/work_share.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kMinClearanceM = 1.8;
+constexpr double kBlindFloorRatio = 0.25;  ///< of the highest box
+
+}  // namespace
+
+Site site_of(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, double blind_height_ratio) {
+  Site site;
+  site.top_m = top_of(boxes);
+  site.roomy = std::ranges::any_of(boxes, is_roomy);
+  site.blind_fleet =
+      std::ranges::none_of(agent.fleet, [](const FleetMember& uav) { return uav.role == Role::explorer; });
+  if (site.blind_fleet) {
+    site.lowest_m = kBlindFloorRatio * site.top_m;
+  } else {
+    site.blind_height_m = blind_height_m(boxes, blind_height_ratio);
+  }
+  return site;
+}
+
+double centre_clearance_m(const AgentConfig& agent, double clearance_m) {
+  return std::max(kMinClearanceM, agent.me().body_radius_m + clearance_m);
+}
+
+}  // namespace skein::agent
