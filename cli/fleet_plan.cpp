@@ -43,6 +43,7 @@ Arguments scenario_arguments(const FleetPlan& plan) {
   if (options.assets) append(arguments, {"--assets", std::filesystem::absolute(*options.assets)});
   if (options.scene_seed) append(arguments, {"--scene-seed", std::to_string(*options.scene_seed)});
   if (options.duration_s) append(arguments, {"--duration", text_of(*options.duration_s)});
+  if (options.rules) append(arguments, {"--rules", *options.rules});
   if (options.faults) append(arguments, {"--faults", std::filesystem::absolute(*options.faults)});
   return arguments;
 }
@@ -126,6 +127,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   load.assets_dir = options.assets.value_or("");
   load.duration_s = options.duration_s;
   load.scene_seed = options.scene_seed;
+  load.rules = options.rules;
   if (options.secure && options.dds == "mixed") {
     throw InputError(
         "--secure --dds mixed: the vendors' security does not work together reliably; choose cyclonedds or fastdds");

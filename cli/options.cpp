@@ -48,6 +48,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
   command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
+  command->add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
   command->add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when");
   command->add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
@@ -158,6 +159,7 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
       ->allow_extra_args(false);
   command.add_option("--assets", study.assets, "Folder with models/ for scenarios that read files");
   command.add_option("--duration", study.duration_s, "Mission time [s], instead of the scenarios'")->check(seconds);
+  command.add_option("--rules", study.rules, "Preset of rules, instead of the scenarios': contest, paper or reference");
   command.add_option("--dds", study.dds, "DDS vendor: cyclonedds, fastdds or mixed")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
       ->capture_default_str();

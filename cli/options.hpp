@@ -19,6 +19,7 @@ struct RunOptions {
   std::optional<std::uint64_t> scene_seed;
   std::optional<std::filesystem::path> assets;
   std::optional<double> duration_s;
+  std::optional<std::string> rules;             ///< a preset, instead of the scenario's
   std::optional<std::filesystem::path> faults;  ///< fault file
   std::string dds = "cyclonedds";  ///< a vendor or "mixed"
   std::string clock = "lockstep";  ///< "lockstep", "realtime" or "realtime:FACTOR"
@@ -96,6 +97,7 @@ struct StudyOptions {
   std::optional<std::uint64_t> scene_seed;
   std::optional<std::filesystem::path> assets;
   std::optional<double> duration_s;  ///< mission time, instead of the scenarios'
+  std::optional<std::string> rules;  ///< a preset, instead of the scenarios'
   std::string dds = "cyclonedds";    ///< a vendor or "mixed"
   std::optional<std::filesystem::path> agent;  ///< as in RunOptions
   std::optional<std::filesystem::path> out;

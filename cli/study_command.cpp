@@ -10,6 +10,7 @@
 #include "cli/study_csv.hpp"
 #include "cli/study_page.hpp"
 #include "core/atomic_file.hpp"
+#include "core/suggestion.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -66,10 +67,11 @@ Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
               plan.settings["programs"],
               plan.options.dds,
               plan.options.jobs};
-  if (plan.options.duration_s) study.conditions = fmt::format("missions of {} s", *plan.options.duration_s);
-  if (plan.options.scene_seed) {
-    study.conditions += (study.conditions.empty() ? "" : ", ") + fmt::format("scene seed {}", *plan.options.scene_seed);
-  }
+  std::vector<std::string> conditions;
+  if (plan.options.duration_s) conditions.push_back(fmt::format("missions of {} s", *plan.options.duration_s));
+  if (plan.options.scene_seed) conditions.push_back(fmt::format("scene seed {}", *plan.options.scene_seed));
+  if (plan.options.rules) conditions.push_back("rules " + *plan.options.rules);
+  study.conditions = joined(conditions);
   for (std::size_t i = 0; i < plan.flights.size(); ++i) {
     const StudyFlight& flight = plan.flights[i];
     const StudyOutcome& outcome = outcomes.flights[i];

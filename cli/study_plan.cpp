@@ -65,6 +65,7 @@ RunOptions run_options(const StudyOptions& options, const std::string& scenario,
   run.scene_seed = options.scene_seed;
   run.assets = options.assets;
   run.duration_s = options.duration_s;
+  run.rules = options.rules;
   run.dds = options.dds;
   run.agent = options.agent;
   return run;
@@ -139,6 +140,7 @@ std::string command_line(const StudyPlan& plan) {
   if (options.scene_seed) add("--scene-seed", std::to_string(*options.scene_seed));
   if (options.assets) add("--assets", *options.assets);
   if (options.duration_s) add("--duration", fmt::format("{}", *options.duration_s));
+  if (options.rules) add("--rules", *options.rules);
   if (options.dds != StudyOptions{}.dds) add("--dds", options.dds);
   if (options.agent) add("--agent", *options.agent);
   return line;
@@ -191,6 +193,7 @@ StudyPlan plan_study(const StudyOptions& options) {
                    {"seeds", plan.seeds},
                    {"scene_seed", options.scene_seed ? Json(*options.scene_seed) : Json()},
                    {"duration_s", options.duration_s ? Json(*options.duration_s) : Json()},
+                   {"rules", options.rules ? Json(*options.rules) : Json()},
                    {"dds", options.dds},
                    {"programs", programs},
                    {"inputs", inputs}};
@@ -235,6 +238,7 @@ std::vector<std::string> flight_arguments(const StudyPlan& plan, const StudyFlig
   if (options.scene_seed) arguments.push_back("--scene-seed=" + std::to_string(*options.scene_seed));
   if (options.assets) arguments.push_back("--assets=" + options.assets->string());
   if (options.duration_s) arguments.push_back("--duration=" + fmt::format("{}", *options.duration_s));
+  if (options.rules) arguments.push_back("--rules=" + *options.rules);
   if (options.agent) arguments.push_back("--agent=" + options.agent->string());
   return arguments;
 }

@@ -90,6 +90,7 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--scene-seed", options.scene_seed, "Seed of a procedural scene, instead of the scenario's")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--duration", options.duration_s, "Mission time [s], instead of the scenario's");
+  app.add_option("--rules", options.rules, "Preset of rules, instead of what the scenario says of them");
   app.add_option("--faults", options.faults, "Fault file: what goes wrong, and when");
   app.add_flag("--check", options.check_only, "Validate the input, then stop");
   app.add_option("--status-fd", options.status_fd, "File descriptor for status lines")->group("Launcher");
@@ -127,6 +128,7 @@ LoadOptions ProgramOptions::load_options() const {
   load.assets_dir = assets;
   load.duration_s = duration_s;
   load.scene_seed = scene_seed;
+  load.rules = rules;
   return load;
 }
 

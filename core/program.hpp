@@ -44,6 +44,7 @@ struct ProgramOptions {
   std::uint64_t seed = 0;                   ///< --seed: 0 draws nothing
   std::optional<std::uint64_t> scene_seed;  ///< --scene-seed
   std::optional<double> duration_s;         ///< --duration
+  std::optional<std::string> rules;         ///< --rules: a preset
   std::filesystem::path faults;             ///< --faults: fault file; empty: none
   bool check_only = false;                  ///< --check: validate the input, then stop
   int status_fd = -1;                       ///< --status-fd: where status_pipe.hpp writes; -1: nowhere

@@ -2,6 +2,7 @@
 // For scenario_reader.cpp and its tests only. The structs and their defaults are in scenario.hpp.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "core/euler.hpp"
 #include "core/scenario.hpp"
 #include "core/scenario_reader.hpp"
+#include "core/suggestion.hpp"
 
 namespace skein {
 
@@ -117,15 +119,22 @@ template <class R>
 void describe(R& r, RulesConfig& rules) {
   r.field("preset", rules.preset);
   if constexpr (R::kReads) {  // the preset first, then the switches that differ from it
-    const bool known = rules.preset == "contest" || rules.preset == "paper";
-    r.check(known, "preset", "must be one of contest, paper, not '" + rules.preset + "'");
-    if (known) rules = rules_preset(rules.preset);
+    const auto presets = rules_presets();
+    const auto preset = std::ranges::find(presets, rules.preset, &RulesConfig::preset);
+    std::vector<std::string> names;
+    for (const RulesConfig& known : presets) names.push_back(known.preset);
+    r.check(preset != presets.end(), "preset", "must be one of " + joined(names) + ", not '" + rules.preset + "'");
+    if (preset != presets.end()) rules = *preset;
   }
   r.field("reject_commands_beyond_limits", rules.reject_commands_beyond_limits);
   r.field("guard_position_commands", rules.guard_position_commands);
   r.field("limit_search_radius", rules.limit_search_radius);
   r.field("unnormalised_displacement", rules.unnormalised_displacement);
+  r.field("ray_ends_at_point", rules.ray_ends_at_point);
+  r.field("own_body_hides", rules.own_body_hides);
+  r.field("camera_blind_in_structure", rules.camera_blind_in_structure);
   r.field("phantom_gimbal_rate", rules.phantom_gimbal_rate);
+  r.field("collision_kills_both", rules.collision_kills_both);
   r.field("collision_voids_score", rules.collision_voids_score);
   r.field("min_point_score", rules.min_point_score, within(0.0, 1.0));
   r.field("takeoff_height_m", rules.takeoff_height_m, within(0.0, 100.0));

@@ -1,6 +1,7 @@
 #include "core/scenario_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -240,6 +241,13 @@ void apply_overrides(const LoadOptions& options, Scenario& scenario) {
     }
     scenario.scene.scene_seed = *options.scene_seed;
   }
+  if (options.rules) {
+    try {
+      scenario.rules = rules_preset(*options.rules);
+    } catch (const InputError& error) {
+      throw InputError(std::string("--rules: ") + error.what());
+    }
+  }
 }
 
 }  // namespace
@@ -273,16 +281,34 @@ VehicleConfig load_vehicle(const std::string& name_or_path, const fs::path& conf
   return read_config_file<VehicleConfig>(find_config_file("vehicle", name_or_path, config_dir / "vehicles"));
 }
 
+std::span<const RulesConfig> rules_presets() {
+  static const auto presets = [] {
+    const RulesConfig contest;
+    RulesConfig paper;
+    paper.preset = "paper";
+    paper.limit_search_radius = false;
+    paper.unnormalised_displacement = false;
+    paper.min_point_score = 0.0;
+    RulesConfig reference;
+    reference.preset = "reference";
+    reference.ray_ends_at_point = true;
+    reference.camera_blind_in_structure = false;
+    reference.phantom_gimbal_rate = true;
+    reference.reject_commands_beyond_limits = false;
+    reference.guard_position_commands = false;
+    reference.collision_voids_score = false;
+    return std::array{contest, paper, reference};
+  }();
+  return presets;
+}
+
 RulesConfig rules_preset(const std::string& preset) {
-  RulesConfig rules;
-  rules.preset = preset;
-  if (preset == "paper") {
-    rules.limit_search_radius = false;
-    rules.unnormalised_displacement = false;
-  } else if (preset != "contest") {
-    throw InputError("there is no rules preset '" + preset + "'; " + suggestion(preset, {"contest", "paper"}));
+  std::vector<std::string> names;
+  for (const RulesConfig& rules : rules_presets()) {
+    if (rules.preset == preset) return rules;
+    names.push_back(rules.preset);
   }
-  return rules;
+  throw InputError("there is no rules preset '" + preset + "'; " + suggestion(preset, names));
 }
 
 std::string to_yaml(const Scenario& scenario) {

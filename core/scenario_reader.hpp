@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "core/config_files.hpp"
@@ -18,6 +19,7 @@ struct LoadOptions {
   std::filesystem::path config_dir = {};         ///< empty: default_config_dir()
   std::optional<double> duration_s = {};         ///< instead of the file's, (0, 36000]
   std::optional<std::uint64_t> scene_seed = {};  ///< instead of the file's; only for a procedural scene
+  std::optional<std::string> rules = {};         ///< a preset, instead of all that the file says of rules
   bool needs_scene_files = true;  ///< false for programs that do not look at the scene: they need no assets
 };
 
@@ -29,7 +31,9 @@ Scenario load_scenario(const std::string& name_or_path, const LoadOptions& optio
 /// @param name_or_path as above, under config_dir/vehicles/.  @throws InputError.
 VehicleConfig load_vehicle(const std::string& name_or_path, const std::filesystem::path& config_dir);
 
-/// A preset's switches: "contest" or "paper".  @throws InputError for another name.
+/// All presets of rules: "contest", which is the default, "paper" and "reference".
+std::span<const RulesConfig> rules_presets();
+/// A preset's switches by its name.  @throws InputError for a name that there is not.
 RulesConfig rules_preset(const std::string& preset);
 
 /// The scenario with every key that it resolved to, vehicles in place; load_scenario() reads it back to the same.

@@ -85,8 +85,10 @@ TEST_F(ScenarioReader, ASwitchOverridesItsPresetWhateverTheOrder) {
   EXPECT_TRUE(contest.rules.unnormalised_displacement);
 }
 
-TEST_F(ScenarioReader, PresetsDifferInTheFormulasOnly) {
+TEST_F(ScenarioReader, PresetsDifferWhereTheirSourcesDo) {
   const RulesConfig contest = rules_preset("contest"), paper = rules_preset("paper");
+  EXPECT_EQ(contest.min_point_score, 0.2);
+  EXPECT_EQ(paper.min_point_score, 0.0) << "Eq. 1 has no least score";
   EXPECT_TRUE(contest.limit_search_radius);
   EXPECT_TRUE(contest.unnormalised_displacement);
   EXPECT_FALSE(paper.limit_search_radius);
@@ -96,9 +98,33 @@ TEST_F(ScenarioReader, PresetsDifferInTheFormulasOnly) {
     EXPECT_TRUE(rules.guard_position_commands);
     EXPECT_TRUE(rules.collision_voids_score);
     EXPECT_FALSE(rules.phantom_gimbal_rate);
-    EXPECT_EQ(rules.min_point_score, 0.2);
+    EXPECT_FALSE(rules.ray_ends_at_point);
+    EXPECT_TRUE(rules.camera_blind_in_structure);
+    EXPECT_FALSE(rules.collision_kills_both);
+  }
+  for (const RulesConfig& rules : rules_presets()) {
+    EXPECT_TRUE(rules.own_body_hides) << "it is physics";
     EXPECT_EQ(rules.takeoff_height_m, 0.1);
     EXPECT_EQ(rules.takeoff_speed_mps, 0.1);
+  }
+  const RulesConfig reference = rules_preset("reference");
+  EXPECT_TRUE(reference.ray_ends_at_point && reference.phantom_gimbal_rate && reference.limit_search_radius &&
+              reference.unnormalised_displacement);
+  EXPECT_FALSE(reference.reject_commands_beyond_limits || reference.guard_position_commands ||
+               reference.collision_voids_score || reference.camera_blind_in_structure);
+  EXPECT_EQ(reference.min_point_score, 0.2);
+}
+
+TEST_F(ScenarioReader, AnOptionReplacesTheRulesOfTheFile) {
+  options_.rules = "reference";
+  const auto file = scenario("{family: towers}", "rules: {preset: paper, min_point_score: 0.3}\n");
+  const RulesConfig rules = load_scenario(file, options_).rules;
+  EXPECT_EQ(rules.preset, "reference");
+  EXPECT_EQ(rules.min_point_score, 0.2);
+  options_.rules = "referenze";
+  const std::string message = complaint(file);
+  for (const char* part : {"--rules", "'referenze'", "did you mean 'reference'?"}) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
   }
 }
 
@@ -107,12 +133,15 @@ TEST_F(ScenarioReader, EveryRuleHasItsSwitch) {
       scenario("{family: towers}",
                "rules: {reject_commands_beyond_limits: false, guard_position_commands: false, limit_search_radius: "
                "false, unnormalised_displacement: false, phantom_gimbal_rate: true, collision_voids_score: false, "
+               "ray_ends_at_point: true, own_body_hides: false, camera_blind_in_structure: false, "
+               "collision_kills_both: true, "
                "min_point_score: 0.1, takeoff_height_m: 0.5, takeoff_speed_mps: 0.2}\n"),
       options_);
   EXPECT_FALSE(read.rules.reject_commands_beyond_limits || read.rules.guard_position_commands ||
                read.rules.limit_search_radius || read.rules.unnormalised_displacement ||
                read.rules.collision_voids_score);
-  EXPECT_TRUE(read.rules.phantom_gimbal_rate);
+  EXPECT_TRUE(read.rules.phantom_gimbal_rate && read.rules.ray_ends_at_point && read.rules.collision_kills_both);
+  EXPECT_FALSE(read.rules.own_body_hides || read.rules.camera_blind_in_structure);
   EXPECT_EQ(read.rules.min_point_score, 0.1);
   EXPECT_EQ(read.rules.takeoff_height_m, 0.5);
   EXPECT_EQ(read.rules.takeoff_speed_mps, 0.2);

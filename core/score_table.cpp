@@ -99,7 +99,7 @@ std::vector<double> ScoreTable::score_by_uav() const {
 
 std::size_t ScoreTable::points_detected() const {
   return static_cast<std::size_t>(
-      std::ranges::count_if(standing_, [](const PointTally& tally) { return tally.q > 0.0F; }));
+      std::ranges::count_if(standing_, [](const PointTally& tally) { return tally.q >= kDetectedQuality; }));
 }
 
 }  // namespace skein

@@ -53,6 +53,9 @@ struct TallyChange {
   bool operator==(const TallyChange&) const = default;
 };
 
+/// A point is detected from this quality on, whatever less the rules let count.
+inline constexpr float kDetectedQuality = 0.2F;
+
 /// Score of a fleet. For each interest point counts the best capture among the UAVs without a collision (of all UAVs
 /// when `rules.collision_voids_score` is off); ties go to the earlier capture, then to the UAV that stands first in the
 /// fleet. The result does not depend on the order in which captures and collisions come in, nor on repetitions.
@@ -72,7 +75,7 @@ class ScoreTable {
   const std::vector<PointTally>& points() const { return standing_; }
   double score() const;                      ///< sum over all points
   std::vector<double> score_by_uav() const;  ///< in fleet order; sums to score()
-  std::size_t points_detected() const;       ///< points with a capture that counts
+  std::size_t points_detected() const;       ///< points with a capture that counts, of kDetectedQuality or better
 
  private:
   PointTally best_of_fleet(std::uint32_t point) const;

@@ -151,6 +151,15 @@ TEST(ScoreTable, ThresholdIsInclusive) {
   EXPECT_EQ(table.points()[0].q, 0.2F);
 }
 
+TEST(ScoreTable, WhatCountsForLessIsNotDetected) {
+  RulesConfig rules;
+  rules.min_point_score = 0.0;
+  ScoreTable table(1, 3, rules);
+  table.add({0, 0, 0, 0, {{0, 1.0F, 0.2F, 0.2F}, {1, 1.0F, 0.05F, 0.05F}}});
+  EXPECT_EQ(table.points_detected(), 1U);
+  EXPECT_FLOAT_EQ(static_cast<float>(table.score()), 0.25F);
+}
+
 TEST(ScoreTable, RefusesWhatDoesNotExist) {
   ScoreTable table(2, 3, RulesConfig{});
   EXPECT_THROW(table.add({2, 0, 0, 0, {}}), std::out_of_range);

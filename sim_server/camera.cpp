@@ -17,6 +17,22 @@ bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, co
   return hit && std::abs(hit->distance - distance) <= Camera::kSurfaceTolerance;
 }
 
+bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world) {
+  RayFilter filter;
+  filter.except_uav = own_uav;
+  const auto hit = world.first_hit_before_end(p_WC, p_W, filter);
+  return hit && hit->length - hit->distance <= static_cast<float>(Camera::kSurfaceTolerance);
+}
+
+namespace {
+
+/// The camera hangs below its body and is no body itself: it may reach through a roof.
+bool is_through_structure(const Vector3d& p_WB, const Vector3d& p_WC, const RayScene& world) {
+  return world.first_hit_distance(p_WB, p_WC, {.ground = false, .uavs = false}).has_value();
+}
+
+}  // namespace
+
 bool Capture::improved() const { return std::ranges::any_of(detections, &Detection::improved); }
 
 Camera::Camera(const CameraConfig& config, double desired_mm_per_pixel, const RulesConfig& rules,
@@ -38,6 +54,9 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
 
   Capture capture{tick, next_number_++, {}};
   last_ = tick;
+  if (rules_.camera_blind_in_structure && is_through_structure(body.p_WB, p_WC, world)) return capture;
+  const auto sees = rules_.ray_ends_at_point ? in_sight_of_reference : in_sight;
+  const std::size_t sees_through = rules_.own_body_hides ? kNobody : uav_;
   for (std::uint32_t i = 0; i < points_.size(); ++i) {
     if ((points_[i].p_W - centre).squaredNorm() > reach * reach) {
       continue;
@@ -46,10 +65,11 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
     const auto p_C = exposure.view(p_W);
     const auto quality = p_C ? exposure.score(*p_C, points_[i].n_W.cast<double>()) : std::nullopt;
     // The ray comes last: it costs more than all formulas together.
-    if (!quality || quality->score() < rules_.min_point_score || !in_sight(p_WC, p_W, uav_, world)) {
+    const double q = quality ? quality->score() : 0.0;
+    const bool counts = q > 0.0 && q >= rules_.min_point_score;  // what is no number does not
+    if (!counts || !sees(p_WC, p_W, sees_through, world)) {
       continue;
     }
-    const double q = quality->score();
     const bool improved = static_cast<float>(q) > best_[i];
     best_[i] = std::max(best_[i], static_cast<float>(q));
     capture.detections.push_back({i, quality->q_blur, quality->q_res, q, best_[i], improved});

@@ -12,9 +12,13 @@
 
 namespace skein::sim {
 
-/// Whether the first thing on the way from a camera is the surface that the point lies on: Camera's own test.
+/// Whether the first thing on the way from a camera is the surface that the point lies on, within
+/// Camera::kSurfaceTolerance before or behind it: Camera's own test.
 /// @param own_uav  whose body does not hide; kNobody: every body does.
 bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world);
+/// The reference's test, for `rules.ray_ends_at_point`: the surface must be met before the ray's end at the point, by
+/// single-precision arithmetic. Of free views of points on their triangles about half see nothing, by rounding alone.
+bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world);
 
 /// One interest point in one capture.
 struct Detection {
@@ -35,7 +39,7 @@ struct Capture {
 class Camera {
  public:
   /// @param points  interest points of the scene; must outlive the camera.
-  /// @param uav     fleet index: its own body does not hide anything.
+  /// @param uav     fleet index: whose body hides only with `rules.own_body_hides`.
   Camera(const CameraConfig& config, double desired_mm_per_pixel, const RulesConfig& rules,
          const std::vector<InterestPoint>& points, std::size_t uav);
 
@@ -43,8 +47,9 @@ class Camera {
   bool ready(Tick tick) const { return !last_ || tick - *last_ > interval_; }
 
   /// Takes a picture and keeps the best score of each point. A point counts when it is within the search radius, in the
-  /// field of view, scores at least `rules.min_point_score`, and the first thing on the ray to it is met within
-  /// kSurfaceTolerance of it. Structure, ground and other UAVs hide.
+  /// field of view, scores more than 0 and at least `rules.min_point_score`, and is in sight. Structure, ground and
+  /// UAVs hide. With `rules.camera_blind_in_structure` it sees nothing while structure stands between the body's origin
+  /// and the camera: then it is not where a camera could be.
   /// @param world  with the poses of all UAVs at this tick.
   /// Not thread-safe; cameras of different UAVs may work in parallel.
   Capture capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world);
@@ -53,7 +58,7 @@ class Camera {
   /// Best score of each interest point so far, 0 when never seen.
   const std::vector<float>& best() const { return best_; }
 
-  static constexpr double kSurfaceTolerance = 0.025;  ///< [m], either side of the point
+  static constexpr double kSurfaceTolerance = 0.025;  ///< [m]
 
  private:
   CameraConfig config_;

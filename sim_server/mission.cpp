@@ -9,7 +9,8 @@ Mission::Mission(const Scenario& scenario, std::vector<double> rest_heights)
     : duration_(ticks(scenario.duration_s)),
       takeoff_timeout_(ticks(scenario.takeoff_timeout_s)),
       takeoff_height_(scenario.rules.takeoff_height_m),
-      takeoff_speed_(scenario.rules.takeoff_speed_mps) {
+      takeoff_speed_(scenario.rules.takeoff_speed_mps),
+      collision_kills_both_(scenario.rules.collision_kills_both) {
   for (double height : rest_heights) uavs_.push_back({.rest_height = height});
 }
 
@@ -61,10 +62,11 @@ std::vector<Collision> Mission::find_collisions(Tick tick, const std::vector<Con
   for (const Contact& contact : contacts) {
     const BodyId& other = contact.other;
     if (other.kind == BodyId::Kind::ground) continue;
-    const bool pair = other.kind == BodyId::Kind::uav;
-    if (!was_flying[contact.uav] && !(pair && was_flying[other.uav])) continue;
-    kill(contact.uav, other, contact.p_W);
-    if (pair) kill(other.uav, {BodyId::Kind::uav, contact.uav}, contact.p_W);
+    const bool pair = other.kind == BodyId::Kind::uav, first_flies = was_flying[contact.uav];
+    const bool second_flies = pair && was_flying[other.uav];
+    const bool both = collision_kills_both_ && pair && (first_flies || second_flies);
+    if (first_flies || both) kill(contact.uav, other, contact.p_W);
+    if (second_flies || both) kill(other.uav, {BodyId::Kind::uav, contact.uav}, contact.p_W);
   }
   std::stable_sort(collisions.begin(), collisions.end(),
                    [](const Collision& a, const Collision& b) { return a.uav < b.uav; });

@@ -28,7 +28,8 @@ struct Collision {
 ///
 /// A UAV is airborne once it is `takeoff_height_m` above its rest height and faster than `takeoff_speed_mps`, and
 /// grounded again once it is slow and either low or on the ground. The clock starts when the first UAV becomes
-/// airborne. An airborne UAV that touches anything but the ground dies; of two UAVs both do. The mission ends when the
+/// airborne. An airborne UAV that touches anything but the ground dies, each of two UAVs by its own state (with
+/// `rules.collision_kills_both` the one that one touches dies with it, though it rests). The mission ends when the
 /// time is up, when every UAV is dead or has landed after a flight, or when nobody took off in time.
 class Mission {
  public:
@@ -66,6 +67,7 @@ class Mission {
 
   Tick duration_, takeoff_timeout_;
   double takeoff_height_, takeoff_speed_;
+  bool collision_kills_both_;
   std::vector<Member> uavs_;
   Phase phase_ = Phase::waiting;
   MissionEnd end_ = MissionEnd::none;

@@ -103,7 +103,22 @@ TEST_F(MissionTest, GroundAndRestingUavsDoNotKill) {
   EXPECT_TRUE(m.alive(1));
 }
 
-TEST_F(MissionTest, BothOfAPairDieEvenIfOneOfThemRests) {
+TEST_F(MissionTest, EachOfAPairIsJudgedByItsOwnState) {
+  const Contact pair{0, {BodyId::Kind::uav, 1}, {1, 1, 1}};
+  for (const auto& [first, second] : {std::pair{true, true}, {true, false}, {false, true}, {false, false}}) {
+    Mission m = mission(3);
+    const std::vector<RigidBodyState> states = {first ? flying() : resting(), second ? flying() : resting(), flying()};
+    m.update(1, states, {});
+    const auto collisions = m.update(2, states, {pair});
+    EXPECT_EQ(m.alive(0), !first);
+    EXPECT_EQ(m.alive(1), !second) << "who rests and is touched lives";
+    EXPECT_EQ(collisions.size(), static_cast<std::size_t>(first + second));
+    EXPECT_TRUE(m.alive(2));
+  }
+}
+
+TEST_F(MissionTest, BothOfAPairDieEvenIfOneOfThemRestsWhereTheRulesSaySo) {
+  scenario_.rules.collision_kills_both = true;
   Mission m = mission(3);
   m.update(1, {flying(), resting(), flying()}, {});
   const auto collisions = m.update(2, {flying(), resting(), flying()}, {{0, {BodyId::Kind::uav, 1}, {1, 1, 1}}});
@@ -117,6 +132,7 @@ TEST_F(MissionTest, BothOfAPairDieEvenIfOneOfThemRests) {
 
 TEST_F(MissionTest, OrderOfContactsInATickDoesNotMatter) {
   // 0 hits the structure and 1 in the same tick: both die, whichever contact comes first.
+  scenario_.rules.collision_kills_both = true;
   const Contact wall{0, kStructure, Vector3d::Zero()}, pair{0, {BodyId::Kind::uav, 1}, Vector3d::Zero()};
   for (const auto& contacts : {std::vector<Contact>{wall, pair}, std::vector<Contact>{pair, wall}}) {
     Mission m = mission(2);

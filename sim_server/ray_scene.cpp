@@ -37,6 +37,21 @@ Device make_device(bool native_cpu) {
   return device;
 }
 
+RTCRayHit ray_query(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float distance_max) {
+  RTCRayHit query{};
+  query.ray.org_x = origin.x();
+  query.ray.org_y = origin.y();
+  query.ray.org_z = origin.z();
+  query.ray.dir_x = direction.x();
+  query.ray.dir_y = direction.y();
+  query.ray.dir_z = direction.z();
+  query.ray.tfar = distance_max;
+  query.ray.mask = ~0U;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
 RTCIntersectContext make_context(RTCIntersectContextFlags flags) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -139,17 +154,7 @@ struct RayScene::Impl {
   /// The structure on a single ray; nullopt when there is none up to `distance_max`.
   std::optional<Hit> first_structure(const Ray& ray, double distance_max) const {
     const Eigen::Vector3f origin = ray.origin.cast<float>(), direction = ray.direction.cast<float>();
-    RTCRayHit query{};
-    query.ray.org_x = origin.x();
-    query.ray.org_y = origin.y();
-    query.ray.org_z = origin.z();
-    query.ray.dir_x = direction.x();
-    query.ray.dir_y = direction.y();
-    query.ray.dir_z = direction.z();
-    query.ray.tfar = static_cast<float>(distance_max);
-    query.ray.mask = ~0U;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit query = ray_query(origin, direction, static_cast<float>(distance_max));
     RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_NONE);
     rtcIntersect1(scene.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
@@ -157,7 +162,8 @@ struct RayScene::Impl {
                .triangle = query.hit.primID};
   }
 
-  std::optional<Hit> first_hit(const Ray& ray, double distance_max, const RayFilter& filter) const {
+  /// The first of ground and bodies; nullopt when there is none up to `distance_max`.
+  std::optional<Hit> first_shape(const Ray& ray, double distance_max, const RayFilter& filter) const {
     Hit nearest{.distance = distance_max};
     bool any = false;
     if (filter.ground) {
@@ -181,10 +187,43 @@ struct RayScene::Impl {
         any = true;
       }
     }
-    if (const auto hit = first_structure(ray, nearest.distance)) {
-      return hit;
-    }
     return any ? std::optional(nearest) : std::nullopt;
+  }
+
+  std::optional<Hit> first_hit(const Ray& ray, double distance_max, const RayFilter& filter) const {
+    const auto shape = first_shape(ray, distance_max, filter);
+    const auto structure = first_structure(ray, shape ? shape->distance : distance_max);
+    return structure ? structure : shape;
+  }
+
+  /// What the Embree filter of before_end() carries along a ray.
+  struct Crossings {
+    RTCIntersectContext context;  ///< first: the filter finds the rest behind it
+    const Impl* impl;
+    Eigen::Vector3f origin, direction;
+    float length, nearest;
+  };
+
+  /// Embree names every triangle on the ray; each is tried, none ends the search.
+  static void try_crossing(const RTCFilterFunctionNArguments* args) {
+    auto& crossings = *reinterpret_cast<Crossings*>(args->context);
+    const auto& triangle = crossings.impl->mesh.triangles[RTCHitN_primID(args->hit, args->N, 0)];
+    const auto& vertices = crossings.impl->mesh.vertices;
+    const float t = crossing_distance(crossings.origin, crossings.direction,
+                                      {vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]});
+    if (t < crossings.length) crossings.nearest = std::min(crossings.nearest, t);
+    args->valid[0] = 0;
+  }
+
+  /// Of the structure alone, up to `length`; infinity when nothing is there.
+  float before_end(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float length) const {
+    constexpr float kReach = 0.05F;  // beyond the end, so that Embree names all whose float distance may be less
+    Crossings crossings{make_context(RTC_INTERSECT_CONTEXT_FLAG_NONE), this,   origin, direction, length,
+                        std::numeric_limits<float>::infinity()};
+    crossings.context.filter = &Impl::try_crossing;
+    RTCRayHit query = ray_query(origin, direction, length + kReach);
+    rtcIntersect1(scene.get(), &crossings.context, &query);
+    return crossings.nearest;
   }
 
   /// Distances to the structure, and to the ground, which ends a ray before it is traced.
@@ -297,6 +336,21 @@ std::optional<double> RayScene::first_hit_distance(const Vector3d& from_W, const
                                                    const RayFilter& filter) const {
   const auto hit = first_hit(from_W, to_W - from_W, (to_W - from_W).norm(), filter);
   return hit ? std::optional(hit->distance) : std::nullopt;
+}
+
+std::optional<RayScene::HitBeforeEnd> RayScene::first_hit_before_end(const Vector3d& from_W, const Vector3d& to_W,
+                                                                     const RayFilter& filter) const {
+  const Eigen::Vector3f origin = from_W.cast<float>(), way = to_W.cast<float>() - origin;
+  const float length = way.norm();
+  if (!(length > 0.0F)) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3f direction = way / length;
+  float nearest = impl_->before_end(origin, direction, length);
+  if (const auto shape = impl_->first_shape({origin.cast<double>(), direction.cast<double>().normalized()}, length, filter)) {
+    nearest = std::min(nearest, static_cast<float>(shape->distance));
+  }
+  return nearest < length ? std::optional(HitBeforeEnd{nearest, length}) : std::nullopt;
 }
 
 bool RayScene::surely_blocked_by(std::uint32_t triangle, const Vector3d& from_W, const Vector3d& to_W,

@@ -74,6 +74,16 @@ class RayScene {
   std::optional<double> first_hit_distance(const Vector3d& from_W, const Vector3d& to_W,
                                            const RayFilter& filter = {}) const;
 
+  /// The first thing *before* the end of a segment, by the single-precision arithmetic of the reference's rays: each
+  /// triangle is tested in floats, and what is not strictly nearer than the rounded length of the segment is not met.
+  /// So a surface that the segment ends on is met or not as its last bits have it. Slower than first_hit().
+  /// @returns its distance from `from_W` and the segment's length, both as rounded; nullopt when nothing is before the end.
+  struct HitBeforeEnd {
+    float distance = 0.0F, length = 0.0F;
+  };
+  std::optional<HitBeforeEnd> first_hit_before_end(const Vector3d& from_W, const Vector3d& to_W,
+                                                   const RayFilter& filter = {}) const;
+
   /// Whether a triangle of the structure surely blocks a segment: it is crossed well inside its edges, no farther than
   /// `distance_max` from the start. Then a ray along the segment meets something up to there, if not that triangle
   /// itself. Much cheaper than a ray: what blocked a view a moment ago mostly still does.

@@ -43,6 +43,26 @@ inline double box_distance(const Ray& ray, const Vector3d& half) {
   return enter <= leave ? enter : kInfinity;
 }
 
+/// Where a ray crosses a triangle, in single precision from end to end (Moeller and Trumbore 1997, both sides): what lies
+/// on its plane or its edges to the last bit is met or missed by rounding. Infinity when it is missed.
+inline float crossing_distance(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                               const std::array<Eigen::Vector3f, 3>& corners) {
+  constexpr float kMissed = std::numeric_limits<float>::infinity();
+  const Eigen::Vector3f edge1 = corners[1] - corners[0], edge2 = corners[2] - corners[0];
+  const Eigen::Vector3f p = direction.cross(edge2);
+  const float determinant = edge1.dot(p);
+  if (determinant == 0.0F) return kMissed;
+  const float inverse = 1.0F / determinant;
+  const Eigen::Vector3f from_corner = origin - corners[0];
+  const float u = from_corner.dot(p) * inverse;
+  if (!(u >= 0.0F && u <= 1.0F)) return kMissed;
+  const Eigen::Vector3f q = from_corner.cross(edge1);
+  const float v = direction.dot(q) * inverse;
+  if (!(v >= 0.0F && u + v <= 1.0F)) return kMissed;
+  const float t = edge2.dot(q) * inverse;
+  return t >= 0.0F ? t : kMissed;
+}
+
 /// Squared distance from a point to a triangle: the region of the triangle that is nearest decides which of the
 /// three corners, three edges or the inside counts.
 inline double squared_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
