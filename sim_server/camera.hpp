@@ -17,7 +17,7 @@ namespace skein::sim {
 /// @param own_uav  whose body does not hide; kNobody: every body does.
 bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world);
 /// The reference's test, for `rules.ray_ends_at_point`: the surface must be met before the ray's end at the point, by
-/// single-precision arithmetic. Of free views of points on their triangles about half see nothing, by rounding alone.
+/// single-precision arithmetic. Of free views of points on their triangles only some 45 % see them, by rounding alone.
 bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world);
 
 /// One interest point in one capture.

@@ -187,7 +187,7 @@ TEST_F(CameraAtWall, OthersHide) {
 TEST_F(CameraAtWall, ItsOwnRotorsHideWhatIsAbove) {
   mesh_ = {};
   test::add_box(mesh_, {0.0, 0.0, 15.5}, {30.0, 30.0, 1.0});  // a ceiling
-  points_ = {{{2.5F, 0.0F, 15.0F}, {0.0F, 0.0F, -1.0F}}};
+  points_ = {{{2.5F, 1.5F, 15.0F}, {0.0F, 0.0F, -1.0F}}};
   RayScene w = world();
   w.set_pose(0, body_.X_WB());
   const GimbalState up{-1.2, 0.0, 0.0, 0.0};
@@ -202,7 +202,7 @@ TEST_F(CameraAtWall, ItsOwnRotorsHideWhatIsAbove) {
 TEST_F(CameraAtWall, IsBlindWhereStructureStandsBetweenItAndTheBody) {
   for (const double roof : {9.5, 9.71, 9.85, 9.99, 10.01, 10.2}) {  // the camera is at 9.7, the body's origin at 10
     TriangleMesh mesh = mesh_;
-    test::add_box(mesh, {0.0, 0.0, roof}, {3.0, 3.0, 0.002});
+    test::add_box(mesh, {0.0, 0.0, roof}, {0.44, 0.44, 0.002});
     const RayScene w(mesh);
     const bool between = roof > 9.7 && roof < 10.0;
     rules_.camera_blind_in_structure = true;
@@ -261,9 +261,9 @@ TEST(Camera, HidesAsMuchOfThePictureAsTheBodyOfTheReference) {
   }
 }
 
-/// Of free views of points of public MBS, each on its triangle to single precision, 45 % see nothing by the reference's
-/// ray, because it ends at the point; by Skein's own test all see it.
-TEST(Camera, RayThatEndsAtThePointMissesNearlyHalf) {
+/// Of free views of points of public MBS within 60 degrees of their normal, each on its triangle to single precision, 45 %
+/// see it by the reference's ray, because that ends at the point; by Skein's own test all do.
+TEST(Camera, RayThatEndsAtThePointMissesMoreThanHalf) {
   const auto mesh = test::official_mesh("mbs/mbs.stl");
   const auto points = test::official_points("mbs/mbs_interest_points.pcd");
   if (!mesh || !points) {
@@ -271,21 +271,18 @@ TEST(Camera, RayThatEndsAtThePointMissesNearlyHalf) {
   }
   const RayScene world(*mesh);
   RandomStream random(7, "camera_test", 2);
-  int free_views = 0, missed = 0, nothing_there = 0;
+  int free_views = 0, seen = 0;
   while (free_views < 20'000) {
     const auto& point = (*points)[static_cast<std::size_t>(random.uniform() * static_cast<double>(points->size()))];
-    const Vector3d p_W = point.p_W.cast<double>();
-    const Vector3d p_WC = p_W + random.uniform(3.0, 7.0) * test::random_unit(random);
+    const Vector3d p_W = point.p_W.cast<double>(), direction = test::random_unit(random);
+    const Vector3d p_WC = p_W + random.uniform(3.0, 7.0) * direction;
     const double clear_until = (p_W - p_WC).norm() - 2.0 * Camera::kSurfaceTolerance;
-    if (p_WC.z() < 0.0 || world.first_hit(p_WC, p_W - p_WC, clear_until)) continue;
-    if (!in_sight(p_WC, p_W, kNobody, world)) {
-      ++nothing_there;
-      continue;
-    }
+    if (std::abs(direction.dot(point.n_W.cast<double>())) < 0.5 || p_WC.z() < 0.0) continue;
+    if (world.first_hit(p_WC, p_W - p_WC, clear_until) || !in_sight(p_WC, p_W, kNobody, world)) continue;
     ++free_views;
-    missed += in_sight_of_reference(p_WC, p_W, kNobody, world) ? 0 : 1;
+    seen += in_sight_of_reference(p_WC, p_W, kNobody, world);
   }
-  EXPECT_NEAR(100.0 * missed / free_views, 45.0, 3.0) << nothing_there << " views with no surface at the point";
+  EXPECT_NEAR(100.0 * seen / free_views, 45.0, 3.0);
 }
 
 TEST_F(CameraAtWall, ReferenceNeedsASurfaceShortBeforeThePoint) {

@@ -85,7 +85,8 @@ struct RayScene::Impl {
         mesh(structure),
         bodies(shapes.begin(), shapes.end()) {
     // Robust: a ray between two triangles that share an edge meets one of them, and thin members are not lost.
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    // Context filter: for before_end().
+    rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
     if (!mesh.triangles.empty()) {
       add_structure();
@@ -340,14 +341,14 @@ std::optional<double> RayScene::first_hit_distance(const Vector3d& from_W, const
 
 std::optional<RayScene::HitBeforeEnd> RayScene::first_hit_before_end(const Vector3d& from_W, const Vector3d& to_W,
                                                                      const RayFilter& filter) const {
-  const Eigen::Vector3f origin = from_W.cast<float>(), way = to_W.cast<float>() - origin;
-  const float length = way.norm();
+  // Rounded one by one: that the origin moves by its rounding and the length does not is most of what decides.
+  const Ray ray{from_W, (to_W - from_W).normalized()};
+  const auto length = static_cast<float>((to_W - from_W).norm());
   if (!(length > 0.0F)) {
     return std::nullopt;
   }
-  const Eigen::Vector3f direction = way / length;
-  float nearest = impl_->before_end(origin, direction, length);
-  if (const auto shape = impl_->first_shape({origin.cast<double>(), direction.cast<double>().normalized()}, length, filter)) {
+  float nearest = impl_->before_end(ray.origin.cast<float>(), ray.direction.cast<float>(), length);
+  if (const auto shape = impl_->first_shape(ray, length, filter)) {
     nearest = std::min(nearest, static_cast<float>(shape->distance));
   }
   return nearest < length ? std::optional(HitBeforeEnd{nearest, length}) : std::nullopt;

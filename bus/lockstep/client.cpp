@@ -58,11 +58,13 @@ void LockstepClient::create_endpoints() {
   for (Reading& reading : readings_) open_reader(reading);
   for (Writing& writing : writings_) writing.writer = std::make_unique<CountedWriter>(participant_, writing.topic);
   for (const auto& base : base_) {
-    // What is latched is received again, so it counts again.
-    const bool latched = std::any_of(readings_.begin(), readings_.end(), [&](const Reading& r) {
-      return r.topic.name == base.topic && r.topic.qos.latched;
-    });
-    if (!latched) queues_.set_base(base.topic, base.source, base.count);
+    const auto reading = std::find_if(readings_.begin(), readings_.end(),
+                                      [&](const Reading& r) { return r.topic.name == base.topic; });
+    if (reading == readings_.end()) continue;
+    // What is latched is received again as far as its history goes back, so that much counts again.
+    const auto depth = static_cast<std::uint64_t>(reading->topic.qos.depth);
+    const std::uint64_t repeated = reading->topic.qos.latched ? std::min(base.count, depth) : 0;
+    queues_.set_base(base.topic, base.source, base.count - repeated);
   }
 }
 

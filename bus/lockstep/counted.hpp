@@ -45,6 +45,7 @@ class CountedWriter {
   std::uint64_t count() const { return count_; }
   std::uint64_t refused() const { return refused_; }
   const std::string& topic() const { return topic_.name; }
+  bool latched() const { return topic_.qos.latched; }
   /// A new step: the history has room again.
   void begin_step() { step_start_ = count_; }
 

@@ -187,6 +187,7 @@ bool LockstepServer::at_boundary() {
       continue;
     }
     place->member = true;
+    domains_[place->domain]->newcomer = true;
     place->awaited = false;
     membership_changed_ = true;
     if (place->was_member) rejoined_.push_back(place->name);
@@ -213,10 +214,13 @@ std::vector<msg::TopicCount> LockstepServer::take_new_counts(Domain& domain) {
   std::vector<msg::TopicCount> result;
   for (std::size_t i = 0; i < domain.writers.size(); ++i) {
     const CountedWriter& writer = *domain.writers[i];
-    if (writer.count() == domain.announced[i]) continue;
+    // What is latched was sent to a newcomer again: it waits for it only if it is told to.
+    const bool repeated = domain.newcomer && writer.latched() && writer.count() > 0;
+    if (writer.count() == domain.announced[i] && !repeated) continue;
     domain.announced[i] = writer.count();
     result.push_back(topic_count(writer.topic(), domain.participant->id(), writer.count()));
   }
+  domain.newcomer = false;
   if (const auto fresh = newly_delivered_.extract(domain.node)) {
     result.insert(result.end(), fresh.mapped().begin(), fresh.mapped().end());
   }

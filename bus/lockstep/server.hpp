@@ -86,6 +86,7 @@ class LockstepServer {
     std::unique_ptr<Reader> done_reader, ready_reader;
     std::vector<std::unique_ptr<CountedWriter>> writers;
     std::vector<std::uint64_t> announced;  ///< counts of `writers` that the members know
+    bool newcomer = false;                 ///< since the last step somebody joined, who knows no counts of what is latched
     msg::Step last;                        ///< published
     std::vector<std::pair<std::string, std::unique_ptr<Reader>>> readers;
     CountedQueues commands;

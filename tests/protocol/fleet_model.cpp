@@ -27,6 +27,11 @@ bus::TopicSpec text_topic(const std::string& name, int depth) {
 }
 
 bus::TopicSpec sensor_topic(const std::string& id) { return text_topic("rt/" + id + "/sensor", 8); }
+bus::TopicSpec site_topic(const std::string& id) {
+  bus::TopicSpec topic = text_topic("rt/" + id + "/site", 2);
+  topic.qos.latched = true;
+  return topic;
+}
 bus::TopicSpec command_topic(const std::string& id) { return text_topic("rt/" + id + "/command", 8); }
 
 msg::String text_message(const std::string& text) {
@@ -68,6 +73,7 @@ class ServerProcess final : public Process {
       const auto domain = server_.add_domain(id, *participants_.back());
       server_.add_place(id, domain, true);
       sensors_.push_back(&server_.writer(domain, sensor_topic(id)));
+      sites_.push_back(&server_.writer(domain, site_topic(id)));
       server_.read(domain, command_topic(id),
                    [this, id](bus::Sample&& sample) { model_.taken_[id][k_].push_back(text_of(sample)); });
     }
@@ -120,6 +126,7 @@ class ServerProcess final : public Process {
       for (std::uint64_t n = 0; n < (k_ + i) % 3; ++n) {
         sensors_[i]->write(text_message(fmt::format("s{}.{}", k_, n)));
       }
+      if (tells_site_in_model(k_)) sites_[i]->write(text_message(fmt::format("site{}", k_)));
     }
     server_.publish({.k = k_,
                      .tick = static_cast<std::int64_t>(20 * k_),
@@ -134,7 +141,7 @@ class ServerProcess final : public Process {
   bus::Inbox inbox_{0};
   std::vector<std::unique_ptr<bus::Participant>> participants_;
   bus::LockstepServer server_;
-  std::vector<bus::CountedWriter*> sensors_;
+  std::vector<bus::CountedWriter*> sensors_, sites_;
   std::uint64_t k_ = 0;
   bool in_step_ = false, finished_ = false, out_ = false;
 };
@@ -190,6 +197,7 @@ class AgentProcess final : public Process {
     const auto hear = [this](bus::Sample&& sample) { log_.heard.push_back(text_of(sample)); };
     if (node_ != kStationNode) {
       client_->read(sensor_topic(name_), LockstepClient::Counterpart::server, hear);
+      client_->read(site_topic(name_), LockstepClient::Counterpart::server, hear);
       client_->declare_writer(command_topic(name_), LockstepClient::Counterpart::server);
     }
     const std::string arrival = wire_topic(arrival_topic("/talk", model_.scenario_.node_name(node_)));

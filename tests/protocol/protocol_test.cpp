@@ -80,6 +80,21 @@ TEST(Protocol, RegisteredTopicsCarryEveryMessage) {
   }
 }
 
+/// Whoever is there, from the start or since a restart, knows from its first step on what is latched: what the topic's
+/// history holds then, and all that follows.
+void expect_latched_known(const std::string& life, const std::vector<StepLog>& steps, std::uint64_t seed) {
+  if (steps.empty() || life.starts_with(bus::kStationName)) return;
+  std::vector<std::string> expected, heard;
+  for (std::uint64_t k = 0; k <= steps.back().k; ++k) {
+    if (k == steps.front().k && expected.size() > 2) expected.erase(expected.begin(), expected.end() - 2);
+    if (tells_site_in_model(k)) expected.push_back("site" + std::to_string(k));
+  }
+  for (const StepLog& step : steps) {
+    std::ranges::copy_if(step.heard, std::back_inserter(heard), [](const auto& text) { return text.starts_with("site"); });
+  }
+  ASSERT_EQ(heard, expected) << life << " schedule " << seed;
+}
+
 /// What must hold in every run, whoever dies: steps without gaps; a radio message is heard one step after it was
 /// said, once, as it was said; a command is taken once, in the step of its sender, in order.
 void check_invariants(const FleetModel& model, const std::string& victim, std::uint64_t seed) {
@@ -88,6 +103,7 @@ void check_invariants(const FleetModel& model, const std::string& victim, std::u
     for (const StepLog& step : steps) said.insert(step.said.begin(), step.said.end());
   }
   for (const auto& [life, steps] : model.agents()) {
+    ASSERT_NO_FATAL_FAILURE(expect_latched_known(life, steps, seed));
     std::set<std::string> heard;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       ASSERT_EQ(steps[i].k, steps[0].k + i) << life << " schedule " << seed;
@@ -149,6 +165,8 @@ void check_absence(const FleetModel& model, const ProcessFault& fault, std::uint
   const auto out = [&](std::uint64_t k) { return k >= fault.begin && k < fault.end; };
   std::map<std::string, std::set<std::uint64_t>> steps;
   for (const auto& [life, logs] : model.agents()) {
+    // Who was stopped goes on in the same log: it hears again what is latched.
+    if (fault.kill) ASSERT_NO_FATAL_FAILURE(expect_latched_known(life, logs, seed));
     for (const StepLog& log : logs) {
       steps[life.substr(0, life.find('#'))].insert(log.k);
       const bool deaf = fault.victim == bus::kRouterName && (out(log.k) || log.k == fault.end);
