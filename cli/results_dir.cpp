@@ -16,10 +16,12 @@ bool written_by_a_run(const std::string& name) {
   static const std::set<std::string> kNames = {"result.json",      "score.csv",          "captures.csv", "digests.csv",
                                                "events.csv",       "capture_messages.csv",
                                                "trajectories.csv", "score_timeline.csv", "scene.json",   "report.html"};
+  // Reports, logs and books: a book of another run would be taken up as if this run's program had been killed.
   const bool of_a_program = name.starts_with("sim_server.") || name.starts_with("comm_router.") ||
                             name.starts_with("station.") || name.starts_with("uav_agent-");
-  const bool of_its_files = name.ends_with(".report.json") || name.ends_with(".journal") || name.ends_with(".log");
-  return kNames.contains(name) || (of_a_program && of_its_files);
+  // What was being written when its program was killed: see atomic_file.hpp.
+  const std::string whole = name.substr(0, name.rfind(".tmp"));
+  return kNames.contains(whole) || of_a_program;
 }
 
 }  // namespace

@@ -35,15 +35,14 @@ TEST(ResultsDir, AnExistingResultIsKeptUnlessForced) {
 
 TEST(ResultsDir, OnlyWhatARunWritesIsRemoved) {
   const ScratchDir scratch;
-  for (const char* name : {"station.report.json", "uav_agent-alpha.log", "digests.csv", "notes.txt", "my.log"}) {
-    write_text(scratch.path() / name, "x");
-  }
+  const auto of_runs = {"station.report.json", "station.journal", "comm_router.counts",      "uav_agent-alpha.log",
+                        "digests.csv",         "scene.json",      "station.report.json.tmp7", "result.json.tmp1234"};
+  const auto of_others = {"notes.txt", "my.log", "station-notes.txt", "mine.tmp7"};
+  for (const char* name : of_runs) write_text(scratch.path() / name, "x");
+  for (const char* name : of_others) write_text(scratch.path() / name, "x");
   const ResultsDir dir(scratch.path(), false);
-  EXPECT_FALSE(fs::exists(scratch.path() / "station.report.json"));
-  EXPECT_FALSE(fs::exists(scratch.path() / "uav_agent-alpha.log"));
-  EXPECT_FALSE(fs::exists(scratch.path() / "digests.csv"));
-  EXPECT_TRUE(fs::exists(scratch.path() / "notes.txt"));
-  EXPECT_TRUE(fs::exists(scratch.path() / "my.log"));
+  for (const char* name : of_runs) EXPECT_FALSE(fs::exists(scratch.path() / name)) << name;
+  for (const char* name : of_others) EXPECT_TRUE(fs::exists(scratch.path() / name)) << name;
 }
 
 TEST(ResultsDir, TwoRunsNeverShareAFolder) {

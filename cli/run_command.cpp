@@ -293,10 +293,14 @@ int run_fleet(const RunOptions& options, const Console& console) {
   secure.reset();
 
   const Reports reports = read_reports(out.path(), plan.scenario);
-  if (!write_score_csv(out.path(), reports.station)) run.facts().warnings.push_back("no scene.json: no score.csv");
   Json result = merge_result(run.facts(), plan.scenario, reports);
   const auto write_result = [&] { write_file_atomically(out.path() / "result.json", result.dump(2) + "\n"); };
   write_result();  // before all that may still go wrong
+  try {
+    if (!write_score_csv(out.path(), reports.station)) result["warnings"].push_back("no scene.json: no score.csv");
+  } catch (const std::exception& error) {
+    result["warnings"].push_back(std::string("no score.csv: ") + error.what());
+  }
   if (options.attainable && result["status"] == "completed") {
     const AttainableAnswer answer = attainable_of(options);
     if (!answer.hint.empty()) result["warnings"].push_back(answer.hint);
