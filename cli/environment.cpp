@@ -5,6 +5,9 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "cli/option_checks.hpp"
+#include "core/types.hpp"
+
 namespace skein::cli {
 namespace {
 
@@ -37,6 +40,13 @@ std::vector<std::string> fleet_environment(bool native, const std::map<std::stri
   std::map<std::string, std::string> variables = pinned(native);
   for (const auto& [name, value] : more) variables[name] = value;
   return environment_with(variables);
+}
+
+void check_environment() {
+  const char* chaos = std::getenv("SKEIN_CHAOS");
+  if (chaos != nullptr && !check_seed(chaos).empty()) {
+    throw InputError(std::string("SKEIN_CHAOS=") + chaos + ": must be a whole number, or not set");
+  }
 }
 
 std::string fleet_environment_prefix(bool native) {

@@ -16,6 +16,9 @@ std::vector<std::string> environment_with(const std::map<std::string, std::strin
 /// @param more set on top of that.
 std::vector<std::string> fleet_environment(bool native, const std::map<std::string, std::string>& more = {});
 
+/// @throws InputError when a variable that the programs read means nothing: SKEIN_CHAOS that is no whole number.
+void check_environment();
+
 /// The part of it that differs from what a shell would give, as `NAME=VALUE ` words to put before a command.
 std::string fleet_environment_prefix(bool native);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/types.hpp"
+
 namespace skein::cli {
 namespace {
 
@@ -22,6 +24,17 @@ TEST(Environment, SetsOnTopOfTheLaunchers) {
   EXPECT_EQ(value_of(environment_with({}), "SKEIN_TEST_VARIABLE"), "old");
   EXPECT_EQ(value_of(environment_with({{"SKEIN_TEST_VARIABLE", "new"}}), "SKEIN_TEST_VARIABLE"), "new");
   ::unsetenv("SKEIN_TEST_VARIABLE");
+}
+
+TEST(Environment, ChaosIsANumberOrNotSet) {
+  for (const char* wrong : {"abc", "", "-1", "3x"}) {
+    ::setenv("SKEIN_CHAOS", wrong, 1);
+    EXPECT_THROW(check_environment(), InputError) << wrong;
+  }
+  ::setenv("SKEIN_CHAOS", "3", 1);
+  EXPECT_NO_THROW(check_environment());
+  ::unsetenv("SKEIN_CHAOS");
+  EXPECT_NO_THROW(check_environment());
 }
 
 TEST(Environment, PinsLibmUnlessNative) {

@@ -123,6 +123,7 @@ std::string quoted_for_shell(const std::string& word) {
 }  // namespace
 
 FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir) {
+  check_environment();
   LoadOptions load;
   load.assets_dir = options.assets.value_or("");
   load.duration_s = options.duration_s;

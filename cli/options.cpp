@@ -1,8 +1,8 @@
 #include "cli/options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 
+#include "cli/option_checks.hpp"
 #include "core/types.hpp"
 
 #ifndef SKEIN_VERSION
@@ -11,31 +11,6 @@
 
 namespace skein::cli {
 namespace {
-
-/// CLI11 validator: "lockstep", "realtime" or "realtime:FACTOR" with a positive factor.
-std::string check_clock(const std::string& text) {
-  if (text == "lockstep" || text == "realtime") return {};
-  const std::string prefix = "realtime:";
-  double factor = 0.0;
-  if (text.starts_with(prefix) && CLI::detail::lexical_cast(text.substr(prefix.size()), factor) && factor > 0.0 &&
-      std::isfinite(factor)) {
-    return {};
-  }
-  return "must be lockstep, realtime or realtime:FACTOR with a factor above 0";
-}
-
-/// CLI11 validator: strtoull, which CLI11 uses, takes "-1" for a very large number.
-std::string check_seed(const std::string& text) {
-  const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  return digits ? "" : "'" + text + "' must be a whole number, 0 or more";
-}
-
-/// CLI11 validator: CLI::PositiveNumber lets "nan" and "inf" pass.
-std::string check_seconds(const std::string& text) {
-  double value = 0.0;
-  const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0;
-  return good ? "" : "'" + text + "' must be a number of seconds above 0";
-}
 
 CLI::App* add_run(CLI::App& app, RunOptions& run) {
   CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
@@ -239,6 +214,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   } catch (const CLI::ParseError& error) {
     throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
   }
+  refuse_empty_values(app);
   if (run_command->parsed()) return run;
   if (test_command->parsed()) return test;
   if (scene_command->parsed()) return scene;

@@ -134,6 +134,12 @@ TEST(Options, BenchReadsAll) {
   for (const char* size : {"0", "129", "x"}) EXPECT_THROW(parse_command_line({"bench", "--sizes", size}), InputError);
 }
 
+TEST(Options, TheLargestSeedAndTheLimitsAreTaken) {
+  EXPECT_EQ(parse<RunOptions>({"run", "--seed", "18446744073709551615"}).seed, ~std::uint64_t{0});
+  EXPECT_EQ(parse<RunOptions>({"run", "--clock", "realtime:1000"}).clock, "realtime:1000");
+  EXPECT_EQ(parse<RunOptions>({"run", "--stop-at", "36000"}).stop_at_s, 36000.0);
+}
+
 TEST(Options, WhatDoesNotFitIsRefused) {
   const std::vector<std::vector<std::string>> wrong = {
       {},
@@ -150,6 +156,20 @@ TEST(Options, WhatDoesNotFitIsRefused) {
       {"run", "--clock", "realtime:0"},
       {"run", "--clock", "realtime:fast"},
       {"run", "--clock", "fast"},
+      {"run", "--clock", "realtime:1e-12"},
+      {"run", "--clock", "realtime:10000"},
+      {"run", "--clock", "realtime:0x2"},
+      {"run", "--seed", "99999999999999999999"},
+      {"run", "--seed", ""},
+      {"run", "--duration", "0x10"},
+      {"run", "--duration", " 5"},
+      {"run", "--stop-at", "1e18"},
+      {"run", "--out", ""},
+      {"run", "--agent="},
+      {"run", ""},
+      {"scene", "towers", "--out", ""},
+      {"compare", "--planners", ""},
+      {"check", ""},
       {"run", "--no-such-option"},
       {"check"},
       {"diff", "x"},

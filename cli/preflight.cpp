@@ -56,8 +56,14 @@ std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs) {
 ExitStatus run_to_end(const ProgramSpec& program) { return run_all({program}).at(program.name); }
 
 ScratchDir::ScratchDir() {
-  std::string name = std::filesystem::temp_directory_path() / "skein-XXXXXX";
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create a temporary folder " + name);
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  std::string name = folder / "skein-XXXXXX";
+  if (error || ::mkdtemp(name.data()) == nullptr) {
+    const char* named = std::getenv("TMPDIR");
+    throw InputError(std::string("TMPDIR") + (named ? std::string("=") + named : " (not set: /tmp)") +
+                     ": must be a folder in which files can be made");
+  }
   path_ = name;
 }
 

@@ -31,10 +31,15 @@ std::filesystem::path default_results_dir(const std::string& scenario, const std
 }
 
 void ResultsDir::check(const std::filesystem::path& dir, bool force) {
-  if (std::filesystem::exists(dir) && !std::filesystem::is_directory(dir)) {
+  std::error_code error;  // of a name that is too long, or of links in a circle
+  const auto kind = std::filesystem::status(dir, error).type();
+  if (kind == std::filesystem::file_type::none) {
+    throw InputError("--out " + dir.string() + ": cannot be looked at (" + error.message() + "); choose another folder");
+  }
+  if (kind != std::filesystem::file_type::directory && kind != std::filesystem::file_type::not_found) {
     throw InputError("--out " + dir.string() + ": is no folder");
   }
-  if (!force && std::filesystem::exists(dir / "result.json")) {
+  if (!force && std::filesystem::exists(dir / "result.json", error)) {
     throw InputError(dir.string() + " holds a result already; overwrite it with --force, or choose another --out");
   }
 }

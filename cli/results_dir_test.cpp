@@ -61,5 +61,15 @@ TEST(ResultsDir, AFileIsNoFolder) {
   EXPECT_THROW(ResultsDir(scratch.path() / "file/below", true), InputError);
 }
 
+TEST(ResultsDir, ANameThatCannotBeIsTheUsersMistake) {
+  const ScratchDir scratch;
+  fs::create_symlink(scratch.path() / "b", scratch.path() / "a");
+  fs::create_symlink(scratch.path() / "a", scratch.path() / "b");
+  for (const fs::path& dir : {scratch.path() / "a", scratch.path() / "a/below", scratch.path() / std::string(5000, 'x')}) {
+    EXPECT_THROW(ResultsDir(dir, false), InputError) << dir;
+    EXPECT_THROW(ResultsDir(dir, true), InputError) << dir;
+  }
+}
+
 }  // namespace
 }  // namespace skein::cli

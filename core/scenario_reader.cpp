@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kLeastStartDistanceM = 0.5;
+constexpr std::size_t kLongestName = 64;  ///< of a UAV or a scenario: they become names of files and topics
 constexpr std::size_t kMostUavs = 128;  ///< each has a DDS domain of its own, and those end near 230
 
 /// A word that may be part of a ROS name.
@@ -55,7 +56,15 @@ void check_times(const Scenario& scenario, ConfigErrors& errors) {
 }
 
 void check_names(const ScenarioFile& file, ConfigErrors& errors) {
-  static const std::set<std::string> reserved = {"all", "clock", "gcs", "sim", "skein"};
+  // Names of nodes and topics; and of members of the lock-step, which is by name.
+  static const std::set<std::string> reserved = {"all", "clock", "comm_router", "gcs", "sim", "skein", "station"};
+  const std::string& scenario = file.scenario.name;
+  const bool names_a_folder = scenario.size() <= kLongestName && scenario != "." && scenario != ".." &&
+                              scenario.find_first_of("/\\") == std::string::npos &&
+                              std::ranges::none_of(scenario, [](unsigned char c) { return std::iscntrl(c) != 0; });
+  errors.check(names_a_folder, "name",
+               "must be at most " + std::to_string(kLongestName) +
+                   " letters without '/': the results of a run lie in a folder of this name");
   errors.check(!file.fleet.empty() && file.fleet.size() <= kMostUavs, "fleet",
                "must have 1 to " + std::to_string(kMostUavs) + " UAVs");
   std::map<std::string, std::size_t> seen;
@@ -65,6 +74,8 @@ void check_names(const ScenarioFile& file, ConfigErrors& errors) {
     errors.check(is_ros_word(name), key,
                  "'" + name + "' is no ROS name: a letter, then letters, digits and underscores");
     errors.check(!reserved.contains(name), key, "'" + name + "' is reserved; choose another name");
+    errors.check(name.size() <= kLongestName, key,
+                 "must be at most " + std::to_string(kLongestName) + " letters long, not " + std::to_string(name.size()));
     const auto [first, is_new] = seen.emplace(name, i);
     errors.check(is_new, key, "'" + name + "' is the name of fleet[" + std::to_string(first->second) + "] already");
   }
