@@ -44,8 +44,8 @@ class Secure : public FleetTest {
 /// A secured fleet that waits for the agent of kVictim, so that there is time to knock at its doors.
 class Waiting : public Secure, public testing::WithParamInterface<std::string> {
  protected:
-  void start_fleet(const std::string& planner = "patrol") {
-    run_ = &start("secure", arguments(GetParam(), {"--secure", "--debug", kVictim}, planner));
+  void start_fleet(const std::string& planner = "patrol", const std::string& clock = "lockstep") {
+    run_ = &start("secure", arguments(GetParam(), {"--secure", "--debug", kVictim, "--clock", clock}, planner));
     ASSERT_TRUE(run_->wait_for("gdb --args")) << run_->err();
     const std::string text = run_->err(), gdb = "gdb --args ";
     const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
@@ -146,7 +146,7 @@ TEST_P(Waiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
 }
 
 TEST_P(Waiting, TheStationsProgramReadsTheScoreButNoIndices) {
-  start_fleet("patrol,gcs=listen");
+  start_fleet("patrol,gcs=listen", "realtime:10");  // time for writers to hear of the readers that found them
   const fs::path keys = keys_.parent_path() / "uav_agent-gcs", station = keys_.parent_path() / "station";
   constexpr int kGcsDomain = 1;
   listen("score", GetParam(), keys, kGcsDomain, topics::score());
