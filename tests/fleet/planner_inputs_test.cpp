@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "fleet_fixture.hpp"
+#include "small_scene.hpp"
 
 namespace skein::test {
 namespace {
@@ -61,6 +62,26 @@ TEST_F(PlannerInputs, ScansForWhoAsksAndCommandsAsTheyAre) {
   }
   EXPECT_GE(result["timing"]["scans"].get<long>(), scans - 2) << "the first of each explorer was before the clock";
   EXPECT_LT(plain.result()["timing"]["scans"].get<long>(), scans / 3) << "what nobody reads is not computed";
+}
+
+TEST_F(PlannerInputs, ANewAgentIsToldAllThatItsCameraHasShown) {
+  const std::string scenario = write_small_scene(folder() / "small");
+  const auto faults = write("restart.yaml", "faults: [{at_s: 20.0, until_s: 21.0, kill: changi}]\n");
+  SkeinRun& done = run("run", {scenario, "--agent", SKEIN_PROBE_AGENT, "--planner", "probe:east_m=12,up_m=0", "--duration",
+                               "25", "--faults", faults});
+  EXPECT_TRUE(done.result()["collisions"].empty());
+  for (const std::string uav : {"jurong", "changi"}) {
+    std::set<std::string> seen;
+    for (const auto& row : read_csv(done.dir() / "captures.csv")) {
+      if (row.at("uav") == uav) seen.insert(row.at("point"));
+    }
+    ASSERT_GT(seen.size(), 5U);
+    const Json news = last_news(done, uav);
+    SCOPED_TRACE(uav + ": " + news.dump());
+    EXPECT_EQ(news["named"], seen.size());
+    EXPECT_EQ(news["gaps"], 0) << "in the order of detection";
+    EXPECT_EQ(news["first_detected"], uav == "changi" ? seen.size() : 0U);
+  }
 }
 
 }  // namespace
