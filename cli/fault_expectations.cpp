@@ -24,7 +24,7 @@ std::string list_text(const std::set<std::string>& names) {
 // ---- the types of expectations beside plain values --------------------------------------------------------------
 
 constexpr auto radio_counters() {
-  return std::array{"sent",       "delivered",  "dropped_no_los",  "dropped_fault", "dropped_overflow",
+  return std::array{"sent",       "delivered",  "dropped_no_los", "dropped_fault", "dropped_overflow",
                     "duplicated", "sent_bytes", "delivered_bytes"};
 }
 using RadioLimits = LimitsByName<radio_counters>;

@@ -51,8 +51,8 @@ void add_wire_names(std::vector<std::string>& names, std::span<const topics::Top
 /// All that sim_server alone writes in the domains of these units.
 std::vector<std::string> server_topics(const std::vector<std::string>& units) {
   std::vector<std::string> names;
-  for (const auto& topic : {topics::step(), topics::resync(), topics::drop(), topics::ledger(), topics::capture(),
-                            topics::detected()}) {
+  for (const auto& topic :
+       {topics::step(), topics::resync(), topics::drop(), topics::ledger(), topics::capture(), topics::detected()}) {
     names.push_back(topic.name);
   }
   add_wire_names(names, topics::uav_topics(), topics::Direction::to_agent, units);

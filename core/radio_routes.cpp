@@ -137,7 +137,8 @@ class RadioTable::Builder {
   void reserve(Node node, std::span<const topics::TopicInfo> table) {
     for (const topics::TopicInfo& topic : table) {
       const topics::WireTopic wire = topics::wire(topic, name(node));
-      const Use::Kind kind = topic.direction == topics::Direction::from_agent ? Use::Kind::standard_own : Use::Kind::standard;
+      const Use::Kind kind =
+          topic.direction == topics::Direction::from_agent ? Use::Kind::standard_own : Use::Kind::standard;
       uses_[node].emplace(wire.name, Use{kind, std::string(topic.pattern), wire.type});
     }
   }
@@ -148,7 +149,8 @@ class RadioTable::Builder {
     const std::string type = checked("type", [&] { return wire_type(ros_type); });
     if (ros_topic.starts_with("/skein/")) fail("name", "names under /skein/ are Skein's own; choose another");
     // Refused by every node, to send and to hear: UAVs would learn what they did not see, and what a point is called.
-    if (std::ranges::find(topics::score_topics(), ros_topic, &topics::TopicInfo::pattern) != topics::score_topics().end()) {
+    if (std::ranges::find(topics::score_topics(), ros_topic, &topics::TopicInfo::pattern) !=
+        topics::score_topics().end()) {
       fail("name", "'" + ros_topic + "' is the station's own and never goes on the radio; choose another");
     }
     const auto known = types_.find(ros_topic);

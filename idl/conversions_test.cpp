@@ -116,7 +116,8 @@ TEST(Conversions, TheScoreIsAPointCloudWithFourChannelsAndOneMoreForTheJudge) {
   for (std::uint32_t i = 0; i < 50; ++i) {
     const Eigen::Vector3f p = random_vector(random, 80.0).cast<float>();
     points.push_back({{p, random_vector(random, 1.0).cast<float>().normalized()},
-                      static_cast<float>(random.uniform(0.2, 1.0)), 3 * i + 7});
+                      static_cast<float>(random.uniform(0.2, 1.0)),
+                      3 * i + 7});
   }
   for (const bool with_indices : {false, true}) {
     const msg::PointCloud cloud = travelled(to_score_cloud(41, points, with_indices));

@@ -69,11 +69,10 @@ int main(int argc, char** argv) {
   for (int i = 4; i + 1 < argc; i += 2) {
     const std::string topic = argv[i], type = argv[i + 1];
     const bool new_kind = type == skein::type_name<msg::PointCloud2>();
-    readers.push_back(participant->create_reader(
-        {topic, type, {.reliable = true, .depth = 1000}}, [&note, topic, new_kind](skein::bus::Sample&& sample) {
-          note({{"topic", topic},
-                {"points", new_kind ? read<msg::PointCloud2>(sample) : read<msg::PointCloud>(sample)}});
-        }));
+    const auto note_sample = [&note, topic, new_kind](skein::bus::Sample&& sample) {
+      note({{"topic", topic}, {"points", new_kind ? read<msg::PointCloud2>(sample) : read<msg::PointCloud>(sample)}});
+    };
+    readers.push_back(participant->create_reader({topic, type, {.reliable = true, .depth = 1000}}, note_sample));
   }
   for (bool told = false;;) {
     bool matched = true;

@@ -31,8 +31,8 @@ class Detections : public FleetTest {
   void SetUp() override {
     const std::string scenario = write_small_scene(folder() / "small", dense_scene());
     // Not as fast as it goes: a reader that has found the writer is heard of by it a little later only.
-    run_ = &start("run", {scenario, "--planner", "patrol", "--duration", "60", "--clock", "realtime:12", "--debug",
-                          "changi"});
+    run_ = &start("run",
+                  {scenario, "--planner", "patrol", "--duration", "60", "--clock", "realtime:12", "--debug", "changi"});
     ASSERT_TRUE(run_->wait_for("gdb --args")) << run_->err();
     const int base = run_->domains().first;
     listen("gcs", "fastdds", gcs_domain(base), {topics::score(), topics::score_eval()});
@@ -109,8 +109,8 @@ void Detections::check_log(const std::string& uav) const {
   std::vector<std::size_t> order;  // indices, as they came
   Numbers best;
   for (const Json& log : logs) {
-    ASSERT_EQ(names_of(log), (std::vector<std::string>{"curvature", "intensity", "normal_x", "normal_y", "normal_z",
-                                                       "x", "y", "z"}));
+    ASSERT_EQ(names_of(log),
+              (std::vector<std::string>{"curvature", "intensity", "normal_x", "normal_y", "normal_z", "x", "y", "z"}));
     const std::size_t size = log["x"].size();
     ASSERT_GE(size, order.size()) << "a log never shrinks";
     for (std::size_t i = 0; i < size; ++i) {

@@ -67,8 +67,8 @@ TEST_F(PlannerInputs, ScansForWhoAsksAndCommandsAsTheyAre) {
 TEST_F(PlannerInputs, ANewAgentIsToldAllThatItsCameraHasShown) {
   const std::string scenario = write_small_scene(folder() / "small");
   const auto faults = write("restart.yaml", "faults: [{at_s: 20.0, until_s: 21.0, kill: changi}]\n");
-  SkeinRun& done = run("run", {scenario, "--agent", SKEIN_PROBE_AGENT, "--planner", "probe:east_m=12,up_m=0", "--duration",
-                               "25", "--faults", faults});
+  SkeinRun& done = run("run", {scenario, "--agent", SKEIN_PROBE_AGENT, "--planner", "probe:east_m=12,up_m=0",
+                               "--duration", "25", "--faults", faults});
   EXPECT_TRUE(done.result()["collisions"].empty());
   for (const std::string uav : {"jurong", "changi"}) {
     std::set<std::string> seen;

@@ -39,10 +39,15 @@ class ProbePlanner final : public Planner {
     }
     for (const KeyFrame& frame : in.key_frames) ++(frame.source == own_node_ ? own_frames_ : others_frames_);
     if (in.k % 20 == 0) {
-      const nlohmann::json news = {
-          {"t", seconds(in.tick)}, {"scans", scans_},         {"late", late_},
-          {"points", points_},     {"own_frames", own_frames_}, {"others_frames", others_frames_},
-          {"named", named_},       {"gaps", gaps_},             {"first_detected", *first_detected_}};
+      const nlohmann::json news = {{"t", seconds(in.tick)},
+                                   {"scans", scans_},
+                                   {"late", late_},
+                                   {"points", points_},
+                                   {"own_frames", own_frames_},
+                                   {"others_frames", others_frames_},
+                                   {"named", named_},
+                                   {"gaps", gaps_},
+                                   {"first_detected", *first_detected_}};
       spdlog::info("probe {}", news.dump());
     }
     if (in.k < 100) return {.motion = TrajectoryCommand{.v_WB = {0.0, 0.0, 1.5}}};
