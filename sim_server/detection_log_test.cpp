@@ -26,7 +26,8 @@ class RandomCamera {
       const double q = random_.uniform(0.2, 1.0);
       const bool improved = static_cast<float>(q) > best_[point];
       best_[point] = std::max(best_[point], static_cast<float>(q));
-      capture.detections.push_back({point, 1.0, q, q, best_[point], improved});
+      capture.detections.push_back(
+          {.point = point, .q_blur = 1.0, .q_res = q, .q = q, .best = best_[point], .improved = improved});
     }
     return capture;
   }
