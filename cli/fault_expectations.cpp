@@ -24,7 +24,8 @@ std::string list_text(const std::set<std::string>& names) {
 // ---- the types of expectations beside plain values --------------------------------------------------------------
 
 constexpr auto radio_counters() {
-  return std::array{"sent", "delivered", "dropped_no_los", "dropped_fault", "dropped_overflow", "duplicated"};
+  return std::array{"sent",       "delivered",  "dropped_no_los", "dropped_fault", "dropped_overflow",
+                    "duplicated", "sent_bytes", "delivered_bytes"};
 }
 using RadioLimits = LimitsByName<radio_counters>;
 
@@ -316,7 +317,7 @@ const std::vector<ExpectationKind>& expectation_kinds() {
       kind<Limits>("score_vs_earned", "delivered score / earned score", "", judge_vs_earned),
       kind<RadioLimits>("radio",
                         "messages `sent`, `delivered`, `dropped_no_los`, `dropped_fault`, `dropped_overflow`, "
-                        "`duplicated`, each with its limits",
+                        "`duplicated`, or `sent_bytes`, `delivered_bytes`, each with its limits",
                         "", judge_radio),
       kind<UavLimits>("uavs",
                       "for a UAV's name: `captures`, `distance_m`, `max_speed_mps`, `idle_s`, "

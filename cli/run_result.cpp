@@ -34,7 +34,10 @@ Json uav_entries(const Scenario& scenario, const Reports& reports) {
       entry[key] = value_or(source, key, nullptr);
     }
     const auto agent = reports.agents.find(uav.name);
-    entry["planner_cpu_s"] = agent == reports.agents.end() ? Json() : value_or(agent->second, "planner_cpu_s", nullptr);
+    for (const char* key :
+         {"planner_cpu_s", "planner_cpu_p99_ms", "planner_cpu_max_ms", "planner_exchanges_over_50ms"}) {
+      entry[key] = agent == reports.agents.end() ? Json() : value_or(agent->second, key, nullptr);
+    }
     entries.push_back(std::move(entry));
   }
   return entries;
@@ -69,7 +72,8 @@ std::uint64_t malformed_samples(const Reports& reports) {
 
 Json radio_counts(const Json& router) {
   Json radio = Json::object();
-  for (const char* key : {"sent", "delivered", "dropped_no_los", "dropped_fault", "dropped_overflow", "duplicated"})
+  for (const char* key : {"sent", "delivered", "dropped_no_los", "dropped_fault", "dropped_overflow", "duplicated",
+                          "sent_bytes", "delivered_bytes"})
     radio[key] = value_or(router, key, 0);
   radio["per_link"] = value_or(router, "per_link", Json::array());
   return radio;

@@ -91,10 +91,12 @@ class RunResult : public ::testing::Test {
       "points": [{"index": 0, "score": 0.5, "uav": "beta", "capture": 1},
                  {"index": 2, "score": 1.0, "uav": "beta", "capture": 2}], "refused": {}})");
     write_text(dir_.path() / "comm_router.report.json", R"({
-      "sent": 10, "delivered": 7, "dropped_no_los": 2, "dropped_fault": 1,
-      "per_link": [{"from": "alpha", "to": "gcs", "sent": 10, "delivered": 7, "dropped_no_los": 2, "dropped_fault": 1}]})");
+      "sent": 10, "delivered": 7, "dropped_no_los": 2, "dropped_fault": 1, "sent_bytes": 400, "delivered_bytes": 280,
+      "per_link": [{"from": "alpha", "to": "gcs", "sent": 10, "delivered": 7, "dropped_no_los": 2, "dropped_fault": 1,
+                    "sent_bytes": 400, "delivered_bytes": 280}]})");
     for (const char* uav : {"alpha", "beta"}) {
-      write_text(dir_.path() / (std::string("uav_agent-") + uav + ".report.json"), R"({"planner_cpu_s": 0.25})");
+      write_text(dir_.path() / (std::string("uav_agent-") + uav + ".report.json"), R"({
+        "planner_cpu_s": 0.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_max_ms": 60.25, "planner_exchanges_over_50ms": 3})");
     }
   }
 
@@ -118,6 +120,11 @@ TEST_F(RunResult, AllReportsMakeACompleteResult) {
   EXPECT_EQ(result["uavs"][0]["alive"], false);
   EXPECT_EQ(result["uavs"][1]["captures"], 9);
   EXPECT_EQ(result["uavs"][1]["planner_cpu_s"], 0.25);
+  EXPECT_EQ(result["uavs"][1]["planner_cpu_p99_ms"], 1.5);
+  EXPECT_EQ(result["uavs"][1]["planner_cpu_max_ms"], 60.25);
+  EXPECT_EQ(result["uavs"][1]["planner_exchanges_over_50ms"], 3);
+  EXPECT_EQ(result["radio"]["sent_bytes"], 400);
+  EXPECT_EQ(result["radio"]["delivered_bytes"], 280);
   EXPECT_EQ(result["radio"]["per_link"][0]["to"], "gcs");
   EXPECT_EQ(result["lost_members"][0]["member"], "beta");
   EXPECT_EQ(result["warnings"], Json::array({"windy"}));

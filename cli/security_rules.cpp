@@ -51,7 +51,8 @@ void add_wire_names(std::vector<std::string>& names, std::span<const topics::Top
 /// All that sim_server alone writes in the domains of these units.
 std::vector<std::string> server_topics(const std::vector<std::string>& units) {
   std::vector<std::string> names;
-  for (const auto& topic : {topics::step(), topics::resync(), topics::drop(), topics::ledger(), topics::capture()}) {
+  for (const auto& topic :
+       {topics::step(), topics::resync(), topics::drop(), topics::ledger(), topics::capture(), topics::detected()}) {
     names.push_back(topic.name);
   }
   add_wire_names(names, topics::uav_topics(), topics::Direction::to_agent, units);
@@ -70,6 +71,7 @@ Rights rights_of(const FleetPlan& plan, const std::string& program, int base_dom
   if (program == "comm_router") {
     std::vector<std::string> names = server_topics(all_units);
     add_wire_names(names, topics::uav_topics(), topics::Direction::from_agent, all_units);
+    add_wire_names(names, topics::score_topics(), topics::Direction::from_station, all_units);
     return {base_domain, last, std::move(names)};
   }
   const bool is_station = program == "station";
@@ -79,17 +81,26 @@ Rights rights_of(const FleetPlan& plan, const std::string& program, int base_dom
   names.push_back(topics::radio_reply().name);
   if (is_station) return {world_domain(base_domain), gcs_domain(base_domain), std::move(names)};
   const int own = agent_domain(plan, program, base_domain);
-  return {own, own, std::move(names)};
+  names.push_back(topics::score().name);
+  return {own, own, std::move(names), {topics::score_eval().name}};
 }
 
 std::string permissions(const std::string& subject, const Rights& rights) {
   const std::string where = domains(rights.first_domain, rights.last_domain);
-  std::string refused;
-  for (const std::string& topic : rights.not_published) refused += element("topic", topic);
+  const auto listed = [](const std::vector<std::string>& topics) {
+    std::string elements;
+    for (const std::string& topic : topics) elements += element("topic", topic);
+    return elements;
+  };
+  const std::string refused = listed(rights.not_published), hidden = element("topics", listed(rights.not_read));
   const std::string everything = element("topics", element("topic", "*"));
   // The first rule that fits decides. Cyclone DDS takes a topic that a rule refuses in one direction for refused as a
   // whole, unless a rule before it allows the other direction.
-  std::string rules = element("allow_rule", where + element("subscribe", everything));
+  std::string rules;
+  if (!rights.not_read.empty()) {
+    rules += element("deny_rule", where + element("publish", hidden) + element("subscribe", hidden));
+  }
+  rules += element("allow_rule", where + element("subscribe", everything));
   if (!refused.empty()) rules += element("deny_rule", where + element("publish", element("topics", refused)));
   rules += element("allow_rule", where + element("publish", everything));
   const std::string validity =

@@ -41,6 +41,28 @@ TEST_F(SecurityRules, AnAgentIsInItsOwnDomainAndSpeaksForItself) {
   EXPECT_TRUE(may_publish(rights, "rt/some/radio_topic"));
 }
 
+TEST_F(SecurityRules, TheScoreIsTheStationsToTellAndItsIndicesAreNotForPlayers) {
+  const auto may_read = [](const Rights& rights, const std::string& topic) {
+    return std::ranges::find(rights.not_read, topic) == rights.not_read.end();
+  };
+  for (const char* program : {"uav_agent-gcs", "uav_agent-alpha"}) {
+    const Rights rights = rights_of(plan(), program, 10);
+    EXPECT_FALSE(may_read(rights, topics::score_eval().name)) << program;
+    EXPECT_TRUE(may_read(rights, topics::score().name)) << program;
+    EXPECT_FALSE(may_publish(rights, topics::score().name)) << program;
+    // The first rule that fits decides, so this one must come before "everything".
+    const std::string text = permissions("CN=" + std::string(program), rights);
+    const std::size_t denied = text.find("<deny_rule>"), allowed = text.find("<allow_rule>");
+    ASSERT_LT(denied, allowed) << text;
+    const std::string first = text.substr(denied, allowed - denied), topic = "<topic>rt/score_eval</topic>";
+    EXPECT_LT(first.find("<subscribe>"), first.find(topic, first.find("<subscribe>"))) << first;
+    EXPECT_NE(first.find(topic, first.find("<subscribe>")), std::string::npos) << first;
+  }
+  EXPECT_FALSE(may_publish(rights_of(plan(), "comm_router", 10), topics::score().name));
+  const Rights station = rights_of(plan(), "station", 10);
+  EXPECT_TRUE(may_publish(station, topics::score().name) && may_publish(station, topics::score_eval().name));
+}
+
 TEST_F(SecurityRules, NobodyButTheServerSpeaksForTheServer) {
   for (const char* program : {"comm_router", "station"}) {
     const Rights rights = rights_of(plan(), program, 10);

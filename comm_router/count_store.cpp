@@ -42,7 +42,9 @@ void CountStore::save(const LinkGate& gate, const GatedStep& last) {
   }
   for (const Delivery& delivery : last.deliveries) {
     const RadioRoute& route = gate.routes()[delivery.route];
-    --counts_[route.source * nodes + route.targets[delivery.target].node].delivered;
+    LinkCounts& link = counts_[route.source * nodes + route.targets[delivery.target].node];
+    --link.delivered;
+    link.delivered_bytes -= delivery.payload->size();
   }
 }
 

@@ -62,6 +62,8 @@ TEST_F(CountStoreTest, WhatItHadAtHandWhenItDiedIsLost) {
   EXPECT_EQ(to_b.sent, 3U);
   EXPECT_EQ(to_b.delivered, 1U);
   EXPECT_EQ(to_b.dropped_fault, 2U);
+  EXPECT_EQ(to_b.sent_bytes, 24U);
+  EXPECT_EQ(to_b.delivered_bytes, 8U);
 
   gate.restore(CountStore(file_, 3).earlier_counts());
   EXPECT_EQ(gate.counts(1, 2), to_b);

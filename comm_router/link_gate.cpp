@@ -42,7 +42,9 @@ GatedStep LinkGate::gate(std::uint64_t k, std::span<const std::uint8_t> links,
   });
   for (const Delivery& delivery : step.deliveries) {
     const RadioRoute& route = routes_[delivery.route];
-    ++counts_[route.source * nodes_ + route.targets[delivery.target].node].delivered;
+    LinkCounts& link = counts_[route.source * nodes_ + route.targets[delivery.target].node];
+    ++link.delivered;
+    link.delivered_bytes += delivery.payload->size();
   }
   step.digest = digest(step.deliveries);
   return step;
@@ -55,6 +57,7 @@ void LinkGate::send(std::uint64_t k, std::span<const std::uint8_t> links, const 
     const Node to = route.targets[target].node;
     const std::size_t link = route.source * nodes_ + to;
     ++counts_[link].sent;
+    counts_[link].sent_bytes += message.payload->size();
     if (links[link] == 0) {
       ++counts_[link].dropped_no_los;
       continue;
@@ -97,6 +100,8 @@ LinkCounts LinkGate::total() const {
     sum.dropped_fault += link.dropped_fault;
     sum.dropped_overflow += link.dropped_overflow;
     sum.duplicated += link.duplicated;
+    sum.sent_bytes += link.sent_bytes;
+    sum.delivered_bytes += link.delivered_bytes;
   }
   return sum;
 }

@@ -63,9 +63,11 @@ struct Delivery {
 
 /// Messages on one directed link, since the router started.
 /// sent + duplicated = delivered + dropped_no_los + dropped_fault + dropped_overflow + those still delayed.
+/// Bytes are those of the serialised messages, with the four of their encapsulation, without what DDS adds.
 struct LinkCounts {
   std::uint64_t sent = 0, delivered = 0, dropped_no_los = 0, dropped_fault = 0;
   std::uint64_t dropped_overflow = 0, duplicated = 0;
+  std::uint64_t sent_bytes = 0, delivered_bytes = 0;
   bool operator==(const LinkCounts&) const = default;
 };
 

@@ -115,10 +115,14 @@ TEST(LinkGate, CountsAddUpOnEveryLink) {
       const LinkCounts& link = gate.counts(from, to);
       EXPECT_EQ(link.sent, link.delivered + link.dropped_no_los + link.dropped_fault);
       EXPECT_EQ(link.sent > 0, from != to);
+      EXPECT_EQ(link.sent_bytes, link.sent) << "of one byte each";
+      EXPECT_EQ(link.delivered_bytes, link.delivered);
       sent += link.sent;
     }
   }
   EXPECT_EQ(gate.total().sent, sent);
+  EXPECT_EQ(gate.total().sent_bytes, sent);
+  EXPECT_EQ(gate.total().delivered_bytes, gate.total().delivered);
   EXPECT_GT(gate.total().dropped_fault, 0U);
 }
 
@@ -129,7 +133,11 @@ TEST(LinkGate, ADelayedMessageKeepsTheLinkItWasSentOn) {
   const GatedStep third = gate.gate(2, kNoneLinked, {message(0, 3, "no line of sight")});
   ASSERT_EQ(third.deliveries.size(), 1U);
   EXPECT_EQ(third.deliveries[0].sequence, 2U);
-  EXPECT_EQ(gate.counts(1, 0), (LinkCounts{2, 1, 1, 0}));
+  EXPECT_EQ(gate.counts(1, 0), (LinkCounts{.sent = 2,
+                                           .delivered = 1,
+                                           .dropped_no_los = 1,
+                                           .sent_bytes = 30,  // both texts
+                                           .delivered_bytes = 14}));
 }
 
 TEST(LinkGate, TheDigestSeesEveryFieldOfADelivery) {

@@ -18,7 +18,9 @@ void write_report(const std::filesystem::path& folder, const skein::Scenario& sc
                           {"dropped_no_los", counts.dropped_no_los},
                           {"dropped_fault", counts.dropped_fault},
                           {"dropped_overflow", counts.dropped_overflow},
-                          {"duplicated", counts.duplicated}};
+                          {"duplicated", counts.duplicated},
+                          {"sent_bytes", counts.sent_bytes},
+                          {"delivered_bytes", counts.delivered_bytes}};
   };
   nlohmann::json json = counts_json(gate.total());
   json["malformed"] = malformed;

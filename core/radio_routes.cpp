@@ -37,6 +37,7 @@ class RadioTable::Builder {
     for (Node node = 0; node < uses_.size(); ++node) {
       reserve(node, node == kStationNode ? topics::gcs_topics() : topics::uav_topics());
       reserve(node, topics::lockstep_topics());
+      reserve(node, topics::score_topics());
     }
   }
 
@@ -135,10 +136,9 @@ class RadioTable::Builder {
 
   void reserve(Node node, std::span<const topics::TopicInfo> table) {
     for (const topics::TopicInfo& topic : table) {
-      const bool own =
-          topic.direction == topics::Direction::from_agent || topic.direction == topics::Direction::from_station;
       const topics::WireTopic wire = topics::wire(topic, name(node));
-      const Use::Kind kind = own ? Use::Kind::standard_own : Use::Kind::standard;
+      const Use::Kind kind =
+          topic.direction == topics::Direction::from_agent ? Use::Kind::standard_own : Use::Kind::standard;
       uses_[node].emplace(wire.name, Use{kind, std::string(topic.pattern), wire.type});
     }
   }
@@ -148,6 +148,11 @@ class RadioTable::Builder {
     const std::string topic = checked("name", [&] { return wire_topic(ros_topic); });
     const std::string type = checked("type", [&] { return wire_type(ros_type); });
     if (ros_topic.starts_with("/skein/")) fail("name", "names under /skein/ are Skein's own; choose another");
+    // Refused by every node, to send and to hear: UAVs would learn what they did not see, and what a point is called.
+    if (std::ranges::find(topics::score_topics(), ros_topic, &topics::TopicInfo::pattern) !=
+        topics::score_topics().end()) {
+      fail("name", "'" + ros_topic + "' is the station's own and never goes on the radio; choose another");
+    }
     const auto known = types_.find(ros_topic);
     if (known != types_.end() && known->second != ros_type) {
       fail("type", "'" + ros_topic + "' was declared as " + known->second + " before; a topic has one type");

@@ -35,7 +35,7 @@ struct RadioRoute {
 /// @throws InputError, naming the scenario file and the key, for: a malformed topic or type; an unknown or repeated
 ///   node; no source or no target besides the source itself; one source declared twice for a topic; a topic with two
 ///   types; a name that is taken in a domain by another use (a standard topic that the source does not write itself,
-///   or another topic's arrivals).
+///   or another topic's arrivals), or that the station uses to tell the score.
 std::vector<RadioRoute> radio_routes(const Scenario& scenario);
 
 /// The routes of a run, to which nodes add theirs while it lasts (docs/radio.md). Knows every name that is taken.

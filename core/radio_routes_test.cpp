@@ -103,8 +103,28 @@ TEST(RadioRoutes, OneTopicMayHaveOtherTargetsForOtherSources) {
   EXPECT_EQ(routes_of(scenario, "/x").size(), 3U);
 }
 
-TEST(RadioRoutes, TheStationsScoreMayGoOnTheRadio) {
-  EXPECT_EQ(complaint({{"/gcs/score", "sensor_msgs/msg/PointCloud", {"gcs"}, {"all"}}}), "");
+TEST(RadioRoutes, TheScoreNeverGoesOnTheRadio) {
+  const std::string cloud = "sensor_msgs/msg/PointCloud";
+  const Scenario scenario = three_uavs();
+  RadioTable table(scenario);
+  for (const std::string name : {"/gcs/score", "/score_eval"}) {
+    for (const char* source : {"gcs", "jurong"}) {
+      const std::string said = complaint({{name, cloud, {source}, {"all"}}});
+      EXPECT_NE(said.find("radio.topics[0].name: '" + name + "' is the station's own"), std::string::npos) << said;
+    }
+    for (Node node = 0; node <= scenario.fleet.size(); ++node) {
+      EXPECT_THROW(table.open(node, name, cloud, {"all"}), InputError) << name << " from node " << node;
+      EXPECT_THROW(table.arrival(node, name, cloud), InputError) << name << " at node " << node;
+    }
+  }
+  EXPECT_EQ(complaint({{"/score", cloud, {"gcs"}, {"all"}}}), "") << "a name of one's own";
+}
+
+TEST(RadioRoutes, NothingArrivesUnderTheNameOfTheScore) {
+  Scenario scenario = three_uavs();
+  scenario.fleet[0].name = "score";  // "/gcs" arrives there as "/gcs/score"
+  scenario.radio = {{"/gcs", "sensor_msgs/msg/PointCloud", {"gcs"}, {"score"}}};
+  EXPECT_THROW(radio_routes(scenario), InputError);
 }
 
 struct BadDeclaration {
@@ -147,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
                        {{"/jurong/gimbal", "geometry_msgs/msg/TwistStamped", {"jurong"}, {"all"}}},
                        ".name",
                        "Skein writes"},
-        BadDeclaration{"ScoreOfAnotherType", {{"/gcs/score", kString, {"gcs"}, {"all"}}}, ".name", "PointCloud"},
+        BadDeclaration{"ScoreOfAnotherType", {{"/gcs/score", kString, {"gcs"}, {"all"}}}, ".name", "never goes"},
         BadDeclaration{"LockStepName", {{"/skein/step2", kString, {"all"}, {"all"}}}, ".name", "Skein's own"},
         BadDeclaration{"CaptureTopic",
                        {{"/captures/jurong", "skein_msgs/msg/CaptureReports", {"jurong"}, {"gcs"}}},

@@ -70,6 +70,7 @@ std::span<const TopicInfo> uav_topics() {
                                    kNeighbourKeyframe,
                                    kNeighbourOdometry,
                                    kDetectedPoints,
+                                   kDetected,
                                    kMissionDurationRemained,
                                    kClock,
                                    kBoundingBoxes,
@@ -84,7 +85,13 @@ std::span<const TopicInfo> uav_topics() {
 }
 
 std::span<const TopicInfo> gcs_topics() {
-  static constexpr std::array kAll{kBoundingBoxes, kClock, kMissionDurationRemained, kNeighbourOdometry, kScore};
+  static constexpr std::array kAll{kBoundingBoxes,     kClock, kMissionDurationRemained,
+                                   kNeighbourOdometry, kScore, kScoreEval};
+  return kAll;
+}
+
+std::span<const TopicInfo> score_topics() {
+  static constexpr std::array kAll{kScore, kScoreEval};
   return kAll;
 }
 

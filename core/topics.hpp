@@ -70,7 +70,8 @@ inline constexpr CloudField kDetectionFields[] = {
     {"x", FieldType::float32, 0},          {"y", FieldType::float32, 4},         {"z", FieldType::float32, 8},
     {"intensity", FieldType::float32, 12}, {"normal_x", FieldType::float32, 16}, {"normal_y", FieldType::float32, 20},
     {"normal_z", FieldType::float32, 24},  {"curvature", FieldType::float32, 28}};
-/// One point an interest point seen so far: intensity = best score of this UAV, curvature = index of the point.
+/// One point an interest point seen so far: intensity = best score of this UAV, curvature = the order in which this UAV
+/// first saw it, 0, 1, 2, ... The index of a point in the scene is for the station alone.
 inline constexpr CloudLayout kDetectionLayout{kDetectionFields, 32};
 
 // ---- one entry of the table ------------------------------------------------------------------------------------
@@ -143,10 +144,19 @@ inline constexpr TopicInfo kDetectedPoints{"/{id}/detected_interest_points",
                                            "sensor_msgs/msg/PointCloud2",
                                            Direction::to_agent,
                                            kCloudDepth,
-                                           "every capture that found something",
+                                           "every capture that found something: all that this UAV ever saw",
                                            false,
                                            false,
                                            &kDetectionLayout};
+/// For our own agents: the topic above, less what has not changed.
+inline constexpr TopicInfo kDetected{"/skein/detected",
+                                     "sensor_msgs/msg/PointCloud2",
+                                     Direction::internal,
+                                     kCloudDepth,
+                                     "every capture that found something: what it saw; all so far to a new agent",
+                                     false,
+                                     false,
+                                     &kDetectionLayout};
 inline constexpr TopicInfo kMissionDurationRemained{"/{id}/mission_duration_remained",
                                                     "builtin_interfaces/msg/Duration", Direction::to_agent, kStateDepth,
                                                     "every exchange after the first take-off"};
@@ -177,10 +187,15 @@ std::span<const TopicInfo> uav_topics();
 
 // ---- the GCS domain --------------------------------------------------------------------------------------------
 
-/// Points delivered so far, channel "intensity" = best score.
+/// All points that score by now; channels normal_x, normal_y, normal_z, score.
 inline constexpr TopicInfo kScore{"/gcs/score", "sensor_msgs/msg/PointCloud", Direction::from_station, kStateDepth,
                                   "when it changes"};
+/// The same with a fifth channel, global_index: the point's in the scene. For who judges a run, not for who flies it.
+inline constexpr TopicInfo kScoreEval{"/score_eval", "sensor_msgs/msg/PointCloud", Direction::from_station, kStateDepth,
+                                      "when it changes"};
 
+/// What the station tells of the score. It stays in the GCS domain: no radio topic has such a name, at either end.
+std::span<const TopicInfo> score_topics();
 /// All of the GCS domain but lock-step and radio: boxes, clock, time left, neighbours in LoS, score.
 std::span<const TopicInfo> gcs_topics();
 
@@ -239,6 +254,7 @@ inline WireTopic self_keyframe(std::string_view id) { return wire(kSelfKeyframe,
 inline WireTopic neighbour_keyframe(std::string_view id) { return wire(kNeighbourKeyframe, id); }
 inline WireTopic neighbour_odometry(std::string_view id) { return wire(kNeighbourOdometry, id); }
 inline WireTopic detected_points(std::string_view id) { return wire(kDetectedPoints, id); }
+inline WireTopic detected() { return wire(kDetected); }
 inline WireTopic mission_duration_remained(std::string_view id) { return wire(kMissionDurationRemained, id); }
 inline WireTopic clock() { return wire(kClock); }
 inline WireTopic bounding_boxes() { return wire(kBoundingBoxes); }
@@ -250,6 +266,7 @@ inline WireTopic trigger(std::string_view id) { return wire(kTrigger, id); }
 inline WireTopic capture() { return wire(kCapture); }
 inline WireTopic capture_stored() { return wire(kCaptureStored); }
 inline WireTopic score() { return wire(kScore); }
+inline WireTopic score_eval() { return wire(kScoreEval); }
 inline WireTopic step() { return wire(kStep); }
 inline WireTopic done() { return wire(kDone); }
 inline WireTopic ready() { return wire(kReady); }

@@ -81,6 +81,8 @@ msg::Time to_time(Tick tick) {
   return time;
 }
 
+Tick from_time(const msg::Time& time) { return time.sec() * kTicksPerSecond + ticks(time.nanosec() * 1e-9); }
+
 msg::Header to_header(Tick tick, const std::string& frame) {
   msg::Header header;
   header.stamp(to_time(tick));
@@ -249,6 +251,30 @@ msg::PointCloud2 to_cloud(Tick tick, std::span<const Eigen::Vector3f> points, fl
   return cloud;
 }
 
+msg::PointCloud to_score_cloud(Tick tick, std::span<const ScoredPoint> points, bool with_indices) {
+  msg::PointCloud cloud;
+  cloud.header(to_header(tick));
+  const auto add_channel = [&](const char* name, auto&& value_of) {
+    msg::ChannelFloat32 channel;
+    channel.name(name);
+    for (const ScoredPoint& p : points) channel.values().push_back(static_cast<float>(value_of(p)));
+    cloud.channels().push_back(std::move(channel));
+  };
+  for (const ScoredPoint& p : points) {
+    msg::Point32 point;
+    point.x(p.point.p_W.x());
+    point.y(p.point.p_W.y());
+    point.z(p.point.p_W.z());
+    cloud.points().push_back(point);
+  }
+  add_channel("normal_x", [](const ScoredPoint& p) { return p.point.n_W.x(); });
+  add_channel("normal_y", [](const ScoredPoint& p) { return p.point.n_W.y(); });
+  add_channel("normal_z", [](const ScoredPoint& p) { return p.point.n_W.z(); });
+  add_channel("score", [](const ScoredPoint& p) { return p.score; });
+  if (with_indices) add_channel("global_index", [](const ScoredPoint& p) { return p.index; });
+  return cloud;
+}
+
 template <class Point>
 std::vector<Point> from_cloud(const msg::PointCloud2& cloud) {
   const topics::CloudLayout& layout = layout_of<Point>();
@@ -272,6 +298,21 @@ template std::vector<DetectionPoint> from_cloud(const msg::PointCloud2&);
 std::optional<std::uint32_t> whole_number(float value) {
   if (!(value >= 0.0F) || !(value < 4294967296.0F) || std::trunc(value) != value) return std::nullopt;
   return static_cast<std::uint32_t>(value);
+}
+
+msg::InterestPoint to_message(const InterestPoint& point) {
+  msg::InterestPoint message;
+  message.x(point.p_W.x());
+  message.y(point.p_W.y());
+  message.z(point.p_W.z());
+  message.normal_x(point.n_W.x());
+  message.normal_y(point.n_W.y());
+  message.normal_z(point.n_W.z());
+  return message;
+}
+
+InterestPoint from_message(const msg::InterestPoint& message) {
+  return {{message.x(), message.y(), message.z()}, {message.normal_x(), message.normal_y(), message.normal_z()}};
 }
 
 msg::CaptureReport to_message(const CaptureReport& report, std::span<const std::string> fleet) {

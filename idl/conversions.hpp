@@ -15,6 +15,8 @@
 namespace skein {
 
 msg::Time to_time(Tick tick);
+/// The nearest tick.
+Tick from_time(const msg::Time& time);
 msg::Header to_header(Tick tick, const std::string& frame = "world");
 /// @param seconds  not negative.
 msg::Duration to_duration(double seconds);
@@ -59,7 +61,7 @@ struct DetectionPoint {
   float x = 0, y = 0, z = 0;
   float score = 0;  ///< on the wire "intensity"
   float normal_x = 0, normal_y = 0, normal_z = 0;
-  float index = 0;  ///< on the wire "curvature"
+  float order = 0;  ///< of detection; on the wire "curvature"
 };
 
 msg::PointCloud2 to_cloud(Tick tick, std::span<const ScanPoint> points);
@@ -67,6 +69,16 @@ msg::PointCloud2 to_cloud(Tick tick, std::span<const ScanPoint> points);
 msg::PointCloud2 to_cloud(Tick tick, std::span<const Eigen::Vector3f> points, float intensity = 0.0F);
 msg::PointCloud2 to_cloud(Tick tick, std::span<const NeighbourPoint> points);
 msg::PointCloud2 to_cloud(Tick tick, std::span<const DetectionPoint> points);
+/// A point that scores, as the station tells of it.
+struct ScoredPoint {
+  InterestPoint point;
+  float score = 0.0F;
+  std::uint32_t index = 0;  ///< in the scene
+};
+
+/// Channels normal_x, normal_y, normal_z, score, and, where they are asked for, global_index.
+msg::PointCloud to_score_cloud(Tick tick, std::span<const ScoredPoint> points, bool with_indices);
+
 /// Empty when the cloud's layout is not that of Point.
 template <class Point>
 std::vector<Point> from_cloud(const msg::PointCloud2& cloud);
@@ -79,6 +91,10 @@ extern template std::vector<DetectionPoint> from_cloud(const msg::PointCloud2&);
 std::optional<std::uint32_t> whole_number(float value);
 
 // ---- custody ----------------------------------------------------------------------------------------------------
+
+/// Where an interest point is, as the first message of the ledger tells the station.
+msg::InterestPoint to_message(const InterestPoint& point);
+InterestPoint from_message(const msg::InterestPoint& point);
 
 /// @param fleet  names in fleet order.
 msg::CaptureReport to_message(const CaptureReport& report, std::span<const std::string> fleet);

@@ -44,6 +44,7 @@ TEST(Conversions, StampsCountNanosecondsExactly) {
   EXPECT_EQ(to_time(400 * 600 + 1).sec(), 600);
   EXPECT_EQ(to_time(400 * 600 + 1).nanosec(), 2'500'000U);
   EXPECT_DOUBLE_EQ(from_duration(to_duration(599.95)), 599.95);
+  for (const Tick tick : {0, 1, 41, 399, 400, 401, 400 * 3600 + 7}) EXPECT_EQ(from_time(to_time(tick)), tick);
 }
 
 TEST(Conversions, TrajectoryCommandComesBack) {
@@ -106,6 +107,50 @@ TEST(Conversions, CloudsComeBackAndOtherLayoutsAreRefused) {
   EXPECT_EQ(back[0].vx, 6.0F);
   EXPECT_TRUE(from_cloud<ScanPoint>(cloud).empty());
   EXPECT_TRUE(from_cloud<ScanPoint>(msg::PointCloud2{}).empty());
+}
+
+// Names, order and meaning of the channels are CARIC's: programs that show a score find them by name.
+TEST(Conversions, TheScoreIsAPointCloudWithFourChannelsAndOneMoreForTheJudge) {
+  RandomStream random(4, "score", 0);
+  std::vector<ScoredPoint> points;
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    const Eigen::Vector3f p = random_vector(random, 80.0).cast<float>();
+    points.push_back({{p, random_vector(random, 1.0).cast<float>().normalized()},
+                      static_cast<float>(random.uniform(0.2, 1.0)),
+                      3 * i + 7});
+  }
+  for (const bool with_indices : {false, true}) {
+    const msg::PointCloud cloud = travelled(to_score_cloud(41, points, with_indices));
+    EXPECT_EQ(cloud.header().frame_id(), "world");
+    EXPECT_EQ(cloud.header().stamp().nanosec(), 102'500'000U);
+    std::vector<std::string> names;
+    for (const auto& channel : cloud.channels()) {
+      names.push_back(channel.name());
+      ASSERT_EQ(channel.values().size(), points.size()) << channel.name();
+    }
+    std::vector<std::string> expected = {"normal_x", "normal_y", "normal_z", "score"};
+    if (with_indices) expected.push_back("global_index");
+    ASSERT_EQ(names, expected);
+    ASSERT_EQ(cloud.points().size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto& at = cloud.points()[i];
+      EXPECT_EQ(Eigen::Vector3f(at.x(), at.y(), at.z()), points[i].point.p_W);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(cloud.channels()[axis].values()[i], points[i].point.n_W[static_cast<Eigen::Index>(axis)]);
+      }
+      EXPECT_EQ(cloud.channels()[3].values()[i], points[i].score);
+      if (with_indices) {
+        EXPECT_EQ(cloud.channels()[4].values()[i], static_cast<float>(points[i].index));
+      }
+    }
+  }
+}
+
+TEST(Conversions, InterestPointsReachTheStationAsTheyAre) {
+  const InterestPoint point{{1.5F, -2.25F, 1e-7F}, {0.0F, 0.6F, -0.8F}};
+  const InterestPoint back = from_message(travelled(to_message(point)));
+  EXPECT_EQ(back.p_W, point.p_W);
+  EXPECT_EQ(back.n_W, point.n_W);
 }
 
 TEST(Conversions, LedgerEntriesComeBackByName) {

@@ -72,6 +72,7 @@ std::string type_name() {
   X(skein_msgs, CaptureReports)                    \
   X(skein_msgs, CaptureAck)                        \
   X(skein_msgs, LedgerEntry)                       \
+  X(skein_msgs, InterestPoint)                     \
   X(skein_msgs, Ledger)
 
 #define SKEIN_DEFINE_TYPE(package, name)                                      \

@@ -236,11 +236,15 @@ void SimNode::publish_step() {
                    .final_step = last_step_});
 }
 
-// The first message is sent even when it is empty: it tells the station how many points there are.
+// The first message is sent even when nothing is written down: it tells the station which points there are.
 void SimNode::publish_ledger(const std::vector<LedgerEntry>& entries, std::size_t begin) {
   if (begin == entries.size() && ledger_->count() > 0) return;
   msg::Ledger message;
-  message.interest_points(static_cast<std::uint32_t>(simulation_.scene().points.size()));
+  const std::vector<InterestPoint>& points = simulation_.scene().points;
+  message.interest_points(static_cast<std::uint32_t>(points.size()));
+  if (ledger_->count() == 0) {
+    for (const InterestPoint& point : points) message.points().push_back(to_message(point));
+  }
   for (std::size_t i = begin; i < entries.size(); ++i) message.entries().push_back(to_message(entries[i], uav_names_));
   ledger_->begin_step();
   ledger_->write(message);

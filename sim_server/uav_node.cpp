@@ -1,9 +1,9 @@
 #include "sim_server/uav_node.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "bus/lockstep/names.hpp"
-#include "idl/conversions.hpp"
 
 namespace skein::sim {
 namespace {
@@ -51,7 +51,8 @@ UavNode::UavNode(std::size_t uav, const Scenario& scenario, Simulation& simulati
       gimbal_(server.writer(domain, bus::spec(topics::gimbal(id_)))),
       neighbour_odometry_(server.writer(domain, bus::spec(topics::neighbour_odometry(id_)))),
       neighbour_keyframe_(server.writer(domain, bus::spec(topics::neighbour_keyframe(id_)))),
-      detected_(server.writer(domain, bus::spec(topics::detected_points(id_)))),
+      detected_points_(server.writer(domain, bus::spec(topics::detected_points(id_)))),
+      detected_(server.writer(domain, bus::spec(topics::detected()))),
       remained_(server.writer(domain, bus::spec(topics::mission_duration_remained(id_)))),
       clock_(server.writer(domain, bus::spec(topics::clock()))),
       boxes_(server.writer(domain, bus::spec(topics::bounding_boxes()))),
@@ -129,24 +130,36 @@ void UavNode::publish_captures() {
   msg::CaptureReports reports;
   if (resend_) {
     for (const auto& [number, report] : card_) reports.reports().push_back(to_message(report, fleet_));
-    resend_ = false;
   }
   for (const CaptureEvent& event : simulation_.events().captures) {
     if (event.uav != uav_) continue;
-    send(detected_, [&] {
-      std::vector<DetectionPoint> points;
-      for (const Detection& detection : event.capture.detections) {
-        const InterestPoint& point = simulation_.scene().points[detection.point];
-        points.push_back({point.p_W.x(), point.p_W.y(), point.p_W.z(), detection.best, point.n_W.x(), point.n_W.y(),
-                          point.n_W.z(), static_cast<float>(detection.point)});
-      }
-      return to_cloud(event.capture.tick, points);
-    });
+    detections_.add(event.capture);
     if (!event.report) continue;
-    reports.reports().push_back(to_message(*event.report, fleet_));
-    card_.emplace(event.report->capture, *event.report);
+    const auto [entry, fresh] = card_.emplace(event.report->capture, detections_.as_told(*event.report));
+    reports.reports().push_back(to_message(entry->second, fleet_));
   }
   if (!reports.reports().empty()) capture_.write(reports);
+  publish_detections();
+  resend_ = false;
+}
+
+void UavNode::publish_detections() {
+  const std::span<const DetectionLog::Entry> log = detections_.entries();
+  std::vector<std::uint32_t> seen = detections_.take_seen();
+  const auto cloud_of = [&](const std::vector<std::uint32_t>& numbers) {
+    std::vector<DetectionPoint> points;
+    for (const std::uint32_t number : numbers) {
+      const InterestPoint& point = simulation_.scene().points[log[number].point];
+      points.push_back({point.p_W.x(), point.p_W.y(), point.p_W.z(), log[number].best, point.n_W.x(), point.n_W.y(),
+                        point.n_W.z(), static_cast<float>(number)});
+    }
+    return to_cloud(simulation_.tick(), points);
+  };
+  std::vector<std::uint32_t> all(log.size());
+  std::iota(all.begin(), all.end(), 0U);
+  if (!seen.empty()) send(detected_points_, [&] { return cloud_of(all); });
+  if (resend_) seen = all;
+  if (!seen.empty()) send(detected_, [&] { return cloud_of(seen); });
 }
 
 void UavNode::publish_rejections() {

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "bus/lockstep/server.hpp"
-#include "idl/type_names.hpp"
+#include "idl/conversions.hpp"
+#include "sim_server/detection_log.hpp"
 #include "sim_server/simulation.hpp"
 
 namespace skein::sim {
@@ -22,7 +23,7 @@ class UavNode {
 
   /// Publishes the samples of the present step.
   void publish();
-  /// The agent is new: the camera hands out again whatever was never acknowledged.
+  /// The agent is new: the camera hands out again whatever was never acknowledged, and all that it has shown.
   void resend_captures() { resend_ = true; }
   /// Captures that the agent has released since the last call: the station has them.
   std::vector<std::uint64_t> take_released() { return std::exchange(released_, {}); }
@@ -32,6 +33,7 @@ class UavNode {
   void publish_neighbours();
   void publish_clouds();
   void publish_captures();
+  void publish_detections();
   void publish_rejections();
 
   std::size_t uav_;
@@ -39,10 +41,11 @@ class UavNode {
   Simulation& simulation_;
   const std::string& id_;
   std::vector<std::string> fleet_;
-  bus::CountedWriter &odometry_, &gimbal_, &neighbour_odometry_, &neighbour_keyframe_, &detected_, &remained_, &clock_,
-      &boxes_, &rejected_, &capture_;
+  bus::CountedWriter &odometry_, &gimbal_, &neighbour_odometry_, &neighbour_keyframe_, &detected_points_, &detected_,
+      &remained_, &clock_, &boxes_, &rejected_, &capture_;
   bus::CountedWriter *cloud_ = nullptr, *self_keyframe_ = nullptr;  ///< explorers only
-  std::map<std::uint64_t, CaptureReport> card_;                     ///< captures that the agent has not released
+  DetectionLog detections_;
+  std::map<std::uint64_t, CaptureReport> card_;  ///< captures that the agent has not released, as it is told of them
   std::vector<std::uint64_t> released_;
   bool resend_ = false, boxes_sent_ = false;
 };

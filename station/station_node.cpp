@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bus/lockstep/names.hpp"
 #include "core/radio_routes.hpp"
@@ -26,9 +27,11 @@ StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bu
       status_(status),
       uavs_(scenario.uav_names()),
       journal_(out / "station.journal"),
+      names_(uavs_.size()),
       world_(bus.join(world_domain(base_domain))),
       gcs_(bus.join(gcs_domain(base_domain))),
       score_(std::make_unique<bus::CountedWriter>(*gcs_, bus::spec(topics::score()))),
+      score_eval_(std::make_unique<bus::CountedWriter>(*gcs_, bus::spec(topics::score_eval()))),
       client_(*gcs_, inbox_, std::string(bus::kStationName)) {
   ledger_reader_ = bus::subscribe<msg::Ledger>(inbox_, *world_, bus::spec(topics::ledger()),
                                                [this](const msg::Ledger& ledger) { on_ledger(ledger); });
@@ -38,15 +41,21 @@ StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bu
         [this, i](const msg::CaptureReports& reports) { on_reports(i, reports); });
     client_.declare_writer(bus::spec(topics::captures_ack(uavs_[i])), LockstepClient::Counterpart::router);
   }
-  client_.think_when(
-      [this](const msg::Step& step) { return scoreboard_ && scoreboard_->has_entries(step.ledger_upto()); });
+  client_.think_when([this](const msg::Step& step) {
+    return scoreboard_ && points_.size() == scoreboard_->delivered().points().size() &&
+           scoreboard_->has_entries(step.ledger_upto());
+  });
 }
 
 void StationNode::on_ledger(const msg::Ledger& ledger) {
   if (!scoreboard_) open_scoreboard(ledger.interest_points());
+  if (points_.empty()) {
+    for (const auto& point : ledger.points()) points_.push_back(from_message(point));
+  }
   for (const auto& message : ledger.entries()) {
     if (const auto entry = from_message(message, uavs_)) scoreboard_->add_entry(*entry);
   }
+  names_.follow(scoreboard_->ledger());
 }
 
 void StationNode::open_scoreboard(std::size_t points) {
@@ -58,6 +67,7 @@ void StationNode::open_scoreboard(std::size_t points) {
 void StationNode::on_reports(std::size_t source, const msg::CaptureReports& reports) {
   for (const auto& message : reports.reports()) {
     if (auto report = from_message(message, uavs_)) {
+      names_.resolve(*report);
       scoreboard_->add_report(source, std::move(*report));
     } else {
       CaptureReport nobody;
@@ -76,27 +86,25 @@ void StationNode::think() {
   journal_.append(outcome.records);
   const bus::Burst burst(*gcs_);
   acknowledge(outcome);
-  if (outcome.score_changed && score_->has_readers()) {
-    msg::PointCloud cloud;
-    cloud.header(to_header(step.tick()));
-    msg::ChannelFloat32 index, score;
-    index.name("index");
-    score.name("intensity");
-    const auto& points = scoreboard_->delivered().points();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (points[i].q <= 0.0F) continue;
-      index.values().push_back(static_cast<float>(i));
-      score.values().push_back(points[i].q);
-    }
-    cloud.points().resize(score.values().size());
-    cloud.channels().push_back(index);
-    cloud.channels().push_back(score);
-    score_->begin_step();
-    score_->write(cloud);
-  }
+  if (outcome.score_changed) show_score(step.tick());
   client_.done(outcome.digest);
   last_step_answered_ = step.final_step();
   tell(news || last_step_answered_);
+}
+
+// The whole list, each time that it changes, to whoever looks. Nobody in the fleet waits for it: it is in no count.
+void StationNode::show_score(Tick tick) {
+  if (!score_->has_readers() && !score_eval_->has_readers()) return;
+  const std::vector<PointTally>& tally = scoreboard_->delivered().points();
+  std::vector<ScoredPoint> points;
+  for (std::uint32_t i = 0; i < tally.size(); ++i) {
+    if (tally[i].q > 0.0F) points.push_back({points_[i], tally[i].q, i});
+  }
+  for (const auto& [writer, with_indices] : {std::pair(score_.get(), false), std::pair(score_eval_.get(), true)}) {
+    if (!writer->has_readers()) continue;
+    writer->begin_step();
+    writer->write(to_score_cloud(tick, points, with_indices));
+  }
 }
 
 void StationNode::acknowledge(const StepOutcome& outcome) {

@@ -14,6 +14,7 @@
 #include "core/scenario.hpp"
 #include "core/status_pipe.hpp"
 #include "station/journal.hpp"
+#include "station/point_names.hpp"
 #include "station/scoreboard.hpp"
 
 namespace skein::station {
@@ -36,6 +37,7 @@ class StationNode {
   void open_scoreboard(std::size_t points);
   void think();
   void acknowledge(const StepOutcome& outcome);
+  void show_score(Tick tick);
   void tell(bool now);
 
   const Scenario& scenario_;
@@ -44,10 +46,12 @@ class StationNode {
   std::vector<std::string> uavs_;
   Journal journal_;
   std::optional<Scoreboard> scoreboard_;  ///< once the ledger told the number of points
+  std::vector<InterestPoint> points_;     ///< once it told where they are
+  PointNames names_;
   bus::Inbox inbox_;
   std::unique_ptr<bus::Participant> world_, gcs_;
   std::unique_ptr<bus::Reader> ledger_reader_;
-  std::unique_ptr<bus::CountedWriter> score_;
+  std::unique_ptr<bus::CountedWriter> score_, score_eval_;
   bus::LockstepClient client_;
   bool last_step_answered_ = false;
   std::chrono::steady_clock::time_point told_{};

@@ -35,7 +35,7 @@ struct Agent::Impl {
   std::vector<KnownBody> known_bodies(const AgentInput& input) const;
   std::optional<Vector3d> sensor_position(const KeyFrame& frame, const AgentInput& input) const;
   PlannerInput planner_input(const AgentInput& input) const;
-  void move(const PlannerOutput& decision);
+  std::optional<TrajectoryCommand> move(const PlannerOutput& decision, const RigidBodyState& state);
   std::optional<GimbalCommand> point_camera(const GimbalAim& new_aim, const RigidBodyState& state);
 
   const AgentConfig config;
@@ -66,6 +66,7 @@ std::vector<KnownBody> Agent::Impl::known_bodies(const AgentInput& input) const 
 }
 
 void Agent::Impl::perceive(const AgentInput& input) {
+  if (tracker.stands_by()) tracker.stand_by(input.state);
   peers.update(input.tick, input.neighbours);
   if (!input.boxes.empty()) boxes = input.boxes;
   if (!input.key_frames.empty()) {
@@ -105,14 +106,21 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
                       .station_linked = peers.station_visible(),
                       .undelivered_captures = uplink.undelivered(),
                       .detected = input.detected,
-                      .radio = input.radio};
+                      .radio = input.radio,
+                      .key_frames = input.key_frames,
+                      .scans = input.scans};
 }
 
-void Agent::Impl::move(const PlannerOutput& decision) {
+std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision, const RigidBodyState& state) {
+  if (const auto* command = std::get_if<TrajectoryCommand>(&decision.motion)) {
+    tracker.stand_by(state);
+    return *command;
+  }
   if (decision.yaw) tracker.turn_to(*decision.yaw);
   if (const auto* path = std::get_if<Path>(&decision.motion)) tracker.follow(*path);
   if (const auto* setpoint = std::get_if<Setpoint>(&decision.motion)) tracker.fly_to(*setpoint);
   if (std::holds_alternative<Hold>(decision.motion)) tracker.hold();
+  return tracker.step(state, config.exchange_period_s);
 }
 
 std::optional<GimbalCommand> Agent::Impl::point_camera(const GimbalAim& new_aim, const RigidBodyState& state) {
@@ -129,12 +137,13 @@ Agent::~Agent() = default;
 Agent::Agent(Agent&&) noexcept = default;
 Agent& Agent::operator=(Agent&&) noexcept = default;
 
+bool Agent::wants_scans() const { return impl_->planner->wants_scans(); }
+
 AgentOutput Agent::step(const AgentInput& input) {
   impl_->perceive(input);
   PlannerOutput decision = impl_->planner->plan(impl_->planner_input(input));
-  impl_->move(decision);
   AgentOutput output;
-  output.trajectory = impl_->tracker.step(input.state, impl_->config.exchange_period_s);
+  output.trajectory = impl_->move(decision, input.state);
   output.gimbal = impl_->point_camera(decision.gimbal, input.state);
   output.trigger = decision.trigger;
   output.radio = std::move(decision.radio);

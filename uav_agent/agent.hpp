@@ -23,6 +23,7 @@ struct AgentInput {
   std::vector<OrientedBox> boxes;             ///< when they arrived at this step; else empty
   std::vector<Neighbour> neighbours;          ///< in line of sight now
   std::vector<KeyFrame> key_frames;           ///< in order: own first, then neighbours'
+  std::vector<Scan> scans;                    ///< own; only if wants_scans()
   std::vector<DetectedPoint> detected;
   std::vector<CaptureReport> capture_reports;  ///< from the camera; it may repeat unacknowledged ones
   std::vector<std::uint64_t> capture_acks;     ///< capture numbers that the station has journalled
@@ -30,7 +31,8 @@ struct AgentInput {
 };
 
 struct AgentOutput {
-  std::optional<TrajectoryCommand> trajectory;  ///< nullopt only before the first motion
+  /// nullopt before the first motion, and where a planner that commands by itself says nothing (motion.hpp).
+  std::optional<TrajectoryCommand> trajectory;
   std::optional<GimbalCommand> gimbal;
   bool trigger = false;
   std::vector<RadioMessage> radio;
@@ -45,6 +47,8 @@ class Agent {
   Agent(Agent&&) noexcept;
   Agent& operator=(Agent&&) noexcept;
 
+  /// Whether the planner looks at scans: nobody needs to compute them or send them otherwise.
+  bool wants_scans() const;
   /// One exchange. Inputs must come in order of k.
   AgentOutput step(const AgentInput& input);
 

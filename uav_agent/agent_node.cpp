@@ -52,13 +52,18 @@ void AgentNode::read_sensors(LockstepClient& client) {
   };
   if (scenario_.fleet[node_ - 1].vehicle.lidar) read_key_frames(topics::self_keyframe(member()), node_);
   read_key_frames(topics::neighbour_keyframe(member()), std::nullopt);
-  client.read<msg::PointCloud2>(bus::spec(topics::detected_points(member())), Counterpart::server,
-                                [this](const auto& m) {
-                                  for (const DetectionPoint& p : from_cloud<DetectionPoint>(m)) {
-                                    if (const auto index = whole_number(p.index))
-                                      input_.detected.push_back({{p.x, p.y, p.z}, p.score, *index});
-                                  }
-                                });
+  if (scenario_.fleet[node_ - 1].vehicle.lidar && agent_.wants_scans()) {
+    client.read<msg::PointCloud2>(bus::spec(topics::cloud(member())), Counterpart::server, [this](const auto& m) {
+      Scan scan{.tick = from_time(m.header().stamp())};
+      for (const ScanPoint& p : from_cloud<ScanPoint>(m)) scan.points_W.emplace_back(p.x, p.y, p.z);
+      input_.scans.push_back(std::move(scan));
+    });
+  }
+  client.read<msg::PointCloud2>(bus::spec(topics::detected()), Counterpart::server, [this](const auto& m) {
+    for (const DetectionPoint& p : from_cloud<DetectionPoint>(m)) {
+      if (const auto order = whole_number(p.order)) input_.detected.push_back({{p.x, p.y, p.z}, p.score, *order});
+    }
+  });
 }
 
 void AgentNode::read_captures(LockstepClient& client) {
@@ -83,6 +88,7 @@ void AgentNode::send(LockstepClient& client) {
   // State stays until the next sample replaces it; events are over.
   input_.boxes.clear();
   input_.key_frames.clear();
+  input_.scans.clear();
   input_.detected.clear();
   input_.capture_reports.clear();
   input_.capture_acks.clear();

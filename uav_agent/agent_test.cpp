@@ -12,6 +12,9 @@ namespace {
 struct Tape {
   std::size_t boxes = 0, undelivered = 0, cells = 0;
   bool station_linked = false, near_is_free = false;
+  TrackingState tracking = {};
+  std::vector<KeyFrame> key_frames = {};
+  std::vector<Scan> scans = {};
   PlannerOutput answer = {};
 };
 
@@ -23,6 +26,9 @@ class TapePlanner final : public Planner {
     tape_.undelivered = in.undelivered_captures;
     tape_.cells = in.map.occupied_cells();
     tape_.station_linked = in.station_linked;
+    tape_.tracking = in.tracking;
+    tape_.key_frames.assign(in.key_frames.begin(), in.key_frames.end());
+    tape_.scans.assign(in.scans.begin(), in.scans.end());
     tape_.near_is_free = in.map.known_free({3.0, 0.0, 10.0});
     return tape_.answer;
   }
@@ -53,6 +59,7 @@ class AgentTest : public testing::Test {
     input_.capture_reports.clear();
     input_.capture_acks.clear();
     input_.boxes.clear();
+    input_.scans.clear();
     return output;
   }
   static std::vector<Eigen::Vector3f> wall() {
@@ -148,6 +155,102 @@ TEST_F(AgentTest, DeliversThroughTheDirectLinkOnly) {
   input_.capture_acks = {0, 1};
   step();
   EXPECT_EQ(tape_.undelivered, 0U);
+}
+
+TEST_F(AgentTest, ItsPlannerSeesTheKeyFramesAsTheyCame) {
+  input_.key_frames = {{.points_W = wall(), .source = node_of_uav(0)}, {.points_W = {{1.0F, 2.0F, 3.0F}}, .source = 2}};
+  step();
+  ASSERT_EQ(tape_.key_frames.size(), 2U);
+  EXPECT_EQ(tape_.key_frames[0].points_W, wall()) << "nothing is left out, as it is on the map";
+  EXPECT_EQ(tape_.key_frames[1].source, 2U);
+  step();
+  EXPECT_TRUE(tape_.key_frames.empty()) << "in the exchange in which they came, and no other";
+}
+
+TEST_F(AgentTest, ScansAreForThosePlannersThatAskForThem) {
+  class Looker final : public Planner {
+   public:
+    PlannerOutput plan(const PlannerInput& in) override {
+      return {.trigger = !in.scans.empty() && in.scans[0].tick == 40 && in.scans[0].points_W.size() == 2};
+    }
+    bool wants_scans() const override { return true; }
+  };
+  EXPECT_FALSE(agent_.wants_scans());
+  Agent looker(fleet_of_three(), std::make_unique<Looker>());
+  EXPECT_TRUE(looker.wants_scans());
+  EXPECT_FALSE(looker.step(input_).trigger);
+  input_.scans = {{.tick = 40, .points_W = {{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}}}};
+  EXPECT_TRUE(looker.step(input_).trigger);
+}
+
+// The flight controller tells modes apart by what is zero, so nothing may be filled in, rounded or limited.
+TEST_F(AgentTest, ACommandOfItsPlannersOwnGoesOutAsItIs) {
+  for (const TrajectoryCommand& own : {TrajectoryCommand{.v_WB = {9.0, -20.0, 0.5}, .yaw = 3.0, .yaw_rate = 0.4},
+                                       TrajectoryCommand{.a_WB = {0.0, 0.0, 1e-3}}, TrajectoryCommand{.yaw = -2.0},
+                                       TrajectoryCommand{.p_WB = {0.0, 0.0, 0.001}}, TrajectoryCommand{}}) {
+    tape_.answer.motion = own;
+    tape_.answer.yaw = 1.0;  // of no effect
+    const auto command = step().trajectory;
+    ASSERT_TRUE(command);
+    EXPECT_EQ(command->p_WB, own.p_WB);
+    EXPECT_EQ(command->v_WB, own.v_WB);
+    EXPECT_EQ(command->a_WB, own.a_WB);
+    EXPECT_EQ(command->yaw, own.yaw);
+    EXPECT_EQ(command->yaw_rate, own.yaw_rate);
+  }
+  tape_.answer = {};
+  EXPECT_FALSE(step().trajectory) << "the controller's own rule takes over where nothing is commanded";
+}
+
+TEST_F(AgentTest, AfterCommandsOfItsOwnItGoesOnFromWhereTheUavIs) {
+  tape_.answer.motion = Path{{{{0.0, 0.0, 30.0}, 2.0}}};
+  step();
+  tape_.answer = {.motion = TrajectoryCommand{.v_WB = {4.0, 0.0, 0.0}}};
+  for (int i = 1; i <= 40; ++i) {
+    input_.state.p_WB = {0.2 * i, 0.0, 10.0};
+    input_.state.v_WB = {4.0, 0.0, 0.0};
+    input_.state.q_WB = Eigen::AngleAxisd(1.2, Vector3d::UnitZ());
+    step();
+    if (i == 1) continue;  // before its first answer it follows the path
+    EXPECT_EQ(tape_.tracking.setpoint.p_WB, input_.state.p_WB) << "a path begins where it is";
+    EXPECT_TRUE(tape_.tracking.done) << "the path before is over";
+  }
+  EXPECT_TRUE(tape_.tracking.airborne);
+  tape_.answer = {.motion = Path{{{{20.0, 0.0, 10.0}, 4.0}}}};
+  Vector3d p_W = input_.state.p_WB, v_W = input_.state.v_WB;
+  for (int i = 0; i < 200; ++i) {
+    const auto command = step().trajectory;
+    tape_.answer = {};
+    ASSERT_TRUE(command);
+    EXPECT_LT((command->p_WB - p_W).norm(), 4.2 * 0.05 + 0.05) << "no jump in position, exchange " << i;
+    EXPECT_LT((command->v_WB - v_W).norm(), 4.0 * 0.05) << "none in velocity, exchange " << i;
+    EXPECT_NEAR(command->yaw, 1.2, 1e-9) << "it looks where it looked";
+    p_W = command->p_WB;
+    v_W = command->v_WB;
+    input_.state.p_WB = p_W;
+    input_.state.v_WB = v_W;
+  }
+  EXPECT_NEAR((p_W - Vector3d(20.0, 0.0, 10.0)).norm(), 0.0, 1e-6);
+}
+
+TEST_F(AgentTest, HoldAfterACommandOfItsOwnBrakes) {
+  input_.state.v_WB = {3.0, 0.0, 0.0};
+  tape_.answer.motion = TrajectoryCommand{.v_WB = {3.0, 0.0, 0.0}};
+  step();
+  tape_.answer.motion = Hold{};
+  const auto first = step().trajectory;
+  ASSERT_TRUE(first);
+  EXPECT_NEAR((first->v_WB - Vector3d(3.0, 0.0, 0.0)).norm(), 0.0, 0.1) << "from the velocity that it has";
+  tape_.answer = {};
+  for (int i = 0; i < 100; ++i) {
+    const auto command = step().trajectory;
+    ASSERT_TRUE(command);
+    input_.state.p_WB = command->p_WB;
+    input_.state.v_WB = command->v_WB;
+  }
+  EXPECT_NEAR(input_.state.v_WB.norm(), 0.0, 1e-9);
+  EXPECT_GT(input_.state.p_WB.x(), 0.5) << "it has a way to brake";
+  EXPECT_LT(input_.state.p_WB.x(), 5.0);
 }
 
 TEST(AgentConfig, HoldsWhatAUavMayKnow) {

@@ -31,7 +31,12 @@ int fly(skein::agent::MemberNode& node, const std::filesystem::path& report_file
   stop.on_stop([&node] { node.wake(); });
   const int code = node.run(stop);
   stop.on_stop({});
-  const nlohmann::json report = {{"planner_cpu_s", node.planner_cpu_s()}, {"malformed", node.malformed()}};
+  const skein::agent::CpuHistogram& cpu = node.planner_cpu();
+  const nlohmann::json report = {{"planner_cpu_s", cpu.total_s()},
+                                 {"planner_cpu_p99_ms", 1e3 * cpu.quantile_s(0.99)},
+                                 {"planner_cpu_max_ms", 1e3 * cpu.max_s()},
+                                 {"planner_exchanges_over_50ms", cpu.over_field_exchange()},
+                                 {"malformed", node.malformed()}};
   skein::write_file_atomically(report_file, report.dump(2) + "\n");
   return code;
 }

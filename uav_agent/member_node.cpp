@@ -26,7 +26,7 @@ void MemberNode::join() {
 void MemberNode::think() {
   const double before = thread_cpu_s();
   work(client_->step());
-  planner_cpu_s_ += thread_cpu_s() - before;
+  planner_cpu_.add(thread_cpu_s() - before);
   {
     const bus::Burst burst(*participant_);
     send(*client_);

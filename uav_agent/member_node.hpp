@@ -9,6 +9,7 @@
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "bus/lockstep/client_loop.hpp"
+#include "uav_agent/cpu_histogram.hpp"
 
 namespace skein::agent {
 
@@ -22,8 +23,8 @@ class MemberNode {
   int run(const StopSignal& stop);
   /// Makes run() look at `stop`; from any thread.
   void wake() { inbox_.wake(); }
-  /// CPU time spent in the strategy so far [s]; without transport.
-  double planner_cpu_s() const { return planner_cpu_s_; }
+  /// CPU time spent in the strategy so far, by exchange; without transport.
+  const CpuHistogram& planner_cpu() const { return planner_cpu_; }
   /// Samples received that were no message of their topic's type.
   std::uint64_t malformed() const { return inbox_.malformed(); }
 
@@ -52,7 +53,7 @@ class MemberNode {
   std::unique_ptr<bus::Participant> participant_;
   std::optional<bus::LockstepClient> client_;
   bool last_step_answered_ = false;
-  double planner_cpu_s_ = 0.0;
+  CpuHistogram planner_cpu_;
 };
 
 }  // namespace skein::agent

@@ -30,8 +30,14 @@ struct KeyFrame {
 /// An interest point in one of this UAV's captures.
 struct DetectedPoint {
   Eigen::Vector3f p_W = Eigen::Vector3f::Zero();
-  double score = 0.0;                  ///< best so far of this UAV, [0, 1]
-  std::optional<std::uint32_t> index;  ///< of the interest point, if known
+  double score = 0.0;       ///< best so far of this UAV, [0, 1]
+  std::uint32_t order = 0;  ///< in which this UAV first saw it, 0, 1, 2, ...: its name for the point, and nobody else's
+};
+
+/// One LiDAR scan of this UAV.
+struct Scan {
+  Tick tick = 0;                               ///< of its instant
+  std::vector<Eigen::Vector3f> points_W = {};  ///< hits
 };
 
 /// One capture report as the camera made it. The payload is opaque: the agent keeps and forwards it.

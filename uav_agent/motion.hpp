@@ -30,6 +30,10 @@ struct Path {
 struct Hold {};
 
 /// What the set-point does now. monostate: carry on as told before; before the first motion: motors stay off.
-using Motion = std::variant<std::monostate, Setpoint, Path, Hold>;
+/// A TrajectoryCommand goes to the flight controller as it is, in this exchange and no other: nothing smooths it or
+/// keeps it within limits, and parts of it may be left at zero (a velocity without a position, an acceleration alone,
+/// yaw alone; docs/rules.md, P1 to P3). After it nothing is sent until the next motion: then the flight controller stays
+/// where the last command lapsed. A Path or Hold after it begins where the UAV is, at the velocity that it has.
+using Motion = std::variant<std::monostate, Setpoint, Path, Hold, TrajectoryCommand>;
 
 }  // namespace skein::agent

@@ -46,13 +46,15 @@ struct PlannerInput {
   std::optional<double> mission_remaining_s;  ///< nullopt before the first take-off
   bool station_linked = false;                ///< direct link at this step
   std::size_t undelivered_captures = 0;
-  std::span<const DetectedPoint> detected;  ///< new at this step
+  std::span<const DetectedPoint> detected;  ///< in this step's pictures; after a restart all that it ever saw
   std::span<const RadioMessage> radio;      ///< received at this step
+  std::span<const KeyFrame> key_frames = {};  ///< that came at this step, as the LiDARs saw them: own, then neighbours'
+  std::span<const Scan> scans = {};           ///< own, since the step before; only if wants_scans()
 };
 
 struct PlannerOutput {
   Motion motion = {};
-  std::optional<double> yaw = {};  ///< body yaw to turn to at the tracker's rate; not used with a Setpoint
+  std::optional<double> yaw = {};  ///< body yaw to turn to at the tracker's rate; only with a Path or Hold
   GimbalAim gimbal = {};
   bool trigger = false;                  ///< ask for a capture; only where the camera is in manual mode
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
@@ -61,8 +63,12 @@ struct PlannerOutput {
 class Planner {
  public:
   virtual ~Planner() = default;
-  /// Called once per exchange, also before take-off.
+  /// Called once per exchange, also before take-off. What `input` refers to is gone afterwards.
   virtual PlannerOutput plan(const PlannerInput& input) = 0;
+  /// Whether it looks at the LiDAR's scans; asked before the first exchange, and the answer must stay the same. The map
+  /// has what key frames show without them. A scan that nobody reads is not even computed, and that is most of a run's
+  /// cost (docs/decisions/0006-scans-on-demand.md).
+  virtual bool wants_scans() const { return false; }
 };
 
 /// Makes the planner that `spec` names: "hover", "hover:height_m=4,climb_mps=1" or "patrol:params.yaml" (a

@@ -57,6 +57,19 @@ void Tracker::fly_to(const Setpoint& setpoint) {
   yaw_goal_ = setpoint.yaw;
 }
 
+void Tracker::stand_by(const RigidBodyState& state) {
+  mode_ = Mode::stand_by;
+  started_ = true;
+  done_ = true;
+  ref_ = Setpoint{.p_WB = state.p_WB, .yaw = roll_pitch_yaw(state.q_WB.toRotationMatrix()).yaw, .v_WB = state.v_WB};
+  mass_ = ref_;
+  track_.clear();
+  yaw_goal_.reset();
+  waypoints_.clear();
+  corners_.clear();
+  progress_ = 0.0;
+}
+
 /// As if it had come this way at this velocity all along: the point mass is ahead by half of what is smoothed.
 void Tracker::start_from(const Vector3d& p_W, const Vector3d& v_W, double dt_s) {
   const Vector3d v = shortened(v_W, config_.max_speed_mps);
@@ -223,7 +236,7 @@ void Tracker::advance_yaw(double dt_s) {
 }
 
 std::optional<TrajectoryCommand> Tracker::step(const RigidBodyState& state, double dt_s) {
-  if (mode_ == Mode::off) return std::nullopt;
+  if (mode_ == Mode::off || mode_ == Mode::stand_by) return std::nullopt;
   if (mode_ != Mode::setpoint) {
     if (!started_) ref_.yaw = roll_pitch_yaw(state.q_WB.toRotationMatrix()).yaw;
     double error = (ref_.p_WB - state.p_WB).norm();

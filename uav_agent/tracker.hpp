@@ -36,15 +36,19 @@ class Tracker {
   void hold();
   void fly_to(const Setpoint& setpoint);
   void turn_to(double yaw) { yaw_goal_ = yaw; }
+  /// Commands come from elsewhere: what it was told is over, and what it is told next begins at this state. To be
+  /// called again in each exchange, with the new state, as long as stands_by().
+  void stand_by(const RigidBodyState& state);
+  bool stands_by() const { return mode_ == Mode::stand_by; }
 
   /// Advances by one exchange.
-  /// @returns nullopt as long as no motion was asked for.
+  /// @returns nullopt as long as no motion was asked for, and while it stands by.
   std::optional<TrajectoryCommand> step(const RigidBodyState& state, double dt_s);
 
   TrackingState tracking() const;
 
  private:
-  enum class Mode { off, hold, path, setpoint };
+  enum class Mode { off, hold, path, setpoint, stand_by };
 
   void start_from(const Vector3d& p_W, const Vector3d& v_W, double dt_s);
   void forget_flown_legs();

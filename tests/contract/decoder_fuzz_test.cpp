@@ -188,7 +188,7 @@ TEST(DamagedMessages, CloudsGiveWholePointsOrNone) {
                               detections.size() * sizeof(DetectionPoint);
     EXPECT_LE(bytes, cloud.data().size()) << "of one layout at most";
     for (const NeighbourPoint& point : neighbours) whole_number(point.node);
-    for (const DetectionPoint& point : detections) whole_number(point.index);
+    for (const DetectionPoint& point : detections) whole_number(point.order);
   };
   fuzz(cloud_of<ScanPoint>(20), rounds(5000), read);
   fuzz(cloud_of<NeighbourPoint>(5), rounds(5000), read);

@@ -105,6 +105,7 @@ class Member {
     radio_.send("/nobody", kLaterType, {"nowhere"});
     radio_.send("/skein/mine", kLaterType, {"all"});
     radio_.send("/captures/x", kLaterType, {"all"});
+    radio_.send("/score_eval", kLaterType, {"all"});
     radio_.send("/empty", kLaterType, {});
     if (node_ != 2) return;
     radio_.send(kLater, kBlobType, {"all"});
@@ -275,6 +276,7 @@ TEST_P(Radio, SaysWhyARequestMakesNoSense) {
                                                       {"/nobody", "there is no node 'nowhere'"},
                                                       {"/skein/mine", "names under /skein/"},
                                                       {"/captures/x", "carry the score"},
+                                                      {"/score_eval", "is the station's own"},
                                                       {"/empty", "name at least one node"},
                                                       {kLater, "'/later' was declared as " + kLaterType},
                                                       {"/blob/b", "is taken by what arrives of /blob"}};

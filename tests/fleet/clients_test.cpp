@@ -78,6 +78,8 @@ std::vector<WireTopic> private_topics(const std::string& uav) {
           topics::captures(uav),
           topics::captures_at_station(uav),
           topics::captures_ack_at_uav(uav),
+          topics::score(),
+          topics::score_eval(),
           topics::ledger(),
           topics::routed(),
           topics::attached(),

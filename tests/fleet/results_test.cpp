@@ -42,7 +42,12 @@ class Results : public FleetTest {
     ASSERT_EQ(result_["uavs"].size(), kFleet.size());
     for (std::size_t i = 0; i < kFleet.size(); ++i) {
       EXPECT_EQ(result_["uavs"][i]["name"], kFleet[i]);
-      EXPECT_GT(result_["uavs"][i]["planner_cpu_s"], 0.0);
+      const Json& uav = result_["uavs"][i];
+      EXPECT_GT(uav["planner_cpu_s"], 0.0);
+      EXPECT_GT(uav["planner_cpu_p99_ms"], 0.0);
+      EXPECT_GE(uav["planner_cpu_max_ms"], uav["planner_cpu_p99_ms"]);
+      EXPECT_LE(uav["planner_cpu_max_ms"].get<double>(), 1e3 * uav["planner_cpu_s"].get<double>());
+      EXPECT_EQ(uav["planner_exchanges_over_50ms"] > 0, uav["planner_cpu_max_ms"] > 50.0);
       EXPECT_GT(result_["uavs"][i]["distance_m"], 10.0);
     }
     EXPECT_GT(score(), 10.0) << "nothing to check";

@@ -31,8 +31,9 @@ class Secure : public FleetTest {
     scenario_ = write_small_scene(folder() / "small");
   }
 
-  Arguments arguments(const std::string& vendor, const Arguments& more = {}) const {
-    Arguments all = {scenario_, "--planner", "patrol", "--duration", "30", "--dds", vendor};
+  Arguments arguments(const std::string& vendor, const Arguments& more = {},
+                      const std::string& planner = "patrol") const {
+    Arguments all = {scenario_, "--planner", planner, "--duration", "30", "--dds", vendor};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -43,8 +44,8 @@ class Secure : public FleetTest {
 /// A secured fleet that waits for the agent of kVictim, so that there is time to knock at its doors.
 class Waiting : public Secure, public testing::WithParamInterface<std::string> {
  protected:
-  void start_fleet() {
-    run_ = &start("secure", arguments(GetParam(), {"--secure", "--debug", kVictim}));
+  void start_fleet(const std::string& planner = "patrol", const std::string& clock = "lockstep") {
+    run_ = &start("secure", arguments(GetParam(), {"--secure", "--debug", kVictim, "--clock", clock}, planner));
     ASSERT_TRUE(run_->wait_for("gdb --args")) << run_->err();
     const std::string text = run_->err(), gdb = "gdb --args ";
     const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
@@ -58,7 +59,11 @@ class Waiting : public Secure, public testing::WithParamInterface<std::string> {
 
   /// Somebody who reads the victim's topic, in the victim's domain. @param keys  that he shows, if any.
   ChildProcess& listen(const std::string& name, const std::string& vendor, const fs::path& keys) {
-    Arguments argv = {SKEIN_RADIO_LISTENER, vendor, domain(kVictimsDomain), heard(name), topic_.name, topic_.type};
+    return listen(name, vendor, keys, kVictimsDomain, topic_);
+  }
+  ChildProcess& listen(const std::string& name, const std::string& vendor, const fs::path& keys, int offset,
+                       const topics::WireTopic& topic) {
+    Arguments argv = {SKEIN_RADIO_LISTENER, vendor, domain(offset), heard(name), topic.name, topic.type};
     return start_program(name, argv, keys.empty() ? Environment{} : Environment{{"SKEIN_SECURITY", keys}});
   }
 
@@ -138,6 +143,22 @@ TEST_P(Waiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
   for (const auto& entry : fs::directory_iterator(run_->dir())) {
     EXPECT_EQ(text_of(entry.path()).find("PRIVATE KEY"), std::string::npos) << entry.path();
   }
+}
+
+TEST_P(Waiting, TheStationsProgramReadsTheScoreButNoIndices) {
+  start_fleet("patrol,gcs=listen", "realtime:10");  // time for writers to hear of the readers that found them
+  const fs::path keys = keys_.parent_path() / "uav_agent-gcs", station = keys_.parent_path() / "station";
+  constexpr int kGcsDomain = 1;
+  listen("score", GetParam(), keys, kGcsDomain, topics::score());
+  listen("indices", GetParam(), keys, kGcsDomain, topics::score_eval());
+  listen("judge", GetParam(), station, kGcsDomain, topics::score_eval());
+  EXPECT_TRUE(eventually([&] { return ears("score").first == 1 && ears("judge").first == 1; }));
+  start_program("agent", {"/bin/sh", "-c", "exec env " + command_});
+  EXPECT_EQ(run_->exit_code(), 0) << run_->err();
+  EXPECT_GT(ears("score").second, 0);
+  EXPECT_GT(ears("judge").second, 0) << "what the program below did not hear";
+  EXPECT_LE(ears("indices").first, 0);
+  EXPECT_LE(ears("indices").second, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, Waiting, testing::Values("cyclonedds", "fastdds"),

@@ -1,0 +1,46 @@
+#include "station/point_names.hpp"
+
+#include <gtest/gtest.h>
+
+namespace skein::station {
+namespace {
+
+LedgerEntry entry(std::uint64_t index, std::size_t uav, std::uint64_t capture, std::vector<std::uint32_t> points) {
+  LedgerEntry made{index, 0, uav, points.empty(), {uav, capture, 0, 70 + index, {}}};
+  for (const std::uint32_t point : points) made.capture.points.push_back({point, 1.0F, 0.5F, 0.5F});
+  return made;
+}
+
+/// The points of a report of these numbers.
+std::vector<std::uint32_t> resolved(const PointNames& names, std::size_t uav, std::vector<std::uint32_t> numbers) {
+  CaptureReport report{uav, 0, 0, 0, {}};
+  for (const std::uint32_t number : numbers) report.points.push_back({number, 1.0F, 0.5F, 0.5F});
+  names.resolve(report);
+  std::vector<std::uint32_t> points;
+  for (const CapturePoint& point : report.points) points.push_back(point.index);
+  return points;
+}
+
+using Points = std::vector<std::uint32_t>;
+
+TEST(PointNames, EachUavHasItsOwnNumbersInTheOrderOfTheLedger) {
+  PointNames names(2);
+  std::vector<LedgerEntry> ledger = {entry(0, 0, 0, {5, 9}), entry(1, 1, 0, {9}), entry(2, 0, 1, {9, 2})};
+  names.follow(ledger);
+  EXPECT_EQ(resolved(names, 0, {0, 1, 2}), (Points{5, 9, 2})) << "9 has its number already";
+  EXPECT_EQ(resolved(names, 1, {0}), (Points{9}));
+  ledger.push_back(entry(3, 1, 0, {}));  // a collision
+  ledger.push_back(entry(4, 1, 1, {5}));
+  names.follow(ledger);
+  EXPECT_EQ(resolved(names, 1, {1, 0}), (Points{5, 9})) << "what was known is not counted again";
+}
+
+TEST(PointNames, NumbersThatNobodyGaveNameNoPoint) {
+  PointNames names(1);
+  names.follow({entry(0, 0, 0, {3})});
+  EXPECT_EQ(resolved(names, 0, {1, 0}), (Points{PointNames::kNoPoint, 3}));
+  EXPECT_EQ(resolved(names, 7, {0}), (Points{PointNames::kNoPoint})) << "no such UAV";
+}
+
+}  // namespace
+}  // namespace skein::station
