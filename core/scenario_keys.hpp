@@ -64,9 +64,19 @@ void describe(R& r, PositionControlConfig& control) {
 
 template <class R>
 void describe(R& r, AttitudeControlConfig& control) {
+  r.field("inertia_kg_m2", control.inertia, within(1e-6, 1e4));
   r.field("p_gain", control.p_gain, within(0.0, 1e4));
   r.field("q_gain", control.q_gain, within(0.0, 1e4));
   r.field("r_gain", control.r_gain, within(0.0, 1e4));
+}
+
+template <class R>
+void describe(R& r, VehicleLink& link) {
+  r.required("name", link.name);
+  r.required("mass_kg", link.mass_kg, within(0.0, 1000.0));
+  r.field("inertia_kg_m2", link.inertia, within(0.0, 1e4));
+  r.required("p_BL", link.p_BL, within(-10.0, 10.0));
+  r.field("box_m", link.box_m, within(0.01, 10.0));
 }
 
 template <class R>
@@ -75,6 +85,8 @@ void describe(R& r, VehicleConfig& vehicle) {
   r.required("role", vehicle.role);
   r.field("mass_kg", vehicle.mass_kg, within(0.01, 1000.0));
   r.field("inertia_kg_m2", vehicle.inertia, within(1e-6, 1e4));
+  r.field("rotor_mass_kg", vehicle.rotor_mass_kg, within(0.0, 100.0));
+  r.field("links", vehicle.links);
   r.field("arm_m", vehicle.arm_m, within(0.01, 10.0));
   r.field("rotor_radius_m", vehicle.rotor_radius_m, within(0.0, 10.0));
   r.field("rotor_height_m", vehicle.rotor_height_m, within(-10.0, 10.0));
