@@ -18,9 +18,9 @@ inline constexpr std::size_t kRotors = 6;
 std::array<Vector3d, kRotors> rotor_hubs(const VehicleConfig& vehicle);
 
 struct MassProperties {
-  double mass_kg = 0.0;                    ///< all-up
-  Vector3d p_BBcm = Vector3d::Zero();      ///< the centre of mass
-  Matrix3d I_BBcm_B = Matrix3d::Zero();    ///< inertia about the centre of mass, axes of B [kg m^2]
+  double mass_kg = 0.0;                  ///< all-up
+  Vector3d p_BBcm = Vector3d::Zero();    ///< the centre of mass
+  Matrix3d I_BBcm_B = Matrix3d::Zero();  ///< inertia about the centre of mass, axes of B [kg m^2]
 };
 
 /// All parts together, by the parallel-axis theorem. Rotors count as points at their hubs.

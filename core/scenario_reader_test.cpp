@@ -189,9 +189,10 @@ TEST_F(ScenarioReader, StartsAreAsFarApartAsTheTwoBodiesNeed) {
                                     "  - {{name: changi, vehicle: {}, start: [{}, {}]}}\n",
                                     first, second, 9 + distance * std::cos(way), 3 + distance * std::sin(way)));
     const std::string expected =
-        enough ? "accepted"
-               : fmt::format(":5: fleet[1].start: 'changi' starts {:.3f} m from 'jurong' and must start {:.3f} m or more",
-                             distance, needed);
+        enough
+            ? "accepted"
+            : fmt::format(":5: fleet[1].start: 'changi' starts {:.3f} m from 'jurong' and must start {:.3f} m or more",
+                          distance, needed);
     EXPECT_NE(complaint(file).find(expected), std::string::npos) << distance << ": " << complaint(file);
   }
 }

@@ -267,9 +267,8 @@ TEST(CompositeBody, APushAtBoTurnsWhatIsHeavierElsewhere) {
       world.apply_wrench(0, a.q_WB * force_B, a.q_WB * torque_B);
       world.tick();
       const RigidBodyState& b = world.state(0);
-      const double done =
-          force_B.dot(0.5 * (a.q_WB.conjugate() * a.v_WB + b.q_WB.conjugate() * b.v_WB)) +
-          torque_B.dot(0.5 * (a.w_WB_B + b.w_WB_B));
+      const double done = force_B.dot(0.5 * (a.q_WB.conjugate() * a.v_WB + b.q_WB.conjugate() * b.v_WB)) +
+                          torque_B.dot(0.5 * (a.w_WB_B + b.w_WB_B));
       work += done * kTickS / 16;
       effort += std::abs(done) * kTickS / 16;
     }

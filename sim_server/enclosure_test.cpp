@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
-#include "core/scenario_reader.hpp"
 #include "core/airframe.hpp"
+#include "core/scenario_reader.hpp"
 #include "sim_server/scene_files/box_file.hpp"
 #include "sim_server/scenes/mesh_builder.hpp"
 #include "sim_server/scenes/scene_source.hpp"

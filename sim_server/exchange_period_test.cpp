@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
-#include "core/scenario_reader.hpp"
 #include "core/random_stream.hpp"
+#include "core/scenario_reader.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/test_flight.hpp"
 
@@ -59,10 +58,18 @@ TEST(ExchangePeriod, AFleetFliesItsPathAtAnyPace) {
   for (const Tick period : periods()) {
     Paced fleet(period);
     const auto lane = [](std::size_t uav) { return 10.0 * static_cast<double>(uav); };
-    fleet.fly(8.0, [&](std::size_t i, double) { return TrajectoryCommand{.p_WB = {0.5, lane(i), 6}}; }, [] {});
+    fleet.fly(
+        8.0,
+        [&](std::size_t i, double) {
+          return TrajectoryCommand{.p_WB = {0.5, lane(i), 6}};
+        },
+        [] {});
     double off = 0.0, fastest = 0.0;
     fleet.fly(
-        16.0, [&](std::size_t i, double) { return TrajectoryCommand{.p_WB = {24.5, lane(i), 6}}; },
+        16.0,
+        [&](std::size_t i, double) {
+          return TrajectoryCommand{.p_WB = {24.5, lane(i), 6}};
+        },
         [&] {
           for (std::size_t i = 0; i < 2; ++i) {
             const RigidBodyState& state = fleet.simulation().uav(i).state;

@@ -85,8 +85,8 @@ class VehicleShape {
 
 /// Radius of the sphere about Bo that holds boxes and rotors.
 double bounding_radius(const VehicleConfig& vehicle) {
-  const double rotor = std::hypot(vehicle.arm_m + vehicle.rotor_radius_m,
-                                  std::abs(vehicle.rotor_height_m) + 0.5 * kRotorDiscThickness);
+  const double rotor =
+      std::hypot(vehicle.arm_m + vehicle.rotor_radius_m, std::abs(vehicle.rotor_height_m) + 0.5 * kRotorDiscThickness);
   return std::max(rotor, box_reach(vehicle)) + kMargin;
 }
 
@@ -105,8 +105,8 @@ struct UavBody {
       : frame(mass_frame(vehicle)),
         shape(std::make_unique<VehicleShape>(vehicle, frame.X_BP)),
         radius(bounding_radius(vehicle) + frame.X_BP.translation().norm()) {
-    body = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
-        frame.mass_kg, nullptr, &shape->compound(), to_bullet(frame.inertia)));
+    body = std::make_unique<btRigidBody>(
+        btRigidBody::btRigidBodyConstructionInfo(frame.mass_kg, nullptr, &shape->compound(), to_bullet(frame.inertia)));
     body->setActivationState(DISABLE_DEACTIVATION);  // fall_asleep_if_still() sees to it
     body->setFlags(0);                               // no gyroscopic terms: MomentumKeeper's business
     set_state({.p_WB = X_WB.translation(), .q_WB = Quaterniond(Matrix3d(X_WB.linear()))});
