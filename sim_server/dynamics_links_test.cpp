@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <iostream>
 #include <numbers>
 
@@ -297,6 +298,38 @@ TEST(CompositeBody, RestsWhereItsLowestBoxIsAndHoversWithoutDrift) {
     EXPECT_LT(fastest, 0.01) << lidar.p_BL.transpose();
     EXPECT_LT((flight.state().p_WB - Vector3d(1, 2, 50.5)).norm(), 0.05) << lidar.p_BL.transpose();
   }
+}
+
+TEST(PlausibleVehicles, WhatTheReaderAcceptsStaysInTheWorld) {
+  // Numbers drawn over decades: a vehicle either is refused, or its physics holds, however badly it flies.
+  RandomStream random(6, "oddities", 0);
+  const auto decades = [&](double middle, double lowest, double highest) {
+    return middle * std::pow(10.0, random.uniform(lowest, highest));
+  };
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "skein_odd_vehicle.yaml";
+  int accepted = 0, refused = 0;
+  for (int i = 0; i < 600; ++i) {
+    std::ofstream(file) << "name: odd\nrole: photographer\nmass_kg: " << std::max(0.01, decades(3.0, -2.0, 1.0))
+                        << "\ninertia_kg_m2: [" << decades(0.08, -1.6, 1) << ", " << decades(0.08, -1.6, 1) << ", "
+                        << decades(0.16, -1.6, 1) << "]\nrotor_drag: " << std::min(1.0, decades(8e-5, -1, 3.5))
+                        << "\nrolling_moment: " << decades(1e-6, -1, 4) << "\n";
+    VehicleConfig vehicle;
+    try {
+      vehicle = load_vehicle(file.string(), {});
+      ++accepted;
+    } catch (const InputError&) {
+      ++refused;
+      continue;
+    }
+    Flight flight(vehicle, 5000.0, test::no_limits());
+    flight.fly(4.0, hover_at({20, 5, 5000}), [&] {
+      ASSERT_LT(flight.state().v_WB.norm(), 1e4) << to_yaml(vehicle);
+      ASSERT_LT(flight.state().w_WB_B.norm(), 1e4) << to_yaml(vehicle);
+    });
+  }
+  std::filesystem::remove(file);
+  EXPECT_GT(accepted, 60);
+  EXPECT_GT(refused, 80);
 }
 
 TEST(CompositeBody, TheLidarCollidesUpToItsTop) {
