@@ -48,17 +48,29 @@ struct PositionControlConfig {
   double max_tilt_deg = 45.0;
 };
 
-/// Gains of the attitude controller (golden attitude_control).
+/// The attitude controller's gains, and what it takes for the vehicle's inertia (golden attitude_control).
 struct AttitudeControlConfig {
+  std::optional<Vector3d> inertia;  ///< diagonal [kg m^2]; nullopt: the body's
   double p_gain = 40.0, q_gain = 25.0, r_gain = 20.0;
 };
 
-/// One vehicle type; files in config/vehicles/.
+/// A part that is fixed to the body: it adds to mass and inertia, and collides if it has a box.
+struct VehicleLink {
+  std::string name;
+  double mass_kg = 0.0;
+  Vector3d inertia = Vector3d::Zero();  ///< about its centre of mass, diagonal in the axes of B [kg m^2]
+  Vector3d p_BL = Vector3d::Zero();     ///< its centre of mass, and the middle of its box
+  std::optional<Vector3d> box_m;        ///< full edge lengths
+};
+
+/// One vehicle type; files in config/vehicles/. What it weighs all-up says core/airframe.hpp.
 struct VehicleConfig {
   std::string name;
   Role role = Role::explorer;
-  double mass_kg = 3.385;                                            ///< all-up
-  Vector3d inertia = {0.07648816666, 0.07648816666, 0.16283333333};  ///< diagonal [kg m^2]
+  double mass_kg = 3.385;  ///< of the body alone: rotors and links come on top
+  Vector3d inertia = {0.07648816666, 0.07648816666, 0.16283333333};  ///< of the body about Bo, diagonal [kg m^2]
+  double rotor_mass_kg = 0.0;                                        ///< of each
+  std::vector<VehicleLink> links;
   double arm_m = 0.43, rotor_radius_m = 0.2, rotor_height_m = 0.074;
   double rotor_force_constant = 2.564574e-5;  ///< thrust = constant * speed^2 [N s^2]
   double rotor_moment_constant = 0.032;       ///< torque = constant * thrust [m]

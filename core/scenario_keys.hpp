@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/airframe.hpp"
 #include "core/config_reader.hpp"
 #include "core/euler.hpp"
 #include "core/scenario.hpp"
@@ -66,9 +67,38 @@ void describe(R& r, PositionControlConfig& control) {
 
 template <class R>
 void describe(R& r, AttitudeControlConfig& control) {
+  r.field("inertia_kg_m2", control.inertia, within(1e-6, 1e4));
   r.field("p_gain", control.p_gain, within(0.0, 1e4));
   r.field("q_gain", control.q_gain, within(0.0, 1e4));
   r.field("r_gain", control.r_gain, within(0.0, 1e4));
+}
+
+template <class R>
+void describe(R& r, VehicleLink& link) {
+  r.required("name", link.name);
+  r.required("mass_kg", link.mass_kg, within(0.0, 1000.0));
+  r.field("inertia_kg_m2", link.inertia, within(0.0, 1e4));
+  r.required("p_BL", link.p_BL, within(-10.0, 10.0));
+  r.field("box_m", link.box_m, within(0.01, 10.0));
+}
+
+/// What no vehicle is like, and no integration in steps of a tick survives.
+template <class R>
+void check_plausible(R& r, const VehicleConfig& vehicle) {
+  constexpr double kMostThrust = 50.0, kMostTurn = 5000.0, kMostLoss = 0.1;  // see the messages
+  const MassProperties whole = mass_properties(vehicle);
+  const double inertia = whole.I_BBcm_B.diagonal().minCoeff();
+  const double speed = kRotors * vehicle.rotor_max_speed;  // of all rotors together
+  const double thrust = speed * vehicle.rotor_force_constant * vehicle.rotor_max_speed;
+  r.check(thrust <= kMostThrust * 9.8 * whole.mass_kg, "mass_kg",
+          "its rotors would lift more than 50 times its weight: no vehicle is as light as that");
+  r.check(vehicle.arm_m * thrust <= 3.0 * kMostTurn * inertia, "inertia_kg_m2",
+          "its rotors would turn it at more than 5000 rad/s^2: no vehicle is as slight as that");
+  const double reach2 = vehicle.arm_m * vehicle.arm_m + vehicle.rotor_height_m * vehicle.rotor_height_m;
+  r.check(vehicle.rotor_drag * speed * kTickS <= kMostLoss * std::min(whole.mass_kg, inertia / reach2), "rotor_drag",
+          "it would cost the vehicle more than a tenth of its speed or of its turn in a tick of 2.5 ms");
+  r.check(vehicle.rolling_moment * speed * kTickS <= kMostLoss * inertia, "rolling_moment",
+          "at 1 m/s it would turn the vehicle by more than 0.1 rad/s in a tick of 2.5 ms");
 }
 
 template <class R>
@@ -77,6 +107,8 @@ void describe(R& r, VehicleConfig& vehicle) {
   r.required("role", vehicle.role);
   r.field("mass_kg", vehicle.mass_kg, within(0.01, 1000.0));
   r.field("inertia_kg_m2", vehicle.inertia, within(1e-6, 1e4));
+  r.field("rotor_mass_kg", vehicle.rotor_mass_kg, within(0.0, 100.0));
+  r.field("links", vehicle.links);
   r.field("arm_m", vehicle.arm_m, within(0.01, 10.0));
   r.field("rotor_radius_m", vehicle.rotor_radius_m, within(0.0, 10.0));
   r.field("rotor_height_m", vehicle.rotor_height_m, within(-10.0, 10.0));
@@ -98,6 +130,7 @@ void describe(R& r, VehicleConfig& vehicle) {
   r.field("gimbal", vehicle.gimbal);
   r.field("lidar", vehicle.lidar);
   r.check(!vehicle.name.empty(), "name", "must not be empty");
+  check_plausible(r, vehicle);
   r.check(vehicle.role != Role::explorer || vehicle.lidar.has_value(), "role",
           "an explorer needs a section 'lidar' ('lidar: {}' for the usual one)");
 }

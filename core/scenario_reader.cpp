@@ -1,5 +1,7 @@
 #include "core/scenario_reader.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -8,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "core/airframe.hpp"
 #include "core/config_writer.hpp"
 #include "core/radio_routes.hpp"
 #include "core/scenario_keys.hpp"
@@ -21,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kLeastStartDistanceM = 0.5;
+constexpr double kLeastStationDistanceM = 0.5;
 constexpr std::size_t kLongestName = 64;  ///< of a UAV or a scenario: they become names of files and topics
 constexpr std::size_t kMostUavs = 128;  ///< each has a DDS domain of its own, and those end near 230
 
@@ -105,16 +108,19 @@ void find_starts(const Scenario& scenario, std::vector<FleetEntry>& fleet, Confi
   }
 }
 
-void check_starts(const ScenarioFile& file, ConfigErrors& errors) {
-  const auto& fleet = file.fleet;
-  const auto check = [&](std::size_t i, const Vector2d& other, const std::string& name) {
-    const double distance = (*fleet[i].start - other).norm();
-    errors.check(distance >= kLeastStartDistanceM, index_path("fleet", i, "start"),
-                 "'" + fleet[i].name + "' starts less than 0.5 m from '" + name + "'; move one of them");
+void check_starts(const Scenario& scenario, ConfigErrors& errors) {
+  const auto& fleet = scenario.fleet;
+  const auto check = [&](std::size_t i, const Vector2d& other, const std::string& name, double needed_m) {
+    const double distance_m = (fleet[i].start - other).norm();
+    errors.check(distance_m >= needed_m, index_path("fleet", i, "start"),
+                 fmt::format("'{}' starts {:.3f} m from '{}' and must start {:.3f} m or more from it: move one of them",
+                             fleet[i].name, distance_m, name, needed_m));
   };
   for (std::size_t i = 0; i < fleet.size(); ++i) {
-    check(i, file.scenario.station_position.head<2>(), "gcs");
-    for (std::size_t j = 0; j < i; ++j) check(i, *fleet[j].start, fleet[j].name);
+    check(i, scenario.station_position.head<2>(), "gcs", kLeastStationDistanceM);
+    for (std::size_t j = 0; j < i; ++j) {
+      check(i, fleet[j].start, fleet[j].name, least_start_distance(fleet[i].vehicle, fleet[j].vehicle));
+    }
   }
 }
 
@@ -278,9 +284,9 @@ Scenario load_scenario(const std::string& name_or_path, const LoadOptions& optio
   check_scene(scenario.scene, errors);
   apply_overrides(options, scenario);
   find_starts(scenario, file.fleet, errors);
-  check_starts(file, errors);
   check_radio(file, errors);
   build_fleet(file, config_dir, scenario, errors);
+  if (scenario.fleet.size() == file.fleet.size()) check_starts(scenario, errors);  // all have a vehicle
   errors.throw_if_any();
   find_scene_files(scenario, options, errors);
   errors.throw_if_any();

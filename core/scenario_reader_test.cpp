@@ -1,11 +1,14 @@
 #include "core/scenario_reader.hpp"
 
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 #include <stdlib.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "core/euler.hpp"
+#include "core/random_stream.hpp"
 
 namespace skein {
 namespace {
@@ -54,7 +57,7 @@ TEST_F(ScenarioReader, FillsTheFleetFromItsVehicles) {
   EXPECT_NEAR(read.fleet[0].start_yaw, 30 * kRadPerDeg, 1e-15);
   EXPECT_EQ(read.fleet[1].vehicle.role, Role::photographer);
   EXPECT_FALSE(read.fleet[1].vehicle.lidar);
-  EXPECT_EQ(read.fleet[1].vehicle.mass_kg, 1.545);
+  EXPECT_EQ(read.fleet[1].vehicle.mass_kg, 1.5);
 }
 
 TEST_F(ScenarioReader, NamesNodes) {
@@ -198,6 +201,29 @@ TEST_F(ScenarioReader, AVehicleMayStandBesideTheScenario) {
   EXPECT_EQ(load_scenario(file, options_).fleet[0].vehicle.mass_kg, 1.25);
   write("tiny.yaml", "name: tiny\nrole: photographer\nmass_kg: heavy\n");
   EXPECT_NE(complaint(file).find("tiny.yaml:3: mass_kg: must be a number"), std::string::npos) << complaint(file);
+}
+
+TEST_F(ScenarioReader, StartsAreAsFarApartAsTheTwoBodiesNeed) {
+  RandomStream random(1, "starts", 0);
+  for (int i = 0; i < 60; ++i) {
+    const std::string first = i % 2 == 0 ? "explorer" : "photographer", second = i % 3 == 0 ? "explorer" : first;
+    const VehicleConfig a = load_vehicle(first, options_.config_dir), b = load_vehicle(second, options_.config_dir);
+    const double needed = a.arm_m + a.rotor_radius_m + b.arm_m + b.rotor_radius_m + 0.02;
+    const bool enough = i % 4 < 2;
+    const double distance = needed + (enough ? 1.0 : -1.0) * random.uniform(1e-3, 0.4);
+    const double way = random.uniform(-3.0, 3.0);
+    const std::string file =
+        write("s.yaml", fmt::format("desired_mm_per_pixel: 2\nscene: {{family: towers}}\nfleet:\n"
+                                    "  - {{name: jurong, vehicle: {}, start: [9, 3]}}\n"
+                                    "  - {{name: changi, vehicle: {}, start: [{}, {}]}}\n",
+                                    first, second, 9 + distance * std::cos(way), 3 + distance * std::sin(way)));
+    const std::string expected =
+        enough
+            ? "accepted"
+            : fmt::format(":5: fleet[1].start: 'changi' starts {:.3f} m from 'jurong' and must start {:.3f} m or more",
+                          distance, needed);
+    EXPECT_NE(complaint(file).find(expected), std::string::npos) << distance << ": " << complaint(file);
+  }
 }
 
 TEST_F(ScenarioReader, PrintsWhatItReads) {

@@ -19,7 +19,7 @@ double integrated(double sum, double error) { return std::clamp(sum + error, -kI
 }  // namespace
 
 AttitudeController::AttitudeController(const VehicleConfig& vehicle)
-    : gains_(vehicle.attitude_control), inertia_(vehicle.inertia) {
+    : gains_(vehicle.attitude_control), inertia_(vehicle.attitude_control.inertia.value_or(vehicle.inertia)) {
   Eigen::Matrix<double, 4, kRotors> allocation;   // rows roll, pitch, yaw, thrust; columns rotors
   allocation << 0.5, 1.0, 0.5, -0.5, -1.0, -0.5,  //
       -kC, 0.0, kC, kC, 0.0, -kC,                 //

@@ -4,14 +4,14 @@
 
 #include <array>
 
+#include "core/airframe.hpp"
 #include "core/scenario.hpp"
 #include "core/types.hpp"
 #include "sim_server/position_control.hpp"
 
 namespace skein::sim {
 
-/// Rotor i stands at 30 + 60 i degrees from body x towards y, rotors turn in alternate directions.
-inline constexpr std::size_t kRotors = 6;
+/// Of the rotors in the order of rotor_hubs(); they turn in alternate directions.
 using RotorSpeeds = std::array<double, kRotors>;  ///< [rad/s], >= 0
 
 /// One UAV's controller. Not thread-safe.
@@ -21,7 +21,8 @@ class AttitudeController {
     double roll = 0.0, pitch = 0.0;  ///< sums of errors [rad], within +-0.6
   };
 
-  /// @param vehicle  inertia, arm, rotor constants and gains are used.
+  /// @param vehicle  arm, rotor constants and attitude_control are used. The inertia that the law believes in is a key of
+  ///                 its own: the benchmark's law knows the body without rotors and LiDAR.
   explicit AttitudeController(const VehicleConfig& vehicle);
 
   /// Speeds that give the demanded torque and thrust. They are not limited from above (the motors are); a rotor

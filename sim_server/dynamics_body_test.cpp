@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/airframe.hpp"
 #include "sim_server/test_flight.hpp"
 
 namespace skein::sim {
@@ -16,7 +17,7 @@ using test::vehicle_named;
 class Body {
  public:
   Body(const VehicleConfig& config, const Vector3d& w_WB_B, const Vector3d& v_WB = Vector3d::Zero(), int steps = 1)
-      : config_(config), steps_(steps), world_({}, kTickS / steps) {
+      : whole_(mass_properties(config)), steps_(steps), world_({}, kTickS / steps) {
     world_.add_uav(config, Isometry3d(Eigen::Translation3d(0, 0, kHeight)));
     world_.set_state(0, {.p_WB = {0, 0, kHeight}, .v_WB = v_WB, .w_WB_B = w_WB_B});
   }
@@ -28,15 +29,17 @@ class Body {
     }
   }
   const RigidBodyState& state() const { return world_.state(0); }
-  Vector3d angular_momentum_W() const { return state().q_WB * config_.inertia.cwiseProduct(state().w_WB_B); }
-  double spin_energy() const { return 0.5 * state().w_WB_B.dot(config_.inertia.cwiseProduct(state().w_WB_B)); }
+  Vector3d angular_momentum_W() const { return state().q_WB * (whole_.I_BBcm_B * state().w_WB_B); }
+  double spin_energy() const { return 0.5 * state().w_WB_B.dot(whole_.I_BBcm_B * state().w_WB_B); }
   double total_energy() const {
-    return spin_energy() + config_.mass_kg * (0.5 * state().v_WB.squaredNorm() + kWorldGravity * state().p_WB.z());
+    return spin_energy() + whole_.mass_kg * (0.5 * v_WBcm().squaredNorm() + kWorldGravity * p_WBcm().z());
   }
+  Vector3d p_WBcm() const { return state().p_WB + state().q_WB * whole_.p_BBcm; }
+  Vector3d v_WBcm() const { return state().v_WB + state().q_WB * state().w_WB_B.cross(whole_.p_BBcm); }
 
  private:
   static constexpr double kHeight = 5000.0;
-  VehicleConfig config_;
+  MassProperties whole_;
   int steps_;
   PhysicsWorld world_;
 };
@@ -63,11 +66,12 @@ TEST(RigidBody, FreeFallTradesHeightForSpeed) {
     const VehicleConfig config = vehicle_named("photographer");
     Body body(config, {2, -1, 3}, {4, -3, 10}, steps);
     const double E = body.total_energy(), spin = body.spin_energy();
+    const Vector3d v_WBcm = body.v_WBcm();
     body.move(4.0);
-    const double lost = 0.5 * config.mass_kg * kWorldGravity * kWorldGravity * 4.0 * kTickS / steps;
+    const double lost = 0.5 * mass_properties(config).mass_kg * kWorldGravity * kWorldGravity * 4.0 * kTickS / steps;
     EXPECT_NEAR(body.total_energy() - E, -lost, 1e-6 * E + 0.01 * spin) << steps;
-    EXPECT_NEAR(body.state().v_WB.x(), 4.0, 1e-9) << "nothing pulls sideways";
-    EXPECT_NEAR(body.state().v_WB.z(), 10.0 - 4.0 * kWorldGravity, 1e-6);
+    EXPECT_NEAR(body.v_WBcm().x(), v_WBcm.x(), 1e-9) << "nothing pulls sideways";
+    EXPECT_NEAR(body.v_WBcm().z(), v_WBcm.z() - 4.0 * kWorldGravity, 1e-6);
   }
 }
 
@@ -88,7 +92,8 @@ TEST(RigidBody, ASymmetricTopPrecesses) {
   const VehicleConfig explorer = vehicle_named("explorer");  // Ix = Iy
   const double spin = 4.0, cross = 0.6;
   Body body(explorer, {cross, 0, spin});
-  const double rate = (explorer.inertia.z() / explorer.inertia.x() - 1.0) * spin;
+  const Matrix3d inertia = mass_properties(explorer).I_BBcm_B;
+  const double rate = (inertia(2, 2) / inertia(0, 0) - 1.0) * spin;
   for (int i = 1; i <= 20; ++i) {
     body.move(0.1);
     const Vector3d& w = body.state().w_WB_B;
@@ -110,7 +115,7 @@ TEST(RigidBody, AGyroscopeGivesWayAcrossThePush) {
     world.tick();
   }
   const Vector3d axis_W = world.state(0).q_WB * Vector3d::UnitZ();
-  EXPECT_NEAR(axis_W.x(), torque * duration / (explorer.inertia.z() * spin), 5e-4);
+  EXPECT_NEAR(axis_W.x(), torque * duration / (mass_properties(explorer).I_BBcm_B(2, 2) * spin), 5e-4);
   EXPECT_NEAR(axis_W.y(), 0.0, 5e-4);
 }
 
@@ -135,9 +140,12 @@ TEST(RigidBody, WorkOfTheRotorsIsTheEnergyGained) {
   for (const char* name : {"explorer", "photographer"}) {
     const VehicleConfig config = vehicle_named(name);
     Flight flight(config, 50.0);
+    const MassProperties whole = mass_properties(config);
     const auto energy = [&](const RigidBodyState& state) {
-      return config.mass_kg * (0.5 * state.v_WB.squaredNorm() + kWorldGravity * state.p_WB.z()) +
-             0.5 * state.w_WB_B.dot(config.inertia.cwiseProduct(state.w_WB_B));
+      const Vector3d v_WBcm = state.v_WB + state.q_WB * state.w_WB_B.cross(whole.p_BBcm);
+      const double height = (state.p_WB + state.q_WB * whole.p_BBcm).z();
+      return whole.mass_kg * (0.5 * v_WBcm.squaredNorm() + kWorldGravity * height) +
+             0.5 * state.w_WB_B.dot(whole.I_BBcm_B * state.w_WB_B);
     };
     flight.fly(5.0, test::hover_at({0.5, 0, 50}));
     const double begin = energy(flight.state());
@@ -155,7 +163,7 @@ TEST(RigidBody, WorkOfTheRotorsIsTheEnergyGained) {
       worst = std::max(worst, std::abs(gained - work));
       most = std::max(most, std::abs(gained));
     });
-    EXPECT_GT(most, 0.8 * config.mass_kg * kWorldGravity * 30.0);
+    EXPECT_GT(most, 0.8 * whole.mass_kg * kWorldGravity * 30.0);
     EXPECT_LT(worst, 0.002 * most) << name;
   }
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "core/airframe.hpp"
 #include "core/euler.hpp"
 #include "sim_server/test_flight.hpp"
 
@@ -21,7 +22,8 @@ using test::vehicle_named;
 class Dynamics : public testing::TestWithParam<const char*> {
  protected:
   VehicleConfig config_ = vehicle_named(GetParam());
-  double weight() const { return config_.mass_kg * kWorldGravity; }
+  double mass() const { return mass_properties(config_).mass_kg; }
+  double weight() const { return mass() * kWorldGravity; }
 };
 
 TEST_P(Dynamics, HoverThrustEqualsWeight) {
@@ -61,6 +63,9 @@ TEST_P(Dynamics, RotorsThatRunDownBrakeAcrossTheirAxes) {
   // weight and with the drag at the centre of mass nothing else happens.
   VehicleConfig config = config_;
   config.rotor_height_m = config.rolling_moment = 0.0;
+  config.links.clear();
+  config.mass_kg = mass();
+  config.rotor_mass_kg = 0.0;
   const double tau = config.motor_time_constant_down_s, start = 500.0;
   PhysicsWorld world({});
   world.add_uav(config, Isometry3d(Eigen::Translation3d(0, 0, 100)));
@@ -99,7 +104,7 @@ TEST_P(Dynamics, AStepSettlesAsFrequencyAndDampingSay) {
   config_.position_control.ki_xy = config_.position_control.ki_z = 0.0;
   const PositionControlConfig& law = config_.position_control;
   // What the law takes for the mass decides how hard it pulls vertically.
-  const double pull = std::sqrt(0.19 * law.thrust_scale / 9.781 / config_.mass_kg);
+  const double pull = std::sqrt(0.19 * law.thrust_scale / 9.781 / mass());
   struct Axis {
     Vector3d direction;
     double omega, zeta;

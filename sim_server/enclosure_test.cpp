@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
+#include "core/airframe.hpp"
 #include "core/scenario_reader.hpp"
-#include "sim_server/physics_world.hpp"
 #include "sim_server/scene_files/box_file.hpp"
 #include "sim_server/scenes/mesh_builder.hpp"
 #include "sim_server/scenes/scene_source.hpp"
@@ -85,6 +85,7 @@ TEST(Enclosure, NoShippedScenarioHasAnEnclosedStart) {
     const Scenario scenario = load_scenario(name, options);
     if (!assets && scenario.scene.family.empty()) continue;
     const RayScene world(load_scene(scenario).mesh);
+    EXPECT_FALSE(is_enclosed(world, scenario.station_position)) << name;
     for (const UavConfig& uav : scenario.fleet) {
       EXPECT_FALSE(is_enclosed(world, {uav.start.x(), uav.start.y(), rest_height(uav.vehicle)})) << name << uav.name;
     }

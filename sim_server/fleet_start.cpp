@@ -1,16 +1,16 @@
 #include "sim_server/fleet_start.hpp"
 
+#include <algorithm>
 #include <sstream>
 
+#include "core/airframe.hpp"
 #include "core/euler.hpp"
 #include "core/random_stream.hpp"
-#include "sim_server/physics_world.hpp"
 
 namespace skein::sim {
 namespace {
 
 constexpr double kMaxOffset = 0.2;
-constexpr double kMinGap = 0.02;  ///< between two UAVs after the draw
 constexpr double kMaxDelayS = 1.0;
 constexpr int kAttempts = 100;  ///< then a UAV stays where the scenario has it
 
@@ -34,7 +34,7 @@ bool clear_of_others(const Scenario& scenario, const std::vector<UavStart>& draw
   for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
     if (i == self) continue;
     const Vector2d other = i < self ? Vector2d(drawn[i].X_WB.translation().head<2>()) : scenario.fleet[i].start;
-    const double needed = body_radius(scenario.fleet[i].vehicle) + body_radius(scenario.fleet[self].vehicle) + kMinGap;
+    const double needed = least_start_distance(scenario.fleet[i].vehicle, scenario.fleet[self].vehicle);
     if ((other - X_WB.translation().head<2>()).norm() < needed) return false;
   }
   return true;
@@ -59,6 +59,16 @@ Isometry3d draw_pose(const Scenario& scenario, const std::vector<UavStart>& draw
 }
 
 }  // namespace
+
+void check_station(const Scenario& scenario, const IsEnclosed& enclosed) {
+  constexpr double kAboveGround = 0.01;  // from a place in the ground plane the ground cannot be seen
+  const Vector3d& p_W = scenario.station_position;
+  if (!enclosed({p_W.x(), p_W.y(), std::max(p_W.z(), kAboveGround)})) return;
+  std::ostringstream message;
+  message << scenario.file.string() << ": station.position: (" << p_W.x() << ", " << p_W.y() << ", " << p_W.z()
+          << ") lies in the structure or is enclosed by it: no line of sight leads out of it; choose a place outside";
+  throw InputError(message.str());
+}
 
 std::vector<UavStart> draw_fleet_start(const Scenario& scenario, std::uint64_t seed, const TouchesStructure& touches,
                                        const IsEnclosed& enclosed) {

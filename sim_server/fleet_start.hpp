@@ -2,7 +2,7 @@
 // Frame: W.  Units: m, ticks.
 //
 // Drawn per UAV, from streams keyed by (seed, purpose, UAV):
-//   "start_offset"     horizontal offset of the start, evenly in a disc of 0.2 m, such that nobody overlaps;
+//   "start_offset"     horizontal offset of the start, evenly in a disc of 0.2 m, such that all stay least_start_distance() apart;
 //   "start_delay"      0 to 1 s from its first trajectory command until its motors start; until then commands wait,
 //                      the newest replacing older ones;
 //   "command_latency"  whether its commands take effect at once or one exchange later.
@@ -28,6 +28,9 @@ using TouchesStructure = std::function<bool(const VehicleConfig&, const Isometry
 
 /// Whether the structure shuts in a place: see enclosure.hpp.
 using IsEnclosed = std::function<bool(const Vector3d& p_WB)>;
+
+/// @throws InputError if the ground station stands in the structure or is enclosed by it.
+void check_station(const Scenario& scenario, const IsEnclosed& enclosed);
 
 /// One start per UAV, in fleet order. Pure.
 /// @throws InputError if a start in the scenario lies in the structure or is enclosed by it; it names the UAV.

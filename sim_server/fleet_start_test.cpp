@@ -2,9 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "core/airframe.hpp"
+#include "core/scenario_reader.hpp"
+#include "sim_server/enclosure.hpp"
 #include "sim_server/physics_world.hpp"
+#include "sim_server/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {
@@ -64,6 +70,89 @@ TEST(FleetStart, DrawsStayInBoundsAndNeverOverlap) {
   EXPECT_GT(farthest, 0.19);
   EXPECT_GT(delays.size(), 200U);
   EXPECT_NEAR(static_cast<double>(late), 300.0, 60.0);
+}
+
+VehicleConfig shipped(const std::string& name) {
+  return load_vehicle(name, std::filesystem::path(SKEIN_SOURCE_DIR) / "config");
+}
+
+TEST(FleetStart, WhoStartsAsFarAwayAsItMustTouchesNobody) {
+  RandomStream random(1, "pairs", 0);
+  for (int i = 0; i < 200; ++i) {
+    const VehicleConfig a = shipped(i % 2 == 0 ? "explorer" : "photographer");
+    const VehicleConfig b = shipped(i % 3 == 0 ? "explorer" : "photographer");
+    const auto meet = [&](double distance) {
+      PhysicsWorld world({});
+      const double way = random.uniform(-3.0, 3.0);
+      const auto add = [&](const VehicleConfig& vehicle, double x, double y) {
+        world.add_uav(vehicle, Eigen::Translation3d(x, y, rest_height(vehicle)) *
+                                   Quaterniond(Eigen::AngleAxisd(random.uniform(-3.0, 3.0), Vector3d::UnitZ())));
+      };
+      add(a, 0.0, 0.0);
+      add(b, distance * std::cos(way), distance * std::sin(way));
+      for (int tick = 0; tick < 10; ++tick) world.tick();
+      return std::ranges::any_of(world.contacts(), [](const Contact& c) { return c.other.kind == BodyId::Kind::uav; });
+    };
+    EXPECT_FALSE(meet(least_start_distance(a, b)));
+    if (a.name != b.name) continue;  // their rotors are not at one height
+    EXPECT_TRUE(meet(0.25 * least_start_distance(a, b)));
+  }
+}
+
+TEST(FleetStart, DrawsFromALegalCrowdAreLegal) {
+  RandomStream random(2, "crowds", 0);
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    Scenario scenario;
+    while (scenario.fleet.size() < 8) {
+      UavConfig uav;
+      uav.name = "uav" + std::to_string(scenario.fleet.size());
+      uav.vehicle = shipped(scenario.fleet.size() % 2 == 0 ? "explorer" : "photographer");
+      uav.start = {random.uniform(-2.5, 2.5), random.uniform(-2.5, 2.5)};
+      const bool legal = std::ranges::all_of(scenario.fleet, [&](const UavConfig& other) {
+        return (other.start - uav.start).norm() >= least_start_distance(other.vehicle, uav.vehicle);
+      });
+      if (legal) scenario.fleet.push_back(uav);
+    }
+    const auto starts = draw_fleet_start(scenario, seed, open_field, in_the_open);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const Vector3d apart = starts[i].X_WB.translation() - starts[j].X_WB.translation();
+        EXPECT_GE(apart.head<2>().norm(),
+                  least_start_distance(scenario.fleet[i].vehicle, scenario.fleet[j].vehicle) - 1e-12);
+      }
+    }
+  }
+}
+
+TEST(FleetStart, AStationWithoutAWayOutIsTheUsersMistake) {
+  // A closed block with a hall in it, 1 m of wall around; places drawn on both sides of the walls.
+  TriangleMesh mesh;
+  test::add_box(mesh, {10, 0, 4}, {12, 12, 10});
+  test::add_box(mesh, {10, 0, 4}, {10, 10, 8});
+  const RayScene rays(mesh);
+  const auto enclosed = [&](const Vector3d& p_W) { return is_enclosed(rays, p_W); };
+  Scenario scenario;
+  scenario.file = "field.yaml";
+  RandomStream random(3, "stations", 0);
+  int inside = 0;
+  for (int i = 0; i < 200; ++i) {
+    scenario.station_position = test::random_in_box(random, {2, -8, 0}, {18, 8, 12});
+    if (i % 4 == 0) scenario.station_position.z() = 0.0;
+    const Vector3d off = scenario.station_position - Vector3d(10, 0, 0);
+    if (off.head<2>().cwiseAbs().maxCoeff() < 6.0 && off.z() < 9.0) {
+      ++inside;
+      try {
+        check_station(scenario, enclosed);
+        ADD_FAILURE() << scenario.station_position.transpose();
+      } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("field.yaml: station.position: ("), std::string::npos) << error.what();
+      }
+    } else {
+      EXPECT_NO_THROW(check_station(scenario, enclosed)) << scenario.station_position.transpose();
+    }
+  }
+  EXPECT_GT(inside, 50);
+  EXPECT_LT(inside, 150);
 }
 
 TEST(FleetStart, OneUavsDrawDoesNotDependOnTheOthers) {

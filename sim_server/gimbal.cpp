@@ -10,7 +10,7 @@ namespace {
 /// The reference's degree, truncated. An exact one would move the stops by a nanoradian, and a rate near them by 20
 /// times as much: more than the reference vectors allow.
 constexpr double kDegree = 0.01745329251;
-/// A rate command is obeyed in this many further steps without a new one.
+/// A rate command is obeyed in this many further steps without a new one, if one could come every step.
 constexpr int kRateCommandSteps = 2;
 
 struct Axis {
@@ -36,7 +36,8 @@ GimbalMode gimbal_mode(double number) {
   return number < -1e-7 ? GimbalMode::rate : GimbalMode::freeze;
 }
 
-Gimbal::Gimbal(const GimbalConfig& config, bool phantom_rate) : config_(config), phantom_rate_(phantom_rate) {}
+Gimbal::Gimbal(const GimbalConfig& config, bool phantom_rate, int command_steps)
+    : config_(config), phantom_rate_(phantom_rate), rate_command_steps_(kRateCommandSteps + command_steps - 1) {}
 
 void Gimbal::step(const std::optional<GimbalCommand>& command) {
   ++steps_since_command_;
@@ -44,7 +45,7 @@ void Gimbal::step(const std::optional<GimbalCommand>& command) {
     command_ = *command;
     steps_since_command_ = 0;
   }
-  if (command_.mode == GimbalMode::rate && steps_since_command_ > kRateCommandSteps) {
+  if (command_.mode == GimbalMode::rate && steps_since_command_ > rate_command_steps_) {
     command_ = {GimbalMode::angle, state_.pitch, state_.yaw};
   }
 

@@ -20,9 +20,10 @@ class Gimbal {
 
   /// @param phantom_rate  report the commanded rate at a stop and the last rate while frozen, as the reference
   ///                      does; otherwise the rate reported is the one at which the angle really moved.
-  explicit Gimbal(const GimbalConfig& config, bool phantom_rate = false);
+  /// @param command_steps  steps from one command to the next, >= 1.
+  explicit Gimbal(const GimbalConfig& config, bool phantom_rate = false, int command_steps = 1);
 
-  /// One step. A rate command lapses after two steps without a new one: the gimbal then holds its angle.
+  /// One step. A rate command lapses two steps after the next one was due: the gimbal then holds its angle.
   /// @param command  the newest command since the last step, if there is one.
   void step(const std::optional<GimbalCommand>& command);
 
@@ -33,6 +34,7 @@ class Gimbal {
  private:
   GimbalConfig config_;
   bool phantom_rate_;
+  int rate_command_steps_;  ///< in which a rate command is obeyed after the step that brought it
   GimbalState state_;
   GimbalCommand command_;
   int steps_since_command_ = 0;

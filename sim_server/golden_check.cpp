@@ -19,12 +19,13 @@ namespace {
 VehicleConfig reference_vehicle(const GoldenTable& table, std::size_t row) {
   const std::string& role = table.text(row, "role");
   VehicleConfig vehicle;
+  vehicle.attitude_control.inertia = Vector3d(0.07648816666, 0.07648816666, 0.16283333333);
   if (role != "explorer" && role != "photographer") {
     throw InputError(table.place(row) + ": column 'role': '" + role + "'; explorer or photographer is expected");
   }
   if (role == "photographer") {
     vehicle.role = Role::photographer;
-    vehicle.inertia = {0.034756, 0.045893, 0.0977};
+    vehicle.attitude_control.inertia = Vector3d(0.034756, 0.045893, 0.0977);
     vehicle.arm_m = 0.2156;
     vehicle.rotor_moment_constant = 0.048;
     vehicle.position_control.omega_xy = 2.5;

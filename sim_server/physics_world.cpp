@@ -7,12 +7,13 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <tuple>
 #include <utility>
 
+#include "core/airframe.hpp"
 #include "sim_server/bullet_clearance.hpp"
+#include "sim_server/mass_frame.hpp"
 
 namespace skein::sim {
 namespace {
@@ -51,20 +52,24 @@ bool in_ground_plane(const TriangleMesh& mesh, const std::array<std::uint32_t, 3
                      [&](std::uint32_t vertex) { return std::abs(mesh.vertices[vertex].z()) <= kGroundSlab; });
 }
 
-/// Box and six rotor discs; owns its children.
+/// Boxes and six rotor discs; owns its children.
 class VehicleShape {
  public:
-  explicit VehicleShape(const VehicleConfig& vehicle)
-      : box_(to_bullet(0.5 * vehicle.collision_box_m)),
-        disc_(btVector3(vehicle.rotor_radius_m, vehicle.rotor_radius_m, 0.5 * kRotorDiscThickness)) {
-    box_.setMargin(kMargin);
-    disc_.setMargin(kMargin);
-    compound_.addChildShape(btTransform::getIdentity(), &box_);
-    for (int i = 0; i < 6; ++i) {
-      const double angle = (30.0 + 60.0 * i) * std::numbers::pi / 180.0;
-      const Vector3d p_BR(vehicle.arm_m * std::cos(angle), vehicle.arm_m * std::sin(angle), vehicle.rotor_height_m);
-      compound_.addChildShape(to_bullet(Quaterniond::Identity(), p_BR), &disc_);
-    }
+  /// @param X_BP  the frame in which Bullet is to see the shape.
+  explicit VehicleShape(const VehicleConfig& vehicle, const Isometry3d& X_BP = Isometry3d::Identity())
+      : disc_(btVector3(vehicle.rotor_radius_m, vehicle.rotor_radius_m, 0.5 * kRotorDiscThickness)) {
+    const Isometry3d X_PB = X_BP.inverse();
+    const auto add = [&](btCollisionShape& child, const Vector3d& p_B) {
+      child.setMargin(kMargin);
+      compound_.addChildShape(to_bullet(Quaterniond(Matrix3d(X_PB.linear())), X_PB * p_B), &child);
+    };
+    const auto add_box = [&](const BodyBox& box) {
+      boxes_.push_back(std::make_unique<btBoxShape>(to_bullet(0.5 * box.edges_m)));
+      add(*boxes_.back(), box.p_B);
+    };
+    add_box({Vector3d::Zero(), vehicle.collision_box_m});
+    for (const BodyBox& box : link_boxes(vehicle)) add_box(box);
+    for (const Vector3d& p_BR : rotor_hubs(vehicle)) add(disc_, p_BR);
     compound_.setMargin(kMargin);
   }
   VehicleShape(const VehicleShape&) = delete;
@@ -73,28 +78,54 @@ class VehicleShape {
   btCompoundShape& compound() { return compound_; }
 
  private:
-  btBoxShape box_;
+  std::vector<std::unique_ptr<btBoxShape>> boxes_;
   btCylinderShapeZ disc_;
   btCompoundShape compound_;
 };
 
-/// Radius of the sphere about the centre that holds box and rotors.
+/// Radius of the sphere about Bo that holds boxes and rotors.
 double bounding_radius(const VehicleConfig& vehicle) {
   const double rotor =
-      std::hypot(vehicle.arm_m + vehicle.rotor_radius_m, vehicle.rotor_height_m + 0.5 * kRotorDiscThickness);
-  return std::max(rotor, 0.5 * vehicle.collision_box_m.norm()) + kMargin;
+      std::hypot(vehicle.arm_m + vehicle.rotor_radius_m, std::abs(vehicle.rotor_height_m) + 0.5 * kRotorDiscThickness);
+  return std::max(rotor, box_reach(vehicle)) + kMargin;
 }
 
 struct UavBody {
+  MassFrame frame;
   std::unique_ptr<VehicleShape> shape;
-  std::unique_ptr<btRigidBody> body;
-  double radius = 0.0;
-  Vector3d inertia = Vector3d::Zero();
-  bool pushed = false;  ///< a wrench acts during the coming tick
+  std::unique_ptr<btRigidBody> body;  ///< its frame is P
+  double radius = 0.0;                ///< of a sphere about the centre of mass that holds everything
+  bool pushed = false;                ///< a wrench acts during the coming tick
   int still_ticks = 0;
   bool tested = false;                ///< for contacts with the structure, when last asked
   std::optional<btVector3> clear_at;  ///< around here it cannot touch the structure ...
   double room = 0.0;                  ///< ... as long as it is no farther away than this
+
+  UavBody(const VehicleConfig& vehicle, const Isometry3d& X_WB)
+      : frame(mass_frame(vehicle)),
+        shape(std::make_unique<VehicleShape>(vehicle, frame.X_BP)),
+        radius(bounding_radius(vehicle) + frame.X_BP.translation().norm()) {
+    body = std::make_unique<btRigidBody>(
+        btRigidBody::btRigidBodyConstructionInfo(frame.mass_kg, nullptr, &shape->compound(), to_bullet(frame.inertia)));
+    body->setActivationState(DISABLE_DEACTIVATION);  // fall_asleep_if_still() sees to it
+    body->setFlags(0);                               // no gyroscopic terms: MomentumKeeper's business
+    set_state({.p_WB = X_WB.translation(), .q_WB = Quaterniond(Matrix3d(X_WB.linear()))});
+  }
+
+  RigidBodyState state() const {
+    const btTransform& X_WP = body->getWorldTransform();
+    const btQuaternion q_WP = X_WP.getRotation();
+    return body_state(frame, {to_eigen(X_WP.getOrigin()), Quaterniond(q_WP.w(), q_WP.x(), q_WP.y(), q_WP.z()),
+                              to_eigen(body->getLinearVelocity()), to_eigen(body->getAngularVelocity())});
+  }
+  void set_state(const RigidBodyState& state) {
+    const MassState moving = mass_state(frame, state);
+    body->setWorldTransform(to_bullet(moving.q_WP, moving.p_WBcm));
+    body->setInterpolationWorldTransform(body->getWorldTransform());
+    body->setLinearVelocity(to_bullet(moving.v_WBcm));
+    body->setAngularVelocity(to_bullet(moving.w_WB));
+    body->updateInertiaTensor();
+  }
 
   bool asleep() const { return body->getActivationState() == DISABLE_SIMULATION; }
   void wake() {
@@ -119,48 +150,42 @@ struct UavBody {
 /// belongs to the middle of the step, and what its forces and contacts added to that is added to the momentum.
 class MomentumKeeper {
  public:
-  MomentumKeeper(UavBody& uav, double step_s) : body_(*uav.body), inertia_(uav.inertia), R_WB_(rotation()) {
-    const Vector3d w_WB = to_eigen(body_.getAngularVelocity());
-    L_W_ = momentum(R_WB_, w_WB);
-    const double half_turn = 0.5 * step_s * w_WB.norm();
+  MomentumKeeper(UavBody& uav, double step_s) : body_(*uav.body), inertia_(uav.frame.inertia), R_WP_(rotation()) {
+    const Vector3d w_WP = to_eigen(body_.getAngularVelocity());
+    L_W_ = momentum(R_WP_, w_WP);
+    const double half_turn = 0.5 * step_s * w_WP.norm();
     const Matrix3d R_WM =
-        half_turn > 0.0 ? Matrix3d(Eigen::AngleAxisd(half_turn, w_WB.normalized()).toRotationMatrix() * R_WB_) : R_WB_;
+        half_turn > 0.0 ? Matrix3d(Eigen::AngleAxisd(half_turn, w_WP.normalized()).toRotationMatrix() * R_WP_) : R_WP_;
     w_middle_W_ = velocity(R_WM, L_W_);
     body_.setAngularVelocity(to_bullet(w_middle_W_));
   }
   /// After the step: the velocity that the momentum now amounts to.
   void finish() {
-    L_W_ += momentum(R_WB_, to_eigen(body_.getAngularVelocity()) - w_middle_W_);
+    L_W_ += momentum(R_WP_, to_eigen(body_.getAngularVelocity()) - w_middle_W_);
     body_.setAngularVelocity(to_bullet(velocity(rotation(), L_W_)));
   }
 
  private:
   Matrix3d rotation() const {
     const btMatrix3x3& R = body_.getWorldTransform().getBasis();
-    Matrix3d R_WB;
-    R_WB << R[0][0], R[0][1], R[0][2], R[1][0], R[1][1], R[1][2], R[2][0], R[2][1], R[2][2];
-    return R_WB;
+    Matrix3d R_WP;
+    R_WP << R[0][0], R[0][1], R[0][2], R[1][0], R[1][1], R[1][2], R[2][0], R[2][1], R[2][2];
+    return R_WP;
   }
-  Vector3d momentum(const Matrix3d& R_WB, const Vector3d& w_W) const {
-    return R_WB * inertia_.cwiseProduct(R_WB.transpose() * w_W);
+  Vector3d momentum(const Matrix3d& R_WP, const Vector3d& w_W) const {
+    return R_WP * inertia_.cwiseProduct(R_WP.transpose() * w_W);
   }
-  Vector3d velocity(const Matrix3d& R_WB, const Vector3d& L_W) const {
-    return R_WB * (R_WB.transpose() * L_W).cwiseQuotient(inertia_);
+  Vector3d velocity(const Matrix3d& R_WP, const Vector3d& L_W) const {
+    return R_WP * (R_WP.transpose() * L_W).cwiseQuotient(inertia_);
   }
 
   btRigidBody& body_;
   Vector3d inertia_;
-  Matrix3d R_WB_;
+  Matrix3d R_WP_;
   Vector3d L_W_, w_middle_W_;
 };
 
 }  // namespace
-
-double rest_height(const VehicleConfig& vehicle) { return 0.5 * vehicle.collision_box_m.z(); }
-
-double body_radius(const VehicleConfig& vehicle) {
-  return std::max(vehicle.arm_m + vehicle.rotor_radius_m, 0.5 * vehicle.collision_box_m.head<2>().norm());
-}
 
 struct PhysicsWorld::Impl {
   Impl(const TriangleMesh& mesh, double the_step_s);
@@ -329,22 +354,12 @@ PhysicsWorld::PhysicsWorld(const TriangleMesh& mesh, double step_s) : impl_(std:
 PhysicsWorld::~PhysicsWorld() = default;
 
 void PhysicsWorld::add_uav(const VehicleConfig& vehicle, const Isometry3d& X_WB) {
-  UavBody uav;
-  uav.shape = std::make_unique<VehicleShape>(vehicle);
-  uav.radius = bounding_radius(vehicle);
-  uav.inertia = vehicle.inertia;
-  btRigidBody::btRigidBodyConstructionInfo info(vehicle.mass_kg, nullptr, &uav.shape->compound(),
-                                                to_bullet(vehicle.inertia));
-  const Quaterniond q_WB(X_WB.linear());
-  info.m_startWorldTransform = to_bullet(q_WB, X_WB.translation());
-  uav.body = std::make_unique<btRigidBody>(info);
-  uav.body->setActivationState(DISABLE_DEACTIVATION);  // UavBody sees to it
-  uav.body->setFlags(0);                               // no gyroscopic terms: MomentumKeeper's business
+  UavBody uav(vehicle, X_WB);
   uav.body->setUserIndex(static_cast<int>(impl_->uavs.size()));
   uav.body->setUserPointer(impl_.get());
   impl_->world.addRigidBody(uav.body.get());
   impl_->uavs.push_back(std::move(uav));
-  states_.push_back({.p_WB = X_WB.translation(), .q_WB = q_WB});
+  states_.push_back({.p_WB = X_WB.translation(), .q_WB = Quaterniond(X_WB.linear())});
 }
 
 bool PhysicsWorld::touches_structure(const VehicleConfig& vehicle, const Isometry3d& X_WB) const {
@@ -371,32 +386,19 @@ void PhysicsWorld::apply_wrench(std::size_t uav, const Vector3d& force_W, const 
   if (pushed.asleep()) pushed.wake();
   pushed.pushed = true;
   pushed.body->applyCentralForce(to_bullet(force_W));
-  pushed.body->applyTorque(to_bullet(torque_W));
+  pushed.body->applyTorque(to_bullet(torque_about_mass(pushed.frame, states_[uav].q_WB, force_W, torque_W)));
 }
 
 void PhysicsWorld::tick() {
   impl_->step();
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    const btRigidBody& body = *impl_->uavs[i].body;
-    const btTransform& X_WB = body.getWorldTransform();
-    const btQuaternion q = X_WB.getRotation();
-    RigidBodyState& state = states_[i];
-    state.p_WB = to_eigen(X_WB.getOrigin());
-    state.q_WB = Quaterniond(q.w(), q.x(), q.y(), q.z());
-    state.v_WB = to_eigen(body.getLinearVelocity());
-    state.w_WB_B = to_eigen(body.getAngularVelocity() * X_WB.getBasis());  // row vector times R is R^T w
-  }
+  for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = impl_->uavs[i].state();
   contacts_ = impl_->read_contacts();
   impl_->wake_who_was_hit(contacts_);
 }
 
 void PhysicsWorld::set_state(std::size_t uav, const RigidBodyState& state) {
   UavBody& moved = impl_->uavs[uav];
-  moved.body->setWorldTransform(to_bullet(state.q_WB, state.p_WB));
-  moved.body->setInterpolationWorldTransform(moved.body->getWorldTransform());
-  moved.body->setLinearVelocity(to_bullet(state.v_WB));
-  moved.body->setAngularVelocity(to_bullet(Vector3d(state.q_WB * state.w_WB_B)));
-  moved.body->updateInertiaTensor();
+  moved.set_state(state);
   moved.clear_at.reset();
   moved.wake();
   impl_->broadphase.getOverlappingPairCache()->cleanProxyFromPairs(moved.body->getBroadphaseProxy(),

@@ -1,5 +1,6 @@
 // Rigid bodies, gravity and contacts (Bullet, double precision, one thread): the same calls give the same bits.
-// Frames: W world (ENU), B body (FLU).  Units: SI.  A tick is kTickS = 2.5 ms, and one step of the integration.
+// Frames: W world (ENU), B body (FLU).  Units: SI.  States and wrenches are about Bo, the origin of the body frame; that
+// a vehicle's centre of mass is elsewhere (core/airframe.hpp) is settled in here.  A tick is kTickS = 2.5 ms, and one step of the integration.
 #pragma once
 
 #include <memory>
@@ -29,12 +30,6 @@ struct Contact {
   Vector3d p_W = Vector3d::Zero();
 };
 
-/// Height of a vehicle's centre when it rests on the ground: half its collision box [m]. Pure.
-double rest_height(const VehicleConfig& vehicle);
-
-/// Radius about the vertical axis that a vehicle's body and rotors take up [m]. Pure.
-double body_radius(const VehicleConfig& vehicle);
-
 /// Ground plane z = 0, one static mesh, and the fleet. Not thread-safe.
 class PhysicsWorld {
  public:
@@ -51,7 +46,7 @@ class PhysicsWorld {
   /// Whether a vehicle at this pose would touch the structure. Does not change the world.
   bool touches_structure(const VehicleConfig& vehicle, const Isometry3d& X_WB) const;
 
-  /// Force and torque on a UAV's centre of mass during the next tick, both expressed in W. Calls add up.
+  /// A force that acts at Bo and a torque on a UAV during the next tick, both expressed in W. Calls add up.
   void apply_wrench(std::size_t uav, const Vector3d& force_W, const Vector3d& torque_W);
 
   /// One tick with the wrenches applied since the last; gravity comes by itself.

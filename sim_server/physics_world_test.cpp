@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/airframe.hpp"
 #include "sim_server/test_scenes.hpp"
 
 namespace skein::sim {

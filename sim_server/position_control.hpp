@@ -52,7 +52,8 @@ class PositionController {
 
   /// One step of 1/20 s.
   /// @param new_command  arrived since the last step, if any; it replaces the one in effect.
-  /// @param command_age  time since the last command arrived; ignored while there was none.
+  /// @param command_age  time since the last command arrived, less what a pilot at a slower pace than 20 Hz may take
+  ///                     longer for the next; ignored while there was none.
   ControlDemand step(const RigidBodyState& state, const std::optional<TrajectoryCommand>& new_command,
                      Tick command_age);
 

@@ -62,7 +62,7 @@ RTCIntersectContext make_context(RTCIntersectContextFlags flags) {
 }  // namespace
 
 BodyShape body_shape(const VehicleConfig& vehicle) {
-  return {vehicle.collision_box_m, vehicle.arm_m, vehicle.rotor_radius_m, vehicle.rotor_height_m};
+  return {vehicle.collision_box_m, vehicle.arm_m, vehicle.rotor_radius_m, vehicle.rotor_height_m, link_boxes(vehicle)};
 }
 
 struct RayScene::Impl {

@@ -16,15 +16,17 @@
 #include <span>
 #include <vector>
 
+#include "core/airframe.hpp"
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
 
 namespace skein::sim {
 
-/// What a ray meets of a UAV: its collision box about Bo and six flat rotor discs at 30 + 60 i degrees.
+/// What a ray meets of a UAV: its collision box about Bo, boxes of links and six flat rotor discs at 30 + 60 i degrees.
 struct BodyShape {
   Vector3d box_m = Vector3d::Zero();  ///< full edge lengths
   double arm_m = 0.0, rotor_radius_m = 0.0, rotor_height_m = 0.0;
+  std::vector<BodyBox> links;
 };
 BodyShape body_shape(const VehicleConfig& vehicle);
 

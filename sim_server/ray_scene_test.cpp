@@ -216,6 +216,46 @@ TEST(RayScene, RotorDiscsTurnWithTheBody) {
   }
 }
 
+TEST(RayScene, ABoxOfALinkIsMetAsIfItWereStructure) {
+  RandomStream random(7, "ray_scene_test", 0, 0);
+  int hits = 0;
+  for (int i = 0; i < 50; ++i) {
+    VehicleConfig vehicle;
+    vehicle.rotor_radius_m = 0.0;
+    vehicle.arm_m = 0.01;
+    vehicle.collision_box_m = Vector3d::Constant(0.01);
+    const Vector3d p_BL = random_in_box(random, {-0.9, -0.9, -0.9}, {0.9, 0.9, 0.9});
+    const Vector3d edges = random_in_box(random, {0.1, 0.1, 0.1}, {0.8, 0.8, 0.8});
+    vehicle.links.push_back({.name = "box", .mass_kg = 0.1, .p_BL = p_BL, .box_m = edges});
+    const Isometry3d X_WB = Eigen::Translation3d(0.0, 0.0, 9.0) *
+                            Eigen::Quaterniond(rotation(random.uniform(), random.uniform(), 6.0 * random.uniform()));
+    TriangleMesh mesh;
+    test::add_box(mesh, X_WB * p_BL, edges, X_WB.linear());
+    RayScene world(TriangleMesh{}, {body_shape(vehicle)});
+    world.set_pose(0, X_WB);
+    for (int j = 0; j < 100; ++j) {
+      const Vector3d from = Vector3d(0.0, 0.0, 9.0) + 3.0 * random_unit(random);
+      const Vector3d to = X_WB * (p_BL + 0.7 * random_in_box(random, -edges, edges));
+      const test::TestRay ray{from, (to - from).normalized()};
+      const auto expected = test::brute_force_distance(mesh, ray, 10.0, 1e-4);
+      const auto hit = world.first_hit(from, ray.direction, 10.0, {.ground = false});
+      // The body itself, a centimetre wide, may stand in front.
+      if (expected.near_edge || (hit && hit->distance < expected.distance - 1e-3 &&
+                                 (from + hit->distance * ray.direction - X_WB.translation()).norm() < 0.02)) {
+        continue;
+      }
+      ASSERT_EQ(hit.has_value(), std::isfinite(expected.distance));
+      hits += hit.has_value();
+      const double gap = hit ? hit->distance - expected.distance : 0.0;
+      ASSERT_NEAR(gap, 0.0, 1e-3) << "the vertices are of single precision";
+      std::vector<double> scanned(1);
+      world.scan(from, std::vector<Eigen::Vector3f>{ray.direction.cast<float>()}, 1, 10.0, {.ground = false}, scanned);
+      ASSERT_TRUE(std::isinf(scanned[0]) == !hit || std::abs(scanned[0] - expected.distance) < 1e-2);
+    }
+  }
+  EXPECT_GT(hits, 2000);
+}
+
 /// The scan's culling of bodies must not change what single rays see.
 TEST(RayScene, ScanAgreesWithSingleRays) {
   TriangleMesh mesh = test::random_triangles(500, 3);

@@ -94,6 +94,7 @@ struct Body {
 
   explicit Body(const BodyShape& s) : shape(s) {
     radius = std::max(0.5 * s.box_m.norm(), std::hypot(s.arm_m + s.rotor_radius_m, s.rotor_height_m));
+    for (const BodyBox& link : s.links) radius = std::max(radius, link.p_B.norm() + 0.5 * link.edges_m.norm());
     for (std::size_t i = 0; i < rotors.size(); ++i) {
       const double angle = (30.0 + 60.0 * static_cast<double>(i)) * std::numbers::pi / 180.0;
       rotors[i] = s.arm_m * Vector2d(std::cos(angle), std::sin(angle));
@@ -104,6 +105,9 @@ struct Body {
   double distance(const Ray& ray_W) const {
     const Ray ray{X_BW * ray_W.origin, X_BW.linear() * ray_W.direction};
     double nearest = box_distance(ray, 0.5 * shape.box_m);
+    for (const BodyBox& link : shape.links) {
+      nearest = std::min(nearest, box_distance({ray.origin - link.p_B, ray.direction}, 0.5 * link.edges_m));
+    }
     const double t = (shape.rotor_height_m - ray.origin.z()) / ray.direction.z();
     if (std::isfinite(t) && t >= 0.0 && t < nearest) {
       const Vector2d crossing = ray.at(t).head<2>();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/airframe.hpp"
 #include "sim_server/command_link.hpp"
 #include "sim_server/enclosure.hpp"
 #include "sim_server/fleet_start.hpp"
@@ -101,11 +102,12 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
     return world.touches_structure(vehicle, X_WB);
   };
   const auto enclosed = [this](const Vector3d& p_WB) { return is_enclosed(rays, p_WB); };
+  check_station(scenario, enclosed);
   const std::vector<UavStart> starts = draw_fleet_start(scenario, the_seed, touches, enclosed);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const VehicleConfig& vehicle = scenario.fleet[i].vehicle;
     world.add_uav(vehicle, starts[i].X_WB);
-    uavs.push_back({.vehicle = Vehicle(vehicle, scenario.rules),
+    uavs.push_back({.vehicle = Vehicle(vehicle, scenario.rules, kTickS, scenario.exchange_ticks()),
                     .link = CommandLink(starts[i]),
                     .camera = Camera(vehicle.camera, scenario.desired_mm_per_pixel, scenario.rules, scene.points, i),
                     .lidar = {},

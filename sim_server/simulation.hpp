@@ -84,7 +84,7 @@ class Simulation {
  public:
   /// The fleet at rest on the ground at tick 0, links traced, first scans in events().
   /// @param faults  of which sensors, rotors, commands and what neighbours hear of each other are its business.
-  /// @throws InputError if a UAV's start lies in the structure.
+  /// @throws InputError if a UAV's start or the station lies in the structure or is enclosed by it.
   Simulation(const Scenario& scenario, Scene scene, std::uint64_t seed, const FaultPlan& faults = {});
   ~Simulation();
   Simulation(const Simulation&) = delete;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/euler.hpp"
-
 namespace skein::sim {
 
 Rotors::Rotors(const VehicleConfig& vehicle, double step_s)
@@ -14,12 +12,9 @@ Rotors::Rotors(const VehicleConfig& vehicle, double step_s)
       rolling_moment_(vehicle.rolling_moment),
       max_speed_(vehicle.rotor_max_speed),
       blend_up_(1.0 - std::exp(-step_s / vehicle.motor_time_constant_up_s)),
-      blend_down_(1.0 - std::exp(-step_s / vehicle.motor_time_constant_down_s)) {
+      blend_down_(1.0 - std::exp(-step_s / vehicle.motor_time_constant_down_s)),
+      p_BR_(rotor_hubs(vehicle)) {
   shares_.fill(1.0);
-  for (std::size_t i = 0; i < kRotors; ++i) {
-    const double angle = (30.0 + 60.0 * static_cast<double>(i)) * kRadPerDeg;
-    p_BR_[i] = {vehicle.arm_m * std::cos(angle), vehicle.arm_m * std::sin(angle), vehicle.rotor_height_m};
-  }
 }
 
 void Rotors::step(const RotorSpeeds& demand) {
@@ -46,12 +41,22 @@ Wrench Rotors::wrench(const RigidBodyState& state) const {
   return sum;
 }
 
-Vehicle::Vehicle(const VehicleConfig& vehicle, const RulesConfig& rules, double step_s)
+namespace {
+
+/// Control steps from one command to the next, when they come every `command_ticks`.
+int control_steps(Tick command_ticks) {
+  return static_cast<int>(std::max<Tick>(1, (command_ticks + kControlTicks - 1) / kControlTicks));
+}
+
+}  // namespace
+
+Vehicle::Vehicle(const VehicleConfig& vehicle, const RulesConfig& rules, double step_s, Tick command_ticks)
     : guard_(vehicle, rules),
       position_control_(vehicle.position_control),
       attitude_control_(vehicle),
       rotors_(vehicle, step_s),
-      gimbal_(vehicle.gimbal, rules.phantom_gimbal_rate) {}
+      gimbal_(vehicle.gimbal, rules.phantom_gimbal_rate, control_steps(command_ticks)),
+      grace_((control_steps(command_ticks) - 1) * kControlTicks) {}
 
 void Vehicle::control(Tick tick, const RigidBodyState& state, const std::optional<TrajectoryCommand>& command,
                       const std::optional<GimbalCommand>& gimbal_command) {
@@ -60,7 +65,7 @@ void Vehicle::control(Tick tick, const RigidBodyState& state, const std::optiona
     command_ = command;
     command_tick_ = tick;
   }
-  const Tick age = tick - command_tick_;
+  const Tick age = std::max<Tick>(0, tick - command_tick_ - grace_);
   // The controller keeps the last command by itself; it needs a new one while the guard moves the position.
   std::optional<TrajectoryCommand> new_command;
   if (command_ && age <= PositionController::kMaxAge) {

@@ -18,14 +18,15 @@ namespace skein::sim {
 /// Ticks between two steps of the 20 Hz controllers.
 inline constexpr Tick kControlTicks = 20;
 
-/// Force and torque on the centre of mass, expressed in B.
+/// Force that acts at Bo, and torque, expressed in B. Where the centre of mass is, is the business of the physics.
 struct Wrench {
   Vector3d force_B = Vector3d::Zero();
   Vector3d torque_B = Vector3d::Zero();
 };
 
 /// Six rotors: speeds that follow their demand with a first-order lag, and the forces that follow from them.
-/// Rotor i stands at 30 + 60 i degrees; even ones turn counter-clockwise, so that their drag turns the body clockwise.
+/// Even ones turn counter-clockwise, so that their drag turns the body clockwise. All forces act at the hubs: the drag
+/// of rotors that stand above the centre of mass tilts the vehicle, too.
 /// Model: thrust k_F w^2 along body z; torque k_M times thrust against the turn; in flight also a drag and a rolling
 /// moment, both proportional to rotor speed and to the velocity across the rotor's axis (Furrer et al., "RotorS -- A
 /// Modular Gazebo MAV Simulator Framework", 2016).
@@ -52,16 +53,18 @@ class Rotors {
 /// Not thread-safe.
 class Vehicle {
  public:
-  /// @param step_s  step of the physics: kTickS, or a whole part of it, with several calls of fly() a tick.
-  Vehicle(const VehicleConfig& vehicle, const RulesConfig& rules, double step_s = kTickS);
+  /// @param step_s         step of the physics: kTickS, or a whole part of it, with several calls of fly() a tick.
+  /// @param command_ticks  how often a pilot can send a command: the exchange period.
+  Vehicle(const VehicleConfig& vehicle, const RulesConfig& rules, double step_s = kTickS,
+          Tick command_ticks = kControlTicks);
 
   /// Why a command must be ignored; see CommandGuard.
   std::optional<std::string> refuse(const TrajectoryCommand& command, const RigidBodyState& state) const {
     return guard_.refuse(command, state);
   }
 
-  /// The 20 Hz controllers: every kControlTicks. Until the first command the motors stand still; a command older than
-  /// 0.1 s lapses and the UAV holds its position.
+  /// The 20 Hz controllers: every kControlTicks. Until the first command the motors stand still. A command lapses 0.1 s
+  /// after the next one was due, and the UAV holds its position; a gimbal's rate command likewise.
   /// @param command, gimbal_command  arrived since the last call, if any did.
   void control(Tick tick, const RigidBodyState& state, const std::optional<TrajectoryCommand>& command,
                const std::optional<GimbalCommand>& gimbal_command);
@@ -97,6 +100,7 @@ class Vehicle {
   Gimbal gimbal_;
   std::optional<TrajectoryCommand> command_;  ///< the last that arrived
   Tick command_tick_ = 0;
+  Tick grace_;  ///< so much later than at 20 Hz is the next command due
   ControlDemand demand_;
   RotorSpeeds rotor_demand_{};
 };

@@ -41,13 +41,13 @@ TEST_P(VehicleKinds, DemandedTorquesAreProduced) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {-1.0, 1.0}) {
       AttitudeController controller(config_);
-      ControlDemand demand{.thrust_N = config_.mass_kg * kWorldGravity};
+      ControlDemand demand{.thrust_N = mass_properties(config_).mass_kg * kWorldGravity};
       (axis == 0 ? demand.roll : axis == 1 ? demand.pitch : demand.yaw_rate) = sign * 0.05;
       const RotorSpeeds speeds = controller.step(Quaterniond::Identity(), Vector3d::Zero(), demand);
       Rotors rotors(config_);
       for (int i = 0; i < 400; ++i) rotors.step(speeds);
       const Wrench wrench = rotors.wrench({});
-      const Vector3d wanted = config_.inertia.cwiseProduct(controller.angular_acceleration());
+      const Vector3d wanted = config_.attitude_control.inertia->cwiseProduct(controller.angular_acceleration());
       EXPECT_GT(sign * wrench.torque_B[axis], 0.0);
       EXPECT_LT((wrench.torque_B - wanted).norm(), 1e-4 * wanted.norm());
       EXPECT_NEAR(wrench.force_B.z(), demand.thrust_N, 1e-9 * demand.thrust_N);

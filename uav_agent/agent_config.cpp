@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "core/airframe.hpp"
+
 namespace skein::agent {
 
 double body_radius_m(const VehicleConfig& vehicle) {
   const double rotors = vehicle.arm_m + vehicle.rotor_radius_m;
-  return std::max(rotors, 0.5 * vehicle.collision_box_m.norm());
+  return std::max(rotors, box_reach(vehicle));
 }
 
 AgentConfig agent_config(const Scenario& scenario, std::size_t self) {

@@ -16,6 +16,7 @@ constexpr double kSharpSpeedMps = 0.3;
 constexpr double kSharpCosine = 0.5;   ///< turns of more than 60 degrees are sharp
 constexpr double kMinLegM = 1e-3;      ///< shorter legs are no legs
 constexpr double kSlowestPace = 0.1;   ///< of a set-point that waits for its UAV
+constexpr double kLongestStepS = 0.05;  ///< of the point mass; a longer exchange takes several
 constexpr double kNoPositionM = 0.02;  ///< the controller takes |p| < 0.01 for "no position"
 
 Vector3d shortened(const Vector3d& v, double length) {
@@ -238,23 +239,27 @@ void Tracker::advance_yaw(double dt_s) {
 std::optional<TrajectoryCommand> Tracker::step(const RigidBodyState& state, double dt_s) {
   if (mode_ == Mode::off || mode_ == Mode::stand_by) return std::nullopt;
   if (mode_ != Mode::setpoint) {
+    const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestStepS - 1e-9)));
+    const double step_s = dt_s / steps;
     if (!started_) ref_.yaw = roll_pitch_yaw(state.q_WB.toRotationMatrix()).yaw;
     double error = (ref_.p_WB - state.p_WB).norm();
     if (!started_ || error > config_.lost_error_m) {
       forget_flown_legs();
-      start_from(state.p_WB, state.v_WB, dt_s);
+      start_from(state.p_WB, state.v_WB, step_s);
       error = 0.0;
     } else if (track_.empty()) {
-      start_from(ref_.p_WB, ref_.v_WB, dt_s);
+      start_from(ref_.p_WB, ref_.v_WB, step_s);
     }
     const double behind = (error - config_.slow_down_error_m) / config_.slow_down_error_m;
     const double pace = std::clamp(1.0 - behind, kSlowestPace, 1.0);
-    if (mode_ == Mode::path && !done_) {
-      advance_along_path(pace, dt_s);
-    } else {
-      accelerate(Vector3d::Zero(), dt_s);
+    for (int i = 0; i < steps; ++i) {
+      if (mode_ == Mode::path && !done_) {
+        advance_along_path(pace, step_s);
+      } else {
+        accelerate(Vector3d::Zero(), step_s);
+      }
+      smooth();
     }
-    smooth();
     advance_yaw(dt_s);
   }
   TrajectoryCommand command{ref_.p_WB, ref_.v_WB, ref_.a_WB, ref_.yaw};

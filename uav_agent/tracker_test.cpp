@@ -96,6 +96,33 @@ TEST(Tracker, FollowsRandomPolylines) {
   }
 }
 
+// At a slower pace of commands the same way is flown, as fast: each is where the usual pace would have come to by then.
+TEST(Tracker, ALongExchangeTakesTheSameWayInTheSameTime) {
+  for (const int pace : {2, 4, 5, 10, 20}) {
+    RandomStream random(static_cast<std::uint64_t>(pace), "polyline", 0);
+    Path path;
+    for (int i = 0; i < 5; ++i) {
+      path.waypoints.push_back({{random.uniform(-20.0, 20.0), random.uniform(-20.0, 20.0), 20.0 + 2.0 * i}, 4.0});
+    }
+    const auto obey = [](Tracker& tracker, RigidBodyState& state, double dt_s) {
+      const TrajectoryCommand command = *tracker.step(state, dt_s);
+      state.p_WB = command.p_WB;
+      state.v_WB = command.v_WB;
+    };
+    Tracker usual(limits()), slow(limits());
+    RigidBodyState usual_state, slow_state;
+    usual.follow(path);
+    slow.follow(path);
+    for (int i = 0; i < 1200 / pace && !usual.tracking().done; ++i) {
+      for (int k = 0; k < pace; ++k) obey(usual, usual_state, kDtS);
+      obey(slow, slow_state, pace * kDtS);
+      ASSERT_LT((usual_state.p_WB - slow_state.p_WB).norm(), 1e-6) << pace << ", step " << i;
+      ASSERT_LT((usual_state.v_WB - slow_state.v_WB).norm(), 1e-6) << pace << ", step " << i;
+    }
+    EXPECT_TRUE(usual.tracking().done && slow.tracking().done) << pace;
+  }
+}
+
 TEST(Tracker, KeepsTheSpeedOfEachLegAndUsesIt) {
   PerfectUav uav({0.0, 0.0, 10.0});
   uav.tracker.follow({{{{30.0, 0.0, 10.0}, 2.0}, {{90.0, 0.0, 10.0}, 5.0}}});

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/airframe.hpp"
 #include "core/config_node.hpp"
 #include "core/fault_plan.hpp"
 #include "core/scenario_reader.hpp"
@@ -134,11 +135,18 @@ TEST(ShippedConfig, MbsAndCraneFindTheOfficialData) {
   }
 }
 
-TEST(ShippedConfig, ExplorerIsTheDefaultVehicle) {
+TEST(ShippedConfig, ExplorerIsTheDefaultVehicleInParts) {
+  VehicleConfig explorer = load_vehicle("explorer", kConfig);
   VehicleConfig plain;
   plain.name = "explorer";
   plain.lidar.emplace();
-  EXPECT_EQ(to_yaml(load_vehicle("explorer", kConfig)), to_yaml(plain));
+  EXPECT_NEAR(mass_properties(explorer).mass_kg, plain.mass_kg, 1e-12);
+  EXPECT_EQ(explorer.attitude_control.inertia, plain.inertia);
+  explorer.mass_kg = plain.mass_kg;
+  explorer.rotor_mass_kg = 0.0;
+  explorer.links.clear();
+  explorer.attitude_control.inertia.reset();
+  EXPECT_EQ(to_yaml(explorer), to_yaml(plain));
 }
 
 }  // namespace

@@ -1,0 +1,143 @@
+// Pilots who can send commands only once an exchange: whatever its period, a UAV obeys from one command to the next,
+// and no longer.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random_stream.hpp"
+#include "core/scenario_reader.hpp"
+#include "sim_server/simulation.hpp"
+#include "sim_server/test_flight.hpp"
+
+namespace skein::sim {
+namespace {
+
+/// The periods of interest, and some that are no multiple of a control step.
+std::vector<Tick> periods() {
+  std::vector<Tick> periods = {1, 20, 40, 80, 100, 200, 400};
+  RandomStream random(1, "periods", 0);
+  for (int i = 0; i < 8; ++i) periods.push_back(1 + static_cast<Tick>(random.uniform() * 399.0));
+  return periods;
+}
+
+class Paced {
+ public:
+  explicit Paced(Tick period) {
+    scenario_.file = "field.yaml";
+    scenario_.exchange_period_s = seconds(period);
+    scenario_.station_position = {-5, 0, 0.3};
+    for (const char* type : {"explorer", "photographer"}) {
+      scenario_.fleet.push_back({.name = type,
+                                 .vehicle = test::vehicle_named(type),
+                                 .start = {0.5, 10.0 * static_cast<double>(scenario_.fleet.size())}});
+    }
+    simulation_ = std::make_unique<Simulation>(scenario_, Scene{}, 0);
+  }
+  /// @param pilot  (uav, t) to a command, asked once an exchange.   @param watch  looks on at its end.
+  template <class Pilot, class Watch>
+  void fly(double duration_s, const Pilot& pilot, const Watch& watch) {
+    const Tick end = simulation_->tick() + ticks(duration_s);
+    while (simulation_->tick() < end) {
+      for (std::size_t i = 0; i < simulation_->size(); ++i) {
+        simulation_->command_trajectory(i, pilot(i, seconds(simulation_->tick())));
+      }
+      simulation_->advance();
+      watch();
+    }
+  }
+  Simulation& simulation() { return *simulation_; }
+
+ private:
+  Scenario scenario_;
+  std::unique_ptr<Simulation> simulation_;
+};
+
+TEST(ExchangePeriod, AFleetFliesItsPathAtAnyPace) {
+  // Up, then 24 m ahead by its position alone, as patrol's way-points are.
+  for (const Tick period : periods()) {
+    Paced fleet(period);
+    const auto lane = [](std::size_t uav) { return 10.0 * static_cast<double>(uav); };
+    fleet.fly(
+        8.0,
+        [&](std::size_t i, double) {
+          return TrajectoryCommand{.p_WB = {0.5, lane(i), 6}};
+        },
+        [] {});
+    double off = 0.0, fastest = 0.0;
+    fleet.fly(
+        16.0,
+        [&](std::size_t i, double) {
+          return TrajectoryCommand{.p_WB = {24.5, lane(i), 6}};
+        },
+        [&] {
+          for (std::size_t i = 0; i < 2; ++i) {
+            const RigidBodyState& state = fleet.simulation().uav(i).state;
+            off = std::max({off, std::abs(state.p_WB.y() - lane(i)), std::abs(state.p_WB.z() - 6.0)});
+            fastest = std::max(fastest, state.v_WB.x());
+          }
+        });
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vector3d& p = fleet.simulation().uav(i).state.p_WB;
+      EXPECT_LT((p - Vector3d(24.5, lane(i), 6)).norm(), 0.2) << seconds(period) << " s, UAV " << i;
+    }
+    EXPECT_LT(off, 0.3) << seconds(period) << " s";
+    EXPECT_GT(fastest, 4.0) << seconds(period) << " s: it does not stop on the way";
+  }
+}
+
+TEST(ExchangePeriod, AVelocityIsKeptFromCommandToCommand) {
+  for (const Tick period : periods()) {
+    Paced fleet(period);
+    const auto up = [](std::size_t i, double) { return TrajectoryCommand{.p_WB = {0.5, 10.0 * i, 6}}; };
+    fleet.fly(8.0, up, [] {});
+    const auto ahead = [](std::size_t, double) { return TrajectoryCommand{.v_WB = {2, 0, 0}}; };
+    fleet.fly(4.0, ahead, [] {});
+    double slowest = 10.0;
+    fleet.fly(4.0, ahead, [&] { slowest = std::min(slowest, fleet.simulation().uav(0).state.v_WB.x()); });
+    EXPECT_GT(slowest, 1.7) << seconds(period) << " s";
+  }
+}
+
+TEST(ExchangePeriod, AGimbalTurnsFromRateCommandToRateCommand) {
+  for (const Tick period : periods()) {
+    Paced fleet(period);
+    Simulation& simulation = fleet.simulation();
+    while (simulation.tick() < ticks(2.0)) {
+      simulation.command_gimbal(0, {GimbalMode::rate, 0.0, 0.4});
+      simulation.advance();
+    }
+    EXPECT_NEAR(simulation.uav(0).gimbal.yaw, 0.4 * seconds(simulation.tick()), 0.4 * 0.051) << seconds(period);
+    for (int i = 0; i * period < ticks(2.0); ++i) simulation.advance();
+    const double yaw = simulation.uav(0).gimbal.yaw;
+    simulation.advance();
+    EXPECT_EQ(simulation.uav(0).gimbal.yaw, yaw) << "without another it stops, " << seconds(period) << " s";
+  }
+}
+
+TEST(ExchangePeriod, ACommandLapsesATenthOfASecondAfterTheNextWasDue) {
+  for (const Tick period : periods()) {
+    Vehicle vehicle(test::vehicle_named("photographer"), {}, kTickS, period);
+    const RigidBodyState state{.p_WB = {0, 0, 50}};
+    const Tick last = 3 * period;  // of the commands, which take effect at the next control step
+    std::optional<TrajectoryCommand> waiting;
+    std::optional<Tick> lapsed;
+    for (Tick tick = 0; !lapsed && tick < last + 2000; ++tick) {
+      if (tick % period == 0 && tick <= last) waiting = TrajectoryCommand{.v_WB = {1, 0, 0}};
+      if (tick % kControlTicks != 0) continue;
+      vehicle.control(tick, state, std::exchange(waiting, std::nullopt), std::nullopt);
+      if (tick <= last + period) {
+        ASSERT_EQ(vehicle.mode(), ControlMode::moving) << seconds(period) << " s, tick " << tick;
+      }
+      if (vehicle.mode() == ControlMode::hold) lapsed = tick;
+    }
+    ASSERT_TRUE(lapsed);
+    EXPECT_GT(*lapsed, last + std::max(period, kControlTicks)) << seconds(period);
+    EXPECT_LE(*lapsed, last + std::max(period, kControlTicks) + 4 * kControlTicks) << seconds(period);
+    if (period != kControlTicks) continue;
+    EXPECT_EQ(*lapsed, last + 60) << "the reference's 0.15 s";
+  }
+}
+
+}  // namespace
+}  // namespace skein::sim

@@ -1,0 +1,33 @@
+// Where a vehicle's mass is, and its motion as a physics engine has it: about the centre of mass, along the principal
+// axes of inertia. Frames: W world (ENU); B body (FLU), whose origin Bo odometry speaks of; P, whose origin is the
+// centre of mass Bcm and whose axes are the principal axes.  Units: SI.   Pure; safe from any thread.
+#pragma once
+
+#include "core/scenario.hpp"
+#include "core/types.hpp"
+
+namespace skein::sim {
+
+struct MassFrame {
+  double mass_kg = 0.0;
+  Isometry3d X_BP = Isometry3d::Identity();
+  Vector3d inertia = Vector3d::Zero();  ///< about the axes of P [kg m^2]
+};
+/// P has the axes of B where the vehicle has no products of inertia.
+MassFrame mass_frame(const VehicleConfig& vehicle);
+
+/// The motion of P.
+struct MassState {
+  Vector3d p_WBcm = Vector3d::Zero();
+  Quaterniond q_WP = Quaterniond::Identity();
+  Vector3d v_WBcm = Vector3d::Zero();
+  Vector3d w_WB = Vector3d::Zero();  ///< expressed in W
+};
+MassState mass_state(const MassFrame& frame, const RigidBodyState& state);
+RigidBodyState body_state(const MassFrame& frame, const MassState& state);
+
+/// The torque about Bcm of a force at Bo and a torque; all expressed in W.
+Vector3d torque_about_mass(const MassFrame& frame, const Quaterniond& q_WB, const Vector3d& force_W,
+                           const Vector3d& torque_W);
+
+}  // namespace skein::sim
