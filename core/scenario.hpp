@@ -106,6 +106,8 @@ struct RulesConfig {
   bool limit_search_radius = true;            ///< S1: the camera looks no farther than the search radius
   bool unnormalised_displacement = true;      ///< S4 of the reference's resolution formula
   bool phantom_gimbal_rate = false;           ///< G1-G3: report the commanded rate at the stop
+  bool own_body_hides = true;                 ///< a camera does not see through its own UAV's body and rotors
+  bool camera_blind_in_structure = true;      ///< a camera that reaches through the structure sees nothing
   bool collision_voids_score = true;          ///< a UAV that collides loses its points, retroactively
   double min_point_score = 0.2;               ///< a capture of a point below this does not count
   double takeoff_height_m = 0.1;              ///< above rest height

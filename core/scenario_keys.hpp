@@ -126,6 +126,8 @@ void describe(R& r, RulesConfig& rules) {
   r.field("limit_search_radius", rules.limit_search_radius);
   r.field("unnormalised_displacement", rules.unnormalised_displacement);
   r.field("phantom_gimbal_rate", rules.phantom_gimbal_rate);
+  r.field("own_body_hides", rules.own_body_hides);
+  r.field("camera_blind_in_structure", rules.camera_blind_in_structure);
   r.field("collision_voids_score", rules.collision_voids_score);
   r.field("min_point_score", rules.min_point_score, within(0.0, 1.0));
   r.field("takeoff_height_m", rules.takeoff_height_m, within(0.0, 100.0));
