@@ -52,7 +52,7 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
     const double q = quality->score();
     const bool improved = static_cast<float>(q) > best_[i];
     best_[i] = std::max(best_[i], static_cast<float>(q));
-    capture.detections.push_back({i, quality->q_blur, quality->q_res, q, best_[i], improved});
+    capture.detections.push_back({i, quality->q_blur, quality->q_res, quality->q_distance, q, best_[i], improved});
   }
   return capture;
 }

@@ -20,7 +20,8 @@ bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, co
 struct Detection {
   std::uint32_t point = 0;  ///< index of the interest point
   double q_blur = 0.0, q_res = 0.0;
-  double q = 0.0;         ///< their product, of this capture
+  double q_distance = 0.0;  ///< what q_res owes to the distance (core/camera_quality.hpp)
+  double q = 0.0;           ///< q_blur * q_res, of this capture
   float best = 0.0F;      ///< best of this UAV so far, this capture included; single as the reference's
   bool improved = false;  ///< this capture raised `best`
 };
