@@ -27,7 +27,8 @@ Camera::Camera(const CameraConfig& config, double desired_mm_per_pixel, const Ru
       points_(points),
       uav_(uav),
       interval_(ticks(config.trigger_interval_s)),
-      best_(points.size(), 0.0F) {}
+      best_(points.size(), 0.0F),
+      seen_(points.size(), false) {}
 
 Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world) {
   const Exposure exposure(camera_state(body, gimbal, config_), config_, desired_mm_per_pixel_, rules_);
@@ -44,9 +45,18 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
     }
     const Vector3d p_W = points_[i].p_W.cast<double>();
     const auto p_C = exposure.view(p_W);
-    const auto quality = p_C ? exposure.score(*p_C, points_[i].n_W.cast<double>()) : std::nullopt;
-    // The ray comes last: it costs more than all formulas together.
-    if (!quality || quality->score() < rules_.min_point_score || !in_sight(p_WC, p_W, uav_, world)) {
+    if (!p_C) {
+      continue;
+    }
+    const auto quality = exposure.score(*p_C, points_[i].n_W.cast<double>());
+    const bool counts = quality && quality->score() >= rules_.min_point_score;
+    // The ray comes last: it costs more than all formulas together. Of what does not count it is asked until the point
+    // has been seen once.
+    if ((!counts && seen_[i]) || !in_sight(p_WC, p_W, uav_, world)) {
+      continue;
+    }
+    seen_[i] = true;
+    if (!counts) {
       continue;
     }
     const double q = quality->score();

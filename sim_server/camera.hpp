@@ -53,6 +53,8 @@ class Camera {
   std::uint64_t captures() const { return next_number_; }
   /// Best score of each interest point so far, 0 when never seen.
   const std::vector<float>& best() const { return best_; }
+  /// Which interest points were ever in the picture and in sight, whatever their quality.
+  const std::vector<bool>& seen() const { return seen_; }
 
   static constexpr double kSurfaceTolerance = 0.025;  ///< [m], either side of the point
 
@@ -66,6 +68,7 @@ class Camera {
   std::optional<Tick> last_;
   std::uint64_t next_number_ = 0;
   std::vector<float> best_;
+  std::vector<bool> seen_;
 };
 
 }  // namespace skein::sim
