@@ -113,8 +113,8 @@ TEST(CameraQuality, DistanceAndTiltAreTheTwoPartsOfTheResolution) {
     const double depth = random.uniform(1.0, 4.0 * d);
     const Vector3d p_C = depth * Vector3d(1.0, random.uniform(-0.8, 0.8), random.uniform(-0.5, 0.5));
     const auto frontal = exposure.score(p_C, Vector3d::UnitX());
-    const auto tilted = exposure.score(
-        p_C, Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized());
+    const auto tilted =
+        exposure.score(p_C, Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized());
     ASSERT_TRUE(frontal && tilted);
     // A frontal surface has no tilt, and whatever the tilt the part of the distance is the same.
     EXPECT_NEAR(frontal->q_res, frontal->q_distance, 1e-6);
@@ -134,8 +134,8 @@ TEST(CameraQuality, WhatTheFormulasLeaveOpenNeverPasses) {
     for (int i = 0; i < 2000; ++i) {
       const Vector3d p_C(1.0 + std::abs(draw(64)), draw(8), draw(8));
       // Moved onto the camera's origin, or into its plane beside or above it.
-      const Vector3d landing = i % 3 == 0 ? Vector3d::Zero().eval()
-                                          : Vector3d(0.0, i % 3 == 1 ? 0.0 : draw(8), i % 3 == 1 ? draw(8) : 0.0);
+      const Vector3d landing =
+          i % 3 == 0 ? Vector3d::Zero().eval() : Vector3d(0.0, i % 3 == 1 ? 0.0 : draw(8), i % 3 == 1 ? draw(8) : 0.0);
       CameraState state;
       state.v_WC = 1024.0 * (p_C - landing);
       const Exposure exposure(state, camera, kDesired, rule);

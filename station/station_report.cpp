@@ -46,7 +46,8 @@ std::string captures_csv(const Scoreboard& scoreboard, const std::vector<std::st
     const Audit audit = scoreboard.audit(entry);
     for (const CapturePoint& point : entry.capture.points) {
       text << uav_names[entry.uav] << ',' << entry.capture.capture << ',' << entry.tick << ',' << seconds(entry.tick)
-           << ',' << point.index << ",1," << point.q_blur << ',' << point.q_res << ',' << point.q_distance << ',' << point.q << ',';
+           << ',' << point.index << ",1," << point.q_blur << ',' << point.q_res << ',' << point.q_distance << ','
+           << point.q << ',';
       if (audit.delivered) text << seconds(*audit.delivered);
       text << ',' << reason(scoreboard, entry, point, audit) << '\n';
     }
