@@ -114,8 +114,13 @@ CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
   command->add_option("--scene-seed", oracle.scene_seed, "Which scene of a procedural family")
       ->check(CLI::Validator(check_seed, ""));
   command->add_option("--assets", oracle.assets, "Folder with models/ for scenarios that read files");
-  command->add_option("--clearance", oracle.clearance_m, "Of the cameras from the structure [m] (default 0.5)")
+  command
+      ->add_option("--clearance", oracle.clearances_m,
+                   "Of the cameras from the structure [m] (default 0.5); several as 0.5,0.8,1.2 make a table")
+      ->delimiter(',')
       ->check(CLI::Validator(check_clearance, ""));
+  command->add_flag("--vehicle", oracle.vehicle,
+                    "A sphere about body and rotors keeps the clearance (default then 0), not the camera");
   command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");
   command->add_flag("--json", oracle.json, "All figures, for programs");
   return command;

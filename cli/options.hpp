@@ -74,7 +74,8 @@ struct OracleOptions {
   std::string scenario;
   std::optional<std::uint64_t> scene_seed;
   std::optional<std::filesystem::path> assets;
-  std::optional<double> clearance_m;  ///< instead of the oracle's own
+  std::vector<double> clearances_m;  ///< instead of the oracle's own
+  bool vehicle = false;              ///< the UAVs' bodies keep them, not the cameras
   bool outside_only = false;
   bool json = false;
 };

@@ -80,9 +80,13 @@ TEST(Options, OracleReadsAll) {
   EXPECT_EQ(oracle.scenario, "towers");
   EXPECT_EQ(oracle.scene_seed, 4u);
   EXPECT_EQ(oracle.assets, "data");
-  EXPECT_EQ(oracle.clearance_m, 0.75);
+  EXPECT_EQ(oracle.clearances_m, (std::vector<double>{0.75}));
   EXPECT_TRUE(oracle.outside_only && oracle.json);
-  EXPECT_FALSE(parse<OracleOptions>({"oracle", "towers"}).clearance_m);
+  EXPECT_FALSE(oracle.vehicle);
+  EXPECT_TRUE(parse<OracleOptions>({"oracle", "towers"}).clearances_m.empty());
+  const auto several = parse<OracleOptions>({"oracle", "towers", "--clearance", "0.5,0.8,2.5", "--vehicle"});
+  EXPECT_EQ(several.clearances_m, (std::vector<double>{0.5, 0.8, 2.5}));
+  EXPECT_TRUE(several.vehicle);
   for (const char* clearance : {"-1", "nan", "x", "1000"}) {
     EXPECT_THROW(parse_command_line({"oracle", "towers", "--clearance", clearance}), InputError) << clearance;
   }

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "cli/environment.hpp"
+#include "cli/fault_limits.hpp"
 #include "cli/fleet_plan.hpp"
 #include "cli/preflight.hpp"
 #include "core/program.hpp"
@@ -21,11 +22,13 @@ struct Question {
   std::string scenario;
   std::optional<std::uint64_t> scene_seed;
   std::optional<std::filesystem::path> assets;
-  std::optional<double> clearance_m, patience_s;
+  std::vector<double> clearances_m;  ///< empty: the oracle's own
+  bool vehicle = false;
+  std::optional<double> patience_s;
 };
 
 struct Asked {
-  Json answer;  ///< null when the program left none
+  Json answers;  ///< one for each clearance; empty when the program left none
   ExitStatus exit;
   std::string said;
 };
@@ -36,12 +39,16 @@ Asked ask(const Question& question) {
   std::vector<std::string> argv = {program_dir() / "sim_server", "--scenario", question.scenario, "--oracle", answer};
   if (question.scene_seed) argv.insert(argv.end(), {"--scene-seed", std::to_string(*question.scene_seed)});
   if (question.assets) argv.insert(argv.end(), {"--assets", *question.assets});
-  if (question.clearance_m) argv.insert(argv.end(), {"--clearance", std::to_string(*question.clearance_m)});
+  std::string clearances;
+  for (const double clearance_m : question.clearances_m)
+    clearances += (clearances.empty() ? "" : ",") + number_text(clearance_m);
+  if (!clearances.empty()) argv.insert(argv.end(), {"--clearance", clearances});
+  if (question.vehicle) argv.emplace_back("--vehicle");
   if (question.patience_s) argv.insert(argv.end(), {"--oracle-patience", std::to_string(*question.patience_s)});
   Asked asked;
   // As in a run: the same libm gives the same answer.
   asked.exit = run_to_end({"sim_server", argv, fleet_environment(false), log});
-  asked.answer = read_json(answer);
+  asked.answers = value_or(read_json(answer), "rows", Json::array());
   for (const std::string& line : last_lines(log, kMostLines)) asked.said += (asked.said.empty() ? "" : "\n") + line;
   return asked;
 }
@@ -50,10 +57,46 @@ Json points_and_score(const Json& part) {
   return {{"points", value_or(part, "points", nullptr)}, {"score", value_or(part, "score", nullptr)}};
 }
 
-std::string metres(double value) {
+std::string metres(double value) { return number_text(value) + " m"; }
+
+/// Points, score, and by how many percent twice as many viewpoints changed it.
+std::string figures(const Json& part) {
   std::ostringstream text;
-  text << value << " m";
+  text << std::setw(10) << value_or(part, "points", 0).get<std::size_t>() << std::fixed << std::setprecision(1)
+       << std::setw(12) << value_or(part, "score", 0.0).get<double>() << std::setprecision(2) << std::showpos
+       << std::setw(10) << value_or(part, "change_percent", 0.0).get<double>() << " %";
   return text.str();
+}
+
+void print_one(std::ostream& out, const Json& answer, bool outside_only) {
+  out << "              points       score   twice as many viewpoints changed it by\n";
+  const auto row = [&](const char* name) {
+    out << std::left << std::setw(10) << name << std::right << figures(value_or(answer, name, Json::object())) << '\n';
+  };
+  if (!outside_only) row("reachable");
+  row("outside");
+}
+
+/// What an answer has for programs that ask for figures: not each point.
+Json without_points(Json answer) {
+  answer.erase("estimate");
+  answer.erase("flyable");
+  return answer;
+}
+
+void print_several(std::ostream& out, const Json& answers, bool outside_only) {
+  const std::string gap(3, ' ');
+  out << "          " << (outside_only ? "" : " reachable                           " + gap) << "   outside\n"
+      << "clearance ";
+  for (int part = outside_only ? 1 : 0; part < 2; ++part)
+    out << "    points       score      change" << (part == 0 ? gap : "");
+  out << '\n';
+  for (const Json& answer : answers) {
+    out << std::right << std::setw(7) << number_text(value_or(answer, "clearance_m", 0.0)) << " m ";
+    if (!outside_only) out << figures(value_or(answer, "reachable", Json::object())) << ' ';
+    out << figures(value_or(answer, "outside", Json::object())) << '\n';
+  }
+  out << "\nchange     by twice as many viewpoints";
 }
 
 }  // namespace
@@ -68,51 +111,58 @@ Json attainable_from(const Json& answer) {
 }
 
 AttainableAnswer attainable_of(const RunOptions& run) try {
-  const Asked asked = ask({run.scenario, run.scene_seed, run.assets, {}, kPatienceS});
-  if (!asked.exit.ok()) return {nullptr, "the oracle failed: " + asked.exit.text() + "\n" + asked.said};
-  const Json attainable = attainable_from(asked.answer);
-  const bool too_long = asked.answer.is_object() && attainable.is_null();
-  return {attainable, too_long ? "what is attainable here takes a while to compute: `skein oracle " +
-                                     run.scenario + "` does it once"
-                               : ""};
+  const Asked asked = ask({run.scenario, run.scene_seed, run.assets, {}, false, kPatienceS});
+  if (!asked.exit.ok()) return {nullptr, nullptr, "the oracle failed: " + asked.exit.text() + "\n" + asked.said};
+  if (asked.answers.empty()) return {};
+  const Json attainable = attainable_from(asked.answers.front());
+  if (attainable.is_null()) {
+    return {nullptr, nullptr,
+            "what is attainable here takes a while to compute: `skein oracle " + run.scenario + "` does it once"};
+  }
+  return {attainable, asked.answers.front(), ""};
 } catch (const Interrupted&) {
   return {};
 } catch (const std::exception& error) {
-  return {nullptr, std::string("the oracle failed: ") + error.what()};
+  return {nullptr, nullptr, std::string("the oracle failed: ") + error.what()};
 }
 
-void print_oracle(std::ostream& out, const std::string& scenario, const Json& answer, bool outside_only) {
-  const double clearance = value_or(answer, "clearance_m", 0.0), berth = value_or(answer, "outside_berth_m", 0.0);
-  out << scenario << ": " << value_or(answer, "points_total", 0) << " interest points, cameras "
-      << metres(clearance) << " clear of the structure\n\n"
-      << "              points       score   twice as many viewpoints changed it by\n";
-  const auto row = [&](const char* name, const Json& part) {
-    out << std::left << std::setw(10) << name << std::right << std::setw(10)
-        << value_or(part, "points", 0).get<std::size_t>() << std::fixed << std::setprecision(1) << std::setw(12)
-        << value_or(part, "score", 0.0).get<double>() << std::setprecision(2) << std::showpos << std::setw(10)
-        << value_or(part, "change_percent", 0.0).get<double>() << std::noshowpos << std::defaultfloat << " %\n";
-  };
-  if (!outside_only) row("reachable", value_or(answer, "reachable", Json::object()));
-  row("outside", value_or(answer, "outside", Json::object()));
+void print_oracle(std::ostream& out, const std::string& scenario, const Json& answers, bool outside_only) {
+  const Json& first = answers.front();
+  const bool vehicle = value_or(first, "vehicle", false);
+  out << scenario << ": " << value_or(first, "points_total", 0) << " interest points, "
+      << (vehicle ? "UAVs" : "cameras") << ' '
+      << (answers.size() == 1 ? metres(value_or(first, "clearance_m", 0.0)) + " clear" : std::string("keeping clear"))
+      << " of the structure\n\n";
+  if (answers.size() == 1) {
+    print_one(out, first, outside_only);
+  } else {
+    print_several(out, answers, outside_only);
+    out << '\n';
+  }
   out << '\n';
   if (!outside_only) {
-    out << "reachable  from all places that a UAV can get to from the sky or its start, always that clear\n";
+    out << "reachable  estimate from all places that a " << (vehicle ? "whole UAV" : "camera")
+        << " can get to from the sky or its start, always that clear\n";
   }
+  const double berth = value_or(first, "outside_berth_m", 0.0);
   out << "outside    from where openings less than " << metres(2.0 * berth) << " wide keep it out" << std::endl;
 }
 
 int consult_oracle(const OracleOptions& options, const Console& console) {
-  const Asked asked = ask({options.scenario, options.scene_seed, options.assets, options.clearance_m, {}});
+  const Asked asked =
+      ask({options.scenario, options.scene_seed, options.assets, options.clearances_m, options.vehicle, {}});
   if (asked.exit.code == kExitBadInput) throw InputError(asked.said);
-  if (!asked.exit.ok() || !asked.answer.is_object()) {
+  if (!asked.exit.ok() || asked.answers.empty()) {
     throw std::runtime_error("sim_server --oracle ended with " + asked.exit.text() + "\n" + asked.said);
   }
   if (!asked.said.empty()) console.err << asked.said << std::endl;
-  if (options.json) {
-    console.out << asked.answer.dump(2) << std::endl;
-  } else {
-    print_oracle(console.out, options.scenario, asked.answer, options.outside_only);
+  if (!options.json) {
+    print_oracle(console.out, options.scenario, asked.answers, options.outside_only);
+    return kExitDone;
   }
+  Json rows = Json::array();
+  for (const Json& answer : asked.answers) rows.push_back(without_points(answer));
+  console.out << (rows.size() == 1 ? rows.front() : Json{{"rows", rows}}).dump(2) << std::endl;
   return kExitDone;
 }
 

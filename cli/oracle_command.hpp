@@ -13,6 +13,7 @@ int consult_oracle(const OracleOptions& options, const Console& console);
 /// What is attainable in a run's scenario: from the oracle's cache, or computed where that takes seconds. Never throws.
 struct AttainableAnswer {
   Json attainable;  ///< as result.json has it; null where nobody could tell
+  Json by_point;    ///< the oracle's whole answer, with `estimate` and `flyable` of each point; null likewise
   std::string hint;  ///< why not, and what to do about it; empty where there is nothing to say
 };
 AttainableAnswer attainable_of(const RunOptions& run);
@@ -20,7 +21,8 @@ AttainableAnswer attainable_of(const RunOptions& run);
 /// The oracle's answer as result.json has it: `reachable` with its clearance, and `outside`. Null for anything else.
 Json attainable_from(const Json& answer);
 
-/// The table of `skein oracle`. @param outside_only leaves the first row out.
-void print_oracle(std::ostream& out, const std::string& scenario, const Json& answer, bool outside_only);
+/// The table of `skein oracle`: one answer at length, of several a row each.
+/// @param answers  not empty.   @param outside_only  leaves the other figures out.
+void print_oracle(std::ostream& out, const std::string& scenario, const Json& answers, bool outside_only);
 
 }  // namespace skein::cli

@@ -16,9 +16,24 @@ std::string oracle_script(const std::filesystem::path& dir, const std::string& a
          "'\nwhile [ \"$1\" != --oracle ]; do shift; done\ncat > \"$2\" <<'END'\n" + answer + "\nEND\n";
 }
 
-constexpr const char* kAnswer = R"({"points_total": 9, "clearance_m": 0.5, "outside_berth_m": 2.5, "directions": 256,
+constexpr const char* kAnswer =
+    R"({"points_total": 9, "vehicle": false, "clearance_m": 0.5, "outside_berth_m": 2.5, "directions": 256,
   "reachable": {"points": 8, "score": 7.5, "coarse_points": 8, "coarse_score": 7.25, "change_percent": 3.448},
   "outside": {"points": 5, "score": 4.5, "coarse_points": 5, "coarse_score": 4.5, "change_percent": 0.0}})";
+
+/// As sim_server writes answers: with a number for each point.
+std::string rows(std::vector<std::string> answers) {
+  Json all = Json::array();
+  for (const std::string& text : answers) {
+    Json answer = Json::parse(text);
+    if (answer.contains("reachable")) {
+      answer["estimate"] = {1.0, 0.5};
+      answer["flyable"] = "10";
+    }
+    all.push_back(answer);
+  }
+  return Json{{"rows", all}}.dump();
+}
 
 RunOptions run_of(const std::string& scenario) {
   RunOptions options;
@@ -41,7 +56,7 @@ class OracleCommand : public ::testing::Test {
 };
 
 TEST_F(OracleCommand, PrintsBothAnswersOrOne) {
-  answer(kAnswer);
+  answer(rows({kAnswer}));
   EXPECT_EQ(run(), 0);
   EXPECT_NE(out_.str().find("mbs: 9 interest points, cameras 0.5 m clear"), std::string::npos) << out_.str();
   EXPECT_NE(out_.str().find("reachable          8         7.5     +3.45 %"), std::string::npos) << out_.str();
@@ -54,10 +69,10 @@ TEST_F(OracleCommand, PrintsBothAnswersOrOne) {
 }
 
 TEST_F(OracleCommand, HandsOnWhatItIsAskedAndPrintsJson) {
-  answer(kAnswer);
+  answer(rows({kAnswer}));
   options_.scene_seed = 4;
   options_.assets = "data";
-  options_.clearance_m = 0.75;
+  options_.clearances_m = {0.75};
   options_.json = true;
   EXPECT_EQ(run(), 0);
   EXPECT_EQ(Json::parse(out_.str()), Json::parse(kAnswer));
@@ -65,6 +80,25 @@ TEST_F(OracleCommand, HandsOnWhatItIsAskedAndPrintsJson) {
     EXPECT_NE(arguments().find(words), std::string::npos) << arguments();
   }
   EXPECT_EQ(arguments().find("--oracle-patience"), std::string::npos);
+}
+
+TEST_F(OracleCommand, SeveralClearancesMakeATable) {
+  Json second = Json::parse(kAnswer);
+  second["clearance_m"] = 1.25;
+  second["reachable"]["score"] = 6.25;
+  answer(rows({kAnswer, second.dump()}));
+  options_.clearances_m = {0.5, 1.25};
+  options_.vehicle = true;
+  EXPECT_EQ(run(), 0);
+  EXPECT_NE(out_.str().find("\n    0.5 m          8         7.5     +3.45 %          5         4.5     +0.00 %\n"
+                            "   1.25 m          8         6.2     +3.45 %          5         4.5     +0.00 %\n"),
+            std::string::npos)
+      << out_.str();
+  EXPECT_NE(arguments().find("--clearance 0.5,1.25 --vehicle"), std::string::npos) << arguments();
+  out_.str("");
+  options_.json = true;
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(Json::parse(out_.str()), (Json{{"rows", {Json::parse(kAnswer), second}}}));
 }
 
 TEST_F(OracleCommand, FailuresAreTold) {
@@ -78,14 +112,15 @@ TEST_F(OracleCommand, FailuresAreTold) {
 }
 
 TEST_F(OracleCommand, ARunGetsItsNumbersOrAHint) {
-  answer(kAnswer);
+  answer(rows({kAnswer}));
   const AttainableAnswer known = attainable_of(run_of("mbs"));
   EXPECT_EQ(known.attainable, Json::parse(R"({"points": 8, "score": 7.5, "clearance_m": 0.5,
                                               "outside": {"points": 5, "score": 4.5}})"));
   EXPECT_TRUE(known.hint.empty());
+  EXPECT_EQ(known.by_point["flyable"], "10");
   EXPECT_NE(arguments().find("--oracle-patience"), std::string::npos);
 
-  answer(R"({"expected_s": 99.0})");
+  answer(rows({R"({"expected_s": 99.0})"}));
   const AttainableAnswer unknown = attainable_of(run_of("big.yaml"));
   EXPECT_TRUE(unknown.attainable.is_null());
   EXPECT_NE(unknown.hint.find("skein oracle big.yaml"), std::string::npos) << unknown.hint;

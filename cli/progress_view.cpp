@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <iomanip>
+#include <map>
 #include <sstream>
+
+#include "cli/score_losses.hpp"
 
 namespace skein::cli {
 namespace {
@@ -35,6 +38,24 @@ std::string uav_state(const Json& uav) {
   const auto alive = uav.find("alive");
   if (alive == uav.end() || !alive->is_boolean()) return "-";
   return alive->get<bool>() ? "alive" : "collided";
+}
+
+/// Where the rest of what could be had was lost: a row for each cause that took something.
+void print_losses(std::ostream& out, const Json& losses) {
+  const std::map<LossCause, const char*> texts = {
+      {LossCause::out_of_reach, "no UAV fits there"},    {LossCause::never_in_picture, "never in the picture"},
+      {LossCause::below_threshold, "too poor to count"}, {LossCause::voided, "UAV collided"},
+      {LossCause::not_delivered, "not delivered"},       {LossCause::distance, "from too far away"},
+      {LossCause::tilt, "too much from the side"},       {LossCause::blur, "blurred"},
+      {LossCause::above_estimate, "above the estimate"}};
+  const char* head = "lost      ";
+  for (const auto& [cause, text] : texts) {
+    const Json sum = value_or(losses, name_of(cause).c_str(), Json::object());
+    if (number(sum, "points") <= 0.0) continue;
+    out << head << std::left << std::setw(24) << text << std::right << std::setw(10) << fixed(number(sum, "score"), 3)
+        << std::setw(8) << cell(sum, "points", 0) << " points\n";
+    head = "          ";
+  }
 }
 
 }  // namespace
@@ -100,8 +121,9 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
       << (earned > 0.0 ? " (" + fixed(100.0 * score / earned, 1) + " % delivered)" : "")
       << (possible > 0.0 ? ", " + fixed(100.0 * score / possible, 1) + " % of attainable" : "") << '\n'
       << "points    " << cell(result, "points_detected", 0) << " of " << cell(result, "points_total", 0)
-      << (possible > 0.0 ? ", " + cell(attainable, "points", 0) + " attainable" : "") << '\n'
-      << "status    " << result["status"].get<std::string>() << ", mission " << cell(result, "mission_time_s", 1)
+      << (possible > 0.0 ? ", " + cell(attainable, "points", 0) + " attainable" : "") << '\n';
+  print_losses(out, value_or(result, "losses", Json::object()));
+  out << "status    " << result["status"].get<std::string>() << ", mission " << cell(result, "mission_time_s", 1)
       << " s, " << result["collisions"].size() << " collision" << (result["collisions"].size() == 1 ? "" : "s") << '\n'
       << "speed     x" << cell(result, "real_time_factor", 1) << " (" << cell(result, "sim_time_s", 1)
       << " s simulated in " << cell(result, "wall_time_s", 1) << " s), memory " << cell(result, "memory_mb", 0)

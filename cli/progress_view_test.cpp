@@ -62,6 +62,18 @@ TEST(Summary, TellsHowMuchOfTheAttainableItIs) {
   print_summary(known, result, "there");
   EXPECT_NE(known.str().find("30.000 of 40.000 earned (75.0 % delivered), 40.0 % of attainable\n"), std::string::npos);
   EXPECT_NE(known.str().find("31 of 99, 80 attainable\n"), std::string::npos) << known.str();
+  EXPECT_EQ(known.str().find("lost"), std::string::npos);
+  result["losses"] = {{"out_of_reach", {{"points", 0}, {"score", 0.0}}},
+                      {"blur", {{"points", 12}, {"score", 3.25}}},
+                      {"above_estimate", {{"points", 1}, {"score", -0.125}}}};
+  known.str("");
+  print_summary(known, result, "there");
+  EXPECT_NE(known.str().find("lost      blurred                      3.250      12 points\n"
+                             "          above the estimate          -0.125       1 points\n"
+                             "status"),
+            std::string::npos)
+      << known.str();
+  result["losses"] = nullptr;
   result["attainable"] = {{"points", nullptr}, {"score", nullptr}};
   print_summary(unknown, result, "there");
   EXPECT_EQ(unknown.str().find("attainable"), std::string::npos) << unknown.str();

@@ -13,9 +13,9 @@ namespace skein::cli {
 namespace {
 
 bool written_by_a_run(const std::string& name) {
-  static const std::set<std::string> kNames = {"result.json",      "score.csv",          "captures.csv", "digests.csv",
-                                               "events.csv",       "capture_messages.csv",
-                                               "trajectories.csv", "score_timeline.csv", "scene.json",   "report.html"};
+  static const std::set<std::string> kNames = {
+      "result.json",          "score.csv",        "captures.csv",       "digests.csv", "losses.csv", "events.csv",
+      "capture_messages.csv", "trajectories.csv", "score_timeline.csv", "scene.json",  "report.html"};
   // Reports, logs and books: a book of another run would be taken up as if this run's program had been killed.
   const bool of_a_program = name.starts_with("sim_server.") || name.starts_with("comm_router.") ||
                             name.starts_with("station.") || name.starts_with("uav_agent-");

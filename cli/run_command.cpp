@@ -16,6 +16,7 @@
 #include "cli/process_orders.hpp"
 #include "cli/progress_view.hpp"
 #include "cli/results_dir.hpp"
+#include "cli/run_losses.hpp"
 #include "cli/run_result.hpp"
 #include "cli/security.hpp"
 #include "core/atomic_file.hpp"
@@ -263,6 +264,14 @@ std::string start_line(const FleetPlan& plan, const DomainBlock& domains, const 
          std::to_string(domains.base()) + ".." + std::to_string(domains.last()) + ", results in " + out.string();
 }
 
+/// What became of the points; a run is not worth less because of an odd file.
+Json losses_of(const std::filesystem::path& dir, const Json& answer, const Reports& reports, Json& warnings) try {
+  return write_losses(dir, answer, reports);
+} catch (const std::exception& error) {
+  warnings.push_back(std::string("no losses.csv: ") + error.what());
+  return nullptr;
+}
+
 }  // namespace
 
 int run_fleet(const RunOptions& options, const Console& console) {
@@ -304,7 +313,10 @@ int run_fleet(const RunOptions& options, const Console& console) {
   if (options.attainable && result["status"] == "completed") {
     const AttainableAnswer answer = attainable_of(options);
     if (!answer.hint.empty()) result["warnings"].push_back(answer.hint);
-    if (answer.attainable.is_object()) result["attainable"] = answer.attainable;
+    if (answer.attainable.is_object()) {
+      result["attainable"] = answer.attainable;
+      result["losses"] = losses_of(out.path(), answer.by_point, reports, result["warnings"]);
+    }
     write_result();
   }
   print_summary(console.out, result, dir);

@@ -97,19 +97,30 @@ TEST_F(RunCommand, TheOracleIsAskedOnceTheRunIsOver) {
   const std::string oracle = R"(
 case "$*" in *--oracle*)
   while [ "$1" != --oracle ]; do shift; done
-  echo '{"clearance_m": 0.5, "reachable": {"points": 4, "score": 3.5}, "outside": {"points": 2, "score": 1}}' > "$2"
+  echo '{"rows": [{"clearance_m": 0.5, "reachable": {"points": 1, "score": 0.75}, "outside": {"points": 0, "score": 0},
+         "estimate": [0.75], "flyable": "1"}]}' > "$2"
   exit 0 ;;
 esac
 )";
-  write_script(programs_.dir() / "sim_server", oracle + kReadOptions + kServer);
+  std::string server = kServer;
+  server.replace(server.find("\"points_total\""), 0, "\"points_seen\": \"0\", ");
+  write_script(programs_.dir() / "sim_server", oracle + kReadOptions + server);
+  programs_.script("station", std::string(kMember) + R"(echo '{"points": []}' > "$out/station.report.json")");
   EXPECT_EQ(run(), kExitDone) << err_.str();
-  EXPECT_EQ(result()["attainable"], Json::parse(R"({"points": 4, "score": 3.5, "clearance_m": 0.5,
-                                                    "outside": {"points": 2, "score": 1}})"));
-  EXPECT_NE(out_.str().find("of 5, 4 attainable"), std::string::npos) << out_.str();
+  EXPECT_EQ(result()["attainable"], Json::parse(R"({"points": 1, "score": 0.75, "clearance_m": 0.5,
+                                                    "outside": {"points": 0, "score": 0}})"));
+  EXPECT_NE(out_.str().find("of 5, 1 attainable"), std::string::npos) << out_.str();
+  // The one point was never in a picture.
+  EXPECT_EQ(result()["losses"]["never_in_picture"], (Json{{"points", 1}, {"score", 0.75}}));
+  EXPECT_NE(out_.str().find("lost      never in the picture         0.750       1 points\n"), std::string::npos)
+      << out_.str();
+  EXPECT_TRUE(std::filesystem::exists(*options_.out / "losses.csv"));
   options_.force = true;
   options_.attainable = false;
   EXPECT_EQ(run(), kExitDone);
   EXPECT_TRUE(result()["attainable"]["score"].is_null());
+  EXPECT_TRUE(result()["losses"].is_null());
+  EXPECT_FALSE(std::filesystem::exists(*options_.out / "losses.csv"));
 }
 
 TEST_F(RunCommand, AnExistingResultIsKept) {

@@ -6,16 +6,23 @@
 
 namespace skein::cli {
 
+std::vector<CaptureRow> read_captures(const std::filesystem::path& dir) {
+  std::vector<CaptureRow> captures;
+  for (CsvTable table(dir / "captures.csv"); table.next();) {
+    captures.push_back({table.text("uav"), table.count("capture"), table.number("time_s"),
+                        static_cast<int>(table.number("point")), table.number("q"),
+                        table.number_if_any("delivered_at_s"), table.text("reason"), table.number("q_blur"),
+                        table.number("q_res"), table.number("q_distance")});
+  }
+  return captures;
+}
+
 RunRecord read_run(const std::filesystem::path& dir) {
   RunRecord record;
   record.dir = dir;
   record.result = read_json(dir / "result.json");
   if (!record.result.is_object()) throw std::runtime_error((dir / "result.json").string() + ": is missing or damaged");
-  for (CsvTable table(dir / "captures.csv"); table.next();) {
-    record.captures.push_back({table.text("uav"), table.count("capture"), table.number("time_s"),
-                               static_cast<int>(table.number("point")), table.number("q"),
-                               table.number_if_any("delivered_at_s"), table.text("reason")});
-  }
+  record.captures = read_captures(dir);
   for (CsvTable table(dir / "events.csv"); table.next();) {
     record.events.push_back({table.count("step"), table.text("event"), table.text("subject"), table.text("object")});
   }

@@ -21,6 +21,9 @@ struct CaptureRow {
   double q = 0.0;
   std::optional<double> delivered_at_s;
   std::string reason;  ///< why it does not count; empty when it does
+  double q_blur = 0.0, q_res = 0.0, q_distance = 0.0;
+
+  bool voided() const { return reason == "uav collided"; }
 };
 
 /// One event as the server saw it (events.csv), in force from its step on.
@@ -44,6 +47,9 @@ struct RunRecord {
   std::vector<EventRow> events;      ///< by step
   std::vector<MessageRow> messages;  ///< by step
 };
+
+/// captures.csv of a run. @throws std::runtime_error when a row makes no sense.
+std::vector<CaptureRow> read_captures(const std::filesystem::path& dir);
 
 /// A file that a program left out because it died is read as empty.
 /// @throws std::runtime_error when there is no result.json or a row makes no sense: the fault of the run, not of the user.

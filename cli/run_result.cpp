@@ -158,6 +158,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["score_earned"] = value_or(reports.station, "score_earned", facts.score_earned);
   // The oracle is asked afterwards.
   result["attainable"] = {{"points", nullptr}, {"score", nullptr}};
+  result["losses"] = nullptr;
   result["score_by_uav"] = score_by_uav(scenario, reports.station);
   result["collisions"] = value_or(sim, "collisions", Json::array());
   result["uavs"] = uav_entries(scenario, reports);

@@ -56,6 +56,7 @@ Exposure::Exposure(const CameraState& state, const CameraConfig& camera, double 
       exposure_s_(camera.exposure_s),
       radius_(search_radius(camera, desired_mm_per_pixel)),
       desired_mm_per_pixel_(desired_mm_per_pixel),
+      resolution_distance_(resolution_distance(camera, desired_mm_per_pixel)),
       rule_(rule) {}
 
 Exposure::Exposure(const CameraState& state, const CameraConfig& camera, double desired_mm_per_pixel,
@@ -103,18 +104,23 @@ std::optional<Exposure::PixelPair> Exposure::mm_per_pixel(const Vector3d& p_C, c
 }
 
 double Exposure::blur_quality(const PixelPair& move) const {
+  // A point that is moved into the camera's own plane leaves 0 / 0: it went all over the picture. Comparisons with a
+  // NaN are false, so each of the two is asked for.
+  if (std::isnan(move.u) || std::isnan(move.v)) return 0.0;
   const double pixels = std::max(move.u, move.v);
   return pixels <= 1.0 ? 1.0 : 1.0 / pixels;
 }
 
 double Exposure::resolution_quality(const PixelPair& mm) const {
+  if (std::isnan(mm.u) || std::isnan(mm.v)) return 0.0;
   return std::min(1.0, desired_mm_per_pixel_ / std::max(mm.u, mm.v));
 }
 
 std::optional<PointScore> Exposure::score(const Vector3d& p_C, const Vector3d& n_W) const {
+  if (!(p_C.x() > 0.0)) return std::nullopt;
   const auto mm = mm_per_pixel(p_C, n_W);
   if (!mm) return std::nullopt;
-  return PointScore{blur_quality(pixel_move(p_C)), resolution_quality(*mm)};
+  return PointScore{blur_quality(pixel_move(p_C)), resolution_quality(*mm), distance_quality(p_C.x())};
 }
 
 PointQuality Exposure::evaluate(const Vector3d& p_W, const Vector3d& n_W) const {

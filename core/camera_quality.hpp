@@ -4,6 +4,7 @@
 // where the name says so.  Source: CARIC, the sections on blur and resolution; the contest's formulas in docs/rules.md.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "core/scenario.hpp"
@@ -31,15 +32,18 @@ struct PointQuality {
   bool in_search_radius = false;
   bool in_fov = false;
   double pixel_move_u = 0.0, pixel_move_v = 0.0;         ///< motion during the exposure [pixel]; valid if in_fov
-  double q_blur = 0.0;                                   ///< (0, 1]; valid if in_fov
+  double q_blur = 0.0;                                   ///< [0, 1]; valid if in_fov
   std::optional<double> mm_per_pixel_u, mm_per_pixel_v;  ///< empty: not in the field of view, or too close to resolve
   std::optional<double> q_res;                           ///< [0, 1]
   std::optional<double> score;                           ///< q_blur * q_res, before any threshold
 };
 
-/// The two qualities of a point that the camera sees.
+/// The two qualities of a point that the camera sees. All are numbers: what the formulas leave open counts as 0.
 struct PointScore {
   double q_blur = 0.0, q_res = 0.0;
+  /// What q_res would be of a surface that faces the camera's image plane at the point's depth, in (0, 1]; the rest of
+  /// q_res, q_res / q_distance, is the surface's tilt. That can be above 1: the formula prefers some axes (S4).
+  double q_distance = 0.0;
   double score() const { return q_blur * q_res; }
 };
 
@@ -70,7 +74,7 @@ class Exposure {
   /// radius (border excluded).
   std::optional<Vector3d> view(const Vector3d& p_W) const;
 
-  /// Quality of a point that view() gave; nullopt if the point is too close to resolve.
+  /// Quality of a point that view() gave; nullopt if the point is too close to resolve, or not before the camera.
   /// @param n_W  unit normal of the surface; its sign does not matter.
   std::optional<PointScore> score(const Vector3d& p_C, const Vector3d& n_W) const;
 
@@ -90,6 +94,7 @@ class Exposure {
   std::optional<PixelPair> mm_per_pixel(const Vector3d& p_C, const Vector3d& n_W) const;
   double blur_quality(const PixelPair& move) const;
   double resolution_quality(const PixelPair& mm) const;
+  double distance_quality(double depth) const { return std::min(1.0, resolution_distance_ / depth); }
 
   Matrix3d R_CW_;
   Vector3d p_WC_, v_C_, w_C_;  ///< velocity and angular velocity of the camera, expressed in C
@@ -98,6 +103,7 @@ class Exposure {
   double exposure_s_;
   double radius_;
   double desired_mm_per_pixel_;
+  double resolution_distance_;  ///< of the desired resolution
   ResolutionRule rule_;
 };
 

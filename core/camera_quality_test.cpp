@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/euler.hpp"
+#include "core/random_stream.hpp"
 
 namespace skein {
 namespace {
@@ -102,6 +103,58 @@ TEST(CameraQuality, FastPathAgreesWithTheAudit) {
     EXPECT_DOUBLE_EQ(score ? score->score() : 0.0, quality.score.value_or(0.0));
   }
   EXPECT_GT(seen, 50);
+}
+
+TEST(CameraQuality, DistanceAndTiltAreTheTwoPartsOfTheResolution) {
+  const double d = resolution_distance({}, kDesired);
+  RandomStream random(1, "camera_quality_test", 0);
+  const Exposure exposure({}, {}, kDesired, ResolutionRule::paper);
+  for (int i = 0; i < 500; ++i) {
+    const double depth = random.uniform(1.0, 4.0 * d);
+    const Vector3d p_C = depth * Vector3d(1.0, random.uniform(-0.8, 0.8), random.uniform(-0.5, 0.5));
+    const auto frontal = exposure.score(p_C, Vector3d::UnitX());
+    const auto tilted =
+        exposure.score(p_C, Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized());
+    ASSERT_TRUE(frontal && tilted);
+    // A frontal surface has no tilt, and whatever the tilt the part of the distance is the same.
+    EXPECT_NEAR(frontal->q_res, frontal->q_distance, 1e-6);
+    EXPECT_EQ(tilted->q_distance, frontal->q_distance);
+    EXPECT_NEAR(frontal->q_distance, std::min(1.0, d / depth), 1e-12);
+  }
+}
+
+/// Exposures of 2^-10 s and coordinates of few digits: all that the formulas compute on the way to 0 / 0 is exact.
+TEST(CameraQuality, WhatTheFormulasLeaveOpenNeverPasses) {
+  RandomStream random(2, "camera_quality_test", 0);
+  const auto draw = [&](int until) { return std::floor(random.uniform(-1.0, 1.0) * until) / 16.0; };
+  CameraConfig camera;
+  camera.exposure_s = 1.0 / 1024.0;
+  const double least = RulesConfig{}.min_point_score;
+  for (const auto rule : {ResolutionRule::contest, ResolutionRule::paper}) {
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3d p_C(1.0 + std::abs(draw(64)), draw(8), draw(8));
+      // Moved onto the camera's origin, or into its plane beside or above it.
+      const Vector3d landing =
+          i % 3 == 0 ? Vector3d::Zero().eval() : Vector3d(0.0, i % 3 == 1 ? 0.0 : draw(8), i % 3 == 1 ? draw(8) : 0.0);
+      CameraState state;
+      state.v_WC = 1024.0 * (p_C - landing);
+      const Exposure exposure(state, camera, kDesired, rule);
+      const Vector3d n = i % 5 == 0 ? Vector3d::UnitX().eval() : rotation_z(0.3 * i) * Vector3d::UnitX();
+      const auto moved = exposure.score(p_C, n);
+      ASSERT_TRUE(moved);
+      EXPECT_FALSE(std::isnan(moved->score())) << p_C.transpose();
+      EXPECT_LT(moved->score(), least) << p_C.transpose() << " to " << landing.transpose();
+      // In the camera's own plane, or as near as half a step along the surface, where a corner of it is.
+      for (const Vector3d& degenerate : {Vector3d(0.0, 0.0, 0.0), Vector3d(0.0, p_C.y(), p_C.z()),
+                                         Vector3d(0.0005, 0.0, 0.0005), Vector3d(0.0005, 0.0005, 0.0)}) {
+        for (const Vector3d& normal : {n, Vector3d(0.0, 0.0, 1.0), Vector3d(0.0, 1.0, 0.0), Vector3d(1.0, 0.0, 0.0)}) {
+          const auto score = Exposure(CameraState{}, camera, kDesired, rule).score(degenerate, normal);
+          EXPECT_FALSE(score && std::isnan(score->score())) << degenerate.transpose() << " n " << normal.transpose();
+          EXPECT_FALSE(score && degenerate.x() <= 0.0);
+        }
+      }
+    }
+  }
 }
 
 TEST(CameraState, ViewStaysLevelWhenTheBodyTilts) {

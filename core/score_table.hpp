@@ -14,6 +14,7 @@ namespace skein {
 struct CapturePoint {
   std::uint32_t index = 0;
   float q_blur = 0.0F, q_res = 0.0F, q = 0.0F;
+  float q_distance = 0.0F;  ///< what q_res would be of a surface that faces the camera at this depth
   bool operator==(const CapturePoint&) const = default;
 };
 

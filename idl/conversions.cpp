@@ -327,6 +327,7 @@ msg::CaptureReport to_message(const CaptureReport& report, std::span<const std::
     p.q_blur(point.q_blur);
     p.q_res(point.q_res);
     p.q(point.q);
+    p.q_distance(point.q_distance);
     message.points().push_back(p);
   }
   return message;
@@ -341,7 +342,7 @@ std::optional<CaptureReport> from_message(const msg::CaptureReport& message, std
   report.tick = message.tick();
   report.token = message.token();
   for (const msg::CapturePoint& p : message.points()) {
-    report.points.push_back({p.index(), p.q_blur(), p.q_res(), p.q()});
+    report.points.push_back({p.index(), p.q_blur(), p.q_res(), p.q(), p.q_distance()});
   }
   return report;
 }

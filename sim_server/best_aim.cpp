@@ -29,20 +29,6 @@ double farthest(const CameraConfig& camera, double desired_mm_per_pixel, const R
 
 }  // namespace
 
-std::array<double, 5> CameraKind::essence() const {
-  return {camera.hfov_deg, camera.vfov_deg, camera.focal_length_m, camera.pixel_size_m, gimbal.pitch_limit_deg};
-}
-
-std::vector<CameraKind> camera_kinds(const Scenario& scenario) {
-  std::vector<CameraKind> kinds;
-  for (const UavConfig& uav : scenario.fleet) {
-    const CameraKind kind{uav.vehicle.camera, uav.vehicle.gimbal};
-    const auto same = [&kind](const CameraKind& other) { return other.essence() == kind.essence(); };
-    if (std::ranges::none_of(kinds, same)) kinds.push_back(kind);
-  }
-  return kinds;
-}
-
 /// An aim, as it is searched for.
 struct BestAim::Try {
   double turn = 0.0;  ///< heading, relative to the point's azimuth
@@ -58,9 +44,10 @@ struct BestAim::Try {
 struct BestAim::Heading {
   double yaw;
   Vector3d ray_Y, n_Y;  ///< in the frame Y that has the camera's heading and is level
+  bool allowed;
 
-  Heading(const Vector3d& ray_W, const Vector3d& n_W, double turn)
-      : yaw(wrap_angle(std::atan2(ray_W.y(), ray_W.x()) + turn)) {
+  Heading(const Vector3d& ray_W, const Vector3d& n_W, double turn, const std::function<bool(double)>& is_allowed)
+      : yaw(wrap_angle(std::atan2(ray_W.y(), ray_W.x()) + turn)), allowed(!is_allowed || is_allowed(yaw)) {
     const Matrix3d R_YW = rotation_z(-yaw);
     ray_Y = R_YW * ray_W;
     n_Y = R_YW * n_W;
@@ -77,7 +64,7 @@ BestAim::BestAim(const CameraKind& kind, double desired_mm_per_pixel, const Rule
 
 Aim BestAim::look(const Heading& heading, double lift) const {
   Aim aim{heading.yaw, wrap_angle(lift - std::atan2(heading.ray_Y.z(), heading.ray_Y.x())), 0.0};
-  if (std::abs(lift) > half_vfov_ || std::abs(aim.pitch) > pitch_limit_) return aim;
+  if (!heading.allowed || std::abs(lift) > half_vfov_ || std::abs(aim.pitch) > pitch_limit_) return aim;
   const Matrix3d R_CY = rotation_y(-aim.pitch);
   if (const auto p_C = exposure_.view(R_CY * heading.ray_Y)) {
     if (const auto score = exposure_.score(*p_C, R_CY * heading.n_Y)) aim.q = score->score();
@@ -86,13 +73,14 @@ Aim BestAim::look(const Heading& heading, double lift) const {
 }
 
 /// Climbs from one aim in ever smaller steps of heading and lift.
-BestAim::Try BestAim::climb(const Vector3d& ray_W, const Vector3d& n_W, Try best) const {
+BestAim::Try BestAim::climb(const Vector3d& ray_W, const Vector3d& n_W, const std::function<bool(double)>& allowed,
+                            Try best) const {
   for (double step = 0.5 * kTurnStep; step > kFinest && best.aim.q < 1.0;) {
     const Try centre = best;
     // Where the two resolutions are equal there is a ridge, and on it few directions lead up.
     for (const int side : {-2, -1, 0, 1, 2}) {
       const double turn = centre.turn + side * step;
-      const Heading heading(ray_W, n_W, turn);
+      const Heading heading(ray_W, n_W, turn, allowed);
       for (const int up : {-2, -1, 0, 1, 2}) {
         const double lift = centre.lift + up * step;
         best.improve({turn, lift, look(heading, lift)});
@@ -103,16 +91,16 @@ BestAim::Try BestAim::climb(const Vector3d& ray_W, const Vector3d& n_W, Try best
   return best;
 }
 
-Aim BestAim::find(const Vector3d& ray_W, const Vector3d& n_W) const {
+Aim BestAim::find(const Vector3d& ray_W, const Vector3d& n_W, const std::function<bool(double)>& allowed) const {
   if (ray_W.squaredNorm() >= reach_ * reach_) return {};
-  Try best{0.0, 0.0, look({ray_W, n_W, 0.0}, 0.0)};
+  Try best{0.0, 0.0, look({ray_W, n_W, 0.0, allowed}, 0.0)};
   if (best.aim.q >= 1.0) return best.aim;
   // The quarters of the picture, each with a hill of its own, as the worse of two resolutions counts; and once more
   // for headings away from the point, which show it when it is far below or above.
   std::array<Try, 8> hills;
   for (int i = -kTurns / 2; i < kTurns / 2; ++i) {
     const double turn = i * kTurnStep;
-    const Heading heading(ray_W, n_W, turn);
+    const Heading heading(ray_W, n_W, turn, allowed);
     const Vector3d& ray = heading.ray_Y;
     // Too far to the side, whatever the pitch.
     if (std::abs(ray.y()) > tan_half_hfov_ * std::hypot(ray.x(), ray.z())) continue;
@@ -122,7 +110,7 @@ Aim BestAim::find(const Vector3d& ray_W, const Vector3d& n_W) const {
     }
   }
   for (const Try& hill : hills) {
-    if (hill.aim.q > kHopeful * best.aim.q && best.aim.q < 1.0) best.improve(climb(ray_W, n_W, hill));
+    if (hill.aim.q > kHopeful * best.aim.q && best.aim.q < 1.0) best.improve(climb(ray_W, n_W, allowed, hill));
   }
   return best.aim;
 }

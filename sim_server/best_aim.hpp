@@ -2,25 +2,13 @@
 // Frames: W world, C camera.   Units: SI, radians.
 #pragma once
 
-#include <array>
-#include <vector>
+#include <functional>
 
 #include "core/camera_quality.hpp"
 #include "core/scenario.hpp"
+#include "sim_server/camera_mount.hpp"
 
 namespace skein::sim {
-
-/// A camera and the gimbal that carries it.
-struct CameraKind {
-  CameraConfig camera;
-  GimbalConfig gimbal;
-
-  /// All that matters to a camera that stands still.
-  std::array<double, 5> essence() const;
-};
-
-/// The kinds of camera in a fleet, each once, in fleet order. Pure.
-std::vector<CameraKind> camera_kinds(const Scenario& scenario);
 
 /// Where a camera looks, R_WC = Rz(yaw) Ry(pitch), and the quality that a point then has.
 struct Aim {
@@ -28,7 +16,8 @@ struct Aim {
   double q = 0.0;  ///< 0: the point is too far or too close, or the gimbal cannot show it
 };
 
-/// Aims one kind of camera. The body stands still and may have any heading, so yaw is free; the gimbal limits pitch.
+/// Aims one kind of camera. It stands still; the gimbal limits pitch. The body may have any heading, so yaw is free
+/// unless somebody says which headings are not.
 /// Turning away from the point can pay: resolution counts depth, which is less towards the border of the picture, and
 /// the formula prefers some axes to others (docs/rules.md, S4). Const functions are safe from any thread.
 class BestAim {
@@ -37,8 +26,9 @@ class BestAim {
 
   /// Searches the picture in which the point may lie: a coarse grid, then ever smaller steps from the best of each
   /// quarter, down to a tenth of a degree. Ends early at q = 1.
-  /// @param ray_W  from the camera to the point.   @param n_W  unit normal of the surface.
-  Aim find(const Vector3d& ray_W, const Vector3d& n_W) const;
+  /// @param ray_W    from the camera to the point.   @param n_W  unit normal of the surface.
+  /// @param allowed  which headings of the camera are; empty: all.
+  Aim find(const Vector3d& ray_W, const Vector3d& n_W, const std::function<bool(double yaw)>& allowed = {}) const;
 
   /// Farther points are beyond the search radius, or have no quality that counts in whatever corner of the picture
   /// (0.01, where the rules count less) [m].
@@ -48,7 +38,7 @@ class BestAim {
   struct Try;
   struct Heading;
   Aim look(const Heading& heading, double lift) const;
-  Try climb(const Vector3d& ray_W, const Vector3d& n_W, Try best) const;
+  Try climb(const Vector3d& ray_W, const Vector3d& n_W, const std::function<bool(double)>& allowed, Try best) const;
 
   Exposure exposure_;  ///< at the origin, looking along x: what is judged is turned into its frame
   double pitch_limit_, tan_half_hfov_, half_vfov_, reach_;

@@ -99,16 +99,20 @@ TEST(BestAim, QualityOfWhatIsFacedFallsWithDistanceAndEndsAtTheReach) {
   }
 }
 
-TEST(BestAim, AFleetsCamerasAreTakenOnce) {
-  Scenario scenario;
-  scenario.fleet.resize(4);
-  scenario.fleet[1].vehicle.camera.exposure_s = 0.5;  // a camera that stands still does not care
-  scenario.fleet[2].vehicle.camera.focal_length_m = 0.03;
-  scenario.fleet[3].vehicle.gimbal.pitch_limit_deg = 20.0;
-  const std::vector<CameraKind> kinds = camera_kinds(scenario);
-  ASSERT_EQ(kinds.size(), 3u);
-  EXPECT_EQ(kinds[1].camera.focal_length_m, 0.03);
-  EXPECT_EQ(kinds[2].gimbal.pitch_limit_deg, 20.0);
+TEST(BestAim, KeepsToTheHeadingsThatAreAllowed) {
+  const BestAim camera(CameraKind{}, kDesired, RulesConfig{});
+  const Vector3d ray(6.0, 0.0, -1.0), n_W = -Vector3d::UnitX();
+  const double free = camera.find(ray, n_W).q;
+  const auto beyond = [](double limit) { return [limit](double yaw) { return yaw >= limit; }; };
+  double before = free;
+  for (const double limit : {0.1, 0.3, 0.6}) {
+    const Aim aim = camera.find(ray, n_W, beyond(limit));
+    EXPECT_GE(aim.yaw, limit);
+    EXPECT_GT(aim.q, 0.2);
+    EXPECT_LE(aim.q, before + 1e-9);
+    before = aim.q;
+  }
+  EXPECT_EQ(camera.find(ray, n_W, beyond(0.8)).q, 0.0) << "half the picture is 40 degrees wide";
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ Camera::Camera(const CameraConfig& config, double desired_mm_per_pixel, const Ru
       points_(points),
       uav_(uav),
       interval_(ticks(config.trigger_interval_s)),
-      best_(points.size(), 0.0F) {}
+      best_(points.size(), 0.0F),
+      seen_(points.size(), false) {}
 
 Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world) {
   const Exposure exposure(camera_state(body, gimbal, config_), config_, desired_mm_per_pixel_, rules_);
@@ -63,16 +64,24 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
     }
     const Vector3d p_W = points_[i].p_W.cast<double>();
     const auto p_C = exposure.view(p_W);
-    const auto quality = p_C ? exposure.score(*p_C, points_[i].n_W.cast<double>()) : std::nullopt;
-    // The ray comes last: it costs more than all formulas together.
+    if (!p_C) {
+      continue;
+    }
+    const auto quality = exposure.score(*p_C, points_[i].n_W.cast<double>());
     const double q = quality ? quality->score() : 0.0;
     const bool counts = q > 0.0 && q >= rules_.min_point_score;  // what is no number does not
-    if (!counts || !sees(p_WC, p_W, sees_through, world)) {
+    // The ray comes last: it costs more than all formulas together. Of what does not count it is asked until the point
+    // has been seen once.
+    if ((!counts && seen_[i]) || !sees(p_WC, p_W, sees_through, world)) {
+      continue;
+    }
+    seen_[i] = true;
+    if (!counts) {
       continue;
     }
     const bool improved = static_cast<float>(q) > best_[i];
     best_[i] = std::max(best_[i], static_cast<float>(q));
-    capture.detections.push_back({i, quality->q_blur, quality->q_res, q, best_[i], improved});
+    capture.detections.push_back({i, quality->q_blur, quality->q_res, quality->q_distance, q, best_[i], improved});
   }
   return capture;
 }

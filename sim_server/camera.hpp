@@ -24,7 +24,8 @@ bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, std::size_
 struct Detection {
   std::uint32_t point = 0;  ///< index of the interest point
   double q_blur = 0.0, q_res = 0.0;
-  double q = 0.0;         ///< their product, of this capture
+  double q_distance = 0.0;  ///< what q_res owes to the distance (core/camera_quality.hpp)
+  double q = 0.0;           ///< q_blur * q_res, of this capture
   float best = 0.0F;      ///< best of this UAV so far, this capture included; single as the reference's
   bool improved = false;  ///< this capture raised `best`
 };
@@ -57,6 +58,8 @@ class Camera {
   std::uint64_t captures() const { return next_number_; }
   /// Best score of each interest point so far, 0 when never seen.
   const std::vector<float>& best() const { return best_; }
+  /// Which interest points were ever in the picture and in sight, whatever their quality.
+  const std::vector<bool>& seen() const { return seen_; }
 
   static constexpr double kSurfaceTolerance = 0.025;  ///< [m]
 
@@ -70,6 +73,7 @@ class Camera {
   std::optional<Tick> last_;
   std::uint64_t next_number_ = 0;
   std::vector<float> best_;
+  std::vector<bool> seen_;
 };
 
 }  // namespace skein::sim

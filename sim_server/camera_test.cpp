@@ -175,6 +175,22 @@ TEST_F(CameraAtWall, BlurAndDistanceDropBelowTheThreshold) {
   EXPECT_EQ(c.best()[0], 0.0F);
 }
 
+TEST_F(CameraAtWall, RemembersWhatItSawTooPoorly) {
+  points_.push_back({{5.0F, 0.5F, 9.8F}, {0.0F, 0.0F, 1.0F}});   // edge-on, or nearly
+  points_.push_back({{5.3F, 0.3F, 9.8F}, {-1.0F, 0.0F, 0.0F}});  // behind the wall's surface
+  Camera c = camera();
+  const RayScene w = world();
+  EXPECT_EQ(c.seen(), std::vector<bool>(3, false));
+  EXPECT_TRUE(c.capture(0, body_, {0.0, 1.5, 0.0, 0.0}, w).detections.empty()) << "looks aside";
+  EXPECT_EQ(c.seen(), std::vector<bool>(3, false));
+  body_.v_WB = {0.0, 40.0, 0.0};
+  EXPECT_TRUE(c.capture(41, body_, {}, w).detections.empty()) << "too blurred";
+  EXPECT_EQ(c.seen(), (std::vector<bool>{true, true, false}));
+  body_.v_WB = Vector3d::Zero();
+  EXPECT_EQ(c.capture(82, body_, {}, w).detections.size(), 1U) << "what was seen poorly is asked for again";
+  EXPECT_EQ(c.seen(), (std::vector<bool>{true, true, false}));
+}
+
 TEST_F(CameraAtWall, OthersHide) {
   Camera c = camera();
   RayScene w = world();

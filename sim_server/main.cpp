@@ -29,7 +29,8 @@ struct ServerOptions {
   bool overwrite_export = false;
   bool ground_program = false;
   std::filesystem::path oracle;  ///< file for its answer; empty: it is not asked
-  double clearance_m = skein::sim::OracleConfig{}.clearance_m;
+  std::vector<double> clearances_m;  ///< empty: the usual one
+  bool vehicle = false;              ///< it is the UAVs' bodies that keep them
   std::optional<double> oracle_patience_s;
 };
 
@@ -78,16 +79,21 @@ int export_scene(const skein::Scenario& scenario, const ServerOptions& server) {
 
 int ask_oracle(const skein::Scenario& scenario, const ServerOptions& server) {
   skein::sim::OracleRequest request;
-  request.config.clearance_m = server.clearance_m;
+  request.config.berth = server.vehicle ? skein::sim::Berth::body : skein::sim::Berth::camera;
   request.config.threads = std::max(1U, std::thread::hardware_concurrency());
   request.patience_s = server.oracle_patience_s;
   request.cache = skein::sim::user_cache_folder();
-  const skein::sim::OracleReply reply =
-      skein::sim::ask_oracle(scenario, skein::sim::load_scene(scenario), request);
-  for (const std::string& warning : reply.warnings) spdlog::warn("{}", warning);
-  const nlohmann::ordered_json answer =
-      reply.summary ? to_json(*reply.summary) : nlohmann::ordered_json{{"expected_s", reply.expected_s}};
-  skein::write_file_atomically(server.oracle, answer.dump(2) + "\n");
+  std::vector<double> clearances_m = server.clearances_m;
+  if (clearances_m.empty()) clearances_m = {server.vehicle ? 0.0 : request.config.clearance_m};
+  const skein::Scene scene = skein::sim::load_scene(scenario);
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const double clearance_m : clearances_m) {
+    request.config.clearance_m = clearance_m;
+    const skein::sim::OracleReply reply = skein::sim::ask_oracle(scenario, scene, request);
+    for (const std::string& warning : reply.warnings) spdlog::warn("{}", warning);
+    rows.push_back(reply.summary ? to_json(*reply.summary) : nlohmann::ordered_json{{"expected_s", reply.expected_s}});
+  }
+  skein::write_file_atomically(server.oracle, nlohmann::ordered_json{{"rows", rows}}.dump() + "\n");
   return skein::kExitDone;
 }
 
@@ -147,9 +153,10 @@ int main(int argc, char** argv) {
     app.add_option("--export-scene", server.export_scene, "write the scene's files to this folder, then stop");
     app.add_flag("--overwrite-export", server.overwrite_export, "replace the files of an earlier export");
     app.add_option("--oracle", server.oracle, "write what is attainable in the scenario to this file, then stop");
-    app.add_option("--clearance", server.clearance_m, "with --oracle: of the camera from the structure [m]")
-        ->check(CLI::Range(0.0, 100.0))
-        ->capture_default_str();
+    app.add_option("--clearance", server.clearances_m, "with --oracle: of the cameras from the structure [m]")
+        ->delimiter(',')
+        ->check(CLI::Range(0.0, 100.0));
+    app.add_flag("--vehicle", server.vehicle, "with --oracle: the UAVs' bodies keep the clearance, not their cameras");
     app.add_option("--oracle-patience", server.oracle_patience_s,
                    "with --oracle: no answer that takes longer to compute [s]");
   };

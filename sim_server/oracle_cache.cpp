@@ -6,7 +6,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/sha256.hpp"
-#include "sim_server/best_aim.hpp"
+#include "sim_server/camera_mount.hpp"
 
 namespace skein::sim {
 namespace {
@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 /// Goes up whenever the same question may get another answer: a change in the search, in what counts as visible, or in
 /// a formula.
-constexpr int kOracleVersion = 1;
+constexpr int kOracleVersion = 2;
 
 template <class T>
 void add_bytes(Sha256& hash, const std::vector<T>& values) {
@@ -42,7 +42,7 @@ OracleSummary::Part part_from_json(const Json& json) {
 /// A cached answer with a hash over itself, so that a damaged file is told from a whole one.
 std::string file_content(const std::string& key, const Json& answer) {
   const Json file = {{"key", key}, {"answer", answer}, {"sha256", Sha256().add(key).add(answer.dump()).hex()}};
-  return file.dump(2) + "\n";
+  return file.dump() + "\n";
 }
 
 /// @returns nullopt when there is no such file. @throws std::exception when it is not whole.
@@ -59,28 +59,48 @@ std::optional<OracleSummary> load(const fs::path& file, const std::string& key) 
 
 }  // namespace
 
-OracleSummary summary_of(const OracleReport& report, const OracleConfig& config) {
+OracleSummary summary_of(const OracleReport& report, const OracleConfig& config, double least) {
+  std::vector<float> estimate;
+  for (const PointView& view : report.reachable.best) {
+    estimate.push_back(view.q >= least ? static_cast<float>(view.q) : 0.0F);
+  }
   return {config.clearance_m,
           config.outside_berth_m,
+          config.berth,
           report.reachable.best.size(),
           2 * config.directions,
           {report.reachable.attainable, report.reachable.coarse},
-          {report.outside.attainable, report.outside.coarse}};
+          {report.outside.attainable, report.outside.coarse},
+          std::move(estimate),
+          report.flyable};
 }
 
 Json to_json(const OracleSummary& summary) {
+  std::string flyable;
+  for (const std::uint8_t flag : summary.flyable) flyable += flag != 0 ? '1' : '0';
   return {{"points_total", summary.points_total},
+          {"vehicle", summary.berth == Berth::body},
           {"clearance_m", summary.clearance_m},
           {"outside_berth_m", summary.outside_berth_m},
           {"directions", summary.directions},
           {"reachable", part_to_json(summary.reachable)},
-          {"outside", part_to_json(summary.outside)}};
+          {"outside", part_to_json(summary.outside)},
+          {"estimate", summary.estimate},
+          {"flyable", flyable}};
 }
 
 OracleSummary summary_from_json(const Json& json) {
-  return {json.at("clearance_m").get<double>(),        json.at("outside_berth_m").get<double>(),
-          json.at("points_total").get<std::size_t>(),  json.at("directions").get<std::size_t>(),
-          part_from_json(json.at("reachable")),        part_from_json(json.at("outside"))};
+  OracleSummary summary{json.at("clearance_m").get<double>(),
+                        json.at("outside_berth_m").get<double>(),
+                        json.at("vehicle").get<bool>() ? Berth::body : Berth::camera,
+                        json.at("points_total").get<std::size_t>(),
+                        json.at("directions").get<std::size_t>(),
+                        part_from_json(json.at("reachable")),
+                        part_from_json(json.at("outside")),
+                        json.at("estimate").get<std::vector<float>>(),
+                        {}};
+  for (const char digit : json.at("flyable").get<std::string>()) summary.flyable.push_back(digit == '1' ? 1 : 0);
+  return summary;
 }
 
 std::string oracle_key(const Scenario& scenario, const Scene& scene, const OracleConfig& config) {
@@ -100,8 +120,8 @@ std::string oracle_key(const Scenario& scenario, const Scene& scene, const Oracl
   }
   const RulesConfig& rules = scenario.rules;
   hash.add(scenario.desired_mm_per_pixel).add(rules.unnormalised_displacement).add(rules.limit_search_radius);
-  hash.add(rules.min_point_score);
-  hash.add(config.clearance_m).add(config.outside_berth_m).add(config.directions);
+  hash.add(rules.min_point_score).add(rules.own_body_hides).add(rules.camera_blind_in_structure);
+  hash.add(config.clearance_m).add(config.outside_berth_m).add(config.directions).add(config.berth == Berth::body);
   return hash.hex();
 }
 
@@ -130,7 +150,8 @@ OracleReply ask_oracle(const Scenario& scenario, const Scene& scene, const Oracl
   }
   reply.expected_s = expected_seconds(scenario, scene, request.config);
   if (request.patience_s && reply.expected_s > *request.patience_s) return reply;
-  reply.summary = summary_of(consult_oracle(scenario, scene, request.config), request.config);
+  reply.summary =
+      summary_of(consult_oracle(scenario, scene, request.config), request.config, scenario.rules.min_point_score);
   try {
     if (request.cache) {
       fs::create_directories(*request.cache);

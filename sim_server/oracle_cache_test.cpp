@@ -55,6 +55,8 @@ TEST_F(OracleCache, TheSecondAnswerComesFromTheCache) {
   EXPECT_EQ(*first.summary, *second.summary);
   EXPECT_EQ(first.summary->points_total, 2u);
   EXPECT_EQ(first.summary->reachable.attainable.score, 2.0);
+  EXPECT_EQ(first.summary->estimate, (std::vector<float>{1.0F, 1.0F}));
+  EXPECT_EQ(first.summary->flyable, (std::vector<std::uint8_t>{1, 1}));
   EXPECT_TRUE(first.warnings.empty() && second.warnings.empty());
   EXPECT_EQ(summary_from_json(to_json(*first.summary)), *first.summary);
 }
@@ -63,7 +65,7 @@ TEST_F(OracleCache, ADamagedFileIsToldAndReplaced) {
   const OracleSummary right = *ask().summary;
   const std::string whole = read(file());
   std::string lie = whole;
-  lie.replace(lie.find("\"points_total\": 2"), 17, "\"points_total\": 7");
+  lie.replace(lie.find("\"points_total\":2"), 16, "\"points_total\":7");
   for (const std::string& content : {std::string(), std::string("{"), std::string("[1]"), lie,
                                      whole.substr(0, whole.size() / 2)}) {
     std::ofstream(file()) << content;
@@ -109,6 +111,12 @@ TEST_F(OracleCache, WhateverChangesTheAnswerChangesTheKey) {
       [this] { scenario_.rules.unnormalised_displacement = false; },
       [this] { scenario_.rules.limit_search_radius = false; },
       [this] { scenario_.rules.min_point_score = 0.3; },
+      [this] { scenario_.rules.own_body_hides = false; },
+      [this] { scenario_.rules.camera_blind_in_structure = false; },
+      [this] { scenario_.fleet[0].vehicle.rotor_radius_m = 0.1; },
+      [this] { scenario_.fleet[0].vehicle.camera.p_BC.z() = -0.2; },
+      [this] { scenario_.fleet[0].vehicle.gimbal.yaw_limit_deg = 45.0; },
+      [this] { request_.config.berth = Berth::body; },
       [this] { request_.config.clearance_m = 0.6; },
       [this] { request_.config.outside_berth_m = 3.0; },
       [this] { request_.config.directions = 32; }};

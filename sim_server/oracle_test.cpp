@@ -9,6 +9,7 @@
 #include "core/euler.hpp"
 #include "sim_server/best_aim.hpp"
 #include "sim_server/camera.hpp"
+#include "sim_server/ray_shapes.hpp"
 #include "sim_server/test_scenes.hpp"
 
 namespace skein::sim {
@@ -28,29 +29,55 @@ OracleReport consult(const Scene& scene, double clearance, double desired = 2.0,
   return consult_oracle(photographer(desired), scene, {clearance, 2.5, directions, 1});
 }
 
+/// The level body whose gimbal turns the camera the rest of its heading.
+Isometry3d body_pose(const VehicleConfig& vehicle, const PointView& view) {
+  Isometry3d X_WB = Isometry3d::Identity();
+  X_WB.linear() = rotation_z(view.yaw - view.gimbal_yaw);
+  X_WB.translation() = view.p_WC - X_WB.linear() * vehicle.camera.p_BC;
+  return X_WB;
+}
+
+/// Whether that body is in the way of a ray from its camera.
+bool own_body_hides(const VehicleConfig& vehicle, const Isometry3d& X_WB, const Vector3d& p_WC, const Vector3d& p_W) {
+  Body body(body_shape(vehicle));
+  body.X_BW = X_WB.inverse();
+  return body.distance({p_WC, (p_W - p_WC).normalized()}) < kInfinity;
+}
+
+bool arm_is_free(const VehicleConfig& vehicle, const PointView& view, const RayScene& world) {
+  return !world.first_hit_distance(body_pose(vehicle, view).translation(), view.p_WC, {.ground = false});
+}
+
 /// A capture by the production camera from where the oracle says: the same point, the same quality.
 double captured(const Scenario& scenario, const Scene& scene, const RayScene& world, std::size_t point,
                 const PointView& view) {
   const VehicleConfig& vehicle = scenario.fleet[0].vehicle;
   RigidBodyState body;
-  const Matrix3d R_WB = rotation_z(view.yaw);
-  body.q_WB = R_WB;
-  body.p_WB = view.p_WC - R_WB * vehicle.camera.p_BC;
+  const Isometry3d X_WB = body_pose(vehicle, view);
+  body.q_WB = Quaterniond(X_WB.linear());
+  body.p_WB = X_WB.translation();
   Camera camera(vehicle.camera, scenario.desired_mm_per_pixel, scenario.rules, scene.points, 0);
-  for (const Detection& seen : camera.capture(0, body, {view.pitch, 0.0, 0.0, 0.0}, world).detections) {
+  for (const Detection& seen : camera.capture(0, body, {view.pitch, view.gimbal_yaw, 0.0, 0.0}, world).detections) {
     if (seen.point == point) return seen.q;
   }
   return 0.0;
 }
 
-void expect_true(const Scenario& scenario, const Scene& scene, const OracleReport& report, double clearance) {
+void expect_true(const Scenario& scenario, const Scene& scene, const OracleReport& report, double clearance,
+                 Berth berth = Berth::camera) {
   const RayScene world(scene.mesh);
   for (const OracleAnswer* answer : {&report.reachable, &report.outside}) {
     for (std::size_t i = 0; i < scene.points.size(); ++i) {
       const PointView& view = answer->best[i];
       if (view.q < scenario.rules.min_point_score) continue;
       EXPECT_NEAR(captured(scenario, scene, world, i, view), view.q, 1e-6) << i;
-      EXPECT_GE(world.clearance(view.p_WC), clearance) << i;
+      const VehicleConfig& vehicle = scenario.fleet[0].vehicle;
+      const Isometry3d X_WB = body_pose(vehicle, view);
+      EXPECT_LE(std::abs(view.gimbal_yaw), vehicle.gimbal.yaw_limit_deg * kRadPerDeg) << i;
+      EXPECT_FALSE(own_body_hides(vehicle, X_WB, view.p_WC, scene.points[i].p_W.cast<double>())) << i;
+      EXPECT_TRUE(arm_is_free(vehicle, view, world)) << i;
+      const Vector3d keeps_clear = berth == Berth::camera ? view.p_WC : X_WB.translation();
+      EXPECT_GE(world.clearance(keeps_clear), clearance - 1e-9) << i;
       EXPECT_GE(view.p_WC.z(), 0.0) << i;
     }
   }
@@ -178,15 +205,20 @@ TEST(Oracle, BruteForceFindsNothingBetter) {
       walled_in = walled_in && world.first_hit(p_WC, way, 50.0).has_value();
     }
     if (walled_in) continue;
+    const VehicleConfig& vehicle = scenario.fleet[0].vehicle;
+    const PointView view{p_WC, random.uniform(-3.14, 3.14), random.uniform(-1.39, 1.39),
+                         0.0,  random.uniform(-1.57, 1.57), 0};
+    const Isometry3d X_WB = body_pose(vehicle, view);
     CameraState state;
     state.X_WC.translation() = p_WC;
-    state.X_WC.linear() = rotation_z(random.uniform(-3.14, 3.14)) * rotation_y(random.uniform(-1.39, 1.39));
+    state.X_WC.linear() = rotation_z(view.yaw) * rotation_y(view.pitch);
     const Exposure exposure(state, CameraConfig{}, 1.0, scenario.rules);
     for (std::size_t p = 0; p < scene.points.size(); ++p) {
       const Vector3d p_W = scene.points[p].p_W.cast<double>();
       const auto p_C = exposure.view(p_W);
       const auto score = p_C ? exposure.score(*p_C, scene.points[p].n_W.cast<double>()) : std::nullopt;
-      if (score && score->score() > best[p] && in_sight(p_WC, p_W, kNobody, world)) best[p] = score->score();
+      if (!score || score->score() <= best[p] || own_body_hides(vehicle, X_WB, p_WC, p_W)) continue;
+      if (in_sight(p_WC, p_W, kNobody, world)) best[p] = score->score();
     }
   }
   int seen = 0;
@@ -212,6 +244,100 @@ TEST(Oracle, MoreClearanceNeverHelpsAndMoreDirectionsNeverHarm) {
     EXPECT_LE(report.reachable.attainable.points, before.points) << clearance;
     before = report.reachable.attainable;
   }
+}
+
+TEST(Oracle, TheOwnBodyHidesAndIsTurnedOutOfTheWay) {
+  const Scene scene = clutter();
+  Scenario with = photographer(1.0), without = with;
+  without.rules.own_body_hides = false;
+  const OracleConfig config{0.5, 2.5, 64, 2};
+  const OracleReport hidden = consult_oracle(with, scene, config), open = consult_oracle(without, scene, config);
+  const VehicleConfig& vehicle = with.fleet[0].vehicle;
+  int through_body = 0, turned = 0;
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    const PointView& view = open.reachable.best[i];
+    EXPECT_LE(hidden.reachable.best[i].q, view.q + 0.02) << i;
+    if (view.q <= 0.0) continue;
+    through_body +=
+        own_body_hides(vehicle, body_pose(vehicle, view), view.p_WC, scene.points[i].p_W.cast<double>()) ? 1 : 0;
+    turned += std::abs(hidden.reachable.best[i].gimbal_yaw) > 0.2 ? 1 : 0;
+  }
+  EXPECT_GT(through_body, 3) << "else this scene shows nothing";
+  EXPECT_GT(turned, 0);
+  expect_true(with, scene, hidden, config.clearance_m);
+}
+
+TEST(Oracle, NoCameraReachesThroughTheStructure) {
+  const Scene scene = clutter();
+  Scenario blind = photographer(1.0), sees = blind;
+  sees.rules.camera_blind_in_structure = false;
+  const OracleConfig config{0.05, 2.5, 64, 2};
+  const RayScene world(scene.mesh);
+  const OracleReport through = consult_oracle(sees, scene, config);
+  int reached_through = 0;
+  for (const PointView& view : through.reachable.best) {
+    if (view.q > 0.0 && !arm_is_free(sees.fleet[0].vehicle, view, world)) ++reached_through;
+  }
+  EXPECT_GT(reached_through, 0) << "else this scene shows nothing";
+  expect_true(blind, scene, consult_oracle(blind, scene, config), config.clearance_m);
+}
+
+/// The small hexarotor's body.
+Scenario small_photographer(double desired_mm_per_pixel) {
+  Scenario scenario = photographer(desired_mm_per_pixel);
+  VehicleConfig& vehicle = scenario.fleet[0].vehicle;
+  vehicle.arm_m = 0.2156;
+  vehicle.rotor_radius_m = 0.1;
+  vehicle.rotor_height_m = 0.037;
+  vehicle.collision_box_m = {0.1, 0.1, 0.16};
+  return scenario;
+}
+
+TEST(Oracle, AVehicleNeedsRoomForItself) {
+  const Scene scene = shaft(1.0);
+  OracleConfig config{0.0, 2.5, 64, 1};
+  config.berth = Berth::body;
+  // It is 1.27 m across and looks in from above, the small one is 0.64 m across and flies in.
+  const Scenario large = photographer(1.0), small = small_photographer(1.0);
+  const OracleReport from_above = consult_oracle(large, scene, config),
+                     from_within = consult_oracle(small, scene, config);
+  const auto radius = [](const Scenario& scenario) { return Body(body_shape(scenario.fleet[0].vehicle)).radius; };
+  for (const PointView& view : from_above.reachable.best) {
+    EXPECT_GE(body_pose(large.fleet[0].vehicle, view).translation().z(), 10.0);
+    EXPECT_LT(view.q, 1.0);
+  }
+  EXPECT_DOUBLE_EQ(from_within.reachable.attainable.score, 2.0);
+  expect_true(large, scene, from_above, radius(large), Berth::body);
+  expect_true(small, scene, from_within, radius(small), Berth::body);
+  expect_true(photographer(1.0), clutter(), consult_oracle(photographer(1.0), clutter(), config),
+              radius(photographer(1.0)), Berth::body);
+}
+
+/// A room with a square window, and points on the wall beside it that only who is inside can see.
+Scene room_with_window(double width) {
+  Scene scene;
+  const double side = 0.5 * (6.0 - width);
+  for (const double sign : {-1.0, 1.0}) {
+    test::add_box(scene.mesh, {0.0, 0.0, 5.0 + sign * 3.1}, {6.4, 6.4, 0.2});
+    test::add_box(scene.mesh, {0.0, sign * 3.1, 5.0}, {6.4, 0.2, 6.0});
+    test::add_box(scene.mesh, {3.1, sign * 0.5 * (width + side), 5.0}, {0.2, side, 6.0});
+    test::add_box(scene.mesh, {3.1, 0.0, 5.0 + sign * 0.5 * (width + side)}, {0.2, width, side});
+  }
+  test::add_box(scene.mesh, {-3.1, 0.0, 5.0}, {0.2, 6.4, 6.0});
+  for (const double y : {-2.0, 2.0}) scene.points.push_back(point_at({3.0, y, 5.0}, Vector3d::UnitX()));
+  scene.points.push_back(point_at({3.2, 2.0, 5.0}, Vector3d::UnitX()));
+  return scene;
+}
+
+TEST(Oracle, WhatOnlyACameraGetsToIsToldApart) {
+  const auto flyable = [](const Scenario& scenario, double width) {
+    const OracleReport report = consult_oracle(scenario, room_with_window(width), {0.3, 2.5, 64, 1});
+    EXPECT_EQ(report.reachable.attainable.points, 3u) << "a camera passes 1.2 m";
+    return report.flyable;
+  };
+  EXPECT_EQ(flyable(photographer(2.0), 1.2), (std::vector<std::uint8_t>{0, 0, 1}));
+  EXPECT_EQ(flyable(photographer(2.0), 3.0), (std::vector<std::uint8_t>{1, 1, 1}));
+  EXPECT_EQ(flyable(small_photographer(2.0), 1.2), (std::vector<std::uint8_t>{1, 1, 1}));
 }
 
 TEST(Oracle, TheAnswerDependsOnNothingButTheQuestion) {

@@ -28,7 +28,8 @@ std::optional<CaptureReport> Referee::enter(std::size_t uav, const Capture& capt
   for (const Detection& detection : capture.detections) {
     if (detection.improved) {
       entry.capture.points.push_back({detection.point, static_cast<float>(detection.q_blur),
-                                      static_cast<float>(detection.q_res), static_cast<float>(detection.q)});
+                                      static_cast<float>(detection.q_res), static_cast<float>(detection.q),
+                                      static_cast<float>(detection.q_distance)});
     }
   }
   earned_.add(entry.capture);

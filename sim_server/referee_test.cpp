@@ -10,7 +10,7 @@ namespace skein::sim {
 namespace {
 
 Detection detection(std::uint32_t point, double q, bool improved) {
-  return {point, 1.0, q, q, static_cast<float>(q), improved};
+  return {point, 1.0, q, 0.5 + 0.5 * q, q, static_cast<float>(q), improved};
 }
 
 Capture capture(Tick tick, std::vector<Detection> detections) { return {tick, 0, std::move(detections)}; }
@@ -22,7 +22,7 @@ TEST(Referee, EntersOnlyWhatImproved) {
   EXPECT_TRUE(referee.ledger().empty());
   const auto report = referee.enter(0, capture(123, {detection(3, 0.5, false), detection(7, 0.75, true)}));
   ASSERT_TRUE(report);
-  EXPECT_EQ(report->points, (std::vector<CapturePoint>{{7, 1.0F, 0.75F, 0.75F}}));
+  EXPECT_EQ(report->points, (std::vector<CapturePoint>{{7, 1.0F, 0.75F, 0.75F, 0.875F}}));
   EXPECT_EQ(report->tick, 123);
   ASSERT_EQ(referee.ledger().size(), 1U);
   EXPECT_EQ(referee.ledger()[0].capture, *report);

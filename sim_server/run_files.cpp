@@ -110,6 +110,9 @@ void RunFiles::write_report(const Simulation& simulation, const RunSummary& summ
   json["wall_time_s"] = summary.wall_time_s;
   json["rules"] = scenario_.rules.preset;
   json["points_total"] = simulation.scene().points.size();
+  std::string seen;  // a digit for each point
+  for (const bool flag : simulation.points_seen()) seen += flag ? '1' : '0';
+  json["points_seen"] = seen;
   json["collisions"] = nlohmann::json::array();
   for (const Collision& c : summary.collisions) {
     json["collisions"].push_back({{"time_s", seconds(c.tick)},

@@ -369,6 +369,14 @@ const StepEvents& Simulation::events() const { return impl_->events; }
 const Referee& Simulation::referee() const { return impl_->referee; }
 const Scene& Simulation::scene() const { return impl_->scene; }
 
+std::vector<bool> Simulation::points_seen() const {
+  std::vector<bool> seen(impl_->scene.points.size(), false);
+  for (const Uav& uav : impl_->uavs) {
+    for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = seen[i] || uav.camera.seen()[i];
+  }
+  return seen;
+}
+
 DigestInput Simulation::digest_input() const {
   DigestInput input;
   input.k = impl_->step;

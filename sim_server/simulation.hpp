@@ -125,6 +125,8 @@ class Simulation {
   const std::vector<std::uint8_t>& open_links() const;
   const StepEvents& events() const;
   const Referee& referee() const;
+  /// By interest point: whether it was ever in a picture and in sight, whatever its quality.
+  std::vector<bool> points_seen() const;
   const Scene& scene() const;
   /// This step for the digest; radio and tally are the caller's to fill in.
   DigestInput digest_input() const;

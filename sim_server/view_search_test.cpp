@@ -10,6 +10,11 @@
 namespace skein::sim {
 namespace {
 
+std::vector<Viewer> a_camera(double clearance) {
+  const CameraKind kind;
+  return {{BestAim(kind, 2.0, RulesConfig{}), CameraMount(kind, true), clearance, {}}};
+}
+
 TEST(SphereDirection, CoversTheSphereEvenlyAtEveryLength) {
   RandomStream random(1, "view_search_test", 0);
   for (const std::size_t count : {64u, 100u, 256u, 1000u}) {
@@ -36,8 +41,8 @@ TEST(ViewSearch, FindsASmallHole) {
       test::add_box(mesh, {4.0, 0.0, 30.0 + sign * 0.5 * (hole + side)}, {0.02, hole, side});
     }
     const RayScene world(mesh);
-    const std::vector<BestAim> cameras = {BestAim(CameraKind{}, 2.0, RulesConfig{})};
-    const ViewSearch search(world, cameras, 0.6, {});
+    const std::vector<Viewer> cameras = a_camera(0.6);
+    const ViewSearch search(world, cameras, Berth::camera, true);
     int found = 0;
     for (const double y : {-0.6, -0.3, 0.0, 0.3, 0.6}) {
       const InterestPoint point{{5.0F, static_cast<float>(y), 30.0F}, {-1.0F, 0.0F, 0.0F}};
@@ -55,13 +60,27 @@ TEST(ViewSearch, FindsASmallHole) {
   }
 }
 
+TEST(ViewSearch, WhatIsEnoughEndsTheSearch) {
+  TriangleMesh mesh;
+  test::add_box(mesh, {5.5, 0.0, 10.0}, {1.0, 20.0, 18.0});
+  const RayScene world(mesh);
+  // So far away that nothing is perfect.
+  const std::vector<Viewer> cameras = a_camera(9.0);
+  const ViewSearch search(world, cameras, Berth::camera, true);
+  const InterestPoint point{{5.0F, 0.0F, 10.0F}, {-1.0F, 0.0F, 0.0F}};
+  const double best = search.find(point, 64, {}).fine.q, enough = search.find(point, 64, {}, 0.2).fine.q;
+  EXPECT_LT(best, 1.0);
+  EXPECT_GE(enough, 0.2);
+  EXPECT_LT(enough, best);
+}
+
 TEST(ViewSearch, WhatIsKnownIsNotLost) {
   const RayScene world(TriangleMesh{});
-  const std::vector<BestAim> cameras = {BestAim(CameraKind{}, 2.0, RulesConfig{})};
-  const ViewSearch search(world, cameras, 0.5, {});
+  const std::vector<Viewer> cameras = a_camera(0.5);
+  const ViewSearch search(world, cameras, Berth::camera, true);
   const InterestPoint in_the_air{{0.0F, 0.0F, 10.0F}, {1.0F, 0.0F, 0.0F}};  // on no surface: never seen
   EXPECT_EQ(search.find(in_the_air, 16, {}).fine.q, 0.0);
-  const ViewSearch::Found known{{{1.0, 2.0, 3.0}, 0.1, 0.2, 0.5}, {{1.0, 2.0, 4.0}, 0.1, 0.2, 0.6}};
+  const ViewSearch::Found known{{{1.0, 2.0, 3.0}, 0.1, 0.2, 0.5, 0.0, 0}, {{1.0, 2.0, 4.0}, 0.1, 0.2, 0.6, 0.0, 0}};
   EXPECT_EQ(search.find(in_the_air, 16, known).coarse.q, 0.5);
   EXPECT_EQ(search.find(in_the_air, 16, known).fine.p_WC, Vector3d(1.0, 2.0, 4.0));
 }

@@ -78,6 +78,7 @@ Bytes encode(const TallyRecord& record) {
     put(body, point.q_blur);
     put(body, point.q_res);
     put(body, point.q);
+    put(body, point.q_distance);
   }
   return body;
 }
@@ -101,6 +102,7 @@ std::optional<TallyRecord> decode(std::span<const std::uint8_t> body) {
     point.q_blur = cursor.get_float();
     point.q_res = cursor.get_float();
     point.q = cursor.get_float();
+    point.q_distance = cursor.get_float();
     entry.capture.points.push_back(point);
   }
   if (!cursor.ok() || cursor.left() > 0) return std::nullopt;

@@ -43,7 +43,8 @@ std::vector<TallyRecord> some_records(std::size_t count) {
     TallyRecord record{static_cast<Tick>(20 * i), {i, static_cast<Tick>(20 * i) - 7, i % 5, i % 4 == 3, {}}};
     if (!record.entry.collision) {
       record.entry.capture = {i % 5, i, record.entry.tick, ~std::uint64_t{i}, {}};
-      for (std::uint32_t p = 0; p < i; ++p) record.entry.capture.points.push_back({p << 20, 0.1F * p, 0.3F, 0.7F});
+      for (std::uint32_t p = 0; p < i; ++p)
+        record.entry.capture.points.push_back({p << 20, 0.1F * p, 0.3F, 0.7F, 0.9F});
     }
     records.push_back(record);
   }

@@ -40,13 +40,14 @@ std::string reason(const Scoreboard& scoreboard, const LedgerEntry& entry, const
 
 std::string captures_csv(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names) {
   std::ostringstream text = number_stream();
-  text << "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q,delivered_at_s,reason\n";
+  text << "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q_distance,q,delivered_at_s,reason\n";
   for (const LedgerEntry& entry : scoreboard.ledger()) {
     if (entry.collision) continue;
     const Audit audit = scoreboard.audit(entry);
     for (const CapturePoint& point : entry.capture.points) {
       text << uav_names[entry.uav] << ',' << entry.capture.capture << ',' << entry.tick << ',' << seconds(entry.tick)
-           << ',' << point.index << ",1," << point.q_blur << ',' << point.q_res << ',' << point.q << ',';
+           << ',' << point.index << ",1," << point.q_blur << ',' << point.q_res << ',' << point.q_distance << ','
+           << point.q << ',';
       if (audit.delivered) text << seconds(*audit.delivered);
       text << ',' << reason(scoreboard, entry, point, audit) << '\n';
     }

@@ -20,7 +20,7 @@ std::string read(const fs::path& file) {
 /// One capture of each fate: it counts, another is better, never received, altered, of a UAV that collided.
 Scoreboard eventful_run() {
   Scoreboard score(3, 10, RulesConfig{});
-  const CaptureReport counts{0, 0, 100, 11, {{2, 1.0F, 0.75F, 0.75F}}};
+  const CaptureReport counts{0, 0, 100, 11, {{2, 1.0F, 0.75F, 0.75F, 0.875F}}};
   const CaptureReport worse{1, 0, 110, 12, {{2, 0.5F, 1.0F, 0.5F}}};
   const CaptureReport kept{1, 1, 150, 13, {{4, 1.0F, 0.5F, 0.5F}}};
   CaptureReport altered{1, 2, 160, 14, {{5, 1.0F, 0.25F, 0.25F}}};
@@ -52,12 +52,12 @@ class StationReport : public testing::Test {
 
 TEST_F(StationReport, TheAuditSaysWhatBecameOfEachCapture) {
   EXPECT_EQ(read(folder_ / "captures.csv"),
-            "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q,delivered_at_s,reason\n"
-            "jurong,0,100,0.25,2,1,1,0.75,0.75,0.45,\n"
-            "raffles,0,110,0.275,2,1,0.5,1,0.5,0.45,better capture\n"
-            "raffles,1,150,0.375,4,1,1,0.5,0.5,,not received\n"
-            "raffles,2,160,0.4,5,1,1,0.25,0.25,,refused: altered\n"
-            "changi,0,170,0.425,6,1,1,1,1,0.45,uav collided\n");
+            "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q_distance,q,delivered_at_s,reason\n"
+            "jurong,0,100,0.25,2,1,1,0.75,0.875,0.75,0.45,\n"
+            "raffles,0,110,0.275,2,1,0.5,1,0,0.5,0.45,better capture\n"
+            "raffles,1,150,0.375,4,1,1,0.5,0,0.5,,not received\n"
+            "raffles,2,160,0.4,5,1,1,0.25,0,0.25,,refused: altered\n"
+            "changi,0,170,0.425,6,1,1,1,0,1,0.45,uav collided\n");
 }
 
 TEST_F(StationReport, TheTimelineFallsAtACollision) {

@@ -238,6 +238,12 @@ void FleetTest::expect_complete_result(const SkeinRun& run) {
   if (!result["score"].is_null() && by_uav > 0.0) {
     EXPECT_NEAR(by_uav, result["score"].get<double>(), 1e-9);
   }
+  // What was lost is the difference to what could be had, to the last bit.
+  double lost = 0.0;
+  for (const auto& [cause, sum] : result["losses"].items()) lost += sum["score"].get<double>();
+  if (!result["losses"].is_null()) {
+    EXPECT_EQ(lost, result["attainable"]["score"].get<double>() - result["score"].get<double>());
+  }
   if (!result["deterministic"]) {
     EXPECT_TRUE(result["digest"].is_null()) << result["digest"];
   }

@@ -108,6 +108,32 @@ class Results : public FleetTest {
     EXPECT_EQ(best.size(), result_["points_detected"].get<std::size_t>());
   }
 
+  /// Every point's loss has one cause; line by line they are what result.json says.
+  void check_losses() const {
+    SCOPED_TRACE("losses.csv");
+    ASSERT_TRUE(result_["losses"].is_object()) << result_["warnings"];
+    std::map<std::string, std::pair<std::size_t, double>> sums;
+    double estimate = 0.0, scored = 0.0;
+    std::size_t attainable = 0;
+    for (const Row& row : csv("losses.csv")) {
+      EXPECT_EQ(number(row, "loss"), number(row, "estimate") - number(row, "score"));
+      estimate += number(row, "estimate");
+      scored += number(row, "score");
+      attainable += number(row, "estimate") > 0.0;
+      auto& [points, score] = sums[row.at("cause")];
+      ++points;
+      score += number(row, "loss");
+    }
+    EXPECT_EQ(estimate, result_["attainable"]["score"].get<double>());
+    EXPECT_EQ(attainable, result_["attainable"]["points"].get<std::size_t>());
+    EXPECT_EQ(scored, score());
+    for (const auto& [cause, sum] : result_["losses"].items()) {
+      EXPECT_EQ(sums[cause].first, sum["points"].get<std::size_t>()) << cause;
+      EXPECT_EQ(sums[cause].second, sum["score"].get<double>()) << cause;
+    }
+    EXPECT_GT(result_["losses"]["never_in_picture"]["points"], 0);
+  }
+
   void check_steps() const {
     SCOPED_TRACE("digests.csv");
     const auto digests = csv("digests.csv");
@@ -142,6 +168,7 @@ TEST_F(Results, AllFilesAgree) {
   check_result();
   check_scores();
   check_captures();
+  check_losses();
   check_steps();
   check_trajectories();
 }
