@@ -81,14 +81,14 @@ BodyHeadings CameraMount::clear_headings(const Vector3d& ray_W) const {
   return headings;
 }
 
-std::optional<double> CameraMount::body_yaw(const BodyHeadings& headings, double camera_yaw) const {
-  std::optional<double> best;
+std::optional<std::size_t> CameraMount::nearest_heading(const BodyHeadings& headings, double camera_yaw) const {
+  std::optional<std::size_t> best;
   double least_turn = yaw_limit_;
   for (std::size_t i = 0; i < BodyHeadings::kCount; ++i) {
     if (!headings.allowed[i]) continue;
     const double turn = std::abs(wrap_angle(camera_yaw - headings.yaw(i)));
     if (turn > least_turn || (best && turn == least_turn)) continue;
-    best = headings.yaw(i);
+    best = i;
     least_turn = turn;
   }
   return best;

@@ -53,7 +53,7 @@ class CameraMount {
 
   /// The allowed heading of the body that turns the gimbal least when the camera has a heading; nullopt when none is
   /// within the gimbal's limit.
-  std::optional<double> body_yaw(const BodyHeadings& headings, double camera_yaw) const;
+  std::optional<std::size_t> nearest_heading(const BodyHeadings& headings, double camera_yaw) const;
 
   /// Centre of the body whose camera is at a place.
   Vector3d body_centre(const Vector3d& p_WC, double body_yaw) const;

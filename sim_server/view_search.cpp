@@ -19,6 +19,7 @@ constexpr double kNearest = 2.0 * Camera::kSurfaceTolerance;
 constexpr double kLiftOff = 0.03;
 constexpr double kLeastStep = 0.05;  ///< along a direction that runs beside the structure [m]
 constexpr double kBodyStep = 0.1;    ///< along a direction where the body fits with no heading [m]
+constexpr std::size_t kHeadingsApart = 4;  ///< of the body's, which are tried on the way to a place
 constexpr double kReachStep = 0.5;   ///< along a direction where the camera is out of reach [m]
 constexpr int kHalvings = 4;         ///< of the last such step
 constexpr double kFinestTurn = 1.0 * kRadPerDeg;
@@ -125,7 +126,7 @@ double ViewSearch::body_lacks(const Look& look, const Vector3d& p_WC, double& op
   if (room < needed) openness = std::max(openness, room / needed);
   if (lacking > 0.0) return std::max(lacking, kLeastStep);
   if (room >= needed && !is_within(spaces, mean)) return kReachStep;
-  for (std::size_t i = 0; i < BodyHeadings::kCount; ++i) {
+  for (std::size_t i = 0; i < BodyHeadings::kCount; i += kHeadingsApart) {
     if (look.headings.allowed[i] && fits(look.viewer, p_WC, look.headings.yaw(i))) return 0.0;
   }
   return kBodyStep;
@@ -177,19 +178,32 @@ BodyHeadings ViewSearch::fitting(const Look& look, const Vector3d& p_WC) const {
   return headings;
 }
 
+/// Of the headings with which the body fits, the one that turns the gimbal least.
+std::optional<double> ViewSearch::fitting_yaw(const Look& look, const Vector3d& p_WC, BodyHeadings headings,
+                                              double camera_yaw) const {
+  while (const auto nearest = look.viewer.mount.nearest_heading(headings, camera_yaw)) {
+    const double yaw = headings.yaw(*nearest);
+    if (fits(look.viewer, p_WC, yaw)) return yaw;
+    headings.allowed.reset(*nearest);
+  }
+  return std::nullopt;
+}
+
 /// Takes the best picture from a place if it is better than `best`.
 /// @param aim  the best aim whatever the body's heading.
 void ViewSearch::take_picture(const Look& look, const Vector3d& p_WC, const Vector3d& n_W, Aim aim,
                               PointView& best) const {
   if (aim.q <= best.q) return;
   const CameraMount& mount = look.viewer.mount;
-  const BodyHeadings headings =
-      heading_matters(look.viewer) ? fitting(look, p_WC) : mount.clear_headings(-look.direction);
-  auto body_yaw = mount.body_yaw(headings, aim.yaw);
+  const bool placed = heading_matters(look.viewer);
+  const BodyHeadings headings = placed ? look.headings : mount.clear_headings(-look.direction);
+  auto body_yaw = fitting_yaw(look, p_WC, headings, aim.yaw);
   if (!body_yaw) {
-    const auto allowed = [&](double camera_yaw) { return mount.body_yaw(headings, camera_yaw).has_value(); };
+    const BodyHeadings left = placed ? fitting(look, p_WC) : headings;
+    if (left.allowed.none()) return;
+    const auto allowed = [&](double camera_yaw) { return mount.nearest_heading(left, camera_yaw).has_value(); };
     aim = look.viewer.aim.find(look.p_W - p_WC, n_W, allowed);
-    body_yaw = mount.body_yaw(headings, aim.yaw);
+    body_yaw = fitting_yaw(look, p_WC, left, aim.yaw);
   }
   if (body_yaw && aim.q > best.q) {
     best = {p_WC,

@@ -2,6 +2,7 @@
 // Frames: W world, ground z = 0; C camera.   Units: SI, radians.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim_server/best_aim.hpp"
@@ -52,6 +53,8 @@ class ViewSearch {
   double body_lacks(const Look& look, const Vector3d& p_WC, double& openness) const;
   bool heading_matters(const Viewer& viewer) const;
   bool fits(const Viewer& viewer, const Vector3d& p_WC, double body_yaw) const;
+  std::optional<double> fitting_yaw(const Look& look, const Vector3d& p_WC, BodyHeadings headings,
+                                    double camera_yaw) const;
   BodyHeadings fitting(const Look& look, const Vector3d& p_WC) const;
   void take_picture(const Look& look, const Vector3d& p_WC, const Vector3d& n_W, Aim aim, PointView& best) const;
   void refine(const InterestPoint& point, double step, Best& best) const;

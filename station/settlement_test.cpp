@@ -50,8 +50,8 @@ TEST_F(Settlement, TheJournalIsTheReport) {
   EXPECT_FALSE(report().contains("score_earned")) << "only the ledger knows";
   EXPECT_EQ(report()["reports_received"], 3);
   const std::string captures = text("captures.csv");
-  EXPECT_NE(captures.find("a,0,200,0.5,1,1,0.5,1,0.5,0.5,better capture\n"), std::string::npos) << captures;
-  EXPECT_NE(captures.find("b,4,900,2.25,2,1,0.25,1,0.25,2.25,\n"), std::string::npos) << captures;
+  EXPECT_NE(captures.find("a,0,200,0.5,1,1,0.5,1,0,0.5,0.5,better capture\n"), std::string::npos) << captures;
+  EXPECT_NE(captures.find("b,4,900,2.25,2,1,0.25,1,0,0.25,2.25,\n"), std::string::npos) << captures;
   EXPECT_NE(text("score_timeline.csv").find("2.25,2,1\n"), std::string::npos) << text("score_timeline.csv");
 }
 
