@@ -38,6 +38,10 @@ std::vector<double> CameraKind::essence() const {
   std::vector<double> all(seen.begin(), seen.end());
   all.insert(all.end(), {gimbal.yaw_limit_deg, camera.p_BC.x(), camera.p_BC.y(), camera.p_BC.z(), body.box_m.x(),
                          body.box_m.y(), body.box_m.z(), body.arm_m, body.rotor_radius_m, body.rotor_height_m});
+  for (const BodyBox& link : body.links) {
+    all.insert(all.end(), link.p_B.begin(), link.p_B.end());
+    all.insert(all.end(), link.edges_m.begin(), link.edges_m.end());
+  }
   return all;
 }
 
@@ -67,7 +71,9 @@ bool CameraMount::hides(const Vector3d& ray_W, double body_yaw) const {
 BodyHeadings CameraMount::clear_headings(const Vector3d& ray_W) const {
   BodyHeadings headings{std::atan2(ray_W.y(), ray_W.x()), {}};
   // A camera below its body that does not look up has nothing of it before it.
-  const bool below = p_BC_.z() < std::min(-0.5 * body_.shape.box_m.z(), body_.shape.rotor_height_m);
+  double lowest = std::min(-0.5 * body_.shape.box_m.z(), body_.shape.rotor_height_m);
+  for (const BodyBox& link : body_.shape.links) lowest = std::min(lowest, link.p_B.z() - 0.5 * link.edges_m.z());
+  const bool below = p_BC_.z() < lowest;
   if (!body_hides_ || (below && ray_W.z() <= 0.0)) {
     headings.allowed.set();
     return headings;

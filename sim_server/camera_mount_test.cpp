@@ -69,15 +69,27 @@ TEST(CameraMount, TurnsTheGimbalNoMoreThanItMust) {
   EXPECT_GT(refused, 100);
 }
 
+TEST(CameraMount, AnythingFixedToTheBodyHides) {
+  VehicleConfig vehicle;
+  vehicle.links.push_back({.name = "tank", .p_BL = {0.5, 0.0, -0.5}, .box_m = Vector3d(0.1, 0.1, 0.1)});  // before the camera
+  const CameraMount mount({vehicle.camera, vehicle.gimbal, body_shape(vehicle)}, true);
+  const Vector3d ray = Vector3d(0.3, 0.0, -0.2).normalized();  // down, from the camera to it
+  EXPECT_TRUE(mount.hides(ray, 0.0));
+  EXPECT_FALSE(mount.hides(ray, 1.0));
+  EXPECT_FALSE(mount.clear_headings(ray).allowed.all());
+  EXPECT_TRUE(mount.clear_headings(ray).allowed.any());
+}
+
 TEST(CameraKind, AFleetsCamerasAreTakenOnce) {
   Scenario scenario;
-  scenario.fleet.resize(5);
+  scenario.fleet.resize(6);
   scenario.fleet[1].vehicle.camera.exposure_s = 0.5;  // a camera that stands still does not care
   scenario.fleet[2].vehicle.camera.focal_length_m = 0.03;
   scenario.fleet[3].vehicle.gimbal.pitch_limit_deg = 20.0;
   scenario.fleet[4].vehicle.rotor_radius_m = 0.1;
+  scenario.fleet[5].vehicle.links.push_back({.name = "tank", .p_BL = {0.3, 0.0, -0.5}, .box_m = Vector3d(0.1, 0.1, 0.1)});
   const std::vector<CameraKind> kinds = camera_kinds(scenario);
-  ASSERT_EQ(kinds.size(), 4u);
+  ASSERT_EQ(kinds.size(), 5u);
   EXPECT_EQ(kinds[1].camera.focal_length_m, 0.03);
   EXPECT_EQ(kinds[2].gimbal.pitch_limit_deg, 20.0);
 }
