@@ -15,8 +15,12 @@ std::optional<CaptureRow> best_of(const std::vector<CaptureRow>& captures, const
   return best == nullptr ? std::nullopt : std::optional(*best);
 }
 
-bool better(const std::optional<CaptureRow>& capture, float score) {
-  return capture && static_cast<float>(capture->q) > score;
+/// Whether a better picture was had, and that it does not count costs at least as much as what it lacked itself. Of a
+/// point that scored nothing it always does.
+bool is_to_blame(const std::optional<CaptureRow>& lost, const PointRecord& point) {
+  if (!lost) return false;
+  const double q = static_cast<float>(lost->q), score = point.score;
+  return q > score && (score == 0.0 || q - score >= point.estimate - q);
 }
 
 /// What is worst about a picture.
@@ -41,10 +45,10 @@ PointLoss loss_of(const PointRecord& point) {
   if (result.loss == 0.0) return result;
   if (result.loss < 0.0) {
     result.cause = LossCause::above_estimate;
-  } else if (better(earned, point.score)) {
+  } else if (is_to_blame(earned, point)) {
     result.cause = LossCause::not_delivered;
     result.best = earned;
-  } else if (better(voided, point.score)) {
+  } else if (is_to_blame(voided, point)) {
     result.cause = LossCause::voided;
     result.best = voided;
   } else if (result.best) {

@@ -51,11 +51,14 @@ PointRecord drawn_point(RandomStream& random) {
 /// Whether a cause is what happened, said in other words than the code's.
 bool is_true(const PointRecord& point, LossCause cause) {
   const auto any = [&](const auto& has) { return std::any_of(point.captures.begin(), point.captures.end(), has); };
-  const bool better_lost = any([&](const CaptureRow& row) {
-    return !row.delivered_at_s && !row.voided() && static_cast<float>(row.q) > point.score;
-  });
-  const bool better_voided =
-      any([&](const CaptureRow& row) { return row.voided() && static_cast<float>(row.q) > point.score; });
+  // With it, the point would have come at least half of the way from its score to its estimate.
+  const auto mattered = [&](const CaptureRow& row) {
+    const float q = static_cast<float>(row.q);
+    return q > point.score && (point.score == 0.0F || 2.0 * q >= static_cast<double>(point.estimate) + point.score);
+  };
+  const bool better_lost =
+      any([&](const CaptureRow& row) { return !row.delivered_at_s && !row.voided() && mattered(row); });
+  const bool better_voided = any([&](const CaptureRow& row) { return row.voided() && mattered(row); });
   const bool quality = point.score > 0.0F && !better_lost && !better_voided;
   const bool lost = point.estimate > point.score;
   switch (cause) {
