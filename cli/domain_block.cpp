@@ -30,9 +30,9 @@ int open_lock_file(const std::filesystem::path& file) {
 
 DomainBlock::DomainBlock(std::optional<int> base, int size, const std::filesystem::path& lock_dir) {
   const int last_base = kLastDomain - size + 1;
-  if (last_base < 0) {
+  if (last_base < kFirstDomain) {
     throw InputError("the fleet needs " + std::to_string(size) + " DDS domains; Skein has " +
-                     std::to_string(kLastDomain + 1));
+                     std::to_string(kLastDomain - kFirstDomain + 1));
   }
   if (base) {
     if (*base < 0 || *base > last_base) {
@@ -46,7 +46,7 @@ DomainBlock::DomainBlock(std::optional<int> base, int size, const std::filesyste
     }
     return;
   }
-  for (int candidate = 0; candidate <= last_base; ++candidate) {
+  for (int candidate = kFirstDomain; candidate <= last_base; ++candidate) {
     if (try_lock(candidate, size, lock_dir)) return;
   }
   throw InputError("no " + std::to_string(size) + " DDS domains in a row are free; other fleets of this host use them");

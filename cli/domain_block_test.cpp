@@ -11,10 +11,10 @@ namespace {
 TEST(DomainBlock, TheFirstFreeBlockIsTaken) {
   const ScratchDir locks;
   const DomainBlock a(std::nullopt, 7, locks.path()), b(std::nullopt, 3, locks.path());
-  EXPECT_EQ(a.base(), 0);
-  EXPECT_EQ(a.last(), 6);
-  EXPECT_EQ(b.base(), 7);
-  EXPECT_EQ(b.last(), 9);
+  EXPECT_EQ(a.base(), 1) << "0 is ROS 2's default domain";
+  EXPECT_EQ(a.last(), 7);
+  EXPECT_EQ(b.base(), 8);
+  EXPECT_EQ(b.last(), 10);
 }
 
 TEST(DomainBlock, ABlockIsFreeAgainAfterItsEnd) {
@@ -29,20 +29,21 @@ TEST(DomainBlock, AnyOverlapIsRefused) {
   for (int base = 6; base <= 14; ++base) EXPECT_THROW(DomainBlock(base, 5, locks.path()), InputError) << base;
   EXPECT_EQ(DomainBlock(5, 5, locks.path()).base(), 5);
   EXPECT_EQ(DomainBlock(15, 5, locks.path()).base(), 15);
-  EXPECT_EQ(DomainBlock(std::nullopt, 11, locks.path()).base(), 15) << "0..9 are too few";
+  EXPECT_EQ(DomainBlock(std::nullopt, 10, locks.path()).base(), 15) << "1..9 are too few";
 }
 
 TEST(DomainBlock, TheRangeIsChecked) {
   const ScratchDir locks;
   EXPECT_THROW(DomainBlock(-1, 5, locks.path()), InputError);
+  EXPECT_EQ(DomainBlock(0, 5, locks.path()).base(), 0) << "whoever asks for it gets it";
   EXPECT_THROW(DomainBlock(kLastDomain - 3, 5, locks.path()), InputError);
   EXPECT_EQ(DomainBlock(kLastDomain - 4, 5, locks.path()).last(), kLastDomain);
-  EXPECT_THROW(DomainBlock(std::nullopt, kLastDomain + 2, locks.path()), InputError);
+  EXPECT_THROW(DomainBlock(std::nullopt, kLastDomain + 1, locks.path()), InputError);
 }
 
 TEST(DomainBlock, AFullHostIsRefused) {
   const ScratchDir locks;
-  const DomainBlock all(std::nullopt, kLastDomain + 1, locks.path());
+  const DomainBlock all(std::nullopt, kLastDomain, locks.path());
   EXPECT_THROW(DomainBlock(std::nullopt, 1, locks.path()), InputError);
 }
 
