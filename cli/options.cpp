@@ -114,6 +114,7 @@ CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
   command->add_option("--scene-seed", oracle.scene_seed, "Which scene of a procedural family")
       ->check(CLI::Validator(check_seed, ""));
   command->add_option("--assets", oracle.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--rules", oracle.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
   command
       ->add_option("--clearance", oracle.clearances_m,
                    "Of the cameras from the structure [m] (default 0.5); several as 0.5,0.8,1.2 make a table")

@@ -74,6 +74,7 @@ struct OracleOptions {
   std::string scenario;
   std::optional<std::uint64_t> scene_seed;
   std::optional<std::filesystem::path> assets;
+  std::optional<std::string> rules;  ///< a preset, instead of the scenario's
   std::vector<double> clearances_m;  ///< instead of the oracle's own
   bool vehicle = false;              ///< the UAVs' bodies keep them, not the cameras
   bool outside_only = false;

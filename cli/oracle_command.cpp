@@ -22,6 +22,7 @@ struct Question {
   std::string scenario;
   std::optional<std::uint64_t> scene_seed;
   std::optional<std::filesystem::path> assets;
+  std::optional<std::string> rules;
   std::vector<double> clearances_m;  ///< empty: the oracle's own
   bool vehicle = false;
   std::optional<double> patience_s;
@@ -39,6 +40,7 @@ Asked ask(const Question& question) {
   std::vector<std::string> argv = {program_dir() / "sim_server", "--scenario", question.scenario, "--oracle", answer};
   if (question.scene_seed) argv.insert(argv.end(), {"--scene-seed", std::to_string(*question.scene_seed)});
   if (question.assets) argv.insert(argv.end(), {"--assets", *question.assets});
+  if (question.rules) argv.insert(argv.end(), {"--rules", *question.rules});
   std::string clearances;
   for (const double clearance_m : question.clearances_m)
     clearances += (clearances.empty() ? "" : ",") + number_text(clearance_m);
@@ -111,13 +113,14 @@ Json attainable_from(const Json& answer) {
 }
 
 AttainableAnswer attainable_of(const RunOptions& run) try {
-  const Asked asked = ask({run.scenario, run.scene_seed, run.assets, {}, false, kPatienceS});
+  const Asked asked = ask({run.scenario, run.scene_seed, run.assets, run.rules, {}, false, kPatienceS});
   if (!asked.exit.ok()) return {nullptr, nullptr, "the oracle failed: " + asked.exit.text() + "\n" + asked.said};
   if (asked.answers.empty()) return {};
   const Json attainable = attainable_from(asked.answers.front());
   if (attainable.is_null()) {
     return {nullptr, nullptr,
-            "what is attainable here takes a while to compute: `skein oracle " + run.scenario + "` does it once"};
+            "what is attainable here takes a while to compute: `skein oracle " + run.scenario +
+                (run.rules ? " --rules " + *run.rules : "") + "` does it once"};
   }
   return {attainable, asked.answers.front(), ""};
 } catch (const Interrupted&) {
@@ -150,7 +153,7 @@ void print_oracle(std::ostream& out, const std::string& scenario, const Json& an
 
 int consult_oracle(const OracleOptions& options, const Console& console) {
   const Asked asked =
-      ask({options.scenario, options.scene_seed, options.assets, options.clearances_m, options.vehicle, {}});
+      ask({options.scenario, options.scene_seed, options.assets, options.rules, options.clearances_m, options.vehicle, {}});
   if (asked.exit.code == kExitBadInput) throw InputError(asked.said);
   if (!asked.exit.ok() || asked.answers.empty()) {
     throw std::runtime_error("sim_server --oracle ended with " + asked.exit.text() + "\n" + asked.said);

@@ -68,6 +68,20 @@ TEST_F(OracleCommand, PrintsBothAnswersOrOne) {
   EXPECT_NE(out_.str().find("less than 5 m wide"), std::string::npos);
 }
 
+TEST_F(OracleCommand, ARunIsEstimatedByItsOwnRules) {
+  answer(rows({kAnswer}));
+  RunOptions flown = run_of("mbs");
+  flown.rules = "paper";
+  attainable_of(flown);
+  EXPECT_NE(arguments().find("--rules paper"), std::string::npos) << arguments();
+  options_.rules = "reference";
+  EXPECT_EQ(run(), 0);
+  EXPECT_NE(arguments().find("--rules reference"), std::string::npos) << arguments();
+  options_.rules.reset();
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(arguments().find("--rules"), std::string::npos) << arguments();
+}
+
 TEST_F(OracleCommand, HandsOnWhatItIsAskedAndPrintsJson) {
   answer(rows({kAnswer}));
   options_.scene_seed = 4;
