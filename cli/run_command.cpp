@@ -44,6 +44,7 @@ class FleetRun {
  public:
   FleetRun(const FleetPlan& plan, const Console& console)
       : plan_(plan), orders_(supervisor_), view_(console.err, console.terminal) {
+    plan_.run = draw_run_id();
     facts_.scenario = plan.options.scenario;
     facts_.seed = plan.options.seed;
     facts_.planners = plan.planners;
@@ -237,7 +238,7 @@ class FleetRun {
     view_.message(text);
   }
 
-  const FleetPlan& plan_;
+  FleetPlan plan_;
   Supervisor supervisor_;
   ProcessOrders orders_;
   ProgressView view_;

@@ -164,11 +164,18 @@ TEST(RouterSync, AnyOrderOfArrivalGivesTheSameBatches) {
         }
       }
       ASSERT_TRUE(batch) << "seed " << seed << " step " << k << ": "
-                         << (sync.waiting_for().empty() ? "?" : sync.waiting_for().front());
+                         << (sync.awaited().empty() ? "?" : sync.awaited().front().what);
       ASSERT_EQ(batch->k, k);
       ASSERT_EQ(describe(*batch), round.expected) << "seed " << seed << " step " << k;
     }
   }
+}
+
+void expect_awaited(const RouterSync& sync, const std::string& member, const std::string& what) {
+  const std::vector<AwaitedMember> awaited = sync.awaited();
+  ASSERT_EQ(awaited.size(), 1U);
+  EXPECT_EQ(awaited[0].member.name, member);
+  EXPECT_EQ(awaited[0].what, what);
 }
 
 TEST(RouterSync, TheNextStepsSamplesMayComeBeforeItsStep) {
@@ -184,13 +191,13 @@ TEST(RouterSync, TheNextStepsSamplesMayComeBeforeItsStep) {
   sync.on_radio(7, 1, payload("b"));
   sync.on_step(1, 0, {{"uav1", 7, 1}}, {});
   EXPECT_FALSE(sync.take());
-  EXPECT_EQ(sync.waiting_for(), std::vector<std::string>{"uav1: rt/x 2 of 3"});
+  expect_awaited(sync, "uav1", "rt/x 2 of 3");
   sync.on_radio(7, 1, payload("c"));
   sync.on_radio(7, 1, payload("d"));  // beyond the count: of the next step
   ASSERT_EQ(describe(*sync.take()), (std::vector<std::string>{"1#1:b", "1#2:c"}));
 
   sync.on_step(2, 0, {{"uav1", 7, 1}}, {});
-  EXPECT_EQ(sync.waiting_for(), std::vector<std::string>{"uav1: done"});
+  expect_awaited(sync, "uav1", "done");
   sync.on_done(7, 2, {{"rt/x", 4}});
   ASSERT_EQ(describe(*sync.take()), std::vector<std::string>{"1#3:d"});
 }
@@ -235,6 +242,31 @@ TEST(RouterSync, AStrangerCannotFillTheMemoryNorSpeakLater) {
   const std::optional<StepBatch> batch = sync.take();
   ASSERT_TRUE(batch);
   EXPECT_TRUE(batch->messages.empty());
+}
+
+TEST(RouterSync, ARouteThatIsBoundToAMemberIsNotOpenToItsNeighbour) {
+  std::vector<RadioRoute> routes = some_routes();
+  routes[0].member = "station";  // "/x" of the ground station, where two programs are
+  RouterSync sync(routes);
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    sync.on_radio(66, 0, payload("forged"));  // in the first step before it is a member
+    sync.on_radio(7, 0, payload("true"));
+    sync.on_step(k, 0, {{"gcs", 66, 0}, {"station", 7, 0}}, {});
+    sync.on_done(66, k, {{"rt/x", 9 * (k + 1)}});  // nor is it waited for
+    sync.on_done(7, k, {{"rt/x", k + 1}});
+    const std::optional<StepBatch> batch = sync.take();
+    ASSERT_TRUE(batch) << k;
+    EXPECT_EQ(describe(*batch), std::vector<std::string>{"0#" + std::to_string(k) + ":true"});
+  }
+}
+
+TEST(RouterSync, AMemberThatNeverAnnouncesCannotFillTheMemory) {
+  const std::vector<RadioRoute> routes = some_routes();
+  RouterSync sync(routes);
+  const Payload sample = payload("spam");
+  sync.on_step(0, 0, {{"uav1", 7, 1}}, {});
+  for (int i = 0; i < 100000; ++i) sync.on_radio(7, 1, sample);
+  EXPECT_LT(sample.use_count(), 10000) << "so many of them are kept";
 }
 
 }  // namespace
