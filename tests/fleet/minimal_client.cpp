@@ -262,12 +262,12 @@ class Client {
 int main(int argc, char** argv) {
   const char *domain = std::getenv("SKEIN_DOMAIN"), *uav = std::getenv("SKEIN_UAV"), *vendor = std::getenv("SKEIN_DDS"),
              *run = std::getenv("SKEIN_RUN");
-  if (domain == nullptr || uav == nullptr || vendor == nullptr || run == nullptr) {
-    std::cerr << "usage: SKEIN_RUN=N SKEIN_DOMAIN=N SKEIN_UAV=NAME SKEIN_DDS=VENDOR minimal_client [boast|smuggle|forge]\n";
+  if (domain == nullptr || uav == nullptr || vendor == nullptr) {
+    std::cerr << "usage: [SKEIN_RUN=N] SKEIN_DOMAIN=N SKEIN_UAV=NAME SKEIN_DDS=VENDOR minimal_client [boast|smuggle|forge]\n";
     return 2;
   }
   const char* security = std::getenv("SKEIN_SECURITY");  // set with --secure
   const auto bus = skein::bus::make_bus({.vendor = vendor, .security = security != nullptr ? security : ""});
   const auto participant = bus->join(std::atoi(domain));
-  return Client(*participant, std::strtoull(run, nullptr, 10), uav, argc > 1 ? argv[1] : "").run();
+  return Client(*participant, run != nullptr ? std::strtoull(run, nullptr, 10) : 0, uav, argc > 1 ? argv[1] : "").run();
 }
