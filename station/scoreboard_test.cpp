@@ -173,6 +173,15 @@ TEST(Scoreboard, ALedgerThatContradictsItselfOrTheRunIsAnError) {
   EXPECT_THROW(score.end_step(20, 2), std::logic_error);
 }
 
+TEST(Scoreboard, AJournalThatNamesWhatDoesNotExistIsAnError) {
+  Scoreboard score = board();
+  EXPECT_THROW(score.restore({20, entry(0, capture(9, 0, 10, {}))}), std::invalid_argument);
+  EXPECT_THROW(score.restore({20, entry(0, capture(0, 0, 10, {point(kPoints, 0.5F)}))}), std::invalid_argument);
+  EXPECT_THROW(score.restore({20, collision(0, kUavs, 10)}), std::invalid_argument);
+  EXPECT_EQ(score.reports_received(), 0U);
+  EXPECT_EQ(score.delivered().score(), 0.0);
+}
+
 /// A random run: a ledger, and for each step the entries that stand and the reports that come in.
 struct Mission {
   struct Step {
@@ -254,6 +263,8 @@ TEST(Scoreboard, AStationThatWasKilledGoesOnAsIfNothingHadHappened) {
       if (s % 13 == 7) {
         killed = board();
         for (const TallyRecord& record : journal) killed.restore(record);
+        const auto reported = [](const TallyRecord& record) { return !record.entry.collision; };
+        EXPECT_EQ(killed.reports_received(), std::ranges::count_if(journal, reported));
         for (const LedgerEntry& known : run.ledger) killed.add_entry(known);
       }
       const Mission::Step& step = run.steps[s];
