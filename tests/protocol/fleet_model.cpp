@@ -351,12 +351,15 @@ bool FleetModel::all_finished() const {
 
 std::string FleetModel::run() {
   constexpr std::size_t kQuiet = 200;  // polls of everybody without anything new: nobody will ever move again
-  std::size_t quiet = 0;
+  constexpr std::size_t kStill = 10;   // the same, before what is held back happens
+  std::size_t quiet = 0, still = 0;
   while (!all_finished()) {
     ++events_;
     kill_and_notice();
-    const auto events = network_.events();
+    auto events = network_.events();
     quiet = events.empty() ? quiet + 1 : 0;
+    if (still < kStill * processes_.size()) std::erase_if(events, [&](const auto& event) { return held_back(event); });
+    still = events.empty() ? still + 1 : 0;
     if (quiet > kQuiet * processes_.size()) {
       std::string text = static_cast<ServerProcess&>(*processes_.at("server")).awaits() + "\n";
       for (const auto& [name, process] : processes_) {
@@ -373,6 +376,13 @@ std::string FleetModel::run() {
     carry_out_faults();
   }
   return {};
+}
+
+// One kind of event, of some topics: another one in every schedule.
+bool FleetModel::held_back(const SimNetwork::Event& event) const {
+  if (!options_.slow) return false;
+  const std::uint64_t drawn = *options_.slow;
+  return static_cast<std::uint64_t>(event.kind) == drawn % 3 && fnv1a(drawn, network_.topic_of(event)) % 4 == 0;
 }
 
 void FleetModel::poll_one() {

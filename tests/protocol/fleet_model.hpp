@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -58,6 +59,8 @@ struct FleetOptions {
   bool restart = false;          ///< and to start again
   std::uint64_t kill_after = 0;  ///< events
   ProcessFault fault = {};
+  /// Matches or samples of some topics, drawn with this number, come only when nothing else moves any more.
+  std::optional<std::uint64_t> slow = {};
 };
 
 /// Runs one schedule to its end.
@@ -86,6 +89,7 @@ class FleetModel {
   void kill_and_notice();
   void carry_out_faults();
   void poll_one();
+  bool held_back(const SimNetwork::Event& event) const;
   bool all_finished() const;
 
   FleetOptions options_;
