@@ -98,6 +98,12 @@ TEST(Scoreboard, EveryChangeOfAReportIsRefused) {
     for (const Refusal reason : {Refusal::unknown, Refusal::borrowed, Refusal::altered}) {
       EXPECT_EQ(score.refused(reason), reason == cases[i].reason ? 1U : 0U) << i << to_string(reason);
     }
+    // Who looks up the capture that the report claims finds why it was refused; a token that is unknown claims none.
+    const std::size_t claimed = cases[i].report.token == of_another.token ? 0 : 1;
+    for (std::size_t known = 0; known < 2; ++known) {
+      const bool told = cases[i].reason != Refusal::unknown && known == claimed;
+      EXPECT_EQ(score.audit(score.ledger()[known]).refused, told ? std::optional(cases[i].reason) : std::nullopt) << i;
+    }
     // The genuine one counts all the same.
     score.add_report(1, genuine);
     EXPECT_TRUE(score.end_step(300, 2).score_changed) << i;

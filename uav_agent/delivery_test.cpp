@@ -184,6 +184,7 @@ class AtThePlace : public FarOut {
  protected:
   AtThePlace() {
     PlannerOutput out;
+    delivery_.update(input({-30.0, 20.0, 20.0}, false, 500.0), 40.0);
     delivery_.begin(input({-30.0, 20.0, 20.0}, false, 500.0), {}, 12.0, out);
     place_ = goal_of(out);
   }
@@ -215,20 +216,26 @@ TEST_F(AtThePlace, StaysForAsLongAsItHasALinkAndSomethingToDeliver) {
   }
 }
 
-TEST_F(AtThePlace, WithoutALinkItTriesOnePlaceAfterTheOther) {
-  std::vector<Vector3d> places = {place_};
-  for (int trip = 0; trip < 3; ++trip) {
+TEST_F(AtThePlace, WithoutALinkItTriesOnePlaceAfterTheOtherAndThenHighAboveAll) {
+  const std::vector<Vector3d> expected = delivery_places(agent_, FreeSpace({}, boxes_, map_), 12.0);
+  ASSERT_GT(expected.size(), 3U);
+  std::vector<Vector3d> tried = {place_};
+  while (tried.size() < expected.size() + 2) {
     int steps = 0;
     PlannerOutput out;
     while (!std::holds_alternative<Path>(out.motion) && ++steps < 200) {
       out = {};
       ASSERT_FALSE(step(false, 1, 500.0, out));
     }
-    EXPECT_NEAR(0.05 * steps, 4.0, 0.2) << "so long it waits for a link";
+    ASSERT_NEAR(0.05 * steps, 4.0, 0.2) << "so long it waits for a link";
     place_ = goal_of(out);
-    for (const Vector3d& before : places) EXPECT_GT((place_ - before).norm(), 1.0);
-    places.push_back(place_);
+    tried.push_back(place_);
   }
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(tried[i], expected[i]) << i;
+  const Vector3d& high = tried[expected.size()];
+  EXPECT_EQ(high.head<2>(), agent_.station_position.head<2>());
+  EXPECT_GT(high.z(), 40.0) << "the top of all structure";
+  EXPECT_EQ(tried.back(), expected.front()) << "and from the beginning again";
 }
 
 TEST_F(AtThePlace, AMomentsLinkBeginsTheWaitAnew) {
