@@ -47,11 +47,13 @@ std::vector<std::uint8_t> random_links(std::mt19937& random) {
   return links;
 }
 
-/// Late by the sequence number modulo 3; every seventh message is lost.
+/// Late by the sequence number modulo 3; of eleven messages two are lost, one does not fit, three come twice.
 class LateLinks final : public LinkModel {
  public:
   LinkFate fate(std::uint64_t, const RadioRoute&, Node, const RadioMessage& message) override {
-    return {message.sequence % 7 == 6 ? LinkLoss::fault : LinkLoss::none, message.sequence % 3};
+    const std::uint64_t n = message.sequence % 11;
+    const LinkLoss loss = n == 6 || n == 9 ? LinkLoss::fault : (n == 8 ? LinkLoss::overflow : LinkLoss::none);
+    return {loss, message.sequence % 3, n >= 3 && n < 6 ? 2 : 1};
   }
 };
 
@@ -109,21 +111,32 @@ TEST(LinkGate, CountsAddUpOnEveryLink) {
     gate.gate(k, random_links(random), messages);
   }
   for (std::uint64_t k = 100; k < 103; ++k) gate.gate(k, kNoneLinked, {});  // what is late comes in
-  std::uint64_t sent = 0;
+  LinkCounts sum;
   for (Node from = 0; from < kNodes; ++from) {
     for (Node to = 0; to < kNodes; ++to) {
       const LinkCounts& link = gate.counts(from, to);
-      EXPECT_EQ(link.sent, link.delivered + link.dropped_no_los + link.dropped_fault);
+      const std::uint64_t lost = link.dropped_no_los + link.dropped_fault + link.dropped_overflow;
+      EXPECT_EQ(link.sent + link.duplicated, link.delivered + lost);
       EXPECT_EQ(link.sent > 0, from != to);
       EXPECT_EQ(link.sent_bytes, link.sent) << "of one byte each";
       EXPECT_EQ(link.delivered_bytes, link.delivered);
-      sent += link.sent;
+      sum.sent += link.sent;
+      sum.delivered += link.delivered;
+      sum.dropped_no_los += link.dropped_no_los;
+      sum.dropped_fault += link.dropped_fault;
+      sum.dropped_overflow += link.dropped_overflow;
+      sum.duplicated += link.duplicated;
+      sum.sent_bytes += link.sent_bytes;
+      sum.delivered_bytes += link.delivered_bytes;
     }
   }
-  EXPECT_EQ(gate.total().sent, sent);
-  EXPECT_EQ(gate.total().sent_bytes, sent);
-  EXPECT_EQ(gate.total().delivered_bytes, gate.total().delivered);
-  EXPECT_GT(gate.total().dropped_fault, 0U);
+  EXPECT_EQ(gate.total(), sum);
+  // Each counter is of the size that the model makes it, so that none counts in place of another.
+  const double passed = static_cast<double>(sum.sent - sum.dropped_no_los);
+  EXPECT_NEAR(static_cast<double>(sum.dropped_no_los), 0.5 * static_cast<double>(sum.sent), 0.1 * passed);
+  EXPECT_NEAR(static_cast<double>(sum.dropped_fault), passed * 2.0 / 11.0, 0.03 * passed);
+  EXPECT_NEAR(static_cast<double>(sum.dropped_overflow), passed / 11.0, 0.03 * passed);
+  EXPECT_NEAR(static_cast<double>(sum.duplicated), passed * 3.0 / 11.0, 0.03 * passed);
 }
 
 TEST(LinkGate, ADelayedMessageKeepsTheLinkItWasSentOn) {

@@ -12,15 +12,17 @@ namespace {
 constexpr Node kA = 1, kB = 2;
 constexpr std::uint64_t kSeed = 7;
 
-Scenario two_uavs() {
+Scenario fleet_of(const std::vector<std::string>& names) {
   Scenario scenario;
-  for (const char* name : {"a", "b"}) {
+  for (const std::string& name : names) {
     UavConfig uav;
     uav.name = name;
     scenario.fleet.push_back(uav);
   }
   return scenario;
 }
+
+Scenario two_uavs() { return fleet_of({"a", "b"}); }
 
 const RadioRoute kRoute{kA, "/x", "std_msgs/msg/String", "rt/x", "std_msgs::msg::dds_::String_", {{kB, "rt/x/b"}}};
 
@@ -71,6 +73,30 @@ TEST(LinkStages, ActsOnItsLinkAndInItsWindowOnly) {
   for (std::uint64_t k = 0; k < 60; ++k) {
     EXPECT_EQ(stages.fate(k, kRoute, kB, message(k)).loss == LinkLoss::fault, k >= 20 && k < 40) << k;
     EXPECT_EQ(stages.fate(k, back, kA, message(k)).loss, LinkLoss::none) << k;
+  }
+}
+
+TEST(LinkStages, ActsOnAllLinksThatItNamesAndOnNoOther) {
+  const Scenario scenario = fleet_of({"a", "b", "c"});
+  const std::vector<std::vector<std::string>> groups = {{"all"}, {"a"}, {"gcs"}, {"b", "c"}, {"gcs", "a", "c"}};
+  for (const auto& from : groups) {
+    for (const auto& to : groups) {
+      LinkEffect effect;
+      effect.from = from;
+      effect.to = to;
+      effect.loss = 1.0;
+      LinkStages stages(scenario, plan_of(effect), kSeed);
+      for (Node source = 0; source < 4; ++source) {
+        for (Node target = 0; target < 4; ++target) {
+          if (source == target) continue;
+          RadioRoute route = kRoute;
+          route.source = source;
+          const bool named = names_node(from, scenario.node_name(source)) && names_node(to, scenario.node_name(target));
+          EXPECT_EQ(stages.fate(0, route, target, message(0)).loss != LinkLoss::none, named)
+              << from[0] << " to " << to[0] << ": " << scenario.node_name(source) << scenario.node_name(target);
+        }
+      }
+    }
   }
 }
 

@@ -165,5 +165,37 @@ TEST_F(Registry, MoreTargetsMayBeAddedAndTheSourceIsTheAsker) {
   EXPECT_EQ(table_.routes().back().targets.size(), 2U) << "a refused request changes nothing";
 }
 
+TEST_F(Registry, WhoIsLostWhileTheOthersAreAwaitedIsForgotten) {
+  step({sending(kA, 1), listening(kB, 1)});
+  step();
+  hears_.clear();
+  registry_.begin_step({sending(kB, 2)});
+  EXPECT_TRUE(registry_.waiting());
+  lost_ = {kB};
+  EXPECT_FALSE(registry_.waiting());
+  const auto replies = registry_.end_step();
+  ASSERT_EQ(replies.size(), 1U) << "none to the lost";
+  EXPECT_EQ(replies[0].asker.source, kA);
+  EXPECT_EQ(replies[0].unheard, (std::vector<std::string>{"gcs", "b"}));
+}
+
+TEST_F(Registry, AMemberHasSoManyTopicsAndNoMore) {
+  for (const bool listen : {false, true}) {
+    const auto request = [&](SourceId source, const std::string& name) {
+      RadioRequest made = listen ? listening(source, 7) : sending(source, 7);
+      made.name = name;
+      return made;
+    };
+    std::vector<RadioRequest> many;
+    for (std::size_t i = 0; i < RadioRegistry::kMaxTopics; ++i) many.push_back(request(kA, "/t" + std::to_string(i)));
+    for (const RadioReply& reply : step(many)) ASSERT_EQ(reply.reason, "");
+    auto replies = step({request(kA, "/one_more")});
+    std::erase_if(replies, [](const RadioReply& reply) { return reply.reason.empty(); });  // what changed for others
+    ASSERT_EQ(replies.size(), 1U);
+    EXPECT_NE(replies[0].reason.find("1024 registered topics at most"), std::string::npos) << replies[0].reason;
+    for (const RadioReply& reply : step({request(kB, "/t0")})) EXPECT_EQ(reply.reason, "") << "another member may";
+  }
+}
+
 }  // namespace
 }  // namespace skein::router

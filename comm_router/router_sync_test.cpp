@@ -233,6 +233,24 @@ TEST(RouterSync, ADroppedMemberNeverComesBackUnderItsOldIdentity) {
   EXPECT_EQ(describe(*sync.take()), std::vector<std::string>{"1#0:fresh"});
 }
 
+TEST(RouterSync, NamesWhomItAwaitsAndNobodyWhoIsGone) {
+  const std::vector<RadioRoute> routes = some_routes();
+  RouterSync sync(routes);
+  EXPECT_EQ(sync.missing_answers(), 0U);
+  sync.on_drop(0, 9);
+  sync.on_step(0, 0, {{"uav1", 7, 1}, {"uav2", 8, 2}, {"uav3", 9, 3}}, {});
+  EXPECT_FALSE(sync.take()) << "from here on number 9 is gone";
+  EXPECT_EQ(sync.waiting_for(), (std::vector<std::string>{"uav1: done", "uav2: done"}));
+  EXPECT_EQ(sync.missing_answers(), 2U);
+  sync.on_done(7, 0, {{"rt/x", 1}, {"rt/y", 2}});
+  sync.on_radio(7, 1, payload("a"));
+  EXPECT_EQ(sync.waiting_for(), (std::vector<std::string>{"uav1: rt/y 0 of 2", "uav2: done"}));
+  EXPECT_EQ(sync.missing_answers(), 1U) << "an answer is there, its samples are not";
+  sync.on_done(8, 0, {});
+  EXPECT_EQ(sync.waiting_for(), std::vector<std::string>{"uav1: rt/y 0 of 2"});
+  EXPECT_EQ(sync.missing_answers(), 0U);
+}
+
 TEST(RouterSync, AStrangerCannotFillTheMemoryNorSpeakLater) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);

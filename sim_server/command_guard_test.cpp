@@ -94,6 +94,7 @@ class PointMass {
   /// One control step. @returns the acceleration demanded, without gravity and integral.
   Vector3d step(const TrajectoryCommand& command) {
     const TrajectoryCommand led = guard_.lead(command, state_);
+    p_W_led_ = led.p_WB;
     PositionController::Memory moving;
     moving.mode = ControlMode::moving;
     law_.set_memory(moving);
@@ -109,11 +110,14 @@ class PointMass {
   }
   const RigidBodyState& state() const { return state_; }
   bool led() const { return guard_.leading(); }
+  /// The position that the law was given.
+  const Vector3d& p_W_led() const { return p_W_led_; }
 
  private:
   CommandGuard guard_;
   PositionController law_;
   RigidBodyState state_;
+  Vector3d p_W_led_ = Vector3d::Zero();
 };
 
 TEST_F(CommandGuardTest, BarePositionsAreApproachedWithinTheLimits) {
@@ -141,6 +145,50 @@ TEST_F(CommandGuardTest, BarePositionsAreApproachedWithinTheLimits) {
     }
   }
   EXPECT_GT(fastest, 5.8);
+}
+
+TEST_F(CommandGuardTest, ThePointAheadSpeedsUpBrakesAndArrivesAsItShould) {
+  constexpr double kStepS = 0.05, kSpeedUp = 4.0 * kStepS, kBraking = 0.8 * kSpeedUp;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    RandomStream random(i, "guard_point", 0);
+    const Vector3d start(200, 0, 200);
+    const Vector3d way = random.uniform(3.0, 60.0) * (i % 2 == 0 ? 1.0 : -1.0) * Vector3d::Unit(static_cast<int>(i % 3));
+    PointMass mass(vehicle_, rules_, {.p_WB = start});
+    double speed = 0.0, gone = 0.0, fastest = 0.0;
+    for (int step = 0; step < 800 && gone < way.norm() - 0.02; ++step) {
+      mass.step({.p_WB = start + way});
+      const double now = (mass.p_W_led() - start).dot(way.normalized());
+      const double next_speed = (now - gone) / kStepS;
+      if (step > 1) {  // it sets out some way ahead of the UAV
+        ASSERT_LE(next_speed, speed + kSpeedUp + 1e-9) << "case " << i << " step " << step;
+        ASSERT_GE(next_speed, speed - kBraking - 1e-9) << "case " << i << " step " << step;
+      }
+      ASSERT_LE(now, way.norm() + 1e-9) << "case " << i << ": it never passes by";
+      ASSERT_NEAR((mass.p_W_led() - start - now * way.normalized()).norm(), 0.0, 1e-9) << "nor leaves the line";
+      speed = next_speed;
+      gone = now;
+      fastest = std::max(fastest, step > 0 ? speed : 0.0);
+    }
+    EXPECT_GE(gone, way.norm() - 0.02) << "case " << i;
+    EXPECT_LE(fastest, 6.0 + 1e-9);
+  }
+}
+
+TEST_F(CommandGuardTest, ThePointAheadMayBeWantedWhereItIs) {
+  PointMass mass(vehicle_, rules_, {.p_WB = {200, 0, 200}, .v_WB = {5, 0, 0}});
+  for (int step = 0; step < 20; ++step) mass.step({.p_WB = {260, 0, 200}});
+  const Vector3d target = mass.p_W_led();
+  mass.step({.p_WB = {260, 0, 200}});
+  double before = (mass.p_W_led() - target).x() / 0.05;
+  Vector3d last = mass.p_W_led();
+  for (int step = 0; step < 400; ++step) {
+    mass.step({.p_WB = step == 0 ? last : target});
+    const double speed = (mass.p_W_led() - last).x() / 0.05;
+    ASSERT_LE(std::abs(speed - before), 4.0 * 0.05 + 1e-9) << "step " << step;  // fails, too, where it is no number
+    before = speed;
+    last = mass.p_W_led();
+  }
+  EXPECT_NEAR((mass.state().p_WB - target).norm(), 0.0, 0.02);
 }
 
 TEST_F(CommandGuardTest, StopsWithinItsBrakingDistanceAndALittle) {

@@ -98,6 +98,12 @@ TEST(Scoreboard, EveryChangeOfAReportIsRefused) {
     for (const Refusal reason : {Refusal::unknown, Refusal::borrowed, Refusal::altered}) {
       EXPECT_EQ(score.refused(reason), reason == cases[i].reason ? 1U : 0U) << i << to_string(reason);
     }
+    // Who looks up the capture that the report claims finds why it was refused; a token that is unknown claims none.
+    const std::size_t claimed = cases[i].report.token == of_another.token ? 0 : 1;
+    for (std::size_t known = 0; known < 2; ++known) {
+      const bool told = cases[i].reason != Refusal::unknown && known == claimed;
+      EXPECT_EQ(score.audit(score.ledger()[known]).refused, told ? std::optional(cases[i].reason) : std::nullopt) << i;
+    }
     // The genuine one counts all the same.
     score.add_report(1, genuine);
     EXPECT_TRUE(score.end_step(300, 2).score_changed) << i;
@@ -171,6 +177,15 @@ TEST(Scoreboard, ALedgerThatContradictsItselfOrTheRunIsAnError) {
   EXPECT_THROW(score.add_entry(entry(1, capture(9, 0, 10, {}))), std::invalid_argument);
   EXPECT_THROW(score.add_entry(entry(1, capture(0, 1, 10, {point(kPoints, 0.5F)}))), std::invalid_argument);
   EXPECT_THROW(score.end_step(20, 2), std::logic_error);
+}
+
+TEST(Scoreboard, AJournalThatNamesWhatDoesNotExistIsAnError) {
+  Scoreboard score = board();
+  EXPECT_THROW(score.restore({20, entry(0, capture(9, 0, 10, {}))}), std::invalid_argument);
+  EXPECT_THROW(score.restore({20, entry(0, capture(0, 0, 10, {point(kPoints, 0.5F)}))}), std::invalid_argument);
+  EXPECT_THROW(score.restore({20, collision(0, kUavs, 10)}), std::invalid_argument);
+  EXPECT_EQ(score.reports_received(), 0U);
+  EXPECT_EQ(score.delivered().score(), 0.0);
 }
 
 /// A random run: a ledger, and for each step the entries that stand and the reports that come in.
@@ -254,6 +269,8 @@ TEST(Scoreboard, AStationThatWasKilledGoesOnAsIfNothingHadHappened) {
       if (s % 13 == 7) {
         killed = board();
         for (const TallyRecord& record : journal) killed.restore(record);
+        const auto reported = [](const TallyRecord& record) { return !record.entry.collision; };
+        EXPECT_EQ(killed.reports_received(), std::ranges::count_if(journal, reported));
         for (const LedgerEntry& known : run.ledger) killed.add_entry(known);
       }
       const Mission::Step& step = run.steps[s];

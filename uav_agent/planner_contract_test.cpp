@@ -14,27 +14,37 @@ namespace {
 
 constexpr double kTouchM = 0.63 + 0.3;             ///< to structure: the larger body, and a little
 constexpr double kSmallestSeparationM = 2 * 0.63;  ///< between two of them
+constexpr double kUnmeasuredM = 1e3;               ///< a distance that nobody flew in
 
-/// What to say to make a planner; those that need a file get one.
-std::string spec_of(const std::string& name) {
+/// What to say to make a planner; those that need a file get one, with a place above its start for every UAV.
+std::string spec_of(const std::string& name, const std::vector<TestUav>& fleet) {
   if (name != "waypoints") return name;
-  const auto file = std::filesystem::path(testing::TempDir()) / "contract_paths.yaml";
+  const auto file = std::filesystem::path(testing::TempDir()) / ("paths_of_" + std::to_string(fleet.size()) + ".yaml");
   std::ofstream out(file);
   out << "paths:\n";
-  for (int uav = 0; uav < 1; ++uav) out << "  uav" << uav << ":\n    - {position: [-8, -14, 6]}\n";
+  for (const TestUav& uav : fleet) {
+    out << "  " << uav.name << ":\n    - {position: [" << uav.start.x() << ", " << uav.start.y() << ", 6]}\n";
+  }
   return name + ":" + file.string();
 }
 
 class EveryPlanner : public testing::TestWithParam<std::string> {
  protected:
   TestWorld world(const TestScene& scene, std::size_t uavs, double duration_s) const {
-    return {scene, test_fleet(uavs), spec_of(GetParam()), duration_s};
+    const auto fleet = test_fleet(uavs);
+    return {scene, fleet, spec_of(GetParam(), fleet), duration_s};
   }
   static void expect_sound(const TestWorld& world) {
     EXPECT_EQ(world.bad_commands(), 0U);
     EXPECT_GT(world.clearance(), kTouchM);
     EXPECT_GT(world.separation(), kSmallestSeparationM);
     EXPECT_LE(world.longest_message(), 2 * kMaxPayloadBytes);
+  }
+  /// Without that, keeping clear of everything is no merit.
+  static void expect_all_flew(const TestWorld& world, std::size_t uavs) {
+    for (std::size_t uav = 0; uav < uavs; ++uav) EXPECT_GT(world.highest_m(uav), 1.5) << "uav" << uav;
+    EXPECT_LT(world.clearance(), kUnmeasuredM) << "nobody came near anything";
+    EXPECT_EQ(world.separation() < kUnmeasuredM, uavs > 1);
   }
 };
 
@@ -59,25 +69,28 @@ TEST_P(EveryPlanner, OneUavAlone) {
   TestWorld alone = world(two_towers(), 1, 120.0);
   alone.run(120.0);
   expect_sound(alone);
-  EXPECT_GT(alone.highest_m(0), 1.5) << "it flies";
+  expect_all_flew(alone, 1);
 }
 
 TEST_P(EveryPlanner, EightUavs) {
   TestWorld eight = world(two_towers(), 8, 100.0);
   eight.run(100.0);
   expect_sound(eight);
+  expect_all_flew(eight, 8);
 }
 
 TEST_P(EveryPlanner, OneBox) {
   TestWorld one = world(many_boxes(1), 3, 90.0);
   one.run(90.0);
   expect_sound(one);
+  expect_all_flew(one, 3);
 }
 
 TEST_P(EveryPlanner, FifteenBoxes) {
   TestWorld fifteen = world(many_boxes(15), 4, 100.0);
   fifteen.run(100.0);
   expect_sound(fifteen);
+  expect_all_flew(fifteen, 4);
 }
 
 TEST_P(EveryPlanner, PeersThatNeverSayAWord) {
@@ -86,22 +99,31 @@ TEST_P(EveryPlanner, PeersThatNeverSayAWord) {
   TestWorld silent = world(scene, 4, 120.0);
   silent.run(120.0);
   expect_sound(silent);
+  expect_all_flew(silent, 4);
 }
 
-/// Nobody sees anybody: each far from the others, since nobody could give way.
+/// Nobody sees anybody, so nobody can give way: all else holds, of every one of them.
 TEST_P(EveryPlanner, NoRadioAtAll) {
   TestScene scene = two_towers();
   scene.radio = false;
-  TestWorld dark = world(scene, 1, 120.0);
+  TestWorld dark = world(scene, 3, 120.0);
   dark.run(120.0);
-  expect_sound(dark);
+  EXPECT_EQ(dark.bad_commands(), 0U);
+  EXPECT_GT(dark.clearance(), kTouchM);
+  expect_all_flew(dark, 3);
 }
 
+/// There is nothing to hit but one another, and nothing to look at: they stay where they are, or near it.
 TEST_P(EveryPlanner, AnEmptyMapAndNoBoxes) {
-  TestScene scene;
-  TestWorld empty = world(scene, 2, 60.0);
+  TestWorld empty = world(TestScene(), 2, 60.0);
   empty.run(60.0);
   expect_sound(empty);
+  EXPECT_EQ(empty.clearance(), 1e9) << "of nothing";
+  for (std::size_t uav = 0; uav < 2; ++uav) {
+    EXPECT_GE(empty.position(uav).z(), 0.0);
+    EXPECT_LT((empty.position(uav).head<2>() - test_fleet(2)[uav].start).norm(), 60.0);
+    EXPECT_LT(empty.highest_m(uav), 60.0);
+  }
 }
 
 TEST_P(EveryPlanner, ItsOwnRestartInFlight) {
@@ -112,6 +134,7 @@ TEST_P(EveryPlanner, ItsOwnRestartInFlight) {
   restarted.restart(1);
   restarted.run(60.0);
   expect_sound(restarted);
+  expect_all_flew(restarted, 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Planners, EveryPlanner, testing::ValuesIn(planner_names()),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "core/random_stream.hpp"
@@ -53,6 +54,53 @@ TEST(Uplink, IgnoresWhatTheCameraRepeatsAfterARestart) {
   uplink.acknowledge({0, 2});
   uplink.take({report(0), report(1), report(2), report(3)});
   EXPECT_EQ(uplink.undelivered(), 2U);
+}
+
+// The oldest that are due, as many as fit, and never none: whatever the sizes.
+TEST(Uplink, EachStepSendsTheLongestPrefixThatFits) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    RandomStream random(seed, "sizes", 0);
+    const Uplink::Config config{.max_bytes_per_step = 100 * (1 + random.bits() % 5), .resend_after_steps = 3};
+    Uplink uplink(config);
+    std::map<std::uint64_t, std::size_t> sizes;
+    std::map<std::uint64_t, std::uint64_t> sent_at;
+    for (std::uint64_t capture = 0; capture < 12; ++capture) {
+      sizes[capture] = 50 * (1 + random.bits() % 6);
+      uplink.take({report(capture, sizes[capture])});
+    }
+    for (std::uint64_t k = 0; k < 20; ++k) {
+      std::vector<std::uint64_t> expected, sent;
+      std::size_t bytes = 0;
+      for (const auto& [capture, size] : sizes) {
+        if (sent_at.contains(capture) && k - sent_at[capture] < config.resend_after_steps) continue;
+        if (!expected.empty() && bytes + size > config.max_bytes_per_step) break;
+        bytes += size;
+        expected.push_back(capture);
+        sent_at[capture] = k;
+      }
+      for (const CaptureReport& r : uplink.send(k, true)) sent.push_back(r.capture);
+      ASSERT_EQ(sent, expected) << "seed " << seed << " step " << k;
+    }
+  }
+}
+
+// Whatever the order of acknowledgements: what was acknowledged is not taken again, all else is.
+TEST(Uplink, RemembersExactlyWhatWasAcknowledged) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    RandomStream random(seed, "acknowledged", 0);
+    Uplink uplink;
+    std::set<std::uint64_t> acknowledged;
+    for (int i = 0; i < 40; ++i) {
+      const std::uint64_t capture = random.bits() % 30;
+      uplink.acknowledge({capture});
+      acknowledged.insert(capture);
+    }
+    for (std::uint64_t capture = 0; capture <= 31; ++capture) {
+      const std::size_t before = uplink.undelivered();
+      uplink.take({report(capture)});
+      ASSERT_EQ(uplink.undelivered() - before, acknowledged.contains(capture) ? 0U : 1U) << seed << ": " << capture;
+    }
+  }
 }
 
 // Radio that loses messages and links both ways, whatever the order of events: all arrives, and nothing but

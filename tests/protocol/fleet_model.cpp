@@ -395,12 +395,15 @@ bool FleetModel::all_finished() const {
 std::string FleetModel::run() {
   constexpr std::size_t kQuiet = 200;  // polls of everybody without anything new: nobody will ever move again
   constexpr std::size_t kRepeats = 20;  // of a step; for ever, and nobody would notice that all else stands still
-  std::size_t quiet = 0, repeats = 0;
+  constexpr std::size_t kStill = 10;   // the same, before what is held back happens
+  std::size_t quiet = 0, still = 0, repeats = 0;
   while (!all_finished()) {
     ++events_;
     kill_and_notice();
-    const auto events = network_.events();
+    auto events = network_.events();
     quiet = events.empty() ? quiet + 1 : 0;
+    if (still < kStill * processes_.size()) std::erase_if(events, [&](const auto& event) { return held_back(event); });
+    still = events.empty() ? still + 1 : 0;
     if (quiet > kQuiet * processes_.size()) {
       auto& server = static_cast<ServerProcess&>(*processes_.at("server"));
       if (!options_.gives_up || !server.give_up_awaited()) return "deadlock\n" + describe_state();
@@ -427,6 +430,13 @@ std::string FleetModel::describe_state() const {
     if (const auto* router = dynamic_cast<const RouterProcess*>(process.get())) text += router->waits() + "\n";
   }
   return text + network_.describe();
+}
+
+// One kind of event, of some topics: another one in every schedule.
+bool FleetModel::held_back(const SimNetwork::Event& event) const {
+  if (!options_.slow) return false;
+  const std::uint64_t drawn = *options_.slow;
+  return static_cast<std::uint64_t>(event.kind) == drawn % 3 && fnv1a(drawn, network_.topic_of(event)) % 4 == 0;
 }
 
 void FleetModel::poll_one() {

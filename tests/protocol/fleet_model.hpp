@@ -67,6 +67,8 @@ struct FleetOptions {
   std::optional<std::uint64_t> announces_too_much = {};
   /// When nothing moves any more, the server gives up whom it awaits (as after a time-out), and goes on.
   bool gives_up = false;
+  /// Matches or samples of some topics, drawn with this number, come only when nothing else moves any more.
+  std::optional<std::uint64_t> slow = {};
 };
 
 /// Runs one schedule to its end.
@@ -99,6 +101,7 @@ class FleetModel {
   void poll_one();
   void start_leftovers();
   std::string describe_state() const;
+  bool held_back(const SimNetwork::Event& event) const;
   bool all_finished() const;
 
   FleetOptions options_;

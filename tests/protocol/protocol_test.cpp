@@ -260,5 +260,17 @@ INSTANTIATE_TEST_SUITE_P(All, ScriptedFault,
                            return std::string(fault.param.victim) + (fault.param.kill ? "Killed" : "Stopped");
                          });
 
+/// Discovery or a link that is slower than all else together: whoever relies on being quick enough is found out.
+TEST(Protocol, WhatIsSlowChangesNothing) {
+  FleetModel first({.uavs = 2}, 0);
+  ASSERT_EQ(first.run(), "");
+  for (std::uint64_t seed = 1; seed < schedules(120); ++seed) {
+    FleetModel model({.uavs = 2, .slow = seed}, seed);
+    ASSERT_EQ(model.run(), "") << "schedule " << seed;
+    ASSERT_TRUE(model.lost().empty());
+    ASSERT_NO_FATAL_FAILURE(expect_same(first, model, seed));
+  }
+}
+
 }  // namespace
 }  // namespace skein::test

@@ -36,6 +36,7 @@ class SimNetwork {
   };
   std::vector<Event> events() const;
   void happen(const Event& event);
+  const std::string& topic_of(const Event& event) const { return connections_[event.connection].writer->topic.name; }
   /// Samples of the dead that are still under way: cuts a random tail off each of their connections.
   void lose_tails_of_the_dead(RandomStream& random);
   /// All writers of a topic in a domain are destroyed; what they write from now on goes nowhere.
