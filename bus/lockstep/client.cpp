@@ -3,19 +3,19 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <csignal>
 
 #include "bus/lockstep/names.hpp"
+#include "bus/lockstep/self_signal.hpp"
 
 namespace skein::bus {
 
 namespace {
 
-// A stopped process returns from raise() when somebody has continued it.
 void raise_on_ourselves(LockstepClient::Order order) {
   const bool kill = order == LockstepClient::Order::kill;
   spdlog::info("a fault {} this program", kill ? "kills" : "stops");
-  std::raise(kill ? SIGKILL : SIGSTOP);
+  if (kill) kill_ourselves();
+  stop_ourselves();
 }
 
 }  // namespace
