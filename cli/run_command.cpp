@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cli/domain_block.hpp"
+#include "cli/environment.hpp"
 #include "cli/fleet_plan.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/preflight.hpp"
@@ -286,6 +287,10 @@ int run_fleet(const RunOptions& options, const Console& console) {
 
   FleetRun run(plan, console);
   run.view().message(start_line(plan, domains, dir));
+  for (const std::string& warning : environment_warnings()) {
+    run.view().message("warning: " + warning);
+    run.facts().warnings.push_back(warning);
+  }
   if (domains.last() > kLastQuietDomain) {
     run.facts().warnings.push_back("DDS domains above " + std::to_string(kLastQuietDomain) +
                                    " use ports that the system may give to other programs");
