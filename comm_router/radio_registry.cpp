@@ -52,7 +52,7 @@ void RadioRegistry::send(const RadioRequest& request) {
   std::set<std::size_t>& asked = histories_[request.asker.source].routes;
   const auto known = [&](std::size_t route) { return table_.routes()[route].ros_topic == request.name; };
   if (asked.size() >= kMaxTopics && std::ranges::none_of(asked, known)) {
-    throw InputError("name: a member may ask to send on " + std::to_string(kMaxTopics) + " topics at most");
+    throw InputError("name: a member may ask to send on " + std::to_string(kMaxTopics) + " registered topics at most");
   }
   const std::size_t route = table_.open(request.asker.node, request.name, request.type, request.targets);
   asked.insert(route);

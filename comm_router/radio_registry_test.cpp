@@ -103,17 +103,6 @@ TEST_F(Registry, WhoAsksInVainAgainAndAgainIsNotWaitedForAnyMore) {
   EXPECT_TRUE(registry_.decided_by_clock().empty()) << "this refusal depends on nothing but the requests";
 }
 
-TEST_F(Registry, WhatOneMemberEverAsksForIsLimited) {
-  const auto topic = [](std::uint32_t id) {
-    RadioRequest request = sending(kA, id);
-    request.name = "/x" + std::to_string(id);
-    return request;
-  };
-  for (std::uint32_t id = 0; id < RadioRegistry::kMaxTopics; ++id) ASSERT_TRUE(step({topic(id)}).at(0).open) << id;
-  EXPECT_FALSE(step({topic(RadioRegistry::kMaxTopics)}).at(0).open);
-  EXPECT_TRUE(step({topic(7)}).at(0).open) << "what it has may be asked for again";
-}
-
 TEST_F(Registry, ListenersMayComeFirstOrLater) {
   EXPECT_EQ(step({listening(kB, 1)}).at(0), (RadioReply{.asker = {kB, 2, 1}})) << "nobody sends yet";
   const auto replies = step({sending(kA, 1)});

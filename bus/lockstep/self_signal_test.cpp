@@ -85,8 +85,8 @@ TEST_P(SelfSignal, AStoppedProgramDoesNothingUntilItIsContinued) {
   EXPECT_EQ(status, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfAnyPlace, SelfSignal, testing::Values(false, true), [](const auto& info) {
-  return info.param ? std::string("FirstOfItsNamespace") : std::string("AnyOther");
+INSTANTIATE_TEST_SUITE_P(OfAnyPlace, SelfSignal, testing::Values(false, true), [](const auto& place) {
+  return place.param ? std::string("FirstOfItsNamespace") : std::string("AnyOther");
 });
 
 }  // namespace

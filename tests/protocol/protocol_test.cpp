@@ -205,7 +205,9 @@ void check_absence(const FleetModel& model, const ProcessFault& fault, std::uint
   std::map<std::string, std::set<std::uint64_t>> steps;
   for (const auto& [life, logs] : model.agents()) {
     // Who was stopped goes on in the same log: it hears again what is latched.
-    if (fault.kill) ASSERT_NO_FATAL_FAILURE(expect_latched_known(life, logs, seed));
+    if (fault.kill) {
+      ASSERT_NO_FATAL_FAILURE(expect_latched_known(life, logs, seed));
+    }
     for (const StepLog& log : logs) {
       steps[life.substr(0, life.find('#'))].insert(log.k);
       const bool deaf = fault.victim == bus::kRouterName && (out(log.k) || log.k == fault.end);
@@ -246,7 +248,9 @@ TEST_P(ScriptedFault, EveryOrderOfEventsGivesTheSameRun) {
       ASSERT_TRUE(model->lost().empty()) << "a fault is no loss; schedule " << seed;
       ASSERT_EQ(model->rejoined().size(), end < 9 ? 1U : 0U) << "schedule " << seed;
       ASSERT_NO_FATAL_FAILURE(check_absence(*model, fault, seed));
-      if (first) ASSERT_NO_FATAL_FAILURE(expect_same(*first, *model, seed));
+      if (first) {
+        ASSERT_NO_FATAL_FAILURE(expect_same(*first, *model, seed));
+      }
       if (!first) first = std::move(model);
     }
   }
