@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "bus/lockstep/patience.hpp"
+
 namespace skein::bus {
 namespace {
 
@@ -11,10 +13,33 @@ constexpr milliseconds kMatchPoll{2};
 constexpr milliseconds kIdlePoll{200};
 constexpr int kLingerPolls = 25;  // of kIdlePoll: as long as the answer to the last step may be on its way
 
+/// Nobody waits without saying for what.
+class WaitingWord {
+ public:
+  WaitingWord(const LockstepClient& client, double first_s) : client_(client), first_s_(first_s) { moved(); }
+  void moved() {
+    patience_ = Patience(0.0);
+    next_s_ = first_s_;
+  }
+  void look() {
+    patience_.over();
+    if (patience_.waited_s() < next_s_) return;
+    spdlog::info("waiting for {} ({:.0f} s)", client_.waiting_for(), patience_.waited_s());
+    next_s_ *= 2.0;
+  }
+
+ private:
+  const LockstepClient& client_;
+  const double first_s_;
+  double next_s_ = 0.0;
+  Patience patience_{0.0};
+};
+
 }  // namespace
 
 LoopEnd run_client(LockstepClient& client, Inbox& inbox, const ClientLoop& loop, const StopSignal& stop) {
   client.start();
+  WaitingWord word(client, loop.first_word_s);
   bool was_member = false;
   for (bool waiting = true; !stop.requested();) {
     const std::size_t rings = waiting ? 0 : loop.rings ? loop.rings() : client.rings();
@@ -22,7 +47,11 @@ LoopEnd run_client(LockstepClient& client, Inbox& inbox, const ClientLoop& loop,
     const LockstepClient::Event event = client.poll();
     if (event == LockstepClient::Event::dropped) return LoopEnd::dropped;
     if (event == LockstepClient::Event::resumed) return LoopEnd::resumed;
-    if (event == LockstepClient::Event::think) loop.think();
+    if (event == LockstepClient::Event::think) {
+      loop.think();
+      word.moved();
+    }
+    word.look();
     const bool serving = loop.serve();
     was_member = was_member || client.is_member();
     waiting = serving || client.waits_for_matches();

@@ -18,6 +18,8 @@ struct ClientLoop {
   std::function<std::size_t()> rings = nullptr;
   /// Whether the answer to the last step is out.
   std::function<bool()> answered_last;
+  /// After so long without a step the log tells what it waits for; again after twice as long, and so on.
+  double first_word_s = 5.0;
 };
 
 enum class LoopEnd {
