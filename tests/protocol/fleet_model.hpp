@@ -65,6 +65,15 @@ struct FleetOptions {
   std::optional<std::uint64_t> closes_writer = {};
   /// In this step "a" announces a radio message that nobody gets.
   std::optional<std::uint64_t> announces_too_much = {};
+  /// In this step the next sample of a topic, in this domain, is lost on its way to everybody.
+  struct Loss {
+    std::uint64_t k = 0;
+    int domain = 0;
+    std::string topic;
+  };
+  std::optional<Loss> loses = {};
+  /// When nothing moves any more, the server asks again; else it does so at random, a few times.
+  bool asks_again = false;
   /// When nothing moves any more, the server gives up whom it awaits (as after a time-out), and goes on.
   bool gives_up = false;
   /// Matches or samples of some topics, drawn with this number, come only when nothing else moves any more.

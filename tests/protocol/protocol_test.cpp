@@ -88,6 +88,36 @@ TEST(Protocol, AMemberThatAnnouncesMoreThanItSendsIsGivenUpNotTheRouter) {
   }
 }
 
+struct Lost {
+  const char* what;
+  int domain;
+  std::string topic;
+};
+
+class LostOnItsWay : public testing::TestWithParam<Lost> {};
+
+TEST_P(LostOnItsWay, IsAskedForAgainAndTheRunIsTheSame) {
+  FleetModel usual({.uavs = 2}, 0);
+  ASSERT_EQ(usual.run(), "");
+  for (std::uint64_t seed = 0; seed < schedules(20); ++seed) {
+    FleetOptions options;
+    options.loses = {1 + seed % 6, GetParam().domain, GetParam().topic};
+    options.asks_again = true;
+    FleetModel model(options, seed);
+    ASSERT_EQ(model.run(), "") << "schedule " << seed;
+    ASSERT_TRUE(model.lost().empty());
+    ASSERT_NO_FATAL_FAILURE(expect_same(usual, model, seed));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LostOnItsWay,
+                         testing::Values(Lost{"StepToAnAgent", uav_domain(0, 0), topics::step().name},
+                                         Lost{"StepToTheRouter", world_domain(0), topics::step().name},
+                                         Lost{"DoneOfAnAgent", uav_domain(0, 1), topics::done().name},
+                                         Lost{"DoneOfTheStation", gcs_domain(0), topics::station_done().name},
+                                         Lost{"Routed", world_domain(0), topics::routed().name}),
+                         [](const auto& lost) { return lost.param.what; });
+
 std::uint64_t step_of(const std::string& said) { return std::stoull(said.substr(said.find('@') + 1)); }
 
 /// Every message on a registered topic that was said in sight of somebody who listened, and no other, was heard.
