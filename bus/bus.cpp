@@ -29,7 +29,7 @@ std::unique_ptr<Bus> make_bus(const BusConfig& config) {
   check_security(config);
   if (config.vendor == "cyclonedds") return make_cyclonedds_bus(config);
   if (config.vendor == "fastdds") return make_fastdds_bus(config);
-  if (config.vendor == "inproc") return make_inproc_bus();
+  if (config.vendor == "inproc") return make_inproc_bus(config.run);
   throw InputError("unknown DDS vendor '" + config.vendor + "': it must be cyclonedds, fastdds or inproc");
 }
 

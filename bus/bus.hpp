@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "core/run_id.hpp"
+
 namespace skein::bus {
 
 /// A DDS participant as all others in its domain see it: a hash (FNV-1a, 64 bit) of the 12 bytes of its GUID prefix,
@@ -93,19 +95,26 @@ class Burst {
 struct BusConfig {
   std::string vendor = "cyclonedds";  ///< "cyclonedds", "fastdds" or "inproc"
   bool loopback_only = true;          ///< no multicast, 127.0.0.1 only; false in containers
-  bool long_leases = false;           ///< debug: a process stopped in gdb keeps its place for an hour
+  int lease_s = 8;                    ///< who gives no sign of life for so long is taken for dead, [1, 3600]
   std::filesystem::path security{};   ///< folder with the files of core/security_files.hpp; empty: an open domain
+  RunId run = RunId::none;            ///< that its programs take part in
 };
 
 /// Domain ids run from 0 to this one: the UDP ports of a domain begin at 7400 + 250 x domain and must stay below 65536.
 inline constexpr int kMaxDomain = 230;
 
-/// A vendor's implementation. A participant may outlive the bus that it was made by.
+/// A vendor's implementation, for one run. A participant may outlive the bus that it was made by.
 class Bus {
  public:
+  explicit Bus(RunId run = RunId::none) : run_(run) {}
   virtual ~Bus() = default;
+  /// The run that its programs take part in.
+  RunId run() const { return run_; }
   /// @throws InputError when `domain` is not 0 .. kMaxDomain; std::runtime_error when the vendor fails
   virtual std::unique_ptr<Participant> join(int domain) = 0;
+
+ private:
+  const RunId run_;
 };
 
 /// @throws InputError (core/types.hpp) for an unknown vendor; the message lists the known ones. Also when a file of

@@ -170,9 +170,9 @@ class InboxReader : public Reader {
 
 }  // namespace
 
-Inbox::Inbox() : Inbox(chaos_of_environment()) {}
+Inbox::Inbox(RunId run) : Inbox(chaos_of_environment(), run) {}
 
-Inbox::Inbox(unsigned chaos) : impl_(std::make_unique<Impl>(chaos)) {}
+Inbox::Inbox(unsigned chaos, RunId run) : impl_(std::make_unique<Impl>(chaos)), run_(run) {}
 
 Inbox::~Inbox() = default;
 
@@ -229,6 +229,12 @@ void Inbox::note_malformed(const std::string& topic, const Sample& sample) {
   if (!told_.insert(topic).second) return;
   spdlog::warn("{}: dropped a malformed sample of {} bytes from participant {:016x}; further ones are only counted",
                topic, sample.payload.size(), sample.source);
+}
+
+void Inbox::note_foreign(const std::string& topic, const Sample& sample, RunId run) {
+  if (!told_foreign_.insert(topic).second) return;
+  spdlog::warn("{}: participant {:016x} takes part in another run ({}, not {}) and is not listened to", topic,
+               sample.source, static_cast<std::uint64_t>(run), static_cast<std::uint64_t>(run_));
 }
 
 }  // namespace skein::bus

@@ -21,8 +21,9 @@ enum class Bell { rings, silent };
 
 class Inbox {
  public:
-  Inbox();  ///< chaos as the environment says
-  explicit Inbox(unsigned chaos);
+  /// Chaos as the environment says. @param run  whose messages are taken; see note_foreign().
+  explicit Inbox(RunId run = RunId::none);
+  explicit Inbox(unsigned chaos, RunId run = RunId::none);
   ~Inbox();
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;
@@ -51,11 +52,18 @@ class Inbox {
   /// Malformed samples so far, on all topics.
   std::uint64_t malformed() const { return malformed_; }
 
+  /// The run that this program takes part in: lock-step messages of any other are dropped (typed.hpp).
+  RunId run() const { return run_; }
+  /// Tells of the first message of another run on each topic.
+  void note_foreign(const std::string& topic, const Sample& sample, RunId run);
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+  RunId run_ = RunId::none;
   std::uint64_t malformed_ = 0;
-  std::set<std::string> told_;  ///< topics with malformed samples
+  std::set<std::string> told_;          ///< topics with malformed samples
+  std::set<std::string> told_foreign_;  ///< topics with messages of other runs
 };
 
 }  // namespace skein::bus

@@ -10,8 +10,9 @@ namespace skein::bus {
 inline std::unique_ptr<Bus> make_bus(const ProgramOptions& options) {
   return make_bus(BusConfig{.vendor = options.dds,
                             .loopback_only = options.loopback_only,
-                            .long_leases = options.long_leases,
-                            .security = options.security});
+                            .lease_s = options.lease_s,
+                            .security = options.security,
+                            .run = options.run});
 }
 
 }  // namespace skein::bus

@@ -46,15 +46,38 @@ class TypedWriter {
   std::uint64_t count_ = 0;
 };
 
+/// Messages of the lock-step: they say which run they belong to.
+template <class T>
+concept OfOneRun = requires(T message) {
+  { message.run() } -> std::convertible_to<std::uint64_t>;
+};
+
+/// An empty message of a run.
+template <OfOneRun T>
+T message_of(RunId run) {
+  T message;
+  message.run(static_cast<std::uint64_t>(run));
+  return message;
+}
+
 /// A handler of raw samples that hands messages to `handler`: as (message) or (message, participant that wrote it).
-/// Samples that are no T are dropped, counted by `inbox` (which must outlive the handler), and told once a topic.
+/// Samples that are no T are dropped, counted by `inbox` (which must outlive the handler), and told once a topic; so
+/// are messages of another run than the inbox's, which are told but not counted: they are somebody else's.
 template <class T, class Handler>
 Inbox::Handler decoding(Inbox& inbox, std::string topic, Handler handler) {
   return [&inbox, topic = std::move(topic), handler = std::move(handler)](Sample&& sample) mutable {
     T message;
     if (!decode(sample.payload, message)) {
       inbox.note_malformed(topic, sample);
-    } else if constexpr (std::invocable<Handler&, T&, ParticipantId>) {
+      return;
+    }
+    if constexpr (OfOneRun<T>) {
+      if (const RunId run{message.run()}; run != inbox.run()) {
+        inbox.note_foreign(topic, sample, run);
+        return;
+      }
+    }
+    if constexpr (std::invocable<Handler&, T&, ParticipantId>) {
       handler(message, sample.source);
     } else {
       handler(message);

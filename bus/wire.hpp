@@ -14,12 +14,8 @@ namespace skein::bus {
 /// many ports.
 inline constexpr int kMaxLocalParticipants = 32;
 
-/// Death is noticed after this long without a sign of life; signs are sent several times as often. Long enough for a
-/// process that gets no processor for seconds on a busy machine.
-inline constexpr int kLeaseS = 8;
-inline constexpr int kAnnounceS = 2;
-/// The lease when a process may be stopped in a debugger: an hour, the longest that Cyclone DDS takes.
-inline constexpr int kLongLeaseS = 3600;
+/// A sign of life is sent so often: several times in a lease.
+inline int announce_period_s(int lease_s) { return std::clamp(lease_s / 4, 1, 2); }
 
 /// FNV-1a, 64 bit (Fowler, Noll and Vo), over a GUID prefix: the name of a participant, whatever the vendor.
 /// @param guid_prefix its 12 bytes in the order in which they stand on the wire

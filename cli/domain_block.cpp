@@ -1,34 +1,12 @@
 #include "cli/domain_block.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <string>
-#include <system_error>
+#include <utility>
 
 #include "core/types.hpp"
 
 namespace skein::cli {
-namespace {
 
-/// Opens the lock file of a domain, and creates it for all users of the host when it is not there. Opening an existing
-/// file with O_CREAT is refused by the kernel when another user owns it, hence the two steps.
-int open_lock_file(const std::filesystem::path& file) {
-  for (;;) {
-    int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd >= 0 || errno != ENOENT) return fd;
-    fd = ::open(file.c_str(), O_RDONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    if (fd >= 0) ::fchmod(fd, 0644);  // readable by others whatever the umask
-    if (fd >= 0 || errno != EEXIST) return fd;
-  }
-}
-
-}  // namespace
-
-DomainBlock::DomainBlock(std::optional<int> base, int size, const std::filesystem::path& lock_dir) {
+DomainBlock::DomainBlock(std::optional<int> base, int size, std::string realm) : realm_(std::move(realm)) {
   const int last_base = kLastDomain - size + 1;
   if (last_base < kFirstDomain) {
     throw InputError("the fleet needs " + std::to_string(size) + " DDS domains; Skein has " +
@@ -39,39 +17,38 @@ DomainBlock::DomainBlock(std::optional<int> base, int size, const std::filesyste
       throw InputError("--domain " + std::to_string(*base) + ": must be within 0.." + std::to_string(last_base) +
                        " for this fleet of " + std::to_string(size) + " domains");
     }
-    if (!try_lock(*base, size, lock_dir)) {
-      throw InputError("--domain " + std::to_string(*base) + ": another fleet of this host uses domains " +
-                       std::to_string(*base) + ".." + std::to_string(*base + size - 1) +
-                       " or some of them; choose another, or leave --domain out to get a free block");
-    }
+    if (const auto taken = try_lock(*base, size)) throw InputError(taken_text(*base, size, *taken));
     return;
   }
-  for (int candidate = kFirstDomain; candidate <= last_base; ++candidate) {
-    if (try_lock(candidate, size, lock_dir)) return;
+  for (int candidate = kFirstDomain; candidate <= last_base;) {
+    const auto taken = try_lock(candidate, size);
+    if (!taken) return;
+    candidate = *taken + 1;
   }
   throw InputError("no " + std::to_string(size) + " DDS domains in a row are free; other fleets of this host use them");
 }
 
-DomainBlock::~DomainBlock() { unlock(); }
-
-bool DomainBlock::try_lock(int base, int size, const std::filesystem::path& lock_dir) {
+std::optional<int> DomainBlock::try_lock(int base, int size) {
   for (int domain = base; domain < base + size; ++domain) {
-    const std::filesystem::path file = lock_dir / ("skein-domain-" + std::to_string(domain) + ".lock");
-    const int fd = open_lock_file(file);
-    if (fd < 0) throw std::system_error(errno, std::generic_category(), file.string());
-    locks_.push_back(fd);
-    if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
-      unlock();
-      return false;
+    auto lock = HostLock::try_take(lock_name(domain));
+    if (!lock) {
+      locks_.clear();
+      return domain;
     }
+    locks_.push_back(std::move(*lock));
   }
   base_ = base;
-  return true;
+  return std::nullopt;
 }
 
-void DomainBlock::unlock() {
-  for (const int fd : locks_) ::close(fd);
-  locks_.clear();
+std::string DomainBlock::lock_name(int domain) const { return realm_ + domain_lock_name(domain); }
+
+std::string DomainBlock::taken_text(int base, int size, int taken) const {
+  const auto holder = HostLock::holder(lock_name(taken));
+  return "--domain " + std::to_string(base) + ": this fleet needs domains " + std::to_string(base) + ".." +
+         std::to_string(base + size - 1) + ", and another one of this host uses domain " + std::to_string(taken) +
+         (holder ? " (process " + std::to_string(*holder) + ")" : "") +
+         "; choose another, or leave --domain out to get a free block";
 }
 
 }  // namespace skein::cli

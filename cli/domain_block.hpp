@@ -1,10 +1,12 @@
-// A fleet's block of DDS domains: world, ground station, then one domain a UAV. Lock files in the temporary folder
-// keep two fleets of one host out of each other's blocks; the kernel drops a lock when its launcher ends, however.
+// A fleet's block of DDS domains: world, ground station, then one domain a UAV. Locks keep two fleets out of each other's
+// blocks wherever their domains would collide: in one network namespace, whoever runs them and whatever their TMPDIR.
 #pragma once
 
-#include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
+
+#include "core/host_lock.hpp"
 
 namespace skein::cli {
 
@@ -19,24 +21,22 @@ inline constexpr int kLastQuietDomain = 101;
 class DomainBlock {
  public:
   /// @param base the user's choice; without one the first block is taken that is free as a whole.
-  /// @param size number of domains. @param lock_dir folder of the lock files, the same for all launchers of a host.
-  /// @throws InputError when `base` is out of range or taken, or no block of this size is free.
-  DomainBlock(std::optional<int> base, int size,
-              const std::filesystem::path& lock_dir = std::filesystem::temp_directory_path());
-  ~DomainBlock();
-  DomainBlock(const DomainBlock&) = delete;
-  DomainBlock& operator=(const DomainBlock&) = delete;
+  /// @param size number of domains. @param realm  for tests: blocks of other realms are not in the way.
+  /// @throws InputError when `base` is out of range or taken (it says by which process), or no block of this size is free.
+  DomainBlock(std::optional<int> base, int size, std::string realm = {});
 
   int base() const { return base_; }
   int last() const { return base_ + static_cast<int>(locks_.size()) - 1; }
 
  private:
-  /// @returns whether all domains of the block at `base` could be locked; otherwise none is.
-  bool try_lock(int base, int size, const std::filesystem::path& lock_dir);
-  void unlock();
+  /// @returns the first domain of the block at `base` that somebody else holds; nullopt when all are ours now.
+  std::optional<int> try_lock(int base, int size);
+  std::string lock_name(int domain) const;
+  std::string taken_text(int base, int size, int taken) const;
 
+  const std::string realm_;
   int base_ = 0;
-  std::vector<int> locks_;  ///< open, locked files, one a domain
+  std::vector<HostLock> locks_;  ///< one a domain
 };
 
 }  // namespace skein::cli

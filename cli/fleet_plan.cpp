@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <random>
 #include <set>
 
 #include "cli/agent_file.hpp"
@@ -34,6 +35,10 @@ std::string text_of(double value) {
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), end.ptr};
 }
+
+/// A program that is stopped for a while and comes back must not find that the others took it for dead: who it is that
+/// died, the launcher sees for itself. So leases outlast the time for which anybody is waited for.
+constexpr int kLease_s = 180, kDebugLease_s = 3600;
 
 /// What every program must know to read the same scenario.
 Arguments scenario_arguments(const FleetPlan& plan) {
@@ -72,6 +77,7 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
   std::map<std::string, std::string> variables = {
       {"SKEIN_DOMAIN", std::to_string(agent_domain(plan, program, base_domain))},
       {"SKEIN_UAV", uav},
+      {"SKEIN_RUN", std::to_string(plan.run)},
       {"SKEIN_DDS", dds_vendors(plan).at(program)},
       {"SKEIN_SCENARIO", std::filesystem::absolute(plan.scenario.file)},
       {"SKEIN_OUT", std::filesystem::absolute(secure.out.empty() ? out : secure.out)}};
@@ -96,7 +102,8 @@ Arguments run_arguments(const FleetPlan& plan, const std::string& program, int b
   append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain), "--out",
                      secure.out.empty() ? out : secure.out});
   if (!secure.keys.empty()) append(arguments, {"--security", secure.keys});
-  if (plan.options.debug_uav) arguments.push_back("--debug-leases");
+  append(arguments, {"--lease", std::to_string(plan.options.debug_uav ? kDebugLease_s : kLease_s), "--run",
+                     std::to_string(plan.run)});
   if (is_agent(program)) append(arguments, role_arguments(plan, program));
   if (program == "sim_server") {
     append(arguments, {"--clock", plan.options.clock});
@@ -143,6 +150,13 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   plan.ground = ground_program(planners, agent_file(plan));
   if (options.debug_uav) plan.scenario.uav_index(*options.debug_uav);  // throws for an unknown name
   return plan;
+}
+
+std::uint64_t draw_run_id() {
+  std::random_device device;
+  std::uint64_t run = 0;
+  while (run == 0) run = (std::uint64_t{device()} << 32) | device();
+  return run;
 }
 
 std::filesystem::path agent_file(const FleetPlan& plan) { return plan.agent.value_or(plan.bin_dir / "uav_agent"); }

@@ -24,6 +24,7 @@ struct FleetPlan {
   FaultPlan faults;                  ///< of --faults
   std::optional<std::string> ground = {};  ///< what runs at the ground station: a strategy or "exec:CMD"
   std::optional<std::filesystem::path> agent = {};  ///< flies in the place of uav_agent
+  std::uint64_t run = 0;  ///< what the programs of one run know each other by (draw_run_id())
 };
 
 /// The program that the UAVs' on-board software is.
@@ -36,6 +37,9 @@ struct SecureFolder {
   std::optional<UserId> user;  ///< as whom it runs; nullopt: as the launcher
 };
 using SecureFolders = std::map<std::string, SecureFolder>;  ///< by program
+
+/// A number that no other run has. It decides nothing and is in no digest.
+std::uint64_t draw_run_id();
 
 /// Loads the scenario and takes the planners apart. @throws InputError for whatever is wrong in them.
 FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir);

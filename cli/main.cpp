@@ -6,6 +6,7 @@
 
 #include "cli/bench_command.hpp"
 #include "cli/check_command.hpp"
+#include "cli/environment.hpp"
 #include "cli/options.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/preflight.hpp"
@@ -63,6 +64,7 @@ int execute(const std::vector<std::string>& arguments, const Console& console) t
 }  // namespace skein::cli
 
 int main(int argc, char** argv) {
+  skein::cli::settle_process();
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
   return skein::cli::execute({argv + 1, argv + argc}, {std::cout, std::cerr, terminal});
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cli/domain_block.hpp"
+#include "cli/environment.hpp"
 #include "cli/fleet_plan.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/preflight.hpp"
@@ -44,6 +45,7 @@ class FleetRun {
  public:
   FleetRun(const FleetPlan& plan, const Console& console)
       : plan_(plan), orders_(supervisor_), view_(console.err, console.terminal) {
+    plan_.run = draw_run_id();
     facts_.scenario = plan.options.scenario;
     facts_.seed = plan.options.seed;
     facts_.planners = plan.planners;
@@ -237,7 +239,7 @@ class FleetRun {
     view_.message(text);
   }
 
-  const FleetPlan& plan_;
+  FleetPlan plan_;
   Supervisor supervisor_;
   ProcessOrders orders_;
   ProgressView view_;
@@ -285,6 +287,10 @@ int run_fleet(const RunOptions& options, const Console& console) {
 
   FleetRun run(plan, console);
   run.view().message(start_line(plan, domains, dir));
+  for (const std::string& warning : environment_warnings()) {
+    run.view().message("warning: " + warning);
+    run.facts().warnings.push_back(warning);
+  }
   if (domains.last() > kLastQuietDomain) {
     run.facts().warnings.push_back("DDS domains above " + std::to_string(kLastQuietDomain) +
                                    " use ports that the system may give to other programs");

@@ -5,6 +5,7 @@
 #include <ctime>
 #include <string_view>
 
+#include "core/radio_routes.hpp"
 #include "core/topics.hpp"
 
 namespace skein::cli {
@@ -74,14 +75,18 @@ Rights rights_of(const FleetPlan& plan, const std::string& program, int base_dom
     add_wire_names(names, topics::score_topics(), topics::Direction::from_station, all_units);
     return {base_domain, last, std::move(names)};
   }
-  const bool is_station = program == "station";
+  const bool is_station = program == topics::kStationMember;
   std::vector<std::string> names = server_topics(is_station ? all_units : std::vector{member_name(program)});
-  names.push_back(topics::attached().name);
-  names.push_back(topics::routed().name);
-  names.push_back(topics::radio_reply().name);
+  for (const auto& topic : {topics::attached(), topics::routed(), topics::awaits(), topics::radio_reply()}) {
+    names.push_back(topic.name);
+  }
   if (is_station) return {world_domain(base_domain), gcs_domain(base_domain), std::move(names)};
   const int own = agent_domain(plan, program, base_domain);
   names.push_back(topics::score().name);
+  // A program at the ground station shares the station's domain, and neither its name nor its word.
+  names.push_back(topics::station_ready().name);
+  names.push_back(topics::station_done().name);
+  for (const UavConfig& uav : plan.scenario.fleet) names.push_back(topics::captures_ack(uav.name).name);
   return {own, own, std::move(names), {topics::score_eval().name}};
 }
 

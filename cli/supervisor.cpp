@@ -71,10 +71,17 @@ Fd open_high(const std::filesystem::path& file, int flags) {
   return high;
 }
 
+/// Whoever starts us with nohup wants us to live on without the terminal.
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 sigset_t interrupt_signals() {
   sigset_t set;
   sigemptyset(&set);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
+  for (const int signal : {SIGINT, SIGTERM}) sigaddset(&set, signal);
+  if (!is_ignored(SIGHUP)) sigaddset(&set, SIGHUP);
   return set;
 }
 
@@ -107,7 +114,7 @@ struct ChildSetup {
     sigset_t none;
     sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    ::signal(SIGPIPE, SIG_DFL);
+    for (int signal = 1; signal < SIGRTMIN; ++signal) ::signal(signal, SIG_DFL);  // what our shell ignored, too
     const std::array<std::pair<int, int>, 5> files = {
         {{input, 0}, {log, 1}, {log, 2}, {status, kStatusFd}, {control, kControlFd}}};
     for (const auto& [from, to] : files) ready = ready && (from < 0 || ::dup2(from, to) >= 0);

@@ -56,7 +56,8 @@ struct Event {
   ExitStatus exit;
 };
 
-/// From construction to destruction SIGINT, SIGTERM and SIGHUP become Event::interrupt, and SIGPIPE is ignored.
+/// From construction to destruction SIGINT, SIGTERM and SIGHUP (unless nohup had it ignored) become Event::interrupt, and
+/// SIGPIPE is ignored.
 class Supervisor {
  public:
   Supervisor();

@@ -14,6 +14,10 @@ constexpr const char* kNoReader =
     "name: no fitting reader of what arrives on this topic was found at the asker: open it when the reply says so, of "
     "this type and VOLATILE";
 
+constexpr const char* kNoMore =
+    "name: this member has asked three times for topics that it has no fitting ends of; no further request of it is "
+    "considered";
+
 }  // namespace
 
 RadioRegistry::RadioRegistry(const Scenario& scenario, RadioTable& table, RadioEndpoints endpoints)
@@ -21,8 +25,10 @@ RadioRegistry::RadioRegistry(const Scenario& scenario, RadioTable& table, RadioE
 
 void RadioRegistry::begin_step(const std::vector<RadioRequest>& requests) {
   forget_the_lost();
+  decided_by_clock_.clear();
   for (const RadioRequest& request : requests) {
     try {
+      if (histories_[request.asker.source].in_vain >= kMaxVain) throw InputError(kNoMore);
       request.listen ? listen(request) : send(request);
     } catch (const InputError& error) {
       refuse(request.asker, error.what());
@@ -34,6 +40,7 @@ void RadioRegistry::forget_the_lost() {
   const auto lost = [&](const auto& entry) { return endpoints_.lost(entry.asker.source); };
   std::erase_if(sendings_, lost);
   std::erase_if(listenings_, lost);
+  std::erase_if(histories_, [&](const auto& entry) { return endpoints_.lost(entry.first); });
 }
 
 void RadioRegistry::send(const RadioRequest& request) {
@@ -42,10 +49,13 @@ void RadioRegistry::send(const RadioRequest& request) {
     throw InputError("source: '" + request.source + "' is not the asking node, which is '" + own + "'");
   }
   const auto by_asker = [&](const Sending& s) { return s.asker.source == request.asker.source; };
-  if (std::ranges::count_if(sendings_, by_asker) >= static_cast<std::ptrdiff_t>(kMaxTopics)) {
-    throw InputError("name: a member may send on " + std::to_string(kMaxTopics) + " registered topics at most");
+  std::set<std::size_t>& asked = histories_[request.asker.source].routes;
+  const auto known = [&](std::size_t route) { return table_.routes()[route].ros_topic == request.name; };
+  if (asked.size() >= kMaxTopics && std::ranges::none_of(asked, known)) {
+    throw InputError("name: a member may ask to send on " + std::to_string(kMaxTopics) + " registered topics at most");
   }
   const std::size_t route = table_.open(request.asker.node, request.name, request.type, request.targets);
+  asked.insert(route);
   endpoints_.open(route);
   // Asking again is allowed; the last request is the one that is answered.
   std::erase_if(sendings_, [&](const Sending& s) { return by_asker(s) && s.route == route; });
@@ -76,9 +86,23 @@ bool RadioRegistry::is_matched(const Listening& listening) const {
          endpoints_.reaches(listening.arrival, listening.asker.source);
 }
 
-bool RadioRegistry::waiting() const {
+std::vector<AwaitedRequest> RadioRegistry::awaited() const {
+  std::vector<AwaitedRequest> awaited;
   const auto waits = [&](const auto& entry) { return !is_matched(entry) && !endpoints_.lost(entry.asker.source); };
-  return std::ranges::any_of(sendings_, waits) || std::ranges::any_of(listenings_, waits);
+  for (const Sending& sending : sendings_) {
+    if (waits(sending)) awaited.push_back({sending.asker, table_.routes()[sending.route].topic + " to match"});
+  }
+  for (const Listening& listening : listenings_) {
+    if (waits(listening)) awaited.push_back({listening.asker, listening.arrival.topic + " to match"});
+  }
+  return awaited;
+}
+
+void RadioRegistry::refuse_unmatched(const Asker& asker, const std::string& topic, const char* reason) {
+  ++histories_[asker.source].in_vain;
+  decided_by_clock_.push_back(scenario_.node_name(asker.node) + " was refused the radio topic " + topic +
+                              ": none of its own matched in time");
+  refuse(asker, reason);
 }
 
 bool RadioRegistry::heard(const RadioTarget& target) const {
@@ -94,7 +118,7 @@ std::vector<RadioReply> RadioRegistry::end_step() {
     listening.matched = is_matched(listening);
     if (listening.matched) continue;
     listening.state = State::refused;
-    refuse(listening.asker, kNoReader);
+    refuse_unmatched(listening.asker, listening.ros_topic, kNoReader);
   }
   settle_sendings();
   settle_listenings();
@@ -106,7 +130,7 @@ void RadioRegistry::settle_sendings() {
     RadioReply reply{.asker = sending.asker, .open = true};
     if (!is_matched(sending)) {
       sending.state = State::refused;
-      refuse(sending.asker, kNoWriter);
+      refuse_unmatched(sending.asker, table_.routes()[sending.route].ros_topic, kNoWriter);
       continue;
     }
     if (sending.state == State::asked) endpoints_.admit(sending.route, sending.asker.source);
@@ -116,7 +140,14 @@ void RadioRegistry::settle_sendings() {
     }
     tell(reply, sending.told);
   }
-  std::erase_if(sendings_, [](const Sending& sending) { return sending.state == State::refused; });
+  std::vector<std::size_t> given_up;
+  std::erase_if(sendings_, [&](const Sending& sending) {
+    if (sending.state == State::refused) given_up.push_back(sending.route);
+    return sending.state == State::refused;
+  });
+  for (const std::size_t route : given_up) {
+    if (std::ranges::find(sendings_, route, &Sending::route) == sendings_.end()) endpoints_.close(route);
+  }
 }
 
 void RadioRegistry::settle_listenings() {

@@ -5,7 +5,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,8 @@ struct RadioReply {
 struct RadioEndpoints {
   /// A route is new or has new targets: opens what it lacks.
   std::function<void(std::size_t route)> open;
+  /// Nobody sends on this route, since the only one who asked for it was refused: frees what open() made.
+  std::function<void(std::size_t route)> close;
   /// Our reader of this route has found the member's writer.
   std::function<bool(std::size_t route, SourceId)> hears;
   /// Our writer of this arrival topic has found the member's reader.
@@ -56,10 +60,18 @@ struct RadioEndpoints {
   std::function<bool(SourceId)> lost;
 };
 
+/// A request that waits for an end of the asker's.
+struct AwaitedRequest {
+  Asker asker;
+  std::string what;  ///< "rt/x to match"
+};
+
 class RadioRegistry {
  public:
-  /// Topics that one member may send on, and as many that it may listen to.
+  /// Topics that one member may ever ask to send on, and as many that it may listen to at a time.
   static constexpr std::size_t kMaxTopics = 1024;
+  /// So many requests of one member may be waited for in vain. For a while the fleet stands still for each.
+  static constexpr std::size_t kMaxVain = 3;
 
   /// @param table  of this run; both must outlive this.
   RadioRegistry(const Scenario& scenario, RadioTable& table, RadioEndpoints endpoints);
@@ -67,9 +79,14 @@ class RadioRegistry {
   /// All requests of a step, in the order in which they count.
   void begin_step(const std::vector<RadioRequest>& requests);
   /// Whether an end is not matched yet that must be before this step's messages may pass.
-  bool waiting() const;
+  bool waiting() const { return !awaited().empty(); }
+  /// Whose, and which.
+  std::vector<AwaitedRequest> awaited() const;
   /// What is to be said in this step. Who has not matched by now is told that it made no fitting writer.
   std::vector<RadioReply> end_step();
+  /// Refusals of the last end_step() that depend on how long it was waited for, for a human: with more patience the
+  /// answer might have been another.
+  const std::vector<std::string>& decided_by_clock() const { return decided_by_clock_; }
 
  private:
   enum class State { asked, open, refused };
@@ -88,7 +105,14 @@ class RadioRegistry {
     std::optional<RadioReply> told = {};
   };
 
+  /// What a member has asked for since it joined.
+  struct History {
+    std::set<std::size_t> routes;
+    std::size_t in_vain = 0;
+  };
+
   void forget_the_lost();
+  void refuse_unmatched(const Asker& asker, const std::string& topic, const char* reason);
   void send(const RadioRequest& request);
   void listen(const RadioRequest& request);
   void refuse(const Asker& asker, const std::string& reason);
@@ -104,7 +128,9 @@ class RadioRegistry {
   const RadioEndpoints endpoints_;
   std::vector<Sending> sendings_;      ///< in the order of asking
   std::vector<Listening> listenings_;  ///< likewise
-  std::vector<RadioReply> replies_;    ///< of this step
+  std::map<SourceId, History> histories_;
+  std::vector<RadioReply> replies_;            ///< of this step
+  std::vector<std::string> decided_by_clock_;  ///< likewise
 };
 
 }  // namespace skein::router

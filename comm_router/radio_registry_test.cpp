@@ -50,6 +50,7 @@ class Registry : public testing::Test {
   RadioRegistry registry_{scenario_,
                           table_,
                           {.open = [this](std::size_t route) { opened_.insert(route); },
+                           .close = [this](std::size_t route) { opened_.erase(route); },
                            .hears = [this](std::size_t, SourceId source) { return hears_.contains(source); },
                            .reaches = [this](const RadioTarget&, SourceId who) { return reaches_.contains(who); },
                            .declared = [this](const RadioTarget& target) { return declared_.contains(target.node); },
@@ -78,8 +79,28 @@ TEST_F(Registry, SaysThatThereIsNoFittingWriter) {
   EXPECT_FALSE(replies[0].open);
   EXPECT_NE(replies[0].reason.find("BEST_EFFORT"), std::string::npos);
   EXPECT_TRUE(admitted_.empty());
+  EXPECT_EQ(registry_.decided_by_clock().size(), 1U) << "with more patience it might have been found";
+  EXPECT_TRUE(opened_.empty()) << "what was made for it is freed";
   hears_ = {kA};
   EXPECT_TRUE(step({sending(kA, 6)}).at(0).open) << "it may ask again";
+  EXPECT_TRUE(registry_.decided_by_clock().empty());
+  EXPECT_EQ(opened_.size(), 1U);
+}
+
+TEST_F(Registry, WhoAsksInVainAgainAndAgainIsNotWaitedForAnyMore) {
+  hears_ = {kB};
+  for (std::uint32_t id = 0; id < RadioRegistry::kMaxVain; ++id) {
+    registry_.begin_step({sending(kA, id)});
+    EXPECT_TRUE(registry_.waiting());
+    EXPECT_FALSE(registry_.end_step().at(0).open);
+  }
+  registry_.begin_step({sending(kA, 9), sending(kB, 1)});
+  EXPECT_FALSE(registry_.waiting()) << "the fleet does not stand still for it";
+  const auto replies = registry_.end_step();
+  ASSERT_EQ(replies.size(), 2U);
+  EXPECT_NE(replies[0].reason.find("three times"), std::string::npos);
+  EXPECT_TRUE(replies[1].open) << "others are heard as before";
+  EXPECT_TRUE(registry_.decided_by_clock().empty()) << "this refusal depends on nothing but the requests";
 }
 
 TEST_F(Registry, ListenersMayComeFirstOrLater) {

@@ -17,10 +17,6 @@ using bus::LockstepClient;
 
 namespace {
 
-/// How long the world stands still for a member that registers a topic and has no fitting writer of it, by a wall
-/// clock. Discovery takes milliseconds; who gets here has made a mistake, and is told so.
-constexpr std::chrono::seconds kMatchPatience{10};
-
 bool listed(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -50,31 +46,42 @@ RouterNode::RouterNode(const Scenario& scenario, std::uint64_t seed, int base_do
       table_(scenario),
       gate_(table_.routes(), scenario.fleet.size() + 1,
             make_links(scenario, faults, seed, out)),
+      declared_routes_(gate_.routes().size()),
       sync_(gate_.routes()),
       registry_(scenario, table_, endpoints()),
+      inbox_(bus.run()),
       world_(bus.join(world_domain(base_domain))),
       client_(*world_, inbox_, std::string(bus::kRouterName)) {
   for (Node node = 0; node < gate_.nodes(); ++node) nodes_.push_back(bus.join(node_domain(base_domain, node)));
-  for (Node node = 0; node < gate_.nodes(); ++node) {
-    done_readers_.push_back(
-        bus::subscribe<msg::Done>(inbox_, *nodes_[node], bus::spec(topics::done()),
-                                  [this](const msg::Done& done, bus::ParticipantId source) {
-                                    sync_.on_done(source, done.k(), sent_counts(done));
-                                  }));
-    ready_readers_.push_back(bus::subscribe<msg::Ready>(
-        inbox_, *nodes_[node], bus::spec(topics::ready()),
-        [this, node](const msg::Ready& ready, bus::ParticipantId source) { on_ready(node, ready, source); }));
-  }
+  for (Node node = 0; node < gate_.nodes(); ++node) open_door(node, "");
+  open_door(kStationNode, bus::kStationName);
   drop_reader_ = bus::subscribe<msg::Drop>(inbox_, *world_, bus::spec(topics::drop()),
                                            [this](const msg::Drop& drop, bus::ParticipantId source) {
                                              if (source == client_.server()) sync_.on_drop(drop.k(), drop.source());
                                            });
   client_.declare_writer(bus::spec(topics::attached()), LockstepClient::Counterpart::server);
   client_.declare_writer(bus::spec(topics::routed()), LockstepClient::Counterpart::server);
+  client_.declare_writer(bus::spec(topics::awaits()), LockstepClient::Counterpart::server);
+  client_.answer_again_with([this] {
+    if (last_routed_ && last_routed_->k() == client_.step().k()) client_.write(topics::routed().name, *last_routed_);
+  });
   client_.declare_when([this] {
     open_radio();
     return true;
   });
+}
+
+void RouterNode::open_door(Node node, std::string_view member) {
+  const std::size_t door = doors_.size();
+  doors_.push_back({node,
+                    bus::subscribe<msg::Ready>(inbox_, *nodes_[node], bus::ready_spec(member),
+                                               [this, door](const msg::Ready& ready, bus::ParticipantId source) {
+                                                 on_ready(door, ready, source);
+                                               }),
+                    bus::subscribe<msg::Done>(inbox_, *nodes_[node], bus::done_spec(member),
+                                              [this](const msg::Done& done, bus::ParticipantId source) {
+                                                sync_.on_done(source, done.k(), sent_counts(done));
+                                              })});
 }
 
 // Only after the server's invitation: it stands still until we are a member, so no message is under way, and the
@@ -100,17 +107,33 @@ void RouterNode::open_requests(Node node) {
 void RouterNode::open_route(std::size_t number) {
   const RadioRoute& route = gate_.routes()[number];
   if (number == radio_readers_.size()) {
+    radio_readers_.emplace_back();
+    arrival_of_.emplace_back();
+  }
+  if (!radio_readers_[number]) {
     const auto queue = [this, number](bus::Sample&& sample) {
       sync_.on_radio(sample.source, number,
                      std::make_shared<const std::vector<std::uint8_t>>(std::move(sample.payload)));
     };
     // Of no use before the Done that counts them; once all of those are here, rings() waits for any sample.
-    radio_readers_.push_back(inbox_.subscribe(*nodes_[route.source], radio_spec(route.topic, route.type), queue,
-                                              bus::Bell::silent));
-    arrival_of_.emplace_back();
+    radio_readers_[number] = inbox_.subscribe(*nodes_[route.source], radio_spec(route.topic, route.type), queue,
+                                              bus::Bell::silent);
   }
   for (std::size_t t = arrival_of_[number].size(); t < route.targets.size(); ++t) {
     arrival_of_[number].push_back(find_or_open_arrival(route.targets[t], route.type));
+  }
+}
+
+// Nothing ever went over it, so whoever opens it again begins to count at 0 as everybody does.
+void RouterNode::close_route(std::size_t number) {
+  if (number < declared_routes_) return;
+  radio_readers_[number].reset();
+  const std::vector<std::size_t> arrivals = std::exchange(arrival_of_[number], {});
+  for (const std::size_t arrival : arrivals) {
+    const auto uses = [&](const std::vector<std::size_t>& used) {
+      return std::ranges::find(used, arrival) != used.end();
+    };
+    if (std::ranges::none_of(arrival_of_, uses)) arrivals_[arrival].writer.reset();
   }
 }
 
@@ -124,12 +147,13 @@ RadioEndpoints RouterNode::endpoints() {
                 gate_.put(route, table_.routes()[route]);
                 open_route(route);
               },
+          .close = [this](std::size_t route) { close_route(route); },
           .hears = [this](std::size_t route,
                           SourceId source) { return bus::contains(radio_readers_[route]->matched(), source); },
           .reaches =
               [this, arrival_at](const RadioTarget& target, SourceId source) {
                 const auto arrival = arrival_at(target);
-                return arrival != arrivals_.end() && arrival->writer->matches(source);
+                return arrival != arrivals_.end() && arrival->writer && arrival->writer->matches(source);
               },
           .declared =
               [this](const RadioTarget& target) {
@@ -146,36 +170,41 @@ RadioEndpoints RouterNode::endpoints() {
 std::size_t RouterNode::find_or_open_arrival(const RadioTarget& target, const std::string& type) {
   const auto found = std::find_if(arrivals_.begin(), arrivals_.end(),
                                   [&](const Arrival& a) { return a.node == target.node && a.topic == target.topic; });
-  if (found == arrivals_.end()) {
-    arrivals_.push_back(
-        {target.node, target.topic,
-         std::make_unique<bus::CountedWriter>(*nodes_[target.node], radio_spec(target.topic, type, gate_.nodes()))});
-    return arrivals_.size() - 1;
+  const auto number = static_cast<std::size_t>(found - arrivals_.begin());
+  if (found == arrivals_.end()) arrivals_.push_back({target.node, target.topic, nullptr});
+  if (!arrivals_[number].writer) {
+    arrivals_[number].writer =
+        std::make_unique<bus::CountedWriter>(*nodes_[target.node], radio_spec(target.topic, type, gate_.nodes()));
   }
-  return static_cast<std::size_t>(found - arrivals_.begin());
+  return number;
 }
 
-void RouterNode::on_ready(Node node, const msg::Ready& ready, bus::ParticipantId source) {
+void RouterNode::on_ready(std::size_t door, const msg::Ready& ready, bus::ParticipantId source) {
   if (ready.revision() == 0) return;
-  applicants_[source] = {ready.member(), node, ready.revision(), ready.reads(), ready.writes(), false};
+  applicants_[source] = {
+      ready.member(), doors_[door].node, door, ready.revision(), ready.reads(), ready.writes(), false};
 }
 
-bool RouterNode::endpoints_match(const Applicant& applicant, bus::ParticipantId source) const {
-  if (!bus::contains(done_readers_[applicant.node]->matched(), source)) return false;
-  if (listed(applicant.writes, topics::radio_request().name) &&
-      !bus::contains(request_readers_[applicant.node]->matched(), source)) {
-    return false;
+std::string RouterNode::unmatched(const Applicant& applicant, bus::ParticipantId source) const {
+  if (!bus::contains(doors_[applicant.door].done->matched(), source)) return bus::done_spec(applicant.member).name;
+  const std::string requests = topics::radio_request().name;
+  if (listed(applicant.writes, requests) && !bus::contains(request_readers_[applicant.node]->matched(), source)) {
+    return requests;
   }
   const auto& routes = gate_.routes();
   for (std::size_t r = 0; r < routes.size(); ++r) {
-    if (routes[r].source == applicant.node && listed(applicant.writes, routes[r].topic) &&
+    if (routes[r].source == applicant.node && listed(applicant.writes, routes[r].topic) && radio_readers_[r] &&
         !bus::contains(radio_readers_[r]->matched(), source)) {
-      return false;
+      return routes[r].topic;
     }
   }
-  return std::all_of(arrivals_.begin(), arrivals_.end(), [&](const Arrival& arrival) {
-    return arrival.node != applicant.node || !listed(applicant.reads, arrival.topic) || arrival.writer->matches(source);
-  });
+  for (const Arrival& arrival : arrivals_) {
+    if (arrival.node == applicant.node && arrival.writer && listed(applicant.reads, arrival.topic) &&
+        !arrival.writer->matches(source)) {
+      return arrival.topic;
+    }
+  }
+  return "";
 }
 
 bool RouterNode::attach() {
@@ -183,15 +212,15 @@ bool RouterNode::attach() {
   bool waiting = false;
   std::erase_if(applicants_, [&](const auto& entry) {
     const auto& [source, applicant] = entry;
-    return !applicant.attached && !bus::contains(ready_readers_[applicant.node]->matched(), source);  // it left
+    return !applicant.attached && !bus::contains(doors_[applicant.door].ready->matched(), source);  // it left
   });
   for (auto& [source, applicant] : applicants_) {
     if (applicant.attached) continue;
-    if (!endpoints_match(applicant, source)) {
+    if (!unmatched(applicant, source).empty()) {
       waiting = true;
       continue;
     }
-    msg::Attached attached;
+    auto attached = bus::message_of<msg::Attached>(inbox_.run());
     attached.member(applicant.member);
     attached.source(source);
     attached.revision(applicant.revision);
@@ -202,7 +231,42 @@ bool RouterNode::attach() {
   return waiting;
 }
 
+std::vector<msg::Await> RouterNode::awaited() const {
+  std::vector<msg::Await> list;
+  const auto add = [&](const std::string& member, bus::ParticipantId source, bool joining, const std::string& what) {
+    list.emplace_back();
+    list.back().member(member);
+    list.back().source(source);
+    list.back().joining(joining);
+    list.back().what(what);
+  };
+  for (const auto& [source, applicant] : applicants_) {
+    if (!applicant.attached) add(applicant.member, source, true, unmatched(applicant, source) + " to match");
+  }
+  for (const AwaitedMember& missing : sync_.awaited()) add(missing.member.name, missing.member.source, false, missing.what);
+  if (!batch_) return list;
+  for (const AwaitedRequest& request : registry_.awaited()) {
+    add(scenario_.node_name(request.asker.node), request.asker.source, false, request.what);
+  }
+  return list;
+}
+
+void RouterNode::tell_awaited(bool waits) {
+  if (!waits) word_patience_.reset();
+  if (waits && !word_patience_) word_patience_.emplace(word_patience_s_);
+  if (!radio_open_ || !(waits ? word_patience_->over() : told_.has_value())) return;
+  std::vector<msg::Await> list = awaited();
+  if (told_ == list) return;
+  auto message = bus::message_of<msg::Awaits>(inbox_.run());
+  message.k(batch_ ? batch_->k : sync_.next_step().value_or(0));
+  message.members(list);
+  client_.write(topics::awaits().name, message);
+  told_ = std::move(list);
+}
+
 void RouterNode::begin_step() {
+  told_.reset();
+  word_patience_.reset();
   const msg::Step& step = client_.step();
   std::vector<RadioMember> members;
   for (const auto& member : step.members()) {
@@ -223,23 +287,21 @@ void RouterNode::deliver(const StepBatch& batch) {
   }
   reply(delivered);
 
-  msg::Routed routed;
+  auto routed = bus::message_of<msg::Routed>(inbox_.run());
   routed.k(batch.k);
   routed.epoch(batch.epoch);
   for (const auto& [node, counts] : delivered) {
     msg::NodeCounts entry;
     entry.node(scenario_.node_name(node));
     for (const auto& [index, total] : counts) {
-      msg::TopicCount count;
-      count.topic(arrivals_[index].topic);
-      count.source(nodes_[node]->id());
-      count.count(total);
-      entry.delivered().push_back(count);
+      entry.delivered().push_back(bus::topic_count(arrivals_[index].topic, nodes_[node]->id(), total));
     }
     routed.nodes().push_back(std::move(entry));
   }
   routed.digest(gated.digest);
+  routed.decided_by_clock(registry_.decided_by_clock());
   client_.write(topics::routed().name, routed);
+  last_routed_ = std::move(routed);
   last_step_answered_ = batch.k == last_k_;
 }
 
@@ -257,7 +319,7 @@ void RouterNode::reply(Delivered& delivered) {
     if (!answer.reason.empty()) {
       spdlog::warn("a radio topic of {} is refused: {}", scenario_.node_name(answer.asker.node), answer.reason);
     }
-    msg::RadioReply message;
+    auto message = bus::message_of<msg::RadioReply>(inbox_.run());
     message.asker(answer.asker.source);
     message.id(answer.asker.id);
     message.open(answer.open);
@@ -271,7 +333,7 @@ std::vector<RadioRequest> RouterNode::read_requests(const StepBatch& batch) {
   std::vector<RadioRequest> requests;
   for (const RequestSample& sample : batch.requests) {
     msg::RadioRequest message;
-    if (!decode(*sample.payload, message)) {
+    if (!decode(*sample.payload, message) || RunId{message.run()} != inbox_.run()) {
       inbox_.note_malformed(topics::radio_request().name, {*sample.payload, sample.source});
       continue;
     }
@@ -291,21 +353,32 @@ void RouterNode::keep_counts(CountStore& store) {
 }
 
 bool RouterNode::serve() {
+  const bool matches = advance();
+  tell_awaited(matches || batch_ || sync_.waiting());
+  return matches;
+}
+
+bool RouterNode::advance() {
   const bool waiting = attach();
   for (;;) {
     if (!batch_) {
       batch_ = sync_.take();
       if (!batch_) return waiting;
       registry_.begin_step(read_requests(*batch_));
-      patience_end_ = std::chrono::steady_clock::now() + kMatchPatience;
+      match_patience_ = bus::Patience(match_patience_s_);
     }
-    if (registry_.waiting() && std::chrono::steady_clock::now() < patience_end_) return true;
+    if (registry_.waiting() && !match_patience_.over()) return true;
     deliver(*batch_);
     batch_.reset();
   }
 }
 
 std::size_t RouterNode::rings() const { return sync_.waiting() ? sync_.missing_answers() : client_.rings(); }
+
+void RouterNode::set_patience(double match_s, double word_s) {
+  match_patience_s_ = match_s;
+  word_patience_s_ = word_s;
+}
 
 void RouterNode::poll() {
   if (!attaching_ && !client_.waits_for_matches() && !inbox_.ready(rings())) return;
@@ -316,8 +389,8 @@ void RouterNode::poll() {
 
 std::string RouterNode::waiting_for() const {
   std::string text = "comm_router: " + client_.waiting_for() + ";";
-  for (const std::string& missing : sync_.waiting_for()) text += " " + missing + ";";
-  return batch_ ? text + " radio topics to match" : text;
+  for (const msg::Await& await : awaited()) text += " " + await.member() + ": " + await.what() + ";";
+  return text;
 }
 
 std::optional<int> RouterNode::run(const StopSignal& stop) {

@@ -2,7 +2,6 @@
 // It moves serialised payloads and knows no type. Everything happens on the thread that calls run().
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "bus/lockstep/client_loop.hpp"
+#include "bus/lockstep/patience.hpp"
 #include "comm_router/count_store.hpp"
 #include "comm_router/link_gate.hpp"
 #include "comm_router/radio_registry.hpp"
@@ -21,6 +21,13 @@
 #include "core/scenario.hpp"
 
 namespace skein::router {
+
+/// How long the world stands still for a member that registers a topic and has no fitting end of it, by a wall clock.
+/// Discovery takes milliseconds; who gets here has made a mistake, and is told so. Since it cannot be known, the run is
+/// marked: another time the same might be found in time.
+inline constexpr double kMatchPatience_s = 10.0;
+/// Before the server hears for whom we wait: what is under way arrives sooner.
+inline constexpr double kWordPatience_s = 1.0;
 
 class RouterNode {
  public:
@@ -38,6 +45,8 @@ class RouterNode {
   void start() { client_.start(); }
   void obey_with(std::function<void(bus::LockstepClient::Order)> obey) { client_.obey_with(std::move(obey)); }
   void poll();
+  /// For tests that may not let time pass; else as the constants say.
+  void set_patience(double match_s, double word_s);
   /// What it waits for, for a human.
   std::string waiting_for() const;
   /// Counts on from what the store holds, and keeps it there from now on. It must outlive this.
@@ -49,10 +58,17 @@ class RouterNode {
   std::uint64_t malformed() const { return inbox_.malformed(); }
 
  private:
+  /// Where the members of a node say ready and done: the station at one of its own (bus/lockstep/names.hpp).
+  struct Door {
+    Node node = kStationNode;
+    std::unique_ptr<bus::Reader> ready, done;
+  };
+
   /// One participant that wants its radio topics attached.
   struct Applicant {
     std::string member;
     Node node = kStationNode;
+    std::size_t door = 0;
     std::uint32_t revision = 0;
     std::vector<std::string> reads, writes;
     bool attached = false;
@@ -62,23 +78,30 @@ class RouterNode {
   struct Arrival {
     Node node = kStationNode;
     std::string topic;
-    std::unique_ptr<bus::CountedWriter> writer;
+    std::unique_ptr<bus::CountedWriter> writer;  ///< null: closed again
   };
 
+  void open_door(Node node, std::string_view member);
   void open_radio();
   void open_requests(Node node);
   void open_route(std::size_t number);
+  void close_route(std::size_t number);
   RadioEndpoints endpoints();
   std::vector<RadioRequest> read_requests(const StepBatch& batch);
   std::size_t find_or_open_arrival(const RadioTarget& target, const std::string& type);
-  void on_ready(Node node, const msg::Ready& ready, bus::ParticipantId source);
+  void on_ready(std::size_t door, const msg::Ready& ready, bus::ParticipantId source);
   /// @returns true while somebody is not attached yet.
   bool attach();
   /// @returns true while it waits for matches.
   bool serve();
+  bool advance();
   /// For Inbox::dispatch(): how many rings there must be before it can do more than it did.
   std::size_t rings() const;
-  bool endpoints_match(const Applicant& applicant, bus::ParticipantId source) const;
+  /// The topic that is not matched with it yet; empty when all are.
+  std::string unmatched(const Applicant& applicant, bus::ParticipantId source) const;
+  /// When it has waited for a while: tells the server for whom, as often as that changes.
+  void tell_awaited(bool waits);
+  std::vector<msg::Await> awaited() const;
   void begin_step();
   /// Counts so far of the arrival topics that got something in this step, by node, index into arrivals_.
   using Delivered = std::map<Node, std::map<std::size_t, std::uint64_t>>;
@@ -89,6 +112,7 @@ class RouterNode {
   const Scenario& scenario_;
   RadioTable table_;
   LinkGate gate_;
+  const std::size_t declared_routes_;  ///< the first so many are the scenario's
   RouterSync sync_;
   RadioRegistry registry_;
   CountStore* count_store_ = nullptr;
@@ -97,16 +121,20 @@ class RouterNode {
   std::vector<std::unique_ptr<bus::Participant>> nodes_;
   bus::LockstepClient client_;
   std::unique_ptr<bus::Reader> drop_reader_;
-  std::vector<std::unique_ptr<bus::Reader>> done_readers_, ready_readers_;  ///< by node
-  std::vector<std::unique_ptr<bus::Reader>> request_readers_;               ///< by node
-  std::vector<std::unique_ptr<bus::Reader>> radio_readers_;                 ///< by route
+  std::vector<Door> doors_;
+  std::vector<std::unique_ptr<bus::Reader>> request_readers_;  ///< by node
+  std::vector<std::unique_ptr<bus::Reader>> radio_readers_;    ///< by route; null: closed again
   std::vector<Arrival> arrivals_;
   std::vector<std::vector<std::size_t>> arrival_of_;  ///< by route, target: index into arrivals_
   std::vector<std::size_t> replies_of_;               ///< by node: likewise, where it gets its replies
   std::optional<StepBatch> batch_;                    ///< while its registrations wait for matches
-  std::chrono::steady_clock::time_point patience_end_;
+  bus::Patience match_patience_{0.0};                      ///< for those
+  std::optional<bus::Patience> word_patience_;        ///< since it waits; over: the server is told
+  std::optional<std::vector<msg::Await>> told_;       ///< to the server, in this step
+  std::optional<msg::Routed> last_routed_;
   std::map<bus::ParticipantId, Applicant> applicants_;
   std::optional<std::uint64_t> last_k_;  ///< of the final step
+  double match_patience_s_ = kMatchPatience_s, word_patience_s_ = kWordPatience_s;
   bool radio_open_ = false, attaching_ = false, last_step_answered_ = false;
 };
 

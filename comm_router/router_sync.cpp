@@ -9,6 +9,9 @@ namespace {
 /// becomes a member sends nearly as much before.
 constexpr std::size_t kMaxStrangerSamples = 4096;
 
+/// Nor must a member's that never announces what it sends: no step has nearly as many messages of one topic.
+constexpr std::size_t kMaxWaiting = 16 * topics::kRadioDepth;
+
 /// A member answers the step that it was asked; who answers so many that nobody asked is none.
 constexpr std::size_t kMaxAnswers = 64;
 
@@ -25,7 +28,7 @@ void RouterSync::on_step(std::uint64_t k, std::uint32_t epoch, std::vector<Radio
                          std::vector<std::uint8_t> links) {
   if (last_k_ && k <= *last_k_) return;
   for (const RadioMember& member : members) {
-    if (!gone_.contains(member.source)) senders_[member.source].member = true;
+    if (!gone_.contains(member.source)) senders_[member.source].member = member.name;
   }
   steps_[k] = {epoch, std::move(members), std::move(links)};
 }
@@ -41,6 +44,10 @@ void RouterSync::on_radio(SourceId source, std::size_t route, Payload payload) {
   // Who has not registered it may talk as it likes: it is not heard, and nothing is kept.
   const auto sender = senders_.find(source);
   if (route >= declared_ && (sender == senders_.end() || !sender->second.opened.contains(route))) return;
+  const std::string& bound = routes_[route].member;
+  if (!bound.empty() && sender != senders_.end() && !sender->second.member.empty() && sender->second.member != bound) {
+    return;
+  }
   queue(source, routes_[route].topic, std::move(payload));
 }
 
@@ -49,8 +56,9 @@ void RouterSync::on_request(SourceId source, Payload payload) { queue(source, kR
 void RouterSync::queue(SourceId source, const std::string& topic, Payload payload) {
   if (gone_.contains(source)) return;
   Sender& sender = senders_[source];
-  sender.lanes[topic].waiting.push_back(std::move(payload));
-  if (!sender.member && ++sender.waiting_as_stranger > kMaxStrangerSamples) forget(source);
+  Lane& lane = sender.lanes[topic];
+  if (lane.waiting.size() < kMaxWaiting) lane.waiting.push_back(std::move(payload));
+  if (sender.member.empty() && ++sender.waiting_as_stranger > kMaxStrangerSamples) forget(source);
 }
 
 void RouterSync::open(SourceId source, std::size_t route) {
@@ -91,26 +99,30 @@ std::size_t RouterSync::missing_answers() const {
   }));
 }
 
-std::vector<std::string> RouterSync::waiting_for() const {
-  std::vector<std::string> missing;
+std::vector<AwaitedMember> RouterSync::awaited() const {
+  std::vector<AwaitedMember> missing;
   if (steps_.empty()) return missing;
   const auto& [k, step] = *steps_.begin();
   for (const RadioMember& member : step.members) {
     if (complete(k, member)) continue;
     const auto sender = senders_.find(member.source);
     if (sender == senders_.end() || !sender->second.done.contains(k)) {
-      missing.push_back(member.name + ": done");
+      missing.push_back({member, "done"});
       continue;
     }
-    for (const SentCount& sent : radio_counts(sender->second, k, member.node)) {
+    for (const SentCount& sent : radio_counts(sender->second, k, member)) {
       const std::uint64_t arrived = sender->second.arrived(sent.topic);
       if (arrived < sent.count) {
-        missing.push_back(member.name + ": " + sent.topic + " " + std::to_string(arrived) + " of " +
-                          std::to_string(sent.count));
+        missing.push_back(
+            {member, sent.topic + " " + std::to_string(arrived) + " of " + std::to_string(sent.count)});
       }
     }
   }
   return missing;
+}
+
+std::optional<std::uint64_t> RouterSync::next_step() const {
+  return steps_.empty() ? std::nullopt : std::optional(steps_.begin()->first);
 }
 
 std::uint64_t RouterSync::Sender::arrived(const std::string& topic) const {
@@ -118,26 +130,29 @@ std::uint64_t RouterSync::Sender::arrived(const std::string& topic) const {
   return lane == lanes.end() ? 0 : lane->second.taken + lane->second.waiting.size();
 }
 
-std::vector<SentCount> RouterSync::radio_counts(const Sender& sender, std::uint64_t k, Node node) const {
+std::vector<SentCount> RouterSync::radio_counts(const Sender& sender, std::uint64_t k,
+                                                const RadioMember& member) const {
   std::vector<SentCount> counts;
   const std::vector<SentCount>& sent = sender.done.at(k);
   if (const auto count = count_of(sent, kRequests)) counts.push_back({kRequests, *count});
   for (std::size_t route = 0; route < routes_.size(); ++route) {
-    if (!this->counts(sender, route, node)) continue;
+    if (!this->counts(sender, route, member)) continue;
     if (const auto count = count_of(sent, routes_[route].topic)) counts.push_back({routes_[route].topic, *count});
   }
   return counts;
 }
 
-bool RouterSync::counts(const Sender& sender, std::size_t route, Node node) const {
-  return routes_[route].source == node && (route < declared_ || sender.opened.contains(route));
+bool RouterSync::counts(const Sender& sender, std::size_t route, const RadioMember& member) const {
+  const RadioRoute& r = routes_[route];
+  return r.source == member.node && (r.member.empty() || r.member == member.name) &&
+         (route < declared_ || sender.opened.contains(route));
 }
 
 bool RouterSync::complete(std::uint64_t k, const RadioMember& member) const {
   if (gone_.contains(member.source)) return true;  // nobody waits for it, and it adds nothing
   const auto found = senders_.find(member.source);
   if (found == senders_.end() || !found->second.done.contains(k)) return false;
-  const std::vector<SentCount> counts = radio_counts(found->second, k, member.node);
+  const std::vector<SentCount> counts = radio_counts(found->second, k, member);
   return std::ranges::all_of(counts,
                              [&](const SentCount& sent) { return found->second.arrived(sent.topic) >= sent.count; });
 }
@@ -162,7 +177,7 @@ void RouterSync::take_messages(std::uint64_t k, const RadioMember& member, StepB
     batch.requests.push_back({member.source, member.node, std::move(payload)});
   });
   for (std::size_t route = 0; route < routes_.size(); ++route) {
-    if (!counts(sender, route, member.node)) continue;
+    if (!counts(sender, route, member)) continue;
     take(routes_[route].topic, [&](std::uint64_t sequence, Payload&& payload) {
       batch.messages.push_back({route, sequence, std::move(payload)});
     });

@@ -27,6 +27,12 @@ struct RadioMember {
   Node node = kStationNode;
 };
 
+/// Whom the router waits for, and what for, for a human: "done", "rt/broadcast 3 of 4".
+struct AwaitedMember {
+  RadioMember member;
+  std::string what;
+};
+
 struct SentCount {
   std::string topic;        ///< wire topic in the sender's domain
   std::uint64_t count = 0;  ///< samples since it joined
@@ -58,7 +64,8 @@ class RouterSync {
   void on_step(std::uint64_t k, std::uint32_t epoch, std::vector<RadioMember> members, std::vector<std::uint8_t> links);
   /// Done(k). Topics that are no radio topic of the sender's node are passed over.
   void on_done(SourceId source, std::uint64_t k, std::vector<SentCount> sent);
-  /// A sample from a reader of `routes[route]`. Those of one writer must come in the order of writing.
+  /// A sample from a reader of `routes[route]`. Those of one writer must come in the order of writing. What is sent by
+  /// another member of the node than the route is bound to is passed over, and so is its count.
   void on_radio(SourceId source, std::size_t route, Payload payload);
   /// A request for a radio topic; counted and handed out like messages.
   void on_request(SourceId source, Payload payload);
@@ -79,9 +86,10 @@ class RouterSync {
   bool waiting() const { return !steps_.empty(); }
   /// How many members have not answered that step: take() needs a Done, or a Drop, of each of them.
   std::size_t missing_answers() const;
-  /// What take() waits for, for a human: "jurong: done", "raffles: rt/broadcast 3 of 4". Empty when it waits for
-  /// nothing but the next step.
-  std::vector<std::string> waiting_for() const;
+  /// What take() waits for. Empty when it waits for nothing but the next step.
+  std::vector<AwaitedMember> awaited() const;
+  /// The step that take() hands out next, if it was announced.
+  std::optional<std::uint64_t> next_step() const;
 
  private:
   struct Lane {
@@ -95,7 +103,7 @@ class RouterSync {
     std::vector<SentCount> last_done;                      ///< of the step handed out last
     std::set<std::size_t> opened;                          ///< routes beside the scenario's
     std::size_t waiting_as_stranger = 0;                   ///< samples that came before it was a member
-    bool member = false;
+    std::string member;                                    ///< its name, once it is one
 
     std::uint64_t arrived(const std::string& topic) const;
   };
@@ -107,9 +115,9 @@ class RouterSync {
 
   bool complete(std::uint64_t k, const RadioMember& member) const;
   void queue(SourceId source, const std::string& topic, Payload payload);
-  bool counts(const Sender& sender, std::size_t route, Node node) const;
-  /// What Done(k) says about its requests and the radio topics of its node, by route.
-  std::vector<SentCount> radio_counts(const Sender& sender, std::uint64_t k, Node node) const;
+  bool counts(const Sender& sender, std::size_t route, const RadioMember& member) const;
+  /// What Done(k) says about its requests and the radio topics on which it may send, by route.
+  std::vector<SentCount> radio_counts(const Sender& sender, std::uint64_t k, const RadioMember& member) const;
   void take_messages(std::uint64_t k, const RadioMember& member, StepBatch& batch);
   void forget_the_gone(std::uint64_t k);
   void forget(SourceId source);

@@ -47,6 +47,12 @@ std::vector<std::string> describe(const StepBatch& batch) {
   return lines;
 }
 
+std::vector<std::string> awaited(const RouterSync& sync) {
+  std::vector<std::string> lines;
+  for (const AwaitedMember& one : sync.awaited()) lines.push_back(one.member.name + ": " + one.what);
+  return lines;
+}
+
 /// Events that keep their order among themselves (one writer on one topic).
 using Lane = std::vector<std::function<void(RouterSync&)>>;
 
@@ -164,7 +170,7 @@ TEST(RouterSync, AnyOrderOfArrivalGivesTheSameBatches) {
         }
       }
       ASSERT_TRUE(batch) << "seed " << seed << " step " << k << ": "
-                         << (sync.waiting_for().empty() ? "?" : sync.waiting_for().front());
+                         << ::testing::PrintToString(awaited(sync));
       ASSERT_EQ(batch->k, k);
       ASSERT_EQ(describe(*batch), round.expected) << "seed " << seed << " step " << k;
     }
@@ -184,13 +190,13 @@ TEST(RouterSync, TheNextStepsSamplesMayComeBeforeItsStep) {
   sync.on_radio(7, 1, payload("b"));
   sync.on_step(1, 0, {{"uav1", 7, 1}}, {});
   EXPECT_FALSE(sync.take());
-  EXPECT_EQ(sync.waiting_for(), std::vector<std::string>{"uav1: rt/x 2 of 3"});
+  EXPECT_EQ(awaited(sync), std::vector<std::string>{"uav1: rt/x 2 of 3"});
   sync.on_radio(7, 1, payload("c"));
   sync.on_radio(7, 1, payload("d"));  // beyond the count: of the next step
   ASSERT_EQ(describe(*sync.take()), (std::vector<std::string>{"1#1:b", "1#2:c"}));
 
   sync.on_step(2, 0, {{"uav1", 7, 1}}, {});
-  EXPECT_EQ(sync.waiting_for(), std::vector<std::string>{"uav1: done"});
+  EXPECT_EQ(awaited(sync), std::vector<std::string>{"uav1: done"});
   sync.on_done(7, 2, {{"rt/x", 4}});
   ASSERT_EQ(describe(*sync.take()), std::vector<std::string>{"1#3:d"});
 }
@@ -233,14 +239,14 @@ TEST(RouterSync, NamesWhomItAwaitsAndNobodyWhoIsGone) {
   sync.on_drop(0, 9);
   sync.on_step(0, 0, {{"uav1", 7, 1}, {"uav2", 8, 2}, {"uav3", 9, 3}}, {});
   EXPECT_FALSE(sync.take()) << "from here on number 9 is gone";
-  EXPECT_EQ(sync.waiting_for(), (std::vector<std::string>{"uav1: done", "uav2: done"}));
+  EXPECT_EQ(awaited(sync), (std::vector<std::string>{"uav1: done", "uav2: done"}));
   EXPECT_EQ(sync.missing_answers(), 2U);
   sync.on_done(7, 0, {{"rt/x", 1}, {"rt/y", 2}});
   sync.on_radio(7, 1, payload("a"));
-  EXPECT_EQ(sync.waiting_for(), (std::vector<std::string>{"uav1: rt/y 0 of 2", "uav2: done"}));
+  EXPECT_EQ(awaited(sync), (std::vector<std::string>{"uav1: rt/y 0 of 2", "uav2: done"}));
   EXPECT_EQ(sync.missing_answers(), 1U) << "an answer is there, its samples are not";
   sync.on_done(8, 0, {});
-  EXPECT_EQ(sync.waiting_for(), std::vector<std::string>{"uav1: rt/y 0 of 2"});
+  EXPECT_EQ(awaited(sync), std::vector<std::string>{"uav1: rt/y 0 of 2"});
   EXPECT_EQ(sync.missing_answers(), 0U);
 }
 
@@ -253,6 +259,31 @@ TEST(RouterSync, AStrangerCannotFillTheMemoryNorSpeakLater) {
   const std::optional<StepBatch> batch = sync.take();
   ASSERT_TRUE(batch);
   EXPECT_TRUE(batch->messages.empty());
+}
+
+TEST(RouterSync, ARouteThatIsBoundToAMemberIsNotOpenToItsNeighbour) {
+  std::vector<RadioRoute> routes = some_routes();
+  routes[0].member = "station";  // "/x" of the ground station, where two programs are
+  RouterSync sync(routes);
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    sync.on_radio(66, 0, payload("forged"));  // in the first step before it is a member
+    sync.on_radio(7, 0, payload("true"));
+    sync.on_step(k, 0, {{"gcs", 66, 0}, {"station", 7, 0}}, {});
+    sync.on_done(66, k, {{"rt/x", 9 * (k + 1)}});  // nor is it waited for
+    sync.on_done(7, k, {{"rt/x", k + 1}});
+    const std::optional<StepBatch> batch = sync.take();
+    ASSERT_TRUE(batch) << k;
+    EXPECT_EQ(describe(*batch), std::vector<std::string>{"0#" + std::to_string(k) + ":true"});
+  }
+}
+
+TEST(RouterSync, AMemberThatNeverAnnouncesCannotFillTheMemory) {
+  const std::vector<RadioRoute> routes = some_routes();
+  RouterSync sync(routes);
+  const Payload sample = payload("spam");
+  sync.on_step(0, 0, {{"uav1", 7, 1}}, {});
+  for (int i = 0; i < 100000; ++i) sync.on_radio(7, 1, sample);
+  EXPECT_LT(sample.use_count(), 10000) << "so many of them are kept";
 }
 
 }  // namespace

@@ -56,4 +56,11 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   if (folder.is_open()) static_cast<void>(folder.sync());
 }
 
+std::string write_if_possible(const std::filesystem::path& path, std::string_view content) try {
+  write_file_atomically(path, content);
+  return {};
+} catch (const std::system_error& error) {
+  return error.what();
+}
+
 }  // namespace skein

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace skein {
@@ -10,5 +11,9 @@ namespace skein {
 /// new, also after a crash. The folder must exist.
 /// @throws std::runtime_error with the system's reason; no temporary file is left.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// The same, for a file that the program can do without.
+/// @returns what went wrong, with the file's name, for people; empty when it is written.
+std::string write_if_possible(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace skein

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <sstream>
+#include <unordered_map>
 
 #include "core/file_bytes.hpp"
 #include "core/types.hpp"
@@ -70,8 +71,8 @@ class TreeBuilder final : public YAML::EventHandler {
  private:
   struct Open {
     ConfigNode node;
-    std::string key;
     bool has_key = false;
+    std::unordered_map<std::string, int> lines{};  ///< of a map, by key: where it stands
   };
 
   [[noreturn]] void fail(int line, const std::string& message) const {
@@ -92,7 +93,7 @@ class TreeBuilder final : public YAML::EventHandler {
     if (!stack_.empty() && stack_.back().node.kind == ConfigNode::Kind::map && !stack_.back().has_key) {
       fail(node.line, "a key must be a plain word, not " + node.what_it_is());
     }
-    stack_.push_back({std::move(node), {}, false});
+    stack_.push_back({std::move(node)});
   }
 
   void close() {
@@ -122,12 +123,10 @@ class TreeBuilder final : public YAML::EventHandler {
     if (node.scalar.size() > kLongestKey || node.scalar.find('\n') != std::string::npos) {
       fail(node.line, "a key this long is none; is there a quote or a colon too many above?");
     }
-    const auto& keys = parent.node.keys;
-    const auto same = std::find(keys.begin(), keys.end(), node.scalar);
-    if (same != keys.end()) {
-      const int first = parent.node.key_lines[static_cast<std::size_t>(same - keys.begin())];
-      fail(node.line,
-           "duplicate key '" + node.scalar + "': it stands in line " + std::to_string(first) + " already; keep one");
+    const auto [first, is_new] = parent.lines.emplace(node.scalar, node.line);
+    if (!is_new) {
+      fail(node.line, "duplicate key '" + node.scalar + "': it stands in line " + std::to_string(first->second) +
+                          " already; keep one");
     }
     parent.node.keys.push_back(node.scalar);
     parent.node.key_lines.push_back(node.line);

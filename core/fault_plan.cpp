@@ -1,6 +1,8 @@
 #include "core/fault_plan.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <cmath>
 #include <map>
 #include <set>
@@ -205,14 +207,18 @@ class FaultChecker {
   void check_contradiction(const Fault& fault, const std::string& path) {
     const auto held = held_by(fault.action);
     if (!held) return;
-    for (const auto& [other, other_path] : holders_[*held]) {
-      const bool apart =
-          (other.end() && *other.end() <= fault.begin()) || (fault.end() && *fault.end() <= other.begin());
+    std::map<Tick, Holder>& holders = holders_[*held];
+    const Tick end = fault.end().value_or(std::numeric_limits<Tick>::max());
+    const auto next = holders.lower_bound(fault.begin());
+    const Holder* other = next != holders.end() && next->first < end ? &next->second : nullptr;
+    if (next != holders.begin() && std::prev(next)->second.end > fault.begin()) other = &std::prev(next)->second;
+    if (other == nullptr) {
+      holders.emplace(fault.begin(), Holder{end, path});
+    } else {
       errors_.check(
-          apart, path,
-          "contradicts " + other_path + ": both take hold of " + *held + " at the same time; part their times");
+          false, path,
+          "contradicts " + other->path + ": both take hold of " + *held + " at the same time; part their times");
     }
-    holders_[*held].emplace_back(fault, path);
   }
 
   static std::string text(double value) {
@@ -225,7 +231,13 @@ class FaultChecker {
   const Scenario& scenario_;
   ConfigErrors& errors_;
   std::vector<std::string> uavs_, nodes_, members_;
-  std::map<std::string, std::vector<std::pair<Fault, std::string>>> holders_;
+  /// From its begin on.
+  struct Holder {
+    Tick end;
+    std::string path;
+  };
+  /// By what is held, then by begin. They do not overlap, so that a new one need be compared with its neighbours only.
+  std::map<std::string, std::map<Tick, Holder>> holders_;
 };
 
 }  // namespace

@@ -141,5 +141,17 @@ TEST_F(FaultFile, CutLinksFollowThePlan) {
   EXPECT_EQ(cut_links(plan, fleet(), ticks(20.0)), station);
 }
 
+TEST_F(FaultFile, ManyFaultsOfOneProgramAreComparedWithTheirNeighboursOnly) {
+  std::string text = "faults:\n";
+  for (int i = 0; i < 20000; ++i) {
+    const std::string at = std::to_string(i % 2 == 0 ? 1 + i * 0.005 : 251 - i * 0.005);  // from both ends
+    text += "- {at_s: " + at + ", until_s: " + std::to_string(std::stod(at) + 0.0025) + ", kill: changi}\n";
+  }
+  EXPECT_EQ(load(text).faults.size(), 20000U);
+  refused(text + "- {at_s: 100, until_s: 110, pause: changi}\n", "contradicts");
+  refused("faults:\n- {at_s: 10, kill: changi}\n- {at_s: 5, until_s: 10, kill: changi}\n- {at_s: 20, until_s: 21, kill: changi}\n",
+          "faults[2]: contradicts faults[0]");
+}
+
 }  // namespace
 }  // namespace skein

@@ -45,6 +45,7 @@ class SignalThread {
     ::sigaction(SIGINT, &action, &old_interrupt_);
     ::sigaction(SIGTERM, &action, &old_terminate_);
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is like a full disk: the call says so
   }
   ~SignalThread() {
     ::sigaction(SIGINT, &old_interrupt_, nullptr);
@@ -101,7 +102,12 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_flag_callback(
       "--network", [&options] { options.loopback_only = false; },
       "Use the real network interfaces instead of the loopback alone");
-  app.add_flag("--debug-leases", options.long_leases, "A process that stops in a debugger keeps its place");
+  app.add_option("--lease", options.lease_s, "Who gives no sign of life for so long is taken for dead [s]")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 3600));
+  app.add_option_function<std::uint64_t>(
+         "--run", [&options](std::uint64_t run) { options.run = RunId{run}; }, "Number of the run: programs of other runs are not listened to")
+      ->group("Launcher");
 }
 
 void set_up_logging(const std::string& name, const std::string& level_option) {

@@ -19,6 +19,7 @@
 #include <string>
 #include <thread>
 
+#include "core/run_id.hpp"
 #include "core/scenario_reader.hpp"
 
 namespace CLI {
@@ -51,7 +52,8 @@ struct ProgramOptions {
   int control_fd = -1;                      ///< --control-fd: where orders come from; -1: nowhere
   std::string log_level;                    ///< --log-level; empty: SKEIN_LOG, else info
   bool loopback_only = true;                ///< --network turns it off
-  bool long_leases = false;                 ///< --debug-leases: a process stopped in gdb keeps its place
+  int lease_s = 8;                          ///< --lease: who is silent for so long is taken for dead [s]
+  RunId run = RunId::none;                  ///< --run: that the program takes part in
   std::filesystem::path security;           ///< --security: folder of core/security_files.hpp; empty: not secured
 
   /// For load_scenario().

@@ -41,7 +41,8 @@ class RadioTable::Builder {
     }
   }
 
-  void declare(const RadioTopicConfig& declared, const std::string& where) {
+  /// @param member  who alone may send on it; empty: any program of a source
+  void declare(const RadioTopicConfig& declared, const std::string& where, std::string_view member = {}) {
     where_ = scenario_.file.string() + ": " + where + ".";
     const RadioRoute checked = check_names(declared.name, declared.type);
     types_.emplace(declared.name, declared.type);
@@ -50,6 +51,7 @@ class RadioTable::Builder {
     for (const Node source : sources.nodes) {
       RadioRoute route = checked;
       route.source = source;
+      route.member = member;
       add_targets(route, targets);
       if (route.targets.empty()) {
         if (sources.all && sources.nodes.size() > 1) continue;  // "all" means: all that have somebody to talk to
@@ -255,7 +257,8 @@ RadioTable::RadioTable(const Scenario& scenario) : builder_(std::make_unique<Bui
   const std::string& station = scenario.node_name(kStationNode);
   for (const UavConfig& uav : scenario.fleet) {
     builder_->declare({captures_topic(uav.name), std::string(kCapturesType), {uav.name}, {station}}, "radio");
-    builder_->declare({captures_ack_topic(uav.name), std::string(kCapturesAckType), {station}, {uav.name}}, "radio");
+    builder_->declare({captures_ack_topic(uav.name), std::string(kCapturesAckType), {station}, {uav.name}}, "radio",
+                      topics::kStationMember);
   }
   for (std::size_t i = 0; i < scenario.radio.size(); ++i) {
     builder_->declare(scenario.radio[i], "radio.topics[" + std::to_string(i) + "]");

@@ -26,6 +26,7 @@ struct RadioRoute {
   std::string topic;                 ///< on the wire of the source's domain: "rt/x"
   std::string type;                  ///< on the wire: "std_msgs::msg::dds_::String_"
   std::vector<RadioTarget> targets;  ///< ascending nodes (of each registration), without the source
+  std::string member = {};           ///< who alone may send on it, where programs share the node; empty: any of them
 };
 
 /// All routes of a scenario: first those that carry captures and their acknowledgements (always there: for each UAV

@@ -92,12 +92,15 @@ double tidy_degrees(double radians) {
 }
 
 /// Entries without a start of their own take the places of the procedural scene, in fleet order.
-void find_starts(const Scenario& scenario, std::vector<FleetEntry>& fleet, ConfigErrors& errors) {
+/// @returns whether there was one for everybody.
+bool find_starts(const Scenario& scenario, std::vector<FleetEntry>& fleet, ConfigErrors& errors) {
   const SceneFamily* family = find_scene_family(scenario.scene.family);
   const std::vector<StartPlace> places =
       family ? scene_starts(*family, scenario.scene.scene_seed) : std::vector<StartPlace>{};
+  bool all_placed = true;
   for (std::size_t i = 0; i < fleet.size(); ++i) {
     const bool placed = fleet[i].start || i < places.size();
+    all_placed = all_placed && placed;
     const std::string why = family ? "the scene has places for " + std::to_string(places.size()) + " UAVs only"
                                    : "a scene from files has no places of its own";
     errors.check(placed, index_path("fleet", i), "'" + fleet[i].name + "' needs a 'start: [x, y]': " + why);
@@ -106,6 +109,7 @@ void find_starts(const Scenario& scenario, std::vector<FleetEntry>& fleet, Confi
     }
     if (!fleet[i].start) fleet[i].start = placed ? places[i].p_W : Vector2d::Zero();
   }
+  return all_placed;
 }
 
 void check_starts(const Scenario& scenario, ConfigErrors& errors) {
@@ -127,13 +131,16 @@ void check_starts(const Scenario& scenario, ConfigErrors& errors) {
 void check_radio(const ScenarioFile& file, ConfigErrors& errors) {
   std::vector<std::string> nodes = {"gcs"};
   for (const FleetEntry& uav : file.fleet) nodes.push_back(uav.name);
+  const std::set<std::string> known(nodes.begin(), nodes.end());
   const auto check_nodes = [&](const std::string& key, const std::vector<std::string>& named) {
     errors.check(!named.empty(), key, "must name at least one node, or be the word all");
     const bool all = named.size() == 1 && named[0] == "all";
+    std::set<std::string> seen;
     for (const std::string& node : named) {
-      errors.check(all || std::find(nodes.begin(), nodes.end(), node) != nodes.end(), key,
-                   "there is no node '" + node + "'; " + suggestion(node, nodes));
-      errors.check(std::count(named.begin(), named.end(), node) == 1, key, "'" + node + "' is named twice");
+      if (!all && !known.contains(node)) {
+        errors.check(false, key, "there is no node '" + node + "'; " + suggestion(node, nodes));
+      }
+      errors.check(seen.insert(node).second, key, "'" + node + "' is named twice");
     }
   };
   for (std::size_t i = 0; i < file.scenario.radio.size(); ++i) {
@@ -181,27 +188,28 @@ class SceneFileFinder {
 
   void resolve(fs::path& file, const std::string& key) const {
     const std::string text = file.string();
+    std::string hint;
     if (text.starts_with("./") || text.starts_with("../")) {
       file = (scenario_.file.parent_path() / file).lexically_normal();
     } else if (file.is_relative()) {
       if (assets_.empty()) {
-        if (must_exist_) throw InputError(advice());
+        if (must_exist_) throw InputError(advice(key, text));
         return;
       }
+      hint = "; --assets or SKEIN_ASSETS must name the folder that it is in, and what lies beside the scenario is "
+             "written ./" + text;
       file = assets_ / file;
     }
     std::error_code ignored;
-    errors_.check(!must_exist_ || fs::is_regular_file(file, ignored), key,
-                  "there is no file " + file.string() +
-                      "; --assets or SKEIN_ASSETS must name the folder that "
-                      "holds models/");
+    errors_.check(!must_exist_ || fs::is_regular_file(file, ignored), key, "there is no file " + file.string() + hint);
   }
 
  private:
-  std::string advice() const {
-    return scenario_.file.string() + ": scenario '" + scenario_.name +
-           "' needs CARIC's data files, which are not part of Skein: name the folder that holds models/ with "
-           "--assets DIR or SKEIN_ASSETS=DIR. The scenario 'towers' runs without any.";
+  std::string advice(const std::string& key, const std::string& file) const {
+    return scenario_.file.string() + ": " + key + ": scenario '" + scenario_.name + "' needs the data file " + file +
+           ": name the folder that it is in with --assets DIR or SKEIN_ASSETS=DIR (of CARIC's data, which are no part "
+           "of Skein, the one that holds models/), or write ./" + file +
+           " for a file beside the scenario. The scenario 'towers' needs no data files.";
   }
 
   const Scenario& scenario_;
@@ -283,10 +291,12 @@ Scenario load_scenario(const std::string& name_or_path, const LoadOptions& optio
   check_names(file, errors);
   check_scene(scenario.scene, errors);
   apply_overrides(options, scenario);
-  find_starts(scenario, file.fleet, errors);
+  const bool all_placed = find_starts(scenario, file.fleet, errors);
   check_radio(file, errors);
   build_fleet(file, config_dir, scenario, errors);
-  if (scenario.fleet.size() == file.fleet.size()) check_starts(scenario, errors);  // all have a vehicle
+  // Of a fleet that can be one: all have a vehicle and a place.
+  const bool whole = scenario.fleet.size() == file.fleet.size() && all_placed;
+  if (whole && scenario.fleet.size() <= kMostUavs) check_starts(scenario, errors);
   errors.throw_if_any();
   find_scene_files(scenario, options, errors);
   errors.throw_if_any();

@@ -253,5 +253,56 @@ TEST(ConfigDir, IsWhatTheEnvironmentSays) {
   ::unsetenv("SKEIN_CONFIG_DIR");
 }
 
+TEST_F(ScenarioReader, AMissingStartIsAllThatIsSaidOfIt) {
+  write("o.stl", "");
+  const std::string file = write("s.yaml",
+                                 "desired_mm_per_pixel: 2\nstation: {position: [0, 0, 0.3]}\n"
+                                 "scene: {meshes: [./o.stl], points: ./o.stl, boxes: ./o.stl}\n"
+                                 "fleet: [{name: a, vehicle: explorer}, {name: b, vehicle: explorer, start: [9, 9]}]\n");
+  EXPECT_EQ(complaint(file), file + ":4: fleet[0]: 'a' needs a 'start: [x, y]': a scene from files has no places of its own");
+}
+
+TEST_F(ScenarioReader, AFileThatIsMissingIsLookedForWhereItsPathSays) {
+  const std::string beside = complaint(scenario("{meshes: [./models/own.stl], points: ./p.pcd, boxes: ./b.yaml}"));
+  EXPECT_NE(beside.find("there is no file " + (folder_ / "models/own.stl").string() + "\n"), std::string::npos) << beside;
+  EXPECT_EQ(beside.find("--assets"), std::string::npos) << beside;
+
+  const std::string in_assets = scenario("{meshes: [models/own.stl], points: ./p.pcd, boxes: ./b.yaml}");
+  const std::string no_assets = complaint(in_assets);
+  EXPECT_NE(no_assets.find("models/own.stl"), std::string::npos) << no_assets;
+  EXPECT_NE(no_assets.find("--assets"), std::string::npos) << no_assets;
+  EXPECT_NE(no_assets.find("./models/own.stl for a file beside the scenario"), std::string::npos) << no_assets;
+  EXPECT_EQ(no_assets.find("needs CARIC"), std::string::npos) << no_assets;
+
+  options_.assets_dir = folder_ / "data";
+  const std::string missing = complaint(in_assets);
+  EXPECT_NE(missing.find((folder_ / "data/models/own.stl").string() + "; --assets"), std::string::npos) << missing;
+}
+
+// What took a time that grows with the square of the file's length took minutes.
+TEST_F(ScenarioReader, LargeFilesAreReadOrRefusedInTheTimeThatTheirLengthTakes) {
+  const std::string head = "desired_mm_per_pixel: 2\nscene: {family: towers}\nfleet: [{name: a, vehicle: explorer}]\n";
+  std::string topics = head + "radio:\n  topics:\n";
+  for (int i = 0; i < 20000; ++i) {
+    topics += "  - {name: /t" + std::to_string(i) + ", type: std_msgs/msg/String, sources: all, targets: all}\n";
+  }
+  EXPECT_EQ(load_scenario(write("topics.yaml", topics), options_).radio.size(), 20000U);
+
+  const std::string description(4 << 20, 'x');
+  EXPECT_EQ(load_scenario(write("long.yaml", head + "description: " + description + "\n"), options_).description,
+            description);
+
+  std::string keys = head, names = head + "radio: {topics: [{name: /t, type: std_msgs/msg/String, targets: all, sources: [";
+  std::string fleet = "desired_mm_per_pixel: 2\nscene: {family: towers}\nfleet:\n";
+  for (int i = 0; i < 100000; ++i) {
+    keys += "k" + std::to_string(i) + ": 1\n";
+    names += "a, ";
+  }
+  for (int i = 0; i < 5000; ++i) fleet += "- {name: u" + std::to_string(i) + ", vehicle: explorer, start: [1, 1]}\n";
+  EXPECT_NE(complaint(write("keys.yaml", keys)).find("and 99990 more"), std::string::npos);
+  EXPECT_NE(complaint(write("names.yaml", names + "a]}]}\n")).find("'a' is named twice"), std::string::npos);
+  EXPECT_NE(complaint(write("fleet.yaml", fleet)).find("must have 1 to 128 UAVs"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace skein

@@ -17,6 +17,7 @@ class StatusPipe {
  public:
   /// @param fd open for writing; negative: nothing is sent. Not closed by this. SIGPIPE is ignored from here on.
   explicit StatusPipe(int fd);
+  bool is_open() const { return fd_ >= 0; }
 
   /// Never waits: what does not fit because the reader is slow is dropped, always by whole lines. A reader that has
   /// gone is no error.

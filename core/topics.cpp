@@ -96,8 +96,8 @@ std::span<const TopicInfo> score_topics() {
 }
 
 std::span<const TopicInfo> lockstep_topics() {
-  static constexpr std::array kAll{kStep,   kDone, kReady,  kResync,       kAttached,
-                                   kRouted, kDrop, kLedger, kRadioRequest, kRadioReply};
+  static constexpr std::array kAll{kStep,   kDone,   kReady, kStationReady, kStationDone,  kResync,    kAttached,
+                                   kRouted, kAwaits, kDrop,  kLedger,       kRadioRequest, kRadioReply};
   return kAll;
 }
 

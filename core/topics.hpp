@@ -199,12 +199,18 @@ std::span<const TopicInfo> score_topics();
 /// All of the GCS domain but lock-step and radio: boxes, clock, time left, neighbours in LoS, score.
 std::span<const TopicInfo> gcs_topics();
 
+/// The station's name in the lock-step; its node is "gcs", which it may share with a user's program.
+inline constexpr std::string_view kStationMember = "station";
+
 // ---- lock-step, ledger: see idl/skein_msgs.idl and docs/lockstep.md ---------------------------------------------
 
 inline constexpr TopicInfo kStep{"/skein/step", "skein_msgs/msg/Step", Direction::internal, 8,
                                  "server -> every domain, every exchange"};
 inline constexpr TopicInfo kDone{"/skein/done", "skein_msgs/msg/Done", Direction::internal, 8,
                                  "member -> its domain, every exchange"};
+// The station's own doors: who shares its domain can be refused them by name (cli/security_rules.cpp).
+inline constexpr TopicInfo kStationDone{"/skein/station/done", "skein_msgs/msg/Done", Direction::internal, 8,
+                                        "station -> GCS domain, every exchange"};
 // Latched where one side may come later than the other: a restarted process finds the last word of everybody else.
 inline constexpr TopicInfo kReady{"/skein/ready",
                                   "skein_msgs/msg/Ready",
@@ -212,6 +218,12 @@ inline constexpr TopicInfo kReady{"/skein/ready",
                                   4,
                                   "participant -> its domain, when it joins or declares anew",
                                   true};
+inline constexpr TopicInfo kStationReady{"/skein/station/ready",
+                                         "skein_msgs/msg/Ready",
+                                         Direction::internal,
+                                         4,
+                                         "station -> GCS domain, when it joins or declares anew",
+                                         true};
 inline constexpr TopicInfo kResync{"/skein/resync",
                                    "skein_msgs/msg/Resync",
                                    Direction::internal,
@@ -226,6 +238,8 @@ inline constexpr TopicInfo kAttached{"/skein/attached",
                                      true};
 inline constexpr TopicInfo kRouted{"/skein/routed", "skein_msgs/msg/Routed", Direction::internal, 8,
                                    "router -> world, every exchange"};
+inline constexpr TopicInfo kAwaits{"/skein/awaits", "skein_msgs/msg/Awaits", Direction::internal, 64,
+                                   "router -> world, while it waits for somebody"};
 inline constexpr TopicInfo kDrop{"/skein/drop", "skein_msgs/msg/Drop", Direction::internal, 128,
                                  "server -> world, when a member is lost"};
 // Latched and deep: a station that starts late or again gets the whole ledger.
@@ -270,8 +284,11 @@ inline WireTopic score_eval() { return wire(kScoreEval); }
 inline WireTopic step() { return wire(kStep); }
 inline WireTopic done() { return wire(kDone); }
 inline WireTopic ready() { return wire(kReady); }
+inline WireTopic station_done() { return wire(kStationDone); }
+inline WireTopic station_ready() { return wire(kStationReady); }
 inline WireTopic attached() { return wire(kAttached); }
 inline WireTopic routed() { return wire(kRouted); }
+inline WireTopic awaits() { return wire(kAwaits); }
 inline WireTopic drop() { return wire(kDrop); }
 inline WireTopic resync() { return wire(kResync); }
 inline WireTopic ledger() { return wire(kLedger); }

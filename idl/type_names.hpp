@@ -59,6 +59,8 @@ std::string type_name() {
   X(skein_msgs, Done)                              \
   X(skein_msgs, NodeCounts)                        \
   X(skein_msgs, Routed)                            \
+  X(skein_msgs, Await)                             \
+  X(skein_msgs, Awaits)                            \
   X(skein_msgs, Drop)                              \
   X(skein_msgs, Ready)                             \
   X(skein_msgs, Attached)                          \

@@ -22,6 +22,15 @@ constexpr milliseconds kMatchPoll{2};
 constexpr milliseconds kIdlePoll{100};
 constexpr milliseconds kProgressPeriod{200};
 
+/// After so long without all answers the step is told again to who owes one, and then as often.
+constexpr double kAskAgain_s = 1.0;
+
+std::vector<std::string> names_of(const std::vector<bus::LockstepServer::Awaited>& awaited) {
+  std::vector<std::string> names;
+  for (const auto& one : awaited) names.push_back(one.member);
+  return names;
+}
+
 double elapsed_s(std::chrono::steady_clock::time_point since) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
 }
@@ -38,6 +47,7 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       fault_timeline_(options.faults),
       digest_(uav_names_),
       files_(options.out, scenario, digest_),
+      inbox_(bus.run()),
       server_(inbox_) {
   participants_.push_back(bus.join(world_domain(options.base_domain)));
   for (Node node = 0; node <= scenario.fleet.size(); ++node) {
@@ -124,32 +134,36 @@ RunSummary SimNode::run() {
 // ---- joining ----------------------------------------------------------------------------------------------------
 
 bool SimNode::wait_for_members() {
-  const auto started = Clock::now();
-  auto told = started;
+  bus::Patience patience(options_.startup_timeout_s);
+  auto told = Clock::now();
   while (!server_.at_boundary()) {
     inbox_.dispatch(kMatchPoll);
     take_losses();
     if (aborted_ || stop_requested_) return false;
     if (Clock::now() - told > milliseconds(500)) {
       told = Clock::now();
-      status_.send({{"type", "waiting_for"}, {"members", server_.awaited()}});
+      status_.send({{"type", "waiting_for"}, {"members", names_of(server_.awaited())}});
     }
-    if (options_.startup_timeout_s > 0 && elapsed_s(started) > options_.startup_timeout_s) {
-      for (const std::string& name : server_.awaited()) server_.lost(name, "did not join in time");
-    }
+    if (patience.over()) patience = give_up_awaited("did not join in time", options_.startup_timeout_s);
   }
   take_losses();
   return true;
 }
 
+/// Nobody is waited for any longer who is now. @returns the patience with whoever comes next.
+bus::Patience SimNode::give_up_awaited(const std::string& why, double limit_s) {
+  for (const auto& awaited : server_.awaited()) {
+    server_.lost(awaited.member, fmt::format("{} (waited for: {})", why, awaited.what));
+  }
+  return bus::Patience(limit_s);
+}
+
 // Somebody who knocks is let in before the next step; the fleet stands still meanwhile.
 void SimNode::let_in_members() {
-  const auto started = Clock::now();
+  bus::Patience patience(options_.startup_timeout_s);
   while (!server_.at_boundary() && !aborted_ && !stop_requested_) {
     inbox_.dispatch(kMatchPoll);
-    if (options_.startup_timeout_s > 0 && elapsed_s(started) > options_.startup_timeout_s) {
-      for (const std::string& name : server_.awaited()) server_.lost(name, "did not finish joining");
-    }
+    if (patience.over()) patience = give_up_awaited("did not finish joining", options_.startup_timeout_s);
   }
   for (const std::string& name : server_.take_rejoined()) {
     spdlog::info("{} joined again at step {}", name, simulation_.step() + 1);
@@ -239,7 +253,7 @@ void SimNode::publish_step() {
 // The first message is sent even when nothing is written down: it tells the station which points there are.
 void SimNode::publish_ledger(const std::vector<LedgerEntry>& entries, std::size_t begin) {
   if (begin == entries.size() && ledger_->count() > 0) return;
-  msg::Ledger message;
+  auto message = bus::message_of<msg::Ledger>(inbox_.run());
   const std::vector<InterestPoint>& points = simulation_.scene().points;
   message.interest_points(static_cast<std::uint32_t>(points.size()));
   if (ledger_->count() == 0) {
@@ -251,19 +265,21 @@ void SimNode::publish_ledger(const std::vector<LedgerEntry>& entries, std::size_
 }
 
 bool SimNode::wait_for_answers() {
-  auto waiting_since = Clock::now();
+  const std::string silence = fmt::format("did not answer for {} s", options_.agent_timeout_s);
+  bus::Patience patience(options_.agent_timeout_s), until_asked_again(kAskAgain_s);
   while (!server_.answered()) {
     if (!inbox_.dispatch(kIdlePoll, server_.rings())) report_progress(false);
     if (aborted_) return false;
-    if (options_.agent_timeout_s > 0 && elapsed_s(waiting_since) > options_.agent_timeout_s) {
-      std::vector<std::string> silent = server_.awaited();
-      // The router cannot answer before all others have: it is to blame only when nobody else is.
-      if (silent.size() > 1) std::erase(silent, bus::kRouterName);
-      for (const std::string& name : silent) {
-        server_.lost(name, fmt::format("did not answer for {} s", options_.agent_timeout_s));
-      }
-      waiting_since = Clock::now();
+    if (patience.over()) patience = give_up_awaited(silence, options_.agent_timeout_s);
+    if (until_asked_again.over()) {
+      server_.ask_again();
+      until_asked_again = bus::Patience(kAskAgain_s);
     }
+  }
+  for (const std::string& doubt : server_.take_doubts()) {
+    spdlog::warn("{}; the run is not repeatable", doubt);
+    summary_.warnings.push_back("decided by a wall clock: " + doubt);
+    summary_.deterministic = false;
   }
   take_losses();
   return true;

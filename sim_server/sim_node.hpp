@@ -11,6 +11,7 @@
 
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
+#include "bus/lockstep/patience.hpp"
 #include "bus/lockstep/server.hpp"
 #include "core/fault_plan.hpp"
 #include "core/status_pipe.hpp"
@@ -60,6 +61,7 @@ class SimNode {
 
   void declare_members();
   bool wait_for_members();
+  bus::Patience give_up_awaited(const std::string& why, double limit_s);
   void publish_step();
   void publish_ledger(const std::vector<LedgerEntry>& entries, std::size_t begin);
   bool wait_for_answers();

@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "core/sha256.hpp"
@@ -59,6 +60,13 @@ class Cursor {
   std::span<const std::uint8_t> bytes_;
   bool ok_ = true;
 };
+
+Bytes encode_head(RunId run) {
+  static constexpr std::string_view kMagic = "skeinjnl";
+  Bytes head(kMagic.begin(), kMagic.end());
+  put(head, static_cast<std::uint64_t>(run));
+  return head;
+}
 
 Bytes encode(const TallyRecord& record) {
   Bytes body;
@@ -142,11 +150,11 @@ Bytes read_all(int descriptor, const std::filesystem::path& file) {
 
 }  // namespace
 
-Journal::Journal(const std::filesystem::path& file) : file_(file) {
+Journal::Journal(const std::filesystem::path& file, RunId run) : file_(file) {
   descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (descriptor_ < 0) fail(file_, "cannot be opened");
   try {
-    replay();
+    replay(run);
   } catch (...) {
     ::close(descriptor_);
     throw;
@@ -155,19 +163,24 @@ Journal::Journal(const std::filesystem::path& file) : file_(file) {
 
 Journal::~Journal() { ::close(descriptor_); }
 
-void Journal::replay() {
-  const Bytes bytes = read_all(descriptor_, file_);
+void Journal::replay(RunId run) {
+  const Bytes bytes = read_all(descriptor_, file_), head = encode_head(run);
   std::span<const std::uint8_t> rest(bytes);
-  while (const auto body = whole_body(rest)) {
-    std::optional<TallyRecord> record = decode(*body);
-    if (!record) break;
-    replayed_.push_back(std::move(*record));
-    rest = rest.subspan(kHeadBytes + body->size());
+  const bool ours = rest.size() >= head.size() && std::ranges::equal(rest.first(head.size()), head);
+  if (ours) {
+    rest = rest.subspan(head.size());
+    while (const auto body = whole_body(rest)) {
+      std::optional<TallyRecord> record = decode(*body);
+      if (!record) break;
+      replayed_.push_back(std::move(*record));
+      rest = rest.subspan(kHeadBytes + body->size());
+    }
   }
   cut_bytes_ = rest.size();
   if (cut_bytes_ > 0 && ::ftruncate(descriptor_, static_cast<off_t>(bytes.size() - rest.size())) != 0) {
     fail(file_, "its broken end cannot be cut off");
   }
+  if (!ours) write(head);
 }
 
 void Journal::append(std::span<const TallyRecord> records) {
@@ -179,7 +192,10 @@ void Journal::append(std::span<const TallyRecord> records) {
     bytes.insert(bytes.end(), hash.begin(), hash.end());
     bytes.insert(bytes.end(), body.begin(), body.end());
   }
-  std::span<const std::uint8_t> rest(bytes);
+  write(bytes);
+}
+
+void Journal::write(std::span<const std::uint8_t> rest) {
   while (!rest.empty()) {
     const ssize_t put_out = ::write(descriptor_, rest.data(), rest.size());
     if (put_out < 0 && errno == EINTR) continue;

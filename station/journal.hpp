@@ -1,8 +1,9 @@
 // The station's memory: an append-only file of everything that moved the tally, written before it is acknowledged, so
 // that a station that was killed at any byte comes back with every report whose sender was told to forget it.
 //
-// File: records one after the other; each is length (u32), the first 8 bytes of the body's SHA-256, body; all
-// little-endian. A record that was cut off or does not match its hash ends the file. Not thread-safe.
+// File: "skeinjnl", the run (u64), then records one after the other; each is length (u32), the first 8 bytes of the
+// body's SHA-256, body; all little-endian. A record that was cut off or does not match its hash ends the file. Not
+// thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +11,24 @@
 #include <span>
 #include <vector>
 
+#include "core/run_id.hpp"
 #include "station/scoreboard.hpp"
 
 namespace skein::station {
 
 class Journal {
  public:
-  /// Opens or creates the file and reads back what it holds; what follows the last whole record is cut off.
-  /// @throws std::runtime_error (file and reason) when the file cannot be opened, read or cut.
-  explicit Journal(const std::filesystem::path& file);
+  /// Opens or creates the file and reads back what it holds of this run; what follows the last whole record is cut off.
+  /// The journal of another run is none of ours: it is emptied.
+  /// @throws std::runtime_error (file and reason) when the file cannot be opened, read, cut or begun.
+  explicit Journal(const std::filesystem::path& file, RunId run = RunId::none);
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
   /// What the file held when it was opened, oldest first.
   const std::vector<TallyRecord>& replayed() const { return replayed_; }
-  /// Bytes of a broken record that were cut off the end then.
+  /// Bytes of a broken record, or of another run's journal, that were cut off then.
   std::uintmax_t cut_bytes() const { return cut_bytes_; }
 
   /// Appends the records of one step and hands them to the operating system: they survive the death of this process
@@ -34,7 +37,8 @@ class Journal {
   void append(std::span<const TallyRecord> records);
 
  private:
-  void replay();
+  void replay(RunId run);
+  void write(std::span<const std::uint8_t> bytes);
 
   std::filesystem::path file_;
   int descriptor_ = -1;

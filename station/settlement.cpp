@@ -19,8 +19,8 @@ std::size_t count_points(const std::filesystem::path& scene_file) {
 
 }  // namespace
 
-void settle(const std::filesystem::path& folder, const Scenario& scenario) {
-  const Journal journal(folder / "station.journal");
+void settle(const std::filesystem::path& folder, const Scenario& scenario, RunId run) {
+  const Journal journal(folder / "station.journal", run);
   const std::vector<std::string> uavs = scenario.uav_names();
   Scoreboard scoreboard(uavs.size(), count_points(folder / "scene.json"), scenario.rules);
   std::uint64_t index = 0;

@@ -31,7 +31,7 @@ class MemberNode {
  protected:
   /// @param member  name in the lock-step: a UAV's, or "gcs".
   MemberNode(bus::Bus& bus, int domain, std::string member)
-      : bus_(bus), domain_(domain), member_(std::move(member)) {}
+      : bus_(bus), domain_(domain), member_(std::move(member)), inbox_(bus.run()) {}
 
   /// Declares what it reads and writes, each time that it joins; handlers may refer to this node.
   virtual void declare(bus::LockstepClient& client) = 0;

@@ -237,7 +237,7 @@ class CycloneParticipant : public Participant {
 
 class CycloneBus : public Bus {
  public:
-  explicit CycloneBus(BusConfig config) : config_(std::move(config)) {}
+  explicit CycloneBus(BusConfig config) : Bus(config.run), config_(std::move(config)) {}
 
   std::unique_ptr<Participant> join(int domain) override {
     check_domain(domain);

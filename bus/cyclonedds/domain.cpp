@@ -45,8 +45,8 @@ std::string domain_configuration(const BusConfig& config) {
   // Watermarks: a writer waits once its unacknowledged bytes exceed WhcHigh. History is KEEP_LAST and bounds them
   // already, so the mark is put out of reach and a stopped reader holds nobody up.
   return "<CycloneDDS xmlns=\"https://cdds.io/config\"><Domain Id=\"any\">" + network + "<Discovery>" + peers +
-         "<SPDPInterval>" + std::to_string(kAnnounceS) + "s</SPDPInterval><LeaseDuration>" +
-         std::to_string(config.long_leases ? kLongLeaseS : kLeaseS) +
+         "<SPDPInterval>" + std::to_string(announce_period_s(config.lease_s)) + "s</SPDPInterval><LeaseDuration>" +
+         std::to_string(config.lease_s) +
          "s</LeaseDuration></Discovery>"
          "<Internal><Watermarks><WhcHigh>2000MB</WhcHigh><WhcHighInit>2000MB</WhcHighInit>"
          "<WhcAdaptive>false</WhcAdaptive></Watermarks>"

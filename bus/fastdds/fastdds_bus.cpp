@@ -239,7 +239,7 @@ class FastParticipant : public Participant {
 
 class FastBus : public Bus {
  public:
-  explicit FastBus(BusConfig config) : config_(std::move(config)) {}
+  explicit FastBus(BusConfig config) : Bus(config.run), config_(std::move(config)) {}
 
   std::unique_ptr<Participant> join(int domain) override {
     check_domain(domain);

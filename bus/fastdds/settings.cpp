@@ -58,8 +58,8 @@ DomainParticipantQos participant_qos(int domain, const BusConfig& config) {
   qos.transport().user_transports.push_back(udp);
 
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
-  discovery.leaseDuration = {config.long_leases ? kLongLeaseS : kLeaseS, 0};
-  discovery.leaseDuration_announcementperiod = {kAnnounceS, 0};
+  discovery.leaseDuration = {config.lease_s, 0};
+  discovery.leaseDuration_announcementperiod = {announce_period_s(config.lease_s), 0};
   // The first announcements come fast, since others may just be starting as well.
   discovery.initial_announcements.count = 10;
   discovery.initial_announcements.period = milliseconds(20);

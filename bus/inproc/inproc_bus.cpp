@@ -162,6 +162,7 @@ class InprocParticipant : public Participant {
 
 class InprocBus : public Bus {
  public:
+  using Bus::Bus;
   std::unique_ptr<Participant> join(int domain) override {
     check_domain(domain);
     return std::make_unique<InprocParticipant>(domain);
@@ -170,6 +171,6 @@ class InprocBus : public Bus {
 
 }  // namespace
 
-std::unique_ptr<Bus> make_inproc_bus() { return std::make_unique<InprocBus>(); }
+std::unique_ptr<Bus> make_inproc_bus(RunId run) { return std::make_unique<InprocBus>(run); }
 
 }  // namespace skein::bus

@@ -10,6 +10,6 @@
 
 namespace skein::bus {
 
-std::unique_ptr<Bus> make_inproc_bus();
+std::unique_ptr<Bus> make_inproc_bus(RunId run);
 
 }  // namespace skein::bus

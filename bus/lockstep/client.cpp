@@ -3,25 +3,31 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <csignal>
 
 #include "bus/lockstep/names.hpp"
+#include "bus/lockstep/self_signal.hpp"
 
 namespace skein::bus {
 
 namespace {
 
-// A stopped process returns from raise() when somebody has continued it.
 void raise_on_ourselves(LockstepClient::Order order) {
   const bool kill = order == LockstepClient::Order::kill;
   spdlog::info("a fault {} this program", kill ? "kills" : "stops");
-  std::raise(kill ? SIGKILL : SIGSTOP);
+  if (kill) kill_ourselves();
+  stop_ourselves();
 }
 
 }  // namespace
 
 LockstepClient::LockstepClient(Participant& participant, Inbox& inbox, std::string member)
-    : participant_(participant), inbox_(inbox), member_(std::move(member)), obey_(raise_on_ourselves) {}
+    : participant_(participant), inbox_(inbox), member_(std::move(member)), obey_(raise_on_ourselves) {
+  answer_again_ = [this] {
+    if (!last_done_ || last_done_->k() != step_->k()) return;
+    done_->begin_step();
+    done_->write(*last_done_);
+  };
+}
 
 void LockstepClient::read(const TopicSpec& topic, Counterpart counterpart, CountedQueues::Handler handler) {
   queues_.add_topic(topic.name, std::move(handler));
@@ -38,8 +44,8 @@ void LockstepClient::start() {
       [this](const msg::Resync& resync, ParticipantId source) { on_resync(resync, source); });
   step_reader_ = subscribe<msg::Step>(inbox_, participant_, spec(topics::step()),
                                       [this](msg::Step& step, ParticipantId source) { on_step(step, source); });
-  done_ = std::make_unique<CountedWriter>(participant_, spec(topics::done()));
-  ready_ = std::make_unique<CountedWriter>(participant_, spec(topics::ready()));
+  done_ = std::make_unique<CountedWriter>(participant_, done_spec(member_));
+  ready_ = std::make_unique<CountedWriter>(participant_, ready_spec(member_));
   phase_ = Phase::hello;
   say_ready(0);
 }
@@ -113,7 +119,7 @@ void LockstepClient::change_router(ParticipantId router) {
 }
 
 void LockstepClient::say_ready(std::uint32_t revision) {
-  msg::Ready ready;
+  auto ready = message_of<msg::Ready>(inbox_.run());
   ready.member(member_);
   ready.revision(revision);
   if (revision > 0) {
@@ -125,7 +131,10 @@ void LockstepClient::say_ready(std::uint32_t revision) {
 
 void LockstepClient::on_step(msg::Step& step, ParticipantId source) {
   if ((phase_ != Phase::declared && phase_ != Phase::member) || source != server_) return;
-  if (step_ && step.k() == step_->k() && !handed_out_) return;  // amended, but we have answered it already
+  if (step_ && step.k() == step_->k() && !handed_out_) {  // amended or told again, but we have answered it already
+    answer_again_();
+    return;
+  }
   for (const auto& order : step.orders()) {
     if (order.source() != participant_.id()) continue;
     order_ = order.order() == kOrderStop ? Order::stop : Order::kill;
@@ -164,7 +173,9 @@ bool LockstepClient::matched(Counterpart counterpart, ParticipantId who) const {
 }
 
 bool LockstepClient::router_matched() {
-  if (router_ != matched_router_ && matched(Counterpart::router, router_)) matched_router_ = router_;
+  // That it hears our Done we know from nobody but our writer: by Attached it says only that it has found it.
+  const bool heard = router_ == participant_.id() || done_->matches(router_);
+  if (router_ != matched_router_ && heard && matched(Counterpart::router, router_)) matched_router_ = router_;
   return router_ == 0 || router_ == matched_router_;
 }
 
@@ -206,20 +217,17 @@ bool LockstepClient::write(const std::string& topic, std::span<const std::uint8_
 }
 
 void LockstepClient::done(const std::vector<std::uint8_t>& digest) {
-  msg::Done done;
+  auto done = message_of<msg::Done>(inbox_.run());
   done.k(step_->k());
   done.epoch(step_->epoch());
   done.member(member_);
   for (const Writing& writing : writings_) {
-    msg::TopicCount count;
-    count.topic(writing.topic.name);
-    count.source(participant_.id());
-    count.count(writing.writer->count());
-    done.sent().push_back(count);
+    done.sent().push_back(topic_count(writing.topic.name, participant_.id(), writing.writer->count()));
   }
   done.digest(digest);
   done_->begin_step();
   done_->write(done);
+  last_done_ = std::move(done);
 }
 
 bool LockstepClient::server_present() const { return server_ != 0 && contains(step_reader_->matched(), server_); }

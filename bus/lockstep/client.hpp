@@ -66,6 +66,8 @@ class LockstepClient {
   bool is_member() const { return phase_ == Phase::member; }
   /// True as long as the server's step writer is there: after the last step, stay until it has gone.
   bool server_present() const;
+  /// The run that we take part in.
+  RunId run() const { return inbox_.run(); }
   /// Our participant.
   ParticipantId id() const { return participant_.id(); }
   /// Who the server and the router are; 0 when unknown or absent.
@@ -83,6 +85,9 @@ class LockstepClient {
   bool waits_for_matches() const;
   /// For Inbox::dispatch(): how many rings there must be before poll() can do more than it did.
   std::size_t rings() const { return phase_ == Phase::member && !pending_ && !handed_out_ ? 1 : 0; }
+  /// What is to be done when the server tells the last answered step again (its answer may be lost); by default Done is
+  /// said again.
+  void answer_again_with(std::function<void()> answer) { answer_again_ = std::move(answer); }
   /// What it waits for, for a human.
   std::string waiting_for() const;
 
@@ -125,6 +130,8 @@ class LockstepClient {
   std::function<bool()> declare_condition_;
   std::function<bool(const Step&)> think_condition_;
   std::function<void(Order)> obey_;
+  std::function<void()> answer_again_;
+  std::optional<msg::Done> last_done_;
   Order order_ = Order::kill;  ///< in phase `ordered`
   std::unique_ptr<CountedWriter> ready_, done_;
   std::unique_ptr<Reader> resync_reader_, step_reader_;

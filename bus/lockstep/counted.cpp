@@ -4,6 +4,14 @@
 
 namespace skein::bus {
 
+msg::TopicCount topic_count(const std::string& topic, ParticipantId source, std::uint64_t count) {
+  msg::TopicCount result;
+  result.topic(topic);
+  result.source(source);
+  result.count(count);
+  return result;
+}
+
 bool contains(const std::vector<ParticipantId>& matched, ParticipantId who) {
   return std::find(matched.begin(), matched.end(), who) != matched.end();
 }
@@ -88,9 +96,10 @@ bool CountedQueues::has_surplus(ParticipantId source) const {
   });
 }
 
-std::vector<std::string> CountedQueues::missing() const {
+std::vector<std::string> CountedQueues::missing(std::optional<ParticipantId> source) const {
   std::vector<std::string> result;
   for (const Expected& e : expected_) {
+    if (source && e.source != *source) continue;
     const auto& lanes = topics_.at(e.topic).lanes;
     const auto lane = lanes.find(e.source);
     const std::uint64_t arrived = lane == lanes.end() ? 0 : lane->second.arrived;

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "idl/cdr.hpp"
+#include "idl/type_names.hpp"
 
 namespace skein::bus {
 
@@ -21,6 +23,9 @@ template <class T>
 concept WireMessage = requires {
   TypeName<T>::kValue;
 };
+
+/// "So many samples of this topic has this participant written": what announces are made of.
+msg::TopicCount topic_count(const std::string& topic, ParticipantId source, std::uint64_t count);
 
 /// True when `who` is among the participants that an endpoint has matched.
 bool contains(const std::vector<ParticipantId>& matched, ParticipantId who);
@@ -80,8 +85,8 @@ class CountedQueues {
   void discard(ParticipantId source);
   /// True when more has arrived from a source than is expected of it.
   bool has_surplus(ParticipantId source) const;
-  /// What is still missing, for a human: "rt/x 3 of 4".
-  std::vector<std::string> missing() const;
+  /// What is still missing of all sources, or of one, for a human: "rt/x 3 of 4".
+  std::vector<std::string> missing(std::optional<ParticipantId> source = std::nullopt) const;
 
  private:
   struct Lane {

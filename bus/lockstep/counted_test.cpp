@@ -107,7 +107,7 @@ class Both {
   }
   void count_from(const std::string& topic, ParticipantId source, std::uint64_t base) {
     queues.set_base(topic, source, base);
-    oracle.lanes[{topic, source}] = {.base = base};
+    oracle.lanes[{topic, source}] = {.base = base, .numbers = {}};
   }
   void compare() {
     ASSERT_EQ(queues.missing(), oracle.missing());

@@ -10,7 +10,7 @@
 namespace skein::bus {
 
 inline constexpr std::string_view kRouterName = "comm_router";
-inline constexpr std::string_view kStationName = "station";
+inline constexpr std::string_view kStationName = topics::kStationMember;
 inline constexpr std::string_view kGcsName = "gcs";
 
 /// Orders in a Step.
@@ -20,6 +20,14 @@ inline constexpr std::string_view kOrderStop = "stop";
 /// A topic of the one table (core/topics.hpp) as a backend takes it.
 inline TopicSpec spec(const topics::WireTopic& topic) {
   return {topic.name, topic.type, Qos{.reliable = true, .latched = topic.latched, .depth = topic.depth}};
+}
+
+/// Where a member says ready and done: the station at doors of its own, since it may share its domain.
+inline TopicSpec ready_spec(std::string_view member) {
+  return spec(member == kStationName ? topics::station_ready() : topics::ready());
+}
+inline TopicSpec done_spec(std::string_view member) {
+  return spec(member == kStationName ? topics::station_done() : topics::done());
 }
 
 }  // namespace skein::bus

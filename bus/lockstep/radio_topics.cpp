@@ -16,8 +16,8 @@ TopicSpec radio_topic(const std::string& topic, const std::string& type, std::si
           Qos{.reliable = true, .latched = false, .depth = topics::radio_depth(sources)}};
 }
 
-msg::RadioRequest make_request(const std::string& topic, const std::string& type) {
-  msg::RadioRequest request;
+msg::RadioRequest make_request(RunId run, const std::string& topic, const std::string& type) {
+  auto request = message_of<msg::RadioRequest>(run);
   request.name(topic);
   request.type(type);
   return request;
@@ -37,7 +37,7 @@ void RadioTopics::send(const std::string& topic, const std::string& type, const 
   begin_step();
   const auto [entry, fresh] = sendings_.try_emplace(topic);
   if (fresh) client_.add_radio_writer(spec);
-  entry->second.request = make_request(topic, type);
+  entry->second.request = make_request(client_.run(), topic, type);
   entry->second.request.source(node_);
   entry->second.request.targets(targets);
   ask(entry->second.request);
@@ -49,7 +49,7 @@ void RadioTopics::listen(const std::string& topic, const std::string& type, Coun
   const auto [entry, fresh] = listenings_.try_emplace(topic);
   entry->second.handler = std::move(handler);
   if (!fresh) return;
-  entry->second.request = make_request(topic, type);
+  entry->second.request = make_request(client_.run(), topic, type);
   entry->second.request.listen(true);
   ask(entry->second.request);
 }

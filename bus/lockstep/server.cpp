@@ -7,18 +7,6 @@
 
 namespace skein::bus {
 
-namespace {
-
-msg::TopicCount topic_count(const std::string& topic, ParticipantId source, std::uint64_t count) {
-  msg::TopicCount result;
-  result.topic(topic);
-  result.source(source);
-  result.count(count);
-  return result;
-}
-
-}  // namespace
-
 LockstepServer::DomainIndex LockstepServer::add_domain(const std::string& node, Participant& participant) {
   const DomainIndex index = domains_.size();
   auto domain = std::make_unique<Domain>();
@@ -26,14 +14,9 @@ LockstepServer::DomainIndex LockstepServer::add_domain(const std::string& node, 
   domain->participant = &participant;
   domain->step = std::make_unique<CountedWriter>(participant, spec(topics::step()));
   domain->resync = std::make_unique<CountedWriter>(participant, spec(topics::resync()));
-  domain->ready_reader = subscribe<msg::Ready>(
-      inbox_, participant, spec(topics::ready()),
-      [this, index](const msg::Ready& ready, ParticipantId source) { on_ready(index, ready, source); });
-  domain->done_reader = subscribe<msg::Done>(
-      inbox_, participant, spec(topics::done()),
-      [this, index](const msg::Done& done, ParticipantId source) { on_done(index, done, source); });
   if (index == 0) {
-    const TopicSpec routed = spec(topics::routed()), attached = spec(topics::attached());
+    const TopicSpec routed = spec(topics::routed()), attached = spec(topics::attached()),
+                    awaits = spec(topics::awaits());
     domain->readers.emplace_back(
         routed.name, subscribe<msg::Routed>(inbox_, participant, routed,
                                             [this](const auto& m, ParticipantId source) { on_routed(m, source); }));
@@ -42,16 +25,35 @@ LockstepServer::DomainIndex LockstepServer::add_domain(const std::string& node, 
         subscribe<msg::Attached>(inbox_, participant, attached, [this](const auto& m, ParticipantId source) {
           attached_[{source, m.source()}] = m.router();
         }));
+    domain->readers.emplace_back(
+        awaits.name, subscribe<msg::Awaits>(inbox_, participant, awaits,
+                                            [this](auto& m, ParticipantId source) { on_awaits(m, source); }));
     drop_ = std::make_unique<CountedWriter>(participant, spec(topics::drop()));
   }
   domains_.push_back(std::move(domain));
+  open_door(index, "");
   return index;
+}
+
+std::size_t LockstepServer::open_door(DomainIndex domain, std::string_view member) {
+  Domain& d = *domains_.at(domain);
+  const std::size_t door = d.doors.size();
+  d.doors.push_back({subscribe<msg::Ready>(inbox_, *d.participant, ready_spec(member),
+                                           [this, domain, door](const msg::Ready& ready, ParticipantId source) {
+                                             on_ready(domain, door, ready, source);
+                                           }),
+                     subscribe<msg::Done>(inbox_, *d.participant, done_spec(member),
+                                          [this, domain, door](const msg::Done& done, ParticipantId source) {
+                                            on_done(domain, door, done, source);
+                                          })});
+  return door;
 }
 
 void LockstepServer::add_place(const std::string& member, DomainIndex domain, bool awaited) {
   Place place;
   place.name = member;
   place.domain = domain;
+  if (member == kStationName) place.door = open_door(domain, member);
   place.awaited = awaited;
   places_.push_back(std::move(place));
 }
@@ -89,111 +91,6 @@ const LockstepServer::Place* LockstepServer::router() const {
 
 bool LockstepServer::is_member(const std::string& name) const {
   return std::any_of(places_.begin(), places_.end(), [&](const Place& p) { return p.name == name && p.member; });
-}
-
-// ---- joining ----------------------------------------------------------------------------------------------------
-
-void LockstepServer::on_ready(DomainIndex domain, const msg::Ready& ready, ParticipantId source) {
-  Place* place = find(ready.member());
-  if (place == nullptr || place->domain != domain || gone_.contains(source)) return;
-  if (place->source != 0 && place->source != source) {
-    place->next.emplace(source, ready);  // its predecessor is not yet known to be dead
-    return;
-  }
-  take_ready(*place, source, ready);
-}
-
-void LockstepServer::take_ready(Place& place, ParticipantId source, const msg::Ready& ready) {
-  if (place.member) return;
-  place.source = source;
-  if (ready.revision() == 0) return;
-  place.declared = true;
-  place.reads = ready.reads();
-  place.writes = ready.writes();
-}
-
-void LockstepServer::invite(Place& place) {
-  const Domain& domain = *domains_.at(place.domain);
-  msg::Resync resync;
-  resync.member(place.name);
-  resync.source(place.source);
-  resync.k(k_);
-  resync.epoch(epoch_);
-  resync.base(all_counts(domain));
-  if (place.name == kRouterName) {
-    // What the members have sent so far is past: the new router counts from there.
-    for (const Place& other : places_) {
-      for (const auto& sent : other.sent) resync.base().push_back(topic_count(sent.topic, sent.source, sent.count));
-    }
-  }
-  domains_.at(place.domain)->resync->begin_step();
-  domains_.at(place.domain)->resync->write(resync);
-  place.invited = true;
-}
-
-bool LockstepServer::endpoints_matched(const Place& place) const {
-  const Domain& domain = *domains_.at(place.domain);
-  if (!domain.step->matches(place.source)) return false;
-  if (place.name != kRouterName && !contains(domain.done_reader->matched(), place.source)) return false;
-  const auto listed = [](const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  for (const auto& writer : domain.writers) {
-    if (listed(place.reads, writer->topic()) && !writer->matches(place.source)) return false;
-  }
-  for (const auto& [topic, reader] : domain.readers) {
-    if (listed(place.writes, topic) && !contains(reader->matched(), place.source)) return false;
-  }
-  return place.name != kRouterName || drop_->matches(place.source);
-}
-
-bool LockstepServer::attached_by_router(const Place& place) const {
-  const Place* r = router();
-  return place.name == kRouterName || r == nullptr || attached_.contains({r->source, place.source});
-}
-
-bool LockstepServer::router_attached_all() const {
-  const Place* r = router();
-  return r == nullptr || std::all_of(places_.begin(), places_.end(), [&](const Place& p) {
-           return !p.member || p.name == kRouterName || attached_.contains({r->source, p.source});
-         });
-}
-
-bool LockstepServer::at_boundary() {
-  // The router first: who joins beside it is then asked to be attached by it.
-  std::vector<Place*> order;
-  for (Place& place : places_) {
-    order.insert(place.name == kRouterName ? order.begin() : order.end(), &place);
-  }
-  bool closed = true;
-  for (Place* place : order) {
-    if (place->member) continue;
-    // Who died before it was a member may never be reported to us: its hello outlived it.
-    if (place->source != 0 && !contains(domains_[place->domain]->ready_reader->matched(), place->source))
-      vacate(*place);
-    if (place->source == 0 && place->next) {
-      const auto [source, ready] = *place->next;
-      place->next.reset();
-      take_ready(*place, source, ready);
-    }
-    if (place->order) continue;
-    if (place->source == 0) {
-      closed = closed && !place->awaited;
-      continue;
-    }
-    if (!place->invited) invite(*place);
-    if (!place->declared || !endpoints_matched(*place) || !attached_by_router(*place)) {
-      closed = false;
-      continue;
-    }
-    place->member = true;
-    domains_[place->domain]->newcomer = true;
-    place->awaited = false;
-    membership_changed_ = true;
-    if (place->was_member) rejoined_.push_back(place->name);
-    place->was_member = true;
-  }
-  return closed && router_attached_all();
 }
 
 // ---- one step ---------------------------------------------------------------------------------------------------
@@ -248,7 +145,8 @@ void LockstepServer::publish(const StepInfo& info) {
   k_ = info.k;
   routed_digest_.clear();
   station_digest_.clear();
-  msg::Step step;
+  awaits_ = {};
+  auto step = message_of<msg::Step>(inbox_.run());
   step.k(info.k);
   step.epoch(epoch_);
   step.tick(info.tick);
@@ -292,11 +190,11 @@ void LockstepServer::amend_step() {
   }
 }
 
-void LockstepServer::on_done(DomainIndex domain, const msg::Done& done, ParticipantId source) {
+void LockstepServer::on_done(DomainIndex domain, std::size_t door, const msg::Done& done, ParticipantId source) {
   if (!in_step_) return;
   Place* place = find(done.member());
-  if (place == nullptr || !place->member || place->domain != domain || place->source != source ||
-      done.k() != k_ || done.epoch() != epoch_) {
+  if (place == nullptr || !place->member || place->domain != domain || place->door != door ||
+      place->source != source || done.k() != k_ || done.epoch() != epoch_) {
     return;
   }
   place->sent.clear();
@@ -307,7 +205,7 @@ void LockstepServer::on_done(DomainIndex domain, const msg::Done& done, Particip
 
 void LockstepServer::on_routed(const msg::Routed& routed, ParticipantId source) {
   Place* place = find(kRouterName);
-  if (!in_step_ || place == nullptr || !place->member || place->source != source ||
+  if (!in_step_ || place == nullptr || !place->member || place->source != source || place->answered ||
       routed.k() != k_ || routed.epoch() != epoch_) {
     return;
   }
@@ -316,7 +214,13 @@ void LockstepServer::on_routed(const msg::Routed& routed, ParticipantId source) 
     newly_delivered_[node.node()] = node.delivered();
   }
   routed_digest_ = routed.digest();
+  doubts_.insert(doubts_.end(), routed.decided_by_clock().begin(), routed.decided_by_clock().end());
   place->answered = true;
+}
+
+void LockstepServer::on_awaits(msg::Awaits& awaits, ParticipantId source) {
+  const Place* place = find(kRouterName);  // it may tell before it is a member
+  if (place != nullptr && place->source == source) awaits_ = std::move(awaits);
 }
 
 bool LockstepServer::answered() {
@@ -343,6 +247,18 @@ bool LockstepServer::answered() {
   return true;
 }
 
+void LockstepServer::ask_again() {
+  for (std::size_t i = 0; in_step_ && i < domains_.size(); ++i) {
+    Domain& domain = *domains_[i];
+    const bool silent = std::any_of(places_.begin(), places_.end(), [&](const Place& p) {
+      return p.member && p.domain == i && !p.answered;
+    });
+    if (!silent) continue;
+    domain.step->begin_step();
+    domain.step->write(domain.last);
+  }
+}
+
 std::size_t LockstepServer::rings() const {
   return static_cast<std::size_t>(
       std::count_if(places_.begin(), places_.end(), [](const Place& p) { return p.member && !p.answered; }));
@@ -360,7 +276,7 @@ void LockstepServer::leave(Place& place, const std::string& reason) {
   domains_[place.domain]->commands.discard(place.source);
   if (place.member) {
     membership_changed_ = true;
-    msg::Drop drop;
+    auto drop = message_of<msg::Drop>(inbox_.run());
     drop.k(k_);
     drop.epoch(epoch_);
     drop.member(place.name);
@@ -419,15 +335,6 @@ std::vector<LockstepServer::LostMember> LockstepServer::take_lost() { return std
 
 std::vector<std::string> LockstepServer::take_rejoined() { return std::exchange(rejoined_, {}); }
 
-std::vector<std::string> LockstepServer::awaited() const {
-  std::vector<std::string> names;
-  for (const Place& place : places_) {
-    // Who announced commands that never came has not answered either.
-    const bool silent = place.member && (!place.answered || !domains_[place.domain]->commands.complete());
-    const bool at_the_door = !place.member && !place.order && (place.awaited || place.source != 0);
-    if (in_step_ ? silent : at_the_door) names.push_back(place.name);
-  }
-  return names;
-}
+std::vector<std::string> LockstepServer::take_doubts() { return std::exchange(doubts_, {}); }
 
 }  // namespace skein::bus

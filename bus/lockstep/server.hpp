@@ -29,6 +29,10 @@ class LockstepServer {
     std::uint64_t k = 0;
     std::string reason;
   };
+  struct Awaited {
+    std::string member;
+    std::string what;  ///< for a human: "done of step 7", "rt/plan 3 of 4"
+  };
 
   explicit LockstepServer(Inbox& inbox) : inbox_(inbox) {}
 
@@ -55,6 +59,9 @@ class LockstepServer {
   bool answered();
   /// For Inbox::dispatch(), while answered() is false: each answer that is missing rings once at least.
   std::size_t rings() const;
+  /// While answered() is false and nothing happens: tells the step once more where an answer is missing. Either may have
+  /// been lost with a lease that was over, and whoever has answered answers the same again.
+  void ask_again();
 
   /// At a boundary, before publish(): a fault takes this member out, and the steps to come tell it what to do to itself.
   /// That is no loss. Nobody gets its place until let_back(). @param order  kOrderKill or kOrderStop (names.hpp).
@@ -72,18 +79,25 @@ class LockstepServer {
   bool is_member(const std::string& name) const;
   /// Joined again after it had been lost, since the last call.
   std::vector<std::string> take_rejoined();
-  /// Who has not answered, or has not joined; for messages and time-outs.
-  std::vector<std::string> awaited() const;
+  /// Who has not answered, or has not joined, and nobody who only waits for them; for messages and time-outs. Never
+  /// empty while at_boundary() or answered() is false.
+  std::vector<Awaited> awaited() const;
+  /// What the router decided by a wall clock since the last call: it might turn out otherwise another time.
+  std::vector<std::string> take_doubts();
   /// Of the last answered step: the router's hash of its deliveries, the station's of its tally changes.
   const std::vector<std::uint8_t>& routed_digest() const { return routed_digest_; }
   const std::vector<std::uint8_t>& station_digest() const { return station_digest_; }
 
  private:
+  /// Where members say ready and done: the station at one of its own (names.hpp).
+  struct Door {
+    std::unique_ptr<Reader> ready, done;
+  };
   struct Domain {
     std::string node;
     Participant* participant = nullptr;
     std::unique_ptr<CountedWriter> step, resync;
-    std::unique_ptr<Reader> done_reader, ready_reader;
+    std::vector<Door> doors;
     std::vector<std::unique_ptr<CountedWriter>> writers;
     std::vector<std::uint64_t> announced;  ///< counts of `writers` that the members know
     bool newcomer = false;                 ///< since the last step somebody joined, who knows no counts of what is latched
@@ -94,6 +108,7 @@ class LockstepServer {
   struct Place {
     std::string name;
     DomainIndex domain = 0;
+    std::size_t door = 0;
     bool awaited = false;  ///< at_boundary() waits for it
     bool member = false, was_member = false;
     std::optional<msg::Order> order;  ///< taken out by a fault: who knocks waits at the door
@@ -105,14 +120,20 @@ class LockstepServer {
     std::optional<std::pair<ParticipantId, msg::Ready>> next;  ///< knocked while the place was taken
   };
 
-  void on_ready(DomainIndex domain, const msg::Ready& ready, ParticipantId source);
-  void on_done(DomainIndex domain, const msg::Done& done, ParticipantId source);
+  std::size_t open_door(DomainIndex domain, std::string_view member);
+  const Door& door_of(const Place& place) const { return domains_[place.domain]->doors[place.door]; }
+  void on_ready(DomainIndex domain, std::size_t door, const msg::Ready& ready, ParticipantId source);
+  void on_done(DomainIndex domain, std::size_t door, const msg::Done& done, ParticipantId source);
   void on_routed(const msg::Routed& routed, ParticipantId source);
+  void on_awaits(msg::Awaits& awaits, ParticipantId source);
   void take_ready(Place& place, ParticipantId source, const msg::Ready& ready);
   void invite(Place& place);
   bool endpoints_matched(const Place& place) const;
   bool attached_by_router(const Place& place) const;
   bool router_attached_all() const;
+  std::vector<Awaited> awaited_in_step() const;
+  std::vector<Awaited> awaited_at_boundary() const;
+  std::string awaited_by_router(const Place& place) const;
   ParticipantId source_in(DomainIndex domain, const Place& member) const;
   const Place* router() const;
   Place* find(std::string_view name);
@@ -134,8 +155,9 @@ class LockstepServer {
   std::map<std::string, std::vector<msg::TopicCount>> newly_delivered_;
   std::vector<std::uint8_t> routed_digest_, station_digest_;
   std::set<ParticipantId> gone_;  ///< lost; what they said may still arrive
+  msg::Awaits awaits_;  ///< the router's last word of whom it waits for
   std::vector<LostMember> lost_;
-  std::vector<std::string> rejoined_;
+  std::vector<std::string> rejoined_, doubts_;
   std::uint64_t k_ = 0;
   std::uint32_t epoch_ = 0;
   bool membership_changed_ = true, in_step_ = false;

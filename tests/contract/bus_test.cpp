@@ -299,7 +299,7 @@ TEST_P(BusContract, ReaderAndWriterMayLeaveWhileSamplesFly) {
 
 TEST_P(BusContract, LongLeasesAreAccepted) {
   const auto join_for_long = [this](const std::string& vendor) {
-    return bus::make_bus({.vendor = vendor, .long_leases = true})->join(domains_.base());
+    return bus::make_bus({.vendor = vendor, .lease_s = 3600})->join(domains_.base());
   };
   auto a = join_for_long(GetParam().writer), b = join_for_long(GetParam().reader);
   Collector got;

@@ -152,7 +152,11 @@ class Server {
     }
   }
   bool finished() const { return k_ == kSteps; }
-  std::string awaits() const { return fmt::format("step {} awaits {}", k_, fmt::join(server_.awaited(), " ")); }
+  std::string awaits() const {
+    std::string text = fmt::format("step {} awaits", k_);
+    for (const auto& one : server_.awaited()) text += fmt::format(" {} ({})", one.member, one.what);
+    return text;
+  }
   const std::string& digest() const { return digest_; }
 
  private:

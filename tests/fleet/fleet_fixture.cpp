@@ -2,13 +2,13 @@
 
 #include <signal.h>
 #include <stdlib.h>
-#include <sys/stat.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <regex>
 #include <sstream>
 
+#include "core/host_lock.hpp"
 #include "json_schema.hpp"
 
 namespace skein::test {
@@ -47,22 +47,6 @@ std::set<std::string> shared_memory() {
     names.insert(it->path().filename());
   }
   return names;
-}
-
-/// Whether a process holds the lock file of a DDS domain.
-bool holds_domain(pid_t pid, int domain) {
-  const fs::path file = fs::temp_directory_path() / ("skein-domain-" + std::to_string(domain) + ".lock");
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) return false;
-  const std::string inode = std::to_string(status.st_ino);
-  std::ifstream locks("/proc/locks");
-  for (std::string line; std::getline(locks, line);) {
-    std::istringstream in(line);
-    std::string number, kind, mode, access, holder, place;
-    in >> number >> kind >> mode >> access >> holder >> place;
-    if (holder == std::to_string(pid) && place.substr(place.rfind(':') + 1) == inode) return true;  // device:inode
-  }
-  return false;
 }
 
 /// The shipped configuration, wherever the build folder is, and no cache but the test's own.
@@ -220,7 +204,7 @@ void FleetTest::expect_nothing_left() {
         << left.begin()->first << " is still there";
     const auto [first, last] = run->domains();
     for (int domain = first; domain >= 0 && domain <= last; ++domain) {
-      EXPECT_FALSE(holds_domain(run->skein().pid(), domain)) << domain;
+      EXPECT_NE(HostLock::holder(domain_lock_name(domain)), run->skein().pid()) << domain;
     }
   }
   for (const std::string& name : shared_memory()) {

@@ -1,6 +1,6 @@
 // The smallest program that takes part in the lock-step, written from docs/lockstep.md alone: it shares no lock-step
 // code with Skein, only the messages and the bus. It flies its UAV 3 m up and stays there.
-//   skein run --planner hover,UAV=exec:minimal_client    (the launcher sets SKEIN_DOMAIN, SKEIN_UAV, SKEIN_DDS)
+//   skein run --planner hover,UAV=exec:minimal_client    (the launcher sets SKEIN_RUN, SKEIN_DOMAIN, SKEIN_UAV, SKEIN_DDS)
 // Exit code 0 after the last step, 3 when the server dropped it. To see what becomes of a broken client: with an argument
 // it lies from a certain step on; "boast" announces a command more than it sends, "smuggle" one less;
 // "forge" tells the station of captures that no camera took.
@@ -85,8 +85,9 @@ std::uint64_t count_of(const std::vector<msg::TopicCount>& counts, const std::st
 
 class Client {
  public:
-  Client(skein::bus::Participant& participant, std::string uav, std::string lie)
+  Client(skein::bus::Participant& participant, std::uint64_t run, std::string uav, std::string lie)
       : participant_(participant),
+        run_(run),
         uav_(std::move(uav)),
         lie_(std::move(lie)),
         resyncs_(participant, "skein/resync", kLatchedQos),
@@ -105,12 +106,22 @@ class Client {
         if (!steps_.matches(server_)) return 3;
         continue;
       }
-      if (step->first != server_ || step->second.k() == answered_) continue;
+      if (step->first != server_ || step->second.run() != run_) continue;
+      if (step->second.k() == answered_) {
+        done_->write(skein::encode(last_done_));  // asked again: the answer may be lost
+        continue;
+      }
       if (!lists_us(step->second)) {
         if (member) return 3;
         continue;  // of the time before we were let in
       }
       member = true;
+      for (const auto& other : step->second.members()) {
+        while (other.name() == "comm_router" && !Queue<msg::Step>::contains(done_->matched(), other.source())) {
+          if (!steps_.matches(server_)) return 3;
+          resyncs_.take();  // a pause
+        }
+      }
       if (!answer(step->second)) return 3;
       if (step->second.final_step()) break;
     }
@@ -121,6 +132,7 @@ class Client {
  private:
   void say_ready(std::uint32_t revision) {
     msg::Ready ready;
+    ready.run(run_);
     ready.member(uav_);
     ready.revision(revision);
     if (revision > 0) {
@@ -134,7 +146,7 @@ class Client {
   void wait_for_invitation() {
     for (;;) {
       const auto resync = resyncs_.take();
-      if (!resync || resync->second.source() != participant_.id()) continue;
+      if (!resync || resync->second.run() != run_ || resync->second.source() != participant_.id()) continue;
       server_ = resync->first;
       odometry_ = std::make_unique<Queue<msg::Odometry>>(participant_, uav_ + "/ground_truth/odometry", kStateQos);
       commands_ =
@@ -177,6 +189,7 @@ class Client {
     if (reports_ && step.k() >= kFirstLie) write_forged_report(step);
 
     msg::Done done;
+    done.run(run_);
     done.k(step.k());
     done.epoch(step.epoch());
     done.member(uav_);
@@ -191,6 +204,7 @@ class Client {
       done.sent().push_back(sent);
     }
     done_->write(skein::encode(done));
+    last_done_ = done;
     answered_ = step.k();
     return true;
   }
@@ -236,6 +250,7 @@ class Client {
   std::string reports_name() const { return "rt/captures/" + uav_; }
 
   skein::bus::Participant& participant_;
+  const std::uint64_t run_;
   const std::string uav_, lie_;
   Queue<msg::Resync> resyncs_;
   Queue<msg::Step> steps_;
@@ -244,19 +259,21 @@ class Client {
   ParticipantId server_ = 0;
   std::uint64_t received_ = 0, expected_ = 0, commands_sent_ = 0, reports_sent_ = 0;
   std::optional<std::uint64_t> answered_;
+  msg::Done last_done_;
   std::optional<msg::Point> goal_;
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const char *domain = std::getenv("SKEIN_DOMAIN"), *uav = std::getenv("SKEIN_UAV"), *vendor = std::getenv("SKEIN_DDS");
+  const char *domain = std::getenv("SKEIN_DOMAIN"), *uav = std::getenv("SKEIN_UAV"), *vendor = std::getenv("SKEIN_DDS"),
+             *run = std::getenv("SKEIN_RUN");
   if (domain == nullptr || uav == nullptr || vendor == nullptr) {
-    std::cerr << "usage: SKEIN_DOMAIN=N SKEIN_UAV=NAME SKEIN_DDS=VENDOR minimal_client [boast|smuggle|forge]\n";
+    std::cerr << "usage: [SKEIN_RUN=N] SKEIN_DOMAIN=N SKEIN_UAV=NAME SKEIN_DDS=VENDOR minimal_client [boast|smuggle|forge]\n";
     return 2;
   }
   const char* security = std::getenv("SKEIN_SECURITY");  // set with --secure
   const auto bus = skein::bus::make_bus({.vendor = vendor, .security = security != nullptr ? security : ""});
   const auto participant = bus->join(std::atoi(domain));
-  return Client(*participant, uav, argc > 1 ? argv[1] : "").run();
+  return Client(*participant, run != nullptr ? std::strtoull(run, nullptr, 10) : 0, uav, argc > 1 ? argv[1] : "").run();
 }

@@ -111,9 +111,20 @@ class ServerProcess final : public Process {
   }
   std::string awaits() const {
     std::string text = (in_step_ ? "step " : "boundary before ") + std::to_string(k_) + " awaits";
-    for (const auto& name : server_.awaited()) text += " " + name;
+    for (const auto& one : server_.awaited()) text += " " + one.member + " (" + one.what + ")";
     return text;
   }
+  /// @returns false when it waits for nobody.
+  bool give_up_awaited() {
+    const auto awaited = server_.awaited();
+    for (const auto& one : awaited) {
+      model_.given_up_.push_back(one.member + ": " + one.what);
+      server_.lost(one.member, "given up");
+    }
+    return !awaited.empty();
+  }
+  /// Repeats are harmless at any time.
+  void ask_again() { server_.ask_again(); }
 
  private:
   void publish() {
@@ -149,8 +160,15 @@ class ServerProcess final : public Process {
 /// An agent, or the station: a member with a radio and no sensors.
 class AgentProcess final : public Process {
  public:
-  AgentProcess(FleetModel& model, SimNetwork& network, const std::string& name, int domain, Node node, std::string life)
-      : model_(model), bus_(network), name_(name), domain_(domain), node_(node), life_(std::move(life)) {
+  AgentProcess(FleetModel& model, SimNetwork& network, const std::string& name, int domain, Node node, std::string life,
+               RunId run = RunId::none)
+      : model_(model),
+        bus_(network, run),
+        inbox_(0, run),
+        name_(name),
+        domain_(domain),
+        node_(node),
+        life_(std::move(life)) {
     join();
   }
 
@@ -173,6 +191,7 @@ class AgentProcess final : public Process {
       if (client_->write("rt/talk", text_message(said))) log_.said.push_back(said);
     }
     chat();
+    misbehave();
     client_->done();
     finished_ = client_->step().final_step();
     model_.agents_[life_].push_back(std::exchange(log_, {}));
@@ -206,6 +225,15 @@ class AgentProcess final : public Process {
     client_->start();
   }
 
+  void misbehave() {
+    if (name_ != "a") return;
+    const FleetOptions& options = model_.options_;
+    if (log_.k == options.closes_writer) model_.network_.close_writers(domain_, "rt/talk");
+    if (log_.k != options.announces_too_much) return;
+    model_.network_.lose_next(domain_, "rt/talk");
+    client_->write("rt/talk", text_message("lost"));
+  }
+
   /// What it says on a topic that is registered while the run lasts; how that stands is part of what it hears.
   void chat() {
     const std::string topic = "/chat", type = "std_msgs/msg/String";
@@ -228,7 +256,7 @@ class AgentProcess final : public Process {
 
   FleetModel& model_;
   SimBus bus_;
-  bus::Inbox inbox_{0};
+  bus::Inbox inbox_;
   std::unique_ptr<bus::Participant> participant_;
   const std::string name_;
   const int domain_;
@@ -255,6 +283,7 @@ class RouterProcess final : public Process {
   void resume() override {
     node_.reset();
     node_ = std::make_unique<router::RouterNode>(scenario_, 0, 0, bus_);
+    node_->set_patience(router::kMatchPatience_s, 1e-9);
     node_->obey_with(obey_);
     node_->start();
   }
@@ -272,6 +301,7 @@ class RouterProcess final : public Process {
 
 FleetModel::FleetModel(const FleetOptions& options, std::uint64_t schedule_seed)
     : options_(options), scenario_(make_scenario(options.uavs)), random_(schedule_seed, "schedule", 0) {
+  if (options_.leftovers) start_leftovers();
   start("server");
   start(std::string(bus::kRouterName));
   start(std::string(bus::kStationName));
@@ -279,6 +309,19 @@ FleetModel::FleetModel(const FleetOptions& options, std::uint64_t schedule_seed)
 }
 
 FleetModel::~FleetModel() = default;
+
+void FleetModel::start_leftovers() {
+  const auto leave = [&](const std::string& name, int domain, Node node) {
+    leftovers_.push_back(
+        std::make_unique<AgentProcess>(*this, network_, name, domain, node, "leftover " + name, RunId{7}));
+  };
+  leave(std::string(bus::kStationName), gcs_domain(0), kStationNode);
+  leave(std::string(bus::kRouterName), world_domain(0), kStationNode);
+  for (const UavConfig& uav : scenario_.fleet) {
+    const std::size_t number = scenario_.uav_index(uav.name);
+    leave(uav.name, uav_domain(0, number), node_of_uav(number));
+  }
+}
 
 void FleetModel::start(const std::string& name) {
   const int life = ++lives_[name];
@@ -351,8 +394,9 @@ bool FleetModel::all_finished() const {
 
 std::string FleetModel::run() {
   constexpr std::size_t kQuiet = 200;  // polls of everybody without anything new: nobody will ever move again
+  constexpr std::size_t kRepeats = 20;  // of a step; for ever, and nobody would notice that all else stands still
   constexpr std::size_t kStill = 10;   // the same, before what is held back happens
-  std::size_t quiet = 0, still = 0;
+  std::size_t quiet = 0, still = 0, repeats = 0;
   while (!all_finished()) {
     ++events_;
     kill_and_notice();
@@ -361,12 +405,13 @@ std::string FleetModel::run() {
     if (still < kStill * processes_.size()) std::erase_if(events, [&](const auto& event) { return held_back(event); });
     still = events.empty() ? still + 1 : 0;
     if (quiet > kQuiet * processes_.size()) {
-      std::string text = static_cast<ServerProcess&>(*processes_.at("server")).awaits() + "\n";
-      for (const auto& [name, process] : processes_) {
-        if (const auto* agent = dynamic_cast<const AgentProcess*>(process.get())) text += agent->waits() + "\n";
-        if (const auto* router = dynamic_cast<const RouterProcess*>(process.get())) text += router->waits() + "\n";
-      }
-      return "deadlock\n" + text + network_.describe();
+      auto& server = static_cast<ServerProcess&>(*processes_.at("server"));
+      if (!options_.gives_up || !server.give_up_awaited()) return "deadlock\n" + describe_state();
+      quiet = 0;
+    }
+    if (repeats < kRepeats && random_.bits() % 64 == 0) {
+      static_cast<ServerProcess&>(*processes_.at("server")).ask_again();
+      ++repeats;
     }
     if (!events.empty() && random_.bits() % 3 != 0) {
       network_.happen(events[random_.bits() % events.size()]);
@@ -378,6 +423,15 @@ std::string FleetModel::run() {
   return {};
 }
 
+std::string FleetModel::describe_state() const {
+  std::string text = static_cast<const ServerProcess&>(*processes_.at("server")).awaits() + "\n";
+  for (const auto& [name, process] : processes_) {
+    if (const auto* agent = dynamic_cast<const AgentProcess*>(process.get())) text += agent->waits() + "\n";
+    if (const auto* router = dynamic_cast<const RouterProcess*>(process.get())) text += router->waits() + "\n";
+  }
+  return text + network_.describe();
+}
+
 // One kind of event, of some topics: another one in every schedule.
 bool FleetModel::held_back(const SimNetwork::Event& event) const {
   if (!options_.slow) return false;
@@ -386,6 +440,8 @@ bool FleetModel::held_back(const SimNetwork::Event& event) const {
 }
 
 void FleetModel::poll_one() {
+  for (const auto& leftover : leftovers_) leftover->poll();
+
   auto it = processes_.begin();
   std::advance(it, static_cast<std::ptrdiff_t>(random_.bits() % processes_.size()));
   if (!stopped_.contains(it->first)) it->second->poll();

@@ -59,6 +59,14 @@ struct FleetOptions {
   bool restart = false;          ///< and to start again
   std::uint64_t kill_after = 0;  ///< events
   ProcessFault fault = {};
+  /// Before everybody else comes somebody of another run in each member's name.
+  bool leftovers = false;
+  /// In this step "a" destroys its writer on the radio, though it has declared it.
+  std::optional<std::uint64_t> closes_writer = {};
+  /// In this step "a" announces a radio message that nobody gets.
+  std::optional<std::uint64_t> announces_too_much = {};
+  /// When nothing moves any more, the server gives up whom it awaits (as after a time-out), and goes on.
+  bool gives_up = false;
   /// Matches or samples of some topics, drawn with this number, come only when nothing else moves any more.
   std::optional<std::uint64_t> slow = {};
 };
@@ -79,6 +87,8 @@ class FleetModel {
   /// Names that were told as lost, and as members again.
   const std::vector<std::string>& lost() const { return lost_; }
   const std::vector<std::string>& rejoined() const { return rejoined_; }
+  /// Whom the server gave up, and what it was waiting for.
+  const std::vector<std::string>& given_up() const { return given_up_; }
 
  private:
   friend class ServerProcess;
@@ -89,6 +99,8 @@ class FleetModel {
   void kill_and_notice();
   void carry_out_faults();
   void poll_one();
+  void start_leftovers();
+  std::string describe_state() const;
   bool held_back(const SimNetwork::Event& event) const;
   bool all_finished() const;
 
@@ -97,9 +109,10 @@ class FleetModel {
   RandomStream random_;
   SimNetwork network_;
   std::map<std::string, std::unique_ptr<Process>> processes_;
+  std::vector<std::unique_ptr<Process>> leftovers_;
   std::map<std::string, std::vector<StepLog>> agents_;
   std::map<std::string, std::map<std::uint64_t, std::vector<std::string>>> taken_;
-  std::vector<std::string> lost_, rejoined_;
+  std::vector<std::string> lost_, rejoined_, given_up_;
   std::map<std::string, int> lives_;
   enum class Fate { alive, killed, noticed, restarted } fate_ = Fate::alive;
   std::set<std::string> struck_;  ///< have obeyed, and are still there

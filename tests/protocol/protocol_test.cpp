@@ -49,6 +49,45 @@ TEST(Protocol, EveryOrderOfArrivalGivesTheSameRun) {
   }
 }
 
+TEST(Protocol, WhatAnotherRunLeftBehindHasNoSay) {
+  FleetModel alone({.uavs = 2}, 0);
+  ASSERT_EQ(alone.run(), "");
+  for (std::uint64_t seed = 0; seed < schedules(20); ++seed) {
+    FleetModel model({.uavs = 2, .leftovers = true}, seed);
+    ASSERT_EQ(model.run(), "") << "schedule " << seed;
+    ASSERT_TRUE(model.lost().empty());
+    ASSERT_NO_FATAL_FAILURE(expect_same(alone, model, seed));
+  }
+}
+
+/// Who holds everybody up is named and given up, nobody else is, and the others go on to the last step.
+void expect_only_a_given_up(const FleetModel& model, const std::string& what, std::uint64_t steps) {
+  ASSERT_EQ(model.given_up(), std::vector<std::string>{"a: " + what});
+  ASSERT_EQ(model.lost(), std::vector<std::string>{"a"});
+  for (const std::string name : {"b", "station"}) ASSERT_EQ(model.agents().at(name).back().k, steps - 1) << name;
+}
+
+TEST(Protocol, ARouterThatComesBackSaysWhoseTopicIsMissing) {
+  for (std::uint64_t seed = 0; seed < schedules(40); ++seed) {
+    const ProcessFault fault{.victim = std::string(bus::kRouterName), .kill = seed % 2 == 0, .begin = 3, .end = 6};
+    FleetModel model({.uavs = 2, .steps = 10, .fault = fault, .closes_writer = 4 + seed % 2, .gives_up = true}, seed);
+    ASSERT_EQ(model.run(), "") << "schedule " << seed;
+    ASSERT_NO_FATAL_FAILURE(expect_only_a_given_up(model, "rt/talk to match", 10)) << "schedule " << seed;
+  }
+}
+
+TEST(Protocol, AMemberThatAnnouncesMoreThanItSendsIsGivenUpNotTheRouter) {
+  for (std::uint64_t seed = 0; seed < schedules(40); ++seed) {
+    const std::uint64_t k = 1 + seed % 6;
+    FleetModel model({.uavs = 2, .steps = 10, .announces_too_much = k, .gives_up = true}, seed);
+    ASSERT_EQ(model.run(), "") << "schedule " << seed;
+    ASSERT_EQ(model.given_up().size(), 1U) << "schedule " << seed;
+    const std::string what = model.given_up()[0].substr(std::min<std::size_t>(3, model.given_up()[0].size()));
+    ASSERT_TRUE(what.starts_with("rt/talk ")) << model.given_up()[0];
+    ASSERT_NO_FATAL_FAILURE(expect_only_a_given_up(model, what, 10)) << "schedule " << seed;
+  }
+}
+
 std::uint64_t step_of(const std::string& said) { return std::stoull(said.substr(said.find('@') + 1)); }
 
 /// Every message on a registered topic that was said in sight of somebody who listened, and no other, was heard.
@@ -166,7 +205,9 @@ void check_absence(const FleetModel& model, const ProcessFault& fault, std::uint
   std::map<std::string, std::set<std::uint64_t>> steps;
   for (const auto& [life, logs] : model.agents()) {
     // Who was stopped goes on in the same log: it hears again what is latched.
-    if (fault.kill) ASSERT_NO_FATAL_FAILURE(expect_latched_known(life, logs, seed));
+    if (fault.kill) {
+      ASSERT_NO_FATAL_FAILURE(expect_latched_known(life, logs, seed));
+    }
     for (const StepLog& log : logs) {
       steps[life.substr(0, life.find('#'))].insert(log.k);
       const bool deaf = fault.victim == bus::kRouterName && (out(log.k) || log.k == fault.end);
@@ -207,7 +248,9 @@ TEST_P(ScriptedFault, EveryOrderOfEventsGivesTheSameRun) {
       ASSERT_TRUE(model->lost().empty()) << "a fault is no loss; schedule " << seed;
       ASSERT_EQ(model->rejoined().size(), end < 9 ? 1U : 0U) << "schedule " << seed;
       ASSERT_NO_FATAL_FAILURE(check_absence(*model, fault, seed));
-      if (first) ASSERT_NO_FATAL_FAILURE(expect_same(*first, *model, seed));
+      if (first) {
+        ASSERT_NO_FATAL_FAILURE(expect_same(*first, *model, seed));
+      }
       if (!first) first = std::move(model);
     }
   }

@@ -84,6 +84,7 @@ void SimNetwork::write(const std::shared_ptr<WriterEnd>& writer, std::span<const
     writer->history.push_back(bytes);
     if (writer->history.size() > depth) writer->history.pop_front();
   }
+  if (to_lose_.erase({writer->domain, writer->topic.name}) > 0) return;
   for (Connection& connection : connections_) {
     if (connection.writer != writer || !connection.writer_matched || !connection.reader->alive) continue;
     connection.under_way.push_back(bytes);
@@ -91,7 +92,15 @@ void SimNetwork::write(const std::shared_ptr<WriterEnd>& writer, std::span<const
   }
 }
 
+void SimNetwork::close_writers(int domain, const std::string& topic) {
+  const std::vector<std::shared_ptr<WriterEnd>> writers = writers_;
+  for (const auto& writer : writers) {
+    if (writer->domain == domain && writer->topic.name == topic) remove(writer);
+  }
+}
+
 void SimNetwork::remove(const std::shared_ptr<WriterEnd>& writer) {
+  if (!writer->alive) return;
   writer->alive = false;
   std::erase(writers_, writer);
   for (Connection& connection : connections_) {

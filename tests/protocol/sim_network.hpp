@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ class SimNetwork;
 /// One process's way into the network; killed as a whole.
 class SimBus final : public bus::Bus {
  public:
-  explicit SimBus(SimNetwork& network) : network_(network) {}
+  explicit SimBus(SimNetwork& network, RunId run = RunId::none) : Bus(run), network_(network) {}
   std::unique_ptr<bus::Participant> join(int domain) override;
 
  private:
@@ -38,6 +39,10 @@ class SimNetwork {
   const std::string& topic_of(const Event& event) const { return connections_[event.connection].writer->topic.name; }
   /// Samples of the dead that are still under way: cuts a random tail off each of their connections.
   void lose_tails_of_the_dead(RandomStream& random);
+  /// All writers of a topic in a domain are destroyed; what they write from now on goes nowhere.
+  void close_writers(int domain, const std::string& topic);
+  /// The next sample on a topic in a domain is lost on its way to everybody.
+  void lose_next(int domain, const std::string& topic) { to_lose_.emplace(domain, topic); }
   /// What is not at rest, for a failing test.
   std::string describe() const;
 
@@ -81,6 +86,7 @@ class SimNetwork {
   std::vector<std::shared_ptr<WriterEnd>> writers_;
   std::vector<std::shared_ptr<ReaderEnd>> readers_;
   std::vector<Connection> connections_;
+  std::set<std::pair<int, std::string>> to_lose_;
 };
 
 }  // namespace skein::test

@@ -1,0 +1,36 @@
+// Waiting counts as far as the one who waits was awake.
+#include "bus/lockstep/patience.hpp"
+
+#include <gtest/gtest.h>
+
+namespace skein::bus {
+namespace {
+
+using namespace std::chrono_literals;
+using Time = Patience::Clock::time_point;
+
+TEST(Patience, IsOverWhenTheTimeIsUp) {
+  const Time start{};
+  Patience patience(2.0, start);
+  EXPECT_FALSE(patience.over(start + 1s));
+  EXPECT_FALSE(patience.over(start + 1900ms));
+  EXPECT_TRUE(patience.over(start + 2100ms));
+  EXPECT_NEAR(patience.waited_s(), 2.1, 1e-9);
+}
+
+TEST(Patience, DoesNotCountTheTimeInWhichItsProcessStoodStill) {
+  const Time start{};
+  Patience patience(2.0, start);
+  EXPECT_FALSE(patience.over(start + 1h)) << "who was stopped has not seen what came meanwhile";
+  EXPECT_FALSE(patience.over(start + 1h + 500ms));
+  EXPECT_TRUE(patience.over(start + 1h + 1100ms));
+}
+
+TEST(Patience, WithoutALimitLastsForEver) {
+  const Time start{};
+  Patience patience(0.0, start);
+  for (int s = 1; s < 10000; ++s) ASSERT_FALSE(patience.over(start + std::chrono::seconds(s)));
+}
+
+}  // namespace
+}  // namespace skein::bus

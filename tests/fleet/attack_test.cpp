@@ -1,0 +1,80 @@
+// What others might do to a run: programs of another run in its domains, a ground program that poses as the station,
+// and somebody who stops programs and lets them go on.
+#include <signal.h>
+
+#include <algorithm>
+#include <random>
+
+#include "cli/domain_block.hpp"
+#include "core/topics.hpp"
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+class Attack : public FleetTest, public testing::WithParamInterface<std::string> {
+ protected:
+  SkeinRun& brief(const std::string& name, const std::string& planner, const Arguments& more = {}) {
+    Arguments arguments = {"towers", "--planner", planner, "--duration", "60", "--dds", GetParam()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(name, arguments);
+  }
+};
+
+TEST_P(Attack, WhatAnotherRunLeftBehindIsNotListenedTo) {
+  const std::string digest = brief("alone", "patrol").digest();
+  std::string base;
+  {  // taken only to find a free one: what is left behind holds no lock
+    base = std::to_string(cli::DomainBlock(std::nullopt, 2 + static_cast<int>(kFleet.size())).base());
+  }
+  // A client of another run knocks at the place of each UAV, before and while the fleet starts.
+  for (std::size_t i = 0; i < kFleet.size(); ++i) {
+    start_program("leftover_" + kFleet[i], {SKEIN_MINIMAL_CLIENT},
+                  {{"SKEIN_RUN", "7"},
+                   {"SKEIN_DOMAIN", std::to_string(uav_domain(std::stoi(base), i))},
+                   {"SKEIN_UAV", kFleet[i]},
+                   {"SKEIN_DDS", GetParam()}});
+  }
+  SkeinRun& visited = brief("visited", "patrol", {"--domain", base});
+  EXPECT_EQ(visited.digest(), digest);
+  EXPECT_TRUE(visited.result()["lost_members"].empty());
+  EXPECT_NE(text_of(visited.dir() / "sim_server.log").find("takes part in another run (7,"), std::string::npos)
+      << "they were there, and it is told";
+}
+
+TEST_P(Attack, ForgedAcknowledgementsEraseNothing) {
+  SkeinRun& alone = brief("alone", "patrol");
+  ASSERT_GT(alone.result()["score"], 0.0);
+  std::string forger = std::string("patrol,gcs=exec:") + SKEIN_FORGER;
+  for (const std::string& uav : kFleet) forger += " " + uav;
+  SkeinRun& forged = brief("forged", forger);
+  EXPECT_TRUE(forged.result()["lost_members"].empty()) << "it takes part";
+  EXPECT_EQ(forged.result()["score"], alone.result()["score"]);
+  EXPECT_EQ(forged.digest(), alone.digest()) << "nobody has heard it";
+}
+
+TEST_P(Attack, WhoStandsStillForAWhileIsNotTakenForDead) {
+  SkeinRun& flying = start("run", {"towers", "--planner", "patrol", "--duration", "120", "--dds", GetParam()});
+  ASSERT_TRUE(flying.wait_until_flying()) << flying.err();
+  const auto found = processes_of(flying.dir());
+  std::vector<std::string> victims = {"sim_server", "comm_router", "station", "uav_agent-changi"};
+  std::mt19937 random(std::random_device{}());
+  std::ranges::shuffle(victims, random);
+  std::string order;
+  for (const std::string& victim : victims) order += " " + victim;
+  SCOPED_TRACE("order:" + order);
+  for (const std::string& victim : victims) ::kill(found.at(victim), SIGSTOP);
+  // Longer than the leases that DDS programs usually have.
+  EXPECT_FALSE(eventually([&] { return flying.skein().ended().has_value(); }, std::chrono::seconds(12)));
+  for (const std::string& victim : victims) ::kill(found.at(victim), SIGCONT);
+  EXPECT_EQ(flying.exit_code(), 0) << flying.err();
+  EXPECT_EQ(flying.result()["status"], "completed");
+  EXPECT_TRUE(flying.result()["lost_members"].empty()) << flying.result()["lost_members"];
+  EXPECT_TRUE(flying.result()["deterministic"]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, Attack, testing::Values("cyclonedds", "fastdds"),
+                         [](const auto& vendor) { return vendor.param; });
+
+}  // namespace
+}  // namespace skein::test

@@ -1,0 +1,124 @@
+// What a fleet finds around it, other fleets and the user's environment, does not reach into its run.
+#include <signal.h>
+
+#include <random>
+
+#include "fleet_fixture.hpp"
+#include "small_scene.hpp"
+
+namespace skein::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Surroundings : public FleetTest {
+ protected:
+  Surroundings() : scenario_(write_small_scene(folder())) {}
+
+  /// A fleet that waits for one of its agents, with a temporary folder of its own.
+  SkeinRun& waiting_fleet(const std::string& name, const Arguments& more = {}) {
+    fs::create_directories(folder() / (name + ".tmp"));
+    Arguments arguments = {scenario_, "--planner", "hover", "--debug", "changi"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return start(name, arguments, {{"TMPDIR", folder() / (name + ".tmp")}});
+  }
+
+  std::string scenario_;
+};
+
+TEST_F(Surroundings, FleetsWithDifferentTemporaryFoldersTakeDifferentDomains) {
+  SkeinRun& a = waiting_fleet("a");
+  ASSERT_TRUE(a.wait_for("gdb --args")) << a.err();
+  SkeinRun& b = waiting_fleet("b");
+  ASSERT_TRUE(b.wait_for("gdb --args")) << b.err();
+  const auto [first_a, last_a] = a.domains();
+  const auto [first_b, last_b] = b.domains();
+  EXPECT_TRUE(last_a < first_b || last_b < first_a) << first_a << ".." << last_a << " and " << first_b << ".." << last_b;
+
+  SkeinRun& c = waiting_fleet("c", {"--domain", std::to_string(last_a)});
+  EXPECT_EQ(c.exit_code(), 2);
+  EXPECT_NE(c.err().find("uses domain " + std::to_string(last_a) + " (process " + std::to_string(a.skein().pid()) + ")"),
+            std::string::npos)
+      << c.err();
+  for (SkeinRun* run : {&a, &b}) {
+    run->skein().signal(SIGINT);
+    EXPECT_EQ(run->exit_code(), 130) << run->err();
+  }
+}
+
+/// Variables that once kept a fleet from forming or could change it; HERE stands for a folder that holds the files.
+const std::vector<std::pair<std::string, std::string>> kHostileVariables = {
+    {"ROS_DISCOVERY_SERVER", "127.0.0.1:11811"},
+    {"ROS_SUPER_CLIENT", "TRUE"},
+    {"ROS_DOMAIN_ID", "17"},
+    {"ROS_LOCALHOST_ONLY", "1"},
+    {"ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF"},
+    {"FASTRTPS_DEFAULT_PROFILES_FILE", "HERE/DEFAULT_FASTRTPS_PROFILES.xml"},
+    {"FASTDDS_ENVIRONMENT_FILE", "HERE/environment.json"},
+    {"CYCLONEDDS_URI", "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name='none0'/></Interfaces></General>"
+                       "</Domain></CycloneDDS>"},
+    {"RMW_FASTRTPS_USE_QOS_FROM_XML", "1"},
+    {"LC_ALL", "de_DE.UTF-8"},
+    {"LC_NUMERIC", "de_DE.UTF-8"},
+    {"TZ", "Pacific/Chatham"},
+    {"HOME", "/nowhere"},
+    {"OMP_NUM_THREADS", "64"},
+    {"SKEIN_SECURITY", "/nowhere"},
+    {"SKEIN_DOMAIN", "3"},
+    {"SKEIN_CHOAS", "3"}};
+/// What a shell may do before it starts the launcher.
+const std::vector<std::string> kHostileShells = {"umask 0777",      "umask 0",        "exec 0<&-",          "exec 1>&- 0<&-",
+                                                 "trap '' CHLD",    "trap '' PIPE",   "exec 7</dev/null 9>/dev/null",     "ulimit -c 0",
+                                                 "trap '' HUP INT", "ulimit -n 256", "cd \"$HERE\""};
+
+class HostileSurroundings : public Surroundings, public testing::WithParamInterface<unsigned> {};
+
+TEST_P(HostileSurroundings, DoNotChangeTheFlight) {
+  std::mt19937 random(GetParam());
+  const auto chosen = [&] { return random() % 2 == 0; };
+  const fs::path here = folder() / "here";
+  // A participant that would look for a discovery server that is not there, as the default of every one.
+  write("here/DEFAULT_FASTRTPS_PROFILES.xml", R"(<?xml version="1.0" encoding="UTF-8"?>
+<dds xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"><profiles>
+  <participant profile_name="hostile" is_default_profile="true"><rtps>
+    <builtin><discovery_config><discoveryProtocol>CLIENT</discoveryProtocol></discovery_config></builtin>
+    <useBuiltinTransports>false</useBuiltinTransports>
+  </rtps></participant>
+</profiles></dds>)");
+  write("here/environment.json", R"({"environment_variables": {"ROS_DISCOVERY_SERVER": "127.0.0.1:11812"}})");
+  Environment environment = {{"HERE", here}};
+  std::string drawn;
+  for (auto [name, value] : kHostileVariables) {
+    if (!chosen()) continue;
+    if (value.starts_with("HERE")) value.replace(0, 4, here);
+    environment[name] = value;
+    drawn += name + " ";
+  }
+  std::string shell;
+  for (const std::string& line : kHostileShells) {
+    if (chosen()) shell += line + "; ";
+  }
+  SCOPED_TRACE(drawn + "; " + shell);
+  const std::string vendor = std::vector<std::string>{"fastdds", "cyclonedds", "mixed"}[GetParam() % 3];
+  const Arguments flight = {scenario_, "--planner", "patrol", "--duration", "5", "--dds", vendor};
+  const std::string digest = run("plain", flight).digest();
+
+  const fs::path out = folder() / "out";
+  Arguments argv = {"/bin/sh", "-c", shell + "exec \"$@\"", "sh", program("skein"), "run"};
+  argv.insert(argv.end(), flight.begin(), flight.end());
+  argv.insert(argv.end(), {"--out", out});
+  ChildProcess& skein = start_program("hostile", argv, environment);
+  ASSERT_EQ(skein.wait().code, 0) << skein.err();
+  const Json result = Json::parse(text_of(out / "result.json"));
+  EXPECT_EQ(result["digest"], digest);
+  for (const char* name : {"ROS_DISCOVERY_SERVER", "FASTDDS_ENVIRONMENT_FILE", "CYCLONEDDS_URI", "SKEIN_DOMAIN", "SKEIN_CHOAS"}) {
+    if (!environment.contains(name)) continue;
+    EXPECT_NE(skein.err().find(name), std::string::npos) << "ignored without a word: " << name << skein.err();
+    EXPECT_NE(result["warnings"].dump().find(name), std::string::npos) << result["warnings"];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, HostileSurroundings, testing::Range(0u, 4u));
+
+}  // namespace
+}  // namespace skein::test
