@@ -167,6 +167,17 @@ TEST_F(RunResult, EachMissingReportKeepsTheOthers) {
   }
 }
 
+TEST_F(RunResult, AProgramOfTheUsersOwnNeedsNoReport) {
+  write_all_reports();
+  for (const char* uav : {"alpha", "beta"}) {
+    std::filesystem::remove(dir_.path() / (std::string("uav_agent-") + uav + ".report.json"));
+  }
+  facts_.planners = {{"alpha", "exec:./mine --fast"}, {"beta", "hover"}};
+  const std::string warnings = merged()["warnings"].dump();
+  EXPECT_EQ(warnings.find("uav_agent-alpha"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("uav_agent-beta left no report"), std::string::npos) << warnings;
+}
+
 TEST_F(RunResult, AReportCutShortOrOfWrongTypesCountsAsMissing) {
   write_all_reports();
   write_text(dir_.path() / "station.report.json", R"({"points_detected": 2, "sco)");

@@ -123,6 +123,10 @@ TEST(ScoreLosses, TheWorstPartOfTheBestPictureIsToBlame) {
     return loss.cause;
   };
   EXPECT_EQ(cause(capture(0.7, 0.9, 0.8, true)), LossCause::distance);
+  // Of equals the one that is mended first by flying differently: nearer, then squarer, then slower.
+  EXPECT_EQ(cause(capture(0.75, 0.75, 0.75, true)), LossCause::distance);
+  EXPECT_EQ(cause(capture(1.0, 0.75, 0.75, true)), LossCause::tilt);
+  EXPECT_EQ(cause(capture(0.75, 1.0, 0.75, true)), LossCause::distance);
   EXPECT_EQ(cause(capture(0.9, 0.7, 0.8, true)), LossCause::tilt);
   EXPECT_EQ(cause(capture(0.9, 0.8, 0.7, true)), LossCause::blur);
   // The formula may prefer an axis: the tilt then gives back what the distance takes.

@@ -52,6 +52,21 @@ TEST(AntennaLink, OneFreePairOfThirtySixSuffices) {
   EXPECT_EQ(count_sight_lines(kLeft, kRight, lid).clear, 1);
 }
 
+TEST(AntennaLink, EachNodeHasOneAntennaOnEachOfItsSidesAndAnyOfThemSuffices) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3d offset = side * Vector3d::Unit(axis);
+      const Vector3d from = kLeft.p_W + kLeft.offset_m * offset, to = kRight.p_W + kRight.offset_m * offset;
+      const auto only_there = [&](const Vector3d& a, const Vector3d& b) -> std::optional<double> {
+        if ((a - from).norm() < 1e-9 && (b - to).norm() < 1e-9) return std::nullopt;
+        return 1.0;
+      };
+      EXPECT_EQ(count_sight_lines(kLeft, kRight, only_there).clear, 1) << side << " on axis " << axis;
+      EXPECT_TRUE(trace_link(kLeft, kRight, only_there).linked) << side << " on axis " << axis;
+    }
+  }
+}
+
 TEST(AntennaLink, OnlyTheLowestAntennaIsKeptAboveGround) {
   const auto points = antennas({{3, 4, 0.05}, 0.2});
   EXPECT_DOUBLE_EQ(points[5].z(), 0.1);

@@ -152,7 +152,8 @@ TEST_F(CommandGuardTest, ThePointAheadSpeedsUpBrakesAndArrivesAsItShould) {
   for (std::uint64_t i = 0; i < 60; ++i) {
     RandomStream random(i, "guard_point", 0);
     const Vector3d start(200, 0, 200);
-    const Vector3d way = random.uniform(3.0, 60.0) * (i % 2 == 0 ? 1.0 : -1.0) * Vector3d::Unit(static_cast<int>(i % 3));
+    const Vector3d way =
+        random.uniform(3.0, 60.0) * (i % 2 == 0 ? 1.0 : -1.0) * Vector3d::Unit(static_cast<int>(i % 3));
     PointMass mass(vehicle_, rules_, {.p_WB = start});
     double speed = 0.0, gone = 0.0, fastest = 0.0;
     for (int step = 0; step < 800 && gone < way.norm() - 0.02; ++step) {

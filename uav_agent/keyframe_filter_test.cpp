@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/random_stream.hpp"
 
 namespace skein::agent {
 namespace {
@@ -45,6 +48,32 @@ TEST(KeyframeFilter, DropsALonePointButKeepsAThinMember) {
   const auto kept = KeyframeFilter()(cloud, {});
   EXPECT_GT(nearest(kept, {20.0, 20.0, 20.0}), 5.0);
   EXPECT_LT(nearest(kept, {-10.0, 0.0, 6.8}), 0.5);
+}
+
+TEST(KeyframeFilter, KeepsWhatHasEnoughNeighboursAndNothingElse) {
+  std::size_t kept_in_all = 0, dropped_in_all = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RandomStream random(seed, "cloud", 0);
+    std::vector<Eigen::Vector3f> cloud;
+    for (int i = 0; i < 400; ++i) {
+      const Vector3d p(random.uniform(-8.0, 8.0), random.uniform(-8.0, 8.0), random.uniform(0.0, 12.0));
+      cloud.push_back(p.cast<float>());
+    }
+    KeyframeFilter::Config config{.lone_radius_m = random.uniform(0.8, 2.0), .lone_min_neighbours = 0};
+    const auto thinned = KeyframeFilter(config)(cloud, {});
+    config.lone_min_neighbours = 1 + static_cast<int>(seed % 4);
+    const float radius = static_cast<float>(config.lone_radius_m);
+    std::vector<Eigen::Vector3f> expected;
+    for (const auto& p : thinned) {
+      const auto near = [&](const auto& q) { return (q - p).squaredNorm() <= radius * radius; };
+      const auto others = std::ranges::count_if(thinned, near) - 1;
+      if (others >= config.lone_min_neighbours) expected.push_back(p);
+    }
+    EXPECT_EQ(KeyframeFilter(config)(cloud, {}), expected) << "seed " << seed;
+    kept_in_all += expected.size();
+    dropped_in_all += thinned.size() - expected.size();
+  }
+  EXPECT_GT(std::min(kept_in_all, dropped_in_all), 500U) << "both must have been drawn often";
 }
 
 TEST(KeyframeFilter, SurvivesNothingAndNonsense) {

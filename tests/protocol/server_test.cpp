@@ -1,4 +1,4 @@
-// What the server says about members that a fault takes out, one call at a time.
+// What the server says about members that come, that a fault takes out and that are lost, one call at a time.
 #include "bus/lockstep/server.hpp"
 
 #include <gtest/gtest.h>
@@ -16,20 +16,44 @@ class OneMember : public testing::Test {
   OneMember() {
     server_.add_domain("", *here_);
     server_.add_place("a", 0, true);
+    server_.add_place("b", 0, false);
     client_.start();
-    for (int turn = 0; turn < 20 && !joined_; ++turn) {
+    joined_ = boundary();
+  }
+
+  /// Until nobody is at the door any more.
+  bool boundary() {
+    bool closed = false;
+    for (int turn = 0; turn < 20; ++turn) {
       server_inbox_.dispatch(kNow);
-      joined_ = server_.at_boundary();
+      closed = server_.at_boundary();
       client_inbox_.dispatch(kNow);
       client_.poll();
+      other_.poll();
     }
+    return closed;
+  }
+  /// One step, that all members answer. @returns its epoch, as the first one is told.
+  std::uint32_t step() {
+    server_.publish({.k = k_, .tick = static_cast<std::int64_t>(20 * k_), .links = {}, .ledger_upto = 0});
+    for (int turn = 0; turn < 20 && !server_.answered(); ++turn) {
+      client_inbox_.dispatch(kNow);
+      for (bus::LockstepClient* client : {&client_, &other_}) {
+        if (client->poll() == bus::LockstepClient::Event::think) client->done();
+      }
+      server_inbox_.dispatch(kNow);
+    }
+    EXPECT_TRUE(server_.awaited().empty()) << "step " << k_;
+    EXPECT_EQ(client_.step().k(), k_++);
+    return client_.step().epoch();
   }
 
   std::unique_ptr<bus::Bus> bus_ = bus::make_bus({.vendor = "inproc"});
-  std::unique_ptr<bus::Participant> here_ = bus_->join(7), there_ = bus_->join(7);
+  std::unique_ptr<bus::Participant> here_ = bus_->join(7), there_ = bus_->join(7), elsewhere_ = bus_->join(7);
   bus::Inbox server_inbox_{0}, client_inbox_{0};
   bus::LockstepServer server_{server_inbox_};
-  bus::LockstepClient client_{*there_, client_inbox_, "a"};
+  bus::LockstepClient client_{*there_, client_inbox_, "a"}, other_{*elsewhere_, client_inbox_, "b"};
+  std::uint64_t k_ = 0;
   bool joined_ = false;
 };
 
@@ -50,6 +74,23 @@ TEST_F(OneMember, IsTakenOutAndLetBackOnce) {
   EXPECT_EQ(server_.awaited()[0].member, "a");
   EXPECT_FALSE(server_.at_boundary()) << "until it has joined";
   EXPECT_TRUE(server_.take_lost().empty());
+}
+
+TEST_F(OneMember, AnEpochLastsAsLongAsTheMembersStayTheSame) {
+  ASSERT_TRUE(joined_);
+  const std::uint32_t alone = step();
+  ASSERT_TRUE(boundary());
+  EXPECT_EQ(step(), alone);
+  other_.start();
+  ASSERT_TRUE(boundary());
+  ASSERT_TRUE(server_.is_member("b"));
+  EXPECT_EQ(step(), alone + 1);
+  ASSERT_TRUE(boundary());
+  EXPECT_EQ(step(), alone + 1);
+  ASSERT_TRUE(server_.take_out("b", bus::kOrderKill));
+  ASSERT_TRUE(boundary());
+  other_.obey_with([](bus::LockstepClient::Order) {});
+  EXPECT_EQ(step(), alone + 2);
 }
 
 TEST_F(OneMember, WhoIsLostWhileItIsOutIsNotLetBack) {
