@@ -47,6 +47,8 @@ class RouterNode {
   const LinkGate& gate() const { return gate_; }
   /// Samples received that were no message of their topic's type.
   std::uint64_t malformed() const { return inbox_.malformed(); }
+  /// Files that the disk refused, one sentence each.
+  const std::vector<std::string>& unwritten() const { return unwritten_; }
 
  private:
   /// One participant that wants its radio topics attached.
@@ -88,6 +90,7 @@ class RouterNode {
 
   const Scenario& scenario_;
   RadioTable table_;
+  std::vector<std::string> unwritten_;
   LinkGate gate_;
   RouterSync sync_;
   RadioRegistry registry_;
