@@ -101,7 +101,7 @@ class FleetRun {
   }
 
   void on_status(const Event& event) {
-    const Json status = Json::parse(event.line, nullptr, false);
+    const Json status = parse_json(event.line);
     if (!status.is_object()) return;
     const Json type = value_or(status, "type", "");
     if (type == "report" && !is_exec(plan_, event.program)) {

@@ -206,11 +206,17 @@ bool write_score_csv(const std::filesystem::path& dir, const Json& station_repor
   return true;
 }
 
+Json parse_json(const std::string& text) {
+  constexpr int kDeepest = 32;
+  const auto shallow = [](int depth, Json::parse_event_t, const Json&) { return depth <= kDeepest; };
+  Json json = Json::parse(text, shallow, false);
+  return json.is_discarded() ? Json() : json;
+}
+
 Json read_json(const std::filesystem::path& file) {
   constexpr std::uintmax_t kMostBytes = 256 << 20;
   try {
-    Json json = Json::parse(read_file_bytes(file, kMostBytes), nullptr, false);
-    return json.is_discarded() ? Json() : json;
+    return parse_json(read_file_bytes(file, kMostBytes));
   } catch (const InputError&) {
     return nullptr;
   }

@@ -66,6 +66,10 @@ bool write_score_csv(const std::filesystem::path& dir, const Json& station_repor
 /// any kind. Never throws.
 Json value_or(const Json& object, const char* key, Json fallback);
 
+/// Parses what a program wrote. @returns null when it is not JSON. What is nested deeper than anything of ours is left
+/// out: copying it would take the stack.
+Json parse_json(const std::string& text);
+
 /// Parses a JSON file. @returns null when it is not there, not a plain file of a sensible size, or not JSON.
 Json read_json(const std::filesystem::path& file);
 
