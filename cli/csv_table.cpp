@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "core/file_bytes.hpp"
+
 namespace skein::cli {
 namespace {
 
@@ -19,15 +21,15 @@ std::vector<std::string> split(const std::string& line) {
 
 }  // namespace
 
-CsvTable::CsvTable(const std::filesystem::path& file) : file_(file), in_(file) {
+CsvTable::CsvTable(const std::filesystem::path& file) : file_(file), in_(open_text(file)) {
   std::string line;
-  if (!std::getline(in_, line)) return;
+  if (!next_line(in_, line, file_)) return;
   for (const std::string& name : split(line)) columns_.emplace(name, columns_.size());
 }
 
 bool CsvTable::next() {
   std::string line;
-  if (!std::getline(in_, line)) return false;
+  if (!next_line(in_, line, file_)) return false;
   ++line_;
   cells_ = split(line);
   return true;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -219,6 +220,10 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
     if (plan.options.debug_uav != uav.name) add(agent_program(uav.name));
   }
   if (plan.ground) add(kGroundProgram);
+  // Ours that tell how the run goes on write as long as it does.
+  for (ProgramSpec& program : programs) {
+    if (!is_agent(program.name)) program.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
+  }
   for (ProgramSpec& program : programs) program.user = secure_folder(secure, program.name).user;
   return programs;
 }

@@ -1,6 +1,7 @@
 // The skein command: reads the command line, hands over, turns what went wrong into a message and an exit code.
 #include <unistd.h>
 
+#include <csignal>
 #include <exception>
 #include <iostream>
 
@@ -65,6 +66,7 @@ int execute(const std::vector<std::string>& arguments, const Console& console) t
 
 int main(int argc, char** argv) {
   skein::cli::settle_process();
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is like a full disk: the call says so
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
   return skein::cli::execute({argv + 1, argv + argc}, {std::cout, std::cerr, terminal});
 }

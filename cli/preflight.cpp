@@ -1,5 +1,10 @@
 #include "cli/preflight.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cstdlib>
 #include <map>
 #include <stdexcept>
@@ -35,6 +40,35 @@ std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& progra
   return exits;
 }
 
+/// Of the folders of this class, for a check to recognise them by.
+constexpr const char* kScratch = "skein-scratch-";
+
+/// Locks a folder of ours while the descriptor that it returns is open; -1 when it is not ours, held by another process
+/// (with LOCK_NB) or gone by then.
+int lock_folder(const std::filesystem::path& folder, int how) {
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  struct stat locked {}, named {};
+  if (fd >= 0 && ::flock(fd, how) == 0 && ::fstat(fd, &locked) == 0 && locked.st_uid == ::geteuid() &&
+      ::lstat(folder.c_str(), &named) == 0 && named.st_ino == locked.st_ino && named.st_dev == locked.st_dev) {
+    return fd;
+  }
+  if (fd >= 0) ::close(fd);
+  return -1;
+}
+
+/// A process that was killed left its folder, and nobody holds that.
+void remove_orphans(const std::filesystem::path& where) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(where, error), end; !error && entry != end; entry.increment(error)) {
+    if (!entry->path().filename().string().starts_with(kScratch)) continue;
+    const int lock = lock_folder(entry->path(), LOCK_EX | LOCK_NB);
+    if (lock < 0) continue;
+    std::error_code ignored;
+    std::filesystem::remove_all(entry->path(), ignored);
+    ::close(lock);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs) {
@@ -58,18 +92,24 @@ ExitStatus run_to_end(const ProgramSpec& program) { return run_all({program}).at
 ScratchDir::ScratchDir() {
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
-  std::string name = folder / "skein-XXXXXX";
-  if (error || ::mkdtemp(name.data()) == nullptr) {
-    const char* named = std::getenv("TMPDIR");
-    throw InputError(std::string("TMPDIR") + (named ? std::string("=") + named : " (not set: /tmp)") +
-                     ": must be a folder in which files can be made");
+  if (!error) remove_orphans(folder);
+  constexpr int kTries = 100;
+  for (int tries = 0; lock_ < 0; ++tries) {
+    std::string name = folder / (std::string(kScratch) + "XXXXXX");
+    if (error || tries == kTries || ::mkdtemp(name.data()) == nullptr) {
+      const char* named = std::getenv("TMPDIR");
+      throw InputError(std::string("TMPDIR") + (named ? std::string("=") + named : " (not set: /tmp)") +
+                       ": must be a folder in which files can be made");
+    }
+    path_ = name;
+    lock_ = lock_folder(path_, LOCK_EX);  // none: before we had it, somebody took it for an orphan's
   }
-  path_ = name;
 }
 
 ScratchDir::~ScratchDir() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
+  ::close(lock_);
 }
 
 }  // namespace skein::cli

@@ -24,12 +24,13 @@ std::string cell(const Json& object, const char* key, int digits) {
   return found != object.end() && found->is_number() ? fixed(found->get<double>(), digits) : "-";
 }
 
-std::string joined(const Json& object, const char* key) {
+/// @param but  names that are left out.
+std::string joined(const Json& object, const char* key, const Json& but = Json::array()) {
   std::string text;
   const auto found = object.find(key);
   if (found == object.end()) return text;
   for (const Json& name : *found) {
-    if (name.is_string()) text += (text.empty() ? "" : ", ") + name.get<std::string>();
+    if (name.is_string() && std::find(but.begin(), but.end(), name) == but.end()) text += (text.empty() ? "" : ", ") + name.get<std::string>();
   }
   return text;
 }
@@ -37,7 +38,8 @@ std::string joined(const Json& object, const char* key) {
 std::string uav_state(const Json& uav) {
   const auto alive = uav.find("alive");
   if (alive == uav.end() || !alive->is_boolean()) return "-";
-  return alive->get<bool>() ? "alive" : "collided";
+  if (!alive->get<bool>()) return "collided";
+  return value_or(uav, "program_lost", false).get<bool>() ? "lost" : "alive";
 }
 
 /// Where the rest of what could be had was lost: a row for each cause that took something.
@@ -68,7 +70,9 @@ void ProgressView::progress(const Json& status, double wall_s) {
     first_wall_s_ = wall_s;
   }
   const double speed = wall_s > first_wall_s_ ? (sim_s - first_sim_s_) / (wall_s - first_wall_s_) : 0.0;
-  const std::string in_contact = joined(status, "in_contact"), lost = joined(status, "lost");
+  // The body of a UAV whose program is lost still hovers in sight of the station; nobody is in contact with it.
+  const std::string lost = joined(status, "lost");
+  const std::string in_contact = joined(status, "in_contact", value_or(status, "lost", Json::array()));
   std::string text = fixed(sim_s, 1) + " s";
   const Json phase = value_or(status, "phase", "");
   text += phase == "flying" || phase == "ended"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <regex>
 #include <sstream>
 
 namespace skein::cli {
@@ -77,6 +78,30 @@ TEST(Summary, TellsHowMuchOfTheAttainableItIs) {
   result["attainable"] = {{"points", nullptr}, {"score", nullptr}};
   print_summary(unknown, result, "there");
   EXPECT_EQ(unknown.str().find("attainable"), std::string::npos) << unknown.str();
+}
+
+TEST(ProgressView, NobodyIsInContactWithAUavWhoseProgramIsLost) {
+  std::ostringstream out;
+  ProgressView view(out, false);
+  Json status = progress(40.0, 38.0);
+  status["in_contact"] = {"alpha", "beta"};
+  status["lost"] = {"alpha"};
+  view.progress(status, 3.0);
+  EXPECT_NE(out.str().find("in contact: beta, lost: alpha\n"), std::string::npos) << out.str();
+}
+
+TEST(ProgressView, TheTableShowsWhoseProgramIsLost) {
+  const Json uavs = Json::parse(R"([{"name": "ada", "role": "explorer", "alive": true, "program_lost": true},
+                                    {"name": "bob", "role": "explorer", "alive": true, "program_lost": false},
+                                    {"name": "cy", "role": "explorer", "alive": false, "program_lost": true}])");
+  const Json result = {{"status", "completed"}, {"collisions", Json::array()}, {"digest", nullptr}, {"uavs", uavs},
+                       {"planner", {{"ada", "hover"}, {"bob", "hover"}, {"cy", "hover"}}},
+                       {"score_by_uav", Json::object()}, {"warnings", Json::array()}};
+  std::ostringstream out;
+  print_summary(out, result, "there");
+  EXPECT_TRUE(std::regex_search(out.str(), std::regex("\nada +explorer +hover +lost "))) << out.str();
+  EXPECT_TRUE(std::regex_search(out.str(), std::regex("\nbob +explorer +hover +alive "))) << out.str();
+  EXPECT_TRUE(std::regex_search(out.str(), std::regex("\ncy +explorer +hover +collided "))) << out.str();
 }
 
 }  // namespace

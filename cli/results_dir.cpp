@@ -4,13 +4,20 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <set>
 
 #include "cli/planner_spec.hpp"
+#include "core/atomic_file.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
 namespace {
+
+/// Of a large fleet with all its links.
+constexpr off_t kRoomForResult = 256 << 10;
+/// One of the names that a stale file has: see written_by_a_run().
+constexpr const char* kRoom = "result.json.tmp-room";
 
 bool written_by_a_run(const std::string& name) {
   static const std::set<std::string> kNames = {
@@ -22,6 +29,18 @@ bool written_by_a_run(const std::string& name) {
   // What was being written when its program was killed: see atomic_file.hpp.
   const std::string whole = name.substr(0, name.rfind(".tmp"));
   return kNames.contains(whole) || of_a_program;
+}
+
+/// Only names go: what a link points to stays, and nothing is opened, which for a pipe would take for ever.
+void remove_stale(const std::filesystem::path& dir) {
+  for (const auto& entry : std::filesystem::directory_iterator(dir)) {
+    if (!written_by_a_run(entry.path().filename())) continue;
+    if (entry.symlink_status().type() != std::filesystem::file_type::directory) {
+      std::filesystem::remove(entry.path());
+    } else if (entry.path().has_extension()) {
+      throw InputError(entry.path().string() + ": a folder is in the way of a file that the run writes");
+    }
+  }
 }
 
 }  // namespace
@@ -56,11 +75,39 @@ ResultsDir::ResultsDir(const std::filesystem::path& dir, bool force) : path_(std
     ::close(lock_);
     throw InputError(dir.string() + ": another run is writing there; choose another --out");
   }
-  for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-    if (entry.is_regular_file() && written_by_a_run(entry.path().filename())) std::filesystem::remove(entry.path());
+  try {
+    remove_stale(path_);
+    keep_room();
+  } catch (...) {
+    ::close(lock_);
+    throw;
   }
 }
 
-ResultsDir::~ResultsDir() { ::close(lock_); }
+ResultsDir::~ResultsDir() {
+  give_room();
+  ::close(lock_);
+}
+
+void ResultsDir::keep_room() const {
+  const std::filesystem::path room = path_ / kRoom;
+  const int file = ::open(room.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  const int reason = file < 0 ? errno : ::posix_fallocate(file, 0, kRoomForResult);
+  if (file >= 0) ::close(file);
+  if (reason != ENOSPC && reason != EDQUOT && reason != EFBIG) return;  // a file system may have no such call
+  give_room();
+  throw InputError("--out " + path_.string() + ": no room for a result there (" +
+                   std::generic_category().message(reason) + "); choose another folder");
+}
+
+void ResultsDir::give_room() const {
+  std::error_code ignored;
+  std::filesystem::remove(path_ / kRoom, ignored);
+}
+
+std::string ResultsDir::write_result(const std::string& text) const {
+  give_room();
+  return write_if_possible(path_ / "result.json", text);
+}
 
 }  // namespace skein::cli

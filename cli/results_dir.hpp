@@ -20,7 +20,7 @@ class ResultsDir {
 
   /// Checks, creates the folder where it is missing, and removes what an earlier run left of the files that a run
   /// writes: a stale report must not pass for one of this run. Other files stay.
-  /// @throws InputError as check(), and when another run is writing there.
+  /// @throws InputError as check(), when another run is writing there, and when the disk has no room for a result.
   ResultsDir(const std::filesystem::path& dir, bool force);
   ~ResultsDir();
   ResultsDir(const ResultsDir&) = delete;
@@ -28,7 +28,14 @@ class ResultsDir {
 
   const std::filesystem::path& path() const { return path_; }  ///< absolute
 
+  /// Writes result.json, into room that was kept for it from the start on: a run that fills the disk has a result all
+  /// the same. @returns what went wrong, for people; empty when it is written.
+  std::string write_result(const std::string& text) const;
+
  private:
+  void keep_room() const;
+  void give_room() const;
+
   std::filesystem::path path_;
   int lock_ = -1;
 };

@@ -20,7 +20,6 @@
 #include "cli/run_losses.hpp"
 #include "cli/run_result.hpp"
 #include "cli/security.hpp"
-#include "core/atomic_file.hpp"
 
 namespace skein::cli {
 namespace {
@@ -68,7 +67,8 @@ class FleetRun {
     }
     watch();
     for (const auto& [program, books] : {std::pair("station", "station.journal"), {"comm_router", "comm_router.counts"}}) {
-      const bool reported = std::filesystem::exists(out / (std::string(program) + ".report.json"));
+      const bool reported =
+          reports_.contains(program) || std::filesystem::exists(out / (std::string(program) + ".report.json"));
       if (!reported && std::filesystem::exists(out / books)) settle(program);
     }
     view_.finish();
@@ -76,6 +76,8 @@ class FleetRun {
 
   RunFacts& facts() { return facts_; }
   ProgressView& view() { return view_; }
+  /// What came through the status pipes, by program.
+  const std::map<std::string, Json>& reports() const { return reports_; }
   bool anything_failed() const { return failed_; }
 
  private:
@@ -94,15 +96,19 @@ class FleetRun {
   void handle_all(const std::vector<Event>& events) {
     for (const Event& event : events) {
       if (event.kind == Event::Kind::status_line) on_status(event);
+      if (event.kind == Event::Kind::cut_off) on_cut_off(event);
       if (event.kind == Event::Kind::exited) on_exit(event);
       if (event.kind == Event::Kind::interrupt) on_interrupt();
     }
   }
 
   void on_status(const Event& event) {
-    const Json status = Json::parse(event.line, nullptr, false);
+    const Json status = parse_json(event.line);
     if (!status.is_object()) return;
     const Json type = value_or(status, "type", "");
+    if (type == "report" && !is_exec(plan_, event.program)) {
+      reports_[event.program] = value_or(status, "report", Json::object());
+    }
     // A user's command has a status pipe too; what it writes there is no news of the run.
     if (event.program != (type == "tally" ? "station" : "sim_server")) return;
     if (type == "waiting_for") view_.waiting_for(status);
@@ -127,6 +133,12 @@ class FleetRun {
     }
   }
 
+  /// A program that writes without end is no longer listened to; it flies on.
+  void on_cut_off(const Event& event) {
+    facts_.warnings.push_back(event.program + " is not listened to any more: " + event.line);
+    view_.message(facts_.warnings.back());
+  }
+
   /// A fault takes a program out of the run, or lets it back.
   void on_order(const Json& status) {
     const std::string program = program_of(value_or(status, "member", "")), order = value_or(status, "order", "");
@@ -146,7 +158,12 @@ class FleetRun {
     if (supervisor_.running(program) || spec == programs_.end()) return supervisor_.signal(program, SIGCONT);
     spec->second.append_log = true;
     std::ofstream(spec->second.log, std::ios::app) << "[skein] a fault killed this program; here it starts again\n";
-    supervisor_.start(spec->second);
+    try {
+      supervisor_.start(spec->second);
+    } catch (const std::exception& error) {  // the run has a result all the same
+      complain(program, std::string("it cannot be started again: ") + error.what());
+      supervisor_.send("sim_server", "lost " + member_name(program));
+    }
   }
 
   std::string program_of(const std::string& member) const {
@@ -160,10 +177,19 @@ class FleetRun {
     ProgramSpec spec = programs_.at(program);
     spec.argv.push_back("--settle");
     spec.append_log = true;
-    supervisor_.start(spec);
+    try {
+      supervisor_.start(spec);
+    } catch (const std::exception& error) {
+      return complain(program, std::string("its books cannot be settled: ") + error.what());
+    }
+    const auto take_report = [this](const std::vector<Event>& events) {
+      for (const Event& event : events) {
+        if (event.kind == Event::Kind::status_line) on_status(event);
+      }
+    };
     const Clock::time_point deadline = Clock::now() + kLeaveTime;
-    while (supervisor_.running(program) && Clock::now() < deadline) supervisor_.wait(kGrace);
-    supervisor_.end_all(kGrace);
+    while (supervisor_.running(program) && Clock::now() < deadline) take_report(supervisor_.wait(kGrace));
+    take_report(supervisor_.end_all(kGrace));
   }
 
   /// What the programs did before is start-up.
@@ -245,6 +271,7 @@ class FleetRun {
   ProgressView view_;
   RunFacts facts_;
   std::map<std::string, ProgramSpec> programs_;
+  std::map<std::string, Json> reports_;  ///< by program
   const Clock::time_point started_ = Clock::now();
   std::optional<Clock::time_point> first_progress_;
   std::map<std::string, double> cpu_before_s_;  ///< of each program at the first step
@@ -272,6 +299,17 @@ Json losses_of(const std::filesystem::path& dir, const Json& answer, const Repor
 } catch (const std::exception& error) {
   warnings.push_back(std::string("no losses.csv: ") + error.what());
   return nullptr;
+}
+
+std::string text_of(const Json& result) {
+  return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// @returns false when the disk refuses; then the result is printed, so that it is not lost.
+bool write_result(const ResultsDir& out, const Json& result, std::ostream& err) {
+  const std::string trouble = out.write_result(text_of(result));
+  if (!trouble.empty()) err << trouble << "; this is what it would have held:\n" << text_of(result) << std::flush;
+  return trouble.empty();
 }
 
 }  // namespace
@@ -304,13 +342,16 @@ int run_fleet(const RunOptions& options, const Console& console) {
     }
   }
   run.fly(domains.base(), out.path(), secure ? secure->folders() : SecureFolders{});
-  if (secure) secure->collect();
-  secure.reset();
 
-  const Reports reports = read_reports(out.path(), plan.scenario);
+  const Reports reports = read_reports(out.path(), plan.scenario, run.reports());
   Json result = merge_result(run.facts(), plan.scenario, reports);
-  const auto write_result = [&] { write_file_atomically(out.path() / "result.json", result.dump(2) + "\n"); };
-  write_result();  // before all that may still go wrong
+  // Before all that may still go wrong, or takes room.
+  const bool written = write_result(out, result, console.err);
+  const std::size_t warnings_written = result["warnings"].size();
+  if (secure) {
+    for (std::string& warning : secure->collect()) result["warnings"].push_back(std::move(warning));
+  }
+  secure.reset();
   try {
     if (!write_score_csv(out.path(), reports.station)) result["warnings"].push_back("no scene.json: no score.csv");
   } catch (const std::exception& error) {
@@ -323,9 +364,12 @@ int run_fleet(const RunOptions& options, const Console& console) {
       result["attainable"] = answer.attainable;
       result["losses"] = losses_of(out.path(), answer.by_point, reports, result["warnings"]);
     }
-    write_result();
   }
+  const bool news = !result["losses"].is_null() || result["attainable"]["score"].is_number() ||
+                    result["warnings"].size() > warnings_written;
+  if (written && news) out.write_result(text_of(result));  // the one before stands if the disk is full by now
   print_summary(console.out, result, dir);
+  if (!written) return kExitProcessFailed;
   if (run.facts().interrupted) return kExitInterrupted;
   return run.anything_failed() || !result["lost_members"].empty() ? kExitProcessFailed : kExitDone;
 }

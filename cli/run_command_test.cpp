@@ -256,5 +256,53 @@ TEST_F(RunCommand, DebugLeavesOneAgentToTheUser) {
   EXPECT_NE(err_.str().find("--uav beta --planner patrol"), std::string::npos) << err_.str();
 }
 
+TEST_F(RunCommand, ReportsThatComeThroughThePipeNeedNoFiles) {
+  programs_.script("station", std::string(kMember) +
+                                  R"(echo '{"type":"report","report":{"score":2.5,"points_detected":3,)" +
+                                  R"("unwritten":["cannot write x/captures.csv: No space left on device"]}}' >&3)");
+  programs_.script("comm_router", std::string(kMember) + R"(echo '{"type":"report","report":{"sent":11}}' >&3)");
+  options_.planner = "hover,beta=exec:echo '{\"type\":\"report\",\"report\":{\"planner_cpu_s\":9}}' >&3";
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(result()["score"], 2.5);
+  EXPECT_EQ(result()["points_detected"], 3);
+  EXPECT_EQ(result()["radio"]["sent"], 11);
+  EXPECT_TRUE(result()["uavs"][1]["planner_cpu_s"].is_null()) << "what a command says of itself is no report";
+  const std::string words = "files are missing or cut short: cannot write x/captures.csv: No space left on device";
+  EXPECT_NE(result()["warnings"].dump().find(words), std::string::npos) << result()["warnings"];
+  EXPECT_NE(out_.str().find("warning: files are missing"), std::string::npos) << out_.str();
+}
+
+TEST_F(RunCommand, AResultThatCannotBeWrittenIsPrinted) {
+  programs_.script("station", std::string(kMember) + R"(mkdir "$out/result.json"; touch "$out/result.json/in_the_way")");
+  EXPECT_EQ(run(), kExitProcessFailed);
+  const std::string said = err_.str();
+  EXPECT_NE(said.find("result.json"), std::string::npos) << said;
+  const std::size_t begin = said.find("\n{\n");
+  ASSERT_NE(begin, std::string::npos) << said;
+  EXPECT_EQ(Json::parse(said.substr(begin))["sim_time_s"], 9.5);
+}
+
+TEST_F(RunCommand, AWarningThatComesLastIsInTheResultToo) {
+  std::string server = kServer;
+  server.replace(server.find("echo '{\"points\""), 0, "echo nonsense > \"$out/scene.json\"; : ");
+  programs_.script("sim_server", server);
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(result()["warnings"].back(), "no scene.json: no score.csv");
+}
+
+TEST_F(RunCommand, AnAgentThatFloodsItsStatusPipeIsNamedAndTheRunGoesOn) {
+  options_.planner = "hover,beta=exec:trap '' PIPE; yes | tr -d '\\n' >&3; exit 0";
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  const std::string words = "uav_agent-beta is not listened to any more";
+  EXPECT_NE(err_.str().find(words), std::string::npos) << err_.str();
+  EXPECT_NE(result()["warnings"].dump().find(words), std::string::npos) << result()["warnings"];
+}
+
+TEST_F(RunCommand, APipeInTheNameOfAReportKeepsNobody) {
+  options_.planner = "hover,beta=exec:mkfifo \"$SKEIN_OUT/station.report.json\" \"$SKEIN_OUT/uav_agent-beta.report.json\"";
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(result()["status"], "completed");
+}
+
 }  // namespace
 }  // namespace skein::cli

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/run_result.hpp"
+#include "core/file_bytes.hpp"
 #include "core/scenario.hpp"
 
 namespace skein::cli {
@@ -20,10 +21,10 @@ std::vector<std::string> split(const std::string& line) {
 /// digests.csv, one row at a time.
 class DigestFile {
  public:
-  explicit DigestFile(const std::filesystem::path& run) : file_(run / "digests.csv"), in_(file_) {
+  explicit DigestFile(const std::filesystem::path& run) : file_(run / "digests.csv"), in_(open_text(file_)) {
     if (!in_) throw InputError(run.string() + ": no digests.csv there; give a folder that `skein run` wrote");
     std::string line;
-    std::getline(in_, line);
+    next_line(in_, line, file_);
     columns_ = split(line);
     if (columns_.size() < 2 || columns_[0] != "k" || columns_[1] != "digest") {
       throw InputError(file_.string() + ":1: must begin with the columns k,digest");
@@ -35,7 +36,7 @@ class DigestFile {
   /// @returns the next row, or nullopt at the end. A last line cut short by an aborted run counts as the end.
   std::optional<std::vector<std::string>> next() {
     std::string line;
-    if (!std::getline(in_, line)) return std::nullopt;
+    if (!next_line(in_, line, file_)) return std::nullopt;
     ++line_;
     std::vector<std::string> cells = split(line);
     if (cells.size() == columns_.size() && !in_.eof()) return cells;
@@ -61,12 +62,7 @@ class DigestFile {
 
 /// The exchange period that a run's result names; the default where the result is missing (a killed launcher).
 double exchange_period_s(const std::filesystem::path& run) {
-  std::ifstream in(run / "result.json");
-  const nlohmann::json result = nlohmann::json::parse(in, nullptr, false);
-  const double fallback = Scenario{}.exchange_period_s;
-  if (!result.is_object() || !result.contains("exchange_period_s")) return fallback;
-  const nlohmann::json& period = result["exchange_period_s"];
-  return period.is_number() ? period.get<double>() : fallback;
+  return value_or(read_json(run / "result.json"), "exchange_period_s", Scenario{}.exchange_period_s);
 }
 
 /// "jurong.position" as "jurong position": the entity, then the field.

@@ -1,9 +1,11 @@
 #include "cli/run_result.hpp"
 
-#include <fstream>
+#include <algorithm>
 #include <sstream>
 
 #include "core/atomic_file.hpp"
+#include "core/file_bytes.hpp"
+#include "core/types.hpp"
 
 #ifndef SKEIN_VERSION
 #error "SKEIN_VERSION comes from CMake's project()"
@@ -24,6 +26,7 @@ std::string status_of(const RunFacts& facts, const Json& sim) {
 Json uav_entries(const Scenario& scenario, const Reports& reports) {
   Json entries = Json::array();
   const Json reported = value_or(reports.sim_server, "uavs", Json::array());
+  const Json lost = value_or(reports.sim_server, "lost_members", Json::array());
   for (const UavConfig& uav : scenario.fleet) {
     Json source;
     for (const Json& entry : reported) {
@@ -33,10 +36,14 @@ Json uav_entries(const Scenario& scenario, const Reports& reports) {
     for (const char* key : {"alive", "distance_m", "max_speed_mps", "captures", "idle_s", "commands_rejected"}) {
       entry[key] = value_or(source, key, nullptr);
     }
+    entry["program_lost"] = std::any_of(lost.begin(), lost.end(), [&](const Json& member) {
+      return value_or(member, "member", "") == uav.name;
+    });
     const auto agent = reports.agents.find(uav.name);
     for (const char* key :
          {"planner_cpu_s", "planner_cpu_p99_ms", "planner_cpu_max_ms", "planner_exchanges_over_50ms"}) {
-      entry[key] = agent == reports.agents.end() ? Json() : value_or(agent->second, key, nullptr);
+      const Json told = agent == reports.agents.end() ? Json() : value_or(agent->second, key, nullptr);
+      entry[key] = told.is_number() ? told : Json();
     }
     entries.push_back(std::move(entry));
   }
@@ -95,6 +102,15 @@ Json warnings_of(const RunFacts& facts, const Reports& reports) {
     if (exec_command(planner.spec) || report == reports.agents.end()) continue;
     missing(report->second, "uav_agent-" + planner.uav, "its planner's CPU time is unknown");
   }
+  std::string unwritten;
+  const auto add_unwritten = [&](const Json& report) {
+    for (const Json& file : value_or(report, "unwritten", Json::array())) {
+      if (file.is_string()) unwritten += (unwritten.empty() ? "" : "; ") + file.get<std::string>();
+    }
+  };
+  for (const Json* report : {&reports.sim_server, &reports.station, &reports.comm_router}) add_unwritten(*report);
+  for (const auto& [uav, report] : reports.agents) add_unwritten(report);
+  if (!unwritten.empty()) warnings.push_back("files are missing or cut short: " + unwritten);
   if (const std::uint64_t malformed = malformed_samples(reports); malformed > 0) {
     warnings.push_back(std::to_string(malformed) + " malformed samples were received and dropped; the logs name topics");
   }
@@ -111,14 +127,14 @@ Json value_or(const Json& object, const char* key, Json fallback) {
   return same_type || fallback.is_null() ? *found : fallback;
 }
 
-Reports read_reports(const std::filesystem::path& dir, const Scenario& scenario) {
-  Reports reports;
-  reports.sim_server = read_json(dir / "sim_server.report.json");
-  reports.station = read_json(dir / "station.report.json");
-  reports.comm_router = read_json(dir / "comm_router.report.json");
-  for (const UavConfig& uav : scenario.fleet) {
-    reports.agents[uav.name] = read_json(dir / ("uav_agent-" + uav.name + ".report.json"));
-  }
+Reports read_reports(const std::filesystem::path& dir, const Scenario& scenario,
+                     const std::map<std::string, Json>& handed_in) {
+  const auto report_of = [&](const std::string& program) {
+    const auto found = handed_in.find(program);
+    return found != handed_in.end() ? found->second : read_json(dir / (program + ".report.json"));
+  };
+  Reports reports{report_of("sim_server"), report_of("station"), report_of("comm_router"), {}};
+  for (const UavConfig& uav : scenario.fleet) reports.agents[uav.name] = report_of("uav_agent-" + uav.name);
   return reports;
 }
 
@@ -190,11 +206,20 @@ bool write_score_csv(const std::filesystem::path& dir, const Json& station_repor
   return true;
 }
 
-Json read_json(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) return nullptr;
-  Json json = Json::parse(in, nullptr, false);
+Json parse_json(const std::string& text) {
+  constexpr int kDeepest = 32;
+  const auto shallow = [](int depth, Json::parse_event_t, const Json&) { return depth <= kDeepest; };
+  Json json = Json::parse(text, shallow, false);
   return json.is_discarded() ? Json() : json;
+}
+
+Json read_json(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMostBytes = 256 << 20;
+  try {
+    return parse_json(read_file_bytes(file, kMostBytes));
+  } catch (const InputError&) {
+    return nullptr;
+  }
 }
 
 }  // namespace skein::cli

@@ -51,7 +51,9 @@ struct Reports {
   std::map<std::string, Json> agents;  ///< by UAV
 };
 
-Reports read_reports(const std::filesystem::path& dir, const Scenario& scenario);
+/// @param handed_in  by program, what came through the status pipes; a file counts where nothing came.
+Reports read_reports(const std::filesystem::path& dir, const Scenario& scenario,
+                     const std::map<std::string, Json>& handed_in = {});
 
 /// Never throws for what a report contains or lacks: a wrong type counts as missing.
 Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports& reports);
@@ -64,7 +66,11 @@ bool write_score_csv(const std::filesystem::path& dir, const Json& station_repor
 /// any kind. Never throws.
 Json value_or(const Json& object, const char* key, Json fallback);
 
-/// Parses a JSON file. @returns null when it is not there or not JSON.
+/// Parses what a program wrote. @returns null when it is not JSON. What is nested deeper than anything of ours is left
+/// out: copying it would take the stack.
+Json parse_json(const std::string& text);
+
+/// Parses a JSON file. @returns null when it is not there, not a plain file of a sensible size, or not JSON.
 Json read_json(const std::filesystem::path& file);
 
 }  // namespace skein::cli

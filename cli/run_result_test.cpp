@@ -118,6 +118,8 @@ TEST_F(RunResult, AllReportsMakeACompleteResult) {
   EXPECT_EQ(result["score"], 1.5);
   EXPECT_EQ(result["score_by_uav"], (Json{{"alpha", 0.0}, {"beta", 1.5}}));
   EXPECT_EQ(result["uavs"][0]["alive"], false);
+  EXPECT_EQ(result["uavs"][0]["program_lost"], false);
+  EXPECT_EQ(result["uavs"][1]["program_lost"], true);
   EXPECT_EQ(result["uavs"][1]["captures"], 9);
   EXPECT_EQ(result["uavs"][1]["planner_cpu_s"], 0.25);
   EXPECT_EQ(result["uavs"][1]["planner_cpu_p99_ms"], 1.5);
@@ -202,6 +204,24 @@ TEST_F(RunResult, ScoreCsvHasAllPointsInOrder) {
             "1,2,3,0,0,1,0.5,0\n"
             "4.5,5,6,1,0,0,0.0,1\n"
             "7,8,9,0,1,0,1.0,2\n");
+}
+
+TEST_F(RunResult, WhatWasHandedInCountsBeforeAFile) {
+  write_all_reports();
+  const Json result = merge_result(
+      facts_, scenario_, read_reports(dir_.path(), scenario_, {{"station", {{"score", 9.0}, {"unwritten", {"a: full"}}}},
+                                                               {"comm_router", {{"unwritten", {"b: full", 7}}}}}));
+  EXPECT_EQ(schema_errors(result), std::vector<std::string>{});
+  EXPECT_EQ(result["score"], 9.0);
+  EXPECT_EQ(result["sim_time_s"], 650.5);
+  EXPECT_EQ(result["warnings"].back(), "files are missing or cut short: a: full; b: full");
+}
+
+TEST_F(RunResult, ADeepOrWrongReportOfAnAgentIsHarmless) {
+  write_all_reports();
+  write_text(dir_.path() / "uav_agent-beta.report.json",
+             "{\"planner_cpu_s\": " + std::string(200000, '[') + std::string(200000, ']') + "}");
+  EXPECT_TRUE(merged()["uavs"][1]["planner_cpu_s"].is_null());
 }
 
 }  // namespace

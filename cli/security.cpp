@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fstream>
@@ -28,6 +29,10 @@ namespace fs = std::filesystem;
 constexpr uid_t kFirstAgentUser = 60700;
 /// The world domain of the first block: no agent is ever there. Access is checked before the domains are known.
 constexpr int kDomainOfNoAgent = 0;
+
+/// Of what an agent wrote, that is kept: it may write without end.
+constexpr std::uintmax_t kMostOfAnAgent = 64 << 20;
+constexpr std::size_t kMostFilesOfAnAgent = 1000;
 
 /// While it lives, this thread opens files with the rights of another user (setfsuid(2)).
 class AsUser {
@@ -101,16 +106,24 @@ void make_private_folder(const fs::path& folder, const std::optional<UserId>& us
 }
 
 /// Copies a file that `owner` made, unless it is something else in a file's clothes: a link to what is not his.
-void copy_from(const fs::path& from, const fs::path& to, UserId owner) {
+/// @param room  for all that is still to come; less what was taken. @returns whether the whole file was copied.
+bool copy_from(const fs::path& from, const fs::path& to, UserId owner, std::uintmax_t& room) {
   const int fd = ::open(from.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (fd < 0) return;
+  if (fd < 0) return true;
   struct stat status {};
+  bool whole = true;
   if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == owner.uid && status.st_nlink == 1) {
     std::ofstream out(to, std::ios::binary);
     std::array<char, 65536> buffer;
-    for (ssize_t n = 0; (n = ::read(fd, buffer.data(), buffer.size())) > 0;) out.write(buffer.data(), n);
+    ssize_t n = 0;
+    while (out && room > 0 && (n = ::read(fd, buffer.data(), std::min<std::uintmax_t>(buffer.size(), room))) > 0) {
+      out.write(buffer.data(), n);
+      room -= static_cast<std::uintmax_t>(n);
+    }
+    whole = out.flush() && (n == 0 || ::read(fd, buffer.data(), 1) == 0);
   }
   ::close(fd);
+  return whole;
 }
 
 }  // namespace
@@ -198,14 +211,24 @@ SecureRun::~SecureRun() {
   fs::permissions(out_, out_perms_, ignored);
 }
 
-void SecureRun::collect() const {
+std::vector<std::string> SecureRun::collect() const {
+  std::vector<std::string> left_behind;
   for (const auto& [program, folder] : folders_) {
     if (!folder.user) continue;
+    std::uintmax_t room = kMostOfAnAgent;
+    std::size_t files = 0, cut = 0;
     for (const auto& entry : fs::directory_iterator(folder.out)) {
       const std::string name = entry.path().filename();
-      copy_from(entry.path(), out_ / (name.starts_with(program + ".") ? name : program + "." + name), *folder.user);
+      const fs::path copy = out_ / (name.starts_with(program + ".") ? name : program + "." + name);
+      if (++files > kMostFilesOfAnAgent || !copy_from(entry.path(), copy, *folder.user, room)) ++cut;
+    }
+    if (cut > 0) {
+      left_behind.push_back(program + ": " + std::to_string(cut) + " of the files that it wrote are cut short or were "
+                            "left behind (the disk is full, or they are more than " +
+                            std::to_string(kMostOfAnAgent >> 20) + " MB)");
     }
   }
+  return left_behind;
 }
 
 }  // namespace skein::cli

@@ -9,12 +9,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <deque>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -24,6 +26,12 @@ extern "C" {  // glibc 2.36's header forgets it
 
 namespace skein::cli {
 namespace {
+
+/// Read from one program before the others have their turn.
+constexpr std::size_t kStatusLook = 64 << 10;
+/// A report with the points of the largest scenes is shorter.
+constexpr std::size_t kLongestStatusLine = 16 << 20;
+constexpr std::size_t kLogTail = 64 << 10, kLongestLogLine = 1000;
 
 [[noreturn]] void throw_errno(const std::string& what) {
   throw std::system_error(errno, std::generic_category(), what);
@@ -131,7 +139,25 @@ struct Supervisor::Child {
   std::string name;
   pid_t pid = -1;
   Fd pidfd, status, control;
+  std::uint64_t most_status_bytes = 0, status_bytes = 0;
   std::string partial_line;
+
+  /// Takes in what the program wrote; closes the pipe when it was too much.
+  void hear(std::string_view text, std::vector<Event>& events) {
+    status_bytes += text.size();
+    for (std::size_t end; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1)) {
+      partial_line += text.substr(0, end);
+      events.push_back({Event::Kind::status_line, name, std::exchange(partial_line, {}), {}});
+    }
+    partial_line += text;
+    const char* excess = partial_line.size() > kLongestStatusLine ? "a line without an end"
+                         : status_bytes > most_status_bytes       ? "more than a report and its news"
+                                                                  : nullptr;
+    if (excess == nullptr) return;
+    status.reset();
+    partial_line = {};
+    events.push_back({Event::Kind::cut_off, name, std::string("it wrote ") + excess + " on its status pipe", {}});
+  }
 };
 
 std::string ExitStatus::text() const {
@@ -179,6 +205,7 @@ void Supervisor::start(const ProgramSpec& spec) {
   }
   auto child = std::make_unique<Child>();
   child->name = spec.name;
+  child->most_status_bytes = spec.most_status_bytes;
   child->pid = pid;
   child->pidfd = Fd(::pidfd_open(pid, 0));
   if (child->pidfd.get() < 0) {
@@ -211,7 +238,7 @@ std::vector<Event> Supervisor::wait(std::chrono::milliseconds limit) {
   for (std::size_t i = 0; i < order.size(); ++i) any_ended = any_ended || ended(i);
   // Of all programs when one has ended: another one may have said why after it was polled.
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (any_ended || polled[1 + 2 * i].revents != 0) read_status(*order[i], events);
+    if (any_ended || polled[1 + 2 * i].revents != 0) read_status(*order[i], kStatusLook, events);
   }
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (ended(i)) reap(*order[i], events);
@@ -219,27 +246,24 @@ std::vector<Event> Supervisor::wait(std::chrono::milliseconds limit) {
   return events;
 }
 
-void Supervisor::read_status(Child& child, std::vector<Event>& events) {
+void Supervisor::read_status(Child& child, std::size_t most, std::vector<Event>& events) {
   std::array<char, 4096> buffer;
-  while (child.status.get() >= 0) {
+  for (std::size_t taken = 0; child.status.get() >= 0 && taken < most;) {
     const ssize_t n = ::read(child.status.get(), buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return;                 // nothing more for now
     if (n == 0) child.status.reset();  // poll ignores a negative descriptor from here on
-    for (ssize_t i = 0; i < n; ++i) {
-      if (buffer[i] != '\n') {
-        child.partial_line += buffer[i];
-      } else {
-        events.push_back({Event::Kind::status_line, child.name, std::exchange(child.partial_line, {}), {}});
-      }
-    }
+    taken += static_cast<std::size_t>(n);
+    child.hear({buffer.data(), static_cast<std::size_t>(n)}, events);
   }
 }
 
 void Supervisor::reap(Child& child, std::vector<Event>& events) {
   // Its own children first: as long as the zombie is not reaped, its group's number cannot belong to anyone else.
   ::kill(-child.pid, SIGKILL);
-  read_status(child, events);
+  // All that it can have left: a process that got away from the group may still write.
+  const int left = child.status.get() < 0 ? 0 : ::fcntl(child.status.get(), F_GETPIPE_SZ);
+  read_status(child, static_cast<std::size_t>(std::max(left, 0)), events);
   int status = 0;
   rusage usage{};
   if (::wait4(child.pid, &status, 0, &usage) != child.pid) throw_errno("wait4");
@@ -327,9 +351,14 @@ std::vector<std::string> Supervisor::running() const {
 }
 
 std::vector<std::string> last_lines(const std::filesystem::path& file, std::size_t count) {
-  std::ifstream in(file);
+  std::ifstream in(file, std::ios::ate);
+  const std::streamoff size = in.tellg(), skipped = std::max<std::streamoff>(size - static_cast<std::streamoff>(kLogTail), 0);
+  in.seekg(skipped);
   std::deque<std::string> tail;
-  for (std::string line; std::getline(in, line);) {
+  bool cut = skipped > 0;  // the first line is the end of one
+  for (std::string line; std::getline(in, line); cut = false) {
+    if (cut && !in.eof()) continue;
+    if (line.size() > kLongestLogLine) line = line.substr(0, kLongestLogLine) + " ...";
     tail.push_back(line);
     if (tail.size() > count) tail.pop_front();
   }

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -31,6 +32,7 @@ struct ProgramSpec {
   std::vector<std::string> env;   ///< the whole environment, NAME=VALUE
   std::filesystem::path log;      ///< takes stdout and stderr; empty: they go where the launcher's go
   bool append_log = false;        ///< or overwritten
+  std::uint64_t most_status_bytes = 64 << 20;  ///< on the status pipe in all; who writes more is cut off
   std::optional<UserId> user{};   ///< as whom it runs, in no other group; only root can choose
 };
 
@@ -47,6 +49,7 @@ struct ExitStatus {
 struct Event {
   enum class Kind {
     status_line,  ///< `program` wrote `line`
+    cut_off,      ///< `program` wrote too much on its status pipe, as `line` says: it is not listened to any more
     exited,       ///< `program` ended with `exit`; its last status lines came before
     interrupt     ///< the user or the system asked the launcher to end (SIGINT, SIGTERM, SIGHUP)
   };
@@ -96,7 +99,8 @@ class Supervisor {
 
  private:
   struct Child;
-  void read_status(Child& child, std::vector<Event>& events);
+  /// At most `most` bytes: a program that writes without end must not keep the launcher from all else.
+  void read_status(Child& child, std::size_t most, std::vector<Event>& events);
   void reap(Child& child, std::vector<Event>& events);
   void signal_all(int signal);
 
@@ -106,7 +110,7 @@ class Supervisor {
   struct sigaction former_pipe_action_ {};
 };
 
-/// The last lines of a text file, newest last; empty when there is no such file.
+/// The last lines of a text file, newest last, without what is long ago in a huge one; empty when there is no such file.
 std::vector<std::string> last_lines(const std::filesystem::path& file, std::size_t count);
 
 }  // namespace skein::cli

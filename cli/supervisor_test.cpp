@@ -185,5 +185,60 @@ TEST(Supervisor, NothingOutlivesAKilledLauncher) {
   EXPECT_EQ(::waitpid(launcher, nullptr, 0), launcher);
 }
 
+TEST_F(SupervisorTest, WhoWritesALineWithoutAnEndIsCutOffAndNamed) {
+  supervisor_.start(shell("endless", "trap '' PIPE; echo first >&3; yes endless | tr -d '\\n' >&3; exit 7"));
+  supervisor_.start(shell("other", "read line <&4; echo \"$line\" >&3"));
+  std::vector<Event> events;
+  while (supervisor_.running("endless")) {
+    for (Event& event : supervisor_.wait(kForever)) events.push_back(std::move(event));
+  }
+  ASSERT_EQ(events.size(), 3U);
+  EXPECT_EQ(events[0].line, "first");
+  EXPECT_EQ(events[1].kind, Event::Kind::cut_off);
+  EXPECT_EQ(events[1].program, "endless");
+  EXPECT_NE(events[1].line.find("line without an end"), std::string::npos) << events[1].line;
+  EXPECT_EQ(events[2].exit.code, 7) << "it may go on, without anybody who listens";
+  supervisor_.send("other", "still heard");
+  EXPECT_EQ(run_out().at(0).line, "still heard");
+}
+
+TEST_F(SupervisorTest, WhoWritesLinesWithoutAnEndIsCutOffToo) {
+  ProgramSpec endless = shell("endless", "trap '' PIPE; yes >&3; exit 7");
+  endless.most_status_bytes = 1 << 20;
+  supervisor_.start(endless);
+  std::size_t lines = 0, most_at_once = 0, cuts = 0;
+  while (supervisor_.running("endless")) {
+    const std::vector<Event> events = supervisor_.wait(kForever);
+    most_at_once = std::max(most_at_once, events.size());
+    for (const Event& event : events) {
+      lines += event.kind == Event::Kind::status_line;
+      cuts += event.kind == Event::Kind::cut_off;
+    }
+  }
+  EXPECT_EQ(cuts, 1U);
+  EXPECT_GE(lines, std::size_t{1 << 19});
+  EXPECT_LE(lines, std::size_t{1 << 19} + 4096);
+  EXPECT_LE(most_at_once, std::size_t{40000}) << "others wait for their turn, and memory is taken for all of them";
+}
+
+TEST_F(SupervisorTest, ALongReportIsNoLineWithoutAnEnd) {
+  supervisor_.start(shell("a", "head -c 15000000 /dev/zero | tr '\\0' x >&3; echo >&3"));
+  const std::vector<Event> events = run_out();
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].line.size(), 15000000U);
+}
+
+TEST_F(SupervisorTest, TheEndOfAHugeLogIsShort) {
+  const auto log = scratch_.path() / "huge.log";
+  std::ofstream(log) << std::string(300000, 'x');
+  EXPECT_EQ(last_lines(log, 10).size(), 1U);
+  EXPECT_LE(last_lines(log, 10)[0].size(), 1100U);
+  std::ofstream(log, std::ios::app) << "\nlast words\n";
+  EXPECT_EQ(last_lines(log, 10), std::vector<std::string>{"last words"});
+  std::filesystem::resize_file(log, std::uintmax_t{1} << 40);  // a hole
+  EXPECT_LE(last_lines(log, 10).size(), 1U);
+  EXPECT_TRUE(last_lines(scratch_.path() / "none.log", 10).empty());
+}
+
 }  // namespace
 }  // namespace skein::cli

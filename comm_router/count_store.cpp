@@ -16,12 +16,16 @@ CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes) {
   const std::size_t links = nodes * nodes, bytes = links * sizeof(LinkCounts);
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   void* memory = MAP_FAILED;
-  if (descriptor >= 0 && ::ftruncate(descriptor, static_cast<off_t>(bytes)) == 0) {
+  int reason = errno;
+  // A hole in the file would be filled when it is first written to, and a full disk then ends the process (SIGBUS).
+  if (descriptor >= 0 && ::ftruncate(descriptor, static_cast<off_t>(bytes)) != 0) {
+    reason = errno;
+  } else if (descriptor >= 0 && (reason = ::posix_fallocate(descriptor, 0, static_cast<off_t>(bytes))) == 0) {
     memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+    reason = errno;
   }
-  const int reason = errno;
   if (descriptor >= 0) ::close(descriptor);
-  if (memory == MAP_FAILED) throw std::system_error(reason, std::generic_category(), "counts " + file.string());
+  if (memory == MAP_FAILED) throw std::system_error(reason, std::generic_category(), "cannot write " + file.string());
   counts_ = {static_cast<LinkCounts*>(memory), links};
 }
 

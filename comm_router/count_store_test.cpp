@@ -1,7 +1,14 @@
 #include "comm_router/count_store.hpp"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
+
+#include <string>
+#include <system_error>
 
 namespace skein::router {
 namespace {
@@ -67,6 +74,33 @@ TEST_F(CountStoreTest, WhatItHadAtHandWhenItDiedIsLost) {
 
   gate.restore(CountStore(file_, 3).earlier_counts());
   EXPECT_EQ(gate.counts(1, 2), to_b);
+}
+
+TEST_F(CountStoreTest, WithoutRoomOnTheDiskItIsAnErrorBeforeTheFirstCount) {
+  const pid_t child = ::fork();  // the limit must not touch this process
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      const CountStore store(file_, 64);
+    } catch (const std::system_error& error) {
+      ::_exit(std::string(error.what()).find(file_) != std::string::npos ? 42 : 1);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 42);
+}
+
+TEST_F(CountStoreTest, ItsFileHasNoHolesThatAFullDiskCouldNotFill) {
+  const CountStore store(file_, 64);
+  struct stat status {};
+  ASSERT_EQ(::stat(file_.c_str(), &status), 0);
+  EXPECT_GE(status.st_blocks * 512, status.st_size);
 }
 
 }  // namespace

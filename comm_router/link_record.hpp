@@ -4,27 +4,34 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
+#include <optional>
 
 #include "comm_router/link_gate.hpp"
 #include "core/scenario.hpp"
+#include "core/stream_file.hpp"
 
 namespace skein::router {
 
 /// Asks another model, and writes down what it says of capture reports.
 class LinkRecord final : public LinkModel {
  public:
-  /// @param scenario  must outlive this.
-  LinkRecord(std::unique_ptr<LinkModel> links, const Scenario& scenario, const std::filesystem::path& folder);
+  /// @param scenario   must outlive this.
+  /// @param unwritten  gets a sentence when the disk refuses; the router goes on. Must outlive this.
+  LinkRecord(std::unique_ptr<LinkModel> links, const Scenario& scenario, const std::filesystem::path& folder,
+             std::vector<std::string>& unwritten);
 
   LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const RadioMessage& message) override;
 
  private:
+  void write(const std::string& line);
+
   std::unique_ptr<LinkModel> links_;
   const Scenario& scenario_;
   std::filesystem::path file_;
-  std::ofstream out_;  ///< opened with the first line: most runs have none
+  std::vector<std::string>& unwritten_;
+  std::optional<StreamFile> out_;  ///< opened with the first line: most runs have none
+  bool refused_ = false;           ///< by the disk
 };
 
 }  // namespace skein::router

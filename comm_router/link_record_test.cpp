@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <iterator>
 
 #include "core/radio_routes.hpp"
@@ -36,7 +37,7 @@ class LinkRecordTest : public testing::Test {
     RadioRoute route;
     route.source = 1;
     route.ros_topic = topic;
-    LinkRecord record(std::make_unique<ToldLinks>(fate), scenario_, folder_);
+    LinkRecord record(std::make_unique<ToldLinks>(fate), scenario_, folder_, unwritten_);
     EXPECT_EQ(record.fate(k, route, target, {}).delay_steps, fate.delay_steps);
   }
   std::string written() const {
@@ -46,6 +47,7 @@ class LinkRecordTest : public testing::Test {
 
   std::filesystem::path folder_;
   Scenario scenario_;
+  std::vector<std::string> unwritten_;
 };
 
 TEST_F(LinkRecordTest, IdealLinksLeaveNoFile) {
@@ -60,6 +62,13 @@ TEST_F(LinkRecordTest, LossAndDelayOfCaptureReportsAreTold) {
   send({.loss = LinkLoss::fault}, 8, "/broadcast");
   send({.loss = LinkLoss::fault}, 9, captures_topic("changi"), 2);
   EXPECT_EQ(written(), "step,uav,arrives\n5,changi,\n6,changi,10\n7,changi,\n");
+}
+
+TEST_F(LinkRecordTest, ADiskThatRefusesIsToldOnceAndLinksGoOn) {
+  std::filesystem::create_symlink("/dev/full", folder_ / "capture_messages.csv");
+  send({.delay_steps = 3}, 6);
+  EXPECT_EQ(unwritten_.size(), 1U);
+  EXPECT_NE(unwritten_[0].find("capture_messages.csv: No space left"), std::string::npos) << unwritten_[0];
 }
 
 }  // namespace

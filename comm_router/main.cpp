@@ -1,17 +1,21 @@
 // comm_router: relays radio messages between the domains of the nodes, as far as there is line of sight.
+#include <spdlog/spdlog.h>
+
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
 
 #include "bus/program_bus.hpp"
 #include "comm_router/router_node.hpp"
-#include "core/atomic_file.hpp"
 #include "core/program.hpp"
+#include "core/program_report.hpp"
 
 namespace {
 
 void write_report(const std::filesystem::path& folder, const skein::Scenario& scenario,
-                  const skein::router::LinkGate& gate, std::uint64_t malformed) {
+                  const skein::router::LinkGate& gate, std::uint64_t malformed,
+                  const std::vector<std::string>& unwritten, skein::StatusPipe& status) {
   const auto counts_json = [](const skein::router::LinkCounts& counts) {
     return nlohmann::json{{"sent", counts.sent},
                           {"delivered", counts.delivered},
@@ -34,17 +38,29 @@ void write_report(const std::filesystem::path& folder, const skein::Scenario& sc
       json["per_link"].push_back(std::move(link));
     }
   }
-  skein::write_file_atomically(folder / "comm_router.report.json", json.dump(2) + "\n");
+  json["unwritten"] = unwritten;
+  skein::hand_in_report(json, folder / "comm_router.report.json", status);
 }
 
 /// A router that died for good has left its counts: makes its report of them.
-int settle(const std::filesystem::path& folder, const std::filesystem::path& counts, const skein::Scenario& scenario) {
+int settle(const std::filesystem::path& folder, const std::filesystem::path& counts, const skein::Scenario& scenario,
+           skein::StatusPipe& status) {
   const skein::Node nodes = scenario.fleet.size() + 1;
   skein::router::LinkGate gate({}, nodes);
   gate.restore(skein::router::CountStore(counts, nodes).earlier_counts());
-  write_report(folder, scenario, gate, 0);
+  write_report(folder, scenario, gate, 0, {}, status);
   std::filesystem::remove(counts);
   return skein::kExitDone;
+}
+
+/// A router without counts on disk routes as well as any; it only forgets them when it is killed.
+std::optional<skein::router::CountStore> open_counts(const std::filesystem::path& file, std::size_t nodes,
+                                                     std::vector<std::string>& unwritten) try {
+  return std::optional<skein::router::CountStore>(std::in_place, file, nodes);
+} catch (const std::system_error& error) {
+  spdlog::warn("{}; a router that is killed will not remember what it counted", error.what());
+  unwritten.push_back(error.what());
+  return std::nullopt;
 }
 
 int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSignal& stop) {
@@ -53,18 +69,21 @@ int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSigna
   const skein::Scenario scenario = skein::load_scenario(options.scenario, load);
   const skein::FaultPlan faults = skein::load_fault_plan(options.faults, scenario);
   const std::filesystem::path counts = options.out / "comm_router.counts";
-  if (settle_only) return settle(options.out, counts, scenario);
+  skein::StatusPipe status(options.status_fd);
+  if (settle_only) return settle(options.out, counts, scenario, status);
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) return skein::kExitDone;
   std::optional<int> code;
   while (!code) {  // once more after a fault that stopped us: what waited in the router is lost, as after its death
-    skein::router::CountStore store(counts, scenario.fleet.size() + 1);
+    std::vector<std::string> unwritten;
+    std::optional<skein::router::CountStore> store = open_counts(counts, scenario.fleet.size() + 1, unwritten);
     skein::router::RouterNode node(scenario, options.seed, options.domain, *bus, faults, options.out);
-    node.keep_counts(store);
+    if (store) node.keep_counts(*store);
     stop.on_stop([&node] { node.wake(); });
     code = node.run(stop);
     stop.on_stop({});
-    if (code) write_report(options.out, scenario, node.gate(), node.malformed());
+    unwritten.insert(unwritten.end(), node.unwritten().begin(), node.unwritten().end());
+    if (code) write_report(options.out, scenario, node.gate(), node.malformed(), unwritten, status);
   }
   std::filesystem::remove(counts);
   return *code;

@@ -32,10 +32,10 @@ std::vector<SentCount> sent_counts(const msg::Done& done) {
 }
 
 std::unique_ptr<LinkModel> make_links(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed,
-                                      const std::filesystem::path& out) {
+                                      const std::filesystem::path& out, std::vector<std::string>& unwritten) {
   auto links = std::make_unique<LinkStages>(scenario, faults, seed);
   if (out.empty()) return links;
-  return std::make_unique<LinkRecord>(std::move(links), scenario, out);
+  return std::make_unique<LinkRecord>(std::move(links), scenario, out, unwritten);
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ RouterNode::RouterNode(const Scenario& scenario, std::uint64_t seed, int base_do
     : scenario_(scenario),
       table_(scenario),
       gate_(table_.routes(), scenario.fleet.size() + 1,
-            make_links(scenario, faults, seed, out)),
+            make_links(scenario, faults, seed, out, unwritten_)),
       declared_routes_(gate_.routes().size()),
       sync_(gate_.routes()),
       registry_(scenario, table_, endpoints()),

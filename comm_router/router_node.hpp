@@ -56,6 +56,8 @@ class RouterNode {
   const LinkGate& gate() const { return gate_; }
   /// Samples received that were no message of their topic's type.
   std::uint64_t malformed() const { return inbox_.malformed(); }
+  /// Files that the disk refused, one sentence each.
+  const std::vector<std::string>& unwritten() const { return unwritten_; }
 
  private:
   /// Where the members of a node say ready and done: the station at one of its own (bus/lockstep/names.hpp).
@@ -111,6 +113,7 @@ class RouterNode {
 
   const Scenario& scenario_;
   RadioTable table_;
+  std::vector<std::string> unwritten_;
   LinkGate gate_;
   const std::size_t declared_routes_;  ///< the first so many are the scenario's
   RouterSync sync_;

@@ -47,4 +47,14 @@ bool is_enclosed(const RayScene& world, const Vector3d& p_W) {
   return true;
 }
 
+double world_reach_m(const Scenario& scenario, const Scene& scene) {
+  constexpr double kFast_mps = 50.0, kRoom_m = 1000.0;
+  double farthest_m = scenario.station_position.norm();
+  for (const UavConfig& uav : scenario.fleet) farthest_m = std::max(farthest_m, uav.start.norm());
+  for (const auto& vertex : scene.mesh.vertices) {
+    farthest_m = std::max(farthest_m, static_cast<double>(vertex.norm()));
+  }
+  return farthest_m + kFast_mps * (scenario.takeoff_timeout_s + scenario.duration_s) + kRoom_m;
+}
+
 }  // namespace skein::sim

@@ -2,13 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <stdexcept>
-
 namespace skein::sim {
 
 EventLog::EventLog(const std::filesystem::path& folder, const Scenario& scenario)
-    : scenario_(scenario), out_(folder / "events.csv", std::ios::trunc), members_(scenario.uav_names()) {
-  if (!out_) throw std::runtime_error("cannot write " + (folder / "events.csv").string());
+    : scenario_(scenario), out_(folder / "events.csv"), members_(scenario.uav_names()) {
   members_.insert(members_.end(), {scenario.node_name(kStationNode), "station", "comm_router"});
   present_.resize(members_.size());
   links_.resize((scenario.fleet.size() + 1) * (scenario.fleet.size() + 1));

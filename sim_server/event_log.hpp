@@ -8,12 +8,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "core/stream_file.hpp"
 #include "sim_server/simulation.hpp"
 
 namespace skein::sim {
@@ -27,13 +27,13 @@ class EventLog {
   void add_step(const Simulation& simulation, const std::function<bool(const std::string&)>& is_member);
   /// The station's acknowledgement has reached the UAV.
   void add_release(const Simulation& simulation, const std::string& uav, std::uint64_t capture);
-  void flush() { out_.flush(); }
+  StreamFile& file() { return out_; }
 
  private:
   void add(const Simulation& simulation, const char* event, const std::string& subject, const std::string& object);
 
   const Scenario& scenario_;
-  std::ofstream out_;
+  StreamFile out_;
   std::vector<std::string> members_;
   std::vector<bool> present_;        ///< by members_
   std::vector<std::uint8_t> links_;  ///< as last told

@@ -3,10 +3,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 #include "core/euler.hpp"
+#include "core/file_bytes.hpp"
 
 namespace skein::sim {
 namespace {
@@ -68,10 +68,10 @@ std::string to_text(double value) {
 }  // namespace
 
 GoldenTable::GoldenTable(const std::filesystem::path& file) : file_(file) {
-  std::ifstream in(file);
+  std::ifstream in = open_text(file);
   if (!in) throw InputError(file.string() + ": cannot be read; a CSV table with a header row is expected");
   std::size_t width = 0, number = 0;
-  for (std::string line; std::getline(in, line);) {
+  for (std::string line; next_line(in, line, file);) {
     if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // an editor's mark of UTF-8
     if (says_nothing(line)) continue;
     auto cells = split(line);

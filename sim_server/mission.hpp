@@ -42,6 +42,9 @@ class Mission {
   std::vector<Collision> update(Tick tick, const std::vector<RigidBodyState>& states,
                                 const std::vector<Contact>& contacts);
 
+  /// A UAV that is no longer of this world: dead from here on, without a collision.
+  void take_out(std::size_t uav) { uavs_[uav].alive = uavs_[uav].airborne = false; }
+
   Phase phase() const { return phase_; }
   MissionEnd end() const { return end_; }
   /// First take-off; nullopt while waiting and after a run without one.

@@ -97,6 +97,7 @@ struct UavBody {
   double radius = 0.0;                ///< of a sphere about the centre of mass that holds everything
   bool pushed = false;                ///< a wrench acts during the coming tick
   int still_ticks = 0;
+  bool out = false;                   ///< of the world, for good
   bool tested = false;                ///< for contacts with the structure, when last asked
   std::optional<btVector3> clear_at;  ///< around here it cannot touch the structure ...
   double room = 0.0;                  ///< ... as long as it is no farther away than this
@@ -248,7 +249,9 @@ PhysicsWorld::Impl::Impl(const TriangleMesh& mesh, double the_step_s) : step_s(t
 }
 
 PhysicsWorld::Impl::~Impl() {
-  for (UavBody& uav : uavs) world.removeRigidBody(uav.body.get());
+  for (UavBody& uav : uavs) {
+    if (!uav.out) world.removeRigidBody(uav.body.get());
+  }
   if (structure) world.removeRigidBody(structure.get());
   world.removeRigidBody(ground.get());
 }
@@ -292,12 +295,12 @@ void PhysicsWorld::Impl::near_callback(btBroadphasePair& pair, btCollisionDispat
 void PhysicsWorld::Impl::step() {
   keepers.clear();
   for (UavBody& uav : uavs) {
-    if (!uav.asleep()) keepers.emplace_back(uav, step_s);
+    if (!uav.out && !uav.asleep()) keepers.emplace_back(uav, step_s);
   }
   world.stepSimulation(step_s, 0);
   for (MomentumKeeper& keeper : keepers) keeper.finish();
   for (UavBody& uav : uavs) {
-    if (!uav.asleep()) uav.fall_asleep_if_still();
+    if (!uav.out && !uav.asleep()) uav.fall_asleep_if_still();
   }
 }
 
@@ -382,6 +385,7 @@ bool PhysicsWorld::touches_structure(const VehicleConfig& vehicle, const Isometr
 
 void PhysicsWorld::apply_wrench(std::size_t uav, const Vector3d& force_W, const Vector3d& torque_W) {
   UavBody& pushed = impl_->uavs[uav];
+  if (pushed.out) return;
   if (force_W.norm() < kNoWrench && torque_W.norm() < kNoWrench) return;
   if (pushed.asleep()) pushed.wake();
   pushed.pushed = true;
@@ -389,15 +393,40 @@ void PhysicsWorld::apply_wrench(std::size_t uav, const Vector3d& force_W, const 
   pushed.body->applyTorque(to_bullet(torque_about_mass(pushed.frame, states_[uav].q_WB, force_W, torque_W)));
 }
 
+bool PhysicsWorld::sane(const RigidBodyState& state) const {
+  const bool finite = state.p_WB.allFinite() && state.q_WB.coeffs().allFinite() && state.v_WB.allFinite() &&
+                      state.w_WB_B.allFinite();
+  // The squares of what comes next must be finite, too.
+  constexpr double kFastest = 1e6;
+  return finite && state.p_WB.norm() <= reach_m_ && state.v_WB.norm() < kFastest && state.w_WB_B.norm() < kFastest;
+}
+
+void PhysicsWorld::take_out(std::size_t uav) {
+  impl_->world.removeRigidBody(impl_->uavs[uav].body.get());
+  impl_->uavs[uav].out = true;
+  states_[uav].v_WB = states_[uav].w_WB_B = Vector3d::Zero();
+  strays_.push_back(uav);
+}
+
 void PhysicsWorld::tick() {
   impl_->step();
-  for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = impl_->uavs[i].state();
+  strays_.clear();
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (impl_->uavs[i].out) continue;
+    const RigidBodyState state = impl_->uavs[i].state();
+    if (sane(state)) {
+      states_[i] = state;
+    } else {
+      take_out(i);
+    }
+  }
   contacts_ = impl_->read_contacts();
   impl_->wake_who_was_hit(contacts_);
 }
 
 void PhysicsWorld::set_state(std::size_t uav, const RigidBodyState& state) {
   UavBody& moved = impl_->uavs[uav];
+  if (moved.out) return;
   moved.set_state(state);
   moved.clear_at.reset();
   moved.wake();

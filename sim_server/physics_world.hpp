@@ -3,6 +3,7 @@
 // a vehicle's centre of mass is elsewhere (core/airframe.hpp) is settled in here.  A tick is kTickS = 2.5 ms, and one step of the integration.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -54,6 +55,12 @@ class PhysicsWorld {
 
   const RigidBodyState& state(std::size_t uav) const { return states_[uav]; }
   const std::vector<RigidBodyState>& states() const { return states_; }
+  /// Takes a body that gets farther than this from the origin out of the world, and one whose motion is no longer
+  /// finite, as it ends with whatever no integration survives: it then stays where it last was, at rest, and touches
+  /// nothing. Without this call only the latter.
+  void keep_within(double radius_m) { reach_m_ = radius_m; }
+  /// UAVs that the last tick has taken out, ascending.
+  const std::vector<std::size_t>& strays() const { return strays_; }
   /// Contacts of the last tick, sorted by UAV, then ground, structure and other UAVs; one per pair. A UAV that has lain
   /// still without thrust for half a second sleeps until it is pushed or hit; it keeps its contacts meanwhile.
   const std::vector<Contact>& contacts() const { return contacts_; }
@@ -64,8 +71,13 @@ class PhysicsWorld {
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+  bool sane(const RigidBodyState& state) const;
+  void take_out(std::size_t uav);
+
   std::vector<RigidBodyState> states_;
   std::vector<Contact> contacts_;
+  std::vector<std::size_t> strays_;
+  double reach_m_ = std::numeric_limits<double>::max();
 };
 
 }  // namespace skein::sim

@@ -291,5 +291,30 @@ TEST(PhysicsWorld, RepeatsBitForBit) {
   }
 }
 
+/// A body that no integration survives, and one beside it that has nothing to do with it.
+TEST(PhysicsWorld, ABodyThatLeavesTheWorldIsTakenOut) {
+  for (const double speed : {1e5, 1e9, 1e150, 1e300}) {
+    PhysicsWorld world({});
+    world.keep_within(1000.0);
+    world.add_uav({}, at(0, 0, 10));
+    world.add_uav({}, at(5, 0, 10));
+    world.set_state(0, {.p_WB = {0, 0, 10}, .v_WB = {speed, 0, 0}, .w_WB_B = {0, speed, 0}});
+    std::vector<std::size_t> strays;
+    for (int t = 0; t < 100; ++t) {
+      world.apply_wrench(0, {speed, speed, 0}, {0, speed, 0});
+      world.tick();
+      strays.insert(strays.end(), world.strays().begin(), world.strays().end());
+      for (const RigidBodyState& state : world.states()) {
+        ASSERT_TRUE(state.p_WB.allFinite() && state.q_WB.coeffs().allFinite() && state.v_WB.allFinite());
+        ASSERT_LE(state.p_WB.norm(), 1000.0) << speed;
+      }
+    }
+    EXPECT_EQ(strays, std::vector<std::size_t>{0}) << speed;
+    EXPECT_EQ(world.state(0).v_WB, Vector3d(0, 0, 0));
+    EXPECT_NEAR(world.state(1).p_WB.z(), 10.0 - 0.5 * kWorldGravity * 0.25 * 0.25, 0.01) << "the other one falls on";
+    EXPECT_NEAR(world.state(1).p_WB.x(), 5.0, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace skein::sim

@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <iterator>
-#include <stdexcept>
 
 #include "core/atomic_file.hpp"
 
@@ -11,12 +10,6 @@ namespace skein::sim {
 namespace {
 
 constexpr Tick kTrajectoryPeriod = 40;  // 100 ms
-
-std::ofstream open(const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::trunc);
-  if (!stream) throw std::runtime_error("cannot write " + file.string());
-  return stream;
-}
 
 nlohmann::json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -41,16 +34,23 @@ std::string describe(const Collision& collision, const Scenario& scenario) {
                      p.x(), p.y(), p.z());
 }
 
+std::string describe(const Stray& stray, const Scenario& scenario) {
+  const Vector3d& p = stray.p_W;
+  return fmt::format("{} left the world at {:.4f} s, or its motion was no longer finite; last seen at "
+                     "({:.2f}, {:.2f}, {:.2f}): it is out",
+                     scenario.fleet[stray.uav].name, seconds(stray.tick), p.x(), p.y(), p.z());
+}
+
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest)
     : folder_(folder),
       scenario_(scenario),
-      trajectories_(open(folder / "trajectories.csv")),
-      digests_(open(folder / "digests.csv")),
+      trajectories_(folder / "trajectories.csv"),
+      digests_(folder / "digests.csv"),
       events_(folder, scenario) {
   trajectories_ << "time_s,uav,x,y,z,qw,qx,qy,qz,vx,vy,vz,gimbal_pitch,gimbal_yaw,alive\n";
   digests_ << "k,digest";
-  for (const std::string& column : digest.columns()) digests_ << ',' << column;
-  digests_ << '\n';
+  for (const std::string& column : digest.columns()) digests_ << "," << column;
+  digests_ << "\n";
 }
 
 void RunFiles::write_scene(const Scene& scene) {
@@ -75,13 +75,14 @@ void RunFiles::write_scene(const Scene& scene) {
     json["points"].push_back(
         {point.p_W.x(), point.p_W.y(), point.p_W.z(), point.n_W.x(), point.n_W.y(), point.n_W.z()});
   }
-  write_file_atomically(folder_ / "scene.json", json.dump());
+  const std::string trouble = write_if_possible(folder_ / "scene.json", json.dump());
+  if (!trouble.empty()) unwritten_.push_back(trouble);
 }
 
 void RunFiles::add_step(const Simulation& simulation, const StepDigest& digest) {
-  digests_ << digest.k << ',' << digest.running;
-  for (const std::string& field : digest.fields) digests_ << ',' << field;
-  digests_ << '\n';
+  digests_ << std::to_string(digest.k) << "," << digest.running;
+  for (const std::string& field : digest.fields) digests_ << "," << field;
+  digests_ << "\n";
   if (simulation.tick() % kTrajectoryPeriod != 0) return;
   fmt::memory_buffer line;
   for (std::size_t i = 0; i < simulation.size(); ++i) {
@@ -92,13 +93,10 @@ void RunFiles::add_step(const Simulation& simulation, const StepDigest& digest) 
                    seconds(simulation.tick()), scenario_.fleet[i].name, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(),
                    v.x(), v.y(), v.z(), uav.gimbal.pitch, uav.gimbal.yaw, uav.alive ? 1 : 0);
   }
-  trajectories_.write(line.data(), static_cast<std::streamsize>(line.size()));
+  trajectories_ << std::string_view(line.data(), line.size());
 }
 
-void RunFiles::write_report(const Simulation& simulation, const RunSummary& summary) {
-  trajectories_.flush();
-  digests_.flush();
-  events_.flush();
+void RunFiles::write_report(const Simulation& simulation, const RunSummary& summary, StatusPipe& status) {
   const Mission& mission = simulation.mission();
   nlohmann::json json;
   json["status"] = summary.status;
@@ -142,7 +140,12 @@ void RunFiles::write_report(const Simulation& simulation, const RunSummary& summ
   json["warnings"] = summary.warnings;
   json["malformed"] = summary.malformed;
   json["timing"] = summary.timing;
-  write_file_atomically(folder_ / "sim_server.report.json", json.dump(2) + "\n");
+  json["unwritten"] = unwritten_;
+  for (StreamFile* file : {&trajectories_, &digests_, &events_.file()}) {
+    file->flush();
+    if (!file->trouble().empty()) json["unwritten"].push_back(file->trouble());
+  }
+  hand_in_report(json, folder_ / "sim_server.report.json", status);
 }
 
 }  // namespace skein::sim

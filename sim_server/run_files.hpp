@@ -3,13 +3,14 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/program_report.hpp"
 #include "core/scenario.hpp"
+#include "core/stream_file.hpp"
 #include "sim_server/event_log.hpp"
 #include "sim_server/run_digest.hpp"
 #include "sim_server/simulation.hpp"
@@ -40,23 +41,26 @@ struct RunSummary {
 
 /// Who, with what, when and where: a line for the log.
 std::string describe(const Collision& collision, const Scenario& scenario);
+std::string describe(const Stray& stray, const Scenario& scenario);
 
 class RunFiles {
  public:
-  /// @throws std::runtime_error when the folder cannot be written.
+  /// @throws std::runtime_error when the folder cannot be written. A disk that is full later on ends files, never the
+  /// run; the report names them.
   RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest);
 
   void write_scene(const Scene& scene);
   EventLog& events() { return events_; }
   /// One exchange: a line of digests.csv, and every 100 ms a line per UAV of trajectories.csv.
   void add_step(const Simulation& simulation, const StepDigest& digest);
-  void write_report(const Simulation& simulation, const RunSummary& summary);
+  void write_report(const Simulation& simulation, const RunSummary& summary, StatusPipe& status);
 
  private:
   std::filesystem::path folder_;
   const Scenario& scenario_;
-  std::ofstream trajectories_, digests_;
+  StreamFile trajectories_, digests_;
   EventLog events_;
+  std::vector<std::string> unwritten_;  ///< files that the disk refused as a whole, one sentence each
 };
 
 }  // namespace skein::sim

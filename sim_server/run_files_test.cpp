@@ -40,7 +40,8 @@ TEST_F(RunFilesTest, TheReportTellsPairTimeAndPlace) {
   RunDigest digest(scenario_.uav_names());
   RunSummary summary;
   summary.collisions = {with_uav_, with_structure_};
-  RunFiles(folder, scenario_, digest).write_report(simulation, summary);
+  StatusPipe nobody(-1);
+  RunFiles(folder, scenario_, digest).write_report(simulation, summary, nobody);
   const auto report = nlohmann::json::parse(std::ifstream(folder / "sim_server.report.json"));
   const auto expected = nlohmann::json::parse(R"([
       {"time_s": 1.0, "uav": "jurong", "with": "changi", "position": [1.0, 2.0, 3.0]},

@@ -125,7 +125,7 @@ RunSummary SimNode::run() {
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
   if (options_.realtime_factor || summary_.status == "interrupted" || aborted_) summary_.deterministic = false;
   if (summary_.deterministic) summary_.digest = digest_.hex();
-  files_.write_report(simulation_, summary_);
+  files_.write_report(simulation_, summary_, status_);
   report_progress(true);
   status_.send({{"type", "ended"}, {"status", summary_.status}});
   return summary_;
@@ -232,6 +232,10 @@ void SimNode::publish_step() {
   for (const Collision& collision : events.collisions) {
     spdlog::warn("{}", describe(collision, scenario_));
     summary_.collisions.push_back(collision);
+  }
+  for (const Stray& stray : events.strays) {
+    summary_.warnings.push_back(describe(stray, scenario_));
+    spdlog::warn("{}", summary_.warnings.back());
   }
   for (const auto& uav : uavs_) uav->publish();
 

@@ -103,6 +103,7 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
   };
   const auto enclosed = [this](const Vector3d& p_WB) { return is_enclosed(rays, p_WB); };
   check_station(scenario, enclosed);
+  world.keep_within(world_reach_m(scenario, scene));
   const std::vector<UavStart> starts = draw_fleet_start(scenario, the_seed, touches, enclosed);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const VehicleConfig& vehicle = scenario.fleet[i].vehicle;
@@ -170,6 +171,11 @@ void Simulation::Impl::control_and_fly() {
 
 void Simulation::Impl::judge_mission() {
   const bool was_waiting = mission.phase() == Phase::waiting;
+  for (const std::size_t i : world.strays()) {
+    mission.take_out(i);
+    uavs[i].vehicle.stop();
+    events.strays.push_back({tick, i, world.state(i).p_WB});
+  }
   for (const Collision& collision : mission.update(tick, world.states(), world.contacts())) {
     uavs[collision.uav].vehicle.stop();
     referee.enter_collision(collision.uav, tick);

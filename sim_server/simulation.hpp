@@ -70,12 +70,20 @@ struct RejectionEvent {
   std::uint64_t total = 0;  ///< of this UAV so far, this one included
 };
 
+/// A UAV that left the world, or whose motion no number describes any more: it is out, and its body stays where it was.
+struct Stray {
+  Tick tick = 0;
+  std::size_t uav = 0;
+  Vector3d p_W = Vector3d::Zero();  ///< where it last was
+};
+
 /// What happened since the step before.
 struct StepEvents {
   std::vector<LidarEvent> scans;
   std::vector<KeyFrameEvent> key_frames;
   std::vector<CaptureEvent> captures;
   std::vector<Collision> collisions;
+  std::vector<Stray> strays;
   std::vector<RejectionEvent> rejections;
   std::uint64_t ledger_begin = 0, ledger_end = 0;  ///< new entries of the referee: [begin, end)
 };

@@ -448,5 +448,39 @@ TEST(WholeSimulation, SpeedOnMbs) {
   measure(load_scenario("mbs", {.assets_dir = assets, .config_dir = kConfig}), 120.0);
 }
 
+// The reader refuses such a vehicle; whatever else blows up must end in the same way.
+TEST_F(Field, AVehicleThatNoIntegrationSurvivesIsOutAndTheOthersFlyOn) {
+  add("photographer", 0, 0);
+  add("photographer", 0, 4);
+  VehicleConfig& bad = scenario_.fleet[0].vehicle;
+  bad.rotor_drag = 1.0;
+  bad.mass_kg = 0.01;
+  bad.rotor_mass_kg = 1e-4;
+  std::vector<std::string> digests;
+  for (int run = 0; run < 2; ++run) {
+    Simulation& sim = start();
+    RunDigest digest(scenario_.uav_names());
+    std::vector<Stray> strays;
+    fly(6.0, {to(8, 0, 5), to(0, 4, 5)}, [&](const StepEvents& events) {
+      strays.insert(strays.end(), events.strays.begin(), events.strays.end());
+      EXPECT_TRUE(events.collisions.empty());
+      digest.add(sim.digest_input());
+      for (const UavView& uav : sim.uavs()) {
+        ASSERT_TRUE(uav.state.p_WB.allFinite() && uav.state.v_WB.allFinite() && uav.state.q_WB.coeffs().allFinite());
+        ASSERT_TRUE(std::isfinite(uav.distance_m) && std::isfinite(uav.max_speed_mps));
+      }
+    });
+    ASSERT_EQ(strays.size(), 1U);
+    EXPECT_EQ(strays[0].uav, 0U);
+    EXPECT_EQ(strays[0].p_W, sim.uav(0).state.p_WB);
+    EXPECT_FALSE(sim.uav(0).alive);
+    EXPECT_EQ(sim.links()[1], 0) << "the station hears it";
+    EXPECT_TRUE(sim.uav(1).alive && sim.uav(1).airborne);
+    EXPECT_NEAR((sim.uav(1).state.p_WB - Vector3d(0, 4, 5)).norm(), 0.0, 0.3);
+    digests.push_back(digest.hex());
+  }
+  EXPECT_EQ(digests[0], digests[1]);
+}
+
 }  // namespace
 }  // namespace skein::sim

@@ -183,7 +183,8 @@ void Journal::replay(RunId run) {
   if (!ours) write(head);
 }
 
-void Journal::append(std::span<const TallyRecord> records) {
+std::string Journal::append(std::span<const TallyRecord> records) {
+  if (ended_) return {};
   Bytes bytes;
   for (const TallyRecord& record : records) {
     const Bytes body = encode(record);
@@ -199,9 +200,13 @@ void Journal::write(std::span<const std::uint8_t> rest) {
   while (!rest.empty()) {
     const ssize_t put_out = ::write(descriptor_, rest.data(), rest.size());
     if (put_out < 0 && errno == EINTR) continue;
-    if (put_out < 0) fail(file_, "cannot be written");
+    if (put_out < 0) {
+      ended_ = true;  // replay() cuts off a record that is not whole
+      return "cannot write " + file_.string() + ": " + std::generic_category().message(errno);
+    }
     rest = rest.subspan(static_cast<std::size_t>(put_out));
   }
+  return {};
 }
 
 }  // namespace skein::station

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/run_id.hpp"
@@ -32,9 +33,10 @@ class Journal {
   std::uintmax_t cut_bytes() const { return cut_bytes_; }
 
   /// Appends the records of one step and hands them to the operating system: they survive the death of this process
-  /// (not of the machine). Nothing is written for an empty list.
-  /// @throws std::runtime_error when the file system refuses; then none of them may be acknowledged.
-  void append(std::span<const TallyRecord> records);
+  /// (not of the machine). Nothing is written for an empty list. A disk that refuses ends the journal, with its last
+  /// whole record: from then on a station that is killed does not remember.
+  /// @returns what went wrong, with the file's name, in the step in which it did; else an empty text.
+  std::string append(std::span<const TallyRecord> records);
 
  private:
   void replay(RunId run);
@@ -44,6 +46,7 @@ class Journal {
   int descriptor_ = -1;
   std::vector<TallyRecord> replayed_;
   std::uintmax_t cut_bytes_ = 0;
+  bool ended_ = false;  ///< by a disk that refused
 };
 
 }  // namespace skein::station

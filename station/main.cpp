@@ -15,7 +15,8 @@ int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSigna
   load.needs_scene_files = false;
   const skein::Scenario scenario = skein::load_scenario(options.scenario, load);
   if (settle_only) {
-    skein::station::settle(options.out, scenario, options.run);
+    skein::StatusPipe status(options.status_fd);
+    skein::station::settle(options.out, scenario, options.run, status);
     return skein::kExitDone;
   }
   const auto bus = skein::bus::make_bus(options);

@@ -19,7 +19,7 @@ std::size_t count_points(const std::filesystem::path& scene_file) {
 
 }  // namespace
 
-void settle(const std::filesystem::path& folder, const Scenario& scenario, RunId run) {
+void settle(const std::filesystem::path& folder, const Scenario& scenario, RunId run, StatusPipe& status) {
   const Journal journal(folder / "station.journal", run);
   const std::vector<std::string> uavs = scenario.uav_names();
   Scoreboard scoreboard(uavs.size(), count_points(folder / "scene.json"), scenario.rules);
@@ -30,7 +30,7 @@ void settle(const std::filesystem::path& folder, const Scenario& scenario, RunId
     entry.index = index++;  // the ledger without what never arrived
     scoreboard.add_entry(entry);
   }
-  write_station_report(folder, scoreboard, uavs);
+  write_station_report(folder, scoreboard, uavs, status);
 }
 
 }  // namespace skein::station

@@ -36,6 +36,7 @@ class Settlement : public testing::Test {
   const std::filesystem::path folder_ =
       std::filesystem::path(testing::TempDir()) / ("skein_settlement_" + std::to_string(::getpid()));
   Scenario scenario_;
+  StatusPipe nobody_{-1};
 };
 
 TEST_F(Settlement, TheJournalIsTheReport) {
@@ -43,7 +44,7 @@ TEST_F(Settlement, TheJournalIsTheReport) {
   // Entries of the ledger that never arrived leave gaps in the numbers.
   Journal(folder_ / "station.journal")
       .append(std::vector<TallyRecord>{record(2, 0, 0, 1, 0.5F), record(5, 1, 3, 1, 0.75F), record(9, 1, 4, 2, 0.25F)});
-  settle(folder_, scenario_);
+  settle(folder_, scenario_, RunId::none, nobody_);
   EXPECT_EQ(report()["score"], 1.0);
   EXPECT_EQ(report()["points_detected"], 2);
   EXPECT_EQ(report()["score_by_uav"]["b"], 1.0);
@@ -57,11 +58,11 @@ TEST_F(Settlement, TheJournalIsTheReport) {
 
 TEST_F(Settlement, WithoutAnythingDeliveredItIsEmpty) {
   std::ofstream(folder_ / "scene.json") << R"({"points": []})";
-  settle(folder_, scenario_);
+  settle(folder_, scenario_, RunId::none, nobody_);
   EXPECT_EQ(report()["score"], 0.0);
 }
 
-TEST_F(Settlement, WithoutASceneThereIsNone) { EXPECT_THROW(settle(folder_, scenario_), std::runtime_error); }
+TEST_F(Settlement, WithoutASceneThereIsNone) { EXPECT_THROW(settle(folder_, scenario_, RunId::none, nobody_), std::runtime_error); }
 
 }  // namespace
 }  // namespace skein::station

@@ -84,7 +84,10 @@ void StationNode::think() {
   const StepOutcome outcome = scoreboard_->end_step(step.tick(), step.ledger_upto());
   // Should we be killed for good, the last that we told stands for what was earned.
   const bool news = outcome.score_changed || scoreboard_->standing() != stood;
-  journal_.append(outcome.records);
+  if (std::string trouble = journal_.append(outcome.records); !trouble.empty()) {
+    spdlog::warn("{}; a station that is killed will not remember what it acknowledges from here on", trouble);
+    unwritten_.push_back(std::move(trouble));
+  }
   const bus::Burst burst(*gcs_);
   acknowledge(outcome);
   if (outcome.score_changed) show_score(step.tick());
@@ -132,7 +135,7 @@ std::optional<int> StationNode::run(const StopSignal& stop) {
   const bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_step_answered_; }};
   const bus::LoopEnd end = bus::run_client(client_, inbox_, loop, stop);
   if (end == bus::LoopEnd::resumed) return std::nullopt;
-  if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, inbox_.malformed());
+  if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, status_, inbox_.malformed(), unwritten_);
   return bus::exit_code(end, std::string(bus::kStationName));
 }
 

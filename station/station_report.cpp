@@ -87,10 +87,15 @@ nlohmann::ordered_json report_json(const Scoreboard& scoreboard, const std::vect
 }  // namespace
 
 void write_station_report(const std::filesystem::path& folder, const Scoreboard& scoreboard,
-                          const std::vector<std::string>& uav_names, std::uint64_t malformed) {
-  write_file_atomically(folder / "score_timeline.csv", timeline_csv(scoreboard));
-  write_file_atomically(folder / "captures.csv", captures_csv(scoreboard, uav_names));
-  write_file_atomically(folder / "station.report.json", report_json(scoreboard, uav_names, malformed).dump(2) + "\n");
+                          const std::vector<std::string>& uav_names, StatusPipe& status, std::uint64_t malformed,
+                          std::vector<std::string> unwritten) {
+  for (std::string trouble : {write_if_possible(folder / "score_timeline.csv", timeline_csv(scoreboard)),
+                              write_if_possible(folder / "captures.csv", captures_csv(scoreboard, uav_names))}) {
+    if (!trouble.empty()) unwritten.push_back(std::move(trouble));
+  }
+  nlohmann::ordered_json report = report_json(scoreboard, uav_names, malformed);
+  report["unwritten"] = unwritten;
+  hand_in_report(std::move(report), folder / "station.report.json", status);
 }
 
 }  // namespace skein::station

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/program_report.hpp"
 #include "station/scoreboard.hpp"
 
 namespace skein::station {
@@ -20,8 +21,10 @@ namespace skein::station {
 ///   capture}] (those that count), refused {reason: count}, reports_received, duplicates, malformed.
 /// @param uav_names  in fleet order.
 /// @param malformed  samples received that were no message of their topic's type.
-/// @throws std::runtime_error when a file cannot be written.
+/// @param unwritten  what the disk has refused before; the report lists it, and which of the tables it refuses.
+/// @throws std::runtime_error as hand_in_report().
 void write_station_report(const std::filesystem::path& folder, const Scoreboard& scoreboard,
-                          const std::vector<std::string>& uav_names, std::uint64_t malformed = 0);
+                          const std::vector<std::string>& uav_names, StatusPipe& status, std::uint64_t malformed = 0,
+                          std::vector<std::string> unwritten = {});
 
 }  // namespace skein::station

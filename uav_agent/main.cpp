@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/program_bus.hpp"
-#include "core/atomic_file.hpp"
 #include "core/program.hpp"
+#include "core/program_report.hpp"
 #include "core/scenario_reader.hpp"
 #include "uav_agent/agent_node.hpp"
 #include "uav_agent/ground_node.hpp"
@@ -27,7 +27,8 @@ int list_strategies() {
   return skein::kExitDone;
 }
 
-int fly(skein::agent::MemberNode& node, const std::filesystem::path& report_file, skein::StopSignal& stop) {
+int fly(skein::agent::MemberNode& node, const std::filesystem::path& report_file, int status_fd,
+        skein::StopSignal& stop) {
   stop.on_stop([&node] { node.wake(); });
   const int code = node.run(stop);
   stop.on_stop({});
@@ -37,7 +38,8 @@ int fly(skein::agent::MemberNode& node, const std::filesystem::path& report_file
                                  {"planner_cpu_max_ms", 1e3 * cpu.max_s()},
                                  {"planner_exchanges_over_50ms", cpu.over_field_exchange()},
                                  {"malformed", node.malformed()}};
-  skein::write_file_atomically(report_file, report.dump(2) + "\n");
+  skein::StatusPipe status(status_fd);
+  skein::hand_in_report(report, report_file, status);
   return code;
 }
 
@@ -49,7 +51,7 @@ int run_uav(const skein::Scenario& scenario, const skein::ProgramOptions& option
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) return skein::kExitDone;
   skein::agent::AgentNode node(scenario, index, std::move(planner), options.domain, *bus);
-  return fly(node, options.out / ("uav_agent-" + uav + ".report.json"), stop);
+  return fly(node, options.out / ("uav_agent-" + uav + ".report.json"), options.status_fd, stop);
 }
 
 int run_ground(const skein::Scenario& scenario, const skein::ProgramOptions& options, const AgentOptions& agent,
@@ -58,7 +60,7 @@ int run_ground(const skein::Scenario& scenario, const skein::ProgramOptions& opt
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) return skein::kExitDone;
   skein::agent::GroundNode node(scenario, std::move(program), options.domain, *bus);
-  return fly(node, options.out / "uav_agent-gcs.report.json", stop);
+  return fly(node, options.out / "uav_agent-gcs.report.json", options.status_fd, stop);
 }
 
 }  // namespace

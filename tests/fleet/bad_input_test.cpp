@@ -1,4 +1,6 @@
 // Wrong input: exit code 2, one message that says where and what would be right, and nothing was started.
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <regex>
 
@@ -97,6 +99,30 @@ TEST_F(BadInput, FormerResultIsKeptWithoutForce) {
   Arguments forced = brief;
   forced.insert(forced.end(), {"--force", "--seed", "9"});
   EXPECT_EQ(run("kept", forced).result()["seed"], 9);
+}
+
+TEST_F(BadInput, WhatBearsTheNameOfAFileAndIsNoneIsRefusedAtOnce) {
+  const std::string scenario = write_small_scene(folder());
+  const std::string pipe = folder() / "pipe.yaml", recorded = folder() / "recorded", hole = folder() / "hole.csv";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::filesystem::create_directory(recorded);
+  ASSERT_EQ(::mkfifo((recorded + "/digests.csv").c_str(), 0600), 0);
+  write("hole.csv", "");
+  std::filesystem::resize_file(hole, std::uintmax_t{1} << 36);
+  std::filesystem::rename(folder() / "scene/mesh.stl", folder() / "scene/was.stl");
+  ASSERT_EQ(::mkfifo((folder() / "scene/mesh.stl").c_str(), 0600), 0);
+  const std::vector<std::pair<Arguments, std::string>> wrong = {
+      {{"check", "--golden", pipe}, pipe},           {{"check", "--golden", "/dev/zero"}, "/dev/zero"},
+      {{"check", "--golden", recorded}, recorded},   {{"check", "--golden", hole}, hole},
+      {{"check", pipe}, pipe},                       {{"check", "/dev/zero"}, "/dev/zero"},
+      {{"check", scenario}, "mesh.stl"},             {{"diff", recorded, recorded}, recorded + "/digests.csv"},
+      {{"run", "towers", "--faults", pipe}, pipe},   {{"run", pipe}, pipe},
+      {{"run", "towers", "--agent", pipe}, pipe},    {{"run", "towers", "--planner", "waypoints:" + pipe}, pipe}};
+  for (const auto& [arguments, named] : wrong) {
+    ChildProcess& refused = skein(arguments);
+    EXPECT_EQ(refused.wait().code, 2) << arguments.front() << ' ' << arguments.back() << ": " << refused.err();
+    EXPECT_NE((refused.err() + refused.out()).find(named), std::string::npos) << refused.err();
+  }
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <random>
 
 #include "fleet_fixture.hpp"
+#include "small_scene.hpp"
 
 namespace skein::test {
 namespace {
@@ -110,6 +113,29 @@ TEST_F(Interruption, ProgramsDieWithTheLauncher) {
   run.skein().signal(SIGKILL);
   EXPECT_EQ(run.skein().wait().signal, SIGKILL);
   EXPECT_TRUE(eventually([&] { return processes_of(run.dir()).empty(); }, std::chrono::seconds(20)));
+}
+
+TEST_F(Interruption, WhatAKilledLauncherLeavesTheNextOneRemoves) {
+  const std::filesystem::path tmp = folder() / "tmp";
+  std::filesystem::create_directories(tmp);
+  const auto left = [&] {
+    const std::filesystem::directory_iterator all(tmp);
+    return std::any_of(begin(all), end(all), [](const auto& entry) {
+      return entry.path().filename().string().starts_with("skein-scratch-");
+    });
+  };
+  const Arguments check = {program("skein"), "check", write_small_scene(folder())};
+  std::mt19937 draw(19);
+  for (int round = 0; round < 4; ++round) {
+    ChildProcess& launcher = start_program("killed" + std::to_string(round), check, {{"TMPDIR", tmp}});
+    auto looks = draw() % 100;  // at its folder, before the end comes
+    eventually([&] { return launcher.ended() || (left() && looks-- == 0); });
+    launcher.signal(SIGKILL);
+    launcher.wait();
+  }
+  ChildProcess& last = start_program("last", check, {{"TMPDIR", tmp}});
+  EXPECT_EQ(last.wait().code, 0) << last.err();
+  EXPECT_FALSE(left());
 }
 
 TEST_F(Interruption, StoppedAgentIsDroppedByTheLaunchersRun) {

@@ -1,0 +1,82 @@
+// A disk that is full ends files, never the flight: its score and its result are those of a run with room.
+#include <sys/mount.h>
+
+#include <cerrno>
+#include <random>
+
+#include "fleet_fixture.hpp"
+#include "small_scene.hpp"
+
+namespace skein::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A small disk of its own, mounted where a run will write.
+class SmallDisk {
+ public:
+  SmallDisk(fs::path folder, int kilobytes) : folder_(std::move(folder)) {
+    fs::create_directories(folder_);
+    const std::string size = "size=" + std::to_string(kilobytes) + "k";
+    mounted_ = ::mount("none", folder_.c_str(), "tmpfs", 0, size.c_str()) == 0;
+  }
+  ~SmallDisk() {
+    if (mounted_) ::umount2(folder_.c_str(), MNT_DETACH);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  bool mounted() const { return mounted_; }
+
+ private:
+  fs::path folder_;
+  bool mounted_ = false;
+};
+
+class FullDisk : public FleetTest {
+ protected:
+  FullDisk() {
+    SmallScene scene = default_scene();
+    scene.duration_s = 100.0;
+    scenario_ = write_small_scene(folder(), scene);
+  }
+  Arguments arguments() const { return {scenario_, "--planner", "patrol"}; }
+  std::string scenario_;
+};
+
+TEST_F(FullDisk, ARunThatFillsItHasItsResultAllTheSame) {
+  std::mt19937 draw(1);
+  std::vector<std::unique_ptr<SmallDisk>> disks;
+  std::vector<SkeinRun*> runs = {&start("with_room", arguments())};
+  for (const int most_kb : {500, 700}) {
+    const int size_kb = most_kb - static_cast<int>(draw() % 60);
+    const std::string name = "of_" + std::to_string(size_kb) + "_kB";
+    disks.push_back(std::make_unique<SmallDisk>(folder() / name, size_kb));
+    if (!disks.back()->mounted()) GTEST_SKIP() << "a disk can be mounted by root only";
+    runs.push_back(&start(name, arguments()));
+  }
+  for (SkeinRun* run : runs) {
+    SCOPED_TRACE(run->dir().filename());
+    EXPECT_EQ(run->exit_code(), 0) << run->err();
+    expect_complete_result(*run);
+    EXPECT_EQ(run->result()["status"], "completed");
+    EXPECT_EQ(run->result()["score"], runs[0]->result()["score"]);
+    EXPECT_EQ(run->digest(), runs[0]->digest());
+    EXPECT_TRUE(run->result()["uavs"][0]["planner_cpu_s"].is_number());
+    const std::string warnings = run->result()["warnings"].dump();
+    EXPECT_EQ(warnings.find("No space left on device") != std::string::npos, run != runs[0]) << warnings;
+    EXPECT_EQ(run->out().find("warning: files are missing or cut short") != std::string::npos, run != runs[0]);
+    const std::string digests = text_of(run->dir() / "digests.csv");
+    EXPECT_TRUE(digests.empty() || digests.back() == '\n') << "a line is torn";
+  }
+}
+
+TEST_F(FullDisk, WithoutRoomForTheResultNothingStarts) {
+  const SmallDisk disk(folder() / "tiny", 128);
+  if (!disk.mounted()) GTEST_SKIP() << "a disk can be mounted by root only";
+  SkeinRun& run = this->run("tiny", arguments(), {}, 2);
+  EXPECT_NE(run.err().find("no room for a result"), std::string::npos) << run.err();
+  EXPECT_TRUE(fs::is_empty(run.dir()));
+}
+
+}  // namespace
+}  // namespace skein::test
