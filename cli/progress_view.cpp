@@ -69,7 +69,7 @@ void ProgressView::progress(const Json& status, double wall_s) {
   }
   const double speed = wall_s > first_wall_s_ ? (sim_s - first_sim_s_) / (wall_s - first_wall_s_) : 0.0;
   const std::string in_contact = joined(status, "in_contact"), lost = joined(status, "lost");
-  std::string text = fixed(sim_s, 1) + " s";
+  std::string text = "simulated " + fixed(sim_s, 1) + " s";
   const Json phase = value_or(status, "phase", "");
   text += phase == "flying" || phase == "ended"
               ? ", mission " + fixed(mission_s, 0) + " of " + fixed(duration_s, 0) + " s"
