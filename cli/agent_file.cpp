@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "cli/environment.hpp"
+#include "cli/fleet_plan.hpp"
 #include "cli/preflight.hpp"
 #include "cli/run_result.hpp"
 
@@ -20,6 +21,15 @@ Json strategies_of(const std::filesystem::path& agent, const std::filesystem::pa
   return read_json(said);
 }
 
+std::vector<std::string> names_of(const std::filesystem::path& agent, const char* kind) {
+  const ScratchDir scratch;
+  std::vector<std::string> names;
+  for (const Json& name : value_or(strategies_of(agent, scratch.path() / "said"), kind, Json::array())) {
+    if (name.is_string()) names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> own_agent(const std::optional<std::filesystem::path>& chosen) {
@@ -30,6 +40,7 @@ std::optional<std::filesystem::path> own_agent(const std::optional<std::filesyst
   const std::string what = (by_variable ? "SKEIN_AGENT: " : "--agent: ") + agent.string();
   if (!std::filesystem::is_regular_file(agent)) throw InputError(what + ": there is no such file");
   if (::access(agent.c_str(), X_OK) != 0) throw InputError(what + ": this file cannot be executed");
+  if (std::error_code none; std::filesystem::equivalent(agent, program_dir() / "uav_agent", none)) return std::nullopt;
   const ScratchDir scratch;
   if (strategies_of(agent, scratch.path() / "said").is_object()) return agent;
   std::string message = what + ": --list-planners does not list its planners; skein_add_agent() makes agent programs " +
@@ -38,13 +49,10 @@ std::optional<std::filesystem::path> own_agent(const std::optional<std::filesyst
   throw InputError(message);
 }
 
+std::vector<std::string> planners_of(const std::filesystem::path& agent) { return names_of(agent, "planners"); }
+
 std::vector<std::string> ground_programs_of(const std::filesystem::path& agent) {
-  const ScratchDir scratch;
-  std::vector<std::string> names;
-  for (const Json& name : value_or(strategies_of(agent, scratch.path() / "said"), "ground_programs", Json::array())) {
-    if (name.is_string()) names.push_back(name);
-  }
-  return names;
+  return names_of(agent, "ground_programs");
 }
 
 }  // namespace skein::cli

@@ -9,9 +9,13 @@
 namespace skein::cli {
 
 /// The program to fly with, where it is not the uav_agent beside the launcher: `chosen` (--agent), else SKEIN_AGENT.
-/// @returns its absolute path; nullopt: uav_agent.
+/// @returns its absolute path; nullopt: uav_agent, also when that is what was named.
 /// @throws InputError when there is no such program, or it is no agent.
 std::optional<std::filesystem::path> own_agent(const std::optional<std::filesystem::path>& chosen);
+
+/// Names of an agent program's strategies for UAVs, in their order.
+/// @returns none when it is missing or does not tell.
+std::vector<std::string> planners_of(const std::filesystem::path& agent);
 
 /// Names of an agent program's strategies that have a program at the ground station.
 /// @returns none when it is missing or does not tell.

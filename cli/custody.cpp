@@ -31,6 +31,11 @@ std::uint64_t step_of(double time_s, const Scenario& scenario) {
   return static_cast<std::uint64_t>(std::llround(time_s / scenario.exchange_period_s));
 }
 
+/// "12.35 s (step 247)".
+std::string when(std::uint64_t step, const Scenario& scenario) {
+  return number_text(static_cast<double>(step) * scenario.exchange_period_s) + " s (step " + std::to_string(step) + ")";
+}
+
 /// A run as the derivation looks at it.
 class Timeline {
  public:
@@ -190,7 +195,7 @@ std::vector<std::string> custody_losses(const RunRecord& run, const Scenario& sc
     const auto found = account.find(capture);
     const bool there = found != account.end() && found->second && *found->second <= row.step;
     if (!there) {
-      sentences.push_back("expected " + name(capture) + ", acknowledged before step " + std::to_string(row.step) +
+      sentences.push_back("expected " + name(capture) + ", acknowledged before " + when(row.step, scenario) +
                           ", to be with the station; seen that it is not");
     }
   }
@@ -216,8 +221,8 @@ std::vector<std::string> custody_losses(const RunRecord& run, const Scenario& sc
 std::vector<std::string> custody_differences(const RunRecord& run, const Scenario& scenario, const FaultPlan& plan) {
   const auto derived = derived_deliveries(run, scenario, plan);
   const auto account = accounted(run, scenario);
-  const auto text = [](const std::optional<std::uint64_t>& step) {
-    return step ? "in step " + std::to_string(*step) : std::string("never");
+  const auto text = [&](const std::optional<std::uint64_t>& step) {
+    return step ? "at " + when(*step, scenario) : std::string("never");
   };
   std::set<CaptureKey> all;
   for (const auto& [capture, step] : account) all.insert(capture);

@@ -127,10 +127,11 @@ TEST_F(CustodyTest, TheStationsAccountIsCompared) {
   link(0, 300);
   run_.captures = {{"alpha", 0, 1.0, 7, 0.5, 1.05, ""}, {"alpha", 1, 1.0, 8, 0.5, std::nullopt, "not received"}};
   EXPECT_EQ(custody_differences(run_, scenario_, plan_),
-            (std::vector<std::string>{"expected delivery of alpha's capture 1 in step 21, seen never"}));
+            (std::vector<std::string>{"expected delivery of alpha's capture 1 at 1.05 s (step 21), seen never"}));
   run_.captures[1].delivered_at_s = 1.10;
   EXPECT_EQ(custody_differences(run_, scenario_, plan_),
-            (std::vector<std::string>{"expected delivery of alpha's capture 1 in step 21, seen in step 22"}));
+            (std::vector<std::string>{
+                "expected delivery of alpha's capture 1 at 1.05 s (step 21), seen at 1.1 s (step 22)"}));
   run_.captures[1].delivered_at_s = 1.05;
   EXPECT_TRUE(custody_differences(run_, scenario_, plan_).empty());
   run_.captures.pop_back();
@@ -143,10 +144,10 @@ TEST_F(CustodyTest, NothingThatWasAcknowledgedIsMissing) {
   event(23, "released", "alpha", "0");
   EXPECT_TRUE(custody_losses(run_, scenario_).empty());
   event(24, "released", "alpha", "1");
-  EXPECT_EQ(
-      custody_losses(run_, scenario_),
-      (std::vector<std::string>{"expected alpha's capture 1, acknowledged before step 24, to be with the station; "
-                                "seen that it is not"}));
+  EXPECT_EQ(custody_losses(run_, scenario_),
+            (std::vector<std::string>{
+                "expected alpha's capture 1, acknowledged before 1.2 s (step 24), to be with the station; "
+                "seen that it is not"}));
 }
 
 TEST_F(CustodyTest, TheScoreIsWhatTheDeliveredCapturesAddUpTo) {

@@ -8,31 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "cli/run_record.hpp"
+#include "cli/fault_judges.hpp"
 #include "core/config_reader.hpp"
 #include "core/fault_plan.hpp"
 
 namespace skein::cli {
-
-/// One more run of the same test, which must have the same digest.
-enum class Repeat { again, cyclonedds, fastdds, mixed, chaos };
-constexpr std::array<EnumName<Repeat>, 5> enum_names(Repeat) {
-  return {{{"again", Repeat::again},
-           {"cyclonedds", Repeat::cyclonedds},
-           {"fastdds", Repeat::fastdds},
-           {"mixed", Repeat::mixed},
-           {"chaos", Repeat::chaos}}};
-}
-
-/// What a judge looks at.
-struct Evidence {
-  const Scenario& scenario;
-  const FaultPlan& plan;
-  const RunRecord& run;
-  int exit_code = 0;                                              ///< of `skein run`
-  const RunRecord* fault_free = nullptr;                          ///< where an expectation asks for it
-  std::vector<std::pair<std::string, const RunRecord*>> repeats;  ///< how they were flown, and what came of it
-};
 
 /// What makes sense in a file depends on the scenario and the faults.
 struct ExpectationContext {
@@ -47,8 +27,8 @@ struct Expectation {
   bool needs_fault_free = false;
   std::vector<Repeat> repeats;
   std::function<void(const ExpectationContext&)> check;  ///< adds errors where names do not exist
-  /// What does not hold, one sentence each with what was expected and what was seen; empty when it holds.
-  std::function<std::vector<std::string>(const Evidence&)> judge;
+  /// At least one finding, unless there was nothing to look at.
+  std::function<Findings(const Evidence&)> judge;
 };
 
 /// A kind of expectation.
@@ -72,7 +52,15 @@ struct Expectations {
   }
 };
 
-/// Sentences of the form "key: expected ..., seen ...", in the table's order; empty when everything holds.
-std::vector<std::string> broken_expectations(const Expectations& expectations, const Evidence& evidence);
+struct Judgement {
+  std::string key;  ///< of the expectation
+  Finding finding;
+
+  /// Of its place in the file.
+  std::string path() const { return "expect." + key + finding.part; }
+};
+
+/// What became of each expectation, in the table's order.
+std::vector<Judgement> judged(const Expectations& expectations, const Evidence& evidence);
 
 }  // namespace skein::cli

@@ -52,8 +52,10 @@ struct TestFile {
 
 bool is_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".yaml"); }
 
-RunOptions run_options(const RunPart& part, const fs::path& file, const std::optional<fs::path>& assets) {
+RunOptions run_options(const RunPart& part, const fs::path& file, const std::optional<fs::path>& assets,
+                       const std::optional<fs::path>& agent) {
   RunOptions options;
+  options.agent = agent;
   options.scenario = is_path(part.scenario) ? (file.parent_path() / part.scenario).string() : part.scenario;
   options.planner = part.planner;
   options.seed = part.seed;
@@ -97,9 +99,19 @@ std::vector<Repeat> FaultTest::repeats() const {
   return all;
 }
 
+std::string FaultTest::said_of(const std::string& key, const std::string& what) const try {
+  ConfigErrors errors(document);
+  errors.check(false, key, what);
+  errors.throw_if_any();
+  return what;
+} catch (const InputError& sentence) {
+  return sentence.what();
+}
+
 bool is_fault_test(const ConfigNode& root) { return root.find("expect") != nullptr || root.find("run") != nullptr; }
 
-FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& assets) {
+FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& assets,
+                          const std::optional<fs::path>& agent) {
   const fs::path path = fs::absolute(file);
   ConfigDocument document = read_config_document(file);
   ConfigErrors errors(document);
@@ -109,9 +121,9 @@ FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& a
   ConfigDocument without_faults = document;
   without_faults.root.remove("faults");
   TestFile content = read_config<TestFile>(without_faults);
-  const RunOptions options = run_options(content.run, path, assets);
+  const RunOptions options = run_options(content.run, path, assets, agent);
   check_run(options, errors);
-  FaultTest test{file.stem(), plan_fleet(options, program_dir()), std::move(content.expect)};
+  FaultTest test{file.stem(), file, plan_fleet(options, program_dir()), std::move(content.expect), document};
   for (const Expectation& expectation : test.expect.all) {
     if (expectation.check) expectation.check({test.plan.scenario, test.plan.faults, errors});
   }
@@ -119,7 +131,14 @@ FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& a
   return test;
 }
 
+FaultTest with_seed(FaultTest test, std::uint64_t seed) {
+  test.plan.options.seed = seed;
+  test.plan.faults = load_fault_plan(*test.plan.options.faults, test.plan.scenario, seed);
+  return test;
+}
+
 std::vector<fs::path> fault_test_files(const fs::path& path) {
+  if (!fs::exists(path)) throw InputError(path.string() + ": there is no such file or folder");
   if (!fs::is_directory(path)) return {path};
   std::vector<fs::path> files;
   for (const std::string& name : config_names(path)) files.push_back(path / (name + ".yaml"));

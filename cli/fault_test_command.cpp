@@ -1,58 +1,27 @@
 #include "cli/fault_test_command.hpp"
 
-#include <cstdlib>
+#include <chrono>
 #include <map>
+#include <numeric>
 #include <set>
-#include <sstream>
 
-#include "cli/fault_test.hpp"
+#include "cli/environment.hpp"
+#include "cli/fault_flights.hpp"
+#include "cli/fault_report.hpp"
 #include "cli/preflight.hpp"
+#include "cli/side_by_side.hpp"
+#include "cli/study_spec.hpp"
 #include "cli/test_command.hpp"
+#include "core/atomic_file.hpp"
 
 namespace skein::cli {
 namespace {
 
-/// Set for as long as it lives; what programs that start meanwhile inherit.
-class ScopedVariable {
- public:
-  ScopedVariable(const char* name, const std::string& value) : name_(name) {
-    if (const char* former = std::getenv(name)) former_ = former;
-    ::setenv(name, value.c_str(), 1);
-  }
-  ~ScopedVariable() {
-    if (former_) {
-      ::setenv(name_, former_->c_str(), 1);
-    } else {
-      ::unsetenv(name_);
-    }
-  }
-  ScopedVariable(const ScopedVariable&) = delete;
-  ScopedVariable& operator=(const ScopedVariable&) = delete;
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
- private:
-  const char* name_;
-  std::optional<std::string> former_;
-};
-
-/// The repetitions that the command line asks for.
-std::vector<Repeat> asked_repeats(const TestOptions& options) {
-  if (options.long_tests) return {Repeat::again, Repeat::fastdds, Repeat::mixed, Repeat::chaos};
-  std::vector<Repeat> repeats;
-  for (const std::string& word : options.repeat) {
-    for (const auto& entry : enum_names(Repeat{})) {
-      if (word == entry.name) repeats.push_back(entry.value);
-    }
-  }
-  return repeats;
-}
-
-/// Names a run but for its faults and DDS vendor, which do not show in a run without faults.
-std::string what_is_flown(const RunOptions& options) {
-  std::ostringstream text;
-  text << options.scenario << '\n' << options.planner << '\n' << options.seed << '\n' << *options.duration_s << '\n';
-  if (options.scene_seed) text << *options.scene_seed;
-  return text.str();
-}
+constexpr const char* kLog = "flight.log";  ///< what `skein run` said
+constexpr std::size_t kLogLines = 5;
 
 /// What the programs themselves say to what the tests fly. @throws InputError.
 void check_with_programs(const std::vector<FaultTest>& tests) {
@@ -68,113 +37,184 @@ void check_with_programs(const std::vector<FaultTest>& tests) {
   }
 }
 
-/// A run of a test and how it ended.
-struct Flight {
-  RunRecord record;
-  int exit_code = 0;
-};
-
-/// One call of `skein test --faults`.
-class FaultTestRun {
- public:
-  FaultTestRun(const TestOptions& options, const Console& console)
-      : options_(options), console_(console), out_(std::filesystem::absolute(options.out)) {}
-
-  TestCounts fly_all(const std::vector<FaultTest>& tests) {
-    TestCounts counts;
-    for (std::size_t i = 0; i < tests.size(); ++i) {
-      const std::vector<std::string> broken = fly(tests[i], i);
-      console_.out << (broken.empty() ? "PASS " : "FAIL ") << tests[i].name << std::endl;
-      for (const std::string& sentence : broken) console_.out << "     " << sentence << std::endl;
-      if (!broken.empty()) console_.out << "     results: " << (out_ / tests[i].name).string() << std::endl;
-      ++(broken.empty() ? counts.passed : counts.failed);
-    }
-    return counts;
-  }
-
- private:
-  /// @returns what does not hold.
-  std::vector<std::string> fly(const FaultTest& test, std::size_t index) try {
-    const Flight flight = fly(test.plan.options, test.name);
-    Evidence evidence{test.plan.scenario, test.plan.faults, flight.record, flight.exit_code, nullptr, {}};
-    if (test.needs_fault_free()) evidence.fault_free = &fault_free(test);
-    std::map<std::string, RunRecord> repeats;
-    for (const Repeat repeat : repeats_of(test, index)) {
-      const std::string how = name_of(repeat);
-      repeats.insert_or_assign(how, fly_again(test, repeat, index));
-    }
-    for (const auto& [how, record] : repeats) evidence.repeats.emplace_back(how, &record);
-    return broken_expectations(test.expect, evidence);
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::runtime_error& error) {  // a run that left no result
-    return {error.what()};
-  }
-
-  std::vector<Repeat> repeats_of(const FaultTest& test, std::size_t index) const {
-    std::vector<Repeat> all = test.repeats();
-    const std::vector<Repeat> asked = asked_repeats(options_);
-    if (options_.rotate && !asked.empty()) {
-      all.push_back(asked[index % asked.size()]);
-    } else {
-      all.insert(all.end(), asked.begin(), asked.end());
-    }
-    return all;
-  }
-
-  RunRecord fly_again(const FaultTest& test, Repeat repeat, std::size_t index) {
-    RunOptions options = test.plan.options;
-    const std::string name = test.name + "-" + name_of(repeat);
-    if (repeat == Repeat::chaos) {
-      const ScopedVariable chaos("SKEIN_CHAOS", std::to_string(index + 1));
-      return fly(options, name).record;
-    }
-    if (repeat != Repeat::again) options.dds = name_of(repeat);
-    return fly(options, name).record;
-  }
-
-  const RunRecord& fault_free(const FaultTest& test) {
-    RunOptions options = test.plan.options;
-    options.faults.reset();
-    const auto [found, is_new] = fault_free_.try_emplace(what_is_flown(options));
-    if (is_new) {
-      const std::string name = "without-faults-" + std::to_string(fault_free_.size());
-      found->second = fly(options, name).record;
-    }
-    return found->second;
-  }
-
-  Flight fly(RunOptions options, const std::string& name) {
-    console_.err << "flying " << name << std::endl;
-    options.out = out_ / name;
-    std::filesystem::create_directories(out_);
-    std::ostringstream out, err;
-    const int code = run_fleet(options, {out, err, false});
-    if (code == kExitInterrupted) throw Interrupted{};
-    return {read_run(*options.out), code};
-  }
-
-  const TestOptions& options_;
-  const Console& console_;
-  const std::filesystem::path out_;
-  std::map<std::string, RunRecord> fault_free_;  ///< by what was flown
-};
-
-}  // namespace
-
-int run_fault_tests(const TestOptions& options, const Console& console) {
+/// All tests of the files. @throws InputError with what is wrong in any of them.
+std::vector<FaultTest> load_all(const TestOptions& options) {
   std::vector<FaultTest> tests;
   std::string wrong;
-  for (const std::filesystem::path& file : fault_test_files(*options.faults)) {
+  for (const fs::path& file : fault_test_files(*options.faults)) {
     try {
-      tests.push_back(load_fault_test(file, options.assets));
+      tests.push_back(load_fault_test(file, options.assets, options.agent));
     } catch (const InputError& error) {
       wrong += (wrong.empty() ? "" : "\n") + std::string(error.what());
     }
   }
   if (!wrong.empty()) throw InputError(wrong);
   check_with_programs(tests);
-  const TestCounts counts = FaultTestRun(options, console).fly_all(tests);
+  return tests;
+}
+
+/// Each test with each of these seeds, one file after the other.
+std::vector<FaultTest> with_seeds(const std::vector<FaultTest>& tests, const std::vector<std::uint64_t>& seeds) {
+  std::vector<FaultTest> all;
+  for (const FaultTest& test : tests) {
+    for (const std::uint64_t seed : seeds) {
+      all.push_back(with_seed(test, seed));
+      all.back().name += "-seed-" + std::to_string(seed);
+    }
+  }
+  return all;
+}
+
+/// One call of `skein test --faults`.
+class FaultTestRun {
+ public:
+  FaultTestRun(std::vector<FaultTest> tests, const TestOptions& options, const Console& console)
+      : tests_(std::move(tests)),
+        options_(options),
+        console_(console),
+        flights_(plan_fault_flights(tests_, options)),
+        flown_(flights_.flights.size()) {
+    for (const FaultTest& test : tests_) {
+      FaultVerdict& verdict = verdicts_.emplace_back();
+      verdict.name = test.name;
+      verdict.file = test.file;
+      verdict.results = fs::absolute(options.out) / test.name;
+    }
+  }
+
+  /// @throws Interrupted.
+  TestCounts fly() {
+    write_report();  // before anything flies, so that nobody waits in vain for a report that cannot be written
+    std::deque<std::size_t> waiting(flights_.flights.size());
+    std::iota(waiting.begin(), waiting.end(), std::size_t{0});
+    SideBySide sky(static_cast<std::size_t>(options_.jobs), console_);
+    const bool all = sky.fly(
+        std::move(waiting), [this](std::size_t index) { return start(index); },
+        [this](std::size_t index, const ExitStatus& exit) { on_exit(index, exit); });
+    if (!all) throw Interrupted{};
+    return counts_;
+  }
+
+ private:
+  /// How a flight ended, once it has.
+  struct Flown {
+    Clock::time_point began{};
+    double wall_s = 0.0;
+    std::optional<ExitStatus> exit;
+  };
+
+  ProgramSpec start(std::size_t index) {
+    const FaultFlight& flight = flights_.flights[index];
+    console_.err << "flying " << flight.name << std::endl;
+    const fs::path dir = *flight.options.out;
+    fs::create_directories(dir);
+    fs::remove(dir / "result.json");  // of an earlier call
+    std::vector<std::string> arguments = arguments_of(flight.options);
+    arguments.insert(arguments.begin(), program_dir() / "skein");
+    std::map<std::string, std::string> variables;
+    if (flight.chaos) variables["SKEIN_CHAOS"] = std::to_string(*flight.chaos);
+    flown_[index].began = Clock::now();
+    return {"", std::move(arguments), environment_with(variables), dir / kLog};
+  }
+
+  void on_exit(std::size_t index, const ExitStatus& exit) {
+    flown_[index].exit = exit;
+    flown_[index].wall_s = std::chrono::duration<double>(Clock::now() - flown_[index].began).count();
+    for (; told_ < tests_.size() && is_over(flights_.tests[told_]); ++told_) tell(told_);
+  }
+
+  /// Its flights, without those that it shares with others.
+  static std::vector<std::size_t> own_flights(const FlightsOfTest& flights) {
+    std::vector<std::size_t> all = {flights.own};
+    for (const auto& [how, index] : flights.repeats) all.push_back(index);
+    return all;
+  }
+
+  bool is_over(const FlightsOfTest& flights) const {
+    std::vector<std::size_t> all = own_flights(flights);
+    if (flights.fault_free) all.push_back(*flights.fault_free);
+    return std::all_of(all.begin(), all.end(), [this](std::size_t index) { return flown_[index].exit.has_value(); });
+  }
+
+  /// Tests are told in their order, whichever was over first.
+  void tell(std::size_t index) {
+    FaultVerdict& verdict = verdicts_[index];
+    for (const std::size_t flight : own_flights(flights_.tests[index])) verdict.wall_s += flown_[flight].wall_s;
+    verdict.flown = true;
+    try {
+      judge(index, verdict);
+    } catch (const std::runtime_error& error) {  // a run that left no result
+      verdict.broken.push_back(tests_[index].said_of("run", error.what()));
+    }
+    print_verdict(console_.out, verdict, options_.verbose);
+    ++(verdict.passed() ? counts_.passed : counts_.failed);
+    write_report();
+  }
+
+  void judge(std::size_t index, FaultVerdict& verdict) const {
+    const FaultTest& test = tests_[index];
+    const FlightsOfTest& flights = flights_.tests[index];
+    const RunRecord own = record_of(flights.own);
+    Evidence evidence{test.plan.scenario, test.plan.faults, own, flown_[flights.own].exit->code, nullptr, {}};
+    std::optional<RunRecord> fault_free;
+    if (flights.fault_free) evidence.fault_free = &fault_free.emplace(record_of(*flights.fault_free));
+    std::map<std::string, RunRecord> repeats;
+    for (const auto& [how, flight] : flights.repeats) repeats.emplace(how, record_of(flight));
+    for (const auto& [how, record] : repeats) evidence.repeats.emplace_back(how, &record);
+    for (const Judgement& judgement : judged(test.expect, evidence)) {
+      const Finding& finding = judgement.finding;
+      const bool tell_time = !finding.holds && finding.at_s;
+      const std::string what = finding.text + (tell_time ? ", at " + number_text(*finding.at_s) + " s" : "");
+      (finding.holds ? verdict.held : verdict.broken).push_back(test.said_of(judgement.path(), what));
+    }
+  }
+
+  /// @throws std::runtime_error, with the end of its log, when it left no result.
+  RunRecord record_of(std::size_t index) const {
+    const fs::path dir = *flights_.flights[index].options.out;
+    if (fs::exists(dir / "result.json")) return read_run(dir);
+    std::string message = "skein run ended with " + flown_[index].exit->text() + " and without a result";
+    for (const std::string& line : last_lines(dir / kLog, kLogLines)) message += "\n       " + line;
+    throw std::runtime_error(message);
+  }
+
+  void write_report() const {
+    if (!options_.junit) return;
+    try {
+      write_file_atomically(*options_.junit, junit_xml("skein test --faults " + options_.faults->string(), verdicts_));
+    } catch (const std::runtime_error& error) {
+      throw InputError("--junit: " + std::string(error.what()));
+    }
+  }
+
+  const std::vector<FaultTest> tests_;
+  const TestOptions& options_;
+  const Console& console_;
+  const FaultFlights flights_;
+  std::vector<Flown> flown_;            ///< by flight
+  std::vector<FaultVerdict> verdicts_;  ///< by test
+  std::size_t told_ = 0;                ///< tests
+  TestCounts counts_;
+};
+
+/// @throws InputError for what would not be noticed before all has flown.
+void check_places(const TestOptions& options) {
+  std::error_code error;
+  fs::create_directories(options.out, error);
+  if (error) throw InputError("--out " + options.out.string() + ": " + error.message());
+  if (options.junit && fs::exists(*options.junit, error) && !fs::is_regular_file(*options.junit, error)) {
+    throw InputError("--junit " + options.junit->string() + ": this is no file");
+  }
+}
+
+}  // namespace
+
+int run_fault_tests(const TestOptions& options, const Console& console) {
+  const auto seeds = options.seeds ? std::optional(parse_seeds(*options.seeds)) : std::nullopt;
+  std::vector<FaultTest> tests = load_all(options);
+  if (seeds) tests = with_seeds(tests, *seeds);
+  check_places(options);
+  const TestCounts counts = FaultTestRun(std::move(tests), options, console).fly();
   console.out << summary_line(counts) << std::endl;
   return counts.failed == 0 ? kExitDone : kExitCheckFailed;
 }

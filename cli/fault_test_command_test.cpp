@@ -7,6 +7,7 @@
 
 #include "cli/fake_programs.hpp"
 #include "cli/test_command.hpp"
+#include "cli/xml_check.hpp"
 
 namespace skein::cli {
 namespace {
@@ -17,9 +18,11 @@ faults=no; dds=none
 for word in $arguments; do
   [ "$word" = --faults ] && faults=yes
   [ "$last" = --dds ] && dds=$word
+  [ "$last" = --seed ] && seed=$word
   last=$word
 done
 echo "$faults $dds ${SKEIN_CHAOS:-calm}" >> "$(dirname "$0")/flights"
+echo "$seed" >> "$(dirname "$0")/seeds"
 cat > "$out/sim_server.report.json" <<END
 {"status": "completed", "deterministic": true, "digest": "DIGEST", "sim_time_s": 20, "faults": [{"began_step": 40}]}
 END
@@ -28,6 +31,7 @@ END
 class FaultTestCommand : public testing::Test {
  protected:
   FaultTestCommand() {
+    std::filesystem::create_symlink(SKEIN_PROGRAM, programs_.dir() / "skein");
     serve("d");
     programs_.script("station", R"(echo '{"score": 3.0, "score_earned": 4.0}' > "$out/station.report.json")");
   }
@@ -46,11 +50,18 @@ class FaultTestCommand : public testing::Test {
                    expect + "}\n");
   }
   int run(TestOptions options = {}) {
+    out_.str("");
     options.faults = programs_.dir() / "tests";
     options.out = programs_.dir() / "results";
     return run_tests(options, {out_, err_, false});
   }
+  /// Where the only expectation of a test stands.
+  std::string place(const std::string& name) const {
+    return (programs_.dir() / "tests" / (name + ".yaml")).string() + ":3";
+  }
   std::string flights() const { return read_text(programs_.dir() / "flights"); }
+
+  std::string seeds() const { return read_text(programs_.dir() / "seeds"); }
 
   FakePrograms programs_;
   std::ostringstream out_, err_;
@@ -60,7 +71,8 @@ TEST_F(FaultTestCommand, SaysWhatPassedAndWhatDidNot) {
   test_file("a_good", "score: 3");
   test_file("b_bad", "score: {at_least: 5}");
   EXPECT_EQ(run(), kExitCheckFailed);
-  EXPECT_EQ(out_.str(), "PASS a_good\nFAIL b_bad\n     score: expected at least 5, seen 3\n     results: " +
+  EXPECT_EQ(out_.str(), "PASS a_good\nFAIL b_bad\n     " + place("b_bad") +
+                            ": expect.score: expected at least 5, seen 3, at 20 s\n     results: " +
                             (programs_.dir() / "results" / "b_bad").string() + "\n1 passed, 1 failed\n");
   EXPECT_TRUE(std::filesystem::exists(programs_.dir() / "results" / "b_bad" / "result.json"));
 }
@@ -111,9 +123,122 @@ TEST_F(FaultTestCommand, AnotherDigestIsAFailure) {
   serve("${SKEIN_CHAOS:-calm}");
   test_file("a", "same_digest: [again, chaos]");
   EXPECT_EQ(run(), kExitCheckFailed);
-  EXPECT_NE(out_.str().find("same_digest: expected the digest \"calm\" of the repetition 'chaos' too, seen \"1\""),
+  EXPECT_NE(out_.str().find("expect.same_digest: expected the digest \"calm\" of the repetition 'chaos' too, seen \"1\""),
             std::string::npos)
       << out_.str();
+}
+
+TEST_F(FaultTestCommand, EachSeedIsATestOfItsOwn) {
+  test_file("a", "score: 3");
+  test_file("b", "score: 4");
+  TestOptions options;
+  options.seeds = "4-5,9";
+  EXPECT_EQ(run(options), kExitCheckFailed);
+  std::vector<std::string> verdicts;
+  std::istringstream lines(out_.str());
+  for (std::string line; std::getline(lines, line);) {
+    if (line.front() != ' ') verdicts.push_back(line);
+  }
+  EXPECT_EQ(verdicts, (std::vector<std::string>{"PASS a-seed-4", "PASS a-seed-5", "PASS a-seed-9", "FAIL b-seed-4",
+                                                "FAIL b-seed-5", "FAIL b-seed-9", "3 passed, 3 failed"}));
+  EXPECT_EQ(seeds(), "4\n5\n9\n4\n5\n9\n");
+}
+
+TEST_F(FaultTestCommand, SideBySideTheOutputIsTheSame) {
+  for (const char* name : {"a", "b", "c", "d", "e"})
+    test_file(name, std::string(name) == "c" ? "score: 9" : "score: 3");
+  EXPECT_EQ(run(), kExitCheckFailed);
+  const std::string alone = out_.str();
+  TestOptions options;
+  options.jobs = 4;
+  EXPECT_EQ(run(options), kExitCheckFailed);
+  EXPECT_EQ(out_.str(), alone);
+}
+
+TEST_F(FaultTestCommand, VerboseTellsWhatWasSeen) {
+  test_file("good", "score: {at_least: 2}");
+  TestOptions options;
+  options.verbose = true;
+  EXPECT_EQ(run(options), kExitDone);
+  EXPECT_TRUE(out_.str().starts_with("PASS good\n")) << out_.str();
+  EXPECT_NE(out_.str().find("     holds: " + place("good") + ": expect.score: expected at least 2, seen 3\n"),
+            std::string::npos)
+      << out_.str();
+}
+
+TEST_F(FaultTestCommand, AReportForOtherPrograms) {
+  test_file("a_good", "score: 3");
+  test_file("b_bad<&\">", "score: {at_least: 5}");
+  TestOptions options;
+  options.junit = programs_.dir() / "report.xml";
+  EXPECT_EQ(run(options), kExitCheckFailed);
+  const std::string text = read_text(*options.junit);
+  ASSERT_TRUE(text.starts_with("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n")) << text;
+  const auto elements = XmlCheck::elements(text.substr(text.find('\n') + 1));
+  std::vector<std::string> names;
+  for (const XmlElement& element : elements) names.push_back(element.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"testsuites", "testsuite", "testcase", "system-out", "testcase", "failure",
+                                             "system-out"}));
+  for (const std::size_t suite : {0u, 1u}) {
+    EXPECT_EQ(elements[suite].attributes.at("tests"), "2");
+    EXPECT_EQ(elements[suite].attributes.at("failures"), "1");
+    EXPECT_EQ(elements[suite].attributes.at("errors"), "0");
+    EXPECT_EQ(elements[suite].attributes.at("skipped"), "0");
+    EXPECT_FALSE(elements[suite].attributes.at("time").empty());
+  }
+  EXPECT_EQ(elements[2].attributes.at("name"), "a_good");
+  EXPECT_EQ(elements[4].attributes.at("name"), "b_bad&lt;&amp;&quot;&gt;");
+  EXPECT_NE(elements[5].attributes.at("message").find("expect.score: expected at least 5, seen 3, at 20 s"),
+            std::string::npos);
+}
+
+TEST_F(FaultTestCommand, OfARunThatLeavesNothingTheReasonIsTold) {
+  programs_.script("comm_router", "");
+  test_file("a", "score: 3");
+  write_script(programs_.dir() / "fails", "echo nobody home >&2; exit 3");
+  std::filesystem::remove(programs_.dir() / "skein");
+  std::filesystem::create_symlink(programs_.dir() / "fails", programs_.dir() / "skein");
+  EXPECT_EQ(run(), kExitCheckFailed);
+  EXPECT_NE(out_.str().find("exit code 3 and without a result\n       nobody home"), std::string::npos) << out_.str();
+}
+
+TEST_F(FaultTestCommand, ABadReportOrSeedIsToldBeforeAnythingFlies) {
+  test_file("a", "score: 3");
+  const auto refused = [&](TestOptions options, const std::string& words) {
+    try {
+      run(options);
+      ADD_FAILURE() << words;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(flights(), "");
+  };
+  TestOptions options;
+  options.junit = programs_.dir() / "none" / "report.xml";
+  refused(options, "--junit: ");
+  options.junit = programs_.dir();
+  refused(options, "this is no file");
+  options.junit = "/dev/null";
+  refused(options, "this is no file");
+  options.junit.reset();
+  options.seeds = "3-x";
+  refused(options, "is no seed");
+  options.seeds.reset();
+  options.agent = programs_.dir() / "nobody";
+  refused(options, "--agent: ");
+}
+
+TEST_F(FaultTestCommand, AnAgentOfOnesOwnFliesTheTests) {
+  write_script(programs_.dir() / "mine",
+               "[ \"$1\" != --list-planners ] || { echo '{}'; exit 0; }\n"
+               "echo \"$*\" >> \"$(dirname \"$0\")/mine.calls\"\n");
+  test_file("a", "exit_code: {at_most: 9}");
+  TestOptions options;
+  options.agent = programs_.dir() / "mine";
+  EXPECT_EQ(run(options), kExitDone) << out_.str();
+  const std::string calls = read_text(programs_.dir() / "mine.calls");
+  EXPECT_NE(calls.find("--uav alpha --planner hover"), std::string::npos) << calls;
+  EXPECT_NE(calls.find("--uav beta --planner hover"), std::string::npos) << calls;
 }
 
 }  // namespace

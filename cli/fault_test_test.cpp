@@ -82,7 +82,8 @@ TEST_F(FaultTestFile, AnythingWrongIsNamedWithItsLine) {
 }
 
 TEST_F(FaultTestFile, AFolderIsAllItsFilesAndAFileIsItself) {
-  EXPECT_EQ(fault_test_files(programs_.dir() / "x.yaml").size(), 1u);
+  EXPECT_EQ(fault_test_files(programs_.dir() / "small.yaml").size(), 1u);
+  EXPECT_THROW(fault_test_files(programs_.dir() / "none.yaml"), InputError);
   write_text(programs_.dir() / "tests_b.yaml", "");
   EXPECT_EQ(fault_test_files(programs_.dir()).back().filename(), "tests_b.yaml");
   std::filesystem::create_directory(programs_.dir() / "empty");
@@ -109,13 +110,20 @@ class JudgedRun : public FaultTestFile {
     Evidence evidence{test.plan.scenario, test.plan.faults, run_, exit_code_, &fault_free_, {}};
     if (again_) evidence.repeats.emplace_back("again", &*again_);
     std::string text;
-    for (const std::string& sentence : broken_expectations(test.expect, evidence)) text += sentence + "\n";
+    for (const Judgement& judgement : judged(test.expect, evidence)) {
+      if (judgement.finding.holds) continue;
+      text += judgement.key + ": " + judgement.finding.text + "\n";
+      place_ = test.said_of(judgement.path(), "");
+      at_s_ = judgement.finding.at_s;
+    }
     return text;
   }
 
   RunRecord run_, fault_free_;
   std::optional<RunRecord> again_;
   int exit_code_ = 0;
+  std::string place_;           ///< of the last that did not hold
+  std::optional<double> at_s_;  ///< and when
 };
 
 TEST_F(JudgedRun, AGoodRunMeetsWhatIsUsual) { EXPECT_EQ(broken(""), ""); }
@@ -192,6 +200,81 @@ TEST_F(JudgedRun, RepetitionsHaveTheSameDigest) {
             "same_digest: expected the digest \"d1\" of the repetition 'again' too, seen \"d2\"; compare  with \n");
   run_.result["digest"] = again_->result["digest"] = nullptr;
   EXPECT_NE(broken("deterministic: false"), "") << "no digest is no equal digest";
+}
+
+TEST_F(JudgedRun, WhatFailsHasItsLineAndItsTime) {
+  const std::string file = (programs_.dir() / "mine.yaml").string();
+  EXPECT_NE(broken("score: 8,\n  points_detected: 3"), "");
+  EXPECT_EQ(place_, file + ":4: expect.points_detected: ");
+  EXPECT_EQ(at_s_, 60.3) << "known at the end";
+  run_.result["deterministic"] = false;
+  EXPECT_NE(broken("score: 8"), "") << "what is usual";
+  EXPECT_EQ(place_, file + ":3: expect.deterministic: ") << "stands nowhere but in `expect`";
+  run_.result["deterministic"] = true;
+  run_.events = {{0, "joined", "alpha", ""}, {200, "left", "alpha", ""}, {240, "left", "beta", ""}};
+  EXPECT_NE(broken("left: [alpha]"), "");
+  EXPECT_EQ(at_s_, 12.0) << "when beta left";
+  EXPECT_NE(broken("uavs: {\n  alpha: {\n  captures: 3}}"), "");
+  EXPECT_EQ(place_, file + ":5: expect.uavs.alpha.captures: ");
+}
+
+TEST_F(JudgedRun, PartsOfARunAreLookedAtAlone) {
+  run_.events = {{110, "released", "alpha", "0"}, {250, "released", "beta", "0"}};
+  run_.scores = {{5.1, 5.0}, {12.1, 8.0}};
+  run_.messages = {{100, "alpha", std::nullopt}, {100, "beta", 105}, {300, "alpha", 310}};
+  for (int tenth = 0; tenth <= 600; ++tenth) {
+    run_.positions.push_back({0.1 * tenth, "alpha", {0.0, 0.0, 1.0}});
+    run_.positions.push_back({0.1 * tenth, "beta", {0.2 * tenth, 0.0, 1.0}});
+  }
+  EXPECT_EQ(broken("during: [{after_s: 10, captures: 2, delivered: 1, acknowledged: 1, score: 3, distance_m: "
+                   "{at_least: 99.9}}]"),
+            "");
+  EXPECT_EQ(broken("during: [{until_s: 10, captures: 1, score: 5, uavs: {alpha: {captures: 1, delivered: 1, "
+                   "acknowledged: 1}}}]"),
+            "");
+  EXPECT_EQ(
+      broken(
+          "during: [{after_s: 30, until_s: 40, distance_m: {at_least: 19.9, at_most: 20.1}, captures: 0, score: 0}]"),
+      "");
+  EXPECT_EQ(broken("during: [{lost: 1, late: 2, uavs: {alpha: {lost: 1, late: 1}}}, {after_s: 6, lost: 0, late: 1}]"),
+            "");
+  EXPECT_EQ(broken("during: [{score: 8}, {after_s: 20, uavs: {alpha: {distance_m: {at_least: 1}}}}]"),
+            "during: expected at least 1 distance_m of alpha from 20 to 60.3 s, seen 0\n");
+  EXPECT_EQ(at_s_, 60.3);
+  EXPECT_EQ(broken("during: [{after_s: 30, until_s: 40, captures: {at_least: 1}}]"),
+            "during: expected at least 1 captures from 30 to 40 s, seen 0\n");
+  EXPECT_EQ(at_s_, 40.0);
+  EXPECT_EQ(broken("during: [{after_s: 3, captures: {at_most: 1}}]"),
+            "during: expected at most 1 captures from 3 to 60.3 s, seen 3\n");
+  EXPECT_EQ(at_s_, 12.0) << "when it became too many";
+}
+
+TEST_F(FaultTestFile, PartsOfARunAreReadStrictly) {
+  const std::string run = kBlackout;
+  refused(run + "expect: {during: [{after_s: 3}]}", "nothing is expected of this time");
+  refused(run + "expect: {during: [{after_s: 30, until_s: 20, score: 1}]}", "must be later than after_s");
+  refused(run + "expect: {during: [{after_s: 61, score: 1}]}", "expect.during[0].after_s: is after the end");
+  refused(run + "expect: {during: [{captured: 1}]}", "unknown key 'expect.during[0].captured'");
+  refused(run + "expect: {during: [{uavs: {gamma: {captures: 1}}}]}", "there is no UAV 'gamma'");
+  refused(run + "expect: {during: [{uavs: {alpha: {score: 1}}}]}", "unknown key 'expect.during[0].uavs.alpha.score'");
+  refused(run + "expect: {during: {score: 1}}", "must be a list");
+}
+
+TEST_F(FaultTestFile, AnotherSeedDrawsOtherTimes) {
+  const FaultTest test = load(
+      "run: {scenario: ./small.yaml, duration_s: 60}\nfaults: [{at_s: [10, 20], until_s: [30, 40], blackout: alpha}]\n"
+      "expect: {}\n");
+  std::set<double> begins;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const FaultTest drawn = with_seed(test, seed);
+    EXPECT_EQ(drawn.plan.options.seed, seed);
+    const Fault& fault = drawn.plan.faults.faults.front();
+    EXPECT_TRUE(fault.at_s >= 10.0 && fault.at_s <= 20.0) << fault.at_s;
+    EXPECT_TRUE(*fault.until_s >= 30.0 && *fault.until_s <= 40.0) << *fault.until_s;
+    EXPECT_EQ(with_seed(test, seed).plan.faults.faults.front().at_s, fault.at_s) << "the same again";
+    begins.insert(fault.at_s);
+  }
+  EXPECT_GT(begins.size(), 15u);
 }
 
 TEST_F(JudgedRun, EveryKindIsInTheTableOnceAndExplained) {

@@ -142,7 +142,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
         "--secure --dds mixed: the vendors' security does not work together reliably; choose cyclonedds or fastdds");
   }
   FleetPlan plan{options, load_scenario(options.scenario, load), {}, bin_dir, {}};
-  plan.faults = load_fault_plan(options.faults.value_or(""), plan.scenario);
+  plan.faults = load_fault_plan(options.faults.value_or(""), plan.scenario, options.seed);
   std::vector<std::string> names;
   for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
   const Planners planners = parse_planners(options.planner, names);

@@ -5,9 +5,11 @@
 #include <exception>
 #include <iostream>
 
+#include "cli/agent_file.hpp"
 #include "cli/bench_command.hpp"
 #include "cli/check_command.hpp"
 #include "cli/environment.hpp"
+#include "cli/fleet_plan.hpp"
 #include "cli/options.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/preflight.hpp"
@@ -16,6 +18,7 @@
 #include "cli/scene_command.hpp"
 #include "cli/study_command.hpp"
 #include "cli/test_command.hpp"
+#include "core/suggestion.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -32,6 +35,15 @@ int diff_runs(const DiffOptions& options, const Console& console) {
   return kExitCheckFailed;
 }
 
+/// Of the agent program that flies by default. Help is given whatever is wrong with it.
+std::string planner_list() try {
+  const std::filesystem::path agent = own_agent({}).value_or(program_dir() / "uav_agent");
+  std::string text = "\nPlanners: " + joined(planners_of(agent)) + "\n";
+  return text + "With a program at the ground station: " + joined(ground_programs_of(agent)) + "\n";
+} catch (const InputError& error) {
+  return std::string("\nPlanners: ") + error.what() + "\n";
+}
+
 /// One overload a command.
 struct Execute {
   const Console& console;
@@ -45,6 +57,7 @@ struct Execute {
   int operator()(const StudyOptions& options) const { return run_study(options, console); }
   int operator()(const HelpText& help) const {
     console.out << help.text;
+    if (help.names_planners) console.out << planner_list();
     return kExitDone;
   }
 };

@@ -1,5 +1,7 @@
 #include "cli/options.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <CLI/CLI.hpp>
 
 #include "cli/option_checks.hpp"
@@ -38,6 +40,14 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
   command->add_option("--out", run.out, "Results folder (default runs/<scenario>-<planner>-<seed>)");
   command->add_flag("--force", run.force, "Overwrite an existing result");
+  command->add_flag("--no-oracle{false}", run.attainable, "Do not ask after the run what could have been had");
+  command->footer(
+      "Examples:\n"
+      "  skein run towers --planner kios\n"
+      "  skein run cranes --planner patrol,jurong=hover --seed 7 --out runs/mine\n"
+      "  skein run towers --planner kios --faults config/faults/station_outage.yaml\n"
+      "  skein run towers --agent build/my_agent --planner orbit\n"
+      "  skein run towers --planner hover,jurong=exec:./my_program");
   return command;
 }
 
@@ -56,8 +66,23 @@ CLI::App* add_test(CLI::App& app, TestOptions& test) {
   command->add_flag("--rotate", test.rotate, "Only one of the repetitions a test, in turn")->needs("--repeat");
   command->add_option("--out", test.out, "Folder of the fault tests' results")->needs(faults)->capture_default_str();
   command->add_option("--assets", test.assets, "Folder with models/ for scenarios that read files")->needs(faults);
-  command->footer("A fault test is described in docs/how-to-test-faults.md; config/faults/ has examples.\n"
-                  "Exit codes: 0 all passed, 1 one failed, 2 a file is wrong.");
+  command->add_option("--agent", test.agent, "Agent program with planners of your own, as for `skein run`")
+      ->needs(faults);
+  command->add_option("--seeds", test.seeds, "Fly each fault test with each of these seeds: 1-20 or 3,5,8")
+      ->needs(faults);
+  command->add_option("--jobs", test.jobs, "Flights at once; results do not depend on it")
+      ->needs(faults)
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command->add_option("--junit", test.junit, "File for a report as JUnit XML, as CI servers read it")->needs(faults);
+  command->add_flag("-v,--verbose", test.verbose, "Tell what was seen where an expectation holds, too")->needs(faults);
+  command->footer(
+      "Examples:\n"
+      "  skein test\n"
+      "  skein test --faults config/faults/station_outage.yaml -v\n"
+      "  skein test --faults my_tests --agent build/my_agent --seeds 1-20 --jobs 2 --junit faults.xml\n\n"
+      "A fault test is described in docs/how-to-test-faults.md; config/faults/ has examples.\n"
+      "Exit codes: 0 all passed, 1 one failed, 2 a file is wrong.");
   return command;
 }
 
@@ -69,6 +94,10 @@ CLI::App* add_check(CLI::App& app, CheckOptions& check) {
   command->add_option("--assets", check.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--scenario", check.scenario, "What fault files are for that name no scenario themselves")
       ->capture_default_str();
+  command->footer(
+      "Examples:\n"
+      "  skein check my_scenario.yaml my_vehicle.yaml my_faults.yaml\n"
+      "  skein check my_faults.yaml --scenario cranes");
   return command;
 }
 
@@ -80,6 +109,7 @@ CLI::App* add_scene(CLI::App& app, SceneOptions& scene) {
   command->add_option("--out", scene.out, "Folder to write to")->required();
   command->add_option("--assets", scene.assets, "Folder with models/ for scenarios that read files");
   command->add_flag("--force", scene.force, "Overwrite an earlier export");
+  command->footer("Example:\n  skein scene towers --scene-seed 3 --out my_scene");
   return command;
 }
 
@@ -97,6 +127,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench) {
   command->add_option("--duration", bench.duration_s, "Mission time of the speed runs [s], instead of the scenario's")
       ->check(CLI::Validator(check_seconds, ""));
   command->add_option("--json", bench.json, "File for all figures");
+  command->footer("Example:\n  skein bench --quick --json bench.json");
   return command;
 }
 
@@ -124,6 +155,7 @@ CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
                     "A sphere about body and rotors keeps the clearance (default then 0), not the camera");
   command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");
   command->add_flag("--json", oracle.json, "All figures, for programs");
+  command->footer("Example:\n  skein oracle towers --clearance 0.5,0.8,1.2");
   return command;
 }
 
@@ -150,7 +182,11 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   command.add_flag("--force", study.force, "Go on in a folder of other settings; flights that fit are kept");
-  command.footer("The same command again goes on where it was stopped. docs/how-to-compare-planners.md has more.");
+  const bool contest = command.get_name() == "contest";
+  command.footer(std::string("Example:\n  skein ") +
+                 (contest ? "contest --planners kios,xxh,star --tests 3 --jobs 2\n\n"
+                          : "compare --planners kios,patrol --scenarios towers,cranes --seeds 1-5 --jobs 2\n\n") +
+                 "The same command again goes on where it was stopped. docs/how-to-compare-planners.md has more.");
 }
 
 CLI::App* add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
@@ -187,6 +223,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "skein " SKEIN_VERSION);
   app.failure_message(CLI::FailureMessage::simple);
+  app.footer("Example:\n  skein run towers --planner kios\n\n`skein COMMAND --help` has the options of a command.");
   RunOptions run;
   TestOptions test;
   CheckOptions check;
@@ -209,12 +246,14 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   CLI::App* diff_command = app.add_subcommand("diff", "First step, entity and field in which two runs differ");
   diff_command->add_option("RUN_A", diff.run_a, "A results folder")->required();
   diff_command->add_option("RUN_B", diff.run_b, "Another one")->required();
+  diff_command->footer("Example:\n  skein diff runs/towers-kios-0 runs/again");
 
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
   try {
     app.parse(std::move(reversed));
   } catch (const CLI::CallForHelp&) {
-    return HelpText{app.help()};  // of the command that was named, if any
+    // Of the command that was named, if any.
+    return HelpText{app.help(), run_command->parsed() || contest_command->parsed() || compare_command->parsed()};
   } catch (const CLI::CallForVersion& version) {
     return HelpText{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& error) {
@@ -232,6 +271,38 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (compare_command->parsed()) return compare;
   if (check.files.empty() && check.golden.empty()) throw InputError("check: give files, or --golden FILE.csv");
   return check;
+}
+
+std::vector<std::string> arguments_of(const RunOptions& run) {
+  std::vector<std::string> arguments = {"run",
+                                        run.scenario,
+                                        "--planner=" + run.planner,
+                                        "--seed=" + std::to_string(run.seed),
+                                        "--dds=" + run.dds,
+                                        "--clock=" + run.clock};
+  const auto add = [&](const std::string& option, const auto& value, const auto& text) {
+    if (value) arguments.push_back(option + "=" + text(*value));
+  };
+  const auto as_it_is = [](const std::string& text) { return text; };
+  const auto path = [](const std::filesystem::path& file) { return file.string(); };
+  const auto number = [](const auto& value) { return fmt::format("{}", value); };
+  add("--agent", run.agent, path);
+  add("--scene-seed", run.scene_seed, number);
+  add("--assets", run.assets, path);
+  add("--duration", run.duration_s, number);
+  add("--rules", run.rules, as_it_is);
+  add("--faults", run.faults, path);
+  add("--debug", run.debug_uav, as_it_is);
+  add("--domain", run.domain, number);
+  add("--stop-at", run.stop_at_s, number);
+  add("--out", run.out, path);
+  for (const auto& [flag, set] : {std::pair("--native", run.native),
+                                  {"--secure", run.secure},
+                                  {"--force", run.force},
+                                  {"--no-oracle", !run.attainable}}) {
+    if (set) arguments.push_back(flag);
+  }
+  return arguments;
 }
 
 }  // namespace skein::cli

@@ -41,6 +41,11 @@ struct TestOptions {
   bool rotate = false;                          ///< one of `repeat` a test, in turn
   std::filesystem::path out = "runs/faults";    ///< results of fault tests
   std::optional<std::filesystem::path> assets;
+  std::optional<std::filesystem::path> agent;  ///< as in RunOptions
+  std::optional<std::string> seeds;            ///< each test with each of these, as StudyOptions has them
+  std::optional<std::filesystem::path> junit;  ///< report of fault tests for those who read XML
+  int jobs = 1;                                ///< flights at once
+  bool verbose = false;                        ///< tell what was seen of expectations that hold too
 };
 
 struct CheckOptions {
@@ -110,6 +115,7 @@ struct StudyOptions {
 /// --help or --version: what to print.
 struct HelpText {
   std::string text;
+  bool names_planners = false;  ///< a list of the planners there are belongs below it
 };
 
 using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
@@ -117,5 +123,8 @@ using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions
 
 /// @param arguments without the program's name. @throws InputError for anything that does not fit.
 Command parse_command_line(const std::vector<std::string>& arguments);
+
+/// The other way: what `skein` must be given for this run.
+std::vector<std::string> arguments_of(const RunOptions& run);
 
 }  // namespace skein::cli

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -71,6 +73,12 @@ TEST(Options, OtherCommands) {
   EXPECT_EQ(parse<DiffOptions>({"diff", "x", "y"}).run_b, "y");
   EXPECT_NE(parse<HelpText>({"--help"}).text.find("diff"), std::string::npos);
   EXPECT_NE(parse<HelpText>({"run", "--help"}).text.find("--stop-at"), std::string::npos);
+  for (const char* command : {"run", "test", "check", "scene", "bench", "oracle", "contest", "compare", "diff"}) {
+    const HelpText help = parse<HelpText>({command, "--help"});
+    EXPECT_NE(help.text.find("Example"), std::string::npos) << command;
+    EXPECT_NE(help.text.find(std::string("skein ") + command), std::string::npos) << command;
+    EXPECT_EQ(help.names_planners, std::set<std::string>({"run", "contest", "compare"}).contains(command)) << command;
+  }
   EXPECT_EQ(parse<HelpText>({"--version"}).text.find("skein "), 0u);
 }
 
@@ -181,6 +189,54 @@ TEST(Options, WhatDoesNotFitIsRefused) {
   for (const auto& arguments : wrong) {
     EXPECT_THROW(parse_command_line(arguments), InputError) << (arguments.empty() ? "" : arguments.back());
   }
+}
+
+TEST(Options, OfARunCanBeWrittenAsArguments) {
+  RunOptions run;
+  const auto same = [](const RunOptions& given) {
+    const auto again = std::get<RunOptions>(parse_command_line(arguments_of(given)));
+    EXPECT_EQ(arguments_of(again), arguments_of(given));
+    return again;
+  };
+  same(run);
+  run.scenario = "./my scenes/a.yaml";
+  run.planner = "hover,jurong=exec:./mine --speed 3, 4";
+  run.seed = 18446744073709551615u;
+  run.scene_seed = 4;
+  run.assets = "/some where";
+  run.duration_s = 0.1;
+  run.rules = "paper";
+  run.faults = "a.yaml";
+  run.dds = "mixed";
+  run.clock = "realtime:2";
+  run.agent = "mine";
+  run.stop_at_s = 1e-3;
+  run.out = "here";
+  run.native = run.secure = run.force = true;
+  run.attainable = false;
+  const RunOptions again = same(run);
+  EXPECT_EQ(again.planner, run.planner);
+  EXPECT_EQ(again.scenario, run.scenario);
+  EXPECT_EQ(again.duration_s, run.duration_s);
+  EXPECT_FALSE(again.attainable);
+  EXPECT_TRUE(again.secure);
+}
+
+TEST(Options, OfFaultTestsBelongToFaultTests) {
+  const auto test = parse<TestOptions>(
+      {"test", "--faults", "d", "--agent", "a", "--jobs", "3", "--seeds", "1-20", "--junit", "x.xml", "-v"});
+  EXPECT_EQ(test.agent, "a");
+  EXPECT_EQ(test.jobs, 3);
+  EXPECT_EQ(test.seeds, "1-20");
+  EXPECT_EQ(test.junit, "x.xml");
+  EXPECT_TRUE(test.verbose);
+  for (const std::vector<std::string>& alone : std::vector<std::vector<std::string>>{
+           {"--agent", "a"}, {"--jobs", "3"}, {"--seeds", "3"}, {"--junit", "x"}, {"-v"}}) {
+    std::vector<std::string> arguments = {"test"};
+    arguments.insert(arguments.end(), alone.begin(), alone.end());
+    EXPECT_THROW(parse_command_line(arguments), InputError) << alone.front();
+  }
+  EXPECT_THROW(parse_command_line({"test", "--faults", "d", "--jobs", "0"}), InputError);
 }
 
 }  // namespace

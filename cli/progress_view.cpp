@@ -73,7 +73,7 @@ void ProgressView::progress(const Json& status, double wall_s) {
   // The body of a UAV whose program is lost still hovers in sight of the station; nobody is in contact with it.
   const std::string lost = joined(status, "lost");
   const std::string in_contact = joined(status, "in_contact", value_or(status, "lost", Json::array()));
-  std::string text = fixed(sim_s, 1) + " s";
+  std::string text = "simulated " + fixed(sim_s, 1) + " s";
   const Json phase = value_or(status, "phase", "");
   text += phase == "flying" || phase == "ended"
               ? ", mission " + fixed(mission_s, 0) + " of " + fixed(duration_s, 0) + " s"

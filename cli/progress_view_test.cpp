@@ -30,7 +30,7 @@ TEST(ProgressView, TheLineTellsTimeSpeedScoreAndContact) {
   view.tally({{"type", "tally"}, {"points", 12}, {"score", 3.5}, {"earned", 4.0}});
   view.progress(progress(0.0, 0.0), 1.0);
   view.progress(progress(40.0, 38.0), 3.0);
-  EXPECT_EQ(out.str(), "40.0 s, mission 38 of 100 s, x20.0, points 12, score 3.5, in contact: alpha\n");
+  EXPECT_EQ(out.str(), "simulated 40.0 s, mission 38 of 100 s, x20.0, points 12, score 3.5, in contact: alpha\n");
 }
 
 TEST(ProgressView, ATerminalLineIsRewrittenAndMessagesStandAboveIt) {
@@ -40,9 +40,9 @@ TEST(ProgressView, ATerminalLineIsRewrittenAndMessagesStandAboveIt) {
   view.progress(progress(0.5, 0.0, "waiting"), 0.1);
   view.message("hello");
   view.finish();
-  EXPECT_EQ(
-      out.str(),
-      "\rwaiting for alpha, station\r0.5 s, before take-off, x0.0, points 0, score 0.0, in contact: alpha\nhello\n");
+  EXPECT_EQ(out.str(),
+            "\rwaiting for alpha, station\rsimulated 0.5 s, before take-off, x0.0, points 0, score 0.0, in contact: "
+            "alpha\nhello\n");
 }
 
 TEST(ProgressView, WrongStatusIsHarmless) {

@@ -31,6 +31,13 @@ RunRecord read_run(const std::filesystem::path& dir) {
     if (const auto arrives = table.number_if_any("arrives")) row.arrives = static_cast<std::uint64_t>(*arrives);
     record.messages.push_back(std::move(row));
   }
+  for (CsvTable table(dir / "trajectories.csv"); table.next();) {
+    const Vector3d p_W(table.number("x"), table.number("y"), table.number("z"));
+    record.positions.push_back({table.number("time_s"), table.text("uav"), p_W});
+  }
+  for (CsvTable table(dir / "score_timeline.csv"); table.next();) {
+    record.scores.push_back({table.number("time_s"), table.number("score")});
+  }
   return record;
 }
 

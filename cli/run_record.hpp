@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/run_result.hpp"
+#include "core/types.hpp"
 
 namespace skein::cli {
 
@@ -40,12 +41,26 @@ struct MessageRow {
   std::optional<std::uint64_t> arrives;  ///< step; none: lost
 };
 
+/// Where a UAV was (trajectories.csv).
+struct PositionRow {
+  double time_s = 0.0;
+  std::string uav;
+  Vector3d p_W;
+};
+
+/// The delivered score from this time on (score_timeline.csv).
+struct ScoreRow {
+  double time_s = 0.0, score = 0.0;
+};
+
 struct RunRecord {
   std::filesystem::path dir;
   Json result;
-  std::vector<CaptureRow> captures;  ///< in the ledger's order
-  std::vector<EventRow> events;      ///< by step
-  std::vector<MessageRow> messages;  ///< by step
+  std::vector<CaptureRow> captures;    ///< in the ledger's order
+  std::vector<EventRow> events;        ///< by step
+  std::vector<MessageRow> messages;    ///< by step
+  std::vector<PositionRow> positions;  ///< by time
+  std::vector<ScoreRow> scores;        ///< by time
 };
 
 /// captures.csv of a run. @throws std::runtime_error when a row makes no sense.

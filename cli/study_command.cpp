@@ -10,6 +10,7 @@
 #include "cli/study_csv.hpp"
 #include "cli/study_page.hpp"
 #include "core/atomic_file.hpp"
+#include "core/sha256.hpp"
 #include "core/suggestion.hpp"
 #include "core/types.hpp"
 
@@ -64,7 +65,7 @@ Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
               {},
               plan.command_line,
               plan.settings["skein_version"],
-              plan.settings["programs"],
+              Sha256().add(plan.settings["programs"].dump() + plan.settings["agents"].dump()).hex(),
               plan.options.dds,
               plan.options.jobs};
   std::vector<std::string> conditions;

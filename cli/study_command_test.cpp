@@ -19,10 +19,12 @@ for argument; do
     --out=*) out=${argument#--out=} ;;
     --seed=*) seed=${argument#--seed=} ;;
     --planner=*) planner=${argument#--planner=} ;;
+    --agent=*) agent=${argument##*/} ;;
   esac
 done
 here=$(dirname "$0")
 echo "$planner $seed" >> "$here/flights.txt"
+echo "$agent" >> "$here/agents.txt"
 score=$((10 * seed))
 [ "$planner" != patrol ] || score=$((score + 1000))
 code=0
@@ -50,6 +52,7 @@ class StudyCommand : public ::testing::Test {
   }
   /// What was flown in the last call, a line each.
   std::string flown() const { return read_text(programs_.dir() / "flights.txt"); }
+  std::string agents() const { return read_text(programs_.dir() / "agents.txt"); }
   void hook(const std::string& body) const { write_text(programs_.dir() / "hook", body); }
   std::string file(const std::string& name) const { return read_text(*options_.out / name); }
   std::string refusal() try {
@@ -111,6 +114,41 @@ TEST_F(StudyCommand, OtherSettingsInTheSameFolderAreRefusedUnlessForced) {
   options_.force = true;
   EXPECT_EQ(run(), kExitDone);
   EXPECT_EQ(std::ranges::count(flown(), '\n'), 9) << "flights of another build do not count";
+}
+
+/// An agent program with planners of these names.
+std::string agent_script(const std::string& planners, const std::string& build) {
+  return "[ \"$1\" != --list-planners ] || echo '{\"planners\": [" + planners + "], \"ground_programs\": []}'\n# " +
+         build + "\n";
+}
+
+TEST_F(StudyCommand, AnAgentOfOnesOwnBuiltAnewFliesItsOwnPlannersAgainAndNoOthers) {
+  const auto mine = programs_.dir() / "mine";
+  write_script(programs_.dir() / "uav_agent", agent_script("\"hover\", \"patrol\"", "stock"));
+  write_script(mine, agent_script("\"hover\", \"orbit\", \"patrol\"", "first"));
+  options_.agent = mine;
+  options_.planner_lists = {"hover,orbit"};
+  options_.planners = {"alpha=orbit,beta=hover"};
+  options_.seeds = "1";
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(flown(), "hover 0\norbit 0\nalpha=orbit,beta=hover 0\n");
+  EXPECT_EQ(agents(), "uav_agent\nmine\nmine\n");
+
+  write_script(mine, agent_script("\"hover\", \"orbit\", \"patrol\"", "second"));
+  EXPECT_NE(refusal().find("the agent program was built anew that flies orbit, alpha=orbit,beta=hover"),
+            std::string::npos)
+      << refusal();
+  options_.force = true;
+  ASSERT_EQ(run(), kExitDone);
+  EXPECT_EQ(flown(), "orbit 0\nalpha=orbit,beta=hover 0\n");
+
+  options_.force = false;
+  EXPECT_EQ(run(), kExitDone) << "nothing has changed";
+  EXPECT_EQ(flown(), "");
+  write_script(programs_.dir() / "uav_agent", agent_script("\"hover\", \"patrol\"", "anew"));
+  options_.force = true;
+  ASSERT_EQ(run(), kExitDone);
+  EXPECT_EQ(flown(), "hover 0\n");
 }
 
 TEST_F(StudyCommand, AChangedParameterFileMakesANewFlight) {

@@ -5,11 +5,10 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
-#include <map>
 
 #include "cli/environment.hpp"
 #include "cli/fleet_plan.hpp"
-#include "cli/supervisor.hpp"
+#include "cli/side_by_side.hpp"
 #include "core/atomic_file.hpp"
 
 namespace skein::cli {
@@ -52,50 +51,36 @@ class StudyRun {
   }
 
   StudyOutcomes fly() {
+    std::deque<std::size_t> waiting;
     for (std::size_t i = 0; i < plan_.flights.size(); ++i) {
       if (auto outcome = flown_before(plan_.flights[i])) {
         outcomes_.flights[i] = std::move(*outcome);
         ++over_;
       } else {
-        waiting_.push_back(i);
+        waiting.push_back(i);
         left_s_ += plan_.flights[i].mission_s;
       }
     }
     if (over_ > 0) tell(fmt::format("{} of {} flights are there already", over_, plan_.flights.size()));
-    const std::size_t at_once = static_cast<std::size_t>(plan_.options.jobs);
-    for (;;) {
-      while (!outcomes_.interrupted && in_the_air_.size() < at_once && !waiting_.empty()) {
-        start(waiting_.front());
-        waiting_.pop_front();
-      }
-      if (in_the_air_.empty()) break;
-      for (const Event& event : supervisor_.wait(std::chrono::milliseconds(-1))) {
-        if (event.kind == Event::Kind::interrupt) on_interrupt();
-        if (event.kind == Event::Kind::exited) on_exit(in_the_air_.extract(event.program).mapped(), event.exit);
-      }
-    }
+    SideBySide sky(static_cast<std::size_t>(plan_.options.jobs), console_);
+    outcomes_.interrupted = !sky.fly(
+        std::move(waiting), [this](std::size_t index) { return start(index); },
+        [this](std::size_t index, const ExitStatus& exit) { on_exit(index, exit); });
     return std::move(outcomes_);
   }
 
  private:
-  void start(std::size_t index) {
+  ProgramSpec start(std::size_t index) const {
     const StudyFlight& flight = plan_.flights[index];
     fs::create_directories(flight.dir);
     fs::remove(flight.dir / kMark);
-    const std::string name = "flight " + std::to_string(index);
-    supervisor_.start(
-        {name, flight_arguments(plan_, flight, program_dir() / "skein"), environment_with({}), flight.dir / kLog});
-    in_the_air_[name] = index;
+    return {"", flight_arguments(plan_, flight, program_dir() / "skein"), environment_with({}), flight.dir / kLog};
   }
 
   void on_exit(std::size_t index, const ExitStatus& exit) {
     const StudyFlight& flight = plan_.flights[index];
     StudyOutcome& outcome = outcomes_.flights[index];
     Json result = read_json(flight.dir / "result.json");
-    if (exit.code == kExitInterrupted || (outcomes_.interrupted && !exit.ok())) {
-      outcomes_.interrupted = true;  // also when only this flight was told to end
-      return;
-    }
     if (!exit.ok() || !went_to_its_end(result)) outcome.problem = problem_of(flight, result, exit);
     if (went_to_its_end(result)) outcome.result = std::move(result);
     write_file_atomically(flight.dir / kMark,
@@ -121,20 +106,11 @@ class StudyRun {
     return news;
   }
 
-  void on_interrupt() {
-    if (!outcomes_.interrupted) tell("ending the flights in the air; press Ctrl-C again to end them at once");
-    outcomes_.interrupted = true;
-    for (const auto& [name, index] : in_the_air_) supervisor_.signal(name, SIGINT);
-  }
-
   void tell(const std::string& text) const { console_.err << text << std::endl; }
 
   const StudyPlan& plan_;
   const Console& console_;
-  Supervisor supervisor_;
   StudyOutcomes outcomes_;
-  std::deque<std::size_t> waiting_;
-  std::map<std::string, std::size_t> in_the_air_;  ///< index of the flight by program
   std::size_t over_ = 0;
   double flown_s_ = 0.0, left_s_ = 0.0;  ///< of mission time, in this call
   const Clock::time_point started_ = Clock::now();

@@ -3,8 +3,10 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
+#include "cli/agent_file.hpp"
 #include "cli/fleet_plan.hpp"
 #include "cli/preflight.hpp"
 #include "cli/study_spec.hpp"
@@ -71,13 +73,37 @@ RunOptions run_options(const StudyOptions& options, const std::string& scenario,
   return run;
 }
 
-/// Of all programs that fly; the launcher only watches.
+/// Of the programs that fly with every planner; the launcher only watches.
 std::string programs_digest(const FleetPlan& plan) {
   Sha256 hash;
   for (const char* name : {"sim_server", "comm_router", "station"}) {
     hash.add(read_file_bytes(plan.bin_dir / name, kLargestFile));
   }
-  return hash.add(read_file_bytes(agent_file(plan), kLargestFile)).hex();
+  return hash.hex();
+}
+
+/// Digests of agent programs, each read once.
+class AgentDigests {
+ public:
+  const std::string& of(const fs::path& agent) {
+    std::string& digest = digests_[agent];
+    if (digest.empty()) digest = Sha256().add(read_file_bytes(agent, kLargestFile)).hex();
+    return digest;
+  }
+
+ private:
+  std::map<fs::path, std::string> digests_;
+};
+
+/// Whether uav_agent itself has all of a fleet's planners: then it flies them, and what they did does not fall due again
+/// when the user's own agent is built anew.
+bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& built_in) {
+  const auto is_built_in = [&](const std::string& spec) {
+    return exec_command(spec) || std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;
+  };
+  const auto& uavs = plan.planners;
+  return std::all_of(uavs.begin(), uavs.end(), [&](const UavPlanner& uav) { return is_built_in(uav.spec); }) &&
+         (!plan.ground || is_built_in(*plan.ground));
 }
 
 /// The file that a planner takes its parameters from, if any: "kios:mine.yaml,voxel_m=4".
@@ -117,9 +143,14 @@ void check_with_programs(const FleetPlan& plan, bool with_server) {
   }
 }
 
-Json flight_command(const FleetPlan& plan, const std::string& programs) {
-  return {{"skein_version", SKEIN_VERSION},  {"programs", programs},        {"scenario", plan.options.scenario},
-          {"planner", plan.options.planner}, {"input", input_digest(plan)}, {"dds", plan.options.dds}};
+Json flight_command(const FleetPlan& plan, const std::string& programs, const std::string& agent) {
+  return {{"skein_version", SKEIN_VERSION},
+          {"programs", programs},
+          {"agent", agent},
+          {"scenario", plan.options.scenario},
+          {"planner", plan.options.planner},
+          {"input", input_digest(plan)},
+          {"dds", plan.options.dds}};
 }
 
 std::string command_line(const StudyPlan& plan) {
@@ -166,15 +197,24 @@ StudyPlan plan_study(const StudyOptions& options) {
 
   std::string programs;
   std::vector<StudyFlight> of_one_seed;
-  Json inputs = Json::object();
+  Json inputs = Json::object(), agents = Json::object();
+  AgentDigests digests;
+  const auto built_in =
+      own_agent(options.agent) ? planners_of(program_dir() / "uav_agent") : std::vector<std::string>{};
   for (std::size_t s = 0; s < plan.scenarios.size(); ++s) {
     for (std::size_t p = 0; p < plan.planners.size(); ++p) {
-      const FleetPlan fleet = plan_fleet(run_options(options, plan.scenarios[s], plan.planners[p]), program_dir());
+      FleetPlan fleet = plan_fleet(run_options(options, plan.scenarios[s], plan.planners[p]), program_dir());
+      if (fleet.agent && are_all_built_in(fleet, built_in)) {
+        fleet.options.agent = fleet.bin_dir / "uav_agent";
+        fleet = plan_fleet(fleet.options, fleet.bin_dir);
+      }
       check_with_programs(fleet, p == 0);
       if (programs.empty()) programs = programs_digest(fleet);
       const fs::path dir = plan.out / "flights" / scenario_folders[s] / planner_folders[p];
-      const Json command = flight_command(fleet, programs);
-      of_one_seed.push_back({p, s, 0, dir, fleet.scenario.duration_s, command});
+      const std::string& agent = digests.of(agent_file(fleet));
+      const Json command = flight_command(fleet, programs, agent);
+      of_one_seed.push_back({p, s, 0, dir, fleet.scenario.duration_s, fleet.options.agent, command});
+      agents[plan.planners[p]] = agent;
       inputs[plan.scenarios[s] + ", " + plan.planners[p]] = command["input"];
     }
   }
@@ -196,6 +236,7 @@ StudyPlan plan_study(const StudyOptions& options) {
                    {"rules", options.rules ? Json(*options.rules) : Json()},
                    {"dds", options.dds},
                    {"programs", programs},
+                   {"agents", agents},
                    {"inputs", inputs}};
   plan.command_line = command_line(plan);
   return plan;
@@ -206,7 +247,13 @@ std::vector<std::string> differing_settings(const Json& then, const Json& now) {
   for (const auto& [key, value] : now.items()) {
     const Json former = value_or(then, key.c_str(), nullptr);
     if (former == value || key == "inputs") continue;
-    if (key == "programs") {
+    if (key == "agents") {
+      std::vector<std::string> planners;
+      for (const auto& [planner, digest] : value.items()) {
+        if (former.is_object() && former.contains(planner) && former[planner] != digest) planners.push_back(planner);
+      }
+      if (!planners.empty()) differences.push_back("the agent program was built anew that flies " + joined(planners));
+    } else if (key == "programs") {
       differences.push_back("the programs were built anew");
     } else {
       differences.push_back(key + ": then " + plain(former) + ", now " + plain(value));
@@ -226,20 +273,13 @@ std::vector<std::string> differing_settings(const Json& then, const Json& now) {
 }
 
 std::vector<std::string> flight_arguments(const StudyPlan& plan, const StudyFlight& flight, const fs::path& skein) {
-  const StudyOptions& options = plan.options;
-  std::vector<std::string> arguments = {skein,
-                                        "run",
-                                        plan.scenarios[flight.scenario],
-                                        "--planner=" + plan.planners[flight.planner],
-                                        "--seed=" + std::to_string(flight.seed),
-                                        "--dds=" + options.dds,
-                                        "--out=" + flight.dir.string(),
-                                        "--force"};
-  if (options.scene_seed) arguments.push_back("--scene-seed=" + std::to_string(*options.scene_seed));
-  if (options.assets) arguments.push_back("--assets=" + options.assets->string());
-  if (options.duration_s) arguments.push_back("--duration=" + fmt::format("{}", *options.duration_s));
-  if (options.rules) arguments.push_back("--rules=" + *options.rules);
-  if (options.agent) arguments.push_back("--agent=" + options.agent->string());
+  RunOptions run = run_options(plan.options, plan.scenarios[flight.scenario], plan.planners[flight.planner]);
+  run.seed = flight.seed;
+  run.agent = flight.agent;
+  run.out = flight.dir;
+  run.force = true;
+  std::vector<std::string> arguments = arguments_of(run);
+  arguments.insert(arguments.begin(), skein);
   return arguments;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ struct StudyFlight {
   std::size_t planner = 0, scenario = 0;  ///< indices in the plan
   std::uint64_t seed = 0;
   std::filesystem::path dir;
-  double mission_s = 0.0;  ///< at most
+  double mission_s = 0.0;                      ///< at most
+  std::optional<std::filesystem::path> agent;  ///< program that flies it; nullopt: the user named none
   /// All that its result depends on; a result that was made under the same needs no second flight.
   Json command;
 };

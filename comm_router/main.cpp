@@ -67,7 +67,7 @@ int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSigna
   auto load = options.load_options();
   load.needs_scene_files = false;
   const skein::Scenario scenario = skein::load_scenario(options.scenario, load);
-  const skein::FaultPlan faults = skein::load_fault_plan(options.faults, scenario);
+  const skein::FaultPlan faults = skein::load_fault_plan(options.faults, scenario, options.seed);
   const std::filesystem::path counts = options.out / "comm_router.counts";
   skein::StatusPipe status(options.status_fd);
   if (settle_only) return settle(options.out, counts, scenario, status);

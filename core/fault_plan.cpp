@@ -1,15 +1,18 @@
 #include "core/fault_plan.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <iterator>
 #include <limits>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include "core/config_files.hpp"
 #include "core/config_node.hpp"
 #include "core/config_reader.hpp"
+#include "core/random_stream.hpp"
 #include "core/suggestion.hpp"
 
 namespace skein {
@@ -24,10 +27,41 @@ Tick tick_at_or_after(double time_s) { return static_cast<Tick>(std::ceil(time_s
 
 // ---- the file ---------------------------------------------------------------------------------------------------
 
+/// Times that a fault may begin or end at: one, or those between two, of which the run's seed draws one.
+struct TimeRange {
+  double earliest_s = 0.0, latest_s = 0.0;
+
+  /// A whole number of milliseconds, unless there is nothing to draw.
+  double drawn(std::uint64_t seed, std::size_t fault, std::uint64_t which) const {
+    if (earliest_s == latest_s) return earliest_s;
+    RandomStream stream(seed, "fault_time", fault, which);
+    return std::round(1e3 * stream.uniform(earliest_s, latest_s)) / 1e3;
+  }
+};
+
+/// `8`, or `[8, 12]`; `time` stays what it is when the key is absent.
+template <class R>
+void read_time(R& r, const std::string& key, const Bounds& bounds, std::optional<TimeRange>& time,
+               bool required = false) {
+  std::variant<std::string, std::array<double, 2>> given;
+  required ? r.required(key, given, bounds) : r.field(key, given, bounds);
+  if (!r.has(key)) return;
+  if (const auto* range = std::get_if<1>(&given)) {
+    time = TimeRange{range->front(), range->back()};
+    r.check(time->earliest_s <= time->latest_s, key, "must be a time, or [earliest, latest]");
+    return;
+  }
+  const std::string& text = std::get<std::string>(given);
+  double value = 0.0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = !text.empty() && end.ec == std::errc() && end.ptr == text.data() + text.size();
+  r.check(is_number && bounds.contain(value), key, "must be a number " + bounds.text() + ", or [earliest, latest]");
+  time = TimeRange{value, value};
+}
+
 /// A fault as the file has it: times, and exactly one of the actions.
 struct FaultEntry {
-  double at_s = 0.0;
-  std::optional<double> until_s;
+  std::optional<TimeRange> at_s, until_s;
   std::optional<LinkEffect> link;
   std::optional<std::vector<std::vector<std::string>>> partition;
   std::optional<std::string> blackout, kill, pause, lidar_failure, camera_failure;
@@ -37,8 +71,8 @@ struct FaultEntry {
 
   template <class R>
   void describe(R& r) {
-    r.required("at_s", at_s, within(0.0, 36000.0));
-    r.field("until_s", until_s, Bounds{0.0, 36000.0, true});
+    read_time(r, "at_s", within(0.0, 36000.0), at_s, true);
+    read_time(r, "until_s", Bounds{0.0, 36000.0, true}, until_s);
     r.field("link", link);
     r.field("partition", partition);
     r.field("blackout", blackout);
@@ -49,6 +83,14 @@ struct FaultEntry {
     r.field("camera_failure", camera_failure);
     r.field("motor_failure", motor_failure);
     r.field("command_delay", command_delay);
+  }
+
+  /// As long as any seed can make it, and as short.
+  Fault longest(const FaultAction& action) const {
+    return {at_s->earliest_s, until_s ? std::optional(until_s->latest_s) : std::nullopt, action};
+  }
+  Fault shortest(const FaultAction& action) const {
+    return {at_s->latest_s, until_s ? std::optional(until_s->earliest_s) : std::nullopt, action};
   }
 
   /// In the order of the keys above.
@@ -141,9 +183,10 @@ class FaultChecker {
     members_.insert(members_.end(), {"station", "comm_router"});
   }
 
-  void check(const Fault& fault, const std::string& path) {
-    check_times(fault, path);
-    const std::string key = path + "." + key_of(fault.action);
+  /// @param longest  as long as any seed can make it. @param shortest  and as short
+  void check(const Fault& longest, const Fault& shortest, const std::string& path) {
+    check_times(longest, shortest, path);
+    const std::string key = path + "." + key_of(longest.action);
     std::visit(Overloaded{[&](const LinkEffect& f) { check_link(f, key); },
                           [&](const Partition& f) { check_partition(f, key); },
                           [&](const Blackout& f) { check_name(f.uav, uavs_, key, "UAV"); }, [](const StationOutage&) {},
@@ -153,18 +196,19 @@ class FaultChecker {
                           [&](const CameraFailure& f) { check_name(f.uav, uavs_, key, "UAV"); },
                           [&](const MotorFailure& f) { check_name(f.uav, uavs_, key + ".uav", "UAV"); },
                           [&](const CommandDelay& f) { check_name(f.uav, uavs_, key + ".uav", "UAV"); }},
-               fault.action);
-    check_contradiction(fault, path);
+               longest.action);
+    check_contradiction(longest, path);
   }
 
  private:
-  void check_times(const Fault& fault, const std::string& path) {
+  void check_times(const Fault& longest, const Fault& shortest, const std::string& path) {
     const std::string end = text(scenario_.duration_s);
-    errors_.check(fault.at_s < scenario_.duration_s, path + ".at_s",
+    errors_.check(shortest.at_s < scenario_.duration_s, path + ".at_s",
                   "is after the end: the mission of '" + scenario_.name + "' lasts " + end + " s");
-    if (!fault.until_s) return;
-    errors_.check(*fault.until_s > fault.at_s, path + ".until_s", "must be later than at_s, " + text(fault.at_s));
-    errors_.check(*fault.until_s <= scenario_.duration_s, path + ".until_s",
+    if (!longest.until_s) return;
+    errors_.check(shortest.until_s > shortest.at_s, path + ".until_s",
+                  "must be later than at_s, " + text(shortest.at_s));
+    errors_.check(*longest.until_s <= scenario_.duration_s, path + ".until_s",
                   "is after the end: the mission of '" + scenario_.name + "' lasts " + end +
                       " s; leave the key out for a fault that lasts to the end");
   }
@@ -292,7 +336,7 @@ std::vector<std::uint8_t> cut_links(const FaultPlan& plan, const Scenario& scena
   return cut;
 }
 
-FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& scenario) {
+FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& scenario, std::uint64_t seed) {
   FaultPlan plan;
   if (file.empty()) return plan;
   ConfigDocument document = read_fault_file(file);
@@ -319,8 +363,9 @@ FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& sce
                      std::to_string(actions.size()));
     errors.check(entry.station_outage.value_or(true), path + ".station_outage", "must be true, or be left out");
     if (actions.size() != 1) continue;
-    plan.faults.push_back({entry.at_s, entry.until_s, actions.front()});
-    checker.check(plan.faults.back(), path);
+    Fault& fault = plan.faults.emplace_back(entry.at_s->drawn(seed, i, 0), std::nullopt, actions.front());
+    if (entry.until_s) fault.until_s = entry.until_s->drawn(seed, i, 1);
+    checker.check(entry.longest(fault.action), entry.shortest(fault.action), path);
   }
   errors.throw_if_any();
   return plan;

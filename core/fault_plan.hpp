@@ -103,9 +103,11 @@ std::vector<std::uint8_t> cut_links(const FaultPlan& plan, const Scenario& scena
 /// config/faults/ or beside this one.
 /// @param file      empty: an empty plan.
 /// @param scenario  whose nodes may be named, and whose mission's end no time may exceed.
+/// @param seed      of the run: draws the times that the file leaves open (`at_s: [8, 12]`); every program that loads
+///   the file must be given the same.
 /// @throws InputError naming file, line and key: a node, UAV or program that does not exist, a time after the end, an
 ///   end before its beginning, a probability above 1, an event with no action or two, and events that contradict each
 ///   other (the same thing failing twice at once).
-FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& scenario);
+FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& scenario, std::uint64_t seed = 0);
 
 }  // namespace skein

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 namespace skein {
 namespace {
@@ -98,6 +99,31 @@ TEST_F(FaultFile, ActsFromItsFirstTickToBeforeItsLast) {
   EXPECT_TRUE(plan.faults[0].active(ticks(10.0)));
   EXPECT_TRUE(plan.faults[0].active(ticks(12.5) - 1));
   EXPECT_FALSE(plan.faults[0].active(ticks(12.5)));
+}
+
+TEST_F(FaultFile, TimesMayBeDrawnByTheSeed) {
+  const std::string text =
+      "faults: [{at_s: [8, 12], until_s: [20, 21], blackout: changi}, {at_s: [8, 12], kill: jurong}]";
+  load(text);
+  std::set<double> begins, ends;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const FaultPlan plan = load_fault_plan(file_, fleet(), seed);
+    const Fault &first = plan.faults[0], &second = plan.faults[1];
+    EXPECT_TRUE(first.at_s >= 8.0 && first.at_s <= 12.0) << first.at_s;
+    EXPECT_TRUE(*first.until_s >= 20.0 && *first.until_s <= 21.0) << *first.until_s;
+    EXPECT_NE(first.at_s, second.at_s) << "each fault draws its own";
+    EXPECT_EQ(load_fault_plan(file_, fleet(), seed).faults[0].at_s, first.at_s);
+    begins.insert(first.at_s);
+    ends.insert(*first.until_s);
+  }
+  EXPECT_GT(begins.size(), 40u);
+  EXPECT_GT(ends.size(), 40u);
+  refused("faults: [{at_s: [12, 8], blackout: changi}]", "at_s: must be a time, or [earliest, latest]");
+  refused("faults: [{at_s: [8], blackout: changi}]", "faults[0].at_s");
+  refused("faults: [{at_s: [8, x], blackout: changi}]", "faults[0].at_s[1]: must be a number");
+  refused("faults: [{at_s: [8, 12], until_s: 12, blackout: changi}]", "must be later than at_s, 12");
+  refused("faults: [{at_s: [8, 12], until_s: [11, 14], blackout: changi}]", "must be later than at_s, 12");
+  refused("faults: [{at_s: 1, until_s: [2, 9], blackout: changi}, {at_s: [8, 12], blackout: changi}]", "contradicts");
 }
 
 TEST_F(FaultFile, WrongOnesAreRefusedWithLineAndKey) {

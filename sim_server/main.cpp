@@ -122,7 +122,7 @@ int run(const skein::ProgramOptions& options, const ServerOptions& server, skein
                                           .agent_timeout_s = server.agent_timeout_s,
                                           .startup_timeout_s = startup_timeout_s(server, scenario),
                                           .expect_gcs_program = server.ground_program,
-                                          .faults = skein::load_fault_plan(options.faults, scenario)};
+                                          .faults = skein::load_fault_plan(options.faults, scenario, options.seed)};
   skein::Scene scene = skein::sim::load_scene(scenario);
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) {
