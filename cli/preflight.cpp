@@ -1,10 +1,14 @@
 #include "cli/preflight.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <cstdlib>
 #include <map>
 #include <stdexcept>
 
+#include "core/suggestion.hpp"
 #include "core/types.hpp"
+#include "core/wait_notice.hpp"
 
 namespace skein::cli {
 namespace {
@@ -19,12 +23,17 @@ std::string message_of(const ProgramSpec& program) {
 }
 
 /// Runs programs side by side until the last has ended.
-std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& programs) {
+std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& programs, const TellWaiting& tell) {
   Supervisor supervisor;
   for (const ProgramSpec& program : programs) supervisor.start(program);
   std::map<std::string, ExitStatus> exits;
+  WaitNotice notice(WaitNotice::Clock::now());
   while (!supervisor.running().empty()) {
-    for (const Event& event : supervisor.wait(std::chrono::milliseconds(-1))) {
+    const auto waited_s = notice.due(WaitNotice::Clock::now());
+    if (tell && waited_s) {
+      tell(fmt::format("waiting for {} to check its input ({:.0f} s)", joined(supervisor.running()), *waited_s));
+    }
+    for (const Event& event : supervisor.wait(notice.left(WaitNotice::Clock::now()))) {
       if (event.kind == Event::Kind::interrupt) {
         supervisor.end_all(kGrace);
         throw Interrupted{};
@@ -37,8 +46,8 @@ std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& progra
 
 }  // namespace
 
-std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs) {
-  const std::map<std::string, ExitStatus> exits = run_all(programs);
+std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs, const TellWaiting& tell) {
+  const std::map<std::string, ExitStatus> exits = run_all(programs, tell);
   std::vector<std::string> warnings;
   for (const ProgramSpec& program : programs) {
     const ExitStatus exit = exits.at(program.name);
@@ -53,7 +62,7 @@ std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs) {
   return warnings;
 }
 
-ExitStatus run_to_end(const ProgramSpec& program) { return run_all({program}).at(program.name); }
+ExitStatus run_to_end(const ProgramSpec& program) { return run_all({program}, {}).at(program.name); }
 
 ScratchDir::ScratchDir() {
   std::error_code error;

@@ -11,6 +11,7 @@
 #include "idl/conversions.hpp"
 #include "sim_server/referee.hpp"
 #include "sim_server/scene_warnings.hpp"
+#include "sim_server/wait_teller.hpp"
 
 namespace skein::sim {
 namespace {
@@ -21,6 +22,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kMatchPoll{2};
 constexpr milliseconds kIdlePoll{100};
 constexpr milliseconds kProgressPeriod{200};
+/// For the step that is under way when the user ends the run.
+constexpr double kStopPatience_s = 2.0;
 
 double elapsed_s(std::chrono::steady_clock::time_point since) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
@@ -71,7 +74,10 @@ void SimNode::declare_members() {
 }
 
 void SimNode::request_stop() {
-  inbox_.post([this] { stop_requested_ = true; });
+  inbox_.post([this] {
+    if (!stop_requested_) stop_requested_at_ = Clock::now();
+    stop_requested_ = true;
+  });
 }
 
 void SimNode::abort() {
@@ -116,25 +122,21 @@ RunSummary SimNode::run() {
   if (options_.realtime_factor || summary_.status == "interrupted" || aborted_) summary_.deterministic = false;
   if (summary_.deterministic) summary_.digest = digest_.hex();
   files_.write_report(simulation_, summary_);
-  report_progress(true);
-  status_.send({{"type", "ended"}, {"status", summary_.status}});
+  if (joined) report_progress(true);  // else there was no step to report
+  status_.send_surely({{"type", "ended"}, {"status", summary_.status}, {"stalled", stalled_}});
   return summary_;
 }
 
 // ---- joining ----------------------------------------------------------------------------------------------------
 
 bool SimNode::wait_for_members() {
-  const auto started = Clock::now();
-  auto told = started;
+  WaitTeller wait(status_, "to join");
   while (!server_.at_boundary()) {
     inbox_.dispatch(kMatchPoll);
     take_losses();
     if (aborted_ || stop_requested_) return false;
-    if (Clock::now() - told > milliseconds(500)) {
-      told = Clock::now();
-      status_.send({{"type", "waiting_for"}, {"members", server_.awaited()}});
-    }
-    if (options_.startup_timeout_s > 0 && elapsed_s(started) > options_.startup_timeout_s) {
+    wait.tell([this] { return server_.awaited(); });
+    if (options_.startup_timeout_s > 0 && wait.waited_s() > options_.startup_timeout_s) {
       for (const std::string& name : server_.awaited()) server_.lost(name, "did not join in time");
     }
   }
@@ -144,10 +146,11 @@ bool SimNode::wait_for_members() {
 
 // Somebody who knocks is let in before the next step; the fleet stands still meanwhile.
 void SimNode::let_in_members() {
-  const auto started = Clock::now();
+  WaitTeller wait(status_, "to join again");
   while (!server_.at_boundary() && !aborted_ && !stop_requested_) {
     inbox_.dispatch(kMatchPoll);
-    if (options_.startup_timeout_s > 0 && elapsed_s(started) > options_.startup_timeout_s) {
+    wait.tell([this] { return server_.awaited(); });
+    if (options_.startup_timeout_s > 0 && wait.waited_s() > options_.startup_timeout_s) {
       for (const std::string& name : server_.awaited()) server_.lost(name, "did not finish joining");
     }
   }
@@ -251,21 +254,39 @@ void SimNode::publish_ledger(const std::vector<LedgerEntry>& entries, std::size_
 }
 
 bool SimNode::wait_for_answers() {
+  WaitTeller wait(status_, "to answer");
   auto waiting_since = Clock::now();
   while (!server_.answered()) {
-    if (!inbox_.dispatch(kIdlePoll, server_.rings())) report_progress(false);
-    if (aborted_) return false;
+    const bool arrived = inbox_.dispatch(kIdlePoll, server_.rings());
+    const bool told = wait.tell([this] { return silent_members(); });
+    if (!arrived && !told) report_progress(false);
+    if (aborted_ || gives_up_step()) return false;
     if (options_.agent_timeout_s > 0 && elapsed_s(waiting_since) > options_.agent_timeout_s) {
-      std::vector<std::string> silent = server_.awaited();
-      // The router cannot answer before all others have: it is to blame only when nobody else is.
-      if (silent.size() > 1) std::erase(silent, bus::kRouterName);
-      for (const std::string& name : silent) {
+      for (const std::string& name : silent_members()) {
         server_.lost(name, fmt::format("did not answer for {} s", options_.agent_timeout_s));
       }
       waiting_since = Clock::now();
     }
   }
   take_losses();
+  return true;
+}
+
+// The router cannot answer before all others have: it is to blame only when nobody else is.
+std::vector<std::string> SimNode::silent_members() const {
+  std::vector<std::string> silent = server_.awaited();
+  if (silent.size() > 1) std::erase(silent, bus::kRouterName);
+  return silent;
+}
+
+// The user ends the run, and somebody does not answer: a hung planner, an agent in a debugger that has gone.
+bool SimNode::gives_up_step() {
+  if (!stop_requested_ || elapsed_s(stop_requested_at_) < kStopPatience_s) return false;
+  stalled_ = silent_members();
+  std::string text = fmt::format("interrupted in step {}, which was not finished; it waited for", simulation_.step());
+  for (const std::string& name : stalled_) text += " " + name;
+  spdlog::warn("{}", text);
+  summary_.warnings.push_back(std::move(text));
   return true;
 }
 
@@ -290,7 +311,8 @@ void SimNode::pace(Clock::time_point started) {
   const double due_s = seconds(simulation_.tick() + scenario_.exchange_ticks()) / *options_.realtime_factor;
   const auto due = started + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
   while (Clock::now() < due && !aborted_ && !stop_requested_) {
-    inbox_.dispatch(std::chrono::ceil<milliseconds>(due - Clock::now()));
+    inbox_.dispatch(std::min(std::chrono::ceil<milliseconds>(due - Clock::now()), kProgressPeriod));
+    report_progress(false);
   }
 }
 
