@@ -110,6 +110,7 @@ Arguments run_arguments(const FleetPlan& plan, const std::string& program, int b
     append(arguments, {"--clock", plan.options.clock});
     if (plan.options.stop_at_s) append(arguments, {"--stop-at", text_of(*plan.options.stop_at_s)});
     if (plan.options.debug_uav) append(arguments, {"--agent-timeout", "0"});
+    if (plan.options.agent_timeout_s) append(arguments, {"--agent-timeout", text_of(*plan.options.agent_timeout_s)});
     if (plan.ground) arguments.push_back("--ground-program");
   }
   return arguments;
@@ -220,11 +221,12 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
     if (plan.options.debug_uav != uav.name) add(agent_program(uav.name));
   }
   if (plan.ground) add(kGroundProgram);
-  // Ours that tell how the run goes on write as long as it does.
   for (ProgramSpec& program : programs) {
+    // Ours that tell how the run goes on write as long as it does.
     if (!is_agent(program.name)) program.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
+    program.user = secure_folder(secure, program.name).user;
+    program.minded = is_agent(program.name) && (plan.agent || is_exec(plan, program.name));  // not ours
   }
-  for (ProgramSpec& program : programs) program.user = secure_folder(secure, program.name).user;
   return programs;
 }
 

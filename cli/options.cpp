@@ -33,7 +33,12 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   command->add_option("--clock", run.clock, "lockstep, or realtime[:FACTOR]")
       ->check(CLI::Validator(check_clock, "CLOCK"))
       ->capture_default_str();
-  command->add_option("--debug", run.debug_uav, "Leave this UAV's agent to you and your debugger");
+  CLI::Option* debug = command->add_option("--debug", run.debug_uav, "Leave this UAV's agent to you and your debugger");
+  command
+      ->add_option("--agent-timeout", run.agent_timeout_s,
+                   "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
+      ->check(seconds)
+      ->excludes(debug);  // which waits until Ctrl-C, or until the debugged program ends
   command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
   command->add_flag("--secure", run.secure, "Enforce the isolation of agents: certificates, encryption, user ids");
   command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");

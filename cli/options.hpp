@@ -29,9 +29,11 @@ struct RunOptions {
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
   std::optional<int> domain;
   std::optional<double> stop_at_s;
+  std::optional<double> agent_timeout_s;  ///< of wall time, for a program's answer, instead of a minute
   std::optional<std::filesystem::path> out;
   bool force = false;
   bool attainable = true;  ///< ask the oracle after the run
+  double patience = 1.0;   ///< for tests: scales how long the launcher waits for programs to leave
 };
 
 struct TestOptions {

@@ -49,6 +49,15 @@ TEST(Options, RunReadsAll) {
   EXPECT_TRUE(run.force && run.native);
 }
 
+TEST(Options, TheTimeToWaitForAnAgentIsANumberOfSeconds) {
+  EXPECT_FALSE(parse<RunOptions>({"run"}).agent_timeout_s);
+  EXPECT_EQ(parse<RunOptions>({"run", "--agent-timeout", "2.5"}).agent_timeout_s, 2.5);
+  for (const char* wrong : {"0", "-1", "nan", "inf", "soon", "0x10", "1e9", ""}) {
+    EXPECT_THROW(parse<RunOptions>({"run", "--agent-timeout", wrong}), InputError) << wrong;
+  }
+  EXPECT_THROW(parse<RunOptions>({"run", "--agent-timeout", "3", "--debug", "jurong"}), InputError);
+}
+
 TEST(Options, OtherCommands) {
   EXPECT_TRUE(parse<TestOptions>({"test", "--long"}).long_tests);
   const auto faults = parse<TestOptions>({"test", "--faults", "mine", "--repeat", "again,chaos", "--rotate", "--out", "o"});

@@ -1,6 +1,7 @@
 #include "cli/preflight.hpp"
 
 #include <fcntl.h>
+#include <spdlog/fmt/fmt.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -9,7 +10,9 @@
 #include <map>
 #include <stdexcept>
 
+#include "core/suggestion.hpp"
 #include "core/types.hpp"
+#include "core/wait_notice.hpp"
 
 namespace skein::cli {
 namespace {
@@ -24,12 +27,17 @@ std::string message_of(const ProgramSpec& program) {
 }
 
 /// Runs programs side by side until the last has ended.
-std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& programs) {
+std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& programs, const TellWaiting& tell) {
   Supervisor supervisor;
   for (const ProgramSpec& program : programs) supervisor.start(program);
   std::map<std::string, ExitStatus> exits;
+  WaitNotice notice(WaitNotice::Clock::now());
   while (!supervisor.running().empty()) {
-    for (const Event& event : supervisor.wait(std::chrono::milliseconds(-1))) {
+    const auto waited_s = notice.due(WaitNotice::Clock::now());
+    if (tell && waited_s) {
+      tell(fmt::format("waiting for {} to check its input ({:.0f} s)", joined(supervisor.running()), *waited_s));
+    }
+    for (const Event& event : supervisor.wait(notice.left(WaitNotice::Clock::now()))) {
       if (event.kind == Event::Kind::interrupt) {
         supervisor.end_all(kGrace);
         throw Interrupted{};
@@ -71,8 +79,8 @@ void remove_orphans(const std::filesystem::path& where) {
 
 }  // namespace
 
-std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs) {
-  const std::map<std::string, ExitStatus> exits = run_all(programs);
+std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs, const TellWaiting& tell) {
+  const std::map<std::string, ExitStatus> exits = run_all(programs, tell);
   std::vector<std::string> warnings;
   for (const ProgramSpec& program : programs) {
     const ExitStatus exit = exits.at(program.name);
@@ -87,7 +95,7 @@ std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs) {
   return warnings;
 }
 
-ExitStatus run_to_end(const ProgramSpec& program) { return run_all({program}).at(program.name); }
+ExitStatus run_to_end(const ProgramSpec& program) { return run_all({program}, {}).at(program.name); }
 
 ScratchDir::ScratchDir() {
   std::error_code error;

@@ -1,6 +1,8 @@
 // Everything that can be wrong is found before anything flies.
 #pragma once
 
+#include <functional>
+
 #include "cli/fleet_plan.hpp"
 
 namespace skein::cli {
@@ -8,11 +10,14 @@ namespace skein::cli {
 /// The user pressed Ctrl-C before the fleet had started.
 struct Interrupted {};
 
+/// Is told whom we wait for, when that takes long.
+using TellWaiting = std::function<void(const std::string&)>;
+
 /// Runs programs that only validate, all at once, and waits for them.
 /// @returns what they warn of, line by line.
 /// @throws InputError with the message of the first program (in the order given) that ended with exit code 2;
 ///   std::runtime_error when one failed in another way; Interrupted.
-std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs);
+std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs, const TellWaiting& tell = {});
 
 /// Runs one program and waits for it. @throws Interrupted after ending it when the user pressed Ctrl-C.
 ExitStatus run_to_end(const ProgramSpec& program);

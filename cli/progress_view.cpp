@@ -88,7 +88,9 @@ void ProgressView::progress(const Json& status, double wall_s) {
 }
 
 void ProgressView::waiting_for(const Json& status) {
-  if (terminal_) show("waiting for " + joined(status, "members"));
+  if (!terminal_ && !value_or(status, "due", false)) return;
+  show("waiting for " + joined(status, "members") + " " + value_or(status, "what", "").get<std::string>() + " (" +
+       fixed(number(status, "seconds"), 0) + " s)");
 }
 
 void ProgressView::tally(const Json& status) {

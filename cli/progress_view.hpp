@@ -16,7 +16,8 @@ class ProgressView {
 
   /// sim_server's {"type":"progress",...}. @param wall_s time since the programs started; gives the speed.
   void progress(const Json& status, double wall_s);
-  /// sim_server's {"type":"waiting_for","members":[...]}.
+  /// sim_server's {"type":"waiting_for","members":[...],"what":"to join","seconds":12,"due":true}: a terminal shows each,
+  /// elsewhere there is a line when one is due.
   void waiting_for(const Json& status);
   /// station's {"type":"tally",...}.
   void tally(const Json& status);

@@ -36,13 +36,22 @@ TEST(ProgressView, TheLineTellsTimeSpeedScoreAndContact) {
 TEST(ProgressView, ATerminalLineIsRewrittenAndMessagesStandAboveIt) {
   std::ostringstream out;
   ProgressView view(out, true);
-  view.waiting_for({{"members", {"alpha", "station"}}});
+  view.waiting_for({{"members", {"alpha", "station"}}, {"what", "to join"}, {"seconds", 2.4}, {"due", false}});
   view.progress(progress(0.5, 0.0, "waiting"), 0.1);
   view.message("hello");
   view.finish();
   EXPECT_EQ(out.str(),
-            "\rwaiting for alpha, station\rsimulated 0.5 s, before take-off, x0.0, points 0, score 0.0, in contact: "
-            "alpha\nhello\n");
+            "\rwaiting for alpha, station to join (2 s)\rsimulated 0.5 s, before take-off, x0.0, points 0, score 0.0, in "
+            "contact: alpha\nhello\n");
+}
+
+TEST(ProgressView, ElsewhereAWaitIsALineWhenOneIsDue) {
+  std::ostringstream out;
+  ProgressView view(out, false);
+  for (const double seconds : {4.5, 5.0, 5.5}) {
+    view.waiting_for({{"members", {"bob"}}, {"what", "to answer"}, {"seconds", seconds}, {"due", seconds == 5.0}});
+  }
+  EXPECT_EQ(out.str(), "waiting for bob to answer (5 s)\n");
 }
 
 TEST(ProgressView, WrongStatusIsHarmless) {

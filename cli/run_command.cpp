@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/debug_watch.hpp"
 #include "cli/domain_block.hpp"
 #include "cli/environment.hpp"
 #include "cli/fleet_plan.hpp"
@@ -20,6 +21,9 @@
 #include "cli/run_losses.hpp"
 #include "cli/run_result.hpp"
 #include "cli/security.hpp"
+#include "core/atomic_file.hpp"
+#include "core/suggestion.hpp"
+#include "core/wait_notice.hpp"
 
 namespace skein::cli {
 namespace {
@@ -33,6 +37,9 @@ constexpr milliseconds kLeaveTime{10000};
 constexpr milliseconds kExecLeaveTime{2000};
 /// From SIGTERM to SIGKILL.
 constexpr milliseconds kGrace{3000};
+/// After Ctrl-C: for sim_server to end the run, and for the programs to leave when it could not end its last step.
+constexpr milliseconds kStopTime{8000};
+constexpr milliseconds kStalledLeaveTime{1000};
 constexpr std::size_t kLogLines = 10;
 
 double seconds_between(Clock::time_point from, Clock::time_point until) {
@@ -64,6 +71,7 @@ class FleetRun {
     if (plan_.options.debug_uav) {
       view_.message("Start the agent of " + *plan_.options.debug_uav + " yourself; the fleet waits for it:\n\n  " +
                     debug_command(plan_, base_domain, out, secure) + "\n");
+      debugged_.emplace(*plan_.options.debug_uav, out, agent_file(plan_));
     }
     watch();
     for (const auto& [program, books] : {std::pair("station", "station.journal"), {"comm_router", "comm_router.counts"}}) {
@@ -86,11 +94,42 @@ class FleetRun {
       milliseconds limit{-1};
       if (leave_by_) {
         limit = std::max(std::chrono::ceil<milliseconds>(*leave_by_ - Clock::now()), milliseconds(0));
-        if (limit == milliseconds(0)) end_stragglers();
+        if (limit == milliseconds(0)) {
+          end_stragglers();
+          continue;
+        }
       }
-      handle_all(supervisor_.wait(orders_.limit(limit)));
+      const bool debugged_ended = debugged_ && debugged_->ended();  // before the news: it may end because the run has
+      handle_all(supervisor_.wait(orders_.limit(until_notice(limit))));
+      if (debugged_ended) on_debugged_end();
+      tell_waiting();
       for (const std::string& program : orders_.take_returning()) bring_back(program);
     }
+  }
+
+  /// How long to wait for events at most, so that a word of whom we wait for comes when it is due.
+  milliseconds until_notice(milliseconds limit) const {
+    milliseconds left = silence_.left(Clock::now());
+    if (debugged_) left = std::min(left, DebugWatch::kPeriod);
+    return limit.count() < 0 ? left : std::min(limit, left);
+  }
+
+  /// The program that the user debugs is lost like any other one.
+  void on_debugged_end() {
+    if (server_done_ || ending_) return;
+    const std::string& uav = *plan_.options.debug_uav;
+    view_.message(fmt::format("the debugged program of {} (process {}) has ended; the fleet goes on without it", uav,
+                              debugged_->pid()));
+    facts_.warnings.push_back("the debugged program of " + uav + " ended before the run did");
+    supervisor_.send("sim_server", "lost " + uav);
+  }
+
+  /// sim_server says whom the fleet waits for. We do where it says nothing: while it starts, while others leave.
+  void tell_waiting() {
+    const auto waited_s = silence_.due(Clock::now());
+    if (!waited_s || supervisor_.running().empty()) return;
+    const std::string whom = server_done_ ? joined(supervisor_.running()) + " to leave" : "sim_server";
+    view_.message(fmt::format("waiting for {} ({:.0f} s)", whom, *waited_s));
   }
 
   void handle_all(const std::vector<Event>& events) {
@@ -111,7 +150,11 @@ class FleetRun {
     }
     // A user's command has a status pipe too; what it writes there is no news of the run.
     if (event.program != (type == "tally" ? "station" : "sim_server")) return;
-    if (type == "waiting_for") view_.waiting_for(status);
+    if (event.program == "sim_server") silence_ = WaitNotice(Clock::now());
+    if (type == "waiting_for") {
+      view_.waiting_for(status);
+      if (first_progress_) facts_.wall_time_s = seconds_between(*first_progress_, Clock::now());
+    }
     if (type == "tally") {
       facts_.points_detected = value_or(status, "points", 0);
       facts_.score = value_or(status, "score", 0.0);
@@ -122,7 +165,9 @@ class FleetRun {
     if (type == "rejoined") orders_.returned(program_of(value_or(status, "member", "")));
     if (type == "ended") {
       note_use();
-      if (!leave_by_) leave_by_ = Clock::now() + kLeaveTime;
+      stalled_ = !value_or(status, "stalled", Json::array()).empty();
+      server_done_ = true;
+      leave_by_ = Clock::now() + leave_time();
     }
     if (type == "progress") {
       facts_.sim_time_s = value_or(status, "t", 0.0);
@@ -214,7 +259,7 @@ class FleetRun {
     use.peak_memory_mb = std::max(use.peak_memory_mb, event.exit.peak_memory_mb);
     if (!over_) use.cpu_s += event.exit.cpu_s - std::exchange(cpu_before_s_[event.program], 0.0);
     if (orders_.on_exit(event.program, event.exit)) return;  // as it should
-    if (!event.exit.ok() && !ending_) complain(event.program, event.exit.text());
+    if (!event.exit.ok() && !ending_ && !left_as_asked(event.exit)) complain(event.program, event.exit.text());
     if (of_server) {
       facts_.out_by_fault = orders_.out();
       orders_.end();
@@ -222,11 +267,25 @@ class FleetRun {
     if (of_server && !event.exit.ok()) {
       end_all();  // nobody is left to tell the others how the run goes on
     } else if (of_server) {
-      leave_by_ = Clock::now() + kLeaveTime;
-    } else if (!ending_ && !leave_by_) {
+      server_done_ = true;
+      leave_by_ = Clock::now() + leave_time();
+    } else if (!ending_ && !server_done_) {
       supervisor_.send("sim_server", "lost " + member_name(event.program));
     }
-    if (leave_by_ && only_commands_run()) leave_by_ = std::min(*leave_by_, Clock::now() + kExecLeaveTime);
+    if (server_done_ && only_commands_run()) leave_by_ = std::min(*leave_by_, Clock::now() + scaled(kExecLeaveTime));
+  }
+
+  /// Who was told that the user ends the run need not find an orderly end to it. A crash is one all the same.
+  bool left_as_asked(const ExitStatus& exit) const { return facts_.interrupted && exit.signal == 0; }
+
+  /// For the programs, once sim_server is done. Who never took part in a step does not hear of the end.
+  milliseconds leave_time() const {
+    if (facts_.interrupted && !first_progress_) return milliseconds(0);
+    return scaled(facts_.interrupted && stalled_ ? kStalledLeaveTime : kLeaveTime);
+  }
+
+  milliseconds scaled(milliseconds time) const {
+    return std::chrono::duration_cast<milliseconds>(time * plan_.options.patience);
   }
 
   bool only_commands_run() const {
@@ -234,18 +293,20 @@ class FleetRun {
     return std::all_of(running.begin(), running.end(), [&](const auto& program) { return is_exec(plan_, program); });
   }
 
-  /// First Ctrl-C: the server ends the run at its next step and all write their reports. Second: at once.
+  /// First Ctrl-C: the server ends the run at its next step, or in a step that does not end, and all write their reports.
+  /// Second: at once.
   void on_interrupt() {
     if (ending_) return;
     if (facts_.interrupted) return end_all();
     facts_.interrupted = true;
     view_.message("ending the run; press Ctrl-C again to end it at once");
     supervisor_.send("sim_server", "stop");
+    if (!leave_by_) leave_by_ = Clock::now() + scaled(kStopTime);
   }
 
   void end_stragglers() {
     for (const std::string& program : supervisor_.running()) {
-      if (!is_exec(plan_, program)) complain(program, "not leaving after the run's end");
+      if (!is_exec(plan_, program) && !facts_.interrupted) complain(program, "not leaving after the run's end");
     }
     end_all();
   }
@@ -253,7 +314,7 @@ class FleetRun {
   void end_all() {
     if (ending_) return;
     ending_ = true;
-    handle_all(supervisor_.end_all(kGrace));
+    handle_all(supervisor_.end_all(scaled(kGrace)));
   }
 
   /// Names a program that failed, with the end of its log.
@@ -275,16 +336,21 @@ class FleetRun {
   const Clock::time_point started_ = Clock::now();
   std::optional<Clock::time_point> first_progress_;
   std::map<std::string, double> cpu_before_s_;  ///< of each program at the first step
-  std::optional<Clock::time_point> leave_by_;   ///< set when sim_server has left in good order
+  std::optional<Clock::time_point> leave_by_;   ///< whoever runs then is ended
+  std::optional<DebugWatch> debugged_;          ///< under --debug
+  WaitNotice silence_{Clock::now()};            ///< since sim_server last said something
+  bool server_done_ = false;                    ///< sim_server has ended the run in good order
+  bool stalled_ = false;                        ///< by Ctrl-C, in a step that somebody never answered
   bool over_ = false;                           ///< the last step is done
   bool ending_ = false;                         ///< the launcher itself ends the programs
   bool failed_ = false;
 };
 
-void check_before_flight(const FleetPlan& plan) {
-  const auto agent_user = plan.options.secure ? check_agents_access(plan) : std::nullopt;
+void check_before_flight(const FleetPlan& plan, const Console& console) {
+  const auto users = plan.options.secure ? check_agents_access(plan) : nullptr;
   const ScratchDir scratch;
-  run_checks(check_programs(plan, scratch.path(), agent_user));
+  run_checks(check_programs(plan, scratch.path(), users ? std::optional(users->at(0)) : std::nullopt),
+             [&](const std::string& waiting) { console.err << waiting << std::endl; });
 }
 
 std::string start_line(const FleetPlan& plan, const DomainBlock& domains, const std::filesystem::path& out) {
@@ -319,7 +385,7 @@ int run_fleet(const RunOptions& options, const Console& console) {
   const std::filesystem::path dir =
       options.out.value_or(default_results_dir(plan.scenario.name, options.planner, options.seed));
   ResultsDir::check(dir, options.force);
-  check_before_flight(plan);
+  check_before_flight(plan, console);
   const DomainBlock domains(options.domain, domain_count(plan));
   const ResultsDir out(dir, options.force);
 

@@ -194,6 +194,42 @@ TEST_F(RunCommand, ASecondCtrlCEndsTheRunAtOnce) {
   EXPECT_EQ(result()["status"], "interrupted");
 }
 
+/// What a server that was stopped leaves.
+constexpr const char* kInterruptedReport = R"(
+echo '{"status":"interrupted","deterministic":false,"sim_time_s":0,"uavs":[],"lost_members":[],"warnings":[]}' \
+    > "$out/sim_server.report.json"
+echo '{"type":"ended","status":"interrupted"}' >&3
+)";
+
+TEST_F(RunCommand, CtrlCBeforeTheFirstStepBlamesNobody) {
+  // They do not know that the run is over, and do not end well when they are ended.
+  for (const char* name : {"comm_router", "station", "uav_agent"}) {
+    programs_.script(name, "trap 'exit 3' TERM; echo 1 >> \"$out/started\"; while :; do sleep 0.01; done");
+  }
+  programs_.script("sim_server", "until [ \"$(cat \"$out/started\" 2> /dev/null | wc -l)\" = 4 ]; do sleep 0.01; done\n"
+                                 "kill -INT $PPID; read line <&4\n" + std::string(kInterruptedReport));
+  EXPECT_EQ(run(), kExitInterrupted);
+  EXPECT_EQ(result()["status"], "interrupted");
+  EXPECT_EQ(err_.str().find("failed"), std::string::npos) << err_.str();
+  EXPECT_EQ(result()["warnings"].dump().find("failed"), std::string::npos) << result()["warnings"];
+}
+
+TEST_F(RunCommand, AfterCtrlCNobodyIsWaitedForLongAndNobodyIsBlamed) {
+  options_.patience = 0.02;
+  // One planner hangs, and the server never gets to the end of its step.
+  programs_.script("sim_server", "kill -INT $PPID; trap '' TERM; while :; do sleep 0.01; done");
+  programs_.script("uav_agent", "[ $uav = alpha ] || trap '' TERM; while :; do sleep 0.01; done");
+  EXPECT_EQ(run(), kExitInterrupted);
+  EXPECT_EQ(result()["status"], "interrupted");
+  EXPECT_EQ(err_.str().find("failed"), std::string::npos) << err_.str();
+}
+
+TEST_F(RunCommand, ACrashAfterCtrlCIsNamedAllTheSame) {
+  programs_.script("sim_server", "kill -INT $PPID; read line <&4\n" + std::string(kInterruptedReport) + "kill -SEGV $$");
+  EXPECT_EQ(run(), kExitInterrupted);
+  EXPECT_NE(err_.str().find("sim_server failed: signal 11"), std::string::npos) << err_.str();
+}
+
 TEST_F(RunCommand, AMemberThatTheServerLostMakesTheRunAFailure) {
   programs_.script("sim_server", std::string(kServer) + R"(
     echo '{"status":"completed","lost_members":[{"member":"alpha","step":1,"time_s":0.05,"reason":"hangs"}]}' \

@@ -16,6 +16,7 @@ namespace {
 
 std::string status_of(const RunFacts& facts, const Json& sim) {
   const Json reported = value_or(sim, "status", nullptr);
+  if (facts.interrupted && reported == "aborted") return "interrupted";  // as the user asked
   for (const char* known : {"completed", "no_takeoff", "interrupted", "aborted"}) {
     if (reported == known) return known;
   }

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <grp.h>
-#include <pwd.h>
 #include <sys/fsuid.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -25,10 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Neither Debian nor systemd gives these ids to anybody, and they exist in a container with 65536 ids too.
-constexpr uid_t kFirstAgentUser = 60700;
-/// The world domain of the first block: no agent is ever there. Access is checked before the domains are known.
-constexpr int kDomainOfNoAgent = 0;
+/// Any user as agents are, to ask what they can read; nullopt when the launcher, not being root, may not choose.
+std::optional<UserId> any_agents_user() {
+  if (::geteuid() != 0) return std::nullopt;
+  return UserId{kFirstAgentUser, kFirstAgentUser};
+}
 
 /// Of what an agent wrote, that is kept: it may write without end.
 constexpr std::uintmax_t kMostOfAnAgent = 64 << 20;
@@ -128,31 +128,22 @@ bool copy_from(const fs::path& from, const fs::path& to, UserId owner, std::uint
 
 }  // namespace
 
-std::optional<UserId> agent_user(int domain) {
-  if (::geteuid() != 0) return std::nullopt;
-  const uid_t uid = kFirstAgentUser + static_cast<uid_t>(domain);
-  if (const passwd* owner = ::getpwuid(uid); owner != nullptr) {
-    throw InputError("--secure: an agent would run as user id " + std::to_string(uid) + ", which belongs to '" +
-                     owner->pw_name + "'; choose another --domain");
-  }
-  return UserId{uid, uid};
-}
-
-std::optional<UserId> check_agents_access(const FleetPlan& plan) {
-  const auto user = agent_user(kDomainOfNoAgent);
-  if (!user) return user;
-  require_access(agent_file(plan), *user);
-  require_access(plan.scenario.file, *user);
-  if (plan.options.faults) require_access(*plan.options.faults, *user);
+std::unique_ptr<UserIds> check_agents_access(const FleetPlan& plan) {
+  if (::geteuid() != 0) return nullptr;
+  auto users = std::make_unique<UserIds>(1);
+  const UserId user = users->at(0);
+  require_access(agent_file(plan), user);
+  require_access(plan.scenario.file, user);
+  if (plan.options.faults) require_access(*plan.options.faults, user);
   for (const auto& entry : fs::recursive_directory_iterator(default_config_dir())) {
-    if (entry.is_regular_file()) require_access(entry.path(), *user);
+    if (entry.is_regular_file()) require_access(entry.path(), user);
   }
-  return user;
+  return users;
 }
 
 std::vector<std::string> exposed_files(const FleetPlan& plan) {
   std::vector<std::string> warnings;
-  const auto user = agent_user(kDomainOfNoAgent);
+  const auto user = any_agents_user();
   if (!user) {
     warnings.push_back("--secure without root: agents run as your own user, so they can read your files, the keys of "
                        "other programs and their memory (docs/security.md)");
@@ -170,7 +161,10 @@ std::vector<std::string> exposed_files(const FleetPlan& plan) {
 
 SecureRun::SecureRun(const FleetPlan& plan, int base_domain, fs::path out)
     : out_(std::move(out)), out_perms_(fs::status(out_).permissions()) {
-  if (agent_user(kDomainOfNoAgent)) {
+  if (any_agents_user()) {
+    const auto vendors = dds_vendors(plan);
+    users_.emplace(static_cast<std::size_t>(std::count_if(
+        vendors.begin(), vendors.end(), [](const auto& program) { return is_agent(program.first); })));
     // Agents pass through this folder to their own.
     fs::permissions(scratch_.path(), fs::perms::others_exec | fs::perms::group_exec, fs::perm_options::add);
     fs::permissions(out_, fs::perms::owner_all);
@@ -182,11 +176,12 @@ void SecureRun::make_folders(const FleetPlan& plan, int base_domain) {
   // Two authorities: whoever has a certificate must not be taken for one who may sign permissions.
   const Authority identities("identities"), documents("permissions");
   const std::string rules = documents.sign(governance(base_domain, base_domain + domain_count(plan) - 1));
+  std::size_t agents = 0;
   for (const auto& [program, vendor] : dds_vendors(plan)) {
     const Rights rights = rights_of(plan, program, base_domain);
     const Identity identity = identities.issue(program);
     SecureFolder folder{scratch_.path() / program, {}, {}};
-    if (is_agent(program)) folder.user = agent_user(rights.first_domain);
+    if (users_ && is_agent(program)) folder.user = users_->at(agents++);
     make_private_folder(folder.keys, folder.user);
     const auto add = [&](const char* name, const std::string& text) {
       write_file(folder.keys / name, text);
@@ -212,6 +207,7 @@ SecureRun::~SecureRun() {
 }
 
 std::vector<std::string> SecureRun::collect() const {
+  if (users_) users_->end_processes();
   std::vector<std::string> left_behind;
   for (const auto& [program, folder] : folders_) {
     if (!folder.user) continue;

@@ -4,23 +4,21 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/fleet_plan.hpp"
 #include "cli/preflight.hpp"
+#include "cli/user_ids.hpp"
 
 namespace skein::cli {
 
-/// The user of the agent in this DDS domain, when the launcher may choose one (it is root); nullopt otherwise.
-/// @throws InputError when the user id belongs to somebody.
-std::optional<UserId> agent_user(int domain);
-
 /// Before anything starts: what can be wrong with a secured fleet's agents under user ids of their own.
-/// @returns such a user, for the agents' own checks; nullopt when agents run as the launcher.
+/// @returns one such id, for the agents' own checks; null when agents run as the launcher.
 /// @throws InputError when they cannot read the programs or the configuration; it names the path and what helps.
-std::optional<UserId> check_agents_access(const FleetPlan& plan);
+std::unique_ptr<UserIds> check_agents_access(const FleetPlan& plan);
 
 /// Files that hold the scenario's ground truth and that agents can read all the same, each as a warning.
 std::vector<std::string> exposed_files(const FleetPlan& plan);
@@ -32,7 +30,7 @@ class SecureRun {
   ///   are such others.
   /// @throws InputError when the agents cannot get at their keys; std::runtime_error when something fails.
   SecureRun(const FleetPlan& plan, int base_domain, std::filesystem::path out);
-  /// Removes all keys.
+  /// Removes all keys, and ends whatever still runs as an agent's user.
   ~SecureRun();
   SecureRun(const SecureRun&) = delete;
   SecureRun& operator=(const SecureRun&) = delete;
@@ -40,8 +38,9 @@ class SecureRun {
   const SecureFolders& folders() const { return folders_; }
 
   /// Copies what agents under their own user ids wrote from their own folders to the results folder, once all programs
-  /// have ended: plain files of theirs, under names that begin with the program's, as many and as much of them as is
-  /// sensible. @returns what was left behind or cut, a sentence for each agent that it befell.
+  /// have ended (and what they left behind has been): plain files of theirs, under names that begin with the program's, as
+  /// many and as much of them as is sensible. @returns what was left behind or cut, a sentence for each agent that it
+  /// befell.
   std::vector<std::string> collect() const;
 
  private:
@@ -51,6 +50,7 @@ class SecureRun {
   std::filesystem::path out_;
   std::filesystem::perms out_perms_;
   SecureFolders folders_;
+  std::optional<UserIds> users_;  ///< one an agent, if the launcher may choose
 };
 
 }  // namespace skein::cli

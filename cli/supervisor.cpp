@@ -20,6 +20,8 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/minder.hpp"
+
 extern "C" {  // glibc 2.36's header forgets it
 #include <sys/pidfd.h>
 }
@@ -104,21 +106,22 @@ std::vector<char*> pointers(const std::vector<std::string>& strings) {
   return result;
 }
 
-/// What the child does between fork and exec: only calls that are safe there. Writes errno to `failure` and ends when
-/// it cannot go on.
+/// What the child does between fork and exec: only calls that are safe there. Writes its process id to `news`, then, when it
+/// cannot go on, errno.
 struct ChildSetup {
-  pid_t launcher;
-  int input, log, status, control, failure;  ///< log: -1 keeps the launcher's
+  pid_t parent;  ///< the launcher, or the program's minder
+  int input, log, status, control, news;  ///< log: -1 keeps the launcher's
   char* const* argv;
   char* const* env;
   const UserId* user;  ///< null: the launcher's
 
   [[noreturn]] void exec() const {
     ::setpgid(0, 0);
+    tell(::getpid());
     bool ready =
         user == nullptr || (::setgroups(0, nullptr) == 0 && ::setgid(user->gid) == 0 && ::setuid(user->uid) == 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // after setuid, which would undo it
-    if (::getppid() != launcher) ::_exit(127);  // the launcher died before prctl could tell
+    if (::getppid() != parent) ::_exit(127);  // it died before prctl could tell
     sigset_t none;
     sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -127,17 +130,42 @@ struct ChildSetup {
         {{input, 0}, {log, 1}, {log, 2}, {status, kStatusFd}, {control, kControlFd}}};
     for (const auto& [from, to] : files) ready = ready && (from < 0 || ::dup2(from, to) >= 0);
     if (ready) ::execve(argv[0], argv, env);
-    const int error = errno;
-    [[maybe_unused]] const ssize_t written = ::write(failure, &error, sizeof error);
+    tell(errno);
     ::_exit(127);
   }
+
+  void tell(int number) const { [[maybe_unused]] const ssize_t written = ::write(news, &number, sizeof number); }
 };
+
+/// The same with a minder in between.
+[[noreturn]] void exec_minded(ChildSetup setup) {
+  ::setpgid(0, 0);
+  const pid_t launcher = std::exchange(setup.parent, ::getpid());
+  if (!become_minder(launcher)) ::_exit(127);
+  const pid_t program = ::fork();
+  if (program == 0) setup.exec();
+  if (program > 0) mind(program, launcher);
+  setup.tell(0);  // no process, and why
+  setup.tell(errno);
+  ::_exit(127);
+}
+
+/// What a child told; nullopt when it said no more.
+std::optional<int> next_news(const Fd& from) {
+  int number = 0;
+  ssize_t size = 0;
+  do {
+    size = ::read(from.get(), &number, sizeof number);
+  } while (size < 0 && errno == EINTR);
+  return size == sizeof number ? std::optional(number) : std::nullopt;
+}
 
 }  // namespace
 
 struct Supervisor::Child {
   std::string name;
-  pid_t pid = -1;
+  pid_t pid = -1;      ///< our child: the program, or its minder
+  pid_t program = -1;  ///< leads a process group
   Fd pidfd, status, control;
   std::uint64_t most_status_bytes = 0, status_bytes = 0;
   std::string partial_line;
@@ -177,7 +205,7 @@ Supervisor::Supervisor() {
 
 Supervisor::~Supervisor() {
   for (const auto& [name, child] : children_) {
-    ::kill(-child->pid, SIGKILL);
+    ::kill(-child->program, SIGKILL);
     ::waitpid(child->pid, nullptr, 0);
   }
   ::close(signal_fd_);
@@ -188,29 +216,30 @@ Supervisor::~Supervisor() {
 void Supervisor::start(const ProgramSpec& spec) {
   const Fd log = spec.log.empty() ? Fd() : open_high(spec.log, O_WRONLY | O_CREAT | (spec.append_log ? O_APPEND : O_TRUNC));
   const Fd input = open_high("/dev/null", O_RDONLY);
-  Pipe status = make_pipe(), control = make_pipe(), failure = make_pipe();
+  Pipe status = make_pipe(), control = make_pipe(), news = make_pipe();
   const std::vector<char*> argv = pointers(spec.argv), env = pointers(spec.env);
   const ChildSetup setup{::getpid(),         input.get(),         log.get(),   status.write.get(),
-                         control.read.get(), failure.write.get(), argv.data(), env.data(),
+                         control.read.get(), news.write.get(),    argv.data(), env.data(),
                          spec.user ? &*spec.user : nullptr};
   const pid_t pid = ::fork();
   if (pid < 0) throw_errno("fork");
-  if (pid == 0) setup.exec();
-  ::setpgid(pid, pid);  // both sides do it, so that it is done whichever runs first
-  failure.write.reset();
-  int error = 0;
-  if (::read(failure.read.get(), &error, sizeof error) > 0) {
+  if (pid == 0) spec.minded ? exec_minded(setup) : setup.exec();
+  news.write.reset();
+  const pid_t program = next_news(news.read).value_or(0);
+  const std::optional<int> error = next_news(news.read);
+  if (program == 0 || error) {
     ::waitpid(pid, nullptr, 0);
-    throw std::system_error(error, std::generic_category(), "cannot start " + spec.argv[0]);
+    throw std::system_error(error.value_or(ECHILD), std::generic_category(), "cannot start " + spec.argv[0]);
   }
   auto child = std::make_unique<Child>();
   child->name = spec.name;
   child->most_status_bytes = spec.most_status_bytes;
   child->pid = pid;
+  child->program = program;
   child->pidfd = Fd(::pidfd_open(pid, 0));
   if (child->pidfd.get() < 0) {
     const int reason = errno;
-    ::kill(-pid, SIGKILL);
+    ::kill(-program, SIGKILL);
     ::waitpid(pid, nullptr, 0);
     throw std::system_error(reason, std::generic_category(), "pidfd_open");
   }
@@ -259,7 +288,8 @@ void Supervisor::read_status(Child& child, std::size_t most, std::vector<Event>&
 }
 
 void Supervisor::reap(Child& child, std::vector<Event>& events) {
-  // Its own children first: as long as the zombie is not reaped, its group's number cannot belong to anyone else.
+  // Its own children first: as long as the zombie is not reaped, its group's number cannot belong to anyone else. A minder
+  // has ended all that was below it.
   ::kill(-child.pid, SIGKILL);
   // All that it can have left: a process that got away from the group may still write.
   const int left = child.status.get() < 0 ? 0 : ::fcntl(child.status.get(), F_GETPIPE_SZ);
@@ -280,7 +310,7 @@ double Supervisor::cpu_s(const std::string& program) const {
   const auto found = children_.find(program);
   clockid_t clock{};
   timespec time{};
-  if (found == children_.end() || ::clock_getcpuclockid(found->second->pid, &clock) != 0 ||
+  if (found == children_.end() || ::clock_getcpuclockid(found->second->program, &clock) != 0 ||
       ::clock_gettime(clock, &time) != 0) {
     return 0.0;
   }
@@ -290,7 +320,7 @@ double Supervisor::cpu_s(const std::string& program) const {
 double Supervisor::memory_share_mb(const std::string& program) const {
   const auto found = children_.find(program);
   if (found == children_.end()) return 0.0;
-  std::ifstream in("/proc/" + std::to_string(found->second->pid) + "/smaps_rollup");
+  std::ifstream in("/proc/" + std::to_string(found->second->program) + "/smaps_rollup");
   double kilobytes = 0.0;
   for (std::string word; in >> word;) {
     if (word == "Pss:" && in >> kilobytes) break;
@@ -307,7 +337,7 @@ void Supervisor::send(const std::string& program, const std::string& line) {
 
 void Supervisor::signal(const std::string& program, int signal) {
   const auto found = children_.find(program);
-  if (found != children_.end()) ::kill(-found->second->pid, signal);
+  if (found != children_.end()) signal_child(*found->second, signal);
 }
 
 bool Supervisor::has_stopped(const std::string& program) {
@@ -317,8 +347,14 @@ bool Supervisor::has_stopped(const std::string& program) {
          ::waitid(P_PID, static_cast<id_t>(found->second->pid), &info, WSTOPPED | WNOHANG) == 0 && info.si_pid != 0;
 }
 
+// A minder stops by itself when its program does, but cannot wake itself.
+void Supervisor::signal_child(const Child& child, int signal) {
+  ::kill(-child.program, signal);
+  if (signal == SIGCONT && child.program != child.pid) ::kill(child.pid, signal);
+}
+
 void Supervisor::signal_all(int signal) {
-  for (const auto& [name, child] : children_) ::kill(-child->pid, signal);
+  for (const auto& [name, child] : children_) signal_child(*child, signal);
 }
 
 std::vector<Event> Supervisor::end_all(std::chrono::milliseconds grace) {

@@ -1,4 +1,5 @@
-// Starts programs, watches them and ends them. A program never outlives the launcher, its death is noticed at once
+// Starts programs, watches them and ends them. A program never outlives the launcher, nor do the children of one that is
+// minded (cli/minder.hpp), its death is noticed at once
 // (pidfd, not SIGCHLD), and the terminal's Ctrl-C reaches the launcher alone: what to do about it is decided there.
 // Threads: everything from one thread, which must live as long as the programs (PR_SET_PDEATHSIG goes by thread).
 #pragma once
@@ -34,6 +35,7 @@ struct ProgramSpec {
   bool append_log = false;        ///< or overwritten
   std::uint64_t most_status_bytes = 64 << 20;  ///< on the status pipe in all; who writes more is cut off
   std::optional<UserId> user{};   ///< as whom it runs, in no other group; only root can choose
+  bool minded = false;            ///< it may have children, which end with it wherever they went
 };
 
 struct ExitStatus {
@@ -102,6 +104,7 @@ class Supervisor {
   /// At most `most` bytes: a program that writes without end must not keep the launcher from all else.
   void read_status(Child& child, std::size_t most, std::vector<Event>& events);
   void reap(Child& child, std::vector<Event>& events);
+  static void signal_child(const Child& child, int signal);
   void signal_all(int signal);
 
   std::map<std::string, std::unique_ptr<Child>> children_;

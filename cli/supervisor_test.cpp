@@ -145,6 +145,42 @@ TEST_F(SupervisorTest, ChildrenOfAProgramEndWithIt) {
   EXPECT_TRUE(pipe.all_ended());
 }
 
+TEST_F(SupervisorTest, WhatAMindedProgramLeavesBehindEndsWithIt) {
+  OpenUntilAllEnded pipe;
+  ProgramSpec program = shell("a", "setsid sleep 1000 & env -i sleep 1000 & echo started >&3; exit 5");
+  program.minded = true;
+  supervisor_.start(program);
+  const std::vector<Event> events = run_out();
+  EXPECT_EQ(events.back().exit.code, 5);
+  EXPECT_TRUE(pipe.all_ended());
+}
+
+TEST_F(SupervisorTest, AMindedProgramIsLikeAnyOtherOne) {
+  ProgramSpec program = shell("a", "echo stopping >&3; kill -STOP $$; read line <&4; kill -SEGV $$");
+  program.minded = true;
+  supervisor_.start(program);
+  EXPECT_EQ(supervisor_.wait(kForever).at(0).line, "stopping");
+  while (!supervisor_.has_stopped("a")) supervisor_.wait(std::chrono::milliseconds(1));
+  supervisor_.signal("a", SIGCONT);
+  EXPECT_GT(supervisor_.memory_share_mb("a"), 0.0);
+  supervisor_.send("a", "go");
+  EXPECT_EQ(run_out().back().exit.signal, SIGSEGV);
+  program.argv = {"/does/not/exist"};
+  EXPECT_THROW(supervisor_.start(program), std::system_error);
+  EXPECT_TRUE(supervisor_.running().empty());
+}
+
+TEST_F(SupervisorTest, AStoppedMindedProgramCanBeEnded) {
+  OpenUntilAllEnded pipe;
+  ProgramSpec program = shell("a", "setsid sleep 1000 & echo ready >&3; kill -STOP $$; read line <&4");
+  program.minded = true;
+  supervisor_.start(program);
+  while (!supervisor_.has_stopped("a")) supervisor_.wait(std::chrono::milliseconds(1));
+  supervisor_.end_all(std::chrono::milliseconds(300));
+  EXPECT_TRUE(supervisor_.running().empty());
+  EXPECT_TRUE(pipe.all_ended());
+}
+
 TEST_F(SupervisorTest, TheTerminalsSignalsBecomeAnEventAndDoNotReachThePrograms) {
   supervisor_.start(shell("a", "read line <&4; exit 0"));
   ::kill(::getpid(), SIGINT);
@@ -171,12 +207,18 @@ TEST_F(SupervisorTest, AMissingBinaryIsAnErrorWithItsName) {
   EXPECT_TRUE(supervisor_.running().empty());
 }
 
-TEST(Supervisor, NothingOutlivesAKilledLauncher) {
+class KilledLauncher : public ::testing::TestWithParam<bool> {};
+
+TEST_P(KilledLauncher, IsOutlivedByNothing) {
   OpenUntilAllEnded pipe;
+  const bool minded = GetParam();
   const pid_t launcher = ::fork();
   if (launcher == 0) {  // a launcher that is killed while its program runs
     Supervisor supervisor;
-    supervisor.start({"a", {"/bin/sh", "-c", "echo ready >&3; read line <&3"}, environment_with({}), {}});
+    const std::string script = minded ? "setsid sleep 1000 & " : "";
+    ProgramSpec program{"a", {"/bin/sh", "-c", script + "echo ready >&3; read line <&3"}, environment_with({}), {}};
+    program.minded = minded;
+    supervisor.start(program);
     while (supervisor.wait(kForever).empty()) {
     }
     ::kill(::getpid(), SIGKILL);
@@ -185,6 +227,7 @@ TEST(Supervisor, NothingOutlivesAKilledLauncher) {
   EXPECT_EQ(::waitpid(launcher, nullptr, 0), launcher);
 }
 
+INSTANTIATE_TEST_SUITE_P(Minded, KilledLauncher, ::testing::Bool());
 TEST_F(SupervisorTest, WhoWritesALineWithoutAnEndIsCutOffAndNamed) {
   supervisor_.start(shell("endless", "trap '' PIPE; echo first >&3; yes endless | tr -d '\\n' >&3; exit 7"));
   supervisor_.start(shell("other", "read line <&4; echo \"$line\" >&3"));

@@ -50,9 +50,9 @@ std::optional<double> realtime_factor(const std::string& clock) {
 
 // Each member adds participants whose discovery the others pay for: on two cores a hundred UAVs take half a minute.
 double startup_timeout_s(const ServerOptions& server, const skein::Scenario& scenario) {
-  constexpr double kPerUav_s = 2.0;
+  constexpr double kPerUav_s = 2.0, kLeast_s = 20.0;  // however quick the members' answers must be
   if (server.agent_timeout_s <= 0.0) return 0.0;  // for ever
-  return server.agent_timeout_s + kPerUav_s * static_cast<double>(scenario.fleet.size());
+  return std::max(server.agent_timeout_s, kLeast_s) + kPerUav_s * static_cast<double>(scenario.fleet.size());
 }
 
 int check_golden(const std::vector<std::filesystem::path>& files) {

@@ -11,6 +11,7 @@
 #include "idl/conversions.hpp"
 #include "sim_server/referee.hpp"
 #include "sim_server/scene_warnings.hpp"
+#include "sim_server/wait_teller.hpp"
 
 namespace skein::sim {
 namespace {
@@ -21,6 +22,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kMatchPoll{2};
 constexpr milliseconds kIdlePoll{100};
 constexpr milliseconds kProgressPeriod{200};
+/// For the step that is under way when the user ends the run.
+constexpr double kStopPatience_s = 2.0;
 
 /// After so long without all answers the step is told again to who owes one, and then as often.
 constexpr double kAskAgain_s = 1.0;
@@ -29,6 +32,13 @@ std::vector<std::string> names_of(const std::vector<bus::LockstepServer::Awaited
   std::vector<std::string> names;
   for (const auto& one : awaited) names.push_back(one.member);
   return names;
+}
+
+/// "bob (done of step 41)", for a human.
+std::vector<std::string> described(const std::vector<bus::LockstepServer::Awaited>& awaited) {
+  std::vector<std::string> texts;
+  for (const auto& one : awaited) texts.push_back(one.member + " (" + one.what + ")");
+  return texts;
 }
 
 double elapsed_s(std::chrono::steady_clock::time_point since) {
@@ -81,7 +91,10 @@ void SimNode::declare_members() {
 }
 
 void SimNode::request_stop() {
-  inbox_.post([this] { stop_requested_ = true; });
+  inbox_.post([this] {
+    if (!stop_requested_) stop_requested_at_ = Clock::now();
+    stop_requested_ = true;
+  });
 }
 
 void SimNode::abort() {
@@ -126,24 +139,21 @@ RunSummary SimNode::run() {
   if (options_.realtime_factor || summary_.status == "interrupted" || aborted_) summary_.deterministic = false;
   if (summary_.deterministic) summary_.digest = digest_.hex();
   files_.write_report(simulation_, summary_, status_);
-  report_progress(true);
-  status_.send({{"type", "ended"}, {"status", summary_.status}});
+  if (joined) report_progress(true);  // else there was no step to report
+  status_.send_surely({{"type", "ended"}, {"status", summary_.status}, {"stalled", stalled_}});
   return summary_;
 }
 
 // ---- joining ----------------------------------------------------------------------------------------------------
 
 bool SimNode::wait_for_members() {
+  WaitTeller wait(status_, "to join");
   bus::Patience patience(options_.startup_timeout_s);
-  auto told = Clock::now();
   while (!server_.at_boundary()) {
     inbox_.dispatch(kMatchPoll);
     take_losses();
     if (aborted_ || stop_requested_) return false;
-    if (Clock::now() - told > milliseconds(500)) {
-      told = Clock::now();
-      status_.send({{"type", "waiting_for"}, {"members", names_of(server_.awaited())}});
-    }
+    wait.tell([this] { return described(server_.awaited()); });
     if (patience.over()) patience = give_up_awaited("did not join in time", options_.startup_timeout_s);
   }
   take_losses();
@@ -160,9 +170,11 @@ bus::Patience SimNode::give_up_awaited(const std::string& why, double limit_s) {
 
 // Somebody who knocks is let in before the next step; the fleet stands still meanwhile.
 void SimNode::let_in_members() {
+  WaitTeller wait(status_, "to join again");
   bus::Patience patience(options_.startup_timeout_s);
   while (!server_.at_boundary() && !aborted_ && !stop_requested_) {
     inbox_.dispatch(kMatchPoll);
+    wait.tell([this] { return described(server_.awaited()); });
     if (patience.over()) patience = give_up_awaited("did not finish joining", options_.startup_timeout_s);
   }
   for (const std::string& name : server_.take_rejoined()) {
@@ -270,10 +282,13 @@ void SimNode::publish_ledger(const std::vector<LedgerEntry>& entries, std::size_
 
 bool SimNode::wait_for_answers() {
   const std::string silence = fmt::format("did not answer for {} s", options_.agent_timeout_s);
+  WaitTeller wait(status_, "to answer");
   bus::Patience patience(options_.agent_timeout_s), until_asked_again(kAskAgain_s);
   while (!server_.answered()) {
-    if (!inbox_.dispatch(kIdlePoll, server_.rings())) report_progress(false);
-    if (aborted_) return false;
+    const bool arrived = inbox_.dispatch(kIdlePoll, server_.rings());
+    const bool told = wait.tell([this] { return described(server_.awaited()); });
+    if (!arrived && !told) report_progress(false);
+    if (aborted_ || gives_up_step()) return false;
     if (patience.over()) patience = give_up_awaited(silence, options_.agent_timeout_s);
     if (until_asked_again.over()) {
       server_.ask_again();
@@ -286,6 +301,17 @@ bool SimNode::wait_for_answers() {
     summary_.deterministic = false;
   }
   take_losses();
+  return true;
+}
+
+// The user ends the run, and somebody does not answer: a hung planner, an agent in a debugger that has gone.
+bool SimNode::gives_up_step() {
+  if (!stop_requested_ || elapsed_s(stop_requested_at_) < kStopPatience_s) return false;
+  stalled_ = names_of(server_.awaited());
+  std::string text = fmt::format("interrupted in step {}, which was not finished; it waited for", simulation_.step());
+  for (const std::string& name : stalled_) text += " " + name;
+  spdlog::warn("{}", text);
+  summary_.warnings.push_back(std::move(text));
   return true;
 }
 
@@ -310,7 +336,8 @@ void SimNode::pace(Clock::time_point started) {
   const double due_s = seconds(simulation_.tick() + scenario_.exchange_ticks()) / *options_.realtime_factor;
   const auto due = started + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
   while (Clock::now() < due && !aborted_ && !stop_requested_) {
-    inbox_.dispatch(std::chrono::ceil<milliseconds>(due - Clock::now()));
+    inbox_.dispatch(std::min(std::chrono::ceil<milliseconds>(due - Clock::now()), kProgressPeriod));
+    report_progress(false);
   }
 }
 

@@ -65,6 +65,7 @@ class SimNode {
   void publish_step();
   void publish_ledger(const std::vector<LedgerEntry>& entries, std::size_t begin);
   bool wait_for_answers();
+  bool gives_up_step();
   void pace(Clock::time_point started);
   void finish_step();
   void take_losses();
@@ -94,6 +95,8 @@ class SimNode {
   std::vector<ProcessFault> process_faults_;
   RunSummary summary_;
   bool stop_requested_ = false, aborted_ = false, last_step_ = false;
+  Clock::time_point stop_requested_at_{};
+  std::vector<std::string> stalled_;  ///< who had not answered when a stop was requested, nor for some time after
   Clock::time_point last_progress_{};
   Phase last_phase_ = Phase::waiting;  ///< as last told
 };

@@ -2,8 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include "bus/lockstep/patience.hpp"
-
 namespace skein::bus {
 namespace {
 
@@ -13,33 +11,12 @@ constexpr milliseconds kMatchPoll{2};
 constexpr milliseconds kIdlePoll{200};
 constexpr int kLingerPolls = 25;  // of kIdlePoll: as long as the answer to the last step may be on its way
 
-/// Nobody waits without saying for what.
-class WaitingWord {
- public:
-  WaitingWord(const LockstepClient& client, double first_s) : client_(client), first_s_(first_s) { moved(); }
-  void moved() {
-    patience_ = Patience(0.0);
-    next_s_ = first_s_;
-  }
-  void look() {
-    patience_.over();
-    if (patience_.waited_s() < next_s_) return;
-    spdlog::info("waiting for {} ({:.0f} s)", client_.waiting_for(), patience_.waited_s());
-    next_s_ *= 2.0;
-  }
-
- private:
-  const LockstepClient& client_;
-  const double first_s_;
-  double next_s_ = 0.0;
-  Patience patience_{0.0};
-};
-
 }  // namespace
 
 LoopEnd run_client(LockstepClient& client, Inbox& inbox, const ClientLoop& loop, const StopSignal& stop) {
   client.start();
-  WaitingWord word(client, loop.first_word_s);
+  const auto wait_from_now = [&] { return WaitNotice(WaitNotice::Clock::now(), loop.first_word); };
+  WaitNotice wait = wait_from_now();
   bool was_member = false;
   for (bool waiting = true; !stop.requested();) {
     const std::size_t rings = waiting ? 0 : loop.rings ? loop.rings() : client.rings();
@@ -49,9 +26,11 @@ LoopEnd run_client(LockstepClient& client, Inbox& inbox, const ClientLoop& loop,
     if (event == LockstepClient::Event::resumed) return LoopEnd::resumed;
     if (event == LockstepClient::Event::think) {
       loop.think();
-      word.moved();
+      wait = wait_from_now();
     }
-    word.look();
+    if (const auto waited_s = wait.due(WaitNotice::Clock::now())) {
+      spdlog::info("waiting for {} ({:.0f} s)", client.waiting_for(), *waited_s);
+    }
     const bool serving = loop.serve();
     was_member = was_member || client.is_member();
     waiting = serving || client.waits_for_matches();

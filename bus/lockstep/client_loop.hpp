@@ -6,6 +6,7 @@
 
 #include "bus/lockstep/client.hpp"
 #include "core/program.hpp"
+#include "core/wait_notice.hpp"
 
 namespace skein::bus {
 
@@ -19,7 +20,7 @@ struct ClientLoop {
   /// Whether the answer to the last step is out.
   std::function<bool()> answered_last;
   /// After so long without a step the log tells what it waits for; again after twice as long, and so on.
-  double first_word_s = 5.0;
+  std::chrono::milliseconds first_word = WaitNotice::kFirst;
 };
 
 enum class LoopEnd {

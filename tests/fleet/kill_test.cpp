@@ -98,6 +98,31 @@ INSTANTIATE_TEST_SUITE_P(Signals, StopSignalled, testing::Values(SIGINT, SIGTERM
   return signal.param == SIGINT ? std::string("SIGINT") : std::string("SIGTERM");
 });
 
+TEST_F(Interruption, AHungStepIsGivenUpAndOnlyWhoHangsIsNamed) {
+  SkeinRun& run = flying(kLongRun);
+  ::kill(processes_of(run.dir()).at("uav_agent-sentosa"), SIGSTOP);
+  run.skein().signal(SIGINT);
+  EXPECT_EQ(run.exit_code(), 130) << run.err();
+  expect_complete_result(run);
+  const Json result = run.result();
+  EXPECT_EQ(result["status"], "interrupted");
+  EXPECT_TRUE(result["lost_members"].empty()) << result["lost_members"];
+  EXPECT_NE(result["warnings"].dump().find("waited for sentosa"), std::string::npos) << result["warnings"];
+  EXPECT_EQ(run.err().find("failed"), std::string::npos) << run.err();
+  expect_nothing_left();
+}
+
+TEST_F(Interruption, BeforeTheFirstStepNobodyIsBlamed) {
+  SkeinRun& run = start("run", {"towers", "--planner", "patrol", "--debug", "changi"});
+  ASSERT_TRUE(run.wait_for("gdb --args")) << run.err();
+  run.skein().signal(SIGINT);
+  EXPECT_EQ(run.exit_code(), 130) << run.err();
+  expect_complete_result(run);
+  EXPECT_EQ(run.result()["status"], "interrupted");
+  EXPECT_EQ(run.err().find("failed"), std::string::npos) << run.err();
+  expect_nothing_left();
+}
+
 TEST_F(Interruption, SecondInterruptEndsItAtOnce) {
   SkeinRun& run = flying(kLongRun);
   ::kill(processes_of(run.dir()).at("sim_server"), SIGSTOP);  // so that the first one cannot be obeyed

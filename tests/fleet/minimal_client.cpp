@@ -2,7 +2,7 @@
 // code with Skein, only the messages and the bus. It flies its UAV 3 m up and stays there.
 //   skein run --planner hover,UAV=exec:minimal_client    (the launcher sets SKEIN_RUN, SKEIN_DOMAIN, SKEIN_UAV, SKEIN_DDS)
 // Exit code 0 after the last step, 3 when the server dropped it. To see what becomes of a broken client: with an argument
-// it lies from a certain step on; "boast" announces a command more than it sends, "smuggle" one less;
+// it lies from a certain step on; "hang" answers no more; "boast" announces a command more than it sends, "smuggle" one less;
 // "forge" tells the station of captures that no camera took.
 #include <algorithm>
 #include <condition_variable>
@@ -177,6 +177,10 @@ class Client {
 
   /// @returns false when the server has gone.
   bool answer(const msg::Step& step) {
+    if (lie_ == "hang" && step.k() >= kFirstLie) {
+      while (steps_.matches(server_)) steps_.take();
+      return false;
+    }
     expected_ = count_of(step.expected(), odometry_->name(), server_, expected_);
     while (received_ < expected_) {
       const auto next = odometry_->take();
@@ -269,7 +273,8 @@ int main(int argc, char** argv) {
   const char *domain = std::getenv("SKEIN_DOMAIN"), *uav = std::getenv("SKEIN_UAV"), *vendor = std::getenv("SKEIN_DDS"),
              *run = std::getenv("SKEIN_RUN");
   if (domain == nullptr || uav == nullptr || vendor == nullptr) {
-    std::cerr << "usage: [SKEIN_RUN=N] SKEIN_DOMAIN=N SKEIN_UAV=NAME SKEIN_DDS=VENDOR minimal_client [boast|smuggle|forge]\n";
+    std::cerr << "usage: [SKEIN_RUN=N] SKEIN_DOMAIN=N SKEIN_UAV=NAME SKEIN_DDS=VENDOR minimal_client "
+                 "[hang|boast|smuggle|forge]\n";
     return 2;
   }
   const char* security = std::getenv("SKEIN_SECURITY");  // set with --secure

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "cli/proc_table.hpp"
 #include "cli/security.hpp"
 #include "cli/security_keys.hpp"
 #include "cli/security_rules.hpp"
@@ -180,13 +181,40 @@ TEST_F(Secure, AgentsCannotLookAtWhatIsNotTheirs) {
                                            "exec " SKEIN_MINIMAL_CLIENT "\n");
   SkeinRun& probed = run("probed", {scenario_, "--secure", "--duration", "10", "--planner",
                                     "hover," + kOther + "=exec:exec /bin/sh " + script.string()});
-  const std::string uid = std::to_string(60700 + probed.domains().first + kOthersDomain);
-  EXPECT_EQ(text_of(probed.dir() / ("uav_agent-" + kOther + ".looked")), uid + "\n") << "its own key and no more";
+  const std::string looked = text_of(probed.dir() / ("uav_agent-" + kOther + ".looked"));
+  const int uid = std::atoi(looked.c_str());
+  EXPECT_EQ(looked, std::to_string(uid) + "\n") << "its own key and no more";
+  EXPECT_GE(uid, static_cast<int>(cli::kFirstAgentUser));
+  EXPECT_LE(uid, static_cast<int>(cli::kLastAgentUser));
   EXPECT_TRUE(probed.result()["deterministic"]);
   for (const Json& warning : probed.result()["warnings"]) {
     EXPECT_EQ(warning.get<std::string>().find("points.pcd"), std::string::npos) << warning;
   }
   EXPECT_EQ(fs::status(probed.dir()).permissions(), fs::perms(0755)) << "open again";
+}
+
+TEST_F(Secure, NobodyIsLeftUnderTheUserIdsOfARun) {
+  if (!is_root()) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
+  const fs::path script = write("stay.sh", "setsid sleep 1000 &\n"
+                                           "id -u > $SKEIN_OUT/uid\n"
+                                           "exec " SKEIN_MINIMAL_CLIENT "\n");
+  const auto fly = [&](const std::string& name) {
+    SkeinRun& done = run(name, {scenario_, "--secure", "--duration", "5", "--planner",
+                                "hover," + kOther + "=exec:exec /bin/sh " + script.string()});
+    return static_cast<uid_t>(std::atoi(text_of(done.dir() / ("uav_agent-" + kOther + ".uid")).c_str()));
+  };
+  const auto anybody_is = [](uid_t user) {
+    const std::vector<pid_t> all = cli::all_processes();
+    return std::any_of(all.begin(), all.end(), [&](pid_t pid) { return cli::belongs_to(pid, user); });
+  };
+  const uid_t first = fly("first");
+  ASSERT_GE(first, cli::kFirstAgentUser);
+  EXPECT_FALSE(anybody_is(first));
+  // Somebody of that id all the same: it is not given to the next run.
+  const std::string id = std::to_string(first);
+  start_program("survivor", {"/usr/bin/setpriv", "--reuid", id, "--regid", id, "--clear-groups", "/bin/sleep", "1000"});
+  ASSERT_TRUE(eventually([&] { return anybody_is(first); }));
+  EXPECT_NE(fly("second"), first);
 }
 
 TEST_F(Secure, ForgedReportsAreRefusedAndCounted) {

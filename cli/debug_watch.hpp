@@ -1,0 +1,41 @@
+// Under --debug the user starts one agent himself, in a debugger: its end is no child's end that the kernel would tell us
+// of, and the debugger may well live on. So its process is looked for by its command line, or for a user's command by its
+// environment, and watched.   Threads: one.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+namespace skein::cli {
+
+class DebugWatch {
+ public:
+  /// Nobody announces that it starts: how often to look.
+  static constexpr std::chrono::milliseconds kPeriod{200};
+
+  /// @param out  the results folder, as it stands in the debug command. @param agent  the program that flies the UAV.
+  DebugWatch(std::string uav, std::filesystem::path out, std::filesystem::path agent);
+  ~DebugWatch();
+  DebugWatch(const DebugWatch&) = delete;
+  DebugWatch& operator=(const DebugWatch&) = delete;
+
+  /// @returns true once for each debugged program that has been seen and has ended; the user may start another one.
+  bool ended();
+  /// Of the last one seen; 0: none yet.
+  pid_t pid() const { return pid_; }
+
+ private:
+  bool is_agent_process(pid_t pid) const;
+  bool is_command_process(pid_t pid) const;
+  bool is_debugged(pid_t pid) const { return is_agent_process(pid) || is_command_process(pid); }
+  void look();
+
+  const std::string uav_, out_, agent_;
+  pid_t pid_ = 0;
+  int fd_ = -1;  ///< its pidfd
+};
+
+}  // namespace skein::cli

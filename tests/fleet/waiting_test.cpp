@@ -1,0 +1,141 @@
+// Whoever is waited for is named, and every wait ends: by an answer, a time-out, an end that is noticed, or Ctrl-C.
+#include <signal.h>
+
+#include <regex>
+
+#include "fleet_fixture.hpp"
+#include "small_scene.hpp"
+
+namespace skein::test {
+namespace {
+
+class Waiting : public FleetTest {
+ protected:
+  Waiting() : scenario_(write_small_scene(folder())) {}
+
+  void end_by_interrupt(SkeinRun& run) {
+    run.skein().signal(SIGINT);
+    EXPECT_EQ(run.exit_code(), 130) << run.err();
+    EXPECT_EQ(run.result()["status"], "interrupted");
+    EXPECT_EQ(run.err().find("failed"), std::string::npos) << run.err();
+    expect_complete_result(run);
+  }
+
+  std::string scenario_;
+};
+
+TEST_F(Waiting, WhoNeverJoinsIsNamed) {
+  SkeinRun& run = start("run", {scenario_, "--planner", "hover,changi=exec:exec sleep 1000"});
+  EXPECT_TRUE(run.wait_for("waiting for changi to join (")) << run.err();
+  EXPECT_NE(text_of(run.dir() / "sim_server.log").find("waiting for changi"), std::string::npos) << "where no launcher is";
+  end_by_interrupt(run);
+}
+
+TEST_F(Waiting, WhoHangsIsNamed) {
+  SkeinRun& run = start("run", {scenario_, "--planner", "hover", "--duration", "2000"});
+  ASSERT_TRUE(run.wait_until_flying()) << run.err();
+  ::kill(processes_of(run.dir()).at("uav_agent-changi"), SIGSTOP);
+  EXPECT_TRUE(run.wait_for("waiting for changi to answer (")) << run.err();
+  end_by_interrupt(run);
+}
+
+TEST_F(Waiting, AServerThatSaysNothingIsNamed) {
+  SkeinRun& run = start("run", {scenario_, "--planner", "hover", "--duration", "2000"});
+  ASSERT_TRUE(run.wait_until_flying()) << run.err();
+  const pid_t server = processes_of(run.dir()).at("sim_server");
+  ::kill(server, SIGSTOP);
+  EXPECT_TRUE(run.wait_for("waiting for sim_server (")) << run.err();
+  ::kill(server, SIGCONT);
+  end_by_interrupt(run);
+}
+
+TEST_F(Waiting, SeveralHungPlannersCostOneTimeOut) {
+  SkeinRun& run = start("run", {scenario_, "--planner", "exec:" SKEIN_MINIMAL_CLIENT " hang", "--duration", "20",
+                                "--agent-timeout", "1"});
+  EXPECT_EQ(run.exit_code(), 3) << run.err();
+  const Json lost = run.result()["lost_members"];
+  ASSERT_EQ(lost.size(), 2u) << lost;
+  EXPECT_EQ(lost[0]["step"], lost[1]["step"]);
+  EXPECT_EQ(lost[0]["reason"], "did not answer for 1 s");
+}
+
+/// A fleet whose agent of changi is started by a tool that lives on when its program has ended, or does not.
+class Debugged : public Waiting {
+ protected:
+  void start_fleet(const std::string& planner = "hover") {
+    run_ = &start("run", {scenario_, "--planner", planner, "--duration", "2000", "--debug", "changi"});
+    ASSERT_TRUE(run_->wait_for("changi yourself")) << run_->err();
+    std::smatch match;
+    const std::string text = run_->err();
+    ASSERT_TRUE(std::regex_search(text, match, std::regex("\n\n  (.*)\n"))) << text;
+    command_ = match[1];
+  }
+  /// @param tool  in the place of "gdb --args", or before a user's command.
+  ChildProcess& start_tool(const std::string& tool) {
+    const std::string gdb = "gdb --args ";
+    std::string command = command_;
+    const std::size_t at = command.find(gdb);
+    if (at != std::string::npos) command.replace(at, gdb.size(), tool + " ");
+    else command.insert(command.find("/bin/sh -c"), tool + " ");
+    return start_program("tool", {"/bin/sh", "-c", "exec env " + command});
+  }
+  pid_t debugged() const {
+    const auto found = processes_of(run_->dir());
+    return found.contains("uav_agent-changi") ? found.at("uav_agent-changi") : 0;
+  }
+  void expect_fleet_goes_on() {
+    EXPECT_TRUE(run_->wait_for("the debugged program of changi (process ")) << run_->err();
+    EXPECT_TRUE(eventually([&] { return text_of(run_->dir() / "sim_server.log").find("changi is lost") != std::string::npos; }));
+    end_by_interrupt(*run_);
+    const Json result = run_->result();
+    ASSERT_EQ(result["lost_members"].size(), 1u) << result["lost_members"];
+    EXPECT_EQ(result["lost_members"][0]["member"], "changi");
+    EXPECT_EQ(result["warnings"].dump().find("waited for"), std::string::npos) << "no step was left unfinished";
+  }
+
+  SkeinRun* run_ = nullptr;
+  std::string command_;
+};
+
+TEST_F(Debugged, AProgramThatEndsIsLostThoughItsToolLivesOn) {
+  start_fleet();
+  const std::string tool = write("tool.sh", "\"$@\" & wait\nexec sleep 1000\n");
+  ChildProcess& process = start_tool("/bin/sh " + tool);
+  ASSERT_TRUE(run_->wait_until_flying()) << run_->err();
+  ::kill(debugged(), SIGKILL);
+  expect_fleet_goes_on();
+  EXPECT_FALSE(process.ended()) << "the tool is its user's";
+}
+
+TEST_F(Debugged, ACommandThatEndsIsLostToo) {
+  start_fleet("hover,changi=exec:exec " SKEIN_MINIMAL_CLIENT);
+  start_tool("");
+  ASSERT_TRUE(run_->wait_until_flying()) << run_->err();
+  ::kill(debugged(), SIGKILL);
+  expect_fleet_goes_on();
+}
+
+TEST_F(Debugged, LeavingGdbDoesNotStallTheFleet) {
+  if (!std::filesystem::exists("/usr/bin/gdb")) GTEST_SKIP() << "no gdb here";
+  start_fleet();
+  ChildProcess& gdb = start_tool("gdb -nx -batch -ex run --args");
+  eventually([&] { return is_flying(run_->dir()) || gdb.ended() || run_->skein().ended(); });
+  if (gdb.ended()) GTEST_SKIP() << "gdb may not debug here: " << gdb.err();
+  ASSERT_TRUE(is_flying(run_->dir())) << run_->err();
+  gdb.signal(SIGKILL);
+  expect_fleet_goes_on();
+}
+
+TEST_F(Debugged, TheEndOfTheRunIsNoLoss) {
+  run_ = &start("run", {scenario_, "--planner", "hover", "--duration", "5", "--debug", "changi"});
+  ASSERT_TRUE(run_->wait_for("gdb --args")) << run_->err();
+  const std::string text = run_->err();
+  const std::size_t begin = text.find("\n\n  ") + 4;
+  command_ = text.substr(begin, text.find('\n', begin) - begin);
+  start_tool("");
+  EXPECT_EQ(run_->exit_code(), 0) << run_->err();
+  EXPECT_EQ(run_->err().find("debugged program"), std::string::npos) << run_->err();
+}
+
+}  // namespace
+}  // namespace skein::test
