@@ -92,7 +92,8 @@ class Burst {
 
 struct BusConfig {
   std::string vendor = "cyclonedds";  ///< "cyclonedds", "fastdds" or "inproc"
-  bool loopback_only = true;          ///< no multicast, 127.0.0.1 only; false in containers
+  bool loopback_only = true;          ///< nothing leaves the host; false in containers
+  std::string interface{};            ///< otherwise: the only one that is used; empty: as the vendor chooses
   bool long_leases = false;           ///< debug: a process stopped in gdb keeps its place for an hour
   std::filesystem::path security{};   ///< folder with the files of core/security_files.hpp; empty: an open domain
 };
