@@ -10,8 +10,14 @@
 
 namespace {
 
+/// What a router knows beside its counts.
+struct Notes {
+  std::uint64_t malformed = 0, unheard = 0;
+  std::vector<std::string> warnings = {};
+};
+
 void write_report(const std::filesystem::path& folder, const skein::Scenario& scenario,
-                  const skein::router::LinkGate& gate, std::uint64_t malformed) {
+                  const skein::router::LinkGate& gate, const Notes& notes) {
   const auto counts_json = [](const skein::router::LinkCounts& counts) {
     return nlohmann::json{{"sent", counts.sent},
                           {"delivered", counts.delivered},
@@ -23,7 +29,9 @@ void write_report(const std::filesystem::path& folder, const skein::Scenario& sc
                           {"delivered_bytes", counts.delivered_bytes}};
   };
   nlohmann::json json = counts_json(gate.total());
-  json["malformed"] = malformed;
+  json["malformed"] = notes.malformed;
+  json["unheard"] = notes.unheard;
+  json["warnings"] = notes.warnings;
   json["per_link"] = nlohmann::json::array();
   for (skein::Node from = 0; from < gate.nodes(); ++from) {
     for (skein::Node to = 0; to < gate.nodes(); ++to) {
@@ -42,7 +50,7 @@ int settle(const std::filesystem::path& folder, const std::filesystem::path& cou
   const skein::Node nodes = scenario.fleet.size() + 1;
   skein::router::LinkGate gate({}, nodes);
   gate.restore(skein::router::CountStore(counts, nodes).earlier_counts());
-  write_report(folder, scenario, gate, 0);
+  write_report(folder, scenario, gate, {});
   std::filesystem::remove(counts);
   return skein::kExitDone;
 }
@@ -64,7 +72,7 @@ int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSigna
     stop.on_stop([&node] { node.wake(); });
     code = node.run(stop);
     stop.on_stop({});
-    if (code) write_report(options.out, scenario, node.gate(), node.malformed());
+    if (code) write_report(options.out, scenario, node.gate(), {node.malformed(), node.unheard(), node.stranger_warnings()});
   }
   std::filesystem::remove(counts);
   return *code;
