@@ -5,6 +5,7 @@
 #include "bus/cyclonedds/cyclonedds_bus.hpp"
 #include "bus/fastdds/fastdds_bus.hpp"
 #include "bus/inproc/inproc_bus.hpp"
+#include "bus/own_host.hpp"
 #include "bus/wire.hpp"
 #include "core/security_files.hpp"
 #include "core/types.hpp"
@@ -27,6 +28,11 @@ void check_security(const BusConfig& config) {
 
 std::unique_ptr<Bus> make_bus(const BusConfig& config) {
   check_security(config);
+  if (!config.interface.empty() && !address_of(config.interface)) {
+    throw InputError("--network " + config.interface +
+                     ": this host has no network interface of that name with an IPv4 address; `ip -br address` lists "
+                     "them, and \"all\" leaves the choice to the DDS vendor");
+  }
   if (config.vendor == "cyclonedds") return make_cyclonedds_bus(config);
   if (config.vendor == "fastdds") return make_fastdds_bus(config);
   if (config.vendor == "inproc") return make_inproc_bus(config.run);

@@ -33,6 +33,10 @@ inline std::vector<std::uint8_t> padded(std::span<const std::uint8_t> payload) {
   return bytes;
 }
 
+/// Whether a participant takes part in the discovery of nodes with default settings on the same host. Not where
+/// certificates decide who may take part, nor where all is as the vendor has it.
+inline bool meets_default_nodes(const BusConfig& config) { return config.loopback_only && config.security.empty(); }
+
 /// @throws InputError when the domain id is not 0 .. kMaxDomain
 void check_domain(int domain);
 

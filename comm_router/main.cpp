@@ -13,9 +13,15 @@
 
 namespace {
 
+/// What a router knows beside its counts.
+struct Notes {
+  std::uint64_t malformed = 0, unheard = 0;
+  std::vector<std::string> warnings = {};
+  std::vector<std::string> unwritten = {};  ///< files that the disk refused
+};
+
 void write_report(const std::filesystem::path& folder, const skein::Scenario& scenario,
-                  const skein::router::LinkGate& gate, std::uint64_t malformed,
-                  const std::vector<std::string>& unwritten, skein::StatusPipe& status) {
+                  const skein::router::LinkGate& gate, const Notes& notes, skein::StatusPipe& status) {
   const auto counts_json = [](const skein::router::LinkCounts& counts) {
     return nlohmann::json{{"sent", counts.sent},
                           {"delivered", counts.delivered},
@@ -27,7 +33,9 @@ void write_report(const std::filesystem::path& folder, const skein::Scenario& sc
                           {"delivered_bytes", counts.delivered_bytes}};
   };
   nlohmann::json json = counts_json(gate.total());
-  json["malformed"] = malformed;
+  json["malformed"] = notes.malformed;
+  json["unheard"] = notes.unheard;
+  json["warnings"] = notes.warnings;
   json["per_link"] = nlohmann::json::array();
   for (skein::Node from = 0; from < gate.nodes(); ++from) {
     for (skein::Node to = 0; to < gate.nodes(); ++to) {
@@ -38,7 +46,7 @@ void write_report(const std::filesystem::path& folder, const skein::Scenario& sc
       json["per_link"].push_back(std::move(link));
     }
   }
-  json["unwritten"] = unwritten;
+  json["unwritten"] = notes.unwritten;
   skein::hand_in_report(json, folder / "comm_router.report.json", status);
 }
 
@@ -48,7 +56,7 @@ int settle(const std::filesystem::path& folder, const std::filesystem::path& cou
   const skein::Node nodes = scenario.fleet.size() + 1;
   skein::router::LinkGate gate({}, nodes);
   gate.restore(skein::router::CountStore(counts, nodes).earlier_counts());
-  write_report(folder, scenario, gate, 0, {}, status);
+  write_report(folder, scenario, gate, {}, status);
   std::filesystem::remove(counts);
   return skein::kExitDone;
 }
@@ -83,7 +91,8 @@ int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSigna
     code = node.run(stop);
     stop.on_stop({});
     unwritten.insert(unwritten.end(), node.unwritten().begin(), node.unwritten().end());
-    if (code) write_report(options.out, scenario, node.gate(), node.malformed(), unwritten, status);
+    const Notes notes{node.malformed(), node.unheard(), node.stranger_warnings(), unwritten};
+    if (code) write_report(options.out, scenario, node.gate(), notes, status);
   }
   std::filesystem::remove(counts);
   return *code;

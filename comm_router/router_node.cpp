@@ -17,6 +17,9 @@ using bus::LockstepClient;
 
 namespace {
 
+/// Who sends and is not attached for so many steps is taken for one who does not mean to become a member.
+constexpr std::uint64_t kStrangerSteps = 20;
+
 bool listed(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -94,7 +97,8 @@ void RouterNode::open_radio() {
 }
 
 void RouterNode::open_requests(Node node) {
-  const auto queue = [this](bus::Sample&& sample) {
+  const auto queue = [this, node](bus::Sample&& sample) {
+    if (from_stranger(node, topics::radio_request().name, sample.source)) return;
     sync_.on_request(sample.source, std::make_shared<const std::vector<std::uint8_t>>(std::move(sample.payload)));
   };
   request_readers_.push_back(
@@ -112,6 +116,8 @@ void RouterNode::open_route(std::size_t number) {
   }
   if (!radio_readers_[number]) {
     const auto queue = [this, number](bus::Sample&& sample) {
+      const RadioRoute& of = gate_.routes()[number];
+      if (from_stranger(of.source, of.topic, sample.source)) return;
       sync_.on_radio(sample.source, number,
                      std::make_shared<const std::vector<std::uint8_t>>(std::move(sample.payload)));
     };
@@ -135,6 +141,27 @@ void RouterNode::close_route(std::size_t number) {
     };
     if (std::ranges::none_of(arrival_of_, uses)) arrivals_[arrival].writer.reset();
   }
+}
+
+// Whoever sends as a member has been attached before.
+bool RouterNode::from_stranger(Node node, const std::string& topic, bus::ParticipantId source) {
+  if (applicants_.contains(source)) return false;
+  strangers_.add(scenario_.node_name(node), topic, source, k_);
+  return true;
+}
+
+void RouterNode::tell_of_strangers(std::uint64_t patience) {
+  const auto is_stranger = [this](bus::ParticipantId source) { return !applicants_.contains(source); };
+  for (const auto& notice : strangers_.take_notices(k_, patience, is_stranger)) {
+    stranger_warnings_.push_back(describe(notice));
+    spdlog::warn("{}", stranger_warnings_.back());
+  }
+}
+
+std::uint64_t RouterNode::unheard() const {
+  std::uint64_t sum = 0;
+  for (Node node = 0; node < gate_.nodes(); ++node) sum += strangers_.unheard(scenario_.node_name(node));
+  return sum;
 }
 
 RadioEndpoints RouterNode::endpoints() {
@@ -274,6 +301,8 @@ void RouterNode::begin_step() {
     const auto applicant = applicants_.find(member.source());
     if (applicant != applicants_.end()) members.push_back({member.name(), member.source(), applicant->second.node});
   }
+  k_ = step.k();
+  tell_of_strangers(step.final_step() ? 0 : kStrangerSteps);
   sync_.on_step(step.k(), step.epoch(), std::move(members), step.links());
   if (step.final_step()) last_k_ = step.k();
 }

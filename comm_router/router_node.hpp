@@ -13,6 +13,7 @@
 #include "bus/inbox.hpp"
 #include "bus/lockstep/client_loop.hpp"
 #include "bus/lockstep/patience.hpp"
+#include "bus/lockstep/strangers.hpp"
 #include "comm_router/count_store.hpp"
 #include "comm_router/link_gate.hpp"
 #include "comm_router/radio_registry.hpp"
@@ -54,6 +55,9 @@ class RouterNode {
   /// Makes run() look at `stop`; from any thread.
   void wake() { inbox_.wake(); }
   const LinkGate& gate() const { return gate_; }
+  /// How many radio messages came from outside the lock-step, and who sent them, a line each; for the end of a run.
+  std::uint64_t unheard() const;
+  std::vector<std::string> stranger_warnings() const { return stranger_warnings_; }
   /// Samples received that were no message of their topic's type.
   std::uint64_t malformed() const { return inbox_.malformed(); }
   /// Files that the disk refused, one sentence each.
@@ -84,6 +88,9 @@ class RouterNode {
   };
 
   void open_door(Node node, std::string_view member);
+  /// True when a sample is nobody's who was ever attached: it goes nowhere, and is counted.
+  bool from_stranger(Node node, const std::string& topic, bus::ParticipantId source);
+  void tell_of_strangers(std::uint64_t patience);
   void open_radio();
   void open_requests(Node node);
   void open_route(std::size_t number);
@@ -119,6 +126,9 @@ class RouterNode {
   RouterSync sync_;
   RadioRegistry registry_;
   CountStore* count_store_ = nullptr;
+  bus::Strangers strangers_;
+  std::vector<std::string> stranger_warnings_;
+  std::uint64_t k_ = 0;  ///< the step that was begun last
   bus::Inbox inbox_;
   std::unique_ptr<bus::Participant> world_;
   std::vector<std::unique_ptr<bus::Participant>> nodes_;

@@ -83,7 +83,7 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--dds", options.dds, "DDS vendor")->capture_default_str();
   app.add_option("--domain", options.domain, "First DDS domain of the fleet")
       ->capture_default_str()
-      ->check(CLI::Range(0, 200));
+      ->check(CLI::Range(kFirstDomain, kLastDomain));
   app.add_option("--out", options.out, "Folder for what the program writes")->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of all random draws; 0 draws nothing")
       ->capture_default_str()
@@ -99,14 +99,16 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--security", options.security, "Folder with the process's key, certificate and permissions")
       ->group("Launcher");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error or off (default: SKEIN_LOG)");
-  app.add_flag_callback(
-      "--network", [&options] { options.loopback_only = false; },
-      "Use the real network interfaces instead of the loopback alone");
+  app.add_option("--network", options.network,
+                 "Other hosts take part: by this network interface, or by those that the DDS vendor chooses (all)")
+      ->expected(0, 1)
+      ->default_str("all");
   app.add_option("--lease", options.lease_s, "Who gives no sign of life for so long is taken for dead [s]")
       ->capture_default_str()
       ->check(CLI::Range(1, 3600));
   app.add_option_function<std::uint64_t>(
-         "--run", [&options](std::uint64_t run) { options.run = RunId{run}; }, "Number of the run: programs of other runs are not listened to")
+         "--run", [&options](std::uint64_t run) { options.run = RunId{run}; },
+         "Number of the run: programs of other runs are not listened to")
       ->group("Launcher");
 }
 

@@ -35,12 +35,17 @@ inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitProcessFailed = 3;
 inline constexpr int kExitInterrupted = 130;
 
+/// Lowest domain of a fleet: 0 is ROS 2's default, where any node of the host would see the world's truth.
+inline constexpr int kFirstDomain = 1;
+/// Highest domain of a fleet; the standard's port mapping ends at 232.
+inline constexpr int kLastDomain = 200;
+
 /// Options that all programs understand.
 struct ProgramOptions {
   std::string scenario = "towers";          ///< --scenario: name or path
   std::filesystem::path assets;             ///< --assets: folder that holds models/
   std::string dds = "cyclonedds";           ///< --dds: vendor
-  int domain = 0;                           ///< --domain: base of the DDS domains, [0, 200]
+  int domain = kFirstDomain;                ///< --domain: base of the DDS domains, [1, 200]
   std::filesystem::path out = ".";          ///< --out: folder for what the program writes
   std::uint64_t seed = 0;                   ///< --seed: 0 draws nothing
   std::optional<std::uint64_t> scene_seed;  ///< --scene-seed
@@ -51,7 +56,7 @@ struct ProgramOptions {
   int status_fd = -1;                       ///< --status-fd: where status_pipe.hpp writes; -1: nowhere
   int control_fd = -1;                      ///< --control-fd: where orders come from; -1: nowhere
   std::string log_level;                    ///< --log-level; empty: SKEIN_LOG, else info
-  bool loopback_only = true;                ///< --network turns it off
+  std::optional<std::string> network;       ///< --network: other hosts take part, by this interface or "all"
   int lease_s = 8;                          ///< --lease: who is silent for so long is taken for dead [s]
   RunId run = RunId::none;                  ///< --run: that the program takes part in
   std::filesystem::path security;           ///< --security: folder of core/security_files.hpp; empty: not secured

@@ -64,7 +64,7 @@ TEST(Program, DefaultsAndOptions) {
     EXPECT_FALSE(options.scene_seed.has_value());
     EXPECT_FALSE(options.duration_s.has_value());
     EXPECT_EQ(options.status_fd, -1);
-    EXPECT_TRUE(options.loopback_only);
+    EXPECT_FALSE(options.network);
     return 0;
   });
   std::string uav;
@@ -78,7 +78,7 @@ TEST(Program, DefaultsAndOptions) {
         EXPECT_EQ(options.scene_seed, 4u);
         EXPECT_EQ(options.duration_s, 12.5);
         EXPECT_TRUE(options.check_only);
-        EXPECT_FALSE(options.loopback_only);
+        EXPECT_EQ(options.network, "all");
         EXPECT_EQ(options.status_fd, 7);
         EXPECT_EQ(options.load_options().scene_seed, 4u);
         return 0;

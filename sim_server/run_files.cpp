@@ -129,7 +129,8 @@ void RunFiles::write_report(const Simulation& simulation, const RunSummary& summ
                             {"max_speed_mps", uav.max_speed_mps},
                             {"captures", uav.captures},
                             {"idle_s", uav.idle_s},
-                            {"commands_rejected", uav.commands_rejected}});
+                            {"commands_rejected", uav.commands_rejected},
+                            {"commands_unheard", i < summary.commands_unheard.size() ? summary.commands_unheard[i] : 0}});
   }
   json["lost_members"] = nlohmann::json::array();
   for (const LostProcess& lost : summary.lost) {

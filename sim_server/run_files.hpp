@@ -34,6 +34,7 @@ struct RunSummary {
   std::vector<Collision> collisions;
   std::vector<LostProcess> lost;
   std::vector<std::string> warnings;
+  std::vector<std::uint64_t> commands_unheard;  ///< by UAV: from outside the lock-step
   std::uint64_t malformed = 0;  ///< samples received that were no message of their topic's type
   nlohmann::json timing;        ///< CPU time by kind of work
   nlohmann::json faults = nlohmann::json::array();  ///< as FaultTimeline tells

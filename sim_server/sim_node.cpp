@@ -41,6 +41,9 @@ std::vector<std::string> described(const std::vector<bus::LockstepServer::Awaite
   return texts;
 }
 
+/// Who sends commands and is no member for so many steps is taken for one who does not mean to become one.
+constexpr std::uint64_t kStrangerSteps = 20;
+
 double elapsed_s(std::chrono::steady_clock::time_point since) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
 }
@@ -85,6 +88,9 @@ void SimNode::declare_members() {
     server_.add_place(uav_names_[i], domain, true);
     uavs_.push_back(std::make_unique<UavNode>(i, scenario_, simulation_, server_, domain));
   }
+  server_.on_stranger([this](auto domain, const std::string& topic, bus::ParticipantId source) {
+    strangers_.add(uav_names_.at(domain - 2), topic, source, simulation_.step());
+  });
   server_.add_place(std::string(bus::kGcsName), gcs, options_.expect_gcs_program);
   server_.add_place(std::string(bus::kStationName), gcs, true);
   server_.add_place(std::string(bus::kRouterName), world, true);
@@ -129,6 +135,8 @@ RunSummary SimNode::run() {
     if (aborted_) break;
     simulation_.advance();
   }
+  tell_of_strangers(0);
+  for (const std::string& name : uav_names_) summary_.commands_unheard.push_back(strangers_.unheard(name));
   summary_.wall_time_s = elapsed_s(started);
   summary_.timing = clock_.summary();
   summary_.timing["cpu_s"] = thread_cpu_s() - cpu_before_s;
@@ -226,6 +234,19 @@ void SimNode::take_losses() {
   }
 }
 
+// Commands from outside the lock-step have no effect. Their sender sees a matched subscriber, and must not wonder.
+void SimNode::tell_of_strangers(std::uint64_t patience) {
+  const auto is_stranger = [this](bus::ParticipantId source) { return server_.is_stranger(source); };
+  for (const bus::Strangers::Notice& notice : strangers_.take_notices(simulation_.step(), patience, is_stranger)) {
+    const std::string text = describe(notice);
+    spdlog::warn("{}", text);
+    status_.send_surely({{"type", "warning"}, {"text", text}});
+    summary_.warnings.push_back(text);
+    const auto uav = std::find(uav_names_.begin(), uav_names_.end(), notice.node);
+    uavs_[static_cast<std::size_t>(uav - uav_names_.begin())]->reject_unheard(notice.topic);
+  }
+}
+
 // ---- one step ---------------------------------------------------------------------------------------------------
 
 bool SimNode::is_last_step() const {
@@ -238,6 +259,7 @@ void SimNode::publish_step() {
     spdlog::info("{}", line);
   }
   begin_process_faults();
+  tell_of_strangers(kStrangerSteps);
   server_.hold();
   const StepEvents& events = simulation_.events();
   publish_ledger(simulation_.referee().ledger(), events.ledger_begin);

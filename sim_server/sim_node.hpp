@@ -13,6 +13,7 @@
 #include "bus/inbox.hpp"
 #include "bus/lockstep/patience.hpp"
 #include "bus/lockstep/server.hpp"
+#include "bus/lockstep/strangers.hpp"
 #include "core/fault_plan.hpp"
 #include "core/status_pipe.hpp"
 #include "sim_server/cpu_clock.hpp"
@@ -69,6 +70,7 @@ class SimNode {
   void pace(Clock::time_point started);
   void finish_step();
   void take_losses();
+  void tell_of_strangers(std::uint64_t patience);
   void let_in_members();
   void begin_process_faults();
   void end_process_faults();
@@ -89,6 +91,7 @@ class SimNode {
   bus::Inbox inbox_;
   std::vector<std::unique_ptr<bus::Participant>> participants_;  ///< world, gcs, UAVs
   bus::LockstepServer server_;
+  bus::Strangers strangers_;  ///< who sends commands without being a member
   std::vector<std::unique_ptr<UavNode>> uavs_;
   std::unique_ptr<bus::CountedWriter> ledger_;
   bus::CountedWriter *gcs_boxes_ = nullptr, *gcs_clock_ = nullptr, *gcs_remained_ = nullptr, *gcs_neighbours_ = nullptr;

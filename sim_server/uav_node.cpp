@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "bus/lockstep/names.hpp"
+#include "bus/lockstep/strangers.hpp"
 
 namespace skein::sim {
 namespace {
@@ -163,15 +164,22 @@ void UavNode::publish_detections() {
 }
 
 void UavNode::publish_rejections() {
+  const auto publish = [this](const std::string& command, const std::string& reason, std::uint64_t total) {
+    msg::CommandRejected rejected;
+    rejected.header(to_header(simulation_.tick()));
+    rejected.command(command);
+    rejected.reason(reason);
+    rejected.total(total);
+    rejected_.write(rejected);
+  };
   for (const RejectionEvent& event : simulation_.events().rejections) {
     if (event.uav != uav_) continue;
     const bool trajectory = event.command == RejectionEvent::Command::trajectory;
-    msg::CommandRejected rejected;
-    rejected.header(to_header(simulation_.tick()));
-    rejected.command((trajectory ? topics::trajectory_command(id_) : topics::gimbal_command(id_)).name);
-    rejected.reason(event.reason);
-    rejected.total(event.total);
-    rejected_.write(rejected);
+    publish((trajectory ? topics::trajectory_command(id_) : topics::gimbal_command(id_)).name, event.reason,
+            event.total);
+  }
+  for (const std::string& topic : std::exchange(unheard_, {})) {
+    publish(topic, bus::kUnheardReason, simulation_.uav(uav_).commands_rejected);
   }
 }
 

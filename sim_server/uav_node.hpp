@@ -23,6 +23,8 @@ class UavNode {
 
   /// Publishes the samples of the present step.
   void publish();
+  /// Commands on this topic come from outside the lock-step: says so with the next publish().
+  void reject_unheard(const std::string& topic) { unheard_.push_back(topic); }
   /// The agent is new: the camera hands out again whatever was never acknowledged, and all that it has shown.
   void resend_captures() { resend_ = true; }
   /// Captures that the agent has released since the last call: the station has them.
@@ -47,6 +49,7 @@ class UavNode {
   DetectionLog detections_;
   std::map<std::uint64_t, CaptureReport> card_;  ///< captures that the agent has not released, as it is told of them
   std::vector<std::uint64_t> released_;
+  std::vector<std::string> unheard_;  ///< topics
   bool resend_ = false, boxes_sent_ = false;
 };
 

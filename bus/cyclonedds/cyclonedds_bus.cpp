@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bus/cyclonedds/domain.hpp"
+#include "bus/cyclonedds/own_host.hpp"
 #include "bus/cyclonedds/packing.hpp"
 #include "bus/cyclonedds/security.hpp"
 #include "bus/wire.hpp"
@@ -208,6 +209,7 @@ class CycloneParticipant : public Participant {
     dds_guid_t guid;
     check(dds_get_guid(entity_, &guid), "participant without GUID");
     id_ = id_of(guid);
+    if (meets_default_nodes(config)) reach_own_host(domain_.entity(), entity_);
     if (!config.security.empty()) watch_strangers(domain, entity_);
   }
   ~CycloneParticipant() override {

@@ -4,7 +4,9 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "bus/cyclonedds/own_host.hpp"
 #include "bus/cyclonedds/security.hpp"
+#include "bus/own_host.hpp"
 #include "bus/wire.hpp"
 
 namespace skein::bus::cyclonedds {
@@ -31,13 +33,18 @@ Register& domain_register() {
 
 std::string domain_configuration(const BusConfig& config) {
   const std::string last_index = std::to_string(kMaxLocalParticipants - 1);
-  // Loopback: no multicast, so participants take fixed ports and announce themselves to all of these. Datagrams as
-  // large as UDP has them; fragments fill one, or else a 4 MB sample is thousands of them.
+  // Loopback: no need of multicast, since participants take fixed ports and announce themselves to all of these; but
+  // nodes with default settings are found by it. Datagrams as large as UDP has them; fragments fill one, or else a 4 MB
+  // sample is thousands of them.
+  const bool multicast = meets_default_nodes(config) && multicast_on_loopback();
   const std::string network =
-      config.loopback_only ? "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
-                             "<AllowMulticast>false</AllowMulticast>"
-                             "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>60000B</FragmentSize></General>"
-                           : "";
+      config.loopback_only
+          ? std::string("<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"") +
+                (multicast ? "true" : "false") + "\"/></Interfaces><AllowMulticast>" + (multicast ? "spdp" : "false") +
+                "</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize><FragmentSize>60000B</FragmentSize></General>"
+      : config.interface.empty()
+          ? ""
+          : "<General><Interfaces><NetworkInterface name=\"" + config.interface + "\"/></Interfaces></General>";
   const std::string peers = config.loopback_only
                                 ? "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" + last_index +
                                       "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
@@ -70,6 +77,8 @@ Domain::Domain(int id, const BusConfig& config) : id_(id) {
   if (entry.members == 0)
     entry.entity = check(dds_create_domain(static_cast<dds_domainid_t>(id), domain_configuration(config).c_str()),
                          "cannot create domain " + std::to_string(id));
+  if (entry.members == 0 && meets_default_nodes(config)) await_own_host(entry.entity);
+  entity_ = entry.entity;
   ++entry.members;
 }
 

@@ -24,8 +24,11 @@ class Domain {
   Domain(const Domain&) = delete;
   Domain& operator=(const Domain&) = delete;
 
+  dds_entity_t entity() const { return entity_; }
+
  private:
   int id_;
+  dds_entity_t entity_ = 0;
 };
 
 }  // namespace skein::bus::cyclonedds

@@ -6,3 +6,7 @@ struct ddsi_tran_conn* const* skein_cyclone_sockets(const struct ddsi_domaingv* 
   *count = (size_t)domain->n_interfaces;
   return domain->xmit_conns;
 }
+
+void skein_cyclone_judge_addresses(struct ddsi_domaingv* domain, ddsi_is_nearby_address_fn_t judge) {
+  __atomic_store_n(&domain->m_factory->m_is_nearby_address_fn, judge, __ATOMIC_RELEASE);
+}

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <memory>
 
+#include "bus/fastdds/own_host.hpp"
 #include "bus/fastdds/security.hpp"
+#include "bus/own_host.hpp"
 #include "bus/wire.hpp"
 
 namespace skein::bus::fastdds {
@@ -21,13 +23,15 @@ namespace {
 constexpr std::uint32_t kSocketBuffer = 4 * 1024 * 1024;
 constexpr int kAllocatedSamples = 16;  // at first; more are allocated as they are needed
 
-Locator_t loopback_locator(std::uint32_t port) {
+Locator_t locator_of(const std::string& ipv4, std::uint32_t port) {
   Locator_t locator;
-  IPLocator::setIPv4(locator, 127, 0, 0, 1);
+  IPLocator::setIPv4(locator, ipv4);
   locator.kind = LOCATOR_KIND_UDPv4;
   locator.port = port;
   return locator;
 }
+
+Locator_t loopback_locator(std::uint32_t port) { return locator_of("127.0.0.1", port); }
 
 Duration_t milliseconds(std::uint32_t ms) { return {static_cast<std::int32_t>(ms / 1000), ms % 1000 * 1'000'000}; }
 
@@ -39,6 +43,7 @@ DomainParticipantQos participant_qos(int domain, const BusConfig& config) {
   // UDP only: shared memory leaves segments behind when a process is killed.
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = udp->receiveBufferSize = kSocketBuffer;
+  if (!config.interface.empty()) udp->interfaceWhiteList.push_back(address_of(config.interface).value_or(""));
   if (config.loopback_only) {
     udp->interfaceWhiteList.push_back("127.0.0.1");
     udp->maxInitialPeersRange = kMaxLocalParticipants;
@@ -46,16 +51,24 @@ DomainParticipantQos participant_qos(int domain, const BusConfig& config) {
     builtin.initialPeersList.push_back(loopback_locator(0));  // 0: the ports that RTPS has for this domain
     // Ports are given, since Fast DDS would derive them from the number of participants that this process has ever
     // had, in whatever domain, and soon be out of the range that is announced to. From these first ports on it takes
-    // the next ones that are free. A unicast locator also keeps discovery off multicast.
+    // the next ones that are free. A unicast locator also keeps discovery off multicast, unless that is asked for.
     const auto& ports = qos.wire_protocol().port;
     const auto domain_id = static_cast<std::uint32_t>(domain);
     builtin.metatrafficUnicastLocatorList.push_back(loopback_locator(ports.getUnicastPort(domain_id, 0)));
     qos.wire_protocol().default_unicast_locator_list.push_back(
         loopback_locator(ports.getUnicastPort(domain_id, 0) + ports.offsetd3 - ports.offsetd1));
     builtin.mutation_tries = kMaxLocalParticipants - 1;
+    if (meets_default_nodes(config) && multicast_on_loopback()) {
+      const Locator_t group = locator_of("239.255.0.1", ports.getMulticastPort(domain_id));
+      builtin.metatrafficMulticastLocatorList.push_back(group);
+      builtin.initialPeersList.push_back(group);
+    }
   }
   qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(udp);
+  if (meets_default_nodes(config))
+    qos.transport().user_transports.push_back(own_host_transport(udp));
+  else
+    qos.transport().user_transports.push_back(udp);
 
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.leaseDuration = {config.lease_s, 0};

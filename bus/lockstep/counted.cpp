@@ -85,15 +85,17 @@ void CountedQueues::discard(ParticipantId source) {
   std::erase_if(expected_, [&](const Expected& e) { return e.source == source; });
 }
 
-bool CountedQueues::has_surplus(ParticipantId source) const {
-  return std::any_of(topics_.begin(), topics_.end(), [&](const auto& named) {
-    const auto lane = named.second.lanes.find(source);
-    if (lane == named.second.lanes.end()) return false;
-    const auto announced = std::find_if(expected_.begin(), expected_.end(), [&](const Expected& e) {
-      return e.source == source && e.topic == named.first;
+std::optional<CountedQueues::Surplus> CountedQueues::surplus(ParticipantId source) const {
+  for (const auto& [name, topic] : topics_) {
+    const auto lane = topic.lanes.find(source);
+    if (lane == topic.lanes.end()) continue;
+    const auto expected = std::find_if(expected_.begin(), expected_.end(), [&, &topic_name = name](const Expected& e) {
+      return e.source == source && e.topic == topic_name;
     });
-    return lane->second.arrived > (announced == expected_.end() ? 0 : announced->count);
-  });
+    const std::uint64_t announced = expected == expected_.end() ? 0 : expected->count;
+    if (lane->second.arrived > announced) return Surplus{name, announced, lane->second.arrived};
+  }
+  return std::nullopt;
 }
 
 std::vector<std::string> CountedQueues::missing(std::optional<ParticipantId> source) const {

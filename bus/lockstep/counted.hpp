@@ -83,8 +83,12 @@ class CountedQueues {
   void release();
   /// Forgets a source: what it sent, and what is expected of it.
   void discard(ParticipantId source);
-  /// True when more has arrived from a source than is expected of it.
-  bool has_surplus(ParticipantId source) const;
+  struct Surplus {
+    std::string topic;
+    std::uint64_t announced = 0, arrived = 0;  ///< cumulative, since the source joined
+  };
+  /// Where more has arrived from a source than is expected of it; the first such topic.
+  std::optional<Surplus> surplus(ParticipantId source) const;
   /// What is still missing of all sources, or of one, for a human: "rt/x 3 of 4".
   std::vector<std::string> missing(std::optional<ParticipantId> source = std::nullopt) const;
 

@@ -7,6 +7,15 @@
 
 namespace skein::bus {
 
+namespace {
+
+std::string describe(const CountedQueues::Surplus& surplus) {
+  return "sent more than it announced: " + std::to_string(surplus.arrived) + " samples on " + surplus.topic + ", " +
+         std::to_string(surplus.announced) + " announced by its done (docs/lockstep.md, \"Rules for a client\")";
+}
+
+}  // namespace
+
 LockstepServer::DomainIndex LockstepServer::add_domain(const std::string& node, Participant& participant) {
   const DomainIndex index = domains_.size();
   auto domain = std::make_unique<Domain>();
@@ -68,14 +77,23 @@ CountedWriter& LockstepServer::writer(DomainIndex domain, const TopicSpec& topic
 void LockstepServer::read(DomainIndex domain, const TopicSpec& topic, CountedQueues::Handler handler) {
   Domain& d = *domains_.at(domain);
   d.commands.add_topic(topic.name, std::move(handler));
-  const auto queue = [this, &d, name = topic.name](Sample&& s) {
+  const auto queue = [this, domain, &d, name = topic.name](Sample&& s) {
     // Strangers may write into this domain; only who knocked can become a member, so the rest is not even kept.
     const bool known =
         std::any_of(places_.begin(), places_.end(), [&](const Place& p) { return p.source == s.source; });
-    if (known) d.commands.arrive(name, std::move(s));
+    if (known)
+      d.commands.arrive(name, std::move(s));
+    else if (on_stranger_)
+      on_stranger_(domain, name, s.source);
   };
   // Of no use before the Done that counts them; once all of those are here, rings() waits for any sample.
   d.readers.emplace_back(topic.name, inbox_.subscribe(*d.participant, topic, queue, Bell::silent));
+}
+
+bool LockstepServer::is_stranger(ParticipantId source) const {
+  return !gone_.contains(source) && std::none_of(places_.begin(), places_.end(), [&](const Place& p) {
+    return p.source == source || (p.next && p.next->first == source);
+  });
 }
 
 LockstepServer::Place* LockstepServer::find(std::string_view name) {
@@ -239,9 +257,8 @@ bool LockstepServer::answered() {
   }
   in_step_ = false;
   for (Place& place : places_) {
-    if (place.member && domains_[place.domain]->commands.has_surplus(place.source)) {
-      leave(place, "sent more than it announced");
-    }
+    if (!place.member) continue;
+    if (const auto surplus = domains_[place.domain]->commands.surplus(place.source)) leave(place, describe(*surplus));
   }
   for (const auto& domain : domains_) domain->commands.release();
   return true;

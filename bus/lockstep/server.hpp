@@ -50,6 +50,13 @@ class LockstepServer {
     read(domain, topic, decoding<Message>(inbox_, topic.name, std::move(handler)));
   }
 
+  /// Called for each sample on a topic of read() whose writer is no member, and which therefore goes nowhere; it may be
+  /// on its way in or out: see is_stranger(). Inside dispatch().
+  using OnStranger = std::function<void(DomainIndex, const std::string& topic, ParticipantId source)>;
+  void on_stranger(OnStranger tell) { on_stranger_ = std::move(tell); }
+  /// True for who neither is a member, nor was one, nor has asked to become one.
+  bool is_stranger(ParticipantId source) const;
+
   /// At a boundary: lets in whoever knocks. @returns true when nobody is at the door any more: publish() may follow.
   bool at_boundary();
   /// What is written from here on leaves with the step: call it before the first sample of a step.
@@ -145,6 +152,7 @@ class LockstepServer {
   void amend_step();
 
   Inbox& inbox_;
+  OnStranger on_stranger_;
   std::vector<std::unique_ptr<Domain>> domains_;
   std::vector<Place> places_;
   std::unique_ptr<CountedWriter> drop_;

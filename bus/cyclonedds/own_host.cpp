@@ -1,0 +1,45 @@
+#include "bus/cyclonedds/own_host.hpp"
+
+// Before all other headers of Cyclone, see there.
+#include "bus/cyclonedds/raw_sertype.hpp"
+
+#include <dds/ddsi/ddsi_locator.h>
+#include <dds/ddsi/ddsi_tran.h>
+
+#include "bus/cyclonedds/sockets.h"
+#include "bus/own_host.hpp"
+
+namespace skein::bus::cyclonedds {
+
+namespace {
+
+constexpr std::size_t kIpv4At = 12;  // in a locator's 16 bytes
+
+/// In the place of Cyclone's own judgement, which goes by the masks of its interfaces: here that is one, the loopback.
+ddsi_nearby_address_result is_nearby(const ddsi_locator_t* locator, std::size_t, const nn_interface*,
+                                     std::size_t* interface) {
+  if (locator->kind != NN_LOCATOR_KIND_UDPv4 ||
+      !is_own_address(std::span<const std::uint8_t, 4>(locator->address + kIpv4At, 4)))
+    return DNAR_DISTANT;
+  if (interface != nullptr) *interface = 0;
+  return DNAR_LOCAL;
+}
+
+}  // namespace
+
+void await_own_host(dds_entity_t domain) {
+  check(dds_domain_set_deafmute(domain, true, true, DDS_INFINITY), "cannot silence a domain");
+}
+
+void reach_own_host(dds_entity_t domain, dds_entity_t participant) {
+  // Only a type that is in use leads to the inside of its domain.
+  ddsi_sertype* type = make_raw_sertype("skein");
+  const dds_entity_t topic = dds_create_topic_sertype(participant, "skein", &type, nullptr, nullptr, nullptr);
+  if (topic < 0) ddsi_sertype_unref(type);
+  check(topic, "cannot look into a domain");
+  skein_cyclone_judge_addresses(static_cast<ddsi_domaingv*>(ddsrt_atomic_ldvoidp(&type->gv)), is_nearby);
+  dds_delete(topic);
+  check(dds_domain_set_deafmute(domain, false, false, DDS_INFINITY), "cannot open a domain");
+}
+
+}  // namespace skein::bus::cyclonedds
