@@ -309,11 +309,8 @@ TEST(Protocol, WhatIsSlowChangesNothing) {
 TEST_P(ProtocolLoss, WhatIsSlowChangesNothing) {
   const std::string victim = GetParam().victim;
   for (std::uint64_t seed = 0; seed < schedules(60); ++seed) {
-    const FleetOptions options{.uavs = 2,
-                               .victim = victim,
-                               .restart = GetParam().restart,
-                               .kill_after = 20 * (seed % 60),
-                               .slow = seed};
+    const FleetOptions options{
+        .uavs = 2, .victim = victim, .restart = GetParam().restart, .kill_after = 20 * (seed % 60), .slow = seed};
     FleetModel model(options, seed);
     ASSERT_EQ(model.run(), "") << victim << " schedule " << seed;
     ASSERT_NO_FATAL_FAILURE(check_invariants(model, victim, seed));
@@ -326,8 +323,7 @@ TEST_P(ScriptedFault, WhatIsSlowChangesNothing) {
     const ProcessFault fault{
         .victim = GetParam().victim, .kill = GetParam().kill, .begin = 3, .end = 6, .returns_early = seed % 2 == 1};
     const auto slow = seed == 0 ? std::nullopt : std::optional(seed);
-    auto model = std::make_unique<FleetModel>(
-        FleetOptions{.uavs = 2, .steps = 9, .fault = fault, .slow = slow}, seed);
+    auto model = std::make_unique<FleetModel>(FleetOptions{.uavs = 2, .steps = 9, .fault = fault, .slow = slow}, seed);
     ASSERT_EQ(model->run(), "") << GetParam().victim << " schedule " << seed;
     ASSERT_NO_FATAL_FAILURE(check_absence(*model, fault, seed));
     if (first) ASSERT_NO_FATAL_FAILURE(expect_same(*first, *model, seed));
