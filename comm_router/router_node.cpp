@@ -48,7 +48,8 @@ RouterNode::RouterNode(const Scenario& scenario, std::uint64_t seed, int base_do
                        const FaultPlan& faults, const std::filesystem::path& out)
     : scenario_(scenario),
       table_(scenario),
-      gate_(table_.routes(), scenario.fleet.size() + 1, make_links(scenario, faults, seed, out, unwritten_)),
+      gate_(table_.routes(), scenario.fleet.size() + 1,
+            make_links(scenario, faults, seed, out, unwritten_)),
       sync_(gate_.routes()),
       registry_(scenario, table_, endpoints()),
       world_(bus.join(world_domain(base_domain))),

@@ -1,9 +1,9 @@
 #include "core/fault_plan.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
+#include <cmath>
 #include <map>
 #include <set>
 
