@@ -55,7 +55,8 @@ constexpr const char* kScratch = "skein-scratch-";
 /// (with LOCK_NB) or gone by then.
 int lock_folder(const std::filesystem::path& folder, int how) {
   const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  struct stat locked {}, named {};
+  struct stat locked {
+  }, named{};
   if (fd >= 0 && ::flock(fd, how) == 0 && ::fstat(fd, &locked) == 0 && locked.st_uid == ::geteuid() &&
       ::lstat(folder.c_str(), &named) == 0 && named.st_ino == locked.st_ino && named.st_dev == locked.st_dev) {
     return fd;

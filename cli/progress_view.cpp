@@ -30,7 +30,8 @@ std::string joined(const Json& object, const char* key, const Json& but = Json::
   const auto found = object.find(key);
   if (found == object.end()) return text;
   for (const Json& name : *found) {
-    if (name.is_string() && std::find(but.begin(), but.end(), name) == but.end()) text += (text.empty() ? "" : ", ") + name.get<std::string>();
+    if (name.is_string() && std::find(but.begin(), but.end(), name) == but.end())
+      text += (text.empty() ? "" : ", ") + name.get<std::string>();
   }
   return text;
 }

@@ -103,9 +103,13 @@ TEST(ProgressView, TheTableShowsWhoseProgramIsLost) {
   const Json uavs = Json::parse(R"([{"name": "ada", "role": "explorer", "alive": true, "program_lost": true},
                                     {"name": "bob", "role": "explorer", "alive": true, "program_lost": false},
                                     {"name": "cy", "role": "explorer", "alive": false, "program_lost": true}])");
-  const Json result = {{"status", "completed"}, {"collisions", Json::array()}, {"digest", nullptr}, {"uavs", uavs},
+  const Json result = {{"status", "completed"},
+                       {"collisions", Json::array()},
+                       {"digest", nullptr},
+                       {"uavs", uavs},
                        {"planner", {{"ada", "hover"}, {"bob", "hover"}, {"cy", "hover"}}},
-                       {"score_by_uav", Json::object()}, {"warnings", Json::array()}};
+                       {"score_by_uav", Json::object()},
+                       {"warnings", Json::array()}};
   std::ostringstream out;
   print_summary(out, result, "there");
   EXPECT_TRUE(std::regex_search(out.str(), std::regex("\nada +explorer +hover +lost "))) << out.str();

@@ -123,25 +123,29 @@ int with_file_limit(rlim_t bytes, const std::function<bool()>& body) {
 
 TEST(ResultsDir, WithoutRoomForAResultNothingStarts) {
   const OutDir scratch;
-  EXPECT_EQ(with_file_limit(1000, [&] {
-              try {
-                const ResultsDir dir(scratch.path(), false);
-                return false;
-              } catch (const InputError& error) {
-                return std::string(error.what()).find(scratch.path()) != std::string::npos;
-              }
-            }), 0);
+  EXPECT_EQ(with_file_limit(1000,
+                            [&] {
+                              try {
+                                const ResultsDir dir(scratch.path(), false);
+                                return false;
+                              } catch (const InputError& error) {
+                                return std::string(error.what()).find(scratch.path()) != std::string::npos;
+                              }
+                            }),
+            0);
   EXPECT_TRUE(fs::is_empty(scratch.path()));
 }
 
 TEST(ResultsDir, AResultThatCannotBeWrittenIsToldAndLeavesNothingHalf) {
   const OutDir scratch;
-  EXPECT_EQ(with_file_limit(300 << 10, [&] {
-              const ResultsDir dir(scratch.path(), false);
-              const std::string whole(200 << 10, 'x'), too_long(400 << 10, 'x');
-              return dir.write_result(whole).empty() &&
-                     dir.write_result(too_long).find("result.json") != std::string::npos;
-            }), 0);
+  EXPECT_EQ(with_file_limit(300 << 10,
+                            [&] {
+                              const ResultsDir dir(scratch.path(), false);
+                              const std::string whole(200 << 10, 'x'), too_long(400 << 10, 'x');
+                              return dir.write_result(whole).empty() &&
+                                     dir.write_result(too_long).find("result.json") != std::string::npos;
+                            }),
+            0);
   EXPECT_EQ(fs::file_size(scratch.path() / "result.json"), 200U << 10) << "the one before stands";
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), {}), 1);
 }

@@ -367,9 +367,7 @@ Json losses_of(const std::filesystem::path& dir, const Json& answer, const Repor
   return nullptr;
 }
 
-std::string text_of(const Json& result) {
-  return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string text_of(const Json& result) { return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 /// @returns false when the disk refuses; then the result is printed, so that it is not lost.
 bool write_result(const ResultsDir& out, const Json& result, std::ostream& err) {

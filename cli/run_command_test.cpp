@@ -309,7 +309,8 @@ TEST_F(RunCommand, ReportsThatComeThroughThePipeNeedNoFiles) {
 }
 
 TEST_F(RunCommand, AResultThatCannotBeWrittenIsPrinted) {
-  programs_.script("station", std::string(kMember) + R"(mkdir "$out/result.json"; touch "$out/result.json/in_the_way")");
+  programs_.script("station",
+                   std::string(kMember) + R"(mkdir "$out/result.json"; touch "$out/result.json/in_the_way")");
   EXPECT_EQ(run(), kExitProcessFailed);
   const std::string said = err_.str();
   EXPECT_NE(said.find("result.json"), std::string::npos) << said;
@@ -335,7 +336,8 @@ TEST_F(RunCommand, AnAgentThatFloodsItsStatusPipeIsNamedAndTheRunGoesOn) {
 }
 
 TEST_F(RunCommand, APipeInTheNameOfAReportKeepsNobody) {
-  options_.planner = "hover,beta=exec:mkfifo \"$SKEIN_OUT/station.report.json\" \"$SKEIN_OUT/uav_agent-beta.report.json\"";
+  options_.planner =
+      "hover,beta=exec:mkfifo \"$SKEIN_OUT/station.report.json\" \"$SKEIN_OUT/uav_agent-beta.report.json\"";
   EXPECT_EQ(run(), kExitDone) << err_.str();
   EXPECT_EQ(result()["status"], "completed");
 }

@@ -37,9 +37,8 @@ Json uav_entries(const Scenario& scenario, const Reports& reports) {
     for (const char* key : {"alive", "distance_m", "max_speed_mps", "captures", "idle_s", "commands_rejected"}) {
       entry[key] = value_or(source, key, nullptr);
     }
-    entry["program_lost"] = std::any_of(lost.begin(), lost.end(), [&](const Json& member) {
-      return value_or(member, "member", "") == uav.name;
-    });
+    entry["program_lost"] = std::any_of(lost.begin(), lost.end(),
+                                        [&](const Json& member) { return value_or(member, "member", "") == uav.name; });
     const auto agent = reports.agents.find(uav.name);
     for (const char* key :
          {"planner_cpu_s", "planner_cpu_p99_ms", "planner_cpu_max_ms", "planner_exchanges_over_50ms"}) {

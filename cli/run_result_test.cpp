@@ -208,9 +208,10 @@ TEST_F(RunResult, ScoreCsvHasAllPointsInOrder) {
 
 TEST_F(RunResult, WhatWasHandedInCountsBeforeAFile) {
   write_all_reports();
-  const Json result = merge_result(
-      facts_, scenario_, read_reports(dir_.path(), scenario_, {{"station", {{"score", 9.0}, {"unwritten", {"a: full"}}}},
-                                                               {"comm_router", {{"unwritten", {"b: full", 7}}}}}));
+  const Json result = merge_result(facts_, scenario_,
+                                   read_reports(dir_.path(), scenario_,
+                                                {{"station", {{"score", 9.0}, {"unwritten", {"a: full"}}}},
+                                                 {"comm_router", {{"unwritten", {"b: full", 7}}}}}));
   EXPECT_EQ(schema_errors(result), std::vector<std::string>{});
   EXPECT_EQ(result["score"], 9.0);
   EXPECT_EQ(result["sim_time_s"], 650.5);

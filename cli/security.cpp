@@ -219,7 +219,8 @@ std::vector<std::string> SecureRun::collect() const {
       if (++files > kMostFilesOfAnAgent || !copy_from(entry.path(), copy, *folder.user, room)) ++cut;
     }
     if (cut > 0) {
-      left_behind.push_back(program + ": " + std::to_string(cut) + " of the files that it wrote are cut short or were "
+      left_behind.push_back(program + ": " + std::to_string(cut) +
+                            " of the files that it wrote are cut short or were "
                             "left behind (the disk is full, or they are more than " +
                             std::to_string(kMostOfAnAgent >> 20) + " MB)");
     }

@@ -388,7 +388,8 @@ std::vector<std::string> Supervisor::running() const {
 
 std::vector<std::string> last_lines(const std::filesystem::path& file, std::size_t count) {
   std::ifstream in(file, std::ios::ate);
-  const std::streamoff size = in.tellg(), skipped = std::max<std::streamoff>(size - static_cast<std::streamoff>(kLogTail), 0);
+  const std::streamoff size = in.tellg(),
+                       skipped = std::max<std::streamoff>(size - static_cast<std::streamoff>(kLogTail), 0);
   in.seekg(skipped);
   std::deque<std::string> tail;
   bool cut = skipped > 0;  // the first line is the end of one

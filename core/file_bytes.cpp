@@ -20,7 +20,8 @@ std::string read_file_bytes(const std::filesystem::path& file, std::uintmax_t mo
     const int reason = errno;
     std::error_code error;
     if (!std::filesystem::exists(file, error)) throw refuse("no such file");
-    throw refuse(reason == ENXIO ? "not a regular file" : "cannot be read (" + std::generic_category().message(reason) + ")");
+    throw refuse(reason == ENXIO ? "not a regular file"
+                                 : "cannot be read (" + std::generic_category().message(reason) + ")");
   }
   const std::unique_ptr<const int, void (*)(const int*)> closing(&fd, [](const int* open) { ::close(*open); });
   struct stat status {};

@@ -196,8 +196,10 @@ class SceneFileFinder {
         if (must_exist_) throw InputError(advice(key, text));
         return;
       }
-      hint = "; --assets or SKEIN_ASSETS must name the folder that it is in, and what lies beside the scenario is "
-             "written ./" + text;
+      hint =
+          "; --assets or SKEIN_ASSETS must name the folder that it is in, and what lies beside the scenario is "
+          "written ./" +
+          text;
       file = assets_ / file;
     }
     std::error_code ignored;
@@ -208,8 +210,8 @@ class SceneFileFinder {
   std::string advice(const std::string& key, const std::string& file) const {
     return scenario_.file.string() + ": " + key + ": scenario '" + scenario_.name + "' needs the data file " + file +
            ": name the folder that it is in with --assets DIR or SKEIN_ASSETS=DIR (of CARIC's data, which are no part "
-           "of Skein, the one that holds models/), or write ./" + file +
-           " for a file beside the scenario. The scenario 'towers' needs no data files.";
+           "of Skein, the one that holds models/), or write ./" +
+           file + " for a file beside the scenario. The scenario 'towers' needs no data files.";
   }
 
   const Scenario& scenario_;

@@ -255,16 +255,19 @@ TEST(ConfigDir, IsWhatTheEnvironmentSays) {
 
 TEST_F(ScenarioReader, AMissingStartIsAllThatIsSaidOfIt) {
   write("o.stl", "");
-  const std::string file = write("s.yaml",
-                                 "desired_mm_per_pixel: 2\nstation: {position: [0, 0, 0.3]}\n"
-                                 "scene: {meshes: [./o.stl], points: ./o.stl, boxes: ./o.stl}\n"
-                                 "fleet: [{name: a, vehicle: explorer}, {name: b, vehicle: explorer, start: [9, 9]}]\n");
-  EXPECT_EQ(complaint(file), file + ":4: fleet[0]: 'a' needs a 'start: [x, y]': a scene from files has no places of its own");
+  const std::string file =
+      write("s.yaml",
+            "desired_mm_per_pixel: 2\nstation: {position: [0, 0, 0.3]}\n"
+            "scene: {meshes: [./o.stl], points: ./o.stl, boxes: ./o.stl}\n"
+            "fleet: [{name: a, vehicle: explorer}, {name: b, vehicle: explorer, start: [9, 9]}]\n");
+  EXPECT_EQ(complaint(file),
+            file + ":4: fleet[0]: 'a' needs a 'start: [x, y]': a scene from files has no places of its own");
 }
 
 TEST_F(ScenarioReader, AFileThatIsMissingIsLookedForWhereItsPathSays) {
   const std::string beside = complaint(scenario("{meshes: [./models/own.stl], points: ./p.pcd, boxes: ./b.yaml}"));
-  EXPECT_NE(beside.find("there is no file " + (folder_ / "models/own.stl").string() + "\n"), std::string::npos) << beside;
+  EXPECT_NE(beside.find("there is no file " + (folder_ / "models/own.stl").string() + "\n"), std::string::npos)
+      << beside;
   EXPECT_EQ(beside.find("--assets"), std::string::npos) << beside;
 
   const std::string in_assets = scenario("{meshes: [models/own.stl], points: ./p.pcd, boxes: ./b.yaml}");
@@ -292,7 +295,8 @@ TEST_F(ScenarioReader, LargeFilesAreReadOrRefusedInTheTimeThatTheirLengthTakes) 
   EXPECT_EQ(load_scenario(write("long.yaml", head + "description: " + description + "\n"), options_).description,
             description);
 
-  std::string keys = head, names = head + "radio: {topics: [{name: /t, type: std_msgs/msg/String, targets: all, sources: [";
+  std::string keys = head,
+              names = head + "radio: {topics: [{name: /t, type: std_msgs/msg/String, targets: all, sources: [";
   std::string fleet = "desired_mm_per_pixel: 2\nscene: {family: towers}\nfleet:\n";
   for (int i = 0; i < 100000; ++i) {
     keys += "k" + std::to_string(i) + ": 1\n";

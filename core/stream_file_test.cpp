@@ -28,7 +28,8 @@ class StreamFileTest : public testing::Test {
 TEST_F(StreamFileTest, WhatWasWrittenIsThere) {
   {
     StreamFile file(file_);
-    file << "a,b\n" << "1,2\n";
+    file << "a,b\n"
+         << "1,2\n";
     EXPECT_EQ(file.trouble(), "");
   }
   EXPECT_EQ(content(), "a,b\n1,2\n");

@@ -394,8 +394,8 @@ void PhysicsWorld::apply_wrench(std::size_t uav, const Vector3d& force_W, const 
 }
 
 bool PhysicsWorld::sane(const RigidBodyState& state) const {
-  const bool finite = state.p_WB.allFinite() && state.q_WB.coeffs().allFinite() && state.v_WB.allFinite() &&
-                      state.w_WB_B.allFinite();
+  const bool finite =
+      state.p_WB.allFinite() && state.q_WB.coeffs().allFinite() && state.v_WB.allFinite() && state.w_WB_B.allFinite();
   // The squares of what comes next must be finite, too.
   constexpr double kFastest = 1e6;
   return finite && state.p_WB.norm() <= reach_m_ && state.v_WB.norm() < kFastest && state.w_WB_B.norm() < kFastest;

@@ -36,9 +36,10 @@ std::string describe(const Collision& collision, const Scenario& scenario) {
 
 std::string describe(const Stray& stray, const Scenario& scenario) {
   const Vector3d& p = stray.p_W;
-  return fmt::format("{} left the world at {:.4f} s, or its motion was no longer finite; last seen at "
-                     "({:.2f}, {:.2f}, {:.2f}): it is out",
-                     scenario.fleet[stray.uav].name, seconds(stray.tick), p.x(), p.y(), p.z());
+  return fmt::format(
+      "{} left the world at {:.4f} s, or its motion was no longer finite; last seen at "
+      "({:.2f}, {:.2f}, {:.2f}): it is out",
+      scenario.fleet[stray.uav].name, seconds(stray.tick), p.x(), p.y(), p.z());
 }
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest)

@@ -45,7 +45,7 @@ class StationNode {
   StatusPipe& status_;
   std::vector<std::string> uavs_;
   Journal journal_;
-  std::vector<std::string> unwritten_;  ///< what the disk refused, one sentence each
+  std::vector<std::string> unwritten_;    ///< what the disk refused, one sentence each
   std::optional<Scoreboard> scoreboard_;  ///< once the ledger told the number of points
   std::vector<InterestPoint> points_;     ///< once it told where they are
   PointNames names_;

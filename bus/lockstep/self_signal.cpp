@@ -26,7 +26,8 @@ void stop_ourselves() {
     return;
   }
   ::sem_init(&continued, 0, 0);
-  struct sigaction action {}, before {};
+  struct sigaction action {
+  }, before{};
   action.sa_handler = on_continued;
   ::sigaction(SIGCONT, &action, &before);
   while (::sem_wait(&continued) != 0) {

@@ -112,12 +112,18 @@ TEST_F(BadInput, WhatBearsTheNameOfAFileAndIsNoneIsRefusedAtOnce) {
   std::filesystem::rename(folder() / "scene/mesh.stl", folder() / "scene/was.stl");
   ASSERT_EQ(::mkfifo((folder() / "scene/mesh.stl").c_str(), 0600), 0);
   const std::vector<std::pair<Arguments, std::string>> wrong = {
-      {{"check", "--golden", pipe}, pipe},           {{"check", "--golden", "/dev/zero"}, "/dev/zero"},
-      {{"check", "--golden", recorded}, recorded},   {{"check", "--golden", hole}, hole},
-      {{"check", pipe}, pipe},                       {{"check", "/dev/zero"}, "/dev/zero"},
-      {{"check", scenario}, "mesh.stl"},             {{"diff", recorded, recorded}, recorded + "/digests.csv"},
-      {{"run", "towers", "--faults", pipe}, pipe},   {{"run", pipe}, pipe},
-      {{"run", "towers", "--agent", pipe}, pipe},    {{"run", "towers", "--planner", "waypoints:" + pipe}, pipe}};
+      {{"check", "--golden", pipe}, pipe},
+      {{"check", "--golden", "/dev/zero"}, "/dev/zero"},
+      {{"check", "--golden", recorded}, recorded},
+      {{"check", "--golden", hole}, hole},
+      {{"check", pipe}, pipe},
+      {{"check", "/dev/zero"}, "/dev/zero"},
+      {{"check", scenario}, "mesh.stl"},
+      {{"diff", recorded, recorded}, recorded + "/digests.csv"},
+      {{"run", "towers", "--faults", pipe}, pipe},
+      {{"run", pipe}, pipe},
+      {{"run", "towers", "--agent", pipe}, pipe},
+      {{"run", "towers", "--planner", "waypoints:" + pipe}, pipe}};
   for (const auto& [arguments, named] : wrong) {
     ChildProcess& refused = skein(arguments);
     EXPECT_EQ(refused.wait().code, 2) << arguments.front() << ' ' << arguments.back() << ": " << refused.err();
