@@ -25,15 +25,17 @@ constexpr const char* kBaselineMath = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX,-S
 /// node of the user's is built on, and none of ours reads it.
 constexpr std::array<std::string_view, 5> kVendorPrefixes = {"CYCLONE", "FASTDDS_", "FASTRTPS_", "RMW_FASTRTPS_",
                                                              "RMW_CYCLONEDDS_"};
-constexpr std::array<std::string_view, 8> kVendorNames = {
-    "ROS_DISCOVERY_SERVER", "ROS_SUPER_CLIENT",           "ROS_DOMAIN_ID",    "ROS_LOCALHOST_ONLY",
-    "ROS_STATIC_PEERS",     "ROS_AUTOMATIC_DISCOVERY_RANGE", "SKIP_DEFAULT_XML_FILE", "SKIP_DEFAULT_XML"};
+constexpr std::array<std::string_view, 8> kVendorNames = {"ROS_DISCOVERY_SERVER",  "ROS_SUPER_CLIENT",
+                                                          "ROS_DOMAIN_ID",         "ROS_LOCALHOST_ONLY",
+                                                          "ROS_STATIC_PEERS",      "ROS_AUTOMATIC_DISCOVERY_RANGE",
+                                                          "SKIP_DEFAULT_XML_FILE", "SKIP_DEFAULT_XML"};
 /// Told to each program by its launcher; inherited, they are those of another fleet.
-constexpr std::array<std::string_view, 7> kToldNames = {"SKEIN_DDS", "SKEIN_DOMAIN",   "SKEIN_OUT", "SKEIN_RUN",
+constexpr std::array<std::string_view, 7> kToldNames = {"SKEIN_DDS",      "SKEIN_DOMAIN",   "SKEIN_OUT", "SKEIN_RUN",
                                                         "SKEIN_SCENARIO", "SKEIN_SECURITY", "SKEIN_UAV"};
 /// For the user to set. The last three are the test suite's.
-const std::vector<std::string> kUserNames = {"SKEIN_AGENT", "SKEIN_ASSETS", "SKEIN_BIN_DIR", "SKEIN_CHAOS", "SKEIN_CONFIG_DIR",
-                                             "SKEIN_LOG",   "SKEIN_GOLDEN", "SKEIN_LONG",    "SKEIN_SANITIZE"};
+const std::vector<std::string> kUserNames = {"SKEIN_AGENT",  "SKEIN_ASSETS",     "SKEIN_BIN_DIR",
+                                             "SKEIN_CHAOS",  "SKEIN_CONFIG_DIR", "SKEIN_LOG",
+                                             "SKEIN_GOLDEN", "SKEIN_LONG",       "SKEIN_SANITIZE"};
 
 std::string_view name_of(std::string_view entry) { return entry.substr(0, entry.find('=')); }
 
@@ -44,7 +46,8 @@ bool listed(const Names& names, std::string_view name) {
 
 bool is_ignored(std::string_view name) {
   return listed(kVendorNames, name) || listed(kToldNames, name) ||
-         std::any_of(kVendorPrefixes.begin(), kVendorPrefixes.end(), [&](auto prefix) { return name.starts_with(prefix); });
+         std::any_of(kVendorPrefixes.begin(), kVendorPrefixes.end(),
+                     [&](auto prefix) { return name.starts_with(prefix); });
 }
 
 std::map<std::string, std::string> pinned(bool native) {

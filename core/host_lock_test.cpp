@@ -55,7 +55,9 @@ TEST(HostLock, AKilledHolderGivesItBack) {
   ::close(ready[1]);
 }
 
-TEST(HostLock, ANameThatDoesNotFitIsAnError) { EXPECT_THROW(HostLock::try_take(std::string(200, 'x')), std::exception); }
+TEST(HostLock, ANameThatDoesNotFitIsAnError) {
+  EXPECT_THROW(HostLock::try_take(std::string(200, 'x')), std::exception);
+}
 
 }  // namespace
 }  // namespace skein

@@ -13,12 +13,13 @@ namespace {
 class Leftovers : public FleetTest {
  protected:
   Leftovers() : scenario_(write_small_scene(folder())) {
-    script_ = write("g.sh", "\"$1\" & client=$!\n"
-                            "sleep 1000 & echo $! > \"$2\"\n"
-                            "setsid sleep 1000 & echo $! >> \"$2\"\n"
-                            "env -i setsid sleep 1000 & echo $! >> \"$2\"\n"
-                            "echo $client >> \"$2\"\n"
-                            "wait $client\n");
+    script_ = write("g.sh",
+                    "\"$1\" & client=$!\n"
+                    "sleep 1000 & echo $! > \"$2\"\n"
+                    "setsid sleep 1000 & echo $! >> \"$2\"\n"
+                    "env -i setsid sleep 1000 & echo $! >> \"$2\"\n"
+                    "echo $client >> \"$2\"\n"
+                    "wait $client\n");
   }
 
   SkeinRun& start_run(const std::string& duration) {

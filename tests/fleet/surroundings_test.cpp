@@ -33,12 +33,14 @@ TEST_F(Surroundings, FleetsWithDifferentTemporaryFoldersTakeDifferentDomains) {
   ASSERT_TRUE(b.wait_for("gdb --args")) << b.err();
   const auto [first_a, last_a] = a.domains();
   const auto [first_b, last_b] = b.domains();
-  EXPECT_TRUE(last_a < first_b || last_b < first_a) << first_a << ".." << last_a << " and " << first_b << ".." << last_b;
+  EXPECT_TRUE(last_a < first_b || last_b < first_a)
+      << first_a << ".." << last_a << " and " << first_b << ".." << last_b;
 
   SkeinRun& c = waiting_fleet("c", {"--domain", std::to_string(last_a)});
   EXPECT_EQ(c.exit_code(), 2);
-  EXPECT_NE(c.err().find("uses domain " + std::to_string(last_a) + " (process " + std::to_string(a.skein().pid()) + ")"),
-            std::string::npos)
+  EXPECT_NE(
+      c.err().find("uses domain " + std::to_string(last_a) + " (process " + std::to_string(a.skein().pid()) + ")"),
+      std::string::npos)
       << c.err();
   for (SkeinRun* run : {&a, &b}) {
     run->skein().signal(SIGINT);
@@ -55,8 +57,9 @@ const std::vector<std::pair<std::string, std::string>> kHostileVariables = {
     {"ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF"},
     {"FASTRTPS_DEFAULT_PROFILES_FILE", "HERE/DEFAULT_FASTRTPS_PROFILES.xml"},
     {"FASTDDS_ENVIRONMENT_FILE", "HERE/environment.json"},
-    {"CYCLONEDDS_URI", "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name='none0'/></Interfaces></General>"
-                       "</Domain></CycloneDDS>"},
+    {"CYCLONEDDS_URI",
+     "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name='none0'/></Interfaces></General>"
+     "</Domain></CycloneDDS>"},
     {"RMW_FASTRTPS_USE_QOS_FROM_XML", "1"},
     {"LC_ALL", "de_DE.UTF-8"},
     {"LC_NUMERIC", "de_DE.UTF-8"},
@@ -67,9 +70,17 @@ const std::vector<std::pair<std::string, std::string>> kHostileVariables = {
     {"SKEIN_DOMAIN", "3"},
     {"SKEIN_CHOAS", "3"}};
 /// What a shell may do before it starts the launcher.
-const std::vector<std::string> kHostileShells = {"umask 0777",      "umask 0",        "exec 0<&-",          "exec 1>&- 0<&-",
-                                                 "trap '' CHLD",    "trap '' PIPE",   "exec 7</dev/null 9>/dev/null",     "ulimit -c 0",
-                                                 "trap '' HUP INT", "ulimit -n 256", "cd \"$HERE\""};
+const std::vector<std::string> kHostileShells = {"umask 0777",
+                                                 "umask 0",
+                                                 "exec 0<&-",
+                                                 "exec 1>&- 0<&-",
+                                                 "trap '' CHLD",
+                                                 "trap '' PIPE",
+                                                 "exec 7</dev/null 9>/dev/null",
+                                                 "ulimit -c 0",
+                                                 "trap '' HUP INT",
+                                                 "ulimit -n 256",
+                                                 "cd \"$HERE\""};
 
 class HostileSurroundings : public Surroundings, public testing::WithParamInterface<unsigned> {};
 
@@ -111,7 +122,8 @@ TEST_P(HostileSurroundings, DoNotChangeTheFlight) {
   ASSERT_EQ(skein.wait().code, 0) << skein.err();
   const Json result = Json::parse(text_of(out / "result.json"));
   EXPECT_EQ(result["digest"], digest);
-  for (const char* name : {"ROS_DISCOVERY_SERVER", "FASTDDS_ENVIRONMENT_FILE", "CYCLONEDDS_URI", "SKEIN_DOMAIN", "SKEIN_CHOAS"}) {
+  for (const char* name :
+       {"ROS_DISCOVERY_SERVER", "FASTDDS_ENVIRONMENT_FILE", "CYCLONEDDS_URI", "SKEIN_DOMAIN", "SKEIN_CHOAS"}) {
     if (!environment.contains(name)) continue;
     EXPECT_NE(skein.err().find(name), std::string::npos) << "ignored without a word: " << name << skein.err();
     EXPECT_NE(result["warnings"].dump().find(name), std::string::npos) << result["warnings"];

@@ -27,7 +27,8 @@ class Waiting : public FleetTest {
 TEST_F(Waiting, WhoNeverJoinsIsNamed) {
   SkeinRun& run = start("run", {scenario_, "--planner", "hover,changi=exec:exec sleep 1000"});
   EXPECT_TRUE(run.wait_for("waiting for changi to join (")) << run.err();
-  EXPECT_NE(text_of(run.dir() / "sim_server.log").find("waiting for changi"), std::string::npos) << "where no launcher is";
+  EXPECT_NE(text_of(run.dir() / "sim_server.log").find("waiting for changi"), std::string::npos)
+      << "where no launcher is";
   end_by_interrupt(run);
 }
 
@@ -75,8 +76,10 @@ class Debugged : public Waiting {
     const std::string gdb = "gdb --args ";
     std::string command = command_;
     const std::size_t at = command.find(gdb);
-    if (at != std::string::npos) command.replace(at, gdb.size(), tool + " ");
-    else command.insert(command.find("/bin/sh -c"), tool + " ");
+    if (at != std::string::npos)
+      command.replace(at, gdb.size(), tool + " ");
+    else
+      command.insert(command.find("/bin/sh -c"), tool + " ");
     return start_program("tool", {"/bin/sh", "-c", "exec env " + command});
   }
   pid_t debugged() const {
@@ -85,7 +88,8 @@ class Debugged : public Waiting {
   }
   void expect_fleet_goes_on() {
     EXPECT_TRUE(run_->wait_for("the debugged program of changi (process ")) << run_->err();
-    EXPECT_TRUE(eventually([&] { return text_of(run_->dir() / "sim_server.log").find("changi is lost") != std::string::npos; }));
+    EXPECT_TRUE(eventually(
+        [&] { return text_of(run_->dir() / "sim_server.log").find("changi is lost") != std::string::npos; }));
     end_by_interrupt(*run_);
     const Json result = run_->result();
     ASSERT_EQ(result["lost_members"].size(), 1u) << result["lost_members"];
