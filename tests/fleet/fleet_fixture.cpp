@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "json_schema.hpp"
+#include "results_page.hpp"
 
 namespace skein::test {
 namespace {
@@ -247,6 +248,7 @@ void FleetTest::expect_complete_result(const SkeinRun& run) {
   if (!result["deterministic"]) {
     EXPECT_TRUE(result["digest"].is_null()) << result["digest"];
   }
+  expect_documented_columns(run.dir());
 }
 
 }  // namespace skein::test
