@@ -1,6 +1,7 @@
 #include "cli/fault_judges.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "cli/custody.hpp"
@@ -22,7 +23,8 @@ double time_of(const EventRow& row, const Evidence& evidence) {
 
 /// @param of  what 1 means.
 Finding share_finding(const Limits& wanted, double part, double whole, const std::string& of, double end_s) {
-  const double share = whole > 0.0 ? part / whole : 1.0;
+  // To six digits, as it is shown: sums of the same captures in another order differ in their last bits.
+  const double share = whole > 0.0 ? std::round(1e6 * part / whole) / 1e6 : 1.0;
   return finding(wanted.contain(share), wanted.text(),
                  number_text(share) + " (" + number_text(part) + " of " + number_text(whole) + " " + of + ")", end_s);
 }

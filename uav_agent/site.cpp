@@ -4,7 +4,6 @@
 
 #include "uav_agent/block_work.hpp"
 #include "uav_agent/planning/lift_off.hpp"
-#include "uav_agent/work_share.hpp"
 
 namespace skein::agent {
 namespace {
@@ -13,6 +12,14 @@ constexpr double kMinClearanceM = 1.8;
 constexpr double kBlindFloorRatio = 0.25;  ///< of the highest box
 
 }  // namespace
+
+double top_of(const std::vector<OrientedBox>& boxes) {
+  double top = 0.0;
+  for (const OrientedBox& box : boxes) {
+    top = std::max(top, box.center.z() + (box.R_WO.cwiseAbs() * (0.5 * box.size)).z());
+  }
+  return top;
+}
 
 Site site_of(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, double blind_height_ratio) {
   Site site;

@@ -21,6 +21,9 @@ struct Site {
   double safe_height_m() const { return std::max(blind_height_m, lowest_m); }
 };
 
+/// z of the highest point of all boxes, 0 without boxes.
+double top_of(const std::vector<OrientedBox>& boxes);
+
 /// @param blind_height_ratio  see blind_height_m() in lift_off.hpp.
 Site site_of(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, double blind_height_ratio);
 

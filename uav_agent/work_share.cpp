@@ -48,12 +48,4 @@ WorkShare own_share(const AgentConfig& agent, const std::vector<OrientedBox>& bo
   return share;
 }
 
-double top_of(const std::vector<OrientedBox>& boxes) {
-  double top = 0.0;
-  for (const OrientedBox& box : boxes) {
-    top = std::max(top, box.center.z() + (box.R_WO.cwiseAbs() * (0.5 * box.size)).z());
-  }
-  return top;
-}
-
 }  // namespace skein::agent

@@ -30,7 +30,4 @@ struct WorkShare {
 WorkShare own_share(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const CameraReach& reach,
                     double middle_height_m, const WorkShareConfig& config);
 
-/// z of the highest point of all boxes, 0 without boxes.
-double top_of(const std::vector<OrientedBox>& boxes);
-
 }  // namespace skein::agent

@@ -23,10 +23,10 @@ std::string page(const std::string& name) {
 
 /// The YAML blocks of a page.
 std::vector<std::string> examples(const std::string& text) {
-  static const std::string begin_mark = "```yaml\n", end_mark = "```\n";
+  static const std::string begin_mark = "```yaml", end_mark = "```\n";
   std::vector<std::string> blocks;
   for (std::size_t at = 0; (at = text.find(begin_mark, at)) != std::string::npos;) {
-    at += begin_mark.size();
+    at = text.find('\n', at) + 1;  // the block's name, if any, stands before
     const std::size_t end = text.find(end_mark, at);
     blocks.push_back(text.substr(at, end - at));
     at = end;

@@ -10,6 +10,7 @@
 
 #include "core/host_lock.hpp"
 #include "json_schema.hpp"
+#include "results_page.hpp"
 
 namespace skein::test {
 namespace {
@@ -231,6 +232,7 @@ void FleetTest::expect_complete_result(const SkeinRun& run) {
   if (!result["deterministic"]) {
     EXPECT_TRUE(result["digest"].is_null()) << result["digest"];
   }
+  expect_documented_columns(run.dir());
 }
 
 }  // namespace skein::test

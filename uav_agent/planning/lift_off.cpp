@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "uav_agent/block_work.hpp"
-#include "uav_agent/work_share.hpp"
+#include "uav_agent/site.hpp"
 
 namespace skein::agent {
 namespace {
