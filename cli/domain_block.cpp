@@ -13,10 +13,13 @@ DomainBlock::DomainBlock(std::optional<int> base, int size, std::string realm) :
                      std::to_string(kLastDomain - kFirstDomain + 1));
   }
   if (base) {
-    if (*base < 0 || *base > last_base) {
-      throw InputError("--domain " + std::to_string(*base) + ": must be within 0.." + std::to_string(last_base) +
-                       " for this fleet of " + std::to_string(size) + " domains");
+    const std::string range = "must be within " + std::to_string(kFirstDomain) + ".." + std::to_string(last_base) +
+                              " for this fleet of " + std::to_string(size) + " domains";
+    if (*base == 0) {
+      throw InputError("--domain 0: the first domain is the world's, and every ROS 2 node of this host that was told no "
+                       "domain is in 0; it " + range);
     }
+    if (*base < 0 || *base > last_base) throw InputError("--domain " + std::to_string(*base) + ": " + range);
     if (const auto taken = try_lock(*base, size)) throw InputError(taken_text(*base, size, *taken));
     return;
   }

@@ -7,13 +7,10 @@
 #include <vector>
 
 #include "core/host_lock.hpp"
+#include "core/program.hpp"
 
 namespace skein::cli {
 
-/// Lowest domain that Skein takes by itself: 0 is ROS 2's default, where any node of the host would see the world's truth.
-inline constexpr int kFirstDomain = 1;
-/// Highest domain that Skein uses; the standard's port mapping ends at 232.
-inline constexpr int kLastDomain = 200;
 /// Above this domain the standard's ports reach those that the kernel hands out to clients.
 inline constexpr int kLastQuietDomain = 101;
 

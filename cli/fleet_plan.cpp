@@ -75,8 +75,10 @@ std::map<std::string, std::string> config_variable(const FleetPlan& plan) {
 std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
                                                   const std::filesystem::path& out, const SecureFolder& secure) {
   const std::string uav = member_name(program);
+  const std::string domain = std::to_string(agent_domain(plan, program, base_domain));
   std::map<std::string, std::string> variables = {
-      {"SKEIN_DOMAIN", std::to_string(agent_domain(plan, program, base_domain))},
+      {"SKEIN_DOMAIN", domain},
+      {"ROS_DOMAIN_ID", domain},  // a ROS 2 node needs no more: its default settings hear us on this host
       {"SKEIN_UAV", uav},
       {"SKEIN_RUN", std::to_string(plan.run)},
       {"SKEIN_DDS", dds_vendors(plan).at(program)},

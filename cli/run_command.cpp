@@ -162,6 +162,7 @@ class FleetRun {
       view_.tally(status);
     }
     if (type == "order") on_order(status);
+    if (type == "warning") view_.message("warning: " + value_or(status, "text", "").get<std::string>());
     if (type == "rejoined") orders_.returned(program_of(value_or(status, "member", "")));
     if (type == "ended") {
       note_use();

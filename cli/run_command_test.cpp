@@ -257,6 +257,7 @@ TEST_F(RunCommand, ACommandTakesThePlaceOfAnAgent) {
   std::smatch domain;
   ASSERT_TRUE(std::regex_search(environment, domain, std::regex("\nSKEIN_DOMAIN=([0-9]+)\n"))) << environment;
   EXPECT_NE(err_.str().find(".." + domain[1].str() + ","), std::string::npos) << err_.str();
+  EXPECT_NE(environment.find("\nROS_DOMAIN_ID=" + domain[1].str() + "\n"), std::string::npos) << "a ROS node's";
   const Json warnings = result()["warnings"];
   for (const Json& warning : warnings) {
     EXPECT_EQ(warning.get<std::string>().find("uav_agent-beta"), std::string::npos) << warning;

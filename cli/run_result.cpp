@@ -34,7 +34,8 @@ Json uav_entries(const Scenario& scenario, const Reports& reports) {
       if (value_or(entry, "name", "") == uav.name) source = entry;
     }
     Json entry = {{"name", uav.name}, {"role", name_of(uav.vehicle.role)}};
-    for (const char* key : {"alive", "distance_m", "max_speed_mps", "captures", "idle_s", "commands_rejected"}) {
+    for (const char* key : {"alive", "distance_m", "max_speed_mps", "captures", "idle_s", "commands_rejected",
+                            "commands_unheard"}) {
       entry[key] = value_or(source, key, nullptr);
     }
     entry["program_lost"] = std::any_of(lost.begin(), lost.end(),
@@ -82,12 +83,14 @@ Json radio_counts(const Json& router) {
   for (const char* key : {"sent", "delivered", "dropped_no_los", "dropped_fault", "dropped_overflow", "duplicated",
                           "sent_bytes", "delivered_bytes"})
     radio[key] = value_or(router, key, 0);
+  radio["unheard"] = value_or(router, "unheard", 0);
   radio["per_link"] = value_or(router, "per_link", Json::array());
   return radio;
 }
 
 Json warnings_of(const RunFacts& facts, const Reports& reports) {
   Json warnings = value_or(reports.sim_server, "warnings", Json::array());
+  for (const Json& warning : value_or(reports.comm_router, "warnings", Json::array())) warnings.push_back(warning);
   for (const std::string& warning : facts.warnings) warnings.push_back(warning);
   if (facts.native) warnings.push_back("--native: the digest may differ on another CPU model");
   const auto missing = [&](const Json& report, const std::string& program, const std::string& consequence) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "core/sha256.hpp"
 
@@ -180,11 +181,11 @@ void Journal::replay(RunId run) {
   if (cut_bytes_ > 0 && ::ftruncate(descriptor_, static_cast<off_t>(bytes.size() - rest.size())) != 0) {
     fail(file_, "its broken end cannot be cut off");
   }
-  if (!ours) write(head);
+  if (!ours) trouble_ = write(head);
 }
 
 std::string Journal::append(std::span<const TallyRecord> records) {
-  if (ended_) return {};
+  if (ended_) return std::exchange(trouble_, {});
   Bytes bytes;
   for (const TallyRecord& record : records) {
     const Bytes body = encode(record);
@@ -193,10 +194,10 @@ std::string Journal::append(std::span<const TallyRecord> records) {
     bytes.insert(bytes.end(), hash.begin(), hash.end());
     bytes.insert(bytes.end(), body.begin(), body.end());
   }
-  write(bytes);
+  return write(bytes);
 }
 
-void Journal::write(std::span<const std::uint8_t> rest) {
+std::string Journal::write(std::span<const std::uint8_t> rest) {
   while (!rest.empty()) {
     const ssize_t put_out = ::write(descriptor_, rest.data(), rest.size());
     if (put_out < 0 && errno == EINTR) continue;

@@ -40,13 +40,14 @@ class Journal {
 
  private:
   void replay(RunId run);
-  void write(std::span<const std::uint8_t> bytes);
+  std::string write(std::span<const std::uint8_t> bytes);
 
   std::filesystem::path file_;
   int descriptor_ = -1;
   std::vector<TallyRecord> replayed_;
   std::uintmax_t cut_bytes_ = 0;
   bool ended_ = false;  ///< by a disk that refused
+  std::string trouble_;  ///< at the beginning of the file, to be told
 };
 
 }  // namespace skein::station

@@ -326,7 +326,9 @@ TEST_P(ScriptedFault, WhatIsSlowChangesNothing) {
     auto model = std::make_unique<FleetModel>(FleetOptions{.uavs = 2, .steps = 9, .fault = fault, .slow = slow}, seed);
     ASSERT_EQ(model->run(), "") << GetParam().victim << " schedule " << seed;
     ASSERT_NO_FATAL_FAILURE(check_absence(*model, fault, seed));
-    if (first) ASSERT_NO_FATAL_FAILURE(expect_same(*first, *model, seed));
+    if (first) {
+      ASSERT_NO_FATAL_FAILURE(expect_same(*first, *model, seed));
+    }
     if (!first) first = std::move(model);
   }
 }
