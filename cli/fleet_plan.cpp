@@ -45,6 +45,7 @@ Arguments scenario_arguments(const FleetPlan& plan) {
   if (options.duration_s) append(arguments, {"--duration", text_of(*options.duration_s)});
   if (options.rules) append(arguments, {"--rules", *options.rules});
   if (options.faults) append(arguments, {"--faults", std::filesystem::absolute(*options.faults)});
+  if (options.network) append(arguments, {"--network", *options.network});
   return arguments;
 }
 

@@ -68,6 +68,7 @@ RunOptions run_options(const StudyOptions& options, const std::string& scenario,
   run.rules = options.rules;
   run.dds = options.dds;
   run.agent = options.agent;
+  run.network = options.network;
   return run;
 }
 
@@ -240,6 +241,7 @@ std::vector<std::string> flight_arguments(const StudyPlan& plan, const StudyFlig
   if (options.duration_s) arguments.push_back("--duration=" + fmt::format("{}", *options.duration_s));
   if (options.rules) arguments.push_back("--rules=" + *options.rules);
   if (options.agent) arguments.push_back("--agent=" + options.agent->string());
+  if (options.network) arguments.push_back("--network=" + *options.network);
   return arguments;
 }
 
