@@ -38,8 +38,14 @@ std::string text_of(double value) {
 }
 
 /// A program that is stopped for a while and comes back must not find that the others took it for dead: who it is that
-/// died, the launcher sees for itself. So leases outlast the time for which anybody is waited for.
-constexpr int kLease_s = 180, kDebugLease_s = 3600;
+/// died, the launcher sees for itself. So leases outlast the time for which anybody is waited for, at a start too.
+int lease_s(const FleetPlan& plan) {
+  constexpr int kLongest = 3600;  // that Cyclone DDS takes
+  if (plan.options.debug_uav) return kLongest;
+  constexpr double kUsualTimeout_s = 60.0, kTimes = 3.0;
+  const double timeout_s = std::max(plan.options.agent_timeout_s.value_or(kUsualTimeout_s), kUsualTimeout_s);
+  return static_cast<int>(std::min(kTimes * timeout_s, static_cast<double>(kLongest)));
+}
 
 /// What every program must know to read the same scenario.
 Arguments scenario_arguments(const FleetPlan& plan) {
@@ -51,6 +57,7 @@ Arguments scenario_arguments(const FleetPlan& plan) {
   if (options.duration_s) append(arguments, {"--duration", text_of(*options.duration_s)});
   if (options.rules) append(arguments, {"--rules", *options.rules});
   if (options.faults) append(arguments, {"--faults", std::filesystem::absolute(*options.faults)});
+  if (options.network) append(arguments, {"--network", *options.network});
   return arguments;
 }
 
@@ -105,7 +112,7 @@ Arguments run_arguments(const FleetPlan& plan, const std::string& program, int b
   append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain), "--out",
                      secure.out.empty() ? out : secure.out});
   if (!secure.keys.empty()) append(arguments, {"--security", secure.keys});
-  append(arguments, {"--lease", std::to_string(plan.options.debug_uav ? kDebugLease_s : kLease_s), "--run",
+  append(arguments, {"--lease", std::to_string(lease_s(plan)), "--run",
                      std::to_string(plan.run)});
   if (is_agent(program)) append(arguments, role_arguments(plan, program));
   if (program == "sim_server") {

@@ -14,6 +14,16 @@
 namespace skein::cli {
 namespace {
 
+/// Of run, compare and contest.
+void add_network(CLI::App& command, std::optional<std::string>& network) {
+  command
+      .add_option("--network", network,
+                  "Let other hosts take part, by this network interface or all (default: nothing leaves this host)")
+      ->type_name("[IFACE|all]")
+      ->expected(0, 1)
+      ->default_str("all");
+}
+
 CLI::App* add_run(CLI::App& app, RunOptions& run) {
   CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
   command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
@@ -42,6 +52,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
   command->add_flag("--secure", run.secure, "Enforce the isolation of agents: certificates, encryption, user ids");
   command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
+  add_network(*command, run.network);
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
   command->add_option("--out", run.out, "Results folder (default runs/<scenario>-<planner>-<seed>)");
   command->add_flag("--force", run.force, "Overwrite an existing result");
@@ -181,6 +192,7 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
   command.add_option("--dds", study.dds, "DDS vendor: cyclonedds, fastdds or mixed")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
       ->capture_default_str();
+  add_network(command, study.network);
   command.add_option("--agent", study.agent, "Agent program with planners of your own, as for `skein run`");
   command.add_option("--out", study.out, "Folder of flights and report (default runs/" + command.get_name() + ")");
   command.add_option("--jobs", study.jobs, "Flights at once; results do not depend on it")
@@ -296,10 +308,12 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
   add("--assets", run.assets, path);
   add("--duration", run.duration_s, number);
   add("--rules", run.rules, as_it_is);
+  add("--network", run.network, as_it_is);
   add("--faults", run.faults, path);
   add("--debug", run.debug_uav, as_it_is);
   add("--domain", run.domain, number);
   add("--stop-at", run.stop_at_s, number);
+  add("--agent-timeout", run.agent_timeout_s, number);
   add("--out", run.out, path);
   for (const auto& [flag, set] : {std::pair("--native", run.native),
                                   {"--secure", run.secure},

@@ -28,6 +28,7 @@ struct RunOptions {
   bool native = false;
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
   std::optional<int> domain;
+  std::optional<std::string> network;  ///< other hosts take part: an interface, or "all"
   std::optional<double> stop_at_s;
   std::optional<double> agent_timeout_s;  ///< of wall time, for a program's answer, instead of a minute
   std::optional<std::filesystem::path> out;
@@ -109,6 +110,7 @@ struct StudyOptions {
   std::optional<std::string> rules;  ///< a preset, instead of the scenarios'
   std::string dds = "cyclonedds";    ///< a vendor or "mixed"
   std::optional<std::filesystem::path> agent;  ///< as in RunOptions
+  std::optional<std::string> network;          ///< as in RunOptions
   std::optional<std::filesystem::path> out;
   int jobs = 1;  ///< flights at once
   bool force = false;

@@ -58,6 +58,20 @@ TEST(Options, TheTimeToWaitForAnAgentIsANumberOfSeconds) {
   EXPECT_THROW(parse<RunOptions>({"run", "--agent-timeout", "3", "--debug", "jurong"}), InputError);
 }
 
+TEST(Options, OtherHostsTakePartOnlyWhenAsked) {
+  for (const std::string command : {"run", "compare", "contest"}) {
+    const auto network = [&](const std::vector<std::string>& more) {
+      std::vector<std::string> arguments = {command};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return command == "run" ? parse<RunOptions>(arguments).network : parse<StudyOptions>(arguments).network;
+    };
+    EXPECT_EQ(network({}), std::nullopt);
+    EXPECT_EQ(network({"--network"}), "all");
+    EXPECT_EQ(network({"--network", "all"}), "all");
+    EXPECT_EQ(network({"--network=eth0"}), "eth0");
+  }
+}
+
 TEST(Options, OtherCommands) {
   EXPECT_TRUE(parse<TestOptions>({"test", "--long"}).long_tests);
   const auto faults = parse<TestOptions>({"test", "--faults", "mine", "--repeat", "again,chaos", "--rotate", "--out", "o"});

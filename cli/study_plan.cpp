@@ -70,6 +70,7 @@ RunOptions run_options(const StudyOptions& options, const std::string& scenario,
   run.rules = options.rules;
   run.dds = options.dds;
   run.agent = options.agent;
+  run.network = options.network;
   return run;
 }
 

@@ -59,6 +59,7 @@ std::string domain_configuration(const BusConfig& config) {
          "<WhcAdaptive>false</WhcAdaptive></Watermarks>"
          "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"8s\">50ms</HeartbeatInterval>"
          "<NackDelay>5ms</NackDelay><GenerateKeyhash>true</GenerateKeyhash>"
+         "<WriterLingerDuration>50ms</WriterLingerDuration>"
          "<SocketReceiveBufferSize min=\"default\" max=\"4MB\"/></Internal>" +
          security_configuration(config.security) +
          "</Domain></CycloneDDS>";

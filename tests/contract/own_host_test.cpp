@@ -1,0 +1,61 @@
+// A fleet on one host and whoever else is on it with the settings that the vendors have by themselves, such as ROS 2 nodes:
+// they meet, though the fleet sends nothing to other hosts.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "bus/own_host.hpp"
+#include "bus_fixture.hpp"
+#include "free_domain.hpp"
+
+namespace skein::test {
+namespace {
+
+class OwnHost : public testing::TestWithParam<std::pair<std::string, std::string>> {};
+
+TEST_P(OwnHost, ParticipantsWithDefaultSettingsAreMet) {
+  const auto& [fleet_vendor, other_vendor] = GetParam();
+  const FreeDomains domains(1);
+  const auto fleet_bus = bus::make_bus({.vendor = fleet_vendor});
+  const auto other_bus = bus::make_bus({.vendor = other_vendor, .loopback_only = false});
+  const bool fleet_first = other_vendor == "fastdds";  // whoever comes first is found by the other
+  std::unique_ptr<bus::Participant> fleet, other;
+  if (fleet_first) fleet = fleet_bus->join(domains.base());
+  other = other_bus->join(domains.base());
+  if (!fleet_first) fleet = fleet_bus->join(domains.base());
+
+  Collector at_other, at_fleet;
+  const auto there = fleet->create_writer(topic("there")), back = other->create_writer(topic("back"));
+  const auto heard_there = other->create_reader(topic("there"), at_other.callback());
+  const auto heard_back = fleet->create_reader(topic("back"), at_fleet.callback());
+  ASSERT_TRUE(eventually([&] {
+    return !there->matched().empty() && !back->matched().empty() && !heard_there->matched().empty() &&
+           !heard_back->matched().empty();
+  }));
+  for (std::uint64_t i = 0; i < 50; ++i) {
+    there->write(numbered(i, 20'000));
+    back->write(numbered(100 + i));
+  }
+  EXPECT_EQ(at_other.numbers(50).back(), 49U);
+  EXPECT_EQ(at_fleet.numbers(50).back(), 149U);
+}
+
+// Two Cyclone DDS of different settings cannot share a domain within one process: tests/ros2 has that pair.
+INSTANTIATE_TEST_SUITE_P(Vendors, OwnHost,
+                         testing::Values(std::pair("cyclonedds", "fastdds"), std::pair("fastdds", "cyclonedds"),
+                                         std::pair("fastdds", "fastdds")),
+                         [](const auto& pair) { return pair.param.first + "_and_default_" + pair.param.second; });
+
+TEST(OwnAddress, IsTheLoopbackAndWhatAnInterfaceHas) {
+  const auto own = [](std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) {
+    const std::array<std::uint8_t, 4> address{a, b, c, d};
+    return bus::is_own_address(address);
+  };
+  EXPECT_TRUE(own(127, 0, 0, 1));
+  EXPECT_TRUE(own(127, 8, 8, 8));
+  EXPECT_FALSE(own(203, 0, 113, 77)) << "kept for documentation: nobody has it";
+  EXPECT_FALSE(own(239, 255, 0, 1)) << "a group is no host";
+}
+
+}  // namespace
+}  // namespace skein::test

@@ -1,0 +1,142 @@
+// What ROS 2 nodes with default settings see of a fleet on their host, and what becomes of what they say. Real nodes
+// (rclpy) on either middleware beside fleets on either vendor.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/topics.hpp"
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+const std::string kUav = "jurong";  // an explorer, with a LiDAR
+const Arguments kFlight = {"towers", "--stop-at", "8", "--duration", "60"};
+
+Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+class Ros2 : public FleetTest, public testing::WithParamInterface<std::string> {
+ protected:
+  void SetUp() override {
+    const char* folder = std::getenv("SKEIN_ROS2");
+    if (folder == nullptr || *folder == '\0') GTEST_SKIP() << "no ROS 2: SKEIN_ROS2 is not set";
+    ChildProcess& unpack = start_program(
+        "unpack", {"/bin/sh", "-c", "exec 9>\"$2.lock\"; flock 9; test -e \"$2/env.sh\" || \"$1/unpack.sh\" \"$2\"",
+                   "sh", folder, SKEIN_ROS2_FOLDER});
+    ASSERT_EQ(unpack.wait().code, 0) << unpack.err();
+    ChildProcess& probe = start_node("probe", "cyclonedds", 1, "", "python3 -c 'import rclpy, numpy, yaml'");
+    if (probe.wait().code != 0) GTEST_SKIP() << "no ROS 2: its packages are missing (packages.txt): " << probe.err();
+  }
+
+  /// A shell in which ROS 2 runs, with default settings unless `localhost`.
+  ChildProcess& start_node(const std::string& name, const std::string& middleware, int domain,
+                           const std::string& localhost, const std::string& command) {
+    const std::string shell = std::string(". ") + SKEIN_ROS2_FOLDER + "/env.sh " + middleware + " " +
+                              std::to_string(domain) + " " + localhost + "; exec " + command;
+    return start_program(name, {"/bin/bash", "-c", shell}, {{"ROS_LOG_DIR", folder() / "ros"}});
+  }
+
+  std::string file(const std::string& name) const { return folder() / (name + ".json"); }
+
+  ChildProcess& start_listener(const std::string& name, const std::string& middleware, int domain,
+                               const std::string& localhost = "") {
+    return start_node(name, middleware, domain, localhost,
+                      "python3 " SKEIN_ROS2_NODES "/listener.py " + kUav + " " + file(name));
+  }
+
+  bool ready(const std::string& name) const { return std::filesystem::exists(file(name) + ".ready"); }
+
+  /// The agent for which the fleet has waited, by the command that the launcher printed.
+  ChildProcess& start_agent(const SkeinRun& run) {
+    const std::string text = run.err(), gdb = "gdb --args ";
+    const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
+    return start_program(
+        "agent", {"/bin/sh", "-c",
+                  "exec env " + text.substr(begin, at - begin) + text.substr(at + gdb.size(), end - at - gdb.size())});
+  }
+
+  /// It heard everything, and heard what the run's own files say.
+  void expect_all_heard(const SkeinRun& run, const std::string& listener) const {
+    SCOPED_TRACE(listener);
+    const Json heard = Json::parse(text_of(file(listener)));
+    const std::size_t steps = read_csv(run.dir() / "digests.csv").size();
+    EXPECT_EQ(heard["odometry"].size(), steps);
+    EXPECT_EQ(heard["clocks"], steps);
+    EXPECT_GT(heard["clouds"].size(), steps / 4);
+    std::size_t compared = 0;
+    for (const auto& row : read_csv(run.dir() / "trajectories.csv")) {
+      if (row.at("uav") != kUav) continue;
+      const double t = std::stod(row.at("time_s"));
+      const auto sample = std::find_if(heard["odometry"].begin(), heard["odometry"].end(),
+                                       [&](const Json& s) { return std::abs(s[0].get<double>() - t) < 1e-6; });
+      ASSERT_NE(sample, heard["odometry"].end()) << t;
+      const std::array<const char*, 3> axes = {"x", "y", "z"};
+      for (std::size_t i = 0; i < axes.size(); ++i) {
+        EXPECT_NEAR((*sample)[i + 1].get<double>(), std::stod(row.at(axes[i])), 1e-4) << t;
+      }
+      ++compared;
+    }
+    EXPECT_GT(compared, steps / 3);
+    for (const Json& cloud : heard["clouds"]) {
+      EXPECT_GT(cloud[1], 100) << "points";
+      EXPECT_EQ(cloud[2], Json({"x", "y", "z", "intensity"}));
+    }
+    EXPECT_EQ(heard["types"]["/" + kUav + "/ground_truth/odometry"], Json({"nav_msgs/msg/Odometry"}));
+    EXPECT_EQ(heard["types"]["/" + kUav + "/command/trajectory"],
+              Json({"trajectory_msgs/msg/MultiDOFJointTrajectory"}));
+    EXPECT_EQ(heard["types"]["/clock"], Json({"rosgraph_msgs/msg/Clock"}));
+  }
+};
+
+TEST_P(Ros2, NodesWithDefaultSettingsHearAUavAndAreToldWhenTheyAreNotHeard) {
+  SkeinRun& fleet = start("fleet", kFlight + Arguments{"--dds", GetParam(), "--debug", kUav});
+  ASSERT_TRUE(fleet.wait_for("gdb --args")) << fleet.err();
+  const int domain = fleet.domains().first + 2;
+  const std::vector<std::string> listeners = {"cyclonedds", "fastrtps", "cyclonedds_localhost", "fastrtps_localhost"};
+  std::vector<ChildProcess*> nodes;
+  for (const std::string& name : listeners) {
+    const std::size_t end = name.find('_');
+    nodes.push_back(&start_listener(name, name.substr(0, end), domain, end == std::string::npos ? "" : "localhost"));
+  }
+  ChildProcess& commander = start_node("commander", GetParam() == "fastdds" ? "cyclonedds" : "fastrtps", domain, "",
+                                       "python3 " SKEIN_ROS2_NODES "/commander.py " + kUav + " " + file("commander"));
+  const topics::WireTopic rejected = topics::command_rejected(kUav);
+  start_program("rejections", {SKEIN_RADIO_LISTENER, GetParam(), std::to_string(domain), folder() / "rejections",
+                               rejected.name, rejected.type});
+  ASSERT_TRUE(eventually([&] {
+    return std::all_of(listeners.begin(), listeners.end(), [&](const auto& name) { return ready(name); });
+  })) << fleet.err();
+  ASSERT_TRUE(eventually([&] { return text_of(folder() / "rejections").find(" 1 0") != std::string::npos; }));
+  start_agent(fleet);
+  ASSERT_EQ(fleet.exit_code(), 0) << fleet.err();
+  for (ChildProcess* node : nodes) EXPECT_EQ(node->wait().code, 0) << node->err();
+  commander.signal(SIGKILL);
+
+  for (const std::string& name : listeners) expect_all_heard(fleet, name);
+  const Json result = fleet.result();
+  EXPECT_TRUE(result["deterministic"]);
+  EXPECT_EQ(fleet.digest(), run("alone", kFlight).digest()) << "listeners and strangers change nothing";
+
+  EXPECT_GT(result["uavs"][0]["commands_unheard"], 0);
+  EXPECT_EQ(result["uavs"][1]["commands_unheard"], 0);
+  const std::string word = kUav + ": /" + kUav + "/command/trajectory gets samples from outside the lock-step";
+  EXPECT_NE(fleet.err().find(word), std::string::npos) << "while it flies";
+  const auto told = [&](const std::string& text) {
+    return std::count_if(result["warnings"].begin(), result["warnings"].end(),
+                         [&](const Json& w) { return w.get<std::string>().find(text) != std::string::npos; });
+  };
+  EXPECT_EQ(told(word), 1) << "once, however many there were";
+  EXPECT_GT(result["radio"]["unheard"], 0);
+  EXPECT_EQ(told(kUav + ": /plan gets samples from outside the lock-step"), 1);
+  EXPECT_NE(text_of(folder() / "rejections").find(" 1\n"), std::string::npos) << "command_rejected";
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, Ros2, testing::Values("cyclonedds", "fastdds"),
+                         [](const auto& vendor) { return vendor.param; });
+
+}  // namespace
+}  // namespace skein::test
