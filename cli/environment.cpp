@@ -35,7 +35,7 @@ constexpr std::array<std::string_view, 7> kToldNames = {"SKEIN_DDS",      "SKEIN
 /// For the user to set. The last three are the test suite's.
 const std::vector<std::string> kUserNames = {"SKEIN_AGENT",  "SKEIN_ASSETS",     "SKEIN_BIN_DIR",
                                              "SKEIN_CHAOS",  "SKEIN_CONFIG_DIR", "SKEIN_LOG",
-                                             "SKEIN_GOLDEN", "SKEIN_LONG",       "SKEIN_SANITIZE"};
+                                             "SKEIN_GOLDEN", "SKEIN_ROS2", "SKEIN_LONG",       "SKEIN_SANITIZE"};
 
 std::string_view name_of(std::string_view entry) { return entry.substr(0, entry.find('=')); }
 

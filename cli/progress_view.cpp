@@ -90,8 +90,9 @@ void ProgressView::progress(const Json& status, double wall_s) {
 
 void ProgressView::waiting_for(const Json& status) {
   if (!terminal_ && !value_or(status, "due", false)) return;
+  const std::string missing = joined(status, "missing");
   show("waiting for " + joined(status, "members") + " " + value_or(status, "what", "").get<std::string>() + " (" +
-       fixed(number(status, "seconds"), 0) + " s)");
+       fixed(number(status, "seconds"), 0) + " s)" + (missing.empty() ? "" : ": " + missing));
 }
 
 void ProgressView::tally(const Json& status) {

@@ -225,7 +225,10 @@ TEST_F(RunCommand, AfterCtrlCNobodyIsWaitedForLongAndNobodyIsBlamed) {
 }
 
 TEST_F(RunCommand, ACrashAfterCtrlCIsNamedAllTheSame) {
-  programs_.script("sim_server", "kill -INT $PPID; read line <&4\n" + std::string(kInterruptedReport) + "kill -SEGV $$");
+  // Before the first step it would be ended at once, and might not get as far as its crash.
+  programs_.script("sim_server", R"(echo '{"type":"progress","t":12.5,"mission_s":10}' >&3; sleep 0.2)"
+                                 "\nkill -INT $PPID; read line <&4\n" +
+                                     std::string(kInterruptedReport) + "kill -SEGV $$");
   EXPECT_EQ(run(), kExitInterrupted);
   EXPECT_NE(err_.str().find("sim_server failed: signal 11"), std::string::npos) << err_.str();
 }

@@ -4,6 +4,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <system_error>
 #include <type_traits>
@@ -12,8 +14,15 @@ namespace skein::router {
 
 static_assert(std::is_trivially_copyable_v<LinkCounts>);
 
-CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes) {
-  const std::size_t links = nodes * nodes, bytes = links * sizeof(LinkCounts);
+/// What the file begins with.
+struct CountStore::Head {
+  std::array<char, 8> magic{'s', 'k', 'e', 'i', 'n', 'c', 'n', 't'};
+  RunId run = RunId::none;
+  bool operator==(const Head&) const = default;
+};
+
+CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run) {
+  const std::size_t links = nodes * nodes, bytes = sizeof(Head) + links * sizeof(LinkCounts);
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   void* memory = MAP_FAILED;
   int reason = errno;
@@ -26,10 +35,15 @@ CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes) {
   }
   if (descriptor >= 0) ::close(descriptor);
   if (memory == MAP_FAILED) throw std::system_error(reason, std::generic_category(), "cannot write " + file.string());
-  counts_ = {static_cast<LinkCounts*>(memory), links};
+  head_ = static_cast<Head*>(memory);
+  counts_ = {reinterpret_cast<LinkCounts*>(head_ + 1), links};
+  const Head ours{.run = run};
+  if (*head_ == ours) return;
+  std::ranges::fill(counts_, LinkCounts{});  // new, or of another run: none of ours
+  *head_ = ours;
 }
 
-CountStore::~CountStore() { ::munmap(counts_.data(), counts_.size_bytes()); }
+CountStore::~CountStore() { ::munmap(head_, sizeof(Head) + counts_.size_bytes()); }
 
 std::vector<LinkCounts> CountStore::earlier_counts() const {
   std::vector<LinkCounts> counts(counts_.begin(), counts_.end());

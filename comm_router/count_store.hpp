@@ -6,14 +6,15 @@
 #include <span>
 
 #include "comm_router/link_gate.hpp"
+#include "core/run_id.hpp"
 
 namespace skein::router {
 
 class CountStore {
  public:
-  /// Opens or creates the file. It is mapped: what is written survives the death of this process (not of the machine).
+  /// Opens or creates the file; what another run counted is none of ours, and begins at 0. It is mapped: what is written survives the death of this process (not of the machine).
   /// @throws std::system_error when the file cannot be opened, made as long as it must be, or mapped.
-  CountStore(const std::filesystem::path& file, std::size_t nodes);
+  CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run = RunId::none);
   ~CountStore();
   CountStore(const CountStore&) = delete;
   CountStore& operator=(const CountStore&) = delete;
@@ -27,6 +28,9 @@ class CountStore {
   void save(const LinkGate& gate, const GatedStep& last);
 
  private:
+  struct Head;
+
+  Head* head_ = nullptr;  ///< the file, in memory
   std::span<LinkCounts> counts_;
 };
 

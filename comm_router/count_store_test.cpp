@@ -76,6 +76,17 @@ TEST_F(CountStoreTest, WhatItHadAtHandWhenItDiedIsLost) {
   EXPECT_EQ(gate.counts(1, 2), to_b);
 }
 
+TEST_F(CountStoreTest, WhatAnotherRunCountedIsNotTakenUp) {
+  LinkGate gate(routes(), 3, std::make_unique<SlowLinks>());
+  {
+    CountStore store(file_, 3, RunId{7});
+    store.save(gate, gate.gate(0, linked_, {message(0)}));
+  }
+  EXPECT_EQ(CountStore(file_, 3, RunId{7}).earlier_counts()[1 * 3 + 2].sent, 1U);
+  EXPECT_EQ(CountStore(file_, 3, RunId{8}).earlier_counts()[1 * 3 + 2], LinkCounts{});
+  EXPECT_EQ(CountStore(file_, 3, RunId{7}).earlier_counts()[1 * 3 + 2], LinkCounts{}) << "it is the other's now";
+}
+
 TEST_F(CountStoreTest, WithoutRoomOnTheDiskItIsAnErrorBeforeTheFirstCount) {
   const pid_t child = ::fork();  // the limit must not touch this process
   ASSERT_GE(child, 0);

@@ -52,10 +52,10 @@ void write_report(const std::filesystem::path& folder, const skein::Scenario& sc
 
 /// A router that died for good has left its counts: makes its report of them.
 int settle(const std::filesystem::path& folder, const std::filesystem::path& counts, const skein::Scenario& scenario,
-           skein::StatusPipe& status) {
+           skein::RunId run, skein::StatusPipe& status) {
   const skein::Node nodes = scenario.fleet.size() + 1;
   skein::router::LinkGate gate({}, nodes);
-  gate.restore(skein::router::CountStore(counts, nodes).earlier_counts());
+  gate.restore(skein::router::CountStore(counts, nodes, run).earlier_counts());
   write_report(folder, scenario, gate, {}, status);
   std::filesystem::remove(counts);
   return skein::kExitDone;
@@ -63,8 +63,8 @@ int settle(const std::filesystem::path& folder, const std::filesystem::path& cou
 
 /// A router without counts on disk routes as well as any; it only forgets them when it is killed.
 std::optional<skein::router::CountStore> open_counts(const std::filesystem::path& file, std::size_t nodes,
-                                                     std::vector<std::string>& unwritten) try {
-  return std::optional<skein::router::CountStore>(std::in_place, file, nodes);
+                                                     skein::RunId run, std::vector<std::string>& unwritten) try {
+  return std::optional<skein::router::CountStore>(std::in_place, file, nodes, run);
 } catch (const std::system_error& error) {
   spdlog::warn("{}; a router that is killed will not remember what it counted", error.what());
   unwritten.push_back(error.what());
@@ -78,13 +78,14 @@ int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSigna
   const skein::FaultPlan faults = skein::load_fault_plan(options.faults, scenario, options.seed);
   const std::filesystem::path counts = options.out / "comm_router.counts";
   skein::StatusPipe status(options.status_fd);
-  if (settle_only) return settle(options.out, counts, scenario, status);
+  if (settle_only) return settle(options.out, counts, scenario, options.run, status);
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) return skein::kExitDone;
   std::optional<int> code;
   while (!code) {  // once more after a fault that stopped us: what waited in the router is lost, as after its death
     std::vector<std::string> unwritten;
-    std::optional<skein::router::CountStore> store = open_counts(counts, scenario.fleet.size() + 1, unwritten);
+    std::optional<skein::router::CountStore> store =
+        open_counts(counts, scenario.fleet.size() + 1, options.run, unwritten);
     skein::router::RouterNode node(scenario, options.seed, options.domain, *bus, faults, options.out);
     if (store) node.keep_counts(*store);
     stop.on_stop([&node] { node.wake(); });

@@ -10,6 +10,7 @@ EventLog::EventLog(const std::filesystem::path& folder, const Scenario& scenario
   present_.resize(members_.size());
   links_.resize((scenario.fleet.size() + 1) * (scenario.fleet.size() + 1));
   out_ << "step,time_s,event,subject,object\n";
+  out_.flush();  // whoever is killed leaves a table without rows, and no file without a table
 }
 
 void EventLog::add_step(const Simulation& simulation, const std::function<bool(const std::string&)>& is_member) {

@@ -52,6 +52,8 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario
   digests_ << "k,digest";
   for (const std::string& column : digest.columns()) digests_ << "," << column;
   digests_ << "\n";
+  trajectories_.flush();  // see event_log.cpp
+  digests_.flush();
 }
 
 void RunFiles::write_scene(const Scene& scene) {

@@ -34,11 +34,10 @@ std::vector<std::string> names_of(const std::vector<bus::LockstepServer::Awaited
   return names;
 }
 
-/// "bob (done of step 41)", for a human.
-std::vector<std::string> described(const std::vector<bus::LockstepServer::Awaited>& awaited) {
-  std::vector<std::string> texts;
-  for (const auto& one : awaited) texts.push_back(one.member + " (" + one.what + ")");
-  return texts;
+std::vector<AwaitedMember> for_people(const std::vector<bus::LockstepServer::Awaited>& awaited) {
+  std::vector<AwaitedMember> members;
+  for (const auto& one : awaited) members.push_back({one.member, one.what});
+  return members;
 }
 
 /// Who sends commands and is no member for so many steps is taken for one who does not mean to become one.
@@ -161,7 +160,7 @@ bool SimNode::wait_for_members() {
     inbox_.dispatch(kMatchPoll);
     take_losses();
     if (aborted_ || stop_requested_) return false;
-    wait.tell([this] { return described(server_.awaited()); });
+    wait.tell([this] { return for_people(server_.awaited()); });
     if (patience.over()) patience = give_up_awaited("did not join in time", options_.startup_timeout_s);
   }
   take_losses();
@@ -182,7 +181,7 @@ void SimNode::let_in_members() {
   bus::Patience patience(options_.startup_timeout_s);
   while (!server_.at_boundary() && !aborted_ && !stop_requested_) {
     inbox_.dispatch(kMatchPoll);
-    wait.tell([this] { return described(server_.awaited()); });
+    wait.tell([this] { return for_people(server_.awaited()); });
     if (patience.over()) patience = give_up_awaited("did not finish joining", options_.startup_timeout_s);
   }
   for (const std::string& name : server_.take_rejoined()) {
@@ -308,7 +307,7 @@ bool SimNode::wait_for_answers() {
   bus::Patience patience(options_.agent_timeout_s), until_asked_again(kAskAgain_s);
   while (!server_.answered()) {
     const bool arrived = inbox_.dispatch(kIdlePoll, server_.rings());
-    const bool told = wait.tell([this] { return described(server_.awaited()); });
+    const bool told = wait.tell([this] { return for_people(server_.awaited()); });
     if (!arrived && !told) report_progress(false);
     if (aborted_ || gives_up_step()) return false;
     if (patience.over()) patience = give_up_awaited(silence, options_.agent_timeout_s);

@@ -8,12 +8,22 @@
 
 namespace skein::sim {
 
-void WaitTeller::send(const std::vector<std::string>& names, WaitNotice::Clock::time_point now) {
+void WaitTeller::send(const std::vector<AwaitedMember>& awaited, WaitNotice::Clock::time_point now) {
   told_ = now;
+  std::vector<std::string> names, missing;
+  for (const AwaitedMember& one : awaited) {
+    names.push_back(one.name);
+    missing.push_back(one.missing);
+  }
   const double waited_s = notice_.waited_s(now);
   const bool due = notice_.due(now).has_value();
-  if (due) spdlog::info("waiting for {} {} ({:.0f} s)", joined(names), what_, waited_s);
-  status_.send({{"type", "waiting_for"}, {"members", names}, {"what", what_}, {"seconds", waited_s}, {"due", due}});
+  if (due) spdlog::info("waiting for {} {} ({:.0f} s): {}", joined(names), what_, waited_s, joined(missing));
+  status_.send({{"type", "waiting_for"},
+                {"members", names},
+                {"missing", missing},
+                {"what", what_},
+                {"seconds", waited_s},
+                {"due", due}});
 }
 
 }  // namespace skein::sim

@@ -9,6 +9,11 @@
 
 namespace skein::sim {
 
+struct AwaitedMember {
+  std::string name;
+  std::string missing;  ///< what of it: "rt/plan 3 of 4"
+};
+
 class WaitTeller {
  public:
   /// The wait begins now. @param what  is awaited of somebody: "to join". @param status  must outlive this.
@@ -31,7 +36,7 @@ class WaitTeller {
   static constexpr double kTrifle_s = 1.0;
   static constexpr std::chrono::milliseconds kPeriod{500};
 
-  void send(const std::vector<std::string>& names, WaitNotice::Clock::time_point now);
+  void send(const std::vector<AwaitedMember>& awaited, WaitNotice::Clock::time_point now);
 
   StatusPipe& status_;
   const char* what_;

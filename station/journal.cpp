@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cerrno>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -62,8 +63,9 @@ class Cursor {
   bool ok_ = true;
 };
 
+constexpr std::string_view kMagic = "skeinjnl";
+
 Bytes encode_head(RunId run) {
-  static constexpr std::string_view kMagic = "skeinjnl";
   Bytes head(kMagic.begin(), kMagic.end());
   put(head, static_cast<std::uint64_t>(run));
   return head;
@@ -163,6 +165,14 @@ Journal::Journal(const std::filesystem::path& file, RunId run) : file_(file) {
 }
 
 Journal::~Journal() { ::close(descriptor_); }
+
+std::optional<RunId> Journal::run_of(const std::filesystem::path& file) {
+  std::array<char, kMagic.size() + sizeof(RunId)> head{};
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(head.data(), head.size()) || !std::equal(kMagic.begin(), kMagic.end(), head.begin())) return std::nullopt;
+  const Bytes run(head.begin() + kMagic.size(), head.end());
+  return RunId{Cursor(run).get<std::uint64_t>()};
+}
 
 void Journal::replay(RunId run) {
   const Bytes bytes = read_all(descriptor_, file_), head = encode_head(run);

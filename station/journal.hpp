@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ class Journal {
   /// @throws std::runtime_error (file and reason) when the file cannot be opened, read, cut or begun.
   explicit Journal(const std::filesystem::path& file, RunId run = RunId::none);
   ~Journal();
+  /// Whose journal a file is; nothing when it is no journal.
+  static std::optional<RunId> run_of(const std::filesystem::path& file);
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 

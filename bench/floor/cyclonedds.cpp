@@ -9,6 +9,8 @@
 
 #include "bench/floor/vendor.hpp"
 #include "bus/cyclonedds/domain.hpp"
+#include "bus/cyclonedds/own_host.hpp"
+#include "bus/wire.hpp"
 
 namespace skein::bench {
 namespace {
@@ -140,9 +142,11 @@ class Cyclone final : public Vendor {
   dds_entity_t participant(int id) {
     Membership& membership = domains_[id];
     if (!membership.domain) {
-      membership.domain = std::make_unique<Domain>(id, bus::BusConfig{});
+      const bus::BusConfig config;
+      membership.domain = std::make_unique<Domain>(id, config);
       membership.participant =
           check(dds_create_participant(static_cast<dds_domainid_t>(id), nullptr, nullptr), "cannot join");
+      if (bus::meets_default_nodes(config)) bus::cyclonedds::reach_own_host(membership.domain->entity(), membership.participant);
     }
     return membership.participant;
   }

@@ -153,15 +153,15 @@ std::vector<LockstepServer::Awaited> LockstepServer::awaited_at_boundary() const
     const bool at_the_door = !place.member && !place.order && (place.awaited || place.source != 0);
     if (!place.member && !at_the_door) continue;
     if (at_the_door && place.source == 0) {
-      result.push_back({place.name, "its process to join"});
+      result.push_back({place.name, "nothing heard of it yet"});
     } else if (at_the_door && !place.declared) {
-      result.push_back({place.name, "its topics to match with sim_server"});
+      result.push_back({place.name, "its topics still match those of sim_server"});
     } else if (at_the_door && !endpoints_matched(place)) {
-      result.push_back({place.name, "topics of sim_server to match with its own"});
+      result.push_back({place.name, "topics of sim_server still match its own"});
     } else if (!attached_by_router(place)) {
       const std::string what = awaited_by_router(place);
       const bool gone = !contains(door_of(place).ready->matched(), place.source);
-      if (!what.empty() || gone) result.push_back({place.name, gone ? "its participant, which has gone" : what});
+      if (!what.empty() || gone) result.push_back({place.name, gone ? "its participant has gone" : what});
       else unattached += (unattached.empty() ? "" : ", ") + place.name;
     }
   }

@@ -24,7 +24,10 @@ class KillMatrix : public FleetTest, public testing::WithParamInterface<std::uin
   static void expect_custody(const SkeinRun& run) {
     using Key = std::pair<std::string, std::uint64_t>;
     std::map<Key, double> journalled, delivered;
-    const station::Journal journal(run.dir() / "station.journal");
+    const std::filesystem::path file = run.dir() / "station.journal";
+    const std::optional<RunId> whose = station::Journal::run_of(file);
+    ASSERT_TRUE(whose.has_value());
+    const station::Journal journal(file, *whose);
     for (const station::TallyRecord& record : journal.replayed()) {
       if (record.entry.collision) continue;
       const Key key{kFleet.at(record.entry.uav), record.entry.capture.capture};

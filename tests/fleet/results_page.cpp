@@ -62,6 +62,9 @@ void expect_documented_columns(const fs::path& dir) {
   for (const auto& entry : fs::directory_iterator(dir)) {
     if (entry.path().extension() != ".csv") continue;
     const std::string name = entry.path().filename();
+    // A full disk may leave nothing of a table; the result says so then.
+    const bool told = result["warnings"].dump().find(name) != std::string::npos;
+    if (told && fs::file_size(entry.path()) == 0) continue;
     EXPECT_EQ(header(entry.path(), uavs), documented(name)) << name << " is not what docs/results.md says";
   }
 }

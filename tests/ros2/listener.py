@@ -53,7 +53,7 @@ def main():
     uav, file = sys.argv[1:]
     rclpy.init()
     node = Listener(uav)
-    while min(node.publishers()) == 0:
+    while min(node.publishers()) == 0 or node.count_subscribers(f"/{uav}/command/trajectory") == 0:
         rclpy.spin_once(node, timeout_sec=0.05)
     types = dict(node.get_topic_names_and_types())
     write(file + ".ready", "")
