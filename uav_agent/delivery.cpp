@@ -119,7 +119,7 @@ bool Delivery::step(const PlannerInput& in, const FreeSpace::Config& space, Plan
   }
   if (pilot_.has_path() || in.tick < next_try_) return false;
   next_try_ = in.tick + ticks(kRetryS);
-  heading_home_ = pilot_.fly_to(home(), in, space, out);
+  heading_home_ = pilot_.fly_to(home(), in, space, out).found;
   if (heading_home_) return false;
   next_place();
   if (++failures_ % kFailuresToRetreat == 0) pilot_.retreat(out, false);

@@ -3,6 +3,7 @@
 // Frame W.   Units: metres.   Pure; threads: any, as long as the map does not change.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "uav_agent/occupancy_map.hpp"
@@ -15,6 +16,20 @@ struct Sphere {
   Vector3d p_W = Vector3d::Zero();
   double radius_m = 0.0;
 };
+
+/// Why a place may not be entered: the first of these that holds.
+enum class Barrier {
+  none,      ///< it may
+  floor,     ///< below floor_m
+  other_uav, ///< in a place to keep away from
+  told,      ///< others told of something there (hearsay)
+  unseen,    ///< in or near a box, or below blind_height_m, and no LiDAR has seen that it is free
+  aside,     ///< inside a box, and not near a place of enter_near_W
+  mapped,    ///< nearer than clearance_m to something on the map
+};
+
+/// For a log: "nearer than the clearance to something on the map".
+std::string_view to_string(Barrier barrier);
 
 class FreeSpace {
  public:
@@ -40,6 +55,8 @@ class FreeSpace {
       : config_(config), boxes_(boxes), map_(map), keep_out_(std::move(keep_out)) {}
 
   bool free(const Vector3d& p_W) const;
+  /// Why not, if not.
+  Barrier barrier(const Vector3d& p_W) const;
   /// Every point of the segment is free.
   bool segment_free(const Vector3d& a_W, const Vector3d& b_W) const;
   /// Line of sight as far as map and boxes tell: no mapped cell within `radius` of the segment, no unknown box
@@ -56,8 +73,9 @@ class FreeSpace {
   bool seen_free(const Vector3d& p_W) const;
   /// Whether others told of something within reach of p.
   bool near_hearsay(const Vector3d& p_W) const;
-  /// As free(), but without the mapped cells.
-  bool allowed(const Vector3d& p_W) const;
+  /// As barrier(), but without the mapped cells.
+  Barrier barrier_off_map(const Vector3d& p_W) const;
+  bool allowed(const Vector3d& p_W) const { return barrier_off_map(p_W) == Barrier::none; }
 
   const Config config_;
   const std::vector<OrientedBox>& boxes_;

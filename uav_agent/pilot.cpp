@@ -154,13 +154,20 @@ void Pilot::stop(PlannerOutput& out) {
   if (std::holds_alternative<std::monostate>(out.motion)) out.motion = Hold{};
 }
 
-bool Pilot::fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
-  const auto corners = find_path(way_space(in, space, goal), in.boxes, in.tracking.setpoint.p_WB, goal);
-  if (!corners) return false;
+std::string Way::why() const {
+  if (found) return "there is a way";
+  if (at_goal == Barrier::none) return "no way was found to a place that is free";
+  return "the goal is " + std::string(to_string(at_goal));
+}
+
+Way Pilot::fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
+  const FreeSpace free_space = way_space(in, space, goal);
+  const auto corners = find_path(free_space, in.boxes, in.tracking.setpoint.p_WB, goal);
+  if (!corners) return {.found = false, .at_goal = free_space.barrier(goal)};
   Path path;
   for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.speed_mps});
   follow(std::move(path), out);
-  return true;
+  return {};
 }
 
 }  // namespace skein::agent

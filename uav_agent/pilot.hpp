@@ -6,6 +6,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "uav_agent/free_space.hpp"
@@ -24,6 +25,16 @@ enum class Situation {
   stuck,      ///< does not get on with its path, for whatever reason
 };
 
+/// What came of the wish to fly somewhere. Tests as true when there is a way, and it is being flown.
+struct Way {
+  bool found = true;
+  Barrier at_goal = Barrier::none;  ///< why the goal itself may not be entered
+
+  explicit operator bool() const { return found; }
+  /// For a log: "no way was found to a place that is free".
+  std::string why() const;
+};
+
 class Pilot {
  public:
   struct Config {
@@ -40,8 +51,8 @@ class Pilot {
   Situation look_out(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour, PlannerOutput& out);
 
   void follow(Path path, PlannerOutput& out);
-  /// Along a path that it finds itself. @returns false, and does nothing, if there is none.
-  bool fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
+  /// Along a path that it finds itself. If there is none, or none was found in time, it does nothing and says why.
+  Way fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
   /// Some metres back the way it came, out of a corner where no path begins. @returns false if it came from
   /// nowhere.
   /// @param leave_trail  false: another retreat from there goes farther back, instead of forth again.

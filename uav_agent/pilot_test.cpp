@@ -80,6 +80,43 @@ TEST_F(AlongAWall, MayLeaveAWallThatItIsTooNearTo) {
   EXPECT_EQ(judge(at({3.0, 5.0, 20.0}, {-1.0, 4.0, 0.0})), Situation::flying_on);
 }
 
+TEST_F(AlongAWall, SaysWhyThereIsNoWay) {
+  const auto fly_to = [&](const Vector3d& goal, const std::vector<OrientedBox>& boxes, PlannerOutput& out) {
+    TrackingState tracking;
+    tracking.setpoint = {.p_WB = {0.0, 5.0, 20.0}};
+    const PlannerInput in{.k = 4,
+                          .tick = 80,
+                          .state = at({0.0, 5.0, 20.0}, Vector3d::Zero()),
+                          .gimbal = {},
+                          .tracking = tracking,
+                          .map = map_,
+                          .boxes = boxes,
+                          .peers = peers_,
+                          .mission_remaining_s = {},
+                          .detected = {},
+                          .radio = {}};
+    return Pilot({}, agent_).fly_to(goal, in, {.clearance_m = kClearanceM}, out);
+  };
+  OrientedBox box;
+  box.center = {-30.0, 5.0, 20.0};
+  box.size = {8.0, 8.0, 8.0};
+  const std::vector<std::pair<Vector3d, Barrier>> barred = {{{0.0, 10.0, 1.0}, Barrier::floor},
+                                                            {{3.5, 10.0, 20.0}, Barrier::mapped},
+                                                            {box.center, Barrier::unseen}};
+  for (const auto& [goal, barrier] : barred) {
+    PlannerOutput out;
+    const Way way = fly_to(goal, {box}, out);
+    EXPECT_FALSE(way);
+    EXPECT_EQ(way.at_goal, barrier) << to_string(way.at_goal);
+    EXPECT_NE(way.why().find(to_string(barrier)), std::string::npos) << way.why();
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(out.motion)) << "and does nothing";
+  }
+  PlannerOutput out;
+  const Way way = fly_to({-10.0, 20.0, 20.0}, {box}, out);
+  EXPECT_TRUE(way) << way.why();
+  EXPECT_TRUE(std::holds_alternative<Path>(out.motion));
+}
+
 TEST_F(AlongAWall, TheNextRetreatGoesFartherBack) {
   Pilot pilot({}, agent_);
   double y = 0.0;
