@@ -112,7 +112,6 @@ class Fleet {
  public:
   Fleet(const Options& options, const skein::Scenario& scenario)
       : bus_(skein::bus::make_bus({.vendor = options.dds})),
-        steps_(static_cast<std::uint64_t>(options.messages)),
         message_(options.bytes),
         world_(bus_->join(skein::world_domain(options.domain))),
         gcs_(bus_->join(skein::gcs_domain(options.domain))),
@@ -133,8 +132,28 @@ class Fleet {
     station_.start();
   }
 
+  /// The ear is a stranger, for whom nobody waits: messages until the router's writer has found it.
+  void find_ear() {
+    wait_until("the ear", [&] {
+      const std::uint64_t before = ear_.count();
+      exchange(false);
+      const auto pause_end = Clock::now() + 20ms;
+      while (Clock::now() < pause_end && ear_.count() == before) std::this_thread::yield();
+      return ear_.count() > before;
+    });
+  }
+
   /// One step with one message. @returns its time through the router.
-  double step() {
+  double step(bool last) {
+    const std::uint64_t before = ear_.count();
+    const Clock::time_point written = exchange(last);
+    wait_until("the router", [&] { return ear_.count() > before; });
+    return microseconds(ear_.arrived_at() - written);
+  }
+
+ private:
+  /// @returns when the message was written.
+  Clock::time_point exchange(bool last) {
     wait_until("the fleet", [&] {
       inbox_.dispatch(0ms);
       poll(sender_);
@@ -142,9 +161,8 @@ class Fleet {
       return server_.at_boundary();
     });
     server_.publish(
-        {.k = k_, .tick = 20 * static_cast<skein::Tick>(k_), .links = {0, 1, 1, 0}, .final_step = k_ + 1 == steps_});
+        {.k = k_, .tick = 20 * static_cast<skein::Tick>(k_), .links = {0, 1, 1, 0}, .final_step = last});
     ++k_;
-    const std::uint64_t before = ear_.count();
     Clock::time_point written;
     wait_until("both members", [&] {
       inbox_.dispatch(0ms);
@@ -158,16 +176,13 @@ class Fleet {
       return true;
     });
     thinking_ = 0;
-    wait_until("the router", [&] { return ear_.count() > before; });
-    const Clock::duration time = ear_.arrived_at() - written;
     wait_until("the answers", [&] {
       inbox_.dispatch(0ms);
       return server_.answered();
     });
-    return microseconds(time);
+    return written;
   }
 
- private:
   skein::bus::Participant* gcs_peer(const Options& options) {
     server_gcs_ = bus_->join(skein::gcs_domain(options.domain));
     return server_gcs_.get();
@@ -179,7 +194,6 @@ class Fleet {
   static bool poll(LockstepClient& client) { return client.poll() == LockstepClient::Event::think; }
 
   std::unique_ptr<skein::bus::Bus> bus_;
-  const std::uint64_t steps_;
   Bytes message_;
   skein::bus::Inbox inbox_{0};
   std::unique_ptr<skein::bus::Participant> world_, gcs_, uav_, ear_domain_, server_gcs_, server_uav_;
@@ -246,9 +260,10 @@ int run(const Options& options) {
   const Child router_process([&] { exec_router(options); });
   Fleet fleet(options, scenario);
   Bare bare(options);
+  fleet.find_ear();
   std::vector<double> through_router, through_relay;
   for (int i = 0; i < options.messages; ++i) {
-    const double router_us = fleet.step(), relay_us = bare.message();
+    const double router_us = fleet.step(i + 1 == options.messages), relay_us = bare.message();
     if (i < options.messages / 10) continue;  // warming up
     through_router.push_back(router_us);
     through_relay.push_back(relay_us);
