@@ -302,7 +302,6 @@ void SimNode::publish_ledger(const std::vector<LedgerEntry>& entries, std::size_
 }
 
 bool SimNode::wait_for_answers() {
-  const std::string silence = fmt::format("did not answer for {} s", options_.agent_timeout_s);
   WaitTeller wait(status_, "to answer");
   bus::Patience patience(options_.agent_timeout_s), until_asked_again(kAskAgain_s);
   while (!server_.answered()) {
@@ -310,7 +309,9 @@ bool SimNode::wait_for_answers() {
     const bool told = wait.tell([this] { return for_people(server_.awaited()); });
     if (!arrived && !told) report_progress(false);
     if (aborted_ || gives_up_step()) return false;
-    if (patience.over()) patience = give_up_awaited(silence, options_.agent_timeout_s);
+    if (patience.over()) {
+      patience = give_up_awaited(fmt::format("did not answer for {} s", options_.agent_timeout_s), options_.agent_timeout_s);
+    }
     if (until_asked_again.over()) {
       server_.ask_again();
       until_asked_again = bus::Patience(kAskAgain_s);

@@ -30,7 +30,6 @@ class WaitTeller {
     if (now - told_ >= kPeriod) send(awaited(), now);
     return true;
   }
-  double waited_s() const { return notice_.waited_s(WaitNotice::Clock::now()); }
 
  private:
   static constexpr double kTrifle_s = 1.0;

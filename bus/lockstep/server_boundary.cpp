@@ -1,6 +1,7 @@
 // LockstepServer at a boundary between two steps: who knocks is let in; and whom it waits for, there and within a step.
-#include <algorithm>
 #include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
 
 #include "bus/lockstep/names.hpp"
 #include "bus/lockstep/server.hpp"
