@@ -7,8 +7,8 @@
 #include "bus/inproc/inproc_bus.hpp"
 #include "bus/own_host.hpp"
 #include "bus/wire.hpp"
-#include "core/security_files.hpp"
 #include "core/types.hpp"
+#include "process/security_files.hpp"
 
 namespace skein::bus {
 

@@ -95,9 +95,9 @@ class Burst {
 struct BusConfig {
   std::string vendor = "cyclonedds";  ///< "cyclonedds", "fastdds" or "inproc"
   bool loopback_only = true;          ///< nothing leaves the host; false in containers
-  std::string interface{};            ///< otherwise: the only one that is used; empty: as the vendor chooses
+  std::string interface {};           ///< otherwise: the only one that is used; empty: as the vendor chooses
   int lease_s = 8;                    ///< who gives no sign of life for so long is taken for dead, [1, 3600]
-  std::filesystem::path security{};   ///< folder with the files of core/security_files.hpp; empty: an open domain
+  std::filesystem::path security{};   ///< folder with the files of process/security_files.hpp; empty: an open domain
   RunId run = RunId::none;            ///< that its programs take part in
 };
 

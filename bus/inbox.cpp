@@ -100,9 +100,7 @@ struct Inbox::Impl {
     ready.push_back(std::move(arrival));
   }
 
-  bool enough(std::size_t wanted) const {
-    return posted || woken || (wanted == 0 ? !ready.empty() : rings >= wanted);
-  }
+  bool enough(std::size_t wanted) const { return posted || woken || (wanted == 0 ? !ready.empty() : rings >= wanted); }
 
   /// Takes all that is ready.
   std::vector<Arrival> take() {
@@ -176,8 +174,7 @@ Inbox::Inbox(unsigned chaos, RunId run) : impl_(std::make_unique<Impl>(chaos)), 
 
 Inbox::~Inbox() = default;
 
-std::unique_ptr<Reader> Inbox::subscribe(Participant& participant, const TopicSpec& topic, Handler handler,
-                                         Bell bell) {
+std::unique_ptr<Reader> Inbox::subscribe(Participant& participant, const TopicSpec& topic, Handler handler, Bell bell) {
   auto subscription = std::make_shared<Subscription>();
   subscription->handler = std::move(handler);
   subscription->bell = bell;

@@ -167,11 +167,11 @@ TEST_F(InboxTest, SamplesOfManyThreadsAllArriveInOrder) {
   Inbox inbox(0);
   std::map<ParticipantId, std::uint64_t> next;
   int got = 0, out_of_order = 0;
-  auto reader =
-      subscribe<msg::TopicCount>(inbox, *here_, topic_of<msg::TopicCount>("counts"), [&](const msg::TopicCount& m, ParticipantId source) {
-        out_of_order += m.count() != next[source]++;
-        ++got;
-      });
+  auto reader = subscribe<msg::TopicCount>(inbox, *here_, topic_of<msg::TopicCount>("counts"),
+                                           [&](const msg::TopicCount& m, ParticipantId source) {
+                                             out_of_order += m.count() != next[source]++;
+                                             ++got;
+                                           });
   std::vector<std::thread> threads;
   for (int t = 0; t < kThreads; ++t)
     threads.emplace_back([this] {
@@ -200,7 +200,8 @@ TEST_F(InboxTest, ChaosReordersButNeverWithinAStream) {
     bool ordered = true;
     std::vector<std::unique_ptr<Reader>> readers;
     for (int t = 0; t < kTopics; ++t)
-      readers.push_back(subscribe<msg::TopicCount>(inbox, *here_, topic_of<msg::TopicCount>("topic" + std::to_string(t)),
+      readers.push_back(subscribe<msg::TopicCount>(inbox, *here_,
+                                                   topic_of<msg::TopicCount>("topic" + std::to_string(t)),
                                                    [&, t](const msg::TopicCount& m, ParticipantId source) {
                                                      auto& previous = last[{t, source}];
                                                      ordered = ordered && m.count() >= previous;

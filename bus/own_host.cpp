@@ -35,9 +35,9 @@ std::optional<std::string> find_address(Fits fits) {
 
 bool is_own_address(std::span<const std::uint8_t, 4> ipv4) {
   if (ipv4[0] == 127) return true;
-  return find_address([&](const std::string&, const in_addr& own) {
-           return std::memcmp(&own, ipv4.data(), ipv4.size()) == 0;
-         }).has_value();
+  return find_address(
+             [&](const std::string&, const in_addr& own) { return std::memcmp(&own, ipv4.data(), ipv4.size()) == 0; })
+      .has_value();
 }
 
 std::optional<std::string> address_of(const std::string& interface) {

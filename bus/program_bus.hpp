@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bus/bus.hpp"
-#include "core/program.hpp"
+#include "process/program.hpp"
 
 namespace skein::bus {
 

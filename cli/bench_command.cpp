@@ -9,15 +9,15 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "cli/bench_report.hpp"
-#include "cli/bench_scenario.hpp"
-#include "cli/bench_table.hpp"
-#include "cli/domain_block.hpp"
-#include "cli/environment.hpp"
-#include "cli/fleet_plan.hpp"
-#include "cli/preflight.hpp"
-#include "core/atomic_file.hpp"
+#include "cli/bench/report.hpp"
+#include "cli/bench/scenario.hpp"
+#include "cli/bench/table.hpp"
+#include "cli/run/domain_block.hpp"
+#include "cli/run/environment.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
 #include "core/types.hpp"
+#include "process/atomic_file.hpp"
 
 namespace skein::cli {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 
-#include "cli/environment.hpp"
-#include "cli/fault_test.hpp"
-#include "cli/fleet_plan.hpp"
-#include "cli/preflight.hpp"
+#include "cli/fault_tests/fault_test.hpp"
+#include "cli/run/environment.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
 #include "core/config_node.hpp"
 #include "core/scenario_reader.hpp"
 

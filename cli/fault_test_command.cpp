@@ -5,14 +5,14 @@
 #include <numeric>
 #include <set>
 
-#include "cli/environment.hpp"
-#include "cli/fault_flights.hpp"
-#include "cli/fault_report.hpp"
-#include "cli/preflight.hpp"
-#include "cli/side_by_side.hpp"
-#include "cli/study_spec.hpp"
+#include "cli/fault_tests/flights.hpp"
+#include "cli/fault_tests/report.hpp"
+#include "cli/run/environment.hpp"
+#include "cli/run/preflight.hpp"
+#include "cli/study/side_by_side.hpp"
+#include "cli/study/spec.hpp"
 #include "cli/test_command.hpp"
-#include "core/atomic_file.hpp"
+#include "process/atomic_file.hpp"
 
 namespace skein::cli {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <sstream>
 
-#include "cli/fake_programs.hpp"
 #include "cli/test_command.hpp"
-#include "cli/xml_check.hpp"
+#include "cli/testing/fake_programs.hpp"
+#include "cli/testing/xml_check.hpp"
 
 namespace skein::cli {
 namespace {
@@ -123,8 +123,9 @@ TEST_F(FaultTestCommand, AnotherDigestIsAFailure) {
   serve("${SKEIN_CHAOS:-calm}");
   test_file("a", "same_digest: [again, chaos]");
   EXPECT_EQ(run(), kExitCheckFailed);
-  EXPECT_NE(out_.str().find("expect.same_digest: expected the digest \"calm\" of the repetition 'chaos' too, seen \"1\""),
-            std::string::npos)
+  EXPECT_NE(
+      out_.str().find("expect.same_digest: expected the digest \"calm\" of the repetition 'chaos' too, seen \"1\""),
+      std::string::npos)
       << out_.str();
 }
 

@@ -5,16 +5,16 @@
 #include <exception>
 #include <iostream>
 
-#include "cli/agent_file.hpp"
 #include "cli/bench_command.hpp"
 #include "cli/check_command.hpp"
-#include "cli/environment.hpp"
-#include "cli/fleet_plan.hpp"
 #include "cli/options.hpp"
 #include "cli/oracle_command.hpp"
-#include "cli/preflight.hpp"
+#include "cli/run/agent_file.hpp"
+#include "cli/run/diff.hpp"
+#include "cli/run/environment.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
 #include "cli/run_command.hpp"
-#include "cli/run_diff.hpp"
 #include "cli/scene_command.hpp"
 #include "cli/study_command.hpp"
 #include "cli/test_command.hpp"

@@ -29,7 +29,8 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
   command->add_option("--planner", run.planner, "NAME, or UAV=NAME,... for some UAVs; exec:CMD for a program of yours")
       ->capture_default_str();
-  command->add_option("--agent", run.agent, "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
+  command->add_option("--agent", run.agent,
+                      "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   command->add_option("--seed", run.seed, "What chance draws; 0 draws nothing")->check(seed)->capture_default_str();
   command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
@@ -72,10 +73,11 @@ CLI::App* add_test(CLI::App& app, TestOptions& test) {
       app.add_subcommand("test", "Run the test suite, or your fault tests; the last line is 'N passed, N failed'");
   command->add_flag("--long", test.long_tests,
                     "Include the tests that take minutes; with --faults: repeat each in every way");
-  CLI::Option* faults = command->add_option("--faults", test.faults,
-                                            "A fault test (YAML) or a folder of them, instead of the suite");
-  command->add_option("--repeat", test.repeat,
-                      "Fly each fault test again and compare digests: again, cyclonedds, fastdds, mixed, chaos")
+  CLI::Option* faults =
+      command->add_option("--faults", test.faults, "A fault test (YAML) or a folder of them, instead of the suite");
+  command
+      ->add_option("--repeat", test.repeat,
+                   "Fly each fault test again and compare digests: again, cyclonedds, fastdds, mixed, chaos")
       ->delimiter(',')
       ->check(CLI::IsMember({"again", "cyclonedds", "fastdds", "mixed", "chaos"}))
       ->needs(faults);
@@ -133,7 +135,8 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench) {
   CLI::App* command = app.add_subcommand("bench", "Measure speed, scale and memory on this machine");
   command->add_flag("--quick", bench.quick, "Less of everything: a first impression in less than a minute");
   command->add_flag("--hour", bench.hour, "Memory over an hour of simulated time too: minutes more");
-  command->add_option("--scenario", bench.scenarios, "Scenarios of the speed runs (default: towers; mbs with --assets)");
+  command->add_option("--scenario", bench.scenarios,
+                      "Scenarios of the speed runs (default: towers; mbs with --assets)");
   command->add_option("--assets", bench.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--dds", bench.dds, "DDS vendor: cyclonedds or fastdds")
       ->check(CLI::IsMember({"cyclonedds", "fastdds"}))
@@ -161,7 +164,8 @@ CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
   command->add_option("--scene-seed", oracle.scene_seed, "Which scene of a procedural family")
       ->check(CLI::Validator(check_seed, ""));
   command->add_option("--assets", oracle.assets, "Folder with models/ for scenarios that read files");
-  command->add_option("--rules", oracle.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
+  command->add_option("--rules", oracle.rules,
+                      "Preset of rules, instead of the scenario's: contest, paper or reference");
   command
       ->add_option("--clearance", oracle.clearances_m,
                    "Of the cameras from the structure [m] (default 0.5); several as 0.5,0.8,1.2 make a table")
@@ -178,12 +182,12 @@ CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
 /// What `skein contest` and `skein compare` have in common.
 void add_study_options(CLI::App& command, StudyOptions& study) {
   const CLI::Validator seconds(check_seconds, "");
-  command
-      .add_option("--planners", study.planner_lists, "A,B,... with parameters if any: kios,xxh:faithful=true,star")
+  command.add_option("--planners", study.planner_lists, "A,B,... with parameters if any: kios,xxh:faithful=true,star")
       ->allow_extra_args(false);
   command.add_option("--planner", study.planners, "One more, as for `skein run`: fleets of several, any command")
       ->allow_extra_args(false);
-  command.add_option("--scenarios", study.scenarios, "Names under config/scenarios/ or YAML files, with commas between")
+  command
+      .add_option("--scenarios", study.scenarios, "Names under config/scenarios/ or YAML files, with commas between")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_option("--assets", study.assets, "Folder with models/ for scenarios that read files");
@@ -207,7 +211,8 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
 }
 
 CLI::App* add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
-  CLI::App* command = app.add_subcommand("contest", "The contest's protocol: tests of all scenes, totals and a ranking");
+  CLI::App* command =
+      app.add_subcommand("contest", "The contest's protocol: tests of all scenes, totals and a ranking");
   add_study_options(*command, contest);
   command->add_option("--tests", tests, "Number of tests; test N is seed N of every scene")
       ->check(CLI::Range(1, 1000))

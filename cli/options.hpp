@@ -21,9 +21,9 @@ struct RunOptions {
   std::optional<double> duration_s;
   std::optional<std::string> rules;             ///< a preset, instead of the scenario's
   std::optional<std::filesystem::path> faults;  ///< fault file
-  std::string dds = "cyclonedds";  ///< a vendor or "mixed"
-  std::string clock = "lockstep";  ///< "lockstep", "realtime" or "realtime:FACTOR"
-  std::optional<std::filesystem::path> agent;  ///< program that flies in the place of uav_agent
+  std::string dds = "cyclonedds";               ///< a vendor or "mixed"
+  std::string clock = "lockstep";               ///< "lockstep", "realtime" or "realtime:FACTOR"
+  std::optional<std::filesystem::path> agent;   ///< program that flies in the place of uav_agent
   std::optional<std::string> debug_uav;
   bool native = false;
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
@@ -106,9 +106,9 @@ struct StudyOptions {
   Rank rank = Rank::maximum;
   std::optional<std::uint64_t> scene_seed;
   std::optional<std::filesystem::path> assets;
-  std::optional<double> duration_s;  ///< mission time, instead of the scenarios'
-  std::optional<std::string> rules;  ///< a preset, instead of the scenarios'
-  std::string dds = "cyclonedds";    ///< a vendor or "mixed"
+  std::optional<double> duration_s;            ///< mission time, instead of the scenarios'
+  std::optional<std::string> rules;            ///< a preset, instead of the scenarios'
+  std::string dds = "cyclonedds";              ///< a vendor or "mixed"
   std::optional<std::filesystem::path> agent;  ///< as in RunOptions
   std::optional<std::string> network;          ///< as in RunOptions
   std::optional<std::filesystem::path> out;
@@ -122,8 +122,8 @@ struct HelpText {
   bool names_planners = false;  ///< a list of the planners there are belongs below it
 };
 
-using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
-                             StudyOptions, HelpText>;
+using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions,
+                             DiffOptions, StudyOptions, HelpText>;
 
 /// @param arguments without the program's name. @throws InputError for anything that does not fit.
 Command parse_command_line(const std::vector<std::string>& arguments);

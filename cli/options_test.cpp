@@ -74,7 +74,8 @@ TEST(Options, OtherHostsTakePartOnlyWhenAsked) {
 
 TEST(Options, OtherCommands) {
   EXPECT_TRUE(parse<TestOptions>({"test", "--long"}).long_tests);
-  const auto faults = parse<TestOptions>({"test", "--faults", "mine", "--repeat", "again,chaos", "--rotate", "--out", "o"});
+  const auto faults =
+      parse<TestOptions>({"test", "--faults", "mine", "--repeat", "again,chaos", "--rotate", "--out", "o"});
   EXPECT_EQ(faults.faults, "mine");
   EXPECT_EQ(faults.repeat, (std::vector<std::string>{"again", "chaos"}));
   EXPECT_TRUE(faults.rotate);
@@ -106,8 +107,8 @@ TEST(Options, OtherCommands) {
 }
 
 TEST(Options, OracleReadsAll) {
-  const auto oracle = parse<OracleOptions>({"oracle", "towers", "--scene-seed", "4", "--assets", "data", "--clearance",
-                                            "0.75", "--outside", "--json"});
+  const auto oracle = parse<OracleOptions>(
+      {"oracle", "towers", "--scene-seed", "4", "--assets", "data", "--clearance", "0.75", "--outside", "--json"});
   EXPECT_EQ(oracle.scenario, "towers");
   EXPECT_EQ(oracle.scene_seed, 4u);
   EXPECT_EQ(oracle.assets, "data");
@@ -125,10 +126,30 @@ TEST(Options, OracleReadsAll) {
 }
 
 TEST(Options, ContestAndCompareReadAll) {
-  const auto contest = parse<StudyOptions>({"contest", "--planners", "kios,xxh:faithful=true", "--planners", "star",
-                                            "--planner", "patrol,jurong=hover", "--tests", "3", "--rank", "median",
-                                            "--scenarios", "towers,sail", "--assets", "data", "--duration", "60",
-                                            "--dds", "mixed", "--jobs", "2", "--out", "o", "--force"});
+  const auto contest = parse<StudyOptions>({"contest",
+                                            "--planners",
+                                            "kios,xxh:faithful=true",
+                                            "--planners",
+                                            "star",
+                                            "--planner",
+                                            "patrol,jurong=hover",
+                                            "--tests",
+                                            "3",
+                                            "--rank",
+                                            "median",
+                                            "--scenarios",
+                                            "towers,sail",
+                                            "--assets",
+                                            "data",
+                                            "--duration",
+                                            "60",
+                                            "--dds",
+                                            "mixed",
+                                            "--jobs",
+                                            "2",
+                                            "--out",
+                                            "o",
+                                            "--force"});
   EXPECT_TRUE(contest.contest && contest.force);
   EXPECT_EQ(contest.planner_lists, (std::vector<std::string>{"kios,xxh:faithful=true", "star"}));
   EXPECT_EQ(contest.planners, std::vector<std::string>{"patrol,jurong=hover"});
@@ -148,18 +169,23 @@ TEST(Options, ContestAndCompareReadAll) {
   EXPECT_EQ(compare.seeds, "3,5");
   EXPECT_EQ(compare.scene_seed, 4u);
   EXPECT_EQ(parse<StudyOptions>({"compare"}).seeds, "5");
-  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
-           {"contest", "--tests", "0"}, {"contest", "--rank", "mean"}, {"contest", "--rank", "0"}, {"contest", "--seeds", "3"},
-           {"compare", "--tests", "3"}, {"compare", "--jobs", "0"}, {"compare", "--scene-seed", "-1"}}) {
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"contest", "--tests", "0"},
+                                             {"contest", "--rank", "mean"},
+                                             {"contest", "--rank", "0"},
+                                             {"contest", "--seeds", "3"},
+                                             {"compare", "--tests", "3"},
+                                             {"compare", "--jobs", "0"},
+                                             {"compare", "--scene-seed", "-1"}}) {
     EXPECT_THROW(parse_command_line(wrong), InputError) << wrong[1];
   }
 }
 
 TEST(Options, BenchReadsAll) {
   EXPECT_TRUE(parse<BenchOptions>({"bench"}).sizes.empty());
-  const auto bench = parse<BenchOptions>({"bench", "--quick", "--sizes", "1,20", "--repeat", "5", "--scenario", "mbs",
-                                          "--assets", "data", "--dds", "fastdds", "--json", "b.json", "--duration",
-                                          "30"});
+  const auto bench =
+      parse<BenchOptions>({"bench", "--quick", "--sizes", "1,20", "--repeat", "5", "--scenario", "mbs", "--assets",
+                           "data", "--dds", "fastdds", "--json", "b.json", "--duration", "30"});
   EXPECT_TRUE(bench.quick);
   EXPECT_EQ(bench.sizes, (std::vector<std::size_t>{1, 20}));
   EXPECT_EQ(bench.scenarios, std::vector<std::string>{"mbs"});

@@ -3,12 +3,12 @@
 #include <iomanip>
 #include <sstream>
 
-#include "cli/environment.hpp"
-#include "cli/fault_limits.hpp"
-#include "cli/fleet_plan.hpp"
-#include "cli/preflight.hpp"
-#include "core/program.hpp"
+#include "cli/fault_tests/limits.hpp"
+#include "cli/run/environment.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
 #include "core/types.hpp"
+#include "process/program.hpp"
 
 namespace skein::cli {
 namespace {
@@ -152,8 +152,8 @@ void print_oracle(std::ostream& out, const std::string& scenario, const Json& an
 }
 
 int consult_oracle(const OracleOptions& options, const Console& console) {
-  const Asked asked =
-      ask({options.scenario, options.scene_seed, options.assets, options.rules, options.clearances_m, options.vehicle, {}});
+  const Asked asked = ask(
+      {options.scenario, options.scene_seed, options.assets, options.rules, options.clearances_m, options.vehicle, {}});
   if (asked.exit.code == kExitBadInput) throw InputError(asked.said);
   if (!asked.exit.ok() || asked.answers.empty()) {
     throw std::runtime_error("sim_server --oracle ended with " + asked.exit.text() + "\n" + asked.said);

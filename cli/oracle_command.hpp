@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cli/options.hpp"
+#include "cli/run/result.hpp"
 #include "cli/run_command.hpp"
-#include "cli/run_result.hpp"
 
 namespace skein::cli {
 
@@ -12,8 +12,8 @@ int consult_oracle(const OracleOptions& options, const Console& console);
 
 /// What is attainable in a run's scenario: from the oracle's cache, or computed where that takes seconds. Never throws.
 struct AttainableAnswer {
-  Json attainable;  ///< as result.json has it; null where nobody could tell
-  Json by_point;    ///< the oracle's whole answer, with `estimate` and `flyable` of each point; null likewise
+  Json attainable;   ///< as result.json has it; null where nobody could tell
+  Json by_point;     ///< the oracle's whole answer, with `estimate` and `flyable` of each point; null likewise
   std::string hint;  ///< why not, and what to do about it; empty where there is nothing to say
 };
 AttainableAnswer attainable_of(const RunOptions& run);

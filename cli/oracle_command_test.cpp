@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "cli/fake_programs.hpp"
+#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

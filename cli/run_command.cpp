@@ -9,21 +9,21 @@
 #include <optional>
 #include <utility>
 
-#include "cli/debug_watch.hpp"
-#include "cli/domain_block.hpp"
-#include "cli/environment.hpp"
-#include "cli/fleet_plan.hpp"
 #include "cli/oracle_command.hpp"
-#include "cli/preflight.hpp"
-#include "cli/process_orders.hpp"
-#include "cli/progress_view.hpp"
-#include "cli/results_dir.hpp"
-#include "cli/run_losses.hpp"
-#include "cli/run_result.hpp"
-#include "cli/security.hpp"
-#include "core/atomic_file.hpp"
+#include "cli/run/debug_watch.hpp"
+#include "cli/run/domain_block.hpp"
+#include "cli/run/environment.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/losses.hpp"
+#include "cli/run/preflight.hpp"
+#include "cli/run/process_orders.hpp"
+#include "cli/run/progress_view.hpp"
+#include "cli/run/result.hpp"
+#include "cli/run/results_dir.hpp"
+#include "cli/secure/security.hpp"
 #include "core/suggestion.hpp"
 #include "core/wait_notice.hpp"
+#include "process/atomic_file.hpp"
 
 namespace skein::cli {
 namespace {
@@ -74,7 +74,8 @@ class FleetRun {
       debugged_.emplace(*plan_.options.debug_uav, out, agent_file(plan_));
     }
     watch();
-    for (const auto& [program, books] : {std::pair("station", "station.journal"), {"comm_router", "comm_router.counts"}}) {
+    for (const auto& [program, books] :
+         {std::pair("station", "station.journal"), {"comm_router", "comm_router.counts"}}) {
       const bool reported =
           reports_.contains(program) || std::filesystem::exists(out / (std::string(program) + ".report.json"));
       if (!reported && std::filesystem::exists(out / books)) settle(program);

@@ -4,7 +4,7 @@
 #include <ostream>
 
 #include "cli/options.hpp"
-#include "core/program.hpp"
+#include "process/program.hpp"
 
 namespace skein::cli {
 
@@ -16,7 +16,7 @@ struct Console {
 };
 
 /// Validates, starts the fleet, watches it to its end, writes the result.
-/// @returns the exit code (core/program.hpp). @throws InputError before anything has started when the input is wrong.
+/// @returns the exit code (process/program.hpp). @throws InputError before anything has started when the input is wrong.
 int run_fleet(const RunOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -6,8 +6,8 @@
 #include <regex>
 #include <sstream>
 
-#include "cli/fake_programs.hpp"
-#include "cli/run_result.hpp"
+#include "cli/run/result.hpp"
+#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -50,13 +50,15 @@ class RunCommand : public ::testing::Test {
 
 TEST_F(RunCommand, AnAgentOfOnesOwnFliesInThePlaceOfUavAgent) {
   programs_.script("uav_agent", "exit 9\n");
-  write_script(programs_.dir() / "mine",
-               "[ \"$1\" != --list-planners ] || { echo '{\"planners\":[\"hover\"],\"ground_programs\":[]}'; exit; }\n" +
-                   std::string(kReadOptions) + "echo \"config $SKEIN_CONFIG_DIR\"\n" + kMember);
+  write_script(
+      programs_.dir() / "mine",
+      "[ \"$1\" != --list-planners ] || { echo '{\"planners\":[\"hover\"],\"ground_programs\":[]}'; exit; }\n" +
+          std::string(kReadOptions) + "echo \"config $SKEIN_CONFIG_DIR\"\n" + kMember);
   options_.agent = programs_.dir() / "mine";
   EXPECT_EQ(run(), kExitDone) << err_.str();
   EXPECT_EQ(result()["agent"], (programs_.dir() / "mine").string());
-  EXPECT_NE(read_text(*options_.out / "uav_agent-beta.log").find("config " SKEIN_SOURCE_DIR "/config"), std::string::npos);
+  EXPECT_NE(read_text(*options_.out / "uav_agent-beta.log").find("config " SKEIN_SOURCE_DIR "/config"),
+            std::string::npos);
 }
 
 TEST_F(RunCommand, WhatIsNoAgentIsRefusedBeforeTheStart) {
@@ -206,8 +208,10 @@ TEST_F(RunCommand, CtrlCBeforeTheFirstStepBlamesNobody) {
   for (const char* name : {"comm_router", "station", "uav_agent"}) {
     programs_.script(name, "trap 'exit 3' TERM; echo 1 >> \"$out/started\"; while :; do sleep 0.01; done");
   }
-  programs_.script("sim_server", "until [ \"$(cat \"$out/started\" 2> /dev/null | wc -l)\" = 4 ]; do sleep 0.01; done\n"
-                                 "kill -INT $PPID; read line <&4\n" + std::string(kInterruptedReport));
+  programs_.script("sim_server",
+                   "until [ \"$(cat \"$out/started\" 2> /dev/null | wc -l)\" = 4 ]; do sleep 0.01; done\n"
+                   "kill -INT $PPID; read line <&4\n" +
+                       std::string(kInterruptedReport));
   EXPECT_EQ(run(), kExitInterrupted);
   EXPECT_EQ(result()["status"], "interrupted");
   EXPECT_EQ(err_.str().find("failed"), std::string::npos) << err_.str();

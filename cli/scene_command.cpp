@@ -1,9 +1,9 @@
 #include "cli/scene_command.hpp"
 
-#include "cli/environment.hpp"
-#include "cli/fleet_plan.hpp"
-#include "cli/preflight.hpp"
-#include "core/program.hpp"
+#include "cli/run/environment.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
+#include "process/program.hpp"
 
 namespace skein::cli {
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/fake_programs.hpp"
-#include "core/program.hpp"
+#include "cli/testing/fake_programs.hpp"
+#include "process/program.hpp"
 
 namespace skein::cli {
 namespace {

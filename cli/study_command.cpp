@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
-#include "cli/html.hpp"
-#include "cli/results_dir.hpp"
-#include "cli/study_columns.hpp"
-#include "cli/study_csv.hpp"
-#include "cli/study_page.hpp"
-#include "core/atomic_file.hpp"
+#include "cli/run/results_dir.hpp"
+#include "cli/study/columns.hpp"
+#include "cli/study/csv.hpp"
+#include "cli/study/html.hpp"
+#include "cli/study/page.hpp"
 #include "core/sha256.hpp"
 #include "core/suggestion.hpp"
 #include "core/types.hpp"
+#include "process/atomic_file.hpp"
 
 namespace skein::cli {
 namespace {

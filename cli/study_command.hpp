@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cli/run_command.hpp"
-#include "cli/study_figures.hpp"
-#include "cli/study_flights.hpp"
+#include "cli/study/figures.hpp"
+#include "cli/study/flights.hpp"
 
 namespace skein::cli {
 

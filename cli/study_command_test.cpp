@@ -4,8 +4,8 @@
 
 #include <sstream>
 
-#include "cli/fake_programs.hpp"
-#include "cli/study_flights.hpp"
+#include "cli/study/flights.hpp"
+#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

@@ -5,11 +5,11 @@
 #include <regex>
 #include <stdexcept>
 
-#include "cli/environment.hpp"
 #include "cli/fault_test_command.hpp"
-#include "cli/fleet_plan.hpp"
-#include "cli/preflight.hpp"
-#include "cli/run_result.hpp"
+#include "cli/run/environment.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
+#include "cli/run/result.hpp"
 
 namespace skein::cli {
 namespace {
@@ -73,7 +73,8 @@ int run_tests(const TestOptions& options, const Console& console) {
   const ScratchDir scratch;
   const std::filesystem::path build_dir = std::filesystem::absolute(program_dir()).parent_path();
   if (!std::filesystem::exists(build_dir / "CTestTestfile.cmake")) {
-    throw InputError("test: there are no tests beside this skein; ./skein test in the source tree builds and runs them");
+    throw InputError(
+        "test: there are no tests beside this skein; ./skein test in the source tree builds and runs them");
   }
   const std::filesystem::path junit = scratch.path() / "ctest.xml", reports = scratch.path() / "gtest";
   std::map<std::string, std::string> variables = {{"GTEST_OUTPUT", "json:" + reports.string() + "/"}};

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/fake_programs.hpp"
+#include "cli/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {

@@ -4,14 +4,14 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
-set(SKEIN_CONTRACT_DIR ${PROJECT_SOURCE_DIR}/uav_agent)  # where the sources of skein_add_planner_test() are
+set(SKEIN_CONTRACT_DIR ${PROJECT_SOURCE_DIR}/uav_agent/testing)  # where the sources of skein_add_planner_test() are
 set(installed_contract_dir ${CMAKE_INSTALL_DATADIR}/skein/contract)
 
 install(TARGETS skein sim_server comm_router station uav_agent RUNTIME)
 install(DIRECTORY config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/skein/config)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-set(libraries core idl bus lockstep agent agent_main)
+set(libraries core process idl bus lockstep agent agent_main)
 foreach(library ${libraries})
   set_target_properties(skein_${library} PROPERTIES EXPORT_NAME ${library})
   install(TARGETS skein_${library} EXPORT skeinTargets
@@ -19,12 +19,19 @@ foreach(library ${libraries})
   add_library(skein::${library} ALIAS skein_${library})
 endforeach()
 
-# Headers of what a planner may use: not those of the nodes, which alone talk over the bus. Where: as SkeinBuild.cmake has
-# it.
+# Headers of what a planner may use, where SkeinBuild.cmake has them, and under their former names. The rest is internal:
+# the contract's sources get the agent's headers for themselves.
 install(DIRECTORY core DESTINATION include/skein FILES_MATCHING PATTERN "*.hpp")
-install(DIRECTORY uav_agent DESTINATION include/skein
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "*_node.hpp" EXCLUDE PATTERN "neighbours.hpp" EXCLUDE)
-install(FILES uav_agent/planner_contract_test.cpp uav_agent/test_world.cpp DESTINATION ${installed_contract_dir})
+foreach(folder api maps flight planning)
+  install(DIRECTORY uav_agent/${folder} DESTINATION include/skein/uav_agent FILES_MATCHING PATTERN "*.hpp")
+endforeach()
+install(DIRECTORY ${SKEIN_FORWARD_DIR}/ DESTINATION include/skein)
+install(FILES uav_agent/testing/planner_contract_test.cpp uav_agent/testing/test_world.cpp
+  DESTINATION ${installed_contract_dir})
+foreach(folder onboard testing)
+  install(DIRECTORY uav_agent/${folder} DESTINATION ${installed_contract_dir}/include/uav_agent
+    FILES_MATCHING PATTERN "*.hpp")
+endforeach()
 
 install(EXPORT skeinTargets NAMESPACE skein:: DESTINATION ${package})
 export(EXPORT skeinTargets NAMESPACE skein:: FILE ${CMAKE_BINARY_DIR}/skeinTargets.cmake)

@@ -8,11 +8,7 @@
 namespace skein::router {
 
 LinkStages::LinkStages(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed)
-    : scenario_(scenario),
-      faults_(faults),
-      seed_(seed),
-      nodes_(scenario.fleet.size() + 1),
-      stages_(nodes_ * nodes_) {
+    : scenario_(scenario), faults_(faults), seed_(seed), nodes_(scenario.fleet.size() + 1), stages_(nodes_ * nodes_) {
   for (std::size_t i = 0; i < scenario.links.size(); ++i) {
     add_effect(scenario.links[i], "radio.links[" + std::to_string(i) + "]", 0, ~std::uint64_t{0});
   }
@@ -62,8 +58,7 @@ void LinkStages::pass(Stage& stage, std::uint64_t k, const RadioRoute& route, co
     passage.loss = LinkLoss::fault;
     return;
   }
-  if (effect.bandwidth_bit_s &&
-      !queue(stage, k, static_cast<double>(message.payload->size()), passage.delay_s)) {
+  if (effect.bandwidth_bit_s && !queue(stage, k, static_cast<double>(message.payload->size()), passage.delay_s)) {
     passage.loss = LinkLoss::overflow;
     return;
   }

@@ -160,7 +160,7 @@ TEST(LinkStages, BandwidthDelaysAndOverflows) {
   EXPECT_EQ(fates[1].delay_steps, 4u);
   EXPECT_EQ(fates[2].loss, LinkLoss::overflow);  // 200 bytes wait or are under way, 100 more do not fit
   EXPECT_EQ(fates[4].loss, LinkLoss::overflow);
-  EXPECT_EQ(stages.fate(2, kRoute, kB, message(5)).delay_steps, 4u);    // 100 bytes have gone
+  EXPECT_EQ(stages.fate(2, kRoute, kB, message(5)).delay_steps, 4u);     // 100 bytes have gone
   EXPECT_EQ(stages.fate(1000, kRoute, kB, message(6)).delay_steps, 2u);  // idle again
   EXPECT_EQ(stages.fate(2000, kRoute, kB, message(7, 4000)).loss, LinkLoss::none) << "what meets no queue always fits";
 }

@@ -8,8 +8,8 @@
 
 #include "bus/program_bus.hpp"
 #include "comm_router/router_node.hpp"
-#include "core/program.hpp"
-#include "core/program_report.hpp"
+#include "process/program.hpp"
+#include "process/program_report.hpp"
 
 namespace {
 

@@ -47,8 +47,7 @@ RouterNode::RouterNode(const Scenario& scenario, std::uint64_t seed, int base_do
                        const FaultPlan& faults, const std::filesystem::path& out)
     : scenario_(scenario),
       table_(scenario),
-      gate_(table_.routes(), scenario.fleet.size() + 1,
-            make_links(scenario, faults, seed, out, unwritten_)),
+      gate_(table_.routes(), scenario.fleet.size() + 1, make_links(scenario, faults, seed, out, unwritten_)),
       declared_routes_(gate_.routes().size()),
       sync_(gate_.routes()),
       registry_(scenario, table_, endpoints()),
@@ -122,8 +121,8 @@ void RouterNode::open_route(std::size_t number) {
                      std::make_shared<const std::vector<std::uint8_t>>(std::move(sample.payload)));
     };
     // Of no use before the Done that counts them; once all of those are here, rings() waits for any sample.
-    radio_readers_[number] = inbox_.subscribe(*nodes_[route.source], radio_spec(route.topic, route.type), queue,
-                                              bus::Bell::silent);
+    radio_readers_[number] =
+        inbox_.subscribe(*nodes_[route.source], radio_spec(route.topic, route.type), queue, bus::Bell::silent);
   }
   for (std::size_t t = arrival_of_[number].size(); t < route.targets.size(); ++t) {
     arrival_of_[number].push_back(find_or_open_arrival(route.targets[t], route.type));
@@ -208,8 +207,8 @@ std::size_t RouterNode::find_or_open_arrival(const RadioTarget& target, const st
 
 void RouterNode::on_ready(std::size_t door, const msg::Ready& ready, bus::ParticipantId source) {
   if (ready.revision() == 0) return;
-  applicants_[source] = {
-      ready.member(), doors_[door].node, door, ready.revision(), ready.reads(), ready.writes(), false};
+  applicants_[source] = {ready.member(), doors_[door].node, door, ready.revision(),
+                         ready.reads(),  ready.writes(),    false};
 }
 
 std::string RouterNode::unmatched(const Applicant& applicant, bus::ParticipantId source) const {
@@ -270,7 +269,8 @@ std::vector<msg::Await> RouterNode::awaited() const {
   for (const auto& [source, applicant] : applicants_) {
     if (!applicant.attached) add(applicant.member, source, true, unmatched(applicant, source) + " to match");
   }
-  for (const AwaitedMember& missing : sync_.awaited()) add(missing.member.name, missing.member.source, false, missing.what);
+  for (const AwaitedMember& missing : sync_.awaited())
+    add(missing.member.name, missing.member.source, false, missing.what);
   if (!batch_) return list;
   for (const AwaitedRequest& request : registry_.awaited()) {
     add(scenario_.node_name(request.asker.node), request.asker.source, false, request.what);

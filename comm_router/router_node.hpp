@@ -141,7 +141,7 @@ class RouterNode {
   std::vector<std::vector<std::size_t>> arrival_of_;  ///< by route, target: index into arrivals_
   std::vector<std::size_t> replies_of_;               ///< by node: likewise, where it gets its replies
   std::optional<StepBatch> batch_;                    ///< while its registrations wait for matches
-  bus::Patience match_patience_{0.0};                      ///< for those
+  bus::Patience match_patience_{0.0};                 ///< for those
   std::optional<bus::Patience> word_patience_;        ///< since it waits; over: the server is told
   std::optional<std::vector<msg::Await>> told_;       ///< to the server, in this step
   std::optional<msg::Routed> last_routed_;

@@ -113,8 +113,7 @@ std::vector<AwaitedMember> RouterSync::awaited() const {
     for (const SentCount& sent : radio_counts(sender->second, k, member)) {
       const std::uint64_t arrived = sender->second.arrived(sent.topic);
       if (arrived < sent.count) {
-        missing.push_back(
-            {member, sent.topic + " " + std::to_string(arrived) + " of " + std::to_string(sent.count)});
+        missing.push_back({member, sent.topic + " " + std::to_string(arrived) + " of " + std::to_string(sent.count)});
       }
     }
   }

@@ -49,8 +49,8 @@ struct RequestSample {
 struct StepBatch {
   std::uint64_t k = 0;
   std::uint32_t epoch = 0;
-  std::vector<std::uint8_t> links;     ///< as Step_ has them
-  std::vector<RadioMessage> messages;  ///< by member as the step lists them, route, sequence
+  std::vector<std::uint8_t> links;      ///< as Step_ has them
+  std::vector<RadioMessage> messages;   ///< by member as the step lists them, route, sequence
   std::vector<RequestSample> requests;  ///< by member as the step lists them, sequence
 };
 

@@ -169,8 +169,7 @@ TEST(RouterSync, AnyOrderOfArrivalGivesTheSameBatches) {
           batch = std::move(ready);
         }
       }
-      ASSERT_TRUE(batch) << "seed " << seed << " step " << k << ": "
-                         << ::testing::PrintToString(awaited(sync));
+      ASSERT_TRUE(batch) << "seed " << seed << " step " << k << ": " << ::testing::PrintToString(awaited(sync));
       ASSERT_EQ(batch->k, k);
       ASSERT_EQ(describe(*batch), round.expected) << "seed " << seed << " step " << k;
     }

@@ -1,4 +1,4 @@
-// Properties of the quality formulas; the reference vectors are in sim_server/golden_check_test.cpp.
+// Properties of the quality formulas; the reference vectors are in sim_server/golden/check_test.cpp.
 #include "core/camera_quality.hpp"
 
 #include <gtest/gtest.h>

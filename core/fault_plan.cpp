@@ -122,7 +122,7 @@ struct FaultFile {
   }
 };
 
-/// Without what only `skein test --faults` looks at (cli/fault_test.hpp).
+/// Without what only `skein test --faults` looks at (cli/fault_tests/fault_test.hpp).
 ConfigDocument read_fault_file(const std::filesystem::path& file) {
   ConfigDocument document = read_config_document(file);
   for (const char* key : {"run", "expect"}) document.root.remove(key);

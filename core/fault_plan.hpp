@@ -78,7 +78,7 @@ struct Fault {
   /// Whether it is in force in the exchange at this tick: from the first one at or after `at_s` to the last one
   /// before `until_s`.
   bool active(Tick tick) const { return tick >= begin() && (!end() || tick < *end()); }
-  Tick begin() const;              ///< in ticks, rounded up
+  Tick begin() const;  ///< in ticks, rounded up
   std::optional<Tick> end() const;
 };
 

@@ -175,8 +175,10 @@ TEST_F(FaultFile, ManyFaultsOfOneProgramAreComparedWithTheirNeighboursOnly) {
   }
   EXPECT_EQ(load(text).faults.size(), 20000U);
   refused(text + "- {at_s: 100, until_s: 110, pause: changi}\n", "contradicts");
-  refused("faults:\n- {at_s: 10, kill: changi}\n- {at_s: 5, until_s: 10, kill: changi}\n- {at_s: 20, until_s: 21, kill: changi}\n",
-          "faults[2]: contradicts faults[0]");
+  refused(
+      "faults:\n- {at_s: 10, kill: changi}\n- {at_s: 5, until_s: 10, kill: changi}\n- {at_s: 20, until_s: 21, kill: "
+      "changi}\n",
+      "faults[2]: contradicts faults[0]");
 }
 
 }  // namespace

@@ -119,12 +119,12 @@ struct RulesConfig {
   bool unnormalised_displacement = true;      ///< S4 of the reference's resolution formula
   bool ray_ends_at_point = false;             ///< S10: the ray that looks for a point ends there, in single precision
   bool own_body_hides = true;                 ///< S11: what the camera would see of its own UAV hides what is behind it
-  bool camera_blind_in_structure = true;      ///< no picture while structure stands between the body's centre and camera
-  bool phantom_gimbal_rate = false;           ///< G1-G3: report the commanded rate at the stop
-  bool collision_kills_both = false;          ///< a UAV at rest that a flying one touches is out, too
-  bool collision_voids_score = true;          ///< a UAV that collides loses its points, retroactively
-  double min_point_score = 0.2;               ///< a capture of a point below this does not count
-  double takeoff_height_m = 0.1;              ///< above rest height
+  bool camera_blind_in_structure = true;  ///< no picture while structure stands between the body's centre and camera
+  bool phantom_gimbal_rate = false;       ///< G1-G3: report the commanded rate at the stop
+  bool collision_kills_both = false;      ///< a UAV at rest that a flying one touches is out, too
+  bool collision_voids_score = true;      ///< a UAV that collides loses its points, retroactively
+  double min_point_score = 0.2;           ///< a capture of a point below this does not count
+  double takeoff_height_m = 0.1;          ///< above rest height
   double takeoff_speed_mps = 0.1;
 };
 

@@ -26,7 +26,7 @@ namespace {
 
 constexpr double kLeastStationDistanceM = 0.5;
 constexpr std::size_t kLongestName = 64;  ///< of a UAV or a scenario: they become names of files and topics
-constexpr std::size_t kMostUavs = 128;  ///< each has a DDS domain of its own, and those end near 230
+constexpr std::size_t kMostUavs = 128;    ///< each has a DDS domain of its own, and those end near 230
 
 /// A word that may be part of a ROS name.
 bool is_ros_word(const std::string& text) {
@@ -77,8 +77,9 @@ void check_names(const ScenarioFile& file, ConfigErrors& errors) {
     errors.check(is_ros_word(name), key,
                  "'" + name + "' is no ROS name: a letter, then letters, digits and underscores");
     errors.check(!reserved.contains(name), key, "'" + name + "' is reserved; choose another name");
-    errors.check(name.size() <= kLongestName, key,
-                 "must be at most " + std::to_string(kLongestName) + " letters long, not " + std::to_string(name.size()));
+    errors.check(
+        name.size() <= kLongestName, key,
+        "must be at most " + std::to_string(kLongestName) + " letters long, not " + std::to_string(name.size()));
     const auto [first, is_new] = seen.emplace(name, i);
     errors.check(is_new, key, "'" + name + "' is the name of fleet[" + std::to_string(first->second) + "] already");
   }

@@ -208,7 +208,7 @@ inline constexpr TopicInfo kStep{"/skein/step", "skein_msgs/msg/Step", Direction
                                  "server -> every domain, every exchange"};
 inline constexpr TopicInfo kDone{"/skein/done", "skein_msgs/msg/Done", Direction::internal, 8,
                                  "member -> its domain, every exchange"};
-// The station's own doors: who shares its domain can be refused them by name (cli/security_rules.cpp).
+// The station's own doors: who shares its domain can be refused them by name (cli/secure/rules.cpp).
 inline constexpr TopicInfo kStationDone{"/skein/station/done", "skein_msgs/msg/Done", Direction::internal, 8,
                                         "station -> GCS domain, every exchange"};
 // Latched where one side may come later than the other: a restarted process finds the last word of everybody else.

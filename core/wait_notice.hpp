@@ -13,7 +13,8 @@ class WaitNotice {
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kFirst{5};
 
-  explicit WaitNotice(Clock::time_point since, std::chrono::milliseconds first = kFirst) : since_(since), next_(first) {}
+  explicit WaitNotice(Clock::time_point since, std::chrono::milliseconds first = kFirst)
+      : since_(since), next_(first) {}
 
   /// @returns how long the wait has lasted [s] when a line is due, once for each.
   std::optional<double> due(Clock::time_point now) {

@@ -1,6 +1,6 @@
 #include "sim_server/cpu_clock.hpp"
 
-#include "core/thread_cpu.hpp"
+#include "process/thread_cpu.hpp"
 
 namespace skein::sim {
 

@@ -8,7 +8,7 @@
 #include "core/random_stream.hpp"
 #include "core/scenario_reader.hpp"
 #include "sim_server/simulation.hpp"
-#include "sim_server/test_flight.hpp"
+#include "sim_server/testing/test_flight.hpp"
 
 namespace skein::sim {
 namespace {

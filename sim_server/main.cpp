@@ -8,14 +8,14 @@
 #include <thread>
 
 #include "bus/program_bus.hpp"
-#include "core/atomic_file.hpp"
-#include "core/program.hpp"
 #include "core/scenario_reader.hpp"
-#include "sim_server/golden_check.hpp"
-#include "sim_server/oracle_cache.hpp"
-#include "sim_server/scene_export.hpp"
-#include "sim_server/scene_warnings.hpp"
+#include "process/atomic_file.hpp"
+#include "process/program.hpp"
+#include "sim_server/golden/check.hpp"
+#include "sim_server/oracle/cache.hpp"
+#include "sim_server/scenes/scene_export.hpp"
 #include "sim_server/scenes/scene_source.hpp"
+#include "sim_server/scenes/scene_warnings.hpp"
 #include "sim_server/sim_node.hpp"
 
 namespace {
@@ -28,7 +28,7 @@ struct ServerOptions {
   std::filesystem::path export_scene;  ///< folder; empty: none
   bool overwrite_export = false;
   bool ground_program = false;
-  std::filesystem::path oracle;  ///< file for its answer; empty: it is not asked
+  std::filesystem::path oracle;      ///< file for its answer; empty: it is not asked
   std::vector<double> clearances_m;  ///< empty: the usual one
   bool vehicle = false;              ///< it is the UAVs' bodies that keep them
   std::optional<double> oracle_patience_s;
@@ -51,7 +51,7 @@ std::optional<double> realtime_factor(const std::string& clock) {
 // Each member adds participants whose discovery the others pay for: on two cores a hundred UAVs take half a minute.
 double startup_timeout_s(const ServerOptions& server, const skein::Scenario& scenario) {
   constexpr double kPerUav_s = 2.0, kLeast_s = 20.0;  // however quick the members' answers must be
-  if (server.agent_timeout_s <= 0.0) return 0.0;  // for ever
+  if (server.agent_timeout_s <= 0.0) return 0.0;      // for ever
   return std::max(server.agent_timeout_s, kLeast_s) + kPerUav_s * static_cast<double>(scenario.fleet.size());
 }
 
@@ -148,7 +148,8 @@ int main(int argc, char** argv) {
     app.add_option("--stop-at", server.stop_at_s, "end at this simulated time [s]")->check(CLI::PositiveNumber);
     app.add_option("--agent-timeout", server.agent_timeout_s, "wall time to wait for a member [s], 0: for ever")
         ->check(CLI::NonNegativeNumber);
-    app.add_flag("--ground-program", server.ground_program, "wait for a program at the ground station before the start");
+    app.add_flag("--ground-program", server.ground_program,
+                 "wait for a program at the ground station before the start");
     app.add_option("--golden", server.golden, "run reference vectors through the production code, then stop");
     app.add_option("--export-scene", server.export_scene, "write the scene's files to this folder, then stop");
     app.add_flag("--overwrite-export", server.overwrite_export, "replace the files of an earlier export");

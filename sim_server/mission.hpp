@@ -7,7 +7,7 @@
 
 #include "core/scenario.hpp"
 #include "core/types.hpp"
-#include "sim_server/physics_world.hpp"
+#include "sim_server/flight/physics_world.hpp"
 
 namespace skein::sim {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/score_table.hpp"
-#include "sim_server/camera.hpp"
+#include "sim_server/sensors/camera.hpp"
 
 namespace skein::sim {
 

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/lockstep/names.hpp"
-#include "core/thread_cpu.hpp"
 #include "core/topics.hpp"
 #include "idl/conversions.hpp"
+#include "process/thread_cpu.hpp"
 #include "sim_server/referee.hpp"
-#include "sim_server/scene_warnings.hpp"
+#include "sim_server/scenes/scene_warnings.hpp"
 #include "sim_server/wait_teller.hpp"
 
 namespace skein::sim {
@@ -310,7 +310,8 @@ bool SimNode::wait_for_answers() {
     if (!arrived && !told) report_progress(false);
     if (aborted_ || gives_up_step()) return false;
     if (patience.over()) {
-      patience = give_up_awaited(fmt::format("did not answer for {} s", options_.agent_timeout_s), options_.agent_timeout_s);
+      patience =
+          give_up_awaited(fmt::format("did not answer for {} s", options_.agent_timeout_s), options_.agent_timeout_s);
     }
     if (until_asked_again.over()) {
       server_.ask_again();

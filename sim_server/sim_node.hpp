@@ -15,10 +15,10 @@
 #include "bus/lockstep/server.hpp"
 #include "bus/lockstep/strangers.hpp"
 #include "core/fault_plan.hpp"
-#include "core/status_pipe.hpp"
+#include "process/status_pipe.hpp"
 #include "sim_server/cpu_clock.hpp"
-#include "sim_server/fault_timeline.hpp"
-#include "sim_server/run_files.hpp"
+#include "sim_server/record/fault_timeline.hpp"
+#include "sim_server/record/run_files.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/uav_node.hpp"
 

@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "core/airframe.hpp"
-#include "sim_server/command_link.hpp"
-#include "sim_server/enclosure.hpp"
-#include "sim_server/fleet_start.hpp"
-#include "sim_server/physics_world.hpp"
-#include "sim_server/ray_scene.hpp"
-#include "sim_server/sight_memory.hpp"
-#include "sim_server/vehicle.hpp"
-#include "sim_server/vehicle_faults.hpp"
+#include "sim_server/flight/command_link.hpp"
+#include "sim_server/flight/enclosure.hpp"
+#include "sim_server/flight/fleet_start.hpp"
+#include "sim_server/flight/physics_world.hpp"
+#include "sim_server/flight/vehicle.hpp"
+#include "sim_server/flight/vehicle_faults.hpp"
+#include "sim_server/rays/ray_scene.hpp"
+#include "sim_server/sensors/sight_memory.hpp"
 
 namespace skein::sim {
 namespace {

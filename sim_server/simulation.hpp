@@ -18,12 +18,12 @@
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
 #include "core/types.hpp"
-#include "sim_server/camera.hpp"
-#include "sim_server/keyframes.hpp"
-#include "sim_server/lidar.hpp"
 #include "sim_server/mission.hpp"
 #include "sim_server/referee.hpp"
 #include "sim_server/run_digest.hpp"
+#include "sim_server/sensors/camera.hpp"
+#include "sim_server/sensors/keyframes.hpp"
+#include "sim_server/sensors/lidar.hpp"
 #include "sim_server/work_clock.hpp"
 
 namespace skein::sim {

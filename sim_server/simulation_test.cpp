@@ -13,7 +13,7 @@
 
 #include "core/scenario_reader.hpp"
 #include "sim_server/scenes/scene_source.hpp"
-#include "sim_server/test_scenes.hpp"
+#include "sim_server/testing/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

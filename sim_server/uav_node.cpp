@@ -63,10 +63,11 @@ UavNode::UavNode(std::size_t uav, const Scenario& scenario, Simulation& simulati
     cloud_ = &server.writer(domain, bus::spec(topics::cloud(id_)));
     self_keyframe_ = &server.writer(domain, bus::spec(topics::self_keyframe(id_)));
   }
-  server.read<msg::MultiDOFJointTrajectory>(
-      domain, bus::spec(topics::trajectory_command(id_)), [this](const msg::MultiDOFJointTrajectory& trajectory) {
-        if (const auto command = from_trajectory(trajectory)) simulation_.command_trajectory(uav_, *command);
-      });
+  server.read<msg::MultiDOFJointTrajectory>(domain, bus::spec(topics::trajectory_command(id_)),
+                                            [this](const msg::MultiDOFJointTrajectory& trajectory) {
+                                              if (const auto command = from_trajectory(trajectory))
+                                                simulation_.command_trajectory(uav_, *command);
+                                            });
   server.read<msg::Twist>(domain, bus::spec(topics::gimbal_command(id_)), [this](const msg::Twist& twist) {
     simulation_.command_gimbal(uav_, from_gimbal_command(twist));
   });

@@ -7,7 +7,7 @@
 
 #include "bus/lockstep/server.hpp"
 #include "idl/conversions.hpp"
-#include "sim_server/detection_log.hpp"
+#include "sim_server/sensors/detection_log.hpp"
 #include "sim_server/simulation.hpp"
 
 namespace skein::sim {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/status_pipe.hpp"
 #include "core/wait_notice.hpp"
+#include "process/status_pipe.hpp"
 
 namespace skein::sim {
 

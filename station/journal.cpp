@@ -169,7 +169,8 @@ Journal::~Journal() { ::close(descriptor_); }
 std::optional<RunId> Journal::run_of(const std::filesystem::path& file) {
   std::array<char, kMagic.size() + sizeof(RunId)> head{};
   std::ifstream in(file, std::ios::binary);
-  if (!in.read(head.data(), head.size()) || !std::equal(kMagic.begin(), kMagic.end(), head.begin())) return std::nullopt;
+  if (!in.read(head.data(), head.size()) || !std::equal(kMagic.begin(), kMagic.end(), head.begin()))
+    return std::nullopt;
   const Bytes run(head.begin() + kMagic.size(), head.end());
   return RunId{Cursor(run).get<std::uint64_t>()};
 }

@@ -49,7 +49,7 @@ class Journal {
   int descriptor_ = -1;
   std::vector<TallyRecord> replayed_;
   std::uintmax_t cut_bytes_ = 0;
-  bool ended_ = false;  ///< by a disk that refused
+  bool ended_ = false;   ///< by a disk that refused
   std::string trouble_;  ///< at the beginning of the file, to be told
 };
 

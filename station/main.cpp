@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "bus/program_bus.hpp"
-#include "core/program.hpp"
 #include "core/scenario_reader.hpp"
+#include "process/program.hpp"
 #include "station/settlement.hpp"
 #include "station/station_node.hpp"
 

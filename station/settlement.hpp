@@ -5,7 +5,7 @@
 
 #include "core/run_id.hpp"
 #include "core/scenario.hpp"
-#include "core/status_pipe.hpp"
+#include "process/status_pipe.hpp"
 
 namespace skein::station {
 

@@ -62,7 +62,9 @@ TEST_F(Settlement, WithoutAnythingDeliveredItIsEmpty) {
   EXPECT_EQ(report()["score"], 0.0);
 }
 
-TEST_F(Settlement, WithoutASceneThereIsNone) { EXPECT_THROW(settle(folder_, scenario_, RunId::none, nobody_), std::runtime_error); }
+TEST_F(Settlement, WithoutASceneThereIsNone) {
+  EXPECT_THROW(settle(folder_, scenario_, RunId::none, nobody_), std::runtime_error);
+}
 
 }  // namespace
 }  // namespace skein::station

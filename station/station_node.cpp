@@ -37,9 +37,9 @@ StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bu
   ledger_reader_ = bus::subscribe<msg::Ledger>(inbox_, *world_, bus::spec(topics::ledger()),
                                                [this](const msg::Ledger& ledger) { on_ledger(ledger); });
   for (std::size_t i = 0; i < uavs_.size(); ++i) {
-    client_.read<msg::CaptureReports>(
-        bus::spec(topics::captures_at_station(uavs_[i])), LockstepClient::Counterpart::router,
-        [this, i](const msg::CaptureReports& reports) { on_reports(i, reports); });
+    client_.read<msg::CaptureReports>(bus::spec(topics::captures_at_station(uavs_[i])),
+                                      LockstepClient::Counterpart::router,
+                                      [this, i](const msg::CaptureReports& reports) { on_reports(i, reports); });
     client_.declare_writer(bus::spec(topics::captures_ack(uavs_[i])), LockstepClient::Counterpart::router);
   }
   client_.think_when([this](const msg::Step& step) {

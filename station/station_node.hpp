@@ -12,7 +12,7 @@
 #include "bus/inbox.hpp"
 #include "bus/lockstep/client_loop.hpp"
 #include "core/scenario.hpp"
-#include "core/status_pipe.hpp"
+#include "process/status_pipe.hpp"
 #include "station/journal.hpp"
 #include "station/point_names.hpp"
 #include "station/scoreboard.hpp"

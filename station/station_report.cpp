@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/atomic_file.hpp"
+#include "process/atomic_file.hpp"
 
 namespace skein::station {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/program_report.hpp"
+#include "process/program_report.hpp"
 #include "station/scoreboard.hpp"
 
 namespace skein::station {

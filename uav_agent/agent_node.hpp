@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/scenario.hpp"
-#include "uav_agent/agent.hpp"
 #include "uav_agent/member_node.hpp"
+#include "uav_agent/onboard/agent.hpp"
 #include "uav_agent/radio_node.hpp"
 
 namespace skein::agent {

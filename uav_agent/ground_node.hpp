@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/scenario.hpp"
-#include "uav_agent/ground_program.hpp"
+#include "uav_agent/api/ground_program.hpp"
 #include "uav_agent/member_node.hpp"
 #include "uav_agent/radio_node.hpp"
 

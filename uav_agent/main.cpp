@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/program_bus.hpp"
-#include "core/program.hpp"
-#include "core/program_report.hpp"
 #include "core/scenario_reader.hpp"
+#include "process/program.hpp"
+#include "process/program_report.hpp"
 #include "uav_agent/agent_node.hpp"
 #include "uav_agent/ground_node.hpp"
 

@@ -1,6 +1,6 @@
 #include "uav_agent/member_node.hpp"
 
-#include "core/thread_cpu.hpp"
+#include "process/thread_cpu.hpp"
 
 namespace skein::agent {
 

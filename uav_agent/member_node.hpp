@@ -9,7 +9,7 @@
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "bus/lockstep/client_loop.hpp"
-#include "uav_agent/cpu_histogram.hpp"
+#include "uav_agent/onboard/cpu_histogram.hpp"
 
 namespace skein::agent {
 

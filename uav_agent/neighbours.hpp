@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "idl/conversions.hpp"
-#include "uav_agent/messages.hpp"
+#include "uav_agent/api/messages.hpp"
 
 namespace skein::agent {
 
@@ -14,8 +14,7 @@ inline std::vector<Neighbour> neighbours_of(const msg::PointCloud2& cloud) {
     const auto node = whole_number(p.node);
     if (!node) continue;
     const Eigen::Quaterniond q_WB(p.qw, p.qx, p.qy, p.qz);
-    neighbours.push_back(
-        {*node, Vector3d(p.x, p.y, p.z), Vector3d(q_WB * Vector3d(p.vx, p.vy, p.vz))});
+    neighbours.push_back({*node, Vector3d(p.x, p.y, p.z), Vector3d(q_WB * Vector3d(p.vx, p.vy, p.vz))});
   }
   return neighbours;
 }

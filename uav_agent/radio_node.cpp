@@ -31,11 +31,10 @@ void RadioNode::declare(bus::LockstepClient& client, std::vector<RadioMessage>& 
   for (const RadioRoute& route : routes_) {
     for (const RadioTarget& target : route.targets) {
       if (target.node != node_ || route.ros_type != kTextType || !declared.insert(target.topic).second) continue;
-      client.read<msg::String>(
-          bus::spec({target.topic, route.type, false, topics::radio_depth(nodes_)}), Counterpart::router,
-          [&received, topic = route.ros_topic](const msg::String& m) {
-            received.push_back({topic, m.data(), std::nullopt});
-          });
+      client.read<msg::String>(bus::spec({target.topic, route.type, false, topics::radio_depth(nodes_)}),
+                               Counterpart::router, [&received, topic = route.ros_topic](const msg::String& m) {
+                                 received.push_back({topic, m.data(), std::nullopt});
+                               });
     }
   }
 }

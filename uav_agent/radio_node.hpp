@@ -10,7 +10,7 @@
 #include "bus/lockstep/client.hpp"
 #include "core/radio_routes.hpp"
 #include "core/scenario.hpp"
-#include "uav_agent/messages.hpp"
+#include "uav_agent/api/messages.hpp"
 
 namespace skein::agent {
 

@@ -48,7 +48,11 @@ class Chatter {
  public:
   Chatter(const skein::Scenario& scenario, const skein::bus::Bus& bus, skein::bus::Participant& participant,
           std::string uav, std::size_t bytes)
-      : uav_(std::move(uav)), bytes_(bytes), inbox_(bus.run()), client_(participant, inbox_, uav_), radio_(client_, uav_) {
+      : uav_(std::move(uav)),
+        bytes_(bytes),
+        inbox_(bus.run()),
+        client_(participant, inbox_, uav_),
+        radio_(client_, uav_) {
     for (skein::Node node = 0; node <= scenario.fleet.size(); ++node) {
       if (scenario.node_name(node) != uav_) others_.push_back(scenario.node_name(node));
     }
@@ -112,8 +116,8 @@ int main(int argc, char** argv) try {
   app.add_option("--bytes", bytes, "Of each message")->check(CLI::Range(8, 4'000'000));
   CLI11_PARSE(app, argc, argv);
   const skein::Scenario scenario = skein::load_scenario(variable("SKEIN_SCENARIO"), {.needs_scene_files = false});
-  const auto bus = skein::bus::make_bus(
-      {.vendor = variable("SKEIN_DDS"), .run = skein::RunId{std::stoull(variable("SKEIN_RUN"))}});
+  const auto bus =
+      skein::bus::make_bus({.vendor = variable("SKEIN_DDS"), .run = skein::RunId{std::stoull(variable("SKEIN_RUN"))}});
   const auto participant = bus->join(std::stoi(variable("SKEIN_DOMAIN")));
   return Chatter(scenario, *bus, *participant, variable("SKEIN_UAV"), bytes).run();
 } catch (const std::exception& error) {

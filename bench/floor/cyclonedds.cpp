@@ -146,7 +146,8 @@ class Cyclone final : public Vendor {
       membership.domain = std::make_unique<Domain>(id, config);
       membership.participant =
           check(dds_create_participant(static_cast<dds_domainid_t>(id), nullptr, nullptr), "cannot join");
-      if (bus::meets_default_nodes(config)) bus::cyclonedds::reach_own_host(membership.domain->entity(), membership.participant);
+      if (bus::meets_default_nodes(config))
+        bus::cyclonedds::reach_own_host(membership.domain->entity(), membership.participant);
     }
     return membership.participant;
   }

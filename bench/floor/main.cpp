@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "bench/floor/floor.hpp"
-#include "core/program.hpp"
+#include "process/program.hpp"
 
 int main(int argc, char** argv) try {
   skein::bench::FloorOptions options;

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "core/program.hpp"
-#include "core/thread_cpu.hpp"
-#include "sim_server/lidar.hpp"
+#include "process/program.hpp"
+#include "process/thread_cpu.hpp"
 #include "sim_server/scenes/scene_source.hpp"
+#include "sim_server/sensors/lidar.hpp"
 
 namespace {
 

@@ -19,9 +19,9 @@
 #include "bus/lockstep/client.hpp"
 #include "bus/lockstep/names.hpp"
 #include "bus/lockstep/server.hpp"
-#include "core/program.hpp"
 #include "core/radio_routes.hpp"
 #include "core/scenario_reader.hpp"
+#include "process/program.hpp"
 
 namespace {
 
@@ -160,8 +160,7 @@ class Fleet {
       poll(station_);
       return server_.at_boundary();
     });
-    server_.publish(
-        {.k = k_, .tick = 20 * static_cast<skein::Tick>(k_), .links = {0, 1, 1, 0}, .final_step = last});
+    server_.publish({.k = k_, .tick = 20 * static_cast<skein::Tick>(k_), .links = {0, 1, 1, 0}, .final_step = last});
     ++k_;
     Clock::time_point written;
     wait_until("both members", [&] {

@@ -61,8 +61,7 @@ std::string domain_configuration(const BusConfig& config) {
          "<NackDelay>5ms</NackDelay><GenerateKeyhash>true</GenerateKeyhash>"
          "<WriterLingerDuration>50ms</WriterLingerDuration>"
          "<SocketReceiveBufferSize min=\"default\" max=\"4MB\"/></Internal>" +
-         security_configuration(config.security) +
-         "</Domain></CycloneDDS>";
+         security_configuration(config.security) + "</Domain></CycloneDDS>";
 }
 
 dds_return_t check(dds_return_t result, const std::string& what) {

@@ -12,8 +12,8 @@
 
 #include "bus/cyclonedds/domain.hpp"
 #include "bus/vendor_log.hpp"
-#include "core/security_files.hpp"
 #include "core/types.hpp"
+#include "process/security_files.hpp"
 
 namespace skein::bus::cyclonedds {
 
@@ -39,10 +39,14 @@ fs::path plugin(const std::string& name) {
 std::string escaped(const std::string& text) {
   std::string xml;
   for (const char c : text) {
-    if (c == '&') xml += "&amp;";
-    else if (c == '<') xml += "&lt;";
-    else if (c == '"') xml += "&quot;";
-    else xml += c;
+    if (c == '&')
+      xml += "&amp;";
+    else if (c == '<')
+      xml += "&lt;";
+    else if (c == '"')
+      xml += "&quot;";
+    else
+      xml += c;
   }
   return xml;
 }
@@ -86,9 +90,7 @@ void look_at_newcomers(dds_entity_t reader, void*) {
   }
 }
 
-std::string library_element(const std::string& name) {
-  return "<Library path=\"" + escaped(plugin(name)) + "\"/>";
-}
+std::string library_element(const std::string& name) { return "<Library path=\"" + escaped(plugin(name)) + "\"/>"; }
 
 }  // namespace
 
@@ -99,12 +101,12 @@ std::string security_configuration(const fs::path& folder) {
     return "<" + element + ">file:" + escaped(absolute / name) + "</" + element + ">";
   };
   return "<Security><Authentication>" + library_element("dds_security_auth") +
-         file("IdentityCA", security_files::kIdentityCa) +
-         file("IdentityCertificate", security_files::kCertificate) + file("PrivateKey", security_files::kKey) +
-         "</Authentication><Cryptographic>" + library_element("dds_security_crypto") +
-         "</Cryptographic><AccessControl>" + library_element("dds_security_ac") +
-         file("PermissionsCA", security_files::kPermissionsCa) + file("Governance", security_files::kGovernance) +
-         file("Permissions", security_files::kPermissions) + "</AccessControl></Security>";
+         file("IdentityCA", security_files::kIdentityCa) + file("IdentityCertificate", security_files::kCertificate) +
+         file("PrivateKey", security_files::kKey) + "</Authentication><Cryptographic>" +
+         library_element("dds_security_crypto") + "</Cryptographic><AccessControl>" +
+         library_element("dds_security_ac") + file("PermissionsCA", security_files::kPermissionsCa) +
+         file("Governance", security_files::kGovernance) + file("Permissions", security_files::kPermissions) +
+         "</AccessControl></Security>";
 }
 
 void log_refusals() {

@@ -9,7 +9,7 @@
 namespace skein::bus::cyclonedds {
 
 /// <Security> of a domain's configuration (XML); empty for an empty folder.
-/// @param folder  of core/security_files.hpp
+/// @param folder  of process/security_files.hpp
 /// @throws InputError when Cyclone's plugins are not installed; it names the Debian package.
 std::string security_configuration(const std::filesystem::path& folder);
 

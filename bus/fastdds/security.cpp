@@ -2,14 +2,14 @@
 
 #include <fastdds/dds/log/Log.hpp>
 
-#include <memory>
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
+#include <memory>
 #include <mutex>
 #include <sstream>
 #include <string>
 
 #include "bus/vendor_log.hpp"
-#include "core/security_files.hpp"
+#include "process/security_files.hpp"
 
 namespace skein::bus::fastdds {
 

@@ -39,9 +39,9 @@ void LockstepClient::declare_writer(const TopicSpec& topic, Counterpart counterp
 }
 
 void LockstepClient::start() {
-  resync_reader_ = subscribe<msg::Resync>(
-      inbox_, participant_, spec(topics::resync()),
-      [this](const msg::Resync& resync, ParticipantId source) { on_resync(resync, source); });
+  resync_reader_ =
+      subscribe<msg::Resync>(inbox_, participant_, spec(topics::resync()),
+                             [this](const msg::Resync& resync, ParticipantId source) { on_resync(resync, source); });
   step_reader_ = subscribe<msg::Step>(inbox_, participant_, spec(topics::step()),
                                       [this](msg::Step& step, ParticipantId source) { on_step(step, source); });
   done_ = std::make_unique<CountedWriter>(participant_, done_spec(member_));
@@ -64,8 +64,8 @@ void LockstepClient::create_endpoints() {
   for (Reading& reading : readings_) open_reader(reading);
   for (Writing& writing : writings_) writing.writer = std::make_unique<CountedWriter>(participant_, writing.topic);
   for (const auto& base : base_) {
-    const auto reading = std::find_if(readings_.begin(), readings_.end(),
-                                      [&](const Reading& r) { return r.topic.name == base.topic; });
+    const auto reading =
+        std::find_if(readings_.begin(), readings_.end(), [&](const Reading& r) { return r.topic.name == base.topic; });
     if (reading == readings_.end()) continue;
     // What is latched is received again as far as its history goes back, so that much counts again.
     const auto depth = static_cast<std::uint64_t>(reading->topic.qos.depth);
@@ -168,8 +168,9 @@ bool LockstepClient::matched(Counterpart counterpart, ParticipantId who) const {
   return std::all_of(
              readings_.begin(), readings_.end(),
              [&](const Reading& r) { return r.counterpart != counterpart || contains(r.reader->matched(), who); }) &&
-         std::all_of(writings_.begin(), writings_.end(),
-                     [&](const Writing& w) { return w.counterpart != counterpart || !w.open || w.writer->matches(who); });
+         std::all_of(writings_.begin(), writings_.end(), [&](const Writing& w) {
+           return w.counterpart != counterpart || !w.open || w.writer->matches(who);
+         });
 }
 
 bool LockstepClient::router_matched() {

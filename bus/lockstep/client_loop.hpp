@@ -5,8 +5,8 @@
 #include <string>
 
 #include "bus/lockstep/client.hpp"
-#include "core/program.hpp"
 #include "core/wait_notice.hpp"
+#include "process/program.hpp"
 
 namespace skein::bus {
 

@@ -26,7 +26,10 @@ TEST(ClientLoop, SaysWhatItWaitsForNowAndThen) {
     if (++looks == 200) stop.stop();  // of 2 ms each
     return true;
   };
-  const ClientLoop loop{.think = [] {}, .serve = serve, .answered_last = [] { return false; }, .first_word = std::chrono::milliseconds(10)};
+  const ClientLoop loop{.think = [] {},
+                        .serve = serve,
+                        .answered_last = [] { return false; },
+                        .first_word = std::chrono::milliseconds(10)};
   EXPECT_EQ(run_client(client, inbox, loop, stop), LoopEnd::stopped);
   spdlog::set_default_logger(before);
   const std::string said = text.str(), word = "waiting for an invitation from sim_server";

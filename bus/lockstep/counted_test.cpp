@@ -112,7 +112,8 @@ class Both {
   void compare() {
     ASSERT_EQ(queues.missing(), oracle.missing());
     ASSERT_EQ(queues.complete(), oracle.missing().empty());
-    for (const ParticipantId source : kSources) ASSERT_EQ(queues.surplus(source).has_value(), oracle.has_surplus(source));
+    for (const ParticipantId source : kSources)
+      ASSERT_EQ(queues.surplus(source).has_value(), oracle.has_surplus(source));
   }
   std::size_t release() {
     handed_out_.clear();

@@ -29,11 +29,10 @@ LockstepServer::DomainIndex LockstepServer::add_domain(const std::string& node, 
     domain->readers.emplace_back(
         routed.name, subscribe<msg::Routed>(inbox_, participant, routed,
                                             [this](const auto& m, ParticipantId source) { on_routed(m, source); }));
-    domain->readers.emplace_back(
-        attached.name,
-        subscribe<msg::Attached>(inbox_, participant, attached, [this](const auto& m, ParticipantId source) {
-          attached_[{source, m.source()}] = m.router();
-        }));
+    domain->readers.emplace_back(attached.name, subscribe<msg::Attached>(inbox_, participant, attached,
+                                                                         [this](const auto& m, ParticipantId source) {
+                                                                           attached_[{source, m.source()}] = m.router();
+                                                                         }));
     domain->readers.emplace_back(
         awaits.name, subscribe<msg::Awaits>(inbox_, participant, awaits,
                                             [this](auto& m, ParticipantId source) { on_awaits(m, source); }));
@@ -211,8 +210,8 @@ void LockstepServer::amend_step() {
 void LockstepServer::on_done(DomainIndex domain, std::size_t door, const msg::Done& done, ParticipantId source) {
   if (!in_step_) return;
   Place* place = find(done.member());
-  if (place == nullptr || !place->member || place->domain != domain || place->door != door ||
-      place->source != source || done.k() != k_ || done.epoch() != epoch_) {
+  if (place == nullptr || !place->member || place->domain != domain || place->door != door || place->source != source ||
+      done.k() != k_ || done.epoch() != epoch_) {
     return;
   }
   place->sent.clear();
@@ -267,9 +266,8 @@ bool LockstepServer::answered() {
 void LockstepServer::ask_again() {
   for (std::size_t i = 0; in_step_ && i < domains_.size(); ++i) {
     Domain& domain = *domains_[i];
-    const bool silent = std::any_of(places_.begin(), places_.end(), [&](const Place& p) {
-      return p.member && p.domain == i && !p.answered;
-    });
+    const bool silent = std::any_of(places_.begin(), places_.end(),
+                                    [&](const Place& p) { return p.member && p.domain == i && !p.answered; });
     if (!silent) continue;
     domain.step->begin_step();
     domain.step->write(domain.last);

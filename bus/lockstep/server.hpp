@@ -107,8 +107,8 @@ class LockstepServer {
     std::vector<Door> doors;
     std::vector<std::unique_ptr<CountedWriter>> writers;
     std::vector<std::uint64_t> announced;  ///< counts of `writers` that the members know
-    bool newcomer = false;                 ///< since the last step somebody joined, who knows no counts of what is latched
-    msg::Step last;                        ///< published
+    bool newcomer = false;  ///< since the last step somebody joined, who knows no counts of what is latched
+    msg::Step last;         ///< published
     std::vector<std::pair<std::string, std::unique_ptr<Reader>>> readers;
     CountedQueues commands;
   };
@@ -119,7 +119,7 @@ class LockstepServer {
     bool awaited = false;  ///< at_boundary() waits for it
     bool member = false, was_member = false;
     std::optional<msg::Order> order;  ///< taken out by a fault: who knocks waits at the door
-    ParticipantId source = 0;  ///< of the member, or of who knocks
+    ParticipantId source = 0;         ///< of the member, or of who knocks
     bool invited = false, declared = false;
     std::vector<std::string> reads, writes;
     bool answered = false;
@@ -163,7 +163,7 @@ class LockstepServer {
   std::map<std::string, std::vector<msg::TopicCount>> newly_delivered_;
   std::vector<std::uint8_t> routed_digest_, station_digest_;
   std::set<ParticipantId> gone_;  ///< lost; what they said may still arrive
-  msg::Awaits awaits_;  ///< the router's last word of whom it waits for
+  msg::Awaits awaits_;            ///< the router's last word of whom it waits for
   std::vector<LostMember> lost_;
   std::vector<std::string> rejoined_, doubts_;
   std::uint64_t k_ = 0;

@@ -162,8 +162,10 @@ std::vector<LockstepServer::Awaited> LockstepServer::awaited_at_boundary() const
     } else if (!attached_by_router(place)) {
       const std::string what = awaited_by_router(place);
       const bool gone = !contains(door_of(place).ready->matched(), place.source);
-      if (!what.empty() || gone) result.push_back({place.name, gone ? "its participant has gone" : what});
-      else unattached += (unattached.empty() ? "" : ", ") + place.name;
+      if (!what.empty() || gone)
+        result.push_back({place.name, gone ? "its participant has gone" : what});
+      else
+        unattached += (unattached.empty() ? "" : ", ") + place.name;
     }
   }
   if (r != nullptr && result.empty() && !unattached.empty()) {

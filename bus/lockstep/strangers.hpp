@@ -21,8 +21,8 @@ class Strangers {
  public:
   /// A writer that is to be told of.
   struct Notice {
-    std::string node;   ///< in whose domain
-    std::string topic;  ///< on the wire
+    std::string node;           ///< in whose domain
+    std::string topic;          ///< on the wire
     std::uint64_t samples = 0;  ///< so far
   };
   /// Whether a participant is still a stranger: who joins a little later is none, nor who has just left.

@@ -14,8 +14,8 @@
 #include <set>
 
 #include "core/scenario_reader.hpp"
-#include "sim_server/enclosure.hpp"
-#include "sim_server/ray_scene.hpp"
+#include "sim_server/flight/enclosure.hpp"
+#include "sim_server/rays/ray_scene.hpp"
 #include "sim_server/scenes/scene_source.hpp"
 
 namespace skein::sim {

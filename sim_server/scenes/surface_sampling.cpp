@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/random_stream.hpp"
-#include "sim_server/ray_scene.hpp"
+#include "sim_server/rays/ray_scene.hpp"
 
 namespace skein::sim {
 namespace {

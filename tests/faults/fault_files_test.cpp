@@ -5,7 +5,7 @@
 #include <fstream>
 #include <regex>
 
-#include "cli/fault_test.hpp"
+#include "cli/fault_tests/fault_test.hpp"
 #include "core/config_files.hpp"
 #include "core/scenario_reader.hpp"
 

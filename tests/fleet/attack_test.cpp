@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "cli/domain_block.hpp"
+#include "cli/run/domain_block.hpp"
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
 

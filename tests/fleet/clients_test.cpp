@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "cli/domain_block.hpp"
+#include "cli/run/domain_block.hpp"
 #include "core/radio_routes.hpp"
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
@@ -242,15 +242,18 @@ class Lying : public ByHand, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Lying, ClientIsDroppedAndTheRunGoesOn) {
   start_fleet("uav_agent-sentosa", {SKEIN_MINIMAL_CLIENT, GetParam()});
-  expect_run_without("uav_agent-sentosa", GetParam() == "boast" ? "rt/sentosa/command/trajectory 41 of 42"
-                                                                 : "sent more than it announced");
+  expect_run_without("uav_agent-sentosa",
+                     GetParam() == "boast" ? "rt/sentosa/command/trajectory 41 of 42" : "sent more than it announced");
   if (GetParam() == "smuggle") {
     const Json report = Json::parse(text_of(dir_ / "sim_server.report.json"));
     const std::string reason = report["lost_members"][0]["reason"];
     EXPECT_NE(reason.find(" samples on rt/sentosa/command/trajectory, "), std::string::npos) << reason;
     long sent = 0, announced = 0;
-    ASSERT_EQ(std::sscanf(reason.c_str(), "sent more than it announced: %ld samples on rt/sentosa/command/trajectory, %ld",
-                          &sent, &announced), 2) << reason;
+    ASSERT_EQ(
+        std::sscanf(reason.c_str(), "sent more than it announced: %ld samples on rt/sentosa/command/trajectory, %ld",
+                    &sent, &announced),
+        2)
+        << reason;
     EXPECT_EQ(sent, announced + 1);
   }
   EXPECT_EQ(fleet_.at("uav_agent-sentosa")->wait().code, 3);

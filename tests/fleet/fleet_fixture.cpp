@@ -8,8 +8,8 @@
 #include <regex>
 #include <sstream>
 
-#include "core/host_lock.hpp"
 #include "json_schema.hpp"
+#include "process/host_lock.hpp"
 #include "results_page.hpp"
 
 namespace skein::test {

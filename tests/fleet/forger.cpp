@@ -45,9 +45,7 @@ int forge(const std::vector<std::string>& uavs) {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-  return forge({argv + 1, argv + argc});
-} catch (const std::exception& error) {
+int main(int argc, char** argv) try { return forge({argv + 1, argv + argc}); } catch (const std::exception& error) {
   std::cerr << error.what() << std::endl;
   return 3;
 }

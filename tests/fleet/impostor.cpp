@@ -7,15 +7,14 @@
 #include <chrono>
 #include <thread>
 
-#include "core/atomic_file.hpp"
+#include "process/atomic_file.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 8) return 2;
   const std::string vendor = argv[1];
   const skein::test::Disguise disguise{
       std::stoi(argv[2]), std::stoi(argv[3]), {.vendor = vendor, .security = argv[5]}, argv[6], argv[7]};
-  const skein::test::Count matched =
-      vendor == "fastdds" ? join_fastdds(disguise) : join_cyclonedds(disguise);
+  const skein::test::Count matched = vendor == "fastdds" ? join_fastdds(disguise) : join_cyclonedds(disguise);
   for (int before = -1;;) {
     const int now = matched();
     if (now != before) {

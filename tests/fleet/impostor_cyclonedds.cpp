@@ -19,8 +19,8 @@ Count join_cyclonedds(const Disguise& disguise) {
   check(dds_create_domain(domain, xml.c_str()), "domain");
   const dds_entity_t participant = check(dds_create_participant(domain, nullptr, nullptr), "participant");
   ddsi_sertype* type = bus::cyclonedds::make_raw_sertype(disguise.type);
-  const dds_entity_t topic = check(
-      dds_create_topic_sertype(participant, disguise.topic.c_str(), &type, nullptr, nullptr, nullptr), "topic");
+  const dds_entity_t topic =
+      check(dds_create_topic_sertype(participant, disguise.topic.c_str(), &type, nullptr, nullptr, nullptr), "topic");
   const dds_entity_t reader = check(dds_create_reader(participant, topic, nullptr, nullptr), "reader");
   return [reader] { return static_cast<int>(dds_get_matched_publications(reader, nullptr, 0)); };
 }

@@ -17,8 +17,8 @@ Count join_fastdds(const Disguise& disguise) {
   dds::DomainParticipantQos qos = bus::fastdds::participant_qos(disguise.other, disguise.config);
   auto& ports = qos.wire_protocol().port;
   ports.portBase = static_cast<std::uint16_t>(ports.portBase + ports.domainIDGain * (disguise.other - disguise.own));
-  dds::DomainParticipant* participant = dds::DomainParticipantFactory::get_instance()->create_participant(
-      static_cast<std::uint32_t>(disguise.own), qos);
+  dds::DomainParticipant* participant =
+      dds::DomainParticipantFactory::get_instance()->create_participant(static_cast<std::uint32_t>(disguise.own), qos);
   if (participant == nullptr) throw std::runtime_error("Fast DDS: no participant");
   dds::TypeSupport(new bus::fastdds::RawType(disguise.type)).register_type(participant);
   dds::Topic* topic = participant->create_topic(disguise.topic, disguise.type, dds::TOPIC_QOS_DEFAULT);

@@ -55,11 +55,12 @@ TEST_P(KillMatrix, ByFaultFile) {
   std::string faults = "faults:\n";
   for (const std::string& victim : kVictims) {
     const double at_s = 10.0 + 35.0 * random.uniform(), until_s = at_s + 0.05 + 8.0 * random.uniform();
-    faults += "  - {at_s: " + std::to_string(at_s) + ", until_s: " + std::to_string(until_s) + ", kill: " + victim + "}\n";
+    faults +=
+        "  - {at_s: " + std::to_string(at_s) + ", until_s: " + std::to_string(until_s) + ", kill: " + victim + "}\n";
   }
   Arguments arguments = kTowers;
-  arguments.insert(arguments.end(), {"--dds", GetParam() % 2 == 0 ? "mixed" : "cyclonedds", "--faults",
-                                     write("faults.yaml", faults)});
+  arguments.insert(arguments.end(),
+                   {"--dds", GetParam() % 2 == 0 ? "mixed" : "cyclonedds", "--faults", write("faults.yaml", faults)});
   SkeinRun& done = run("scripted", arguments);
   expect_complete_result(done);
   const Json result = done.result();

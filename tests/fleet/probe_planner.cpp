@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "uav_agent/planner.hpp"
+#include "uav_agent/api/planner.hpp"
 
 namespace skein::agent {
 

@@ -89,7 +89,8 @@ TEST_F(ProcessFaults, AUsersCommandIsKilledByTheLauncherAndMissedWhenItDoesNotCo
                               (folder() / "second").string() + " && exec " SKEIN_MINIMAL_CLIENT;
   const auto faults = write("command.yaml", "faults: [{at_s: 4.0, until_s: 6.0, kill: sentosa}]\n");
   SkeinRun& run = this->run(
-      "command", {"towers", "--planner", "hover,sentosa=exec:" + command, "--duration", "20", "--faults", faults}, {}, 3);
+      "command", {"towers", "--planner", "hover,sentosa=exec:" + command, "--duration", "20", "--faults", faults}, {},
+      3);
   EXPECT_NE(run.err().find("uav_agent-sentosa failed: exit code 1"), std::string::npos) << run.err();
   expect_complete_result(run);
   const Json result = run.result();

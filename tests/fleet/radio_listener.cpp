@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "bus/bus.hpp"
-#include "core/atomic_file.hpp"
+#include "process/atomic_file.hpp"
 
 namespace {
 

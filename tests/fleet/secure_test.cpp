@@ -6,13 +6,13 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/proc_table.hpp"
-#include "cli/security.hpp"
-#include "cli/security_keys.hpp"
-#include "cli/security_rules.hpp"
-#include "core/security_files.hpp"
+#include "cli/run/proc_table.hpp"
+#include "cli/secure/keys.hpp"
+#include "cli/secure/rules.hpp"
+#include "cli/secure/security.hpp"
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
+#include "process/security_files.hpp"
 #include "small_scene.hpp"
 
 namespace skein::test {
@@ -123,7 +123,8 @@ TEST_P(Waiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
   const std::string forgery = "certificate signature failure";
   for (const std::string& text : {std::string("has no certificate"), refusal, forgery}) {
     EXPECT_TRUE(eventually([&] { return log().find(text) != std::string::npos; }, std::chrono::seconds(20)))
-        << text << " is not in the log:\n" << log();
+        << text << " is not in the log:\n"
+        << log();
   }
   start_program("agent", {"/bin/sh", "-c", "exec env " + command_});
   EXPECT_EQ(run_->exit_code(), 0) << run_->err();
@@ -169,16 +170,17 @@ TEST_F(Secure, AgentsCannotLookAtWhatIsNotTheirs) {
   if (!is_root()) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
   fs::permissions(folder() / "small/scene/points.pcd", fs::perms(0600));
   // What an agent tries, on the launcher too; each line names what it could read.
-  const fs::path script = write("look.sh", "mine=${SKEIN_SECURITY%/*}\n"
-                                           "for file in $mine/station/key.pem $mine/uav_agent-" + kVictim + "/key.pem " +
-                                           (folder() / "small/scene/points.pcd").string() + " " +
-                                           (folder() / "probed/scene.json").string() +
-                                           " /proc/$PPID/environ; do\n"
-                                           "  cat $file > /dev/null 2>&1 && echo can read $file\n"
-                                           "done > $SKEIN_OUT/looked\n"
-                                           "cat $SKEIN_SECURITY/key.pem > /dev/null && id -u >> $SKEIN_OUT/looked\n"
-                                           "kill -0 $PPID 2> /dev/null && echo can kill >> $SKEIN_OUT/looked\n"
-                                           "exec " SKEIN_MINIMAL_CLIENT "\n");
+  const fs::path script = write("look.sh",
+                                "mine=${SKEIN_SECURITY%/*}\n"
+                                "for file in $mine/station/key.pem $mine/uav_agent-" +
+                                    kVictim + "/key.pem " + (folder() / "small/scene/points.pcd").string() + " " +
+                                    (folder() / "probed/scene.json").string() +
+                                    " /proc/$PPID/environ; do\n"
+                                    "  cat $file > /dev/null 2>&1 && echo can read $file\n"
+                                    "done > $SKEIN_OUT/looked\n"
+                                    "cat $SKEIN_SECURITY/key.pem > /dev/null && id -u >> $SKEIN_OUT/looked\n"
+                                    "kill -0 $PPID 2> /dev/null && echo can kill >> $SKEIN_OUT/looked\n"
+                                    "exec " SKEIN_MINIMAL_CLIENT "\n");
   SkeinRun& probed = run("probed", {scenario_, "--secure", "--duration", "10", "--planner",
                                     "hover," + kOther + "=exec:exec /bin/sh " + script.string()});
   const std::string looked = text_of(probed.dir() / ("uav_agent-" + kOther + ".looked"));
@@ -195,9 +197,10 @@ TEST_F(Secure, AgentsCannotLookAtWhatIsNotTheirs) {
 
 TEST_F(Secure, NobodyIsLeftUnderTheUserIdsOfARun) {
   if (!is_root()) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
-  const fs::path script = write("stay.sh", "setsid sleep 1000 &\n"
-                                           "id -u > $SKEIN_OUT/uid\n"
-                                           "exec " SKEIN_MINIMAL_CLIENT "\n");
+  const fs::path script = write("stay.sh",
+                                "setsid sleep 1000 &\n"
+                                "id -u > $SKEIN_OUT/uid\n"
+                                "exec " SKEIN_MINIMAL_CLIENT "\n");
   const auto fly = [&](const std::string& name) {
     SkeinRun& done = run(name, {scenario_, "--secure", "--duration", "5", "--planner",
                                 "hover," + kOther + "=exec:exec /bin/sh " + script.string()});

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/xml_check.hpp"
+#include "cli/testing/xml_check.hpp"
 #include "fleet_fixture.hpp"
 #include "results_page.hpp"
 

@@ -27,7 +27,8 @@ void lay_out(const fs::path& folder, bool with_tests) {
 TEST_F(PlannerPage, ItsPlannerFliesTheSameInTheTreeAndOutOfIt) {
   lay_out(folder(), long_tests());
   // Nothing may help the installed programs to find their configuration.
-  const std::string follow = "cd " + folder().string() + " && unset SKEIN_CONFIG_DIR SKEIN_BIN_DIR && set -e && . ./outside.sh" +
+  const std::string follow = "cd " + folder().string() +
+                             " && unset SKEIN_CONFIG_DIR SKEIN_BIN_DIR && set -e && . ./outside.sh" +
                              (long_tests() ? " && ctest --test-dir my_planners/build --output-on-failure" : "");
   Environment environment = {{"XDG_CACHE_HOME", folder() / "cache"}};
   if (const std::string launcher = SKEIN_COMPILER_LAUNCHER; !launcher.empty()) {

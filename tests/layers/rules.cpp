@@ -22,7 +22,7 @@ const std::set<std::string>& applications() {
 
 /// Lower layers have lower numbers; applications share the highest.
 std::optional<int> layer_of(const std::string& folder) {
-  static const std::map<std::string, int> kLayers = {{"core", 0}, {"idl", 1}, {"bus", 2}};
+  static const std::map<std::string, int> kLayers = {{"core", 0}, {"process", 1}, {"idl", 1}, {"bus", 2}};
   if (applications().contains(folder)) return 3;
   const auto found = kLayers.find(folder);
   return found == kLayers.end() ? std::nullopt : std::optional(found->second);

@@ -118,9 +118,9 @@ bool FleetModel::all_finished() const {
 }
 
 std::string FleetModel::run() {
-  constexpr std::size_t kQuiet = 200;  // polls of everybody without anything new: nobody will ever move again
+  constexpr std::size_t kQuiet = 200;   // polls of everybody without anything new: nobody will ever move again
   constexpr std::size_t kRepeats = 20;  // of a step; for ever, and nobody would notice that all else stands still
-  constexpr std::size_t kStill = 10;   // the same, before what is held back happens
+  constexpr std::size_t kStill = 10;    // the same, before what is held back happens
   std::size_t quiet = 0, still = 0, repeats = 0;
   while (!all_finished()) {
     ++events_;

@@ -114,7 +114,8 @@ class ServerProcess final : public Process {
 
  private:
   void publish() {
-    if (const auto& loss = model_.options_.loses; loss && loss->k == k_) model_.network_.lose_next(loss->domain, loss->topic);
+    if (const auto& loss = model_.options_.loses; loss && loss->k == k_)
+      model_.network_.lose_next(loss->domain, loss->topic);
     const std::size_t nodes = sensors_.size() + 1;
     std::vector<std::uint8_t> links(nodes * nodes, 0);
     for (std::size_t from = 0; from < nodes; ++from) {

@@ -159,7 +159,8 @@ void expect_latched_known(const std::string& life, const std::vector<StepLog>& s
     if (tells_site_in_model(k)) expected.push_back("site" + std::to_string(k));
   }
   for (const StepLog& step : steps) {
-    std::ranges::copy_if(step.heard, std::back_inserter(heard), [](const auto& text) { return text.starts_with("site"); });
+    std::ranges::copy_if(step.heard, std::back_inserter(heard),
+                         [](const auto& text) { return text.starts_with("site"); });
   }
   ASSERT_EQ(heard, expected) << life << " schedule " << seed;
 }

@@ -69,7 +69,8 @@ class Ros2 : public FleetTest, public testing::WithParamInterface<std::string> {
     const Json& odometry = heard["odometry"];
     ASSERT_GT(odometry.size(), steps / 4);
     for (std::size_t i = 1; i < odometry.size(); ++i) {
-      ASSERT_NEAR(odometry[i][0].get<double>() - odometry[i - 1][0].get<double>(), kExchange_s, 1e-6) << "one is missing";
+      ASSERT_NEAR(odometry[i][0].get<double>() - odometry[i - 1][0].get<double>(), kExchange_s, 1e-6)
+          << "one is missing";
     }
     const double first_s = odometry.front()[0], last_s = odometry.back()[0];
     EXPECT_GT(last_s, (static_cast<double>(steps) - 20.0) * kExchange_s) << "but for what is under way at the end";

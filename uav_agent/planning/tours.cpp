@@ -6,7 +6,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kGain = 1e-9;          ///< less is rounding, not a gain
+constexpr double kGain = 1e-9;         ///< less is rounding, not a gain
 constexpr std::size_t kOrLongest = 3;  ///< nodes that Or-opt moves together
 
 /// The moves on one tour. Positions begin at 1: node 0 stays in front.

@@ -28,7 +28,7 @@ class CostMatrix {
 };
 
 struct TourConfig {
-  bool closed = false;                  ///< true: back to node 0 in the end
+  bool closed = false;                    ///< true: back to node 0 in the end
   std::size_t max_evaluations = 200'000;  ///< of moves, in all
   int kicks = 20;
 };

@@ -7,14 +7,14 @@
 
 #include <vector>
 
-#include "uav_agent/planning/voxel_grid.hpp"
+#include "uav_agent/maps/voxel_grid.hpp"
 
 namespace skein::agent {
 
 struct RingConfig {
   double inner_m = 4.0, outer_m = 8.0;  ///< radii of the cylinder's rings, horizontally from the target
   int rings = 3;
-  int directions = 12;           ///< on each ring
+  int directions = 12;                    ///< on each ring
   std::vector<double> heights_m = {0.0};  ///< above the target
 };
 

@@ -65,7 +65,7 @@ TEST(Viewpoints, TargetsMustBeInRangeInTheImageAndUnhidden) {
   VoxelGrid grid(Isometry3d::Identity(), {20, 20, 10}, 1.0);
   grid.raise(*grid.at(Vector3d(10.5, 14.5, 5.5)), VoxelState::occupied);
   const Vector3d from(10.5, 10.5, 5.5);
-  const std::vector<Vector3d> targets = {{14.5, 10.5, 5.5}, {6.5, 10.5, 5.5}, {14.5, 13.0, 5.5},
+  const std::vector<Vector3d> targets = {{14.5, 10.5, 5.5}, {6.5, 10.5, 5.5},  {14.5, 13.0, 5.5},
                                          {10.5, 17.5, 5.5}, {19.5, 10.5, 5.5}, {12.0, 10.5, 9.5}};
   const ViewLimits camera{8.0, 40.0 * kRadPerDeg, 30.0 * kRadPerDeg};
   EXPECT_EQ(visible_targets(grid, from, 0.0, 0.0, targets, camera), (std::vector<std::size_t>{0, 2}));

@@ -1,0 +1,291 @@
+#include "cli/bench/report.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace skein::cli {
+namespace {
+
+constexpr std::size_t kFleetSize = 5;  ///< of the targets for speed and rounds
+
+double number(const Json& object, const char* key) { return value_or(object, key, 0.0).get<double>(); }
+
+double ratio(double a, double b) { return b > 0.0 ? a / b : 0.0; }
+
+using Measure = std::function<double(const Json&)>;
+
+Json figure_of(const std::vector<Json>& results, const Measure& measure) {
+  std::vector<double> values;
+  for (const Json& result : results) values.push_back(measure(result));
+  return figure(values);
+}
+
+double real_time_factor(const Json& result) { return number(result, "real_time_factor"); }
+double resident_mb(const Json& result) { return number(result, "memory_mb"); }
+double memory_mb(const Json& result) {
+  double sum_mb = 0.0;
+  const Json processes = value_or(result, "processes", Json::object());
+  for (const Json& use : processes) sum_mb += number(use, "memory_share_mb");
+  return sum_mb;
+}
+double startup_s(const Json& result) { return number(result, "startup_s"); }
+
+double steps(const Json& result) { return number(value_or(result, "timing", Json::object()), "steps"); }
+double rounds_per_s(const Json& result) { return ratio(steps(result), number(result, "wall_time_s")); }
+
+double cpu_of(const Json& result, const std::function<bool(const std::string&)>& which) {
+  double cpu_s = 0.0;
+  const Json processes = value_or(result, "processes", Json::object());
+  for (const auto& [name, use] : processes.items()) {
+    if (which(name)) cpu_s += number(use, "cpu_s");
+  }
+  return cpu_s;
+}
+
+bool is_agent(const std::string& program) { return program.starts_with("uav_agent-"); }
+
+double all_cpu_s(const Json& result) {
+  return cpu_of(result, [](const std::string&) { return true; });
+}
+
+double planner_cpu_s(const Json& result) {
+  double cpu_s = 0.0;
+  for (const Json& uav : value_or(result, "uavs", Json::array())) cpu_s += number(uav, "planner_cpu_s");
+  return cpu_s;
+}
+
+/// What the simulation itself took of the server, in seconds.
+double simulation_cpu_s(const Json& result) {
+  const Json timing = value_or(result, "timing", Json::object());
+  return number(timing, "physics_s") + number(timing, "lidar_s") + number(timing, "camera_s") +
+         number(timing, "links_s");
+}
+
+/// The result whose real-time factor is the median's nearest: breakdowns are of one run, so that they sum up.
+const Json& typical(const std::vector<Json>& results) {
+  std::vector<double> factors;
+  for (const Json& result : results) factors.push_back(real_time_factor(result));
+  const double middle = median(factors);
+  return *std::ranges::min_element(results, {},
+                                   [&](const Json& result) { return std::abs(real_time_factor(result) - middle); });
+}
+
+Json statuses(const std::vector<Json>& results) {
+  Json all = Json::array();
+  for (const Json& result : results) all.push_back(value_or(result, "status", "none"));
+  return all;
+}
+
+const Json* find(const Json& report, const char* part, const std::function<bool(const Json&)>& wanted) {
+  const auto entries = report.find(part);
+  if (entries == report.end()) return nullptr;
+  const auto found = std::find_if(entries->begin(), entries->end(), wanted);
+  return found == entries->end() ? nullptr : &*found;
+}
+
+Json target(const std::string& name, bool at_least, double wanted, const Json& value, const std::string& unit) {
+  Json entry = {{"name", name}, {"kind", at_least ? "at_least" : "at_most"}, {"target", wanted}, {"unit", unit}};
+  entry["value"] = value;
+  const bool known = value.is_number();
+  const double factor = !known     ? 0.0
+                        : at_least ? ratio(value.get<double>(), wanted)
+                                   : ratio(wanted, value.get<double>());
+  entry["met"] = known ? Json(factor >= 1.0) : Json();
+  entry["factor"] = known ? Json(factor) : Json();
+  return entry;
+}
+
+Json value_in(const Json* entry, const char* figure_name, const char* key = "median") {
+  return entry == nullptr ? Json() : value_or(value_or(*entry, figure_name, Json::object()), key, nullptr);
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+Json figure(const std::vector<double>& values) {
+  const auto [least, most] = std::ranges::minmax_element(values);
+  return {{"median", median(values)},
+          {"min", values.empty() ? 0.0 : *least},
+          {"max", values.empty() ? 0.0 : *most},
+          {"values", values}};
+}
+
+Json work_of(const Json& result) {
+  const Json timing = value_or(result, "timing", Json::object());
+  const double total_s = all_cpu_s(result), sim_s = number(result, "sim_time_s");
+  Json work = Json::object();
+  double named_s = 0.0;
+  const auto add = [&](const char* kind, double cpu_s) {
+    work[kind] = {{"cpu_s", cpu_s}, {"share", ratio(cpu_s, total_s)}, {"ms_per_sim_s", 1e3 * ratio(cpu_s, sim_s)}};
+    named_s += cpu_s;
+  };
+  add("physics", number(timing, "physics_s"));
+  add("lidar", number(timing, "lidar_s"));
+  add("camera", number(timing, "camera_s"));
+  add("line_of_sight", number(timing, "links_s"));
+  add("recording", number(timing, "recording_s"));
+  const double server_s = cpu_of(result, [](const auto& name) { return name == "sim_server"; }) - named_s;
+  add("agents", planner_cpu_s(result));
+  add("exchange", std::max(0.0, total_s - named_s));
+  work["exchange"]["by_program"] = {
+      {"sim_server", server_s},
+      {"comm_router", cpu_of(result, [](const auto& name) { return name == "comm_router"; })},
+      {"station", cpu_of(result, [](const auto& name) { return name == "station"; })},
+      {"uav_agents", cpu_of(result, is_agent) - planner_cpu_s(result)}};
+  return work;
+}
+
+Json speed_entry(const std::vector<Json>& results, const Json& lidar) {
+  const Json& run = typical(results);
+  const Json timing = value_or(run, "timing", Json::object());
+  return {
+      {"scenario", value_or(run, "scenario", "")},
+      {"uavs", value_or(run, "uavs", Json::array()).size()},
+      {"status", statuses(results)},
+      {"sim_time_s", number(run, "sim_time_s")},
+      {"real_time_factor", figure_of(results, real_time_factor)},
+      {"rounds_per_s", figure_of(results, rounds_per_s)},
+      {"cores_busy", figure_of(results, [](const Json& r) { return ratio(all_cpu_s(r), number(r, "wall_time_s")); })},
+      {"memory_mb", figure_of(results, memory_mb)},
+      {"resident_mb", figure_of(results, resident_mb)},
+      {"startup_s", figure_of(results, startup_s)},
+      {"cpu_s", all_cpu_s(run)},
+      {"work", work_of(run)},
+      {"lidar",
+       {{"scans_computed", value_or(timing, "scans", 0)},
+        {"ms_per_computed_scan", value_or(timing, "lidar_ms_per_scan", nullptr)},
+        {"every_scan", lidar}}}};
+}
+
+Json rounds_entry(const std::string& vendor, std::size_t uavs, const std::vector<RoundsPair>& pairs) {
+  std::vector<Json> fleets, floors;
+  std::vector<double> wall_ratios, cpu_ratios;
+  const auto floor_rate = [](const Json& floor) { return ratio(number(floor, "rounds"), number(floor, "wall_s")); };
+  const auto floor_cpu_ms = [](const Json& floor) {
+    return 1e3 * ratio(number(floor, "cpu_s"), number(floor, "rounds"));
+  };
+  const auto fleet_cpu_ms = [](const Json& fleet) { return 1e3 * ratio(all_cpu_s(fleet), steps(fleet)); };
+  for (const RoundsPair& pair : pairs) {
+    fleets.push_back(pair.fleet);
+    floors.push_back(pair.floor);
+    wall_ratios.push_back(ratio(floor_rate(pair.floor), rounds_per_s(pair.fleet)));
+    cpu_ratios.push_back(ratio(fleet_cpu_ms(pair.fleet), floor_cpu_ms(pair.floor)));
+  }
+  const Json first_floor = floors.empty() ? Json::object() : floors.front();
+  return {{"vendor", vendor},
+          {"uavs", uavs},
+          {"messages_per_round", value_or(first_floor, "messages", 0)},
+          {"bytes_per_round", value_or(first_floor, "bytes", 0)},
+          {"fleet_rounds_per_s", figure_of(fleets, rounds_per_s)},
+          {"floor_rounds_per_s", figure_of(floors, floor_rate)},
+          {"times_floor", figure(wall_ratios)},
+          {"fleet_cpu_ms_per_round", figure_of(fleets, fleet_cpu_ms)},
+          {"floor_cpu_ms_per_round", figure_of(floors, floor_cpu_ms)},
+          {"times_floor_cpu", figure(cpu_ratios)},
+          {"simulation_cpu_ms_per_round",
+           figure_of(fleets, [](const Json& r) { return 1e3 * ratio(simulation_cpu_s(r), steps(r)); })}};
+}
+
+Json scale_entry(std::size_t uavs, const std::vector<Json>& results) {
+  const Json& run = typical(results);
+  double largest_mb = 0.0, agents_mb = 0.0, agents = 0.0;
+  const Json processes = value_or(run, "processes", Json::object());
+  for (const auto& [name, use] : processes.items()) {
+    largest_mb = std::max(largest_mb, number(use, "memory_share_mb"));
+    agents += is_agent(name) ? 1.0 : 0.0;
+    agents_mb += is_agent(name) ? number(use, "memory_share_mb") : 0.0;
+  }
+  return {{"uavs", uavs},
+          {"status", statuses(results)},
+          {"to_the_end", std::ranges::all_of(results, ran_to_the_end)},
+          {"sim_time_s", number(run, "sim_time_s")},
+          {"real_time_factor", figure_of(results, real_time_factor)},
+          {"rounds_per_s", figure_of(results, rounds_per_s)},
+          {"memory_mb", figure_of(results, memory_mb)},
+          {"resident_mb", figure_of(results, resident_mb)},
+          {"largest_process_mb", largest_mb},
+          {"mean_agent_mb", ratio(agents_mb, agents)},
+          {"startup_s", figure_of(results, startup_s)},
+          {"work", work_of(run)}};
+}
+
+Json relay_entry(const std::string& vendor, const std::vector<Json>& reports) {
+  const auto median_in = [](const char* key) {
+    return [key](const Json& report) { return number(value_or(report, key, Json::object()), "median"); };
+  };
+  return {{"vendor", vendor},
+          {"bytes", reports.empty() ? Json() : value_or(reports.front(), "bytes", nullptr)},
+          {"router_us", figure_of(reports, median_in("router_us"))},
+          {"relay_us", figure_of(reports, median_in("relay_us"))},
+          {"times_relay", figure_of(reports, [](const Json& report) { return number(report, "times_relay"); })}};
+}
+
+Json load_entry(std::size_t uavs, const std::vector<Json>& results) {
+  const auto radio = [](const Json& result, const char* key) {
+    return number(value_or(result, "radio", Json::object()), key);
+  };
+  const auto in_sight = [=](const Json& r) { return radio(r, "sent") - radio(r, "dropped_no_los"); };
+  return {{"uavs", uavs},
+          {"to_the_end", std::ranges::all_of(results, ran_to_the_end)},
+          {"messages_per_s",
+           figure_of(results, [=](const Json& r) { return ratio(radio(r, "sent"), number(r, "sim_time_s")); })},
+          {"lost", figure_of(results, [=](const Json& r) { return in_sight(r) - radio(r, "delivered"); })},
+          {"arrived", figure_of(results, [=](const Json& r) { return ratio(radio(r, "delivered"), in_sight(r)); })},
+          {"real_time_factor", figure_of(results, real_time_factor)}};
+}
+
+Json memory_entry(const Json& short_run, const Json& long_run) {
+  return {{"short_s", number(short_run, "sim_time_s")},
+          {"long_s", number(long_run, "sim_time_s")},
+          {"short_mb", memory_mb(short_run)},
+          {"long_mb", memory_mb(long_run)},
+          {"growth", ratio(memory_mb(long_run), memory_mb(short_run))}};
+}
+
+Json targets_of(const Json& report) {
+  Json targets = Json::array();
+  for (const Json& speed : value_or(report, "speed", Json::array())) {
+    const std::string of = std::to_string(static_cast<int>(number(speed, "uavs"))) + " UAVs, " +
+                           value_or(speed, "scenario", "").get<std::string>();
+    targets.push_back(
+        target("real-time factor, " + of, true, 30.0, value_in(&speed, "real_time_factor"), "x (aim 60)"));
+    const Json lidar = value_or(value_or(speed, "lidar", Json::object()), "every_scan", Json::object());
+    targets.push_back(target("LiDAR, every scan, " + of, false, 0.25, value_or(lidar, "mean_ms", nullptr), "ms"));
+  }
+  for (const Json& rounds : value_or(report, "rounds", Json::array())) {
+    if (number(rounds, "uavs") != kFleetSize || value_or(rounds, "vendor", "") != "cyclonedds") continue;
+    targets.push_back(
+        target("lock-step against bare DDS, 5 UAVs", false, 1.5, value_in(&rounds, "times_floor"), "times the floor"));
+  }
+  const auto of_size = [&](double uavs) {
+    return find(report, "scale", [=](const Json& entry) { return number(entry, "uavs") == uavs; });
+  };
+  targets.push_back(target("real-time factor, 20 UAVs", true, 5.0, value_in(of_size(20), "real_time_factor"), "x"));
+  const Json* hundred = of_size(100);
+  const Json ended = hundred == nullptr ? Json() : Json(value_or(*hundred, "to_the_end", false) ? 1 : 0);
+  targets.push_back(target("100 UAVs run to the end", true, 1.0, ended, "(1: yes)"));
+  for (const Json& relay : value_or(report, "relay", Json::array())) {
+    targets.push_back(target("router against a bare relay, " + value_or(relay, "vendor", "").get<std::string>(), false,
+                             1.5, value_in(&relay, "times_relay"), "times its latency"));
+  }
+  const Json memory = value_or(report, "memory", Json::object());
+  const Json measured_load = value_or(report, "load", Json::object());
+  const Json load = number(measured_load, "uavs") == 20.0 ? measured_load : Json::object();
+  targets.push_back(target("radio, 20 UAVs x 20 topics x 20 Hz: arrived", true, 1.0, value_in(&load, "arrived"), ""));
+  targets.push_back(target("and in real time", true, 0.98, value_in(&load, "real_time_factor"), "x"));
+  const Json growth = value_or(memory, "growth", nullptr);
+  targets.push_back(target("memory after an hour", false, 1.1, growth, "times that of ten minutes"));
+  return targets;
+}
+
+bool ran_to_the_end(const Json& result) {
+  return value_or(result, "status", "") == "completed" && value_or(result, "lost_members", Json::array()).empty();
+}
+
+}  // namespace skein::cli

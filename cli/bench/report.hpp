@@ -1,0 +1,53 @@
+// The arithmetic of `skein bench`: from results of runs to figures, and from figures to targets. Pure; what is missing
+// in a result counts as 0 or null, never as an error.
+#pragma once
+
+#include <vector>
+
+#include "cli/run/result.hpp"
+
+namespace skein::cli {
+
+/// Middle value; the mean of the middle two of an even number; 0 of none.
+double median(std::vector<double> values);
+
+/// {median, min, max, values} of one figure over repeated runs.
+Json figure(const std::vector<double>& values);
+
+/// Where the CPU time of one run went, from its first step on. One entry a kind of work: physics, lidar, camera,
+/// line_of_sight, recording, agents (planners and on-board software), exchange (all the rest: DDS, codec, lock-step,
+/// router, station). Each has cpu_s, share (of all CPU time; they sum to 1) and ms_per_sim_s. `exchange` also says how
+/// much of it each kind of program took.
+Json work_of(const Json& result);
+
+/// One scenario flown several times; all results are of the same scenario. `lidar` is bench_lidar's report, or null.
+Json speed_entry(const std::vector<Json>& results, const Json& lidar);
+
+/// A fleet that exchanges and does nothing else, against the floor: one pair of results a repeat.
+struct RoundsPair {
+  Json fleet;  ///< result.json
+  Json floor;  ///< bench_floor_*'s report
+};
+Json rounds_entry(const std::string& vendor, std::size_t uavs, const std::vector<RoundsPair>& pairs);
+
+/// One size of fleet.
+Json scale_entry(std::size_t uavs, const std::vector<Json>& results);
+
+/// One vendor's radio latency through the router and through a bare relay; `reports` are bench_relay's.
+Json relay_entry(const std::string& vendor, const std::vector<Json>& reports);
+
+/// A fleet in which everybody talks to everybody in every exchange, in real time. `lost` are messages that had line of
+/// sight and did not arrive; they are to be none.
+Json load_entry(std::size_t uavs, const std::vector<Json>& results);
+
+/// Memory at the end of a short run and of a long one of the same fleet; `growth` is their ratio.
+Json memory_entry(const Json& short_run, const Json& long_run);
+
+/// The targets beside what `report` (speed, rounds, scale, relay, load, memory) says: name, kind (at_least or at_most), target,
+/// value, met (null when it was not measured) and factor: how many times as good as asked for, below 1 when missed.
+Json targets_of(const Json& report);
+
+/// A run that went to its end with everybody on board.
+bool ran_to_the_end(const Json& result);
+
+}  // namespace skein::cli

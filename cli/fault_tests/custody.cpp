@@ -1,0 +1,245 @@
+#include "cli/fault_tests/custody.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "cli/fault_tests/limits.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr std::uint64_t kResendSteps = 10;  ///< as uav_agent/onboard/uplink.hpp has it
+constexpr std::size_t kShown = 3;
+constexpr double kScoreError = 1e-4;  ///< captures.csv has nine digits of floats
+
+/// True from `step` on, or false.
+class Switch {
+ public:
+  void set(std::uint64_t step, bool on) { changes_[step] = on; }
+  bool on(std::uint64_t step) const {
+    const auto after = changes_.upper_bound(step);
+    return after != changes_.begin() && std::prev(after)->second;
+  }
+
+ private:
+  std::map<std::uint64_t, bool> changes_;
+};
+
+std::uint64_t step_of(double time_s, const Scenario& scenario) {
+  return static_cast<std::uint64_t>(std::llround(time_s / scenario.exchange_period_s));
+}
+
+/// "12.35 s (step 247)".
+std::string when(std::uint64_t step, const Scenario& scenario) {
+  return number_text(static_cast<double>(step) * scenario.exchange_period_s) + " s (step " + std::to_string(step) + ")";
+}
+
+/// A run as the derivation looks at it.
+class Timeline {
+ public:
+  Timeline(const RunRecord& run, const Scenario& scenario, const FaultPlan& plan)
+      : scenario_(scenario), plan_(plan), last_step_(step_of(value_or(run.result, "sim_time_s", 0.0), scenario)) {
+    const std::string station = scenario.node_name(kStationNode);
+    for (const EventRow& row : run.events) {
+      if (row.event == "joined" || row.event == "left") present_[row.subject].set(row.step, row.event == "joined");
+      const bool link = row.event == "link_up" || row.event == "link_down";
+      if (link && row.object == station) linked_[row.subject].set(row.step, row.event == "link_up");
+      if (row.event == "captured") captured_[row.subject][row.step].push_back(std::stoull(row.object));
+      if (row.event == "released") released_[{row.subject, std::stoull(row.object)}] = row.step;
+    }
+    for (const MessageRow& row : run.messages) messages_[{row.uav, row.step}] = row.arrives;
+  }
+
+  std::uint64_t last_step() const { return last_step_; }
+  bool present(const std::string& member, std::uint64_t step) const {
+    const auto found = present_.find(member);
+    return found != present_.end() && found->second.on(step);
+  }
+  bool linked(const std::string& uav, std::uint64_t step) const {
+    const auto found = linked_.find(uav);
+    return found != linked_.end() && found->second.on(step);
+  }
+  /// Numbers of the captures that the camera handed out in this step.
+  std::vector<std::uint64_t> captured(const std::string& uav, std::uint64_t step) const {
+    const auto found = captured_.find(uav);
+    if (found == captured_.end()) return {};
+    const auto at = found->second.find(step);
+    return at == found->second.end() ? std::vector<std::uint64_t>() : at->second;
+  }
+  bool released_before(const CaptureKey& capture, std::uint64_t step) const {
+    const auto found = released_.find(capture);
+    return found != released_.end() && found->second < step;
+  }
+  /// Whether an absent member only stands still.
+  bool paused(const std::string& member, std::uint64_t step) const {
+    const auto tick = static_cast<Tick>(step) * scenario_.exchange_ticks();
+    return std::any_of(plan_.faults.begin(), plan_.faults.end(), [&](const Fault& fault) {
+      const auto* pause = std::get_if<Pause>(&fault.action);
+      return pause != nullptr && pause->member == member && fault.active(tick);
+    });
+  }
+  /// When what this UAV sends in this step is with the station; none: it is lost.
+  std::optional<std::uint64_t> arrival(const std::string& uav, std::uint64_t sent) const {
+    if (!present("comm_router", sent) || is_cut(uav, sent)) return std::nullopt;
+    std::optional<std::uint64_t> arrives = sent + 1;
+    if (const auto found = messages_.find({uav, sent}); found != messages_.end()) arrives = found->second;
+    if (!arrives) return std::nullopt;
+    // What waits in the router is handed out in the step before it arrives; one that was away has forgotten it.
+    for (std::uint64_t k = sent + 1; k < *arrives; ++k) {
+      if (!present("comm_router", k)) return std::nullopt;
+    }
+    // Nothing is handed on to who takes no part, nor kept for who is about to come back.
+    const bool received = present("station", *arrives - 1) && present("station", *arrives);
+    if (*arrives > last_step_ || !received) return std::nullopt;
+    return arrives;
+  }
+
+ private:
+  bool is_cut(const std::string& uav, std::uint64_t step) const {
+    const auto cut = cut_links(plan_, scenario_, static_cast<Tick>(step) * scenario_.exchange_ticks());
+    const std::size_t nodes = scenario_.fleet.size() + 1;
+    return !cut.empty() && cut[node_of_uav(scenario_.uav_index(uav)) * nodes + kStationNode] != 0;
+  }
+
+  const Scenario& scenario_;
+  const FaultPlan& plan_;
+  const std::uint64_t last_step_;
+  std::map<std::string, Switch> present_, linked_;  ///< by member; by UAV, to the station
+  std::map<std::string, std::map<std::uint64_t, std::vector<std::uint64_t>>> captured_;
+  std::map<CaptureKey, std::uint64_t> released_;
+  std::map<std::pair<std::string, std::uint64_t>, std::optional<std::uint64_t>> messages_;
+};
+
+/// One UAV's on-board software and its camera's card.
+class Sender {
+ public:
+  Sender(const std::string& uav, const Timeline& timeline) : uav_(uav), timeline_(timeline) {}
+
+  void step(std::uint64_t k, std::map<CaptureKey, std::uint64_t>& delivered) {
+    const bool here = timeline_.present(uav_, k);
+    if (here && !was_here_) {
+      if (!standing_still_) held_.clear();
+      for (const std::uint64_t capture : card_) {
+        if (!timeline_.released_before({uav_, capture}, k)) held_.try_emplace(capture, std::nullopt);
+      }
+    }
+    if (!here && was_here_) standing_still_ = timeline_.paused(uav_, k);
+    was_here_ = here;
+    for (const std::uint64_t capture : timeline_.captured(uav_, k)) {
+      card_.push_back(capture);
+      if (here) held_.try_emplace(capture, std::nullopt);
+    }
+    if (!here || !timeline_.linked(uav_, k)) return;
+    for (auto& [capture, sent] : held_) {
+      if (sent && k < *sent + kResendSteps) continue;
+      if (timeline_.released_before({uav_, capture}, k + 1)) continue;
+      sent = k;
+      const auto arrival = timeline_.arrival(uav_, k);
+      if (!arrival) continue;
+      const auto [entry, first] = delivered.try_emplace({uav_, capture}, *arrival);
+      entry->second = std::min(entry->second, *arrival);
+    }
+  }
+
+ private:
+  const std::string& uav_;
+  const Timeline& timeline_;
+  std::vector<std::uint64_t> card_;
+  std::map<std::uint64_t, std::optional<std::uint64_t>> held_;  ///< capture, step of the last attempt
+  bool was_here_ = false, standing_still_ = false;
+};
+
+/// In which step the station took each capture of the ledger in, as it says; none: it did not.
+std::map<CaptureKey, std::optional<std::uint64_t>> accounted(const RunRecord& run, const Scenario& scenario) {
+  std::map<CaptureKey, std::optional<std::uint64_t>> all;
+  for (const CaptureRow& row : run.captures) {
+    auto& at = all[{row.uav, row.capture}];
+    if (row.delivered_at_s) at = step_of(*row.delivered_at_s, scenario);
+  }
+  return all;
+}
+
+std::string name(const CaptureKey& capture) { return capture.first + "'s capture " + std::to_string(capture.second); }
+
+/// The first few, and how many more there are.
+std::vector<std::string> shortened(std::vector<std::string> sentences) {
+  if (sentences.size() <= kShown) return sentences;
+  const std::size_t more = sentences.size() - kShown;
+  sentences.resize(kShown);
+  sentences.back() += " (and " + std::to_string(more) + " more)";
+  return sentences;
+}
+
+}  // namespace
+
+std::map<CaptureKey, std::uint64_t> derived_deliveries(const RunRecord& run, const Scenario& scenario,
+                                                       const FaultPlan& plan) {
+  const Timeline timeline(run, scenario, plan);
+  const std::vector<std::string> uavs = scenario.uav_names();
+  std::map<CaptureKey, std::uint64_t> delivered;
+  for (const std::string& uav : uavs) {
+    Sender sender(uav, timeline);
+    for (std::uint64_t k = 0; k <= timeline.last_step(); ++k) sender.step(k, delivered);
+  }
+  return delivered;
+}
+
+std::vector<std::string> custody_losses(const RunRecord& run, const Scenario& scenario) {
+  const auto account = accounted(run, scenario);
+  std::vector<std::string> sentences;
+  for (const EventRow& row : run.events) {
+    if (row.event != "released") continue;
+    const CaptureKey capture{row.subject, std::stoull(row.object)};
+    const auto found = account.find(capture);
+    const bool there = found != account.end() && found->second && *found->second <= row.step;
+    if (!there) {
+      sentences.push_back("expected " + name(capture) + ", acknowledged before " + when(row.step, scenario) +
+                          ", to be with the station; seen that it is not");
+    }
+  }
+  std::set<std::string> collided;
+  for (const Json& collision : value_or(run.result, "collisions", Json::array())) {
+    if (scenario.rules.collision_voids_score) collided.insert(value_or(collision, "uav", "").get<std::string>());
+  }
+  std::map<int, double> best;
+  for (const CaptureRow& row : run.captures) {
+    if (!row.delivered_at_s || collided.contains(row.uav) || row.q < scenario.rules.min_point_score) continue;
+    best[row.point] = std::max(best[row.point], row.q);
+  }
+  double sum = 0.0;
+  for (const auto& [point, q] : best) sum += q;
+  const double score = value_or(run.result, "score", 0.0);
+  if (std::abs(sum - score) > kScoreError * std::max(1.0, sum)) {
+    sentences.push_back("expected the score to be what the delivered captures add up to, " + number_text(sum) +
+                        "; seen " + number_text(score));
+  }
+  return shortened(std::move(sentences));
+}
+
+std::vector<std::string> custody_differences(const RunRecord& run, const Scenario& scenario, const FaultPlan& plan) {
+  const auto derived = derived_deliveries(run, scenario, plan);
+  const auto account = accounted(run, scenario);
+  const auto text = [&](const std::optional<std::uint64_t>& step) {
+    return step ? "at " + when(*step, scenario) : std::string("never");
+  };
+  std::set<CaptureKey> all;
+  for (const auto& [capture, step] : account) all.insert(capture);
+  for (const EventRow& row : run.events) {
+    if (row.event == "captured") all.emplace(row.subject, std::stoull(row.object));
+  }
+  std::vector<std::string> sentences;
+  for (const CaptureKey& capture : all) {
+    const auto found = derived.find(capture);
+    const auto expected = found == derived.end() ? std::nullopt : std::optional(found->second);
+    const auto entry = account.find(capture);
+    const auto seen = entry == account.end() ? std::nullopt : entry->second;
+    if (expected != seen) {
+      sentences.push_back("expected delivery of " + name(capture) + " " + text(expected) + ", seen " + text(seen));
+    }
+  }
+  return shortened(std::move(sentences));
+}
+
+}  // namespace skein::cli

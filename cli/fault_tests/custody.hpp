@@ -1,0 +1,35 @@
+// The fate of capture reports, derived anew from what the server saw: its ledger, its links, who took part when. The
+// station's own account is compared with it. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/run/record.hpp"
+#include "core/fault_plan.hpp"
+
+namespace skein::cli {
+
+/// UAV and number of the capture.
+using CaptureKey = std::pair<std::string, std::uint64_t>;
+
+/// In which step each capture of the ledger reaches the station; those that never do are left out. This is the rule
+/// of Skein's own on-board software (uav_agent/onboard/uplink.hpp): from the step on in which the camera handed a report out,
+/// it is sent while there is a direct link to the station, again ten steps later as long as it is not acknowledged;
+/// what is sent in one step arrives in the next. It needs the router in the step of sending, the station in the step
+/// of arrival and the one before, and a link that does not lose it. Who is killed forgets; its camera hands out again
+/// what was not acknowledged when it is back. Who is paused remembers.
+std::map<CaptureKey, std::uint64_t> derived_deliveries(const RunRecord& run, const Scenario& scenario,
+                                                       const FaultPlan& plan);
+
+/// What was acknowledged and is missing, one sentence each: a capture that a UAV released (the acknowledgement reached
+/// it) and that the station does not have; a score that is not what the delivered captures add up to.
+std::vector<std::string> custody_losses(const RunRecord& run, const Scenario& scenario);
+
+/// Where the station's account differs from the derived one, one sentence each: another set, or another time.
+std::vector<std::string> custody_differences(const RunRecord& run, const Scenario& scenario, const FaultPlan& plan);
+
+}  // namespace skein::cli

@@ -1,0 +1,168 @@
+// What must have become of capture reports, by hand-made accounts of the server.
+#include "cli/fault_tests/custody.hpp"
+
+#include <gtest/gtest.h>
+
+namespace skein::cli {
+namespace {
+
+using Deliveries = std::map<CaptureKey, std::uint64_t>;
+
+class CustodyTest : public testing::Test {
+ protected:
+  CustodyTest() {
+    UavConfig uav;
+    uav.name = "alpha";
+    scenario_.fleet.push_back(uav);
+    run_.result = {{"sim_time_s", 10.0}, {"score", 0.0}};  // 200 steps
+    for (const char* member : {"alpha", "station", "comm_router"}) event(0, "joined", member);
+  }
+
+  void event(std::uint64_t step, const std::string& what, const std::string& subject, const std::string& object = "") {
+    run_.events.push_back({step, what, subject, object});
+  }
+  void link(std::uint64_t up, std::uint64_t down) {
+    event(up, "link_up", "alpha", "gcs");
+    event(down, "link_down", "alpha", "gcs");
+  }
+  void captured(std::uint64_t step, std::uint64_t capture) {
+    event(step, "captured", "alpha", std::to_string(capture));
+  }
+  void fault(double at_s, double until_s, FaultAction action) { plan_.faults.push_back({at_s, until_s, action}); }
+  Deliveries derived() const { return derived_deliveries(run_, scenario_, plan_); }
+  static Deliveries first(std::uint64_t step) { return {{{"alpha", 0}, step}}; }
+
+  RunRecord run_;
+  Scenario scenario_;
+  FaultPlan plan_;
+};
+
+TEST_F(CustodyTest, AReportArrivesInTheStepAfterTheFirstWithALink) {
+  captured(20, 0);
+  link(0, 100);
+  EXPECT_EQ(derived(), first(21));
+}
+
+TEST_F(CustodyTest, WithoutALinkItWaits) {
+  captured(20, 0);
+  EXPECT_EQ(derived(), Deliveries());
+  link(150, 151);
+  EXPECT_EQ(derived(), first(151));
+}
+
+TEST_F(CustodyTest, ARunThatEndsMeanwhileHasLostIt) {
+  captured(200, 0);
+  link(0, 300);
+  EXPECT_EQ(derived(), Deliveries());
+}
+
+TEST_F(CustodyTest, WhatALinkLosesIsSentAgainAfterTenSteps) {
+  captured(20, 0);
+  link(0, 300);
+  run_.messages = {{20, "alpha", std::nullopt}, {30, "alpha", std::nullopt}};
+  EXPECT_EQ(derived(), first(41));
+}
+
+TEST_F(CustodyTest, TheFirstOfSeveralOnTheirWayCounts) {
+  captured(20, 0);
+  link(0, 300);
+  run_.messages = {{20, "alpha", 60}, {30, "alpha", 36}};
+  EXPECT_EQ(derived(), first(36));
+}
+
+TEST_F(CustodyTest, CutLinksRouterAndStationStandInTheWay) {
+  captured(20, 0);
+  link(0, 300);
+  fault(1.0, 1.5, StationOutage{});  // steps 20 to 29
+  EXPECT_EQ(derived(), first(31));
+  event(30, "left", "comm_router");
+  event(35, "joined", "comm_router");
+  EXPECT_EQ(derived(), first(41));
+  event(41, "left", "station");
+  event(49, "joined", "station");
+  EXPECT_EQ(derived(), first(51));
+}
+
+TEST_F(CustodyTest, NothingIsKeptForAStationThatIsAboutToComeBack) {
+  captured(20, 0);
+  link(0, 300);
+  event(15, "left", "station");
+  event(21, "joined", "station");
+  EXPECT_EQ(derived(), first(31));
+}
+
+TEST_F(CustodyTest, AKilledRouterForgetsWhatWaitsInIt) {
+  captured(20, 0);
+  link(0, 300);
+  run_.messages = {{20, "alpha", 45}, {30, "alpha", 44}, {40, "alpha", std::nullopt}};
+  event(35, "left", "comm_router");
+  event(38, "joined", "comm_router");
+  EXPECT_EQ(derived(), first(51));
+}
+
+TEST_F(CustodyTest, WhoComesBackFromDeathSendsAtOnceAndWhoStoodStillWhenItIsTime) {
+  captured(20, 0);
+  link(0, 300);
+  run_.messages = {{20, "alpha", std::nullopt}};
+  event(22, "left", "alpha");
+  event(25, "joined", "alpha");
+  EXPECT_EQ(derived(), first(26));
+  fault(1.1, 1.25, Pause{"alpha"});
+  EXPECT_EQ(derived(), first(31));
+}
+
+TEST_F(CustodyTest, WhatIsPhotographedWhileTheAgentIsAwayIsHandedOutLater) {
+  link(0, 300);
+  event(15, "left", "alpha");
+  captured(20, 0);
+  event(25, "joined", "alpha");
+  EXPECT_EQ(derived(), first(26));
+  fault(0.75, 1.25, Pause{"alpha"});
+  EXPECT_EQ(derived(), first(26));
+}
+
+TEST_F(CustodyTest, TheStationsAccountIsCompared) {
+  captured(20, 0);
+  captured(20, 1);
+  link(0, 300);
+  run_.captures = {{"alpha", 0, 1.0, 7, 0.5, 1.05, ""}, {"alpha", 1, 1.0, 8, 0.5, std::nullopt, "not received"}};
+  EXPECT_EQ(custody_differences(run_, scenario_, plan_),
+            (std::vector<std::string>{"expected delivery of alpha's capture 1 at 1.05 s (step 21), seen never"}));
+  run_.captures[1].delivered_at_s = 1.10;
+  EXPECT_EQ(custody_differences(run_, scenario_, plan_),
+            (std::vector<std::string>{
+                "expected delivery of alpha's capture 1 at 1.05 s (step 21), seen at 1.1 s (step 22)"}));
+  run_.captures[1].delivered_at_s = 1.05;
+  EXPECT_TRUE(custody_differences(run_, scenario_, plan_).empty());
+  run_.captures.pop_back();
+  EXPECT_EQ(custody_differences(run_, scenario_, plan_).size(), 1u) << "the station does not even know of it";
+}
+
+TEST_F(CustodyTest, NothingThatWasAcknowledgedIsMissing) {
+  run_.captures = {{"alpha", 0, 1.0, 7, 0.5, 1.05, ""}, {"alpha", 1, 1.0, 7, 0.75, std::nullopt, "not received"}};
+  run_.result["score"] = 0.5;
+  event(23, "released", "alpha", "0");
+  EXPECT_TRUE(custody_losses(run_, scenario_).empty());
+  event(24, "released", "alpha", "1");
+  EXPECT_EQ(custody_losses(run_, scenario_),
+            (std::vector<std::string>{
+                "expected alpha's capture 1, acknowledged before 1.2 s (step 24), to be with the station; "
+                "seen that it is not"}));
+}
+
+TEST_F(CustodyTest, TheScoreIsWhatTheDeliveredCapturesAddUpTo) {
+  run_.captures = {
+      {"alpha", 0, 1.0, 7, 0.5, 1.05, ""}, {"alpha", 1, 2.0, 7, 0.75, 2.05, ""}, {"alpha", 2, 3.0, 8, 0.1, 3.05, ""}};
+  run_.result["score"] = 0.75;
+  EXPECT_TRUE(custody_losses(run_, scenario_).empty()) << "the best counts, and none below 0.2";
+  run_.result["score"] = 0.5;
+  EXPECT_EQ(
+      custody_losses(run_, scenario_),
+      (std::vector<std::string>{"expected the score to be what the delivered captures add up to, 0.75; seen 0.5"}));
+  run_.result["collisions"] = Json::array({{{"uav", "alpha"}}});
+  run_.result["score"] = 0.0;
+  EXPECT_TRUE(custody_losses(run_, scenario_).empty()) << "who collides loses its points";
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,149 @@
+#include "cli/fault_tests/fault_test.hpp"
+
+#include <algorithm>
+
+#include "core/config_files.hpp"
+#include "core/config_reader.hpp"
+#include "core/scenario_reader.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Vendor { cyclonedds, fastdds, mixed };
+constexpr std::array<EnumName<Vendor>, 3> enum_names(Vendor) {
+  return {{{"cyclonedds", Vendor::cyclonedds}, {"fastdds", Vendor::fastdds}, {"mixed", Vendor::mixed}}};
+}
+
+/// A file's `run`: options of `skein run`, with their defaults but for the length.
+struct RunPart {
+  std::string scenario = RunOptions{}.scenario, planner = kDefaultPlanner;
+  std::uint64_t seed = 0;
+  std::optional<std::uint64_t> scene_seed;
+  double duration_s = 60.0;
+  Vendor dds = Vendor::cyclonedds;
+
+  template <class R>
+  void describe(R& r) {
+    r.field("scenario", scenario);
+    r.field("planner", planner);
+    r.field("seed", seed);
+    r.field("scene_seed", scene_seed);
+    r.field("duration_s", duration_s, Bounds{0.0, 36000.0, true});
+    r.field("dds", dds);
+  }
+};
+
+/// A file without its `faults`, which load_fault_plan() reads.
+struct TestFile {
+  std::string name, description;
+  RunPart run;
+  Expectations expect;
+
+  template <class R>
+  void describe(R& r) {
+    r.field("name", name);
+    r.field("description", description);
+    r.field("run", run);
+    r.required("expect", expect);
+  }
+};
+
+bool is_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".yaml"); }
+
+RunOptions run_options(const RunPart& part, const fs::path& file, const std::optional<fs::path>& assets,
+                       const std::optional<fs::path>& agent) {
+  RunOptions options;
+  options.agent = agent;
+  options.scenario = is_path(part.scenario) ? (file.parent_path() / part.scenario).string() : part.scenario;
+  options.planner = part.planner;
+  options.seed = part.seed;
+  options.scene_seed = part.scene_seed;
+  options.duration_s = part.duration_s;
+  options.dds = name_of(part.dds);
+  options.assets = assets;
+  options.faults = file;
+  options.attainable = false;  // the oracle is no part of a test
+  options.force = true;
+  return options;
+}
+
+/// What is wrong with `run` as the command line would say it; here with the line of its key.
+void check_run(const RunOptions& options, ConfigErrors& errors) {
+  const char* key = "run.scenario";
+  try {
+    find_config_file("scenario", options.scenario, default_config_dir() / "scenarios");
+    LoadOptions load;
+    load.needs_scene_files = false;
+    const Scenario scenario = load_scenario(options.scenario, load);
+    key = "run.planner";
+    parse_planners(options.planner, scenario.uav_names());
+  } catch (const InputError& error) {
+    errors.check(false, key, error.what());
+  }
+  errors.throw_if_any();
+}
+
+}  // namespace
+
+bool FaultTest::needs_fault_free() const {
+  return std::any_of(expect.all.begin(), expect.all.end(), [](const Expectation& e) { return e.needs_fault_free; });
+}
+
+std::vector<Repeat> FaultTest::repeats() const {
+  std::vector<Repeat> all;
+  for (const Expectation& expectation : expect.all) {
+    all.insert(all.end(), expectation.repeats.begin(), expectation.repeats.end());
+  }
+  return all;
+}
+
+std::string FaultTest::said_of(const std::string& key, const std::string& what) const try {
+  ConfigErrors errors(document);
+  errors.check(false, key, what);
+  errors.throw_if_any();
+  return what;
+} catch (const InputError& sentence) {
+  return sentence.what();
+}
+
+bool is_fault_test(const ConfigNode& root) { return root.find("expect") != nullptr || root.find("run") != nullptr; }
+
+FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& assets,
+                          const std::optional<fs::path>& agent) {
+  const fs::path path = fs::absolute(file);
+  ConfigDocument document = read_config_document(file);
+  ConfigErrors errors(document);
+  errors.check(document.root.find("faults") != nullptr, "faults",
+               "is missing: a list of faults, or the name of a fault file");
+  errors.throw_if_any();
+  ConfigDocument without_faults = document;
+  without_faults.root.remove("faults");
+  TestFile content = read_config<TestFile>(without_faults);
+  const RunOptions options = run_options(content.run, path, assets, agent);
+  check_run(options, errors);
+  FaultTest test{file.stem(), file, plan_fleet(options, program_dir()), std::move(content.expect), document};
+  for (const Expectation& expectation : test.expect.all) {
+    if (expectation.check) expectation.check({test.plan.scenario, test.plan.faults, errors});
+  }
+  errors.throw_if_any();
+  return test;
+}
+
+FaultTest with_seed(FaultTest test, std::uint64_t seed) {
+  test.plan.options.seed = seed;
+  test.plan.faults = load_fault_plan(*test.plan.options.faults, test.plan.scenario, seed);
+  return test;
+}
+
+std::vector<fs::path> fault_test_files(const fs::path& path) {
+  if (!fs::exists(path)) throw InputError(path.string() + ": there is no such file or folder");
+  if (!fs::is_directory(path)) return {path};
+  std::vector<fs::path> files;
+  for (const std::string& name : config_names(path)) files.push_back(path / (name + ".yaml"));
+  if (files.empty()) throw InputError(path.string() + ": there is no fault test (*.yaml) in this folder");
+  return files;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,46 @@
+// A fault test: a run, what goes wrong in it, and what must hold of it. docs/how-to-test-faults.md explains the files.
+// Reads files only; fault_test_command.hpp flies them.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/fault_tests/expectations.hpp"
+#include "cli/run/fleet_plan.hpp"
+
+namespace skein::cli {
+
+/// One file, ready to fly.
+struct FaultTest {
+  std::string name;            ///< of the file, without .yaml
+  std::filesystem::path file;  ///< as it was named
+  FleetPlan plan;              ///< with the faults; its options say how to fly it
+  Expectations expect;
+  ConfigDocument document;  ///< the file as it is
+
+  bool needs_fault_free() const;
+  /// Those that the file asks for.
+  std::vector<Repeat> repeats() const;
+  /// "FILE:LINE: KEY: WHAT", as what is wrong with a file itself is said; of a key that is not there, the line of what
+  /// would stand around it. @param key  "expect.score"
+  std::string said_of(const std::string& key, const std::string& what) const;
+};
+
+/// True when a document is a fault test rather than a mere fault file.
+bool is_fault_test(const ConfigNode& root);
+
+/// @param assets  for scenarios that read files. @param agent  as `skein run --agent` takes it.
+/// @throws InputError naming file, line, key and what would be right: also for what is wrong in the faults, the
+///   scenario or the planner.
+FaultTest load_fault_test(const std::filesystem::path& file, const std::optional<std::filesystem::path>& assets = {},
+                          const std::optional<std::filesystem::path>& agent = {});
+
+/// The same test with another seed: it draws random links, and times that the file leaves open.
+FaultTest with_seed(FaultTest test, std::uint64_t seed);
+
+/// The fault tests of a folder by name, or the one file. @throws InputError when there are none.
+std::vector<std::filesystem::path> fault_test_files(const std::filesystem::path& path);
+
+}  // namespace skein::cli

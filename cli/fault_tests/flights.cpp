@@ -1,0 +1,90 @@
+#include "cli/fault_tests/flights.hpp"
+
+#include <map>
+#include <sstream>
+
+namespace skein::cli {
+namespace {
+
+/// The repetitions that the command line asks for.
+std::vector<Repeat> asked_repeats(const TestOptions& options) {
+  if (options.long_tests) return {Repeat::again, Repeat::fastdds, Repeat::mixed, Repeat::chaos};
+  std::vector<Repeat> repeats;
+  for (const std::string& word : options.repeat) {
+    for (const auto& entry : enum_names(Repeat{})) {
+      if (word == entry.name) repeats.push_back(entry.value);
+    }
+  }
+  return repeats;
+}
+
+class Planning {
+ public:
+  explicit Planning(const TestOptions& options) : options_(options), asked_(asked_repeats(options)) {}
+
+  void add(const FaultTest& test) {
+    const std::size_t index = planned_.tests.size();
+    FlightsOfTest flights;
+    flights.own = add_flight({test.name, test.plan.options});
+    if (test.needs_fault_free()) flights.fault_free = fault_free(test);
+    std::map<std::string, std::size_t> repeats;  // each way once
+    for (const Repeat repeat : repeats_of(test, index)) {
+      const std::string how = name_of(repeat);
+      if (repeats.contains(how)) continue;
+      FaultFlight flight{test.name + "-" + how, test.plan.options};
+      if (repeat == Repeat::chaos) flight.chaos = index + 1;
+      if (repeat != Repeat::chaos && repeat != Repeat::again) flight.options.dds = how;
+      repeats[how] = add_flight(std::move(flight));
+    }
+    flights.repeats.assign(repeats.begin(), repeats.end());
+    planned_.tests.push_back(std::move(flights));
+  }
+  FaultFlights planned() { return std::move(planned_); }
+
+ private:
+  std::size_t add_flight(FaultFlight flight) {
+    flight.options.out = std::filesystem::absolute(options_.out) / flight.name;
+    planned_.flights.push_back(std::move(flight));
+    return planned_.flights.size() - 1;
+  }
+
+  std::size_t fault_free(const FaultTest& test) {
+    FaultFlight flight{"without-faults-" + std::to_string(fault_free_.size() + 1), test.plan.options};
+    flight.options.faults.reset();
+    const auto [found, is_new] = fault_free_.try_emplace(what_is_flown(flight.options));
+    if (is_new) found->second = add_flight(std::move(flight));
+    return found->second;
+  }
+
+  std::vector<Repeat> repeats_of(const FaultTest& test, std::size_t index) const {
+    std::vector<Repeat> all = test.repeats();
+    if (options_.rotate && !asked_.empty()) {
+      all.push_back(asked_[index % asked_.size()]);
+    } else {
+      all.insert(all.end(), asked_.begin(), asked_.end());
+    }
+    return all;
+  }
+
+  const TestOptions& options_;
+  const std::vector<Repeat> asked_;
+  FaultFlights planned_;
+  std::map<std::string, std::size_t> fault_free_;  ///< by what is flown
+};
+
+}  // namespace
+
+FaultFlights plan_fault_flights(const std::vector<FaultTest>& tests, const TestOptions& options) {
+  Planning planning(options);
+  for (const FaultTest& test : tests) planning.add(test);
+  return planning.planned();
+}
+
+std::string what_is_flown(const RunOptions& options) {
+  std::ostringstream text;
+  text << options.scenario << '\n' << options.planner << '\n' << options.seed << '\n' << *options.duration_s << '\n';
+  if (options.scene_seed) text << *options.scene_seed;
+  return text.str();
+}
+
+}  // namespace skein::cli

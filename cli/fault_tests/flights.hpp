@@ -1,0 +1,38 @@
+// What a call of `skein test --faults` flies: each test, its repetitions, and the runs without faults that tests compare
+// with, each of these once. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/fault_tests/fault_test.hpp"
+
+namespace skein::cli {
+
+/// One `skein run`.
+struct FaultFlight {
+  std::string name;  ///< of its folder
+  RunOptions options;
+  std::optional<std::size_t> chaos = {};  ///< SKEIN_CHAOS
+};
+
+/// What a test is judged by: indices of flights.
+struct FlightsOfTest {
+  std::size_t own = 0;
+  std::optional<std::size_t> fault_free;
+  std::vector<std::pair<std::string, std::size_t>> repeats;  ///< how they are flown
+};
+
+struct FaultFlights {
+  std::vector<FaultFlight> flights;  ///< in the order in which they start
+  std::vector<FlightsOfTest> tests;  ///< in the order of the tests
+};
+
+FaultFlights plan_fault_flights(const std::vector<FaultTest>& tests, const TestOptions& options);
+
+/// Names a run but for its faults and DDS vendor, which do not show in a run without faults.
+std::string what_is_flown(const RunOptions& options);
+
+}  // namespace skein::cli

@@ -1,0 +1,83 @@
+#include "cli/run/debug_watch.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "cli/run/proc_table.hpp"
+
+extern "C" {  // glibc 2.36's header forgets it
+#include <sys/pidfd.h>
+}
+
+namespace skein::cli {
+namespace {
+
+bool follows(const std::vector<std::string>& words, const std::string& option, const std::string& value) {
+  const auto found = std::find(words.begin(), words.end(), option);
+  return found != words.end() && found + 1 != words.end() && *(found + 1) == value;
+}
+
+bool holds(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Has the command's environment too, since it hands that on.
+bool is_debugger(pid_t pid) {
+  const std::string name = name_of(pid);
+  for (const char* known : {"gdb", "gdbserver", "lldb", "lldb-server", "rr", "strace"}) {
+    if (name == known) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+DebugWatch::DebugWatch(std::string uav, std::filesystem::path out, std::filesystem::path agent)
+    : uav_(std::move(uav)), out_(std::move(out)), agent_(agent.filename()) {}
+
+DebugWatch::~DebugWatch() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+bool DebugWatch::ended() {
+  if (fd_ < 0) look();
+  if (fd_ < 0) return false;
+  pollfd polled{fd_, POLLIN, 0};
+  if (::poll(&polled, 1, 0) <= 0) return false;
+  ::close(std::exchange(fd_, -1));
+  return true;
+}
+
+void DebugWatch::look() {
+  for (const pid_t pid : all_processes()) {
+    if (!is_debugged(pid) || is_debugged(parent_of(pid))) continue;
+    const int fd = ::pidfd_open(pid, 0);
+    if (fd < 0) continue;
+    if (!is_debugged(pid)) {  // gone meanwhile; another one may have its number
+      ::close(fd);
+      continue;
+    }
+    pid_ = pid;
+    fd_ = fd;
+    return;
+  }
+}
+
+// A debugger has the same words behind its own.
+bool DebugWatch::is_agent_process(pid_t pid) const {
+  const std::vector<std::string> words = words_of(pid, "cmdline");
+  return !words.empty() && std::filesystem::path(words[0]).filename() == agent_ && follows(words, "--uav", uav_) &&
+         follows(words, "--out", out_);
+}
+
+bool DebugWatch::is_command_process(pid_t pid) const {
+  const std::vector<std::string> variables = words_of(pid, "environ");
+  return holds(variables, "SKEIN_UAV=" + uav_) && holds(variables, "SKEIN_OUT=" + out_) && !is_debugger(pid);
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,287 @@
+#include "cli/run/fleet_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <set>
+
+#include "cli/run/agent_file.hpp"
+#include "cli/run/environment.hpp"
+#include "cli/run/ground_program.hpp"
+#include "core/config_files.hpp"
+#include "core/scenario_reader.hpp"
+#include "core/topics.hpp"
+
+namespace skein::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+constexpr std::array<const char*, 2> kVendors = {"cyclonedds", "fastdds"};
+constexpr const char* kAgentPrefix = "uav_agent-";
+const std::string kGroundProgram = "uav_agent-gcs";
+
+void append(Arguments& arguments, const Arguments& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+}
+
+/// Shortest text that reads back to the same number.
+std::string text_of(double value) {
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end.ptr};
+}
+
+/// A program that is stopped for a while and comes back must not find that the others took it for dead: who it is that
+/// died, the launcher sees for itself. So leases outlast the time for which anybody is waited for, at a start too.
+int lease_s(const FleetPlan& plan) {
+  constexpr int kLongest = 3600;  // that Cyclone DDS takes
+  if (plan.options.debug_uav) return kLongest;
+  constexpr double kUsualTimeout_s = 60.0, kTimes = 3.0;
+  const double timeout_s = std::max(plan.options.agent_timeout_s.value_or(kUsualTimeout_s), kUsualTimeout_s);
+  return static_cast<int>(std::min(kTimes * timeout_s, static_cast<double>(kLongest)));
+}
+
+/// What every program must know to read the same scenario.
+Arguments scenario_arguments(const FleetPlan& plan) {
+  const RunOptions& options = plan.options;
+  Arguments arguments = {"--scenario", std::filesystem::absolute(plan.scenario.file), "--seed",
+                         std::to_string(options.seed)};
+  if (options.assets) append(arguments, {"--assets", std::filesystem::absolute(*options.assets)});
+  if (options.scene_seed) append(arguments, {"--scene-seed", std::to_string(*options.scene_seed)});
+  if (options.duration_s) append(arguments, {"--duration", text_of(*options.duration_s)});
+  if (options.rules) append(arguments, {"--rules", *options.rules});
+  if (options.faults) append(arguments, {"--faults", std::filesystem::absolute(*options.faults)});
+  if (options.network) append(arguments, {"--network", *options.network});
+  return arguments;
+}
+
+Arguments command_line(const FleetPlan& plan, const std::filesystem::path& binary) {
+  Arguments arguments = {binary};
+  append(arguments, scenario_arguments(plan));
+  return arguments;
+}
+
+const std::string& planner_of(const FleetPlan& plan, const std::string& program) {
+  if (program == kGroundProgram) return *plan.ground;
+  return plan.planners[plan.scenario.uav_index(member_name(program))].spec;
+}
+
+/// An agent from elsewhere does not find the configuration beside it.
+std::map<std::string, std::string> config_variable(const FleetPlan& plan) {
+  if (!plan.agent) return {};
+  return {{"SKEIN_CONFIG_DIR", std::filesystem::absolute(default_config_dir())}};
+}
+
+/// What a user's command is told. It joins SKEIN_DOMAIN and no other.
+std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
+                                                  const std::filesystem::path& out, const SecureFolder& secure) {
+  const std::string uav = member_name(program);
+  const std::string domain = std::to_string(agent_domain(plan, program, base_domain));
+  std::map<std::string, std::string> variables = {
+      {"SKEIN_DOMAIN", domain},
+      {"ROS_DOMAIN_ID", domain},  // a ROS 2 node needs no more: its default settings hear us on this host
+      {"SKEIN_UAV", uav},
+      {"SKEIN_RUN", std::to_string(plan.run)},
+      {"SKEIN_DDS", dds_vendors(plan).at(program)},
+      {"SKEIN_SCENARIO", std::filesystem::absolute(plan.scenario.file)},
+      {"SKEIN_OUT", std::filesystem::absolute(secure.out.empty() ? out : secure.out)}};
+  if (!secure.keys.empty()) variables["SKEIN_SECURITY"] = secure.keys;
+  if (secure.user) variables["HOME"] = secure.out;  // the launcher's is closed to it
+  return variables;
+}
+
+/// Whose software an agent is.
+Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
+  const Arguments planner = {"--planner", planner_of(plan, program)};
+  Arguments arguments = {"--uav", member_name(program)};
+  if (program == kGroundProgram) arguments = {"--role", "gcs"};
+  append(arguments, planner);
+  return arguments;
+}
+
+/// @param program "sim_server", "comm_router", "station" or an agent's.
+Arguments run_arguments(const FleetPlan& plan, const std::string& program, int base_domain,
+                        const std::filesystem::path& out, const SecureFolder& secure) {
+  Arguments arguments = command_line(plan, is_agent(program) ? agent_file(plan) : plan.bin_dir / program);
+  append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain), "--out",
+                     secure.out.empty() ? out : secure.out});
+  if (!secure.keys.empty()) append(arguments, {"--security", secure.keys});
+  append(arguments, {"--lease", std::to_string(lease_s(plan)), "--run", std::to_string(plan.run)});
+  if (is_agent(program)) append(arguments, role_arguments(plan, program));
+  if (program == "sim_server") {
+    append(arguments, {"--clock", plan.options.clock});
+    if (plan.options.stop_at_s) append(arguments, {"--stop-at", text_of(*plan.options.stop_at_s)});
+    if (plan.options.debug_uav) append(arguments, {"--agent-timeout", "0"});
+    if (plan.options.agent_timeout_s) append(arguments, {"--agent-timeout", text_of(*plan.options.agent_timeout_s)});
+    if (plan.ground) arguments.push_back("--ground-program");
+  }
+  return arguments;
+}
+
+SecureFolder secure_folder(const SecureFolders& secure, const std::string& program) {
+  const auto found = secure.find(program);
+  return found == secure.end() ? SecureFolder{} : found->second;
+}
+
+std::string quoted_for_shell(const std::string& word) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("_-./:=,", c) != nullptr; };
+  if (std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir) {
+  check_environment();
+  LoadOptions load;
+  load.assets_dir = options.assets.value_or("");
+  load.duration_s = options.duration_s;
+  load.scene_seed = options.scene_seed;
+  load.rules = options.rules;
+  if (options.secure && options.dds == "mixed") {
+    throw InputError(
+        "--secure --dds mixed: the vendors' security does not work together reliably; choose cyclonedds or fastdds");
+  }
+  FleetPlan plan{options, load_scenario(options.scenario, load), {}, bin_dir, {}};
+  plan.faults = load_fault_plan(options.faults.value_or(""), plan.scenario, options.seed);
+  std::vector<std::string> names;
+  for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
+  const Planners planners = parse_planners(options.planner, names);
+  plan.planners = planners.uavs;
+  plan.agent = own_agent(options.agent);
+  plan.ground = ground_program(planners, agent_file(plan));
+  if (options.debug_uav) plan.scenario.uav_index(*options.debug_uav);  // throws for an unknown name
+  return plan;
+}
+
+std::uint64_t draw_run_id() {
+  std::random_device device;
+  std::uint64_t run = 0;
+  while (run == 0) run = (std::uint64_t{device()} << 32) | device();
+  return run;
+}
+
+std::filesystem::path agent_file(const FleetPlan& plan) { return plan.agent.value_or(plan.bin_dir / "uav_agent"); }
+
+std::filesystem::path program_dir() {
+  const char* chosen = std::getenv("SKEIN_BIN_DIR");
+  if (chosen != nullptr && *chosen != '\0') return chosen;
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+int domain_count(const FleetPlan& plan) { return 2 + static_cast<int>(plan.scenario.fleet.size()); }
+
+std::string agent_program(const std::string& uav) { return kAgentPrefix + uav; }
+
+bool is_agent(const std::string& program) { return program.starts_with(kAgentPrefix); }
+
+int agent_domain(const FleetPlan& plan, const std::string& program, int base_domain) {
+  if (program == kGroundProgram) return gcs_domain(base_domain);
+  return uav_domain(base_domain, plan.scenario.uav_index(member_name(program)));
+}
+
+std::string member_name(const std::string& program) {
+  return is_agent(program) ? program.substr(std::string(kAgentPrefix).size()) : program;
+}
+
+std::map<std::string, std::string> dds_vendors(const FleetPlan& plan) {
+  std::vector<std::string> programs = {"sim_server", "comm_router", "station"};
+  for (const UavConfig& uav : plan.scenario.fleet) programs.push_back(agent_program(uav.name));
+  if (plan.ground) programs.push_back(kGroundProgram);
+  std::map<std::string, std::string> vendors;
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    vendors[programs[i]] = plan.options.dds == "mixed" ? kVendors[i % kVendors.size()] : plan.options.dds;
+  }
+  return vendors;
+}
+
+bool is_exec(const FleetPlan& plan, const std::string& program) {
+  return is_agent(program) && exec_command(planner_of(plan, program)).has_value();
+}
+
+std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
+                                        const SecureFolders& secure) {
+  const std::vector<std::string> environment = fleet_environment(plan.options.native, config_variable(plan));
+  std::vector<ProgramSpec> programs;
+  const auto add = [&](const std::string& name) {
+    const SecureFolder own = secure_folder(secure, name);
+    if (is_exec(plan, name)) {
+      programs.push_back({name,
+                          {"/bin/sh", "-c", *exec_command(planner_of(plan, name))},
+                          fleet_environment(plan.options.native, exec_variables(plan, name, base_domain, out, own)),
+                          out / (name + ".log")});
+      return;
+    }
+    Arguments arguments = run_arguments(plan, name, base_domain, out, own);
+    append(arguments, {"--status-fd", std::to_string(kStatusFd), "--control-fd", std::to_string(kControlFd)});
+    programs.push_back({name, std::move(arguments), environment, out / (name + ".log")});
+  };
+  for (const char* name : {"sim_server", "comm_router", "station"}) add(name);
+  for (const UavConfig& uav : plan.scenario.fleet) {
+    if (plan.options.debug_uav != uav.name) add(agent_program(uav.name));
+  }
+  if (plan.ground) add(kGroundProgram);
+  for (ProgramSpec& program : programs) {
+    // Ours that tell how the run goes on write as long as it does.
+    if (!is_agent(program.name)) program.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
+    program.user = secure_folder(secure, program.name).user;
+    program.minded = is_agent(program.name) && (plan.agent || is_exec(plan, program.name));  // not ours
+  }
+  return programs;
+}
+
+std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
+                          const SecureFolders& secure) {
+  const std::string program = agent_program(*plan.options.debug_uav);
+  SecureFolder own = secure_folder(secure, program);
+  if (own.user) own.out.clear();  // whoever types the command may write to the results folder
+  own.user.reset();
+  std::string command = fleet_environment_prefix(plan.options.native);
+  if (is_exec(plan, program)) {
+    for (const auto& [name, value] : exec_variables(plan, program, base_domain, out, own)) {
+      command += name + "=" + quoted_for_shell(value) + " ";
+    }
+    return command + "/bin/sh -c " + quoted_for_shell(*exec_command(planner_of(plan, program)));
+  }
+  for (const auto& [name, value] : config_variable(plan)) command += name + "=" + quoted_for_shell(value) + " ";
+  command += "gdb --args";
+  for (const std::string& argument : run_arguments(plan, program, base_domain, out, own)) {
+    command += " " + quoted_for_shell(argument);
+  }
+  return command;
+}
+
+std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch,
+                                        const std::optional<UserId>& agent_user) {
+  const std::vector<std::string> environment = fleet_environment(plan.options.native, config_variable(plan));
+  std::vector<ProgramSpec> programs;
+  const auto add = [&](const std::string& name, Arguments arguments) {
+    arguments.push_back("--check");
+    programs.push_back({name, std::move(arguments), environment, scratch / (name + ".log")});
+    if (is_agent(name)) programs.back().user = agent_user;
+  };
+  add("sim_server", command_line(plan, plan.bin_dir / "sim_server"));
+  std::set<std::string> checked;
+  for (const UavPlanner& planner : plan.planners) {
+    if (exec_command(planner.spec) || !checked.insert(planner.spec).second) continue;
+    Arguments arguments = command_line(plan, agent_file(plan));
+    append(arguments, {"--uav", planner.uav, "--planner", planner.spec});
+    add(agent_program(planner.uav), std::move(arguments));
+  }
+  if (plan.ground && !exec_command(*plan.ground)) {
+    Arguments arguments = command_line(plan, agent_file(plan));
+    append(arguments, role_arguments(plan, kGroundProgram));
+    add(kGroundProgram, std::move(arguments));
+  }
+  return programs;
+}
+
+}  // namespace skein::cli

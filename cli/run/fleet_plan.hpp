@@ -1,0 +1,82 @@
+// Which programs a run consists of, and the command line of each.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options.hpp"
+#include "cli/planner_spec.hpp"
+#include "cli/run/supervisor.hpp"
+#include "core/fault_plan.hpp"
+#include "core/scenario.hpp"
+
+namespace skein::cli {
+
+/// All that is decided before a run starts.
+struct FleetPlan {
+  RunOptions options;
+  Scenario scenario;
+  std::vector<UavPlanner> planners;                 ///< fleet order
+  std::filesystem::path bin_dir;                    ///< where the programs are
+  FaultPlan faults;                                 ///< of --faults
+  std::optional<std::string> ground = {};           ///< what runs at the ground station: a strategy or "exec:CMD"
+  std::optional<std::filesystem::path> agent = {};  ///< flies in the place of uav_agent
+  std::uint64_t run = 0;                            ///< what the programs of one run know each other by (draw_run_id())
+};
+
+/// The program that the UAVs' on-board software is.
+std::filesystem::path agent_file(const FleetPlan& plan);
+
+/// What a program of a secured fleet is given (cli/secure/security.hpp).
+struct SecureFolder {
+  std::filesystem::path keys;  ///< its key, certificate and permissions
+  std::filesystem::path out;   ///< where it writes instead of the results folder; empty: there
+  std::optional<UserId> user;  ///< as whom it runs; nullopt: as the launcher
+};
+using SecureFolders = std::map<std::string, SecureFolder>;  ///< by program
+
+/// A number that no other run has. It decides nothing and is in no digest.
+std::uint64_t draw_run_id();
+
+/// Loads the scenario and takes the planners apart. @throws InputError for whatever is wrong in them.
+FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir);
+
+/// Where the sibling programs are: SKEIN_BIN_DIR, else this executable's own folder.
+std::filesystem::path program_dir();
+
+/// World, ground station and one domain a UAV.
+int domain_count(const FleetPlan& plan);
+
+/// The program that runs a UAV's on-board software: "uav_agent-jurong".
+std::string agent_program(const std::string& uav);
+bool is_agent(const std::string& program);
+/// The only DDS domain that an agent joins.
+int agent_domain(const FleetPlan& plan, const std::string& program, int base_domain);
+/// How sim_server calls a program's member: the UAV's name, "comm_router" or "station".
+std::string member_name(const std::string& program);
+
+/// DDS vendor by program. `mixed` deals the vendors out in turn: sim_server, comm_router, station, then the UAVs.
+std::map<std::string, std::string> dds_vendors(const FleetPlan& plan);
+
+/// The whole fleet in the order in which it starts, the UAV under --debug left out.
+/// @param secure  of all programs, or of none
+std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
+                                        const SecureFolders& secure = {});
+
+/// True when this program is a user's command (`--planner exec:CMD`) in the place of uav_agent.
+bool is_exec(const FleetPlan& plan, const std::string& program);
+
+/// What to type to run the UAV under --debug in gdb (a user's command: as it is, with its environment).
+std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
+                          const SecureFolders& secure = {});
+
+/// Programs that only validate (--check): sim_server, then one agent for each different planner. A user's command is
+/// not asked: nothing is known about it.
+/// @param scratch folder for their logs. @param agent_user  as whom agents will run
+std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch,
+                                        const std::optional<UserId>& agent_user = {});
+
+}  // namespace skein::cli

@@ -1,0 +1,161 @@
+#include "cli/run/progress_view.hpp"
+
+#include <algorithm>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+#include "cli/run/score_losses.hpp"
+
+namespace skein::cli {
+namespace {
+
+std::string fixed(double value, int digits) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(digits) << value;
+  return out.str();
+}
+
+double number(const Json& object, const char* key) { return value_or(object, key, 0.0); }
+
+/// A measured number, or "-" where nobody reported one.
+std::string cell(const Json& object, const char* key, int digits) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? fixed(found->get<double>(), digits) : "-";
+}
+
+/// @param but  names that are left out.
+std::string joined(const Json& object, const char* key, const Json& but = Json::array()) {
+  std::string text;
+  const auto found = object.find(key);
+  if (found == object.end()) return text;
+  for (const Json& name : *found) {
+    if (name.is_string() && std::find(but.begin(), but.end(), name) == but.end())
+      text += (text.empty() ? "" : ", ") + name.get<std::string>();
+  }
+  return text;
+}
+
+std::string uav_state(const Json& uav) {
+  const auto alive = uav.find("alive");
+  if (alive == uav.end() || !alive->is_boolean()) return "-";
+  if (!alive->get<bool>()) return "collided";
+  return value_or(uav, "program_lost", false).get<bool>() ? "lost" : "alive";
+}
+
+/// Where the rest of what could be had was lost: a row for each cause that took something.
+void print_losses(std::ostream& out, const Json& losses) {
+  const std::map<LossCause, const char*> texts = {
+      {LossCause::out_of_reach, "no UAV fits there"},    {LossCause::never_in_picture, "never in the picture"},
+      {LossCause::below_threshold, "too poor to count"}, {LossCause::voided, "UAV collided"},
+      {LossCause::not_delivered, "not delivered"},       {LossCause::distance, "from too far away"},
+      {LossCause::tilt, "too much from the side"},       {LossCause::blur, "blurred"},
+      {LossCause::above_estimate, "above the estimate"}};
+  const char* head = "lost      ";
+  for (const auto& [cause, text] : texts) {
+    const Json sum = value_or(losses, name_of(cause).c_str(), Json::object());
+    if (number(sum, "points") <= 0.0) continue;
+    out << head << std::left << std::setw(24) << text << std::right << std::setw(10) << fixed(number(sum, "score"), 3)
+        << std::setw(8) << cell(sum, "points", 0) << " points\n";
+    head = "          ";
+  }
+}
+
+}  // namespace
+
+void ProgressView::progress(const Json& status, double wall_s) {
+  const double sim_s = number(status, "t"), mission_s = number(status, "mission_s");
+  const double duration_s = number(status, "duration_s");
+  if (first_wall_s_ < 0.0) {
+    first_sim_s_ = sim_s;
+    first_wall_s_ = wall_s;
+  }
+  const double speed = wall_s > first_wall_s_ ? (sim_s - first_sim_s_) / (wall_s - first_wall_s_) : 0.0;
+  // The body of a UAV whose program is lost still hovers in sight of the station; nobody is in contact with it.
+  const std::string lost = joined(status, "lost");
+  const std::string in_contact = joined(status, "in_contact", value_or(status, "lost", Json::array()));
+  std::string text = "simulated " + fixed(sim_s, 1) + " s";
+  const Json phase = value_or(status, "phase", "");
+  text += phase == "flying" || phase == "ended"
+              ? ", mission " + fixed(mission_s, 0) + " of " + fixed(duration_s, 0) + " s"
+              : ", before take-off";
+  text += ", x" + fixed(speed, 1) + ", points " + std::to_string(points_) + ", score " + fixed(score_, 1) +
+          ", in contact: " + (in_contact.empty() ? "none" : in_contact) + (lost.empty() ? "" : ", lost: " + lost);
+  if (terminal_) return show(text);
+  const int tenths = duration_s > 0.0 ? static_cast<int>(10.0 * mission_s / duration_s) : 0;
+  if (tenths <= tenths_shown_) return;
+  tenths_shown_ = tenths;
+  show(text);
+}
+
+void ProgressView::waiting_for(const Json& status) {
+  if (!terminal_ && !value_or(status, "due", false)) return;
+  const std::string missing = joined(status, "missing");
+  show("waiting for " + joined(status, "members") + " " + value_or(status, "what", "").get<std::string>() + " (" +
+       fixed(number(status, "seconds"), 0) + " s)" + (missing.empty() ? "" : ": " + missing));
+}
+
+void ProgressView::tally(const Json& status) {
+  points_ = static_cast<int>(number(status, "points"));
+  score_ = number(status, "score");
+}
+
+void ProgressView::message(const std::string& text) {
+  finish();
+  out_ << text << std::endl;
+}
+
+void ProgressView::finish() {
+  if (!shown_.empty()) out_ << std::endl;
+  shown_.clear();
+}
+
+void ProgressView::show(const std::string& text) {
+  if (!terminal_) {
+    out_ << text << std::endl;
+    return;
+  }
+  const std::size_t blanks = shown_.size() > text.size() ? shown_.size() - text.size() : 0;
+  out_ << '\r' << text << std::string(blanks, ' ') << std::flush;
+  shown_ = text;
+}
+
+void print_summary(std::ostream& out, const Json& result, const std::filesystem::path& dir) {
+  const double score = number(result, "score"), earned = number(result, "score_earned");
+  const Json attainable = value_or(result, "attainable", Json::object());
+  const double possible = number(attainable, "score");
+  out << '\n'
+      << "score     " << fixed(score, 3) << " of " << fixed(earned, 3) << " earned"
+      << (earned > 0.0 ? " (" + fixed(100.0 * score / earned, 1) + " % delivered)" : "")
+      << (possible > 0.0 ? ", " + fixed(100.0 * score / possible, 1) + " % of attainable" : "") << '\n'
+      << "points    " << cell(result, "points_detected", 0) << " of " << cell(result, "points_total", 0)
+      << (possible > 0.0 ? ", " + cell(attainable, "points", 0) + " attainable" : "") << '\n';
+  print_losses(out, value_or(result, "losses", Json::object()));
+  out << "status    " << result["status"].get<std::string>() << ", mission " << cell(result, "mission_time_s", 1)
+      << " s, " << result["collisions"].size() << " collision" << (result["collisions"].size() == 1 ? "" : "s") << '\n'
+      << "speed     x" << cell(result, "real_time_factor", 1) << " (" << cell(result, "sim_time_s", 1)
+      << " s simulated in " << cell(result, "wall_time_s", 1) << " s), memory " << cell(result, "memory_mb", 0)
+      << " MB, LiDAR " << cell(result.contains("timing") ? result["timing"] : result, "lidar_ms_per_scan", 2)
+      << " ms a scan\n"
+      << "digest    " << (result["digest"].is_string() ? result["digest"].get<std::string>() : "none") << "\n\n";
+  std::size_t width = 3;
+  for (const Json& uav : result["uavs"]) width = std::max(width, uav["name"].get<std::string>().size());
+  const auto row = [&](const std::string& name, std::initializer_list<std::string> cells) {
+    out << std::left << std::setw(static_cast<int>(width)) << name << std::right;
+    for (const std::string& text : cells) out << std::setw(14) << text;
+    out << '\n';
+  };
+  row("UAV", {"role", "planner", "state", "score", "captures", "distance [m]", "idle [s]"});
+  for (const Json& uav : result["uavs"]) {
+    const std::string name = uav["name"];
+    std::string planner = result["planner"][name];
+    if (planner.size() > 12) planner = planner.substr(0, 10) + "..";
+    row(name, {uav["role"], planner, uav_state(uav), cell(result["score_by_uav"], name.c_str(), 3),
+               cell(uav, "captures", 0), cell(uav, "distance_m", 1), cell(uav, "idle_s", 1)});
+  }
+  for (const Json& warning : result["warnings"])
+    out << "warning: " << (warning.is_string() ? warning.get<std::string>() : warning.dump()) << '\n';
+  out << "\nresults   " << dir.string() << '\n';
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,44 @@
+// What the user sees while a run goes on: one line that is rewritten on a terminal, a plain line every tenth of the
+// mission elsewhere.
+#pragma once
+
+#include <ostream>
+#include <string>
+
+#include "cli/run/result.hpp"
+
+namespace skein::cli {
+
+class ProgressView {
+ public:
+  /// @param terminal whether `out` can rewrite its last line.
+  ProgressView(std::ostream& out, bool terminal) : out_(out), terminal_(terminal) {}
+
+  /// sim_server's {"type":"progress",...}. @param wall_s time since the programs started; gives the speed.
+  void progress(const Json& status, double wall_s);
+  /// sim_server's {"type":"waiting_for","members":[...],"what":"to join","seconds":12,"due":true}: a terminal shows each,
+  /// elsewhere there is a line when one is due.
+  void waiting_for(const Json& status);
+  /// station's {"type":"tally",...}.
+  void tally(const Json& status);
+  /// A line of its own, above the progress.
+  void message(const std::string& text);
+  /// Ends the progress line.
+  void finish();
+
+ private:
+  void show(const std::string& text);
+
+  std::ostream& out_;
+  const bool terminal_;
+  std::string shown_;
+  int points_ = 0;
+  double score_ = 0.0;
+  int tenths_shown_ = 0;
+  double first_sim_s_ = 0.0, first_wall_s_ = -1.0;  ///< from where the speed is measured
+};
+
+/// The final table. @param dir where the results are.
+void print_summary(std::ostream& out, const Json& result, const std::filesystem::path& dir);
+
+}  // namespace skein::cli

@@ -1,0 +1,114 @@
+#include "cli/run/results_dir.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <set>
+
+#include "cli/planner_spec.hpp"
+#include "core/types.hpp"
+#include "process/atomic_file.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// Of a large fleet with all its links.
+constexpr off_t kRoomForResult = 256 << 10;
+/// One of the names that a stale file has: see written_by_a_run().
+constexpr const char* kRoom = "result.json.tmp-room";
+
+bool written_by_a_run(const std::string& name) {
+  static const std::set<std::string> kNames = {
+      "result.json",          "score.csv",        "captures.csv",       "digests.csv", "losses.csv", "events.csv",
+      "capture_messages.csv", "trajectories.csv", "score_timeline.csv", "scene.json",  "report.html"};
+  // Reports, logs and books: a book of another run would be taken up as if this run's program had been killed.
+  const bool of_a_program = name.starts_with("sim_server.") || name.starts_with("comm_router.") ||
+                            name.starts_with("station.") || name.starts_with("uav_agent-");
+  // What was being written when its program was killed: see atomic_file.hpp.
+  const std::string whole = name.substr(0, name.rfind(".tmp"));
+  return kNames.contains(whole) || of_a_program;
+}
+
+/// Only names go: what a link points to stays, and nothing is opened, which for a pipe would take for ever.
+void remove_stale(const std::filesystem::path& dir) {
+  for (const auto& entry : std::filesystem::directory_iterator(dir)) {
+    if (!written_by_a_run(entry.path().filename())) continue;
+    if (entry.symlink_status().type() != std::filesystem::file_type::directory) {
+      std::filesystem::remove(entry.path());
+    } else if (entry.path().has_extension()) {
+      throw InputError(entry.path().string() + ": a folder is in the way of a file that the run writes");
+    }
+  }
+}
+
+}  // namespace
+
+std::filesystem::path default_results_dir(const std::string& scenario, const std::string& planner, std::uint64_t seed) {
+  return std::filesystem::path("runs") / (scenario + "-" + planner_label(planner) + "-" + std::to_string(seed));
+}
+
+void ResultsDir::check(const std::filesystem::path& dir, bool force) {
+  std::error_code error;  // of a name that is too long, or of links in a circle
+  const auto kind = std::filesystem::status(dir, error).type();
+  if (kind == std::filesystem::file_type::none) {
+    throw InputError("--out " + dir.string() + ": cannot be looked at (" + error.message() +
+                     "); choose another folder");
+  }
+  if (kind != std::filesystem::file_type::directory && kind != std::filesystem::file_type::not_found) {
+    throw InputError("--out " + dir.string() + ": is no folder");
+  }
+  if (!force && std::filesystem::exists(dir / "result.json", error)) {
+    throw InputError(dir.string() + " holds a result already; overwrite it with --force, or choose another --out");
+  }
+}
+
+ResultsDir::ResultsDir(const std::filesystem::path& dir, bool force) : path_(std::filesystem::absolute(dir)) {
+  check(dir, force);
+  std::error_code error;
+  std::filesystem::create_directories(path_, error);
+  if (!error) lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (error || lock_ < 0 || ::access(path_.c_str(), W_OK) != 0) {
+    throw InputError("--out " + dir.string() + ": cannot be written to");
+  }
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    ::close(lock_);
+    throw InputError(dir.string() + ": another run is writing there; choose another --out");
+  }
+  try {
+    remove_stale(path_);
+    keep_room();
+  } catch (...) {
+    ::close(lock_);
+    throw;
+  }
+}
+
+ResultsDir::~ResultsDir() {
+  give_room();
+  ::close(lock_);
+}
+
+void ResultsDir::keep_room() const {
+  const std::filesystem::path room = path_ / kRoom;
+  const int file = ::open(room.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  const int reason = file < 0 ? errno : ::posix_fallocate(file, 0, kRoomForResult);
+  if (file >= 0) ::close(file);
+  if (reason != ENOSPC && reason != EDQUOT && reason != EFBIG) return;  // a file system may have no such call
+  give_room();
+  throw InputError("--out " + path_.string() + ": no room for a result there (" +
+                   std::generic_category().message(reason) + "); choose another folder");
+}
+
+void ResultsDir::give_room() const {
+  std::error_code ignored;
+  std::filesystem::remove(path_ / kRoom, ignored);
+}
+
+std::string ResultsDir::write_result(const std::string& text) const {
+  give_room();
+  return write_if_possible(path_ / "result.json", text);
+}
+
+}  // namespace skein::cli

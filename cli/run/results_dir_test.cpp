@@ -1,0 +1,155 @@
+#include "cli/run/results_dir.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <functional>
+
+#include "cli/testing/fake_programs.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder to write to: a scratch folder itself is locked by whoever made it.
+class OutDir {
+ public:
+  OutDir() { fs::create_directory(path_); }
+  const fs::path& path() const { return path_; }
+
+ private:
+  const ScratchDir scratch_;
+  const fs::path path_ = scratch_.path() / "out";
+};
+
+TEST(ResultsDir, DefaultNameTellsTheRun) {
+  EXPECT_EQ(default_results_dir("towers", "patrol", 3), "runs/towers-patrol-3");
+  EXPECT_EQ(default_results_dir("towers", "a=b:c/d", 0), "runs/towers-a_b_c_d-0");
+}
+
+TEST(ResultsDir, IsCreatedWithItsParents) {
+  const OutDir scratch;
+  const ResultsDir dir(scratch.path() / "a/b", false);
+  EXPECT_TRUE(fs::is_directory(dir.path()));
+}
+
+TEST(ResultsDir, AnExistingResultIsKeptUnlessForced) {
+  const OutDir scratch;
+  write_text(scratch.path() / "result.json", "{}");
+  EXPECT_THROW(ResultsDir::check(scratch.path(), false), InputError);
+  EXPECT_THROW(ResultsDir(scratch.path(), false), InputError);
+  EXPECT_TRUE(fs::exists(scratch.path() / "result.json"));
+  ResultsDir::check(scratch.path(), true);
+  EXPECT_TRUE(fs::exists(scratch.path() / "result.json"));
+  const ResultsDir dir(scratch.path(), true);
+  EXPECT_FALSE(fs::exists(scratch.path() / "result.json"));
+}
+
+TEST(ResultsDir, OnlyWhatARunWritesIsRemoved) {
+  const OutDir scratch;
+  const auto of_runs = {"station.report.json", "station.journal", "comm_router.counts",       "uav_agent-alpha.log",
+                        "digests.csv",         "scene.json",      "station.report.json.tmp7", "result.json.tmp1234"};
+  const auto of_others = {"notes.txt", "my.log", "station-notes.txt", "mine.tmp7"};
+  for (const char* name : of_runs) write_text(scratch.path() / name, "x");
+  for (const char* name : of_others) write_text(scratch.path() / name, "x");
+  const ResultsDir dir(scratch.path(), false);
+  for (const char* name : of_runs) EXPECT_FALSE(fs::exists(scratch.path() / name)) << name;
+  for (const char* name : of_others) EXPECT_TRUE(fs::exists(scratch.path() / name)) << name;
+}
+
+TEST(ResultsDir, TwoRunsNeverShareAFolder) {
+  const OutDir scratch;
+  {
+    const ResultsDir first(scratch.path(), false);
+    EXPECT_THROW(ResultsDir(scratch.path(), false), InputError);
+  }
+  const ResultsDir second(scratch.path(), false);
+}
+
+TEST(ResultsDir, AFileIsNoFolder) {
+  const OutDir scratch;
+  write_text(scratch.path() / "file", "");
+  EXPECT_THROW(ResultsDir(scratch.path() / "file", true), InputError);
+  EXPECT_THROW(ResultsDir(scratch.path() / "file/below", true), InputError);
+}
+
+TEST(ResultsDir, ANameThatCannotBeIsTheUsersMistake) {
+  const OutDir scratch;
+  fs::create_symlink(scratch.path() / "b", scratch.path() / "a");
+  fs::create_symlink(scratch.path() / "a", scratch.path() / "b");
+  for (const fs::path& dir :
+       {scratch.path() / "a", scratch.path() / "a/below", scratch.path() / std::string(5000, 'x')}) {
+    EXPECT_THROW(ResultsDir(dir, false), InputError) << dir;
+    EXPECT_THROW(ResultsDir(dir, true), InputError) << dir;
+  }
+}
+
+TEST(ResultsDir, WhatBearsTheNameOfAFileAndIsNoneGoesOrIsNamed) {
+  const OutDir scratch;
+  ASSERT_EQ(::mkfifo((scratch.path() / "sim_server.log").c_str(), 0600), 0);
+  write_text(scratch.path() / "mine.txt", "kept");
+  fs::create_symlink(scratch.path() / "mine.txt", scratch.path() / "station.journal");
+  fs::create_symlink("/dev/full", scratch.path() / "events.csv");
+  { const ResultsDir dir(scratch.path(), false); }
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), {}), 1);
+  EXPECT_EQ(read_text(scratch.path() / "mine.txt"), "kept");
+  fs::create_directory(scratch.path() / "sim_server.log");
+  try {
+    const ResultsDir dir(scratch.path(), false);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("sim_server.log"), std::string::npos) << error.what();
+  }
+}
+
+/// What `body` makes of a limit on the size of files, which is to a program what a full disk is.
+int with_file_limit(rlim_t bytes, const std::function<bool()>& body) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, bytes};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    ::_exit(body() ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status;
+}
+
+TEST(ResultsDir, WithoutRoomForAResultNothingStarts) {
+  const OutDir scratch;
+  EXPECT_EQ(with_file_limit(1000,
+                            [&] {
+                              try {
+                                const ResultsDir dir(scratch.path(), false);
+                                return false;
+                              } catch (const InputError& error) {
+                                return std::string(error.what()).find(scratch.path()) != std::string::npos;
+                              }
+                            }),
+            0);
+  EXPECT_TRUE(fs::is_empty(scratch.path()));
+}
+
+TEST(ResultsDir, AResultThatCannotBeWrittenIsToldAndLeavesNothingHalf) {
+  const OutDir scratch;
+  EXPECT_EQ(with_file_limit(300 << 10,
+                            [&] {
+                              const ResultsDir dir(scratch.path(), false);
+                              const std::string whole(200 << 10, 'x'), too_long(400 << 10, 'x');
+                              return dir.write_result(whole).empty() &&
+                                     dir.write_result(too_long).find("result.json") != std::string::npos;
+                            }),
+            0);
+  EXPECT_EQ(fs::file_size(scratch.path() / "result.json"), 200U << 10) << "the one before stands";
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), {}), 1);
+}
+
+}  // namespace
+}  // namespace skein::cli

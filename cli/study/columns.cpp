@@ -1,0 +1,41 @@
+#include "cli/study/columns.hpp"
+
+namespace skein::cli {
+
+const std::vector<StudyColumn>& study_columns() {
+  using F = FlightFigures;
+  static const std::vector<StudyColumn> kColumns = {
+      {"score", "Score", "sum over all points of the best delivered capture, of UAVs without a collision", 1, true,
+       [](const F& f) { return f.score; }},
+      {"attainable_percent", "% of attainable", "of what full knowledge of the scene could score", 1, true,
+       [](const F& f) { return f.attainable_percent; }},
+      {"points_detected", "Points detected", "points with a delivered capture of quality 0.2 or better", 0, true,
+       [](const F& f) { return f.points_detected; }},
+      {"mean_quality", "Mean quality", "score by detected point", 3, true, [](const F& f) { return f.mean_quality; }},
+      {"collisions", "Collisions", "with the structure, the ground or another UAV", 0, true,
+       [](const F& f) { return f.collisions; }},
+      {"idle_explorers_s", "Idle explorer [s]",
+       "slower than 0.1 m/s without a better capture for 5 s; a UAV on average", 0, true,
+       [](const F& f) { return f.idle_explorers_s; }},
+      {"idle_photographers_s", "Idle photographer [s]", "the same of photographers", 0, true,
+       [](const F& f) { return f.idle_photographers_s; }},
+      {"distance_m", "Distance [m]", "flown by the whole fleet", 0, true, [](const F& f) { return f.distance_m; }},
+      {"planner_cpu_ms", "Planner CPU [ms]", "for a UAV and simulated second", 1, true,
+       [](const F& f) { return f.planner_cpu_ms; }},
+      {"real_time_factor", "Times real time", "simulated time by time on the clock", 1, true,
+       [](const F& f) { return f.real_time_factor; }},
+      {"mission_time_s", "Mission time [s]", "from the first take-off on", 1, false,
+       [](const F& f) { return f.mission_time_s; }}};
+  return kColumns;
+}
+
+std::vector<double> column_values(const StudyColumn& column, const std::vector<const FlightEntry*>& flights) {
+  std::vector<double> values;
+  for (const FlightEntry* flight : flights) {
+    if (!flight->figures) continue;
+    if (const std::optional<double> value = column.value(*flight->figures)) values.push_back(*value);
+  }
+  return values;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,145 @@
+#include "cli/study/figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein::cli {
+namespace {
+
+double number(const Json& object, const char* key) { return value_or(object, key, 0.0).get<double>(); }
+
+/// Collects what the UAVs report one by one.
+struct Mean {
+  double sum = 0.0;
+  int count = 0;
+  void add(const Json& value) {
+    if (!value.is_number()) return;
+    sum += value.get<double>();
+    ++count;
+  }
+  std::optional<double> value() const { return count > 0 ? std::optional(sum / count) : std::nullopt; }
+};
+
+/// @param sorted  not empty. @param share  [0, 1]
+double quantile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+std::optional<double> decisive(const std::vector<double>& totals, Rank rank) {
+  if (totals.empty()) return std::nullopt;
+  const Spread spread = spread_of(totals);
+  switch (rank) {
+    case Rank::maximum:
+      return spread.max;
+    case Rank::median:
+      return spread.median;
+    case Rank::worst:
+      return spread.min;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+FlightFigures figures_of(const Json& result) {
+  FlightFigures figures;
+  figures.score = number(result, "score");
+  figures.points_detected = static_cast<int>(number(result, "points_detected"));
+  figures.points_total = static_cast<int>(number(result, "points_total"));
+  const double attainable = number(value_or(result, "attainable", Json::object()), "score");
+  if (attainable > 0.0) figures.attainable_percent = 100.0 * figures.score / attainable;
+  if (figures.points_detected > 0) figures.mean_quality = figures.score / figures.points_detected;
+  figures.collisions = static_cast<int>(value_or(result, "collisions", Json::array()).size());
+  figures.real_time_factor = number(result, "real_time_factor");
+  figures.mission_time_s = number(result, "mission_time_s");
+  figures.status = value_or(result, "status", "").get<std::string>();
+  figures.digest = value_or(result, "digest", "").get<std::string>();
+  Mean explorers, photographers, cpu;
+  for (const Json& uav : value_or(result, "uavs", Json::array())) {
+    (value_or(uav, "role", "") == "explorer" ? explorers : photographers).add(value_or(uav, "idle_s", nullptr));
+    figures.distance_m += number(uav, "distance_m");
+    cpu.add(value_or(uav, "planner_cpu_s", nullptr));
+  }
+  figures.idle_explorers_s = explorers.value();
+  figures.idle_photographers_s = photographers.value();
+  const double sim_time_s = number(result, "sim_time_s");
+  if (cpu.value() && sim_time_s > 0.0) figures.planner_cpu_ms = 1e3 * *cpu.value() / sim_time_s;
+  return figures;
+}
+
+Spread spread_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  return {values.size(),         values.front(),         quantile(values, 0.25),
+          quantile(values, 0.5), quantile(values, 0.75), values.back()};
+}
+
+std::vector<const FlightEntry*> Study::cell(std::size_t planner, std::size_t scenario) const {
+  std::vector<const FlightEntry*> entries;
+  for (const FlightEntry& flight : flights) {
+    if (flight.planner == planner && flight.scenario == scenario && flight.figures) entries.push_back(&flight);
+  }
+  return entries;
+}
+
+const FlightEntry* Study::best(std::size_t planner, std::size_t scenario) const {
+  const FlightEntry* best = nullptr;
+  for (const FlightEntry* flight : cell(planner, scenario)) {
+    if (best == nullptr || flight->figures->score > best->figures->score) best = flight;
+  }
+  return best;
+}
+
+bool Study::any_problem() const {
+  return std::any_of(flights.begin(), flights.end(), [](const FlightEntry& f) { return !f.problem.empty(); });
+}
+
+std::vector<Standing> standings(const Study& study) {
+  std::vector<Standing> all;
+  for (std::size_t p = 0; p < study.planners.size(); ++p) {
+    Standing standing{p, {}, {}, 0};
+    for (const std::uint64_t seed : study.seeds) {
+      double total = 0.0;
+      std::size_t scenes = 0;
+      for (const FlightEntry& flight : study.flights) {
+        if (flight.planner != p || flight.seed != seed || !flight.figures) continue;
+        total += flight.figures->score;
+        ++scenes;
+      }
+      standing.totals.push_back(scenes == study.scenarios.size() ? std::optional(total) : std::nullopt);
+    }
+    standing.decides = decisive(complete_totals(standing), study.rank);
+    all.push_back(std::move(standing));
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Standing& a, const Standing& b) { return a.decides > b.decides; });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool equal = i > 0 && all[i].decides == all[i - 1].decides;
+    all[i].place = equal ? all[i - 1].place : static_cast<int>(i) + 1;
+  }
+  return all;
+}
+
+std::vector<double> complete_totals(const Standing& standing) {
+  std::vector<double> totals;
+  for (const std::optional<double>& total : standing.totals) {
+    if (total) totals.push_back(*total);
+  }
+  return totals;
+}
+
+std::string rank_name(Rank rank) {
+  switch (rank) {
+    case Rank::maximum:
+      return "max";
+    case Rank::median:
+      return "median";
+    case Rank::worst:
+      return "worst";
+  }
+  return "";
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,80 @@
+// The arithmetic of a study: from the results of its flights to figures, medians, totals and ranks. Pure; any thread.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options.hpp"
+#include "cli/run/result.hpp"
+
+namespace skein::cli {
+
+/// What is compared of one flight. Empty where nobody could tell.
+struct FlightFigures {
+  double score = 0.0;
+  int points_detected = 0, points_total = 0;
+  std::optional<double> attainable_percent;  ///< of the score that full knowledge could get
+  std::optional<double> mean_quality;        ///< score by detected point
+  int collisions = 0;
+  std::optional<double> idle_explorers_s, idle_photographers_s;  ///< a UAV of that role on average
+  double distance_m = 0.0;                                       ///< of all UAVs
+  std::optional<double> planner_cpu_ms;                          ///< a simulated second and UAV; of UAVs that tell
+  double real_time_factor = 0.0, mission_time_s = 0.0;
+  std::string status, digest;  ///< digest: empty where it would not repeat
+};
+
+FlightFigures figures_of(const Json& result);
+
+/// Five numbers of a sample. Quartiles between two values are interpolated linearly (Hyndman and Fan's definition 7).
+struct Spread {
+  std::size_t count = 0;
+  double min = 0.0, q1 = 0.0, median = 0.0, q3 = 0.0, max = 0.0;
+};
+/// Zeros of an empty sample.
+Spread spread_of(std::vector<double> values);
+
+struct FlightEntry {
+  std::size_t planner = 0, scenario = 0;
+  std::uint64_t seed = 0;
+  std::filesystem::path dir;
+  std::optional<FlightFigures> figures;  ///< none: no result that counts
+  std::string problem;                   ///< empty: none
+};
+
+/// All that tables and pages show.
+struct Study {
+  bool contest = false;
+  Rank rank = Rank::maximum;
+  std::vector<std::string> planners, scenarios;
+  std::vector<std::uint64_t> seeds;
+  std::vector<FlightEntry> flights;
+  std::string command_line, version, programs, dds;
+  int jobs = 1;
+  std::string conditions = {};  ///< other than the scenarios' own: "missions of 120 s"; empty: none
+
+  /// The flights of a planner in a scenario that count, by seed.
+  std::vector<const FlightEntry*> cell(std::size_t planner, std::size_t scenario) const;
+  /// The one with the highest score, the first of equals; null without any.
+  const FlightEntry* best(std::size_t planner, std::size_t scenario) const;
+  bool any_problem() const;
+};
+
+/// One planner in the ranking.
+struct Standing {
+  std::size_t planner = 0;
+  std::vector<std::optional<double>> totals;  ///< by test (seed); none: a flight of the test does not count
+  std::optional<double> decides;              ///< by Study::rank; none without a complete test
+  int place = 0;                              ///< from 1; equals share the better one
+};
+/// Best first; equals in the order in which they were named; those without a complete test last.
+std::vector<Standing> standings(const Study& study);
+
+/// The totals of complete tests.
+std::vector<double> complete_totals(const Standing& standing);
+
+/// "max", "median" or "worst".
+std::string rank_name(Rank rank);
+
+}  // namespace skein::cli

@@ -1,0 +1,140 @@
+#include "cli/study/flights.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <chrono>
+#include <cmath>
+#include <deque>
+
+#include "cli/run/environment.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/study/side_by_side.hpp"
+#include "process/atomic_file.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kLog = "flight.log";    ///< what `skein run` said
+constexpr const char* kMark = "flight.json";  ///< written when a flight is over: under which command it was flown
+
+bool went_to_its_end(const Json& result) {
+  const Json status = value_or(result, "status", "");
+  return status == "completed" || status == "no_takeoff";
+}
+
+/// Why `skein run` ended with another code than 0, in a sentence.
+std::string problem_of(const StudyFlight& flight, const Json& result, const ExitStatus& exit) {
+  std::string reasons;
+  const auto add = [&](const std::string& reason) { reasons += (reasons.empty() ? "" : "; ") + reason; };
+  for (const Json& lost : value_or(result, "lost_members", Json::array())) {
+    add(fmt::format("{} at {:.1f} s: {}", value_or(lost, "member", "").get<std::string>(),
+                    value_or(lost, "time_s", 0.0).get<double>(), value_or(lost, "reason", "").get<std::string>()));
+  }
+  for (const Json& warning : value_or(result, "warnings", Json::array())) {
+    const std::string text = warning.is_string() ? warning.get<std::string>() : "";
+    if (text.find(" failed: ") != std::string::npos) add(text);
+  }
+  if (reasons.empty()) {
+    for (const std::string& line : last_lines(flight.dir / kLog, 1)) add(line);
+  }
+  return "skein run ended with " + exit.text() + (reasons.empty() ? "" : ": " + reasons);
+}
+
+/// One call of fly_study().
+class StudyRun {
+ public:
+  StudyRun(const StudyPlan& plan, const Console& console) : plan_(plan), console_(console) {
+    outcomes_.flights.resize(plan.flights.size());
+  }
+
+  StudyOutcomes fly() {
+    std::deque<std::size_t> waiting;
+    for (std::size_t i = 0; i < plan_.flights.size(); ++i) {
+      if (auto outcome = flown_before(plan_.flights[i])) {
+        outcomes_.flights[i] = std::move(*outcome);
+        ++over_;
+      } else {
+        waiting.push_back(i);
+        left_s_ += plan_.flights[i].mission_s;
+      }
+    }
+    if (over_ > 0) tell(fmt::format("{} of {} flights are there already", over_, plan_.flights.size()));
+    SideBySide sky(static_cast<std::size_t>(plan_.options.jobs), console_);
+    outcomes_.interrupted = !sky.fly(
+        std::move(waiting), [this](std::size_t index) { return start(index); },
+        [this](std::size_t index, const ExitStatus& exit) { on_exit(index, exit); });
+    return std::move(outcomes_);
+  }
+
+ private:
+  ProgramSpec start(std::size_t index) const {
+    const StudyFlight& flight = plan_.flights[index];
+    fs::create_directories(flight.dir);
+    fs::remove(flight.dir / kMark);
+    return {"", flight_arguments(plan_, flight, program_dir() / "skein"), environment_with({}), flight.dir / kLog};
+  }
+
+  void on_exit(std::size_t index, const ExitStatus& exit) {
+    const StudyFlight& flight = plan_.flights[index];
+    StudyOutcome& outcome = outcomes_.flights[index];
+    Json result = read_json(flight.dir / "result.json");
+    if (!exit.ok() || !went_to_its_end(result)) outcome.problem = problem_of(flight, result, exit);
+    if (went_to_its_end(result)) outcome.result = std::move(result);
+    write_file_atomically(flight.dir / kMark,
+                          Json{{"command", flight.command}, {"problem", outcome.problem}}.dump(2) + "\n");
+    ++over_;
+    flown_s_ += flight.mission_s;
+    left_s_ -= flight.mission_s;
+    tell(fmt::format("{} of {}: {}", over_, plan_.flights.size(), news_of(flight, outcome)));
+  }
+
+  std::string news_of(const StudyFlight& flight, const StudyOutcome& outcome) const {
+    std::string news =
+        fmt::format("{}, {}, seed {}: ", plan_.scenarios[flight.scenario], plan_.planners[flight.planner], flight.seed);
+    if (outcome.result.is_object()) {
+      const std::size_t collisions = value_or(outcome.result, "collisions", Json::array()).size();
+      news += fmt::format("score {:.1f}, {} collision{}, x{:.1f} real time",
+                          value_or(outcome.result, "score", 0.0).get<double>(), collisions, collisions == 1 ? "" : "s",
+                          value_or(outcome.result, "real_time_factor", 0.0).get<double>());
+    }
+    if (!outcome.problem.empty()) news += (outcome.result.is_object() ? "; " : "") + outcome.problem;
+    const double wall_s = std::chrono::duration<double>(Clock::now() - started_).count();
+    if (over_ < plan_.flights.size()) news += "; about " + duration_text(left_s_ / flown_s_ * wall_s) + " left";
+    return news;
+  }
+
+  void tell(const std::string& text) const { console_.err << text << std::endl; }
+
+  const StudyPlan& plan_;
+  const Console& console_;
+  StudyOutcomes outcomes_;
+  std::size_t over_ = 0;
+  double flown_s_ = 0.0, left_s_ = 0.0;  ///< of mission time, in this call
+  const Clock::time_point started_ = Clock::now();
+};
+
+}  // namespace
+
+std::optional<StudyOutcome> flown_before(const StudyFlight& flight) {
+  const Json mark = read_json(flight.dir / kMark);
+  Json result = read_json(flight.dir / "result.json");
+  const bool same = value_or(mark, "command", nullptr) == flight.command && value_or(mark, "problem", nullptr) == "" &&
+                    value_or(result, "seed", nullptr) == flight.seed;
+  if (!same || !went_to_its_end(result)) return std::nullopt;
+  return StudyOutcome{std::move(result), ""};
+}
+
+StudyOutcomes fly_study(const StudyPlan& plan, const Console& console) { return StudyRun(plan, console).fly(); }
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(std::lround(std::max(seconds, 0.0)));
+  if (whole < 90) return fmt::format("{} s", whole);
+  const long minutes = (whole + 30) / 60;
+  if (minutes < 90) return fmt::format("{} min", minutes);
+  return fmt::format("{} h {} min", minutes / 60, minutes % 60);
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,34 @@
+// The flights of a study: each is a `skein run` in a folder of its own, and what has been flown once stays.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/run_command.hpp"
+#include "cli/study/plan.hpp"
+
+namespace skein::cli {
+
+/// How a flight of the plan ended.
+struct StudyOutcome {
+  Json result;          ///< result.json of a flight to its end; null where there is none
+  std::string problem;  ///< what went wrong; empty: nothing, or not flown before Ctrl-C
+};
+
+struct StudyOutcomes {
+  std::vector<StudyOutcome> flights;  ///< in the plan's order
+  bool interrupted = false;           ///< the user pressed Ctrl-C before all had flown
+};
+
+/// The outcome that is there already: of the same command, to its end, without a problem. nullopt: it must be flown.
+std::optional<StudyOutcome> flown_before(const StudyFlight& flight);
+
+/// Flies what has not been flown, `plan.options.jobs` at once, with progress on `console.err`. A flight that fails is
+/// noted and the others go on; Ctrl-C ends those in the air at their next step, a second one at once.
+/// From one thread, which must live as long as the flights.
+StudyOutcomes fly_study(const StudyPlan& plan, const Console& console);
+
+/// "45 s", "12 min", "3 h 20 min".
+std::string duration_text(double seconds);
+
+}  // namespace skein::cli

@@ -1,0 +1,287 @@
+#include "cli/study/plan.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "cli/run/agent_file.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
+#include "cli/study/spec.hpp"
+#include "core/file_bytes.hpp"
+#include "core/scenario_reader.hpp"
+#include "core/sha256.hpp"
+#include "core/suggestion.hpp"
+#include "core/types.hpp"
+
+#ifndef SKEIN_VERSION
+#error "SKEIN_VERSION comes from CMake's project()"
+#endif
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestFile = 2'000'000'000;
+
+/// The scenes that need no files, then the contest's own.
+const std::vector<std::string> kProcedural = {"towers", "hangar", "cranes", "spire", "sail"};
+const std::vector<std::string> kWithAssets = {"mbs", "crane"};
+
+void refuse_doubles(const std::string& what, const std::vector<std::string>& names) {
+  std::set<std::string> seen;
+  for (const std::string& name : names) {
+    if (!seen.insert(name).second) throw InputError(what + " '" + name + "' is named twice");
+  }
+}
+
+std::vector<std::string> planners_of(const StudyOptions& options) {
+  std::vector<std::string> planners;
+  for (const std::string& list : options.planner_lists) {
+    for (std::string& planner : split_planners(list)) planners.push_back(std::move(planner));
+  }
+  planners.insert(planners.end(), options.planners.begin(), options.planners.end());
+  if (planners.empty()) throw InputError("which planners? Give them as --planners A,B");
+  refuse_doubles("planner", planners);
+  return planners;
+}
+
+std::vector<std::string> scenarios_of(const StudyOptions& options) {
+  std::vector<std::string> scenarios = options.scenarios;
+  if (scenarios.empty() && !options.contest) scenarios = {RunOptions{}.scenario};
+  if (scenarios.empty()) {
+    scenarios = kProcedural;
+    if (options.assets) scenarios.insert(scenarios.end(), kWithAssets.begin(), kWithAssets.end());
+  }
+  refuse_doubles("scenario", scenarios);
+  return scenarios;
+}
+
+RunOptions run_options(const StudyOptions& options, const std::string& scenario, const std::string& planner) {
+  RunOptions run;
+  run.scenario = scenario;
+  run.planner = planner;
+  run.scene_seed = options.scene_seed;
+  run.assets = options.assets;
+  run.duration_s = options.duration_s;
+  run.rules = options.rules;
+  run.dds = options.dds;
+  run.agent = options.agent;
+  run.network = options.network;
+  return run;
+}
+
+/// Of the programs that fly with every planner; the launcher only watches.
+std::string programs_digest(const FleetPlan& plan) {
+  Sha256 hash;
+  for (const char* name : {"sim_server", "comm_router", "station"}) {
+    hash.add(read_file_bytes(plan.bin_dir / name, kLargestFile));
+  }
+  return hash.hex();
+}
+
+/// Digests of agent programs, each read once.
+class AgentDigests {
+ public:
+  const std::string& of(const fs::path& agent) {
+    std::string& digest = digests_[agent];
+    if (digest.empty()) digest = Sha256().add(read_file_bytes(agent, kLargestFile)).hex();
+    return digest;
+  }
+
+ private:
+  std::map<fs::path, std::string> digests_;
+};
+
+/// Whether uav_agent itself has all of a fleet's planners: then it flies them, and what they did does not fall due again
+/// when the user's own agent is built anew.
+bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& built_in) {
+  const auto is_built_in = [&](const std::string& spec) {
+    return exec_command(spec) || std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;
+  };
+  const auto& uavs = plan.planners;
+  return std::all_of(uavs.begin(), uavs.end(), [&](const UavPlanner& uav) { return is_built_in(uav.spec); }) &&
+         (!plan.ground || is_built_in(*plan.ground));
+}
+
+/// The file that a planner takes its parameters from, if any: "kios:mine.yaml,voxel_m=4".
+std::optional<fs::path> parameter_file(const std::string& spec) {
+  const std::size_t colon = spec.find(':');
+  if (colon == std::string::npos || exec_command(spec)) return std::nullopt;
+  const fs::path file = spec.substr(colon + 1, spec.find(',', colon) - colon - 1);
+  return fs::is_regular_file(file) ? std::optional(file) : std::nullopt;
+}
+
+/// Of the scenario with all its vehicles and files, and of the planners' files.
+std::string input_digest(const FleetPlan& plan) {
+  const SceneConfig& scene = plan.scenario.scene;
+  Sha256 hash;
+  hash.add(to_yaml(plan.scenario));
+  std::vector<fs::path> files = scene.meshes;
+  if (scene.family.empty()) files.insert(files.end(), {scene.points, scene.boxes});
+  std::vector<std::string> specs;
+  for (const UavPlanner& planner : plan.planners) specs.push_back(planner.spec);
+  if (plan.ground) specs.push_back(*plan.ground);
+  for (const std::string& spec : specs) {
+    if (const auto file = parameter_file(spec)) files.push_back(*file);
+  }
+  for (const fs::path& file : files) hash.add(read_file_bytes(file, kLargestFile));
+  return hash.hex();
+}
+
+/// The programs' own checks; sim_server is asked once a scenario.
+void check_with_programs(const FleetPlan& plan, bool with_server) {
+  const ScratchDir scratch;
+  std::vector<ProgramSpec> programs = check_programs(plan, scratch.path());
+  std::erase_if(programs, [&](const ProgramSpec& program) { return program.name == "sim_server" && !with_server; });
+  try {
+    run_checks(programs);
+  } catch (const InputError& error) {
+    throw InputError(plan.options.scenario + ", planner " + plan.options.planner + ": " + error.what());
+  }
+}
+
+Json flight_command(const FleetPlan& plan, const std::string& programs, const std::string& agent) {
+  return {{"skein_version", SKEIN_VERSION},
+          {"programs", programs},
+          {"agent", agent},
+          {"scenario", plan.options.scenario},
+          {"planner", plan.options.planner},
+          {"input", input_digest(plan)},
+          {"dds", plan.options.dds}};
+}
+
+std::string command_line(const StudyPlan& plan) {
+  const StudyOptions& options = plan.options;
+  std::string line = options.contest ? "./skein contest" : "./skein compare";
+  const auto add = [&](const std::string& option, const std::string& value) {
+    line += " " + option + " " + shell_word(value);
+  };
+  for (const std::string& list : options.planner_lists) add("--planners", list);
+  for (const std::string& planner : options.planners) add("--planner", planner);
+  add("--scenarios", joined(plan.scenarios, ","));
+  if (options.contest) {
+    add("--tests", std::to_string(plan.seeds.size()));
+    if (options.rank != Rank::maximum) add("--rank", options.rank == Rank::median ? "median" : "worst");
+  } else {
+    add("--seeds", options.seeds);
+  }
+  if (options.scene_seed) add("--scene-seed", std::to_string(*options.scene_seed));
+  if (options.assets) add("--assets", *options.assets);
+  if (options.duration_s) add("--duration", fmt::format("{}", *options.duration_s));
+  if (options.rules) add("--rules", *options.rules);
+  if (options.dds != StudyOptions{}.dds) add("--dds", options.dds);
+  if (options.agent) add("--agent", *options.agent);
+  return line;
+}
+
+/// For a message: texts without quotes.
+std::string plain(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::vector<std::string> items;
+  for (const Json& item : value) items.push_back(plain(item));
+  return joined(items);
+}
+
+}  // namespace
+
+StudyPlan plan_study(const StudyOptions& options) {
+  StudyPlan plan{options, planners_of(options), scenarios_of(options), parse_seeds(options.seeds), {}, {}, {}, {}};
+  plan.out = fs::absolute(options.out.value_or(fs::path("runs") / (options.contest ? "contest" : "compare")));
+  std::vector<std::string> stems;
+  for (const std::string& scenario : plan.scenarios) stems.push_back(fs::path(scenario).stem());
+  const std::vector<std::string> planner_folders = folder_names(plan.planners), scenario_folders = folder_names(stems);
+
+  std::string programs;
+  std::vector<StudyFlight> of_one_seed;
+  Json inputs = Json::object(), agents = Json::object();
+  AgentDigests digests;
+  const auto built_in =
+      own_agent(options.agent) ? planners_of(program_dir() / "uav_agent") : std::vector<std::string>{};
+  for (std::size_t s = 0; s < plan.scenarios.size(); ++s) {
+    for (std::size_t p = 0; p < plan.planners.size(); ++p) {
+      FleetPlan fleet = plan_fleet(run_options(options, plan.scenarios[s], plan.planners[p]), program_dir());
+      if (fleet.agent && are_all_built_in(fleet, built_in)) {
+        fleet.options.agent = fleet.bin_dir / "uav_agent";
+        fleet = plan_fleet(fleet.options, fleet.bin_dir);
+      }
+      check_with_programs(fleet, p == 0);
+      if (programs.empty()) programs = programs_digest(fleet);
+      const fs::path dir = plan.out / "flights" / scenario_folders[s] / planner_folders[p];
+      const std::string& agent = digests.of(agent_file(fleet));
+      const Json command = flight_command(fleet, programs, agent);
+      of_one_seed.push_back({p, s, 0, dir, fleet.scenario.duration_s, fleet.options.agent, command});
+      agents[plan.planners[p]] = agent;
+      inputs[plan.scenarios[s] + ", " + plan.planners[p]] = command["input"];
+    }
+  }
+  for (const std::uint64_t seed : plan.seeds) {
+    for (StudyFlight flight : of_one_seed) {
+      flight.seed = seed;
+      flight.dir /= "seed-" + std::to_string(seed);
+      flight.command["seed"] = seed;
+      plan.flights.push_back(std::move(flight));
+    }
+  }
+  plan.settings = {{"command", options.contest ? "contest" : "compare"},
+                   {"skein_version", SKEIN_VERSION},
+                   {"planners", plan.planners},
+                   {"scenarios", plan.scenarios},
+                   {"seeds", plan.seeds},
+                   {"scene_seed", options.scene_seed ? Json(*options.scene_seed) : Json()},
+                   {"duration_s", options.duration_s ? Json(*options.duration_s) : Json()},
+                   {"rules", options.rules ? Json(*options.rules) : Json()},
+                   {"dds", options.dds},
+                   {"programs", programs},
+                   {"agents", agents},
+                   {"inputs", inputs}};
+  plan.command_line = command_line(plan);
+  return plan;
+}
+
+std::vector<std::string> differing_settings(const Json& then, const Json& now) {
+  std::vector<std::string> differences;
+  for (const auto& [key, value] : now.items()) {
+    const Json former = value_or(then, key.c_str(), nullptr);
+    if (former == value || key == "inputs") continue;
+    if (key == "agents") {
+      std::vector<std::string> planners;
+      for (const auto& [planner, digest] : value.items()) {
+        if (former.is_object() && former.contains(planner) && former[planner] != digest) planners.push_back(planner);
+      }
+      if (!planners.empty()) differences.push_back("the agent program was built anew that flies " + joined(planners));
+    } else if (key == "programs") {
+      differences.push_back("the programs were built anew");
+    } else {
+      differences.push_back(key + ": then " + plain(former) + ", now " + plain(value));
+    }
+  }
+  // Of flights that both know: a scenario, vehicle or parameter file has changed, or an option that has been told.
+  const Json former = value_or(then, "inputs", Json::object()), inputs = value_or(now, "inputs", Json::object());
+  std::vector<std::string> changed;
+  for (const auto& [flight, input] : inputs.items()) {
+    if (former.contains(flight) && former[flight] != input) changed.push_back(flight);
+  }
+  if (!changed.empty() && differences.empty()) {
+    differences.push_back("files of scenario, vehicles, scene or parameters are not the same for " +
+                          joined(changed, "; "));
+  }
+  return differences;
+}
+
+std::vector<std::string> flight_arguments(const StudyPlan& plan, const StudyFlight& flight, const fs::path& skein) {
+  RunOptions run = run_options(plan.options, plan.scenarios[flight.scenario], plan.planners[flight.planner]);
+  run.seed = flight.seed;
+  run.agent = flight.agent;
+  run.out = flight.dir;
+  run.force = true;
+  std::vector<std::string> arguments = arguments_of(run);
+  arguments.insert(arguments.begin(), skein);
+  return arguments;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,47 @@
+// A study: every planner flies every scenario with every seed. All that is decided before its first flight.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options.hpp"
+#include "cli/run/result.hpp"
+
+namespace skein::cli {
+
+struct StudyFlight {
+  std::size_t planner = 0, scenario = 0;  ///< indices in the plan
+  std::uint64_t seed = 0;
+  std::filesystem::path dir;
+  double mission_s = 0.0;                      ///< at most
+  std::optional<std::filesystem::path> agent;  ///< program that flies it; nullopt: the user named none
+  /// All that its result depends on; a result that was made under the same needs no second flight.
+  Json command;
+};
+
+struct StudyPlan {
+  StudyOptions options;
+  std::vector<std::string> planners;   ///< as `skein run --planner` takes them
+  std::vector<std::string> scenarios;  ///< as `skein run` takes them
+  std::vector<std::uint64_t> seeds;
+  std::filesystem::path out;         ///< absolute
+  std::vector<StudyFlight> flights;  ///< by seed, then scenario, then planner: cut short, all have flown about as much
+  Json settings;                     ///< all that the results of the study depend on
+  std::string command_line;          ///< that makes this study, but for how it is flown
+};
+
+/// Reads everything that is named, and lets the programs themselves check every planner in every scenario.
+/// @throws InputError naming what is wrong and what would be right: a planner or scenario that is unknown or named
+///   twice, seeds, a missing agent program. Interrupted. Nothing is written.
+StudyPlan plan_study(const StudyOptions& options);
+
+/// How two studies' settings differ, a sentence each; empty when they do not.
+std::vector<std::string> differing_settings(const Json& then, const Json& now);
+
+/// The `skein run` that flies it. @param skein  the program.
+std::vector<std::string> flight_arguments(const StudyPlan& plan, const StudyFlight& flight,
+                                          const std::filesystem::path& skein);
+
+}  // namespace skein::cli

@@ -1,0 +1,33 @@
+#include "cli/study/side_by_side.hpp"
+
+namespace skein::cli {
+
+bool SideBySide::fly(std::deque<std::size_t> waiting, const Start& start, const Over& over) {
+  for (;;) {
+    while (!interrupted_ && in_the_air_.size() < at_once_ && !waiting.empty()) {
+      ProgramSpec program = start(waiting.front());
+      program.name = "flight " + std::to_string(waiting.front());
+      supervisor_.start(program);
+      in_the_air_[program.name] = waiting.front();
+      waiting.pop_front();
+    }
+    if (in_the_air_.empty()) return !interrupted_;
+    for (const Event& event : supervisor_.wait(std::chrono::milliseconds(-1))) {
+      if (event.kind == Event::Kind::interrupt) on_interrupt();
+      if (event.kind != Event::Kind::exited) continue;
+      const std::size_t index = in_the_air_.extract(event.program).mapped();
+      interrupted_ = interrupted_ || event.exit.code == kExitInterrupted;
+      if (!interrupted_ || event.exit.ok()) over(index, event.exit);
+    }
+  }
+}
+
+void SideBySide::on_interrupt() {
+  if (!interrupted_) {
+    console_.err << "ending the flights in the air; press Ctrl-C again to end them at once" << std::endl;
+  }
+  interrupted_ = true;
+  for (const auto& [name, index] : in_the_air_) supervisor_.signal(name, SIGINT);
+}
+
+}  // namespace skein::cli

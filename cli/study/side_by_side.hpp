@@ -1,0 +1,39 @@
+// Flights side by side: each is a child process with a log of its own.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "cli/run/supervisor.hpp"
+#include "cli/run_command.hpp"
+
+namespace skein::cli {
+
+/// From one thread, which must live as long as the flights.
+class SideBySide {
+ public:
+  /// What starts flight `index`; its name does not matter.
+  using Start = std::function<ProgramSpec(std::size_t index)>;
+  /// Told of each flight that came to its end.
+  using Over = std::function<void(std::size_t index, const ExitStatus& exit)>;
+
+  SideBySide(std::size_t at_once, const Console& console) : at_once_(at_once), console_(console) {}
+
+  /// Flies these in their order, and returns when none is in the air. Ctrl-C ends those in the air at their next step,
+  /// a second one at once: nothing more starts then, and of a flight that did not go to its end nobody is told.
+  /// @returns false when it was interrupted, also when only one of the flights was told to end.
+  bool fly(std::deque<std::size_t> waiting, const Start& start, const Over& over);
+
+ private:
+  void on_interrupt();
+
+  const std::size_t at_once_;
+  const Console& console_;
+  Supervisor supervisor_;
+  std::map<std::string, std::size_t> in_the_air_;  ///< index of the flight by program
+  bool interrupted_ = false;
+};
+
+}  // namespace skein::cli

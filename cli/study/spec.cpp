@@ -1,0 +1,111 @@
+#include "cli/study/spec.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "cli/planner_spec.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr std::size_t kMostSeeds = 1000;
+
+std::vector<std::string> split_at_commas(const std::string& text) {
+  std::vector<std::string> items;
+  std::stringstream rest(text + ',');
+  for (std::string item; std::getline(rest, item, ',');) items.push_back(item);
+  return items;
+}
+
+/// @throws InputError that quotes the whole text.
+std::uint64_t whole_number(const std::string& digits, const std::string& text) {
+  constexpr std::size_t kMostDigits = std::numeric_limits<std::uint64_t>::digits10;
+  const bool fits =
+      !digits.empty() && digits.size() <= kMostDigits && digits.find_first_not_of("0123456789") == std::string::npos;
+  if (!fits) {
+    throw InputError("--seeds " + text + ": '" + digits +
+                     "' is no seed; write how many (5 for 0 to 4), a list (3,5,8) or a range (1-5)");
+  }
+  return std::stoull(digits);
+}
+
+void append_range(std::uint64_t first, std::uint64_t last, const std::string& text, std::vector<std::uint64_t>& seeds) {
+  if (last < first) throw InputError("--seeds " + text + ": a range goes upwards, such as 1-5");
+  if (last - first >= kMostSeeds - seeds.size()) {
+    throw InputError("--seeds " + text + ": more than " + std::to_string(kMostSeeds) + " seeds");
+  }
+  for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
+}
+
+}  // namespace
+
+std::vector<std::string> split_planners(const std::string& list) {
+  std::vector<std::string> planners;
+  for (const std::string& item : split_at_commas(list)) {
+    const std::size_t equals = item.find('='), colon = item.find(':');
+    const bool is_parameter = equals != std::string::npos && equals < colon;
+    if (is_parameter) {
+      const bool goes_on =
+          !planners.empty() && planners.back().find(':') != std::string::npos && !exec_command(planners.back());
+      if (!goes_on) {
+        throw InputError("--planners " + list + ": '" + item +
+                         "' is no planner; a planner's first parameter follows a " +
+                         "colon (NAME:KEY=VALUE,KEY=VALUE), and a fleet of several planners is given by --planner");
+      }
+      planners.back() += "," + item;
+      continue;
+    }
+    if (item.empty()) throw InputError("--planners " + list + ": a planner's name is missing; write A,B,...");
+    planners.push_back(item);
+  }
+  return planners;
+}
+
+std::vector<std::uint64_t> parse_seeds(const std::string& text) {
+  const bool is_count = text.find_first_of(",-") == std::string::npos;
+  if (is_count) {
+    const std::uint64_t count = whole_number(text, text);
+    if (count == 0) throw InputError("--seeds 0: there must be one at least; 1 is seed 0, the nominal run");
+    std::vector<std::uint64_t> seeds;
+    append_range(0, count - 1, text, seeds);
+    return seeds;
+  }
+  std::vector<std::uint64_t> seeds;
+  for (const std::string& item : split_at_commas(text)) {
+    const std::size_t dash = item.find('-');
+    const std::uint64_t first = whole_number(item.substr(0, dash), text);
+    append_range(first, dash == std::string::npos ? first : whole_number(item.substr(dash + 1), text), text, seeds);
+  }
+  if (std::set<std::uint64_t>(seeds.begin(), seeds.end()).size() != seeds.size()) {
+    throw InputError("--seeds " + text + ": a seed is named twice");
+  }
+  return seeds;
+}
+
+std::vector<std::string> folder_names(const std::vector<std::string>& texts) {
+  std::vector<std::string> names;
+  for (const std::string& text : texts) {
+    const std::string label = planner_label(text);
+    std::string name = label;
+    for (int n = 2; std::find(names.begin(), names.end(), name) != names.end(); ++n) {
+      name = label + "-" + std::to_string(n);
+    }
+    names.push_back(name);
+  }
+  return names;
+}
+
+std::string shell_word(const std::string& word) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_-./:=,+", c) != nullptr; };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,79 @@
+#include "cli/study/spec.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+using Texts = std::vector<std::string>;
+using Seeds = std::vector<std::uint64_t>;
+
+TEST(StudySpec, CommasSeparatePlanners) {
+  EXPECT_EQ(split_planners("kios"), Texts{"kios"});
+  EXPECT_EQ(split_planners("kios,patrol,hover"), (Texts{"kios", "patrol", "hover"}));
+}
+
+TEST(StudySpec, AnItemWithAKeyGoesOnWithTheParametersBeforeIt) {
+  EXPECT_EQ(split_planners("kios,xxh:faithful=true,star"), (Texts{"kios", "xxh:faithful=true", "star"}));
+  EXPECT_EQ(split_planners("xxh:faithful=true,teams=2,star"), (Texts{"xxh:faithful=true,teams=2", "star"}));
+  EXPECT_EQ(split_planners("kios:a.yaml,voxel_m=4,kios:voxel_m=5"), (Texts{"kios:a.yaml,voxel_m=4", "kios:voxel_m=5"}));
+  EXPECT_EQ(split_planners("waypoints:tour.yaml,hover:height_m=4"), (Texts{"waypoints:tour.yaml", "hover:height_m=4"}));
+}
+
+TEST(StudySpec, ACommandEndsAtTheNextComma) {
+  EXPECT_EQ(split_planners("exec:./mine --speed=3,kios"), (Texts{"exec:./mine --speed=3", "kios"}));
+}
+
+TEST(StudySpec, WhatIsNoListOfPlannersIsRefused) {
+  for (const char* list : {"", "kios,,star", "kios,", "jurong=hover", "kios,voxel_m=4", "exec:./mine,speed=4"}) {
+    EXPECT_THROW(split_planners(list), InputError) << list;
+  }
+}
+
+TEST(StudySpec, JoinedAgainAListIsTheSame) {
+  for (const std::string list : {"a", "a,b", "a:x=1,y=2,b", "a:f.yaml,b:x=1,y=2,z=3,c"}) {
+    std::string joined;
+    for (const std::string& planner : split_planners(list)) joined += (joined.empty() ? "" : ",") + planner;
+    EXPECT_EQ(joined, list);
+  }
+}
+
+TEST(StudySpec, SeedsAreACountAListOrARange) {
+  EXPECT_EQ(parse_seeds("1"), Seeds{0});
+  EXPECT_EQ(parse_seeds("3"), (Seeds{0, 1, 2}));
+  EXPECT_EQ(parse_seeds("3,5,8"), (Seeds{3, 5, 8}));
+  EXPECT_EQ(parse_seeds("1-5"), (Seeds{1, 2, 3, 4, 5}));
+  EXPECT_EQ(parse_seeds("7-7"), Seeds{7});
+  EXPECT_EQ(parse_seeds("0,4-6"), (Seeds{0, 4, 5, 6}));
+  EXPECT_EQ(parse_seeds("1000").size(), 1000u);
+}
+
+TEST(StudySpec, WhatIsNoSeedIsRefused) {
+  for (const char* text : {"", "0", "x", "-1", "1-", "-", "5-1", "1.5", "3,3", "1-4,2", "1,,2", "1001", "0-1000",
+                           "1--2", "99999999999999999999999", "0-18446744073709551615"}) {
+    EXPECT_THROW(parse_seeds(text), InputError) << text;
+  }
+}
+
+TEST(StudySpec, FoldersAreDistinctAndSafe) {
+  const Texts names = folder_names({"kios", "kios:a=1", "kios_a_1", "kios:a:1", "../x", "kios_a_1-2"});
+  EXPECT_EQ(names[0], "kios");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(names[i].find('/'), std::string::npos);
+    EXPECT_EQ(std::count(names.begin(), names.end(), names[i]), 1) << names[i];
+  }
+}
+
+TEST(StudySpec, WordsAreQuotedForTheShellWhereTheyNeedIt) {
+  EXPECT_EQ(shell_word("kios:voxel_m=4,x=1"), "kios:voxel_m=4,x=1");
+  EXPECT_EQ(shell_word("a b"), "'a b'");
+  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_word(""), "''");
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,73 @@
+// For tests: a folder with shell scripts in the place of Skein's programs, and a small scenario for them.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "cli/run/preflight.hpp"
+
+namespace skein::cli {
+
+inline void write_text(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+inline std::string read_text(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void write_script(const std::filesystem::path& file, const std::string& body) {
+  write_text(file, "#!/bin/sh\n" + body);
+  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+}
+
+/// Reads the options that the scripts need into $out, $uav and $check.
+inline constexpr const char* kReadOptions = R"(
+check=no
+while [ $# -gt 0 ]; do
+  case $1 in
+    --check|--oracle|--list-planners) check=yes ;;
+    --out) out=$2; shift ;;
+    --uav) uav=$2; shift ;;
+    --planner) planner=$2; shift ;;
+  esac
+  shift
+done
+[ $check = no ] || exit 0
+)";
+
+/// Two UAVs at a procedural scene, all vehicles in place.
+inline constexpr const char* kSmallScenario = R"(
+name: small
+desired_mm_per_pixel: 2.0
+scene: {family: towers}
+fleet:
+  - {name: alpha, vehicle: {name: x, role: explorer, lidar: {}}, start: [0, 0]}
+  - {name: beta, vehicle: {name: p, role: photographer}, start: [5, 0]}
+)";
+
+/// While it lives, `skein` finds its programs in a folder of its own; they all end well at once.
+class FakePrograms {
+ public:
+  FakePrograms() {
+    ::setenv("SKEIN_BIN_DIR", dir().c_str(), 1);
+    ::setenv("SKEIN_CONFIG_DIR", SKEIN_SOURCE_DIR "/config", 1);
+    for (const char* name : {"sim_server", "comm_router", "station", "uav_agent"}) script(name, "");
+    write_text(scenario(), kSmallScenario);
+  }
+  ~FakePrograms() {
+    for (const char* name : {"SKEIN_BIN_DIR", "SKEIN_CONFIG_DIR"}) ::unsetenv(name);
+  }
+
+  void script(const std::string& program, const std::string& body) const {
+    write_script(dir() / program, kReadOptions + body);
+  }
+  const std::filesystem::path& dir() const { return scratch_.path(); }
+  std::filesystem::path scenario() const { return dir() / "small.yaml"; }
+
+ private:
+  ScratchDir scratch_;
+};
+
+}  // namespace skein::cli

@@ -1,0 +1,182 @@
+#include "process/program.hpp"
+
+#include <fcntl.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "core/suggestion.hpp"
+
+namespace skein {
+namespace {
+
+/// Write end of the pipe that carries signals to a thread. A signal handler can reach nothing but a global, and
+/// may do little more than write(); everything else happens in SignalThread.
+std::atomic<int> signal_pipe_fd = -1;
+
+extern "C" void on_signal(int) {
+  const int saved = errno;
+  const char stop = 's';
+  static_cast<void>(!::write(signal_pipe_fd.load(), &stop, 1));
+  errno = saved;
+}
+
+/// Turns SIGINT and SIGTERM into StopSignal::stop() while it lives.
+class SignalThread {
+ public:
+  explicit SignalThread(StopSignal& stop) {
+    if (::pipe2(pipe_.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe for signals");
+    signal_pipe_fd = pipe_[1];
+    thread_ = std::thread([this, &stop] { run(stop); });
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_RESTART;
+    ::sigaction(SIGINT, &action, &old_interrupt_);
+    ::sigaction(SIGTERM, &action, &old_terminate_);
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is like a full disk: the call says so
+  }
+  ~SignalThread() {
+    ::sigaction(SIGINT, &old_interrupt_, nullptr);
+    ::sigaction(SIGTERM, &old_terminate_, nullptr);
+    const char quit = 'q';
+    static_cast<void>(!::write(pipe_[1], &quit, 1));
+    thread_.join();
+    signal_pipe_fd = -1;
+    ::close(pipe_[0]);
+    ::close(pipe_[1]);
+  }
+  SignalThread(const SignalThread&) = delete;
+  SignalThread& operator=(const SignalThread&) = delete;
+
+ private:
+  void run(StopSignal& stop) const {
+    char order = 0;
+    while (true) {
+      const ssize_t size = ::read(pipe_[0], &order, 1);
+      if (size < 0 && errno == EINTR) continue;
+      if (size != 1 || order == 'q') return;
+      stop.stop();
+    }
+  }
+
+  std::array<int, 2> pipe_{};
+  struct sigaction old_interrupt_ {
+  }, old_terminate_{};
+  std::thread thread_;
+};
+
+void add_common_options(CLI::App& app, ProgramOptions& options) {
+  app.add_option("--scenario", options.scenario, "Name under config/scenarios/, or a YAML file")->capture_default_str();
+  app.add_option("--assets", options.assets, "Folder that holds CARIC's models/ (default: SKEIN_ASSETS)");
+  app.add_option("--dds", options.dds, "DDS vendor")->capture_default_str();
+  app.add_option("--domain", options.domain, "First DDS domain of the fleet")
+      ->capture_default_str()
+      ->check(CLI::Range(kFirstDomain, kLastDomain));
+  app.add_option("--out", options.out, "Folder for what the program writes")->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed of all random draws; 0 draws nothing")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--scene-seed", options.scene_seed, "Seed of a procedural scene, instead of the scenario's")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--duration", options.duration_s, "Mission time [s], instead of the scenario's");
+  app.add_option("--rules", options.rules, "Preset of rules, instead of what the scenario says of them");
+  app.add_option("--faults", options.faults, "Fault file: what goes wrong, and when");
+  app.add_flag("--check", options.check_only, "Validate the input, then stop");
+  app.add_option("--status-fd", options.status_fd, "File descriptor for status lines")->group("Launcher");
+  app.add_option("--control-fd", options.control_fd, "File descriptor with orders")->group("Launcher");
+  app.add_option("--security", options.security, "Folder with the process's key, certificate and permissions")
+      ->group("Launcher");
+  app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error or off (default: SKEIN_LOG)");
+  app.add_option("--network", options.network,
+                 "Other hosts take part: by this network interface, or by those that the DDS vendor chooses (all)")
+      ->expected(0, 1)
+      ->default_str("all");
+  app.add_option("--lease", options.lease_s, "Who gives no sign of life for so long is taken for dead [s]")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 3600));
+  app.add_option_function<std::uint64_t>(
+         "--run", [&options](std::uint64_t run) { options.run = RunId{run}; },
+         "Number of the run: programs of other runs are not listened to")
+      ->group("Launcher");
+}
+
+void set_up_logging(const std::string& name, const std::string& level_option) {
+  std::string level = level_option;
+  const char* from_environment = std::getenv("SKEIN_LOG");
+  if (level.empty() && from_environment) level = from_environment;
+  if (level.empty()) level = "info";
+  static const std::vector<std::string> known = {"trace", "debug", "info", "warn", "error", "off"};
+  if (std::find(known.begin(), known.end(), level) == known.end()) {
+    throw InputError((level_option.empty() ? "SKEIN_LOG: '" : "--log-level: '") + level + "' is no level; " +
+                     suggestion(level, known));
+  }
+  auto logger = std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger->set_pattern("[%n] %l %v");
+  logger->set_level(spdlog::level::from_str(level));
+  logger->flush_on(spdlog::level::trace);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+}  // namespace
+
+LoadOptions ProgramOptions::load_options() const {
+  LoadOptions load;
+  load.assets_dir = assets;
+  load.duration_s = duration_s;
+  load.scene_seed = scene_seed;
+  load.rules = rules;
+  return load;
+}
+
+void StopSignal::on_stop(std::function<void()> wake) {
+  const std::lock_guard lock(mutex_);
+  wake_ = std::move(wake);
+  if (requested_ && wake_) wake_();
+}
+
+void StopSignal::stop() {
+  const std::lock_guard lock(mutex_);
+  requested_ = true;
+  if (wake_) wake_();
+}
+
+int run_program(const std::string& name, int argc, const char* const* argv, const AddOptions& add_options,
+                const ProgramBody& body) {
+  CLI::App app("Skein: " + name, name);
+  ProgramOptions options;
+  add_common_options(app, options);
+  try {
+    if (add_options) add_options(app);
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    std::cerr << name << ": " << error.what() << "\nRun '" << name << " --help' for the options.\n";
+    return kExitBadInput;
+  }
+  try {
+    set_up_logging(name, options.log_level);
+    StopSignal stop;
+    const SignalThread signals(stop);
+    return body(options, stop);
+  } catch (const InputError& error) {
+    std::cerr << name << ": " << error.what() << '\n';
+    return kExitBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << name << ": failed: " << error.what() << '\n';
+    return kExitProcessFailed;
+  }
+}
+
+}  // namespace skein

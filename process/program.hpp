@@ -1,0 +1,100 @@
+// What every main() shares: options, logging, signals, exit codes.
+//
+//   int main(int argc, char** argv) {
+//     return skein::run_program("comm_router", argc, argv, {}, [](const skein::ProgramOptions& options,
+//                                                                 skein::StopSignal& stop) {
+//       const auto scenario = skein::load_scenario(options.scenario, options.load_options());
+//       if (options.check_only) return 0;
+//       ...
+//     });
+//   }
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "core/run_id.hpp"
+#include "core/scenario_reader.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace skein {
+
+/// Exit codes of all programs. [contract]
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitCheckFailed = 1;
+inline constexpr int kExitBadInput = 2;
+inline constexpr int kExitProcessFailed = 3;
+inline constexpr int kExitInterrupted = 130;
+
+/// Lowest domain of a fleet: 0 is ROS 2's default, where any node of the host would see the world's truth.
+inline constexpr int kFirstDomain = 1;
+/// Highest domain of a fleet; the standard's port mapping ends at 232.
+inline constexpr int kLastDomain = 200;
+
+/// Options that all programs understand.
+struct ProgramOptions {
+  std::string scenario = "towers";          ///< --scenario: name or path
+  std::filesystem::path assets;             ///< --assets: folder that holds models/
+  std::string dds = "cyclonedds";           ///< --dds: vendor
+  int domain = kFirstDomain;                ///< --domain: base of the DDS domains, [1, 200]
+  std::filesystem::path out = ".";          ///< --out: folder for what the program writes
+  std::uint64_t seed = 0;                   ///< --seed: 0 draws nothing
+  std::optional<std::uint64_t> scene_seed;  ///< --scene-seed
+  std::optional<double> duration_s;         ///< --duration
+  std::optional<std::string> rules;         ///< --rules: a preset
+  std::filesystem::path faults;             ///< --faults: fault file; empty: none
+  bool check_only = false;                  ///< --check: validate the input, then stop
+  int status_fd = -1;                       ///< --status-fd: where status_pipe.hpp writes; -1: nowhere
+  int control_fd = -1;                      ///< --control-fd: where orders come from; -1: nowhere
+  std::string log_level;                    ///< --log-level; empty: SKEIN_LOG, else info
+  std::optional<std::string> network;       ///< --network: other hosts take part, by this interface or "all"
+  int lease_s = 8;                          ///< --lease: who is silent for so long is taken for dead [s]
+  RunId run = RunId::none;                  ///< --run: that the program takes part in
+  std::filesystem::path security;           ///< --security: folder of process/security_files.hpp; empty: not secured
+
+  /// For load_scenario().
+  LoadOptions load_options() const;
+};
+
+/// Has somebody asked the program to end? SIGINT, SIGTERM or stop(). Any thread.
+class StopSignal {
+ public:
+  StopSignal() = default;
+  StopSignal(const StopSignal&) = delete;
+  StopSignal& operator=(const StopSignal&) = delete;
+
+  bool requested() const { return requested_.load(); }
+  /// Called when the program is asked to end, from another thread; at once when it was asked already. Replaces the
+  /// one before; an empty one waits until a running call has returned, so that what it refers to may go.
+  void on_stop(std::function<void()> wake);
+  /// Asks the program to end.
+  void stop();
+
+ private:
+  std::atomic<bool> requested_ = false;
+  std::mutex mutex_;
+  std::function<void()> wake_;
+};
+
+using AddOptions = std::function<void(CLI::App&)>;
+using ProgramBody = std::function<int(const ProgramOptions&, StopSignal&)>;
+
+/// Parses the command line, sets up logging ("[name] level message" on stderr) and signals, and runs `body`.
+/// An InputError becomes one message on stderr and exit code 2, as does a wrong command line (with a hint at --help);
+/// any other exception becomes a message and exit code 3. While it runs, SIGINT and SIGTERM reach `body` as its
+/// StopSignal and SIGPIPE is ignored. Call it once, from main().
+/// @param add_options adds a program's own options; may be empty.
+/// @returns the exit code: `body`'s, or one of the above.
+int run_program(const std::string& name, int argc, const char* const* argv, const AddOptions& add_options,
+                const ProgramBody& body);
+
+}  // namespace skein

@@ -1,0 +1,17 @@
+// A program's last words: what it did, for the launcher's result.json. They go through the status pipe, so that a full
+// disk does not take them along, and into a file for whoever has no launcher.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "process/status_pipe.hpp"
+
+namespace skein {
+
+/// Sends {"type":"report","report":...}, after writing `file`. A file that cannot be written is added to the report's
+/// list `unwritten`, where a program names all such files, one sentence each.
+/// @throws std::runtime_error when the file cannot be written and there is no launcher either.
+void hand_in_report(nlohmann::ordered_json report, const std::filesystem::path& file, StatusPipe& status);
+
+}  // namespace skein

@@ -1,0 +1,133 @@
+#include "process/program.hpp"
+
+#include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <condition_variable>
+#include <csignal>
+#include <stdexcept>
+#include <vector>
+
+namespace skein {
+namespace {
+
+struct Outcome {
+  int code = 0;
+  std::string error;
+};
+
+Outcome run(std::vector<const char*> arguments, const ProgramBody& body, const AddOptions& add_options = {}) {
+  arguments.insert(arguments.begin(), "tester");
+  ::testing::internal::CaptureStderr();
+  const int code = run_program("tester", static_cast<int>(arguments.size()), arguments.data(), add_options, body);
+  return {code, ::testing::internal::GetCapturedStderr()};
+}
+
+int nothing(const ProgramOptions&, StopSignal&) { return kExitDone; }
+
+TEST(Program, GivesBackTheBodysCode) {
+  EXPECT_EQ(run({}, nothing).code, 0);
+  EXPECT_EQ(run({}, [](const ProgramOptions&, StopSignal&) { return kExitCheckFailed; }).code, 1);
+}
+
+TEST(Program, BadInputIsOneMessageAndCodeTwo) {
+  const auto outcome = run({}, [](const ProgramOptions&, StopSignal&) -> int {
+    throw InputError("mbs.yaml:3: duration_s: must be positive");
+  });
+  EXPECT_EQ(outcome.code, kExitBadInput);
+  EXPECT_EQ(outcome.error, "tester: mbs.yaml:3: duration_s: must be positive\n");
+}
+
+TEST(Program, OtherFailuresAreCodeThree) {
+  const auto outcome =
+      run({}, [](const ProgramOptions&, StopSignal&) -> int { throw std::runtime_error("disk full"); });
+  EXPECT_EQ(outcome.code, kExitProcessFailed);
+  EXPECT_EQ(outcome.error, "tester: failed: disk full\n");
+}
+
+TEST(Program, AWrongCommandLineIsCodeTwoWithAHint) {
+  for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
+           {"--no-such-option"}, {"--seed", "-1"}, {"--seed", "x"}, {"--domain", "201"}, {"--duration"}}) {
+    const auto outcome = run(arguments, nothing);
+    EXPECT_EQ(outcome.code, kExitBadInput) << arguments[0];
+    EXPECT_NE(outcome.error.find("--help"), std::string::npos) << outcome.error;
+  }
+  EXPECT_EQ(run({"--log-level", "loud"}, nothing).code, kExitBadInput);
+}
+
+TEST(Program, DefaultsAndOptions) {
+  run({}, [](const ProgramOptions& options, StopSignal&) {
+    EXPECT_EQ(options.scenario, "towers");
+    EXPECT_EQ(options.dds, "cyclonedds");
+    EXPECT_EQ(options.seed, 0u);
+    EXPECT_FALSE(options.scene_seed.has_value());
+    EXPECT_FALSE(options.duration_s.has_value());
+    EXPECT_EQ(options.status_fd, -1);
+    EXPECT_FALSE(options.network);
+    return 0;
+  });
+  std::string uav;
+  const auto outcome = run(
+      {"--scenario", "mbs", "--assets", "/data", "--seed", "18446744073709551615", "--scene-seed", "4", "--duration",
+       "12.5", "--check", "--network", "--status-fd", "7", "--uav", "jurong"},
+      [](const ProgramOptions& options, StopSignal&) {
+        EXPECT_EQ(options.scenario, "mbs");
+        EXPECT_EQ(options.assets, "/data");
+        EXPECT_EQ(options.seed, 18446744073709551615ull);
+        EXPECT_EQ(options.scene_seed, 4u);
+        EXPECT_EQ(options.duration_s, 12.5);
+        EXPECT_TRUE(options.check_only);
+        EXPECT_EQ(options.network, "all");
+        EXPECT_EQ(options.status_fd, 7);
+        EXPECT_EQ(options.load_options().scene_seed, 4u);
+        return 0;
+      },
+      [&](CLI::App& app) { app.add_option("--uav", uav); });
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(uav, "jurong");
+}
+
+TEST(Program, LogsToStderr) {
+  const auto outcome = run({"--log-level", "info"}, [](const ProgramOptions&, StopSignal&) {
+    spdlog::info("ready");
+    spdlog::debug("not shown");
+    return 0;
+  });
+  EXPECT_EQ(outcome.error, "[tester] info ready\n");
+}
+
+TEST(Program, SignalsReachTheBody) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const auto outcome = run({}, [signal](const ProgramOptions&, StopSignal& stop) {
+      std::mutex mutex;
+      std::condition_variable changed;
+      bool woken = false;
+      EXPECT_FALSE(stop.requested());
+      stop.on_stop([&] {
+        const std::lock_guard lock(mutex);
+        woken = true;
+        changed.notify_one();
+      });
+      std::raise(signal);
+      std::unique_lock lock(mutex);
+      changed.wait(lock, [&] { return woken; });
+      lock.unlock();
+      stop.on_stop({});
+      return stop.requested() ? kExitInterrupted : kExitProcessFailed;
+    });
+    EXPECT_EQ(outcome.code, kExitInterrupted);
+  }
+}
+
+TEST(StopSignal, WakesAtOnceWhenItComesLate) {
+  StopSignal stop;
+  stop.stop();
+  int calls = 0;
+  stop.on_stop([&] { ++calls; });
+  EXPECT_EQ(calls, 1);
+  EXPECT_TRUE(stop.requested());
+}
+
+}  // namespace
+}  // namespace skein

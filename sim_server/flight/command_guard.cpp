@@ -1,0 +1,153 @@
+#include "sim_server/flight/command_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include "core/euler.hpp"
+
+namespace skein::sim {
+namespace {
+
+constexpr double kStepS = 0.05;        ///< of the control law
+constexpr double kRounding = 1e-6;     ///< a command may exceed a limit by this share
+constexpr double kGiven = 0.01;        ///< shorter vectors mean "none" to the control law
+constexpr double kBrakingShare = 0.8;  ///< of the acceleration; the law's integral pushes on for a while
+constexpr double kTiny = 1e-9;         ///< not zero
+
+std::string beyond(const char* what, double value, double limit, const char* unit) {
+  std::ostringstream text;
+  text << std::setprecision(4) << what << " of " << value << " " << unit << " is beyond the vehicle's limit of "
+       << limit << " " << unit;
+  return text.str();
+}
+
+bool given(const Vector3d& v) { return v.norm() >= kGiven; }
+
+/// The same direction, no longer than `length`.
+Vector3d shortened(const Vector3d& v, double length) {
+  const double norm = v.norm();
+  return norm > length ? Vector3d(v * (length / norm)) : v;
+}
+
+}  // namespace
+
+CommandGuard::CommandGuard(const VehicleConfig& vehicle, const RulesConfig& rules)
+    : reject_(rules.reject_commands_beyond_limits),
+      guard_(rules.guard_position_commands),
+      max_speed_(vehicle.max_speed_mps),
+      max_acceleration_(vehicle.max_acceleration_mps2),
+      max_yaw_rate_(vehicle.max_yaw_rate_deg_s * kRadPerDeg) {
+  const PositionControlConfig& law = vehicle.position_control;
+  const Vector3d omega(law.omega_xy, law.omega_xy, law.omega_z);
+  const Vector3d zeta(law.zeta_xy, law.zeta_xy, law.zeta_z);
+  stiffness_ = omega.cwiseProduct(omega).cwiseMax(kTiny);  // a vehicle's gains may be 0
+  damping_ = 2.0 * omega.cwiseProduct(zeta).cwiseMax(kTiny);
+}
+
+std::optional<std::string> CommandGuard::refuse(const TrajectoryCommand& command, const RigidBodyState& state) const {
+  if (!command.p_WB.allFinite() || !command.v_WB.allFinite() || !command.a_WB.allFinite() ||
+      !std::isfinite(command.yaw) || !std::isfinite(command.yaw_rate)) {
+    return "a set-point must consist of finite numbers";
+  }
+  if (!reject_) return std::nullopt;
+  const double speed = command.v_WB.norm(), acceleration = command.a_WB.norm();
+  const double yaw_rate = std::abs(command.yaw_rate);
+  if (speed > max_speed_ * (1.0 + kRounding)) return beyond("a velocity", speed, max_speed_, "m/s");
+  if (acceleration > max_acceleration_ * (1.0 + kRounding)) {
+    return beyond("an acceleration", acceleration, max_acceleration_, "m/s^2");
+  }
+  if (yaw_rate > max_yaw_rate_ * (1.0 + kRounding)) {
+    return beyond("a yaw rate", yaw_rate / kRadPerDeg, max_yaw_rate_ / kRadPerDeg, "deg/s");
+  }
+  const bool bare_acceleration = !given(command.p_WB) && !given(command.v_WB) && given(command.a_WB);
+  if (bare_acceleration && state.v_WB.dot(command.a_WB) > 0.0) {
+    const double next_speed = (state.v_WB + command.a_WB * kStepS).norm();
+    if (next_speed > max_speed_) {
+      return beyond("an acceleration that leads to a speed", next_speed, max_speed_, "m/s");
+    }
+  }
+  return std::nullopt;
+}
+
+double CommandGuard::limit_yaw_rate(double demanded) const {
+  return guard_ ? std::clamp(demanded, -max_yaw_rate_, max_yaw_rate_) : demanded;
+}
+
+TrajectoryCommand CommandGuard::lead(const TrajectoryCommand& command, const RigidBodyState& state) {
+  if (!guard_ || !given(command.p_WB)) {
+    carrot_.reset();
+    return command;
+  }
+  const bool within = within_limits(command, state);
+  if (!carrot_) {
+    if (within) return command;
+    carrot_ = launch(command, state);
+  } else {
+    move_carrot(command);
+  }
+  hold_carrot_back(command, state);
+  TrajectoryCommand led = command;
+  led.p_WB = carrot_->p_W;
+  if (within && carrot_->p_W == command.p_WB) carrot_.reset();
+  return led;
+}
+
+/// What the law makes of the UAV's own velocity while none is commanded.
+Vector3d CommandGuard::damping(const TrajectoryCommand& command, const RigidBodyState& state) const {
+  return given(command.v_WB) ? Vector3d::Zero().eval() : Vector3d(-damping_.cwiseProduct(state.v_WB));
+}
+
+/// The acceleration that the law makes of a position.
+Vector3d CommandGuard::demand(const Vector3d& p_W, const TrajectoryCommand& command,
+                              const RigidBodyState& state) const {
+  return stiffness_.cwiseProduct(p_W - state.p_WB) + damping(command, state);
+}
+
+bool CommandGuard::within_limits(const TrajectoryCommand& command, const RigidBodyState& state) const {
+  // The speed at which the law would keep up a constant distance to a moving position.
+  const Vector3d closing = stiffness_.cwiseQuotient(damping_).cwiseProduct(command.p_WB - state.p_WB);
+  return demand(command.p_WB, command, state).norm() <= max_acceleration_ &&
+         (command.v_WB + closing).norm() <= max_speed_;
+}
+
+CommandGuard::Carrot CommandGuard::launch(const TrajectoryCommand& command, const RigidBodyState& state) const {
+  // Where and as fast as it would be if the UAV had been following it all along, at the acceleration that the law
+  // wants now as far as that is permitted: so that a UAV under way neither jerks nor flies on.
+  const Vector3d lag = damping_.cwiseQuotient(stiffness_);  // of a UAV behind what it follows [s]
+  Vector3d a = shortened(demand(command.p_WB, command, state), max_acceleration_);
+  const Vector3d v = shortened(state.v_WB + lag.cwiseProduct(a), max_speed_);
+  a = shortened((v - state.v_WB).cwiseQuotient(lag), max_acceleration_);
+  return {state.p_WB + lag.cwiseProduct(state.v_WB - command.v_WB) + a.cwiseQuotient(stiffness_), v};
+}
+
+void CommandGuard::move_carrot(const TrajectoryCommand& command) {
+  const Vector3d to_target = command.p_WB - carrot_->p_W;
+  const double distance = to_target.norm();
+  const double approach = std::min(stopping_speed(distance), distance / kStepS);
+  const Vector3d wanted = shortened(command.v_WB + to_target * (approach / std::max(distance, kTiny)), max_speed_);
+  const double speed_step = max_acceleration_ * kStepS;
+  if (distance <= speed_step * kStepS && (carrot_->v_W - command.v_WB).norm() <= speed_step) {
+    carrot_ = Carrot{command.p_WB, command.v_WB};
+    return;
+  }
+  carrot_->v_W += shortened(wanted - carrot_->v_W, speed_step);
+  carrot_->p_W += carrot_->v_W * kStepS;
+}
+
+/// A UAV that lags behind would be pulled harder than it may be.
+void CommandGuard::hold_carrot_back(const TrajectoryCommand& command, const RigidBodyState& state) {
+  const Vector3d a = demand(carrot_->p_W, command, state);
+  if (a.norm() <= max_acceleration_) return;
+  carrot_->p_W = state.p_WB + (shortened(a, max_acceleration_) - damping(command, state)).cwiseQuotient(stiffness_);
+}
+
+/// The speed from which it can still stop within a distance, one step from now on.
+double CommandGuard::stopping_speed(double distance) const {
+  const double braking = kBrakingShare * max_acceleration_;
+  const double half_step = 0.5 * braking * kStepS;
+  return std::sqrt(2.0 * braking * distance + half_step * half_step) - half_step;
+}
+
+}  // namespace skein::sim

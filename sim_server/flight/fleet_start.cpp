@@ -1,0 +1,93 @@
+#include "sim_server/flight/fleet_start.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/airframe.hpp"
+#include "core/euler.hpp"
+#include "core/random_stream.hpp"
+
+namespace skein::sim {
+namespace {
+
+constexpr double kMaxOffset = 0.2;
+constexpr double kMaxDelayS = 1.0;
+constexpr int kAttempts = 100;  ///< then a UAV stays where the scenario has it
+
+Isometry3d start_pose(const UavConfig& uav, const Vector2d& offset) {
+  const Vector3d p_WB(uav.start.x() + offset.x(), uav.start.y() + offset.y(), rest_height(uav.vehicle));
+  return Eigen::Translation3d(p_WB) * Quaterniond(Eigen::AngleAxisd(uav.start_yaw, Vector3d::UnitZ()));
+}
+
+Vector2d draw_in_disc(RandomStream& stream, double radius) {
+  Vector2d offset;
+  do {
+    offset.x() = stream.uniform(-radius, radius);
+    offset.y() = stream.uniform(-radius, radius);
+  } while (offset.norm() > radius);
+  return offset;
+}
+
+/// Those before it stand where they were drawn, those after it where the scenario has them.
+bool clear_of_others(const Scenario& scenario, const std::vector<UavStart>& drawn, const Isometry3d& X_WB) {
+  const std::size_t self = drawn.size();
+  for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+    if (i == self) continue;
+    const Vector2d other = i < self ? Vector2d(drawn[i].X_WB.translation().head<2>()) : scenario.fleet[i].start;
+    const double needed = least_start_distance(scenario.fleet[i].vehicle, scenario.fleet[self].vehicle);
+    if ((other - X_WB.translation().head<2>()).norm() < needed) return false;
+  }
+  return true;
+}
+
+Isometry3d draw_pose(const Scenario& scenario, const std::vector<UavStart>& drawn, std::uint64_t seed,
+                     const TouchesStructure& touches) {
+  const UavConfig& uav = scenario.fleet[drawn.size()];
+  RandomStream stream(seed, "start_offset", drawn.size());
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const Isometry3d X_WB = start_pose(uav, draw_in_disc(stream, kMaxOffset));
+    if (clear_of_others(scenario, drawn, X_WB) && !touches(uav.vehicle, X_WB)) return X_WB;
+  }
+  return start_pose(uav, Vector2d::Zero());
+}
+
+[[noreturn]] void refuse_start(const Scenario& scenario, const UavConfig& uav, const std::string& why) {
+  std::ostringstream message;
+  message << scenario.file.string() << ": the start of " << uav.name << " at (" << uav.start.x() << ", "
+          << uav.start.y() << ") " << why << "; choose one that is clear of it";
+  throw InputError(message.str());
+}
+
+}  // namespace
+
+void check_station(const Scenario& scenario, const IsEnclosed& enclosed) {
+  constexpr double kAboveGround = 0.01;  // from a place in the ground plane the ground cannot be seen
+  const Vector3d& p_W = scenario.station_position;
+  if (!enclosed({p_W.x(), p_W.y(), std::max(p_W.z(), kAboveGround)})) return;
+  std::ostringstream message;
+  message << scenario.file.string() << ": station.position: (" << p_W.x() << ", " << p_W.y() << ", " << p_W.z()
+          << ") lies in the structure or is enclosed by it: no line of sight leads out of it; choose a place outside";
+  throw InputError(message.str());
+}
+
+std::vector<UavStart> draw_fleet_start(const Scenario& scenario, std::uint64_t seed, const TouchesStructure& touches,
+                                       const IsEnclosed& enclosed) {
+  std::vector<UavStart> starts;
+  for (const UavConfig& uav : scenario.fleet) {
+    UavStart start{.X_WB = start_pose(uav, Vector2d::Zero())};
+    if (touches(uav.vehicle, start.X_WB)) refuse_start(scenario, uav, "lies in the structure");
+    if (enclosed(start.X_WB.translation())) {
+      refuse_start(scenario, uav, "is enclosed by the structure: no line of sight leads out of it");
+    }
+    if (seed != 0) {
+      const std::size_t i = starts.size();
+      start.X_WB = draw_pose(scenario, starts, seed, touches);
+      start.motor_delay = ticks(RandomStream(seed, "start_delay", i).uniform(0.0, kMaxDelayS));
+      start.late_commands = RandomStream(seed, "command_latency", i).uniform() < 0.5;
+    }
+    starts.push_back(start);
+  }
+  return starts;
+}
+
+}  // namespace skein::sim

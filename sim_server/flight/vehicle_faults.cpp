@@ -1,0 +1,46 @@
+#include "sim_server/flight/vehicle_faults.hpp"
+
+#include <algorithm>
+#include <variant>
+
+namespace skein::sim {
+namespace {
+
+/// Applies what is a vehicle's own fault, and passes by all others.
+class Applier {
+ public:
+  Applier(const std::vector<std::string>& uavs, std::vector<VehicleCondition>& conditions)
+      : uavs_(uavs), conditions_(conditions) {}
+
+  void operator()(const LidarFailure& fault) const { of(fault.uav).lidar_works = false; }
+  void operator()(const CameraFailure& fault) const { of(fault.uav).camera_works = false; }
+  void operator()(const MotorFailure& fault) const {
+    of(fault.uav).rotor_shares.at(static_cast<std::size_t>(fault.rotor)) = fault.thrust;
+  }
+  void operator()(const CommandDelay& fault) const { of(fault.uav).command_delay = fault.exchanges; }
+  template <class OfSomethingElse>
+  void operator()(const OfSomethingElse&) const {}
+
+ private:
+  VehicleCondition& of(const std::string& uav) const {
+    const auto found = std::find(uavs_.begin(), uavs_.end(), uav);
+    return conditions_.at(static_cast<std::size_t>(found - uavs_.begin()));
+  }
+
+  const std::vector<std::string>& uavs_;
+  std::vector<VehicleCondition>& conditions_;
+};
+
+}  // namespace
+
+std::vector<VehicleCondition> vehicle_conditions(const FaultPlan& plan, const std::vector<std::string>& uavs,
+                                                 Tick tick) {
+  std::vector<VehicleCondition> conditions(uavs.size());
+  const Applier apply(uavs, conditions);
+  for (const Fault& fault : plan.faults) {
+    if (fault.active(tick)) std::visit(apply, fault.action);
+  }
+  return conditions;
+}
+
+}  // namespace skein::sim

@@ -1,0 +1,44 @@
+#include "sim_server/record/event_log.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace skein::sim {
+
+EventLog::EventLog(const std::filesystem::path& folder, const Scenario& scenario)
+    : scenario_(scenario), out_(folder / "events.csv"), members_(scenario.uav_names()) {
+  members_.insert(members_.end(), {scenario.node_name(kStationNode), "station", "comm_router"});
+  present_.resize(members_.size());
+  links_.resize((scenario.fleet.size() + 1) * (scenario.fleet.size() + 1));
+  out_ << "step,time_s,event,subject,object\n";
+  out_.flush();  // whoever is killed leaves a table without rows, and no file without a table
+}
+
+void EventLog::add_step(const Simulation& simulation, const std::function<bool(const std::string&)>& is_member) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const bool present = is_member(members_[i]);
+    if (present != present_[i]) add(simulation, present ? "joined" : "left", members_[i], "");
+    present_[i] = present;
+  }
+  const Node nodes = scenario_.fleet.size() + 1;
+  const std::vector<std::uint8_t>& links = simulation.open_links();
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (links[i] == links_[i] || i / nodes == i % nodes) continue;
+    add(simulation, links[i] ? "link_up" : "link_down", scenario_.node_name(i / nodes), scenario_.node_name(i % nodes));
+  }
+  links_ = links;
+  for (const CaptureEvent& event : simulation.events().captures) {
+    if (!event.report) continue;
+    add(simulation, "captured", scenario_.fleet[event.uav].name, std::to_string(event.report->capture));
+  }
+}
+
+void EventLog::add_release(const Simulation& simulation, const std::string& uav, std::uint64_t capture) {
+  add(simulation, "released", uav, std::to_string(capture));
+}
+
+void EventLog::add(const Simulation& simulation, const char* event, const std::string& subject,
+                   const std::string& object) {
+  out_ << fmt::format("{},{:.2f},{},{},{}\n", simulation.step(), seconds(simulation.tick()), event, subject, object);
+}
+
+}  // namespace skein::sim

@@ -1,0 +1,48 @@
+#include "sim_server/record/fault_timeline.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace skein::sim {
+namespace {
+
+template <class T>
+nlohmann::json or_null(const std::optional<T>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json();
+}
+
+std::string title(const Fault& fault) {
+  const std::string target = fault_target(fault);
+  return target.empty() ? fault_kind(fault) : fault_kind(fault) + " of " + target;
+}
+
+}  // namespace
+
+std::vector<std::string> FaultTimeline::enter_step(std::uint64_t step, Tick tick) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < faults_.size(); ++i) {
+    Entry& entry = entries_[i];
+    if (!entry.began && faults_[i].active(tick)) {
+      entry.began = step;
+      lines.push_back(fmt::format("fault at {:.2f} s (step {}): {}", seconds(tick), step, title(faults_[i])));
+    } else if (entry.began && !entry.ended && !faults_[i].active(tick)) {
+      entry.ended = step;
+      lines.push_back(fmt::format("end of fault at {:.2f} s (step {}): {}", seconds(tick), step, title(faults_[i])));
+    }
+  }
+  return lines;
+}
+
+nlohmann::json FaultTimeline::to_json() const {
+  nlohmann::json json = nlohmann::json::array();
+  for (std::size_t i = 0; i < faults_.size(); ++i) {
+    json.push_back({{"kind", fault_kind(faults_[i])},
+                    {"target", fault_target(faults_[i])},
+                    {"at_s", faults_[i].at_s},
+                    {"until_s", or_null(faults_[i].until_s)},
+                    {"began_step", or_null(entries_[i].began)},
+                    {"ended_step", or_null(entries_[i].ended)}});
+  }
+  return json;
+}
+
+}  // namespace skein::sim

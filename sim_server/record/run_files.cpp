@@ -1,0 +1,156 @@
+#include "sim_server/record/run_files.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <iterator>
+
+#include "process/atomic_file.hpp"
+
+namespace skein::sim {
+namespace {
+
+constexpr Tick kTrajectoryPeriod = 40;  // 100 ms
+
+nlohmann::json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+std::string collided_with(const Collision& collision, const Scenario& scenario) {
+  switch (collision.with.kind) {
+    case BodyId::Kind::ground:
+      return "ground";
+    case BodyId::Kind::structure:
+      return "structure";
+    case BodyId::Kind::uav:
+      return scenario.fleet[collision.with.uav].name;
+  }
+  return "structure";
+}
+
+}  // namespace
+
+std::string describe(const Collision& collision, const Scenario& scenario) {
+  const Vector3d& p = collision.p_W;
+  return fmt::format("{} collided with {} at {:.4f} s, at ({:.2f}, {:.2f}, {:.2f}): it is out",
+                     scenario.fleet[collision.uav].name, collided_with(collision, scenario), seconds(collision.tick),
+                     p.x(), p.y(), p.z());
+}
+
+std::string describe(const Stray& stray, const Scenario& scenario) {
+  const Vector3d& p = stray.p_W;
+  return fmt::format(
+      "{} left the world at {:.4f} s, or its motion was no longer finite; last seen at "
+      "({:.2f}, {:.2f}, {:.2f}): it is out",
+      scenario.fleet[stray.uav].name, seconds(stray.tick), p.x(), p.y(), p.z());
+}
+
+RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest)
+    : folder_(folder),
+      scenario_(scenario),
+      trajectories_(folder / "trajectories.csv"),
+      digests_(folder / "digests.csv"),
+      events_(folder, scenario) {
+  trajectories_ << "time_s,uav,x,y,z,qw,qx,qy,qz,vx,vy,vz,gimbal_pitch,gimbal_yaw,alive\n";
+  digests_ << "k,digest";
+  for (const std::string& column : digest.columns()) digests_ << "," << column;
+  digests_ << "\n";
+  trajectories_.flush();  // see event_log.cpp
+  digests_.flush();
+}
+
+void RunFiles::write_scene(const Scene& scene) {
+  nlohmann::json json;
+  json["boxes"] = nlohmann::json::array();
+  for (const OrientedBox& box : scene.boxes) {
+    nlohmann::json rotation = nlohmann::json::array();
+    for (int row = 0; row < 3; ++row) rotation.push_back(vector_json(box.R_WO.row(row)));
+    json["boxes"].push_back({{"name", box.name},
+                             {"center", vector_json(box.center)},
+                             {"size", vector_json(box.size)},
+                             {"rotation", rotation}});
+  }
+  nlohmann::json meshes = nlohmann::json::array();
+  for (const auto& mesh : scenario_.scene.meshes) meshes.push_back(mesh.filename().string());
+  json["mesh"] = {{"family", scenario_.scene.family},
+                  {"scene_seed", scenario_.scene.scene_seed},
+                  {"files", meshes},
+                  {"triangles", scene.mesh.triangles.size()}};
+  json["points"] = nlohmann::json::array();
+  for (const InterestPoint& point : scene.points) {
+    json["points"].push_back(
+        {point.p_W.x(), point.p_W.y(), point.p_W.z(), point.n_W.x(), point.n_W.y(), point.n_W.z()});
+  }
+  const std::string trouble = write_if_possible(folder_ / "scene.json", json.dump());
+  if (!trouble.empty()) unwritten_.push_back(trouble);
+}
+
+void RunFiles::add_step(const Simulation& simulation, const StepDigest& digest) {
+  digests_ << std::to_string(digest.k) << "," << digest.running;
+  for (const std::string& field : digest.fields) digests_ << "," << field;
+  digests_ << "\n";
+  if (simulation.tick() % kTrajectoryPeriod != 0) return;
+  fmt::memory_buffer line;
+  for (std::size_t i = 0; i < simulation.size(); ++i) {
+    const UavView& uav = simulation.uav(i);
+    const auto& [p, q, v, w] = uav.state;
+    fmt::format_to(std::back_inserter(line),
+                   "{:.2f},{},{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.5f},{:.5f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{}\n",
+                   seconds(simulation.tick()), scenario_.fleet[i].name, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(),
+                   v.x(), v.y(), v.z(), uav.gimbal.pitch, uav.gimbal.yaw, uav.alive ? 1 : 0);
+  }
+  trajectories_ << std::string_view(line.data(), line.size());
+}
+
+void RunFiles::write_report(const Simulation& simulation, const RunSummary& summary, StatusPipe& status) {
+  const Mission& mission = simulation.mission();
+  nlohmann::json json;
+  json["status"] = summary.status;
+  json["deterministic"] = summary.deterministic;
+  json["digest"] = summary.digest ? nlohmann::json(*summary.digest) : nlohmann::json();
+  json["sim_time_s"] = seconds(simulation.tick());
+  json["mission_time_s"] =
+      mission.start_tick() ? seconds(mission.end_tick().value_or(simulation.tick()) - *mission.start_tick()) : 0.0;
+  json["wall_time_s"] = summary.wall_time_s;
+  json["rules"] = scenario_.rules.preset;
+  json["points_total"] = simulation.scene().points.size();
+  std::string seen;  // a digit for each point
+  for (const bool flag : simulation.points_seen()) seen += flag ? '1' : '0';
+  json["points_seen"] = seen;
+  json["collisions"] = nlohmann::json::array();
+  for (const Collision& c : summary.collisions) {
+    json["collisions"].push_back({{"time_s", seconds(c.tick)},
+                                  {"uav", scenario_.fleet[c.uav].name},
+                                  {"with", collided_with(c, scenario_)},
+                                  {"position", vector_json(c.p_W)}});
+  }
+  json["uavs"] = nlohmann::json::array();
+  for (std::size_t i = 0; i < simulation.size(); ++i) {
+    const UavView& uav = simulation.uav(i);
+    const UavConfig& config = scenario_.fleet[i];
+    json["uavs"].push_back(
+        {{"name", config.name},
+         {"role", config.vehicle.role == Role::explorer ? "explorer" : "photographer"},
+         {"alive", uav.alive},
+         {"distance_m", uav.distance_m},
+         {"max_speed_mps", uav.max_speed_mps},
+         {"captures", uav.captures},
+         {"idle_s", uav.idle_s},
+         {"commands_rejected", uav.commands_rejected},
+         {"commands_unheard", i < summary.commands_unheard.size() ? summary.commands_unheard[i] : 0}});
+  }
+  json["lost_members"] = nlohmann::json::array();
+  for (const LostProcess& lost : summary.lost) {
+    json["lost_members"].push_back(
+        {{"member", lost.name}, {"step", lost.step}, {"time_s", seconds(lost.tick)}, {"reason", lost.reason}});
+  }
+  json["faults"] = summary.faults;
+  json["warnings"] = summary.warnings;
+  json["malformed"] = summary.malformed;
+  json["timing"] = summary.timing;
+  json["unwritten"] = unwritten_;
+  for (StreamFile* file : {&trajectories_, &digests_, &events_.file()}) {
+    file->flush();
+    if (!file->trouble().empty()) json["unwritten"].push_back(file->trouble());
+  }
+  hand_in_report(json, folder_ / "sim_server.report.json", status);
+}
+
+}  // namespace skein::sim

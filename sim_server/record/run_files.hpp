@@ -1,0 +1,67 @@
+// What the server leaves behind: trajectories.csv, digests.csv, events.csv, scene.json and sim_server.report.json, from
+// which the launcher makes its part of result.json. Times in seconds of simulated time, lengths in metres.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scenario.hpp"
+#include "process/program_report.hpp"
+#include "process/stream_file.hpp"
+#include "sim_server/record/event_log.hpp"
+#include "sim_server/run_digest.hpp"
+#include "sim_server/simulation.hpp"
+
+namespace skein::sim {
+
+/// A member that the fleet lost.
+struct LostProcess {
+  std::string name;
+  std::uint64_t step = 0;
+  Tick tick = 0;
+  std::string reason;
+};
+
+/// How a run went, beyond what the simulation itself knows.
+struct RunSummary {
+  std::string status = "completed";  ///< completed, no_takeoff, interrupted, aborted
+  bool deterministic = true;
+  std::optional<std::string> digest;
+  double wall_time_s = 0.0;  ///< without start-up
+  std::vector<Collision> collisions;
+  std::vector<LostProcess> lost;
+  std::vector<std::string> warnings;
+  std::vector<std::uint64_t> commands_unheard;      ///< by UAV: from outside the lock-step
+  std::uint64_t malformed = 0;                      ///< samples received that were no message of their topic's type
+  nlohmann::json timing;                            ///< CPU time by kind of work
+  nlohmann::json faults = nlohmann::json::array();  ///< as FaultTimeline tells
+};
+
+/// Who, with what, when and where: a line for the log.
+std::string describe(const Collision& collision, const Scenario& scenario);
+std::string describe(const Stray& stray, const Scenario& scenario);
+
+class RunFiles {
+ public:
+  /// @throws std::runtime_error when the folder cannot be written. A disk that is full later on ends files, never the
+  /// run; the report names them.
+  RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest);
+
+  void write_scene(const Scene& scene);
+  EventLog& events() { return events_; }
+  /// One exchange: a line of digests.csv, and every 100 ms a line per UAV of trajectories.csv.
+  void add_step(const Simulation& simulation, const StepDigest& digest);
+  void write_report(const Simulation& simulation, const RunSummary& summary, StatusPipe& status);
+
+ private:
+  std::filesystem::path folder_;
+  const Scenario& scenario_;
+  StreamFile trajectories_, digests_;
+  EventLog events_;
+  std::vector<std::string> unwritten_;  ///< files that the disk refused as a whole, one sentence each
+};
+
+}  // namespace skein::sim

@@ -1,0 +1,29 @@
+#include "uav_agent/api/agent_config.hpp"
+
+#include <algorithm>
+
+#include "core/airframe.hpp"
+
+namespace skein::agent {
+
+double body_radius_m(const VehicleConfig& vehicle) {
+  const double rotors = vehicle.arm_m + vehicle.rotor_radius_m;
+  return std::max(rotors, box_reach(vehicle));
+}
+
+AgentConfig agent_config(const Scenario& scenario, std::size_t self) {
+  AgentConfig config;
+  config.self = self;
+  config.vehicle = scenario.fleet.at(self).vehicle;
+  for (const UavConfig& uav : scenario.fleet) {
+    config.fleet.push_back(
+        {uav.name, uav.vehicle.role, Vector3d(uav.start.x(), uav.start.y(), 0.0), body_radius_m(uav.vehicle)});
+  }
+  config.desired_mm_per_pixel = scenario.desired_mm_per_pixel;
+  config.duration_s = scenario.duration_s;
+  config.exchange_period_s = scenario.exchange_period_s;
+  config.station_position = scenario.station_position;
+  return config;
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,113 @@
+#include "uav_agent/api/payload.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/radio_routes.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kPositionStepM = 0.01;
+
+// A text must not hold a NUL: 0 and 1 are written as 1 and one more byte.
+constexpr char kEscape = 1, kEscapedZero = 1, kEscapedOne = 2;
+
+/// FNV-1a, folded: a damaged payload must not be taken for another one.
+std::uint16_t check_sum(std::span<const std::uint8_t> bytes) {
+  std::uint32_t hash = 2166136261U;
+  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 16777619U;
+  return static_cast<std::uint16_t>(hash ^ hash >> 16);
+}
+
+std::string escaped(std::span<const std::uint8_t> bytes) {
+  std::string text;
+  text.reserve(bytes.size() + bytes.size() / 16);
+  for (const std::uint8_t byte : bytes) {
+    if (byte > 1) {
+      text.push_back(static_cast<char>(byte));
+    } else {
+      text.push_back(kEscape);
+      text.push_back(byte == 0 ? kEscapedZero : kEscapedOne);
+    }
+  }
+  return text;
+}
+
+std::optional<std::vector<std::uint8_t>> unescaped(std::string_view text) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != kEscape) {
+      bytes.push_back(static_cast<std::uint8_t>(text[i]));
+      continue;
+    }
+    if (++i == text.size() || (text[i] != kEscapedZero && text[i] != kEscapedOne)) return std::nullopt;
+    bytes.push_back(text[i] == kEscapedZero ? 0 : 1);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+void PayloadWriter::number(std::uint32_t value, int width) {
+  for (int i = 0; i < width; ++i) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+}
+
+void PayloadWriter::position(const Vector3d& p_W) {
+  for (int i = 0; i < 3; ++i) {
+    u32(static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(p_W[i] / kPositionStepM))));
+  }
+}
+
+std::uint32_t PayloadReader::number(int width) {
+  std::uint32_t value = 0;
+  const auto taken = bytes(static_cast<std::size_t>(width));
+  for (std::size_t i = 0; i < taken.size(); ++i) value |= std::uint32_t{taken[i]} << (8 * i);
+  return value;
+}
+
+Vector3d PayloadReader::position() {
+  Vector3d p;
+  for (int i = 0; i < 3; ++i) p[i] = kPositionStepM * static_cast<std::int32_t>(u32());
+  return p;
+}
+
+std::span<const std::uint8_t> PayloadReader::bytes(std::size_t count) {
+  if (count > bytes_.size()) {
+    ok_ = false;
+    bytes_ = {};
+    return {};
+  }
+  const auto taken = bytes_.first(count);
+  bytes_ = bytes_.subspan(count);
+  return taken;
+}
+
+RadioMessage send_payload(std::string_view planner, std::size_t sender, const PayloadWriter& payload) {
+  if (payload.size() > kMaxPayloadBytes) throw std::logic_error("a radio payload is too long");
+  PayloadWriter envelope;
+  envelope.u16(static_cast<std::uint16_t>(sender));
+  envelope.u16(check_sum(payload.data()));
+  envelope.bytes(payload.data());
+  return {std::string(kPlanTopic), std::string(planner) + " " + escaped(envelope.data()), std::nullopt};
+}
+
+std::optional<Payload> open_payload(const RadioMessage& message, std::string_view planner, std::size_t fleet_size) {
+  std::string_view text = message.text;
+  if (message.topic != kPlanTopic || !text.starts_with(planner)) return std::nullopt;
+  text.remove_prefix(planner.size());
+  if (!text.starts_with(' ')) return std::nullopt;
+  text.remove_prefix(1);
+  const auto bytes = unescaped(text);
+  if (!bytes || bytes->size() > kMaxPayloadBytes + 4) return std::nullopt;
+  PayloadReader reader(*bytes);
+  const std::size_t sender = reader.u16();
+  const std::uint16_t sum = reader.u16();
+  const auto content = reader.bytes(reader.left());
+  if (!reader.ok() || sender >= fleet_size || sum != check_sum(content)) return std::nullopt;
+  return Payload{sender, {content.begin(), content.end()}};
+}
+
+}  // namespace skein::agent

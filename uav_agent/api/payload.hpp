@@ -1,0 +1,84 @@
+// What planners say to each other by radio, as bytes: a writer and a reader of small numbers, and the envelope in
+// which a payload travels on the topic /plan, which every UAV may send on and everybody in line of sight hears
+// (core/radio_routes.hpp). A planner puts what send_payload() returns into PlannerOutput::radio, and opens what
+// PlannerInput::radio brings with open_payload().
+// Numbers are little-endian; positions are rounded to centimetres.
+// Pure.   Bounded: a payload is never longer than kMaxPayloadBytes.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/types.hpp"
+#include "uav_agent/api/messages.hpp"
+
+namespace skein::agent {
+
+/// Of one payload. Whoever has more to say sends several messages, or says the rest later.
+inline constexpr std::size_t kMaxPayloadBytes = 16'384;
+
+class PayloadWriter {
+ public:
+  void u8(std::uint8_t value) { bytes_.push_back(value); }
+  void u16(std::uint16_t value) { number(value, 2); }
+  void u32(std::uint32_t value) { number(value, 4); }
+  /// A position within 20,000 km, to the centimetre.
+  void position(const Vector3d& p_W);
+  void bytes(std::span<const std::uint8_t> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+
+  std::size_t size() const { return bytes_.size(); }
+  std::size_t room() const { return kMaxPayloadBytes - std::min(bytes_.size(), kMaxPayloadBytes); }
+  const std::vector<std::uint8_t>& data() const { return bytes_; }
+
+ private:
+  void number(std::uint32_t value, int width);
+
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// Reads what a PayloadWriter wrote. Past the end it returns zeros, and ok() is false from then on: look at it
+/// before any of what was read is believed.
+class PayloadReader {
+ public:
+  explicit PayloadReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  std::uint8_t u8() { return static_cast<std::uint8_t>(number(1)); }
+  std::uint16_t u16() { return static_cast<std::uint16_t>(number(2)); }
+  std::uint32_t u32() { return number(4); }
+  Vector3d position();
+  /// The next `count` bytes; empty if there are not so many.
+  std::span<const std::uint8_t> bytes(std::size_t count);
+
+  bool ok() const { return ok_; }
+  std::size_t left() const { return bytes_.size(); }
+  /// All was read, and there was enough.
+  bool at_end() const { return ok_ && bytes_.empty(); }
+
+ private:
+  std::uint32_t number(int width);
+
+  std::span<const std::uint8_t> bytes_;
+  bool ok_ = true;
+};
+
+/// What arrived in an envelope.
+struct Payload {
+  std::size_t sender = 0;  ///< index in the fleet, as the sender says; the radio itself tells nobody
+  std::vector<std::uint8_t> bytes;
+};
+
+/// A message on /plan.
+/// @param planner  name of the planner and version of its messages ("kios/1"): others do not open it.
+/// @throws std::logic_error when the payload is too long: that is for the planner to prevent.
+RadioMessage send_payload(std::string_view planner, std::size_t sender, const PayloadWriter& payload);
+
+/// @returns nullopt for a message on another topic, of another planner, damaged, too long or from nobody of the fleet.
+std::optional<Payload> open_payload(const RadioMessage& message, std::string_view planner, std::size_t fleet_size);
+
+}  // namespace skein::agent

@@ -1,0 +1,87 @@
+// The interface that a planner implements, and the registry that finds it by name.
+//
+// A planner is one class in one file under planners/: a constructor that takes its Config (and, if it wants, the
+// AgentConfig), plan(), and SKEIN_REGISTER_PLANNER("name", Class) in namespace skein::agent. It is pure: what it
+// returns may depend only on its inputs and on its own past; it bounds its effort by counts, never by time.
+// Frames: W world (ENU), B body (FLU).   Units: SI and radians.   Threads: one planner is used by one thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/config_reader.hpp"
+#include "uav_agent/api/agent_config.hpp"
+#include "uav_agent/api/messages.hpp"
+#include "uav_agent/api/motion.hpp"
+#include "uav_agent/api/peers.hpp"
+#include "uav_agent/api/strategy_registry.hpp"
+
+namespace skein::agent {
+
+class OccupancyMap;  // maps/occupancy_map.hpp
+
+/// Where the camera looks: monostate: carry on; a point in W to keep in the image's centre; or a command as it is.
+using GimbalAim = std::variant<std::monostate, Vector3d, GimbalCommand>;
+
+/// How far the tracker has come with the last Path.
+struct TrackingState {
+  Setpoint setpoint;      ///< where the next path begins; what is commanded follows it smoothly (tracker.hpp)
+  std::size_t leg = 0;    ///< index of the waypoint being flown to; waypoints.size() when done
+  bool done = true;       ///< at rest at the end of the path, or no path
+  bool airborne = false;  ///< a first motion was commanded
+};
+
+struct PlannerInput {
+  std::uint64_t k = 0;  ///< exchange
+  Tick tick = 0;
+  RigidBodyState state;  ///< own; velocity in W
+  GimbalState gimbal;
+  TrackingState tracking;
+  const OccupancyMap& map;
+  const std::vector<OrientedBox>& boxes;  ///< empty until received
+  const Peers& peers;
+  std::optional<double> mission_remaining_s;  ///< nullopt before the first take-off
+  bool station_linked = false;                ///< direct link at this step
+  std::size_t undelivered_captures = 0;
+  std::span<const DetectedPoint> detected;    ///< in this step's pictures; after a restart all that it ever saw
+  std::span<const RadioMessage> radio;        ///< received at this step
+  std::span<const KeyFrame> key_frames = {};  ///< that came at this step, as the LiDARs saw them: own, then neighbours'
+  std::span<const Scan> scans = {};           ///< own, since the step before; only if wants_scans()
+};
+
+struct PlannerOutput {
+  Motion motion = {};
+  std::optional<double> yaw = {};  ///< body yaw to turn to at the tracker's rate; only with a Path or Hold
+  GimbalAim gimbal = {};
+  bool trigger = false;                  ///< ask for a capture; only where the camera is in manual mode
+  std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
+};
+
+class Planner {
+ public:
+  virtual ~Planner() = default;
+  /// Called once per exchange, also before take-off. What `input` refers to is gone afterwards.
+  virtual PlannerOutput plan(const PlannerInput& input) = 0;
+  /// Whether it looks at the LiDAR's scans; asked before the first exchange, and the answer must stay the same. The map
+  /// has what key frames show without them. A scan that nobody reads is not even computed, and that is most of a run's
+  /// cost (docs/decisions/0006-scans-on-demand.md).
+  virtual bool wants_scans() const { return false; }
+};
+
+/// Makes the planner that `spec` names: "hover", "hover:height_m=4,climb_mps=1" or "patrol:params.yaml" (a
+/// YAML file with the same keys).
+/// @throws InputError naming the planner or key that is unknown, and those that exist.
+std::unique_ptr<Planner> make_planner(const std::string& spec, const AgentConfig& agent);
+
+/// Names of all registered planners, sorted.
+std::vector<std::string> planner_names();
+
+}  // namespace skein::agent
+
+/// Registers a planner under a name, before main(). Its file must be linked as an object, not from a static
+/// library.
+#define SKEIN_REGISTER_PLANNER(name, Class) SKEIN_REGISTER_STRATEGY(Planner, name, Class)

@@ -1,0 +1,293 @@
+#include "uav_agent/flight/delivery.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "uav_agent/planning/survey.hpp"
+
+namespace skein::agent {
+namespace {
+
+OrientedBox tower(double yaw = 0.0) {
+  OrientedBox box;
+  box.center = {10.0, 0.0, 20.0};
+  box.size = {16.0, 30.0, 40.0};
+  box.R_WO = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
+  return box;
+}
+
+AgentConfig fleet_of(std::size_t count, std::size_t self) {
+  AgentConfig config;
+  config.self = self;
+  config.fleet.resize(count);
+  config.station_position = {-1.0, 0.0, 0.3};
+  return config;
+}
+
+TEST(DeliveryPlaces, SeeTheStationAndAreApart) {
+  const std::vector<OrientedBox> boxes = {tower()};
+  const OccupancyMap map;
+  const FreeSpace space({.clearance_m = 1.8}, boxes, map);
+  std::vector<Vector3d> best;
+  for (std::size_t self = 0; self < 5; ++self) {
+    const auto places = delivery_places(fleet_of(5, self), space, 12.0);
+    ASSERT_FALSE(places.empty());
+    for (const Vector3d& place : places) {
+      EXPECT_TRUE(space.free(place));
+      EXPECT_TRUE(space.sees(place, {-1.0, 0.0, 0.3}, 0.5));
+      EXPECT_GE(place.z(), 12.0);
+    }
+    for (const Vector3d& other : best) EXPECT_GT((places.front() - other).norm(), 2.9);
+    best.push_back(places.front());
+  }
+}
+
+TEST(DeliveryPlaces, AvoidWhatTheMapShows) {
+  OccupancyMap map;
+  std::vector<Eigen::Vector3f> roof;  // over the station
+  for (float x = -9.0F; x <= 7.0F; x += 0.4F) {
+    for (float y = -8.0F; y <= 8.0F; y += 0.4F) roof.emplace_back(x, y, 6.0F);
+  }
+  map.insert(roof, std::nullopt);
+  const std::vector<OrientedBox> boxes;
+  const FreeSpace space({.clearance_m = 1.8}, boxes, map);
+  for (const Vector3d& place : delivery_places(fleet_of(1, 0), space, 12.0)) {
+    EXPECT_GT((place - Vector3d(-1.0, 0.0, 0.3)).head<2>().norm(), 8.0);
+  }
+}
+
+TEST(TimeHome, GrowsWithDistanceAndLeavesTimeToSpare) {
+  EXPECT_GT(time_home_s({0, 0, 0}, {45, 0, 0}, 4.5), 10.0);
+  EXPECT_GT(time_home_s({0, 0, 0}, {90, 0, 0}, 4.5), time_home_s({0, 0, 0}, {45, 0, 0}, 4.5));
+}
+
+/// A UAV far from the station that has a link as long as it is told so.
+class FarOut : public testing::Test {
+ protected:
+  FarOut() { boxes_ = {tower()}; }
+
+  PlannerInput input(const Vector3d& p_WB, bool linked, double remaining_s, std::size_t undelivered = 3) {
+    state_.p_WB = p_WB;
+    TrackingState tracking;
+    tracking.setpoint.p_WB = p_WB;
+    tick_ += ticks(0.05);
+    return {.tick = tick_,
+            .state = state_,
+            .gimbal = {},
+            .tracking = tracking,
+            .map = map_,
+            .boxes = boxes_,
+            .peers = peers_,
+            .mission_remaining_s = remaining_s,
+            .station_linked = linked,
+            .undelivered_captures = undelivered,
+            .detected = {},
+            .radio = {}};
+  }
+  /// Flies on for some seconds.
+  void fly(const Vector3d& from_W, const Vector3d& v_W, double time_s, bool linked) {
+    for (double t = 0.0; t < time_s; t += 0.05) delivery_.update(input(from_W + t * v_W, linked, 500.0), 40.0);
+  }
+
+  AgentConfig agent_ = fleet_of(1, 0);
+  Pilot pilot_{{}, agent_};
+  Delivery delivery_{{.margin_s = 10.0, .speed_mps = 4.0}, agent_, pilot_};
+  OccupancyMap map_;
+  std::vector<OrientedBox> boxes_;
+  Peers peers_{agent_};
+  RigidBodyState state_;
+  Tick tick_ = 0;
+};
+
+TEST_F(FarOut, LeavesInTimeForThePlaceWhereItLastHadALink) {
+  fly({100.0, 0.0, 20.0}, {0.0, 0.0, 0.0}, 1.0, false);
+  EXPECT_TRUE(delivery_.due(input({100.0, 0.0, 20.0}, false, 40.0))) << "home is 40 s away";
+  fly({90.0, 0.0, 20.0}, {0.0, 4.0, 0.0}, 5.0, true);
+  fly({90.0, 20.0, 20.0}, {4.0, 0.0, 0.0}, 2.0, false);
+  EXPECT_FALSE(delivery_.due(input({98.0, 20.0, 20.0}, false, 40.0))) << "that place is 3 s away";
+  EXPECT_TRUE(delivery_.due(input({98.0, 20.0, 20.0}, false, 15.0)));
+}
+
+TEST_F(FarOut, GoesToThatPlaceAndNotToWhereTheLinkBroke) {
+  fly({90.0, 0.0, 20.0}, {0.0, 4.0, 0.0}, 5.0, true);
+  fly({90.0, 20.0, 20.0}, {4.0, 0.0, 0.0}, 2.0, false);
+  PlannerOutput out;
+  delivery_.begin(input({98.0, 20.0, 20.0}, false, 15.0), {}, 12.0, out);
+  const Path* path = std::get_if<Path>(&out.motion);
+  ASSERT_NE(path, nullptr);
+  const Vector3d goal = path->waypoints.back().p_WB;
+  EXPECT_NEAR(goal.x(), 90.0, 1e-9);
+  EXPECT_LE(goal.y(), 16.0) << "a second before the link ended";
+  EXPECT_GE(goal.y(), 8.0);
+}
+
+TEST_F(FarOut, AGlimpseOfTheStationIsNoPlaceToDeliver) {
+  fly({90.0, 0.0, 20.0}, {0.0, 4.0, 0.0}, 0.5, true);
+  EXPECT_TRUE(delivery_.due(input({90.0, 2.0, 20.0}, false, 30.0)));
+}
+
+TEST_F(FarOut, GoesHomeWhereThatIsNearerThanThePlaceOfTheLastLink) {
+  fly({90.0, 0.0, 20.0}, {0.0, 4.0, 0.0}, 5.0, true);
+  const Vector3d near_home(-25.0, 10.0, 20.0);
+  fly(near_home, Vector3d::Zero(), 1.0, false);
+  PlannerOutput out;
+  delivery_.begin(input(near_home, false, 15.0), {}, 12.0, out);
+  const Path* path = std::get_if<Path>(&out.motion);
+  ASSERT_NE(path, nullptr);
+  EXPECT_LT((path->waypoints.back().p_WB - agent_.station_position).head<2>().norm(), 33.0);
+}
+
+TEST_F(FarOut, LeavesWhenSomethingHasBeenUndeliveredForLong) {
+  const Vector3d p(20.0, 30.0, 20.0);
+  const auto wait = [&](double time_s, std::size_t undelivered) {
+    for (double t = 0.0; t < time_s; t += 0.05) delivery_.update(input(p, false, 9e3, undelivered), 40.0);
+  };
+  wait(300.0, 0);
+  EXPECT_FALSE(delivery_.due(input(p, false, 9e3, 1))) << "for so long there was nothing to deliver";
+  wait(239.5, 1);
+  EXPECT_FALSE(delivery_.due(input(p, false, 9e3, 1)));
+  wait(1.0, 1);
+  EXPECT_TRUE(delivery_.due(input(p, false, 9e3, 1)));
+  EXPECT_FALSE(delivery_.due(input(p, false, 9e3, 0)));
+}
+
+TEST_F(FarOut, IsNeverDueBeforeTheFirstTakeOff) {
+  const Vector3d p(20.0, 30.0, 20.0);
+  EXPECT_FALSE(delivery_.due(input(p, false, 1.0))) << "it was told nothing yet";
+  delivery_.update(input(p, false, 500.0), 40.0);
+  EXPECT_TRUE(delivery_.due(input(p, false, 1.0)));
+  PlannerInput on_the_ground = input(p, false, 1.0);
+  on_the_ground.mission_remaining_s.reset();
+  EXPECT_FALSE(delivery_.due(on_the_ground));
+}
+
+TEST_F(FarOut, RetreatsAtEveryThirdTimeThatNoWayWasFound) {
+  for (double y = 30.0; y < 60.0; y += 0.5) {  // the way it came
+    PlannerOutput out;
+    pilot_.look_out(input({-30.0, y, 20.0}, false, 500.0), {}, true, out);
+  }
+  const FreeSpace::Config nowhere{.floor_m = 1e3};
+  PlannerOutput out;
+  delivery_.begin(input({-30.0, 60.0, 20.0}, false, 500.0), nowhere, 12.0, out);
+  int steps = 0;
+  for (; !std::holds_alternative<Path>(out.motion) && steps < 200; ++steps) {
+    out = {};
+    delivery_.step(input({-30.0, 60.0, 20.0}, false, 500.0), nowhere, out);
+  }
+  EXPECT_NEAR(0.05 * steps, 2.0, 0.051) << "the first try was at once, the others a second apart";
+  EXPECT_LT(std::get<Path>(out.motion).waypoints.back().p_WB.y(), 52.0);
+}
+
+/// A UAV that is on its trip, or at the end of it.
+class AtThePlace : public FarOut {
+ protected:
+  AtThePlace() {
+    PlannerOutput out;
+    delivery_.update(input({-30.0, 20.0, 20.0}, false, 500.0), 40.0);
+    delivery_.begin(input({-30.0, 20.0, 20.0}, false, 500.0), {}, 12.0, out);
+    place_ = goal_of(out);
+  }
+  static Vector3d goal_of(const PlannerOutput& out) {
+    const Path* path = std::get_if<Path>(&out.motion);
+    return path != nullptr ? path->waypoints.back().p_WB : Vector3d::Zero().eval();
+  }
+  bool step(bool linked, std::size_t undelivered, double remaining_s, PlannerOutput& out) {
+    return delivery_.step(input(place_, linked, remaining_s, undelivered), {}, out);
+  }
+  Vector3d place_;
+};
+
+TEST_F(AtThePlace, WorkGoesOnOnlyWhenAllIsDeliveredAndThereIsTimeToComeBack) {
+  PlannerOutput out;
+  EXPECT_FALSE(step(false, 0, 500.0, out)) << "without a link nobody knows";
+  EXPECT_FALSE(step(true, 1, 500.0, out));
+  EXPECT_TRUE(step(true, 0, 500.0, out));
+  // The way home takes six seconds and ten are to be spare: twice that must be left.
+  EXPECT_TRUE(step(true, 0, 33.0, out));
+  EXPECT_FALSE(step(true, 0, 31.0, out));
+}
+
+TEST_F(AtThePlace, StaysForAsLongAsItHasALinkAndSomethingToDeliver) {
+  for (const std::size_t undelivered : {2, 0}) {  // none: the last time, for what may still come
+    PlannerOutput out;
+    for (int i = 0; i < 400; ++i) ASSERT_FALSE(step(true, undelivered, 25.0, out));
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(out.motion)) << undelivered;
+  }
+}
+
+TEST_F(AtThePlace, WithoutALinkItTriesOnePlaceAfterTheOtherAndThenHighAboveAll) {
+  const std::vector<Vector3d> expected = delivery_places(agent_, FreeSpace({}, boxes_, map_), 12.0);
+  ASSERT_GT(expected.size(), 3U);
+  std::vector<Vector3d> tried = {place_};
+  while (tried.size() < expected.size() + 2) {
+    int steps = 0;
+    PlannerOutput out;
+    while (!std::holds_alternative<Path>(out.motion) && ++steps < 200) {
+      out = {};
+      ASSERT_FALSE(step(false, 1, 500.0, out));
+    }
+    ASSERT_NEAR(0.05 * steps, 4.0, 0.2) << "so long it waits for a link";
+    place_ = goal_of(out);
+    tried.push_back(place_);
+  }
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(tried[i], expected[i]) << i;
+  const Vector3d& high = tried[expected.size()];
+  EXPECT_EQ(high.head<2>(), agent_.station_position.head<2>());
+  EXPECT_GT(high.z(), 40.0) << "the top of all structure";
+  EXPECT_EQ(tried.back(), expected.front()) << "and from the beginning again";
+}
+
+TEST_F(AtThePlace, AMomentsLinkBeginsTheWaitAnew) {
+  PlannerOutput out;
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_FALSE(step(i % 60 == 59, 1, 500.0, out));
+    ASSERT_FALSE(std::holds_alternative<Path>(out.motion)) << "after " << 0.05 * i << " s";
+  }
+}
+
+TEST_F(AtThePlace, TriesElsewhereOrAgainAfterASecond) {
+  for (const bool elsewhere : {true, false}) {
+    PlannerOutput out;
+    const PlannerInput in = input(place_, false, 500.0);
+    pilot_.stop(out);  // somebody else stopped it on its way
+    elsewhere ? delivery_.try_elsewhere(in) : delivery_.try_again(in);
+    int steps = 0;
+    while (!std::holds_alternative<Path>(out.motion) && ++steps < 100) {
+      out = {};
+      delivery_.step(input({-30.0, 20.0, 20.0}, false, 500.0), {}, out);
+    }
+    EXPECT_NEAR(0.05 * steps, 1.0, 0.051);
+    EXPECT_EQ((goal_of(out) - place_).norm() > 1.0, elsewhere);
+    place_ = goal_of(out);
+  }
+}
+
+TEST(SurveyRing, ExplorersShareTheWholeRingAtADistance) {
+  for (const double yaw : {0.0, 0.4, 1.2}) {
+    const std::vector<OrientedBox> boxes = {tower(yaw)};
+    double angle = 0.0;
+    for (std::size_t self = 0; self < 2; ++self) {
+      const auto share = survey_ring(fleet_of(2, self), boxes, 10.0, 25.0);
+      ASSERT_GT(share.size(), 4U);
+      for (std::size_t i = 0; i < share.size(); ++i) {
+        EXPECT_FALSE(boxes[0].contains(share[i], 9.9));
+        EXPECT_TRUE(boxes[0].contains(share[i], 10.1));
+        if (i == 0) continue;
+        const Vector3d a = share[i - 1] - boxes[0].center, b = share[i] - boxes[0].center;
+        angle += std::atan2(a.x() * b.y() - a.y() * b.x(), a.x() * b.x() + a.y() * b.y());
+      }
+    }
+    EXPECT_NEAR(std::abs(angle), 2.0 * M_PI, 1e-6) << "together once around";
+  }
+}
+
+TEST(SurveyRing, IsNothingForAPhotographerOrWithoutBoxes) {
+  AgentConfig config = fleet_of(1, 0);
+  EXPECT_TRUE(survey_ring(config, {}, 10.0, 25.0).empty());
+  config.fleet[0].role = Role::photographer;
+  EXPECT_TRUE(survey_ring(config, {tower()}, 10.0, 25.0).empty());
+}
+
+}  // namespace
+}  // namespace skein::agent

@@ -1,0 +1,198 @@
+#include "uav_agent/flight/path_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <queue>
+#include <tuple>
+#include <unordered_map>
+
+namespace skein::agent {
+namespace {
+
+using Cell = Eigen::Vector3i;
+
+constexpr double kHeuristicWeight = 1.2;  ///< a path at most this much longer than the best is good enough
+constexpr int kEscapeCells = 3;           ///< how far to look for a free cell around a start that is not free
+
+std::uint64_t key_of(const Cell& c) {
+  constexpr std::uint64_t kMask = (1U << 21) - 1;
+  return (static_cast<std::uint64_t>(c.x()) & kMask) | (static_cast<std::uint64_t>(c.y()) & kMask) << 21 |
+         (static_cast<std::uint64_t>(c.z()) & kMask) << 42;
+}
+
+class Search {
+ public:
+  Search(const FreeSpace& space, const std::vector<OrientedBox>& structure, const Vector3d& from, const Vector3d& to,
+         const PathSearchConfig& config)
+      : space_(space), from_(from), to_(to), config_(config), lo_(from.cwiseMin(to)), hi_(from.cwiseMax(to)) {
+    for (const OrientedBox& box : structure) {
+      const Vector3d half = box.R_WO.cwiseAbs() * (0.5 * box.size);
+      lo_ = lo_.cwiseMin(box.center - half);
+      hi_ = hi_.cwiseMax(box.center + half);
+    }
+    lo_.array() -= config.margin_m;
+    hi_.array() += config.margin_m;
+  }
+
+  std::optional<std::vector<Vector3d>> run() {
+    if (!space_.free(to_)) return std::nullopt;
+    const auto start = start_cell();
+    if (!start) return std::nullopt;
+    open(*start, 0.0, *start);
+    for (int expanded = 0; expanded < config_.max_expansions && !queue_.empty(); ++expanded) {
+      const Cell cell = std::get<2>(queue_.top());
+      queue_.pop();
+      Node& node = nodes_.at(key_of(cell));
+      if (node.closed) continue;
+      node.closed = true;
+      if ((centre(cell) - to_).norm() < 1.8 * config_.cell_m && space_.segment_free(centre(cell), to_)) {
+        return shortened(trace_back(cell));
+      }
+      expand(cell, node.cost);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Node {
+    double cost = 0.0;
+    Cell parent;
+    bool closed = false;
+  };
+  // Ties go to the entry that was made first: the order is the same on every machine.
+  using Entry = std::tuple<double, std::uint64_t, Cell>;
+  struct Later {
+    bool operator()(const Entry& a, const Entry& b) const {
+      return std::tie(std::get<0>(a), std::get<1>(a)) > std::tie(std::get<0>(b), std::get<1>(b));
+    }
+  };
+
+  Vector3d centre(const Cell& c) const { return (c.cast<double>() + Vector3d::Constant(0.5)) * config_.cell_m; }
+
+  bool passable(const Vector3d& p) const {
+    return (p.array() >= lo_.array()).all() && (p.array() <= hi_.array()).all() && space_.free(p);
+  }
+
+  /// The cell to begin with: the nearest one that can be reached on a straight line, for a start that is not
+  /// free itself one that is free.
+  std::optional<Cell> start_cell() const {
+    const Cell own = (from_ / config_.cell_m).array().floor().matrix().cast<int>();
+    const bool start_is_free = space_.free(from_);
+    std::optional<Cell> best;
+    double best_distance = 0.0;
+    for (int z = -kEscapeCells; z <= kEscapeCells; ++z) {
+      for (int y = -kEscapeCells; y <= kEscapeCells; ++y) {
+        for (int x = -kEscapeCells; x <= kEscapeCells; ++x) {
+          const Cell c = own + Cell(x, y, z);
+          const double distance = (centre(c) - from_).norm();
+          if (best && distance >= best_distance) continue;
+          if (!passable(centre(c))) continue;
+          if (start_is_free && !space_.segment_free(from_, centre(c))) continue;
+          if (!start_is_free && !escapes(centre(c))) continue;
+          best = c;
+          best_distance = distance;
+        }
+      }
+    }
+    return best;
+  }
+
+  /// The way out never comes nearer to anything mapped than the start is.
+  bool escapes(const Vector3d& out) const {
+    if (!space_.config().use_map) return true;
+    const double clearance = space_.config().clearance_m;
+    const double now = space_.map().distance_to_occupied(from_, clearance).value_or(clearance);
+    return space_.map().segment_clear(from_, out, std::max(0.0, now - 0.3));
+  }
+
+  void open(const Cell& cell, double cost, const Cell& parent) {
+    const auto [it, is_new] = nodes_.try_emplace(key_of(cell), Node{cost, parent});
+    if (!is_new) {
+      if (it->second.closed || it->second.cost <= cost) return;
+      it->second.cost = cost;
+      it->second.parent = parent;
+    }
+    queue_.emplace(cost + kHeuristicWeight * (to_ - centre(cell)).norm(), sequence_++, cell);
+  }
+
+  void expand(const Cell& cell, double cost) {
+    for (int i = 0; i < 27; ++i) {
+      const Cell step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      if (step.isZero()) continue;
+      const Cell next = cell + step;
+      const auto known = nodes_.find(key_of(next));
+      if (known != nodes_.end() && known->second.closed) continue;
+      if (!free_cell(next) || !passable(0.5 * (centre(cell) + centre(next)))) continue;
+      open(next, cost + config_.cell_m * std::sqrt(static_cast<double>(step.squaredNorm())), cell);
+    }
+  }
+
+  bool free_cell(const Cell& c) {
+    const auto [it, is_new] = passable_.try_emplace(key_of(c), false);
+    if (is_new) it->second = passable(centre(c));
+    return it->second;
+  }
+
+  std::vector<Vector3d> trace_back(Cell cell) const {
+    std::vector<Vector3d> corners = {to_};
+    while (true) {
+      corners.push_back(centre(cell));
+      const Cell parent = nodes_.at(key_of(cell)).parent;
+      if (parent == cell) break;
+      cell = parent;
+    }
+    std::reverse(corners.begin(), corners.end());
+    return corners;
+  }
+
+  std::vector<Vector3d> shortened(const std::vector<Vector3d>& corners) const {
+    std::vector<Vector3d> out;
+    Vector3d at = from_;
+    std::size_t next = 0;
+    if (!space_.free(from_)) {  // nothing is a free short cut from here
+      at = corners[0];
+      out.push_back(at);
+      next = 1;
+    }
+    while (next < corners.size()) {
+      std::size_t far = corners.size() - 1;
+      while (far > next && !space_.segment_free(at, corners[far])) far = next + (far - next) / 2;
+      at = corners[far];
+      out.push_back(at);
+      next = far + 1;
+    }
+    return out;
+  }
+
+  const FreeSpace& space_;
+  const Vector3d from_, to_;
+  const PathSearchConfig config_;
+  Vector3d lo_, hi_;
+  std::unordered_map<std::uint64_t, Node> nodes_;  // looked up only, never walked through
+  std::unordered_map<std::uint64_t, bool> passable_;
+  std::priority_queue<Entry, std::vector<Entry>, Later> queue_;
+  std::uint64_t sequence_ = 0;
+};
+
+}  // namespace
+
+std::optional<std::vector<Vector3d>> find_path(const FreeSpace& space, const std::vector<OrientedBox>& structure,
+                                               const Vector3d& from_W, const Vector3d& to_W,
+                                               const PathSearchConfig& config) {
+  if (space.segment_free(from_W, to_W)) return std::vector<Vector3d>{to_W};
+  return Search(space, structure, from_W, to_W, config).run();
+}
+
+double path_length(const Vector3d& from_W, const std::vector<Vector3d>& corners_W) {
+  double length = 0.0;
+  Vector3d at = from_W;
+  for (const Vector3d& corner : corners_W) {
+    length += (corner - at).norm();
+    at = corner;
+  }
+  return length;
+}
+
+}  // namespace skein::agent

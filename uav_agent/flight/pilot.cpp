@@ -1,0 +1,173 @@
+#include "uav_agent/flight/pilot.hpp"
+
+#include <algorithm>
+
+#include "uav_agent/flight/path_search.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kLookAheadDtS = 0.25;  ///< of the predictions for safety and traffic
+constexpr int kLookAheadCount = 13;
+constexpr std::uint64_t kObstacleSteps = 4;      ///< exchanges between two looks at the map
+constexpr double kStopSlackM = 0.4;              ///< the safety stop is this much less careful than planning
+constexpr double kDriftDtS = 0.125;              ///< of where its velocity carries a UAV, whatever it was told
+constexpr int kDriftCount = 4;                   ///< no farther than it overshoots a corner that it brakes for
+constexpr double kApproachM = 0.1;               ///< who is too near to something may come nearer by this, not more
+constexpr double kDetourAgainS = 20.0;           ///< a second meeting within this time is no accident
+constexpr double kWatchM = 0.5, kWatchS = 12.0;  ///< no further than this for so long: something is wrong
+constexpr double kTrailStepM = 1.0, kRetreatM = 10.0;
+constexpr std::size_t kTrailCount = 100;
+
+}  // namespace
+
+FreeSpace Pilot::way_space(const PlannerInput& in, const FreeSpace::Config& space, const Vector3d& goal) const {
+  FreeSpace::Config config = space;
+  const Vector3d here = in.tracking.setpoint.p_WB;
+  config.enter_near_W = {here, goal};
+  return {config, in.boxes, in.map, separation_.keep_out(here, in.peers)};
+}
+
+std::vector<Waypoint> Pilot::rest_of_path(const PlannerInput& in) const {
+  if (paused_) return path_.waypoints;
+  const std::size_t leg = std::min(in.tracking.leg, path_.waypoints.size());
+  return {path_.waypoints.begin() + static_cast<std::ptrdiff_t>(leg), path_.waypoints.end()};
+}
+
+Situation Pilot::look_out(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour, PlannerOutput& out) {
+  if (leaves_trail_) add_to_trail(in.tracking.setpoint.p_WB);
+  const Situation traffic = give_way(in, space, may_detour, out);
+  if (traffic != Situation::flying_on) return traffic;
+  if (obstacle_ahead(in, space)) {
+    stop(out);
+    return Situation::obstacle;
+  }
+  return stands_still(in) ? Situation::stuck : Situation::flying_on;
+}
+
+Situation Pilot::give_way(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour, PlannerOutput& out) {
+  const std::vector<Waypoint> rest = rest_of_path(in);
+  if (rest.empty()) return Situation::flying_on;
+  // The others see where this UAV is, not what it was told: so does it.
+  const auto ahead = positions_ahead(in.state.p_WB, rest, kLookAheadDtS, kLookAheadCount);
+  switch (separation_.judge(in.tick, ahead, kLookAheadDtS, in.peers)) {
+    case Traffic::clear:
+      if (!paused_) return Situation::flying_on;
+      follow(std::move(path_), out);
+      return Situation::waiting;
+    case Traffic::wait:
+      if (!paused_) {
+        path_.waypoints = rest;
+        paused_ = true;
+        out.motion = Hold{};
+      }
+      return Situation::waiting;
+    case Traffic::go_around:
+      break;
+  }
+  // One detour is worth a try. If it led to nothing, the other UAV has work here: something else first.
+  const bool again = detour_at_ && seconds(in.tick - *detour_at_) < kDetourAgainS;
+  detour_at_ = in.tick;
+  if (may_detour && !again && go_around(rest, in, space, out)) return Situation::detour;
+  stop(out);
+  return Situation::crowded;
+}
+
+/// Leaves the path for a way around whoever stands on it, and comes back to it behind them.
+bool Pilot::go_around(const std::vector<Waypoint>& rest, const PlannerInput& in, const FreeSpace::Config& space,
+                      PlannerOutput& out) {
+  const FreeSpace way = way_space(in, space, rest.back().p_WB);
+  std::size_t back = 0;
+  while (back + 1 < rest.size() && !way.free(rest[back].p_WB)) ++back;
+  const auto corners = find_path(way, in.boxes, in.tracking.setpoint.p_WB, rest[back].p_WB);
+  if (!corners) return false;
+  Path around;
+  for (const Vector3d& p : *corners) around.waypoints.push_back({p, config_.speed_mps});
+  around.waypoints.insert(around.waypoints.end(), rest.begin() + static_cast<std::ptrdiff_t>(back) + 1, rest.end());
+  follow(std::move(around), out);
+  return true;
+}
+
+bool Pilot::obstacle_ahead(const PlannerInput& in, const FreeSpace::Config& space) const {
+  if (!space.use_map || in.k % kObstacleSteps != 0) return false;
+  const std::vector<Waypoint> rest = rest_of_path(in);
+  if (rest.empty()) return false;
+  // Whoever is too near to something already may still move away from it.
+  const auto comes_too_near = [&](const std::vector<Vector3d>& ahead) {
+    double limit = space.clearance_m - kStopSlackM;
+    if (const auto now = in.map.distance_to_occupied(ahead.front(), limit)) limit = std::max(0.0, *now - kApproachM);
+    return std::any_of(ahead.begin() + 1, ahead.end(),
+                       [&](const Vector3d& p) { return in.map.any_occupied_within(p, limit); });
+  };
+  // Both where it was told to go and where it is really going.
+  const Vector3d demanded = in.tracking.setpoint.p_WB;
+  if (comes_too_near(positions_ahead(demanded, rest, kLookAheadDtS, kLookAheadCount))) return true;
+  std::vector<Vector3d> drift;
+  for (int i = 0; i < kDriftCount; ++i) drift.push_back(in.state.p_WB + i * kDriftDtS * in.state.v_WB);
+  return comes_too_near(drift) || comes_too_near({in.state.p_WB, 0.5 * (in.state.p_WB + demanded), demanded});
+}
+
+bool Pilot::stands_still(const PlannerInput& in) {
+  const bool moved = (in.state.p_WB - watched_p_W_).norm() > kWatchM;
+  if (moved || !has_path() || in.tracking.done) {
+    watched_p_W_ = in.state.p_WB;
+    watched_since_ = in.tick;
+  }
+  if (seconds(in.tick - watched_since_) < kWatchS) return false;
+  watched_since_ = in.tick;
+  return true;
+}
+
+/// Remembers where it was: what was free once is free now.
+void Pilot::add_to_trail(const Vector3d& p_W) {
+  if (!trail_.empty() && (trail_.back() - p_W).norm() < kTrailStepM) return;
+  trail_.push_back(p_W);
+  if (trail_.size() > kTrailCount) trail_.pop_front();
+}
+
+bool Pilot::retreat(PlannerOutput& out, bool leave_trail) {
+  Path path;
+  double length = 0.0;
+  while (trail_.size() > 1 && length < kRetreatM) {
+    const Vector3d from = trail_.back();
+    trail_.pop_back();
+    length += (trail_.back() - from).norm();
+    path.waypoints.push_back({trail_.back(), config_.retreat_mps});
+  }
+  if (path.waypoints.empty()) return false;
+  follow(std::move(path), out);
+  leaves_trail_ = leave_trail;
+  return true;
+}
+
+void Pilot::follow(Path path, PlannerOutput& out) {
+  path_ = std::move(path);
+  paused_ = false;
+  leaves_trail_ = true;
+  out.motion = path_;
+}
+
+void Pilot::stop(PlannerOutput& out) {
+  path_.waypoints.clear();
+  paused_ = false;
+  leaves_trail_ = true;
+  if (std::holds_alternative<std::monostate>(out.motion)) out.motion = Hold{};
+}
+
+std::string Way::why() const {
+  if (found) return "there is a way";
+  if (at_goal == Barrier::none) return "no way was found to a place that is free";
+  return "the goal is " + std::string(to_string(at_goal));
+}
+
+Way Pilot::fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
+  const FreeSpace free_space = way_space(in, space, goal);
+  const auto corners = find_path(free_space, in.boxes, in.tracking.setpoint.p_WB, goal);
+  if (!corners) return {.found = false, .at_goal = free_space.barrier(goal)};
+  Path path;
+  for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.speed_mps});
+  follow(std::move(path), out);
+  return {};
+}
+
+}  // namespace skein::agent

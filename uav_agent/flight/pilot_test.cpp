@@ -1,0 +1,142 @@
+#include "uav_agent/flight/pilot.hpp"
+
+#include <gtest/gtest.h>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kClearanceM = 1.8;
+
+AgentConfig one_uav() {
+  AgentConfig agent;
+  agent.fleet = {{.name = "a", .body_radius_m = 0.4}};
+  return agent;
+}
+
+/// A wall in the plane x = `x`.
+OccupancyMap wall_at(float x) {
+  std::vector<Eigen::Vector3f> hits;
+  for (float y = -10.0F; y <= 60.0F; y += 0.4F) {
+    for (float z = 0.6F; z <= 40.0F; z += 0.4F) hits.emplace_back(x, y, z);
+  }
+  OccupancyMap map;
+  map.insert(hits, std::nullopt);
+  return map;
+}
+
+/// One pilot that flies along a wall, four metres off it, and what it says of a UAV with another state.
+class AlongAWall : public testing::Test {
+ protected:
+  Situation look(Pilot& pilot, const Setpoint& setpoint, const RigidBodyState& state, PlannerOutput& out) {
+    TrackingState tracking;
+    tracking.setpoint = setpoint;
+    tracking.done = false;
+    tracking.airborne = true;
+    const PlannerInput in{.k = 4,
+                          .tick = 80,
+                          .state = state,
+                          .gimbal = {},
+                          .tracking = tracking,
+                          .map = map_,
+                          .boxes = boxes_,
+                          .peers = peers_,
+                          .mission_remaining_s = {},
+                          .detected = {},
+                          .radio = {}};
+    return pilot.look_out(in, {.clearance_m = kClearanceM}, true, out);
+  }
+  Situation judge(const RigidBodyState& state) {
+    Pilot pilot({}, agent_);
+    PlannerOutput out;
+    pilot.follow(Path{{{{0.0, 40.0, 20.0}, 4.0}}}, out);
+    return look(pilot, {.p_WB = {0.0, 5.0, 20.0}, .v_WB = {0.0, 4.0, 0.0}}, state, out);
+  }
+  static RigidBodyState at(const Vector3d& p_W, const Vector3d& v_W) {
+    RigidBodyState state;
+    state.p_WB = p_W;
+    state.v_WB = v_W;
+    return state;
+  }
+
+  const AgentConfig agent_ = one_uav();
+  const Peers peers_{agent_};
+  const std::vector<OrientedBox> boxes_;
+  const OccupancyMap map_ = wall_at(4.0F);
+};
+
+TEST_F(AlongAWall, FliesOnWhileItFollows) {
+  EXPECT_EQ(judge(at({0.0, 4.2, 20.0}, {0.0, 4.0, 0.0})), Situation::flying_on);
+}
+
+TEST_F(AlongAWall, StopsWhenItsVelocityCarriesItTowardsTheWall) {
+  EXPECT_EQ(judge(at({1.7, 4.2, 20.0}, {3.5, 2.0, 0.0})), Situation::obstacle);
+}
+
+TEST_F(AlongAWall, StopsWhenItIsOffItsSetpointAndNearer) {
+  EXPECT_EQ(judge(at({2.4, 5.0, 20.0}, {1.5, 4.0, 0.0})), Situation::obstacle);
+}
+
+TEST_F(AlongAWall, MayLeaveAWallThatItIsTooNearTo) {
+  EXPECT_EQ(judge(at({3.0, 5.0, 20.0}, {-1.0, 4.0, 0.0})), Situation::flying_on);
+}
+
+TEST_F(AlongAWall, SaysWhyThereIsNoWay) {
+  const auto fly_to = [&](const Vector3d& goal, const std::vector<OrientedBox>& boxes, PlannerOutput& out) {
+    TrackingState tracking;
+    tracking.setpoint = {.p_WB = {0.0, 5.0, 20.0}};
+    const PlannerInput in{.k = 4,
+                          .tick = 80,
+                          .state = at({0.0, 5.0, 20.0}, Vector3d::Zero()),
+                          .gimbal = {},
+                          .tracking = tracking,
+                          .map = map_,
+                          .boxes = boxes,
+                          .peers = peers_,
+                          .mission_remaining_s = {},
+                          .detected = {},
+                          .radio = {}};
+    return Pilot({}, agent_).fly_to(goal, in, {.clearance_m = kClearanceM}, out);
+  };
+  OrientedBox box;
+  box.center = {-30.0, 5.0, 20.0};
+  box.size = {8.0, 8.0, 8.0};
+  const std::vector<std::pair<Vector3d, Barrier>> barred = {
+      {{0.0, 10.0, 1.0}, Barrier::floor}, {{3.5, 10.0, 20.0}, Barrier::mapped}, {box.center, Barrier::unseen}};
+  for (const auto& [goal, barrier] : barred) {
+    PlannerOutput out;
+    const Way way = fly_to(goal, {box}, out);
+    EXPECT_FALSE(way);
+    EXPECT_EQ(way.at_goal, barrier) << to_string(way.at_goal);
+    EXPECT_NE(way.why().find(to_string(barrier)), std::string::npos) << way.why();
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(out.motion)) << "and does nothing";
+  }
+  PlannerOutput out;
+  const Way way = fly_to({-10.0, 20.0, 20.0}, {box}, out);
+  EXPECT_TRUE(way) << way.why();
+  EXPECT_TRUE(std::holds_alternative<Path>(out.motion));
+}
+
+TEST_F(AlongAWall, TheNextRetreatGoesFartherBack) {
+  Pilot pilot({}, agent_);
+  double y = 0.0;
+  const auto fly_to = [&](double goal) {
+    while (y != goal) {
+      y = goal > y ? std::min(goal, y + 0.5) : std::max(goal, y - 0.5);
+      PlannerOutput out;
+      look(pilot, {.p_WB = {0.0, y, 20.0}}, at({0.0, y, 20.0}, Vector3d::Zero()), out);
+    }
+  };
+  fly_to(50.0);
+  double before = y;
+  for (int i = 0; i < 3; ++i) {
+    PlannerOutput out;
+    ASSERT_TRUE(pilot.retreat(out, false));
+    fly_to(std::get<Path>(out.motion).waypoints.back().p_WB.y());
+    EXPECT_LT(y, before - 8.0);
+    before = y;
+    pilot.stop(out);
+  }
+}
+
+}  // namespace
+}  // namespace skein::agent

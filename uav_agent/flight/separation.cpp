@@ -1,0 +1,96 @@
+#include "uav_agent/flight/separation.hpp"
+
+#include <algorithm>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kStandingMps = 0.3;
+constexpr double kApproachM = 0.05;        ///< a distance that does not shrink by this is no approach
+constexpr double kPatiencePerRankS = 0.5;  ///< two UAVs that wait for each other do not lose patience together
+constexpr double kMovingPatience = 3.0;    ///< times as much with somebody who moves
+constexpr double kPlanAroundM = 15.0;      ///< whoever is farther away will be elsewhere when this UAV comes
+constexpr double kKeepOutExtraM = 0.3;
+constexpr double kCrowdM = 6.0;          ///< starts nearer than this wait for each other
+constexpr double kClearHeightM = 3.0;    ///< the one before is this far up, or gone: the next may start
+constexpr double kStartPatienceS = 4.0;  ///< for each one before; after that it is taken to be broken
+
+}  // namespace
+
+std::vector<Vector3d> positions_ahead(const Vector3d& from_W, const std::vector<Waypoint>& waypoints, double dt_s,
+                                      int count) {
+  std::vector<Vector3d> positions = {from_W};
+  Vector3d at = from_W;
+  std::size_t leg = 0;
+  while (static_cast<int>(positions.size()) < count) {
+    double time = dt_s;
+    while (time > 0.0 && leg < waypoints.size()) {
+      const Vector3d to_go = waypoints[leg].p_WB - at;
+      const double step = std::max(0.05, waypoints[leg].speed_mps) * time;
+      if (step < to_go.norm()) {
+        at += to_go.normalized() * step;
+        break;
+      }
+      time -= to_go.norm() / std::max(0.05, waypoints[leg].speed_mps);
+      at = waypoints[leg++].p_WB;
+    }
+    positions.push_back(at);
+  }
+  return positions;
+}
+
+double Separation::contact_m(std::size_t uav) const {
+  return agent_.me().body_radius_m + agent_.fleet[uav].body_radius_m;
+}
+
+Traffic Separation::judge(Tick now, const std::vector<Vector3d>& ahead, double dt_s, const Peers& peers) {
+  bool conflict = false, standing = false;
+  for (const Peer& peer : peers.all()) {
+    if (!peer.visible) continue;
+    const bool stands = peer.v_W.norm() < kStandingMps;
+    const bool has_way = stands || peer.uav < agent_.self;
+    const double limit = contact_m(peer.uav) + (has_way ? config_.margin_m : config_.tight_m);
+    const double distance_now = (ahead.front() - peer.p_W).norm();
+    for (std::size_t i = 1; i < ahead.size() && static_cast<double>(i) * dt_s <= config_.horizon_s; ++i) {
+      const double t = static_cast<double>(i) * dt_s;
+      const double distance = (ahead[i] - peer.p_W - t * peer.v_W).norm();
+      if (distance >= limit || distance >= distance_now - kApproachM) continue;
+      conflict = true;
+      standing |= stands;
+      break;
+    }
+  }
+  if (!conflict) {
+    waiting_since_.reset();
+    return Traffic::clear;
+  }
+  if (!waiting_since_) waiting_since_ = now;
+  const double patience = config_.patience_s + kPatiencePerRankS * static_cast<double>(agent_.self);
+  if (seconds(now - *waiting_since_) < (standing ? 1.0 : kMovingPatience) * patience) return Traffic::wait;
+  waiting_since_ = now;
+  return Traffic::go_around;
+}
+
+std::vector<Sphere> Separation::keep_out(const Vector3d& p_W_now, const Peers& peers) const {
+  std::vector<Sphere> spheres;
+  for (const Peer& peer : peers.all()) {
+    const bool near = (peer.p_W - p_W_now).norm() < kPlanAroundM;
+    if (peer.visible && near) spheres.push_back({peer.p_W, contact_m(peer.uav) + config_.margin_m + kKeepOutExtraM});
+  }
+  return spheres;
+}
+
+bool Separation::may_lift_off(Tick now, const Peers& peers) {
+  if (!ready_since_) ready_since_ = now;
+  int before = 0;
+  bool blocked = false;
+  for (const Peer& peer : peers.all()) {
+    const Vector3d start = agent_.fleet[peer.uav].p_WB_start;
+    if (peer.uav > agent_.self || (start - agent_.me().p_WB_start).norm() > kCrowdM) continue;
+    ++before;
+    blocked |= (peer.p_W - start).norm() < kClearHeightM;
+  }
+  return !blocked || seconds(now - *ready_since_) > kStartPatienceS * before;
+}
+
+}  // namespace skein::agent

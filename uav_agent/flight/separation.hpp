@@ -1,0 +1,52 @@
+// Keeping apart from the other UAVs in line of sight: who starts first, who gives way.
+// Frame W.   Units: SI.   Pure but for the waiting times.   Threads: one.
+#pragma once
+
+#include <vector>
+
+#include "uav_agent/api/planner.hpp"
+#include "uav_agent/flight/free_space.hpp"
+
+namespace skein::agent {
+
+/// Where a UAV that follows the polyline will be: positions `dt_s` apart, the first is `from_W`.
+std::vector<Vector3d> positions_ahead(const Vector3d& from_W, const std::vector<Waypoint>& waypoints, double dt_s,
+                                      int count);
+
+enum class Traffic {
+  clear,      ///< fly on
+  wait,       ///< stop: somebody comes who has the right of way, or it is too tight
+  go_around,  ///< somebody stands in the way and has done so for a while
+};
+
+class Separation {
+ public:
+  struct Config {
+    double margin_m = 2.2;  ///< between two bodies' surfaces: nearer than this is a conflict
+    double tight_m = 1.4;   ///< nearer than this, the right of way does not count
+    double horizon_s = 3.0;
+    double patience_s = 1.5;  ///< of waiting, before going around
+  };
+
+  Separation(const Config& config, const AgentConfig& agent) : config_(config), agent_(agent) {}
+
+  /// Right of way is by fleet order; whoever stands still has it over whoever moves.
+  /// @param ahead  own positions to come, `dt_s` apart.
+  Traffic judge(Tick now, const std::vector<Vector3d>& ahead, double dt_s, const Peers& peers);
+
+  /// The UAVs in line of sight and near by, as places to plan around.
+  std::vector<Sphere> keep_out(const Vector3d& p_W_now, const Peers& peers) const;
+
+  /// Whether this UAV may lift off: those of lower number that stand near it first, each a few metres up
+  /// before the next.
+  bool may_lift_off(Tick now, const Peers& peers);
+
+ private:
+  double contact_m(std::size_t uav) const;
+
+  const Config config_;
+  const AgentConfig& agent_;
+  std::optional<Tick> waiting_since_, ready_since_;
+};
+
+}  // namespace skein::agent

@@ -1,0 +1,173 @@
+#include "uav_agent/flight/separation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random_stream.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kDtS = 0.25;
+
+AgentConfig fleet(std::size_t self, const std::vector<Vector3d>& starts) {
+  AgentConfig config;
+  config.self = self;
+  for (const Vector3d& start : starts) {
+    FleetMember member;
+    member.p_WB_start = start;
+    config.fleet.push_back(member);
+  }
+  return config;
+}
+
+Peers one_peer(const AgentConfig& config, std::size_t uav, const Vector3d& p, const Vector3d& v) {
+  Peers peers(config);
+  peers.update(0, {{.node = node_of_uav(uav), .p_W = p, .v_W = v}});
+  return peers;
+}
+
+std::vector<Vector3d> eastwards(double speed) {
+  return positions_ahead({0.0, 0.0, 10.0}, {{{50.0, 0.0, 10.0}, speed}}, kDtS, 13);
+}
+
+TEST(Separation, PositionsAheadKeepTheSpeedOfEachLegAndStopAtTheEnd) {
+  const auto ahead = positions_ahead({0, 0, 0}, {{{2, 0, 0}, 4.0}, {{2, 1, 0}, 1.0}}, 0.25, 9);
+  ASSERT_EQ(ahead.size(), 9U);
+  EXPECT_NEAR((ahead[1] - Vector3d(1, 0, 0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((ahead[3] - Vector3d(2, 0.25, 0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((ahead[8] - Vector3d(2, 1, 0)).norm(), 0.0, 1e-9);
+}
+
+TEST(Separation, TheLowerNumberHasTheRightOfWay) {
+  const std::vector<Vector3d> starts = {{0, 0, 0}, {20, 0, 0}};
+  const Vector3d p(12.0, -12.0, 10.0), v(0.0, 4.0, 0.0);  // crosses at the same time
+  const AgentConfig low = fleet(0, starts), high = fleet(1, starts);
+  EXPECT_EQ(Separation({}, low).judge(0, eastwards(4.0), kDtS, one_peer(low, 1, p, v)), Traffic::wait)
+      << "so tight that even the right of way does not help";
+  const Vector3d passes_by(12.0, -7.5, 10.0);
+  EXPECT_EQ(Separation({}, low).judge(0, eastwards(4.0), kDtS, one_peer(low, 1, passes_by, v)), Traffic::clear);
+  EXPECT_EQ(Separation({}, high).judge(0, eastwards(4.0), kDtS, one_peer(high, 0, passes_by, v)), Traffic::wait);
+}
+
+TEST(Separation, GoesAroundWhoeverStandsInTheWayForAWhile) {
+  const AgentConfig config = fleet(0, {{0, 0, 0}, {20, 0, 0}});
+  const Peers peers = one_peer(config, 1, {8.0, 0.5, 10.0}, Vector3d::Zero());
+  Separation separation({}, config);
+  EXPECT_EQ(separation.judge(0, eastwards(4.0), kDtS, peers), Traffic::wait);
+  Tick tick = 0;
+  Traffic last = Traffic::wait;
+  while (tick < ticks(5.0) && last == Traffic::wait) last = separation.judge(tick += 20, eastwards(4.0), kDtS, peers);
+  EXPECT_EQ(last, Traffic::go_around);
+  EXPECT_EQ(separation.keep_out({0.0, 0.0, 10.0}, peers).size(), 1U);
+  EXPECT_TRUE(separation.keep_out({90.0, 0.0, 10.0}, peers).empty()) << "far away";
+}
+
+TEST(Separation, MovingApartIsNeverAConflict) {
+  const AgentConfig config = fleet(1, {{0, 0, 0}, {20, 0, 0}});
+  const Peers peers = one_peer(config, 0, {-1.5, 0.0, 10.0}, Vector3d::Zero());
+  EXPECT_EQ(Separation({}, config).judge(0, eastwards(2.0), kDtS, peers), Traffic::clear);
+}
+
+/// What the rules say of one peer: in the same plane, both straight on at their speeds.
+bool conflicts(const Separation::Config& config, const AgentConfig& agent, double speed, const Vector3d& p,
+               const Vector3d& v) {
+  const double wide = 2.0 * 0.63 + config.margin_m, tight = 2.0 * 0.63 + config.tight_m;
+  const double limit = v.norm() < 0.3 || agent.self > 0 ? wide : tight;
+  const double now = (p - Vector3d(0.0, 0.0, 10.0)).norm();
+  for (int i = 1; i <= static_cast<int>(config.horizon_s / kDtS); ++i) {
+    const double distance = (Vector3d(speed * i * kDtS, 0.0, 10.0) - p - i * kDtS * v).norm();
+    if (distance < limit && distance < now - 0.05) return true;
+  }
+  return false;
+}
+
+TEST(Separation, AConflictIsWhoComesNearWithinTheHorizonAndNobodyElse) {
+  const std::vector<Vector3d> starts = {{0, 0, 0}, {20, 0, 0}};
+  int clear = 0, waits = 0;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    RandomStream random(i, "traffic", 0);
+    const std::size_t self = i % 2;
+    const Separation::Config config{.horizon_s = random.uniform() < 0.5 ? 3.0 : 1.5};
+    const AgentConfig agent = fleet(self, starts);
+    const double speed = random.uniform(0.5, 4.0);
+    const Vector3d p(random.uniform(-6.0, 12.0), random.uniform(-8.0, 8.0), 10.0);
+    Vector3d v(random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0), 0.0);
+    if (i % 3 == 0) v = {speed, random.uniform(-0.2, 0.2), 0.0};  // alongside
+    if (i % 7 == 0) v.setZero();
+    const bool expected = conflicts(config, agent, speed, p, v);
+    const Traffic judged = Separation(config, agent).judge(0, eastwards(speed), kDtS, one_peer(agent, 1 - self, p, v));
+    ASSERT_EQ(judged, expected ? Traffic::wait : Traffic::clear) << "case " << i;
+    ++(expected ? waits : clear);
+  }
+  EXPECT_GT(std::min(clear, waits), 200) << "both must have been drawn often";
+}
+
+TEST(Separation, WhoIsOutOfSightIsNobody) {
+  const AgentConfig config = fleet(0, {{0, 0, 0}, {20, 0, 0}});
+  Peers peers = one_peer(config, 1, {6.0, 0.5, 10.0}, Vector3d::Zero());
+  Separation separation({}, config);
+  EXPECT_EQ(separation.judge(0, eastwards(4.0), kDtS, peers), Traffic::wait);
+  EXPECT_EQ(separation.keep_out({0.0, 0.0, 10.0}, peers).size(), 1U);
+  peers.update(20, {});
+  EXPECT_EQ(separation.judge(20, eastwards(4.0), kDtS, peers), Traffic::clear);
+  EXPECT_TRUE(separation.keep_out({0.0, 0.0, 10.0}, peers).empty());
+}
+
+/// How long a conflict that lasts is waited for [s].
+double patience_s(Separation& separation, const Peers& peers, Tick& tick) {
+  const Tick begin = tick;
+  while (separation.judge(tick, eastwards(4.0), kDtS, peers) == Traffic::wait) tick += 20;
+  return seconds(tick - begin);
+}
+
+TEST(Separation, PatienceGrowsWithRankIsThreefoldForWhoMovesAndBeginsAnewAfterAClearMoment) {
+  const std::vector<Vector3d> starts = {{0, 0, 0}, {20, 0, 0}, {40, 0, 0}};
+  for (std::size_t self = 0; self < 3; ++self) {
+    const AgentConfig config = fleet(self, starts);
+    const std::size_t other = self == 0 ? 1 : 0;
+    const Peers stands = one_peer(config, other, {6.0, 0.5, 10.0}, Vector3d::Zero());
+    const Peers moves = one_peer(config, other, {11.0, 0.0, 10.0}, {-4.0, 0.0, 0.0});
+    const double patience = 1.5 + 0.5 * static_cast<double>(self);
+    Tick tick = 0;
+    Separation separation({}, config);
+    EXPECT_NEAR(patience_s(separation, stands, tick), patience, 0.051) << self;
+    tick += 20;
+    EXPECT_NEAR(patience_s(separation, stands, tick), patience, 0.101) << self << ": going around takes its time, too";
+    EXPECT_NEAR(patience_s(separation, moves, tick), 3.0 * patience, 0.101) << self;
+
+    Separation interrupted({}, config);
+    EXPECT_EQ(interrupted.judge(0, eastwards(4.0), kDtS, stands), Traffic::wait);
+    EXPECT_EQ(interrupted.judge(ticks(1.0), eastwards(4.0), kDtS, Peers(config)), Traffic::clear);
+    EXPECT_EQ(interrupted.judge(ticks(9.0), eastwards(4.0), kDtS, stands), Traffic::wait) << self;
+  }
+}
+
+TEST(Separation, NeighboursLiftOffOneAfterTheOther) {
+  const AgentConfig config = fleet(1, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  Separation separation({}, config);
+  EXPECT_FALSE(separation.may_lift_off(0, Peers(config))) << "number 0 still stands there";
+  EXPECT_FALSE(separation.may_lift_off(400, one_peer(config, 0, {0, 0, 2.0}, {0, 0, 2.0})));
+  EXPECT_TRUE(separation.may_lift_off(800, one_peer(config, 0, {0, 0, 3.5}, {0, 0, 2.0})));
+  const AgentConfig far = fleet(1, {{0, 0, 0}, {30, 0, 0}});
+  EXPECT_TRUE(Separation({}, far).may_lift_off(0, Peers(far)));
+  Separation patient({}, config);
+  EXPECT_FALSE(patient.may_lift_off(0, Peers(config)));
+  EXPECT_TRUE(patient.may_lift_off(ticks(6.0), Peers(config))) << "number 0 seems to be broken";
+}
+
+TEST(Separation, EachOneBeforeIsWaitedForAndNobodyElse) {
+  const std::vector<Vector3d> starts = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {30, 0, 0}, {1, 1, 0}};
+  const std::vector<double> patience_s = {0.0, 4.0, 8.0, 0.0, 12.0};  // four seconds for each nearer, lower number
+  for (std::size_t self = 0; self < starts.size(); ++self) {
+    const AgentConfig config = fleet(self, starts);
+    Separation separation({}, config);
+    Tick tick = 100;
+    while (!separation.may_lift_off(tick, Peers(config))) tick += 20;
+    EXPECT_NEAR(seconds(tick - 100), patience_s[self], 0.051) << self;
+  }
+}
+
+}  // namespace
+}  // namespace skein::agent

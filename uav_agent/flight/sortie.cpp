@@ -1,0 +1,94 @@
+#include "uav_agent/flight/sortie.hpp"
+
+#include <algorithm>
+
+#include "uav_agent/flight/lift_off.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kAtTopM = 0.5;
+constexpr double kRetryS = 1.0;  ///< after a climb was stopped
+constexpr int kMaxClimbs = 20;
+constexpr double kLowestPlaceM = 6.0;  ///< for delivery
+constexpr double kAboveBlindM = 2.0;
+
+}  // namespace
+
+Sortie::Sortie(const Config& config, const AgentConfig& agent)
+    : config_(config),
+      agent_(agent),
+      pilot_({.speed_mps = config.transit_mps, .retreat_mps = config.retreat_mps}, agent_),
+      delivery_({config.deliver_every_s, config.return_margin_s, config.transit_mps}, agent_, pilot_) {}
+
+void Sortie::know_site(double top_m, double blind_height_m) {
+  site_known_ = true;
+  top_m_ = top_m;
+  blind_height_m_ = blind_height_m;
+}
+
+Sortie::Turn Sortie::step(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
+  if (state_ == State::ground) return leave_ground(in, out);
+  delivery_.update(in, top_m_);
+  if (state_ == State::working && delivery_.due(in)) {
+    state_ = State::delivering;
+    delivery_.begin(in, space, std::max(blind_height_m_ + kAboveBlindM, kLowestPlaceM), out);
+    return Turn::leave;
+  }
+  situation_ = pilot_.look_out(in, space, state_ != State::climbing, out);
+  if (situation_ != Situation::flying_on) return react(in, out);
+  if (state_ == State::climbing) return in.tracking.done ? climb(in, out) : Turn::nothing;
+  if (state_ == State::working) return Turn::work;
+  return delivery_.step(in, space, out) ? begin_work() : Turn::nothing;
+}
+
+Sortie::Turn Sortie::leave_ground(const PlannerInput& in, PlannerOutput& out) {
+  const Vector3d p = in.state.p_WB;
+  if (p.z() > kAirborneM) {
+    pilot_.stop(out);
+    state_ = State::climbing;
+    climb_to_ = p;
+    return Turn::nothing;
+  }
+  if (!pilot_.may_lift_off(in)) return Turn::nothing;
+  state_ = State::climbing;
+  climb_to_ = {p.x(), p.y(), lift_off_height_m(agent_, in.boxes, p, blind_height_m_, config_.clearance_m)};
+  pilot_.follow(Path{{{climb_to_, config_.climb_mps}}}, out);
+  out.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
+  return Turn::nothing;
+}
+
+/// At the top: on to work. Stopped on the way: tries again for a while.
+Sortie::Turn Sortie::climb(const PlannerInput& in, PlannerOutput& out) {
+  const bool short_of_top = (climb_to_ - in.tracking.setpoint.p_WB).norm() > kAtTopM;
+  if (short_of_top && climbs_ < kMaxClimbs) {
+    if (in.tick < not_before_) return Turn::nothing;
+    ++climbs_;
+    pilot_.follow(Path{{{climb_to_, config_.climb_mps}}}, out);
+    return Turn::nothing;
+  }
+  if (!site_known_) return Turn::nothing;  // stays where it is until it knows the boxes
+  pilot_.forget_trail();
+  return begin_work();
+}
+
+Sortie::Turn Sortie::begin_work() {
+  state_ = State::working;
+  return Turn::begin;
+}
+
+/// Something came between this UAV and what it was about.
+Sortie::Turn Sortie::react(const PlannerInput& in, PlannerOutput& out) {
+  if (situation_ == Situation::waiting) return Turn::nothing;
+  if (situation_ == Situation::detour) return state_ == State::working ? Turn::detour : Turn::nothing;
+  pilot_.stop(out);
+  if (state_ == State::working) return Turn::blocked;
+  if (state_ == State::climbing) {
+    not_before_ = in.tick + ticks(kRetryS);
+  } else {
+    situation_ == Situation::obstacle ? delivery_.try_again(in) : delivery_.try_elsewhere(in);
+  }
+  return Turn::nothing;
+}
+
+}  // namespace skein::agent

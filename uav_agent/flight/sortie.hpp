@@ -1,0 +1,78 @@
+// What every flight has around its work: lifting off in turn, the climb to a layer of its own, the trips that bring
+// captures home, and a pilot that looks out all the while. The planner only decides what to do in the air between.
+//
+//   ground -> climbing -> working <-> delivering
+//
+// Once per exchange the planner asks step() and acts on its answer.
+// Frame W.   Units: SI.   Threads: one.
+#pragma once
+
+#include "uav_agent/flight/delivery.hpp"
+#include "uav_agent/flight/pilot.hpp"
+
+namespace skein::agent {
+
+class Sortie {
+ public:
+  static constexpr double kAirborneM = 2.0;  ///< who begins at such a height was restarted in flight
+
+  struct Config {
+    double climb_mps = 3.0;
+    double transit_mps = 4.0;                                ///< from here to there, and home
+    double retreat_mps = 4.0;                                ///< back out of corners
+    double clearance_m = 1.2;                                ///< from the UAV's body to a box above its start
+    double deliver_every_s = 240.0, return_margin_s = 12.0;  ///< see delivery.hpp
+  };
+
+  /// What the planner has to do in this exchange.
+  enum class Turn {
+    nothing,  ///< the sortie decides: on the ground, climbing, delivering, or giving way to somebody
+    begin,    ///< at rest in the air, free to work: after the climb, a delivery, or a restart in flight
+    work,     ///< carry on: on its way, or arrived (Pilot::arrived())
+    detour,   ///< carry on, but the pilot has left the path to go around somebody: waypoints have other numbers now
+    blocked,  ///< the path came to nothing (why: situation()): decide anew
+    leave,    ///< the sortie now goes to deliver: the work in hand is given up; begin follows if there is time left
+  };
+
+  /// @param agent  must outlive this.
+  Sortie(const Config& config, const AgentConfig& agent);
+  Sortie(const Sortie&) = delete;  // parts refer to each other
+  Sortie& operator=(const Sortie&) = delete;
+
+  /// To be told once, when the boxes have come: nobody begins work before.
+  /// @param top_m  of all structure.   @param blind_height_m  see lift_off.hpp.
+  void know_site(double top_m, double blind_height_m);
+
+  /// @param space  where this UAV may fly as of now.
+  Turn step(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
+
+  /// True from `begin` until `leave`.
+  bool working() const { return state_ == State::working; }
+  /// What came between, of the last `blocked`.
+  Situation situation() const { return situation_; }
+  /// For the work: paths, retreats, stops.
+  Pilot& pilot() { return pilot_; }
+  const Pilot& pilot() const { return pilot_; }
+
+ private:
+  enum class State { ground, climbing, working, delivering };
+
+  Turn leave_ground(const PlannerInput& in, PlannerOutput& out);
+  Turn climb(const PlannerInput& in, PlannerOutput& out);
+  Turn begin_work();
+  Turn react(const PlannerInput& in, PlannerOutput& out);
+
+  const Config config_;
+  const AgentConfig& agent_;
+  Pilot pilot_;
+  Delivery delivery_;
+  State state_ = State::ground;
+  Situation situation_ = Situation::flying_on;
+  bool site_known_ = false;
+  double top_m_ = 0.0, blind_height_m_ = 0.0;
+  Vector3d climb_to_ = Vector3d::Zero();
+  int climbs_ = 0;       ///< begun again
+  Tick not_before_ = 0;  ///< of the next one
+};
+
+}  // namespace skein::agent

@@ -1,0 +1,108 @@
+#include "uav_agent/flight/sortie.hpp"
+
+#include <gtest/gtest.h>
+
+namespace skein::agent {
+namespace {
+
+using Turn = Sortie::Turn;
+
+/// A UAV that is always where it was told to be, half a second later.
+class OneSortie : public testing::Test {
+ protected:
+  OneSortie() {
+    agent_.fleet = {{.name = "a", .body_radius_m = 0.4}};
+    agent_.station_position = {20.0, 0.0, 0.3};
+  }
+
+  Turn step() {
+    tick_ += ticks(0.5);
+    const Peers peers(agent_);
+    TrackingState tracking;
+    tracking.setpoint.p_WB = p_WB_;
+    tracking.done = true;
+    tracking.airborne = p_WB_.z() > 0.5;
+    RigidBodyState state;
+    state.p_WB = p_WB_;
+    const PlannerInput in{.k = static_cast<std::uint64_t>(tick_ / 20),
+                          .tick = tick_,
+                          .state = state,
+                          .gimbal = {},
+                          .tracking = tracking,
+                          .map = map_,
+                          .boxes = boxes_,
+                          .peers = peers,
+                          .mission_remaining_s = remaining_s_,
+                          .station_linked = linked_,
+                          .undelivered_captures = undelivered_,
+                          .detected = {},
+                          .radio = {}};
+    PlannerOutput out;
+    const Turn turn = sortie_.step(in, {}, out);
+    if (const Path* path = std::get_if<Path>(&out.motion)) p_WB_ = path->waypoints.back().p_WB;
+    return turn;
+  }
+  /// Steps until something else than nothing is to be done.
+  Turn next(int patience = 200) {
+    for (int i = 0; i < patience; ++i) {
+      if (const Turn turn = step(); turn != Turn::nothing) return turn;
+    }
+    return Turn::nothing;
+  }
+
+  AgentConfig agent_;
+  std::vector<OrientedBox> boxes_;
+  OccupancyMap map_;
+  Sortie sortie_{{.deliver_every_s = 30.0}, agent_};
+  Tick tick_ = 0;
+  Vector3d p_WB_ = {0.0, 0.0, 0.1};
+  std::optional<double> remaining_s_;
+  bool linked_ = false;
+  std::size_t undelivered_ = 0;
+};
+
+TEST_F(OneSortie, NobodyBeginsBeforeTheBoxesAreKnown) {
+  EXPECT_EQ(next(), Turn::nothing);
+  EXPECT_GT(p_WB_.z(), 1.5) << "but it climbs";
+  EXPECT_FALSE(sortie_.working());
+  sortie_.know_site(20.0, 0.0);
+  EXPECT_EQ(next(), Turn::begin);
+  EXPECT_TRUE(sortie_.working());
+  EXPECT_EQ(step(), Turn::work);
+}
+
+TEST_F(OneSortie, WhoBeginsInTheAirWasRestartedAndGoesToWorkWhereItIs) {
+  p_WB_ = {3.0, 4.0, 17.0};
+  sortie_.know_site(20.0, 0.0);
+  EXPECT_EQ(next(), Turn::begin);
+  EXPECT_EQ(p_WB_, Vector3d(3.0, 4.0, 17.0));
+}
+
+TEST_F(OneSortie, LeavesToDeliverAndBeginsAgain) {
+  sortie_.know_site(20.0, 0.0);
+  ASSERT_EQ(next(), Turn::begin);
+  remaining_s_ = 1000.0;
+  undelivered_ = 5;
+  Turn turn = Turn::work;
+  int steps = 0;
+  for (; turn == Turn::work && steps < 100; ++steps) turn = step();
+  EXPECT_EQ(turn, Turn::leave);
+  EXPECT_NEAR(0.5 * steps, 30.0, 2.0) << "deliver_every_s";
+  EXPECT_FALSE(sortie_.working());
+  EXPECT_EQ(next(10), Turn::nothing) << "nothing is delivered yet";
+  linked_ = true;
+  undelivered_ = 0;
+  EXPECT_EQ(next(), Turn::begin);
+}
+
+TEST_F(OneSortie, IsHomeBeforeTheEndAndStaysThere) {
+  sortie_.know_site(20.0, 0.0);
+  ASSERT_EQ(next(), Turn::begin);
+  remaining_s_ = 10.0;
+  EXPECT_EQ(step(), Turn::leave);
+  linked_ = true;
+  EXPECT_EQ(next(), Turn::nothing);
+}
+
+}  // namespace
+}  // namespace skein::agent

@@ -1,0 +1,68 @@
+#include "uav_agent/flight/voxel_route.hpp"
+
+#include <gtest/gtest.h>
+
+namespace skein::agent {
+namespace {
+
+using Id = VoxelGrid::Id;
+
+/// 50 x 50 x 20 m of cubes of 5 m with a wall across at x = 25, open at y > 40.
+class VoxelRoute : public testing::Test {
+ protected:
+  VoxelRoute() {
+    std::vector<Eigen::Vector3f> hits;
+    for (float y = 0.2F; y < 40.0F; y += 0.4F) {
+      for (float z = 0.5F; z < 20.0F; z += 0.4F) hits.emplace_back(27.0F, y, z);
+    }
+    map_.insert(hits, std::nullopt);
+    for (const Eigen::Vector3f& hit : hits) grid_.raise(*grid_.at(Vector3d(hit.cast<double>())), VoxelState::occupied);
+  }
+  FreeSpace space() const { return {FreeSpace::Config(), no_boxes_, map_}; }
+
+  const std::vector<OrientedBox> no_boxes_;
+  OccupancyMap map_;
+  VoxelGrid grid_{Isometry3d::Identity(), {50.0, 50.0, 20.0}, 5.0};
+  const Vector3d here_{7.0, 8.0, 9.0}, there_{44.0, 6.0, 9.0};
+};
+
+TEST_F(VoxelRoute, StraightWhereNothingIsInTheWay) {
+  const Vector3d aside(8.0, 40.0, 12.0);
+  EXPECT_EQ(find_voxel_route(grid_, space(), here_, aside), std::vector<Vector3d>{aside});
+}
+
+TEST_F(VoxelRoute, AroundTheWallOnLegsThatAreFree) {
+  const auto route = find_voxel_route(grid_, space(), here_, there_);
+  ASSERT_TRUE(route);
+  EXPECT_EQ(route->back(), there_);
+  EXPECT_LE(route->size(), 5U) << "shortened";
+  Vector3d at = here_;
+  for (const Vector3d& corner : *route) {
+    EXPECT_TRUE(space().segment_free(at, corner));
+    at = corner;
+  }
+}
+
+TEST_F(VoxelRoute, ClaimedCubesAreNotEntered) {
+  std::set<Id> claimed;
+  for (int y = 8; y < 10; ++y) {
+    for (int z = 0; z < 3; ++z) claimed.insert(*grid_.at(VoxelGrid::Cell(5, y, z)));
+  }
+  const auto route = find_voxel_route(grid_, space(), here_, there_, claimed);
+  ASSERT_TRUE(route) << "above them";
+  Vector3d at = here_;
+  for (const Vector3d& corner : *route) {
+    grid_.along(at, corner, [&](Id id) {
+      EXPECT_FALSE(claimed.contains(id));
+      return true;
+    });
+    at = corner;
+  }
+  claimed = {*grid_.at(there_)};
+  EXPECT_FALSE(find_voxel_route(grid_, space(), here_, there_, claimed)) << "the goal itself";
+  claimed = {*grid_.at(here_)};
+  EXPECT_TRUE(find_voxel_route(grid_, space(), here_, there_, claimed)) << "where it is already";
+}
+
+}  // namespace
+}  // namespace skein::agent

@@ -1,0 +1,62 @@
+// What this UAV knows of the space around it, from LiDAR key frames: an octree of hits (OctoMap), beside it a hashed
+// grid of occupied cells that answers clearance queries fast, and a coarse one of free space.
+// Frame W.   Units: metres.   Threads: one.   Deterministic: no answer depends on a hash order.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "uav_agent/api/messages.hpp"
+
+namespace skein::agent {
+
+class OccupancyMap {
+ public:
+  struct Config {
+    double resolution_m = 0.5;       ///< edge of an occupied cell
+    double free_resolution_m = 2.0;  ///< free space is traced on a grid this coarse
+    double ground_m = 0.3;           ///< hits below end a ray, but are no obstacle
+    double free_range_m = 30.0;      ///< and only this far from the sensor
+    int max_free_rays = 400;         ///< a key frame; evenly picked
+  };
+
+  OccupancyMap();
+  explicit OccupancyMap(const Config& config);
+  ~OccupancyMap();
+  OccupancyMap(OccupancyMap&&) noexcept;
+  OccupancyMap& operator=(OccupancyMap&&) noexcept;
+
+  /// Marks the hits as occupied, for good: thin members must not be carved away by later rays.
+  /// @param p_WS where the sensor stood, if known: free space up to the hits is marked, too.
+  void insert(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS);
+
+  bool empty() const;
+  std::size_t occupied_cells() const;
+  /// Number of insert() calls that changed anything that is occupied.
+  std::uint64_t revision() const;
+
+  /// True when the cell of p holds a hit.
+  bool occupied(const Vector3d& p_W) const;
+  /// True when at least so many rays (20 at most) passed the coarse cell of p, and nothing was hit at p.
+  bool known_free(const Vector3d& p_W, int rays = 3) const;
+  /// True when the centre of an occupied cell lies within `radius` of p.
+  bool any_occupied_within(const Vector3d& p_W, double radius) const;
+  /// Distance from p to the nearest centre of an occupied cell, or nullopt if there is none within `max_distance`.
+  std::optional<double> distance_to_occupied(const Vector3d& p_W, double max_distance) const;
+  /// True when no centre of an occupied cell lies within `radius` of the segment ab.
+  bool segment_clear(const Vector3d& a_W, const Vector3d& b_W, double radius) const;
+  /// Distance along the unit vector `direction` to the first occupied cell that comes within `radius` of the ray,
+  /// or nullopt if there is none up to `max_distance`.
+  std::optional<double> cast(const Vector3d& from_W, const Vector3d& direction, double max_distance,
+                             double radius) const;
+  /// Calls `visit` with the centre of every occupied cell that is inside the box, in a fixed order.
+  void visit_occupied(const OrientedBox& box, const std::function<void(const Vector3d&)>& visit) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace skein::agent

@@ -1,0 +1,238 @@
+#include "uav_agent/maps/voxel_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kMaxVoxels = 16e6;
+constexpr std::uint8_t kPlain = 0, kRuns = 1;  ///< how a chunk is written
+constexpr std::size_t kLongestRun = 255;
+/// The states of two maps join to the greater one: the bits are those of the numbers 0, 1, 2.
+constexpr std::uint8_t kHighestState = 2;
+
+}  // namespace
+
+VoxelGrid::VoxelGrid(const Isometry3d& X_WG, const Vector3d& size_m, double voxel_m, std::size_t chunk_voxels)
+    : X_WG_(X_WG), X_GW_(X_WG.inverse()), voxel_m_(voxel_m), chunk_voxels_(chunk_voxels) {
+  const Vector3d edges = (size_m / voxel_m).array().max(1e-9).ceil();
+  if (!(voxel_m > 0.0) || chunk_voxels == 0 || !edges.allFinite() || edges.prod() > kMaxVoxels) {
+    throw std::invalid_argument("a voxel grid of this size cannot be");
+  }
+  dims_ = edges.cast<int>();
+  voxels_.assign(static_cast<std::size_t>(dims_.prod()), 0);
+  chunk_revision_.assign((voxels_.size() + chunk_voxels - 1) / chunk_voxels, 0);
+  chunk_hash_.assign(chunk_revision_.size(), {0, 0});
+}
+
+std::uint32_t VoxelGrid::fingerprint() const {
+  std::uint32_t hash = 2166136261U;
+  const auto mix = [&hash](double value) {
+    const auto rounded = static_cast<std::uint32_t>(std::lround(value * 1000.0));
+    for (int i = 0; i < 4; ++i) hash = (hash ^ (rounded >> (8 * i) & 0xFF)) * 16777619U;
+  };
+  for (int i = 0; i < 3; ++i) mix(dims_[i]);
+  for (int i = 0; i < 3; ++i) mix(X_WG_.translation()[i]);
+  for (int i = 0; i < 3; ++i) mix(X_WG_.linear()(i, 0));
+  mix(voxel_m_);
+  mix(static_cast<double>(chunk_voxels_));
+  return hash;
+}
+
+std::optional<VoxelGrid::Id> VoxelGrid::at(const Cell& cell) const {
+  if ((cell.array() < 0).any() || (cell.array() >= dims_.array()).any()) return std::nullopt;
+  return static_cast<Id>((cell.z() * dims_.y() + cell.y()) * dims_.x() + cell.x());
+}
+
+std::optional<VoxelGrid::Id> VoxelGrid::at(const Vector3d& p_W) const {
+  const Vector3d p_G = X_GW_ * p_W / voxel_m_;
+  // Before the conversion: what is kilometres away has no number.
+  if (!(p_G.array() >= 0.0).all() || !(p_G.array() < dims_.cast<double>().array()).all()) return std::nullopt;
+  return at(Cell(p_G.cast<int>()));
+}
+
+VoxelGrid::Cell VoxelGrid::cell(Id id) const {
+  const int i = static_cast<int>(id);
+  return {i % dims_.x(), i / dims_.x() % dims_.y(), i / (dims_.x() * dims_.y())};
+}
+
+Vector3d VoxelGrid::centre_W(Id id) const {
+  return X_WG_ * ((cell(id).cast<double>() + Vector3d::Constant(0.5)) * voxel_m_);
+}
+
+std::optional<VoxelGrid::Id> VoxelGrid::neighbour(Id id, int face) const {
+  Cell next = cell(id);
+  next[face / 2] += face % 2 == 0 ? 1 : -1;
+  return at(next);
+}
+
+Vector3d VoxelGrid::normal_W(int face) const { return (face % 2 == 0 ? 1.0 : -1.0) * X_WG_.linear().col(face / 2); }
+
+bool VoxelGrid::set(Id id, std::uint8_t voxel) {
+  if (voxels_[id] == voxel) return false;
+  if ((voxels_[id] ^ voxel) & kStateBits) changed_.push_back(id);
+  voxels_[id] = voxel;
+  chunk_revision_[id / chunk_voxels_] = ++revision_;
+  return true;
+}
+
+bool VoxelGrid::raise(Id id, VoxelState to) {
+  const auto level = static_cast<std::uint8_t>(std::max(state(id), to));
+  return set(id, static_cast<std::uint8_t>((voxels_[id] & ~kStateBits) | level));
+}
+
+bool VoxelGrid::mark(Id id, int face) { return set(id, static_cast<std::uint8_t>(voxels_[id] | mark_bit(face))); }
+
+void VoxelGrid::forget_occupied(const std::function<bool(Id)>& seen) {
+  for (Id id = 0; id < count(); ++id) {
+    if (state(id) == VoxelState::occupied && seen(id)) set(id, static_cast<std::uint8_t>(voxels_[id] & ~kStateBits));
+  }
+}
+
+std::vector<VoxelGrid::Id> VoxelGrid::take_changed() { return std::exchange(changed_, {}); }
+
+void VoxelGrid::along(const Vector3d& a_W, const Vector3d& b_W, const std::function<bool(Id)>& visit) const {
+  const Vector3d a = X_GW_ * a_W / voxel_m_, b = X_GW_ * b_W / voxel_m_, d = b - a;
+  // Clips to the grid first, so that a far end costs nothing.
+  double enter = 0.0, leave = 1.0;
+  for (int i = 0; i < 3; ++i) {
+    if (d[i] == 0.0) {
+      if (a[i] < 0.0 || a[i] >= dims_[i]) return;
+      continue;
+    }
+    const double t0 = -a[i] / d[i], t1 = (dims_[i] - a[i]) / d[i];
+    enter = std::max(enter, std::min(t0, t1));
+    leave = std::min(leave, std::max(t0, t1));
+  }
+  if (enter > leave) return;
+  const Vector3d first = a + enter * d;
+  Cell c = first.array().floor().cast<int>().max(0).min(dims_.array() - 1);
+  Cell step;
+  Vector3d next, between;
+  for (int i = 0; i < 3; ++i) {
+    step[i] = d[i] > 0.0 ? 1 : -1;
+    between[i] = d[i] == 0.0 ? std::numeric_limits<double>::infinity() : std::abs(1.0 / d[i]);
+    next[i] = d[i] == 0.0 ? std::numeric_limits<double>::infinity() : (c[i] + (step[i] > 0 ? 1 : 0) - a[i]) / d[i];
+  }
+  for (auto id = at(c); id; id = at(c)) {
+    if (!visit(*id)) return;
+    int axis = 0;
+    next.minCoeff(&axis);
+    if (next[axis] > leave) return;
+    c[axis] += step[axis];
+    next[axis] += between[axis];
+  }
+}
+
+bool VoxelGrid::sees(const Vector3d& a_W, const Vector3d& b_W) const {
+  const auto from = at(a_W), to = at(b_W);
+  bool clear = true;
+  along(a_W, b_W, [&](Id id) {
+    clear = state(id) != VoxelState::occupied || id == from || id == to;
+    return clear;
+  });
+  return clear;
+}
+
+void VoxelGrid::around(Id id, int steps, const std::function<void(Id)>& visit) const {
+  const Cell c = cell(id);
+  const Cell lo = (c.array() - steps).max(0), hi = (c.array() + steps).min(dims_.array() - 1);
+  for (int z = lo.z(); z <= hi.z(); ++z) {
+    for (int y = lo.y(); y <= hi.y(); ++y) {
+      for (int x = lo.x(); x <= hi.x(); ++x) visit(*at(Cell(x, y, z)));
+    }
+  }
+}
+
+std::pair<VoxelGrid::Id, VoxelGrid::Id> VoxelGrid::chunk_range(std::size_t chunk) const {
+  const std::size_t first = chunk * chunk_voxels_;
+  return {static_cast<Id>(first), static_cast<Id>(std::min(first + chunk_voxels_, voxels_.size()))};
+}
+
+std::uint16_t VoxelGrid::chunk_hash(std::size_t chunk) const {
+  auto& [revision, hash] = chunk_hash_[chunk];
+  if (revision == chunk_revision_[chunk]) return hash;
+  std::uint32_t h = 2166136261U;
+  const auto [begin, end] = chunk_range(chunk);
+  for (Id id = begin; id < end; ++id) h = (h ^ voxels_[id]) * 16777619U;
+  revision = chunk_revision_[chunk];
+  hash = std::max<std::uint16_t>(1, static_cast<std::uint16_t>(h ^ h >> 16));
+  return hash;
+}
+
+void VoxelGrid::write_chunk(std::size_t chunk, PayloadWriter& writer) const {
+  const auto [begin, end] = chunk_range(chunk);
+  std::vector<std::uint8_t> runs;
+  for (Id id = begin; id < end;) {
+    Id last = id;
+    while (last < end && voxels_[last] == voxels_[id] && last - id < kLongestRun) ++last;
+    runs.push_back(static_cast<std::uint8_t>(last - id));
+    runs.push_back(voxels_[id]);
+    id = last;
+  }
+  const std::span<const std::uint8_t> plain(voxels_.data() + begin, end - begin);
+  const bool as_runs = runs.size() < plain.size();
+  writer.u8(as_runs ? kRuns : kPlain);
+  writer.u16(static_cast<std::uint16_t>(as_runs ? runs.size() : plain.size()));
+  writer.bytes(as_runs ? runs : plain);
+}
+
+bool VoxelGrid::merge_chunk(std::size_t chunk, PayloadReader& reader) {
+  const std::uint8_t kind = reader.u8();
+  const auto bytes = reader.bytes(reader.u16());
+  if (!reader.ok() || chunk >= chunks() || kind > kRuns) return false;
+  const auto [begin, end] = chunk_range(chunk);
+  std::vector<std::uint8_t> theirs;
+  if (kind == kPlain) {
+    theirs.assign(bytes.begin(), bytes.end());
+  } else {
+    for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) theirs.insert(theirs.end(), bytes[i], bytes[i + 1]);
+  }
+  const bool sound = theirs.size() == end - begin && std::ranges::none_of(theirs, [](std::uint8_t voxel) {
+                       return (voxel & kStateBits) > kHighestState;
+                     });
+  if (!sound) return false;
+  for (Id id = begin; id < end; ++id) {
+    const std::uint8_t voxel = theirs[id - begin];
+    const int level = std::max(voxels_[id] & kStateBits, voxel & kStateBits);
+    set(id, static_cast<std::uint8_t>(((voxels_[id] | voxel) & ~kStateBits) | level));
+  }
+  return true;
+}
+
+void fill_boxes(const std::vector<OrientedBox>& boxes, VoxelGrid& grid) {
+  for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
+    const Vector3d centre = grid.centre_W(id);
+    const bool inside = std::ranges::any_of(boxes, [&](const OrientedBox& box) { return box.contains(centre); });
+    if (inside) grid.raise(id, VoxelState::occupied);
+  }
+}
+
+Eigen::AlignedBox3d extent_of(const std::vector<OrientedBox>& boxes) {
+  Eigen::AlignedBox3d all;
+  for (const OrientedBox& box : boxes) {
+    const Vector3d half = box.R_WO.cwiseAbs() * (0.5 * box.size);
+    all.extend(Vector3d(box.center - half));
+    all.extend(Vector3d(box.center + half));
+  }
+  return all;
+}
+
+VoxelGrid operational_volume(const std::vector<OrientedBox>& boxes, const std::vector<Vector3d>& points_W,
+                             double margin_m, double lowest_m, double voxel_m, std::size_t chunk_voxels) {
+  Eigen::AlignedBox3d all = extent_of(boxes);
+  for (const Vector3d& p : points_W) all.extend(p);
+  if (all.isEmpty()) all.extend(Vector3d::Zero());
+  Vector3d lo = all.min().array() - margin_m;
+  Vector3d size = (all.max().array() + margin_m).matrix() - lo;
+  const double cut = std::max(0.0, lowest_m - lo.z());
+  lo.z() += cut;
+  size.z() = std::max(size.z() - cut, voxel_m);
+  return {Isometry3d(Eigen::Translation3d(lo)), size, voxel_m, chunk_voxels};
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,155 @@
+#include "uav_agent/onboard/agent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/euler.hpp"
+#include "uav_agent/maps/occupancy_map.hpp"
+#include "uav_agent/onboard/keyframe_filter.hpp"
+#include "uav_agent/onboard/tracker.hpp"
+#include "uav_agent/onboard/uplink.hpp"
+#include "uav_agent/flight/site.hpp"
+#include "uav_agent/planning/aiming.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kAccelerationShare = 0.7;  ///< of the vehicle's limit; the controller corrects with the rest
+constexpr double kBodyMarginM = 0.3;        ///< around a known body
+constexpr double kScanAgeS = 0.1;           ///< a scan is at most this much older than the positions with it
+
+Tracker::Config tracker_config(const VehicleConfig& vehicle) {
+  Tracker::Config config;
+  config.max_speed_mps = vehicle.max_speed_mps;
+  config.max_acceleration_mps2 = kAccelerationShare * vehicle.max_acceleration_mps2;
+  config.max_yaw_rate = std::min(config.max_yaw_rate, vehicle.max_yaw_rate_deg_s * kRadPerDeg);
+  return config;
+}
+
+}  // namespace
+
+struct Agent::Impl {
+  Impl(const AgentConfig& c, std::unique_ptr<Planner> p)
+      : config(c), planner(std::move(p)), peers(c), tracker(tracker_config(c.vehicle)) {}
+
+  void perceive(const AgentInput& input);
+  std::vector<KnownBody> known_bodies(const AgentInput& input) const;
+  std::optional<Vector3d> sensor_position(const KeyFrame& frame, const AgentInput& input) const;
+  PlannerInput planner_input(const AgentInput& input) const;
+  std::optional<TrajectoryCommand> move(const PlannerOutput& decision, const RigidBodyState& state);
+  std::optional<GimbalCommand> point_camera(const GimbalAim& new_aim, const RigidBodyState& state);
+
+  const AgentConfig config;
+  const std::unique_ptr<Planner> planner;
+  Peers peers;
+  OccupancyMap map;
+  const KeyframeFilter filter;
+  /// A lone hit may be a UAV out of sight; but far off, it is all that a LiDAR finds of a thin member, and where one
+  /// box holds everything, UAVs fly between members that were only seen from afar.
+  const KeyframeFilter filter_keeping_lone_hits{{.lone_min_neighbours = 0}};
+  Uplink uplink;
+  Tracker tracker;
+  std::vector<OrientedBox> boxes;
+  GimbalAim aim;
+};
+
+std::vector<KnownBody> Agent::Impl::known_bodies(const AgentInput& input) const {
+  const auto body = [](const Vector3d& p_W, const Vector3d& v_W, double radius) {
+    return KnownBody{p_W, radius + kBodyMarginM + kScanAgeS * v_W.norm()};
+  };
+  std::vector<KnownBody> bodies = {body(input.state.p_WB, input.state.v_WB, config.me().body_radius_m)};
+  for (const Peer& peer : peers.all()) {
+    // One that was never seen still stands where it was put.
+    if (!peer.visible && peer.seen) continue;
+    bodies.push_back(body(peer.p_W, peer.v_W, config.fleet[peer.uav].body_radius_m));
+  }
+  return bodies;
+}
+
+void Agent::Impl::perceive(const AgentInput& input) {
+  if (tracker.stands_by()) tracker.stand_by(input.state);
+  peers.update(input.tick, input.neighbours);
+  if (!input.boxes.empty()) boxes = input.boxes;
+  if (!input.key_frames.empty()) {
+    const std::vector<KnownBody> bodies = known_bodies(input);
+    const bool roomy = std::any_of(boxes.begin(), boxes.end(), is_roomy);
+    const KeyframeFilter& chosen = roomy ? filter_keeping_lone_hits : filter;
+    for (const KeyFrame& frame : input.key_frames) {
+      map.insert(chosen(frame.points_W, bodies), sensor_position(frame, input));
+    }
+  }
+  uplink.take(input.capture_reports);
+  uplink.acknowledge(input.capture_acks);
+}
+
+std::optional<Vector3d> Agent::Impl::sensor_position(const KeyFrame& frame, const AgentInput& input) const {
+  if (frame.source == node_of_uav(config.self)) return input.state.p_WB;
+  std::vector<Vector3d> with_lidar;
+  for (const Neighbour& neighbour : input.neighbours) {
+    if (frame.source == neighbour.node) return neighbour.p_W;
+    const bool in_fleet = neighbour.node != kStationNode && neighbour.node <= config.fleet.size();
+    if (in_fleet && config.fleet[neighbour.node - 1].role == Role::explorer) with_lidar.push_back(neighbour.p_W);
+  }
+  if (frame.p_WS) return frame.p_WS;
+  return with_lidar.size() == 1 ? std::optional(with_lidar.front()) : std::nullopt;
+}
+
+PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
+  return PlannerInput{.k = input.k,
+                      .tick = input.tick,
+                      .state = input.state,
+                      .gimbal = input.gimbal,
+                      .tracking = tracker.tracking(),
+                      .map = map,
+                      .boxes = boxes,
+                      .peers = peers,
+                      .mission_remaining_s = input.mission_remaining_s,
+                      .station_linked = peers.station_visible(),
+                      .undelivered_captures = uplink.undelivered(),
+                      .detected = input.detected,
+                      .radio = input.radio,
+                      .key_frames = input.key_frames,
+                      .scans = input.scans};
+}
+
+std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision, const RigidBodyState& state) {
+  if (const auto* command = std::get_if<TrajectoryCommand>(&decision.motion)) {
+    tracker.stand_by(state);
+    return *command;
+  }
+  if (decision.yaw) tracker.turn_to(*decision.yaw);
+  if (const auto* path = std::get_if<Path>(&decision.motion)) tracker.follow(*path);
+  if (const auto* setpoint = std::get_if<Setpoint>(&decision.motion)) tracker.fly_to(*setpoint);
+  if (std::holds_alternative<Hold>(decision.motion)) tracker.hold();
+  return tracker.step(state, config.exchange_period_s);
+}
+
+std::optional<GimbalCommand> Agent::Impl::point_camera(const GimbalAim& new_aim, const RigidBodyState& state) {
+  if (!std::holds_alternative<std::monostate>(new_aim)) aim = new_aim;
+  if (const auto* command = std::get_if<GimbalCommand>(&aim)) return *command;
+  if (const auto* point = std::get_if<Vector3d>(&aim)) return aim_at(*point, state, config.vehicle);
+  return std::nullopt;
+}
+
+Agent::Agent(const AgentConfig& config, std::unique_ptr<Planner> planner)
+    : impl_(std::make_unique<Impl>(config, std::move(planner))) {}
+
+Agent::~Agent() = default;
+Agent::Agent(Agent&&) noexcept = default;
+Agent& Agent::operator=(Agent&&) noexcept = default;
+
+bool Agent::wants_scans() const { return impl_->planner->wants_scans(); }
+
+AgentOutput Agent::step(const AgentInput& input) {
+  impl_->perceive(input);
+  PlannerOutput decision = impl_->planner->plan(impl_->planner_input(input));
+  AgentOutput output;
+  output.trajectory = impl_->move(decision, input.state);
+  output.gimbal = impl_->point_camera(decision.gimbal, input.state);
+  output.trigger = decision.trigger;
+  output.radio = std::move(decision.radio);
+  output.captures = impl_->uplink.send(input.k, impl_->peers.station_visible());
+  return output;
+}
+
+}  // namespace skein::agent

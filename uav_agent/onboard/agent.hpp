@@ -1,0 +1,60 @@
+// One UAV's on-board software without its transport: map, peers, planner, tracking, delivery of captures.
+// agent_node feeds it once per exchange from DDS topics and publishes what it returns; tests feed it by hand.
+// Pure and deterministic: same inputs, same outputs. Frame W.   Units: SI and radians.   Threads: one.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "uav_agent/api/agent_config.hpp"
+#include "uav_agent/api/messages.hpp"
+#include "uav_agent/api/planner.hpp"
+
+namespace skein::agent {
+
+/// All that arrived for one exchange.
+struct AgentInput {
+  std::uint64_t k = 0;
+  Tick tick = 0;
+  RigidBodyState state;  ///< odometry, twist already turned into W
+  GimbalState gimbal;
+  std::optional<double> mission_remaining_s;  ///< nullopt before the first take-off
+  std::vector<OrientedBox> boxes;             ///< when they arrived at this step; else empty
+  std::vector<Neighbour> neighbours;          ///< in line of sight now
+  std::vector<KeyFrame> key_frames;           ///< in order: own first, then neighbours'
+  std::vector<Scan> scans;                    ///< own; only if wants_scans()
+  std::vector<DetectedPoint> detected;
+  std::vector<CaptureReport> capture_reports;  ///< from the camera; it may repeat unacknowledged ones
+  std::vector<std::uint64_t> capture_acks;     ///< capture numbers that the station has journalled
+  std::vector<RadioMessage> radio;             ///< from other planners
+};
+
+struct AgentOutput {
+  /// nullopt before the first motion, and where a planner that commands by itself says nothing (motion.hpp).
+  std::optional<TrajectoryCommand> trajectory;
+  std::optional<GimbalCommand> gimbal;
+  bool trigger = false;
+  std::vector<RadioMessage> radio;
+  std::vector<CaptureReport> captures;  ///< to send to the station now
+};
+
+class Agent {
+ public:
+  /// @param planner decides; see make_planner().
+  Agent(const AgentConfig& config, std::unique_ptr<Planner> planner);
+  ~Agent();
+  Agent(Agent&&) noexcept;
+  Agent& operator=(Agent&&) noexcept;
+
+  /// Whether the planner looks at scans: nobody needs to compute them or send them otherwise.
+  bool wants_scans() const;
+  /// One exchange. Inputs must come in order of k.
+  AgentOutput step(const AgentInput& input);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace skein::agent

@@ -1,0 +1,104 @@
+#include "uav_agent/onboard/keyframe_filter.hpp"
+
+#include <pcl/filters/voxel_grid.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace skein::agent {
+namespace {
+
+using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+
+constexpr float kHorizonM = 1e4F;  ///< nothing real is farther away sideways
+
+/// Points in cells of a grid, sorted by cell: who is near whom.
+/// PCL's RadiusOutlierRemoval asks a kd-tree for each point, which costs a futex call each time (FLANN's OpenMP).
+class Neighbourhood {
+ public:
+  Neighbourhood(const std::vector<Eigen::Vector3f>& points, float radius) : points_(points), radius_(radius) {
+    for (std::uint32_t i = 0; i < points.size(); ++i) entries_.push_back({key(cell(points[i])), i});
+    std::ranges::sort(entries_);
+  }
+
+  /// Whether at least `wanted` other points are at most a radius away from point i.
+  bool has_neighbours(std::uint32_t i, int wanted) const {
+    const Eigen::Vector3i c = cell(points_[i]);
+    // The own row first: there is nearly always somebody.
+    for (const int dz : {0, -1, 1}) {
+      for (const int dy : {0, -1, 1}) {
+        const Eigen::Vector3i row = c + Eigen::Vector3i(0, dy, dz);
+        const std::uint64_t last = key(row + Eigen::Vector3i(1, 0, 0));
+        for (auto it = std::ranges::lower_bound(entries_, Entry{key(row - Eigen::Vector3i(1, 0, 0)), 0});
+             it != entries_.end() && it->cell <= last; ++it) {
+          if (it->point != i && near(points_[it->point], points_[i]) && --wanted == 0) return true;
+        }
+      }
+    }
+    return wanted <= 0;
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t cell;
+    std::uint32_t point;
+    auto operator<=>(const Entry&) const = default;
+  };
+
+  Eigen::Vector3i cell(const Eigen::Vector3f& p) const { return (p / radius_).array().floor().matrix().cast<int>(); }
+  /// Neighbours in x have neighbouring keys. Within the horizon, cells of 2 cm and more fit 21 bits a direction.
+  static std::uint64_t key(const Eigen::Vector3i& c) {
+    constexpr std::int64_t kOffset = 1 << 20;
+    const auto bits = [](int i) { return static_cast<std::uint64_t>(i + kOffset); };
+    return bits(c.z()) << 42 | bits(c.y()) << 21 | bits(c.x());
+  }
+  bool near(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const {
+    return (a - b).squaredNorm() <= radius_ * radius_;
+  }
+
+  const std::vector<Eigen::Vector3f>& points_;
+  const float radius_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace
+
+std::vector<Eigen::Vector3f> KeyframeFilter::operator()(const std::vector<Eigen::Vector3f>& points_W,
+                                                        const std::vector<KnownBody>& bodies) const {
+  const auto sound = [&](const Eigen::Vector3f& p_W) {
+    const Vector3d p = p_W.cast<double>();
+    return p.allFinite() && p_W.head<2>().cwiseAbs().maxCoeff() <= kHorizonM && p.z() >= config_.lowest_m &&
+           p.z() <= config_.highest_m && std::ranges::none_of(bodies, [&](const KnownBody& body) {
+             return (p - body.p_W).squaredNorm() <= body.radius_m * body.radius_m;
+           });
+  };
+  auto cloud = std::make_shared<Cloud>();
+  cloud->reserve(points_W.size());
+  for (const Eigen::Vector3f& p_W : points_W) {
+    if (sound(p_W)) cloud->push_back({p_W.x(), p_W.y(), p_W.z()});
+  }
+  if (cloud->empty()) return {};
+
+  Cloud thinned;
+  pcl::VoxelGrid<pcl::PointXYZ> voxels;
+  voxels.setInputCloud(cloud);
+  voxels.setLeafSize(Eigen::Vector4f::Constant(static_cast<float>(config_.voxel_m)));
+  voxels.filter(thinned);
+
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(thinned.size());
+  for (const auto& p : thinned) points.emplace_back(p.x, p.y, p.z);
+  if (config_.lone_min_neighbours <= 0 || points.size() < 2) return points;
+
+  const Neighbourhood neighbourhood(points, static_cast<float>(config_.lone_radius_m));
+  std::vector<Eigen::Vector3f> kept;
+  kept.reserve(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (neighbourhood.has_neighbours(i, config_.lone_min_neighbours)) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
+}  // namespace skein::agent

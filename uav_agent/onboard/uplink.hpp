@@ -1,0 +1,48 @@
+// Delivery of captures: on-board custody from the camera to the station's acknowledgement.
+// Every report is kept until the station acknowledges it, and sent whenever there is a *direct* link to the
+// station: nobody relays. Units: bytes and exchanges.   Threads: one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "uav_agent/api/messages.hpp"
+
+namespace skein::agent {
+
+class Uplink {
+ public:
+  struct Config {
+    std::size_t max_bytes_per_step = 200'000;  ///< at least one report goes out, whatever its size
+    std::uint64_t resend_after_steps = 10;     ///< unacknowledged for this long: sent again
+  };
+
+  Uplink() : Uplink(Config()) {}
+  explicit Uplink(const Config& config) : config_(config) {}
+
+  /// Takes custody. A report that is held or was acknowledged before is ignored, so the camera may repeat itself.
+  void take(const std::vector<CaptureReport>& reports);
+  /// The station has them for good.
+  void acknowledge(const std::vector<std::uint64_t>& captures);
+  /// What to send at exchange k: the oldest reports first, none without a link.
+  std::vector<CaptureReport> send(std::uint64_t k, bool station_linked);
+
+  std::size_t undelivered() const { return held_.size(); }
+
+ private:
+  struct Held {
+    std::vector<std::uint8_t> payload;
+    bool sent = false;
+    std::uint64_t sent_at = 0;  ///< exchange of the last attempt
+  };
+  bool is_acknowledged(std::uint64_t capture) const;
+
+  const Config config_;
+  std::map<std::uint64_t, Held> held_;  ///< by capture number
+  /// Acknowledged capture numbers as disjoint ranges, first -> last: stays small however long the mission.
+  std::map<std::uint64_t, std::uint64_t> acknowledged_;
+};
+
+}  // namespace skein::agent

@@ -1,0 +1,133 @@
+#include "uav_agent/onboard/uplink.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "core/random_stream.hpp"
+
+namespace skein::agent {
+namespace {
+
+CaptureReport report(std::uint64_t capture, std::size_t bytes = 100) {
+  return {capture, std::vector<std::uint8_t>(bytes, static_cast<std::uint8_t>(capture))};
+}
+
+TEST(Uplink, SendsNothingWithoutALink) {
+  Uplink uplink;
+  uplink.take({report(0), report(1)});
+  EXPECT_TRUE(uplink.send(0, false).empty());
+  EXPECT_EQ(uplink.send(1, true).size(), 2U);
+  EXPECT_EQ(uplink.undelivered(), 2U) << "until they are acknowledged";
+}
+
+TEST(Uplink, SendsAgainOnlyAfterAWhile) {
+  Uplink uplink({.max_bytes_per_step = 1000, .resend_after_steps = 5});
+  uplink.take({report(3)});
+  EXPECT_EQ(uplink.send(10, true).size(), 1U);
+  for (std::uint64_t k = 11; k < 15; ++k) EXPECT_TRUE(uplink.send(k, true).empty());
+  EXPECT_EQ(uplink.send(15, true).size(), 1U);
+  uplink.acknowledge({3});
+  EXPECT_TRUE(uplink.send(40, true).empty());
+}
+
+TEST(Uplink, BoundsBytesAndKeepsOrderButNeverStarves) {
+  Uplink uplink({.max_bytes_per_step = 250, .resend_after_steps = 100});
+  uplink.take({report(5), report(2), report(9), report(4, 9000)});
+  std::vector<std::uint64_t> order;
+  for (std::uint64_t k = 0; k < 10; ++k) {
+    std::size_t bytes = 0;
+    const auto sent = uplink.send(k, true);
+    for (const auto& r : sent) {
+      order.push_back(r.capture);
+      bytes += r.payload.size();
+    }
+    EXPECT_TRUE(bytes <= 250 || sent.size() == 1);
+  }
+  EXPECT_EQ(order, (std::vector<std::uint64_t>{2, 4, 5, 9}));
+}
+
+TEST(Uplink, IgnoresWhatTheCameraRepeatsAfterARestart) {
+  Uplink uplink;
+  uplink.take({report(0), report(1), report(2)});
+  uplink.acknowledge({0, 2});
+  uplink.take({report(0), report(1), report(2), report(3)});
+  EXPECT_EQ(uplink.undelivered(), 2U);
+}
+
+// The oldest that are due, as many as fit, and never none: whatever the sizes.
+TEST(Uplink, EachStepSendsTheLongestPrefixThatFits) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    RandomStream random(seed, "sizes", 0);
+    const Uplink::Config config{.max_bytes_per_step = 100 * (1 + random.bits() % 5), .resend_after_steps = 3};
+    Uplink uplink(config);
+    std::map<std::uint64_t, std::size_t> sizes;
+    std::map<std::uint64_t, std::uint64_t> sent_at;
+    for (std::uint64_t capture = 0; capture < 12; ++capture) {
+      sizes[capture] = 50 * (1 + random.bits() % 6);
+      uplink.take({report(capture, sizes[capture])});
+    }
+    for (std::uint64_t k = 0; k < 20; ++k) {
+      std::vector<std::uint64_t> expected, sent;
+      std::size_t bytes = 0;
+      for (const auto& [capture, size] : sizes) {
+        if (sent_at.contains(capture) && k - sent_at[capture] < config.resend_after_steps) continue;
+        if (!expected.empty() && bytes + size > config.max_bytes_per_step) break;
+        bytes += size;
+        expected.push_back(capture);
+        sent_at[capture] = k;
+      }
+      for (const CaptureReport& r : uplink.send(k, true)) sent.push_back(r.capture);
+      ASSERT_EQ(sent, expected) << "seed " << seed << " step " << k;
+    }
+  }
+}
+
+// Whatever the order of acknowledgements: what was acknowledged is not taken again, all else is.
+TEST(Uplink, RemembersExactlyWhatWasAcknowledged) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    RandomStream random(seed, "acknowledged", 0);
+    Uplink uplink;
+    std::set<std::uint64_t> acknowledged;
+    for (int i = 0; i < 40; ++i) {
+      const std::uint64_t capture = random.bits() % 30;
+      uplink.acknowledge({capture});
+      acknowledged.insert(capture);
+    }
+    for (std::uint64_t capture = 0; capture <= 31; ++capture) {
+      const std::size_t before = uplink.undelivered();
+      uplink.take({report(capture)});
+      ASSERT_EQ(uplink.undelivered() - before, acknowledged.contains(capture) ? 0U : 1U) << seed << ": " << capture;
+    }
+  }
+}
+
+// Radio that loses messages and links both ways, whatever the order of events: all arrives, and nothing but
+// what was taken.
+TEST(Uplink, DeliversEverythingThroughABadRadio) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream random(seed, "radio", 0);
+    Uplink uplink({.max_bytes_per_step = 600, .resend_after_steps = 4});
+    std::set<std::uint64_t> at_station;
+    std::uint64_t next = 0;
+    std::vector<std::uint64_t> acks;
+    for (std::uint64_t k = 0; k < 2000; ++k) {
+      if (k < 500 && random.uniform() < 0.4) uplink.take({report(next++)});
+      if (random.uniform() < 0.7) uplink.acknowledge(acks);
+      acks.clear();
+      for (const auto& sent : uplink.send(k, random.uniform() < 0.5)) {
+        ASSERT_LT(sent.capture, next);
+        ASSERT_EQ(sent.payload, report(sent.capture).payload);
+        if (random.uniform() < 0.5) continue;
+        at_station.insert(sent.capture);
+        acks.push_back(sent.capture);
+      }
+    }
+    EXPECT_EQ(at_station.size(), next);
+    EXPECT_EQ(uplink.undelivered(), 0U);
+  }
+}
+
+}  // namespace
+}  // namespace skein::agent

@@ -1,0 +1,35 @@
+// Takes off to a height and stays there: the smallest planner, and a measure of what a run costs without planning.
+#include "uav_agent/api/planner.hpp"
+
+namespace skein::agent {
+
+class HoverPlanner final : public Planner {
+ public:
+  struct Config {
+    double height_m = 3.0;  ///< above the start
+    double climb_mps = 1.0;
+
+    template <class R>
+    void describe(R& r) {
+      r.field("height_m", height_m, within(0.2, 200.0));
+      r.field("climb_mps", climb_mps, within(0.1, 5.0));
+    }
+  };
+
+  explicit HoverPlanner(const Config& config) : config_(config) {}
+
+  PlannerOutput plan(const PlannerInput& input) override {
+    if (started_) return {};
+    started_ = true;
+    const Vector3d top = input.state.p_WB + config_.height_m * Vector3d::UnitZ();
+    return {.motion = Path{{{top, config_.climb_mps}}}, .gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0}};
+  }
+
+ private:
+  const Config config_;
+  bool started_ = false;
+};
+
+SKEIN_REGISTER_PLANNER("hover", HoverPlanner);
+
+}  // namespace skein::agent

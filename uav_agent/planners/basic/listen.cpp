@@ -1,0 +1,50 @@
+// A program at the ground station that says nothing: it logs who comes into and goes out of line of sight, and what text
+// the radio brings. `--planner patrol,gcs=listen`.
+#include <spdlog/spdlog.h>
+
+#include <set>
+
+#include "uav_agent/api/ground_program.hpp"
+
+namespace skein::agent {
+namespace {
+
+class Listen final : public GroundProgram {
+ public:
+  struct Config {
+    int longest_text = 80;
+
+    template <class R>
+    void describe(R& r) {
+      r.field("longest_text", longest_text, within(0, 10000));  // characters of a message that are logged
+    }
+  };
+
+  Listen(const Config& config, const AgentConfig& ground) : config_(config), ground_(ground) {}
+
+  std::vector<RadioMessage> work(const GroundInput& input) override {
+    std::set<Node> linked;
+    for (const Neighbour& neighbour : input.linked) linked.insert(neighbour.node);
+    for (std::size_t i = 0; i < ground_.fleet.size(); ++i) {
+      const bool was = linked_.contains(node_of_uav(i)), is = linked.contains(node_of_uav(i));
+      if (was != is)
+        spdlog::info("{:.2f} s: {} {}", seconds(input.tick), ground_.fleet[i].name, is ? "in sight" : "out of sight");
+    }
+    linked_ = std::move(linked);
+    for (const RadioMessage& message : input.radio) {
+      spdlog::info("{:.2f} s: {}: {}", seconds(input.tick), message.topic,
+                   message.text.substr(0, static_cast<std::size_t>(config_.longest_text)));
+    }
+    return {};
+  }
+
+ private:
+  const Config config_;
+  const AgentConfig ground_;
+  std::set<Node> linked_;
+};
+
+SKEIN_REGISTER_GROUND_PROGRAM("listen", Listen);
+
+}  // namespace
+}  // namespace skein::agent

@@ -1,0 +1,181 @@
+// The KIOS planner in a world without physics: its two stages, its sharing, its weaknesses.
+#include <gtest/gtest.h>
+
+#include "uav_agent/planners/kios/lanes.hpp"
+#include "uav_agent/planners/kios/stops.hpp"
+#include "uav_agent/planners/kios/talk.hpp"
+#include "uav_agent/testing/test_world.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kExplorerRadiusM = 0.63;
+
+AgentConfig agent_of(std::size_t self, std::size_t explorers, std::size_t photographers) {
+  AgentConfig agent;
+  agent.self = self;
+  for (std::size_t i = 0; i < explorers + photographers; ++i) {
+    FleetMember member;
+    member.name = "uav" + std::to_string(i);
+    member.role = i < explorers ? Role::explorer : Role::photographer;
+    member.p_WB_start = {4.0 * static_cast<double>(i), 0.0, 0.0};
+    agent.fleet.push_back(member);
+  }
+  return agent;
+}
+
+const OrientedBox kMiddleBox = make_box({30.0, 10.0, 10.0}, {40.0, 4.0, 20.0});
+
+/// 60 x 20 x 20 m, cubes of 5 m.
+VoxelGrid long_volume() { return {Isometry3d::Identity(), {60.0, 20.0, 20.0}, 5.0}; }
+
+TEST(KiosLanes, RunStraightAlongTheLongestAxisOnOppositeSides) {
+  const auto first = mapping_lanes(agent_of(0, 2, 1), long_volume(), {kMiddleBox}, 0.0, 2);
+  const auto second = mapping_lanes(agent_of(1, 2, 1), long_volume(), {kMiddleBox}, 0.0, 2);
+  ASSERT_EQ(first.size(), 2U);
+  ASSERT_EQ(second.size(), 2U);
+  EXPECT_EQ((first[1] - first[0]).cwiseAbs(), Vector3d(55.0, 0.0, 0.0));
+  EXPECT_EQ((second[1] - second[0]).cwiseAbs(), Vector3d(55.0, 0.0, 0.0));
+  EXPECT_DOUBLE_EQ(std::abs(first[0].y() - second[0].y()), 15.0);
+  const auto photographer = mapping_lanes(agent_of(2, 2, 1), long_volume(), {kMiddleBox}, 0.0, 2);
+  EXPECT_TRUE(photographer.empty());
+}
+
+TEST(KiosLanes, StayNearTheStructureAndOutOfTheBoxes) {
+  const VoxelGrid wide(Isometry3d::Identity(), {120.0, 100.0, 20.0}, 5.0);
+  const OrientedBox box = make_box({60.0, 60.0, 10.0}, {90.0, 12.0, 20.0}, 0.1);
+  const AgentConfig agent = agent_of(0, 1, 0);
+  const auto lanes = mapping_lanes(agent, wide, {box}, 0.0, 2);
+  ASSERT_EQ(lanes.size(), 4U);
+  for (const Vector3d& p : lanes) EXPECT_LT(std::abs(p.y() - 60.0), 25.0);
+  for (std::size_t i = 0; i < 4; i += 2) {
+    for (double s = 0.0; s <= 1.0; s += 0.01) EXPECT_FALSE(box.contains(lanes[i] + s * (lanes[i + 1] - lanes[i]), 3.0));
+  }
+}
+
+TEST(KiosLanes, ALoneExplorerFliesAllOfThemAndNoneTooLow) {
+  const auto all = mapping_lanes(agent_of(0, 1, 0), long_volume(), {kMiddleBox}, 12.0, 2);
+  ASSERT_EQ(all.size(), 4U);
+  for (const Vector3d& p : all) EXPECT_GE(p.z(), 12.0);
+  EXPECT_NE(all[0].y(), all[2].y());
+}
+
+/// One occupied cube in known free space, inside a box.
+struct LoneCube {
+  VoxelGrid grid{Isometry3d::Identity(), {25.0, 25.0, 25.0}, 5.0};
+  OccupancyMap map;
+  VoxelMapper mapper;
+  std::vector<OrientedBox> boxes = {make_box({12.5, 12.5, 12.5}, {5.0, 5.0, 5.0})};
+  VoxelGrid::Id cube = *grid.at(Vector3d(12.5, 12.5, 12.5));
+  std::vector<OrientedBox> no_boxes;
+
+  LoneCube() {
+    map.insert({{12.5F, 12.5F, 12.5F}}, std::nullopt);
+    mapper.update(map, grid);
+  }
+  KiosStops::Open open(const KiosStops& stops, Tick now = 0) const {
+    return stops.open_stops(grid, mapper, FreeSpace(FreeSpace::Config(), no_boxes, map), boxes, now);
+  }
+};
+
+TEST(KiosStops, EveryExposedFaceHasOneThatLooksAtIt) {
+  LoneCube world;
+  const KiosStops stops{KiosStops::Config()};
+  const auto open = world.open(stops);
+  ASSERT_EQ(open.stops.size(), 6U);
+  for (const KiosStop& stop : open.stops) {
+    EXPECT_EQ(stop.id / VoxelGrid::kFaces, world.cube);
+    EXPECT_NEAR((stop.p_WB - stop.surface_W).dot(stop.out_W), 5.0, 0.5) << "the middle of the next cube";
+  }
+}
+
+TEST(KiosStops, WhatWasPhotographedOrIsCoveredOrFailedIsNotOpen) {
+  LoneCube world;
+  KiosStops stops{KiosStops::Config()};
+  world.grid.mark(world.cube, 2);
+  world.grid.raise(*world.grid.neighbour(world.cube, 0), VoxelState::occupied);
+  stops.failed(VoxelGrid::kFaces * world.cube + 4, 0);
+  EXPECT_EQ(world.open(stops).stops.size(), 3U);
+  EXPECT_EQ(world.open(stops, ticks(60.0)).stops.size(), 4U) << "is tried again";
+}
+
+TEST(KiosStops, AllInSightShareThem) {
+  std::vector<KiosStop> stops;
+  for (int i = 0; i < 40; ++i) {
+    KiosStop stop;
+    stop.id = static_cast<std::uint32_t>(i);
+    stop.p_WB = {5.0 * i, 0.0, 10.0};
+    stops.push_back(stop);
+  }
+  const std::vector<KiosAgent> agents = {{{0.0, 0.0, 10.0}, 0.0}, {{195.0, 0.0, 10.0}, 0.0}};
+  const KiosStops share{KiosStops::Config()};
+  const auto left = share.own_tour(stops, agents, 0), right = share.own_tour(stops, agents, 1);
+  EXPECT_EQ(left.size() + right.size(), 40U);
+  EXPECT_NEAR(static_cast<double>(left.size()), 20.0, 2.0);
+  for (const std::size_t i : left) EXPECT_EQ(std::ranges::count(right, i), 0);
+  EXPECT_EQ(left.front(), 0U);
+  EXPECT_EQ(right.front(), 39U);
+  EXPECT_EQ(share.own_tour(stops, {agents[0]}, 0).size(), 40U) << "nobody in sight: all of them";
+}
+
+TEST(KiosTalk, ClaimsTravelAndExpire) {
+  const AgentConfig speaker = agent_of(0, 1, 1), listener = agent_of(1, 1, 1);
+  VoxelGrid theirs = long_volume(), ours = long_volume();
+  const OccupancyMap map;
+  const Peers peers(speaker), other_peers(listener);
+  const std::vector<OrientedBox> boxes;
+  const auto input = [&](Tick tick, const Peers& seen, std::span<const RadioMessage> radio) {
+    return PlannerInput{0, tick, {}, {}, {}, map, boxes, seen, {}, false, 0, {}, radio};
+  };
+  KiosTalk says({}, speaker), hears({}, listener);
+  PlannerOutput out;
+  KiosTalk::Word word;
+  word.stop = 17;
+  word.claims = {3, 4, 5};
+  word.goal_W = {1.0, 2.0, 3.0};
+  says.speak(input(0, peers, {}), theirs, word, out);
+  ASSERT_EQ(out.radio.size(), 1U);
+  hears.listen(input(400, other_peers, out.radio), ours);
+  ASSERT_TRUE(hears.word(0));
+  EXPECT_EQ(hears.word(0)->goal_W, word.goal_W);
+  EXPECT_EQ(hears.claimed(500), (std::set<VoxelGrid::Id>{3, 4, 5}));
+  EXPECT_TRUE(hears.taken(500).contains(17));
+  EXPECT_TRUE(hears.claimed(400 + ticks(10.0)).empty());
+}
+
+TEST(Kios, PhotographsTheStructureAndBringsItHome) {
+  TestWorld world(two_towers(), test_fleet(3), "kios", 300.0);
+  world.run(300.0);
+  EXPECT_GT(world.coverage(), 0.7);
+  EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
+  EXPECT_GT(world.separation(), 2.0 * kExplorerRadiusM + 0.5);
+  EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
+}
+
+TEST(Kios, PhotographersWaitUntilTheExplorersHaveFlownTheirLanes) {
+  TestWorld world(two_towers(), test_fleet(3), "kios", 120.0);
+  world.run(40.0);
+  const Vector3d waits = world.position(1);
+  EXPECT_LT((waits.head<2>() - Vector2d(-5.0, -14.0)).norm(), 0.5) << "above its start";
+  EXPECT_GT(waits.z(), 3.0);
+  world.run(60.0);
+  EXPECT_GT((world.position(1) - waits).norm(), 3.0);
+}
+
+TEST(Kios, NoWordMeansTheirWorkIsDoneAgainButDone) {
+  TestScene scene = two_towers();
+  scene.talk = false;
+  TestWorld silent(scene, test_fleet(3), "kios", 300.0);
+  silent.run(300.0);
+  EXPECT_GT(silent.coverage(), 0.5);
+}
+
+TEST(Kios, WithoutALidarItLooksAtTheBoxes) {
+  TestWorld world(two_towers(), {{"eye", Role::photographer, {-8.0, -14.0}}}, "kios", 250.0);
+  world.run(250.0);
+  EXPECT_GT(world.coverage(), 0.2);
+  EXPECT_GT(world.clearance(), 0.32 + 0.5);
+}
+
+}  // namespace
+}  // namespace skein::agent

@@ -1,0 +1,119 @@
+// The patrol planner in a world without physics: what it must never do, and what it must get done.
+#include <gtest/gtest.h>
+
+#include "uav_agent/testing/test_world.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kExplorerRadiusM = 0.63, kPhotographerRadiusM = 0.32;
+
+TEST(Patrol, PhotographsTheStructureAndBringsItHome) {
+  TestWorld world(two_towers(), test_fleet(3), "patrol", 300.0);
+  world.run(300.0);
+  EXPECT_GT(world.coverage(), 0.9);
+  EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
+  EXPECT_GT(world.separation(), 2.0 * kExplorerRadiusM + 0.5);
+  EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
+}
+
+TEST(Patrol, IsRepeatable) {
+  TestWorld once(two_towers(), test_fleet(3), "patrol", 100.0), again(two_towers(), test_fleet(3), "patrol", 100.0);
+  once.run(60.0);
+  again.run(60.0);
+  EXPECT_EQ(once.fingerprint(), again.fingerprint());
+}
+
+class PatrolFleets : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(PatrolFleets, NobodyTouchesAnything) {
+  TestWorld world(two_towers(), test_fleet(GetParam()), "patrol", 150.0);
+  world.run(150.0);
+  EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
+  EXPECT_GT(world.separation(), 2.0 * kExplorerRadiusM + 0.3);
+  EXPECT_GT(world.coverage(), GetParam() == 1 ? 0.1 : 0.3) << "on a low site, nothing is entered before it was seen";
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, PatrolFleets, testing::Values(1U, 2U, 5U, 8U));
+
+TEST(Patrol, WorksWithoutAnyLidar) {
+  TestWorld world(two_towers(), {{"eye", Role::photographer, {-8.0, -14.0}}}, "patrol", 200.0);
+  world.run(200.0);
+  EXPECT_GT(world.coverage(), 0.2) << "from in front of the boxes";
+  EXPECT_GT(world.clearance(), kPhotographerRadiusM + 0.5);
+}
+
+TEST(Patrol, WorksAloneInTheDark) {
+  TestScene scene = two_towers();
+  scene.radio = false;
+  TestWorld world(scene, {{"a", Role::explorer, {-8.0, -14.0}}}, "patrol", 200.0);
+  world.run(200.0);
+  EXPECT_GT(world.coverage(), 0.25);
+  EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
+}
+
+TEST(Patrol, WithoutBoxesItHovers) {
+  TestScene scene = two_towers();
+  scene.boxes.clear();
+  TestWorld world(scene, test_fleet(2), "patrol", 60.0);
+  world.run(60.0);
+  for (const std::size_t uav : {0U, 1U}) {
+    EXPECT_GT(world.highest_m(uav), 2.0);
+    EXPECT_LT(world.highest_m(uav), 8.0);
+  }
+}
+
+TEST(Patrol, BoxesMayComeLate) {
+  TestScene scene = two_towers();
+  scene.boxes_at_s = 20.0;
+  TestWorld world(scene, test_fleet(2), "patrol", 200.0);
+  world.run(200.0);
+  EXPECT_GT(world.coverage(), 0.3);
+  EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
+}
+
+TEST(Patrol, CopesWithManyBoxes) {
+  TestScene scene;
+  for (int i = 0; i < 15; ++i) {
+    const Vector3d centre(14.0 * (i % 5), 14.0 * (i / 5), 6.0 + i % 4);
+    scene.solids.push_back(make_box(centre, {4.0, 4.0, 2.0 * centre.z()}, 0.2 * i));
+    scene.boxes.push_back(make_box(centre + Vector3d(0.0, 0.0, 0.5), {5.0, 5.0, 2.0 * centre.z() + 1.0}, 0.2 * i));
+  }
+  TestWorld world(scene, test_fleet(4), "patrol", 120.0);
+  world.run(120.0);
+  EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.4);
+  EXPECT_GT(world.coverage(), 0.3);
+}
+
+/// One box around a whole site, as the contest of 2024 had: where the structure is, only the map can tell.
+TEST(Patrol, FindsTheStructureInABoxThatHoldsEverything) {
+  TestScene scene = two_towers();
+  scene.boxes = {make_box({16.0, 12.0, 16.0}, {64.0, 56.0, 33.0}, 0.2)};
+  TestWorld world(scene, test_fleet(3), "patrol", 400.0);
+  world.run(400.0);
+  EXPECT_GT(world.coverage(), 0.6);
+  EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
+  EXPECT_GT(world.separation(), 2.0 * kExplorerRadiusM + 0.3);
+  EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
+}
+
+/// A screen that is in no box stands where the strips of a tower's front would be flown.
+TestScene tower_with_a_screen() {
+  TestScene scene;
+  scene.solids = {make_box({0.0, 12.0, 14.0}, {16.0, 8.0, 28.0}), make_box({0.0, 3.3, 9.0}, {16.0, 0.6, 18.0})};
+  scene.boxes = {make_box({0.0, 12.0, 14.5}, {17.0, 9.0, 29.0})};
+  return scene;
+}
+
+TEST(Patrol, TheMapIsWhatKeepsItOffAnObstacleOutsideTheBoxes) {
+  const std::vector<TestUav> fleet = {{"a", Role::explorer, {-10.0, -14.0}}};
+  TestWorld with_map(tower_with_a_screen(), fleet, "patrol", 120.0);
+  with_map.run(120.0);
+  EXPECT_GT(with_map.clearance(), kExplorerRadiusM + 0.4);
+  TestWorld without(tower_with_a_screen(), fleet, "patrol:use_map=false", 120.0);
+  without.run(120.0);
+  EXPECT_LT(without.clearance(), kExplorerRadiusM) << "it flies into the screen";
+}
+
+}  // namespace
+}  // namespace skein::agent

@@ -1,0 +1,33 @@
+// Where STAR's camera looks: body and gimbal turn all the way from one viewpoint to the next, so that the camera looks
+// at a viewpoint's surface just when the UAV passes it, and never rests.
+// Frame W.   Units: SI and radians.   Threads: one.
+// Source: paper ("continuous camera movement", "continuous yawing motion"); that yaw is the body's and pitch the
+// gimbal's, and that both follow the way flown, is our choice.
+#pragma once
+
+#include <optional>
+
+#include "uav_agent/api/planner.hpp"
+
+namespace skein::agent {
+
+class StarCamera {
+ public:
+  /// Turns towards what is to be seen from the viewpoint that comes next.
+  /// @param p_view_W  where that is.   @param surface_W  what is to be seen from there.
+  void sweep(const RigidBodyState& state, const GimbalState& gimbal, const Vector3d& p_view_W,
+             const Vector3d& surface_W, PlannerOutput& out);
+  /// Looks at a point.
+  void look_at(const RigidBodyState& state, const Vector3d& p_W, PlannerOutput& out);
+
+ private:
+  struct Sweep {
+    Vector3d p_view_W = Vector3d::Zero();
+    double yaw = 0.0, pitch = 0.0;  ///< where the camera looked when it began
+    double distance = 0.0;          ///< to the viewpoint then
+  };
+
+  std::optional<Sweep> sweep_;
+};
+
+}  // namespace skein::agent

@@ -1,0 +1,137 @@
+#include "uav_agent/planners/star/explorer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "uav_agent/planners/star/tour.hpp"
+#include "uav_agent/planning/viewpoints.hpp"
+
+namespace skein::agent {
+namespace {
+
+using Id = VoxelGrid::Id;
+
+constexpr std::size_t kMaxClusters = 24;  ///< looked at in one plan, the nearest
+constexpr std::size_t kMaxTargets = 14;   ///< cubes of a cluster whose visibility is checked
+constexpr int kRings = 2, kDirections = 10;
+constexpr double kHeightM = 3.0;        ///< of viewpoints above and below the cluster's middle
+constexpr double kGoodShare = 0.8;      ///< of the best coverage: good enough for the refinement
+constexpr std::size_t kMaxOptions = 5;  ///< of those
+constexpr double kViewRangeM = 20.0;
+constexpr double kLowM = 2.0;         ///< unknown cubes below are the ground
+constexpr double kLookMarginM = 1.0;  ///< beyond the outer ring, within which a look counts
+
+}  // namespace
+
+/// One cluster's viewpoints, the best first.
+struct StarExplorer::Options {
+  std::size_t cluster = 0;
+  std::vector<Vector3d> places_W;
+};
+
+bool StarExplorer::worth_a_look(const VoxelGrid& grid, Id id) const {
+  for (int face = 0; face < VoxelGrid::kFaces; ++face) {
+    const auto next = grid.neighbour(id, face);
+    if (!next || grid.state(*next) != VoxelState::unknown || grid.centre_W(*next).z() < kLowM) continue;
+    bool behind_surface = false;
+    for (int side = 0; side < VoxelGrid::kFaces; ++side) {
+      const auto beside = grid.neighbour(*next, side);
+      behind_surface |= beside && grid.state(*beside) == VoxelState::occupied;
+    }
+    if (!behind_surface) return true;
+  }
+  return false;
+}
+
+void StarExplorer::look(const VoxelGrid& grid, const std::vector<Id>& changed, const Vector3d& p_W) {
+  frontiers_.update(grid, changed);
+  const double range = config_.ring_outer_m + kLookMarginM;
+  for (const Id id : frontiers_.cubes()) {
+    const Vector3d centre = grid.centre_W(id);
+    const bool counts = looks_[id] < config_.looks && (centre - p_W).squaredNorm() < range * range;
+    if (counts && grid.sees(p_W, centre)) ++looks_[id];
+  }
+}
+
+std::vector<CubeCluster> StarExplorer::clusters(const VoxelGrid& grid, const OrientedBox& box, const Vector3d& p_W,
+                                                Tick now) const {
+  std::set<Id> open;
+  for (const Id id : frontiers_.cubes()) {
+    if (looks_[id] >= config_.looks || now < not_before_[id]) continue;
+    if (box.contains(grid.centre_W(id), config_.margin_m) && worth_a_look(grid, id)) open.insert(open.end(), id);
+  }
+  auto all = clusters_of(grid, std::move(open), config_.cluster_m, config_.min_cluster);
+  std::ranges::stable_sort(all, {}, [&](const CubeCluster& cluster) { return (cluster.middle_W - p_W).norm(); });
+  if (all.size() > kMaxClusters) all.resize(kMaxClusters);
+  return all;
+}
+
+StarExplorer::Options StarExplorer::options_for(const VoxelGrid& grid, const FreeSpace& space,
+                                                const CubeCluster& cluster) const {
+  std::vector<Vector3d> targets;
+  const std::size_t stride = cluster.cubes.size() / kMaxTargets + 1;
+  for (std::size_t i = 0; i < cluster.cubes.size(); i += stride) targets.push_back(grid.centre_W(cluster.cubes[i]));
+  const RingConfig ring{config_.ring_inner_m, config_.ring_outer_m, kRings, kDirections, {0.0, kHeightM, -kHeightM}};
+  std::vector<std::pair<std::size_t, Vector3d>> found;
+  for (const Vector3d& p : ring_around(cluster.middle_W, ring)) {
+    if (!space.free(p)) continue;
+    const std::size_t seen = visible_targets(grid, p, 0.0, 0.0, targets, {.range_m = kViewRangeM}).size();
+    if (seen > 0) found.emplace_back(seen, p);
+  }
+  std::ranges::stable_sort(found, std::greater<>(), &std::pair<std::size_t, Vector3d>::first);
+  Options options;
+  for (const auto& [seen, p] : found) {
+    const bool good = static_cast<double>(seen) >= kGoodShare * static_cast<double>(found.front().first);
+    if (good && options.places_W.size() < kMaxOptions) options.places_W.push_back(p);
+  }
+  return options;
+}
+
+std::vector<std::size_t> StarExplorer::order(const std::vector<Options>& options, const StarStart& start) const {
+  std::vector<Vector3d> places;
+  std::vector<double> extra_s;
+  for (const Options& option : options) {
+    places.push_back(option.places_W.front());
+    const bool taken = std::ranges::any_of(
+        start.mates_W, [&](const Vector3d& mate) { return (mate - places.back()).norm() < config_.ring_outer_m; });
+    extra_s.push_back(taken ? config_.mate_s : 0.0);
+  }
+  return order_of_visit(start.p_WB, start.v_WB, places, extra_s,
+                        {.speed_mps = config_.speed_mps, .turn_s = config_.turn_s, .effort = config_.effort});
+}
+
+std::vector<StarGoal> StarExplorer::tour(const VoxelGrid& grid, const FreeSpace& space, const OrientedBox& box,
+                                         const StarStart& start, Tick now) const {
+  const std::vector<CubeCluster> found = clusters(grid, box, start.p_WB, now);
+  std::vector<Options> options;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    Options of_one = options_for(grid, space, found[i]);
+    of_one.cluster = i;
+    if (!of_one.places_W.empty()) options.push_back(std::move(of_one));
+  }
+  const std::vector<std::size_t> visits = order(options, start);
+  std::vector<std::vector<Vector3d>> next;
+  for (std::size_t i = 0; i < visits.size() && static_cast<int>(i) < config_.refine; ++i) {
+    next.push_back(options[visits[i]].places_W);
+  }
+  const std::vector<std::size_t> choice = shortest_through(start.p_WB, next);
+  std::vector<StarGoal> goals;
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    const Options& option = options[visits[i]];
+    const CubeCluster& cluster = found[option.cluster];
+    goals.push_back({option.places_W[i < choice.size() ? choice[i] : 0], cluster.middle_W, cluster.cubes});
+  }
+  return goals;
+}
+
+bool StarExplorer::open(const StarGoal& goal) const {
+  const auto left = std::ranges::count_if(
+      goal.cubes, [&](Id id) { return frontiers_.cubes().contains(id) && looks_[id] < config_.looks; });
+  return 2 * static_cast<std::size_t>(left) > goal.cubes.size();
+}
+
+void StarExplorer::failed(const StarGoal& goal, Tick now) {
+  for (const Id id : goal.cubes) not_before_[id] = now + ticks(config_.retry_s);
+}
+
+}  // namespace skein::agent

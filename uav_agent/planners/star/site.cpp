@@ -1,0 +1,87 @@
+#include "uav_agent/planners/star/site.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/euler.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kAutoVoxelRatio = 0.35, kSmallestVoxelM = 2.0, kLargestVoxelM = 3.0;
+constexpr double kGrowth = 1.1;    ///< of the cubes while there are too many
+constexpr double kAroundM = 12.0;  ///< of the grid, around the boxes
+constexpr double kBesideM = 6.0;   ///< from the box
+constexpr int kDirections = 12;
+constexpr double kSpareM = 0.3;  ///< beside the clearance, from a viewpoint to its surface
+
+}  // namespace
+
+VoxelGrid star_grid(const std::vector<OrientedBox>& boxes, const StarConfig& config, double sharp_m) {
+  double voxel = config.voxel_m;
+  if (voxel == 0.0) voxel = std::clamp(kAutoVoxelRatio * sharp_m, kSmallestVoxelM, kLargestVoxelM);
+  const Vector3d edges = extent_of(boxes).sizes().array() + 2.0 * kAroundM;
+  while ((edges / voxel).array().ceil().prod() > config.max_voxels) voxel *= kGrowth;
+  return operational_volume(boxes, {}, kAroundM, 0.0, voxel);
+}
+
+std::vector<VoxelGrid::Id> cubes_of_boxes(const VoxelGrid& grid, const std::vector<OrientedBox>& boxes,
+                                          const std::vector<std::size_t>& own_boxes) {
+  std::vector<VoxelGrid::Id> cubes;
+  for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
+    const Vector3d centre = grid.centre_W(id);
+    const auto holder =
+        std::ranges::find_if(boxes, [&](const OrientedBox& box) { return box.contains(centre, 0.5 * grid.voxel_m()); });
+    if (holder == boxes.end()) continue;
+    if (std::ranges::count(own_boxes, static_cast<std::size_t>(holder - boxes.begin())) > 0) cubes.push_back(id);
+  }
+  return cubes;
+}
+
+std::vector<Vector3d> places_beside(const OrientedBox& box, const FreeSpace& space, const Vector3d& p_W,
+                                    double lowest_m) {
+  const double radius = 0.5 * box.size.head<2>().norm() + kBesideM;
+  std::vector<Vector3d> places;
+  for (int i = 0; i < kDirections; ++i) {
+    const double turn = 2.0 * std::numbers::pi * i / kDirections;
+    const Vector3d p(box.center.x() + radius * std::cos(turn), box.center.y() + radius * std::sin(turn),
+                     std::max(box.center.z(), lowest_m));
+    if (space.free(p)) places.push_back(p);
+  }
+  std::ranges::stable_sort(places, {}, [&](const Vector3d& p) { return (p - p_W).norm(); });
+  return places;
+}
+
+StarSurfaces::Config surfaces_config(const StarConfig& config, const VehicleConfig& vehicle, double sharp_m,
+                                     double clearance_m) {
+  StarSurfaces::Config surfaces;
+  surfaces.sharp_m = sharp_m;
+  surfaces.standoff_ratio = config.standoff_ratio;
+  surfaces.nearest_m = clearance_m + kSpareM;
+  surfaces.seen_ratio = config.seen_ratio;
+  surfaces.oblique = config.oblique_deg * kRadPerDeg;
+  const double half_height = 0.5 * vehicle.camera.vfov_deg * kRadPerDeg;
+  const double picture_m = 2.0 * config.standoff_ratio * sharp_m * std::tan(half_height);
+  surfaces.patch_m = config.patch_m > 0.0 ? config.patch_m : picture_m;
+  surfaces.max_views = static_cast<std::size_t>(config.max_views);
+  return surfaces;
+}
+
+StarExplorer::Config explorer_config(const StarConfig& config) {
+  StarExplorer::Config explorer;
+  explorer.speed_mps = config.explore_mps;
+  explorer.turn_s = config.turn_s;
+  explorer.mate_s = config.mate_s;
+  explorer.cluster_m = config.cluster_m;
+  explorer.min_cluster = static_cast<std::size_t>(config.min_cluster);
+  explorer.ring_inner_m = config.ring_inner_m;
+  explorer.ring_outer_m = config.ring_outer_m;
+  explorer.margin_m = config.margin_m;
+  explorer.refine = config.refine;
+  explorer.looks = config.looks;
+  explorer.effort = static_cast<std::size_t>(config.effort);
+  return explorer;
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,353 @@
+// The STAR planner and its parts: teams, boxes, frontiers, surfaces, tours, ways, camera, messages, and its flight in a
+// world without physics.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "uav_agent/planners/star/camera.hpp"
+#include "uav_agent/planners/star/explorer.hpp"
+#include "uav_agent/planners/star/site.hpp"
+#include "uav_agent/planners/star/surfaces.hpp"
+#include "uav_agent/planners/star/talk.hpp"
+#include "uav_agent/planners/star/teams.hpp"
+#include "uav_agent/planners/star/tour.hpp"
+#include "uav_agent/planners/star/way.hpp"
+#include "uav_agent/testing/test_world.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kExplorerRadiusM = 0.63;
+
+FleetMember member(Role role, double x, double y = 0.0) {
+  FleetMember uav;
+  uav.role = role;
+  uav.p_WB_start = {x, y, 0.0};
+  return uav;
+}
+
+TEST(StarTeams, AreBalancedAndTakeTheNearestFirst) {
+  // Three photographers stand beside the first explorer: one of them has to go to the other.
+  const std::vector<FleetMember> fleet = {member(Role::explorer, 0.0), member(Role::explorer, 50.0),
+                                          member(Role::photographer, 3.0), member(Role::photographer, 1.0),
+                                          member(Role::photographer, 2.0)};
+  const auto teams = star_teams(fleet);
+  ASSERT_EQ(teams.size(), 2U);
+  EXPECT_EQ(teams[0].uavs, (std::vector<std::size_t>{0, 3, 4}));
+  EXPECT_EQ(teams[1].uavs, (std::vector<std::size_t>{1, 2}));
+}
+
+TEST(StarTeams, EverybodyIsInOneOfThemWhateverTheFleet) {
+  for (std::size_t explorers = 0; explorers < 5; ++explorers) {
+    for (std::size_t photographers = 0; photographers < 6; ++photographers) {
+      std::vector<FleetMember> fleet;
+      for (std::size_t i = 0; i < explorers; ++i) fleet.push_back(member(Role::explorer, 7.0 * i));
+      for (std::size_t i = 0; i < photographers; ++i) fleet.push_back(member(Role::photographer, 5.0 * i, 3.0));
+      std::vector<std::size_t> all;
+      for (const StarTeam& team : star_teams(fleet)) {
+        all.insert(all.end(), team.uavs.begin(), team.uavs.end());
+        if (explorers == 0) continue;
+        EXPECT_LE(team.uavs.size() - 1, (photographers + explorers - 1) / explorers);
+      }
+      std::ranges::sort(all);
+      ASSERT_EQ(all.size(), fleet.size());
+      for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], i);
+    }
+  }
+}
+
+TEST(StarTeams, VolumeWeighsAgainstWay) {
+  const std::vector<FleetMember> fleet = {member(Role::explorer, 0.0), member(Role::explorer, 10.0)};
+  const std::vector<OrientedBox> boxes = {make_box({0, 40, 10}, {40, 40, 20}), make_box({60, 0, 5}, {8, 8, 10}),
+                                          make_box({70, 0, 5}, {8, 8, 10}), make_box({80, 0, 5}, {8, 8, 10})};
+  auto teams = star_teams(fleet);
+  share_boxes(fleet, boxes, 0.005, teams);
+  const std::size_t has_large = std::ranges::count(teams[0].boxes, 0U) > 0 ? 0 : 1;
+  EXPECT_EQ(teams[has_large].boxes, std::vector<std::size_t>{0}) << "the large one is work enough";
+  EXPECT_EQ(teams[1 - has_large].boxes, (std::vector<std::size_t>{1, 2, 3})) << "in the order of the way";
+  std::size_t shared = 0;
+  share_boxes(fleet, boxes, 0.0, teams);
+  for (const StarTeam& team : teams) shared += team.boxes.size();
+  EXPECT_EQ(shared, boxes.size());
+}
+
+TEST(StarTeams, ATeamWithoutABoxHelpsUnlessItIsFaithful) {
+  const std::vector<FleetMember> fleet = {member(Role::explorer, 0.0), member(Role::explorer, 90.0)};
+  const std::vector<OrientedBox> boxes = {make_box({5, 0, 10}, {10, 10, 20})};
+  for (const std::size_t self : {0U, 1U}) {
+    EXPECT_EQ(own_team(fleet, self, boxes, 0.005, true).boxes, std::vector<std::size_t>{0});
+  }
+  EXPECT_EQ(own_team(fleet, 0, boxes, 0.005, false).boxes.size() + own_team(fleet, 1, boxes, 0.005, false).boxes.size(),
+            1U);
+}
+
+TEST(StarCamera, TurnsAllTheWayAndLooksAtTheSurfaceOnArrival) {
+  StarCamera camera;
+  RigidBodyState state;
+  const GimbalState gimbal;
+  const Vector3d view(10.0, 0.0, 5.0), surface(10.0, 5.0, 2.0);
+  double last = -1.0;
+  for (double x = 0.0; x <= 10.0; x += 1.0) {
+    state.p_WB = {x, 0.0, 5.0};
+    PlannerOutput out;
+    camera.sweep(state, gimbal, view, surface, out);
+    ASSERT_TRUE(out.yaw);
+    EXPECT_GT(*out.yaw, last) << "never rests";
+    last = *out.yaw;
+    const auto* command = std::get_if<GimbalCommand>(&out.gimbal);
+    ASSERT_NE(command, nullptr);
+    if (x < 10.0) continue;
+    EXPECT_NEAR(*out.yaw, std::numbers::pi / 2.0, 1e-9);
+    EXPECT_NEAR(command->pitch, std::atan2(3.0, 5.0), 1e-9);
+  }
+}
+
+TEST(StarWay, GoesOnThroughItsPlacesUpToTheHorizon) {
+  const OccupancyMap map;
+  const std::vector<OrientedBox> no_boxes;
+  const FreeSpace space(FreeSpace::Config(), no_boxes, map);
+  const VoxelGrid grid(Isometry3d::Identity(), {60.0, 60.0, 20.0}, 5.0);
+  std::vector<Vector3d> places;
+  for (int i = 1; i <= 8; ++i) places.emplace_back(6.0 * i, i % 2 * 6.0, 10.0);
+  const auto path = star_way(grid, space, no_boxes, {0, 0, 10}, places, 2.0, {});
+  ASSERT_TRUE(path);
+  double length = 0.0;
+  Vector3d at(0, 0, 10);
+  for (const Waypoint& waypoint : path->waypoints) {
+    length += (waypoint.p_WB - at).norm();
+    at = waypoint.p_WB;
+    EXPECT_DOUBLE_EQ(waypoint.speed_mps, 2.0);
+  }
+  EXPECT_GT(length, 12.0);
+  EXPECT_LT(length, 20.0 + 9.0) << "the horizon, and one leg";
+  EXPECT_FALSE(star_way(grid, space, no_boxes, {0, 0, 10}, {{10, 0, 0.5}}, 2.0, {})) << "below the floor";
+}
+
+TEST(StarSite, CubesOfABoxAreNobodyElses) {
+  const std::vector<OrientedBox> boxes = {make_box({0, 0, 10}, {20, 20, 20}), make_box({15, 0, 10}, {20, 20, 20})};
+  const VoxelGrid grid = star_grid(boxes, StarConfig(), 7.36);
+  EXPECT_LE(grid.count(), 120'000U);
+  const auto first = cubes_of_boxes(grid, boxes, {0}), second = cubes_of_boxes(grid, boxes, {1});
+  std::vector<VoxelGrid::Id> both;
+  std::ranges::set_intersection(first, second, std::back_inserter(both));
+  EXPECT_FALSE(first.empty());
+  EXPECT_FALSE(second.empty());
+  EXPECT_TRUE(both.empty());
+}
+
+/// A wall of known surface in the plane x = 0, seen from x > 0, in a grid of 2 m.
+struct Wall {
+  VoxelGrid grid{Isometry3d(Eigen::Translation3d(-6.0, -16.0, 0.0)), {32.0, 32.0, 20.0}, 2.0};
+  OccupancyMap map;
+  VoxelMapper mapper;
+  std::vector<VoxelGrid::Id> cubes;
+  std::vector<OrientedBox> no_boxes;
+
+  Wall() {
+    std::vector<Eigen::Vector3f> hits;
+    for (float y = -9.75F; y < 10.0F; y += 0.5F) {
+      for (float z = 4.25F; z < 16.0F; z += 0.5F) hits.emplace_back(0.25F, y, z);
+    }
+    map.insert(hits, std::nullopt);
+    mapper.update(map, grid);
+    for (VoxelGrid::Id id = 0; id < grid.count(); ++id) cubes.push_back(id);
+  }
+  FreeSpace space() const { return {FreeSpace::Config(), no_boxes, map}; }
+  std::size_t open_faces(int face) const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        cubes, [&](VoxelGrid::Id id) { return grid.state(id) == VoxelState::occupied && !grid.marked(id, face); }));
+  }
+};
+
+TEST(StarSurfaces, ViewpointsStandOffTheSurfaceAndCoverAllOfIt) {
+  Wall wall;
+  StarSurfaces surfaces(StarSurfaces::Config(), VehicleConfig(), wall.grid);
+  const auto views = surfaces.views(wall.grid, wall.cubes, wall.mapper, wall.space(), {10, 0, 10}, 0);
+  std::set<std::uint32_t> front;
+  for (const StarView& view : views) {
+    EXPECT_GT((view.p_WB - view.surface_W).norm(), 1.8);
+    EXPECT_LT((view.p_WB - view.surface_W).norm(), 7.36);
+    for (const std::uint32_t face : view.faces) {
+      if (face % VoxelGrid::kFaces != 0) continue;
+      EXPECT_TRUE(front.insert(face).second) << "in one patch only";
+    }
+  }
+  EXPECT_EQ(front.size(), wall.open_faces(0)) << "every face towards +x";
+}
+
+TEST(StarSurfaces, WhatWasInThePictureIsInspected) {
+  Wall wall;
+  const StarSurfaces surfaces(StarSurfaces::Config(), VehicleConfig(), wall.grid);
+  const std::size_t before = wall.open_faces(0);
+  RigidBodyState state;
+  state.p_WB = {5.0, 0.0, 10.0};
+  surfaces.mark_seen(state, {}, wall.mapper, wall.grid);
+  EXPECT_EQ(wall.open_faces(0), before) << "it looks away";
+  state.q_WB = Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitZ());
+  surfaces.mark_seen(state, {}, wall.mapper, wall.grid);
+  EXPECT_LT(wall.open_faces(0), before);
+  EXPECT_GT(wall.open_faces(0), 0U) << "not all of it was in the picture";
+  EXPECT_EQ(wall.open_faces(1), before) << "nor its back";
+  state.p_WB.x() = 12.0;
+  Wall far;
+  surfaces.mark_seen(state, {}, far.mapper, far.grid);
+  EXPECT_EQ(far.open_faces(0), before) << "too far away";
+}
+
+TEST(StarSurfaces, AViewThatFailedIsTriedLater) {
+  Wall wall;
+  StarSurfaces surfaces(StarSurfaces::Config(), VehicleConfig(), wall.grid);
+  const auto views = [&](Tick now) {
+    return surfaces.views(wall.grid, wall.cubes, wall.mapper, wall.space(), {10, 0, 10}, now);
+  };
+  const auto all = views(0);
+  ASSERT_GT(all.size(), 1U);
+  const auto shares_a_face = [&](const StarView& view) {
+    return std::ranges::find_first_of(view.faces, all.front().faces) != view.faces.end();
+  };
+  surfaces.failed(all.front(), 0);
+  EXPECT_TRUE(std::ranges::none_of(views(ticks(1.0)), shares_a_face));
+  EXPECT_TRUE(std::ranges::any_of(views(ticks(60.0)), shares_a_face));
+}
+
+TEST(StarTour, KeepsItsDirectionAndItsFirstCluster) {
+  const VoxelGrid grid(Isometry3d::Identity(), {100.0, 100.0, 20.0}, 5.0);
+  const std::vector<Vector3d> places = {{30, 50, 10}, {70, 50, 10}, {72, 52, 10}, {28, 48, 10}};
+  const Vector3d here(50, 50, 10), to_the_right(2, 0, 0), none = Vector3d::Zero();
+  const auto right = hierarchical_tour(grid, here, to_the_right, places, std::nullopt, {}, {});
+  EXPECT_GT(right.first_cluster_W.x(), 60.0);
+  const auto left = hierarchical_tour(grid, here, -to_the_right, places, std::nullopt, {}, {});
+  EXPECT_LT(left.first_cluster_W.x(), 40.0);
+  const auto again = hierarchical_tour(grid, here, none, places, right.first_cluster_W, {}, {});
+  EXPECT_GT(again.first_cluster_W.x(), 60.0) << "no flip";
+  const auto elsewhere = hierarchical_tour(grid, here, none, places, std::nullopt, {{29, 49, 10}}, {});
+  EXPECT_GT(elsewhere.first_cluster_W.x(), 60.0) << "somebody works on the left";
+  EXPECT_TRUE(hierarchical_tour(grid, here, none, {}, std::nullopt, {}, {}).visits.empty());
+}
+
+TEST(StarTour, VisitsEverythingOnceClusterByCluster) {
+  const VoxelGrid grid(Isometry3d::Identity(), {100.0, 100.0, 20.0}, 5.0);
+  std::vector<Vector3d> places;
+  for (int i = 0; i < 40; ++i) places.emplace_back(10.0 + 37 * i % 80, 10.0 + 53 * i % 80, 10.0);
+  StarTourConfig config;
+  auto visits = hierarchical_tour(grid, {0, 0, 10}, Vector3d::Zero(), places, std::nullopt, {}, config).visits;
+  const Vector3d first = places[visits.front()];
+  EXPECT_LT((first - Vector3d(0, 0, 10)).norm(), 60.0);
+  std::ranges::sort(visits);
+  ASSERT_EQ(visits.size(), places.size());
+  for (std::size_t i = 0; i < visits.size(); ++i) EXPECT_EQ(visits[i], i);
+}
+
+TEST(StarExplorer, GoesWhereTheKnownEndsInItsBox) {
+  VoxelGrid grid(Isometry3d(Eigen::Translation3d(-20.0, -20.0, 0.0)), {40.0, 40.0, 24.0}, 2.0);
+  for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
+    if (grid.centre_W(id).x() < 0.0) grid.raise(id, VoxelState::free);
+  }
+  StarExplorer explorer(StarExplorer::Config(), grid);
+  explorer.look(grid, grid.take_changed(), {-15.0, 0.0, 12.0});
+  const OccupancyMap map;
+  const std::vector<OrientedBox> no_boxes;
+  const FreeSpace space(FreeSpace::Config(), no_boxes, map);
+  const StarStart start{{-15.0, 0.0, 12.0}, Vector3d::Zero(), {}};
+  const OrientedBox box = make_box({0, 0, 12}, {30, 30, 20});
+  const auto goals = explorer.tour(grid, space, box, start, 0);
+  ASSERT_FALSE(goals.empty());
+  for (const StarGoal& goal : goals) {
+    EXPECT_NEAR(goal.middle_W.x(), -1.0, 0.1) << "on the rim of what is known";
+    EXPECT_TRUE(explorer.open(goal));
+  }
+  EXPECT_TRUE(explorer.tour(grid, space, make_box({-15, 0, 12}, {4, 4, 4}), start, 0).empty()) << "nothing open there";
+  for (const StarGoal& goal : goals) explorer.failed(goal, 0);
+  EXPECT_LT(explorer.tour(grid, space, box, start, 1).size(), goals.size());
+  for (VoxelGrid::Id id = 0; id < grid.count(); ++id) grid.raise(id, VoxelState::free);
+  explorer.look(grid, grid.take_changed(), start.p_WB);
+  EXPECT_FALSE(explorer.open(goals.front()));
+}
+
+TEST(StarExplorer, GivesUpFrontiersThatStayOnes) {
+  VoxelGrid grid(Isometry3d::Identity(), {20.0, 20.0, 20.0}, 2.0);
+  for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
+    if (grid.centre_W(id).x() < 10.0) grid.raise(id, VoxelState::free);
+  }
+  StarExplorer explorer(StarExplorer::Config(), grid);
+  const Vector3d here(5.0, 10.0, 10.0);
+  for (int i = 0; i < 20; ++i) explorer.look(grid, grid.take_changed(), here);
+  const OccupancyMap map;
+  const std::vector<OrientedBox> no_boxes;
+  const FreeSpace space(FreeSpace::Config(), no_boxes, map);
+  EXPECT_LT(explorer.tour(grid, space, make_box({10, 10, 10}, {20, 20, 20}), {here, {}, {}}, 0).size(), 3U);
+}
+
+TEST(StarTalk, GoalsAndInspectedSurfaceTravel) {
+  AgentConfig speaker, listener;
+  for (AgentConfig* agent : {&speaker, &listener}) {
+    agent->fleet = {member(Role::explorer, 0.0), member(Role::photographer, 5.0)};
+  }
+  listener.self = 1;
+  VoxelGrid theirs(Isometry3d::Identity(), {20.0, 20.0, 20.0}, 2.0), ours = theirs;
+  theirs.raise(7, VoxelState::occupied);
+  theirs.mark(7, 3);
+  const OccupancyMap map;
+  const std::vector<OrientedBox> boxes;
+  StarTalk says({}, speaker), hears({}, listener);
+  Peers of_speaker(speaker), of_listener(listener);
+  of_speaker.update(0, {{node_of_uav(1), {5, 0, 0}}});
+  const auto input = [&](std::uint64_t k, const Peers& seen, std::span<const RadioMessage> radio) {
+    return PlannerInput{k, static_cast<Tick>(20 * k), {}, {}, {}, map, boxes, seen, {}, false, 0, {}, radio};
+  };
+  // The listener tells what it has, the speaker sends what is missing.
+  PlannerOutput request, reply;
+  hears.speak(input(8, of_listener, {}), ours, {}, request);
+  ASSERT_EQ(request.radio.size(), 1U);
+  says.listen(input(9, of_speaker, request.radio), theirs);
+  StarTalk::Word word;
+  word.explored = true;
+  word.box = 3;
+  word.goal_W = Vector3d(1.0, 2.0, 3.0);
+  says.speak(input(10, of_speaker, {}), theirs, word, reply);
+  ASSERT_EQ(reply.radio.size(), 1U);
+  hears.listen(input(11, of_listener, reply.radio), ours);
+  EXPECT_EQ(ours.state(7), VoxelState::occupied);
+  EXPECT_TRUE(ours.marked(7, 3));
+  ASSERT_TRUE(hears.word(0));
+  EXPECT_TRUE(hears.word(0)->explored);
+  EXPECT_EQ(hears.word(0)->box, 3U);
+  EXPECT_EQ(hears.goals_W(ticks(1.0)), std::vector<Vector3d>{*word.goal_W});
+  EXPECT_TRUE(hears.goals_W(ticks(60.0)).empty());
+}
+
+TEST(Star, PhotographsTheStructureAndBringsItHome) {
+  TestWorld world(two_towers(), test_fleet(3), "star", 300.0);
+  world.run(300.0);
+  EXPECT_GT(world.coverage(), 0.5);
+  EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.4);
+  EXPECT_GT(world.separation(), 2.0 * kExplorerRadiusM + 0.4);
+  EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
+}
+
+TEST(Star, PhotographersBeginWhileTheExplorerExplores) {
+  TestWorld world(two_towers(), test_fleet(3), "star", 120.0);
+  world.run(45.0);
+  EXPECT_GT((world.position(1).head<2>() - Vector2d(-5.0, -14.0)).norm(), 3.0);
+}
+
+TEST(Star, FaithfulOnesFlySafelyToo) {
+  TestWorld world(two_towers(), test_fleet(4), "star:faithful=true", 150.0);
+  world.run(150.0);
+  EXPECT_EQ(world.bad_commands(), 0U);
+  EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.3);
+  EXPECT_GT(world.separation(), 2.0 * kExplorerRadiusM);
+}
+
+TEST(Star, WithoutALidarItLooksAtTheBoxes) {
+  TestWorld world(two_towers(), {{"eye", Role::photographer, {-8.0, -14.0}}}, "star", 250.0);
+  world.run(250.0);
+  EXPECT_GT(world.coverage(), 0.1);
+  EXPECT_GT(world.clearance(), 0.32 + 0.5);
+}
+
+}  // namespace
+}  // namespace skein::agent

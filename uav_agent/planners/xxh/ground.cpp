@@ -1,0 +1,67 @@
+// XXH's program at the ground station: collects the UAVs' starts, closes the list, assigns teams and regions
+// (xxh_plan.hpp), and says so until everybody has heard it. `--planner xxh` starts it beside the UAVs.
+// Source: paper, "Task Assignment" of Team XXH. Our choice: a complete list is closed at once, since nobody is left to
+// be waited for; and who could not report is taken to stand where it should, since it will assume the same.
+#include <map>
+
+#include "uav_agent/api/ground_program.hpp"
+#include "uav_agent/planners/xxh/config.hpp"
+#include "uav_agent/planners/xxh/talk.hpp"
+
+namespace skein::agent {
+
+class XxhGround final : public GroundProgram {
+ public:
+  using Config = XxhConfig;
+
+  XxhGround(const Config& config, const AgentConfig& ground) : config_(config), ground_(ground) {}
+
+  std::vector<RadioMessage> work(const GroundInput& in) override {
+    bool somebody_lacks_it = false;
+    for (const RadioMessage& message : in.radio) {
+      const auto heard = open_word(message, ground_.fleet.size());
+      if (!heard) continue;
+      const auto& [uav, word] = *heard;
+      somebody_lacks_it |= !word.has_plan;
+      if (plan_ || !reports_.emplace(uav, word.start_W).second) continue;
+      last_new_ = in.tick;
+    }
+    if (!plan_ && list_is_closed(in)) make_plan(in);
+    lacking_ |= somebody_lacks_it;
+    if (!plan_ || !lacking_ || !ground_.due(in.k, config_.assign_every_s, 0)) return {};
+    lacking_ = false;
+    return {plan_message(*plan_, ground_.fleet.size())};
+  }
+
+ private:
+  bool list_is_closed(const GroundInput& in) const {
+    if (in.boxes.empty() || reports_.empty()) return false;
+    const bool complete = reports_.size() == ground_.fleet.size() && !config_.faithful;
+    return complete || seconds(in.tick - last_new_) >= config_.freeze_s;
+  }
+
+  void make_plan(const GroundInput& in) {
+    std::vector<XxhStart> starts;
+    for (std::size_t uav = 0; uav < ground_.fleet.size(); ++uav) {
+      const FleetMember& member = ground_.fleet[uav];
+      const auto report = reports_.find(uav);
+      if (report != reports_.end()) {
+        starts.push_back({uav, member.role, settled_start(report->second, member.p_WB_start)});
+      } else if (!config_.faithful) {
+        starts.push_back({uav, member.role, member.p_WB_start});
+      }
+    }
+    plan_ = assign(std::move(starts), in.boxes, config_.split_tolerance);
+  }
+
+  const Config config_;
+  const AgentConfig ground_;
+  std::map<std::size_t, Vector3d> reports_;  ///< starts, by UAV
+  Tick last_new_ = 0;
+  std::optional<XxhPlan> plan_;
+  bool lacking_ = false;  ///< somebody said so since the last publication
+};
+
+SKEIN_REGISTER_GROUND_PROGRAM("xxh", XxhGround);
+
+}  // namespace skein::agent

@@ -1,0 +1,59 @@
+// The layered inspection of XXH: which cell of a section to visit next, and what to do there. Every few layers one is
+// inspected, cell by cell, the nearest first; at a cell the gimbal turns to one occupied neighbour after the other.
+// Frame W.   Units: SI and radians.   Threads: one.
+// Source: paper, "Inspection Strategy" of Team XXH; its public code for the angle at which a target counts as reached
+// and the 3 s at a cell. That the UAV comes to rest first, stays for a picture, and goes over its layers again for what
+// it could not reach are ours.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "uav_agent/api/planner.hpp"
+#include "uav_agent/planners/xxh/config.hpp"
+#include "uav_agent/planners/xxh/region.hpp"
+
+namespace skein::agent {
+
+class XxhInspector {
+ public:
+  /// Both must outlive this.
+  XxhInspector(const XxhConfig& config, const AgentConfig& agent) : config_(config), agent_(agent) {}
+
+  /// A section of a region, from its first layer on.
+  void begin(const XxhRegionMap::Section& section);
+  bool finished() const { return layers_.empty() && !visit_; }
+  /// How often it has gone over the section's layers: later, less proof of free space will do.
+  int pass() const { return pass_; }
+
+  /// Cells to choose from, the nearest first; none when this layer is done: then the next one is tried next time.
+  std::vector<XxhVisit> candidates(const XxhRegionMap& region, const Vector3d& here_W, const FreeSpace& space);
+  /// There is no way to it.
+  void failed(VoxelGrid::Id cell) { ++failed_[cell]; }
+  void set_out(const XxhVisit& visit) { visit_ = visit; }
+  const std::optional<XxhVisit>& visit() const { return visit_; }
+  void give_up();
+  /// Looked at by somebody else in the meantime.
+  bool obsolete(const XxhRegionMap& region) const { return visit_ && region.targets(visit_->cell).empty(); }
+
+  /// Where the camera looks at the visited cell: at the first target that is left.
+  const XxhTarget& target() const { return visit_->targets.front(); }
+  /// Once per exchange at the cell; marks what is done. Afterwards visit() is empty when all of it is.
+  void look(const PlannerInput& in, VoxelGrid& grid);
+
+ private:
+  void next_target(VoxelGrid& grid);
+
+  const XxhConfig& config_;
+  const AgentConfig& agent_;
+  std::deque<int> layers_;  ///< left
+  std::vector<int> all_layers_;
+  int pass_ = 0;
+  std::optional<XxhVisit> visit_;
+  std::map<VoxelGrid::Id, int> failed_;
+  std::optional<Tick> at_cell_since_, reached_since_;
+};
+
+}  // namespace skein::agent

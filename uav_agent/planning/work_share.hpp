@@ -1,0 +1,33 @@
+// Who does what: this UAV's part of all strips. Every UAV computes the same division from the boxes and the
+// nominal starts.
+// Frame W.   Units: SI.   Pure.
+#pragma once
+
+#include <vector>
+
+#include "uav_agent/api/agent_config.hpp"
+#include "uav_agent/planning/standoff.hpp"
+#include "uav_agent/planning/strips.hpp"
+
+namespace skein::agent {
+
+struct WorkShareConfig {
+  StripConfig strips;
+  StandoffConfig standoff;
+  double transit_mps = 4.5;
+  bool survey = true;  ///< explorers fly around everything first; see survey.hpp
+  double survey_standoff_m = 10.0;
+  double survey_mps = 4.0;
+};
+
+struct WorkShare {
+  std::vector<Strip> strips;  ///< of the whole fleet
+  std::vector<Visit> tour;    ///< own
+};
+
+/// Strips that run inside another box all along are nobody's.
+/// @param middle_height_m  at which everybody is taken to begin.
+WorkShare own_share(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const CameraReach& reach,
+                    double middle_height_m, const WorkShareConfig& config);
+
+}  // namespace skein::agent

@@ -1,0 +1,144 @@
+// What every planner must do and must never do, whatever its strategy: all that are registered, by name, in a world
+// without physics.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "uav_agent/api/payload.hpp"
+#include "uav_agent/testing/test_world.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kTouchM = 0.63 + 0.3;             ///< to structure: the larger body, and a little
+constexpr double kSmallestSeparationM = 2 * 0.63;  ///< between two of them
+constexpr double kUnmeasuredM = 1e3;               ///< a distance that nobody flew in
+
+/// What to say to make a planner; those that need a file get one, with a place above its start for every UAV.
+std::string spec_of(const std::string& name, const std::vector<TestUav>& fleet) {
+  if (name != "waypoints") return name;
+  const auto file = std::filesystem::path(testing::TempDir()) / ("paths_of_" + std::to_string(fleet.size()) + ".yaml");
+  std::ofstream out(file);
+  out << "paths:\n";
+  for (const TestUav& uav : fleet) {
+    out << "  " << uav.name << ":\n    - {position: [" << uav.start.x() << ", " << uav.start.y() << ", 6]}\n";
+  }
+  return name + ":" + file.string();
+}
+
+class EveryPlanner : public testing::TestWithParam<std::string> {
+ protected:
+  TestWorld world(const TestScene& scene, std::size_t uavs, double duration_s) const {
+    const auto fleet = test_fleet(uavs);
+    return {scene, fleet, spec_of(GetParam(), fleet), duration_s};
+  }
+  static void expect_sound(const TestWorld& world) {
+    EXPECT_EQ(world.bad_commands(), 0U);
+    EXPECT_GT(world.clearance(), kTouchM);
+    EXPECT_GT(world.separation(), kSmallestSeparationM);
+    EXPECT_LE(world.longest_message(), 2 * kMaxPayloadBytes);
+  }
+  /// Without that, keeping clear of everything is no merit.
+  static void expect_all_flew(const TestWorld& world, std::size_t uavs) {
+    for (std::size_t uav = 0; uav < uavs; ++uav) EXPECT_GT(world.highest_m(uav), 1.5) << "uav" << uav;
+    EXPECT_LT(world.clearance(), kUnmeasuredM) << "nobody came near anything";
+    EXPECT_EQ(world.separation() < kUnmeasuredM, uavs > 1);
+  }
+};
+
+TestScene many_boxes(int count) {
+  TestScene scene;
+  for (int i = 0; i < count; ++i) {
+    const Vector3d centre(14.0 * (i % 5), 14.0 * (i / 5), 6.0 + i % 4);
+    scene.solids.push_back(make_box(centre, {4.0, 4.0, 2.0 * centre.z()}, 0.2 * i));
+    scene.boxes.push_back(make_box(centre + Vector3d(0.0, 0.0, 0.5), {5.0, 5.0, 2.0 * centre.z() + 1.0}, 0.2 * i));
+  }
+  return scene;
+}
+
+TEST_P(EveryPlanner, SameInputSameOutput) {
+  TestWorld once = world(two_towers(), 3, 90.0), again = world(two_towers(), 3, 90.0);
+  once.run(90.0);
+  again.run(90.0);
+  EXPECT_EQ(once.fingerprint(), again.fingerprint());
+}
+
+TEST_P(EveryPlanner, OneUavAlone) {
+  TestWorld alone = world(two_towers(), 1, 120.0);
+  alone.run(120.0);
+  expect_sound(alone);
+  expect_all_flew(alone, 1);
+}
+
+TEST_P(EveryPlanner, EightUavs) {
+  TestWorld eight = world(two_towers(), 8, 100.0);
+  eight.run(100.0);
+  expect_sound(eight);
+  expect_all_flew(eight, 8);
+}
+
+TEST_P(EveryPlanner, OneBox) {
+  TestWorld one = world(many_boxes(1), 3, 90.0);
+  one.run(90.0);
+  expect_sound(one);
+  expect_all_flew(one, 3);
+}
+
+TEST_P(EveryPlanner, FifteenBoxes) {
+  TestWorld fifteen = world(many_boxes(15), 4, 100.0);
+  fifteen.run(100.0);
+  expect_sound(fifteen);
+  expect_all_flew(fifteen, 4);
+}
+
+TEST_P(EveryPlanner, PeersThatNeverSayAWord) {
+  TestScene scene = two_towers();
+  scene.talk = false;
+  TestWorld silent = world(scene, 4, 120.0);
+  silent.run(120.0);
+  expect_sound(silent);
+  expect_all_flew(silent, 4);
+}
+
+/// Nobody sees anybody, so nobody can give way: all else holds, of every one of them.
+TEST_P(EveryPlanner, NoRadioAtAll) {
+  TestScene scene = two_towers();
+  scene.radio = false;
+  TestWorld dark = world(scene, 3, 120.0);
+  dark.run(120.0);
+  EXPECT_EQ(dark.bad_commands(), 0U);
+  EXPECT_GT(dark.clearance(), kTouchM);
+  expect_all_flew(dark, 3);
+}
+
+/// There is nothing to hit but one another, and nothing to look at: they stay where they are, or near it.
+TEST_P(EveryPlanner, AnEmptyMapAndNoBoxes) {
+  TestWorld empty = world(TestScene(), 2, 60.0);
+  empty.run(60.0);
+  expect_sound(empty);
+  EXPECT_EQ(empty.clearance(), 1e9) << "of nothing";
+  for (std::size_t uav = 0; uav < 2; ++uav) {
+    EXPECT_GE(empty.position(uav).z(), 0.0);
+    EXPECT_LT((empty.position(uav).head<2>() - test_fleet(2)[uav].start).norm(), 60.0);
+    EXPECT_LT(empty.highest_m(uav), 60.0);
+  }
+}
+
+TEST_P(EveryPlanner, ItsOwnRestartInFlight) {
+  TestWorld restarted = world(two_towers(), 3, 150.0);
+  restarted.run(70.0);
+  restarted.restart(0);
+  restarted.run(20.0);
+  restarted.restart(1);
+  restarted.run(60.0);
+  expect_sound(restarted);
+  expect_all_flew(restarted, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Planners, EveryPlanner, testing::ValuesIn(planner_names()),
+                         [](const auto& planner) { return planner.param; });
+
+}  // namespace
+}  // namespace skein::agent
