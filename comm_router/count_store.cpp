@@ -21,7 +21,8 @@ struct CountStore::Head {
   bool operator==(const Head&) const = default;
 };
 
-CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run) {
+CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run)
+    : nodes_(nodes) {
   const std::size_t links = nodes * nodes, bytes = sizeof(Head) + links * sizeof(LinkCounts);
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   void* memory = MAP_FAILED;
@@ -45,25 +46,23 @@ CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes, Run
 
 CountStore::~CountStore() { ::munmap(head_, sizeof(Head) + counts_.size_bytes()); }
 
-std::vector<LinkCounts> CountStore::earlier_counts() const {
+LinkMatrix<LinkCounts> CountStore::earlier_counts() const {
   std::vector<LinkCounts> counts(counts_.begin(), counts_.end());
   for (LinkCounts& link : counts) {
     link.dropped_fault = link.sent + link.duplicated - link.delivered - link.dropped_no_los - link.dropped_overflow;
   }
-  return counts;
+  return {nodes_, std::move(counts)};
 }
 
 void CountStore::save(const LinkGate& gate, const GatedStep& last) {
-  const std::size_t nodes = gate.nodes();
-  for (Node from = 0; from < nodes; ++from) {
-    for (Node to = 0; to < nodes; ++to) counts_[from * nodes + to] = gate.counts(from, to);
-  }
+  LinkMatrix<LinkCounts> counts = gate.counts();
   for (const Delivery& delivery : last.deliveries) {
     const RadioRoute& route = gate.routes()[delivery.route];
-    LinkCounts& link = counts_[route.source * nodes + route.targets[delivery.target].node];
+    LinkCounts& link = counts.at(route.source, route.targets[delivery.target].node);
     --link.delivered;
     link.delivered_bytes -= delivery.payload->size();
   }
+  std::ranges::copy(counts.row_major(), counts_.begin());
 }
 
 }  // namespace skein::router

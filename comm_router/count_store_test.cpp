@@ -26,7 +26,7 @@ std::vector<RadioRoute> routes() {
 /// Holds each message back for some steps.
 class SlowLinks final : public LinkModel {
  public:
-  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const RadioMessage& message) override {
+  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const SentMessage& message) override {
     return {.delay_steps = message.sequence};
   }
 };
@@ -43,7 +43,7 @@ class CountStoreTest : public testing::Test {
     }
     return all.size();
   }
-  RadioMessage message(std::uint64_t sequence) const {
+  SentMessage message(std::uint64_t sequence) const {
     return {talk(), sequence, std::make_shared<const std::vector<std::uint8_t>>(8, std::uint8_t{1})};
   }
 

@@ -11,21 +11,15 @@
 
 namespace skein::router {
 
-LinkGate::LinkGate(std::vector<RadioRoute> routes, std::size_t nodes, std::unique_ptr<LinkModel> links)
-    : routes_(std::move(routes)), nodes_(nodes), model_(std::move(links)), counts_(nodes * nodes) {}
+LinkGate::LinkGate(const std::vector<RadioRoute>& routes, std::size_t nodes, std::unique_ptr<LinkModel> links)
+    : routes_(routes), model_(std::move(links)), counts_(nodes) {}
 
-void LinkGate::put(std::size_t number, const RadioRoute& route) {
-  if (number == routes_.size()) routes_.emplace_back();
-  routes_.at(number) = route;
-}
-
-GatedStep LinkGate::gate(std::uint64_t k, std::span<const std::uint8_t> links,
-                         const std::vector<RadioMessage>& messages) {
-  if (links.size() != nodes_ * nodes_) {
-    throw std::invalid_argument("a link matrix of " + std::to_string(links.size()) + " entries for " +
-                                std::to_string(nodes_) + " radio nodes");
+GatedStep LinkGate::gate(std::uint64_t k, const Links& links, const std::vector<SentMessage>& messages) {
+  if (links.nodes() != counts_.nodes()) {
+    throw std::invalid_argument("links between " + std::to_string(links.nodes()) + " radio nodes where there are " +
+                                std::to_string(counts_.nodes()));
   }
-  for (const RadioMessage& message : messages) send(k, links, message);
+  for (const SentMessage& message : messages) send(k, links, message);
 
   GatedStep step;
   const auto due = in_flight_.upper_bound(k + 1);
@@ -42,7 +36,7 @@ GatedStep LinkGate::gate(std::uint64_t k, std::span<const std::uint8_t> links,
   });
   for (const Delivery& delivery : step.deliveries) {
     const RadioRoute& route = routes_[delivery.route];
-    LinkCounts& link = counts_[route.source * nodes_ + route.targets[delivery.target].node];
+    LinkCounts& link = counts_.at(route.source, route.targets[delivery.target].node);
     ++link.delivered;
     link.delivered_bytes += delivery.payload->size();
   }
@@ -50,23 +44,23 @@ GatedStep LinkGate::gate(std::uint64_t k, std::span<const std::uint8_t> links,
   return step;
 }
 
-void LinkGate::send(std::uint64_t k, std::span<const std::uint8_t> links, const RadioMessage& message) {
+void LinkGate::send(std::uint64_t k, const Links& links, const SentMessage& message) {
   if (message.route >= routes_.size()) throw std::invalid_argument("a radio message of no route");
   const RadioRoute& route = routes_[message.route];
   for (std::size_t target = 0; target < route.targets.size(); ++target) {
     const Node to = route.targets[target].node;
-    const std::size_t link = route.source * nodes_ + to;
-    ++counts_[link].sent;
-    counts_[link].sent_bytes += message.payload->size();
-    if (links[link] == 0) {
-      ++counts_[link].dropped_no_los;
+    LinkCounts& link = counts_.at(route.source, to);
+    ++link.sent;
+    link.sent_bytes += message.payload->size();
+    if (links.at(route.source, to) == 0) {
+      ++link.dropped_no_los;
       continue;
     }
     const LinkFate fate = model_->fate(k, route, to, message);
-    counts_[link].dropped_fault += fate.loss == LinkLoss::fault;
-    counts_[link].dropped_overflow += fate.loss == LinkLoss::overflow;
+    link.dropped_fault += fate.loss == LinkLoss::fault;
+    link.dropped_overflow += fate.loss == LinkLoss::overflow;
     if (fate.loss != LinkLoss::none) continue;
-    counts_[link].duplicated += static_cast<std::uint64_t>(fate.copies - 1);
+    link.duplicated += static_cast<std::uint64_t>(fate.copies - 1);
     for (int copy = 0; copy < fate.copies; ++copy) {
       in_flight_[k + 1 + fate.delay_steps].push_back({message.route, target, message.sequence, message.payload});
     }
@@ -93,7 +87,7 @@ std::vector<std::uint8_t> LinkGate::digest(const std::vector<Delivery>& deliveri
 
 LinkCounts LinkGate::total() const {
   LinkCounts sum;
-  for (const LinkCounts& link : counts_) {
+  for (const LinkCounts& link : counts_.row_major()) {
     sum.sent += link.sent;
     sum.delivered += link.delivered;
     sum.dropped_no_los += link.dropped_no_los;

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <span>
 #include <vector>
 
+#include "core/link_matrix.hpp"
 #include "core/radio_routes.hpp"
 #include "core/types.hpp"
 
@@ -19,8 +19,8 @@ namespace skein::router {
 using Payload = std::shared_ptr<const std::vector<std::uint8_t>>;
 
 /// One message as its sender put it on the air.
-struct RadioMessage {
-  std::size_t route = 0;       ///< index into radio_routes(); names source and topic
+struct SentMessage {
+  std::size_t route = 0;       ///< number in the RadioTable; names source and topic
   std::uint64_t sequence = 0;  ///< 0, 1, ... on this route since the sender joined
   Payload payload;             ///< serialised, with encapsulation header
 };
@@ -44,18 +44,18 @@ struct LinkFate {
 class LinkModel {
  public:
   virtual ~LinkModel() = default;
-  virtual LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const RadioMessage& message) = 0;
+  virtual LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) = 0;
 };
 
 /// Nothing is lost, nothing is late.
 class IdealLinks final : public LinkModel {
  public:
-  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const RadioMessage&) override { return {}; }
+  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const SentMessage&) override { return {}; }
 };
 
 /// One message for one target.
 struct Delivery {
-  std::size_t route = 0;   ///< index into radio_routes()
+  std::size_t route = 0;   ///< number in the RadioTable
   std::size_t target = 0;  ///< index into that route's targets
   std::uint64_t sequence = 0;
   Payload payload;
@@ -81,35 +81,32 @@ struct GatedStep {
 
 class LinkGate {
  public:
+  /// @param routes  of the run, a RadioTable's: others may be added, and targets to each. They must outlive this.
   /// @param nodes  number of radio nodes: the fleet and the ground station.
   /// @param links  the model of the links; IdealLinks unless a fault file says otherwise.
-  LinkGate(std::vector<RadioRoute> routes, std::size_t nodes,
+  LinkGate(const std::vector<RadioRoute>& routes, std::size_t nodes,
            std::unique_ptr<LinkModel> links = std::make_unique<IdealLinks>());
 
   /// Judges all messages of step k, and hands out what arrives in step k + 1. Steps come in order.
-  /// @param links     row-major matrix of nodes * nodes, from sender to receiver, 1 = linked.
   /// @param messages  of all members, in an order that is the same in every run (RouterSync's).
-  /// @throws std::invalid_argument when the matrix has another size or a message names no route.
-  GatedStep gate(std::uint64_t k, std::span<const std::uint8_t> links, const std::vector<RadioMessage>& messages);
+  /// @throws std::invalid_argument when the links are those of another fleet or a message names no route.
+  GatedStep gate(std::uint64_t k, const Links& links, const std::vector<SentMessage>& messages);
 
-  /// Counts of an earlier life, by link: counting goes on from there.
-  void restore(std::vector<LinkCounts> counts) { counts_ = std::move(counts); }
+  /// Counts of an earlier life: counting goes on from there.
+  void restore(LinkMatrix<LinkCounts> counts) { counts_ = std::move(counts); }
 
   const std::vector<RadioRoute>& routes() const { return routes_; }
-  /// A route that is new, with the next number, or that has got further targets.
-  void put(std::size_t number, const RadioRoute& route);
-  const LinkCounts& counts(Node from, Node to) const { return counts_[from * nodes_ + to]; }
+  const LinkMatrix<LinkCounts>& counts() const { return counts_; }
   LinkCounts total() const;
-  std::size_t nodes() const { return nodes_; }
+  FirstNodes nodes() const { return FirstNodes(counts_.nodes()); }
 
  private:
-  void send(std::uint64_t k, std::span<const std::uint8_t> links, const RadioMessage& message);
+  void send(std::uint64_t k, const Links& links, const SentMessage& message);
   std::vector<std::uint8_t> digest(const std::vector<Delivery>& deliveries) const;
 
-  std::vector<RadioRoute> routes_;
-  std::size_t nodes_;
+  const std::vector<RadioRoute>& routes_;
   std::unique_ptr<LinkModel> model_;
-  std::vector<LinkCounts> counts_;                            ///< row-major, from * nodes + to
+  LinkMatrix<LinkCounts> counts_;
   std::map<std::uint64_t, std::vector<Delivery>> in_flight_;  ///< by the step in which they arrive
 };
 

@@ -33,7 +33,7 @@ std::vector<RadioRoute> all_to_all() {
   return routes;
 }
 
-RadioMessage message(std::size_t route_index, std::uint64_t sequence, const std::string& text) {
+SentMessage message(std::size_t route_index, std::uint64_t sequence, const std::string& text) {
   return {route_index, sequence, std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end())};
 }
 
@@ -50,7 +50,7 @@ std::vector<std::uint8_t> random_links(std::mt19937& random) {
 /// Late by the sequence number modulo 3; of eleven messages two are lost, one does not fit, three come twice.
 class LateLinks final : public LinkModel {
  public:
-  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const RadioMessage& message) override {
+  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const SentMessage& message) override {
     const std::uint64_t n = message.sequence % 11;
     const LinkLoss loss = n == 6 || n == 9 ? LinkLoss::fault : (n == 8 ? LinkLoss::overflow : LinkLoss::none);
     return {loss, message.sequence % 3, n >= 3 && n < 6 ? 2 : 1};
@@ -62,7 +62,7 @@ TEST(LinkGate, ExactlyTheLinkedTargetsGetAMessage) {
   LinkGate gate(all_to_all(), kNodes);
   for (std::uint64_t k = 0; k < 200; ++k) {
     const std::vector<std::uint8_t> links = random_links(random);
-    std::vector<RadioMessage> messages;
+    std::vector<SentMessage> messages;
     for (std::size_t r = 0; r < gate.routes().size(); ++r) messages.push_back(message(r, k, "m"));
     const GatedStep step = gate.gate(k, links, messages);
     std::size_t expected = 0;
@@ -81,7 +81,7 @@ TEST(LinkGate, ExactlyTheLinkedTargetsGetAMessage) {
 TEST(LinkGate, DeliveriesAreOrderedBySourceTopicSequenceTarget) {
   std::mt19937 random(2);
   LinkGate gate(all_to_all(), kNodes);
-  std::vector<RadioMessage> messages;
+  std::vector<SentMessage> messages;
   for (std::size_t r = 0; r < gate.routes().size(); ++r) {
     for (std::uint64_t sequence = 0; sequence < 3; ++sequence) messages.push_back(message(r, sequence, "m"));
   }
@@ -93,7 +93,7 @@ TEST(LinkGate, DeliveriesAreOrderedBySourceTopicSequenceTarget) {
   EXPECT_TRUE(std::ranges::is_sorted(step.deliveries, {}, key));
 
   // Members of other nodes may come in any order: what leaves is the same, to the digest.
-  const auto source = [&](const RadioMessage& m) { return gate.routes()[m.route].source; };
+  const auto source = [&](const SentMessage& m) { return gate.routes()[m.route].source; };
   std::ranges::stable_sort(messages, std::greater{}, source);
   LinkGate other(all_to_all(), kNodes);
   EXPECT_EQ(other.gate(0, kAllLinked, messages).digest, step.digest);
@@ -104,7 +104,7 @@ TEST(LinkGate, CountsAddUpOnEveryLink) {
   LinkGate gate(all_to_all(), kNodes, std::make_unique<LateLinks>());
   std::vector<std::uint64_t> sequence(gate.routes().size(), 0);
   for (std::uint64_t k = 0; k < 100; ++k) {
-    std::vector<RadioMessage> messages;
+    std::vector<SentMessage> messages;
     for (std::size_t r = 0; r < gate.routes().size(); ++r) {
       for (std::uint64_t n = random() % 3; n > 0; --n) messages.push_back(message(r, sequence[r]++, "m"));
     }
@@ -154,7 +154,7 @@ TEST(LinkGate, ADelayedMessageKeepsTheLinkItWasSentOn) {
 }
 
 TEST(LinkGate, TheDigestSeesEveryFieldOfADelivery) {
-  const auto digest = [](const RadioRoute& from, const RadioMessage& sent) {
+  const auto digest = [](const RadioRoute& from, const SentMessage& sent) {
     return LinkGate({from}, kNodes).gate(0, kAllLinked, {sent}).digest;
   };
   const RadioRoute base = route(1, "/x", {2});

@@ -10,7 +10,7 @@ LinkRecord::LinkRecord(std::unique_ptr<LinkModel> links, const Scenario& scenari
                        std::vector<std::string>& unwritten)
     : links_(std::move(links)), scenario_(scenario), file_(folder / "capture_messages.csv"), unwritten_(unwritten) {}
 
-LinkFate LinkRecord::fate(std::uint64_t k, const RadioRoute& route, Node target, const RadioMessage& message) {
+LinkFate LinkRecord::fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) {
   const LinkFate fate = links_->fate(k, route, target, message);
   const bool spoiled = fate.loss != LinkLoss::none || fate.delay_steps > 0;
   const std::string& uav = scenario_.node_name(route.source);

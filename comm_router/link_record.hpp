@@ -21,7 +21,7 @@ class LinkRecord final : public LinkModel {
   LinkRecord(std::unique_ptr<LinkModel> links, const Scenario& scenario, const std::filesystem::path& folder,
              std::vector<std::string>& unwritten);
 
-  LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const RadioMessage& message) override;
+  LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) override;
 
  private:
   void write(const std::string& line);

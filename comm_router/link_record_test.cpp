@@ -15,7 +15,7 @@ namespace {
 class ToldLinks final : public LinkModel {
  public:
   explicit ToldLinks(LinkFate fate) : fate_(fate) {}
-  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const RadioMessage&) override { return fate_; }
+  LinkFate fate(std::uint64_t, const RadioRoute&, Node, const SentMessage&) override { return fate_; }
 
  private:
   LinkFate fate_;

@@ -8,7 +8,7 @@
 namespace skein::router {
 
 LinkStages::LinkStages(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed)
-    : scenario_(scenario), faults_(faults), seed_(seed), nodes_(scenario.fleet.size() + 1), stages_(nodes_ * nodes_) {
+    : scenario_(scenario), faults_(faults), seed_(seed), stages_(scenario.fleet.size() + 1) {
   for (std::size_t i = 0; i < scenario.links.size(); ++i) {
     add_effect(scenario.links[i], "radio.links[" + std::to_string(i) + "]", 0, ~std::uint64_t{0});
   }
@@ -22,21 +22,21 @@ LinkStages::LinkStages(const Scenario& scenario, const FaultPlan& faults, std::u
 }
 
 void LinkStages::add_effect(const LinkEffect& effect, const std::string& name, std::uint64_t first, std::uint64_t end) {
-  for (Node from = 0; from < nodes_; ++from) {
-    for (Node to = 0; to < nodes_; ++to) {
+  for (const Node from : scenario_.nodes()) {
+    for (const Node to : scenario_.nodes()) {
       const std::string &source = scenario_.node_name(from), &target = scenario_.node_name(to);
       if (from == to || !names_node(effect.from, source) || !names_node(effect.to, target)) continue;
       Stage stage{.effect = effect, .name = name + " " + source + " " + target, .first = first, .end = end};
       stage.burst_step = first;
-      stages_[from * nodes_ + to].push_back(std::move(stage));
+      stages_.at(from, to).push_back(std::move(stage));
     }
   }
 }
 
-LinkFate LinkStages::fate(std::uint64_t k, const RadioRoute& route, Node target, const RadioMessage& message) {
+LinkFate LinkStages::fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) {
   if (is_cut(k, route.source, target)) return {.loss = LinkLoss::fault};
   Passage passage;
-  for (Stage& stage : stages_[route.source * nodes_ + target]) {
+  for (Stage& stage : stages_.at(route.source, target)) {
     if (k < stage.first || k >= stage.end) continue;
     pass(stage, k, route, message, passage);
     if (passage.loss != LinkLoss::none) return {.loss = passage.loss};
@@ -47,7 +47,7 @@ LinkFate LinkStages::fate(std::uint64_t k, const RadioRoute& route, Node target,
 
 // All numbers are drawn for every message, whether they are needed or not, so that each effect sees the same ones
 // whatever the others are set to.
-void LinkStages::pass(Stage& stage, std::uint64_t k, const RadioRoute& route, const RadioMessage& message,
+void LinkStages::pass(Stage& stage, std::uint64_t k, const RadioRoute& route, const SentMessage& message,
                       Passage& passage) {
   const LinkEffect& effect = stage.effect;
   RandomStream random(seed_, "link", stage.name + " " + route.ros_topic, message.sequence);
@@ -99,7 +99,7 @@ bool LinkStages::is_cut(std::uint64_t k, Node from, Node to) {
     cut_ = cut_links(faults_, scenario_, static_cast<Tick>(k) * scenario_.exchange_ticks());
     cut_step_ = k;
   }
-  return !cut_.empty() && cut_[from * nodes_ + to] != 0;
+  return cut_ && cut_->at(from, to) != 0;
 }
 
 }  // namespace skein::router

@@ -19,7 +19,7 @@ class LinkStages final : public LinkModel {
   /// @param seed  of the run; 0 draws too: who asks for loss gets loss.
   LinkStages(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed);
 
-  LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const RadioMessage& message) override;
+  LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) override;
 
  private:
   /// One effect on one directed link.
@@ -40,7 +40,7 @@ class LinkStages final : public LinkModel {
   };
 
   void add_effect(const LinkEffect& effect, const std::string& name, std::uint64_t first, std::uint64_t end);
-  void pass(Stage& stage, std::uint64_t k, const RadioRoute& route, const RadioMessage& message, Passage& passage);
+  void pass(Stage& stage, std::uint64_t k, const RadioRoute& route, const SentMessage& message, Passage& passage);
   /// Queues for the bandwidth. @returns false when the message does not fit.
   bool queue(Stage& stage, std::uint64_t k, double size_bytes, double& delay_s) const;
   bool in_burst(Stage& stage, std::uint64_t k) const;
@@ -50,10 +50,9 @@ class LinkStages final : public LinkModel {
   const Scenario scenario_;
   const FaultPlan faults_;
   const std::uint64_t seed_;
-  const std::size_t nodes_;
-  std::vector<std::vector<Stage>> stages_;  ///< row-major by link, from * nodes + to
+  LinkMatrix<std::vector<Stage>> stages_;
   std::uint64_t cut_step_ = ~0;             ///< the step to which `cut_` belongs
-  std::vector<std::uint8_t> cut_;
+  std::optional<LinkMatrix<std::uint8_t>> cut_;
 };
 
 }  // namespace skein::router

@@ -26,7 +26,7 @@ Scenario two_uavs() { return fleet_of({"a", "b"}); }
 
 const RadioRoute kRoute{kA, "/x", "std_msgs/msg/String", "rt/x", "std_msgs::msg::dds_::String_", {{kB, "rt/x/b"}}};
 
-RadioMessage message(std::uint64_t sequence, std::size_t bytes = 100) {
+SentMessage message(std::uint64_t sequence, std::size_t bytes = 100) {
   return {0, sequence, std::make_shared<const std::vector<std::uint8_t>>(bytes)};
 }
 

@@ -37,10 +37,10 @@ void write_report(const std::filesystem::path& folder, const skein::Scenario& sc
   json["unheard"] = notes.unheard;
   json["warnings"] = notes.warnings;
   json["per_link"] = nlohmann::json::array();
-  for (skein::Node from = 0; from < gate.nodes(); ++from) {
-    for (skein::Node to = 0; to < gate.nodes(); ++to) {
-      if (gate.counts(from, to).sent == 0) continue;
-      nlohmann::json link = counts_json(gate.counts(from, to));
+  for (const skein::Node from : gate.nodes()) {
+    for (const skein::Node to : gate.nodes()) {
+      if (gate.counts().at(from, to).sent == 0) continue;
+      nlohmann::json link = counts_json(gate.counts().at(from, to));
       link["from"] = scenario.node_name(from);
       link["to"] = scenario.node_name(to);
       json["per_link"].push_back(std::move(link));
@@ -53,8 +53,9 @@ void write_report(const std::filesystem::path& folder, const skein::Scenario& sc
 /// A router that died for good has left its counts: makes its report of them.
 int settle(const std::filesystem::path& folder, const std::filesystem::path& counts, const skein::Scenario& scenario,
            skein::RunId run, skein::StatusPipe& status) {
-  const skein::Node nodes = scenario.fleet.size() + 1;
-  skein::router::LinkGate gate({}, nodes);
+  const std::vector<skein::RadioRoute> no_routes;
+  const std::size_t nodes = scenario.fleet.size() + 1;
+  skein::router::LinkGate gate(no_routes, nodes);
   gate.restore(skein::router::CountStore(counts, nodes, run).earlier_counts());
   write_report(folder, scenario, gate, {}, status);
   std::filesystem::remove(counts);

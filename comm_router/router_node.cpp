@@ -48,14 +48,14 @@ RouterNode::RouterNode(const Scenario& scenario, std::uint64_t seed, int base_do
     : scenario_(scenario),
       table_(scenario),
       gate_(table_.routes(), scenario.fleet.size() + 1, make_links(scenario, faults, seed, out, unwritten_)),
-      declared_routes_(gate_.routes().size()),
-      sync_(gate_.routes()),
+      declared_routes_(table_.routes().size()),
+      sync_(table_.routes()),
       registry_(scenario, table_, endpoints()),
       inbox_(bus.run()),
       world_(bus.join(world_domain(base_domain))),
       client_(*world_, inbox_, std::string(bus::kRouterName)) {
-  for (Node node = 0; node < gate_.nodes(); ++node) nodes_.push_back(bus.join(node_domain(base_domain, node)));
-  for (Node node = 0; node < gate_.nodes(); ++node) open_door(node, "");
+  for (const Node node : scenario.nodes()) nodes_.push_back(bus.join(node_domain(base_domain, node)));
+  for (const Node node : scenario.nodes()) open_door(node, "");
   open_door(kStationNode, bus::kStationName);
   drop_reader_ = bus::subscribe<msg::Drop>(inbox_, *world_, bus::spec(topics::drop()),
                                            [this](const msg::Drop& drop, bus::ParticipantId source) {
@@ -90,8 +90,8 @@ void RouterNode::open_door(Node node, std::string_view member) {
 // members' counts that it told us are exact.
 void RouterNode::open_radio() {
   if (std::exchange(radio_open_, true)) return;
-  for (Node node = 0; node < gate_.nodes(); ++node) open_requests(node);
-  for (std::size_t route = 0; route < gate_.routes().size(); ++route) open_route(route);
+  for (const Node node : scenario_.nodes()) open_requests(node);
+  for (std::size_t route = 0; route < table_.routes().size(); ++route) open_route(route);
   for (const auto& base : client_.base()) sync_.set_base(base.source, base.topic, base.count);
 }
 
@@ -108,14 +108,14 @@ void RouterNode::open_requests(Node node) {
 }
 
 void RouterNode::open_route(std::size_t number) {
-  const RadioRoute& route = gate_.routes()[number];
+  const RadioRoute& route = table_.routes()[number];
   if (number == radio_readers_.size()) {
     radio_readers_.emplace_back();
     arrival_of_.emplace_back();
   }
   if (!radio_readers_[number]) {
     const auto queue = [this, number](bus::Sample&& sample) {
-      const RadioRoute& of = gate_.routes()[number];
+      const RadioRoute& of = table_.routes()[number];
       if (from_stranger(of.source, of.topic, sample.source)) return;
       sync_.on_radio(sample.source, number,
                      std::make_shared<const std::vector<std::uint8_t>>(std::move(sample.payload)));
@@ -159,7 +159,7 @@ void RouterNode::tell_of_strangers(std::uint64_t patience) {
 
 std::uint64_t RouterNode::unheard() const {
   std::uint64_t sum = 0;
-  for (Node node = 0; node < gate_.nodes(); ++node) sum += strangers_.unheard(scenario_.node_name(node));
+  for (const Node node : scenario_.nodes()) sum += strangers_.unheard(scenario_.node_name(node));
   return sum;
 }
 
@@ -169,10 +169,7 @@ RadioEndpoints RouterNode::endpoints() {
                         [&](const Arrival& a) { return a.node == target.node && a.topic == target.topic; });
   };
   return {.open =
-              [this](std::size_t route) {
-                gate_.put(route, table_.routes()[route]);
-                open_route(route);
-              },
+              [this](std::size_t route) { open_route(route); },
           .close = [this](std::size_t route) { close_route(route); },
           .hears = [this](std::size_t route,
                           SourceId source) { return bus::contains(radio_readers_[route]->matched(), source); },
@@ -200,7 +197,7 @@ std::size_t RouterNode::find_or_open_arrival(const RadioTarget& target, const st
   if (found == arrivals_.end()) arrivals_.push_back({target.node, target.topic, nullptr});
   if (!arrivals_[number].writer) {
     arrivals_[number].writer =
-        std::make_unique<bus::CountedWriter>(*nodes_[target.node], radio_spec(target.topic, type, gate_.nodes()));
+        std::make_unique<bus::CountedWriter>(*nodes_[target.node], radio_spec(target.topic, type, nodes_.size()));
   }
   return number;
 }
@@ -217,7 +214,7 @@ std::string RouterNode::unmatched(const Applicant& applicant, bus::ParticipantId
   if (listed(applicant.writes, requests) && !bus::contains(request_readers_[applicant.node]->matched(), source)) {
     return requests;
   }
-  const auto& routes = gate_.routes();
+  const auto& routes = table_.routes();
   for (std::size_t r = 0; r < routes.size(); ++r) {
     if (routes[r].source == applicant.node && listed(applicant.writes, routes[r].topic) && radio_readers_[r] &&
         !bus::contains(radio_readers_[r]->matched(), source)) {
@@ -303,7 +300,7 @@ void RouterNode::begin_step() {
   }
   k_ = step.k();
   tell_of_strangers(step.final_step() ? 0 : kStrangerSteps);
-  sync_.on_step(step.k(), step.epoch(), std::move(members), step.links());
+  sync_.on_step(step.k(), step.epoch(), std::move(members), Links(nodes_.size(), step.links()));
   if (step.final_step()) last_k_ = step.k();
 }
 

@@ -49,8 +49,8 @@ struct RequestSample {
 struct StepBatch {
   std::uint64_t k = 0;
   std::uint32_t epoch = 0;
-  std::vector<std::uint8_t> links;      ///< as Step_ has them
-  std::vector<RadioMessage> messages;   ///< by member as the step lists them, route, sequence
+  Links links;
+  std::vector<SentMessage> messages;   ///< by member as the step lists them, route, sequence
   std::vector<RequestSample> requests;  ///< by member as the step lists them, sequence
 };
 
@@ -61,7 +61,7 @@ class RouterSync {
 
   /// Members of step k whose messages count; leave out those without a radio (the router itself).
   /// Who was a member before and is no longer, is forgotten with all that it sent.
-  void on_step(std::uint64_t k, std::uint32_t epoch, std::vector<RadioMember> members, std::vector<std::uint8_t> links);
+  void on_step(std::uint64_t k, std::uint32_t epoch, std::vector<RadioMember> members, Links links);
   /// Done(k). Topics that are no radio topic of the sender's node are passed over.
   void on_done(SourceId source, std::uint64_t k, std::vector<SentCount> sent);
   /// A sample from a reader of `routes[route]`. Those of one writer must come in the order of writing. What is sent by
@@ -110,7 +110,7 @@ class RouterSync {
   struct Step {
     std::uint32_t epoch = 0;
     std::vector<RadioMember> members;
-    std::vector<std::uint8_t> links;
+    Links links;
   };
 
   bool complete(std::uint64_t k, const RadioMember& member) const;

@@ -36,14 +36,14 @@ Payload payload(const std::string& text) {
 }
 
 /// A message in a form that can be compared and printed.
-std::string describe(const RadioMessage& message) {
+std::string describe(const SentMessage& message) {
   return std::to_string(message.route) + "#" + std::to_string(message.sequence) + ":" +
          std::string(message.payload->begin(), message.payload->end());
 }
 
 std::vector<std::string> describe(const StepBatch& batch) {
   std::vector<std::string> lines;
-  for (const RadioMessage& message : batch.messages) lines.push_back(describe(message));
+  for (const SentMessage& message : batch.messages) lines.push_back(describe(message));
   return lines;
 }
 

@@ -305,14 +305,13 @@ std::string fault_target(const Fault& fault) {
       fault.action);
 }
 
-std::vector<std::uint8_t> cut_links(const FaultPlan& plan, const Scenario& scenario, Tick tick) {
-  const Node nodes = scenario.fleet.size() + 1;
-  std::vector<std::uint8_t> cut;
+std::optional<LinkMatrix<std::uint8_t>> cut_links(const FaultPlan& plan, const Scenario& scenario, Tick tick) {
+  std::optional<LinkMatrix<std::uint8_t>> cut;
   const auto cut_where = [&](const auto& is_cut) {
-    cut.resize(nodes * nodes);
-    for (Node from = 0; from < nodes; ++from) {
-      for (Node to = 0; to < nodes; ++to) {
-        if (from != to && is_cut(from, to)) cut[from * nodes + to] = 1;
+    if (!cut) cut.emplace(scenario.fleet.size() + 1);
+    for (const Node from : scenario.nodes()) {
+      for (const Node to : scenario.nodes()) {
+        if (from != to && is_cut(from, to)) cut->at(from, to) = 1;
       }
     }
   };

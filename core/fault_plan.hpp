@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/link_effect.hpp"
+#include "core/link_matrix.hpp"
 #include "core/scenario.hpp"
 
 namespace skein {
@@ -95,9 +96,9 @@ struct FaultPlan {
 std::string fault_kind(const Fault& fault);
 std::string fault_target(const Fault& fault);
 
-/// Which directed links blackouts, outages and partitions cut in the exchange at this tick: row-major
-/// (n + 1) x (n + 1) by node, 1 = cut. Empty when there is nothing to cut.
-std::vector<std::uint8_t> cut_links(const FaultPlan& plan, const Scenario& scenario, Tick tick);
+/// Which links blackouts, outages and partitions cut in the exchange at this tick: 1 = cut. nullopt when there is
+/// nothing to cut.
+std::optional<LinkMatrix<std::uint8_t>> cut_links(const FaultPlan& plan, const Scenario& scenario, Tick tick);
 
 /// Of a file that is a fault test too, `run` and `expect` are not looked at. `faults` may name another fault file, of
 /// config/faults/ or beside this one.

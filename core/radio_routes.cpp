@@ -34,7 +34,7 @@ struct NodeList {
 class RadioTable::Builder {
  public:
   explicit Builder(const Scenario& scenario) : scenario_(scenario), uses_(scenario.fleet.size() + 1) {
-    for (Node node = 0; node < uses_.size(); ++node) {
+    for (const Node node : scenario_.nodes()) {
       reserve(node, node == kStationNode ? topics::gcs_topics() : topics::uav_topics());
       reserve(node, topics::lockstep_topics());
       reserve(node, topics::score_topics());
@@ -105,7 +105,7 @@ class RadioTable::Builder {
   }
 
   std::optional<Node> find_node(const std::string& wanted) const {
-    for (Node node = 0; node < uses_.size(); ++node) {
+    for (const Node node : scenario_.nodes()) {
       if (name(node) == wanted) return node;
     }
     return std::nullopt;
@@ -117,7 +117,7 @@ class RadioTable::Builder {
     if (std::ranges::find(names, kAll) != names.end()) {
       if (names.size() > 1) fail(key, "'all' stands alone; leave the other names out");
       list.all = true;
-      for (Node node = 0; node < uses_.size(); ++node) list.nodes.push_back(node);
+      for (const Node node : scenario_.nodes()) list.nodes.push_back(node);
       return list;
     }
     for (const std::string& wanted : names) {
@@ -132,7 +132,7 @@ class RadioTable::Builder {
 
   std::string node_names() const {
     std::string text;
-    for (Node node = 0; node < uses_.size(); ++node) text += (node == 0 ? "" : ", ") + name(node);
+    for (const Node node : scenario_.nodes()) text += (node == 0 ? "" : ", ") + name(node);
     return text;
   }
 

@@ -6,11 +6,11 @@
 
 namespace skein {
 
-std::size_t Scenario::uav_index(const std::string& uav_name) const {
+UavIndex Scenario::uav_index(const std::string& uav_name) const {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < fleet.size(); ++i) {
-    if (fleet[i].name == uav_name) return i;
-    names.push_back(fleet[i].name);
+  for (const UavIndex uav : uavs()) {
+    if (fleet[uav].name == uav_name) return uav;
+    names.push_back(fleet[uav].name);
   }
   throw InputError("scenario '" + name + "' has no UAV '" + uav_name + "'; " + suggestion(uav_name, names));
 }
@@ -23,7 +23,7 @@ std::vector<std::string> Scenario::uav_names() const {
 
 const std::string& Scenario::node_name(Node node) const {
   static const std::string station = "gcs";
-  return node == kStationNode ? station : fleet.at(node - 1).name;
+  return node == kStationNode ? station : fleet.at(*uav_of_node(node)).name;
 }
 
 }  // namespace skein

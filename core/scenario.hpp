@@ -144,8 +144,10 @@ struct Scenario {
   std::vector<RadioTopicConfig> radio;  ///< beyond the capture topics that Skein itself declares
   std::vector<LinkEffect> links;        ///< how radio links differ from ideal ones, all through the run
 
-  /// Index in fleet order. @throws InputError when no UAV has this name; the message lists the names.
-  std::size_t uav_index(const std::string& uav_name) const;
+  FirstUavs uavs() const { return FirstUavs(fleet.size()); }
+  FirstNodes nodes() const { return FirstNodes(fleet.size() + 1); }
+  /// @throws InputError when no UAV has this name; the message lists the names.
+  UavIndex uav_index(const std::string& uav_name) const;
   /// Names in fleet order.
   std::vector<std::string> uav_names() const;
   /// Name of a radio node: "gcs" or the UAV's.

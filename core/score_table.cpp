@@ -32,7 +32,7 @@ ScoreTable::ScoreTable(std::size_t uavs, std::size_t points, const RulesConfig& 
 
 PointTally ScoreTable::best_of_fleet(std::uint32_t point) const {
   PointTally best;
-  for (std::size_t uav = 0; uav < of_uav_.size(); ++uav) {
+  for (const UavIndex uav : FirstUavs(of_uav_.size())) {
     const PointTally& candidate = of_uav_[uav][point];
     if (!void_[uav] && candidate.q > 0.0F && ranks_before(candidate, best)) {
       best = candidate;
@@ -64,7 +64,7 @@ std::vector<TallyChange> ScoreTable::add(const CaptureReport& report) {
   return changes;
 }
 
-std::vector<TallyChange> ScoreTable::collide(std::size_t uav) {
+std::vector<TallyChange> ScoreTable::collide(UavIndex uav) {
   std::vector<TallyChange> changes;
   if (!collision_voids_ || void_.at(uav)) {
     return changes;

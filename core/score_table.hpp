@@ -20,7 +20,7 @@ struct CapturePoint {
 
 /// The points of one capture that this UAV had not seen as well before.
 struct CaptureReport {
-  std::size_t uav = 0;        ///< fleet index
+  UavIndex uav = {};
   std::uint64_t capture = 0;  ///< 0, 1, ... without gaps for this UAV
   Tick tick = 0;
   std::uint64_t token = 0;  ///< known only to the camera and the ledger
@@ -32,7 +32,7 @@ struct CaptureReport {
 struct LedgerEntry {
   std::uint64_t index = 0;  ///< 0, 1, ... without gaps
   Tick tick = 0;
-  std::size_t uav = 0;
+  UavIndex uav = {};
   bool collision = false;  ///< this UAV collided at `tick`; `capture` is empty
   CaptureReport capture;
   bool operator==(const LedgerEntry&) const = default;
@@ -41,7 +41,7 @@ struct LedgerEntry {
 /// Whose capture of a point counts at present.
 struct PointTally {
   float q = 0.0F;  ///< 0: nobody's
-  std::size_t uav = 0;
+  UavIndex uav = {};
   std::uint64_t capture = 0;
   Tick tick = 0;
   bool operator==(const PointTally&) const = default;
@@ -71,7 +71,7 @@ class ScoreTable {
 
   /// Takes all points from a UAV that collided, those to come too, if the rules say so.
   /// @returns what changed, by point.   @throws std::out_of_range when the UAV does not exist.
-  std::vector<TallyChange> collide(std::size_t uav);
+  std::vector<TallyChange> collide(UavIndex uav);
 
   const std::vector<PointTally>& points() const { return standing_; }
   double score() const;                      ///< sum over all points

@@ -25,8 +25,7 @@ std::string wire_type(std::string_view ros_type);
 /// World domain: ground truth; no agent joins it.
 constexpr int world_domain(int base) { return base; }
 constexpr int gcs_domain(int base) { return base + 1; }
-/// @param uav index in fleet order.
-constexpr int uav_domain(int base, std::size_t uav) { return base + 2 + static_cast<int>(uav); }
+constexpr int uav_domain(int base, UavIndex uav) { return base + 2 + static_cast<int>(uav); }
 /// Domain of a radio node: the ground station's or a UAV's.
 constexpr int node_domain(int base, Node node) { return base + 1 + static_cast<int>(node); }
 

@@ -1,4 +1,4 @@
-// The words that every part of Skein shares: time, frames, roles, node numbers.
+// The words that every part of Skein shares: time, frames, roles.
 // Frames: W world (ENU), B body (FLU), C camera (x optical axis, y left, z up), L lidar.  Units: SI, radians.
 #pragma once
 
@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+
+#include "core/ids.hpp"
 
 namespace skein {
 
@@ -47,11 +49,6 @@ std::string name_of(Enum value) {
   }
   return "?";
 }
-
-/// Radio nodes: 0 is the ground station, UAV i (in fleet order) is node i + 1.
-using Node = std::size_t;
-inline constexpr Node kStationNode = 0;
-inline Node node_of_uav(std::size_t uav) { return uav + 1; }
 
 /// What the user gave us is wrong. Programs print what() and exit with code 2.
 class InputError : public std::runtime_error {

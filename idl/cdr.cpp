@@ -12,7 +12,7 @@ constexpr std::size_t kHeaderSize = 4;
 }
 
 std::vector<std::uint8_t> encode(std::size_t body_size, void (*body)(Cdr&, const void*), const void* message) {
-  std::vector<std::uint8_t> payload((kHeaderSize + body_size + 3) / 4 * 4);
+  std::vector<std::uint8_t> payload(payload_size(body_size));
   FastBuffer buffer(reinterpret_cast<char*>(payload.data()), payload.size());
   Cdr stream(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
   stream.serialize_encapsulation();

@@ -23,7 +23,19 @@ std::vector<std::uint8_t> encode(std::size_t body_size, void (*body)(eprosima::f
 /// Reads the header and calls `body`; false when either is not as it should be.
 bool decode(std::span<const std::uint8_t> payload, void (*body)(eprosima::fastcdr::Cdr&, void*), void* message);
 
+/// Of a payload whose message takes `body_size` bytes.
+constexpr std::size_t payload_size(std::size_t body_size) {
+  constexpr std::size_t kHeaderSize = 4;
+  return (kHeaderSize + body_size + 3) / 4 * 4;
+}
+
 }  // namespace detail
+
+/// Bytes that encode() would return.
+template <class T>
+std::size_t encoded_size(const T& message) {
+  return detail::payload_size(T::getCdrSerializedSize(message));
+}
 
 /// @returns the payload: encapsulation header CDR_LE, then the message, padded with zeros to a multiple of 4 bytes.
 template <class T>

@@ -337,7 +337,7 @@ std::optional<CaptureReport> from_message(const msg::CaptureReport& message, std
   const auto uav = std::find(fleet.begin(), fleet.end(), message.uav());
   if (uav == fleet.end()) return std::nullopt;
   CaptureReport report;
-  report.uav = static_cast<std::size_t>(uav - fleet.begin());
+  report.uav = UavIndex(static_cast<std::size_t>(uav - fleet.begin()));
   report.capture = message.capture();
   report.tick = message.tick();
   report.token = message.token();
@@ -363,7 +363,7 @@ std::optional<LedgerEntry> from_message(const msg::LedgerEntry& message, std::sp
   LedgerEntry entry;
   entry.index = message.index();
   entry.tick = message.tick();
-  entry.uav = static_cast<std::size_t>(uav - fleet.begin());
+  entry.uav = UavIndex(static_cast<std::size_t>(uav - fleet.begin()));
   entry.collision = message.collision();
   if (!entry.collision) {
     auto capture = from_message(message.capture(), fleet);

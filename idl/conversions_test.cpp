@@ -156,11 +156,11 @@ TEST(Conversions, InterestPointsReachTheStationAsTheyAre) {
 TEST(Conversions, LedgerEntriesComeBackByName) {
   const std::vector<std::string> fleet = {"jurong", "raffles"};
   LedgerEntry entry{
-      .index = 3, .tick = 41, .uav = 1, .collision = false, .capture = {1, 2, 41, 77, {{5, 0.5F, 0.5F, 0.25F}}}};
+      .index = 3, .tick = 41, .uav = UavIndex{1}, .collision = false, .capture = {1, 2, 41, 77, {{5, 0.5F, 0.5F, 0.25F}}}};
   const auto back = from_message(travelled(to_message(entry, fleet)), fleet);
   ASSERT_TRUE(back);
   EXPECT_EQ(*back, entry);
-  const LedgerEntry collision{.index = 4, .tick = 50, .uav = 0, .collision = true, .capture = {}};
+  const LedgerEntry collision{.index = 4, .tick = 50, .uav = UavIndex{0}, .collision = true, .capture = {}};
   EXPECT_EQ(from_message(to_message(collision, fleet), fleet), collision);
   EXPECT_FALSE(from_message(to_message(entry, fleet), std::vector<std::string>{"jurong"}));
 }

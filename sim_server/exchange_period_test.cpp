@@ -39,7 +39,7 @@ class Paced {
   void fly(double duration_s, const Pilot& pilot, const Watch& watch) {
     const Tick end = simulation_->tick() + ticks(duration_s);
     while (simulation_->tick() < end) {
-      for (std::size_t i = 0; i < simulation_->size(); ++i) {
+      for (const UavIndex i : FirstUavs(simulation_->size())) {
         simulation_->command_trajectory(i, pilot(i, seconds(simulation_->tick())));
       }
       simulation_->advance();
@@ -57,7 +57,7 @@ TEST(ExchangePeriod, AFleetFliesItsPathAtAnyPace) {
   // Up, then 24 m ahead by its position alone, as patrol's way-points are.
   for (const Tick period : periods()) {
     Paced fleet(period);
-    const auto lane = [](std::size_t uav) { return 10.0 * static_cast<double>(uav); };
+    const auto lane = [](UavIndex uav) { return 10.0 * static_cast<double>(uav); };
     fleet.fly(
         8.0,
         [&](std::size_t i, double) {

@@ -25,7 +25,7 @@ std::vector<Collision> Mission::update(Tick tick, const std::vector<RigidBodySta
 
 void Mission::update_airborne(Tick tick, const std::vector<RigidBodyState>& states,
                               const std::vector<Contact>& contacts) {
-  for (std::size_t i = 0; i < uavs_.size(); ++i) {
+  for (const UavIndex i : FirstUavs(uavs_.size())) {
     Member& uav = uavs_[i];
     if (!uav.alive) continue;
     const bool high = states[i].p_WB.z() > uav.rest_height + takeoff_height_;
@@ -54,7 +54,7 @@ std::vector<Collision> Mission::find_collisions(Tick tick, const std::vector<Con
     was_flying.push_back(uav.alive && uav.airborne);
   }
   std::vector<Collision> collisions;
-  const auto kill = [&](std::size_t i, const BodyId& with, const Vector3d& p_W) {
+  const auto kill = [&](UavIndex i, const BodyId& with, const Vector3d& p_W) {
     if (!was_alive[i] || !uavs_[i].alive) return;
     uavs_[i].alive = uavs_[i].airborne = false;
     collisions.push_back({tick, i, with, p_W});

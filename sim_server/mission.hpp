@@ -19,7 +19,7 @@ enum class MissionEnd { none, duration, nobody_flies, takeoff_timeout };
 /// A UAV hit something while airborne, and is out. A collision of two UAVs is two of these.
 struct Collision {
   Tick tick = 0;
-  std::size_t uav = 0;
+  UavIndex uav = {};
   BodyId with;                      ///< the structure or another UAV
   Vector3d p_W = Vector3d::Zero();  ///< where they touched
 };
@@ -43,7 +43,7 @@ class Mission {
                                 const std::vector<Contact>& contacts);
 
   /// A UAV that is no longer of this world: dead from here on, without a collision.
-  void take_out(std::size_t uav) { uavs_[uav].alive = uavs_[uav].airborne = false; }
+  void take_out(UavIndex uav) { uavs_[uav].alive = uavs_[uav].airborne = false; }
 
   Phase phase() const { return phase_; }
   MissionEnd end() const { return end_; }
@@ -54,8 +54,8 @@ class Mission {
   /// Mission time left at a tick [s]: all of it while waiting, none after the end.
   double remaining_s(Tick tick) const;
 
-  bool alive(std::size_t uav) const { return uavs_[uav].alive; }
-  bool airborne(std::size_t uav) const { return uavs_[uav].airborne; }
+  bool alive(UavIndex uav) const { return uavs_[uav].alive; }
+  bool airborne(UavIndex uav) const { return uavs_[uav].airborne; }
 
  private:
   struct Member {

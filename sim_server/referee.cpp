@@ -10,7 +10,7 @@ namespace skein::sim {
 Referee::Referee(std::uint64_t seed, std::size_t uavs, std::size_t points, const RulesConfig& rules)
     : seed_(seed), next_capture_(uavs, 0), collided_(uavs, false), earned_(uavs, points, rules) {}
 
-LedgerEntry& Referee::append(std::size_t uav, Tick tick) {
+LedgerEntry& Referee::append(UavIndex uav, Tick tick) {
   if (!ledger_.empty() && tick < ledger_.back().tick) {
     throw std::logic_error("the ledger is kept in the order of time: tick " + std::to_string(tick) + " after " +
                            std::to_string(ledger_.back().tick));
@@ -18,7 +18,7 @@ LedgerEntry& Referee::append(std::size_t uav, Tick tick) {
   return ledger_.emplace_back(LedgerEntry{ledger_.size(), tick, uav, false, {}});
 }
 
-std::optional<CaptureReport> Referee::enter(std::size_t uav, const Capture& capture) {
+std::optional<CaptureReport> Referee::enter(UavIndex uav, const Capture& capture) {
   if (collided_.at(uav) || !capture.improved()) {
     return std::nullopt;
   }
@@ -36,7 +36,7 @@ std::optional<CaptureReport> Referee::enter(std::size_t uav, const Capture& capt
   return entry.capture;
 }
 
-bool Referee::enter_collision(std::size_t uav, Tick tick) {
+bool Referee::enter_collision(UavIndex uav, Tick tick) {
   if (collided_.at(uav)) {
     return false;
   }
@@ -46,7 +46,7 @@ bool Referee::enter_collision(std::size_t uav, Tick tick) {
   return true;
 }
 
-std::vector<CaptureReport> Referee::reports(std::size_t uav) const {
+std::vector<CaptureReport> Referee::reports(UavIndex uav) const {
   std::vector<CaptureReport> reports;
   for (const LedgerEntry& entry : ledger_) {
     if (entry.uav == uav && !entry.collision) {

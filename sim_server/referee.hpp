@@ -20,20 +20,20 @@ class Referee {
   /// Enters a capture if it raised at least one point for that UAV; only such points enter.
   /// @returns the report for the UAV (the ledger holds the same), or nullopt: nothing raised, or the UAV has collided.
   /// @throws std::logic_error when `capture.tick` is earlier than the last entry's.
-  std::optional<CaptureReport> enter(std::size_t uav, const Capture& capture);
+  std::optional<CaptureReport> enter(UavIndex uav, const Capture& capture);
 
   /// Enters a UAV's collision; only its first counts. @returns whether it was the first.
   /// @throws std::logic_error when `tick` is earlier than the last entry's.
-  bool enter_collision(std::size_t uav, Tick tick);
+  bool enter_collision(UavIndex uav, Tick tick);
 
   const std::vector<LedgerEntry>& ledger() const { return ledger_; }
   /// All reports of one UAV, oldest first: what its camera's card holds.
-  std::vector<CaptureReport> reports(std::size_t uav) const;
+  std::vector<CaptureReport> reports(UavIndex uav) const;
   /// The score as if every capture were delivered.
   const ScoreTable& earned() const { return earned_; }
 
  private:
-  LedgerEntry& append(std::size_t uav, Tick tick);
+  LedgerEntry& append(UavIndex uav, Tick tick);
 
   std::uint64_t seed_;
   std::vector<LedgerEntry> ledger_;

@@ -36,7 +36,7 @@ TEST(Referee, NumbersWithoutGaps) {
   Tick tick = 0;
   std::size_t entered = 0;
   for (std::uint32_t i = 0; i < 300; ++i) {
-    const std::size_t uav = i * 7 % 3;
+    const UavIndex uav = i * 7 % 3;
     tick += i % 2 == 0 ? 20 : 0;
     const auto report = referee.enter(uav, capture(tick, {detection(i, 0.4, i % 5 != 0)}));
     EXPECT_EQ(report.has_value(), i % 5 != 0);
@@ -49,7 +49,7 @@ TEST(Referee, NumbersWithoutGaps) {
     }
   }
   std::size_t stored = 0;
-  for (std::size_t uav = 0; uav < 3; ++uav) {
+  for (const UavIndex uav : FirstUavs(3)) {
     const auto reports = referee.reports(uav);
     stored += reports.size();
     for (std::size_t i = 0; i < reports.size(); ++i) {

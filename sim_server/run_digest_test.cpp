@@ -20,7 +20,7 @@ struct Exchange {
     input.k = 7;
     input.uavs.resize(2);
     input.uavs[0].state.p_WB = {1, 2, 3};
-    ledger.push_back({.index = 0, .tick = 100, .uav = 1, .collision = false, .capture = {}});
+    ledger.push_back({.index = 0, .tick = 100, .uav = UavIndex{1}, .collision = false, .capture = {}});
     ledger[0].capture.points = {{.index = 5}, {.index = 6}};
     radio = {1, 2, 3};
   }

@@ -62,7 +62,7 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       inbox_(bus.run()),
       server_(inbox_) {
   participants_.push_back(bus.join(world_domain(options.base_domain)));
-  for (Node node = 0; node <= scenario.fleet.size(); ++node) {
+  for (const Node node : scenario.nodes()) {
     participants_.push_back(bus.join(node_domain(options.base_domain, node)));
   }
   for (const Fault& fault : options.faults.faults) {
@@ -82,7 +82,7 @@ void SimNode::declare_members() {
   gcs_clock_ = &server_.writer(gcs, bus::spec(topics::clock()));
   gcs_remained_ = &server_.writer(gcs, bus::spec(topics::mission_duration_remained(bus::kGcsName)));
   gcs_neighbours_ = &server_.writer(gcs, bus::spec(topics::neighbour_odometry(bus::kGcsName)));
-  for (std::size_t i = 0; i < scenario_.fleet.size(); ++i) {
+  for (const UavIndex i : FirstUavs(scenario_.fleet.size())) {
     const auto domain = server_.add_domain(uav_names_[i], *participants_[2 + i]);
     server_.add_place(uav_names_[i], domain, true);
     uavs_.push_back(std::make_unique<UavNode>(i, scenario_, simulation_, server_, domain));
@@ -282,7 +282,7 @@ void SimNode::publish_step() {
 
   server_.publish({.k = simulation_.step(),
                    .tick = tick,
-                   .links = simulation_.links(),
+                   .links = simulation_.links().row_major(),
                    .ledger_upto = events.ledger_end,
                    .final_step = last_step_});
 }
@@ -345,7 +345,7 @@ void SimNode::finish_step() {
   input.tally = server_.station_digest();
   files_.add_step(simulation_, digest_.add(input));
   files_.events().add_step(simulation_, [this](const std::string& member) { return server_.is_member(member); });
-  for (std::size_t i = 0; i < uavs_.size(); ++i) {
+  for (const UavIndex i : FirstUavs(uavs_.size())) {
     for (const std::uint64_t capture : uavs_[i]->take_released()) {
       files_.events().add_release(simulation_, uav_names_[i], capture);
     }
@@ -369,11 +369,10 @@ void SimNode::report_progress(bool now) {
   if (!now && mission.phase() == last_phase_ && Clock::now() - last_progress_ < kProgressPeriod) return;
   last_progress_ = Clock::now();
   last_phase_ = mission.phase();
-  const auto& links = simulation_.open_links();
   std::vector<std::string> in_contact, lost;
   std::size_t alive = 0;
-  for (std::size_t i = 0; i < simulation_.size(); ++i) {
-    if (links[node_of_uav(i)]) in_contact.push_back(uav_names_[i]);
+  for (const UavIndex i : FirstUavs(simulation_.size())) {
+    if (simulation_.open_links().at(kStationNode, node_of_uav(i))) in_contact.push_back(uav_names_[i]);
     alive += simulation_.uav(i).alive;
   }
   for (const LostProcess& process : summary_.lost) lost.push_back(process.name);

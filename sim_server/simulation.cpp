@@ -27,7 +27,7 @@ struct Uav {
   CommandLink link;
   Camera camera;
   std::optional<Lidar> lidar;
-  KeyframeSelector keyframes;
+  KeyFrameSelector keyframes;
   UavView view;
   std::optional<GimbalCommand> gimbal_command;  ///< arrived since the last control step
   VehicleCondition condition;                   ///< in this exchange
@@ -67,8 +67,8 @@ struct Simulation::Impl {
   void cut_links();
   bool in_range(Node from, Node to, double distance_m) const;
   void refresh_rays();
-  void reject(std::size_t uav, RejectionEvent::Command command, std::string reason);
-  bool listening(std::size_t uav) const { return mission.alive(uav) && mission.phase() != Phase::ended; }
+  void reject(UavIndex uav, RejectionEvent::Command command, std::string reason);
+  bool listening(UavIndex uav) const { return mission.alive(uav) && mission.phase() != Phase::ended; }
 
   const Scenario scenario;
   const Scene scene;
@@ -79,8 +79,8 @@ struct Simulation::Impl {
   Referee referee;
   std::vector<Uav> uavs;
   std::vector<UavView> views;  ///< at the step boundary
-  std::vector<std::uint8_t> links, open_links;
-  std::vector<SightMemory> sights;         ///< by pair of nodes
+  Links links, open_links;
+  LinkMatrix<SightMemory> sights;          ///< of each pair of nodes, the lower one first
   std::vector<RejectionEvent> rejections;  ///< since the last advance()
   StepEvents events;
   std::uint64_t step = 0;
@@ -98,6 +98,7 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
       rays(scene.mesh, body_shapes(scenario)),
       mission(scenario, rest_heights(scenario)),
       referee(the_seed, scenario.fleet.size(), scene.points.size(), scenario.rules) {
+  sights = LinkMatrix<SightMemory>(scenario.fleet.size() + 1);
   const auto touches = [this](const VehicleConfig& vehicle, const Isometry3d& X_WB) {
     return world.touches_structure(vehicle, X_WB);
   };
@@ -105,7 +106,7 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
   check_station(scenario, enclosed);
   world.keep_within(world_reach_m(scenario, scene));
   const std::vector<UavStart> starts = draw_fleet_start(scenario, the_seed, touches, enclosed);
-  for (std::size_t i = 0; i < starts.size(); ++i) {
+  for (const UavIndex i : FirstUavs(starts.size())) {
     const VehicleConfig& vehicle = scenario.fleet[i].vehicle;
     world.add_uav(vehicle, starts[i].X_WB);
     uavs.push_back({.vehicle = Vehicle(vehicle, scenario.rules, kTickS, scenario.exchange_ticks()),
@@ -126,7 +127,7 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
 void Simulation::Impl::meet_faults() {
   if (faults.empty()) return;
   const std::vector<VehicleCondition> conditions = vehicle_conditions(faults, scenario.uav_names(), tick);
-  for (std::size_t i = 0; i < uavs.size(); ++i) {
+  for (const UavIndex i : FirstUavs(uavs.size())) {
     uavs[i].condition = conditions[i];
     uavs[i].vehicle.damage_rotors(conditions[i].rotor_shares);
     if (!conditions[i].camera_works) uavs[i].triggered = false;
@@ -134,7 +135,7 @@ void Simulation::Impl::meet_faults() {
 }
 
 void Simulation::Impl::deliver_commands() {
-  for (std::size_t i = 0; i < uavs.size(); ++i) {
+  for (const UavIndex i : FirstUavs(uavs.size())) {
     Uav& uav = uavs[i];
     const Commands arrived = uav.link.exchange(tick, uav.condition.command_delay);
     if (!listening(i)) continue;
@@ -157,7 +158,7 @@ void Simulation::Impl::run_tick() {
 }
 
 void Simulation::Impl::control_and_fly() {
-  for (std::size_t i = 0; i < uavs.size(); ++i) {
+  for (const UavIndex i : FirstUavs(uavs.size())) {
     Uav& uav = uavs[i];
     const RigidBodyState& state = world.state(i);
     if (tick % kControlTicks == 0 && listening(i)) {
@@ -171,7 +172,7 @@ void Simulation::Impl::control_and_fly() {
 
 void Simulation::Impl::judge_mission() {
   const bool was_waiting = mission.phase() == Phase::waiting;
-  for (const std::size_t i : world.strays()) {
+  for (const UavIndex i : world.strays()) {
     mission.take_out(i);
     uavs[i].vehicle.stop();
     events.strays.push_back({tick, i, world.state(i).p_WB});
@@ -191,7 +192,7 @@ void Simulation::Impl::judge_mission() {
 
 void Simulation::Impl::measure(const std::vector<RigidBodyState>& before) {
   if (mission.phase() != Phase::flying) return;
-  for (std::size_t i = 0; i < uavs.size(); ++i) {
+  for (const UavIndex i : FirstUavs(uavs.size())) {
     if (!mission.alive(i)) continue;
     Uav& uav = uavs[i];
     const RigidBodyState& state = world.state(i);
@@ -205,7 +206,7 @@ void Simulation::Impl::measure(const std::vector<RigidBodyState>& before) {
 }
 
 void Simulation::Impl::take_pictures() {
-  for (std::size_t i = 0; i < uavs.size(); ++i) {
+  for (const UavIndex i : FirstUavs(uavs.size())) {
     Uav& uav = uavs[i];
     if (!mission.alive(i) || !uav.condition.camera_works) continue;
     if ((uav.manual_trigger && !uav.triggered) || !uav.camera.ready(tick)) continue;
@@ -224,7 +225,7 @@ void Simulation::Impl::take_pictures() {
 }
 
 void Simulation::Impl::take_scans() {
-  for (std::size_t i = 0; i < uavs.size(); ++i) {
+  for (const UavIndex i : FirstUavs(uavs.size())) {
     Uav& uav = uavs[i];
     if (!uav.lidar || !mission.alive(i)) continue;
     uav.lidar->move(tick, world.state(i).X_WB());
@@ -247,7 +248,7 @@ void Simulation::Impl::finish_exchange() {
   trace_links();
   cut_links();
   views.clear();
-  for (std::size_t i = 0; i < uavs.size(); ++i) {
+  for (const UavIndex i : FirstUavs(uavs.size())) {
     UavView& view = uavs[i].view;
     view.state = world.state(i);
     view.gimbal = uavs[i].vehicle.gimbal();
@@ -256,10 +257,9 @@ void Simulation::Impl::finish_exchange() {
     view.idle_s = seconds(uavs[i].idle_ticks);
     views.push_back(view);
   }
-  const std::size_t nodes = uavs.size() + 1;
   for (KeyFrameEvent& event : events.key_frames) {
-    for (std::size_t i = 0; i < uavs.size(); ++i) {
-      if (open_links[node_of_uav(event.uav) * nodes + node_of_uav(i)] != 0) event.neighbours.push_back(i);
+    for (const UavIndex uav : FirstUavs(uavs.size())) {
+      if (open_links.at(node_of_uav(event.uav), node_of_uav(uav)) != 0) event.neighbours.push_back(uav);
     }
   }
   events.ledger_end = referee.ledger().size();
@@ -268,32 +268,33 @@ void Simulation::Impl::finish_exchange() {
 void Simulation::Impl::trace_links() {
   const WorkSection section(clock, Work::links);
   refresh_rays();
-  const std::size_t nodes = uavs.size() + 1;
-  links.assign(nodes * nodes, 0);
-  sights.resize(nodes * nodes);
-  const auto uav_of = [](Node node) { return node == kStationNode ? kNobody : node - 1; };
+  links = Links(scenario.fleet.size() + 1);
+  const auto body_of = [](Node node) { return uav_of_node(node).value_or(kNobody); };
   const auto antenna = [&](Node node) {
-    if (node == kStationNode) return AntennaNode{scenario.station_position, scenario.station_antenna_offset_m};
-    const std::size_t i = uav_of(node);
-    return AntennaNode{world.state(i).p_WB, scenario.fleet[i].vehicle.antenna_offset_m};
+    const auto uav = uav_of_node(node);
+    if (!uav) return AntennaNode{scenario.station_position, scenario.station_antenna_offset_m};
+    return AntennaNode{world.state(*uav).p_WB, scenario.fleet[*uav].vehicle.antenna_offset_m};
   };
-  const auto on_air = [&](Node node) { return node == kStationNode || mission.alive(uav_of(node)); };
-  for (Node a = 0; a < nodes; ++a) {
-    for (Node b = a + 1; b < nodes; ++b) {
-      if (!on_air(a) || !on_air(b)) continue;
-      const RayFilter filter{.except_uav = uav_of(a), .except_other_uav = uav_of(b)};
-      const bool linked = sights[a * nodes + b].linked(antenna(a), antenna(b), rays, filter);
+  const auto on_air = [&](Node node) { return node == kStationNode || mission.alive(*uav_of_node(node)); };
+  for (const Node a : scenario.nodes()) {
+    for (const Node b : scenario.nodes()) {
+      if (b <= a || !on_air(a) || !on_air(b)) continue;
+      const RayFilter filter{.except_uav = body_of(a), .except_other_uav = body_of(b)};
+      const bool linked = sights.at(a, b).linked(antenna(a), antenna(b), rays, filter);
       const double distance_m = (antenna(a).p_W - antenna(b).p_W).norm();
-      links[a * nodes + b] = linked && in_range(a, b, distance_m);
-      links[b * nodes + a] = linked && in_range(b, a, distance_m);
+      links.at(a, b) = linked && in_range(a, b, distance_m);
+      links.at(b, a) = linked && in_range(b, a, distance_m);
     }
   }
 }
 
 void Simulation::Impl::cut_links() {
   open_links = links;
-  const std::vector<std::uint8_t> cut = skein::cut_links(faults, scenario, tick);
-  for (std::size_t i = 0; i < cut.size(); ++i) open_links[i] &= static_cast<std::uint8_t>(cut[i] == 0);
+  const auto cut = skein::cut_links(faults, scenario, tick);
+  if (!cut) return;
+  for (const Node from : scenario.nodes()) {
+    for (const Node to : scenario.nodes()) open_links.at(from, to) &= static_cast<std::uint8_t>(cut->at(from, to) == 0);
+  }
 }
 
 bool Simulation::Impl::in_range(Node from, Node to, double distance_m) const {
@@ -311,11 +312,11 @@ bool Simulation::Impl::in_range(Node from, Node to, double distance_m) const {
 
 void Simulation::Impl::refresh_rays() {
   if (rays_tick == tick) return;
-  for (std::size_t i = 0; i < uavs.size(); ++i) rays.set_pose(i, world.state(i).X_WB());
+  for (const UavIndex i : FirstUavs(uavs.size())) rays.set_pose(i, world.state(i).X_WB());
   rays_tick = tick;
 }
 
-void Simulation::Impl::reject(std::size_t uav, RejectionEvent::Command command, std::string reason) {
+void Simulation::Impl::reject(UavIndex uav, RejectionEvent::Command command, std::string reason) {
   const std::uint64_t total = ++uavs[uav].view.commands_rejected;
   rejections.push_back({uav, command, std::move(reason), total});
 }
@@ -324,7 +325,7 @@ Simulation::Simulation(const Scenario& scenario, Scene scene, std::uint64_t seed
     : impl_(std::make_unique<Impl>(scenario, std::move(scene), seed, faults)) {}
 Simulation::~Simulation() = default;
 
-bool Simulation::command_trajectory(std::size_t uav, const TrajectoryCommand& command) {
+bool Simulation::command_trajectory(UavIndex uav, const TrajectoryCommand& command) {
   if (!impl_->listening(uav)) return true;
   if (auto reason = impl_->uavs[uav].vehicle.refuse(command, impl_->world.state(uav))) {
     impl_->reject(uav, RejectionEvent::Command::trajectory, std::move(*reason));
@@ -334,7 +335,7 @@ bool Simulation::command_trajectory(std::size_t uav, const TrajectoryCommand& co
   return true;
 }
 
-bool Simulation::command_gimbal(std::size_t uav, const GimbalCommand& command) {
+bool Simulation::command_gimbal(UavIndex uav, const GimbalCommand& command) {
   if (!impl_->listening(uav)) return true;
   if (!std::isfinite(command.pitch) || !std::isfinite(command.yaw)) {
     impl_->reject(uav, RejectionEvent::Command::gimbal, "a gimbal command must consist of finite numbers");
@@ -344,10 +345,10 @@ bool Simulation::command_gimbal(std::size_t uav, const GimbalCommand& command) {
   return true;
 }
 
-void Simulation::trigger_camera(std::size_t uav) { impl_->uavs[uav].link.outbox().trigger = true; }
-void Simulation::stop(std::size_t uav) { impl_->uavs[uav].link.outbox().stop = true; }
+void Simulation::trigger_camera(UavIndex uav) { impl_->uavs[uav].link.outbox().trigger = true; }
+void Simulation::stop(UavIndex uav) { impl_->uavs[uav].link.outbox().stop = true; }
 
-void Simulation::want_scans(std::size_t uav, bool wanted) { impl_->uavs[uav].scans_wanted = wanted; }
+void Simulation::want_scans(UavIndex uav, bool wanted) { impl_->uavs[uav].scans_wanted = wanted; }
 void Simulation::watch(WorkClock* clock) { impl_->clock = clock; }
 
 void Simulation::advance() {
@@ -367,10 +368,10 @@ std::uint64_t Simulation::step() const { return impl_->step; }
 Tick Simulation::tick() const { return impl_->tick; }
 std::size_t Simulation::size() const { return impl_->uavs.size(); }
 const Mission& Simulation::mission() const { return impl_->mission; }
-const UavView& Simulation::uav(std::size_t i) const { return impl_->views.at(i); }
+const UavView& Simulation::uav(UavIndex i) const { return impl_->views.at(i); }
 std::span<const UavView> Simulation::uavs() const { return impl_->views; }
-const std::vector<std::uint8_t>& Simulation::links() const { return impl_->links; }
-const std::vector<std::uint8_t>& Simulation::open_links() const { return impl_->open_links; }
+const Links& Simulation::links() const { return impl_->links; }
+const Links& Simulation::open_links() const { return impl_->open_links; }
 const StepEvents& Simulation::events() const { return impl_->events; }
 const Referee& Simulation::referee() const { return impl_->referee; }
 const Scene& Simulation::scene() const { return impl_->scene; }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/fault_plan.hpp"
+#include "core/link_matrix.hpp"
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
 #include "core/types.hpp"
@@ -22,7 +23,7 @@
 #include "sim_server/referee.hpp"
 #include "sim_server/run_digest.hpp"
 #include "sim_server/sensors/camera.hpp"
-#include "sim_server/sensors/keyframes.hpp"
+#include "sim_server/sensors/key_frames.hpp"
 #include "sim_server/sensors/lidar.hpp"
 #include "sim_server/work_clock.hpp"
 
@@ -43,20 +44,20 @@ struct UavView {
 
 /// A scan; all its points are of the instant `scan.tick`.
 struct LidarEvent {
-  std::size_t uav = 0;
+  UavIndex uav = {};
   LidarScan scan;
 };
 
 /// A scan that became a key frame. It goes to its own UAV, and once to the UAVs linked to it at this step.
 struct KeyFrameEvent {
-  std::size_t uav = 0;
-  Keyframe key_frame;
-  std::vector<std::size_t> neighbours;  ///< UAVs that hear it, in fleet order
+  UavIndex uav = {};
+  KeyFrame key_frame;
+  std::vector<UavIndex> neighbours;  ///< UAVs that hear it, in fleet order
 };
 
 /// An exposure that saw at least one point.
 struct CaptureEvent {
-  std::size_t uav = 0;
+  UavIndex uav = {};
   Capture capture;
   std::optional<CaptureReport> report;  ///< what the ledger holds of it: the points not seen as well before
 };
@@ -64,7 +65,7 @@ struct CaptureEvent {
 /// A command that was ignored.
 struct RejectionEvent {
   enum class Command { trajectory, gimbal };
-  std::size_t uav = 0;
+  UavIndex uav = {};
   Command command = Command::trajectory;
   std::string reason;       ///< a sentence for the user
   std::uint64_t total = 0;  ///< of this UAV so far, this one included
@@ -73,7 +74,7 @@ struct RejectionEvent {
 /// A UAV that left the world, or whose motion no number describes any more: it is out, and its body stays where it was.
 struct Stray {
   Tick tick = 0;
-  std::size_t uav = 0;
+  UavIndex uav = {};
   Vector3d p_W = Vector3d::Zero();  ///< where it last was
 };
 
@@ -102,18 +103,18 @@ class Simulation {
   /// events().rejections, if a number is not finite or, with rules.reject_commands_beyond_limits, if it is
   /// beyond the vehicle's speed, acceleration or yaw rate. Dead UAVs and an ended mission ignore it silently.
   /// @returns false when refused.
-  bool command_trajectory(std::size_t uav, const TrajectoryCommand& command);
+  bool command_trajectory(UavIndex uav, const TrajectoryCommand& command);
   /// A gimbal command; refused only if a number is not finite.
-  bool command_gimbal(std::size_t uav, const GimbalCommand& command);
+  bool command_gimbal(UavIndex uav, const GimbalCommand& command);
   /// Take a picture as soon as the trigger interval allows. From the first call on, this camera no longer triggers
   /// by itself.
-  void trigger_camera(std::size_t uav);
+  void trigger_camera(UavIndex uav);
   /// Cut the motors, for good: the UAV falls.
-  void stop(std::size_t uav);
+  void stop(UavIndex uav);
 
   /// Whether anybody reads this UAV's scans (they do, until told otherwise). Those that nobody reads and that would
   /// not become key frames are not computed: the LiDAR is the most expensive sensor. Nothing else depends on it.
-  void want_scans(std::size_t uav, bool wanted);
+  void want_scans(UavIndex uav, bool wanted);
   /// Announces work to a clock from now on. @param clock  must outlive the simulation; null: nobody.
   void watch(WorkClock* clock);
 
@@ -124,13 +125,13 @@ class Simulation {
   Tick tick() const;
   std::size_t size() const;  ///< UAVs
   const Mission& mission() const;
-  const UavView& uav(std::size_t i) const;
+  const UavView& uav(UavIndex i) const;
   std::span<const UavView> uavs() const;
-  /// Row-major (n + 1) x (n + 1), from sender to receiver, 1 = linked, node 0 = station; the dead have
-  /// no links. Symmetric unless the scenario limits the range of some links.
-  const std::vector<std::uint8_t>& links() const;
+  /// Line of sight and range; the dead have no links. Symmetric unless the scenario limits the range of some links.
+  /// Range is judged here, with the positions that only the server has; what else links do to messages, in the router.
+  const Links& links() const;
   /// links() less those that blackouts, outages and partitions cut: who gets whose odometry and key frames.
-  const std::vector<std::uint8_t>& open_links() const;
+  const Links& open_links() const;
   const StepEvents& events() const;
   const Referee& referee() const;
   /// By interest point: whether it was ever in a picture and in sight, whatever its quality.

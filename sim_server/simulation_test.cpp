@@ -296,7 +296,7 @@ class Surveyor {
                              [&](const OrientedBox& x, const OrientedBox& y) { return top(x) < top(y); });
     for (const OrientedBox& box : scene.boxes) ceiling_ = std::max(ceiling_, top(box));
   }
-  TrajectoryCommand at(std::size_t uav, double t) const {
+  TrajectoryCommand at(UavIndex uav, double t) const {
     constexpr double kClimb = 20.0, kOut = 25.0, kDown = 8.0;
     const double i = static_cast<double>(uav), cruise = ceiling_ + 5.0 + 2.0 * i;
     TrajectoryCommand command;
@@ -338,7 +338,7 @@ std::string survey(const Scenario& scenario, Simulation& sim, double duration_s)
   digest.add(sim.digest_input());
   while (seconds(sim.tick()) < duration_s) {
     const double t = seconds(sim.tick());
-    for (std::size_t i = 0; i < sim.size(); ++i) {
+    for (const UavIndex i : FirstUavs(sim.size())) {
       sim.command_trajectory(i, surveyor.at(i, t));
       sim.command_gimbal(i, {GimbalMode::rate, 0.2 * std::sin(t), 0.1 * std::cos(t)});
     }
@@ -409,7 +409,7 @@ TEST(WholeSimulation, AHundredUavs) {
   Simulation sim(scenario, scene, 0);
   const std::clock_t begin = std::clock();
   while (seconds(sim.tick()) < 3.0) {
-    for (std::size_t i = 0; i < sim.size(); ++i) {
+    for (const UavIndex i : FirstUavs(sim.size())) {
       const Vector2d& start = scenario.fleet[i].start;
       sim.command_trajectory(i, to(start.x(), start.y(), 3.0));
     }

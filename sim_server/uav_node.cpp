@@ -22,14 +22,13 @@ void send(bus::CountedWriter& writer, Make&& make) {
 }  // namespace
 
 msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& scenario, Node node) {
-  const std::size_t nodes = simulation.size() + 1;
-  const auto linked = [&](Node other) { return simulation.open_links()[other * nodes + node] != 0; };
+  const auto linked = [&](Node other) { return simulation.open_links().at(other, node) != 0; };
   std::vector<NeighbourPoint> points;
   if (linked(kStationNode)) {
     const Eigen::Vector3f p = scenario.station_position.cast<float>();
     points.push_back({.x = p.x(), .y = p.y(), .z = p.z(), .node = 0, .t = seconds(simulation.tick())});
   }
-  for (std::size_t other = 0; other < simulation.size(); ++other) {
+  for (const UavIndex other : FirstUavs(simulation.size())) {
     if (node_of_uav(other) == node || !linked(node_of_uav(other))) continue;
     const RigidBodyState& state = simulation.uav(other).state;
     const Eigen::Vector3f p = state.p_WB.cast<float>(), w = state.w_WB_B.cast<float>();
@@ -41,7 +40,7 @@ msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& s
   return to_cloud(simulation.tick(), points);
 }
 
-UavNode::UavNode(std::size_t uav, const Scenario& scenario, Simulation& simulation, bus::LockstepServer& server,
+UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation, bus::LockstepServer& server,
                  bus::LockstepServer::DomainIndex domain)
     : uav_(uav),
       scenario_(scenario),

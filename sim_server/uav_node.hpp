@@ -18,7 +18,7 @@ msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& s
 class UavNode {
  public:
   /// Declares all topics of UAV `uav` in `domain`. `simulation` gets its commands when a step is answered.
-  UavNode(std::size_t uav, const Scenario& scenario, Simulation& simulation, bus::LockstepServer& server,
+  UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation, bus::LockstepServer& server,
           bus::LockstepServer::DomainIndex domain);
 
   /// Publishes the samples of the present step.
@@ -38,7 +38,7 @@ class UavNode {
   void publish_detections();
   void publish_rejections();
 
-  std::size_t uav_;
+  UavIndex uav_;
   const Scenario& scenario_;
   Simulation& simulation_;
   const std::string& id_;

@@ -101,9 +101,9 @@ std::optional<TallyRecord> decode(std::span<const std::uint8_t> body) {
   record.tick = cursor.get<Tick>();
   entry.index = cursor.get<std::uint64_t>();
   entry.tick = cursor.get<Tick>();
-  entry.uav = cursor.get<std::uint64_t>();
+  entry.uav = UavIndex(cursor.get<std::uint64_t>());
   entry.collision = cursor.get<std::uint8_t>() != 0;
-  entry.capture.uav = cursor.get<std::uint64_t>();
+  entry.capture.uav = UavIndex(cursor.get<std::uint64_t>());
   entry.capture.capture = cursor.get<std::uint64_t>();
   entry.capture.tick = cursor.get<Tick>();
   entry.capture.token = cursor.get<std::uint64_t>();

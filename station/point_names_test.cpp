@@ -5,14 +5,14 @@
 namespace skein::station {
 namespace {
 
-LedgerEntry entry(std::uint64_t index, std::size_t uav, std::uint64_t capture, std::vector<std::uint32_t> points) {
+LedgerEntry entry(std::uint64_t index, UavIndex uav, std::uint64_t capture, std::vector<std::uint32_t> points) {
   LedgerEntry made{index, 0, uav, points.empty(), {uav, capture, 0, 70 + index, {}}};
   for (const std::uint32_t point : points) made.capture.points.push_back({point, 1.0F, 0.5F, 0.5F});
   return made;
 }
 
 /// The points of a report of these numbers.
-std::vector<std::uint32_t> resolved(const PointNames& names, std::size_t uav, std::vector<std::uint32_t> numbers) {
+std::vector<std::uint32_t> resolved(const PointNames& names, UavIndex uav, std::vector<std::uint32_t> numbers) {
   CaptureReport report{uav, 0, 0, 0, {}};
   for (const std::uint32_t number : numbers) report.points.push_back({number, 1.0F, 0.5F, 0.5F});
   names.resolve(report);

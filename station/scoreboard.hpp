@@ -90,7 +90,7 @@ class Scoreboard {
   /// Begins with {0, 0, 0}; one more for each step that changed the tally.
   const std::vector<TimelinePoint>& timeline() const { return timeline_; }
   /// Points of this UAV do not count: it collided, and the rules void its score.
-  bool is_void(std::size_t uav) const { return collision_voids_ && collided_[uav]; }
+  bool is_void(UavIndex uav) const { return collision_voids_ && collided_[uav]; }
   /// The ledger as far as it is known without gaps.
   const std::vector<LedgerEntry>& ledger() const { return ledger_; }
   Audit audit(const LedgerEntry& entry) const;

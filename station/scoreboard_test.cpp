@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kUavs = 3, kPoints = 40;
 
-CaptureReport capture(std::size_t uav, std::uint64_t number, Tick tick, std::vector<CapturePoint> points) {
+CaptureReport capture(UavIndex uav, std::uint64_t number, Tick tick, std::vector<CapturePoint> points) {
   return {uav, number, tick, 1000 * (uav + 1) + number, std::move(points)};
 }
 
@@ -20,7 +20,7 @@ LedgerEntry entry(std::uint64_t index, const CaptureReport& report) {
   return {index, report.tick, report.uav, false, report};
 }
 
-LedgerEntry collision(std::uint64_t index, std::size_t uav, Tick tick) { return {index, tick, uav, true, {}}; }
+LedgerEntry collision(std::uint64_t index, UavIndex uav, Tick tick) { return {index, tick, uav, true, {}}; }
 
 Scoreboard board() { return Scoreboard(kUavs, kPoints, RulesConfig{}); }
 
@@ -67,13 +67,13 @@ TEST(Scoreboard, EveryChangeOfAReportIsRefused) {
   };
   const std::vector<Case> cases = {
       {Refusal::borrowed, 2, genuine},
-      {Refusal::borrowed, 2, with([](CaptureReport& r) { r.uav = 2; })},
+      {Refusal::borrowed, 2, with([](CaptureReport& r) { r.uav = UavIndex{2}; })},
       {Refusal::borrowed, 1, of_another},
       {Refusal::borrowed, 1, with([](CaptureReport& r) { r.token = 1000; })},
       {Refusal::unknown, 1, with([](CaptureReport& r) { r.token ^= 0x10000; })},
       {Refusal::unknown, 1, capture(1, 9, 100, {point(3, 1.0F)})},
-      {Refusal::altered, 1, with([](CaptureReport& r) { r.uav = 0; })},
-      {Refusal::altered, 1, with([](CaptureReport& r) { r.uav = 77; })},
+      {Refusal::altered, 1, with([](CaptureReport& r) { r.uav = UavIndex{0}; })},
+      {Refusal::altered, 1, with([](CaptureReport& r) { r.uav = UavIndex{77}; })},
       {Refusal::altered, 1, with([](CaptureReport& r) { r.capture = 5; })},
       {Refusal::altered, 1, with([](CaptureReport& r) { r.tick = 99; })},
       {Refusal::altered, 1, with([](CaptureReport& r) { r.points[0].q = 0.6F; })},
@@ -206,7 +206,7 @@ Mission random_mission(unsigned seed) {
   std::vector<CaptureReport> on_the_way;
   for (Tick tick = 0; tick < 1200; tick += 20) {
     for (int n = static_cast<int>(random() % 3); n > 0; --n) {
-      const std::size_t uav = random() % kUavs;
+      const UavIndex uav = random() % kUavs;
       if (random() % 40 == 0) {
         run.ledger.push_back(collision(run.ledger.size(), uav, tick));
         continue;

@@ -21,7 +21,7 @@ class Settlement : public testing::Test {
   }
   ~Settlement() override { std::filesystem::remove_all(folder_); }
 
-  static TallyRecord record(std::uint64_t index, std::size_t uav, std::uint64_t capture, std::uint32_t point, float q) {
+  static TallyRecord record(std::uint64_t index, UavIndex uav, std::uint64_t capture, std::uint32_t point, float q) {
     TallyRecord record;
     record.tick = static_cast<Tick>(100 * index);
     record.entry = {index, record.tick, uav, false, {uav, capture, record.tick, 7, {{point, q, 1.0F, q}}}};

@@ -72,7 +72,7 @@ void StationNode::on_reports(std::size_t source, const msg::CaptureReports& repo
       scoreboard_->add_report(source, std::move(*report));
     } else {
       CaptureReport nobody;
-      nobody.uav = uavs_.size();
+      nobody.uav = UavIndex(uavs_.size());
       scoreboard_->add_report(source, std::move(nobody));
     }
   }

@@ -64,7 +64,7 @@ nlohmann::ordered_json report_json(const Scoreboard& scoreboard, const std::vect
   if (scoreboard.standing() > 0 || scoreboard.ledger().empty()) report["score_earned"] = scoreboard.earned().score();
   nlohmann::ordered_json by_uav = nlohmann::ordered_json::object();
   const std::vector<double> scores = table.score_by_uav();
-  for (std::size_t uav = 0; uav < scores.size(); ++uav) by_uav[uav_names[uav]] = scores[uav];
+  for (const UavIndex uav : FirstUavs(scores.size())) by_uav[uav_names[uav]] = scores[uav];
   report["score_by_uav"] = by_uav;
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (std::size_t index = 0; index < table.points().size(); ++index) {

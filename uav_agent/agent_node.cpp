@@ -9,12 +9,12 @@ namespace skein::agent {
 using bus::LockstepClient;
 using Counterpart = LockstepClient::Counterpart;
 
-AgentNode::AgentNode(const Scenario& scenario, std::size_t uav, std::unique_ptr<Planner> planner, int base_domain,
+AgentNode::AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain,
                      bus::Bus& bus)
     : MemberNode(bus, uav_domain(base_domain, uav), scenario.fleet.at(uav).name),
       scenario_(scenario),
-      node_(node_of_uav(uav)),
-      radio_(scenario, node_),
+      uav_(uav),
+      radio_(scenario, node_of_uav(uav)),
       agent_(agent_config(scenario, uav), std::move(planner)) {}
 
 void AgentNode::declare(LockstepClient& client) {
@@ -45,14 +45,14 @@ void AgentNode::read_sensors(LockstepClient& client) {
       frame.source = source;
       for (const ScanPoint& p : from_cloud<ScanPoint>(m)) {
         frame.points_W.emplace_back(p.x, p.y, p.z);
-        if (!source) frame.source = whole_number(p.intensity);
+        if (!source) frame.source = node_of(p.intensity);
       }
       input_.key_frames.push_back(std::move(frame));
     });
   };
-  if (scenario_.fleet[node_ - 1].vehicle.lidar) read_key_frames(topics::self_keyframe(member()), node_);
+  if (scenario_.fleet[uav_].vehicle.lidar) read_key_frames(topics::self_keyframe(member()), node_of_uav(uav_));
   read_key_frames(topics::neighbour_keyframe(member()), std::nullopt);
-  if (scenario_.fleet[node_ - 1].vehicle.lidar && agent_.wants_scans()) {
+  if (scenario_.fleet[uav_].vehicle.lidar && agent_.wants_scans()) {
     client.read<msg::PointCloud2>(bus::spec(topics::cloud(member())), Counterpart::server, [this](const auto& m) {
       Scan scan{.tick = from_time(m.header().stamp())};
       for (const ScanPoint& p : from_cloud<ScanPoint>(m)) scan.points_W.emplace_back(p.x, p.y, p.z);
@@ -68,7 +68,10 @@ void AgentNode::read_sensors(LockstepClient& client) {
 
 void AgentNode::read_captures(LockstepClient& client) {
   client.read<msg::CaptureReports>(bus::spec(topics::capture()), Counterpart::server, [this](const auto& m) {
-    for (const auto& report : m.reports()) input_.capture_reports.push_back({report.capture(), encode(report)});
+    for (const auto& report : m.reports()) {
+      input_.capture_reports.push_back({report.capture(), encoded_size(report)});
+      reports_.insert_or_assign(report.capture(), report);
+    }
   });
   client.read<msg::CaptureAck>(
       bus::spec(topics::captures_ack_at_uav(member())), Counterpart::router, [this](const auto& m) {
@@ -81,6 +84,8 @@ void AgentNode::work(const msg::Step& step) {
   input_.tick = step.tick();
   released_ = input_.capture_acks;
   output_ = agent_.step(input_);
+  if (input_.capture_reports.empty() && input_.capture_acks.empty()) return;
+  std::erase_if(reports_, [this](const auto& entry) { return !agent_.holds_capture(entry.first); });
 }
 
 void AgentNode::send(LockstepClient& client) {
@@ -114,10 +119,7 @@ void AgentNode::write(LockstepClient& client) const {
   }
   if (!output_.captures.empty()) {
     msg::CaptureReports reports;
-    for (const CaptureReport& capture : output_.captures) {
-      msg::CaptureReport report;
-      if (decode(capture.payload, report)) reports.reports().push_back(std::move(report));
-    }
+    for (const std::uint64_t capture : output_.captures) reports.reports().push_back(reports_.at(capture));
     client.write(topics::captures(member()).name, reports);
   }
   radio_.send(client, output_.radio);

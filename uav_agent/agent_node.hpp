@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -15,8 +16,7 @@ namespace skein::agent {
 
 class AgentNode final : public MemberNode {
  public:
-  /// @param uav  index in fleet order.
-  AgentNode(const Scenario& scenario, std::size_t uav, std::unique_ptr<Planner> planner, int base_domain,
+  AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain,
             bus::Bus& bus);
 
  private:
@@ -28,11 +28,12 @@ class AgentNode final : public MemberNode {
   void write(bus::LockstepClient& client) const;
 
   const Scenario& scenario_;
-  const Node node_;
+  const UavIndex uav_;
   const RadioNode radio_;
   Agent agent_;
   AgentInput input_;  ///< being filled for the step to come
   AgentOutput output_;
+  std::map<std::uint64_t, msg::CaptureReport> reports_;  ///< that may yet have to be sent, by capture
   std::vector<std::uint64_t> released_;  ///< acknowledged captures that the camera may forget
 };
 

@@ -46,7 +46,7 @@ int fly(skein::agent::MemberNode& node, const std::filesystem::path& report_file
 int run_uav(const skein::Scenario& scenario, const skein::ProgramOptions& options, const AgentOptions& agent,
             skein::StopSignal& stop) {
   const std::string uav = agent.uav.empty() ? scenario.fleet.front().name : agent.uav;
-  const std::size_t index = scenario.uav_index(uav);
+  const skein::UavIndex index = scenario.uav_index(uav);
   auto planner = skein::agent::make_planner(agent.planner, skein::agent::agent_config(scenario, index));
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) return skein::kExitDone;

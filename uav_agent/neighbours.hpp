@@ -8,10 +8,16 @@
 
 namespace skein::agent {
 
+/// A node as it travels in a point of a cloud; nullopt when the number is none.
+inline std::optional<Node> node_of(float number) {
+  const auto node = whole_number(number);
+  return node ? std::optional(Node(*node)) : std::nullopt;
+}
+
 inline std::vector<Neighbour> neighbours_of(const msg::PointCloud2& cloud) {
   std::vector<Neighbour> neighbours;
   for (const NeighbourPoint& p : from_cloud<NeighbourPoint>(cloud)) {
-    const auto node = whole_number(p.node);
+    const auto node = node_of(p.node);
     if (!node) continue;
     const Eigen::Quaterniond q_WB(p.qw, p.qx, p.qy, p.qz);
     neighbours.push_back({*node, Vector3d(p.x, p.y, p.z), Vector3d(q_WB * Vector3d(p.vx, p.vy, p.vz))});

@@ -99,8 +99,7 @@ class Timeline {
  private:
   bool is_cut(const std::string& uav, std::uint64_t step) const {
     const auto cut = cut_links(plan_, scenario_, static_cast<Tick>(step) * scenario_.exchange_ticks());
-    const std::size_t nodes = scenario_.fleet.size() + 1;
-    return !cut.empty() && cut[node_of_uav(scenario_.uav_index(uav)) * nodes + kStationNode] != 0;
+    return cut && cut->at(node_of_uav(scenario_.uav_index(uav)), kStationNode) != 0;
   }
 
   const Scenario& scenario_;

@@ -30,8 +30,8 @@ Vector2d draw_in_disc(RandomStream& stream, double radius) {
 
 /// Those before it stand where they were drawn, those after it where the scenario has them.
 bool clear_of_others(const Scenario& scenario, const std::vector<UavStart>& drawn, const Isometry3d& X_WB) {
-  const std::size_t self = drawn.size();
-  for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+  const UavIndex self(drawn.size());
+  for (const UavIndex i : scenario.uavs()) {
     if (i == self) continue;
     const Vector2d other = i < self ? Vector2d(drawn[i].X_WB.translation().head<2>()) : scenario.fleet[i].start;
     const double needed = least_start_distance(scenario.fleet[i].vehicle, scenario.fleet[self].vehicle);

@@ -307,11 +307,11 @@ void PhysicsWorld::Impl::step() {
 BodyId PhysicsWorld::Impl::identify(const btCollisionObject& object) const {
   switch (object.getUserIndex()) {
     case kGroundIndex:
-      return {BodyId::Kind::ground, 0};
+      return {BodyId::Kind::ground, {}};
     case kStructureIndex:
-      return {BodyId::Kind::structure, 0};
+      return {BodyId::Kind::structure, {}};
     default:
-      return {BodyId::Kind::uav, static_cast<std::size_t>(object.getUserIndex())};
+      return {BodyId::Kind::uav, UavIndex(static_cast<std::size_t>(object.getUserIndex()))};
   }
 }
 
@@ -383,7 +383,7 @@ bool PhysicsWorld::touches_structure(const VehicleConfig& vehicle, const Isometr
   return touch.found;
 }
 
-void PhysicsWorld::apply_wrench(std::size_t uav, const Vector3d& force_W, const Vector3d& torque_W) {
+void PhysicsWorld::apply_wrench(UavIndex uav, const Vector3d& force_W, const Vector3d& torque_W) {
   UavBody& pushed = impl_->uavs[uav];
   if (pushed.out) return;
   if (force_W.norm() < kNoWrench && torque_W.norm() < kNoWrench) return;
@@ -401,7 +401,7 @@ bool PhysicsWorld::sane(const RigidBodyState& state) const {
   return finite && state.p_WB.norm() <= reach_m_ && state.v_WB.norm() < kFastest && state.w_WB_B.norm() < kFastest;
 }
 
-void PhysicsWorld::take_out(std::size_t uav) {
+void PhysicsWorld::take_out(UavIndex uav) {
   impl_->world.removeRigidBody(impl_->uavs[uav].body.get());
   impl_->uavs[uav].out = true;
   states_[uav].v_WB = states_[uav].w_WB_B = Vector3d::Zero();
@@ -411,7 +411,7 @@ void PhysicsWorld::take_out(std::size_t uav) {
 void PhysicsWorld::tick() {
   impl_->step();
   strays_.clear();
-  for (std::size_t i = 0; i < states_.size(); ++i) {
+  for (const UavIndex i : FirstUavs(states_.size())) {
     if (impl_->uavs[i].out) continue;
     const RigidBodyState state = impl_->uavs[i].state();
     if (sane(state)) {
@@ -424,7 +424,7 @@ void PhysicsWorld::tick() {
   impl_->wake_who_was_hit(contacts_);
 }
 
-void PhysicsWorld::set_state(std::size_t uav, const RigidBodyState& state) {
+void PhysicsWorld::set_state(UavIndex uav, const RigidBodyState& state) {
   UavBody& moved = impl_->uavs[uav];
   if (moved.out) return;
   moved.set_state(state);

@@ -19,14 +19,14 @@ inline constexpr double kWorldGravity = 9.8;  ///< [m/s^2]
 struct BodyId {
   enum class Kind { ground, structure, uav };
   Kind kind = Kind::ground;
-  std::size_t uav = 0;  ///< fleet order; meaningful for Kind::uav only
+  UavIndex uav = {};  ///< fleet order; meaningful for Kind::uav only
 
   bool operator==(const BodyId&) const = default;
 };
 
 /// One UAV touches something; two UAVs that touch appear once, the lower number in `uav`.
 struct Contact {
-  std::size_t uav = 0;
+  UavIndex uav = {};
   BodyId other;
   Vector3d p_W = Vector3d::Zero();
 };
@@ -48,35 +48,35 @@ class PhysicsWorld {
   bool touches_structure(const VehicleConfig& vehicle, const Isometry3d& X_WB) const;
 
   /// A force that acts at Bo and a torque on a UAV during the next tick, both expressed in W. Calls add up.
-  void apply_wrench(std::size_t uav, const Vector3d& force_W, const Vector3d& torque_W);
+  void apply_wrench(UavIndex uav, const Vector3d& force_W, const Vector3d& torque_W);
 
   /// One tick with the wrenches applied since the last; gravity comes by itself.
   void tick();
 
-  const RigidBodyState& state(std::size_t uav) const { return states_[uav]; }
+  const RigidBodyState& state(UavIndex uav) const { return states_[uav]; }
   const std::vector<RigidBodyState>& states() const { return states_; }
   /// Takes a body that gets farther than this from the origin out of the world, and one whose motion is no longer
   /// finite, as it ends with whatever no integration survives: it then stays where it last was, at rest, and touches
   /// nothing. Without this call only the latter.
   void keep_within(double radius_m) { reach_m_ = radius_m; }
   /// UAVs that the last tick has taken out, ascending.
-  const std::vector<std::size_t>& strays() const { return strays_; }
+  const std::vector<UavIndex>& strays() const { return strays_; }
   /// Contacts of the last tick, sorted by UAV, then ground, structure and other UAVs; one per pair. A UAV that has lain
   /// still without thrust for half a second sleeps until it is pushed or hit; it keeps its contacts meanwhile.
   const std::vector<Contact>& contacts() const { return contacts_; }
 
   /// Put a UAV somewhere, moving as given. For tests and set-up.
-  void set_state(std::size_t uav, const RigidBodyState& state);
+  void set_state(UavIndex uav, const RigidBodyState& state);
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
   bool sane(const RigidBodyState& state) const;
-  void take_out(std::size_t uav);
+  void take_out(UavIndex uav);
 
   std::vector<RigidBodyState> states_;
   std::vector<Contact> contacts_;
-  std::vector<std::size_t> strays_;
+  std::vector<UavIndex> strays_;
   double reach_m_ = std::numeric_limits<double>::max();
 };
 

@@ -267,7 +267,7 @@ GoldenReport check_los_antenna(const GoldenTable& table) {
     const AntennaNode from{table.vector(row, "n1_"), table.number(row, "n1_offset")};
     const AntennaNode to{table.vector(row, "n2_"), table.number(row, "n2_offset")};
     const LinkResult link = trace_link(from, to, obstacles);
-    const LinkCounts counts = count_sight_lines(from, to, obstacles);
+    const SightLineCounts counts = count_sight_lines(from, to, obstacles);
     compare.number("centre_distance", link.range, {1e-9});
     compare.count("pairs_clear", counts.clear);
     compare.count("pairs_within_tolerance", counts.within_tolerance);

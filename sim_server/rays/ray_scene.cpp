@@ -149,7 +149,7 @@ struct RayScene::Impl {
     return std::max(0.0, slope == 0.0 ? least : std::clamp(height / slope, least, most));
   }
 
-  bool takes_part(std::size_t uav, const RayFilter& filter) const {
+  bool takes_part(UavIndex uav, const RayFilter& filter) const {
     return bodies[uav].placed && uav != filter.except_uav && uav != filter.except_other_uav;
   }
 
@@ -174,7 +174,7 @@ struct RayScene::Impl {
         any = true;
       }
     }
-    for (std::size_t uav = 0; filter.uavs && uav < bodies.size(); ++uav) {
+    for (const UavIndex uav : FirstUavs(filter.uavs ? bodies.size() : 0)) {
       if (!takes_part(uav, filter)) {
         continue;
       }
@@ -318,7 +318,7 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
-void RayScene::set_pose(std::size_t uav, const Isometry3d& X_WB) {
+void RayScene::set_pose(UavIndex uav, const Isometry3d& X_WB) {
   Body& body = impl_->bodies.at(uav);
   body.placed = true;
   body.X_BW = X_WB.inverse();
@@ -369,7 +369,7 @@ void RayScene::scan(const Vector3d& p_W, std::span<const Eigen::Vector3f> direct
     throw std::invalid_argument("RayScene::scan: the directions make no whole rows");
   }
   impl_->scan_structure(p_W, directions_W, columns, distance_max, filter.ground, distances);
-  for (std::size_t uav = 0; filter.uavs && uav < impl_->bodies.size(); ++uav) {
+  for (const UavIndex uav : FirstUavs(filter.uavs ? impl_->bodies.size() : 0)) {
     if (impl_->takes_part(uav, filter)) {
       impl_->scan_body(impl_->bodies[uav], p_W, directions_W, distance_max, distances);
     }

@@ -30,7 +30,7 @@ struct BodyShape {
 };
 BodyShape body_shape(const VehicleConfig& vehicle);
 
-inline constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
+inline constexpr UavIndex kNobody{std::numeric_limits<std::size_t>::max()};
 inline constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
 
 /// What a ray may meet besides the structure.
@@ -38,7 +38,7 @@ struct RayFilter {
   bool ground = true;
   bool uavs = true;
   /// UAVs that the ray passes through: sensors and antennas sit inside or close to their own body.
-  std::size_t except_uav = kNobody, except_other_uav = kNobody;
+  UavIndex except_uav = kNobody, except_other_uav = kNobody;
 };
 
 enum class HitKind { structure, ground, uav };
@@ -46,7 +46,7 @@ enum class HitKind { structure, ground, uav };
 struct Hit {
   double distance = 0.0;  ///< along the ray [m]
   HitKind kind = HitKind::structure;
-  std::size_t uav = kNobody;             ///< fleet index, when `kind` is uav
+  UavIndex uav = kNobody;             ///< fleet index, when `kind` is uav
   std::uint32_t triangle = kNoTriangle;  ///< of the structure, when `kind` is structure
 };
 
@@ -63,7 +63,7 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
 
   /// Moves one UAV's body. Not while another thread asks.
-  void set_pose(std::size_t uav, const Isometry3d& X_WB);
+  void set_pose(UavIndex uav, const Isometry3d& X_WB);
 
   /// The first thing that a ray meets. All queries are const and safe from any number of threads.
   /// @param p_W  start [m].   @param direction_W  need not be a unit vector.   @param distance_max  from the start [m].

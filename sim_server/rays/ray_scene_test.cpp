@@ -262,7 +262,7 @@ TEST(RayScene, ScanAgreesWithSingleRays) {
   VehicleConfig vehicle;
   RayScene world(mesh, std::vector<BodyShape>(6, body_shape(vehicle)));
   RandomStream random(4, "ray_scene_test", 0, 0);
-  for (std::size_t uav = 0; uav < 6; ++uav) {
+  for (const UavIndex uav : FirstUavs(6)) {
     world.set_pose(uav, Eigen::Translation3d(random_in_box(random, {-3.0, -3.0, 1.0}, {3.0, 3.0, 5.0})) *
                             Eigen::Quaterniond(rotation(0.1, 0.1, 6.0 * random.uniform())));
   }

@@ -8,7 +8,7 @@ EventLog::EventLog(const std::filesystem::path& folder, const Scenario& scenario
     : scenario_(scenario), out_(folder / "events.csv"), members_(scenario.uav_names()) {
   members_.insert(members_.end(), {scenario.node_name(kStationNode), "station", "comm_router"});
   present_.resize(members_.size());
-  links_.resize((scenario.fleet.size() + 1) * (scenario.fleet.size() + 1));
+  links_ = Links(scenario.fleet.size() + 1);
   out_ << "step,time_s,event,subject,object\n";
   out_.flush();  // whoever is killed leaves a table without rows, and no file without a table
 }
@@ -19,11 +19,13 @@ void EventLog::add_step(const Simulation& simulation, const std::function<bool(c
     if (present != present_[i]) add(simulation, present ? "joined" : "left", members_[i], "");
     present_[i] = present;
   }
-  const Node nodes = scenario_.fleet.size() + 1;
-  const std::vector<std::uint8_t>& links = simulation.open_links();
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (links[i] == links_[i] || i / nodes == i % nodes) continue;
-    add(simulation, links[i] ? "link_up" : "link_down", scenario_.node_name(i / nodes), scenario_.node_name(i % nodes));
+  const Links& links = simulation.open_links();
+  for (const Node from : scenario_.nodes()) {
+    for (const Node to : scenario_.nodes()) {
+      const bool linked = links.at(from, to) != 0;
+      if (linked == (links_.at(from, to) != 0) || from == to) continue;
+      add(simulation, linked ? "link_up" : "link_down", scenario_.node_name(from), scenario_.node_name(to));
+    }
   }
   links_ = links;
   for (const CaptureEvent& event : simulation.events().captures) {

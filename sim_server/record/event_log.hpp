@@ -36,7 +36,7 @@ class EventLog {
   StreamFile out_;
   std::vector<std::string> members_;
   std::vector<bool> present_;        ///< by members_
-  std::vector<std::uint8_t> links_;  ///< as last told
+  Links links_;  ///< as last told
 };
 
 }  // namespace skein::sim

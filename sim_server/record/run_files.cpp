@@ -88,7 +88,7 @@ void RunFiles::add_step(const Simulation& simulation, const StepDigest& digest) 
   digests_ << "\n";
   if (simulation.tick() % kTrajectoryPeriod != 0) return;
   fmt::memory_buffer line;
-  for (std::size_t i = 0; i < simulation.size(); ++i) {
+  for (const UavIndex i : FirstUavs(simulation.size())) {
     const UavView& uav = simulation.uav(i);
     const auto& [p, q, v, w] = uav.state;
     fmt::format_to(std::back_inserter(line),
@@ -122,7 +122,7 @@ void RunFiles::write_report(const Simulation& simulation, const RunSummary& summ
                                   {"position", vector_json(c.p_W)}});
   }
   json["uavs"] = nlohmann::json::array();
-  for (std::size_t i = 0; i < simulation.size(); ++i) {
+  for (const UavIndex i : FirstUavs(simulation.size())) {
     const UavView& uav = simulation.uav(i);
     const UavConfig& config = scenario_.fleet[i];
     json["uavs"].push_back(

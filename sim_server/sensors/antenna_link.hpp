@@ -24,7 +24,7 @@ struct LinkResult {
   double range = 0.0;  ///< between the centres, linked or not [m]
 };
 
-struct LinkCounts {
+struct SightLineCounts {
   int clear = 0;             ///< of 36 sight lines
   int within_tolerance = 0;  ///< hit, but no more than 0.1 m before the end
 };
@@ -65,8 +65,8 @@ LinkResult trace_link(const AntennaNode& from, const AntennaNode& to, F&& first_
 
 /// All 36 sight lines, counted; for audits and reference vectors.
 template <FirstHit F>
-LinkCounts count_sight_lines(const AntennaNode& from, const AntennaNode& to, F&& first_hit) {
-  LinkCounts counts;
+SightLineCounts count_sight_lines(const AntennaNode& from, const AntennaNode& to, F&& first_hit) {
+  SightLineCounts counts;
   const auto targets = antennas(to);
   for (const Vector3d& a : antennas(from)) {
     for (const Vector3d& b : targets) {

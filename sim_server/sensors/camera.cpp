@@ -7,7 +7,7 @@
 
 namespace skein::sim {
 
-bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world) {
+bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world) {
   const Vector3d ray = p_W - p_WC;
   const double distance = ray.norm();
   RayFilter filter;
@@ -17,7 +17,7 @@ bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, co
   return hit && std::abs(hit->distance - distance) <= Camera::kSurfaceTolerance;
 }
 
-bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world) {
+bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world) {
   RayFilter filter;
   filter.except_uav = own_uav;
   const auto hit = world.first_hit_before_end(p_WC, p_W, filter);
@@ -36,7 +36,7 @@ bool is_through_structure(const Vector3d& p_WB, const Vector3d& p_WC, const RayS
 bool Capture::improved() const { return std::ranges::any_of(detections, &Detection::improved); }
 
 Camera::Camera(const CameraConfig& config, double desired_mm_per_pixel, const RulesConfig& rules,
-               const std::vector<InterestPoint>& points, std::size_t uav)
+               const std::vector<InterestPoint>& points, UavIndex uav)
     : config_(config),
       desired_mm_per_pixel_(desired_mm_per_pixel),
       rules_(rules),
@@ -57,7 +57,7 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
   last_ = tick;
   if (rules_.camera_blind_in_structure && is_through_structure(body.p_WB, p_WC, world)) return capture;
   const auto sees = rules_.ray_ends_at_point ? in_sight_of_reference : in_sight;
-  const std::size_t sees_through = rules_.own_body_hides ? kNobody : uav_;
+  const UavIndex sees_through = rules_.own_body_hides ? kNobody : uav_;
   for (std::uint32_t i = 0; i < points_.size(); ++i) {
     if ((points_[i].p_W - centre).squaredNorm() > reach * reach) {
       continue;

@@ -15,10 +15,10 @@ namespace skein::sim {
 /// Whether the first thing on the way from a camera is the surface that the point lies on, within
 /// Camera::kSurfaceTolerance before or behind it: Camera's own test.
 /// @param own_uav  whose body does not hide; kNobody: every body does.
-bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world);
+bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world);
 /// The reference's test, for `rules.ray_ends_at_point`: the surface must be met before the ray's end at the point, by
 /// single-precision arithmetic. Of free views of points on their triangles only some 45 % see them, by rounding alone.
-bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, std::size_t own_uav, const RayScene& world);
+bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world);
 
 /// One interest point in one capture.
 struct Detection {
@@ -42,7 +42,7 @@ class Camera {
   /// @param points  interest points of the scene; must outlive the camera.
   /// @param uav     fleet index: whose body hides only with `rules.own_body_hides`.
   Camera(const CameraConfig& config, double desired_mm_per_pixel, const RulesConfig& rules,
-         const std::vector<InterestPoint>& points, std::size_t uav);
+         const std::vector<InterestPoint>& points, UavIndex uav);
 
   /// Whether strictly more than the trigger interval has passed since the last capture (0.1 s: every 41 ticks).
   bool ready(Tick tick) const { return !last_ || tick - *last_ > interval_; }
@@ -68,7 +68,7 @@ class Camera {
   double desired_mm_per_pixel_;
   RulesConfig rules_;
   const std::vector<InterestPoint>& points_;
-  std::size_t uav_;
+  UavIndex uav_;
   Tick interval_;
   std::optional<Tick> last_;
   std::uint64_t next_number_ = 0;

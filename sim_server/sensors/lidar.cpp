@@ -44,7 +44,7 @@ double servo_angle(const LidarConfig& config, double t_s) {
   return std::max(top - rate * (cycle_s - half_s), -limit);
 }
 
-Lidar::Lidar(const LidarConfig& config, std::size_t uav, std::uint64_t seed)
+Lidar::Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed)
     : config_(config),
       uav_(uav),
       seed_(seed),

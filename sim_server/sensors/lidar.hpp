@@ -33,7 +33,7 @@ class Lidar {
   /// @param uav   fleet index: its own body is invisible to it, and it keys the noise.
   /// @param seed  0: no range noise and the servo starts at 0. Otherwise the servo's phase and the noise are drawn from
   ///              streams keyed by (seed, "lidar_phase", uav) and (seed, "lidar_noise", uav, scan number).
-  Lidar(const LidarConfig& config, std::size_t uav, std::uint64_t seed);
+  Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed);
 
   /// Whether a scan falls on this tick: tick 0 and every period after it.
   bool due(Tick tick) const { return tick % period_ == 0; }
@@ -56,7 +56,7 @@ class Lidar {
   void trace(const Isometry3d& X_WL, int first_column, int columns, const RayScene& world);
 
   LidarConfig config_;
-  std::size_t uav_;
+  UavIndex uav_;
   std::uint64_t seed_;
   Tick period_;
   Tick phase_ = 0;                 ///< how long the servo has been running at tick 0

@@ -271,7 +271,7 @@ TEST_F(LidarRoom, NoiseFollowsSigma) {
 
 TEST(Lidar, SeedDrawsThePhaseOnce) {
   const RayScene world(TriangleMesh{});
-  const auto angle_at_start = [&world](std::size_t uav, std::uint64_t seed) {
+  const auto angle_at_start = [&world](UavIndex uav, std::uint64_t seed) {
     return Lidar(LidarConfig{}, uav, seed).scan(0, Isometry3d::Identity(), world).servo_angle;
   };
   EXPECT_EQ(angle_at_start(0, 0), 0.0);

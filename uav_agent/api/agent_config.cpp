@@ -11,7 +11,7 @@ double body_radius_m(const VehicleConfig& vehicle) {
   return std::max(rotors, box_reach(vehicle));
 }
 
-AgentConfig agent_config(const Scenario& scenario, std::size_t self) {
+AgentConfig agent_config(const Scenario& scenario, UavIndex self) {
   AgentConfig config;
   config.self = self;
   config.vehicle = scenario.fleet.at(self).vehicle;

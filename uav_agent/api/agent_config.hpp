@@ -21,7 +21,7 @@ struct FleetMember {
 };
 
 struct AgentConfig {
-  std::size_t self = 0;            ///< index into fleet
+  UavIndex self = {};              ///< index into fleet
   std::vector<FleetMember> fleet;  ///< in fleet order, the same on every UAV
   VehicleConfig vehicle;           ///< its own
   double desired_mm_per_pixel = 2.0;
@@ -42,6 +42,6 @@ double body_radius_m(const VehicleConfig& vehicle);
 
 /// The part of a scenario that UAV `self` (in fleet order) may know.
 /// @throws std::out_of_range when there is no such UAV.
-AgentConfig agent_config(const Scenario& scenario, std::size_t self);
+AgentConfig agent_config(const Scenario& scenario, UavIndex self);
 
 }  // namespace skein::agent

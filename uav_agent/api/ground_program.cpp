@@ -9,8 +9,8 @@ std::unique_ptr<GroundProgram> make_ground_program(const std::string& spec, cons
 }
 
 AgentConfig ground_config(const Scenario& scenario) {
-  AgentConfig config = agent_config(scenario, 0);
-  config.self = config.fleet.size();
+  AgentConfig config = agent_config(scenario, UavIndex{});
+  config.self = UavIndex(config.fleet.size());
   config.vehicle = {};
   return config;
 }

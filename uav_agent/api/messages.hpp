@@ -40,12 +40,6 @@ struct Scan {
   std::vector<Eigen::Vector3f> points_W = {};  ///< hits
 };
 
-/// One capture report as the camera made it. The payload is opaque: the agent keeps and forwards it.
-struct CaptureReport {
-  std::uint64_t capture = 0;  ///< 0, 1, ... for this UAV
-  std::vector<std::uint8_t> payload;
-};
-
 /// A message between planners. Radio tells nobody who sent: whoever wants to be known says so in the text.
 struct RadioMessage {
   std::string topic;           ///< as declared in the scenario, "/broadcast"

@@ -9,7 +9,7 @@ constexpr double kVelocityGain = 0.5;  ///< of the newest difference; smooths th
 }  // namespace
 
 Peers::Peers(const AgentConfig& config) {
-  for (std::size_t uav = 0; uav < config.fleet.size(); ++uav) {
+  for (const UavIndex uav : FirstUavs(config.fleet.size())) {
     if (uav == config.self) continue;
     Peer peer;
     peer.uav = uav;

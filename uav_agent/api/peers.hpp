@@ -11,7 +11,7 @@
 namespace skein::agent {
 
 struct Peer {
-  std::size_t uav = 0;              ///< index in the fleet
+  UavIndex uav = {};
   Vector3d p_W = Vector3d::Zero();  ///< when last seen; the nominal start before
   Vector3d v_W = Vector3d::Zero();  ///< as told, or from sightings at most 0.25 s apart; else zero
   std::optional<Tick> seen;         ///< nullopt: never

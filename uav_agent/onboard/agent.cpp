@@ -5,7 +5,7 @@
 
 #include "core/euler.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
-#include "uav_agent/onboard/keyframe_filter.hpp"
+#include "uav_agent/onboard/key_frame_filter.hpp"
 #include "uav_agent/onboard/tracker.hpp"
 #include "uav_agent/onboard/uplink.hpp"
 #include "uav_agent/flight/site.hpp"
@@ -43,10 +43,10 @@ struct Agent::Impl {
   const std::unique_ptr<Planner> planner;
   Peers peers;
   OccupancyMap map;
-  const KeyframeFilter filter;
+  const KeyFrameFilter filter;
   /// A lone hit may be a UAV out of sight; but far off, it is all that a LiDAR finds of a thin member, and where one
   /// box holds everything, UAVs fly between members that were only seen from afar.
-  const KeyframeFilter filter_keeping_lone_hits{{.lone_min_neighbours = 0}};
+  const KeyFrameFilter filter_keeping_lone_hits{{.lone_min_neighbours = 0}};
   Uplink uplink;
   Tracker tracker;
   std::vector<OrientedBox> boxes;
@@ -73,7 +73,7 @@ void Agent::Impl::perceive(const AgentInput& input) {
   if (!input.key_frames.empty()) {
     const std::vector<KnownBody> bodies = known_bodies(input);
     const bool roomy = std::any_of(boxes.begin(), boxes.end(), is_roomy);
-    const KeyframeFilter& chosen = roomy ? filter_keeping_lone_hits : filter;
+    const KeyFrameFilter& chosen = roomy ? filter_keeping_lone_hits : filter;
     for (const KeyFrame& frame : input.key_frames) {
       map.insert(chosen(frame.points_W, bodies), sensor_position(frame, input));
     }
@@ -151,5 +151,7 @@ AgentOutput Agent::step(const AgentInput& input) {
   output.captures = impl_->uplink.send(input.k, impl_->peers.station_visible());
   return output;
 }
+
+bool Agent::holds_capture(std::uint64_t capture) const { return impl_->uplink.holds(capture); }
 
 }  // namespace skein::agent

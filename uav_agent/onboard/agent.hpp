@@ -10,6 +10,7 @@
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
 #include "uav_agent/api/planner.hpp"
+#include "uav_agent/onboard/uplink.hpp"
 
 namespace skein::agent {
 
@@ -25,7 +26,7 @@ struct AgentInput {
   std::vector<KeyFrame> key_frames;           ///< in order: own first, then neighbours'
   std::vector<Scan> scans;                    ///< own; only if wants_scans()
   std::vector<DetectedPoint> detected;
-  std::vector<CaptureReport> capture_reports;  ///< from the camera; it may repeat unacknowledged ones
+  std::vector<HandedOut> capture_reports;     ///< from the camera; it may repeat unacknowledged ones
   std::vector<std::uint64_t> capture_acks;     ///< capture numbers that the station has journalled
   std::vector<RadioMessage> radio;             ///< from other planners
 };
@@ -36,7 +37,7 @@ struct AgentOutput {
   std::optional<GimbalCommand> gimbal;
   bool trigger = false;
   std::vector<RadioMessage> radio;
-  std::vector<CaptureReport> captures;  ///< to send to the station now
+  std::vector<std::uint64_t> captures;  ///< whose reports to send to the station now
 };
 
 class Agent {
@@ -51,6 +52,8 @@ class Agent {
   bool wants_scans() const;
   /// One exchange. Inputs must come in order of k.
   AgentOutput step(const AgentInput& input);
+  /// Whether that capture's report may yet have to be sent.
+  bool holds_capture(std::uint64_t capture) const;
 
  private:
   struct Impl;

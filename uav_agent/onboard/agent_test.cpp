@@ -144,7 +144,7 @@ TEST_F(AgentTest, AKeyFramesSourceCounts) {
 }
 
 TEST_F(AgentTest, DeliversThroughTheDirectLinkOnly) {
-  input_.capture_reports = {{0, {1, 2, 3}}, {1, {4}}};
+  input_.capture_reports = {{.capture = 0, .bytes = 3}, {.capture = 1, .bytes = 1}};
   EXPECT_TRUE(step().captures.empty());
   EXPECT_EQ(tape_.undelivered, 2U);
   input_.neighbours = {{kStationNode, {0.0, 0.0, 0.3}}};

@@ -10,10 +10,10 @@ bool Uplink::is_acknowledged(std::uint64_t capture) const {
   return after != acknowledged_.begin() && std::prev(after)->second >= capture;
 }
 
-void Uplink::take(const std::vector<CaptureReport>& reports) {
-  for (const CaptureReport& report : reports) {
+void Uplink::take(const std::vector<HandedOut>& reports) {
+  for (const HandedOut& report : reports) {
     if (is_acknowledged(report.capture)) continue;
-    held_.try_emplace(report.capture, Held{report.payload});
+    held_.try_emplace(report.capture, Held{report.bytes});
   }
 }
 
@@ -37,17 +37,17 @@ void Uplink::acknowledge(const std::vector<std::uint64_t>& captures) {
   }
 }
 
-std::vector<CaptureReport> Uplink::send(std::uint64_t k, bool station_linked) {
-  std::vector<CaptureReport> out;
+std::vector<std::uint64_t> Uplink::send(std::uint64_t k, bool station_linked) {
+  std::vector<std::uint64_t> out;
   if (!station_linked) return out;
   std::size_t bytes = 0;
   for (auto& [capture, held] : held_) {
     if (held.sent && k < held.sent_at + config_.resend_after_steps) continue;
-    if (!out.empty() && bytes + held.payload.size() > config_.max_bytes_per_step) break;
-    bytes += held.payload.size();
+    if (!out.empty() && bytes + held.bytes > config_.max_bytes_per_step) break;
+    bytes += held.bytes;
     held.sent = true;
     held.sent_at = k;
-    out.push_back({capture, held.payload});
+    out.push_back(capture);
   }
   return out;
 }

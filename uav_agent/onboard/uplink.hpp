@@ -8,9 +8,13 @@
 #include <map>
 #include <vector>
 
-#include "uav_agent/api/messages.hpp"
-
 namespace skein::agent {
+
+/// A capture report that the camera handed out. The report itself stays with whoever feeds the uplink.
+struct HandedOut {
+  std::uint64_t capture = 0;  ///< 0, 1, ... for this UAV
+  std::size_t bytes = 0;      ///< of the report, serialised
+};
 
 class Uplink {
  public:
@@ -23,17 +27,19 @@ class Uplink {
   explicit Uplink(const Config& config) : config_(config) {}
 
   /// Takes custody. A report that is held or was acknowledged before is ignored, so the camera may repeat itself.
-  void take(const std::vector<CaptureReport>& reports);
+  void take(const std::vector<HandedOut>& reports);
   /// The station has them for good.
   void acknowledge(const std::vector<std::uint64_t>& captures);
-  /// What to send at exchange k: the oldest reports first, none without a link.
-  std::vector<CaptureReport> send(std::uint64_t k, bool station_linked);
+  /// Captures whose reports are to be sent at exchange k: the oldest first, none without a link.
+  std::vector<std::uint64_t> send(std::uint64_t k, bool station_linked);
 
   std::size_t undelivered() const { return held_.size(); }
+  /// Whether a capture's report may yet have to be sent.
+  bool holds(std::uint64_t capture) const { return held_.contains(capture); }
 
  private:
   struct Held {
-    std::vector<std::uint8_t> payload;
+    std::size_t bytes = 0;  ///< of the report
     bool sent = false;
     std::uint64_t sent_at = 0;  ///< exchange of the last attempt
   };

@@ -35,7 +35,7 @@ WorkShare own_share(const AgentConfig& agent, const std::vector<OrientedBox>& bo
 
   std::vector<Vector3d> starts;
   std::vector<double> free_at_s;
-  for (std::size_t i = 0; i < agent.fleet.size(); ++i) {
+  for (const UavIndex i : FirstUavs(agent.fleet.size())) {
     AgentConfig other = agent;
     other.self = i;
     const auto ring = survey_ring(other, boxes, config.survey_standoff_m, 0.0);

@@ -191,7 +191,7 @@ AgentInput TestWorld::Impl::sense(std::size_t i, const std::vector<std::vector<E
     if (neighbour.node == kStationNode || scans[neighbour.node - 1].empty()) continue;
     input.key_frames.push_back({.points_W = scans[neighbour.node - 1], .source = neighbour.node});
   }
-  if (k % 40 == 0) input.capture_reports.push_back({uav.captures, std::vector<std::uint8_t>(200)});
+  if (k % 40 == 0) input.capture_reports.push_back({.capture = uav.captures, .bytes = 200});
   input.capture_acks = uav.acks;
   input.radio = uav.mail;
   return input;
@@ -223,7 +223,7 @@ void TestWorld::Impl::move(Uav& uav, const AgentOutput& output) {
   }
   uav.undelivered -= uav.acks.size();
   uav.acks.clear();
-  for (const CaptureReport& capture : output.captures) uav.acks.push_back(capture.capture);
+  uav.acks.insert(uav.acks.end(), output.captures.begin(), output.captures.end());
   uav.highest_m = std::max(uav.highest_m, uav.state.p_WB.z());
   for (int i = 0; i < 3; ++i) mix(uav.state.p_WB[i]);
   mix(uav.gimbal.yaw);

@@ -25,7 +25,7 @@ class Listen final : public GroundProgram {
   std::vector<RadioMessage> work(const GroundInput& input) override {
     std::set<Node> linked;
     for (const Neighbour& neighbour : input.linked) linked.insert(neighbour.node);
-    for (std::size_t i = 0; i < ground_.fleet.size(); ++i) {
+    for (const UavIndex i : FirstUavs(ground_.fleet.size())) {
       const bool was = linked_.contains(node_of_uav(i)), is = linked.contains(node_of_uav(i));
       if (was != is)
         spdlog::info("{:.2f} s: {} {}", seconds(input.tick), ground_.fleet[i].name, is ? "in sight" : "out of sight");

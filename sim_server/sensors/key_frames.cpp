@@ -1,4 +1,4 @@
-#include "sim_server/sensors/keyframes.hpp"
+#include "sim_server/sensors/key_frames.hpp"
 
 #include <algorithm>
 #include <array>
@@ -39,11 +39,11 @@ std::vector<Eigen::Vector3f> sample_uniformly(std::span<const Eigen::Vector3f> p
   return kept;
 }
 
-KeyframeSelector::Pose KeyframeSelector::pose_of(Tick tick, const Isometry3d& X_WB) {
+KeyFrameSelector::Pose KeyFrameSelector::pose_of(Tick tick, const Isometry3d& X_WB) {
   return {tick, X_WB.translation(), roll_pitch_yaw(X_WB.linear()).yaw};
 }
 
-bool KeyframeSelector::wanted(const Pose& pose) const {
+bool KeyFrameSelector::wanted(const Pose& pose) const {
   if (kept_.empty()) {
     return true;
   }
@@ -60,13 +60,13 @@ bool KeyframeSelector::wanted(const Pose& pose) const {
       neighbours, [&pose](const Pose& kept) { return std::abs(wrap_angle(pose.yaw - kept.yaw)) >= kMinYaw; });
 }
 
-std::optional<Keyframe> KeyframeSelector::offer(const LidarScan& scan, const Isometry3d& X_WB) {
+std::optional<KeyFrame> KeyFrameSelector::offer(const LidarScan& scan, const Isometry3d& X_WB) {
   const Pose pose = pose_of(scan.tick, X_WB);
   if (!wanted(pose)) {
     return std::nullopt;
   }
   kept_.push_back(pose);
-  return Keyframe{kept_.size() - 1, scan.tick, X_WB, sample_uniformly(scan.points_W, kCell)};
+  return KeyFrame{kept_.size() - 1, scan.tick, X_WB, sample_uniformly(scan.points_W, kCell)};
 }
 
 }  // namespace skein::sim

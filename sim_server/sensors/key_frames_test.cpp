@@ -1,5 +1,5 @@
 // Which scans become key frames, and how their clouds are thinned out.
-#include "sim_server/sensors/keyframes.hpp"
+#include "sim_server/sensors/key_frames.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ struct Offer {
 /// Offers scans at poses along x, one after the other.
 void expect_kept(const char* what, const std::vector<Offer>& offers) {
   SCOPED_TRACE(what);
-  KeyframeSelector selector;
+  KeyFrameSelector selector;
   std::uint64_t number = 0;
   for (std::size_t i = 0; i < offers.size(); ++i) {
     const auto& [t_s, x, yaw_deg, kept] = offers[i];

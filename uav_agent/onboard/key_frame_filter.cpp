@@ -1,4 +1,4 @@
-#include "uav_agent/onboard/keyframe_filter.hpp"
+#include "uav_agent/onboard/key_frame_filter.hpp"
 
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/point_cloud.h>
@@ -65,7 +65,7 @@ class Neighbourhood {
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> KeyframeFilter::operator()(const std::vector<Eigen::Vector3f>& points_W,
+std::vector<Eigen::Vector3f> KeyFrameFilter::operator()(const std::vector<Eigen::Vector3f>& points_W,
                                                         const std::vector<KnownBody>& bodies) const {
   const auto sound = [&](const Eigen::Vector3f& p_W) {
     const Vector3d p = p_W.cast<double>();

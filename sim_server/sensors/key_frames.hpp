@@ -13,7 +13,7 @@
 
 namespace skein::sim {
 
-struct Keyframe {
+struct KeyFrame {
   std::uint64_t number = 0;  ///< 0, 1, ... for this UAV
   Tick tick = 0;
   Isometry3d X_WB = Isometry3d::Identity();
@@ -25,7 +25,7 @@ struct Keyframe {
 std::vector<Eigen::Vector3f> sample_uniformly(std::span<const Eigen::Vector3f> points_W, double cell_m);
 
 /// Decides for one UAV. Not thread-safe.
-class KeyframeSelector {
+class KeyFrameSelector {
  public:
   static constexpr Tick kMinAge = kTicksPerSecond;        ///< strictly more than this since the last one
   static constexpr double kMinDistance = 2.0;             ///< strictly more than this to the nearest one [m]
@@ -36,7 +36,7 @@ class KeyframeSelector {
   /// Whether a scan from this pose would become a key frame.
   bool wants(Tick tick, const Isometry3d& X_WB) const { return wanted(pose_of(tick, X_WB)); }
   /// @returns the key frame that this scan becomes, or nullopt. X_WB is the body's pose at the scan's tick.
-  std::optional<Keyframe> offer(const LidarScan& scan, const Isometry3d& X_WB);
+  std::optional<KeyFrame> offer(const LidarScan& scan, const Isometry3d& X_WB);
 
  private:
   struct Pose {

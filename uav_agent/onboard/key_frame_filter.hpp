@@ -14,7 +14,7 @@ struct KnownBody {
   double radius_m = 0.0;  ///< points closer than this are its own
 };
 
-class KeyframeFilter {
+class KeyFrameFilter {
  public:
   struct Config {
     double lowest_m = -1.0;  ///< points outside these heights are dropped
@@ -24,8 +24,8 @@ class KeyframeFilter {
     int lone_min_neighbours = 1;  ///< ...0 keeps all; thin members must survive, so this stays low
   };
 
-  KeyframeFilter() : KeyframeFilter(Config()) {}
-  explicit KeyframeFilter(const Config& config) : config_(config) {}
+  KeyFrameFilter() : KeyFrameFilter(Config()) {}
+  explicit KeyFrameFilter(const Config& config) : config_(config) {}
 
   /// @param bodies own body and those of UAVs in line of sight.
   std::vector<Eigen::Vector3f> operator()(const std::vector<Eigen::Vector3f>& points_W,

@@ -1,0 +1,43 @@
+// Something for each directed link between two radio nodes. On the wire and in files it is row-major: row by sender, column
+// by receiver. Pure.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/ids.hpp"
+
+namespace skein {
+
+template <class T>
+class LinkMatrix {
+ public:
+  LinkMatrix() = default;  ///< of no nodes
+  explicit LinkMatrix(std::size_t nodes, const T& value = T()) : nodes_(nodes), values_(nodes * nodes, value) {}
+  /// @throws std::invalid_argument unless there is a value for each link.
+  LinkMatrix(std::size_t nodes, std::vector<T> row_major) : nodes_(nodes), values_(std::move(row_major)) {
+    if (values_.size() == nodes * nodes) return;
+    throw std::invalid_argument("a link matrix of " + std::to_string(values_.size()) + " entries for " +
+                                std::to_string(nodes) + " radio nodes");
+  }
+
+  T& at(Node from, Node to) { return values_[from * nodes_ + to]; }
+  const T& at(Node from, Node to) const { return values_[from * nodes_ + to]; }
+
+  std::size_t nodes() const { return nodes_; }
+  const std::vector<T>& row_major() const { return values_; }
+  bool operator==(const LinkMatrix&) const = default;
+
+ private:
+  std::size_t nodes_ = 0;
+  std::vector<T> values_;
+};
+
+/// Which links there are: 1 = linked.
+using Links = LinkMatrix<std::uint8_t>;
+
+}  // namespace skein
