@@ -21,8 +21,7 @@ struct CountStore::Head {
   bool operator==(const Head&) const = default;
 };
 
-CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run)
-    : nodes_(nodes) {
+CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run) : nodes_(nodes) {
   const std::size_t links = nodes * nodes, bytes = sizeof(Head) + links * sizeof(LinkCounts);
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   void* memory = MAP_FAILED;

@@ -37,11 +37,7 @@ class CountStoreTest : public testing::Test {
   ~CountStoreTest() override { std::filesystem::remove(file_); }
 
   std::size_t talk() const {
-    const auto all = routes();
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (all[i].ros_topic == "/talk") return i;
-    }
-    return all.size();
+    return static_cast<std::size_t>(std::ranges::find(routes_, "/talk", &RadioRoute::ros_topic) - routes_.begin());
   }
   SentMessage message(std::uint64_t sequence) const {
     return {talk(), sequence, std::make_shared<const std::vector<std::uint8_t>>(8, std::uint8_t{1})};
@@ -49,23 +45,24 @@ class CountStoreTest : public testing::Test {
 
   const std::filesystem::path file_ =
       std::filesystem::path(testing::TempDir()) / ("skein_counts_" + std::to_string(::getpid()));
-  const std::vector<std::uint8_t> linked_{0, 1, 1, 1, 0, 1, 1, 1, 0};
+  const Links linked_{3, {0, 1, 1, 1, 0, 1, 1, 1, 0}};
+  const std::vector<RadioRoute> routes_ = routes();
 };
 
 TEST_F(CountStoreTest, ANewFileHasCountedNothing) {
   const CountStore store(file_, 3);
-  for (const LinkCounts& link : store.earlier_counts()) EXPECT_EQ(link, LinkCounts{});
+  EXPECT_EQ(store.earlier_counts(), LinkMatrix<LinkCounts>(3));
 }
 
 TEST_F(CountStoreTest, WhatItHadAtHandWhenItDiedIsLost) {
-  LinkGate gate(routes(), 3, std::make_unique<SlowLinks>());
+  LinkGate gate(routes_, 3, std::make_unique<SlowLinks>());
   {
     CountStore store(file_, 3);
     store.save(gate, gate.gate(0, linked_, {message(0)}));
     store.save(gate, gate.gate(1, linked_, {message(1), message(2)}));  // under way for one and two steps more
     store.save(gate, gate.gate(2, linked_, {}));                        // delivers the first of them, and dies
   }
-  const LinkCounts to_b = CountStore(file_, 3).earlier_counts()[1 * 3 + 2];
+  const LinkCounts to_b = CountStore(file_, 3).earlier_counts().at(Node{1}, Node{2});
   EXPECT_EQ(to_b.sent, 3U);
   EXPECT_EQ(to_b.delivered, 1U);
   EXPECT_EQ(to_b.dropped_fault, 2U);
@@ -73,18 +70,19 @@ TEST_F(CountStoreTest, WhatItHadAtHandWhenItDiedIsLost) {
   EXPECT_EQ(to_b.delivered_bytes, 8U);
 
   gate.restore(CountStore(file_, 3).earlier_counts());
-  EXPECT_EQ(gate.counts(1, 2), to_b);
+  EXPECT_EQ(gate.counts().at(Node{1}, Node{2}), to_b);
 }
 
 TEST_F(CountStoreTest, WhatAnotherRunCountedIsNotTakenUp) {
-  LinkGate gate(routes(), 3, std::make_unique<SlowLinks>());
+  LinkGate gate(routes_, 3, std::make_unique<SlowLinks>());
   {
     CountStore store(file_, 3, RunId{7});
     store.save(gate, gate.gate(0, linked_, {message(0)}));
   }
-  EXPECT_EQ(CountStore(file_, 3, RunId{7}).earlier_counts()[1 * 3 + 2].sent, 1U);
-  EXPECT_EQ(CountStore(file_, 3, RunId{8}).earlier_counts()[1 * 3 + 2], LinkCounts{});
-  EXPECT_EQ(CountStore(file_, 3, RunId{7}).earlier_counts()[1 * 3 + 2], LinkCounts{}) << "it is the other's now";
+  EXPECT_EQ(CountStore(file_, 3, RunId{7}).earlier_counts().at(Node{1}, Node{2}).sent, 1U);
+  EXPECT_EQ(CountStore(file_, 3, RunId{8}).earlier_counts().at(Node{1}, Node{2}), LinkCounts{});
+  EXPECT_EQ(CountStore(file_, 3, RunId{7}).earlier_counts().at(Node{1}, Node{2}), LinkCounts{})
+      << "it is the other's now";
 }
 
 TEST_F(CountStoreTest, WithoutRoomOnTheDiskItIsAnErrorBeforeTheFirstCount) {

@@ -86,6 +86,7 @@ class LinkGate {
   /// @param links  the model of the links; IdealLinks unless a fault file says otherwise.
   LinkGate(const std::vector<RadioRoute>& routes, std::size_t nodes,
            std::unique_ptr<LinkModel> links = std::make_unique<IdealLinks>());
+  LinkGate(std::vector<RadioRoute>&&, std::size_t, std::unique_ptr<LinkModel> = nullptr) = delete;
 
   /// Judges all messages of step k, and hands out what arrives in step k + 1. Steps come in order.
   /// @param messages  of all members, in an order that is the same in every run (RouterSync's).

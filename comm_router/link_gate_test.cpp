@@ -22,9 +22,10 @@ RadioRoute route(Node source, const std::string& topic, std::vector<Node> target
 std::vector<RadioRoute> all_to_all() {
   std::vector<RadioRoute> routes;
   for (const std::string topic : {"/zulu", "/alpha"}) {
-    for (Node source = kNodes; source-- > 0;) {
+    for (std::size_t n = kNodes; n-- > 0;) {
+      const Node source(n);
       std::vector<Node> targets;
-      for (Node target = 0; target < kNodes; ++target) {
+      for (const Node target : FirstNodes(kNodes)) {
         if (target != source) targets.push_back(target);
       }
       routes.push_back(route(source, topic, targets));
@@ -37,14 +38,14 @@ SentMessage message(std::size_t route_index, std::uint64_t sequence, const std::
   return {route_index, sequence, std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end())};
 }
 
-const std::vector<std::uint8_t> kAllLinked(kNodes* kNodes, 1);
-const std::vector<std::uint8_t> kNoneLinked(kNodes* kNodes, 0);
+const Links kAllLinked(kNodes, 1), kNoneLinked(kNodes, 0);
+const std::vector<RadioRoute> kAllToAll = all_to_all();
 
 /// Random links (not symmetric: the gate must look at the right half of the matrix).
-std::vector<std::uint8_t> random_links(std::mt19937& random) {
+Links random_links(std::mt19937& random) {
   std::vector<std::uint8_t> links(kNodes * kNodes);
   for (std::uint8_t& link : links) link = random() % 2;
-  return links;
+  return {kNodes, std::move(links)};
 }
 
 /// Late by the sequence number modulo 3; of eleven messages two are lost, one does not fit, three come twice.
@@ -59,20 +60,20 @@ class LateLinks final : public LinkModel {
 
 TEST(LinkGate, ExactlyTheLinkedTargetsGetAMessage) {
   std::mt19937 random(1);
-  LinkGate gate(all_to_all(), kNodes);
+  LinkGate gate(kAllToAll, kNodes);
   for (std::uint64_t k = 0; k < 200; ++k) {
-    const std::vector<std::uint8_t> links = random_links(random);
+    const Links links = random_links(random);
     std::vector<SentMessage> messages;
     for (std::size_t r = 0; r < gate.routes().size(); ++r) messages.push_back(message(r, k, "m"));
     const GatedStep step = gate.gate(k, links, messages);
     std::size_t expected = 0;
     for (const RadioRoute& from : gate.routes()) {
-      for (const RadioTarget& to : from.targets) expected += links[from.source * kNodes + to.node];
+      for (const RadioTarget& to : from.targets) expected += links.at(from.source, to.node);
     }
     EXPECT_EQ(step.deliveries.size(), expected);
     for (const Delivery& delivery : step.deliveries) {
       const RadioRoute& from = gate.routes()[delivery.route];
-      EXPECT_EQ(links[from.source * kNodes + from.targets[delivery.target].node], 1);
+      EXPECT_EQ(links.at(from.source, from.targets[delivery.target].node), 1);
       EXPECT_EQ(delivery.sequence, k);
     }
   }
@@ -80,7 +81,7 @@ TEST(LinkGate, ExactlyTheLinkedTargetsGetAMessage) {
 
 TEST(LinkGate, DeliveriesAreOrderedBySourceTopicSequenceTarget) {
   std::mt19937 random(2);
-  LinkGate gate(all_to_all(), kNodes);
+  LinkGate gate(kAllToAll, kNodes);
   std::vector<SentMessage> messages;
   for (std::size_t r = 0; r < gate.routes().size(); ++r) {
     for (std::uint64_t sequence = 0; sequence < 3; ++sequence) messages.push_back(message(r, sequence, "m"));
@@ -95,13 +96,13 @@ TEST(LinkGate, DeliveriesAreOrderedBySourceTopicSequenceTarget) {
   // Members of other nodes may come in any order: what leaves is the same, to the digest.
   const auto source = [&](const SentMessage& m) { return gate.routes()[m.route].source; };
   std::ranges::stable_sort(messages, std::greater{}, source);
-  LinkGate other(all_to_all(), kNodes);
+  LinkGate other(kAllToAll, kNodes);
   EXPECT_EQ(other.gate(0, kAllLinked, messages).digest, step.digest);
 }
 
 TEST(LinkGate, CountsAddUpOnEveryLink) {
   std::mt19937 random(3);
-  LinkGate gate(all_to_all(), kNodes, std::make_unique<LateLinks>());
+  LinkGate gate(kAllToAll, kNodes, std::make_unique<LateLinks>());
   std::vector<std::uint64_t> sequence(gate.routes().size(), 0);
   for (std::uint64_t k = 0; k < 100; ++k) {
     std::vector<SentMessage> messages;
@@ -112,9 +113,9 @@ TEST(LinkGate, CountsAddUpOnEveryLink) {
   }
   for (std::uint64_t k = 100; k < 103; ++k) gate.gate(k, kNoneLinked, {});  // what is late comes in
   LinkCounts sum;
-  for (Node from = 0; from < kNodes; ++from) {
-    for (Node to = 0; to < kNodes; ++to) {
-      const LinkCounts& link = gate.counts(from, to);
+  for (const Node from : FirstNodes(kNodes)) {
+    for (const Node to : FirstNodes(kNodes)) {
+      const LinkCounts& link = gate.counts().at(from, to);
       const std::uint64_t lost = link.dropped_no_los + link.dropped_fault + link.dropped_overflow;
       EXPECT_EQ(link.sent + link.duplicated, link.delivered + lost);
       EXPECT_EQ(link.sent > 0, from != to);
@@ -140,43 +141,47 @@ TEST(LinkGate, CountsAddUpOnEveryLink) {
 }
 
 TEST(LinkGate, ADelayedMessageKeepsTheLinkItWasSentOn) {
-  LinkGate gate({route(1, "/x", {0})}, kNodes, std::make_unique<LateLinks>());
+  const std::vector<RadioRoute> routes = {route(Node{1}, "/x", {kStationNode})};
+  LinkGate gate(routes, kNodes, std::make_unique<LateLinks>());
   EXPECT_TRUE(gate.gate(0, kAllLinked, {message(0, 2, "two steps late")}).deliveries.empty());
   EXPECT_TRUE(gate.gate(1, kNoneLinked, {}).deliveries.empty());
   const GatedStep third = gate.gate(2, kNoneLinked, {message(0, 3, "no line of sight")});
   ASSERT_EQ(third.deliveries.size(), 1U);
   EXPECT_EQ(third.deliveries[0].sequence, 2U);
-  EXPECT_EQ(gate.counts(1, 0), (LinkCounts{.sent = 2,
-                                           .delivered = 1,
-                                           .dropped_no_los = 1,
-                                           .sent_bytes = 30,  // both texts
-                                           .delivered_bytes = 14}));
+  EXPECT_EQ(gate.counts().at(Node{1}, kStationNode), (LinkCounts{.sent = 2,
+                                                                 .delivered = 1,
+                                                                 .dropped_no_los = 1,
+                                                                 .sent_bytes = 30,  // both texts
+                                                                 .delivered_bytes = 14}));
 }
 
 TEST(LinkGate, TheDigestSeesEveryFieldOfADelivery) {
   const auto digest = [](const RadioRoute& from, const SentMessage& sent) {
-    return LinkGate({from}, kNodes).gate(0, kAllLinked, {sent}).digest;
+    const std::vector<RadioRoute> routes = {from};
+    return LinkGate(routes, kNodes).gate(0, kAllLinked, {sent}).digest;
   };
-  const RadioRoute base = route(1, "/x", {2});
+  const RadioRoute base = route(Node{1}, "/x", {Node{2}});
   const auto reference = digest(base, message(0, 5, "hello"));
   EXPECT_EQ(reference.size(), 32U);
   EXPECT_EQ(digest(base, message(0, 5, "hello")), reference);
   EXPECT_NE(digest(base, message(0, 6, "hello")), reference);
   EXPECT_NE(digest(base, message(0, 5, "hellp")), reference);
-  EXPECT_NE(digest(route(3, "/x", {2}), message(0, 5, "hello")), reference);
-  EXPECT_NE(digest(route(1, "/y", {2}), message(0, 5, "hello")), reference);
-  EXPECT_NE(digest(route(1, "/x", {3}), message(0, 5, "hello")), reference);
+  EXPECT_NE(digest(route(Node{3}, "/x", {Node{2}}), message(0, 5, "hello")), reference);
+  EXPECT_NE(digest(route(Node{1}, "/y", {Node{2}}), message(0, 5, "hello")), reference);
+  EXPECT_NE(digest(route(Node{1}, "/x", {Node{3}}), message(0, 5, "hello")), reference);
 }
 
 TEST(LinkGate, NoDeliveryNoDigest) {
-  LinkGate gate({route(1, "/x", {2})}, kNodes);
+  const std::vector<RadioRoute> routes = {route(Node{1}, "/x", {Node{2}})};
+  LinkGate gate(routes, kNodes);
   EXPECT_TRUE(gate.gate(0, kNoneLinked, {message(0, 0, "lost")}).digest.empty());
   EXPECT_TRUE(gate.gate(1, kAllLinked, {}).digest.empty());
 }
 
 TEST(LinkGate, AMatrixOfAnotherSizeIsRefused) {
-  LinkGate gate({route(1, "/x", {2})}, kNodes);
-  EXPECT_THROW(gate.gate(0, std::vector<std::uint8_t>(9, 1), {}), std::invalid_argument);
+  const std::vector<RadioRoute> routes = {route(Node{1}, "/x", {Node{2}})};
+  LinkGate gate(routes, kNodes);
+  EXPECT_THROW(gate.gate(0, Links(3, 1), {}), std::invalid_argument);
   EXPECT_THROW(gate.gate(0, kAllLinked, {message(1, 0, "?")}), std::invalid_argument);
 }
 

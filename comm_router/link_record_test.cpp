@@ -35,7 +35,7 @@ class LinkRecordTest : public testing::Test {
   void send(LinkFate fate, std::uint64_t k, const std::string& topic = captures_topic("changi"),
             Node target = kStationNode) {
     RadioRoute route;
-    route.source = 1;
+    route.source = Node{1};
     route.ros_topic = topic;
     LinkRecord record(std::make_unique<ToldLinks>(fate), scenario_, folder_, unwritten_);
     EXPECT_EQ(record.fate(k, route, target, {}).delay_steps, fate.delay_steps);
@@ -60,7 +60,7 @@ TEST_F(LinkRecordTest, LossAndDelayOfCaptureReportsAreTold) {
   send({.delay_steps = 3}, 6);
   send({.loss = LinkLoss::overflow}, 7);
   send({.loss = LinkLoss::fault}, 8, "/broadcast");
-  send({.loss = LinkLoss::fault}, 9, captures_topic("changi"), 2);
+  send({.loss = LinkLoss::fault}, 9, captures_topic("changi"), Node{2});
   EXPECT_EQ(written(), "step,uav,arrives\n5,changi,\n6,changi,10\n7,changi,\n");
 }
 

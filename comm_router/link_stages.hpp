@@ -51,7 +51,7 @@ class LinkStages final : public LinkModel {
   const FaultPlan faults_;
   const std::uint64_t seed_;
   LinkMatrix<std::vector<Stage>> stages_;
-  std::uint64_t cut_step_ = ~0;             ///< the step to which `cut_` belongs
+  std::uint64_t cut_step_ = ~0;  ///< the step to which `cut_` belongs
   std::optional<LinkMatrix<std::uint8_t>> cut_;
 };
 

@@ -9,7 +9,7 @@
 namespace skein::router {
 namespace {
 
-constexpr Node kA = 1, kB = 2;
+constexpr Node kA = Node{1}, kB = Node{2};
 constexpr std::uint64_t kSeed = 7;
 
 Scenario fleet_of(const std::vector<std::string>& names) {
@@ -86,8 +86,8 @@ TEST(LinkStages, ActsOnAllLinksThatItNamesAndOnNoOther) {
       effect.to = to;
       effect.loss = 1.0;
       LinkStages stages(scenario, plan_of(effect), kSeed);
-      for (Node source = 0; source < 4; ++source) {
-        for (Node target = 0; target < 4; ++target) {
+      for (const Node source : FirstNodes(4)) {
+        for (const Node target : FirstNodes(4)) {
           if (source == target) continue;
           RadioRoute route = kRoute;
           route.source = source;

@@ -35,7 +35,7 @@ class Registry : public testing::Test {
     return {
         .asker = {source, node(source), id}, .listen = true, .source = "", .targets = {}, .name = "/x", .type = type};
   }
-  static Node node(SourceId source) { return source - kStation; }
+  static Node node(SourceId source) { return Node(source - kStation); }
 
   std::vector<RadioReply> step(const std::vector<RadioRequest>& requests = {}) {
     registry_.begin_step(requests);
@@ -67,7 +67,7 @@ TEST_F(Registry, OpensOnceTheWriterIsFound) {
   EXPECT_FALSE(registry_.waiting());
   const auto replies = registry_.end_step();
   ASSERT_EQ(replies.size(), 1U);
-  EXPECT_EQ(replies[0], (RadioReply{.asker = {kA, 1, 5}, .open = true, .unheard = {"gcs", "b"}}));
+  EXPECT_EQ(replies[0], (RadioReply{.asker = {kA, Node{1}, 5}, .open = true, .unheard = {"gcs", "b"}}));
   EXPECT_EQ(admitted_, std::set<SourceId>{kA});
   EXPECT_TRUE(step().empty()) << "nothing has changed";
 }
@@ -104,11 +104,11 @@ TEST_F(Registry, WhoAsksInVainAgainAndAgainIsNotWaitedForAnyMore) {
 }
 
 TEST_F(Registry, ListenersMayComeFirstOrLater) {
-  EXPECT_EQ(step({listening(kB, 1)}).at(0), (RadioReply{.asker = {kB, 2, 1}})) << "nobody sends yet";
+  EXPECT_EQ(step({listening(kB, 1)}).at(0), (RadioReply{.asker = {kB, Node{2}, 1}})) << "nobody sends yet";
   const auto replies = step({sending(kA, 1)});
   ASSERT_EQ(replies.size(), 2U);
   EXPECT_EQ(replies[0].unheard, (std::vector<std::string>{"gcs", "b"})) << "b has yet to open its reader";
-  EXPECT_EQ(replies[1], (RadioReply{.asker = {kB, 2, 1}, .open = true}));
+  EXPECT_EQ(replies[1], (RadioReply{.asker = {kB, Node{2}, 1}, .open = true}));
   reaches_.clear();
   registry_.begin_step({listening(kStation, 1)});
   EXPECT_TRUE(registry_.waiting()) << "b says by its answer that it has found us; we wait until we have found it";
@@ -121,7 +121,7 @@ TEST_F(Registry, ListenersMayComeFirstOrLater) {
 }
 
 TEST_F(Registry, DeclaredReadersHear) {
-  declared_ = {0, 2};
+  declared_ = {Node{0}, Node{2}};
   EXPECT_TRUE(step({sending(kA, 1)}).at(0).unheard.empty());
 }
 

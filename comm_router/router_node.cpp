@@ -168,8 +168,7 @@ RadioEndpoints RouterNode::endpoints() {
     return std::find_if(arrivals_.begin(), arrivals_.end(),
                         [&](const Arrival& a) { return a.node == target.node && a.topic == target.topic; });
   };
-  return {.open =
-              [this](std::size_t route) { open_route(route); },
+  return {.open = [this](std::size_t route) { open_route(route); },
           .close = [this](std::size_t route) { close_route(route); },
           .hears = [this](std::size_t route,
                           SourceId source) { return bus::contains(radio_readers_[route]->matched(), source); },

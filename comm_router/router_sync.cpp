@@ -24,8 +24,7 @@ std::optional<std::uint64_t> count_of(const std::vector<SentCount>& sent, const 
 
 }  // namespace
 
-void RouterSync::on_step(std::uint64_t k, std::uint32_t epoch, std::vector<RadioMember> members,
-                         Links links) {
+void RouterSync::on_step(std::uint64_t k, std::uint32_t epoch, std::vector<RadioMember> members, Links links) {
   if (last_k_ && k <= *last_k_) return;
   for (const RadioMember& member : members) {
     if (!gone_.contains(member.source)) senders_[member.source].member = member.name;

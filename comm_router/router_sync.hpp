@@ -50,7 +50,7 @@ struct StepBatch {
   std::uint64_t k = 0;
   std::uint32_t epoch = 0;
   Links links;
-  std::vector<SentMessage> messages;   ///< by member as the step lists them, route, sequence
+  std::vector<SentMessage> messages;    ///< by member as the step lists them, route, sequence
   std::vector<RequestSample> requests;  ///< by member as the step lists them, sequence
 };
 

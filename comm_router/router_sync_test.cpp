@@ -18,8 +18,8 @@ constexpr std::size_t kUavs = 4;
 std::vector<RadioRoute> some_routes() {
   std::vector<RadioRoute> routes;
   const std::string type = "t/msg/T", wire = "t::msg::dds_::T_";
-  for (Node node = 0; node <= kUavs; ++node) routes.push_back({node, "/x", type, "rt/x", wire, {}});
-  for (Node node = 1; node <= kUavs; ++node) routes.push_back({node, "/y", type, "rt/y", wire, {}});
+  for (const Node node : FirstNodes(kUavs + 1)) routes.push_back({node, "/x", type, "rt/x", wire, {}});
+  for (const UavIndex uav : FirstUavs(kUavs)) routes.push_back({node_of_uav(uav), "/y", type, "rt/y", wire, {}});
   return routes;
 }
 
@@ -60,7 +60,8 @@ using Lane = std::vector<std::function<void(RouterSync&)>>;
 class Fleet {
  public:
   Fleet(const std::vector<RadioRoute>& routes, std::mt19937& random) : routes_(routes), random_(random) {
-    for (Node node = 0; node <= kUavs; ++node) join(node, node == 0 ? "gcs" : "uav" + std::to_string(node));
+    for (const Node node : FirstNodes(kUavs + 1))
+      join(node, node == kStationNode ? "gcs" : "uav" + std::to_string(node));
     join(kStationNode, "station");  // a second program at the ground station
   }
 
@@ -182,19 +183,19 @@ TEST(RouterSync, TheNextStepsSamplesMayComeBeforeItsStep) {
   sync.on_radio(7, 1, payload("a"));
   sync.on_done(7, 0, {{"rt/x", 1}});
   EXPECT_FALSE(sync.take());  // no step yet
-  sync.on_step(0, 0, {{"uav1", 7, 1}}, {});
+  sync.on_step(0, 0, {{"uav1", 7, Node{1}}}, {});
   ASSERT_EQ(describe(*sync.take()), std::vector<std::string>{"1#0:a"});
 
   sync.on_done(7, 1, {{"rt/x", 3}});
   sync.on_radio(7, 1, payload("b"));
-  sync.on_step(1, 0, {{"uav1", 7, 1}}, {});
+  sync.on_step(1, 0, {{"uav1", 7, Node{1}}}, {});
   EXPECT_FALSE(sync.take());
   EXPECT_EQ(awaited(sync), std::vector<std::string>{"uav1: rt/x 2 of 3"});
   sync.on_radio(7, 1, payload("c"));
   sync.on_radio(7, 1, payload("d"));  // beyond the count: of the next step
   ASSERT_EQ(describe(*sync.take()), (std::vector<std::string>{"1#1:b", "1#2:c"}));
 
-  sync.on_step(2, 0, {{"uav1", 7, 1}}, {});
+  sync.on_step(2, 0, {{"uav1", 7, Node{1}}}, {});
   EXPECT_EQ(awaited(sync), std::vector<std::string>{"uav1: done"});
   sync.on_done(7, 2, {{"rt/x", 4}});
   ASSERT_EQ(describe(*sync.take()), std::vector<std::string>{"1#3:d"});
@@ -204,27 +205,27 @@ TEST(RouterSync, ARestartedRouterCountsOnFromTheBase) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   sync.set_base(7, "rt/x", 40);
-  sync.on_step(12, 3, {{"uav1", 7, 1}}, {1});
+  sync.on_step(12, 3, {{"uav1", 7, Node{1}}}, Links(1, 1));
   sync.on_radio(7, 1, payload("a"));
   sync.on_done(7, 12, {{"rt/x", 41}});
   const std::optional<StepBatch> batch = sync.take();
   ASSERT_TRUE(batch);
   EXPECT_EQ(describe(*batch), std::vector<std::string>{"1#40:a"});
   EXPECT_EQ(batch->epoch, 3U);
-  EXPECT_EQ(batch->links, std::vector<std::uint8_t>{1});
+  EXPECT_EQ(batch->links, Links(1, 1));
 }
 
 TEST(RouterSync, ADroppedMemberNeverComesBackUnderItsOldIdentity) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   sync.on_drop(0, 7);
-  sync.on_step(0, 0, {{"uav1", 7, 1}, {"uav2", 8, 2}}, {});
+  sync.on_step(0, 0, {{"uav1", 7, Node{1}}, {"uav2", 8, Node{2}}}, {});
   sync.on_radio(7, 1, payload("late"));
   sync.on_done(7, 0, {{"rt/x", 1}});
   EXPECT_FALSE(sync.take());
   sync.on_done(8, 0, {});
   EXPECT_TRUE(sync.take()->messages.empty());
-  sync.on_step(1, 1, {{"uav1", 9, 1}}, {});
+  sync.on_step(1, 1, {{"uav1", 9, Node{1}}}, {});
   sync.on_radio(7, 1, payload("later"));
   sync.on_radio(9, 1, payload("fresh"));
   sync.on_done(9, 1, {{"rt/x", 1}});
@@ -236,7 +237,7 @@ TEST(RouterSync, NamesWhomItAwaitsAndNobodyWhoIsGone) {
   RouterSync sync(routes);
   EXPECT_EQ(sync.missing_answers(), 0U);
   sync.on_drop(0, 9);
-  sync.on_step(0, 0, {{"uav1", 7, 1}, {"uav2", 8, 2}, {"uav3", 9, 3}}, {});
+  sync.on_step(0, 0, {{"uav1", 7, Node{1}}, {"uav2", 8, Node{2}}, {"uav3", 9, Node{3}}}, {});
   EXPECT_FALSE(sync.take()) << "from here on number 9 is gone";
   EXPECT_EQ(awaited(sync), (std::vector<std::string>{"uav1: done", "uav2: done"}));
   EXPECT_EQ(sync.missing_answers(), 2U);
@@ -253,7 +254,7 @@ TEST(RouterSync, AStrangerCannotFillTheMemoryNorSpeakLater) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   for (int i = 0; i < 10000; ++i) sync.on_radio(66, 1, payload("spam"));
-  sync.on_step(0, 0, {{"uav1", 66, 1}, {"uav2", 8, 2}}, {});
+  sync.on_step(0, 0, {{"uav1", 66, Node{1}}, {"uav2", 8, Node{2}}}, {});
   sync.on_done(8, 0, {});
   const std::optional<StepBatch> batch = sync.take();
   ASSERT_TRUE(batch);
@@ -267,7 +268,7 @@ TEST(RouterSync, ARouteThatIsBoundToAMemberIsNotOpenToItsNeighbour) {
   for (std::uint64_t k = 0; k < 3; ++k) {
     sync.on_radio(66, 0, payload("forged"));  // in the first step before it is a member
     sync.on_radio(7, 0, payload("true"));
-    sync.on_step(k, 0, {{"gcs", 66, 0}, {"station", 7, 0}}, {});
+    sync.on_step(k, 0, {{"gcs", 66, Node{0}}, {"station", 7, Node{0}}}, {});
     sync.on_done(66, k, {{"rt/x", 9 * (k + 1)}});  // nor is it waited for
     sync.on_done(7, k, {{"rt/x", k + 1}});
     const std::optional<StepBatch> batch = sync.take();
@@ -280,7 +281,7 @@ TEST(RouterSync, AMemberThatNeverAnnouncesCannotFillTheMemory) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   const Payload sample = payload("spam");
-  sync.on_step(0, 0, {{"uav1", 7, 1}}, {});
+  sync.on_step(0, 0, {{"uav1", 7, Node{1}}}, {});
   for (int i = 0; i < 100000; ++i) sync.on_radio(7, 1, sample);
   EXPECT_LT(sample.use_count(), 10000) << "so many of them are kept";
 }

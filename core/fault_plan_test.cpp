@@ -158,12 +158,12 @@ TEST_F(FaultFile, ContradictionsAreRefused) {
 
 TEST_F(FaultFile, CutLinksFollowThePlan) {
   const FaultPlan plan = load("faults: [{at_s: 10, until_s: 20, blackout: jurong}, {at_s: 15, station_outage: true}]");
-  EXPECT_TRUE(cut_links(plan, fleet(), ticks(5.0)).empty());
-  const std::vector<std::uint8_t> jurong = {0, 1, 0, 1, 0, 1, 0, 1, 0};  // gcs, jurong, changi
+  EXPECT_EQ(cut_links(plan, fleet(), ticks(5.0)), std::nullopt);
+  const LinkMatrix<std::uint8_t> jurong(3, {0, 1, 0, 1, 0, 1, 0, 1, 0});  // gcs, jurong, changi
   EXPECT_EQ(cut_links(plan, fleet(), ticks(10.0)), jurong);
-  const std::vector<std::uint8_t> both = {0, 1, 1, 1, 0, 1, 1, 1, 0};
+  const LinkMatrix<std::uint8_t> both(3, {0, 1, 1, 1, 0, 1, 1, 1, 0});
   EXPECT_EQ(cut_links(plan, fleet(), ticks(15.0)), both);
-  const std::vector<std::uint8_t> station = {0, 1, 1, 1, 0, 0, 1, 0, 0};
+  const LinkMatrix<std::uint8_t> station(3, {0, 1, 1, 1, 0, 0, 1, 0, 0});
   EXPECT_EQ(cut_links(plan, fleet(), ticks(20.0)), station);
 }
 

@@ -45,7 +45,7 @@ std::string complaint(const std::vector<RadioTopicConfig>& declared) {
 TEST(RadioRoutes, CapturesAndAcknowledgementsAreAlwaysThere) {
   const std::vector<RadioRoute> routes = radio_routes(three_uavs());
   ASSERT_EQ(routes.size(), 10U) << "and those of /plan";
-  for (std::size_t uav = 0; uav < 3; ++uav) {
+  for (const UavIndex uav : FirstUavs(3)) {
     const RadioRoute& report = routes[2 * uav];
     const RadioRoute& ack = routes[2 * uav + 1];
     EXPECT_EQ(report.source, node_of_uav(uav));
@@ -76,7 +76,7 @@ TEST(RadioRoutes, AllMeansEveryOtherNode) {
   scenario.radio = {{"/broadcast", "std_msgs/msg/String", {"all"}, {"all"}}};
   const std::vector<RadioRoute> routes = routes_of(scenario, "/broadcast");
   ASSERT_EQ(routes.size(), 4U);
-  for (Node source = 0; source < 4; ++source) {
+  for (const Node source : FirstNodes(4)) {
     EXPECT_EQ(routes[source].source, source);
     EXPECT_EQ(routes[source].topic, "rt/broadcast");
     EXPECT_EQ(routes[source].type, "std_msgs::msg::dds_::String_");
@@ -93,7 +93,7 @@ TEST(RadioRoutes, AllSourcesLeavesOutTheOnlyTarget) {
   scenario.radio = {{"/status", "std_msgs/msg/String", {"all"}, {"gcs"}}};
   const std::vector<RadioRoute> routes = routes_of(scenario, "/status");
   ASSERT_EQ(routes.size(), 3U);
-  EXPECT_EQ(routes[0].source, node_of_uav(0));
+  EXPECT_EQ(routes[0].source, node_of_uav(UavIndex{0}));
 }
 
 TEST(RadioRoutes, OneTopicMayHaveOtherTargetsForOtherSources) {
@@ -112,7 +112,7 @@ TEST(RadioRoutes, TheScoreNeverGoesOnTheRadio) {
       const std::string said = complaint({{name, cloud, {source}, {"all"}}});
       EXPECT_NE(said.find("radio.topics[0].name: '" + name + "' is the station's own"), std::string::npos) << said;
     }
-    for (Node node = 0; node <= scenario.fleet.size(); ++node) {
+    for (const Node node : FirstNodes(scenario.fleet.size() + 1)) {
       EXPECT_THROW(table.open(node, name, cloud, {"all"}), InputError) << name << " from node " << node;
       EXPECT_THROW(table.arrival(node, name, cloud), InputError) << name << " at node " << node;
     }
@@ -199,19 +199,20 @@ TEST(RadioTable, GrowsWithoutChangingNumbers) {
   const Scenario scenario = three_uavs();
   RadioTable table(scenario);
   const std::size_t declared = table.routes().size();
-  EXPECT_EQ(table.open(1, "/note", "some/msg/Note", {"sentosa"}), declared);
-  EXPECT_EQ(table.open(2, "/note", "some/msg/Note", {"all"}), declared + 1);
-  EXPECT_EQ(table.open(1, "/note", "some/msg/Note", {"gcs", "sentosa"}), declared) << "more targets, the same route";
+  EXPECT_EQ(table.open(Node{1}, "/note", "some/msg/Note", {"sentosa"}), declared);
+  EXPECT_EQ(table.open(Node{2}, "/note", "some/msg/Note", {"all"}), declared + 1);
+  EXPECT_EQ(table.open(Node{1}, "/note", "some/msg/Note", {"gcs", "sentosa"}), declared)
+      << "more targets, the same route";
   EXPECT_EQ(arrivals(table.routes()[declared]), (std::vector<std::string>{"rt/note/sentosa", "rt/note/gcs"}));
   EXPECT_EQ(arrivals(table.routes()[declared + 1]),
             (std::vector<std::string>{"rt/note/gcs", "rt/note/jurong", "rt/note/sentosa"}));
-  EXPECT_EQ(table.arrival(2, "/note", "some/msg/Note").topic, "rt/note/raffles");
+  EXPECT_EQ(table.arrival(Node{2}, "/note", "some/msg/Note").topic, "rt/note/raffles");
 }
 
 TEST(RadioTable, RefusalsSayWhyAndChangeNothing) {
   const Scenario scenario = three_uavs();
   RadioTable table(scenario);
-  table.open(1, "/note", "some/msg/Note", {"sentosa"});
+  table.open(Node{1}, "/note", "some/msg/Note", {"sentosa"});
   const std::size_t before = table.routes().size();
   const struct {
     std::string name, type;
@@ -229,13 +230,13 @@ TEST(RadioTable, RefusalsSayWhyAndChangeNothing) {
                {"/clock", "some/msg/Note", {"all"}, "is taken by a topic that Skein writes"},
                {"/jurong", "some/msg/Note", {"all"}, ""}};
   for (const auto& w : wrong) {
-    const std::string said = refusal(table, 1, w.name, w.type, w.targets);
+    const std::string said = refusal(table, Node{1}, w.name, w.type, w.targets);
     EXPECT_NE(said.find(w.reason), std::string::npos) << w.name << ": " << said;
     EXPECT_EQ(said.empty(), w.reason.empty()) << said;
   }
   EXPECT_EQ(table.routes().size(), before + 1) << "the last one made sense";
-  EXPECT_THROW(table.arrival(1, "/note", "some/msg/Other"), InputError);
-  EXPECT_NO_THROW(table.arrival(1, "/not_yet", "some/msg/Other"));
+  EXPECT_THROW(table.arrival(Node{1}, "/note", "some/msg/Other"), InputError);
+  EXPECT_NO_THROW(table.arrival(Node{1}, "/not_yet", "some/msg/Other"));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST_F(ScenarioReader, FillsTheFleetFromItsVehicles) {
 TEST_F(ScenarioReader, NamesNodes) {
   const Scenario read = load_scenario(scenario("{family: towers}"), options_);
   EXPECT_EQ(read.node_name(kStationNode), "gcs");
-  EXPECT_EQ(read.node_name(2), "changi");
+  EXPECT_EQ(read.node_name(Node{2}), "changi");
   EXPECT_EQ(read.uav_index("changi"), 1u);
   EXPECT_THROW(read.uav_index("gcs"), InputError);
 }

@@ -31,7 +31,7 @@ Mission random_mission(std::uint64_t key) {
   for (int i = 0; i < 120; ++i) {
     tick += static_cast<Tick>(41 * below(2));
     CaptureReport report;
-    report.uav = below(kUavs);
+    report.uav = UavIndex(below(kUavs));
     report.capture = number[report.uav]++;
     report.tick = tick;
     for (std::uint32_t point = 0; point < kPoints; ++point) {
@@ -42,7 +42,7 @@ Mission random_mission(std::uint64_t key) {
     }
     mission.captures.push_back(report);
   }
-  for (std::size_t uav = 0; uav < kUavs; ++uav) {
+  for (const UavIndex uav : FirstUavs(kUavs)) {
     if (below(3) == 0) {
       mission.collided.push_back(uav);
     }
@@ -77,7 +77,7 @@ void expect_tally(const ScoreTable& table, const std::vector<PointTally>& expect
   }
   EXPECT_EQ(table.points_detected(), detected);
   const std::vector<double> found = table.score_by_uav();
-  for (std::size_t uav = 0; uav < kUavs; ++uav) {
+  for (const UavIndex uav : FirstUavs(kUavs)) {
     EXPECT_NEAR(found[uav], by_uav[uav], 1e-9);
   }
   EXPECT_EQ(table.score(), std::accumulate(found.begin(), found.end(), 0.0));
@@ -94,7 +94,7 @@ TEST(ScoreTable, LikeBruteForce) {
         table.add(report);
       }
       for (const std::size_t uav : mission.collided) {
-        table.collide(uav);
+        table.collide(UavIndex(uav));
       }
       expect_tally(table, brute_force(mission, rules));
     }
@@ -117,7 +117,7 @@ TEST(ScoreTable, OrderAndRepetitionDoNotMatter) {
     for (const std::size_t event : order) {
       const auto changes =
           event < mission.collided.size()
-              ? table.collide(mission.collided[event])
+              ? table.collide(UavIndex(mission.collided[event]))
               : table.add(mission.captures[(event - mission.collided.size()) % mission.captures.size()]);
       for (const TallyChange& change : changes) {
         EXPECT_NE(rebuilt[change.point], change.now) << "told without a change";
@@ -131,22 +131,22 @@ TEST(ScoreTable, OrderAndRepetitionDoNotMatter) {
 
 TEST(ScoreTable, CollisionGivesThePointToTheNextBest) {
   ScoreTable table(3, 1, RulesConfig{});
-  table.add({0, 0, 100, 1, {{0, 1.0F, 0.6F, 0.6F}}});
-  table.add({1, 0, 200, 2, {{0, 1.0F, 0.9F, 0.9F}}});
+  table.add({UavIndex{0}, 0, 100, 1, {{0, 1.0F, 0.6F, 0.6F}}});
+  table.add({UavIndex{1}, 0, 200, 2, {{0, 1.0F, 0.9F, 0.9F}}});
   EXPECT_EQ(table.points()[0].uav, 1U);
-  const auto changes = table.collide(1);
+  const auto changes = table.collide(UavIndex{1});
   ASSERT_EQ(changes.size(), 1U);
-  EXPECT_EQ(changes[0], (TallyChange{0, {0.6F, 0, 0, 100}}));
-  EXPECT_TRUE(table.add({1, 1, 300, 3, {{0, 1.0F, 1.0F, 1.0F}}}).empty()) << "later captures are lost too";
-  EXPECT_TRUE(table.collide(1).empty());
-  EXPECT_EQ(table.collide(0), (std::vector<TallyChange>{{0, PointTally{}}}));
+  EXPECT_EQ(changes[0], (TallyChange{0, {0.6F, UavIndex{0}, 0, 100}}));
+  EXPECT_TRUE(table.add({UavIndex{1}, 1, 300, 3, {{0, 1.0F, 1.0F, 1.0F}}}).empty()) << "later captures are lost too";
+  EXPECT_TRUE(table.collide(UavIndex{1}).empty());
+  EXPECT_EQ(table.collide(UavIndex{0}), (std::vector<TallyChange>{{0, PointTally{}}}));
   EXPECT_EQ(table.score(), 0.0);
   EXPECT_EQ(table.points_detected(), 0U);
 }
 
 TEST(ScoreTable, ThresholdIsInclusive) {
   ScoreTable table(1, 2, RulesConfig{});
-  table.add({0, 0, 0, 0, {{0, 1.0F, 0.2F, 0.2F}, {1, 1.0F, 0.19999F, 0.19999F}}});
+  table.add({UavIndex{0}, 0, 0, 0, {{0, 1.0F, 0.2F, 0.2F}, {1, 1.0F, 0.19999F, 0.19999F}}});
   EXPECT_EQ(table.points_detected(), 1U);
   EXPECT_EQ(table.points()[0].q, 0.2F);
 }
@@ -155,16 +155,16 @@ TEST(ScoreTable, WhatCountsForLessIsNotDetected) {
   RulesConfig rules;
   rules.min_point_score = 0.0;
   ScoreTable table(1, 3, rules);
-  table.add({0, 0, 0, 0, {{0, 1.0F, 0.2F, 0.2F}, {1, 1.0F, 0.05F, 0.05F}}});
+  table.add({UavIndex{0}, 0, 0, 0, {{0, 1.0F, 0.2F, 0.2F}, {1, 1.0F, 0.05F, 0.05F}}});
   EXPECT_EQ(table.points_detected(), 1U);
   EXPECT_FLOAT_EQ(static_cast<float>(table.score()), 0.25F);
 }
 
 TEST(ScoreTable, RefusesWhatDoesNotExist) {
   ScoreTable table(2, 3, RulesConfig{});
-  EXPECT_THROW(table.add({2, 0, 0, 0, {}}), std::out_of_range);
-  EXPECT_THROW(table.add({0, 0, 0, 0, {{0, 1.0F, 1.0F, 1.0F}, {3, 1.0F, 1.0F, 1.0F}}}), std::out_of_range);
-  EXPECT_THROW(table.collide(2), std::out_of_range);
+  EXPECT_THROW(table.add({UavIndex{2}, 0, 0, 0, {}}), std::out_of_range);
+  EXPECT_THROW(table.add({UavIndex{0}, 0, 0, 0, {{0, 1.0F, 1.0F, 1.0F}, {3, 1.0F, 1.0F, 1.0F}}}), std::out_of_range);
+  EXPECT_THROW(table.collide(UavIndex{2}), std::out_of_range);
   EXPECT_EQ(table.score(), 0.0) << "a bad report must leave nothing behind";
 }
 

@@ -34,7 +34,7 @@ Sha256& Sha256::operator=(const Sha256& other) {
   return *this;
 }
 
-Sha256& Sha256::add(double value) { return add_word(std::bit_cast<std::uint64_t>(value)); }
+Sha256& Sha256::add_double(double value) { return add_word(std::bit_cast<std::uint64_t>(value)); }
 
 Sha256& Sha256::add(const Vector3d& value) { return add(value.x()).add(value.y()).add(value.z()); }
 

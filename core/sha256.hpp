@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -33,7 +34,12 @@ class Sha256 {
   requires std::is_integral_v<Integer> Sha256& add(Integer value) {
     return add_word(static_cast<std::uint64_t>(value));
   }
-  Sha256& add(double value);
+  template <class Tag>
+  Sha256& add(Id<Tag> id) {
+    return add(static_cast<std::size_t>(id));
+  }
+  /// Of a double and of nothing that only converts to one.
+  Sha256& add(std::same_as<double> auto value) { return add_double(value); }
   Sha256& add(const Vector3d& value);     ///< x, y, z
   Sha256& add(const Quaterniond& value);  ///< w, x, y, z; the sign as it is
   /// The length, then the bytes.
@@ -54,6 +60,7 @@ class Sha256 {
   };
 
   Sha256& add_word(std::uint64_t value);
+  Sha256& add_double(double value);
   void update(const void* data, std::size_t size);
 
   std::unique_ptr<evp_md_ctx_st, Free> context_;

@@ -61,9 +61,9 @@ TEST(Topics, FieldsOfACloudLieSideBySide) {
 TEST(Topics, DomainsFollowTheFleetOrder) {
   EXPECT_EQ(world_domain(10), 10);
   EXPECT_EQ(gcs_domain(10), 11);
-  EXPECT_EQ(uav_domain(10, 3), 15);
+  EXPECT_EQ(uav_domain(10, UavIndex{3}), 15);
   EXPECT_EQ(node_domain(10, kStationNode), gcs_domain(10));
-  EXPECT_EQ(node_domain(10, node_of_uav(3)), uav_domain(10, 3));
+  EXPECT_EQ(node_domain(10, node_of_uav(UavIndex{3})), uav_domain(10, UavIndex{3}));
 }
 
 }  // namespace

@@ -155,8 +155,11 @@ TEST(Conversions, InterestPointsReachTheStationAsTheyAre) {
 
 TEST(Conversions, LedgerEntriesComeBackByName) {
   const std::vector<std::string> fleet = {"jurong", "raffles"};
-  LedgerEntry entry{
-      .index = 3, .tick = 41, .uav = UavIndex{1}, .collision = false, .capture = {1, 2, 41, 77, {{5, 0.5F, 0.5F, 0.25F}}}};
+  LedgerEntry entry{.index = 3,
+                    .tick = 41,
+                    .uav = UavIndex{1},
+                    .collision = false,
+                    .capture = {UavIndex{1}, 2, 41, 77, {{5, 0.5F, 0.5F, 0.25F}}}};
   const auto back = from_message(travelled(to_message(entry, fleet)), fleet);
   ASSERT_TRUE(back);
   EXPECT_EQ(*back, entry);

@@ -60,24 +60,24 @@ TEST(ExchangePeriod, AFleetFliesItsPathAtAnyPace) {
     const auto lane = [](UavIndex uav) { return 10.0 * static_cast<double>(uav); };
     fleet.fly(
         8.0,
-        [&](std::size_t i, double) {
+        [&](UavIndex i, double) {
           return TrajectoryCommand{.p_WB = {0.5, lane(i), 6}};
         },
         [] {});
     double off = 0.0, fastest = 0.0;
     fleet.fly(
         16.0,
-        [&](std::size_t i, double) {
+        [&](UavIndex i, double) {
           return TrajectoryCommand{.p_WB = {24.5, lane(i), 6}};
         },
         [&] {
-          for (std::size_t i = 0; i < 2; ++i) {
+          for (const UavIndex i : FirstUavs(2)) {
             const RigidBodyState& state = fleet.simulation().uav(i).state;
             off = std::max({off, std::abs(state.p_WB.y() - lane(i)), std::abs(state.p_WB.z() - 6.0)});
             fastest = std::max(fastest, state.v_WB.x());
           }
         });
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (const UavIndex i : FirstUavs(2)) {
       const Vector3d& p = fleet.simulation().uav(i).state.p_WB;
       EXPECT_LT((p - Vector3d(24.5, lane(i), 6)).norm(), 0.2) << seconds(period) << " s, UAV " << i;
     }
@@ -89,12 +89,12 @@ TEST(ExchangePeriod, AFleetFliesItsPathAtAnyPace) {
 TEST(ExchangePeriod, AVelocityIsKeptFromCommandToCommand) {
   for (const Tick period : periods()) {
     Paced fleet(period);
-    const auto up = [](std::size_t i, double) { return TrajectoryCommand{.p_WB = {0.5, 10.0 * i, 6}}; };
+    const auto up = [](UavIndex i, double) { return TrajectoryCommand{.p_WB = {0.5, 10.0 * i, 6}}; };
     fleet.fly(8.0, up, [] {});
-    const auto ahead = [](std::size_t, double) { return TrajectoryCommand{.v_WB = {2, 0, 0}}; };
+    const auto ahead = [](UavIndex, double) { return TrajectoryCommand{.v_WB = {2, 0, 0}}; };
     fleet.fly(4.0, ahead, [] {});
     double slowest = 10.0;
-    fleet.fly(4.0, ahead, [&] { slowest = std::min(slowest, fleet.simulation().uav(0).state.v_WB.x()); });
+    fleet.fly(4.0, ahead, [&] { slowest = std::min(slowest, fleet.simulation().uav(UavIndex{0}).state.v_WB.x()); });
     EXPECT_GT(slowest, 1.7) << seconds(period) << " s";
   }
 }
@@ -104,14 +104,15 @@ TEST(ExchangePeriod, AGimbalTurnsFromRateCommandToRateCommand) {
     Paced fleet(period);
     Simulation& simulation = fleet.simulation();
     while (simulation.tick() < ticks(2.0)) {
-      simulation.command_gimbal(0, {GimbalMode::rate, 0.0, 0.4});
+      simulation.command_gimbal(UavIndex{0}, {GimbalMode::rate, 0.0, 0.4});
       simulation.advance();
     }
-    EXPECT_NEAR(simulation.uav(0).gimbal.yaw, 0.4 * seconds(simulation.tick()), 0.4 * 0.051) << seconds(period);
+    EXPECT_NEAR(simulation.uav(UavIndex{0}).gimbal.yaw, 0.4 * seconds(simulation.tick()), 0.4 * 0.051)
+        << seconds(period);
     for (int i = 0; i * period < ticks(2.0); ++i) simulation.advance();
-    const double yaw = simulation.uav(0).gimbal.yaw;
+    const double yaw = simulation.uav(UavIndex{0}).gimbal.yaw;
     simulation.advance();
-    EXPECT_EQ(simulation.uav(0).gimbal.yaw, yaw) << "without another it stops, " << seconds(period) << " s";
+    EXPECT_EQ(simulation.uav(UavIndex{0}).gimbal.yaw, yaw) << "without another it stops, " << seconds(period) << " s";
   }
 }
 

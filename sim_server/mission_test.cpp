@@ -6,7 +6,7 @@ namespace skein::sim {
 namespace {
 
 constexpr double kRest = 0.16;
-const BodyId kGround{BodyId::Kind::ground, 0}, kStructure{BodyId::Kind::structure, 0};
+const BodyId kGround{BodyId::Kind::ground, UavIndex{0}}, kStructure{BodyId::Kind::structure, UavIndex{0}};
 
 RigidBodyState at(double z, double speed) { return {.p_WB = {0, 0, z}, .v_WB = {0, 0, speed}}; }
 RigidBodyState resting() { return at(kRest, 0.0); }
@@ -33,8 +33,8 @@ TEST_F(MissionTest, ClockStartsAtTheFirstTakeOff) {
   m.update(4, {resting(), at(kRest + 0.11, 0.11)}, {});
   EXPECT_EQ(m.phase(), Phase::flying);
   EXPECT_EQ(m.start_tick(), 4);
-  EXPECT_TRUE(m.airborne(1));
-  EXPECT_FALSE(m.airborne(0));
+  EXPECT_TRUE(m.airborne(UavIndex{1}));
+  EXPECT_FALSE(m.airborne(UavIndex{0}));
   EXPECT_DOUBLE_EQ(m.remaining_s(4 + 400), 9.0);
 }
 
@@ -48,8 +48,8 @@ TEST_F(MissionTest, EndsAfterItsDurationAndStaysEnded) {
   EXPECT_EQ(m.end(), MissionEnd::duration);
   EXPECT_EQ(m.end_tick(), 4100);
   EXPECT_EQ(m.remaining_s(4100), 0.0);
-  EXPECT_TRUE(m.update(4101, {flying()}, {{0, kStructure, Vector3d::Zero()}}).empty());
-  EXPECT_TRUE(m.alive(0));
+  EXPECT_TRUE(m.update(4101, {flying()}, {{UavIndex{0}, kStructure, Vector3d::Zero()}}).empty());
+  EXPECT_TRUE(m.alive(UavIndex{0}));
 }
 
 TEST_F(MissionTest, EndsWhenNobodyTakesOff) {
@@ -66,7 +66,7 @@ TEST_F(MissionTest, EndsWhenEveryoneIsDeadOrHasLanded) {
   m.update(1, {flying(), flying(), resting()}, {});
   m.update(2, {flying(), resting(), resting()}, {});  // 1 landed; 2 never flew
   EXPECT_EQ(m.phase(), Phase::flying);
-  m.update(3, {flying(), resting(), resting()}, {{0, kStructure, Vector3d::Zero()}});
+  m.update(3, {flying(), resting(), resting()}, {{UavIndex{0}, kStructure, Vector3d::Zero()}});
   EXPECT_EQ(m.phase(), Phase::flying);  // 2 may still take off
   m.update(4, {flying(), resting(), flying()}, {});
   m.update(5, {flying(), resting(), resting()}, {});
@@ -77,43 +77,45 @@ TEST_F(MissionTest, AFallenUavHasLandedWhereverItsRotorsHoldIt) {
   Mission m = mission(1);
   m.update(1, {flying()}, {});
   m.update(2, {at(kRest + 0.3, 0.01)}, {});  // slow and high: hovers
-  EXPECT_TRUE(m.airborne(0));
-  m.update(3, {at(kRest + 0.3, 0.01)}, {{0, kGround, Vector3d::Zero()}});
-  EXPECT_FALSE(m.airborne(0));
+  EXPECT_TRUE(m.airborne(UavIndex{0}));
+  m.update(3, {at(kRest + 0.3, 0.01)}, {{UavIndex{0}, kGround, Vector3d::Zero()}});
+  EXPECT_FALSE(m.airborne(UavIndex{0}));
 }
 
 TEST_F(MissionTest, AirborneContactKillsWithPlaceAndTime) {
   Mission m = mission(2);
   m.update(1, {flying(), flying()}, {});
-  const auto collisions = m.update(7, {flying(), flying()}, {{1, kStructure, {3, 4, 5}}});
+  const auto collisions = m.update(7, {flying(), flying()}, {{UavIndex{1}, kStructure, {3, 4, 5}}});
   ASSERT_EQ(collisions.size(), 1U);
   EXPECT_EQ(collisions[0].tick, 7);
   EXPECT_EQ(collisions[0].uav, 1U);
   EXPECT_EQ(collisions[0].with, kStructure);
   EXPECT_EQ(collisions[0].p_W, Vector3d(3, 4, 5));
-  EXPECT_FALSE(m.alive(1));
-  EXPECT_TRUE(m.update(8, {flying(), flying()}, {{1, kStructure, {3, 4, 5}}}).empty()) << "dies only once";
+  EXPECT_FALSE(m.alive(UavIndex{1}));
+  EXPECT_TRUE(m.update(8, {flying(), flying()}, {{UavIndex{1}, kStructure, {3, 4, 5}}}).empty()) << "dies only once";
 }
 
 TEST_F(MissionTest, GroundAndRestingUavsDoNotKill) {
   Mission m = mission(2);
   m.update(1, {flying(), resting()},
-           {{0, kGround, Vector3d::Zero()}, {1, kGround, Vector3d::Zero()}, {1, kStructure, Vector3d::Zero()}});
-  EXPECT_TRUE(m.alive(0));
-  EXPECT_TRUE(m.alive(1));
+           {{UavIndex{0}, kGround, Vector3d::Zero()},
+            {UavIndex{1}, kGround, Vector3d::Zero()},
+            {UavIndex{1}, kStructure, Vector3d::Zero()}});
+  EXPECT_TRUE(m.alive(UavIndex{0}));
+  EXPECT_TRUE(m.alive(UavIndex{1}));
 }
 
 TEST_F(MissionTest, EachOfAPairIsJudgedByItsOwnState) {
-  const Contact pair{0, {BodyId::Kind::uav, 1}, {1, 1, 1}};
+  const Contact pair{UavIndex{0}, {BodyId::Kind::uav, UavIndex{1}}, {1, 1, 1}};
   for (const auto& [first, second] : {std::pair{true, true}, {true, false}, {false, true}, {false, false}}) {
     Mission m = mission(3);
     const std::vector<RigidBodyState> states = {first ? flying() : resting(), second ? flying() : resting(), flying()};
     m.update(1, states, {});
     const auto collisions = m.update(2, states, {pair});
-    EXPECT_EQ(m.alive(0), !first);
-    EXPECT_EQ(m.alive(1), !second) << "who rests and is touched lives";
+    EXPECT_EQ(m.alive(UavIndex{0}), !first);
+    EXPECT_EQ(m.alive(UavIndex{1}), !second) << "who rests and is touched lives";
     EXPECT_EQ(collisions.size(), static_cast<std::size_t>(first + second));
-    EXPECT_TRUE(m.alive(2));
+    EXPECT_TRUE(m.alive(UavIndex{2}));
   }
 }
 
@@ -121,25 +123,27 @@ TEST_F(MissionTest, BothOfAPairDieEvenIfOneOfThemRestsWhereTheRulesSaySo) {
   scenario_.rules.collision_kills_both = true;
   Mission m = mission(3);
   m.update(1, {flying(), resting(), flying()}, {});
-  const auto collisions = m.update(2, {flying(), resting(), flying()}, {{0, {BodyId::Kind::uav, 1}, {1, 1, 1}}});
+  const auto collisions =
+      m.update(2, {flying(), resting(), flying()}, {{UavIndex{0}, {BodyId::Kind::uav, UavIndex{1}}, {1, 1, 1}}});
   ASSERT_EQ(collisions.size(), 2U);
   EXPECT_EQ(collisions[0].uav, 0U);
-  EXPECT_EQ(collisions[0].with, (BodyId{BodyId::Kind::uav, 1}));
+  EXPECT_EQ(collisions[0].with, (BodyId{BodyId::Kind::uav, UavIndex{1}}));
   EXPECT_EQ(collisions[1].uav, 1U);
-  EXPECT_EQ(collisions[1].with, (BodyId{BodyId::Kind::uav, 0}));
-  EXPECT_TRUE(m.alive(2));
+  EXPECT_EQ(collisions[1].with, (BodyId{BodyId::Kind::uav, UavIndex{0}}));
+  EXPECT_TRUE(m.alive(UavIndex{2}));
 }
 
 TEST_F(MissionTest, OrderOfContactsInATickDoesNotMatter) {
   // 0 hits the structure and 1 in the same tick: both die, whichever contact comes first.
   scenario_.rules.collision_kills_both = true;
-  const Contact wall{0, kStructure, Vector3d::Zero()}, pair{0, {BodyId::Kind::uav, 1}, Vector3d::Zero()};
+  const Contact wall{UavIndex{0}, kStructure, Vector3d::Zero()},
+      pair{UavIndex{0}, {BodyId::Kind::uav, UavIndex{1}}, Vector3d::Zero()};
   for (const auto& contacts : {std::vector<Contact>{wall, pair}, std::vector<Contact>{pair, wall}}) {
     Mission m = mission(2);
     m.update(1, {flying(), resting()}, {});
     m.update(2, {flying(), resting()}, contacts);
-    EXPECT_FALSE(m.alive(0));
-    EXPECT_FALSE(m.alive(1));
+    EXPECT_FALSE(m.alive(UavIndex{0}));
+    EXPECT_FALSE(m.alive(UavIndex{1}));
   }
 }
 

@@ -17,10 +17,10 @@ Capture capture(Tick tick, std::vector<Detection> detections) { return {tick, 0,
 
 TEST(Referee, EntersOnlyWhatImproved) {
   Referee referee(0, 2, 10, RulesConfig{});
-  EXPECT_FALSE(referee.enter(0, capture(41, {})));
-  EXPECT_FALSE(referee.enter(0, capture(82, {detection(3, 0.5, false)})));
+  EXPECT_FALSE(referee.enter(UavIndex{0}, capture(41, {})));
+  EXPECT_FALSE(referee.enter(UavIndex{0}, capture(82, {detection(3, 0.5, false)})));
   EXPECT_TRUE(referee.ledger().empty());
-  const auto report = referee.enter(0, capture(123, {detection(3, 0.5, false), detection(7, 0.75, true)}));
+  const auto report = referee.enter(UavIndex{0}, capture(123, {detection(3, 0.5, false), detection(7, 0.75, true)}));
   ASSERT_TRUE(report);
   EXPECT_EQ(report->points, (std::vector<CapturePoint>{{7, 1.0F, 0.75F, 0.75F, 0.875F}}));
   EXPECT_EQ(report->tick, 123);
@@ -36,7 +36,7 @@ TEST(Referee, NumbersWithoutGaps) {
   Tick tick = 0;
   std::size_t entered = 0;
   for (std::uint32_t i = 0; i < 300; ++i) {
-    const UavIndex uav = i * 7 % 3;
+    const UavIndex uav(i * 7 % 3);
     tick += i % 2 == 0 ? 20 : 0;
     const auto report = referee.enter(uav, capture(tick, {detection(i, 0.4, i % 5 != 0)}));
     EXPECT_EQ(report.has_value(), i % 5 != 0);
@@ -63,7 +63,7 @@ TEST(Referee, NumbersWithoutGaps) {
 TEST(Referee, TokensFollowTheSeed) {
   const auto token = [](std::uint64_t seed) {
     Referee referee(seed, 1, 1, RulesConfig{});
-    return referee.enter(0, capture(0, {detection(0, 0.5, true)}))->token;
+    return referee.enter(UavIndex{0}, capture(0, {detection(0, 0.5, true)}))->token;
   };
   EXPECT_EQ(token(1), token(1));
   EXPECT_NE(token(1), token(2));
@@ -71,24 +71,24 @@ TEST(Referee, TokensFollowTheSeed) {
 
 TEST(Referee, CollisionEndsAndVoids) {
   Referee referee(0, 2, 2, RulesConfig{});
-  referee.enter(0, capture(41, {detection(0, 0.9, true)}));
-  referee.enter(1, capture(41, {detection(0, 0.5, true), detection(1, 1.0, true)}));
+  referee.enter(UavIndex{0}, capture(41, {detection(0, 0.9, true)}));
+  referee.enter(UavIndex{1}, capture(41, {detection(0, 0.5, true), detection(1, 1.0, true)}));
   EXPECT_EQ(referee.earned().score(), static_cast<double>(0.9F) + 1.0);
-  EXPECT_TRUE(referee.enter_collision(0, 60));
-  EXPECT_FALSE(referee.enter_collision(0, 61)) << "only the first counts";
-  EXPECT_FALSE(referee.enter(0, capture(82, {detection(1, 1.0, true)})));
+  EXPECT_TRUE(referee.enter_collision(UavIndex{0}, 60));
+  EXPECT_FALSE(referee.enter_collision(UavIndex{0}, 61)) << "only the first counts";
+  EXPECT_FALSE(referee.enter(UavIndex{0}, capture(82, {detection(1, 1.0, true)})));
   ASSERT_EQ(referee.ledger().size(), 3U);
-  EXPECT_EQ(referee.ledger()[2], (LedgerEntry{2, 60, 0, true, {}}));
+  EXPECT_EQ(referee.ledger()[2], (LedgerEntry{2, 60, UavIndex{0}, true, {}}));
   EXPECT_EQ(referee.earned().score(), 1.5);
   EXPECT_EQ(referee.earned().score_by_uav(), (std::vector<double>{0.0, 1.5}));
 }
 
 TEST(Referee, KeepsTheOrderOfTime) {
   Referee referee(0, 2, 2, RulesConfig{});
-  referee.enter(0, capture(41, {detection(0, 0.9, true)}));
-  referee.enter(1, capture(41, {detection(0, 0.9, true)}));
-  EXPECT_THROW(referee.enter(1, capture(40, {detection(1, 0.9, true)})), std::logic_error);
-  EXPECT_THROW(referee.enter_collision(1, 40), std::logic_error);
+  referee.enter(UavIndex{0}, capture(41, {detection(0, 0.9, true)}));
+  referee.enter(UavIndex{1}, capture(41, {detection(0, 0.9, true)}));
+  EXPECT_THROW(referee.enter(UavIndex{1}, capture(40, {detection(1, 0.9, true)})), std::logic_error);
+  EXPECT_THROW(referee.enter_collision(UavIndex{1}, 40), std::logic_error);
   EXPECT_EQ(referee.ledger().size(), 2U);
 }
 

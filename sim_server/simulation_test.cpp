@@ -48,7 +48,7 @@ class Field : public testing::Test {
       double duration_s, const std::vector<TrajectoryCommand>& commands,
       const std::function<void(const StepEvents&)>& watch = [](const StepEvents&) {}) {
     for (double t = 0.0; t < duration_s - 1e-9; t += scenario_.exchange_period_s) {
-      for (std::size_t i = 0; i < commands.size(); ++i) simulation_->command_trajectory(i, commands[i]);
+      for (std::size_t i = 0; i < commands.size(); ++i) simulation_->command_trajectory(UavIndex(i), commands[i]);
       simulation_->advance();
       watch(simulation_->events());
     }
@@ -69,10 +69,10 @@ TEST_F(Field, WaitsForTheTakeOffAndThenRunsTheClock) {
   EXPECT_EQ(sim.step(), 40U);
   EXPECT_EQ(sim.tick(), 800);
   EXPECT_EQ(sim.mission().phase(), Phase::waiting);
-  EXPECT_EQ(sim.uav(0).distance_m, 0.0);
+  EXPECT_EQ(sim.uav(UavIndex{0}).distance_m, 0.0);
   fly(3.0, {to(0.5, 0, 5)});
   ASSERT_EQ(sim.mission().phase(), Phase::flying);
-  EXPECT_TRUE(sim.uav(0).airborne);
+  EXPECT_TRUE(sim.uav(UavIndex{0}).airborne);
   const Tick begun = *sim.mission().start_tick();
   EXPECT_GT(begun, 800);
   EXPECT_LT(begun, 800 + kTicksPerSecond);
@@ -90,7 +90,7 @@ TEST_F(Field, FlyingIntoTheWallKillsAndIsLogged) {
     EXPECT_TRUE(collisions.empty());
     collisions = events.collisions;
     seen_at = sim.tick();
-    EXPECT_FALSE(sim.uav(0).alive);
+    EXPECT_FALSE(sim.uav(UavIndex{0}).alive);
   });
   ASSERT_EQ(collisions.size(), 1U);
   EXPECT_EQ(collisions[0].with.kind, BodyId::Kind::structure);
@@ -101,10 +101,10 @@ TEST_F(Field, FlyingIntoTheWallKillsAndIsLogged) {
   ASSERT_FALSE(sim.referee().ledger().empty());
   EXPECT_TRUE(sim.referee().ledger().back().collision);
   EXPECT_EQ(sim.referee().ledger().back().tick, collisions[0].tick);
-  EXPECT_GT(sim.uav(0).captures, 10U);
+  EXPECT_GT(sim.uav(UavIndex{0}).captures, 10U);
   EXPECT_EQ(sim.referee().earned().score(), 0.0) << "only UAVs without a collision count";
   EXPECT_EQ(sim.mission().end(), MissionEnd::nobody_flies);
-  EXPECT_LT(sim.uav(0).state.p_WB.z(), 1.5) << "the wreck falls";
+  EXPECT_LT(sim.uav(UavIndex{0}).state.p_WB.z(), 1.5) << "the wreck falls";
 }
 
 TEST_F(Field, UavsThatMeetBothDieAndTheThirdFliesOn) {
@@ -119,12 +119,12 @@ TEST_F(Field, UavsThatMeetBothDieAndTheThirdFliesOn) {
   });
   ASSERT_EQ(collisions.size(), 2U);
   EXPECT_EQ(collisions[0].uav, 0U);
-  EXPECT_EQ(collisions[0].with, (BodyId{BodyId::Kind::uav, 1}));
+  EXPECT_EQ(collisions[0].with, (BodyId{BodyId::Kind::uav, UavIndex{1}}));
   EXPECT_EQ(collisions[1].uav, 1U);
   EXPECT_EQ(collisions[0].p_W, collisions[1].p_W);
-  EXPECT_TRUE(sim.uav(2).alive);
+  EXPECT_TRUE(sim.uav(UavIndex{2}).alive);
   EXPECT_EQ(sim.mission().phase(), Phase::flying);
-  for (Node node = 0; node < 4; ++node) EXPECT_EQ(sim.links()[4 + node], 0) << "the dead have no links";
+  for (const Node node : FirstNodes(4)) EXPECT_EQ(sim.links().at(Node{1}, node), 0) << "the dead have no links";
 }
 
 TEST_F(Field, LandingOnTheGroundIsNoCollision) {
@@ -132,7 +132,7 @@ TEST_F(Field, LandingOnTheGroundIsNoCollision) {
   Simulation& sim = start();
   fly(3.0, {to(0.5, 0, 2)});
   fly(8.0, {TrajectoryCommand{.v_WB = {0, 0, -0.4}}});
-  EXPECT_TRUE(sim.uav(0).alive);
+  EXPECT_TRUE(sim.uav(UavIndex{0}).alive);
   EXPECT_EQ(sim.mission().end(), MissionEnd::nobody_flies);
 }
 
@@ -140,9 +140,9 @@ TEST_F(Field, RefusedCommandsAreToldAndCounted) {
   add("photographer", 0, 0);
   Simulation& sim = start();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(sim.command_trajectory(0, {.v_WB = {20, 0, 0}}));
-  EXPECT_FALSE(sim.command_gimbal(0, {GimbalMode::angle, nan, 0}));
-  EXPECT_TRUE(sim.command_trajectory(0, to(100, 0, 5)));
+  EXPECT_FALSE(sim.command_trajectory(UavIndex{0}, {.v_WB = {20, 0, 0}}));
+  EXPECT_FALSE(sim.command_gimbal(UavIndex{0}, {GimbalMode::angle, nan, 0}));
+  EXPECT_TRUE(sim.command_trajectory(UavIndex{0}, to(100, 0, 5)));
   EXPECT_TRUE(sim.events().rejections.empty());
   sim.advance();
   ASSERT_EQ(sim.events().rejections.size(), 2U);
@@ -150,7 +150,7 @@ TEST_F(Field, RefusedCommandsAreToldAndCounted) {
   EXPECT_NE(sim.events().rejections[0].reason.find("20 m/s"), std::string::npos);
   EXPECT_EQ(sim.events().rejections[1].command, RejectionEvent::Command::gimbal);
   EXPECT_EQ(sim.events().rejections[1].total, 2U);
-  EXPECT_EQ(sim.uav(0).commands_rejected, 2U);
+  EXPECT_EQ(sim.uav(UavIndex{0}).commands_rejected, 2U);
   sim.advance();
   EXPECT_TRUE(sim.events().rejections.empty());
 }
@@ -172,7 +172,7 @@ TEST_F(Field, PicturesAreTakenEvery41TicksAndEnterTheLedger) {
   });
   ASSERT_GT(pictures.size(), 50U);
   for (std::size_t i = 1; i < pictures.size(); ++i) EXPECT_EQ((pictures[i] - pictures[i - 1]) % 41, 0);
-  EXPECT_EQ(sim.uav(0).captures, pictures.size());
+  EXPECT_EQ(sim.uav(UavIndex{0}).captures, pictures.size());
   EXPECT_GT(sim.referee().earned().points_detected(), 20U);
 }
 
@@ -180,14 +180,14 @@ TEST_F(Field, HandTriggeredCamerasWaitForTheTrigger) {
   add("photographer", 0, 0);
   Simulation& sim = start();
   fly(6.0, {to(6, 0, 6)});
-  const std::uint64_t automatic = sim.uav(0).captures;
+  const std::uint64_t automatic = sim.uav(UavIndex{0}).captures;
   EXPECT_GT(automatic, 0U);
-  sim.trigger_camera(0);
+  sim.trigger_camera(UavIndex{0});
   fly(2.0, {to(6, 0, 6)});
-  EXPECT_EQ(sim.uav(0).captures, automatic + 1);
+  EXPECT_EQ(sim.uav(UavIndex{0}).captures, automatic + 1);
   std::vector<Tick> pictures;
   for (int i = 0; i < 20; ++i) {
-    sim.trigger_camera(0);
+    sim.trigger_camera(UavIndex{0});
     fly(0.05, {to(6, 0, 6)}, [&](const StepEvents& events) {
       for (const CaptureEvent& event : events.captures) pictures.push_back(event.capture.tick);
     });
@@ -199,12 +199,12 @@ TEST_F(Field, HandTriggeredCamerasWaitForTheTrigger) {
 TEST_F(Field, GimbalTurnsTheCameraAndItsRateIsReported) {
   add("photographer", 0, 0);
   Simulation& sim = start();
-  sim.command_gimbal(0, {GimbalMode::angle, 0.3, -0.5});
+  sim.command_gimbal(UavIndex{0}, {GimbalMode::angle, 0.3, -0.5});
   sim.advance();
-  EXPECT_LT(sim.uav(0).gimbal.yaw_rate, -1.0);
+  EXPECT_LT(sim.uav(UavIndex{0}).gimbal.yaw_rate, -1.0);
   for (int i = 0; i < 20; ++i) sim.advance();
-  EXPECT_NEAR(sim.uav(0).gimbal.pitch, 0.3, 1e-6);
-  EXPECT_NEAR(sim.uav(0).gimbal.yaw, -0.5, 1e-6);
+  EXPECT_NEAR(sim.uav(UavIndex{0}).gimbal.pitch, 0.3, 1e-6);
+  EXPECT_NEAR(sim.uav(UavIndex{0}).gimbal.yaw, -0.5, 1e-6);
 }
 
 TEST_F(Field, OnlyExplorersScanAndNeighboursInSightGetTheKeyFrame) {
@@ -214,7 +214,7 @@ TEST_F(Field, OnlyExplorersScanAndNeighboursInSightGetTheKeyFrame) {
   Simulation& sim = start();
   ASSERT_EQ(sim.events().scans.size(), 1U) << "the first scan is there before anything moves";
   ASSERT_EQ(sim.events().key_frames.size(), 1U);
-  EXPECT_EQ(sim.events().key_frames[0].neighbours, std::vector<std::size_t>{1});
+  EXPECT_EQ(sim.events().key_frames[0].neighbours, std::vector{UavIndex{1}});
   std::vector<Tick> scans;
   for (int i = 0; i < 8; ++i) {
     sim.advance();
@@ -234,7 +234,7 @@ TEST_F(Field, LinksAreSymmetricAndTheWallBlocksThem) {
   const std::vector<std::uint8_t> wanted = {0, 1, 0,  //
                                             1, 0, 0,  //
                                             0, 0, 0};
-  EXPECT_EQ(sim.links(), wanted);
+  EXPECT_EQ(sim.links().row_major(), wanted);
 }
 
 TEST_F(Field, LinksEndAtTheirRange) {
@@ -245,18 +245,18 @@ TEST_F(Field, LinksEndAtTheirRange) {
   short_way_back.range_m = 7.0;
   scenario_.links = {short_way_back};
   const Simulation& sim = start();
-  EXPECT_EQ(sim.links()[1 * 3 + 2], 1);
-  EXPECT_EQ(sim.links()[2 * 3 + 1], 0) << "8 m";
+  EXPECT_EQ(sim.links().at(Node{1}, Node{2}), 1);
+  EXPECT_EQ(sim.links().at(Node{2}, Node{1}), 0) << "8 m";
 }
 
 TEST_F(Field, StoppedUavFallsAndIsNotDead) {
   add("photographer", 0, 0);
   Simulation& sim = start();
   fly(4.0, {to(0.5, 0, 6)});
-  sim.stop(0);
+  sim.stop(UavIndex{0});
   fly(4.0, {to(0.5, 0, 6)});
-  EXPECT_LT(sim.uav(0).state.p_WB.z(), 0.5);
-  EXPECT_TRUE(sim.uav(0).alive);
+  EXPECT_LT(sim.uav(UavIndex{0}).state.p_WB.z(), 0.5);
+  EXPECT_TRUE(sim.uav(UavIndex{0}).alive);
   EXPECT_EQ(sim.mission().phase(), Phase::ended);
 }
 
@@ -264,13 +264,13 @@ TEST_F(Field, CountsDistanceSpeedAndIdleness) {
   add("photographer", 0, -30);  // nothing to see there
   Simulation& sim = start();
   fly(4.0, {to(0.5, -30, 5)});
-  const UavView before = sim.uav(0);
+  const UavView before = sim.uav(UavIndex{0});
   fly(8.0, {to(0.5, -10, 5)});
-  EXPECT_NEAR(sim.uav(0).distance_m - before.distance_m, 20.0, 0.5);
-  EXPECT_GT(sim.uav(0).max_speed_mps, 3.0);
-  EXPECT_EQ(sim.uav(0).idle_s, before.idle_s);
+  EXPECT_NEAR(sim.uav(UavIndex{0}).distance_m - before.distance_m, 20.0, 0.5);
+  EXPECT_GT(sim.uav(UavIndex{0}).max_speed_mps, 3.0);
+  EXPECT_EQ(sim.uav(UavIndex{0}).idle_s, before.idle_s);
   fly(20.0, {to(0.5, -10, 5)});
-  EXPECT_GT(sim.uav(0).idle_s, 12.0);
+  EXPECT_GT(sim.uav(UavIndex{0}).idle_s, 12.0);
 }
 
 TEST_F(Field, DelayedMotorsStartWithTheNewestCommand) {
@@ -280,8 +280,8 @@ TEST_F(Field, DelayedMotorsStartWithTheNewestCommand) {
     Simulation& sim = start(seed);
     fly(0.05, {to(0.5, 0, 40), to(0.5, 5, 40)});  // the only command of this kind
     fly(8.0, {to(0.5, 0, 5), to(0.5, 5, 5)});
-    EXPECT_NEAR(sim.uav(0).state.p_WB.z(), 5.0, 0.3);
-    EXPECT_NEAR(sim.uav(1).state.p_WB.z(), 5.0, 0.3);
+    EXPECT_NEAR(sim.uav(UavIndex{0}).state.p_WB.z(), 5.0, 0.3);
+    EXPECT_NEAR(sim.uav(UavIndex{1}).state.p_WB.z(), 5.0, 0.3);
   }
 }
 
@@ -373,12 +373,13 @@ TEST(WholeSimulation, ScansThatNobodyReadsChangeNothingElse) {
   const Scenario scenario = towers();
   const Scene scene = load_scene(scenario);
   Simulation all(scenario, scene, 3), lazy(scenario, scene, 3);
-  for (std::size_t i = 0; i < lazy.size(); ++i) lazy.want_scans(i, false);
+  for (std::size_t i = 0; i < lazy.size(); ++i) lazy.want_scans(UavIndex(i), false);
   const Surveyor surveyor(scenario, scene);
   std::size_t scans = 0, lazy_scans = 0, key_frames = 0;
   while (seconds(all.tick()) < 20.0) {
     for (Simulation* sim : {&all, &lazy}) {
-      for (std::size_t i = 0; i < sim->size(); ++i) sim->command_trajectory(i, surveyor.at(i, seconds(sim->tick())));
+      for (std::size_t i = 0; i < sim->size(); ++i)
+        sim->command_trajectory(UavIndex(i), surveyor.at(UavIndex(i), seconds(sim->tick())));
       sim->advance();
     }
     scans += all.events().scans.size();
@@ -389,7 +390,8 @@ TEST(WholeSimulation, ScansThatNobodyReadsChangeNothingElse) {
       ASSERT_EQ(all.events().key_frames[i].key_frame.points_W, lazy.events().key_frames[i].key_frame.points_W);
     }
     ASSERT_EQ(all.links(), lazy.links());
-    for (std::size_t i = 0; i < all.size(); ++i) ASSERT_EQ(all.uav(i).state.p_WB, lazy.uav(i).state.p_WB);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      ASSERT_EQ(all.uav(UavIndex(i)).state.p_WB, lazy.uav(UavIndex(i)).state.p_WB);
   }
   EXPECT_GT(key_frames, 3U);
   EXPECT_LT(10 * lazy_scans, 5 * scans);
@@ -472,11 +474,11 @@ TEST_F(Field, AVehicleThatNoIntegrationSurvivesIsOutAndTheOthersFlyOn) {
     });
     ASSERT_EQ(strays.size(), 1U);
     EXPECT_EQ(strays[0].uav, 0U);
-    EXPECT_EQ(strays[0].p_W, sim.uav(0).state.p_WB);
-    EXPECT_FALSE(sim.uav(0).alive);
-    EXPECT_EQ(sim.links()[1], 0) << "the station hears it";
-    EXPECT_TRUE(sim.uav(1).alive && sim.uav(1).airborne);
-    EXPECT_NEAR((sim.uav(1).state.p_WB - Vector3d(0, 4, 5)).norm(), 0.0, 0.3);
+    EXPECT_EQ(strays[0].p_W, sim.uav(UavIndex{0}).state.p_WB);
+    EXPECT_FALSE(sim.uav(UavIndex{0}).alive);
+    EXPECT_EQ(sim.links().at(kStationNode, Node{1}), 0) << "the station hears it";
+    EXPECT_TRUE(sim.uav(UavIndex{1}).alive && sim.uav(UavIndex{1}).airborne);
+    EXPECT_NEAR((sim.uav(UavIndex{1}).state.p_WB - Vector3d(0, 4, 5)).norm(), 0.0, 0.3);
     digests.push_back(digest.hex());
   }
   EXPECT_EQ(digests[0], digests[1]);

@@ -40,9 +40,9 @@ class JournalTest : public testing::Test {
 std::vector<TallyRecord> some_records(std::size_t count) {
   std::vector<TallyRecord> records;
   for (std::size_t i = 0; i < count; ++i) {
-    TallyRecord record{static_cast<Tick>(20 * i), {i, static_cast<Tick>(20 * i) - 7, i % 5, i % 4 == 3, {}}};
+    TallyRecord record{static_cast<Tick>(20 * i), {i, static_cast<Tick>(20 * i) - 7, UavIndex(i % 5), i % 4 == 3, {}}};
     if (!record.entry.collision) {
-      record.entry.capture = {i % 5, i, record.entry.tick, ~std::uint64_t{i}, {}};
+      record.entry.capture = {UavIndex(i % 5), i, record.entry.tick, ~std::uint64_t{i}, {}};
       for (std::uint32_t p = 0; p < i; ++p)
         record.entry.capture.points.push_back({p << 20, 0.1F * p, 0.3F, 0.7F, 0.9F});
     }

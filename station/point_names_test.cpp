@@ -25,21 +25,22 @@ using Points = std::vector<std::uint32_t>;
 
 TEST(PointNames, EachUavHasItsOwnNumbersInTheOrderOfTheLedger) {
   PointNames names(2);
-  std::vector<LedgerEntry> ledger = {entry(0, 0, 0, {5, 9}), entry(1, 1, 0, {9}), entry(2, 0, 1, {9, 2})};
+  std::vector<LedgerEntry> ledger = {entry(0, UavIndex{0}, 0, {5, 9}), entry(1, UavIndex{1}, 0, {9}),
+                                     entry(2, UavIndex{0}, 1, {9, 2})};
   names.follow(ledger);
-  EXPECT_EQ(resolved(names, 0, {0, 1, 2}), (Points{5, 9, 2})) << "9 has its number already";
-  EXPECT_EQ(resolved(names, 1, {0}), (Points{9}));
-  ledger.push_back(entry(3, 1, 0, {}));  // a collision
-  ledger.push_back(entry(4, 1, 1, {5}));
+  EXPECT_EQ(resolved(names, UavIndex{0}, {0, 1, 2}), (Points{5, 9, 2})) << "9 has its number already";
+  EXPECT_EQ(resolved(names, UavIndex{1}, {0}), (Points{9}));
+  ledger.push_back(entry(3, UavIndex{1}, 0, {}));  // a collision
+  ledger.push_back(entry(4, UavIndex{1}, 1, {5}));
   names.follow(ledger);
-  EXPECT_EQ(resolved(names, 1, {1, 0}), (Points{5, 9})) << "what was known is not counted again";
+  EXPECT_EQ(resolved(names, UavIndex{1}, {1, 0}), (Points{5, 9})) << "what was known is not counted again";
 }
 
 TEST(PointNames, NumbersThatNobodyGaveNameNoPoint) {
   PointNames names(1);
-  names.follow({entry(0, 0, 0, {3})});
-  EXPECT_EQ(resolved(names, 0, {1, 0}), (Points{PointNames::kNoPoint, 3}));
-  EXPECT_EQ(resolved(names, 7, {0}), (Points{PointNames::kNoPoint})) << "no such UAV";
+  names.follow({entry(0, UavIndex{0}, 0, {3})});
+  EXPECT_EQ(resolved(names, UavIndex{0}, {1, 0}), (Points{PointNames::kNoPoint, 3}));
+  EXPECT_EQ(resolved(names, UavIndex{7}, {0}), (Points{PointNames::kNoPoint})) << "no such UAV";
 }
 
 }  // namespace

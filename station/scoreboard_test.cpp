@@ -26,7 +26,7 @@ Scoreboard board() { return Scoreboard(kUavs, kPoints, RulesConfig{}); }
 
 TEST(Scoreboard, AReportThatStandsInTheLedgerCountsAndIsAcknowledged) {
   Scoreboard score = board();
-  const CaptureReport report = capture(1, 0, 100, {point(3, 0.5F), point(7, 0.25F)});
+  const CaptureReport report = capture(UavIndex{1}, 0, 100, {point(3, 0.5F), point(7, 0.25F)});
   score.add_entry(entry(0, report));
   score.add_report(1, report);
   const StepOutcome outcome = score.end_step(120, 1);
@@ -43,7 +43,7 @@ TEST(Scoreboard, AReportThatStandsInTheLedgerCountsAndIsAcknowledged) {
 
 TEST(Scoreboard, WhatIsEarnedIsNotYetDelivered) {
   Scoreboard score = board();
-  score.add_entry(entry(0, capture(0, 0, 10, {point(1, 0.5F)})));
+  score.add_entry(entry(0, capture(UavIndex{0}, 0, 10, {point(1, 0.5F)})));
   const StepOutcome outcome = score.end_step(20, 1);
   EXPECT_FALSE(outcome.score_changed);
   EXPECT_TRUE(outcome.digest.empty());
@@ -53,8 +53,8 @@ TEST(Scoreboard, WhatIsEarnedIsNotYetDelivered) {
 }
 
 TEST(Scoreboard, EveryChangeOfAReportIsRefused) {
-  const CaptureReport genuine = capture(1, 4, 100, {point(3, 0.5F)});
-  const CaptureReport of_another = capture(0, 0, 90, {point(3, 0.9F)});
+  const CaptureReport genuine = capture(UavIndex{1}, 4, 100, {point(3, 0.5F)});
+  const CaptureReport of_another = capture(UavIndex{0}, 0, 90, {point(3, 0.9F)});
   struct Case {
     Refusal reason;
     std::size_t source;
@@ -71,7 +71,7 @@ TEST(Scoreboard, EveryChangeOfAReportIsRefused) {
       {Refusal::borrowed, 1, of_another},
       {Refusal::borrowed, 1, with([](CaptureReport& r) { r.token = 1000; })},
       {Refusal::unknown, 1, with([](CaptureReport& r) { r.token ^= 0x10000; })},
-      {Refusal::unknown, 1, capture(1, 9, 100, {point(3, 1.0F)})},
+      {Refusal::unknown, 1, capture(UavIndex{1}, 9, 100, {point(3, 1.0F)})},
       {Refusal::altered, 1, with([](CaptureReport& r) { r.uav = UavIndex{0}; })},
       {Refusal::altered, 1, with([](CaptureReport& r) { r.uav = UavIndex{77}; })},
       {Refusal::altered, 1, with([](CaptureReport& r) { r.capture = 5; })},
@@ -111,7 +111,7 @@ TEST(Scoreboard, EveryChangeOfAReportIsRefused) {
 }
 
 TEST(Scoreboard, AReportMayComeBeforeItsEntry) {
-  const CaptureReport report = capture(0, 0, 100, {point(1, 0.5F)});
+  const CaptureReport report = capture(UavIndex{0}, 0, 100, {point(1, 0.5F)});
   {  // the entry is here but does not stand yet: it waits as long as it takes
     Scoreboard score = board();
     score.add_entry(entry(0, report));
@@ -133,7 +133,7 @@ TEST(Scoreboard, AReportMayComeBeforeItsEntry) {
 
 TEST(Scoreboard, ADuplicateIsAcknowledgedAgainAndChangesNothing) {
   Scoreboard score = board();
-  const CaptureReport report = capture(2, 0, 100, {point(1, 0.5F)});
+  const CaptureReport report = capture(UavIndex{2}, 0, 100, {point(1, 0.5F)});
   score.add_entry(entry(0, report));
   score.add_report(2, report);
   score.add_report(2, report);  // in the same step
@@ -149,41 +149,42 @@ TEST(Scoreboard, ADuplicateIsAcknowledgedAgainAndChangesNothing) {
 
 TEST(Scoreboard, ACollisionTakesThePointsBackAndGivesThemToTheNextBest) {
   Scoreboard score = board();
-  const CaptureReport first = capture(0, 0, 100, {point(1, 0.9F), point(2, 0.9F)});
-  const CaptureReport second = capture(1, 0, 105, {point(1, 0.5F)});
+  const CaptureReport first = capture(UavIndex{0}, 0, 100, {point(1, 0.9F), point(2, 0.9F)});
+  const CaptureReport second = capture(UavIndex{1}, 0, 105, {point(1, 0.5F)});
   score.add_entry(entry(0, first));
   score.add_entry(entry(1, second));
-  score.add_entry(collision(2, 0, 130));
+  score.add_entry(collision(2, UavIndex{0}, 130));
   score.add_report(0, first);
   score.add_report(1, second);
   score.end_step(120, 2);
   EXPECT_EQ(score.delivered().points_detected(), 2U);
-  EXPECT_FALSE(score.is_void(0));
+  EXPECT_FALSE(score.is_void(UavIndex{0}));
   const StepOutcome crash = score.end_step(140, 3);
   EXPECT_TRUE(crash.score_changed);
   ASSERT_EQ(crash.records.size(), 1U);
   EXPECT_TRUE(crash.records[0].entry.collision);
   EXPECT_FLOAT_EQ(static_cast<float>(score.delivered().score()), 0.5F);
   EXPECT_EQ(score.delivered().score_by_uav()[0], 0.0);
-  EXPECT_TRUE(score.is_void(0));
+  EXPECT_TRUE(score.is_void(UavIndex{0}));
   EXPECT_FLOAT_EQ(static_cast<float>(score.earned().score()), 0.5F);
 }
 
 TEST(Scoreboard, ALedgerThatContradictsItselfOrTheRunIsAnError) {
   Scoreboard score = board();
-  score.add_entry(entry(0, capture(0, 0, 10, {point(1, 0.5F)})));
-  score.add_entry(entry(0, capture(0, 0, 10, {point(1, 0.5F)})));
-  EXPECT_THROW(score.add_entry(entry(0, capture(0, 0, 10, {point(1, 0.6F)}))), std::invalid_argument);
-  EXPECT_THROW(score.add_entry(entry(1, capture(9, 0, 10, {}))), std::invalid_argument);
-  EXPECT_THROW(score.add_entry(entry(1, capture(0, 1, 10, {point(kPoints, 0.5F)}))), std::invalid_argument);
+  score.add_entry(entry(0, capture(UavIndex{0}, 0, 10, {point(1, 0.5F)})));
+  score.add_entry(entry(0, capture(UavIndex{0}, 0, 10, {point(1, 0.5F)})));
+  EXPECT_THROW(score.add_entry(entry(0, capture(UavIndex{0}, 0, 10, {point(1, 0.6F)}))), std::invalid_argument);
+  EXPECT_THROW(score.add_entry(entry(1, capture(UavIndex{9}, 0, 10, {}))), std::invalid_argument);
+  EXPECT_THROW(score.add_entry(entry(1, capture(UavIndex{0}, 1, 10, {point(kPoints, 0.5F)}))), std::invalid_argument);
   EXPECT_THROW(score.end_step(20, 2), std::logic_error);
 }
 
 TEST(Scoreboard, AJournalThatNamesWhatDoesNotExistIsAnError) {
   Scoreboard score = board();
-  EXPECT_THROW(score.restore({20, entry(0, capture(9, 0, 10, {}))}), std::invalid_argument);
-  EXPECT_THROW(score.restore({20, entry(0, capture(0, 0, 10, {point(kPoints, 0.5F)}))}), std::invalid_argument);
-  EXPECT_THROW(score.restore({20, collision(0, kUavs, 10)}), std::invalid_argument);
+  EXPECT_THROW(score.restore({20, entry(0, capture(UavIndex{9}, 0, 10, {}))}), std::invalid_argument);
+  EXPECT_THROW(score.restore({20, entry(0, capture(UavIndex{0}, 0, 10, {point(kPoints, 0.5F)}))}),
+               std::invalid_argument);
+  EXPECT_THROW(score.restore({20, collision(0, UavIndex(kUavs), 10)}), std::invalid_argument);
   EXPECT_EQ(score.reports_received(), 0U);
   EXPECT_EQ(score.delivered().score(), 0.0);
 }
@@ -206,7 +207,7 @@ Mission random_mission(unsigned seed) {
   std::vector<CaptureReport> on_the_way;
   for (Tick tick = 0; tick < 1200; tick += 20) {
     for (int n = static_cast<int>(random() % 3); n > 0; --n) {
-      const UavIndex uav = random() % kUavs;
+      const UavIndex uav(random() % kUavs);
       if (random() % 40 == 0) {
         run.ledger.push_back(collision(run.ledger.size(), uav, tick));
         continue;

@@ -43,7 +43,8 @@ TEST_F(Settlement, TheJournalIsTheReport) {
   std::ofstream(folder_ / "scene.json") << R"({"points": [[0,0,0,0,0,1], [1,0,0,0,0,1], [2,0,0,0,0,1]]})";
   // Entries of the ledger that never arrived leave gaps in the numbers.
   Journal(folder_ / "station.journal")
-      .append(std::vector<TallyRecord>{record(2, 0, 0, 1, 0.5F), record(5, 1, 3, 1, 0.75F), record(9, 1, 4, 2, 0.25F)});
+      .append(std::vector<TallyRecord>{record(2, UavIndex{0}, 0, 1, 0.5F), record(5, UavIndex{1}, 3, 1, 0.75F),
+                                       record(9, UavIndex{1}, 4, 2, 0.25F)});
   settle(folder_, scenario_, RunId::none, nobody_);
   EXPECT_EQ(report()["score"], 1.0);
   EXPECT_EQ(report()["points_detected"], 2);

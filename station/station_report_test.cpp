@@ -20,16 +20,16 @@ std::string read(const fs::path& file) {
 /// One capture of each fate: it counts, another is better, never received, altered, of a UAV that collided.
 Scoreboard eventful_run() {
   Scoreboard score(3, 10, RulesConfig{});
-  const CaptureReport counts{0, 0, 100, 11, {{2, 1.0F, 0.75F, 0.75F, 0.875F}}};
-  const CaptureReport worse{1, 0, 110, 12, {{2, 0.5F, 1.0F, 0.5F}}};
-  const CaptureReport kept{1, 1, 150, 13, {{4, 1.0F, 0.5F, 0.5F}}};
-  CaptureReport altered{1, 2, 160, 14, {{5, 1.0F, 0.25F, 0.25F}}};
-  const CaptureReport crashed{2, 0, 170, 15, {{6, 1.0F, 1.0F, 1.0F}}};
+  const CaptureReport counts{UavIndex{0}, 0, 100, 11, {{2, 1.0F, 0.75F, 0.75F, 0.875F}}};
+  const CaptureReport worse{UavIndex{1}, 0, 110, 12, {{2, 0.5F, 1.0F, 0.5F}}};
+  const CaptureReport kept{UavIndex{1}, 1, 150, 13, {{4, 1.0F, 0.5F, 0.5F}}};
+  CaptureReport altered{UavIndex{1}, 2, 160, 14, {{5, 1.0F, 0.25F, 0.25F}}};
+  const CaptureReport crashed{UavIndex{2}, 0, 170, 15, {{6, 1.0F, 1.0F, 1.0F}}};
   std::uint64_t index = 0;
   for (const CaptureReport& report : {counts, worse, kept, altered, crashed}) {
     score.add_entry({index++, report.tick, report.uav, false, report});
   }
-  score.add_entry({index++, 190, 2, true, {}});
+  score.add_entry({index++, 190, UavIndex{2}, true, {}});
   altered.points[0].q = 1.0F;
   for (const CaptureReport& report : {counts, worse, altered, crashed}) score.add_report(report.uav, report);
   score.end_step(180, 5);

@@ -16,8 +16,7 @@ namespace skein::agent {
 
 class AgentNode final : public MemberNode {
  public:
-  AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain,
-            bus::Bus& bus);
+  AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain, bus::Bus& bus);
 
  private:
   void declare(bus::LockstepClient& client) override;
@@ -34,7 +33,7 @@ class AgentNode final : public MemberNode {
   AgentInput input_;  ///< being filled for the step to come
   AgentOutput output_;
   std::map<std::uint64_t, msg::CaptureReport> reports_;  ///< that may yet have to be sent, by capture
-  std::vector<std::uint64_t> released_;  ///< acknowledged captures that the camera may forget
+  std::vector<std::uint64_t> released_;                  ///< acknowledged captures that the camera may forget
 };
 
 }  // namespace skein::agent

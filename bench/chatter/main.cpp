@@ -53,7 +53,7 @@ class Chatter {
         inbox_(bus.run()),
         client_(participant, inbox_, uav_),
         radio_(client_, uav_) {
-    for (skein::Node node = 0; node <= scenario.fleet.size(); ++node) {
+    for (const skein::Node node : scenario.nodes()) {
       if (scenario.node_name(node) != uav_) others_.push_back(scenario.node_name(node));
     }
   }

@@ -15,7 +15,7 @@ constexpr Seat kServer{Role::server}, kRouter{Role::router}, kStation{Role::stat
 constexpr Tick kSomeTick = 20'000;  // numbers have a fixed size on the wire, whatever their value
 constexpr std::uint64_t kSomeCount = 1000;
 
-std::string name_of(std::size_t uav) {
+std::string name_of(UavIndex uav) {
   const std::string digits = std::to_string(uav);
   return "uav" + std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits;
 }
@@ -54,7 +54,7 @@ msg::Done done_with(std::string_view name, std::vector<msg::TopicCount> sent) {
   return done;
 }
 
-void add_agent(std::vector<Flow>& flows, std::size_t uav, std::size_t uavs, int base_domain) {
+void add_agent(std::vector<Flow>& flows, UavIndex uav, std::size_t uavs, int base_domain) {
   const std::string id = name_of(uav);
   const int domain = uav_domain(base_domain, uav);
   const Seat agent{Role::agent, uav};
@@ -83,8 +83,8 @@ void add_ground(std::vector<Flow>& flows, std::size_t uavs, int base_domain) {
   std::vector<msg::Member> everybody = {member(bus::kStationName), member(bus::kRouterName)};
   std::vector<msg::TopicCount> acknowledgements;
   for (std::size_t i = 0; i < uavs; ++i) {
-    everybody.push_back(member(name_of(i)));
-    acknowledgements.push_back(count_of(topics::captures_ack(name_of(i))));
+    everybody.push_back(member(name_of(UavIndex(i))));
+    acknowledgements.push_back(count_of(topics::captures_ack(name_of(UavIndex(i)))));
   }
   msg::Step world_step = step_with(everybody, {});
   world_step.links().resize((uavs + 1) * (uavs + 1));
@@ -110,7 +110,7 @@ bool Flow::goes_to(const Seat& seat) const { return std::ranges::find(readers, s
 
 std::vector<Flow> round_flows(std::size_t uavs, int base_domain) {
   std::vector<Flow> flows;
-  for (std::size_t i = 0; i < uavs; ++i) add_agent(flows, i, uavs, base_domain);
+  for (std::size_t i = 0; i < uavs; ++i) add_agent(flows, UavIndex(i), uavs, base_domain);
   add_ground(flows, uavs, base_domain);
   return flows;
 }

@@ -32,7 +32,8 @@ TEST(Round, AgentsStayInTheirDomain) {
     std::vector<Seat> ends = flow.readers;
     ends.push_back(flow.writer);
     for (const Seat& seat : ends) {
-      EXPECT_TRUE(seat.role != Role::agent || flow.domain == uav_domain(kBase, seat.uav)) << flow.topic.name;
+      EXPECT_TRUE(seat.role != Role::agent || flow.domain == uav_domain(kBase, skein::UavIndex(seat.uav)))
+          << flow.topic.name;
     }
     EXPECT_FALSE(flow.goes_to(flow.writer));
   }

@@ -67,7 +67,7 @@ nlohmann::json measure(const Scenario& scenario, const std::map<Tick, Poses>& pa
   const skein::Scene scene = skein::sim::load_scene(scenario);
   std::vector<skein::sim::BodyShape> bodies;
   std::vector<std::pair<std::size_t, skein::sim::Lidar>> lidars;
-  for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+  for (const skein::UavIndex i : scenario.uavs()) {
     const skein::VehicleConfig& vehicle = scenario.fleet[i].vehicle;
     bodies.push_back(skein::sim::body_shape(vehicle));
     if (vehicle.lidar) lidars.emplace_back(i, skein::sim::Lidar(*vehicle.lidar, i, 0));
@@ -76,7 +76,7 @@ nlohmann::json measure(const Scenario& scenario, const std::map<Tick, Poses>& pa
   std::vector<double> scan_ms;
   std::size_t returns = 0;
   for (const auto& [tick, poses] : path) {
-    for (const auto& [uav, X_WB] : poses) rays.set_pose(uav, X_WB);
+    for (const auto& [uav, X_WB] : poses) rays.set_pose(skein::UavIndex(uav), X_WB);
     for (auto& [uav, lidar] : lidars) {
       const auto pose = poses.find(uav);
       if (pose == poses.end() || !lidar.due(tick)) continue;

@@ -115,7 +115,7 @@ class Fleet {
         message_(options.bytes),
         world_(bus_->join(skein::world_domain(options.domain))),
         gcs_(bus_->join(skein::gcs_domain(options.domain))),
-        uav_(bus_->join(skein::uav_domain(options.domain, 0))),
+        uav_(bus_->join(skein::uav_domain(options.domain, skein::UavIndex{0}))),
         ear_domain_(bus_->join(skein::gcs_domain(options.domain))),
         ear_(*ear_domain_, {"rt/plan/gcs", kBare.type, {.depth = 1024}}),
         server_(inbox_),
@@ -187,7 +187,7 @@ class Fleet {
     return server_gcs_.get();
   }
   skein::bus::Participant* uav_peer(const Options& options) {
-    server_uav_ = bus_->join(skein::uav_domain(options.domain, 0));
+    server_uav_ = bus_->join(skein::uav_domain(options.domain, skein::UavIndex{0}));
     return server_uav_.get();
   }
   static bool poll(LockstepClient& client) { return client.poll() == LockstepClient::Event::think; }

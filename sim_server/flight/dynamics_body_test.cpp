@@ -19,16 +19,16 @@ class Body {
   Body(const VehicleConfig& config, const Vector3d& w_WB_B, const Vector3d& v_WB = Vector3d::Zero(), int steps = 1)
       : whole_(mass_properties(config)), steps_(steps), world_({}, kTickS / steps) {
     world_.add_uav(config, Isometry3d(Eigen::Translation3d(0, 0, kHeight)));
-    world_.set_state(0, {.p_WB = {0, 0, kHeight}, .v_WB = v_WB, .w_WB_B = w_WB_B});
+    world_.set_state(UavIndex{0}, {.p_WB = {0, 0, kHeight}, .v_WB = v_WB, .w_WB_B = w_WB_B});
   }
   /// @param torque_B  acts all the time.
   void move(double duration_s, const Vector3d& torque_B = Vector3d::Zero()) {
     for (Tick i = 0; i < steps_ * ticks(duration_s); ++i) {
-      world_.apply_wrench(0, Vector3d::Zero(), state().q_WB * torque_B);
+      world_.apply_wrench(UavIndex{0}, Vector3d::Zero(), state().q_WB * torque_B);
       world_.tick();
     }
   }
-  const RigidBodyState& state() const { return world_.state(0); }
+  const RigidBodyState& state() const { return world_.state(UavIndex{0}); }
   Vector3d angular_momentum_W() const { return state().q_WB * (whole_.I_BBcm_B * state().w_WB_B); }
   double spin_energy() const { return 0.5 * state().w_WB_B.dot(whole_.I_BBcm_B * state().w_WB_B); }
   double total_energy() const {
@@ -109,12 +109,12 @@ TEST(RigidBody, AGyroscopeGivesWayAcrossThePush) {
   const double spin = 60.0, torque = 0.05, duration = 1.0;
   PhysicsWorld world({});
   world.add_uav(explorer, Isometry3d(Eigen::Translation3d(0, 0, 1000)));
-  world.set_state(0, {.p_WB = {0, 0, 1000}, .w_WB_B = {0, 0, spin}});
+  world.set_state(UavIndex{0}, {.p_WB = {0, 0, 1000}, .w_WB_B = {0, 0, spin}});
   for (Tick i = 0; i < ticks(duration); ++i) {
-    world.apply_wrench(0, Vector3d::Zero(), {torque, 0, 0});
+    world.apply_wrench(UavIndex{0}, Vector3d::Zero(), {torque, 0, 0});
     world.tick();
   }
-  const Vector3d axis_W = world.state(0).q_WB * Vector3d::UnitZ();
+  const Vector3d axis_W = world.state(UavIndex{0}).q_WB * Vector3d::UnitZ();
   EXPECT_NEAR(axis_W.x(), torque * duration / (mass_properties(explorer).I_BBcm_B(2, 2) * spin), 5e-4);
   EXPECT_NEAR(axis_W.y(), 0.0, 5e-4);
 }

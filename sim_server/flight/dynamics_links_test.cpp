@@ -139,26 +139,26 @@ double worst_roll_gap(const VehicleConfig& config, double demanded_roll) {
   const RigidBodyState begin{.p_WB = {0, 0, 1000}, .v_WB = {3, -1, 0}};
   PhysicsWorld world({}, kStep);
   world.add_uav(config, begin.X_WB());
-  world.set_state(0, begin);
+  world.set_state(UavIndex{0}, begin);
   NewtonEuler hand = explorer_by_hand();
   hand.start(begin);
   AttitudeController law(config), same_law(config);
   Rotors rotors(config, kStep), same_rotors(config, kStep);
   double worst = 0.0;
   for (Tick tick = 0; tick < ticks(1.5); ++tick) {
-    const RotorSpeeds told = law.step(world.state(0).q_WB, world.state(0).w_WB_B, demand);
+    const RotorSpeeds told = law.step(world.state(UavIndex{0}).q_WB, world.state(UavIndex{0}).w_WB_B, demand);
     const RotorSpeeds hand_told = same_law.step(hand.state().q_WB, hand.state().w_WB_B, demand);
     for (int i = 0; i < kSteps; ++i) {
       rotors.step(told);
-      const RigidBodyState& state = world.state(0);
+      const RigidBodyState& state = world.state(UavIndex{0});
       const Wrench wrench = rotors.wrench(state);
-      world.apply_wrench(0, state.q_WB * wrench.force_B, state.q_WB * wrench.torque_B);
+      world.apply_wrench(UavIndex{0}, state.q_WB * wrench.force_B, state.q_WB * wrench.torque_B);
       world.tick();
       same_rotors.step(hand_told);
       hand.step(kStep, [&](const RigidBodyState& s) { return rotor_wrench(hand, same_rotors.speeds(), s); });
     }
     const auto roll = [](const RigidBodyState& s) { return roll_pitch_yaw(s.q_WB.toRotationMatrix()).roll; };
-    worst = std::max(worst, std::abs(roll(world.state(0)) - roll(hand.state())));
+    worst = std::max(worst, std::abs(roll(world.state(UavIndex{0})) - roll(hand.state())));
   }
   return worst;
 }
@@ -179,14 +179,14 @@ TEST(CompositeBody, TheExplorerSpinsAndDropsAsItsPartsTogetherDo) {
     const RigidBodyState begin{.p_WB = {1, 2, 1000}, .v_WB = {2, -1, 3}, .w_WB_B = w};
     PhysicsWorld world({}, kTickS / 8);
     world.add_uav(vehicle_named("explorer"), begin.X_WB());
-    world.set_state(0, begin);
+    world.set_state(UavIndex{0}, begin);
     NewtonEuler hand = explorer_by_hand();
     hand.start(begin);
     double farthest = 0.0;
     for (int i = 1; i <= 8 * ticks(2.0); ++i) {
       world.tick();
       hand.step(kTickS / 8, no_wrench);
-      const RigidBodyState there = hand.state(), &here = world.state(0);
+      const RigidBodyState there = hand.state(), &here = world.state(UavIndex{0});
       // The world's fall is of first order: g t dt / 2 too low.
       const Vector3d low(0, 0, -0.5 * kWorldGravity * i * (kTickS / 8) * (kTickS / 8));
       ASSERT_LT((here.p_WB - there.p_WB - low).norm(), 1e-3) << i;
@@ -226,7 +226,7 @@ TEST(CompositeBody, WhatFliesFreelyKeepsMomentumAndEnergyAboutItsCentreOfMass) {
     begin.w_WB_B = 4.0 * test::random_unit(random);
     PhysicsWorld world({});
     world.add_uav(vehicle, begin.X_WB());
-    world.set_state(0, begin);
+    world.set_state(UavIndex{0}, begin);
     const auto arm_W = [&](const RigidBodyState& s) { return Vector3d(s.q_WB * whole.p_BBcm); };
     const auto centre_speed = [&](const RigidBodyState& s) {
       return Vector3d(s.v_WB + Vector3d(s.q_WB * s.w_WB_B).cross(arm_W(s)));
@@ -236,7 +236,7 @@ TEST(CompositeBody, WhatFliesFreelyKeepsMomentumAndEnergyAboutItsCentreOfMass) {
     const Vector3d p0 = begin.p_WB + arm_W(begin), v0 = centre_speed(begin), L0 = spin(begin);
     for (Tick tick = 1; tick <= ticks(3.0); ++tick) {
       world.tick();
-      const RigidBodyState& state = world.state(0);
+      const RigidBodyState& state = world.state(UavIndex{0});
       const double t = seconds(tick);
       ASSERT_LT((centre_speed(state) - v0 + Vector3d(0, 0, kWorldGravity * t)).norm(), 1e-9);
       const Vector3d p = p0 + v0 * t - Vector3d(0, 0, 0.5 * kWorldGravity * t * (t + kTickS));
@@ -261,13 +261,13 @@ TEST(CompositeBody, APushAtBoTurnsWhatIsHeavierElsewhere) {
       return whole.mass_kg * (0.5 * (s.v_WB + w_W.cross(arm_W)).squaredNorm() + kWorldGravity * (s.p_WB + arm_W).z()) +
              0.5 * s.w_WB_B.dot(whole.I_BBcm_B * s.w_WB_B);
     };
-    const double begin = energy(world.state(0));
+    const double begin = energy(world.state(UavIndex{0}));
     double work = 0.0, effort = 0.0;
     for (Tick i = 0; i < 16 * ticks(0.5); ++i) {
-      const RigidBodyState a = world.state(0);
-      world.apply_wrench(0, a.q_WB * force_B, a.q_WB * torque_B);
+      const RigidBodyState a = world.state(UavIndex{0});
+      world.apply_wrench(UavIndex{0}, a.q_WB * force_B, a.q_WB * torque_B);
       world.tick();
-      const RigidBodyState& b = world.state(0);
+      const RigidBodyState& b = world.state(UavIndex{0});
       const double done = force_B.dot(0.5 * (a.q_WB.conjugate() * a.v_WB + b.q_WB.conjugate() * b.v_WB)) +
                           torque_B.dot(0.5 * (a.w_WB_B + b.w_WB_B));
       work += done * kTickS / 16;
@@ -275,7 +275,7 @@ TEST(CompositeBody, APushAtBoTurnsWhatIsHeavierElsewhere) {
     }
     // The fall is of first order, which costs it g^2 t dt / 2 per mass, no more, no less.
     const double lost = 0.5 * whole.mass_kg * kWorldGravity * kWorldGravity * 0.5 * kTickS / 16;
-    EXPECT_NEAR(energy(world.state(0)) - begin, work - lost, 0.002 * effort) << flight;
+    EXPECT_NEAR(energy(world.state(UavIndex{0})) - begin, work - lost, 0.002 * effort) << flight;
   }
 }
 
@@ -288,8 +288,8 @@ TEST(CompositeBody, RestsWhereItsLowestBoxIsAndHoversWithoutDrift) {
     PhysicsWorld world({});
     world.add_uav(vehicle, Isometry3d(Eigen::Translation3d(0, 0, rest_height(vehicle))));
     for (int tick = 0; tick < 3 * kTicksPerSecond; ++tick) world.tick();
-    EXPECT_NEAR(world.state(0).p_WB.z(), rest_height(vehicle), 1e-3) << lidar.p_BL.transpose();
-    EXPECT_LT(world.state(0).q_WB.angularDistance(Quaterniond::Identity()), 2e-3);
+    EXPECT_NEAR(world.state(UavIndex{0}).p_WB.z(), rest_height(vehicle), 1e-3) << lidar.p_BL.transpose();
+    EXPECT_LT(world.state(UavIndex{0}).q_WB.angularDistance(Quaterniond::Identity()), 2e-3);
 
     Flight flight(vehicle);
     flight.fly(30.0, hover_at({1, 2, 50.5}));
@@ -343,12 +343,12 @@ TEST(CompositeBody, TheLidarCollidesUpToItsTop) {
   EXPECT_FALSE(world.touches_structure(explorer, below(0.245)));
   EXPECT_FALSE(world.touches_structure(lumped_explorer(), below(0.235)));
   world.add_uav(explorer, below(0.4));
-  world.set_state(0, {.p_WB = {0, 0, 9.6}, .v_WB = {0, 0, 1}});
+  world.set_state(UavIndex{0}, {.p_WB = {0, 0, 9.6}, .v_WB = {0, 0, 1}});
   double highest = 0.0;
   while (world.contacts().empty() && highest < 10.0) {
-    world.apply_wrench(0, {0, 0, 3.385 * kWorldGravity}, Vector3d::Zero());
+    world.apply_wrench(UavIndex{0}, {0, 0, 3.385 * kWorldGravity}, Vector3d::Zero());
     world.tick();
-    highest = world.state(0).p_WB.z();
+    highest = world.state(UavIndex{0}).p_WB.z();
   }
   EXPECT_NEAR(highest, 10.0 - 0.24, 0.005);
 }

@@ -69,21 +69,21 @@ TEST_P(Dynamics, RotorsThatRunDownBrakeAcrossTheirAxes) {
   const double tau = config.motor_time_constant_down_s, start = 500.0;
   PhysicsWorld world({});
   world.add_uav(config, Isometry3d(Eigen::Translation3d(0, 0, 100)));
-  world.set_state(0, {.p_WB = {0, 0, 100}, .v_WB = {5, 2, 0}});
+  world.set_state(UavIndex{0}, {.p_WB = {0, 0, 100}, .v_WB = {5, 2, 0}});
   Rotors rotors(config);
   RotorSpeeds demand;
   demand.fill(start);
   for (int i = 0; i < 400; ++i) rotors.step(demand);
   for (Tick tick = 1; tick <= 100; ++tick) {
     rotors.step({});
-    const RigidBodyState& state = world.state(0);
-    world.apply_wrench(0, state.q_WB * rotors.wrench(state).force_B, Vector3d::Zero());
+    const RigidBodyState& state = world.state(UavIndex{0});
+    world.apply_wrench(UavIndex{0}, state.q_WB * rotors.wrench(state).force_B, Vector3d::Zero());
     world.tick();
     const double t = seconds(tick);
     const double turned = start * tau * (1.0 - std::exp(-t / tau));
     const double share = std::exp(-6.0 * config.rotor_drag * turned / config.mass_kg);
-    EXPECT_NEAR(world.state(0).v_WB.x(), 5.0 * share, 2e-3) << t;
-    EXPECT_NEAR(world.state(0).v_WB.y(), 2.0 * share, 2e-3) << t;
+    EXPECT_NEAR(world.state(UavIndex{0}).v_WB.x(), 5.0 * share, 2e-3) << t;
+    EXPECT_NEAR(world.state(UavIndex{0}).v_WB.y(), 2.0 * share, 2e-3) << t;
   }
 }
 

@@ -30,7 +30,7 @@ class Timing : public testing::Test {
   }
   Simulation& sim() { return *simulation_; }
   void advance() {
-    sim().command_trajectory(0, {.p_WB = {0.5, 0, 4}});
+    sim().command_trajectory(UavIndex{0}, {.p_WB = {0.5, 0, 4}});
     sim().advance();
   }
 
@@ -40,12 +40,12 @@ class Timing : public testing::Test {
 
 TEST_F(Timing, ControllersRunAt20Hz) {
   // The gimbal moves at its control steps only, once every 20 ticks, at the rate that it reports.
-  GimbalState last = sim().uav(0).gimbal;
+  GimbalState last = sim().uav(UavIndex{0}).gimbal;
   int moves = 0;
   for (int i = 0; i < 800; ++i) {
-    sim().command_gimbal(0, {GimbalMode::rate, 0.01, -0.02});
+    sim().command_gimbal(UavIndex{0}, {GimbalMode::rate, 0.01, -0.02});
     advance();
-    const GimbalState& now = sim().uav(0).gimbal;
+    const GimbalState& now = sim().uav(UavIndex{0}).gimbal;
     const bool moved = now.yaw != last.yaw;
     EXPECT_EQ(moved, (sim().tick() - 1) % 20 == 0) << sim().tick();
     if (moved) {
@@ -91,15 +91,15 @@ TEST_F(Timing, TheClockCountsTicksFromTakeOffToEnd) {
   EXPECT_EQ(sim().mission().remaining_s(sim().tick()), 8.0) << "computing before the take-off is free";
   for (int i = 0; i < 400; ++i) sim().advance();
   EXPECT_EQ(sim().mission().remaining_s(sim().tick()), 8.0);
-  const double ground = sim().uav(0).state.p_WB.z();
+  const double ground = sim().uav(UavIndex{0}).state.p_WB.z();
   while (sim().mission().phase() == Phase::waiting && sim().tick() < 4000) {
-    const RigidBodyState& state = sim().uav(0).state;
+    const RigidBodyState& state = sim().uav(UavIndex{0}).state;
     EXPECT_FALSE(state.p_WB.z() > ground + 0.1 && state.v_WB.norm() > 0.1) << "should have started";
     advance();
   }
   const Tick start = *sim().mission().start_tick();
   EXPECT_EQ(start, sim().tick());
-  EXPECT_NEAR(sim().uav(0).state.p_WB.z(), ground + 0.1, 0.01);
+  EXPECT_NEAR(sim().uav(UavIndex{0}).state.p_WB.z(), ground + 0.1, 0.01);
   while (sim().mission().phase() == Phase::flying && sim().tick() < 10000) {
     EXPECT_NEAR(sim().mission().remaining_s(sim().tick()), 8.0 - seconds(sim().tick() - start), 1e-9);
     advance();
@@ -114,7 +114,7 @@ TEST_F(Timing, ARunThatNeverFliesEndsAtTheTimeout) {
   scenario_.exchange_period_s = 0.05;
   Simulation waiting(scenario_, sim().scene(), 0);
   while (waiting.mission().phase() == Phase::waiting && waiting.tick() < 4000) {
-    waiting.command_gimbal(0, {GimbalMode::angle, 0.1, 0.1});
+    waiting.command_gimbal(UavIndex{0}, {GimbalMode::angle, 0.1, 0.1});
     waiting.advance();
   }
   EXPECT_EQ(waiting.mission().end(), MissionEnd::takeoff_timeout);
@@ -125,20 +125,20 @@ TEST_F(Timing, ARunThatNeverFliesEndsAtTheTimeout) {
 
 TEST_F(Timing, TheEndCutsAllControl) {
   while (sim().mission().phase() != Phase::ended) advance();
-  const std::uint64_t captures = sim().uav(0).captures;
-  const GimbalState gimbal = sim().uav(0).gimbal;
-  const double height = sim().uav(0).state.p_WB.z();
+  const std::uint64_t captures = sim().uav(UavIndex{0}).captures;
+  const GimbalState gimbal = sim().uav(UavIndex{0}).gimbal;
+  const double height = sim().uav(UavIndex{0}).state.p_WB.z();
   for (int i = 0; i < 320; ++i) {
-    EXPECT_TRUE(sim().command_trajectory(0, {.p_WB = {0.5, 0, 4}}));
-    sim().command_gimbal(0, {GimbalMode::angle, 0.5, 0.5});
-    sim().trigger_camera(0);
+    EXPECT_TRUE(sim().command_trajectory(UavIndex{0}, {.p_WB = {0.5, 0, 4}}));
+    sim().command_gimbal(UavIndex{0}, {GimbalMode::angle, 0.5, 0.5});
+    sim().trigger_camera(UavIndex{0});
     sim().advance();
     EXPECT_TRUE(sim().events().scans.empty());
     EXPECT_TRUE(sim().events().captures.empty());
   }
-  EXPECT_LT(sim().uav(0).state.p_WB.z(), height - 0.4 * kWorldGravity * 0.8 * 0.8) << "it falls";
-  EXPECT_EQ(sim().uav(0).gimbal.yaw, gimbal.yaw);
-  EXPECT_EQ(sim().uav(0).captures, captures);
+  EXPECT_LT(sim().uav(UavIndex{0}).state.p_WB.z(), height - 0.4 * kWorldGravity * 0.8 * 0.8) << "it falls";
+  EXPECT_EQ(sim().uav(UavIndex{0}).gimbal.yaw, gimbal.yaw);
+  EXPECT_EQ(sim().uav(UavIndex{0}).captures, captures);
 }
 
 }  // namespace

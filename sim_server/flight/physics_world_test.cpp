@@ -54,8 +54,8 @@ TEST(PhysicsWorld, FallsFreely) {
   world.add_uav({}, at(0, 0, 100));
   for (int i = 0; i < 400; ++i) world.tick();
   // Semi-implicit Euler: the velocity is exact, the height is half a tick's speed per second too low.
-  EXPECT_NEAR(world.state(0).v_WB.z(), -kWorldGravity, 1e-9);
-  EXPECT_NEAR(world.state(0).p_WB.z(), 100 - 0.5 * kWorldGravity * 1.0 * (1.0 + kTickS), 1e-9);
+  EXPECT_NEAR(world.state(UavIndex{0}).v_WB.z(), -kWorldGravity, 1e-9);
+  EXPECT_NEAR(world.state(UavIndex{0}).p_WB.z(), 100 - 0.5 * kWorldGravity * 1.0 * (1.0 + kTickS), 1e-9);
 }
 
 TEST(PhysicsWorld, WrenchesAddUpAndLastOneTick) {
@@ -63,13 +63,13 @@ TEST(PhysicsWorld, WrenchesAddUpAndLastOneTick) {
   const VehicleConfig vehicle;
   world.add_uav(vehicle, at(0, 0, 10));
   const Vector3d half_weight(0, 0, 0.5 * vehicle.mass_kg * kWorldGravity);
-  world.apply_wrench(0, half_weight, {0, 0, 0.1});
-  world.apply_wrench(0, half_weight, {0, 0, 0.1});
+  world.apply_wrench(UavIndex{0}, half_weight, {0, 0, 0.1});
+  world.apply_wrench(UavIndex{0}, half_weight, {0, 0, 0.1});
   world.tick();
-  EXPECT_NEAR(world.state(0).v_WB.norm(), 0.0, 1e-12);
-  EXPECT_NEAR(world.state(0).w_WB_B.z(), 0.2 / vehicle.inertia.z() * kTickS, 1e-9);
+  EXPECT_NEAR(world.state(UavIndex{0}).v_WB.norm(), 0.0, 1e-12);
+  EXPECT_NEAR(world.state(UavIndex{0}).w_WB_B.z(), 0.2 / vehicle.inertia.z() * kTickS, 1e-9);
   world.tick();
-  EXPECT_NEAR(world.state(0).v_WB.z(), -kWorldGravity * kTickS, 1e-12);
+  EXPECT_NEAR(world.state(UavIndex{0}).v_WB.z(), -kWorldGravity * kTickS, 1e-12);
 }
 
 TEST(PhysicsWorld, SpinningBodyKeepsMomentumAndEnergy) {
@@ -77,12 +77,12 @@ TEST(PhysicsWorld, SpinningBodyKeepsMomentumAndEnergy) {
   PhysicsWorld world({});
   world.add_uav(vehicle, at(0, 0, 1000));
   const Vector3d w0(3.0, 2.0, -4.0);
-  world.set_state(0, {.p_WB = {0, 0, 1000}, .w_WB_B = w0});
+  world.set_state(UavIndex{0}, {.p_WB = {0, 0, 1000}, .w_WB_B = w0});
   const auto momentum = [&] {
-    return Vector3d(world.state(0).q_WB * vehicle.inertia.cwiseProduct(world.state(0).w_WB_B));
+    return Vector3d(world.state(UavIndex{0}).q_WB * vehicle.inertia.cwiseProduct(world.state(UavIndex{0}).w_WB_B));
   };
   const auto energy = [&] {
-    const Vector3d& w = world.state(0).w_WB_B;
+    const Vector3d& w = world.state(UavIndex{0}).w_WB_B;
     return 0.5 * w.dot(vehicle.inertia.cwiseProduct(w));
   };
   const Vector3d L0 = momentum();
@@ -90,7 +90,7 @@ TEST(PhysicsWorld, SpinningBodyKeepsMomentumAndEnergy) {
   for (int i = 0; i < 4 * kTicksPerSecond; ++i) world.tick();
   EXPECT_NEAR((momentum() - L0).norm() / L0.norm(), 0.0, 1e-6);
   EXPECT_NEAR(energy() / E0, 1.0, 0.002);
-  EXPECT_NEAR(world.state(0).q_WB.norm(), 1.0, 1e-9);
+  EXPECT_NEAR(world.state(UavIndex{0}).q_WB.norm(), 1.0, 1e-9);
 }
 
 TEST(PhysicsWorld, RestsOnTheGroundWithoutCreeping) {
@@ -100,7 +100,7 @@ TEST(PhysicsWorld, RestsOnTheGroundWithoutCreeping) {
     double fastest = 0.0, fastest_settled = 0.0;
     for (int i = 0; i < 10 * kTicksPerSecond; ++i) {
       world.tick();
-      const double speed = world.state(0).v_WB.norm();
+      const double speed = world.state(UavIndex{0}).v_WB.norm();
       fastest = std::max(fastest, speed);
       ASSERT_EQ(world.contacts().size(), 1U);
       EXPECT_EQ(world.contacts()[0].other.kind, BodyId::Kind::ground);
@@ -108,8 +108,8 @@ TEST(PhysicsWorld, RestsOnTheGroundWithoutCreeping) {
     }
     EXPECT_LT(fastest, 0.03);
     EXPECT_LT(fastest_settled, 1e-3);
-    EXPECT_LT((world.state(0).p_WB - Vector3d(3, -2, rest_height(vehicle))).norm(), 1e-3);
-    EXPECT_LT(world.state(0).q_WB.angularDistance(Quaterniond::Identity()), 1e-3);
+    EXPECT_LT((world.state(UavIndex{0}).p_WB - Vector3d(3, -2, rest_height(vehicle))).norm(), 1e-3);
+    EXPECT_LT(world.state(UavIndex{0}).q_WB.angularDistance(Quaterniond::Identity()), 1e-3);
   }
 }
 
@@ -119,20 +119,20 @@ TEST(PhysicsWorld, ASleeperWakesWhenPushedOrHit) {
   world.add_uav(vehicle, at(0, 0, rest_height(vehicle)));
   world.add_uav(vehicle, at(5, 0, rest_height(vehicle)));
   for (int i = 0; i < 400; ++i) world.tick();
-  const RigidBodyState asleep = world.state(0);
+  const RigidBodyState asleep = world.state(UavIndex{0});
   for (int i = 0; i < 400; ++i) world.tick();
-  EXPECT_EQ(world.state(0).p_WB, asleep.p_WB);
+  EXPECT_EQ(world.state(UavIndex{0}).p_WB, asleep.p_WB);
   EXPECT_EQ(world.contacts().size(), 2U);
   for (int i = 0; i < 40; ++i) {
-    world.apply_wrench(0, {0, 0, 2.0 * vehicle.mass_kg * kWorldGravity}, Vector3d::Zero());
+    world.apply_wrench(UavIndex{0}, {0, 0, 2.0 * vehicle.mass_kg * kWorldGravity}, Vector3d::Zero());
     world.tick();
   }
-  EXPECT_NEAR(world.state(0).v_WB.z(), 40 * kTickS * kWorldGravity, 1e-3);
-  world.set_state(0, {.p_WB = {5.2, 0, 1.5}, .v_WB = {0, 0, -4}});
+  EXPECT_NEAR(world.state(UavIndex{0}).v_WB.z(), 40 * kTickS * kWorldGravity, 1e-3);
+  world.set_state(UavIndex{0}, {.p_WB = {5.2, 0, 1.5}, .v_WB = {0, 0, -4}});
   double fastest = 0.0;
   for (int i = 0; i < 400; ++i) {
     world.tick();
-    fastest = std::max(fastest, world.state(1).v_WB.norm());
+    fastest = std::max(fastest, world.state(UavIndex{1}).v_WB.norm());
   }
   EXPECT_GT(fastest, 0.1);
 }
@@ -143,17 +143,17 @@ TEST(PhysicsWorld, ReportsAWallAtEverySpeedAndFromBothSides) {
     for (const double side : {-1.0, 1.0}) {
       PhysicsWorld world(mesh);
       world.add_uav({}, at(5.0 + side * 0.9, 0, 10));
-      world.set_state(0, {.p_WB = {5.0 + side * 0.9, 0, 10}, .v_WB = {-side * speed, 0, 0}});
+      world.set_state(UavIndex{0}, {.p_WB = {5.0 + side * 0.9, 0, 10}, .v_WB = {-side * speed, 0, 0}});
       bool touched = false;
       for (int i = 0; i < 400 * 12 && !touched; ++i) {
-        world.apply_wrench(0, {0, 0, VehicleConfig{}.mass_kg * kWorldGravity}, Vector3d::Zero());
+        world.apply_wrench(UavIndex{0}, {0, 0, VehicleConfig{}.mass_kg * kWorldGravity}, Vector3d::Zero());
         world.tick();
         for (const Contact& contact : world.contacts()) {
           touched = true;
           EXPECT_EQ(contact.other.kind, BodyId::Kind::structure);
           EXPECT_NEAR(contact.p_W.x(), 5.0, 0.05);
         }
-        ASSERT_GT(side * (world.state(0).p_WB.x() - 5.0), 0.3) << "passed at " << speed;
+        ASSERT_GT(side * (world.state(UavIndex{0}).p_WB.x() - 5.0), 0.3) << "passed at " << speed;
       }
       EXPECT_TRUE(touched) << speed;
     }
@@ -172,13 +172,13 @@ TEST(PhysicsWorld, MissesNoTouchOnTheWay) {
     const Vector3d start = test::random_in_box(random, {-40, -40, 5}, {40, 40, 40});
     world.add_uav(vehicle, at(start.x(), start.y(), start.z()));
     const double speed = flight % 2 == 0 ? 12.0 : 1.5;
-    world.set_state(0, {.p_WB = start,
-                        .v_WB = speed * (Vector3d(0, 0, 8) - start).normalized(),
-                        .w_WB_B = 3.0 * test::random_unit(random)});
+    world.set_state(UavIndex{0}, {.p_WB = start,
+                                  .v_WB = speed * (Vector3d(0, 0, 8) - start).normalized(),
+                                  .w_WB_B = 3.0 * test::random_unit(random)});
     int here = 0;
     for (int i = 0; i < 1200 && here < 20; ++i) {
-      const bool overlaps = world.touches_structure(vehicle, world.state(0).X_WB());
-      world.apply_wrench(0, {0, 0, vehicle.mass_kg * kWorldGravity}, Vector3d::Zero());
+      const bool overlaps = world.touches_structure(vehicle, world.state(UavIndex{0}).X_WB());
+      world.apply_wrench(UavIndex{0}, {0, 0, vehicle.mass_kg * kWorldGravity}, Vector3d::Zero());
       world.tick();
       if (!overlaps) continue;
       ++here;
@@ -214,10 +214,10 @@ TEST(PhysicsWorld, ThinMembersDoNotPassThroughRotors) {
         PhysicsWorld world(mesh);
         const Vector3d start(0, 0, 10.0 - vehicle.rotor_height_m - way * (0.3 + 0.0025 * phase));
         world.add_uav(vehicle, at(0, 0, start.z()));
-        world.set_state(0, {.p_WB = start, .v_WB = {0, 0, way * speed}});
+        world.set_state(UavIndex{0}, {.p_WB = start, .v_WB = {0, 0, way * speed}});
         bool touched = false;
         for (int i = 0; i < 400 && !touched; ++i) {
-          world.apply_wrench(0, {0, 0, vehicle.mass_kg * kWorldGravity}, Vector3d::Zero());
+          world.apply_wrench(UavIndex{0}, {0, 0, vehicle.mass_kg * kWorldGravity}, Vector3d::Zero());
           world.tick();
           touched = !world.contacts().empty();
         }
@@ -244,11 +244,11 @@ TEST(PhysicsWorld, TwoUavsThatMeetAreOneContact) {
   PhysicsWorld world({});
   world.add_uav({}, at(0, 0, 10));
   world.add_uav(photographer(), at(3, 0, 10));
-  world.set_state(1, {.p_WB = {3, 0, 10}, .v_WB = {-2, 0, 0}});
+  world.set_state(UavIndex{1}, {.p_WB = {3, 0, 10}, .v_WB = {-2, 0, 0}});
   for (int i = 0; i < 800 && world.contacts().empty(); ++i) world.tick();
   ASSERT_EQ(world.contacts().size(), 1U);
   EXPECT_EQ(world.contacts()[0].uav, 0U);
-  EXPECT_EQ(world.contacts()[0].other, (BodyId{BodyId::Kind::uav, 1}));
+  EXPECT_EQ(world.contacts()[0].other, (BodyId{BodyId::Kind::uav, UavIndex{1}}));
   EXPECT_NEAR(world.contacts()[0].p_W.x(), 0.6, 0.15);
 }
 
@@ -258,7 +258,7 @@ TEST(PhysicsWorld, ContactEndsWhenUavMovesAway) {
   world.add_uav({}, at(5, 0, 10));
   world.tick();
   EXPECT_FALSE(world.contacts().empty());
-  world.set_state(0, {.p_WB = {0, 0, 10}});
+  world.set_state(UavIndex{0}, {.p_WB = {0, 0, 10}});
   world.tick();
   EXPECT_TRUE(world.contacts().empty());
 }
@@ -270,8 +270,8 @@ std::vector<RigidBodyState> chaos(std::size_t fleet) {
   for (std::size_t i = 0; i < fleet; ++i) {
     const double x = 1.1 * static_cast<double>(i % 3);
     world.add_uav({}, at(x, 0.2 * static_cast<double>(i), 2.0 + 0.5 * static_cast<double>(i)));
-    world.set_state(i, {.p_WB = {x, 0.2 * static_cast<double>(i), 2.0 + 0.5 * static_cast<double>(i)},
-                        .w_WB_B = {0.3, 0.1 * static_cast<double>(i), 0.2}});
+    world.set_state(UavIndex(i), {.p_WB = {x, 0.2 * static_cast<double>(i), 2.0 + 0.5 * static_cast<double>(i)},
+                                  .w_WB_B = {0.3, 0.1 * static_cast<double>(i), 0.2}});
   }
   for (int t = 0; t < 1200; ++t) world.tick();
   return world.states();
@@ -298,10 +298,10 @@ TEST(PhysicsWorld, ABodyThatLeavesTheWorldIsTakenOut) {
     world.keep_within(1000.0);
     world.add_uav({}, at(0, 0, 10));
     world.add_uav({}, at(5, 0, 10));
-    world.set_state(0, {.p_WB = {0, 0, 10}, .v_WB = {speed, 0, 0}, .w_WB_B = {0, speed, 0}});
+    world.set_state(UavIndex{0}, {.p_WB = {0, 0, 10}, .v_WB = {speed, 0, 0}, .w_WB_B = {0, speed, 0}});
     std::vector<std::size_t> strays;
     for (int t = 0; t < 100; ++t) {
-      world.apply_wrench(0, {speed, speed, 0}, {0, speed, 0});
+      world.apply_wrench(UavIndex{0}, {speed, speed, 0}, {0, speed, 0});
       world.tick();
       strays.insert(strays.end(), world.strays().begin(), world.strays().end());
       for (const RigidBodyState& state : world.states()) {
@@ -310,9 +310,10 @@ TEST(PhysicsWorld, ABodyThatLeavesTheWorldIsTakenOut) {
       }
     }
     EXPECT_EQ(strays, std::vector<std::size_t>{0}) << speed;
-    EXPECT_EQ(world.state(0).v_WB, Vector3d(0, 0, 0));
-    EXPECT_NEAR(world.state(1).p_WB.z(), 10.0 - 0.5 * kWorldGravity * 0.25 * 0.25, 0.01) << "the other one falls on";
-    EXPECT_NEAR(world.state(1).p_WB.x(), 5.0, 1e-9);
+    EXPECT_EQ(world.state(UavIndex{0}).v_WB, Vector3d(0, 0, 0));
+    EXPECT_NEAR(world.state(UavIndex{1}).p_WB.z(), 10.0 - 0.5 * kWorldGravity * 0.25 * 0.25, 0.01)
+        << "the other one falls on";
+    EXPECT_NEAR(world.state(UavIndex{1}).p_WB.x(), 5.0, 1e-9);
   }
 }
 

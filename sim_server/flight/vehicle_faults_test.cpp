@@ -112,13 +112,13 @@ class Faulty : public testing::Test {
     simulation_ = std::make_unique<Simulation>(scenario_, scene_, 0, faults);
     for (int k = 0; seconds(20 * k) < duration_s; ++k) {
       const double t = seconds(20 * k), y = 3.0 * std::sin(0.5 * t);
-      simulation_->command_trajectory(0, {.p_WB = {6, y, 5 + 0.3 * t}});
-      simulation_->command_trajectory(1, {.p_WB = {6, y + 6, 5 + 0.3 * t}});
+      simulation_->command_trajectory(UavIndex{0}, {.p_WB = {6, y, 5 + 0.3 * t}});
+      simulation_->command_trajectory(UavIndex{1}, {.p_WB = {6, y + 6, 5 + 0.3 * t}});
       simulation_->advance();
       watch(t);
     }
   }
-  const UavView& lead() const { return simulation_->uav(0); }
+  const UavView& lead() const { return simulation_->uav(UavIndex{0}); }
 
   Scenario scenario_;
   Scene scene_;
@@ -154,7 +154,7 @@ TEST_F(Faulty, ATriggerDuringTheFailureIsLost) {
   int captures = 0;
   fly(plan({fault(10.0, 15.0, CameraFailure{"other"})}), 20.0, [&](double t) {
     for (const CaptureEvent& event : simulation_->events().captures) captures += event.uav == 1 && t >= 10.0;
-    if (t >= 9.9 && t < 14.5) simulation_->trigger_camera(1);
+    if (t >= 9.9 && t < 14.5) simulation_->trigger_camera(UavIndex{1});
   });
   EXPECT_EQ(captures, 0) << "triggered by hand from 9.9 s on, and never while it worked again";
 }
@@ -162,8 +162,8 @@ TEST_F(Faulty, ATriggerDuringTheFailureIsLost) {
 TEST_F(Faulty, ADeadRotorBringsTheUavDownAndOnlyThisOne) {
   fly(plan({fault(10.0, std::nullopt, MotorFailure{"lead", 2, 0.0})}), 20.0, [](double) {});
   EXPECT_LT(lead().state.p_WB.z(), 1.0) << "six rotors in a ring do not bear the loss of one";
-  EXPECT_TRUE(simulation_->uav(1).airborne);
-  EXPECT_GT(simulation_->uav(1).state.p_WB.z(), 9.0);
+  EXPECT_TRUE(simulation_->uav(UavIndex{1}).airborne);
+  EXPECT_GT(simulation_->uav(UavIndex{1}).state.p_WB.z(), 9.0);
 }
 
 TEST_F(Faulty, AWeakRotorIsBorne) {
@@ -193,7 +193,8 @@ TEST_F(Faulty, ALinkMayEndBeforeWithinItsTimeAndOneWayOnly) {
   bool as_told = true;
   fly(plan({fault(4.0, 6.0, short_one)}), 8.0, [&](double) {
     const double t = seconds(simulation_->tick());
-    const bool there = simulation_->links()[1 * 3 + 2] != 0, back = simulation_->links()[2 * 3 + 1] != 0;
+    const bool there = simulation_->links().at(Node{1}, Node{2}) != 0,
+               back = simulation_->links().at(Node{2}, Node{1}) != 0;
     as_told &= back && there == (t < 4.0 || t >= 6.0);
   });
   EXPECT_TRUE(as_told);
@@ -202,11 +203,14 @@ TEST_F(Faulty, ALinkMayEndBeforeWithinItsTimeAndOneWayOnly) {
 TEST_F(Faulty, ABlackoutSilencesBothWaysButNotTheLineOfSight) {
   bool cut_all_through = true, seen_before = false, key_frames_out = false;
   fly(plan({fault(10.0, 15.0, Blackout{"lead"})}), 12.0, [&](double t) {
-    const auto linked = [&](Node from, Node to) { return simulation_->open_links()[from * 3 + to] != 0; };
-    ASSERT_NE(simulation_->links()[1 * 3 + 2], 0) << "they see each other all the time";
-    const bool open = linked(1, 2) || linked(2, 1) || linked(0, 1) || linked(1, 0);
-    if (t < 9.0) seen_before |= linked(1, 2) && linked(2, 1);
-    if (t >= 10.0) cut_all_through &= !open && linked(0, 2) == (simulation_->links()[2] != 0);
+    const Node lead{1}, other{2};
+    const auto linked = [&](Node from, Node to) { return simulation_->open_links().at(from, to) != 0; };
+    ASSERT_NE(simulation_->links().at(Node{1}, Node{2}), 0) << "they see each other all the time";
+    const bool open =
+        linked(lead, other) || linked(other, lead) || linked(kStationNode, lead) || linked(lead, kStationNode);
+    if (t < 9.0) seen_before |= linked(lead, other) && linked(other, lead);
+    if (t >= 10.0)
+      cut_all_through &= !open && linked(kStationNode, other) == (simulation_->links().at(kStationNode, other) != 0);
     for (const KeyFrameEvent& event : simulation_->events().key_frames) {
       key_frames_out |= t >= 10.0 && !event.neighbours.empty();
     }

@@ -148,19 +148,19 @@ TEST(Vehicle, SpeedOfATick) {
   const std::clock_t begin = std::clock();
   for (Tick tick = 0; tick < kTicks; ++tick) {
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
-      const RigidBodyState& state = world.state(i);
+      const RigidBodyState& state = world.state(UavIndex(i));
       if (tick % kControlTicks == 0) {
         vehicles[i].control(tick, state, TrajectoryCommand{.p_WB = {3.0 * static_cast<double>(i), 1, 10}},
                             std::nullopt);
       }
       const Wrench wrench = vehicles[i].step(state);
-      world.apply_wrench(i, state.q_WB * wrench.force_B, state.q_WB * wrench.torque_B);
+      world.apply_wrench(UavIndex(i), state.q_WB * wrench.force_B, state.q_WB * wrench.torque_B);
     }
     world.tick();
   }
   const double time_us = 1e6 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   std::cout << "[ measured ] " << time_us / kTicks << " us of CPU per tick of five UAVs in free flight\n";
-  EXPECT_NEAR(world.state(4).p_WB.z(), 10.0, 0.2);
+  EXPECT_NEAR(world.state(UavIndex{4}).p_WB.z(), 10.0, 0.2);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ double captured(const Scenario& scenario, const Scene& scene, const RayScene& wo
   const Isometry3d X_WB = body_pose(vehicle, view);
   body.q_WB = Quaterniond(X_WB.linear());
   body.p_WB = X_WB.translation();
-  Camera camera(vehicle.camera, scenario.desired_mm_per_pixel, scenario.rules, scene.points, 0);
+  Camera camera(vehicle.camera, scenario.desired_mm_per_pixel, scenario.rules, scene.points, UavIndex{});
   for (const Detection& seen : camera.capture(0, body, {view.pitch, view.gimbal_yaw, 0.0, 0.0}, world).detections) {
     if (seen.point == point) return seen.q;
   }

@@ -46,7 +46,7 @@ enum class HitKind { structure, ground, uav };
 struct Hit {
   double distance = 0.0;  ///< along the ray [m]
   HitKind kind = HitKind::structure;
-  UavIndex uav = kNobody;             ///< fleet index, when `kind` is uav
+  UavIndex uav = kNobody;                ///< fleet index, when `kind` is uav
   std::uint32_t triangle = kNoTriangle;  ///< of the structure, when `kind` is structure
 };
 

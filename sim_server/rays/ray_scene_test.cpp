@@ -182,18 +182,18 @@ TEST(RayScene, BodiesHideExceptTheExcused) {
   RayScene world(TriangleMesh{}, {body_shape(vehicle), body_shape(vehicle)});
   const Vector3d from{0.0, 0.0, 10.0}, to{20.0, 0.0, 10.0};
   EXPECT_FALSE(world.first_hit_distance(from, to)) << "bodies take part from their first pose on";
-  world.set_pose(0, Isometry3d(Eigen::Translation3d(5.0, 0.0, 10.0)));
-  world.set_pose(1, Isometry3d(Eigen::Translation3d(9.0, 0.0, 10.0)));
+  world.set_pose(UavIndex{0}, Isometry3d(Eigen::Translation3d(5.0, 0.0, 10.0)));
+  world.set_pose(UavIndex{1}, Isometry3d(Eigen::Translation3d(9.0, 0.0, 10.0)));
   auto hit = world.first_hit(from, to - from, 20.0);
   ASSERT_TRUE(hit);
   EXPECT_EQ(hit->kind, HitKind::uav);
   EXPECT_EQ(hit->uav, 0U);
   EXPECT_NEAR(hit->distance, 4.9, 1e-12);
-  hit = world.first_hit(from, to - from, 20.0, {.except_uav = 0});
+  hit = world.first_hit(from, to - from, 20.0, {.except_uav = UavIndex{0}});
   ASSERT_TRUE(hit);
   EXPECT_EQ(hit->uav, 1U);
   EXPECT_NEAR(hit->distance, 8.9, 1e-12);
-  EXPECT_FALSE(world.first_hit(from, to - from, 20.0, {.except_uav = 1, .except_other_uav = 0}));
+  EXPECT_FALSE(world.first_hit(from, to - from, 20.0, {.except_uav = UavIndex{1}, .except_other_uav = UavIndex{0}}));
   EXPECT_FALSE(world.first_hit(from, to - from, 20.0, {.uavs = false}));
   EXPECT_FALSE(world.first_hit_distance(from, {4.8, 0.0, 10.0}));
 }
@@ -202,7 +202,7 @@ TEST(RayScene, RotorDiscsTurnWithTheBody) {
   VehicleConfig vehicle;
   RayScene world(TriangleMesh{}, {body_shape(vehicle)});
   const Isometry3d X_WB = Eigen::Translation3d(3.0, -2.0, 8.0) * Eigen::Quaterniond(rotation(0.2, -0.3, 2.0));
-  world.set_pose(0, X_WB);
+  world.set_pose(UavIndex{0}, X_WB);
   for (int i = 0; i < 6; ++i) {
     const double angle = (30.0 + 60.0 * i) * std::numbers::pi / 180.0;
     const Vector3d hub{vehicle.arm_m * std::cos(angle), vehicle.arm_m * std::sin(angle), vehicle.rotor_height_m};
@@ -232,7 +232,7 @@ TEST(RayScene, ABoxOfALinkIsMetAsIfItWereStructure) {
     TriangleMesh mesh;
     test::add_box(mesh, X_WB * p_BL, edges, X_WB.linear());
     RayScene world(TriangleMesh{}, {body_shape(vehicle)});
-    world.set_pose(0, X_WB);
+    world.set_pose(UavIndex{0}, X_WB);
     for (int j = 0; j < 100; ++j) {
       const Vector3d from = Vector3d(0.0, 0.0, 9.0) + 3.0 * random_unit(random);
       const Vector3d to = X_WB * (p_BL + 0.7 * random_in_box(random, -edges, edges));
@@ -266,7 +266,7 @@ TEST(RayScene, ScanAgreesWithSingleRays) {
     world.set_pose(uav, Eigen::Translation3d(random_in_box(random, {-3.0, -3.0, 1.0}, {3.0, 3.0, 5.0})) *
                             Eigen::Quaterniond(rotation(0.1, 0.1, 6.0 * random.uniform())));
   }
-  const RayFilter filter{.except_uav = 2};
+  const RayFilter filter{.except_uav = UavIndex{2}};
   int bodies = 0, grazing = 0;
   for (int scan = 0; scan < 10; ++scan) {
     const Vector3d origin = random_in_box(random, {-3.0, -3.0, 1.0}, {3.0, 3.0, 5.0});

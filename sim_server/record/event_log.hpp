@@ -35,8 +35,8 @@ class EventLog {
   const Scenario& scenario_;
   StreamFile out_;
   std::vector<std::string> members_;
-  std::vector<bool> present_;        ///< by members_
-  Links links_;  ///< as last told
+  std::vector<bool> present_;  ///< by members_
+  Links links_;                ///< as last told
 };
 
 }  // namespace skein::sim

@@ -22,8 +22,10 @@ class RunFilesTest : public testing::Test {
     }
   }
   Scenario scenario_;
-  const Collision with_structure_{.tick = 4921, .uav = UavIndex{1}, .with = {BodyId::Kind::structure, 0}, .p_W = {1.5, -2, 7}};
-  const Collision with_uav_{.tick = 400, .uav = UavIndex{0}, .with = {BodyId::Kind::uav, 1}, .p_W = {1, 2, 3}};
+  const Collision with_structure_{
+      .tick = 4921, .uav = UavIndex{1}, .with = {BodyId::Kind::structure, UavIndex{0}}, .p_W = {1.5, -2, 7}};
+  const Collision with_uav_{
+      .tick = 400, .uav = UavIndex{0}, .with = {BodyId::Kind::uav, UavIndex{1}}, .p_W = {1, 2, 3}};
 };
 
 TEST_F(RunFilesTest, ALineTellsPairTimeAndPlace) {

@@ -26,7 +26,7 @@ TEST(CameraMount, HidesWhatTheBodyInTheWorldHides) {
     X_WB.linear() = rotation_z(yaw);
     X_WB.translation() = mount.body_centre(p_WC, yaw);
     EXPECT_TRUE((X_WB * kind.camera.p_BC).isApprox(p_WC, 1e-12));
-    world.set_pose(0, X_WB);
+    world.set_pose(UavIndex{0}, X_WB);
     const bool met = world.first_hit(p_WC, ray, 5.0, {.ground = false}).has_value();
     EXPECT_EQ(mount.hides(ray, yaw), met) << ray.transpose() << ", " << yaw;
     EXPECT_FALSE(glass.hides(ray, yaw));

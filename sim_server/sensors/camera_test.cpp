@@ -78,7 +78,7 @@ TEST(Camera, SeesWhatBruteForceSees) {
   const RayScene world(mesh);
   int seen = 0, hidden = 0, open = 0;
   for (int shot = 0; shot < 60; ++shot) {
-    Camera camera(CameraConfig{}, kDesired, RulesConfig{}, points, 0);
+    Camera camera(CameraConfig{}, kDesired, RulesConfig{}, points, UavIndex{});
     const RigidBodyState body = random_state(random, {-18.0, -18.0, 25.0}, {18.0, 18.0, 55.0});
     const GimbalState gimbal{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.0, 0.0};
     const CameraState state = camera_state(body, gimbal, CameraConfig{});
@@ -114,7 +114,7 @@ class CameraAtWall : public ::testing::Test {
     body_.p_WB = {0.0, 0.0, 10.0};
   }
   RayScene world() const { return RayScene(mesh_, std::vector<BodyShape>(2, body_shape(VehicleConfig{}))); }
-  Camera camera() const { return Camera(CameraConfig{}, kDesired, rules_, points_, 0); }
+  Camera camera() const { return Camera(CameraConfig{}, kDesired, rules_, points_, UavIndex{}); }
 
   TriangleMesh mesh_;
   std::vector<InterestPoint> points_ = {{{5.0F, 0.1F, 9.8F}, {-1.0F, 0.0F, 0.0F}}};
@@ -194,9 +194,9 @@ TEST_F(CameraAtWall, RemembersWhatItSawTooPoorly) {
 TEST_F(CameraAtWall, OthersHide) {
   Camera c = camera();
   RayScene w = world();
-  w.set_pose(0, body_.X_WB());
+  w.set_pose(UavIndex{0}, body_.X_WB());
   EXPECT_EQ(c.capture(0, body_, {}, w).detections.size(), 1U);
-  w.set_pose(1, Isometry3d(Eigen::Translation3d(2.5, 0.05, 9.75)));
+  w.set_pose(UavIndex{1}, Isometry3d(Eigen::Translation3d(2.5, 0.05, 9.75)));
   EXPECT_TRUE(c.capture(41, body_, {}, w).detections.empty());
 }
 
@@ -205,7 +205,7 @@ TEST_F(CameraAtWall, ItsOwnRotorsHideWhatIsAbove) {
   test::add_box(mesh_, {0.0, 0.0, 15.5}, {30.0, 30.0, 1.0});  // a ceiling
   points_ = {{{2.5F, 1.5F, 15.0F}, {0.0F, 0.0F, -1.0F}}};
   RayScene w = world();
-  w.set_pose(0, body_.X_WB());
+  w.set_pose(UavIndex{0}, body_.X_WB());
   const GimbalState up{-1.2, 0.0, 0.0, 0.0};
   rules_.own_body_hides = false;
   EXPECT_EQ(camera().capture(0, body_, up, w).detections.size(), 1U);
@@ -260,7 +260,7 @@ TEST(Camera, HidesAsMuchOfThePictureAsTheBodyOfTheReference) {
     RigidBodyState body;
     body.p_WB = {0.0, 0.0, 50.0};
     RayScene world(TriangleMesh{}, {body_shape(vehicle)});
-    world.set_pose(0, body.X_WB());
+    world.set_pose(UavIndex{0}, body.X_WB());
     for (std::size_t i = 0; i < kPitchDeg.size(); ++i) {
       const GimbalState gimbal{kPitchDeg[i] * kRadPerDeg, row.yaw_deg * kRadPerDeg, 0.0, 0.0};
       const Isometry3d X_WC = camera_state(body, gimbal, camera).X_WC;
@@ -346,7 +346,7 @@ TEST(Camera, MeasureCaptureOnMbs) {
     GTEST_SKIP() << "SKEIN_ASSETS is not set";
   }
   const RayScene world(*mesh);
-  Camera camera(CameraConfig{}, kDesired, RulesConfig{}, *points, 0);
+  Camera camera(CameraConfig{}, kDesired, RulesConfig{}, *points, UavIndex{});
   std::vector<RigidBodyState> states;
   for (std::size_t i = 0; i < points->size(); i += 5) {
     // Seven metres off a point, turned towards it.

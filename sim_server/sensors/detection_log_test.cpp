@@ -89,7 +89,7 @@ TEST(DetectionLog, ReportsNameNoPointOfTheScene) {
   for (Tick tick = 0; tick < 30; ++tick) {
     const Capture capture = camera.capture(tick);
     log.add(capture);
-    const auto report = referee.enter(0, capture);
+    const auto report = referee.enter(UavIndex{0}, capture);
     if (!report) continue;
     const CaptureReport handed = log.as_told(*report);
     ASSERT_EQ(handed.points.size(), report->points.size());

@@ -61,7 +61,7 @@ TEST(ServoAngle, LikeSteppedLaw) {
 }
 
 TEST(Lidar, DueTenTimesASecond) {
-  const Lidar lidar(LidarConfig{}, 0, 0);
+  const Lidar lidar(LidarConfig{}, UavIndex{0}, 0);
   int scans = 0;
   for (Tick tick = 0; tick < 10 * kTicksPerSecond; ++tick) {
     scans += lidar.due(tick);
@@ -93,7 +93,7 @@ class LidarRoom : public ::testing::Test {
 
 TEST_F(LidarRoom, AllBeamsMeetTheWalls) {
   const RayScene world = room();
-  Lidar lidar(LidarConfig{}, 0, 0);
+  Lidar lidar(LidarConfig{}, UavIndex{0}, 0);
   for (const Tick tick : {0, 1000, 2200, 4040}) {
     const LidarScan scan = lidar.scan(tick, X_WB_, world);
     // Rings from -15 to 15 degrees every two degrees, columns round from -pi: all in the order of the cloud.
@@ -126,9 +126,9 @@ TEST_F(LidarRoom, MotionDuringAScanLeavesNoTraceOfAStillOne) {
   const RayScene world = room();
   LidarConfig config;
   config.servo_rate_deg_s = 0.0;
-  Lidar instant(config, 0, 7);
+  Lidar instant(config, UavIndex{0}, 7);
   config.motion_distortion = true;
-  Lidar sweeping(config, 0, 7);
+  Lidar sweeping(config, UavIndex{0}, 7);
   for (Tick tick = 0; tick <= 80; ++tick) sweeping.move(tick, X_WB_);
   EXPECT_EQ(sweeping.scan(80, X_WB_, world).points_W, instant.scan(80, X_WB_, world).points_W);
 }
@@ -137,7 +137,7 @@ TEST_F(LidarRoom, MotionDuringAScanDistortsAsGeometrySays) {
   const RayScene world = room();
   LidarConfig config;
   config.motion_distortion = true;
-  Lidar lidar(config, 0, 0);
+  Lidar lidar(config, UavIndex{0}, 0);
   for (Tick tick = 0; tick <= 80; ++tick) lidar.move(tick, moving_body(X_WB_, tick));
   const LidarScan scan = lidar.scan(80, moving_body(X_WB_, 80), world);
   ASSERT_EQ(scan.points_W.size(), 16U * 440U);
@@ -163,7 +163,7 @@ TEST_F(LidarRoom, MotionDuringAScanDistortsAsGeometrySays) {
 
 TEST_F(LidarRoom, ScanNumbersCountPeriods) {
   const RayScene world = room();
-  Lidar lidar(LidarConfig{}, 0, 0);
+  Lidar lidar(LidarConfig{}, UavIndex{0}, 0);
   EXPECT_EQ(lidar.scan(0, X_WB_, world).number, 0U);
   const LidarScan third = lidar.scan(80, X_WB_, world);
   EXPECT_EQ(third.number, 2U);
@@ -175,7 +175,7 @@ TEST_F(LidarRoom, RangeLimitsLeavePointsOut) {
   LidarConfig config;
   config.range_min_m = 12.0;
   config.range_max_m = 14.0;
-  Lidar limited(config, 0, 0), whole(LidarConfig{}, 0, 0);
+  Lidar limited(config, UavIndex{0}, 0), whole(LidarConfig{}, UavIndex{0}, 0);
   const LidarScan scan = limited.scan(0, X_WB_, world);
   const LidarScan all = whole.scan(0, X_WB_, world);
   std::vector<Eigen::Vector3f> expected;
@@ -189,12 +189,12 @@ TEST_F(LidarRoom, RangeLimitsLeavePointsOut) {
 
 TEST_F(LidarRoom, SeesOthersButNotItself) {
   RayScene world = room();
-  Lidar alone(LidarConfig{}, 0, 0), lidar(LidarConfig{}, 0, 0);
+  Lidar alone(LidarConfig{}, UavIndex{0}, 0), lidar(LidarConfig{}, UavIndex{0}, 0);
   const auto without = alone.scan(0, X_WB_, world);
-  world.set_pose(0, X_WB_);
+  world.set_pose(UavIndex{0}, X_WB_);
   EXPECT_EQ(lidar.scan(0, X_WB_, world).points_W, without.points_W);
   const Vector3d other = X_WB_ * Vector3d(4.0, 0.0, 0.2);
-  world.set_pose(1, Isometry3d(Eigen::Translation3d(other)));
+  world.set_pose(UavIndex{1}, Isometry3d(Eigen::Translation3d(other)));
   const auto with = lidar.scan(0, X_WB_, world).points_W;
   EXPECT_EQ(with.size(), without.points_W.size());
   EXPECT_GT(std::ranges::count_if(
@@ -207,8 +207,8 @@ TEST_F(LidarRoom, NoiseIsSeeded) {
   const RayScene world = room();
   LidarConfig config;
   config.servo_rate_deg_s = 0.0;  // whatever the phase
-  Lidar clean(config, 0, 0), noisy(config, 0, 5), again(config, 0, 5), other_seed(config, 0, 6),
-      other_uav(config, 1, 5);
+  Lidar clean(config, UavIndex{0}, 0), noisy(config, UavIndex{0}, 5), again(config, UavIndex{0}, 5),
+      other_seed(config, UavIndex{0}, 6), other_uav(config, UavIndex{1}, 5);
   const LidarScan reference = clean.scan(0, X_WB_, world), scan = noisy.scan(0, X_WB_, world);
   EXPECT_EQ(scan.points_W, again.scan(0, X_WB_, world).points_W);
   EXPECT_NE(scan.points_W, other_seed.scan(0, X_WB_, world).points_W);
@@ -234,7 +234,8 @@ TEST(Lidar, SeesFromNinetyCentimetresToFiftyMetres) {
     TriangleMesh mesh;
     test::add_box(mesh, {0.0, 0.0, 200.0 + 0.2 + 0.00185}, Vector3d::Constant(2.0 * half_size));
     const RayScene world(mesh);
-    const LidarScan scan = Lidar(LidarConfig{}, 0, 0).scan(0, Isometry3d(Eigen::Translation3d(0.0, 0.0, 200.0)), world);
+    const LidarScan scan =
+        Lidar(LidarConfig{}, UavIndex{0}, 0).scan(0, Isometry3d(Eigen::Translation3d(0.0, 0.0, 200.0)), world);
     std::pair ranges{0.0, 1e9};
     for (const Eigen::Vector3f& p : scan.points_W) {
       const double range = (p.cast<double>() - scan.X_WL.translation()).norm();
@@ -256,10 +257,10 @@ TEST_F(LidarRoom, NoiseFollowsSigma) {
   const RayScene world = room();
   LidarConfig config;
   config.servo_rate_deg_s = 0.0;
-  const LidarScan clean = Lidar(config, 0, 0).scan(0, X_WB_, world);
+  const LidarScan clean = Lidar(config, UavIndex{0}, 0).scan(0, X_WB_, world);
   for (const double sigma : {0.0, 0.003, 0.05}) {
     config.sigma_m = sigma;
-    const LidarScan scan = Lidar(config, 0, 5).scan(0, X_WB_, world);
+    const LidarScan scan = Lidar(config, UavIndex{0}, 5).scan(0, X_WB_, world);
     ASSERT_EQ(scan.points_W.size(), clean.points_W.size());
     double sum2 = 0.0;
     for (std::size_t i = 0; i < scan.points_W.size(); ++i) {
@@ -274,10 +275,10 @@ TEST(Lidar, SeedDrawsThePhaseOnce) {
   const auto angle_at_start = [&world](UavIndex uav, std::uint64_t seed) {
     return Lidar(LidarConfig{}, uav, seed).scan(0, Isometry3d::Identity(), world).servo_angle;
   };
-  EXPECT_EQ(angle_at_start(0, 0), 0.0);
-  EXPECT_EQ(angle_at_start(0, 3), angle_at_start(0, 3));
-  EXPECT_NE(angle_at_start(0, 3), angle_at_start(1, 3));
-  EXPECT_NE(angle_at_start(0, 3), angle_at_start(0, 4));
+  EXPECT_EQ(angle_at_start(UavIndex{0}, 0), 0.0);
+  EXPECT_EQ(angle_at_start(UavIndex{0}, 3), angle_at_start(UavIndex{0}, 3));
+  EXPECT_NE(angle_at_start(UavIndex{0}, 3), angle_at_start(UavIndex{1}, 3));
+  EXPECT_NE(angle_at_start(UavIndex{0}, 3), angle_at_start(UavIndex{0}, 4));
 }
 
 /// Not a test of speed, only a figure for the log: CPU time of a scan along a flight round the structure.
@@ -287,7 +288,7 @@ TEST(Lidar, MeasureScanOnMbs) {
     GTEST_SKIP() << "SKEIN_ASSETS is not set";
   }
   const RayScene world(*mesh);
-  Lidar lidar(LidarConfig{}, 0, 0);
+  Lidar lidar(LidarConfig{}, UavIndex{0}, 0);
   constexpr int kScans = 200;
   std::size_t points = 0;
   const std::clock_t start = std::clock();

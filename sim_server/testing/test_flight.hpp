@@ -43,14 +43,14 @@ class Flight {
       for (int step = 0; step < steps_; ++step) {
         before_ = state();
         wrench_ = vehicle_.fly(before_);
-        world_.apply_wrench(0, before_.q_WB * wrench_.force_B, before_.q_WB * wrench_.torque_B);
+        world_.apply_wrench(UavIndex{0}, before_.q_WB * wrench_.force_B, before_.q_WB * wrench_.torque_B);
         world_.tick();
         watch();
       }
     }
   }
 
-  const RigidBodyState& state() const { return world_.state(0); }
+  const RigidBodyState& state() const { return world_.state(UavIndex{0}); }
   /// Of the step that was last flown: the state that it began with, and the wrench of the rotors on it.
   const RigidBodyState& before() const { return before_; }
   const Wrench& wrench() const { return wrench_; }

@@ -127,7 +127,7 @@ class Server {
   Server(const std::string& vendor, int base) : bus_(bus::make_bus({.vendor = vendor})), server_(inbox_) {
     participants_.push_back(bus_->join(world_domain(base)));
     server_.add_place(std::string(bus::kRouterName), server_.add_domain("", *participants_[0]), true);
-    for (Node node = 0; node < kNodes.size(); ++node) {
+    for (const Node node : FirstNodes(kNodes.size())) {
       participants_.push_back(bus_->join(node_domain(base, node)));
       const auto domain = server_.add_domain(kNodes[node], *participants_.back());
       server_.add_place(node == kStationNode ? std::string(bus::kStationName) : kNodes[node], domain, true);
@@ -187,7 +187,7 @@ std::vector<std::pair<std::uint64_t, Bytes>> expected(std::size_t to, const std:
 class Radio : public testing::TestWithParam<Pair> {
  protected:
   Radio() {
-    for (Node node = 0; node < kNodes.size(); ++node) {
+    for (const Node node : FirstNodes(kNodes.size())) {
       members_.push_back(std::make_unique<Member>(node == 1 ? GetParam().reader : GetParam().writer, base_, node));
     }
   }
@@ -224,7 +224,7 @@ class Radio : public testing::TestWithParam<Pair> {
 
 TEST_P(Radio, CarriesAnyTypeBitForBitToWhomItMay) {
   // A stranger at the source, and one where a topic must not arrive.
-  const auto at_a = bus_->join(node_domain(base_, 1)), at_gcs = bus_->join(node_domain(base_, 0));
+  const auto at_a = bus_->join(node_domain(base_, Node{1})), at_gcs = bus_->join(node_domain(base_, Node{0}));
   std::atomic<int> back = 0, from_elsewhere = 0;
   const auto listen = [](bus::Participant& where, const std::string& name, auto& count) {
     return where.create_reader({name, wire_type(kBlobType), {.depth = 1000}}, [&count](bus::Sample&&) { ++count; });

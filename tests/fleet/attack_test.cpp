@@ -31,7 +31,7 @@ TEST_P(Attack, WhatAnotherRunLeftBehindIsNotListenedTo) {
   for (std::size_t i = 0; i < kFleet.size(); ++i) {
     start_program("leftover_" + kFleet[i], {SKEIN_MINIMAL_CLIENT},
                   {{"SKEIN_RUN", "7"},
-                   {"SKEIN_DOMAIN", std::to_string(uav_domain(std::stoi(base), i))},
+                   {"SKEIN_DOMAIN", std::to_string(uav_domain(std::stoi(base), UavIndex(i)))},
                    {"SKEIN_UAV", kFleet[i]},
                    {"SKEIN_DDS", GetParam()}});
   }

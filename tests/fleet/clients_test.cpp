@@ -100,7 +100,7 @@ TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
     at_gcs.push_back(topic);
   }
   const Listener uav_listener(folder() / "uav_heard"), gcs_listener(folder() / "gcs_heard");
-  start_program("uav_listener", uav_listener.command(uav_domain(base, 4), at_uav));
+  start_program("uav_listener", uav_listener.command(uav_domain(base, UavIndex{4}), at_uav));
   start_program("gcs_listener", gcs_listener.command(gcs_domain(base), at_gcs));
   // The fleet waits for nanyang's agent, so nothing has been said before they listen.
   ASSERT_TRUE(eventually([&] { return uav_listener.writers(acks) == 1 && uav_listener.writers(own) == 1; }));
@@ -175,7 +175,8 @@ class ByHand : public FleetTest {
       const std::string base = std::to_string(domains_.base()), uav = member(name);
       if (name == instead_of) {
         const auto index = std::find(kFleet.begin(), kFleet.end(), uav) - kFleet.begin();
-        const std::string domain = std::to_string(uav_domain(domains_.base(), static_cast<std::size_t>(index)));
+        const std::string domain =
+            std::to_string(uav_domain(domains_.base(), UavIndex(static_cast<std::size_t>(index))));
         fleet_[name] =
             &start_program(name, client, {{"SKEIN_DOMAIN", domain}, {"SKEIN_UAV", uav}, {"SKEIN_DDS", "cyclonedds"}});
         continue;

@@ -37,7 +37,7 @@ class Detections : public FleetTest {
     const int base = run_->domains().first;
     listen("gcs", "fastdds", gcs_domain(base), {topics::score(), topics::score_eval()});
     for (std::size_t i = 0; i < kSmallFleet.size(); ++i) {
-      listen(kSmallFleet[i], "cyclonedds", uav_domain(base, i), {topics::detected_points(kSmallFleet[i])});
+      listen(kSmallFleet[i], "cyclonedds", uav_domain(base, UavIndex(i)), {topics::detected_points(kSmallFleet[i])});
     }
     // The fleet waits for changi's agent meanwhile.
     for (const std::string name : {"gcs", "jurong", "changi"}) {

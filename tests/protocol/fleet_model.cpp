@@ -44,7 +44,7 @@ void FleetModel::start_leftovers() {
   leave(std::string(bus::kRouterName), world_domain(0), kStationNode);
   for (const UavConfig& uav : scenario_.fleet) {
     const std::size_t number = scenario_.uav_index(uav.name);
-    leave(uav.name, uav_domain(0, number), node_of_uav(number));
+    leave(uav.name, uav_domain(0, UavIndex(number)), node_of_uav(UavIndex(number)));
   }
 }
 
@@ -59,8 +59,8 @@ void FleetModel::start(const std::string& name) {
     processes_[name] = std::make_unique<AgentProcess>(*this, network_, name, gcs_domain(0), kStationNode, life_name);
   } else {
     const std::size_t uav = scenario_.uav_index(name);
-    processes_[name] =
-        std::make_unique<AgentProcess>(*this, network_, name, uav_domain(0, uav), node_of_uav(uav), life_name);
+    processes_[name] = std::make_unique<AgentProcess>(*this, network_, name, uav_domain(0, UavIndex(uav)),
+                                                      node_of_uav(UavIndex(uav)), life_name);
   }
 }
 

@@ -55,7 +55,7 @@ class ServerProcess final : public Process {
     const auto gcs = server_.add_domain("gcs", *participants_.back());
     for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
       const std::string& id = scenario.fleet[i].name;
-      participants_.push_back(bus_.join(uav_domain(0, i)));
+      participants_.push_back(bus_.join(uav_domain(0, UavIndex(i))));
       const auto domain = server_.add_domain(id, *participants_.back());
       server_.add_place(id, domain, true);
       sensors_.push_back(&server_.writer(domain, sensor_topic(id)));

@@ -111,9 +111,9 @@ TEST_P(LostOnItsWay, IsAskedForAgainAndTheRunIsTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LostOnItsWay,
-                         testing::Values(Lost{"StepToAnAgent", uav_domain(0, 0), topics::step().name},
+                         testing::Values(Lost{"StepToAnAgent", uav_domain(0, UavIndex{0}), topics::step().name},
                                          Lost{"StepToTheRouter", world_domain(0), topics::step().name},
-                                         Lost{"DoneOfAnAgent", uav_domain(0, 1), topics::done().name},
+                                         Lost{"DoneOfAnAgent", uav_domain(0, UavIndex{1}), topics::done().name},
                                          Lost{"DoneOfTheStation", gcs_domain(0), topics::station_done().name},
                                          Lost{"Routed", world_domain(0), topics::routed().name}),
                          [](const auto& lost) { return lost.param.what; });

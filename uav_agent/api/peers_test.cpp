@@ -7,7 +7,7 @@ namespace {
 
 AgentConfig fleet_of(std::size_t count, std::size_t self) {
   AgentConfig config;
-  config.self = self;
+  config.self = UavIndex(self);
   for (std::size_t i = 0; i < count; ++i) {
     FleetMember member;
     member.p_WB_start = Vector3d(5.0 * static_cast<double>(i), 0.0, 0.0);
@@ -30,19 +30,21 @@ TEST(Peers, TakeVelocityFromSuccessivePositionsAndForgetItAfterAGap) {
   Peers peers(fleet_of(2, 0));
   Vector3d p(0.0, 0.0, 5.0);
   for (Tick tick = 0; tick <= 400; tick += 20) {
-    peers.update(tick, {{.node = 2, .p_W = p}});
+    peers.update(tick, {{.node = Node{2}, .p_W = p}});
     p += Vector3d(0.1, 0.0, -0.05);
   }
   EXPECT_NEAR((peers.all()[0].v_W - Vector3d(2.0, 0.0, -1.0)).norm(), 0.0, 0.01);
-  peers.update(1000, {{.node = 2, .p_W = p}});
+  peers.update(1000, {{.node = Node{2}, .p_W = p}});
   EXPECT_EQ(peers.all()[0].v_W, Vector3d::Zero());
-  peers.update(1020, {{.node = 2, .p_W = p, .v_W = Vector3d(0.0, 3.0, 0.0)}});
+  peers.update(1020, {{.node = Node{2}, .p_W = p, .v_W = Vector3d(0.0, 3.0, 0.0)}});
   EXPECT_EQ(peers.all()[0].v_W, Vector3d(0.0, 3.0, 0.0)) << "what is told counts";
 }
 
 TEST(Peers, RememberWhereSomebodyWasLastSeen) {
   Peers peers(fleet_of(2, 0));
-  peers.update(20, {{.node = kStationNode, .p_W = Vector3d::Zero()}, {.node = 2, .p_W = {1.0, 2.0, 3.0}}, {.node = 9}});
+  peers.update(
+      20,
+      {{.node = kStationNode, .p_W = Vector3d::Zero()}, {.node = Node{2}, .p_W = {1.0, 2.0, 3.0}}, {.node = Node{9}}});
   EXPECT_TRUE(peers.station_visible());
   EXPECT_TRUE(peers.all()[0].visible);
   peers.update(40, {});

@@ -19,7 +19,7 @@ OrientedBox tower(double yaw = 0.0) {
 
 AgentConfig fleet_of(std::size_t count, std::size_t self) {
   AgentConfig config;
-  config.self = self;
+  config.self = UavIndex(self);
   config.fleet.resize(count);
   config.station_position = {-1.0, 0.0, 0.3};
   return config;

@@ -29,7 +29,8 @@ TEST(LiftOff, ALowSiteIsBlindUpToItsTopAHighOneInPart) {
 TEST(LiftOff, EverybodyGetsALayerOfItsOwn) {
   AgentConfig agent = fleet_of(6);
   std::set<double> heights;
-  for (agent.self = 0; agent.self < 6; ++agent.self) {
+  for (const UavIndex self : FirstUavs(6)) {
+    agent.self = self;
     const double height = lift_off_height_m(agent, {box_at({30, 0, 10}, {20, 20, 20})}, Vector3d::Zero(), 20.0, 1.2);
     EXPECT_GT(height, 20.0);
     heights.insert(height);

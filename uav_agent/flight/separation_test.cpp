@@ -13,7 +13,7 @@ constexpr double kDtS = 0.25;
 
 AgentConfig fleet(std::size_t self, const std::vector<Vector3d>& starts) {
   AgentConfig config;
-  config.self = self;
+  config.self = UavIndex(self);
   for (const Vector3d& start : starts) {
     FleetMember member;
     member.p_WB_start = start;
@@ -22,7 +22,7 @@ AgentConfig fleet(std::size_t self, const std::vector<Vector3d>& starts) {
   return config;
 }
 
-Peers one_peer(const AgentConfig& config, std::size_t uav, const Vector3d& p, const Vector3d& v) {
+Peers one_peer(const AgentConfig& config, UavIndex uav, const Vector3d& p, const Vector3d& v) {
   Peers peers(config);
   peers.update(0, {{.node = node_of_uav(uav), .p_W = p, .v_W = v}});
   return peers;
@@ -44,16 +44,18 @@ TEST(Separation, TheLowerNumberHasTheRightOfWay) {
   const std::vector<Vector3d> starts = {{0, 0, 0}, {20, 0, 0}};
   const Vector3d p(12.0, -12.0, 10.0), v(0.0, 4.0, 0.0);  // crosses at the same time
   const AgentConfig low = fleet(0, starts), high = fleet(1, starts);
-  EXPECT_EQ(Separation({}, low).judge(0, eastwards(4.0), kDtS, one_peer(low, 1, p, v)), Traffic::wait)
+  EXPECT_EQ(Separation({}, low).judge(0, eastwards(4.0), kDtS, one_peer(low, UavIndex{1}, p, v)), Traffic::wait)
       << "so tight that even the right of way does not help";
   const Vector3d passes_by(12.0, -7.5, 10.0);
-  EXPECT_EQ(Separation({}, low).judge(0, eastwards(4.0), kDtS, one_peer(low, 1, passes_by, v)), Traffic::clear);
-  EXPECT_EQ(Separation({}, high).judge(0, eastwards(4.0), kDtS, one_peer(high, 0, passes_by, v)), Traffic::wait);
+  EXPECT_EQ(Separation({}, low).judge(0, eastwards(4.0), kDtS, one_peer(low, UavIndex{1}, passes_by, v)),
+            Traffic::clear);
+  EXPECT_EQ(Separation({}, high).judge(0, eastwards(4.0), kDtS, one_peer(high, UavIndex{0}, passes_by, v)),
+            Traffic::wait);
 }
 
 TEST(Separation, GoesAroundWhoeverStandsInTheWayForAWhile) {
   const AgentConfig config = fleet(0, {{0, 0, 0}, {20, 0, 0}});
-  const Peers peers = one_peer(config, 1, {8.0, 0.5, 10.0}, Vector3d::Zero());
+  const Peers peers = one_peer(config, UavIndex{1}, {8.0, 0.5, 10.0}, Vector3d::Zero());
   Separation separation({}, config);
   EXPECT_EQ(separation.judge(0, eastwards(4.0), kDtS, peers), Traffic::wait);
   Tick tick = 0;
@@ -66,7 +68,7 @@ TEST(Separation, GoesAroundWhoeverStandsInTheWayForAWhile) {
 
 TEST(Separation, MovingApartIsNeverAConflict) {
   const AgentConfig config = fleet(1, {{0, 0, 0}, {20, 0, 0}});
-  const Peers peers = one_peer(config, 0, {-1.5, 0.0, 10.0}, Vector3d::Zero());
+  const Peers peers = one_peer(config, UavIndex{0}, {-1.5, 0.0, 10.0}, Vector3d::Zero());
   EXPECT_EQ(Separation({}, config).judge(0, eastwards(2.0), kDtS, peers), Traffic::clear);
 }
 
@@ -97,7 +99,8 @@ TEST(Separation, AConflictIsWhoComesNearWithinTheHorizonAndNobodyElse) {
     if (i % 3 == 0) v = {speed, random.uniform(-0.2, 0.2), 0.0};  // alongside
     if (i % 7 == 0) v.setZero();
     const bool expected = conflicts(config, agent, speed, p, v);
-    const Traffic judged = Separation(config, agent).judge(0, eastwards(speed), kDtS, one_peer(agent, 1 - self, p, v));
+    const Traffic judged =
+        Separation(config, agent).judge(0, eastwards(speed), kDtS, one_peer(agent, UavIndex(1 - self), p, v));
     ASSERT_EQ(judged, expected ? Traffic::wait : Traffic::clear) << "case " << i;
     ++(expected ? waits : clear);
   }
@@ -106,7 +109,7 @@ TEST(Separation, AConflictIsWhoComesNearWithinTheHorizonAndNobodyElse) {
 
 TEST(Separation, WhoIsOutOfSightIsNobody) {
   const AgentConfig config = fleet(0, {{0, 0, 0}, {20, 0, 0}});
-  Peers peers = one_peer(config, 1, {6.0, 0.5, 10.0}, Vector3d::Zero());
+  Peers peers = one_peer(config, UavIndex{1}, {6.0, 0.5, 10.0}, Vector3d::Zero());
   Separation separation({}, config);
   EXPECT_EQ(separation.judge(0, eastwards(4.0), kDtS, peers), Traffic::wait);
   EXPECT_EQ(separation.keep_out({0.0, 0.0, 10.0}, peers).size(), 1U);
@@ -127,8 +130,8 @@ TEST(Separation, PatienceGrowsWithRankIsThreefoldForWhoMovesAndBeginsAnewAfterAC
   for (std::size_t self = 0; self < 3; ++self) {
     const AgentConfig config = fleet(self, starts);
     const std::size_t other = self == 0 ? 1 : 0;
-    const Peers stands = one_peer(config, other, {6.0, 0.5, 10.0}, Vector3d::Zero());
-    const Peers moves = one_peer(config, other, {11.0, 0.0, 10.0}, {-4.0, 0.0, 0.0});
+    const Peers stands = one_peer(config, UavIndex(other), {6.0, 0.5, 10.0}, Vector3d::Zero());
+    const Peers moves = one_peer(config, UavIndex(other), {11.0, 0.0, 10.0}, {-4.0, 0.0, 0.0});
     const double patience = 1.5 + 0.5 * static_cast<double>(self);
     Tick tick = 0;
     Separation separation({}, config);
@@ -148,8 +151,8 @@ TEST(Separation, NeighboursLiftOffOneAfterTheOther) {
   const AgentConfig config = fleet(1, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   Separation separation({}, config);
   EXPECT_FALSE(separation.may_lift_off(0, Peers(config))) << "number 0 still stands there";
-  EXPECT_FALSE(separation.may_lift_off(400, one_peer(config, 0, {0, 0, 2.0}, {0, 0, 2.0})));
-  EXPECT_TRUE(separation.may_lift_off(800, one_peer(config, 0, {0, 0, 3.5}, {0, 0, 2.0})));
+  EXPECT_FALSE(separation.may_lift_off(400, one_peer(config, UavIndex{0}, {0, 0, 2.0}, {0, 0, 2.0})));
+  EXPECT_TRUE(separation.may_lift_off(800, one_peer(config, UavIndex{0}, {0, 0, 3.5}, {0, 0, 2.0})));
   const AgentConfig far = fleet(1, {{0, 0, 0}, {30, 0, 0}});
   EXPECT_TRUE(Separation({}, far).may_lift_off(0, Peers(far)));
   Separation patient({}, config);

@@ -11,15 +11,15 @@ constexpr std::size_t kFleet = 3;
 
 AgentConfig config_of(std::size_t self) {
   AgentConfig config;
-  config.self = self;
+  config.self = UavIndex(self);
   config.fleet.resize(kFleet);
   return config;
 }
 
 VoxelGrid empty_grid() { return {Isometry3d::Identity(), {40, 40, 20}, 2.0, 100}; }
 
-struct Node {
-  explicit Node(std::size_t uav) : peers(config_of(uav)) {}
+struct MapKeeper {
+  explicit MapKeeper(std::size_t uav) : peers(config_of(uav)) {}
   VoxelGrid grid = empty_grid();
   MapExchange exchange;
   Peers peers;
@@ -34,7 +34,7 @@ class Fleet {
     for (std::size_t i = 0; i < kFleet; ++i) {
       std::vector<Neighbour> neighbours;
       for (std::size_t j = 0; j < kFleet; ++j) {
-        if (linked(i, j)) neighbours.push_back({node_of_uav(j), Vector3d::Zero()});
+        if (linked(i, j)) neighbours.push_back({node_of_uav(UavIndex(j)), Vector3d::Zero()});
       }
       nodes_[i].peers.update(now_, neighbours);
       PayloadWriter writer;
@@ -51,18 +51,18 @@ class Fleet {
   }
   bool agree() const {
     for (std::size_t chunk = 0; chunk < nodes_[0].grid.chunks(); ++chunk) {
-      for (const Node& node : nodes_) {
+      for (const MapKeeper& node : nodes_) {
         if (node.grid.chunk_hash(chunk) != nodes_[0].grid.chunk_hash(chunk)) return false;
       }
     }
     return true;
   }
-  Node& operator[](std::size_t i) { return nodes_[i]; }
+  MapKeeper& operator[](std::size_t i) { return nodes_[i]; }
   std::size_t take_bytes() { return std::exchange(bytes_, 0); }
 
  private:
   static bool linked(std::size_t i, std::size_t j) { return i + 1 == j || j + 1 == i; }
-  std::vector<Node> nodes_ = {Node(0), Node(1), Node(2)};
+  std::vector<MapKeeper> nodes_ = {MapKeeper(0), MapKeeper(1), MapKeeper(2)};
   Tick now_ = 0;
   int messages_ = 0;
   std::size_t bytes_ = 0;

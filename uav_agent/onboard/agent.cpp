@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "core/euler.hpp"
+#include "uav_agent/flight/site.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
 #include "uav_agent/onboard/key_frame_filter.hpp"
 #include "uav_agent/onboard/tracker.hpp"
 #include "uav_agent/onboard/uplink.hpp"
-#include "uav_agent/flight/site.hpp"
 #include "uav_agent/planning/aiming.hpp"
 
 namespace skein::agent {

@@ -26,9 +26,9 @@ struct AgentInput {
   std::vector<KeyFrame> key_frames;           ///< in order: own first, then neighbours'
   std::vector<Scan> scans;                    ///< own; only if wants_scans()
   std::vector<DetectedPoint> detected;
-  std::vector<HandedOut> capture_reports;     ///< from the camera; it may repeat unacknowledged ones
-  std::vector<std::uint64_t> capture_acks;     ///< capture numbers that the station has journalled
-  std::vector<RadioMessage> radio;             ///< from other planners
+  std::vector<HandedOut> capture_reports;   ///< from the camera; it may repeat unacknowledged ones
+  std::vector<std::uint64_t> capture_acks;  ///< capture numbers that the station has journalled
+  std::vector<RadioMessage> radio;          ///< from other planners
 };
 
 struct AgentOutput {

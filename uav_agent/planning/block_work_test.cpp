@@ -21,7 +21,7 @@ OrientedBox site(double yaw = 0.4) {
 
 AgentConfig fleet_of(std::size_t count, std::size_t self) {
   AgentConfig agent;
-  agent.self = self;
+  agent.self = UavIndex(self);
   for (std::size_t i = 0; i < count; ++i) agent.fleet.push_back({.name = "uav" + std::to_string(i)});
   return agent;
 }

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "uav_agent/api/payload.hpp"
+#include "uav_agent/api/planner.hpp"
 #include "uav_agent/testing/test_world.hpp"
 
 namespace skein::agent {
@@ -42,7 +43,7 @@ class EveryPlanner : public testing::TestWithParam<std::string> {
   }
   /// Without that, keeping clear of everything is no merit.
   static void expect_all_flew(const TestWorld& world, std::size_t uavs) {
-    for (std::size_t uav = 0; uav < uavs; ++uav) EXPECT_GT(world.highest_m(uav), 1.5) << "uav" << uav;
+    for (const UavIndex uav : FirstUavs(uavs)) EXPECT_GT(world.highest_m(uav), 1.5) << "uav" << uav;
     EXPECT_LT(world.clearance(), kUnmeasuredM) << "nobody came near anything";
     EXPECT_EQ(world.separation() < kUnmeasuredM, uavs > 1);
   }
@@ -119,7 +120,7 @@ TEST_P(EveryPlanner, AnEmptyMapAndNoBoxes) {
   empty.run(60.0);
   expect_sound(empty);
   EXPECT_EQ(empty.clearance(), 1e9) << "of nothing";
-  for (std::size_t uav = 0; uav < 2; ++uav) {
+  for (const UavIndex uav : FirstUavs(2)) {
     EXPECT_GE(empty.position(uav).z(), 0.0);
     EXPECT_LT((empty.position(uav).head<2>() - test_fleet(2)[uav].start).norm(), 60.0);
     EXPECT_LT(empty.highest_m(uav), 60.0);

@@ -184,9 +184,9 @@ AgentInput TestWorld::Impl::sense(std::size_t i, const std::vector<std::vector<E
   };
   link(kStationNode, scene.station, Vector3d::Zero());
   for (std::size_t j = 0; j < uavs.size(); ++j) {
-    if (j != i) link(node_of_uav(j), uavs[j].state.p_WB, uavs[j].state.v_WB);
+    if (j != i) link(node_of_uav(UavIndex(j)), uavs[j].state.p_WB, uavs[j].state.v_WB);
   }
-  if (!scans[i].empty()) input.key_frames.push_back({.points_W = scans[i], .source = node_of_uav(i)});
+  if (!scans[i].empty()) input.key_frames.push_back({.points_W = scans[i], .source = node_of_uav(UavIndex(i))});
   for (const Neighbour& neighbour : input.neighbours) {
     if (neighbour.node == kStationNode || scans[neighbour.node - 1].empty()) continue;
     input.key_frames.push_back({.points_W = scans[neighbour.node - 1], .source = neighbour.node});
@@ -273,7 +273,8 @@ TestWorld::TestWorld(TestScene scene, const std::vector<TestUav>& fleet, const s
     config.fleet.push_back(
         {uav.name, uav.role, Vector3d(uav.start.x(), uav.start.y(), 0.0), uav.role == Role::explorer ? 0.63 : 0.32});
   }
-  for (config.self = 0; config.self < fleet.size(); ++config.self) {
+  for (const UavIndex self : FirstUavs(fleet.size())) {
+    config.self = self;
     impl_->uavs.emplace_back(config, planner);
   }
 }

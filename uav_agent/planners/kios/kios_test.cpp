@@ -13,7 +13,7 @@ constexpr double kExplorerRadiusM = 0.63;
 
 AgentConfig agent_of(std::size_t self, std::size_t explorers, std::size_t photographers) {
   AgentConfig agent;
-  agent.self = self;
+  agent.self = UavIndex(self);
   for (std::size_t i = 0; i < explorers + photographers; ++i) {
     FleetMember member;
     member.name = "uav" + std::to_string(i);

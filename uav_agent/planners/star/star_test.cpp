@@ -286,7 +286,7 @@ TEST(StarTalk, GoalsAndInspectedSurfaceTravel) {
   for (AgentConfig* agent : {&speaker, &listener}) {
     agent->fleet = {member(Role::explorer, 0.0), member(Role::photographer, 5.0)};
   }
-  listener.self = 1;
+  listener.self = UavIndex(1);
   VoxelGrid theirs(Isometry3d::Identity(), {20.0, 20.0, 20.0}, 2.0), ours = theirs;
   theirs.raise(7, VoxelState::occupied);
   theirs.mark(7, 3);
@@ -294,7 +294,7 @@ TEST(StarTalk, GoalsAndInspectedSurfaceTravel) {
   const std::vector<OrientedBox> boxes;
   StarTalk says({}, speaker), hears({}, listener);
   Peers of_speaker(speaker), of_listener(listener);
-  of_speaker.update(0, {{node_of_uav(1), {5, 0, 0}}});
+  of_speaker.update(0, {{node_of_uav(UavIndex{1}), {5, 0, 0}}});
   const auto input = [&](std::uint64_t k, const Peers& seen, std::span<const RadioMessage> radio) {
     return PlannerInput{k, static_cast<Tick>(20 * k), {}, {}, {}, map, boxes, seen, {}, false, 0, {}, radio};
   };

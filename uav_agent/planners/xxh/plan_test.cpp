@@ -182,10 +182,10 @@ struct Ground {
     return in;
   }
   /// What a UAV holds to be its team, after so many exchanges with a station that hears those of `reporters`.
-  XxhTeam team(std::size_t uav, const std::vector<std::size_t>& reporters, bool hears_station) const {
+  XxhTeam team(UavIndex uav, const std::vector<std::size_t>& reporters, bool hears_station) const {
     AgentConfig ground = agent, self = agent;
-    ground.self = agent.fleet.size();
-    self.self = uav;
+    ground.self = UavIndex(agent.fleet.size());
+    self.self = UavIndex(uav);
     const auto station = make_ground_program("xxh", ground);
     const XxhConfig config;
     XxhTalk talk({}, self);
@@ -214,7 +214,7 @@ struct Ground {
 
 TEST(XxhGround, AssignsWhatEverybodyWouldAssignItself) {
   const Ground ground;
-  for (std::size_t uav = 0; uav < 4; ++uav) {
+  for (const UavIndex uav : FirstUavs(4)) {
     const XxhTeam told = ground.team(uav, {0, 1, 2, 3}, true);
     const XxhTeam own = ground.team(uav, {0, 1, 2, 3}, false);
     ASSERT_FALSE(told.regions.empty());
@@ -224,7 +224,7 @@ TEST(XxhGround, AssignsWhatEverybodyWouldAssignItself) {
 
 TEST(XxhGround, WhoCouldNotReportBelongsToTheFleetAllTheSame) {
   const Ground ground;
-  for (std::size_t uav = 0; uav < 4; ++uav) {
+  for (const UavIndex uav : FirstUavs(4)) {
     EXPECT_EQ(ground.team(uav, {0, 2}, true), ground.team(uav, {}, false));
   }
 }
@@ -232,12 +232,12 @@ TEST(XxhGround, WhoCouldNotReportBelongsToTheFleetAllTheSame) {
 TEST(XxhGround, SaysNothingMoreWhenAllHaveHeard) {
   const Ground ground;
   AgentConfig config = ground.agent;
-  config.self = config.fleet.size();
+  config.self = UavIndex(config.fleet.size());
   const auto station = make_ground_program("xxh", config);
   std::size_t said = 0, said_late = 0;
   for (std::uint64_t k = 0; k < 400; ++k) {
     GroundInput in{k, static_cast<Tick>(k) * ticks(0.05), ground.boxes, {}, {}, {}};
-    for (std::size_t uav = 0; uav < 4; ++uav) {
+    for (const UavIndex uav : FirstUavs(4)) {
       XxhWord word;
       word.start_W = ground.agent.fleet[uav].p_WB_start;
       word.has_plan = k > 100;

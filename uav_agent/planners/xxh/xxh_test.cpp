@@ -166,7 +166,7 @@ TEST(XxhTalk, WordsSurviveTheRadio) {
 /// A UAV of a fleet that hears the first and the last of it say where they are about to fly.
 std::size_t keeps_clear_of(std::size_t self, double after_s, bool forever) {
   AgentConfig agent;
-  agent.self = self;
+  agent.self = UavIndex(self);
   for (const TestUav& uav : test_fleet(4)) agent.fleet.push_back({uav.name, uav.role, {0.0, 0.0, 0.0}, 0.5});
   XxhTalk talk({.forever = forever}, agent);
   const OccupancyMap map;
