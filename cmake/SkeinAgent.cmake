@@ -5,7 +5,7 @@
 function(skein_add_agent name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE skein::agent_main skein::agent skein::lockstep ${ARG_LIBS})
+  target_link_libraries(${name} PRIVATE skein::agent_main skein::agent skein::agent_nodes ${ARG_LIBS})
   skein_compile_as_skein(${name})
 endfunction()
 

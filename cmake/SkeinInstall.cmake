@@ -11,7 +11,7 @@ install(TARGETS skein sim_server comm_router station uav_agent RUNTIME)
 install(DIRECTORY config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/skein/config)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-set(libraries core process idl bus lockstep agent agent_main)
+set(libraries core process idl bus lockstep agent agent_nodes agent_main)
 foreach(library ${libraries})
   set_target_properties(skein_${library} PROPERTIES EXPORT_NAME ${library})
   install(TARGETS skein_${library} EXPORT skeinTargets

@@ -90,9 +90,10 @@ int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSigna
         open_counts(counts, scenario.fleet.size() + 1, options.run, unwritten);
     skein::router::RouterNode node(scenario, options.seed, options.domain, *bus, faults, options.out);
     if (store) node.keep_counts(*store);
-    stop.on_stop([&node] { node.wake(); });
-    code = node.run(stop);
+    stop.on_stop([&node] { node.inbox().wake(); });
+    const skein::bus::NodeEnd end = skein::bus::run_node(node, &stop);
     stop.on_stop({});
+    if (end != skein::bus::NodeEnd::resumed) code = skein::bus::exit_code(end, skein::programs::kCommRouter);
     unwritten.insert(unwritten.end(), node.unwritten().begin(), node.unwritten().end());
     const Notes notes{node.malformed(), node.unheard(), node.stranger_warnings(), unwritten};
     if (code) write_report(options.out, scenario, node.gate(), notes, status);

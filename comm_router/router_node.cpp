@@ -398,33 +398,17 @@ bool RouterNode::advance() {
   }
 }
 
-std::size_t RouterNode::rings() const { return sync_.waiting() ? sync_.missing_answers() : client_.rings(); }
+std::size_t RouterNode::rings() { return sync_.waiting() ? sync_.missing_answers() : client_.rings(); }
 
 void RouterNode::set_patience(double match_s, double word_s) {
   match_patience_s_ = match_s;
   word_patience_s_ = word_s;
 }
 
-void RouterNode::poll() {
-  if (!attaching_ && !client_.waits_for_matches() && !inbox_.ready(rings())) return;
-  inbox_.dispatch(std::chrono::milliseconds(0));
-  if (client_.poll() == LockstepClient::Event::think) begin_step();
-  attaching_ = serve();
-}
-
-std::string RouterNode::waiting_for() const {
+std::string RouterNode::waiting_for() {
   std::string text = "comm_router: " + client_.waiting_for() + ";";
   for (const msg::Await& await : awaited()) text += " " + await.member() + ": " + await.what() + ";";
   return text;
-}
-
-std::optional<int> RouterNode::run(const StopSignal& stop) {
-  const bus::ClientLoop loop{.think = [this] { begin_step(); },
-                             .serve = [this] { return serve(); },
-                             .rings = [this] { return rings(); },
-                             .answered_last = [this] { return last_step_answered_; }};
-  const bus::LoopEnd end = bus::run_client(client_, inbox_, loop, stop);
-  return end == bus::LoopEnd::resumed ? std::nullopt : std::optional(bus::exit_code(end, "comm_router"));
 }
 
 }  // namespace skein::router

@@ -1,5 +1,5 @@
 // The router as a process: hears every radio topic in every node's domain, lets through what the links allow.
-// It moves serialised payloads and knows no type. Everything happens on the thread that calls run().
+// It moves serialised payloads and knows no type.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
-#include "bus/lockstep/client_loop.hpp"
+#include "bus/lockstep/client_node.hpp"
 #include "bus/lockstep/patience.hpp"
 #include "bus/lockstep/strangers.hpp"
 #include "comm_router/count_store.hpp"
@@ -30,7 +30,7 @@ inline constexpr double kMatchPatience_s = 10.0;
 /// Before the server hears for whom we wait: what is under way arrives sooner.
 inline constexpr double kWordPatience_s = 1.0;
 
-class RouterNode {
+class RouterNode final : public bus::ClientNode {
  public:
   /// @param seed    of the run: what links that are not ideal draw from.
   /// @param faults  what goes wrong with the links, and when.
@@ -38,22 +38,14 @@ class RouterNode {
   RouterNode(const Scenario& scenario, std::uint64_t seed, int base_domain, bus::Bus& bus, const FaultPlan& faults = {},
              const std::filesystem::path& out = {});
 
-  /// Takes part until the last step, or until asked to stop.
-  /// @returns the program's exit code; nothing when a fault stopped it and is over: go on with a new node.
-  std::optional<int> run(const StopSignal& stop);
-  /// For a test that drives it event by event instead of run(): say hello, then poll() again and again. It does what
-  /// run() would do by then, and nothing when run() would sleep.
-  void start() { client_.start(); }
+  bus::Inbox& inbox() override { return inbox_; }
+  /// For tests: how an order of a fault is carried out.
   void obey_with(std::function<void(bus::LockstepClient::Order)> obey) { client_.obey_with(std::move(obey)); }
-  void poll();
   /// For tests that may not let time pass; else as the constants say.
   void set_patience(double match_s, double word_s);
-  /// What it waits for, for a human.
-  std::string waiting_for() const;
+  std::string waiting_for() override;
   /// Counts on from what the store holds, and keeps it there from now on. It must outlive this.
   void keep_counts(CountStore& store);
-  /// Makes run() look at `stop`; from any thread.
-  void wake() { inbox_.wake(); }
   const LinkGate& gate() const { return gate_; }
   /// How many radio messages came from outside the lock-step, and who sent them, a line each; for the end of a run.
   std::uint64_t unheard() const;
@@ -64,6 +56,12 @@ class RouterNode {
   const std::vector<std::string>& unwritten() const { return unwritten_; }
 
  private:
+  bus::LockstepClient& client() override { return client_; }
+  void think() override { begin_step(); }
+  bool serve() override;
+  std::size_t rings() override;
+  bool answered_last() const override { return last_step_answered_; }
+
   /// Where the members of a node say ready and done: the station at one of its own (bus/lockstep/names.hpp).
   struct Door {
     Node node = kStationNode;
@@ -102,10 +100,7 @@ class RouterNode {
   /// @returns true while somebody is not attached yet.
   bool attach();
   /// @returns true while it waits for matches.
-  bool serve();
   bool advance();
-  /// For Inbox::dispatch(): how many rings there must be before it can do more than it did.
-  std::size_t rings() const;
   /// The topic that is not matched with it yet; empty when all are.
   std::string unmatched(const Applicant& applicant, bus::ParticipantId source) const;
   /// When it has waited for a while: tells the server for whom, as often as that changes.
@@ -148,7 +143,7 @@ class RouterNode {
   std::map<bus::ParticipantId, Applicant> applicants_;
   std::optional<std::uint64_t> last_k_;  ///< of the final step
   double match_patience_s_ = kMatchPatience_s, word_patience_s_ = kWordPatience_s;
-  bool radio_open_ = false, attaching_ = false, last_step_answered_ = false;
+  bool radio_open_ = false, last_step_answered_ = false;
 };
 
 }  // namespace skein::router

@@ -136,9 +136,9 @@ int run(const skein::ProgramOptions& options, const ServerOptions& server, skein
   skein::sim::SimNode node(scenario, std::move(scene), node_options, *bus, status);
   const skein::ControlPipe control(options.control_fd, [&](const std::string& line) { obey(node, line); });
   stop.on_stop([&] { node.abort(); });
-  const skein::sim::RunSummary summary = node.run();
+  skein::bus::run_node(node);
   stop.on_stop({});
-  return summary.status == skein::RunStatus::aborted ? skein::kExitInterrupted : skein::kExitDone;
+  return node.summary().status == skein::RunStatus::aborted ? skein::kExitInterrupted : skein::kExitDone;
 }
 
 }  // namespace

@@ -75,12 +75,8 @@ SimNode::~SimNode() = default;
 
 void SimNode::declare_members() {
   const auto world = server_.add_domain("", *participants_[0]);
-  ledger_ = std::make_unique<bus::CountedWriter>(*participants_[0], bus::spec(topics::ledger()));
   const auto gcs = server_.add_domain(scenario_.node_name(kStationNode), *participants_[1]);
-  gcs_boxes_ = &server_.writer(gcs, bus::spec(topics::bounding_boxes()));
-  gcs_clock_ = &server_.writer(gcs, bus::spec(topics::clock()));
-  gcs_remained_ = &server_.writer(gcs, bus::spec(topics::mission_duration_remained(bus::kGcsName)));
-  gcs_neighbours_ = &server_.writer(gcs, bus::spec(topics::neighbour_odometry(bus::kGcsName)));
+  gcs_ = std::make_unique<GcsNode>(scenario_, simulation_, server_, gcs, *participants_[0]);
   for (const UavIndex i : FirstUavs(scenario_.fleet.size())) {
     const auto domain = server_.add_domain(uav_names_[i], *participants_[2 + i]);
     server_.add_place(uav_names_[i], domain, true);
@@ -109,79 +105,130 @@ void SimNode::report_lost(const std::string& name) {
   inbox_.post([this, name] { server_.lost(name, "its process ended"); });
 }
 
-RunSummary SimNode::run() {
+void SimNode::start() {
   files_.write_scene(simulation_.scene());
   for (std::string& warning : scene_warnings(simulation_.scene())) {
     spdlog::warn("{}", warning);
     summary_.warnings.push_back(std::move(warning));
   }
-  const bool joined = wait_for_members();
-  const auto started = Clock::now();
-  const double cpu_before_s = thread_cpu_s();
-  simulation_.watch(&clock_);
-  bool answered = joined;
-  while (answered) {
-    last_step_ = is_last_step();
-    publish_step();
-    answered = wait_for_answers();
-    if (!answered) break;
-    finish_step();
-    if (last_step_) break;
-    end_process_faults();
-    let_in_members();
-    pace(started);
-    if (aborted_) break;
-    simulation_.advance();
-  }
-  tell_of_strangers(0);
-  for (const std::string& name : uav_names_) summary_.commands_unheard.push_back(strangers_.unheard(name));
-  summary_.wall_time_s = elapsed_s(started);
-  summary_.timing = clock_.summary();
-  summary_.timing.cpu_s = thread_cpu_s() - cpu_before_s;
-  summary_.malformed = inbox_.malformed();
-  summary_.faults = fault_timeline_.report();
-  summary_.status = end_status();
-  // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
-  if (options_.realtime_factor || summary_.status == RunStatus::interrupted || aborted_) summary_.deterministic = false;
-  if (summary_.deterministic) summary_.digest = digest_.hex();
-  files_.write_report(simulation_, summary_, status_);
-  if (joined) report_progress(true);  // else there was no step to report
-  status_.send_surely(status::line_json(status::Ended{summary_.status, stalled_}));
-  return summary_;
+  wait_for(State::joining, "to join", options_.startup_timeout_s);
 }
 
-// ---- joining ----------------------------------------------------------------------------------------------------
-
-bool SimNode::wait_for_members() {
-  WaitTeller wait(status_, "to join");
-  bus::Patience patience(options_.startup_timeout_s);
-  while (!server_.at_boundary()) {
-    inbox_.dispatch(kMatchPoll);
-    take_losses();
-    if (aborted_ || stop_requested_) return false;
-    wait.tell([this] { return for_people(server_.awaited()); });
-    if (patience.over()) patience = give_up_awaited("did not join in time", options_.startup_timeout_s);
+void SimNode::turn(bool arrived) {
+  const auto go_on = [&] {
+    switch (state_) {
+      case State::joining:
+        return join_members();
+      case State::in_step:
+        return take_answers(std::exchange(arrived, true));
+      case State::letting_in:
+        return let_in_members();
+      case State::pacing:
+        return keep_pace();
+      case State::over:
+        return false;
+    }
+    return false;
+  };
+  while (go_on()) {
   }
-  take_losses();
-  return true;
 }
 
-/// Nobody is waited for any longer who is now. @returns the patience with whoever comes next.
-bus::Patience SimNode::give_up_awaited(const std::string& why, double limit_s) {
+std::optional<bus::NodeEnd> SimNode::end() const {
+  return state_ == State::over ? std::optional(bus::NodeEnd::finished) : std::nullopt;
+}
+
+bus::LockstepNode::Rest SimNode::rest() {
+  if (state_ == State::in_step) return {.longest = kIdlePoll, .rings = server_.rings(), .until_rung = true};
+  if (state_ != State::pacing) return {.longest = kMatchPoll, .until_rung = false};
+  const auto left = std::chrono::ceil<milliseconds>(due() - Clock::now());
+  return {.longest = std::clamp(left, milliseconds(0), kProgressPeriod), .until_rung = false};
+}
+
+void SimNode::wait_for(State state, const char* what, double patience_s) {
+  state_ = state;
+  wait_.emplace(status_, what);
+  patience_s_ = patience_s;
+  patience_ = bus::Patience(patience_s);
+  until_asked_again_ = bus::Patience(kAskAgain_s);
+}
+
+bool SimNode::tell_waiting() {
+  return wait_->tell([this] { return for_people(server_.awaited()); });
+}
+
+/// Nobody is waited for any longer who is now; whoever comes next finds the same patience.
+void SimNode::give_up_awaited(const std::string& why) {
   for (const auto& awaited : server_.awaited()) {
     server_.lost(awaited.member, fmt::format("{} (waited for: {})", why, awaited.what));
   }
-  return bus::Patience(limit_s);
+  patience_ = bus::Patience(patience_s_);
+}
+
+// ---- from the first member to the last step ---------------------------------------------------------------------
+
+bool SimNode::join_members() {
+  take_losses();
+  if (aborted_ || stop_requested_) {
+    end_run(false);
+    return false;
+  }
+  if (!server_.at_boundary()) {
+    tell_waiting();
+    if (patience_.over()) give_up_awaited("did not join in time");
+    return false;
+  }
+  take_losses();
+  started_ = Clock::now();
+  cpu_before_s_ = thread_cpu_s();
+  simulation_.watch(&clock_);
+  begin_step();
+  return true;
+}
+
+void SimNode::begin_step() {
+  last_step_ = is_last_step();
+  publish_step();
+  wait_for(State::in_step, "to answer", options_.agent_timeout_s);
+}
+
+bool SimNode::take_answers(bool arrived) {
+  if (!server_.answered()) {
+    const bool told = tell_waiting();
+    if (!arrived && !told) report_progress(false);
+    if (aborted_ || gives_up_step()) {
+      end_run(true);
+      return false;
+    }
+    if (patience_.over()) give_up_awaited(fmt::format("did not answer for {} s", options_.agent_timeout_s));
+    if (until_asked_again_.over()) {
+      server_.ask_again();
+      until_asked_again_ = bus::Patience(kAskAgain_s);
+    }
+    return false;
+  }
+  for (const std::string& doubt : server_.take_doubts()) {
+    spdlog::warn("{}; the run is not repeatable", doubt);
+    summary_.warnings.push_back("decided by a wall clock: " + doubt);
+    summary_.deterministic = false;
+  }
+  take_losses();
+  finish_step();
+  if (last_step_) {
+    end_run(true);
+    return false;
+  }
+  end_process_faults();
+  wait_for(State::letting_in, "to join again", options_.startup_timeout_s);
+  return true;
 }
 
 // Somebody who knocks is let in before the next step; the fleet stands still meanwhile.
-void SimNode::let_in_members() {
-  WaitTeller wait(status_, "to join again");
-  bus::Patience patience(options_.startup_timeout_s);
-  while (!server_.at_boundary() && !aborted_ && !stop_requested_) {
-    inbox_.dispatch(kMatchPoll);
-    wait.tell([this] { return for_people(server_.awaited()); });
-    if (patience.over()) patience = give_up_awaited("did not finish joining", options_.startup_timeout_s);
+bool SimNode::let_in_members() {
+  if (!server_.at_boundary() && !aborted_ && !stop_requested_) {
+    tell_waiting();
+    if (patience_.over()) give_up_awaited("did not finish joining");
+    return false;
   }
   for (const std::string& name : server_.take_rejoined()) {
     spdlog::info("{} joined again at step {}", name, simulation_.step() + 1);
@@ -190,7 +237,51 @@ void SimNode::let_in_members() {
     if (uav != uav_names_.end()) uavs_[static_cast<std::size_t>(uav - uav_names_.begin())]->resend_captures();
   }
   take_losses();
+  state_ = State::pacing;
+  return true;
 }
+
+// Real time: the next step is due when the wall clock says so; what arrives meanwhile is taken in.
+bool SimNode::keep_pace() {
+  if (options_.realtime_factor && Clock::now() < due() && !aborted_ && !stop_requested_) {
+    report_progress(false);
+    return false;
+  }
+  if (aborted_) {
+    end_run(true);
+    return false;
+  }
+  simulation_.advance();
+  begin_step();
+  return true;
+}
+
+SimNode::Clock::time_point SimNode::due() const {
+  if (!options_.realtime_factor) return started_;
+  const double due_s = seconds(simulation_.tick() + scenario_.exchange_ticks()) / *options_.realtime_factor;
+  return started_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
+}
+
+/// @param joined  there was a step.
+void SimNode::end_run(bool joined) {
+  state_ = State::over;
+  tell_of_strangers(0);
+  for (const std::string& name : uav_names_) summary_.commands_unheard.push_back(strangers_.unheard(name));
+  summary_.wall_time_s = joined ? elapsed_s(started_) : 0.0;
+  summary_.timing = clock_.summary();
+  summary_.timing.cpu_s = joined ? thread_cpu_s() - cpu_before_s_ : 0.0;
+  summary_.malformed = inbox_.malformed();
+  summary_.faults = fault_timeline_.report();
+  summary_.status = end_status();
+  // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
+  if (options_.realtime_factor || summary_.status == RunStatus::interrupted || aborted_) summary_.deterministic = false;
+  if (summary_.deterministic) summary_.digest = digest_.hex();
+  files_.write_report(simulation_, summary_, status_);
+  if (joined) report_progress(true);
+  status_.send_surely(status::line_json(status::Ended{summary_.status, stalled_}));
+}
+
+// ---- members and faults -----------------------------------------------------------------------------------------
 
 // At the boundary before step k + 1. The order to carry on comes from the launcher: the program cannot hear us.
 void SimNode::end_process_faults() {
@@ -259,7 +350,6 @@ void SimNode::publish_step() {
   tell_of_strangers(kStrangerSteps);
   server_.hold();
   const StepEvents& events = simulation_.events();
-  publish_ledger(simulation_.referee().ledger(), events.ledger_begin);
   for (const Collision& collision : events.collisions) {
     spdlog::warn("{}", describe(collision, scenario_));
     summary_.collisions.push_back(collision);
@@ -269,60 +359,12 @@ void SimNode::publish_step() {
     spdlog::warn("{}", summary_.warnings.back());
   }
   for (const auto& uav : uavs_) uav->publish();
-
-  const Tick tick = simulation_.tick();
-  if (gcs_boxes_->count() == 0) gcs_boxes_->write(to_box_vertices(tick, simulation_.scene().boxes));
-  msg::Clock clock;
-  clock.clock(to_time(tick));
-  gcs_clock_->write(clock);
-  if (simulation_.mission().start_tick()) gcs_remained_->write(to_duration(simulation_.mission().remaining_s(tick)));
-  gcs_neighbours_->write(neighbour_cloud(simulation_, scenario_, kStationNode));
-
+  gcs_->publish(inbox_.run());
   server_.publish({.k = simulation_.step(),
-                   .tick = tick,
+                   .tick = simulation_.tick(),
                    .links = simulation_.links().row_major(),
                    .ledger_upto = events.ledger_end,
                    .final_step = last_step_});
-}
-
-// The first message is sent even when nothing is written down: it tells the station which points there are.
-void SimNode::publish_ledger(const std::vector<LedgerEntry>& entries, std::size_t begin) {
-  if (begin == entries.size() && ledger_->count() > 0) return;
-  auto message = bus::message_of<msg::Ledger>(inbox_.run());
-  const std::vector<InterestPoint>& points = simulation_.scene().points;
-  message.interest_points(static_cast<std::uint32_t>(points.size()));
-  if (ledger_->count() == 0) {
-    for (const InterestPoint& point : points) message.points().push_back(to_message(point));
-  }
-  for (std::size_t i = begin; i < entries.size(); ++i) message.entries().push_back(to_message(entries[i], uav_names_));
-  ledger_->begin_step();
-  ledger_->write(message);
-}
-
-bool SimNode::wait_for_answers() {
-  WaitTeller wait(status_, "to answer");
-  bus::Patience patience(options_.agent_timeout_s), until_asked_again(kAskAgain_s);
-  while (!server_.answered()) {
-    const bool arrived = inbox_.dispatch(kIdlePoll, server_.rings());
-    const bool told = wait.tell([this] { return for_people(server_.awaited()); });
-    if (!arrived && !told) report_progress(false);
-    if (aborted_ || gives_up_step()) return false;
-    if (patience.over()) {
-      patience =
-          give_up_awaited(fmt::format("did not answer for {} s", options_.agent_timeout_s), options_.agent_timeout_s);
-    }
-    if (until_asked_again.over()) {
-      server_.ask_again();
-      until_asked_again = bus::Patience(kAskAgain_s);
-    }
-  }
-  for (const std::string& doubt : server_.take_doubts()) {
-    spdlog::warn("{}; the run is not repeatable", doubt);
-    summary_.warnings.push_back("decided by a wall clock: " + doubt);
-    summary_.deterministic = false;
-  }
-  take_losses();
-  return true;
 }
 
 // The user ends the run, and somebody does not answer: a hung planner, an agent in a debugger that has gone.
@@ -349,17 +391,6 @@ void SimNode::finish_step() {
     }
   }
   report_progress(false);
-}
-
-// Real time: the next step is due when the wall clock says so; what arrives meanwhile is taken in.
-void SimNode::pace(Clock::time_point started) {
-  if (!options_.realtime_factor) return;
-  const double due_s = seconds(simulation_.tick() + scenario_.exchange_ticks()) / *options_.realtime_factor;
-  const auto due = started + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
-  while (Clock::now() < due && !aborted_ && !stop_requested_) {
-    inbox_.dispatch(std::min(std::chrono::ceil<milliseconds>(due - Clock::now()), kProgressPeriod));
-    report_progress(false);
-  }
 }
 
 void SimNode::report_progress(bool now) {

@@ -1,5 +1,4 @@
 // The server as a process: the simulation behind DDS, the lock-step clock, the launcher's pipes, the run's files.
-// Everything happens on the thread that calls run().
 #pragma once
 
 #include <chrono>
@@ -11,6 +10,7 @@
 
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
+#include "bus/lockstep/lockstep_node.hpp"
 #include "bus/lockstep/patience.hpp"
 #include "bus/lockstep/server.hpp"
 #include "bus/lockstep/strangers.hpp"
@@ -18,10 +18,12 @@
 #include "process/status_lines.hpp"
 #include "process/status_pipe.hpp"
 #include "sim_server/cpu_clock.hpp"
+#include "sim_server/gcs_node.hpp"
 #include "sim_server/record/fault_timeline.hpp"
 #include "sim_server/record/run_files.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/uav_node.hpp"
+#include "sim_server/wait_teller.hpp"
 
 namespace skein::sim {
 
@@ -37,13 +39,18 @@ struct SimNodeOptions {
   FaultPlan faults;
 };
 
-class SimNode {
+class SimNode final : public bus::LockstepNode {
  public:
   SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& options, bus::Bus& bus, StatusPipe& status);
-  ~SimNode();
+  ~SimNode() override;
 
-  /// Runs the mission to its end. @returns its summary; all files are written.
-  RunSummary run();
+  void start() override;
+  void turn(bool arrived) override;
+  std::optional<bus::NodeEnd> end() const override;
+  bus::Inbox& inbox() override { return inbox_; }
+  Rest rest() override;
+  /// After the end; all files are written.
+  const RunSummary& summary() const { return summary_; }
 
   /// From other threads: end at the next step (the launcher's `stop`, a signal).
   void request_stop();
@@ -62,18 +69,25 @@ class SimNode {
     bool kill() const { return std::holds_alternative<Kill>(fault.action); }
   };
 
+  enum class State { joining, in_step, letting_in, pacing, over };
+
   void declare_members();
-  bool wait_for_members();
-  bus::Patience give_up_awaited(const std::string& why, double limit_s);
+  void wait_for(State state, const char* what, double patience_s);
+  bool tell_waiting();
+  /// What is possible in each state. @returns false when there is nothing more to do in this turn.
+  bool join_members();
+  bool take_answers(bool arrived);
+  bool let_in_members();
+  bool keep_pace();
+  void begin_step();
+  void end_run(bool joined);
+  void give_up_awaited(const std::string& why);
   void publish_step();
-  void publish_ledger(const std::vector<LedgerEntry>& entries, std::size_t begin);
-  bool wait_for_answers();
   bool gives_up_step();
-  void pace(Clock::time_point started);
+  Clock::time_point due() const;
   void finish_step();
   void take_losses();
   void tell_of_strangers(std::uint64_t patience);
-  void let_in_members();
   void begin_process_faults();
   void end_process_faults();
   void tell_order(const std::string& member, What order, Tick tick);
@@ -95,9 +109,14 @@ class SimNode {
   bus::LockstepServer server_;
   bus::Strangers strangers_;  ///< who sends commands without being a member
   std::vector<std::unique_ptr<UavNode>> uavs_;
-  std::unique_ptr<bus::CountedWriter> ledger_;
-  bus::CountedWriter *gcs_boxes_ = nullptr, *gcs_clock_ = nullptr, *gcs_remained_ = nullptr, *gcs_neighbours_ = nullptr;
+  std::unique_ptr<GcsNode> gcs_;
   std::vector<ProcessFault> process_faults_;
+  State state_ = State::joining;
+  std::optional<WaitTeller> wait_;  ///< for whom this state waits
+  double patience_s_ = 0.0;
+  bus::Patience patience_{0.0}, until_asked_again_{0.0};
+  Clock::time_point started_{};  ///< first step
+  double cpu_before_s_ = 0.0;    ///< of this thread, by then
   RunSummary summary_;
   bool stop_requested_ = false, aborted_ = false, last_step_ = false;
   Clock::time_point stop_requested_at_{};

@@ -26,9 +26,12 @@ int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSigna
   std::optional<int> code;
   while (!code) {  // once more after a fault that stopped us: the journal is our memory
     skein::station::StationNode node(scenario, options.domain, *bus, options.out, status);
-    stop.on_stop([&node] { node.wake(); });
-    code = node.run(stop);
+    stop.on_stop([&node] { node.inbox().wake(); });
+    const skein::bus::NodeEnd end = skein::bus::run_node(node, &stop);
     stop.on_stop({});
+    if (end == skein::bus::NodeEnd::resumed) continue;
+    node.write_report();
+    code = skein::bus::exit_code(end, skein::programs::kStation);
   }
   return *code;
 }

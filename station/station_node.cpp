@@ -131,12 +131,8 @@ void StationNode::tell(bool now) {
                                                .earned = scoreboard_->earned().score()}));
 }
 
-std::optional<int> StationNode::run(const StopSignal& stop) {
-  const bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_step_answered_; }};
-  const bus::LoopEnd end = bus::run_client(client_, inbox_, loop, stop);
-  if (end == bus::LoopEnd::resumed) return std::nullopt;
+void StationNode::write_report() {
   if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, status_, inbox_.malformed(), unwritten_);
-  return bus::exit_code(end, std::string(bus::kStationName));
 }
 
 }  // namespace skein::station

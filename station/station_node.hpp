@@ -1,5 +1,5 @@
 // The station as a process: takes capture reports from the radio, compares them with the referee's ledger, tallies,
-// journals, acknowledges. Everything happens on the thread that calls run().
+// journals, acknowledges.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
-#include "bus/lockstep/client_loop.hpp"
+#include "bus/lockstep/client_node.hpp"
 #include "core/scenario.hpp"
 #include "process/status_pipe.hpp"
 #include "station/journal.hpp"
@@ -19,23 +19,23 @@
 
 namespace skein::station {
 
-class StationNode {
+class StationNode final : public bus::ClientNode {
  public:
   /// @param out  where the journal is; what it holds from an earlier life of this run is taken up again.
   StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
               StatusPipe& status);
 
-  /// Takes part until the last step, or until asked to stop; then writes the report.
-  /// @returns the program's exit code; nothing when a fault stopped it and is over: go on with a new node.
-  std::optional<int> run(const StopSignal& stop);
-  /// Makes run() look at `stop`; from any thread.
-  void wake() { inbox_.wake(); }
+  bus::Inbox& inbox() override { return inbox_; }
+  /// At the end of its part: the files of a run (station_report.hpp), unless it never heard of the points.
+  void write_report();
 
  private:
+  bus::LockstepClient& client() override { return client_; }
+  void think() override;
+  bool answered_last() const override { return last_step_answered_; }
   void on_reports(std::size_t source, const msg::CaptureReports& reports);
   void on_ledger(const msg::Ledger& ledger);
   void open_scoreboard(std::size_t points);
-  void think();
   void acknowledge(const StepOutcome& outcome);
   void show_score(Tick tick);
   void tell(bool now);

@@ -30,8 +30,8 @@ int list_strategies() {
 
 int fly(skein::agent::MemberNode& node, const std::string& member, const skein::ProgramOptions& options,
         skein::StopSignal& stop) {
-  stop.on_stop([&node] { node.wake(); });
-  const int code = node.run(stop);
+  stop.on_stop([&node] { node.inbox().wake(); });
+  const int code = skein::bus::exit_code(skein::bus::run_node(node, &stop), node.member());
   stop.on_stop({});
   const skein::agent::CpuHistogram& cpu = node.planner_cpu();
   const skein::AgentReport report{.planner_cpu_s = cpu.total_s(),

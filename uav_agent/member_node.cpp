@@ -4,23 +4,14 @@
 
 namespace skein::agent {
 
-int MemberNode::run(const StopSignal& stop) {
-  const bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_step_answered_; }};
-  bus::LoopEnd end = bus::LoopEnd::resumed;
-  while (end == bus::LoopEnd::resumed) {
-    join();
-    end = bus::run_client(*client_, inbox_, loop, stop);
-  }
-  return bus::exit_code(end, member_);
-}
-
 // Who was stopped by a fault comes back as somebody new on the network; what it had in mind stays.
-void MemberNode::join() {
+void MemberNode::start() {
   client_.reset();
   participant_.reset();
   participant_ = bus_.join(domain_);
   client_.emplace(*participant_, inbox_, member_);
   declare(*client_);
+  ClientNode::start();
 }
 
 void MemberNode::think() {

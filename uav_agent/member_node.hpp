@@ -1,5 +1,5 @@
 // What the two programs of a strategy have in common, the one on board and the one at the ground station: a place in the
-// lock-step, in one domain and no other. Everything happens on the thread that calls run().
+// lock-step, in one domain and no other.
 #pragma once
 
 #include <memory>
@@ -8,21 +8,19 @@
 
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
-#include "bus/lockstep/client_loop.hpp"
+#include "bus/lockstep/client_node.hpp"
 #include "uav_agent/onboard/cpu_histogram.hpp"
 
 namespace skein::agent {
 
-class MemberNode {
+class MemberNode : public bus::ClientNode {
  public:
-  virtual ~MemberNode() = default;
   MemberNode(const MemberNode&) = delete;
   MemberNode& operator=(const MemberNode&) = delete;
 
-  /// Takes part until the last step, or until asked to stop. @returns the program's exit code.
-  int run(const StopSignal& stop);
-  /// Makes run() look at `stop`; from any thread.
-  void wake() { inbox_.wake(); }
+  void start() override;
+  bus::Inbox& inbox() override { return inbox_; }
+  const std::string& member() const { return member_; }
   /// CPU time spent in the strategy so far, by exchange; without transport.
   const CpuHistogram& planner_cpu() const { return planner_cpu_; }
   /// Samples received that were no message of their topic's type.
@@ -40,11 +38,11 @@ class MemberNode {
   /// Sends what the step brought forth, and forgets the events of this step.
   virtual void send(bus::LockstepClient& client) = 0;
 
-  const std::string& member() const { return member_; }
-
  private:
-  void join();
-  void think();
+  bus::LockstepClient& client() override { return *client_; }
+  void think() override;
+  bool answered_last() const override { return last_step_answered_; }
+  bool rejoin() override { return true; }
 
   bus::Bus& bus_;
   const int domain_;

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "bus/lockstep/client_loop.hpp"
+#include "bus/lockstep/client_node.hpp"
 #include "bus/lockstep/radio_topics.hpp"
 #include "bus/program_bus.hpp"
 #include "core/scenario_reader.hpp"
@@ -44,7 +44,7 @@ std::uint64_t number_of(const Bytes& bytes) {
   return n;
 }
 
-class Chatter {
+class Chatter final : public skein::bus::ClientNode {
  public:
   Chatter(const skein::Scenario& scenario, const skein::bus::Bus& bus, skein::bus::Participant& participant,
           std::string uav, std::size_t bytes)
@@ -58,9 +58,9 @@ class Chatter {
     }
   }
 
+  skein::bus::Inbox& inbox() override { return inbox_; }
   int run() {
-    const skein::bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_; }};
-    const int code = skein::bus::exit_code(skein::bus::run_client(client_, inbox_, loop, stop_), uav_);
+    const int code = skein::bus::exit_code(skein::bus::run_node(*this), uav_);
     std::cout << nlohmann::json{{"heard", heard_}} << std::endl;
     return code;
   }
@@ -68,7 +68,9 @@ class Chatter {
  private:
   static std::string topic(const std::string& from, const std::string& to) { return "/chatter_" + from + "_" + to; }
 
-  void think() {
+  skein::bus::LockstepClient& client() override { return client_; }
+  bool answered_last() const override { return last_; }
+  void think() override {
     const std::uint64_t k = client_.step().k();
     radio_.begin_step();
     if (!started_) {
@@ -102,7 +104,6 @@ class Chatter {
   skein::bus::Inbox inbox_;
   skein::bus::LockstepClient client_;
   skein::bus::RadioTopics radio_;
-  skein::StopSignal stop_;
   std::map<std::string, std::uint64_t> last_heard_;
   std::uint64_t heard_ = 0;
   bool started_ = false, last_ = false;

@@ -5,7 +5,7 @@
 #include <exception>
 #include <iostream>
 
-#include "bus/lockstep/client_loop.hpp"
+#include "bus/lockstep/client_node.hpp"
 #include "bus/lockstep/names.hpp"
 #include "core/radio_routes.hpp"
 
@@ -16,31 +16,44 @@ std::string variable(const char* name) {
   return value != nullptr ? value : "";
 }
 
+class Forger final : public skein::bus::ClientNode {
+ public:
+  Forger(const skein::bus::Bus& bus, skein::bus::Participant& participant, std::vector<std::string> uavs)
+      : uavs_(std::move(uavs)), inbox_(bus.run()), client_(participant, inbox_, std::string(skein::bus::kGcsName)) {
+    for (const std::string& uav : uavs_) {
+      client_.declare_writer(skein::bus::spec(skein::topics::captures_ack(uav)),
+                             skein::bus::LockstepClient::Counterpart::router);
+    }
+  }
+  skein::bus::Inbox& inbox() override { return inbox_; }
+
+ private:
+  skein::bus::LockstepClient& client() override { return client_; }
+  void think() override {
+    for (const std::string& uav : uavs_) {
+      skein::msg::CaptureAck ack;
+      ack.uav(uav);
+      for (std::uint64_t capture = 0; capture < 1000; ++capture) ack.captures().push_back(capture);
+      client_.write(skein::topics::captures_ack(uav).name, ack);
+    }
+    client_.done();
+    last_ = client_.step().final_step();
+  }
+  bool answered_last() const override { return last_; }
+
+  const std::vector<std::string> uavs_;
+  skein::bus::Inbox inbox_;
+  skein::bus::LockstepClient client_;
+  bool last_ = false;
+};
+
 int forge(const std::vector<std::string>& uavs) {
-  using skein::bus::LockstepClient;
   const auto bus = skein::bus::make_bus({.vendor = variable("SKEIN_DDS"),
                                          .security = variable("SKEIN_SECURITY"),
                                          .run = skein::RunId{std::stoull(variable("SKEIN_RUN"))}});
   const auto participant = bus->join(std::stoi(variable("SKEIN_DOMAIN")));
-  skein::bus::Inbox inbox(bus->run());
-  LockstepClient client(*participant, inbox, std::string(skein::bus::kGcsName));
-  for (const std::string& uav : uavs) {
-    client.declare_writer(skein::bus::spec(skein::topics::captures_ack(uav)), LockstepClient::Counterpart::router);
-  }
-  bool last = false;
-  const auto think = [&] {
-    for (const std::string& uav : uavs) {
-      skein::msg::CaptureAck ack;
-      ack.uav(uav);
-      for (std::uint64_t capture = 0; capture < 1000; ++capture) ack.captures().push_back(capture);
-      client.write(skein::topics::captures_ack(uav).name, ack);
-    }
-    client.done();
-    last = client.step().final_step();
-  };
-  const skein::StopSignal stop;
-  const skein::bus::ClientLoop loop{.think = think, .answered_last = [&] { return last; }};
-  return skein::bus::exit_code(skein::bus::run_client(client, inbox, loop, stop), "forger");
+  Forger forger(*bus, *participant, uavs);
+  return skein::bus::exit_code(skein::bus::run_node(forger), "forger");
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+#include "bus/lockstep/client_node.hpp"
+
+#include <spdlog/spdlog.h>
+
+namespace skein::bus {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kMatchPoll{2};
+constexpr milliseconds kIdlePoll{200};
+constexpr double kLinger_s = 5.0;  // as long as the answer to the last step may be on its way
+
+}  // namespace
+
+void ClientNode::start() {
+  client().start();
+  wait_from_now();
+  was_member_ = false;
+  serving_ = true;
+}
+
+LockstepNode::Rest ClientNode::rest() {
+  if (leaving_) return {.longest = kIdlePoll, .until_rung = false};
+  if (serving_) return {.longest = kMatchPoll, .until_rung = false};
+  return {.longest = kIdlePoll, .rings = rings(), .until_rung = true};
+}
+
+void ClientNode::turn(bool arrived) {
+  if (end_) return;
+  // Leaving at once could take the last answer away with us before it has arrived.
+  if (leaving_) {
+    if (!client().server_present() || leaving_->over()) end_ = NodeEnd::finished;
+    return;
+  }
+  const LockstepClient::Event event = client().poll();
+  if (event == LockstepClient::Event::dropped) end_ = NodeEnd::dropped;
+  if (event == LockstepClient::Event::resumed) {
+    if (rejoin()) return start();
+    end_ = NodeEnd::resumed;
+  }
+  if (end_) return;
+  if (event == LockstepClient::Event::think) {
+    think();
+    wait_from_now();
+  }
+  if (const auto waited_s = wait_.due(WaitNotice::Clock::now())) {
+    spdlog::info("waiting for {} ({:.0f} s)", client().waiting_for(), *waited_s);
+  }
+  const bool serving = serve();
+  was_member_ = was_member_ || client().is_member();
+  serving_ = serving || client().waits_for_matches();
+  if (answered_last()) {
+    leaving_.emplace(kLinger_s);
+  } else if (!arrived && was_member_ && !client().server_present()) {
+    // Also while a match is awaited: a program that was stopped may find nobody left to match.
+    end_ = NodeEnd::server_gone;
+  }
+}
+
+}  // namespace skein::bus

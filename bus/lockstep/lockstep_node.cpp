@@ -1,0 +1,33 @@
+#include "bus/lockstep/lockstep_node.hpp"
+
+#include <spdlog/spdlog.h>
+
+namespace skein::bus {
+
+NodeEnd run_node(LockstepNode& node, const StopSignal* stop) {
+  node.start();
+  while (!node.end()) {
+    if (stop != nullptr && stop->requested()) return NodeEnd::stopped;
+    const LockstepNode::Rest rest = node.rest();
+    node.turn(node.inbox().dispatch(rest.longest, rest.rings));
+  }
+  return *node.end();
+}
+
+int exit_code(NodeEnd end, const std::string& member) {
+  switch (end) {
+    case NodeEnd::finished:
+    case NodeEnd::stopped:
+      return 0;
+    case NodeEnd::server_gone:
+      spdlog::error("{}: sim_server is gone", member);
+      return 3;
+    case NodeEnd::resumed:
+    case NodeEnd::dropped:
+      spdlog::error("{}: sim_server goes on without us", member);
+      return 3;
+  }
+  return 3;
+}
+
+}  // namespace skein::bus

@@ -1,0 +1,152 @@
+// The two programs of a strategy as nodes: topics in, one step of the strategy, topics out.
+#include "uav_agent/agent_node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "comm_router/router_node.hpp"
+#include "core/radio_routes.hpp"
+#include "idl/conversions.hpp"
+#include "tests/nodes/toy_members.hpp"
+#include "uav_agent/ground_node.hpp"
+
+namespace skein::test {
+namespace {
+
+/// Says in each step what it has heard, and climbs.
+class Parrot final : public agent::Planner {
+ public:
+  explicit Parrot(std::vector<agent::PlannerInput>* seen = nullptr) : seen_(seen) {}
+  agent::PlannerOutput plan(const agent::PlannerInput& input) override {
+    agent::PlannerOutput out;
+    out.motion = agent::Path{{{{0.0, 0.0, 5.0}}}};
+    for (const agent::RadioMessage& message : input.radio) out.radio.push_back({"/talk", "a: " + message.text, {}});
+    if (seen_ != nullptr) seen_->push_back(input);
+    return out;
+  }
+
+ private:
+  std::vector<agent::PlannerInput>* seen_;
+};
+
+/// Greets in every step.
+class Greeter final : public agent::GroundProgram {
+ public:
+  std::vector<agent::RadioMessage> work(const agent::GroundInput& input) override {
+    heard.insert(heard.end(), input.radio.begin(), input.radio.end());
+    return {{"/talk", "hello " + std::to_string(input.k), {}}};
+  }
+  std::vector<agent::RadioMessage> heard;
+};
+
+TEST(AgentNode, FliesByOdometryAndAnswersTheGroundProgramByRadio) {
+  constexpr std::uint64_t kSteps = 20;
+  const Scenario scenario = toy_scenario(1);
+  const UavIndex uav{0};
+  const auto bus = bus::make_bus({.vendor = "inproc"});
+  ToyServer server(*bus, scenario, kSteps);
+  server.expect_uavs(scenario);
+  server.expect(bus::kGcsName, 1);
+  server.expect_router();
+  server.open_topics(1, topics::gcs_topics(), "gcs");
+  server.open_topics(ToyServer::domain_of(uav), topics::uav_topics(), "a");
+  bus::CountedWriter& odometry = server.writer(ToyServer::domain_of(uav), topics::odometry("a"));
+  std::vector<double> heights;
+  server.on<msg::MultiDOFJointTrajectory>(ToyServer::domain_of(uav), topics::trajectory_command("a"),
+                                          [&](const auto& message) {
+                                            if (const auto command = from_trajectory(message))
+                                              heights.push_back(command->p_WB.z());
+                                          });
+  server.before_step = [&](std::uint64_t k) { odometry.write(to_odometry(static_cast<Tick>(20 * k), "a", {})); };
+
+  auto greeter = std::make_unique<Greeter>();
+  const Greeter& ground_side = *greeter;
+  agent::AgentNode agent(scenario, uav, std::make_unique<Parrot>(), 0, *bus);
+  agent::GroundNode ground(scenario, std::move(greeter), 0, *bus);
+  router::RouterNode router(scenario, 0, 0, *bus);
+  agent.start();
+  ground.start();
+  router.start();
+  ASSERT_TRUE(
+      take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }, [&] { ground.poll(); }},
+                 [&] { return server.over(); }))
+      << agent.waiting_for() << ground.waiting_for();
+  ASSERT_GT(heights.size(), kSteps / 2);
+  EXPECT_TRUE(std::ranges::is_sorted(heights)) << "it climbs";
+  EXPECT_GT(heights.back(), heights.front());
+  // Said in step k, heard and answered in k + 1, at the ground in k + 2.
+  ASSERT_EQ(ground_side.heard.size(), kSteps - 2);
+  for (std::uint64_t k = 0; k < kSteps - 2; ++k) {
+    EXPECT_EQ(ground_side.heard[k].text, "a: hello " + std::to_string(k));
+  }
+  EXPECT_EQ(agent.malformed() + ground.malformed(), 0U);
+}
+
+TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
+  constexpr std::uint64_t kSteps = 40;
+  const Scenario scenario = toy_scenario(1);
+  const UavIndex uav{0};
+  const auto bus = bus::make_bus({.vendor = "inproc"});
+  ToyServer server(*bus, scenario, kSteps);
+  server.expect_uavs(scenario);
+  server.expect_station();
+  server.expect_router();
+  server.open_topics(ToyServer::domain_of(uav), topics::uav_topics(), "a");
+  bus::CountedWriter& card = server.writer(ToyServer::domain_of(uav), topics::capture());
+  bus::CountedWriter& neighbours = server.writer(ToyServer::domain_of(uav), topics::neighbour_odometry("a"));
+  std::multiset<std::uint64_t> stored;
+  server.on<msg::CaptureAck>(ToyServer::domain_of(uav), topics::capture_stored(), [&](const msg::CaptureAck& ack) {
+    stored.insert(ack.captures().begin(), ack.captures().end());
+  });
+  const auto report = [](std::uint64_t n) {
+    return CaptureReport{
+        UavIndex{0}, n, static_cast<Tick>(n), 7 * n, {{static_cast<std::uint32_t>(n), 0.5F, 0.6F, 0.3F, 0.7F}}};
+  };
+  server.before_step = [&](std::uint64_t k) {
+    if (k < 10) {  // each one twice: a card repeats itself
+      msg::CaptureReports reports;
+      for (const std::uint64_t n : {k / 2, k}) reports.reports().push_back(to_message(report(n), scenario.uav_names()));
+      card.write(reports);
+    }
+    std::vector<NeighbourPoint> linked;
+    if (k >= 5) linked.push_back({.node = 0.0F});
+    neighbours.write(to_cloud(static_cast<Tick>(20 * k), linked));
+  };
+  // A station that hears, and acknowledges what it hears for the second time.
+  std::map<std::uint64_t, int> heard;
+  std::vector<std::uint64_t> to_acknowledge;
+  ToyMember station(*bus, gcs_domain(0), bus::kStationName);
+  station.client().read<msg::CaptureReports>(
+      bus::spec(topics::captures_at_station("a")), bus::LockstepClient::Counterpart::router,
+      [&](const msg::CaptureReports& reports) {
+        EXPECT_GE(server.k(), 6U) << "without a link nothing is sent";
+        for (const auto& message : reports.reports()) {
+          EXPECT_EQ(from_message(message, scenario.uav_names()), report(message.capture())) << "as it came";
+          if (++heard[message.capture()] == 2) to_acknowledge.push_back(message.capture());
+        }
+      });
+  station.client().declare_writer(bus::spec(topics::captures_ack("a")), bus::LockstepClient::Counterpart::router);
+  station.on_step = [&](const msg::Step&) {
+    if (to_acknowledge.empty()) return;
+    msg::CaptureAck ack;
+    ack.uav("a");
+    ack.captures(std::exchange(to_acknowledge, {}));
+    station.client().write(topics::captures_ack("a").name, ack);
+  };
+  agent::AgentNode agent(scenario, uav, std::make_unique<Parrot>(), 0, *bus);
+  router::RouterNode router(scenario, 0, 0, *bus);
+  agent.start();
+  station.start();
+  router.start();
+  ASSERT_TRUE(
+      take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }, [&] { station.poll(); }},
+                 [&] { return server.over(); }));
+  for (std::uint64_t n = 0; n < 10; ++n) {
+    EXPECT_EQ(heard[n], 2) << "report " << n << ": sent again until it is acknowledged, and never after";
+    EXPECT_EQ(stored.count(n), 1U) << "the camera may forget " << n;
+  }
+}
+
+}  // namespace
+}  // namespace skein::test

@@ -1,0 +1,103 @@
+// The router between members who talk: who hears what follows from the links of the step in which it was said.
+#include "comm_router/router_node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "core/radio_routes.hpp"
+#include "idl/type_names.hpp"
+#include "tests/nodes/toy_members.hpp"
+
+namespace skein::test {
+namespace {
+
+bus::TopicSpec text_topic(const std::string& ros_topic) {
+  return {wire_topic(ros_topic), type_name<msg::String>(),
+          bus::Qos{.reliable = true, .latched = false, .depth = topics::radio_depth(8)}};
+}
+
+using Heard = std::map<std::uint64_t, std::vector<std::string>>;  // by step
+
+TEST(RouterNode, EachMessageReachesTheLinkedOnesInTheNextStep) {
+  constexpr std::uint64_t kSteps = 30;
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    std::mt19937 random(seed);
+    const Scenario scenario = toy_scenario(3);
+    const auto bus = bus::make_bus({.vendor = "inproc"});
+    ToyServer server(*bus, scenario, kSteps);
+    server.expect_uavs(scenario);
+    server.expect_router();
+    router::RouterNode router(scenario, 0, 0, *bus);
+    std::vector<std::unique_ptr<ToyMember>> members;
+    std::map<UavIndex, Heard> heard, expected;
+    std::vector<std::function<void()>> turns = {[&] { server.poll(); }, [&] { router.poll(); }};
+    for (const UavIndex uav : scenario.uavs()) {
+      const std::string& name = scenario.fleet[uav].name;
+      ToyMember& member = *members.emplace_back(std::make_unique<ToyMember>(*bus, uav_domain(0, uav), name));
+      auto now = std::make_shared<std::vector<std::string>>();
+      member.client().declare_writer(text_topic("/talk"), bus::LockstepClient::Counterpart::router);
+      member.client().read<msg::String>(text_topic(arrival_topic("/talk", name)),
+                                        bus::LockstepClient::Counterpart::router,
+                                        [now](const msg::String& text) { now->push_back(text.data()); });
+      member.on_step = [&, uav, name, now](const msg::Step& step) {
+        if (!now->empty()) heard[uav][step.k()] = std::exchange(*now, {});
+        for (std::uint64_t n = 0; n < random() % 3; ++n) {
+          msg::String text;
+          text.data(name + std::to_string(step.k()) + "." + std::to_string(n));
+          member.client().write(wire_topic("/talk"), text);
+          for (const UavIndex other : scenario.uavs()) {
+            if (other == uav || step.k() + 1 == kSteps) continue;
+            if (server.links.at(node_of_uav(uav), node_of_uav(other)) != 0) {
+              expected[other][step.k() + 1].push_back(text.data());
+            }
+          }
+        }
+      };
+      turns.push_back([&member] { member.poll(); });
+      member.start();
+    }
+    server.before_step = [&](std::uint64_t) {
+      for (const Node from : scenario.nodes()) {
+        for (const Node to : scenario.nodes()) server.links.at(from, to) = random() % 2;
+      }
+    };
+    router.start();
+    ASSERT_TRUE(take_turns(turns, [&] { return server.over(); })) << router.waiting_for();
+    // By source, then in the order of saying it.
+    for (auto& [uav, steps] : expected) {
+      for (auto& [k, texts] : steps) std::ranges::sort(texts);
+    }
+    EXPECT_EQ(heard, expected) << "seed " << seed;
+    EXPECT_GT(router.gate().total().dropped_no_los, 0U);
+    EXPECT_EQ(router.malformed(), 0U);
+  }
+}
+
+TEST(RouterNode, GoesOnWithoutWhomTheServerGivesUp) {
+  const Scenario scenario = toy_scenario(2);
+  const auto bus = bus::make_bus({.vendor = "inproc"});
+  ToyServer server(*bus, scenario, 12);
+  server.expect_uavs(scenario);
+  server.expect_router();
+  router::RouterNode router(scenario, 0, 0, *bus);
+  ToyMember a(*bus, uav_domain(0, UavIndex{0}), "a"), b(*bus, uav_domain(0, UavIndex{1}), "b");
+  for (bus::LockstepNode* node : {static_cast<bus::LockstepNode*>(&router), static_cast<bus::LockstepNode*>(&a),
+                                  static_cast<bus::LockstepNode*>(&b)}) {
+    node->start();
+  }
+  const std::vector<std::function<void()>> all = {[&] { server.poll(); }, [&] { router.poll(); }, [&] { a.poll(); },
+                                                  [&] { b.poll(); }};
+  ASSERT_TRUE(take_turns(all, [&] { return server.k() == 5; }));
+  const std::vector<std::function<void()>> without_b = {all[0], all[1], all[2]};
+  EXPECT_FALSE(take_turns(
+      without_b, [&] { return server.over(); }, 200))
+      << "b is waited for";
+  EXPECT_NE(router.waiting_for().find("b: done"), std::string::npos) << router.waiting_for();
+  server.lockstep().lost("b", "given up");
+  EXPECT_TRUE(take_turns(without_b, [&] { return server.over(); }));
+}
+
+}  // namespace
+}  // namespace skein::test
