@@ -1,0 +1,49 @@
+// The same input gives the same run from version to version: digests of all bundled scenes and planners, and of some
+// faults, as the version before had them (reference_digests.csv). A change that is meant to change them says so in the
+// CHANGELOG and brings new ones: SKEIN_WRITE_DIGESTS=FILE writes what this test sees.
+#include <cstdlib>
+#include <fstream>
+
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+const char* const kColumns[] = {"scenario", "scene_seed", "seed", "planner", "duration_s", "faults"};
+
+std::vector<Row> rows() { return read_csv(SKEIN_SOURCE_DIR "/tests/fleet/reference_digests.csv"); }
+
+std::string name_of(const Row& row) {
+  std::string name = row.at("scenario") + "_" + row.at("planner");
+  if (!row.at("scene_seed").empty()) name += "_" + row.at("scene_seed");
+  return row.at("faults").empty() ? name : name + "_" + row.at("faults");
+}
+
+class ReferenceDigests : public FleetTest, public testing::WithParamInterface<Row> {};
+
+TEST_P(ReferenceDigests, AreThoseOfTheVersionBefore) {
+  const Row& row = GetParam();
+  const bool official = row.at("scenario") == "mbs" || row.at("scenario") == "crane";
+  if (official && std::getenv("SKEIN_ASSETS") == nullptr) GTEST_SKIP() << "SKEIN_ASSETS is not set";
+  Arguments arguments = {row.at("scenario"), "--planner",         row.at("planner"), "--seed", row.at("seed"),
+                         "--duration",       row.at("duration_s"), "--no-oracle"};
+  if (!row.at("scene_seed").empty()) arguments.insert(arguments.end(), {"--scene-seed", row.at("scene_seed")});
+  if (!row.at("faults").empty()) {
+    arguments.insert(arguments.end(), {"--faults", SKEIN_SOURCE_DIR "/config/faults/" + row.at("faults") + ".yaml"});
+  }
+  const std::string digest = run("run", arguments).digest();
+  EXPECT_EQ(digest, row.at("digest"));
+  if (const char* const file = std::getenv("SKEIN_WRITE_DIGESTS")) {
+    std::ofstream out(file, std::ios::app);
+    for (const char* const column : kColumns) out << row.at(column) << ',';
+    out << digest << '\n';
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ReferenceDigests, testing::ValuesIn(rows()),
+                         [](const auto& info) { return name_of(info.param); });
+
+}  // namespace
+}  // namespace skein::test
