@@ -12,6 +12,7 @@
 #include "cli/study/side_by_side.hpp"
 #include "cli/study/spec.hpp"
 #include "cli/test_command.hpp"
+#include "core/text.hpp"
 #include "process/atomic_file.hpp"
 #include "process/run_folder.hpp"
 

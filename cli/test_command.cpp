@@ -1,9 +1,8 @@
 #include "cli/test_command.hpp"
 
-#include <fstream>
-#include <iterator>
-#include <regex>
+#include <pugixml.hpp>
 #include <stdexcept>
+#include <string_view>
 
 #include "cli/fault_test_command.hpp"
 #include "cli/run/environment.hpp"
@@ -13,12 +12,6 @@
 
 namespace skein::cli {
 namespace {
-
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error(file.string() + ": ctest left no report");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Counts of a GoogleTest program's own report.
 TestCounts count_cases(const Json& report) {
@@ -40,13 +33,15 @@ TestCounts count_cases(const Json& report) {
 }  // namespace
 
 TestCounts count_tests(const std::filesystem::path& junit, const std::filesystem::path& reports) {
-  const std::string text = read_text(junit);
-  static const std::regex kEntry(
-      R"re(<testcase name="([^"]*)"[^>]*\bstatus="([^"]*)"[^>]*>\s*(<skipped message="SKIP_)?)re");
+  pugi::xml_document document;
+  if (const pugi::xml_parse_result read = document.load_file(junit.c_str()); !read) {
+    throw std::runtime_error(junit.string() + ": ctest left no report: " + read.description());
+  }
   TestCounts total;
-  for (auto entry = std::sregex_iterator(text.begin(), text.end(), kEntry); entry != std::sregex_iterator(); ++entry) {
-    const std::string name = (*entry)[1], status = (*entry)[2];
-    const bool skipped = status == "disabled" || (*entry)[3].matched;
+  for (const pugi::xml_node& entry : document.child("testsuite").children("testcase")) {
+    const std::string name = entry.attribute("name").value(), status = entry.attribute("status").value();
+    const std::string_view why = entry.child("skipped").attribute("message").value();
+    const bool skipped = status == "disabled" || why.starts_with("SKIP_");
     const bool failed = !skipped && status != "run";  // also one that could not be started
     const Json report = read_json(reports / (name + ".json"));
     if (report.is_null()) {  // no GoogleTest program, or one that crashed or timed out

@@ -1,8 +1,10 @@
 #include "station/station_report.hpp"
 
-#include <locale>
-#include <sstream>
+#include <spdlog/fmt/fmt.h>
 
+#include <nlohmann/json.hpp>
+
+#include "core/text.hpp"
 #include "process/atomic_file.hpp"
 #include "process/program_report.hpp"
 #include "process/reports.hpp"
@@ -11,21 +13,12 @@
 namespace skein::station {
 namespace {
 
-/// A stream for numbers as files want them: a point, no thousands, enough digits to read a double back.
-std::ostringstream number_stream() {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(9);
-  return text;
-}
-
 std::string timeline_csv(const Scoreboard& scoreboard) {
-  std::ostringstream text = number_stream();
-  text << "time_s,points,score\n";
+  std::string text = "time_s,points,score\n";
   for (const TimelinePoint& at : scoreboard.timeline()) {
-    text << seconds(at.tick) << ',' << at.points << ',' << at.score << '\n';
+    text += fmt::format("{:.9g},{},{:.9g}\n", seconds(at.tick), at.points, at.score);
   }
-  return text.str();
+  return text;
 }
 
 /// Why a point of a capture does not count; empty when it does.
@@ -41,20 +34,19 @@ std::string reason(const Scoreboard& scoreboard, const LedgerEntry& entry, const
 }
 
 std::string captures_csv(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names) {
-  std::ostringstream text = number_stream();
-  text << "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q_distance,q,delivered_at_s,reason\n";
+  std::string text = "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q_distance,q,delivered_at_s,reason\n";
   for (const LedgerEntry& entry : scoreboard.ledger()) {
     if (entry.collision) continue;
     const Audit audit = scoreboard.audit(entry);
     for (const CapturePoint& point : entry.capture.points) {
-      text << uav_names[entry.uav] << ',' << entry.capture.capture << ',' << entry.tick << ',' << seconds(entry.tick)
-           << ',' << point.index << ",1," << point.q_blur << ',' << point.q_res << ',' << point.q_distance << ','
-           << point.q << ',';
-      if (audit.delivered) text << seconds(*audit.delivered);
-      text << ',' << reason(scoreboard, entry, point, audit) << '\n';
+      // Nine digits tell any two floats apart.
+      text += fmt::format(
+          "{},{},{},{:.9g},{},1,{:.9g},{:.9g},{:.9g},{:.9g},{},{}\n", uav_names[entry.uav], entry.capture.capture,
+          entry.tick, seconds(entry.tick), point.index, point.q_blur, point.q_res, point.q_distance, point.q,
+          audit.delivered ? significant(seconds(*audit.delivered), 9) : "", reason(scoreboard, entry, point, audit));
     }
   }
-  return text.str();
+  return text;
 }
 
 StationReport report_of(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names) {

@@ -72,7 +72,6 @@ class CountedQueues {
 
   void add_topic(const std::string& topic, Handler handler);
   void remove_topic(const std::string& topic);
-  bool has_topic(const std::string& topic) const { return topics_.contains(topic); }
   /// The writer had already sent `count` samples when we began to listen.
   void set_base(const std::string& topic, ParticipantId source, std::uint64_t count);
   void arrive(const std::string& topic, Sample&& sample);

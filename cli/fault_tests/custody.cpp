@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/fault_tests/limits.hpp"
+#include "core/text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

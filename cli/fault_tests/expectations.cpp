@@ -4,6 +4,7 @@
 
 #include "cli/fault_tests/windows.hpp"
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -1,7 +1,5 @@
 #include "cli/study/plan.hpp"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -14,6 +12,7 @@
 #include "core/scenario_reader.hpp"
 #include "core/sha256.hpp"
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 #include "core/types.hpp"
 #include "process/run_folder.hpp"
 
@@ -173,7 +172,7 @@ std::string command_line(const StudyPlan& plan) {
   }
   if (options.scene_seed) add("--scene-seed", std::to_string(*options.scene_seed));
   if (options.assets) add("--assets", *options.assets);
-  if (options.duration_s) add("--duration", fmt::format("{}", *options.duration_s));
+  if (options.duration_s) add("--duration", shortest(*options.duration_s));
   if (options.rules) add("--rules", *options.rules);
   if (options.dds != StudyOptions{}.dds) add("--dds", options.dds);
   if (options.agent) add("--agent", *options.agent);

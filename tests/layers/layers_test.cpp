@@ -38,6 +38,7 @@ TEST_F(Layers, NobodyPrints) { expect_none(check_printing(tree_)); }
 TEST_F(Layers, NobodySleeps) { expect_none(check_sleeping(tree_)); }
 TEST_F(Layers, FilesAreShort) { expect_none(check_length(tree_)); }
 TEST_F(Layers, NothingIsMarkedUnfinished) { expect_none(check_marks(tree_)); }
+TEST_F(Layers, FilesThatAreNamedAreThere) { expect_none(check_references(tree_)); }
 TEST_F(Layers, NoMachineIsNamed) { expect_none(check_machine_paths(tree_)); }
 
 TEST_F(Layers, GitTracksNoProductsAndNoLargeFiles) {

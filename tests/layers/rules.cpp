@@ -38,7 +38,7 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
   return std::ranges::any_of(prefixes, [&](const std::string& prefix) { return text.starts_with(prefix); });
 }
 
-/// main.cpp, sim_node.hpp, sim_node_test.cpp.
+/// main.cpp, sim_node.hpp, and the test of a node.
 bool may_use_bus(const std::string& path) {
   static const std::regex kName(R"((^|.*/)(main\.cpp|[^/]*_node(_test)?\.[ch]pp))");
   return std::regex_match(path, kName);

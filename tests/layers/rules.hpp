@@ -54,6 +54,11 @@ Violations check_marks(const Tree& tree);
 /// No path of somebody's machine, in any text file. docker/ may name paths inside a container.
 Violations check_machine_paths(const Tree& tree);
 
+/// Files that comments of C++ files, docs/, README.md and CONTRIBUTING.md name are there: those with a folder of the tree
+/// ("docs/lockstep.md"), C++ files in whatever folder ("flight/site.hpp"), and in comments also by their names alone
+/// ("tours.hpp"); ".*" means any ending. A page may name what it has its reader write: its code blocks with a name.
+Violations check_references(const Tree& tree);
+
 /// No build products and no large files among `tracked` (paths below the root).
 Violations check_tracked_files(const std::filesystem::path& root, const std::vector<std::string>& tracked,
                                std::uintmax_t most_bytes = 1'500'000);

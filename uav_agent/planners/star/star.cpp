@@ -1,10 +1,10 @@
 // STAR: the strategy of the team that came third in the first contest, rebuilt from its published description.
 //
 // 1. Balanced teams of one explorer and its photographers; boxes go to teams by a multiple travelling salesmen problem
-//    over way and volume (star_teams.hpp), once and for all. 2. Explorers go through their team's boxes by frontiers:
-//    one viewpoint for each cluster, an ATSP over them (star_explorer.hpp). 3. What they find reaches the others in
-//    chunks (star_talk.hpp). 4. Photographers begin at once: viewpoints before known surface that nobody has inspected
-//    (star_surfaces.hpp), in clusters, by a hierarchical ATSP (star_tour.hpp); without any they hover. 5. Everybody
+//    over way and volume (teams.hpp), once and for all. 2. Explorers go through their team's boxes by frontiers:
+//    one viewpoint for each cluster, an ATSP over them (explorer.hpp). 3. What they find reaches the others in
+//    chunks (talk.hpp). 4. Photographers begin at once: viewpoints before known surface that nobody has inspected
+//    (surfaces.hpp), in clusters, by a hierarchical ATSP (tour.hpp); without any they hover. 5. Everybody
 //    flies on through its viewpoints without a stop, turning and tilting the camera all the time, and plans anew every
 //    1.5 s; so pictures are blurred and oblique.
 //
@@ -13,7 +13,7 @@
 // out: photographers without surface hover for ever where they are, out of sight as they may be; an explorer that has
 // seen everything is done, and a team without a box has nothing to do; UAVs of one team plan without regard to where
 // the others are about to work. Collisions at the start, which are published, are not brought back.
-// Not published for this contest, and so our choice: all numbers (star_config.hpp), the messages, and safety.
+// Not published for this contest, and so our choice: all numbers (config.hpp), the messages, and safety.
 #include <algorithm>
 
 #include "uav_agent/api/planner.hpp"

@@ -1,15 +1,15 @@
 // XXH: the strategy of the second team of the first contest, rebuilt from its published description.
 //
-// 1. The ground station (xxh_ground.cpp) forms a team around each explorer and gives it boxes, in the order of a best-
-// first path (xxh_plan.hpp). 2. Region by region, the explorer flies a spiral around the box, layer by layer, and maps
-// it in cells (xxh_region.hpp); its photographers wait at the region's entry. 3. The layers are shared out: as soon as
+// 1. The ground station (ground.cpp) forms a team around each explorer and gives it boxes, in the order of a best-
+// first path (plan.hpp). 2. Region by region, the explorer flies a spiral around the box, layer by layer, and maps
+// it in cells (region.hpp); its photographers wait at the region's entry. 3. The layers are shared out: as soon as
 // a section is explored, the explorer orders its photographer to begin; the last one it inspects itself
-// (xxh_inspect.hpp). 4. When all are done, the team goes on to the next region. Trajectories and maps are shared
-// (xxh_talk.hpp); who has less priority, by role and name, keeps clear of what others are about to fly.
+// (inspect.hpp). 4. When all are done, the team goes on to the next region. Trajectories and maps are shared
+// (talk.hpp); who has less priority, by role and name, keeps clear of what others are about to fly.
 //
 // Its weaknesses are the published ones: the exploration is slow, and photographers are idle meanwhile; a share by
 // volume says little about the work; nobody helps another team. What the sources leave open and we had to invent: the
-// numbers that xxh_config.hpp does not give a source for, that an assignment that never comes is made by the UAV
+// numbers that config.hpp does not give a source for, that an assignment that never comes is made by the UAV
 // itself, that silent leaders and followers are not waited for, that every way is checked against the finer map
 // (free_space.hpp), that upright regions begin at the top (what is low may only be entered once it was seen), that the
 // leader's part of the layers is smaller (it begins last), starts and safety (pilot.hpp), the way home (delivery.hpp).
