@@ -192,5 +192,12 @@ TEST(ConfigWriter, QuotesWhatWouldReadAsSomethingElse) {
   }
 }
 
+TEST(ConfigWriter, PrintsTheTreeThatItRead) {
+  const std::string text =
+      "word: a/b-c\n\"two words\": \"12\"\nnumber: -1.5e-07\nnothing: ~\nempty: {}\nlist: [1, \"a b\", ~]\n"
+      "maps:\n  - name: a\n    inner:\n      - [1, 2]\n      - []\n  - name: b\n";
+  EXPECT_EQ(to_yaml(parse_config_document(text, "test").root), text);
+}
+
 }  // namespace
 }  // namespace skein
