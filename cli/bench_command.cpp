@@ -18,6 +18,7 @@
 #include "cli/run/preflight.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -160,7 +161,7 @@ class Bench {
   Json relay(const std::string& vendor, const std::string& scenario) {
     const DomainBlock domains(std::nullopt, 5);
     return report_of("bench_relay", {program_dir() / "bench_relay", "--dds", vendor, "--scenario", scenario, "--router",
-                                     program_dir() / "comm_router", "--out", scratch_.path(), "--messages",
+                                     program_dir() / programs::kCommRouter, "--out", scratch_.path(), "--messages",
                                      std::to_string(effort_.relayed), "--domain", std::to_string(domains.base())});
   }
 
@@ -196,7 +197,7 @@ class Bench {
     std::ostringstream out, err;
     const int code = run_fleet(run, {out, err, false});
     if (code == kExitInterrupted) throw Interrupted{};
-    Json result = read_json(*run.out / "result.json");
+    Json result = read_json(*run.out / run_folder::kResult);
     if (code != kExitDone || !ran_to_the_end(result)) {
       failed_ = true;
       tell(what + " did not go well:\n" + err.str());
@@ -207,7 +208,7 @@ class Bench {
   /// The production LiDAR at all poses of the run that was just flown.
   Json every_scan(const RunOptions& run) {
     std::vector<std::string> argv = {program_dir() / "bench_lidar", "--scenario", run.scenario, "--trajectories",
-                                     *run.out / "trajectories.csv"};
+                                     *run.out / run_folder::kTrajectories};
     if (run.assets) argv.insert(argv.end(), {"--assets", *run.assets});
     return report_of("bench_lidar", argv);
   }
@@ -221,7 +222,7 @@ class Bench {
 
   /// Runs a program that ends by writing one line of JSON. @returns null when it fails.
   Json report_of(const std::string& name, const std::vector<std::string>& argv) {
-    const std::filesystem::path log = scratch_.path() / (name + ".log");
+    const std::filesystem::path log = scratch_.path() / run_folder::log_file(name);
     const ExitStatus exit = run_to_end({name, argv, fleet_environment(false), log});
     const std::vector<std::string> last = last_lines(log, 1);
     Json report = last.empty() ? Json() : Json::parse(last.front(), nullptr, false);

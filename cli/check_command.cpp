@@ -9,6 +9,7 @@
 #include "cli/run/preflight.hpp"
 #include "core/config_node.hpp"
 #include "core/scenario_reader.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -86,10 +87,11 @@ std::string check_file(const CheckOptions& options, const std::string& file, con
 
 /// Reference vectors go to the program that holds the production code; its words and its exit code are ours.
 int check_golden(const std::string& file) {
-  const ExitStatus exit = run_to_end({"sim_server",
-                                      {program_dir() / "sim_server", "--golden", std::filesystem::absolute(file)},
-                                      fleet_environment(false),
-                                      {}});
+  const ExitStatus exit =
+      run_to_end({programs::kSimServer,
+                  {program_dir() / programs::kSimServer, "--golden", std::filesystem::absolute(file)},
+                  fleet_environment(false),
+                  {}});
   return exit.signal == 0 && exit.code <= kExitBadInput ? exit.code : kExitProcessFailed;
 }
 

@@ -13,6 +13,7 @@
 #include "cli/study/spec.hpp"
 #include "cli/test_command.hpp"
 #include "process/atomic_file.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -20,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kLog = "flight.log";  ///< what `skein run` said
 constexpr std::size_t kLogLines = 5;
 
 /// What the programs themselves say to what the tests fly. @throws InputError.
@@ -108,13 +108,13 @@ class FaultTestRun {
     console_.err << "flying " << flight.name << std::endl;
     const fs::path dir = *flight.options.out;
     fs::create_directories(dir);
-    fs::remove(dir / "result.json");  // of an earlier call
+    fs::remove(dir / run_folder::kResult);  // of an earlier call
     std::vector<std::string> arguments = arguments_of(flight.options);
     arguments.insert(arguments.begin(), program_dir() / "skein");
     std::map<std::string, std::string> variables;
     if (flight.chaos) variables["SKEIN_CHAOS"] = std::to_string(*flight.chaos);
     flown_[index].began = Clock::now();
-    return {"", std::move(arguments), environment_with(variables), dir / kLog};
+    return {"", std::move(arguments), environment_with(variables), dir / run_folder::kFlightLog};
   }
 
   void on_exit(std::size_t index, const ExitStatus& exit) {
@@ -172,9 +172,9 @@ class FaultTestRun {
   /// @throws std::runtime_error, with the end of its log, when it left no result.
   RunRecord record_of(std::size_t index) const {
     const fs::path dir = *flights_.flights[index].options.out;
-    if (fs::exists(dir / "result.json")) return read_run(dir);
+    if (fs::exists(dir / run_folder::kResult)) return read_run(dir);
     std::string message = "skein run ended with " + flown_[index].exit->text() + " and without a result";
-    for (const std::string& line : last_lines(dir / kLog, kLogLines)) message += "\n       " + line;
+    for (const std::string& line : last_lines(dir / run_folder::kFlightLog, kLogLines)) message += "\n       " + line;
     throw std::runtime_error(message);
   }
 

@@ -20,6 +20,7 @@
 #include "cli/test_command.hpp"
 #include "core/suggestion.hpp"
 #include "core/types.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -37,7 +38,7 @@ int diff_runs(const DiffOptions& options, const Console& console) {
 
 /// Of the agent program that flies by default. Help is given whatever is wrong with it.
 std::string planner_list() try {
-  const std::filesystem::path agent = own_agent({}).value_or(program_dir() / "uav_agent");
+  const std::filesystem::path agent = own_agent({}).value_or(program_dir() / programs::kAgent);
   std::string text = "\nPlanners: " + joined(planners_of(agent)) + "\n";
   return text + "With a program at the ground station: " + joined(ground_programs_of(agent)) + "\n";
 } catch (const InputError& error) {

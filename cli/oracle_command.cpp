@@ -9,6 +9,7 @@
 #include "cli/run/preflight.hpp"
 #include "core/types.hpp"
 #include "process/program.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -37,7 +38,8 @@ struct Asked {
 Asked ask(const Question& question) {
   const ScratchDir scratch;
   const std::filesystem::path answer = scratch.path() / "oracle.json", log = scratch.path() / "oracle.log";
-  std::vector<std::string> argv = {program_dir() / "sim_server", "--scenario", question.scenario, "--oracle", answer};
+  std::vector<std::string> argv = {program_dir() / programs::kSimServer, "--scenario", question.scenario, "--oracle",
+                                   answer};
   if (question.scene_seed) argv.insert(argv.end(), {"--scene-seed", std::to_string(*question.scene_seed)});
   if (question.assets) argv.insert(argv.end(), {"--assets", *question.assets});
   if (question.rules) argv.insert(argv.end(), {"--rules", *question.rules});
@@ -49,7 +51,7 @@ Asked ask(const Question& question) {
   if (question.patience_s) argv.insert(argv.end(), {"--oracle-patience", std::to_string(*question.patience_s)});
   Asked asked;
   // As in a run: the same libm gives the same answer.
-  asked.exit = run_to_end({"sim_server", argv, fleet_environment(false), log});
+  asked.exit = run_to_end({programs::kSimServer, argv, fleet_environment(false), log});
   asked.answers = value_or(read_json(answer), "rows", Json::array());
   for (const std::string& line : last_lines(log, kMostLines)) asked.said += (asked.said.empty() ? "" : "\n") + line;
   return asked;

@@ -4,17 +4,18 @@
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "process/program.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 
 int export_scene(const SceneOptions& options) {
-  std::vector<std::string> argv = {program_dir() / "sim_server", "--scenario", options.scenario, "--export-scene",
-                                   options.out};
+  std::vector<std::string> argv = {program_dir() / programs::kSimServer, "--scenario", options.scenario,
+                                   "--export-scene", options.out};
   if (options.scene_seed) argv.insert(argv.end(), {"--scene-seed", std::to_string(*options.scene_seed)});
   if (options.assets) argv.insert(argv.end(), {"--assets", *options.assets});
   if (options.force) argv.push_back("--overwrite-export");
   // As in a run: the same libm makes the same scene.
-  const ExitStatus exit = run_to_end({"sim_server", argv, fleet_environment(false), {}});
+  const ExitStatus exit = run_to_end({programs::kSimServer, argv, fleet_environment(false), {}});
   return exit.signal == 0 && exit.code <= kExitBadInput ? exit.code : kExitProcessFailed;
 }
 

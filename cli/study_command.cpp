@@ -13,6 +13,7 @@
 #include "core/suggestion.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -47,7 +48,7 @@ void write_report(const Study& study, const fs::path& out) {
   write_file_atomically(out / "flights.csv", flights_csv(study));
   write_file_atomically(out / "summary.csv", summary_csv(study));
   if (study.contest) write_file_atomically(out / "totals.csv", totals_csv(study));
-  write_file_atomically(out / "report.html", study_page(study, pictures_of(study)));
+  write_file_atomically(out / run_folder::kPage, study_page(study, pictures_of(study)));
 }
 
 std::string range_text(const Spread& spread, int digits) {
@@ -125,7 +126,7 @@ int run_study(const StudyOptions& options, const Console& console) {
   const Study study = study_of(plan, outcomes);
   write_report(study, plan.out);
   print_study(console.out, study);
-  console.out << "report: " << (plan.out / "report.html").string() << std::endl;
+  console.out << "report: " << (plan.out / run_folder::kPage).string() << std::endl;
   if (outcomes.interrupted) {
     console.err << "interrupted; the same command goes on from here" << std::endl;
     return kExitInterrupted;

@@ -3,12 +3,16 @@
 #include <system_error>
 
 #include "core/radio_routes.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::router {
 
 LinkRecord::LinkRecord(std::unique_ptr<LinkModel> links, const Scenario& scenario, const std::filesystem::path& folder,
                        std::vector<std::string>& unwritten)
-    : links_(std::move(links)), scenario_(scenario), file_(folder / "capture_messages.csv"), unwritten_(unwritten) {}
+    : links_(std::move(links)),
+      scenario_(scenario),
+      file_(folder / run_folder::kCaptureMessages),
+      unwritten_(unwritten) {}
 
 LinkFate LinkRecord::fate(std::uint64_t k, const RadioRoute& route, Node target, const RadioMessage& message) {
   const LinkFate fate = links_->fate(k, route, target, message);

@@ -2,7 +2,6 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
 
@@ -10,6 +9,8 @@
 #include "comm_router/router_node.hpp"
 #include "process/program.hpp"
 #include "process/program_report.hpp"
+#include "process/reports.hpp"
+#include "process/run_folder.hpp"
 
 namespace {
 
@@ -20,34 +21,34 @@ struct Notes {
   std::vector<std::string> unwritten = {};  ///< files that the disk refused
 };
 
+skein::RadioCounts radio_counts(const skein::router::LinkCounts& counts) {
+  return {.sent = counts.sent,
+          .delivered = counts.delivered,
+          .dropped_no_los = counts.dropped_no_los,
+          .dropped_fault = counts.dropped_fault,
+          .dropped_overflow = counts.dropped_overflow,
+          .duplicated = counts.duplicated,
+          .sent_bytes = counts.sent_bytes,
+          .delivered_bytes = counts.delivered_bytes};
+}
+
 void write_report(const std::filesystem::path& folder, const skein::Scenario& scenario,
                   const skein::router::LinkGate& gate, const Notes& notes, skein::StatusPipe& status) {
-  const auto counts_json = [](const skein::router::LinkCounts& counts) {
-    return nlohmann::json{{"sent", counts.sent},
-                          {"delivered", counts.delivered},
-                          {"dropped_no_los", counts.dropped_no_los},
-                          {"dropped_fault", counts.dropped_fault},
-                          {"dropped_overflow", counts.dropped_overflow},
-                          {"duplicated", counts.duplicated},
-                          {"sent_bytes", counts.sent_bytes},
-                          {"delivered_bytes", counts.delivered_bytes}};
-  };
-  nlohmann::json json = counts_json(gate.total());
-  json["malformed"] = notes.malformed;
-  json["unheard"] = notes.unheard;
-  json["warnings"] = notes.warnings;
-  json["per_link"] = nlohmann::json::array();
+  skein::RouterReport report{.total = radio_counts(gate.total()),
+                             .malformed = notes.malformed,
+                             .unheard = notes.unheard,
+                             .warnings = notes.warnings,
+                             .unwritten = notes.unwritten};
   for (skein::Node from = 0; from < gate.nodes(); ++from) {
     for (skein::Node to = 0; to < gate.nodes(); ++to) {
-      if (gate.counts(from, to).sent == 0) continue;
-      nlohmann::json link = counts_json(gate.counts(from, to));
-      link["from"] = scenario.node_name(from);
-      link["to"] = scenario.node_name(to);
-      json["per_link"].push_back(std::move(link));
+      const skein::router::LinkCounts& counts = gate.counts(from, to);
+      if (counts.sent == 0) continue;
+      report.per_link.push_back(
+          {.from = scenario.node_name(from), .to = scenario.node_name(to), .counts = radio_counts(counts)});
     }
   }
-  json["unwritten"] = notes.unwritten;
-  skein::hand_in_report(json, folder / "comm_router.report.json", status);
+  const std::filesystem::path file = folder / skein::run_folder::report_file(skein::programs::kCommRouter);
+  skein::hand_in_report(skein::json_of(report), file, status);
 }
 
 /// A router that died for good has left its counts: makes its report of them.
@@ -76,7 +77,7 @@ int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSigna
   load.needs_scene_files = false;
   const skein::Scenario scenario = skein::load_scenario(options.scenario, load);
   const skein::FaultPlan faults = skein::load_fault_plan(options.faults, scenario, options.seed);
-  const std::filesystem::path counts = options.out / "comm_router.counts";
+  const std::filesystem::path counts = options.out / skein::run_folder::kCounts;
   skein::StatusPipe status(options.status_fd);
   if (settle_only) return settle(options.out, counts, scenario, options.run, status);
   const auto bus = skein::bus::make_bus(options);
@@ -107,6 +108,6 @@ int main(int argc, char** argv) {
     app.add_flag("--settle", settle_only, "Write the report of a router that died in this folder, then stop")
         ->group("Launcher");
   };
-  return skein::run_program("comm_router", argc, argv, add_options,
+  return skein::run_program(skein::programs::kCommRouter, argc, argv, add_options,
                             [&](const auto& options, auto& stop) { return run(options, settle_only, stop); });
 }

@@ -5,17 +5,18 @@
 #include <stdexcept>
 
 #include "process/atomic_file.hpp"
+#include "process/status_lines.hpp"
 
 namespace skein {
 
-void hand_in_report(nlohmann::ordered_json report, const std::filesystem::path& file, StatusPipe& status) {
+void hand_in_report(Json report, const std::filesystem::path& file, StatusPipe& status) {
   const std::string trouble = write_if_possible(file, report.dump(2) + "\n");
   if (!trouble.empty()) {
     if (!status.is_open()) throw std::runtime_error(trouble);
     spdlog::warn("{}", trouble);
     report["unwritten"].push_back(trouble);
   }
-  status.send_surely({{"type", "report"}, {"report", std::move(report)}});
+  status.send_surely(status::line_json(status::Report{std::move(report)}));
 }
 
 }  // namespace skein

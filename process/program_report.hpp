@@ -3,15 +3,15 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
+#include "process/json_text.hpp"
 #include "process/status_pipe.hpp"
 
 namespace skein {
 
-/// Sends {"type":"report","report":...}, after writing `file`. A file that cannot be written is added to the report's
+/// Sends it as a status::Report, after writing `file`. A file that cannot be written is added to the report's
 /// list `unwritten`, where a program names all such files, one sentence each.
 /// @throws std::runtime_error when the file cannot be written and there is no launcher either.
-void hand_in_report(nlohmann::ordered_json report, const std::filesystem::path& file, StatusPipe& status);
+void hand_in_report(Json report, const std::filesystem::path& file, StatusPipe& status);
 
 }  // namespace skein

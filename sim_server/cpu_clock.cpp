@@ -12,21 +12,21 @@ void CpuClock::end(Work work) {
   ++account.count;
 }
 
-nlohmann::json CpuClock::summary() const {
+TimingReport CpuClock::summary() const {
   const auto total = [&](Work work) { return accounts_[static_cast<std::size_t>(work)].total_s; };
   const double lidar = total(Work::lidar), camera = total(Work::camera), links = total(Work::links);
   const auto count = [&](Work work) { return accounts_[static_cast<std::size_t>(work)].count; };
   const std::uint64_t scans = count(Work::lidar);
-  nlohmann::json json = {{"physics_s", total(Work::simulation) - lidar - camera - links},
-                         {"lidar_s", lidar},
-                         {"camera_s", camera},
-                         {"links_s", links},
-                         {"recording_s", total(Work::recording)},
-                         {"scans", scans},
-                         {"exposures", count(Work::camera)},
-                         {"steps", count(Work::recording)}};
-  if (scans > 0) json["lidar_ms_per_scan"] = 1e3 * lidar / static_cast<double>(scans);
-  return json;
+  TimingReport timing{.physics_s = total(Work::simulation) - lidar - camera - links,
+                      .lidar_s = lidar,
+                      .camera_s = camera,
+                      .links_s = links,
+                      .recording_s = total(Work::recording),
+                      .scans = scans,
+                      .exposures = count(Work::camera),
+                      .steps = count(Work::recording)};
+  if (scans > 0) timing.lidar_ms_per_scan = 1e3 * lidar / static_cast<double>(scans);
+  return timing;
 }
 
 }  // namespace skein::sim

@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
+#include "process/reports.hpp"
 #include "sim_server/work_clock.hpp"
 
 namespace skein::sim {
@@ -13,9 +13,9 @@ class CpuClock final : public WorkClock {
  public:
   void begin(Work work) override;
   void end(Work work) override;
-  /// Seconds by kind of work: `physics_s` is what the simulation did besides LiDAR, camera and links. Also the number of
-  /// scans and exposures that were computed, and lidar_ms_per_scan when there was one.
-  nlohmann::json summary() const;
+  /// `physics_s` is what the simulation did besides LiDAR, camera and links; lidar_ms_per_scan is there when there was a
+  /// scan; cpu_s is the caller's to fill in.
+  TimingReport summary() const;
 
  private:
   struct Account {

@@ -11,6 +11,8 @@
 #include "core/scenario_reader.hpp"
 #include "process/atomic_file.hpp"
 #include "process/program.hpp"
+#include "process/run_folder.hpp"
+#include "process/status_lines.hpp"
 #include "sim_server/golden/check.hpp"
 #include "sim_server/oracle/cache.hpp"
 #include "sim_server/scenes/scene_export.hpp"
@@ -99,13 +101,13 @@ int ask_oracle(const skein::Scenario& scenario, const ServerOptions& server) {
 
 // Orders of the launcher; they arrive on the pipe's own thread.
 void obey(skein::sim::SimNode& node, const std::string& line) {
-  const std::string lost = "lost ";
-  if (line == "stop") {
-    node.request_stop();
-  } else if (line.starts_with(lost)) {
-    node.report_lost(line.substr(lost.size()));
-  } else {
+  const std::optional<skein::orders::Line> order = skein::orders::read_line(line);
+  if (!order) {
     spdlog::warn("unknown order: {}", line);
+  } else if (const auto* lost = std::get_if<skein::orders::Lost>(&*order)) {
+    node.report_lost(lost->member);
+  } else {
+    node.request_stop();
   }
 }
 
@@ -136,7 +138,7 @@ int run(const skein::ProgramOptions& options, const ServerOptions& server, skein
   stop.on_stop([&] { node.abort(); });
   const skein::sim::RunSummary summary = node.run();
   stop.on_stop({});
-  return summary.status == "aborted" ? skein::kExitInterrupted : skein::kExitDone;
+  return summary.status == skein::RunStatus::aborted ? skein::kExitInterrupted : skein::kExitDone;
 }
 
 }  // namespace
@@ -161,6 +163,6 @@ int main(int argc, char** argv) {
     app.add_option("--oracle-patience", server.oracle_patience_s,
                    "with --oracle: no answer that takes longer to compute [s]");
   };
-  return skein::run_program("sim_server", argc, argv, add_options,
+  return skein::run_program(skein::programs::kSimServer, argc, argv, add_options,
                             [&](const auto& options, auto& stop) { return run(options, server, stop); });
 }

@@ -5,13 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "core/run_state.hpp"
 #include "core/scenario.hpp"
 #include "core/types.hpp"
 #include "sim_server/flight/physics_world.hpp"
 
 namespace skein::sim {
-
-enum class Phase { waiting, flying, ended };
 
 /// Why a mission ended.
 enum class MissionEnd { none, duration, nobody_flies, takeoff_timeout };

@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "bus/lockstep/names.hpp"
 #include "core/topics.hpp"
@@ -138,16 +137,16 @@ RunSummary SimNode::run() {
   for (const std::string& name : uav_names_) summary_.commands_unheard.push_back(strangers_.unheard(name));
   summary_.wall_time_s = elapsed_s(started);
   summary_.timing = clock_.summary();
-  summary_.timing["cpu_s"] = thread_cpu_s() - cpu_before_s;
+  summary_.timing.cpu_s = thread_cpu_s() - cpu_before_s;
   summary_.malformed = inbox_.malformed();
-  summary_.faults = fault_timeline_.to_json();
+  summary_.faults = fault_timeline_.report();
   summary_.status = end_status();
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
-  if (options_.realtime_factor || summary_.status == "interrupted" || aborted_) summary_.deterministic = false;
+  if (options_.realtime_factor || summary_.status == RunStatus::interrupted || aborted_) summary_.deterministic = false;
   if (summary_.deterministic) summary_.digest = digest_.hex();
   files_.write_report(simulation_, summary_, status_);
   if (joined) report_progress(true);  // else there was no step to report
-  status_.send_surely({{"type", "ended"}, {"status", summary_.status}, {"stalled", stalled_}});
+  status_.send_surely(status::line_json(status::Ended{summary_.status, stalled_}));
   return summary_;
 }
 
@@ -186,7 +185,7 @@ void SimNode::let_in_members() {
   }
   for (const std::string& name : server_.take_rejoined()) {
     spdlog::info("{} joined again at step {}", name, simulation_.step() + 1);
-    status_.send_surely({{"type", "rejoined"}, {"member", name}});
+    status_.send_surely(status::line_json(status::Rejoined{name}));
     const auto uav = std::find(uav_names_.begin(), uav_names_.end(), name);
     if (uav != uav_names_.end()) uavs_[static_cast<std::size_t>(uav - uav_names_.begin())]->resend_captures();
   }
@@ -200,7 +199,7 @@ void SimNode::end_process_faults() {
     if (!fault.acting || fault.fault.active(next_tick)) continue;
     fault.acting = false;
     const std::string member = fault_target(fault.fault);
-    if (server_.let_back(member)) tell_order(member, fault.kill() ? "start" : "continue", next_tick);
+    if (server_.let_back(member)) tell_order(member, fault.kill() ? What::start : What::resume, next_tick);
   }
 }
 
@@ -211,17 +210,16 @@ void SimNode::begin_process_faults() {
     if (fault.acting || !fault.fault.active(tick)) continue;
     fault.acting = true;
     const std::string member = fault_target(fault.fault);
-    const std::string_view order = fault.kill() ? bus::kOrderKill : bus::kOrderStop;
-    if (server_.take_out(member, order)) {
-      tell_order(member, std::string(order), tick);
+    if (server_.take_out(member, fault.kill() ? bus::kOrderKill : bus::kOrderStop)) {
+      tell_order(member, fault.kill() ? What::kill : What::stop, tick);
     } else {
       summary_.warnings.push_back(fault_kind(fault.fault) + " " + member + ": it took no part in the run then");
     }
   }
 }
 
-void SimNode::tell_order(const std::string& member, const std::string& order, Tick tick) {
-  status_.send_surely({{"type", "order"}, {"member", member}, {"order", order}, {"t", seconds(tick)}});
+void SimNode::tell_order(const std::string& member, What order, Tick tick) {
+  status_.send_surely(status::line_json(status::Order{member, order, seconds(tick)}));
 }
 
 void SimNode::take_losses() {
@@ -239,7 +237,7 @@ void SimNode::tell_of_strangers(std::uint64_t patience) {
   for (const bus::Strangers::Notice& notice : strangers_.take_notices(simulation_.step(), patience, is_stranger)) {
     const std::string text = describe(notice);
     spdlog::warn("{}", text);
-    status_.send_surely({{"type", "warning"}, {"text", text}});
+    status_.send_surely(status::line_json(status::Warning{text}));
     summary_.warnings.push_back(text);
     const auto uav = std::find(uav_names_.begin(), uav_names_.end(), notice.node);
     uavs_[static_cast<std::size_t>(uav - uav_names_.begin())]->reject_unheard(notice.topic);
@@ -370,32 +368,24 @@ void SimNode::report_progress(bool now) {
   last_progress_ = Clock::now();
   last_phase_ = mission.phase();
   const auto& links = simulation_.open_links();
-  std::vector<std::string> in_contact, lost;
-  std::size_t alive = 0;
+  status::Progress progress{.time_s = seconds(simulation_.tick()),
+                            .mission_s = 0.0,
+                            .duration_s = scenario_.duration_s,
+                            .phase = mission.phase()};
+  if (mission.start_tick()) progress.mission_s = seconds(simulation_.tick() - *mission.start_tick());
   for (std::size_t i = 0; i < simulation_.size(); ++i) {
-    if (links[node_of_uav(i)]) in_contact.push_back(uav_names_[i]);
-    alive += simulation_.uav(i).alive;
+    if (links[node_of_uav(i)]) progress.in_contact.push_back(uav_names_[i]);
+    progress.alive += simulation_.uav(i).alive;
   }
-  for (const LostProcess& process : summary_.lost) lost.push_back(process.name);
-  const char* phase = mission.phase() == Phase::waiting  ? "waiting"
-                      : mission.phase() == Phase::flying ? "flying"
-                                                         : "ended";
-  const double mission_s = mission.start_tick() ? seconds(simulation_.tick() - *mission.start_tick()) : 0.0;
-  status_.send({{"type", "progress"},
-                {"t", seconds(simulation_.tick())},
-                {"mission_s", mission_s},
-                {"phase", phase},
-                {"duration_s", scenario_.duration_s},
-                {"in_contact", in_contact},
-                {"alive", alive},
-                {"lost", lost}});
+  for (const LostProcess& process : summary_.lost) progress.lost.push_back(process.name);
+  status_.send(status::line_json(progress));
 }
 
-std::string SimNode::end_status() const {
-  if (aborted_) return "aborted";
-  if (stop_requested_) return "interrupted";
-  if (simulation_.mission().end() == MissionEnd::takeoff_timeout) return "no_takeoff";
-  return "completed";
+RunStatus SimNode::end_status() const {
+  if (aborted_) return RunStatus::aborted;
+  if (stop_requested_) return RunStatus::interrupted;
+  if (simulation_.mission().end() == MissionEnd::takeoff_timeout) return RunStatus::no_takeoff;
+  return RunStatus::completed;
 }
 
 }  // namespace skein::sim

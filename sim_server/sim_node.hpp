@@ -15,6 +15,7 @@
 #include "bus/lockstep/server.hpp"
 #include "bus/lockstep/strangers.hpp"
 #include "core/fault_plan.hpp"
+#include "process/status_lines.hpp"
 #include "process/status_pipe.hpp"
 #include "sim_server/cpu_clock.hpp"
 #include "sim_server/record/fault_timeline.hpp"
@@ -53,6 +54,7 @@ class SimNode {
 
  private:
   using Clock = std::chrono::steady_clock;
+  using What = status::Order::What;
   /// A fault that kills or stops a program.
   struct ProcessFault {
     Fault fault;
@@ -74,10 +76,10 @@ class SimNode {
   void let_in_members();
   void begin_process_faults();
   void end_process_faults();
-  void tell_order(const std::string& member, const std::string& order, Tick tick);
+  void tell_order(const std::string& member, What order, Tick tick);
   bool is_last_step() const;
   void report_progress(bool now);
-  std::string end_status() const;
+  RunStatus end_status() const;
 
   const Scenario& scenario_;
   const SimNodeOptions options_;

@@ -2,9 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/suggestion.hpp"
+#include "process/status_lines.hpp"
 
 namespace skein::sim {
 
@@ -18,12 +17,8 @@ void WaitTeller::send(const std::vector<AwaitedMember>& awaited, WaitNotice::Clo
   const double waited_s = notice_.waited_s(now);
   const bool due = notice_.due(now).has_value();
   if (due) spdlog::info("waiting for {} {} ({:.0f} s): {}", joined(names), what_, waited_s, joined(missing));
-  status_.send({{"type", "waiting_for"},
-                {"members", names},
-                {"missing", missing},
-                {"what", what_},
-                {"seconds", waited_s},
-                {"due", due}});
+  status_.send(status::line_json(status::WaitingFor{
+      .members = std::move(names), .missing = std::move(missing), .what = what_, .seconds = waited_s, .due = due}));
 }
 
 }  // namespace skein::sim

@@ -5,6 +5,7 @@
 #include "bus/program_bus.hpp"
 #include "core/scenario_reader.hpp"
 #include "process/program.hpp"
+#include "process/run_folder.hpp"
 #include "station/settlement.hpp"
 #include "station/station_node.hpp"
 
@@ -40,6 +41,6 @@ int main(int argc, char** argv) {
     app.add_flag("--settle", settle_only, "Write the report of a station that died in this folder, then stop")
         ->group("Launcher");
   };
-  return skein::run_program("station", argc, argv, add_options,
+  return skein::run_program(skein::programs::kStation, argc, argv, add_options,
                             [&](const auto& options, auto& stop) { return run(options, settle_only, stop); });
 }

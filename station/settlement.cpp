@@ -1,9 +1,9 @@
 #include "station/settlement.hpp"
 
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "process/json_text.hpp"
+#include "process/run_folder.hpp"
 #include "station/journal.hpp"
 #include "station/station_report.hpp"
 
@@ -11,8 +11,7 @@ namespace skein::station {
 namespace {
 
 std::size_t count_points(const std::filesystem::path& scene_file) {
-  std::ifstream in(scene_file);
-  const nlohmann::json scene = nlohmann::json::parse(in, nullptr, false);
+  const Json scene = read_json(scene_file);
   if (!scene.is_object() || !scene.contains("points")) throw std::runtime_error("no points in " + scene_file.string());
   return scene["points"].size();
 }
@@ -20,9 +19,9 @@ std::size_t count_points(const std::filesystem::path& scene_file) {
 }  // namespace
 
 void settle(const std::filesystem::path& folder, const Scenario& scenario, RunId run, StatusPipe& status) {
-  const Journal journal(folder / "station.journal", run);
+  const Journal journal(folder / run_folder::kJournal, run);
   const std::vector<std::string> uavs = scenario.uav_names();
-  Scoreboard scoreboard(uavs.size(), count_points(folder / "scene.json"), scenario.rules);
+  Scoreboard scoreboard(uavs.size(), count_points(folder / run_folder::kScene), scenario.rules);
   std::uint64_t index = 0;
   for (const TallyRecord& record : journal.replayed()) {
     scoreboard.restore(record);

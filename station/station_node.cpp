@@ -2,12 +2,13 @@
 
 #include <spdlog/spdlog.h>
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "bus/lockstep/names.hpp"
 #include "core/radio_routes.hpp"
 #include "idl/conversions.hpp"
+#include "process/run_folder.hpp"
+#include "process/status_lines.hpp"
 #include "station/station_report.hpp"
 
 namespace skein::station {
@@ -26,7 +27,7 @@ StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bu
       out_(out),
       status_(status),
       uavs_(scenario.uav_names()),
-      journal_(out / "station.journal", bus.run()),
+      journal_(out / run_folder::kJournal, bus.run()),
       names_(uavs_.size()),
       inbox_(bus.run()),
       world_(bus.join(world_domain(base_domain))),
@@ -125,10 +126,9 @@ void StationNode::tell(bool now) {
   const auto time = std::chrono::steady_clock::now();
   if (!now && time - told_ < kStatusPeriod) return;
   told_ = time;
-  status_.send({{"type", "tally"},
-                {"points", scoreboard_->delivered().points_detected()},
-                {"score", scoreboard_->delivered().score()},
-                {"earned", scoreboard_->earned().score()}});
+  status_.send(status::line_json(status::Tally{.points = static_cast<int>(scoreboard_->delivered().points_detected()),
+                                               .score = scoreboard_->delivered().score(),
+                                               .earned = scoreboard_->earned().score()}));
 }
 
 std::optional<int> StationNode::run(const StopSignal& stop) {

@@ -1,10 +1,12 @@
 #include "station/station_report.hpp"
 
 #include <locale>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "process/atomic_file.hpp"
+#include "process/program_report.hpp"
+#include "process/reports.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::station {
 namespace {
@@ -55,32 +57,24 @@ std::string captures_csv(const Scoreboard& scoreboard, const std::vector<std::st
   return text.str();
 }
 
-nlohmann::ordered_json report_json(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names,
-                                   std::uint64_t malformed) {
+StationReport report_of(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names) {
   const ScoreTable& table = scoreboard.delivered();
-  nlohmann::ordered_json report;
-  report["points_detected"] = table.points_detected();
-  report["score"] = table.score();
-  if (scoreboard.standing() > 0 || scoreboard.ledger().empty()) report["score_earned"] = scoreboard.earned().score();
-  nlohmann::ordered_json by_uav = nlohmann::ordered_json::object();
+  StationReport report{.points_detected = table.points_detected(),
+                       .score = table.score(),
+                       .points = std::vector<ScoredPointReport>(),
+                       .reports_received = scoreboard.reports_received(),
+                       .duplicates = scoreboard.duplicates()};
+  if (scoreboard.standing() > 0 || scoreboard.ledger().empty()) report.score_earned = scoreboard.earned().score();
   const std::vector<double> scores = table.score_by_uav();
-  for (std::size_t uav = 0; uav < scores.size(); ++uav) by_uav[uav_names[uav]] = scores[uav];
-  report["score_by_uav"] = by_uav;
-  nlohmann::ordered_json points = nlohmann::ordered_json::array();
+  for (std::size_t uav = 0; uav < scores.size(); ++uav) report.score_by_uav.emplace_back(uav_names[uav], scores[uav]);
   for (std::size_t index = 0; index < table.points().size(); ++index) {
     const PointTally& tally = table.points()[index];
     if (tally.q <= 0.0F) continue;
-    points.push_back({{"index", index}, {"score", tally.q}, {"uav", uav_names[tally.uav]}, {"capture", tally.capture}});
+    report.points->push_back({.index = index, .score = tally.q, .uav = uav_names[tally.uav], .capture = tally.capture});
   }
-  report["points"] = points;
-  nlohmann::ordered_json refused = nlohmann::ordered_json::object();
   for (const Refusal why : {Refusal::unknown, Refusal::borrowed, Refusal::altered}) {
-    refused[std::string(to_string(why))] = scoreboard.refused(why);
+    report.refused.emplace_back(to_string(why), scoreboard.refused(why));
   }
-  report["refused"] = refused;
-  report["reports_received"] = scoreboard.reports_received();
-  report["duplicates"] = scoreboard.duplicates();
-  report["malformed"] = malformed;
   return report;
 }
 
@@ -89,13 +83,14 @@ nlohmann::ordered_json report_json(const Scoreboard& scoreboard, const std::vect
 void write_station_report(const std::filesystem::path& folder, const Scoreboard& scoreboard,
                           const std::vector<std::string>& uav_names, StatusPipe& status, std::uint64_t malformed,
                           std::vector<std::string> unwritten) {
-  for (std::string trouble : {write_if_possible(folder / "score_timeline.csv", timeline_csv(scoreboard)),
-                              write_if_possible(folder / "captures.csv", captures_csv(scoreboard, uav_names))}) {
+  for (std::string trouble : {write_if_possible(folder / run_folder::kScoreTimeline, timeline_csv(scoreboard)),
+                              write_if_possible(folder / run_folder::kCaptures, captures_csv(scoreboard, uav_names))}) {
     if (!trouble.empty()) unwritten.push_back(std::move(trouble));
   }
-  nlohmann::ordered_json report = report_json(scoreboard, uav_names, malformed);
-  report["unwritten"] = unwritten;
-  hand_in_report(std::move(report), folder / "station.report.json", status);
+  StationReport report = report_of(scoreboard, uav_names);
+  report.malformed = malformed;
+  report.unwritten = std::move(unwritten);
+  hand_in_report(json_of(report), folder / run_folder::report_file(programs::kStation), status);
 }
 
 }  // namespace skein::station

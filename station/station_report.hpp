@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "process/program_report.hpp"
+#include "process/status_pipe.hpp"
 #include "station/scoreboard.hpp"
 
 namespace skein::station {
@@ -17,8 +17,8 @@ namespace skein::station {
 /// captures.csv: uav, capture, tick, time_s, point, q_seen, q_blur, q_res, q_distance, q, delivered_at_s, reason; a line
 ///   for each point of each capture in the ledger. `reason` says why it does not count: "not received", "refused: <why>",
 ///   "uav collided", "better capture" (another one of this point counts); empty when it does.
-/// station.report.json: points_detected, score, score_earned (left out when no entry of the ledger stands), score_by_uav {uav: score}, points [{index, score, uav,
-///   capture}] (those that count), refused {reason: count}, reports_received, duplicates, malformed.
+/// station.report.json: a StationReport (process/reports.hpp); score_earned is left out when no entry of the ledger
+///   stands, points are those that count.
 /// @param uav_names  in fleet order.
 /// @param malformed  samples received that were no message of their topic's type.
 /// @param unwritten  what the disk has refused before; the report lists it, and which of the tables it refuses.

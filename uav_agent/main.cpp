@@ -2,12 +2,14 @@
 // program at the ground station.
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
+#include "bus/lockstep/names.hpp"
 #include "bus/program_bus.hpp"
 #include "core/scenario_reader.hpp"
 #include "process/program.hpp"
 #include "process/program_report.hpp"
+#include "process/reports.hpp"
+#include "process/run_folder.hpp"
 #include "uav_agent/agent_node.hpp"
 #include "uav_agent/ground_node.hpp"
 
@@ -21,25 +23,26 @@ struct AgentOptions {
 
 /// For the launcher and for people: which strategies there are, and which have a program at the ground station.
 int list_strategies() {
-  const nlohmann::ordered_json list = {{"planners", skein::agent::planner_names()},
-                                       {"ground_programs", skein::agent::ground_program_names()}};
-  std::cout << list.dump() << std::endl;
+  const skein::StrategyList list{skein::agent::planner_names(), skein::agent::ground_program_names()};
+  std::cout << skein::json_of(list).dump() << std::endl;
   return skein::kExitDone;
 }
 
-int fly(skein::agent::MemberNode& node, const std::filesystem::path& report_file, int status_fd,
+int fly(skein::agent::MemberNode& node, const std::string& member, const skein::ProgramOptions& options,
         skein::StopSignal& stop) {
   stop.on_stop([&node] { node.wake(); });
   const int code = node.run(stop);
   stop.on_stop({});
   const skein::agent::CpuHistogram& cpu = node.planner_cpu();
-  const nlohmann::json report = {{"planner_cpu_s", cpu.total_s()},
-                                 {"planner_cpu_p99_ms", 1e3 * cpu.quantile_s(0.99)},
-                                 {"planner_cpu_max_ms", 1e3 * cpu.max_s()},
-                                 {"planner_exchanges_over_50ms", cpu.over_field_exchange()},
-                                 {"malformed", node.malformed()}};
-  skein::StatusPipe status(status_fd);
-  skein::hand_in_report(report, report_file, status);
+  const skein::AgentReport report{.planner_cpu_s = cpu.total_s(),
+                                  .planner_cpu_p99_ms = 1e3 * cpu.quantile_s(0.99),
+                                  .planner_cpu_max_ms = 1e3 * cpu.max_s(),
+                                  .planner_exchanges_over_50ms = cpu.over_field_exchange(),
+                                  .malformed = node.malformed()};
+  const std::filesystem::path file =
+      options.out / skein::run_folder::report_file(skein::programs::agent_program(member));
+  skein::StatusPipe status(options.status_fd);
+  skein::hand_in_report(skein::json_of(report), file, status);
   return code;
 }
 
@@ -51,7 +54,7 @@ int run_uav(const skein::Scenario& scenario, const skein::ProgramOptions& option
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) return skein::kExitDone;
   skein::agent::AgentNode node(scenario, index, std::move(planner), options.domain, *bus);
-  return fly(node, options.out / ("uav_agent-" + uav + ".report.json"), options.status_fd, stop);
+  return fly(node, uav, options, stop);
 }
 
 int run_ground(const skein::Scenario& scenario, const skein::ProgramOptions& options, const AgentOptions& agent,
@@ -60,7 +63,7 @@ int run_ground(const skein::Scenario& scenario, const skein::ProgramOptions& opt
   const auto bus = skein::bus::make_bus(options);
   if (options.check_only) return skein::kExitDone;
   skein::agent::GroundNode node(scenario, std::move(program), options.domain, *bus);
-  return fly(node, options.out / "uav_agent-gcs.report.json", options.status_fd, stop);
+  return fly(node, std::string(skein::bus::kGcsName), options, stop);
 }
 
 }  // namespace
@@ -75,7 +78,7 @@ int main(int argc, char** argv) {
     app.add_option("--planner", agent.planner, "NAME or NAME:key=value,... or NAME:file.yaml");
     app.add_flag("--list-planners", agent.list, "Print the strategies' names as JSON, then stop");
   };
-  return skein::run_program("uav_agent", argc, argv, add_options,
+  return skein::run_program(skein::programs::kAgent, argc, argv, add_options,
                             [&](const skein::ProgramOptions& options, skein::StopSignal& stop) {
                               if (agent.list) return list_strategies();
                               auto load = options.load_options();

@@ -6,11 +6,13 @@
 
 #include "bus/bus.hpp"
 #include "core/topics.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::bus {
 
-inline constexpr std::string_view kRouterName = "comm_router";
+inline constexpr std::string_view kRouterName = programs::kCommRouter;
 inline constexpr std::string_view kStationName = topics::kStationMember;
+static_assert(kStationName == programs::kStation);
 inline constexpr std::string_view kGcsName = "gcs";
 
 /// Orders in a Step.

@@ -1,4 +1,5 @@
 #include "cli/bench/report.hpp"
+#include "process/run_folder.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -41,8 +42,6 @@ double cpu_of(const Json& result, const std::function<bool(const std::string&)>&
   }
   return cpu_s;
 }
-
-bool is_agent(const std::string& program) { return program.starts_with("uav_agent-"); }
 
 double all_cpu_s(const Json& result) {
   return cpu_of(result, [](const std::string&) { return true; });
@@ -130,14 +129,14 @@ Json work_of(const Json& result) {
   add("camera", number(timing, "camera_s"));
   add("line_of_sight", number(timing, "links_s"));
   add("recording", number(timing, "recording_s"));
-  const double server_s = cpu_of(result, [](const auto& name) { return name == "sim_server"; }) - named_s;
+  const double server_s = cpu_of(result, [](const auto& name) { return name == programs::kSimServer; }) - named_s;
   add("agents", planner_cpu_s(result));
   add("exchange", std::max(0.0, total_s - named_s));
   work["exchange"]["by_program"] = {
-      {"sim_server", server_s},
-      {"comm_router", cpu_of(result, [](const auto& name) { return name == "comm_router"; })},
-      {"station", cpu_of(result, [](const auto& name) { return name == "station"; })},
-      {"uav_agents", cpu_of(result, is_agent) - planner_cpu_s(result)}};
+      {programs::kSimServer, server_s},
+      {programs::kCommRouter, cpu_of(result, [](const auto& name) { return name == programs::kCommRouter; })},
+      {programs::kStation, cpu_of(result, [](const auto& name) { return name == programs::kStation; })},
+      {"uav_agents", cpu_of(result, programs::is_agent) - planner_cpu_s(result)}};
   return work;
 }
 
@@ -198,8 +197,8 @@ Json scale_entry(std::size_t uavs, const std::vector<Json>& results) {
   const Json processes = value_or(run, "processes", Json::object());
   for (const auto& [name, use] : processes.items()) {
     largest_mb = std::max(largest_mb, number(use, "memory_share_mb"));
-    agents += is_agent(name) ? 1.0 : 0.0;
-    agents_mb += is_agent(name) ? number(use, "memory_share_mb") : 0.0;
+    agents += programs::is_agent(name) ? 1.0 : 0.0;
+    agents_mb += programs::is_agent(name) ? number(use, "memory_share_mb") : 0.0;
   }
   return {{"uavs", uavs},
           {"status", statuses(results)},

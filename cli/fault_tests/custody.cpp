@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/fault_tests/limits.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -82,16 +83,16 @@ class Timeline {
   }
   /// When what this UAV sends in this step is with the station; none: it is lost.
   std::optional<std::uint64_t> arrival(const std::string& uav, std::uint64_t sent) const {
-    if (!present("comm_router", sent) || is_cut(uav, sent)) return std::nullopt;
+    if (!present(programs::kCommRouter, sent) || is_cut(uav, sent)) return std::nullopt;
     std::optional<std::uint64_t> arrives = sent + 1;
     if (const auto found = messages_.find({uav, sent}); found != messages_.end()) arrives = found->second;
     if (!arrives) return std::nullopt;
     // What waits in the router is handed out in the step before it arrives; one that was away has forgotten it.
     for (std::uint64_t k = sent + 1; k < *arrives; ++k) {
-      if (!present("comm_router", k)) return std::nullopt;
+      if (!present(programs::kCommRouter, k)) return std::nullopt;
     }
     // Nothing is handed on to who takes no part, nor kept for who is about to come back.
-    const bool received = present("station", *arrives - 1) && present("station", *arrives);
+    const bool received = present(programs::kStation, *arrives - 1) && present(programs::kStation, *arrives);
     if (*arrives > last_step_ || !received) return std::nullopt;
     return arrives;
   }

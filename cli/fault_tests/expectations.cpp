@@ -4,6 +4,7 @@
 
 #include "cli/fault_tests/windows.hpp"
 #include "core/suggestion.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -18,7 +19,7 @@ void check_known(const std::string& name, const std::vector<std::string>& known,
 
 void check_members(const std::string& key, const std::vector<std::string>& names, const ExpectationContext& context) {
   std::vector<std::string> known = context.scenario.uav_names();
-  known.insert(known.end(), {context.scenario.node_name(kStationNode), "station", "comm_router"});
+  known.insert(known.end(), {context.scenario.node_name(kStationNode), programs::kStation, programs::kCommRouter});
   for (const std::string& name : names) check_known(name, known, key, "program", context);
 }
 

@@ -7,6 +7,7 @@
 #include "cli/run/result.hpp"
 #include "core/file_bytes.hpp"
 #include "core/scenario.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -21,7 +22,7 @@ std::vector<std::string> split(const std::string& line) {
 /// digests.csv, one row at a time.
 class DigestFile {
  public:
-  explicit DigestFile(const std::filesystem::path& run) : file_(run / "digests.csv"), in_(open_text(file_)) {
+  explicit DigestFile(const std::filesystem::path& run) : file_(run / run_folder::kDigests), in_(open_text(file_)) {
     if (!in_) throw InputError(run.string() + ": no digests.csv there; give a folder that `skein run` wrote");
     std::string line;
     next_line(in_, line, file_);
@@ -62,7 +63,7 @@ class DigestFile {
 
 /// The exchange period that a run's result names; the default where the result is missing (a killed launcher).
 double exchange_period_s(const std::filesystem::path& run) {
-  return value_or(read_json(run / "result.json"), "exchange_period_s", Scenario{}.exchange_period_s);
+  return value_or(read_json(run / run_folder::kResult), "exchange_period_s", Scenario{}.exchange_period_s);
 }
 
 /// "jurong.position" as "jurong position": the entity, then the field.

@@ -16,6 +16,7 @@
 #include "core/config_files.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/topics.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -23,8 +24,6 @@ namespace {
 using Arguments = std::vector<std::string>;
 
 constexpr std::array<const char*, 2> kVendors = {"cyclonedds", "fastdds"};
-constexpr const char* kAgentPrefix = "uav_agent-";
-const std::string kGroundProgram = "uav_agent-gcs";
 
 void append(Arguments& arguments, const Arguments& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -68,8 +67,8 @@ Arguments command_line(const FleetPlan& plan, const std::filesystem::path& binar
 }
 
 const std::string& planner_of(const FleetPlan& plan, const std::string& program) {
-  if (program == kGroundProgram) return *plan.ground;
-  return plan.planners[plan.scenario.uav_index(member_name(program))].spec;
+  if (program == programs::kGroundAgent) return *plan.ground;
+  return plan.planners[plan.scenario.uav_index(programs::member_name(program))].spec;
 }
 
 /// An agent from elsewhere does not find the configuration beside it.
@@ -81,7 +80,7 @@ std::map<std::string, std::string> config_variable(const FleetPlan& plan) {
 /// What a user's command is told. It joins SKEIN_DOMAIN and no other.
 std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
                                                   const std::filesystem::path& out, const SecureFolder& secure) {
-  const std::string uav = member_name(program);
+  const std::string uav = programs::member_name(program);
   const std::string domain = std::to_string(agent_domain(plan, program, base_domain));
   std::map<std::string, std::string> variables = {
       {"SKEIN_DOMAIN", domain},
@@ -99,22 +98,22 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
 /// Whose software an agent is.
 Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
   const Arguments planner = {"--planner", planner_of(plan, program)};
-  Arguments arguments = {"--uav", member_name(program)};
-  if (program == kGroundProgram) arguments = {"--role", "gcs"};
+  Arguments arguments = {"--uav", programs::member_name(program)};
+  if (program == programs::kGroundAgent) arguments = {"--role", "gcs"};
   append(arguments, planner);
   return arguments;
 }
 
-/// @param program "sim_server", "comm_router", "station" or an agent's.
+/// @param program  of a server or an agent
 Arguments run_arguments(const FleetPlan& plan, const std::string& program, int base_domain,
                         const std::filesystem::path& out, const SecureFolder& secure) {
-  Arguments arguments = command_line(plan, is_agent(program) ? agent_file(plan) : plan.bin_dir / program);
+  Arguments arguments = command_line(plan, programs::is_agent(program) ? agent_file(plan) : plan.bin_dir / program);
   append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain), "--out",
                      secure.out.empty() ? out : secure.out});
   if (!secure.keys.empty()) append(arguments, {"--security", secure.keys});
   append(arguments, {"--lease", std::to_string(lease_s(plan)), "--run", std::to_string(plan.run)});
-  if (is_agent(program)) append(arguments, role_arguments(plan, program));
-  if (program == "sim_server") {
+  if (programs::is_agent(program)) append(arguments, role_arguments(plan, program));
+  if (program == programs::kSimServer) {
     append(arguments, {"--clock", plan.options.clock});
     if (plan.options.stop_at_s) append(arguments, {"--stop-at", text_of(*plan.options.stop_at_s)});
     if (plan.options.debug_uav) append(arguments, {"--agent-timeout", "0"});
@@ -169,7 +168,7 @@ std::uint64_t draw_run_id() {
   return run;
 }
 
-std::filesystem::path agent_file(const FleetPlan& plan) { return plan.agent.value_or(plan.bin_dir / "uav_agent"); }
+std::filesystem::path agent_file(const FleetPlan& plan) { return plan.agent.value_or(plan.bin_dir / programs::kAgent); }
 
 std::filesystem::path program_dir() {
   const char* chosen = std::getenv("SKEIN_BIN_DIR");
@@ -179,32 +178,24 @@ std::filesystem::path program_dir() {
 
 int domain_count(const FleetPlan& plan) { return 2 + static_cast<int>(plan.scenario.fleet.size()); }
 
-std::string agent_program(const std::string& uav) { return kAgentPrefix + uav; }
-
-bool is_agent(const std::string& program) { return program.starts_with(kAgentPrefix); }
-
 int agent_domain(const FleetPlan& plan, const std::string& program, int base_domain) {
-  if (program == kGroundProgram) return gcs_domain(base_domain);
-  return uav_domain(base_domain, plan.scenario.uav_index(member_name(program)));
-}
-
-std::string member_name(const std::string& program) {
-  return is_agent(program) ? program.substr(std::string(kAgentPrefix).size()) : program;
+  if (program == programs::kGroundAgent) return gcs_domain(base_domain);
+  return uav_domain(base_domain, plan.scenario.uav_index(programs::member_name(program)));
 }
 
 std::map<std::string, std::string> dds_vendors(const FleetPlan& plan) {
-  std::vector<std::string> programs = {"sim_server", "comm_router", "station"};
-  for (const UavConfig& uav : plan.scenario.fleet) programs.push_back(agent_program(uav.name));
-  if (plan.ground) programs.push_back(kGroundProgram);
+  std::vector<std::string> names(programs::kServers.begin(), programs::kServers.end());
+  for (const UavConfig& uav : plan.scenario.fleet) names.push_back(programs::agent_program(uav.name));
+  if (plan.ground) names.push_back(programs::kGroundAgent);
   std::map<std::string, std::string> vendors;
-  for (std::size_t i = 0; i < programs.size(); ++i) {
-    vendors[programs[i]] = plan.options.dds == "mixed" ? kVendors[i % kVendors.size()] : plan.options.dds;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    vendors[names[i]] = plan.options.dds == "mixed" ? kVendors[i % kVendors.size()] : plan.options.dds;
   }
   return vendors;
 }
 
 bool is_exec(const FleetPlan& plan, const std::string& program) {
-  return is_agent(program) && exec_command(planner_of(plan, program)).has_value();
+  return programs::is_agent(program) && exec_command(planner_of(plan, program)).has_value();
 }
 
 std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
@@ -217,30 +208,30 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
       programs.push_back({name,
                           {"/bin/sh", "-c", *exec_command(planner_of(plan, name))},
                           fleet_environment(plan.options.native, exec_variables(plan, name, base_domain, out, own)),
-                          out / (name + ".log")});
+                          out / run_folder::log_file(name)});
       return;
     }
     Arguments arguments = run_arguments(plan, name, base_domain, out, own);
     append(arguments, {"--status-fd", std::to_string(kStatusFd), "--control-fd", std::to_string(kControlFd)});
-    programs.push_back({name, std::move(arguments), environment, out / (name + ".log")});
+    programs.push_back({name, std::move(arguments), environment, out / run_folder::log_file(name)});
   };
-  for (const char* name : {"sim_server", "comm_router", "station"}) add(name);
+  for (const char* name : programs::kServers) add(name);
   for (const UavConfig& uav : plan.scenario.fleet) {
-    if (plan.options.debug_uav != uav.name) add(agent_program(uav.name));
+    if (plan.options.debug_uav != uav.name) add(programs::agent_program(uav.name));
   }
-  if (plan.ground) add(kGroundProgram);
+  if (plan.ground) add(programs::kGroundAgent);
   for (ProgramSpec& program : programs) {
     // Ours that tell how the run goes on write as long as it does.
-    if (!is_agent(program.name)) program.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
+    if (!programs::is_agent(program.name)) program.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
     program.user = secure_folder(secure, program.name).user;
-    program.minded = is_agent(program.name) && (plan.agent || is_exec(plan, program.name));  // not ours
+    program.minded = programs::is_agent(program.name) && (plan.agent || is_exec(plan, program.name));  // not ours
   }
   return programs;
 }
 
 std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
                           const SecureFolders& secure) {
-  const std::string program = agent_program(*plan.options.debug_uav);
+  const std::string program = programs::agent_program(*plan.options.debug_uav);
   SecureFolder own = secure_folder(secure, program);
   if (own.user) own.out.clear();  // whoever types the command may write to the results folder
   own.user.reset();
@@ -265,21 +256,21 @@ std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesy
   std::vector<ProgramSpec> programs;
   const auto add = [&](const std::string& name, Arguments arguments) {
     arguments.push_back("--check");
-    programs.push_back({name, std::move(arguments), environment, scratch / (name + ".log")});
-    if (is_agent(name)) programs.back().user = agent_user;
+    programs.push_back({name, std::move(arguments), environment, scratch / run_folder::log_file(name)});
+    if (programs::is_agent(name)) programs.back().user = agent_user;
   };
-  add("sim_server", command_line(plan, plan.bin_dir / "sim_server"));
+  add(programs::kSimServer, command_line(plan, plan.bin_dir / programs::kSimServer));
   std::set<std::string> checked;
   for (const UavPlanner& planner : plan.planners) {
     if (exec_command(planner.spec) || !checked.insert(planner.spec).second) continue;
     Arguments arguments = command_line(plan, agent_file(plan));
     append(arguments, {"--uav", planner.uav, "--planner", planner.spec});
-    add(agent_program(planner.uav), std::move(arguments));
+    add(programs::agent_program(planner.uav), std::move(arguments));
   }
   if (plan.ground && !exec_command(*plan.ground)) {
     Arguments arguments = command_line(plan, agent_file(plan));
-    append(arguments, role_arguments(plan, kGroundProgram));
-    add(kGroundProgram, std::move(arguments));
+    append(arguments, role_arguments(plan, programs::kGroundAgent));
+    add(programs::kGroundAgent, std::move(arguments));
   }
   return programs;
 }

@@ -50,13 +50,8 @@ std::filesystem::path program_dir();
 /// World, ground station and one domain a UAV.
 int domain_count(const FleetPlan& plan);
 
-/// The program that runs a UAV's on-board software: "uav_agent-jurong".
-std::string agent_program(const std::string& uav);
-bool is_agent(const std::string& program);
 /// The only DDS domain that an agent joins.
 int agent_domain(const FleetPlan& plan, const std::string& program, int base_domain);
-/// How sim_server calls a program's member: the UAV's name, "comm_router" or "station".
-std::string member_name(const std::string& program);
 
 /// DDS vendor by program. `mixed` deals the vendors out in turn: sim_server, comm_router, station, then the UAVs.
 std::map<std::string, std::string> dds_vendors(const FleetPlan& plan);

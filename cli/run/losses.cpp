@@ -5,6 +5,7 @@
 #include "cli/run/record.hpp"
 #include "cli/run/score_losses.hpp"
 #include "process/atomic_file.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -12,10 +13,10 @@ namespace {
 /// What is known of each point of the scene; nullopt where something is missing.
 std::optional<std::vector<PointRecord>> point_records(const std::filesystem::path& dir, const Json& answer,
                                                       const Reports& reports, std::size_t count) {
-  const Json estimate = value_or(answer, "estimate", Json::array()),
-             scores = value_or(reports.station, "points", nullptr);
-  const std::string flyable = value_or(answer, "flyable", ""), seen = value_or(reports.sim_server, "points_seen", "");
-  const bool whole = estimate.size() == count && flyable.size() == count && seen.size() == count && scores.is_array();
+  if (!reports.sim_server || !reports.station || !reports.station->points) return std::nullopt;
+  const Json estimate = value_or(answer, "estimate", Json::array());
+  const std::string flyable = value_or(answer, "flyable", ""), seen = reports.sim_server->points_seen.value_or("");
+  const bool whole = estimate.size() == count && flyable.size() == count && seen.size() == count;
   if (!whole || count == 0) return std::nullopt;
   std::vector<PointRecord> points(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -24,10 +25,10 @@ std::optional<std::vector<PointRecord>> point_records(const std::filesystem::pat
     points[i].flyable = flyable[i] == '1';
     points[i].seen = seen[i] == '1';
   }
-  for (const Json& point : scores) {
-    const std::size_t index = value_or(point, "index", count).get<std::size_t>();
+  for (const ScoredPointReport& point : *reports.station->points) {
+    const std::size_t index = point.index.value_or(count);
     if (index >= count) return std::nullopt;
-    points[index].score = value_or(point, "score", 0.0).get<float>();
+    points[index].score = static_cast<float>(point.score.value_or(0.0));
   }
   for (CaptureRow& row : read_captures(dir)) {
     const auto index = static_cast<std::size_t>(row.point);
@@ -58,7 +59,7 @@ std::string csv_line(std::size_t index, const Json& place, const PointRecord& po
 }  // namespace
 
 Json write_losses(const std::filesystem::path& dir, const Json& answer, const Reports& reports) {
-  const Json places = value_or(read_json(dir / "scene.json"), "points", Json::array());
+  const Json places = value_or(read_json(dir / run_folder::kScene), "points", Json::array());
   const auto points = point_records(dir, answer, reports, places.size());
   if (!points) return nullptr;
   std::vector<PointLoss> losses;
@@ -68,7 +69,7 @@ Json write_losses(const std::filesystem::path& dir, const Json& answer, const Re
     losses.push_back(loss_of(point));
     if (point.estimate > 0.0F || point.score > 0.0F) csv += csv_line(i, places[i], point, losses.back());
   }
-  write_file_atomically(dir / "losses.csv", csv);
+  write_file_atomically(dir / run_folder::kLosses, csv);
   Json by_cause = Json::object();
   for (const auto& [cause, sum] : sum_up(losses))
     by_cause[name_of(cause)] = {{"points", sum.points}, {"score", sum.score}};

@@ -21,8 +21,8 @@ class RunLosses : public ::testing::Test {
                "beta,3,40,0.1,1,1,0.5,1,1,0.5,,not received\n"
                "alpha,1,80,0.2,4,1,1,0.25,0.25,0.25,0.3,\n");
     answer_ = {{"estimate", {1.0, 0.75, 1.0, 0.5, 0.0}}, {"flyable", "11100"}};
-    reports_.sim_server = {{"points_seen", "11001"}};
-    reports_.station = {{"points", Json::array({{{"index", 0}, {"score", 0.5}}, {{"index", 4}, {"score", 0.25}}})}};
+    reports_.sim_server = SimServerReport{.points_seen = "11001"};
+    reports_.station = StationReport{.points = {{{.index = 0, .score = 0.5}, {.index = 4, .score = 0.25}}}};
   }
   Json losses() const { return write_losses(dir_.path(), answer_, reports_); }
 
@@ -67,11 +67,11 @@ TEST_F(RunLosses, WithoutAnEstimateThatFitsThereIsNothing) {
   }
   answer_["estimate"][2] = nullptr;
   expect_nothing("a hole");
-  reports_.station = nullptr;
+  reports_.station.reset();
   expect_nothing("station");
-  reports_.station["points"][0]["index"] = 5;
+  reports_.station->points->front().index = 5;
   expect_nothing("index");
-  reports_.sim_server = {{"points_seen", "1"}};
+  reports_.sim_server->points_seen = "1";
   expect_nothing("points seen");
   write_text(dir_.path() / "captures.csv", "uav,capture\nalpha,0\n");
   EXPECT_THROW(losses(), std::runtime_error);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "cli/run/score_losses.hpp"
+#include "core/suggestion.hpp"
 
 namespace skein::cli {
 namespace {
@@ -22,18 +23,6 @@ double number(const Json& object, const char* key) { return value_or(object, key
 std::string cell(const Json& object, const char* key, int digits) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number() ? fixed(found->get<double>(), digits) : "-";
-}
-
-/// @param but  names that are left out.
-std::string joined(const Json& object, const char* key, const Json& but = Json::array()) {
-  std::string text;
-  const auto found = object.find(key);
-  if (found == object.end()) return text;
-  for (const Json& name : *found) {
-    if (name.is_string() && std::find(but.begin(), but.end(), name) == but.end())
-      text += (text.empty() ? "" : ", ") + name.get<std::string>();
-  }
-  return text;
 }
 
 std::string uav_state(const Json& uav) {
@@ -63,41 +52,35 @@ void print_losses(std::ostream& out, const Json& losses) {
 
 }  // namespace
 
-void ProgressView::progress(const Json& status, double wall_s) {
-  const double sim_s = number(status, "t"), mission_s = number(status, "mission_s");
-  const double duration_s = number(status, "duration_s");
+void ProgressView::progress(const status::Progress& progress, double wall_s) {
   if (first_wall_s_ < 0.0) {
-    first_sim_s_ = sim_s;
+    first_sim_s_ = progress.time_s;
     first_wall_s_ = wall_s;
   }
-  const double speed = wall_s > first_wall_s_ ? (sim_s - first_sim_s_) / (wall_s - first_wall_s_) : 0.0;
+  const double speed = wall_s > first_wall_s_ ? (progress.time_s - first_sim_s_) / (wall_s - first_wall_s_) : 0.0;
   // The body of a UAV whose program is lost still hovers in sight of the station; nobody is in contact with it.
-  const std::string lost = joined(status, "lost");
-  const std::string in_contact = joined(status, "in_contact", value_or(status, "lost", Json::array()));
-  std::string text = "simulated " + fixed(sim_s, 1) + " s";
-  const Json phase = value_or(status, "phase", "");
-  text += phase == "flying" || phase == "ended"
-              ? ", mission " + fixed(mission_s, 0) + " of " + fixed(duration_s, 0) + " s"
-              : ", before take-off";
-  text += ", x" + fixed(speed, 1) + ", points " + std::to_string(points_) + ", score " + fixed(score_, 1) +
-          ", in contact: " + (in_contact.empty() ? "none" : in_contact) + (lost.empty() ? "" : ", lost: " + lost);
+  std::vector<std::string> in_contact = progress.in_contact;
+  std::erase_if(in_contact, [&](const std::string& uav) {
+    return std::find(progress.lost.begin(), progress.lost.end(), uav) != progress.lost.end();
+  });
+  std::string text = "simulated " + fixed(progress.time_s, 1) + " s";
+  text += progress.phase == Phase::waiting
+              ? ", before take-off"
+              : ", mission " + fixed(progress.mission_s, 0) + " of " + fixed(progress.duration_s, 0) + " s";
+  text += ", x" + fixed(speed, 1) + ", points " + std::to_string(tally_.points) + ", score " + fixed(tally_.score, 1) +
+          ", in contact: " + (in_contact.empty() ? "none" : joined(in_contact)) +
+          (progress.lost.empty() ? "" : ", lost: " + joined(progress.lost));
   if (terminal_) return show(text);
-  const int tenths = duration_s > 0.0 ? static_cast<int>(10.0 * mission_s / duration_s) : 0;
+  const int tenths = progress.duration_s > 0.0 ? static_cast<int>(10.0 * progress.mission_s / progress.duration_s) : 0;
   if (tenths <= tenths_shown_) return;
   tenths_shown_ = tenths;
   show(text);
 }
 
-void ProgressView::waiting_for(const Json& status) {
-  if (!terminal_ && !value_or(status, "due", false)) return;
-  const std::string missing = joined(status, "missing");
-  show("waiting for " + joined(status, "members") + " " + value_or(status, "what", "").get<std::string>() + " (" +
-       fixed(number(status, "seconds"), 0) + " s)" + (missing.empty() ? "" : ": " + missing));
-}
-
-void ProgressView::tally(const Json& status) {
-  points_ = static_cast<int>(number(status, "points"));
-  score_ = number(status, "score");
+void ProgressView::waiting_for(const status::WaitingFor& wait) {
+  if (!terminal_ && !wait.due) return;
+  show("waiting for " + joined(wait.members) + " " + wait.what + " (" + fixed(wait.seconds, 0) + " s)" +
+       (wait.missing.empty() ? "" : ": " + joined(wait.missing)));
 }
 
 void ProgressView::message(const std::string& text) {

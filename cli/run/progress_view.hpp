@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/run/result.hpp"
+#include "process/status_lines.hpp"
 
 namespace skein::cli {
 
@@ -14,13 +15,11 @@ class ProgressView {
   /// @param terminal whether `out` can rewrite its last line.
   ProgressView(std::ostream& out, bool terminal) : out_(out), terminal_(terminal) {}
 
-  /// sim_server's {"type":"progress",...}. @param wall_s time since the programs started; gives the speed.
-  void progress(const Json& status, double wall_s);
-  /// sim_server's {"type":"waiting_for","members":[...],"what":"to join","seconds":12,"due":true}: a terminal shows each,
-  /// elsewhere there is a line when one is due.
-  void waiting_for(const Json& status);
-  /// station's {"type":"tally",...}.
-  void tally(const Json& status);
+  /// @param wall_s time since the programs started; gives the speed.
+  void progress(const status::Progress& progress, double wall_s);
+  /// A terminal shows each, elsewhere there is a line when one is due.
+  void waiting_for(const status::WaitingFor& wait);
+  void tally(const status::Tally& tally) { tally_ = tally; }
   /// A line of its own, above the progress.
   void message(const std::string& text);
   /// Ends the progress line.
@@ -32,8 +31,7 @@ class ProgressView {
   std::ostream& out_;
   const bool terminal_;
   std::string shown_;
-  int points_ = 0;
-  double score_ = 0.0;
+  status::Tally tally_;
   int tenths_shown_ = 0;
   double first_sim_s_ = 0.0, first_wall_s_ = -1.0;  ///< from where the speed is measured
 };

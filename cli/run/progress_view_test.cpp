@@ -9,9 +9,14 @@
 namespace skein::cli {
 namespace {
 
-Json progress(double t, double mission_s, const std::string& phase = "flying") {
-  return {{"type", "progress"}, {"t", t},     {"mission_s", mission_s},  {"phase", phase},
-          {"duration_s", 100},  {"alive", 2}, {"in_contact", {"alpha"}}, {"lost", Json::array()}};
+status::Progress progress(double t, double mission_s, Phase phase = Phase::flying) {
+  return {.time_s = t,
+          .mission_s = mission_s,
+          .duration_s = 100,
+          .phase = phase,
+          .in_contact = {"alpha"},
+          .alive = 2,
+          .lost = {}};
 }
 
 TEST(ProgressView, PlainOutputHasALineEveryTenthOfTheMission) {
@@ -27,7 +32,7 @@ TEST(ProgressView, PlainOutputHasALineEveryTenthOfTheMission) {
 TEST(ProgressView, TheLineTellsTimeSpeedScoreAndContact) {
   std::ostringstream out;
   ProgressView view(out, false);
-  view.tally({{"type", "tally"}, {"points", 12}, {"score", 3.5}, {"earned", 4.0}});
+  view.tally({.points = 12, .score = 3.5, .earned = 4.0});
   view.progress(progress(0.0, 0.0), 1.0);
   view.progress(progress(40.0, 38.0), 3.0);
   EXPECT_EQ(out.str(), "simulated 40.0 s, mission 38 of 100 s, x20.0, points 12, score 3.5, in contact: alpha\n");
@@ -36,8 +41,8 @@ TEST(ProgressView, TheLineTellsTimeSpeedScoreAndContact) {
 TEST(ProgressView, ATerminalLineIsRewrittenAndMessagesStandAboveIt) {
   std::ostringstream out;
   ProgressView view(out, true);
-  view.waiting_for({{"members", {"alpha", "station"}}, {"what", "to join"}, {"seconds", 2.4}, {"due", false}});
-  view.progress(progress(0.5, 0.0, "waiting"), 0.1);
+  view.waiting_for({.members = {"alpha", "station"}, .missing = {}, .what = "to join", .seconds = 2.4, .due = false});
+  view.progress(progress(0.5, 0.0, Phase::waiting), 0.1);
   view.message("hello");
   view.finish();
   EXPECT_EQ(
@@ -50,17 +55,18 @@ TEST(ProgressView, ElsewhereAWaitIsALineWhenOneIsDue) {
   std::ostringstream out;
   ProgressView view(out, false);
   for (const double seconds : {4.5, 5.0, 5.5}) {
-    view.waiting_for({{"members", {"bob"}}, {"what", "to answer"}, {"seconds", seconds}, {"due", seconds == 5.0}});
+    view.waiting_for(
+        {.members = {"bob"}, .missing = {}, .what = "to answer", .seconds = seconds, .due = seconds == 5.0});
   }
   EXPECT_EQ(out.str(), "waiting for bob to answer (5 s)\n");
 }
 
-TEST(ProgressView, WrongStatusIsHarmless) {
+TEST(ProgressView, AnEmptyStatusIsHarmless) {
   std::ostringstream out;
   ProgressView view(out, true);
-  view.progress({{"t", "x"}, {"in_contact", 3}}, 0.0);
-  view.waiting_for(Json::object());
-  view.tally({{"points", nullptr}});
+  view.progress({}, 0.0);
+  view.waiting_for({});
+  view.tally({});
   view.finish();
 }
 
@@ -99,9 +105,9 @@ TEST(Summary, TellsHowMuchOfTheAttainableItIs) {
 TEST(ProgressView, NobodyIsInContactWithAUavWhoseProgramIsLost) {
   std::ostringstream out;
   ProgressView view(out, false);
-  Json status = progress(40.0, 38.0);
-  status["in_contact"] = {"alpha", "beta"};
-  status["lost"] = {"alpha"};
+  status::Progress status = progress(40.0, 38.0);
+  status.in_contact = {"alpha", "beta"};
+  status.lost = {"alpha"};
   view.progress(status, 3.0);
   EXPECT_NE(out.str().find("in contact: beta, lost: alpha\n"), std::string::npos) << out.str();
 }

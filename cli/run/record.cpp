@@ -3,12 +3,13 @@
 #include <stdexcept>
 
 #include "cli/run/csv_table.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 
 std::vector<CaptureRow> read_captures(const std::filesystem::path& dir) {
   std::vector<CaptureRow> captures;
-  for (CsvTable table(dir / "captures.csv"); table.next();) {
+  for (CsvTable table(dir / run_folder::kCaptures); table.next();) {
     captures.push_back({table.text("uav"), table.count("capture"), table.number("time_s"),
                         static_cast<int>(table.number("point")), table.number("q"),
                         table.number_if_any("delivered_at_s"), table.text("reason"), table.number("q_blur"),
@@ -20,22 +21,23 @@ std::vector<CaptureRow> read_captures(const std::filesystem::path& dir) {
 RunRecord read_run(const std::filesystem::path& dir) {
   RunRecord record;
   record.dir = dir;
-  record.result = read_json(dir / "result.json");
-  if (!record.result.is_object()) throw std::runtime_error((dir / "result.json").string() + ": is missing or damaged");
+  record.result = read_json(dir / run_folder::kResult);
+  if (!record.result.is_object())
+    throw std::runtime_error((dir / run_folder::kResult).string() + ": is missing or damaged");
   record.captures = read_captures(dir);
-  for (CsvTable table(dir / "events.csv"); table.next();) {
+  for (CsvTable table(dir / run_folder::kEvents); table.next();) {
     record.events.push_back({table.count("step"), table.text("event"), table.text("subject"), table.text("object")});
   }
-  for (CsvTable table(dir / "capture_messages.csv"); table.next();) {
+  for (CsvTable table(dir / run_folder::kCaptureMessages); table.next();) {
     MessageRow row{table.count("step"), table.text("uav"), std::nullopt};
     if (const auto arrives = table.number_if_any("arrives")) row.arrives = static_cast<std::uint64_t>(*arrives);
     record.messages.push_back(std::move(row));
   }
-  for (CsvTable table(dir / "trajectories.csv"); table.next();) {
+  for (CsvTable table(dir / run_folder::kTrajectories); table.next();) {
     const Vector3d p_W(table.number("x"), table.number("y"), table.number("z"));
     record.positions.push_back({table.number("time_s"), table.text("uav"), p_W});
   }
-  for (CsvTable table(dir / "score_timeline.csv"); table.next();) {
+  for (CsvTable table(dir / run_folder::kScoreTimeline); table.next();) {
     record.scores.push_back({table.number("time_s"), table.number("score")});
   }
   return record;

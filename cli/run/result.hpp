@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,10 +11,10 @@
 
 #include "cli/planner_spec.hpp"
 #include "core/scenario.hpp"
+#include "process/json_text.hpp"
+#include "process/reports.hpp"
 
 namespace skein::cli {
-
-using Json = nlohmann::ordered_json;
 
 /// What a program took of the machine.
 struct ProcessUse {
@@ -45,32 +44,27 @@ struct RunFacts {
   std::map<std::string, ProcessUse> processes;
 };
 
-/// What the programs left behind; null where a report is missing or cut short.
+/// What the programs left behind; empty where a report is missing or cut short.
 struct Reports {
-  Json sim_server, station, comm_router;
-  std::map<std::string, Json> agents;  ///< by UAV
+  std::optional<SimServerReport> sim_server;
+  std::optional<StationReport> station;
+  std::optional<RouterReport> comm_router;
+  std::map<std::string, std::optional<AgentReport>> agents;  ///< by UAV
 };
 
 /// @param handed_in  by program, what came through the status pipes; a file counts where nothing came.
 Reports read_reports(const std::filesystem::path& dir, const Scenario& scenario,
                      const std::map<std::string, Json>& handed_in = {});
 
+/// Among a run's warnings: a program failed, and how.
+std::string failure_text(const std::string& program, const std::string& how);
+bool is_failure(const std::string& warning);
+
 /// Never throws for what a report contains or lacks: a wrong type counts as missing.
 Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports& reports);
 
 /// score.csv (x,y,z,nx,ny,nz,score,index) from scene.json and the station's report.
 /// @returns false when there is no scene.json.
-bool write_score_csv(const std::filesystem::path& dir, const Json& station_report);
-
-/// The value under `key` when it is there and of the same kind as `fallback`, else `fallback`. A null `fallback` takes
-/// any kind. Never throws.
-Json value_or(const Json& object, const char* key, Json fallback);
-
-/// Parses what a program wrote. @returns null when it is not JSON. What is nested deeper than anything of ours is left
-/// out: copying it would take the stack.
-Json parse_json(const std::string& text);
-
-/// Parses a JSON file. @returns null when it is not there, not a plain file of a sensible size, or not JSON.
-Json read_json(const std::filesystem::path& file);
+bool write_score_csv(const std::filesystem::path& dir, const std::optional<StationReport>& station);
 
 }  // namespace skein::cli

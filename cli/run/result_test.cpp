@@ -194,7 +194,7 @@ TEST_F(RunResult, AnInterruptedRunWithoutReportsSaysSo) {
 }
 
 TEST_F(RunResult, ScoreCsvHasAllPointsInOrder) {
-  EXPECT_FALSE(write_score_csv(dir_.path(), nullptr));
+  EXPECT_FALSE(write_score_csv(dir_.path(), std::nullopt));
   write_all_reports();
   write_text(dir_.path() / "scene.json",
              R"({"boxes": [], "points": [[1, 2, 3, 0, 0, 1], [4.5, 5, 6, 1, 0, 0], [7, 8, 9, 0, 1, 0]]})");

@@ -5,36 +5,24 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <set>
 
 #include "cli/planner_spec.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
 
 /// Of a large fleet with all its links.
 constexpr off_t kRoomForResult = 256 << 10;
-/// One of the names that a stale file has: see written_by_a_run().
-constexpr const char* kRoom = "result.json.tmp-room";
-
-bool written_by_a_run(const std::string& name) {
-  static const std::set<std::string> kNames = {
-      "result.json",          "score.csv",        "captures.csv",       "digests.csv", "losses.csv", "events.csv",
-      "capture_messages.csv", "trajectories.csv", "score_timeline.csv", "scene.json",  "report.html"};
-  // Reports, logs and books: a book of another run would be taken up as if this run's program had been killed.
-  const bool of_a_program = name.starts_with("sim_server.") || name.starts_with("comm_router.") ||
-                            name.starts_with("station.") || name.starts_with("uav_agent-");
-  // What was being written when its program was killed: see atomic_file.hpp.
-  const std::string whole = name.substr(0, name.rfind(".tmp"));
-  return kNames.contains(whole) || of_a_program;
-}
+/// One of the names that a stale file has: see run_folder::is_of_a_run().
+const std::string kRoom = std::string(run_folder::kResult) + ".tmp-room";
 
 /// Only names go: what a link points to stays, and nothing is opened, which for a pipe would take for ever.
 void remove_stale(const std::filesystem::path& dir) {
   for (const auto& entry : std::filesystem::directory_iterator(dir)) {
-    if (!written_by_a_run(entry.path().filename())) continue;
+    if (!run_folder::is_of_a_run(entry.path().filename())) continue;
     if (entry.symlink_status().type() != std::filesystem::file_type::directory) {
       std::filesystem::remove(entry.path());
     } else if (entry.path().has_extension()) {
@@ -59,7 +47,7 @@ void ResultsDir::check(const std::filesystem::path& dir, bool force) {
   if (kind != std::filesystem::file_type::directory && kind != std::filesystem::file_type::not_found) {
     throw InputError("--out " + dir.string() + ": is no folder");
   }
-  if (!force && std::filesystem::exists(dir / "result.json", error)) {
+  if (!force && std::filesystem::exists(dir / run_folder::kResult, error)) {
     throw InputError(dir.string() + " holds a result already; overwrite it with --force, or choose another --out");
   }
 }
@@ -108,7 +96,7 @@ void ResultsDir::give_room() const {
 
 std::string ResultsDir::write_result(const std::string& text) const {
   give_room();
-  return write_if_possible(path_ / "result.json", text);
+  return write_if_possible(path_ / run_folder::kResult, text);
 }
 
 }  // namespace skein::cli

@@ -7,6 +7,7 @@
 
 #include "core/radio_routes.hpp"
 #include "core/topics.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -65,18 +66,18 @@ std::vector<std::string> server_topics(const std::vector<std::string>& units) {
 
 Rights rights_of(const FleetPlan& plan, const std::string& program, int base_domain) {
   const int last = base_domain + domain_count(plan) - 1;
-  if (program == "sim_server") return {base_domain, last, {}};
+  if (program == programs::kSimServer) return {base_domain, last, {}};
 
   std::vector<std::string> all_units = {"gcs"};
   for (const UavConfig& uav : plan.scenario.fleet) all_units.push_back(uav.name);
-  if (program == "comm_router") {
+  if (program == programs::kCommRouter) {
     std::vector<std::string> names = server_topics(all_units);
     add_wire_names(names, topics::uav_topics(), topics::Direction::from_agent, all_units);
     add_wire_names(names, topics::score_topics(), topics::Direction::from_station, all_units);
     return {base_domain, last, std::move(names)};
   }
   const bool is_station = program == topics::kStationMember;
-  std::vector<std::string> names = server_topics(is_station ? all_units : std::vector{member_name(program)});
+  std::vector<std::string> names = server_topics(is_station ? all_units : std::vector{programs::member_name(program)});
   for (const auto& topic : {topics::attached(), topics::routed(), topics::awaits(), topics::radio_reply()}) {
     names.push_back(topic.name);
   }

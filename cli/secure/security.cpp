@@ -17,6 +17,7 @@
 #include "core/config_files.hpp"
 #include "core/topics.hpp"
 #include "core/types.hpp"
+#include "process/run_folder.hpp"
 #include "process/security_files.hpp"
 
 namespace skein::cli {
@@ -164,8 +165,8 @@ SecureRun::SecureRun(const FleetPlan& plan, int base_domain, fs::path out)
     : out_(std::move(out)), out_perms_(fs::status(out_).permissions()) {
   if (any_agents_user()) {
     const auto vendors = dds_vendors(plan);
-    users_.emplace(static_cast<std::size_t>(
-        std::count_if(vendors.begin(), vendors.end(), [](const auto& program) { return is_agent(program.first); })));
+    users_.emplace(static_cast<std::size_t>(std::count_if(
+        vendors.begin(), vendors.end(), [](const auto& program) { return programs::is_agent(program.first); })));
     // Agents pass through this folder to their own.
     fs::permissions(scratch_.path(), fs::perms::others_exec | fs::perms::group_exec, fs::perm_options::add);
     fs::permissions(out_, fs::perms::owner_all);
@@ -182,7 +183,7 @@ void SecureRun::make_folders(const FleetPlan& plan, int base_domain) {
     const Rights rights = rights_of(plan, program, base_domain);
     const Identity identity = identities.issue(program);
     SecureFolder folder{scratch_.path() / program, {}, {}};
-    if (users_ && is_agent(program)) folder.user = users_->at(agents++);
+    if (users_ && programs::is_agent(program)) folder.user = users_->at(agents++);
     make_private_folder(folder.keys, folder.user);
     const auto add = [&](const char* name, const std::string& text) {
       write_file(folder.keys / name, text);

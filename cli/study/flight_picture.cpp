@@ -5,6 +5,7 @@
 
 #include "cli/run/csv_table.hpp"
 #include "cli/run/result.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -28,13 +29,13 @@ std::array<Vector3d, 8> corners_of(const Json& box) {
 
 void read_tracks(const std::filesystem::path& dir, FlightPicture& picture) {
   std::map<std::string, std::size_t> index;
-  const Json uavs = value_or(read_json(dir / "result.json"), "uavs", Json::array());
+  const Json uavs = value_or(read_json(dir / run_folder::kResult), "uavs", Json::array());
   for (const Json& uav : uavs) {
     const std::string name = value_or(uav, "name", "");
     index[name] = picture.tracks.size();
     picture.tracks.push_back({name, value_or(uav, "role", "") == Json("explorer"), {}});
   }
-  for (CsvTable table(dir / "trajectories.csv"); table.next();) {
+  for (CsvTable table(dir / run_folder::kTrajectories); table.next();) {
     const auto found = index.find(table.text("uav"));
     if (found == index.end()) continue;
     picture.tracks[found->second].p_WB.emplace_back(table.number("x"), table.number("y"), table.number("z"));
@@ -54,11 +55,11 @@ void read_what_is_there(const Read& read) try {
 FlightPicture read_picture(const std::filesystem::path& dir) {
   FlightPicture picture;
   read_what_is_there([&] {
-    const Json boxes = value_or(read_json(dir / "scene.json"), "boxes", Json::array());
+    const Json boxes = value_or(read_json(dir / run_folder::kScene), "boxes", Json::array());
     for (const Json& box : boxes) picture.boxes.push_back(corners_of(box));
   });
   read_what_is_there([&] {
-    for (CsvTable table(dir / "score.csv"); table.next();) {
+    for (CsvTable table(dir / run_folder::kScore); table.next();) {
       picture.points.push_back({{table.number("x"), table.number("y"), table.number("z")}, table.number("score")});
     }
   });

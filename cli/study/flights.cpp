@@ -10,6 +10,7 @@
 #include "cli/run/fleet_plan.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "process/atomic_file.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -17,12 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kLog = "flight.log";    ///< what `skein run` said
 constexpr const char* kMark = "flight.json";  ///< written when a flight is over: under which command it was flown
 
 bool went_to_its_end(const Json& result) {
   const Json status = value_or(result, "status", "");
-  return status == "completed" || status == "no_takeoff";
+  return status == name_of(RunStatus::completed) || status == name_of(RunStatus::no_takeoff);
 }
 
 /// Why `skein run` ended with another code than 0, in a sentence.
@@ -35,10 +35,10 @@ std::string problem_of(const StudyFlight& flight, const Json& result, const Exit
   }
   for (const Json& warning : value_or(result, "warnings", Json::array())) {
     const std::string text = warning.is_string() ? warning.get<std::string>() : "";
-    if (text.find(" failed: ") != std::string::npos) add(text);
+    if (is_failure(text)) add(text);
   }
   if (reasons.empty()) {
-    for (const std::string& line : last_lines(flight.dir / kLog, 1)) add(line);
+    for (const std::string& line : last_lines(flight.dir / run_folder::kFlightLog, 1)) add(line);
   }
   return "skein run ended with " + exit.text() + (reasons.empty() ? "" : ": " + reasons);
 }
@@ -74,13 +74,14 @@ class StudyRun {
     const StudyFlight& flight = plan_.flights[index];
     fs::create_directories(flight.dir);
     fs::remove(flight.dir / kMark);
-    return {"", flight_arguments(plan_, flight, program_dir() / "skein"), environment_with({}), flight.dir / kLog};
+    return {"", flight_arguments(plan_, flight, program_dir() / "skein"), environment_with({}),
+            flight.dir / run_folder::kFlightLog};
   }
 
   void on_exit(std::size_t index, const ExitStatus& exit) {
     const StudyFlight& flight = plan_.flights[index];
     StudyOutcome& outcome = outcomes_.flights[index];
-    Json result = read_json(flight.dir / "result.json");
+    Json result = read_json(flight.dir / run_folder::kResult);
     if (!exit.ok() || !went_to_its_end(result)) outcome.problem = problem_of(flight, result, exit);
     if (went_to_its_end(result)) outcome.result = std::move(result);
     write_file_atomically(flight.dir / kMark,
@@ -120,7 +121,7 @@ class StudyRun {
 
 std::optional<StudyOutcome> flown_before(const StudyFlight& flight) {
   const Json mark = read_json(flight.dir / kMark);
-  Json result = read_json(flight.dir / "result.json");
+  Json result = read_json(flight.dir / run_folder::kResult);
   const bool same = value_or(mark, "command", nullptr) == flight.command && value_or(mark, "problem", nullptr) == "" &&
                     value_or(result, "seed", nullptr) == flight.seed;
   if (!same || !went_to_its_end(result)) return std::nullopt;

@@ -15,6 +15,7 @@
 #include "core/sha256.hpp"
 #include "core/suggestion.hpp"
 #include "core/types.hpp"
+#include "process/run_folder.hpp"
 
 #ifndef SKEIN_VERSION
 #error "SKEIN_VERSION comes from CMake's project()"
@@ -77,7 +78,7 @@ RunOptions run_options(const StudyOptions& options, const std::string& scenario,
 /// Of the programs that fly with every planner; the launcher only watches.
 std::string programs_digest(const FleetPlan& plan) {
   Sha256 hash;
-  for (const char* name : {"sim_server", "comm_router", "station"}) {
+  for (const char* name : programs::kServers) {
     hash.add(read_file_bytes(plan.bin_dir / name, kLargestFile));
   }
   return hash.hex();
@@ -136,7 +137,8 @@ std::string input_digest(const FleetPlan& plan) {
 void check_with_programs(const FleetPlan& plan, bool with_server) {
   const ScratchDir scratch;
   std::vector<ProgramSpec> programs = check_programs(plan, scratch.path());
-  std::erase_if(programs, [&](const ProgramSpec& program) { return program.name == "sim_server" && !with_server; });
+  std::erase_if(programs,
+                [&](const ProgramSpec& program) { return program.name == programs::kSimServer && !with_server; });
   try {
     run_checks(programs);
   } catch (const InputError& error) {
@@ -201,12 +203,12 @@ StudyPlan plan_study(const StudyOptions& options) {
   Json inputs = Json::object(), agents = Json::object();
   AgentDigests digests;
   const auto built_in =
-      own_agent(options.agent) ? planners_of(program_dir() / "uav_agent") : std::vector<std::string>{};
+      own_agent(options.agent) ? planners_of(program_dir() / programs::kAgent) : std::vector<std::string>{};
   for (std::size_t s = 0; s < plan.scenarios.size(); ++s) {
     for (std::size_t p = 0; p < plan.planners.size(); ++p) {
       FleetPlan fleet = plan_fleet(run_options(options, plan.scenarios[s], plan.planners[p]), program_dir());
       if (fleet.agent && are_all_built_in(fleet, built_in)) {
-        fleet.options.agent = fleet.bin_dir / "uav_agent";
+        fleet.options.agent = fleet.bin_dir / programs::kAgent;
         fleet = plan_fleet(fleet.options, fleet.bin_dir);
       }
       check_with_programs(fleet, p == 0);

@@ -57,7 +57,7 @@ TEST(FaultTimeline, TellsEachBeginningAndEndOnce) {
   EXPECT_NE(lines[0].find("lidar_failure of a"), std::string::npos) << lines[0];
   EXPECT_NE(lines[1].find("end of fault"), std::string::npos) << lines[1];
   EXPECT_NE(lines[2].find("camera_failure of b"), std::string::npos) << lines[2];
-  const nlohmann::json json = timeline.to_json();
+  const nlohmann::json json = json_of(timeline.report());
   ASSERT_EQ(json.size(), 3U);
   EXPECT_EQ(json[0]["began_step"], 2);
   EXPECT_EQ(json[0]["ended_step"], 4);

@@ -2,11 +2,13 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "process/run_folder.hpp"
+
 namespace skein::sim {
 
 EventLog::EventLog(const std::filesystem::path& folder, const Scenario& scenario)
-    : scenario_(scenario), out_(folder / "events.csv"), members_(scenario.uav_names()) {
-  members_.insert(members_.end(), {scenario.node_name(kStationNode), "station", "comm_router"});
+    : scenario_(scenario), out_(folder / run_folder::kEvents), members_(scenario.uav_names()) {
+  members_.insert(members_.end(), {scenario.node_name(kStationNode), programs::kStation, programs::kCommRouter});
   present_.resize(members_.size());
   links_.resize((scenario.fleet.size() + 1) * (scenario.fleet.size() + 1));
   out_ << "step,time_s,event,subject,object\n";

@@ -5,11 +5,6 @@
 namespace skein::sim {
 namespace {
 
-template <class T>
-nlohmann::json or_null(const std::optional<T>& value) {
-  return value ? nlohmann::json(*value) : nlohmann::json();
-}
-
 std::string title(const Fault& fault) {
   const std::string target = fault_target(fault);
   return target.empty() ? fault_kind(fault) : fault_kind(fault) + " of " + target;
@@ -32,17 +27,17 @@ std::vector<std::string> FaultTimeline::enter_step(std::uint64_t step, Tick tick
   return lines;
 }
 
-nlohmann::json FaultTimeline::to_json() const {
-  nlohmann::json json = nlohmann::json::array();
+std::vector<FaultReport> FaultTimeline::report() const {
+  std::vector<FaultReport> report;
   for (std::size_t i = 0; i < faults_.size(); ++i) {
-    json.push_back({{"kind", fault_kind(faults_[i])},
-                    {"target", fault_target(faults_[i])},
-                    {"at_s", faults_[i].at_s},
-                    {"until_s", or_null(faults_[i].until_s)},
-                    {"began_step", or_null(entries_[i].began)},
-                    {"ended_step", or_null(entries_[i].ended)}});
+    report.push_back({.kind = fault_kind(faults_[i]),
+                      .target = fault_target(faults_[i]),
+                      .at_s = faults_[i].at_s,
+                      .until_s = faults_[i].until_s,
+                      .began_step = entries_[i].began,
+                      .ended_step = entries_[i].ended});
   }
-  return json;
+  return report;
 }
 
 }  // namespace skein::sim

@@ -1,12 +1,12 @@
 // When each fault of a plan began and ended in a run: for the log and for result.json. Pure.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/fault_plan.hpp"
+#include "process/reports.hpp"
 
 namespace skein::sim {
 
@@ -18,9 +18,8 @@ class FaultTimeline {
   /// @returns a line for the log for each fault that begins or ends with it, in the plan's order.
   std::vector<std::string> enter_step(std::uint64_t step, Tick tick);
 
-  /// One entry a fault, in the plan's order: kind, target, at_s, until_s (null: to the end), began_step, ended_step
-  /// (null: not in this run).
-  nlohmann::json to_json() const;
+  /// One entry a fault, in the plan's order.
+  std::vector<FaultReport> report() const;
 
  private:
   struct Entry {

@@ -3,8 +3,11 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "process/atomic_file.hpp"
+#include "process/program_report.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::sim {
 namespace {
@@ -45,8 +48,8 @@ std::string describe(const Stray& stray, const Scenario& scenario) {
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest)
     : folder_(folder),
       scenario_(scenario),
-      trajectories_(folder / "trajectories.csv"),
-      digests_(folder / "digests.csv"),
+      trajectories_(folder / run_folder::kTrajectories),
+      digests_(folder / run_folder::kDigests),
       events_(folder, scenario) {
   trajectories_ << "time_s,uav,x,y,z,qw,qx,qy,qz,vx,vy,vz,gimbal_pitch,gimbal_yaw,alive\n";
   digests_ << "k,digest";
@@ -78,7 +81,7 @@ void RunFiles::write_scene(const Scene& scene) {
     json["points"].push_back(
         {point.p_W.x(), point.p_W.y(), point.p_W.z(), point.n_W.x(), point.n_W.y(), point.n_W.z()});
   }
-  const std::string trouble = write_if_possible(folder_ / "scene.json", json.dump());
+  const std::string trouble = write_if_possible(folder_ / run_folder::kScene, json.dump());
   if (!trouble.empty()) unwritten_.push_back(trouble);
 }
 
@@ -99,58 +102,64 @@ void RunFiles::add_step(const Simulation& simulation, const StepDigest& digest) 
   trajectories_ << std::string_view(line.data(), line.size());
 }
 
-void RunFiles::write_report(const Simulation& simulation, const RunSummary& summary, StatusPipe& status) {
-  const Mission& mission = simulation.mission();
-  nlohmann::json json;
-  json["status"] = summary.status;
-  json["deterministic"] = summary.deterministic;
-  json["digest"] = summary.digest ? nlohmann::json(*summary.digest) : nlohmann::json();
-  json["sim_time_s"] = seconds(simulation.tick());
-  json["mission_time_s"] =
-      mission.start_tick() ? seconds(mission.end_tick().value_or(simulation.tick()) - *mission.start_tick()) : 0.0;
-  json["wall_time_s"] = summary.wall_time_s;
-  json["rules"] = scenario_.rules.preset;
-  json["points_total"] = simulation.scene().points.size();
-  std::string seen;  // a digit for each point
-  for (const bool flag : simulation.points_seen()) seen += flag ? '1' : '0';
-  json["points_seen"] = seen;
-  json["collisions"] = nlohmann::json::array();
-  for (const Collision& c : summary.collisions) {
-    json["collisions"].push_back({{"time_s", seconds(c.tick)},
-                                  {"uav", scenario_.fleet[c.uav].name},
-                                  {"with", collided_with(c, scenario_)},
-                                  {"position", vector_json(c.p_W)}});
-  }
-  json["uavs"] = nlohmann::json::array();
+std::vector<UavReport> RunFiles::uav_reports(const Simulation& simulation, const RunSummary& summary) const {
+  std::vector<UavReport> reports;
   for (std::size_t i = 0; i < simulation.size(); ++i) {
     const UavView& uav = simulation.uav(i);
     const UavConfig& config = scenario_.fleet[i];
-    json["uavs"].push_back(
-        {{"name", config.name},
-         {"role", config.vehicle.role == Role::explorer ? "explorer" : "photographer"},
-         {"alive", uav.alive},
-         {"distance_m", uav.distance_m},
-         {"max_speed_mps", uav.max_speed_mps},
-         {"captures", uav.captures},
-         {"idle_s", uav.idle_s},
-         {"commands_rejected", uav.commands_rejected},
-         {"commands_unheard", i < summary.commands_unheard.size() ? summary.commands_unheard[i] : 0}});
+    reports.push_back({.name = config.name,
+                       .role = config.vehicle.role,
+                       .alive = uav.alive,
+                       .distance_m = uav.distance_m,
+                       .max_speed_mps = uav.max_speed_mps,
+                       .captures = uav.captures,
+                       .idle_s = uav.idle_s,
+                       .commands_rejected = uav.commands_rejected,
+                       .commands_unheard = i < summary.commands_unheard.size() ? summary.commands_unheard[i] : 0});
   }
-  json["lost_members"] = nlohmann::json::array();
+  return reports;
+}
+
+SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary& summary) const {
+  const Mission& mission = simulation.mission();
+  SimServerReport report{.status = summary.status,
+                         .deterministic = summary.deterministic,
+                         .digest = summary.digest,
+                         .sim_time_s = seconds(simulation.tick()),
+                         .mission_time_s = 0.0,
+                         .wall_time_s = summary.wall_time_s,
+                         .rules = scenario_.rules.preset,
+                         .points_total = simulation.scene().points.size(),
+                         .points_seen = std::string(),
+                         .uavs = uav_reports(simulation, summary),
+                         .faults = summary.faults,
+                         .timing = summary.timing,
+                         .warnings = summary.warnings,
+                         .malformed = summary.malformed,
+                         .unwritten = unwritten_};
+  if (mission.start_tick()) {
+    report.mission_time_s = seconds(mission.end_tick().value_or(simulation.tick()) - *mission.start_tick());
+  }
+  for (const bool flag : simulation.points_seen()) *report.points_seen += flag ? '1' : '0';
+  for (const Collision& c : summary.collisions) {
+    report.collisions.push_back({.time_s = seconds(c.tick),
+                                 .uav = scenario_.fleet[c.uav].name,
+                                 .with = collided_with(c, scenario_),
+                                 .position = {{c.p_W.x(), c.p_W.y(), c.p_W.z()}}});
+  }
   for (const LostProcess& lost : summary.lost) {
-    json["lost_members"].push_back(
-        {{"member", lost.name}, {"step", lost.step}, {"time_s", seconds(lost.tick)}, {"reason", lost.reason}});
+    report.lost_members.push_back(
+        {.member = lost.name, .step = lost.step, .time_s = seconds(lost.tick), .reason = lost.reason});
   }
-  json["faults"] = summary.faults;
-  json["warnings"] = summary.warnings;
-  json["malformed"] = summary.malformed;
-  json["timing"] = summary.timing;
-  json["unwritten"] = unwritten_;
+  return report;
+}
+
+void RunFiles::write_report(const Simulation& simulation, const RunSummary& summary, StatusPipe& status) {
   for (StreamFile* file : {&trajectories_, &digests_, &events_.file()}) {
     file->flush();
-    if (!file->trouble().empty()) json["unwritten"].push_back(file->trouble());
+    if (!file->trouble().empty()) unwritten_.push_back(file->trouble());
   }
-  hand_in_report(json, folder_ / "sim_server.report.json", status);
+  hand_in_report(json_of(report(simulation, summary)), folder_ / run_folder::report_file(programs::kSimServer), status);
 }
 
 }  // namespace skein::sim

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/scenario.hpp"
-#include "process/program_report.hpp"
+#include "process/reports.hpp"
+#include "process/status_pipe.hpp"
 #include "process/stream_file.hpp"
 #include "sim_server/record/event_log.hpp"
 #include "sim_server/run_digest.hpp"
@@ -27,17 +27,17 @@ struct LostProcess {
 
 /// How a run went, beyond what the simulation itself knows.
 struct RunSummary {
-  std::string status = "completed";  ///< completed, no_takeoff, interrupted, aborted
+  RunStatus status = RunStatus::completed;
   bool deterministic = true;
   std::optional<std::string> digest;
   double wall_time_s = 0.0;  ///< without start-up
   std::vector<Collision> collisions;
   std::vector<LostProcess> lost;
   std::vector<std::string> warnings;
-  std::vector<std::uint64_t> commands_unheard;      ///< by UAV: from outside the lock-step
-  std::uint64_t malformed = 0;                      ///< samples received that were no message of their topic's type
-  nlohmann::json timing;                            ///< CPU time by kind of work
-  nlohmann::json faults = nlohmann::json::array();  ///< as FaultTimeline tells
+  std::vector<std::uint64_t> commands_unheard;  ///< by UAV: from outside the lock-step
+  std::uint64_t malformed = 0;                  ///< samples received that were no message of their topic's type
+  TimingReport timing;
+  std::vector<FaultReport> faults;
 };
 
 /// Who, with what, when and where: a line for the log.
@@ -57,6 +57,9 @@ class RunFiles {
   void write_report(const Simulation& simulation, const RunSummary& summary, StatusPipe& status);
 
  private:
+  SimServerReport report(const Simulation& simulation, const RunSummary& summary) const;
+  std::vector<UavReport> uav_reports(const Simulation& simulation, const RunSummary& summary) const;
+
   std::filesystem::path folder_;
   const Scenario& scenario_;
   StreamFile trajectories_, digests_;

@@ -1,0 +1,321 @@
+#include "cli/run/fleet_run.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <utility>
+#include <variant>
+
+#include "core/suggestion.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// How long the programs may take to write their reports and leave after sim_server has left.
+constexpr milliseconds kLeaveTime{10000};
+/// The same for users' commands once all others have left: they need not know that the run is over.
+constexpr milliseconds kExecLeaveTime{2000};
+/// From SIGTERM to SIGKILL.
+constexpr milliseconds kGrace{3000};
+/// After Ctrl-C: for sim_server to end the run, and for the programs to leave when it could not end its last step.
+constexpr milliseconds kStopTime{8000};
+constexpr milliseconds kStalledLeaveTime{1000};
+constexpr std::size_t kLogLines = 10;
+
+double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point until) {
+  return std::chrono::duration<double>(until - from).count();
+}
+
+}  // namespace
+
+FleetRun::FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal)
+    : plan_(plan), orders_(supervisor_), view_(out, terminal) {
+  plan_.run = draw_run_id();
+  facts_.scenario = plan.options.scenario;
+  facts_.seed = plan.options.seed;
+  facts_.planners = plan.planners;
+  facts_.ground_program = plan.ground;
+  facts_.agent = plan.agent;
+  facts_.dds = dds_vendors(plan);
+  facts_.clock = plan.options.clock;
+  facts_.native = plan.options.native;
+}
+
+void FleetRun::fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure) {
+  for (const ProgramSpec& program : fleet_programs(plan_, base_domain, out, secure)) {
+    programs_[program.name] = program;
+    supervisor_.start(program);
+  }
+  if (plan_.options.debug_uav) {
+    view_.message("Start the agent of " + *plan_.options.debug_uav + " yourself; the fleet waits for it:\n\n  " +
+                  debug_command(plan_, base_domain, out, secure) + "\n");
+    debugged_.emplace(*plan_.options.debug_uav, out, agent_file(plan_));
+  }
+  watch();
+  for (const auto& [program, books] :
+       {std::pair(programs::kStation, run_folder::kJournal), {programs::kCommRouter, run_folder::kCounts}}) {
+    const bool reported = reports_.contains(program) || std::filesystem::exists(out / run_folder::report_file(program));
+    if (!reported && std::filesystem::exists(out / books)) settle(program);
+  }
+  view_.finish();
+}
+
+// ---- following the run ------------------------------------------------------------------------------------------
+
+void FleetRun::watch() {
+  while (!supervisor_.running().empty()) {
+    milliseconds limit{-1};
+    if (leave_by_) {
+      limit = std::max(std::chrono::ceil<milliseconds>(*leave_by_ - Clock::now()), milliseconds(0));
+      if (limit == milliseconds(0)) {
+        end_stragglers();
+        continue;
+      }
+    }
+    const bool debugged_ended = debugged_ && debugged_->ended();  // before the news: it may end because the run has
+    handle_all(supervisor_.wait(orders_.limit(until_notice(limit))));
+    if (debugged_ended) on_debugged_end();
+    tell_waiting();
+    for (const std::string& program : orders_.take_returning()) bring_back(program);
+  }
+}
+
+/// How long to wait for events at most, so that a word of whom we wait for comes when it is due.
+milliseconds FleetRun::until_notice(milliseconds limit) const {
+  milliseconds left = silence_.left(Clock::now());
+  if (debugged_) left = std::min(left, DebugWatch::kPeriod);
+  return limit.count() < 0 ? left : std::min(limit, left);
+}
+
+void FleetRun::handle_all(const std::vector<Event>& events) {
+  for (const Event& event : events) {
+    if (event.kind == Event::Kind::status_line) on_status(event);
+    if (event.kind == Event::Kind::cut_off) on_cut_off(event);
+    if (event.kind == Event::Kind::exited) on_exit(event);
+    if (event.kind == Event::Kind::interrupt) on_interrupt();
+  }
+}
+
+void FleetRun::on_status(const Event& event) {
+  const std::optional<status::Line> line = status::read_line(event.line);
+  if (!line) return;
+  const auto* report = std::get_if<status::Report>(&*line);
+  if (report != nullptr && !is_exec(plan_, event.program)) reports_[event.program] = report->report;
+  // A user's command has a status pipe too; what it writes there is no news of the run.
+  const bool is_tally = std::holds_alternative<status::Tally>(*line);
+  if (event.program != (is_tally ? programs::kStation : programs::kSimServer)) return;
+  if (!is_tally) silence_ = WaitNotice(Clock::now());
+  std::visit([this](const auto& news) { hear(news); }, *line);
+}
+
+/// A program that writes without end is no longer listened to; it flies on.
+void FleetRun::on_cut_off(const Event& event) {
+  facts_.warnings.push_back(event.program + " is not listened to any more: " + event.line);
+  view_.message(facts_.warnings.back());
+}
+
+void FleetRun::on_exit(const Event& event) {
+  const bool of_server = event.program == programs::kSimServer;
+  ProcessUse& use = facts_.processes[event.program];
+  use.peak_memory_mb = std::max(use.peak_memory_mb, event.exit.peak_memory_mb);
+  if (!over_) use.cpu_s += event.exit.cpu_s - std::exchange(cpu_before_s_[event.program], 0.0);
+  if (orders_.on_exit(event.program, event.exit)) return;  // as it should
+  if (!event.exit.ok() && !ending_ && !left_as_asked(event.exit)) complain(event.program, event.exit.text());
+  if (of_server) {
+    facts_.out_by_fault = orders_.out();
+    orders_.end();
+  }
+  if (of_server && !event.exit.ok()) {
+    end_all();  // nobody is left to tell the others how the run goes on
+  } else if (of_server) {
+    server_done_ = true;
+    leave_by_ = Clock::now() + leave_time();
+  } else if (!ending_ && !server_done_) {
+    tell_lost(programs::member_name(event.program));
+  }
+  if (server_done_ && only_commands_run()) leave_by_ = std::min(*leave_by_, Clock::now() + scaled(kExecLeaveTime));
+}
+
+/// First Ctrl-C: the server ends the run at its next step, or in a step that does not end, and all write their reports.
+/// Second: at once.
+void FleetRun::on_interrupt() {
+  if (ending_) return;
+  if (facts_.interrupted) return end_all();
+  facts_.interrupted = true;
+  view_.message("ending the run; press Ctrl-C again to end it at once");
+  supervisor_.send(programs::kSimServer, orders::text_of(orders::Stop{}));
+  if (!leave_by_) leave_by_ = Clock::now() + scaled(kStopTime);
+}
+
+/// The program that the user debugs is lost like any other one.
+void FleetRun::on_debugged_end() {
+  if (server_done_ || ending_) return;
+  const std::string& uav = *plan_.options.debug_uav;
+  view_.message(fmt::format("the debugged program of {} (process {}) has ended; the fleet goes on without it", uav,
+                            debugged_->pid()));
+  facts_.warnings.push_back("the debugged program of " + uav + " ended before the run did");
+  tell_lost(uav);
+}
+
+/// sim_server says whom the fleet waits for. We do where it says nothing: while it starts, while others leave.
+void FleetRun::tell_waiting() {
+  const auto waited_s = silence_.due(Clock::now());
+  if (!waited_s || supervisor_.running().empty()) return;
+  const std::string whom = server_done_ ? joined(supervisor_.running()) + " to leave" : programs::kSimServer;
+  view_.message(fmt::format("waiting for {} ({:.0f} s)", whom, *waited_s));
+}
+
+// ---- what sim_server and the station say ------------------------------------------------------------------------
+
+void FleetRun::hear(const status::Progress& progress) {
+  facts_.sim_time_s = progress.time_s;
+  facts_.mission_time_s = progress.mission_s;
+  if (!first_progress_) on_first_step();
+  facts_.wall_time_s = seconds_between(*first_progress_, Clock::now());
+  view_.progress(progress, facts_.wall_time_s);
+}
+
+void FleetRun::hear(const status::Tally& tally) {
+  facts_.points_detected = tally.points;
+  facts_.score = tally.score;
+  facts_.score_earned = tally.earned;
+  view_.tally(tally);
+}
+
+void FleetRun::hear(const status::WaitingFor& wait) {
+  view_.waiting_for(wait);
+  if (first_progress_) facts_.wall_time_s = seconds_between(*first_progress_, Clock::now());
+}
+
+/// A fault takes a program out of the run, or lets it back.
+void FleetRun::hear(const status::Order& order) {
+  using What = status::Order::What;
+  const std::string program = program_of(order.member);
+  const std::string when = fmt::format("at {:.2f} s: ", order.time_s);
+  if (order.order == What::kill || order.order == What::stop) {
+    view_.message(when + "a fault " + name_of(order.order) + "s " + program);
+    orders_.take_out(program, order.order == What::kill, is_exec(plan_, program));
+  } else {
+    view_.message(when + program + (order.order == What::start ? " is started again" : " goes on"));
+    orders_.let_back(program);
+  }
+}
+
+void FleetRun::hear(const status::Ended& ended) {
+  note_use();
+  stalled_ = !ended.stalled.empty();
+  server_done_ = true;
+  leave_by_ = Clock::now() + leave_time();
+}
+
+// ---- what the launcher does about it ----------------------------------------------------------------------------
+
+/// What was killed starts again, what was stopped goes on.
+void FleetRun::bring_back(const std::string& program) {
+  const auto spec = programs_.find(program);
+  if (supervisor_.running(program) || spec == programs_.end()) return supervisor_.signal(program, SIGCONT);
+  spec->second.append_log = true;
+  std::ofstream(spec->second.log, std::ios::app) << "[skein] a fault killed this program; here it starts again\n";
+  try {
+    supervisor_.start(spec->second);
+  } catch (const std::exception& error) {  // the run has a result all the same
+    complain(program, std::string("it cannot be started again: ") + error.what());
+    tell_lost(programs::member_name(program));
+  }
+}
+
+/// A program that died left books of what it did: it makes its report of them.
+void FleetRun::settle(const std::string& program) {
+  ProgramSpec spec = programs_.at(program);
+  spec.argv.push_back("--settle");
+  spec.append_log = true;
+  try {
+    supervisor_.start(spec);
+  } catch (const std::exception& error) {
+    return complain(program, std::string("its books cannot be settled: ") + error.what());
+  }
+  const auto take_report = [this](const std::vector<Event>& events) {
+    for (const Event& event : events) {
+      if (event.kind == Event::Kind::status_line) on_status(event);
+    }
+  };
+  const Clock::time_point deadline = Clock::now() + kLeaveTime;
+  while (supervisor_.running(program) && Clock::now() < deadline) take_report(supervisor_.wait(kGrace));
+  take_report(supervisor_.end_all(kGrace));
+}
+
+void FleetRun::tell_lost(const std::string& member) {
+  supervisor_.send(programs::kSimServer, orders::text_of(orders::Lost{member}));
+}
+
+void FleetRun::end_stragglers() {
+  for (const std::string& program : supervisor_.running()) {
+    if (!is_exec(plan_, program) && !facts_.interrupted) complain(program, "not leaving after the run's end");
+  }
+  end_all();
+}
+
+void FleetRun::end_all() {
+  if (ending_) return;
+  ending_ = true;
+  handle_all(supervisor_.end_all(scaled(kGrace)));
+}
+
+/// Names a program that failed, with the end of its log.
+void FleetRun::complain(const std::string& program, const std::string& how) {
+  failed_ = true;
+  const std::filesystem::path& log = programs_.at(program).log;
+  facts_.warnings.push_back(failure_text(program, how));
+  std::string text = facts_.warnings.back() + "; the end of " + log.string() + ":";
+  for (const std::string& line : last_lines(log, kLogLines)) text += "\n    " + line;
+  view_.message(text);
+}
+
+/// The UAV under --debug has no program of ours: then it is the member.
+std::string FleetRun::program_of(const std::string& member) const {
+  const std::string program = programs::program_of(member);
+  return programs_.contains(program) ? program : member;
+}
+
+/// Who was told that the user ends the run need not find an orderly end to it. A crash is one all the same.
+bool FleetRun::left_as_asked(const ExitStatus& exit) const { return facts_.interrupted && exit.signal == 0; }
+
+/// For the programs, once sim_server is done. Who never took part in a step does not hear of the end.
+milliseconds FleetRun::leave_time() const {
+  if (facts_.interrupted && !first_progress_) return milliseconds(0);
+  return scaled(facts_.interrupted && stalled_ ? kStalledLeaveTime : kLeaveTime);
+}
+
+milliseconds FleetRun::scaled(milliseconds time) const {
+  return std::chrono::duration_cast<milliseconds>(time * plan_.options.patience);
+}
+
+bool FleetRun::only_commands_run() const {
+  const std::vector<std::string> running = supervisor_.running();
+  return std::all_of(running.begin(), running.end(), [&](const auto& program) { return is_exec(plan_, program); });
+}
+
+// ---- what the programs take of the machine ----------------------------------------------------------------------
+
+/// What the programs did before is start-up.
+void FleetRun::on_first_step() {
+  first_progress_ = Clock::now();
+  facts_.startup_s = seconds_between(started_, *first_progress_);
+  for (const std::string& program : supervisor_.running()) cpu_before_s_[program] = supervisor_.cpu_s(program);
+}
+
+/// What the programs do from here on is leaving.
+void FleetRun::note_use() {
+  over_ = true;
+  for (const std::string& program : supervisor_.running()) {
+    facts_.processes[program].cpu_s += supervisor_.cpu_s(program) - cpu_before_s_[program];
+    facts_.processes[program].memory_share_mb = supervisor_.memory_share_mb(program);
+  }
+}
+
+}  // namespace skein::cli

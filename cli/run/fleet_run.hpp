@@ -1,0 +1,102 @@
+// One fleet from its start to its last process: starts the programs, follows what they say, tells sim_server who is lost,
+// carries out what faults do to programs, and ends what does not leave by itself.
+// Threads: everything from one thread, which must live as long as the programs (see supervisor.hpp).
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run/debug_watch.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/process_orders.hpp"
+#include "cli/run/progress_view.hpp"
+#include "cli/run/result.hpp"
+#include "cli/run/supervisor.hpp"
+#include "core/wait_notice.hpp"
+#include "process/status_lines.hpp"
+
+namespace skein::cli {
+
+class FleetRun {
+ public:
+  /// @param out  for progress and complaints; must outlive this. @param terminal  it can rewrite its last line.
+  FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal);
+
+  /// Starts all programs and returns when none is left. Once.
+  void fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure);
+
+  /// What is known of the run so far; for its result.
+  RunFacts& facts() { return facts_; }
+  ProgressView& view() { return view_; }
+  /// What came through the status pipes, by program.
+  const std::map<std::string, Json>& reports() const { return reports_; }
+  bool anything_failed() const { return failed_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using milliseconds = std::chrono::milliseconds;
+
+  // Following the run.
+  void watch();
+  milliseconds until_notice(milliseconds limit) const;
+  void handle_all(const std::vector<Event>& events);
+  void on_status(const Event& event);
+  void on_cut_off(const Event& event);
+  void on_exit(const Event& event);
+  void on_interrupt();
+  void on_debugged_end();
+  void tell_waiting();
+
+  // What sim_server and the station say.
+  void hear(const status::Progress& progress);
+  void hear(const status::Tally& tally);
+  void hear(const status::WaitingFor& wait);
+  void hear(const status::Order& order);
+  void hear(const status::Warning& warning) { view_.message("warning: " + warning.text); }
+  void hear(const status::Rejoined& rejoined) { orders_.returned(program_of(rejoined.member)); }
+  void hear(const status::Ended& ended);
+  void hear(const status::Report&) {}
+
+  // What the launcher does about it.
+  void bring_back(const std::string& program);
+  void settle(const std::string& program);
+  void tell_lost(const std::string& member);
+  void end_stragglers();
+  void end_all();
+  void complain(const std::string& program, const std::string& how);
+
+  std::string program_of(const std::string& member) const;
+  bool left_as_asked(const ExitStatus& exit) const;
+  milliseconds leave_time() const;
+  milliseconds scaled(milliseconds time) const;
+  bool only_commands_run() const;
+
+  // What the programs take of the machine between the first step and the last.
+  void on_first_step();
+  void note_use();
+
+  FleetPlan plan_;
+  Supervisor supervisor_;
+  ProcessOrders orders_;
+  ProgressView view_;
+  RunFacts facts_;
+  std::map<std::string, ProgramSpec> programs_;
+  std::map<std::string, Json> reports_;  ///< by program
+  const Clock::time_point started_ = Clock::now();
+  std::optional<Clock::time_point> first_progress_;
+  std::map<std::string, double> cpu_before_s_;  ///< of each program at the first step
+  std::optional<Clock::time_point> leave_by_;   ///< whoever runs then is ended
+  std::optional<DebugWatch> debugged_;          ///< under --debug
+  WaitNotice silence_{Clock::now()};            ///< since sim_server last said something
+  bool server_done_ = false;                    ///< sim_server has ended the run in good order
+  bool stalled_ = false;                        ///< by Ctrl-C, in a step that somebody never answered
+  bool over_ = false;                           ///< the last step is done
+  bool ending_ = false;                         ///< the launcher itself ends the programs
+  bool failed_ = false;
+};
+
+}  // namespace skein::cli

@@ -1,0 +1,49 @@
+#include "process/run_folder.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace skein {
+namespace programs {
+namespace {
+
+constexpr std::string_view kAgentPrefix = "uav_agent-";
+
+}  // namespace
+
+std::string agent_program(const std::string& member) { return std::string(kAgentPrefix) + member; }
+
+bool is_agent(const std::string& program) { return program.starts_with(kAgentPrefix); }
+
+std::string member_name(const std::string& program) {
+  return is_agent(program) ? program.substr(kAgentPrefix.size()) : program;
+}
+
+std::string program_of(const std::string& member) {
+  return member == kCommRouter || member == kStation ? member : agent_program(member);
+}
+
+}  // namespace programs
+
+namespace run_folder {
+
+std::string report_file(const std::string& program) { return program + ".report.json"; }
+
+std::string log_file(const std::string& program) { return program + ".log"; }
+
+bool is_of_a_run(const std::string& name) {
+  constexpr std::array<std::string_view, 11> kTables = {
+      kResult,          kScore,        kCaptures,      kDigests, kLosses, kEvents,
+      kCaptureMessages, kTrajectories, kScoreTimeline, kScene,   kPage};
+  // Reports, logs and books: a book of another run would be taken up as if this run's program had been killed.
+  const bool of_a_program = programs::is_agent(name) ||
+                            std::any_of(programs::kServers.begin(), programs::kServers.end(), [&](const char* program) {
+                              return name.starts_with(std::string(program) + ".");
+                            });
+  // What was being written when its program was killed: see atomic_file.hpp.
+  const std::string whole = name.substr(0, name.rfind(".tmp"));
+  return of_a_program || std::find(kTables.begin(), kTables.end(), whole) != kTables.end();
+}
+
+}  // namespace run_folder
+}  // namespace skein

@@ -1,0 +1,61 @@
+// What programs, and the files that they leave in the folder of a run, are called: whoever writes a file and whoever
+// reads it take its name from here. What the files hold is described in docs/results.md.
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace skein {
+
+namespace programs {
+
+inline constexpr const char* kSimServer = "sim_server";
+inline constexpr const char* kCommRouter = "comm_router";
+inline constexpr const char* kStation = "station";
+/// Those that every fleet has one of, in the order in which they start.
+inline constexpr std::array kServers = {kSimServer, kCommRouter, kStation};
+inline constexpr const char* kAgent = "uav_agent";            ///< the file; running, it is "uav_agent-jurong"
+inline constexpr const char* kGroundAgent = "uav_agent-gcs";  ///< running, at the ground station
+
+/// The program that runs a UAV's on-board software, or "gcs" at the ground station: "uav_agent-jurong".
+std::string agent_program(const std::string& member);
+bool is_agent(const std::string& program);
+/// How the lock-step calls a program: the UAV's name, "gcs", "comm_router" or "station".
+std::string member_name(const std::string& program);
+/// The other way round.
+std::string program_of(const std::string& member);
+
+}  // namespace programs
+
+namespace run_folder {
+
+// The launcher's.
+inline constexpr const char* kResult = "result.json";
+inline constexpr const char* kScore = "score.csv";
+inline constexpr const char* kLosses = "losses.csv";
+// sim_server's.
+inline constexpr const char* kScene = "scene.json";
+inline constexpr const char* kTrajectories = "trajectories.csv";
+inline constexpr const char* kDigests = "digests.csv";
+inline constexpr const char* kEvents = "events.csv";
+// The station's. The journal is what it takes up when it starts again.
+inline constexpr const char* kCaptures = "captures.csv";
+inline constexpr const char* kScoreTimeline = "score_timeline.csv";
+inline constexpr const char* kJournal = "station.journal";
+// The router's. The counts are what it takes up when it starts again.
+inline constexpr const char* kCaptureMessages = "capture_messages.csv";
+inline constexpr const char* kCounts = "comm_router.counts";
+// Of a study, which is a folder of runs.
+inline constexpr const char* kPage = "report.html";
+inline constexpr const char* kFlightLog = "flight.log";  ///< what `skein run` said
+
+/// What a program did, as it says itself: "station.report.json".
+std::string report_file(const std::string& program);
+/// What it said meanwhile: "station.log".
+std::string log_file(const std::string& program);
+
+/// Whether a run, or the page of a study, writes a file of this name, or one that is being written has it for a while.
+bool is_of_a_run(const std::string& name);
+
+}  // namespace run_folder
+}  // namespace skein
