@@ -122,8 +122,9 @@ struct SimServerReport {
   std::vector<FaultReport> faults = {};
   TimingReport timing = {};
   Texts warnings = {};
-  Count malformed = {};
-  Texts unwritten = {};  ///< files that the disk refused, one sentence each; of all reports
+  Count malformed = {};  ///< samples that were no message of their topic's type; of all reports, like the next two
+  Count unsent = {};     ///< samples that could not be sent
+  Texts unwritten = {};  ///< files that the disk refused, one sentence each
 };
 template <class Fields>
 void describe(Fields& f, SimServerReport& report) {
@@ -141,6 +142,7 @@ void describe(Fields& f, SimServerReport& report) {
   f.field("status", report.status);
   f.field("timing", report.timing);
   f.field("uavs", report.uavs);
+  f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
   f.field("wall_time_s", report.wall_time_s);
   f.field("warnings", report.warnings);
@@ -170,7 +172,7 @@ struct StationReport {
   Named<double> score_by_uav = {};
   std::optional<std::vector<ScoredPointReport>> points = {};
   Named<std::uint64_t> refused = {};  ///< capture reports, by reason
-  Count reports_received = {}, duplicates = {}, malformed = {};
+  Count reports_received = {}, duplicates = {}, malformed = {}, unsent = {};
   Texts unwritten = {};
 };
 template <class Fields>
@@ -184,6 +186,7 @@ void describe(Fields& f, StationReport& report) {
   f.field("reports_received", report.reports_received);
   f.field("duplicates", report.duplicates);
   f.field("malformed", report.malformed);
+  f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
 }
 
@@ -225,6 +228,7 @@ struct RouterReport {
   RadioCounts total = {};
   Count malformed = {};
   Count unheard = {};  ///< messages of who is no member
+  Count unsent = {};
   std::vector<LinkReport> per_link = {};
   Texts warnings = {}, unwritten = {};
 };
@@ -235,6 +239,7 @@ void describe(Fields& f, RouterReport& report) {
   f.field("per_link", report.per_link);
   describe_sent(f, report.total);
   f.field("unheard", report.unheard);
+  f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
   f.field("warnings", report.warnings);
 }
@@ -244,7 +249,7 @@ void describe(Fields& f, RouterReport& report) {
 struct AgentReport {
   Number planner_cpu_s = {}, planner_cpu_p99_ms = {}, planner_cpu_max_ms = {};
   Count planner_exchanges_over_50ms = {};
-  Count malformed = {};
+  Count malformed = {}, unsent = {};
   std::optional<Texts> unwritten = {};
 };
 template <class Fields>
@@ -254,6 +259,7 @@ void describe(Fields& f, AgentReport& report) {
   f.field("planner_cpu_p99_ms", report.planner_cpu_p99_ms);
   f.field("planner_cpu_s", report.planner_cpu_s);
   f.field("planner_exchanges_over_50ms", report.planner_exchanges_over_50ms);
+  f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
 }
 

@@ -139,6 +139,7 @@ RunSummary SimNode::run() {
   summary_.timing = clock_.summary();
   summary_.timing.cpu_s = thread_cpu_s() - cpu_before_s;
   summary_.malformed = inbox_.malformed();
+  summary_.unsent = participants_.front()->unsent().count();
   summary_.faults = fault_timeline_.report();
   summary_.status = end_status();
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.

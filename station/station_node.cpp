@@ -135,7 +135,8 @@ std::optional<int> StationNode::run(const StopSignal& stop) {
   const bus::ClientLoop loop{.think = [this] { think(); }, .answered_last = [this] { return last_step_answered_; }};
   const bus::LoopEnd end = bus::run_client(client_, inbox_, loop, stop);
   if (end == bus::LoopEnd::resumed) return std::nullopt;
-  if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, status_, inbox_.malformed(), unwritten_);
+  const StationNotes notes{inbox_.malformed(), gcs_->unsent().count(), unwritten_};
+  if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, status_, notes);
   return bus::exit_code(end, std::string(bus::kStationName));
 }
 

@@ -136,6 +136,7 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
                          .timing = summary.timing,
                          .warnings = summary.warnings,
                          .malformed = summary.malformed,
+                         .unsent = summary.unsent,
                          .unwritten = unwritten_};
   if (mission.start_tick()) {
     report.mission_time_s = seconds(mission.end_tick().value_or(simulation.tick()) - *mission.start_tick());

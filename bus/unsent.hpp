@@ -1,0 +1,27 @@
+// Samples that a program meant to send and that never left it. One count for all of its writers.   Threads: any.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace skein::bus {
+
+class Unsent {
+ public:
+  /// Counts a sample, and warns in the program's log of the first one on each topic.
+  /// @param why  "its readers are too slow"
+  void note(const std::string& topic, std::string_view why);
+  /// So far, on all topics.
+  std::uint64_t count() const { return count_; }
+
+ private:
+  std::atomic<std::uint64_t> count_ = 0;
+  std::mutex mutex_;
+  std::set<std::string> told_;  ///< topics
+};
+
+}  // namespace skein::bus
