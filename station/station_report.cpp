@@ -7,6 +7,7 @@
 #include "process/program_report.hpp"
 #include "process/reports.hpp"
 #include "process/run_folder.hpp"
+#include "process/run_tables.hpp"
 
 namespace skein::station {
 namespace {
@@ -31,7 +32,7 @@ std::string timeline_csv(const Scoreboard& scoreboard) {
 /// Why a point of a capture does not count; empty when it does.
 std::string reason(const Scoreboard& scoreboard, const LedgerEntry& entry, const CapturePoint& point,
                    const Audit& audit) {
-  if (scoreboard.is_void(entry.uav)) return "uav collided";
+  if (scoreboard.is_void(entry.uav)) return run_tables::kUavCollided;
   if (!audit.delivered) {
     return audit.refused ? "refused: " + std::string(to_string(*audit.refused)) : "not received";
   }
