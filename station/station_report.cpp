@@ -9,6 +9,7 @@
 #include "process/program_report.hpp"
 #include "process/reports.hpp"
 #include "process/run_folder.hpp"
+#include "process/run_tables.hpp"
 
 namespace skein::station {
 namespace {
@@ -24,7 +25,7 @@ std::string timeline_csv(const Scoreboard& scoreboard) {
 /// Why a point of a capture does not count; empty when it does.
 std::string reason(const Scoreboard& scoreboard, const LedgerEntry& entry, const CapturePoint& point,
                    const Audit& audit) {
-  if (scoreboard.is_void(entry.uav)) return "uav collided";
+  if (scoreboard.is_void(entry.uav)) return run_tables::kUavCollided;
   if (!audit.delivered) {
     return audit.refused ? "refused: " + std::string(to_string(*audit.refused)) : "not received";
   }
@@ -73,15 +74,15 @@ StationReport report_of(const Scoreboard& scoreboard, const std::vector<std::str
 }  // namespace
 
 void write_station_report(const std::filesystem::path& folder, const Scoreboard& scoreboard,
-                          const std::vector<std::string>& uav_names, StatusPipe& status, std::uint64_t malformed,
-                          std::vector<std::string> unwritten) {
+                          const std::vector<std::string>& uav_names, StatusPipe& status, StationNotes notes) {
   for (std::string trouble : {write_if_possible(folder / run_folder::kScoreTimeline, timeline_csv(scoreboard)),
                               write_if_possible(folder / run_folder::kCaptures, captures_csv(scoreboard, uav_names))}) {
-    if (!trouble.empty()) unwritten.push_back(std::move(trouble));
+    if (!trouble.empty()) notes.unwritten.push_back(std::move(trouble));
   }
   StationReport report = report_of(scoreboard, uav_names);
-  report.malformed = malformed;
-  report.unwritten = std::move(unwritten);
+  report.malformed = notes.malformed;
+  report.unsent = notes.unsent;
+  report.unwritten = std::move(notes.unwritten);
   hand_in_report(json_of(report), folder / run_folder::report_file(programs::kStation), status);
 }
 
