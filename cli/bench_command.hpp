@@ -2,8 +2,8 @@
 // programs of a user's run; the figures' arithmetic is in bench/report.hpp, what they mean in docs/performance.md.
 #pragma once
 
+#include "cli/console.hpp"
 #include "cli/options.hpp"
-#include "cli/run_command.hpp"
 
 namespace skein::cli {
 

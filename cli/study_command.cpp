@@ -12,6 +12,7 @@
 #include "core/text.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
+#include "process/program.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -49,8 +49,8 @@ std::vector<char*> pointers(const std::vector<std::string>& strings) {
   return result;
 }
 
-/// What the child does between fork and exec: only calls that are safe there. Writes its process id to `news`, then, when it
-/// cannot go on, errno.
+/// What the child does between fork and exec: only calls that are safe there. Writes its process id to `news`, then,
+/// when it cannot go on, errno.
 struct ChildSetup {
   pid_t parent;                           ///< the launcher, or the program's minder
   int input, log, status, control, news;  ///< log: -1 keeps the launcher's

@@ -68,7 +68,8 @@ struct RunRecord {
 std::vector<CaptureRow> read_captures(const std::filesystem::path& dir);
 
 /// A file that a program left out because it died is read as empty.
-/// @throws std::runtime_error when there is no result.json or a row makes no sense: the fault of the run, not of the user.
+/// @throws std::runtime_error when there is no result.json or a row makes no sense: the fault of the run, not of the
+/// user.
 RunRecord read_run(const std::filesystem::path& dir);
 
 }  // namespace skein::cli

@@ -96,7 +96,8 @@ class RunResult : public ::testing::Test {
                     "sent_bytes": 400, "delivered_bytes": 280}]})");
     for (const char* uav : {"alpha", "beta"}) {
       write_text(dir_.path() / (std::string("uav_agent-") + uav + ".report.json"), R"({
-        "planner_cpu_s": 0.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_max_ms": 60.25, "planner_exchanges_over_50ms": 3})");
+        "planner_cpu_s": 0.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_max_ms": 60.25,
+        "planner_exchanges_over_50ms": 3})");
     }
   }
 

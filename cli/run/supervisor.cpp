@@ -141,8 +141,8 @@ void Supervisor::read_status(Child& child, std::size_t most, std::vector<Event>&
 }
 
 void Supervisor::reap(Child& child, std::vector<Event>& events) {
-  // Its own children first: as long as the zombie is not reaped, its group's number cannot belong to anyone else. A minder
-  // has ended all that was below it.
+  // Its own children first: as long as the zombie is not reaped, its group's number cannot belong to anyone else. A
+  // minder has ended all that was below it.
   ::kill(-child.pid, SIGKILL);
   // All that it can have left: a process that got away from the group may still write.
   const int left = child.status.get() < 0 ? 0 : ::fcntl(child.status.get(), F_GETPIPE_SZ);

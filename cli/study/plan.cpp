@@ -96,8 +96,8 @@ class AgentDigests {
   std::map<fs::path, std::string> digests_;
 };
 
-/// Whether uav_agent itself has all of a fleet's planners: then it flies them, and what they did does not fall due again
-/// when the user's own agent is built anew.
+/// Whether uav_agent itself has all of a fleet's planners: then it flies them, and what they did does not fall due
+/// again when the user's own agent is built anew.
 bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& built_in) {
   const auto is_built_in = [&](const std::string& spec) {
     return exec_command(spec) || std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;

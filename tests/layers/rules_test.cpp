@@ -178,6 +178,27 @@ TEST_F(MadeUpTree, LongFilesAreFound) {
   EXPECT_EQ(places(check_length(tree(), 3)), Places{"core/long.cpp:4"});
 }
 
+TEST_F(MadeUpTree, LongLinesAreFoundInAllCode) {
+  file("core/good.cpp", "1234\n12\u00e94\n");
+  file("docs/page.md", "12345\n");
+  file("core/text.cpp", "R\"(\n12345\n)\"\n");
+  EXPECT_EQ(check_columns(tree(), 4), Violations{});
+  file("core/CMakeLists.txt", "\n12345\n");
+  file("core/long.hpp", "12345\n");
+  file("skein", "12345\n");
+  EXPECT_EQ(places(check_columns(tree(), 4)), (Places{"core/CMakeLists.txt:2", "core/long.hpp:1", "skein:1"}));
+}
+
+TEST_F(MadeUpTree, FoldersThatIncludeEachOtherAreFound) {
+  for (const char* path : {"station/a/x.hpp", "station/b/x.hpp", "station/top.hpp", "cli/a/x.hpp"}) file(path, "\n");
+  file("station/a/x.cpp", include("station/a/x.hpp") + include("station/b/x.hpp") + include("station/top.hpp"));
+  file("station/top.cpp", include("station/b/x.hpp"));
+  file("station/b/x_test.cpp", include("station/a/x.hpp"));
+  EXPECT_EQ(check_circles(tree()), Violations{});
+  file("station/b/y.cpp", std::string("\n") + include("station/top.hpp"));  // by way of top.cpp
+  EXPECT_EQ(places(check_circles(tree())), (Places{"station/b/y.cpp:2", "station/top.cpp:1"}));
+}
+
 TEST_F(MadeUpTree, UnfinishedWorkIsFoundInAnyText) {
   file("core/good.cpp",
        "int todo; // METHOD"
