@@ -8,6 +8,7 @@
 #include "cli/test_command.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "cli/testing/xml_check.hpp"
+#include "process/program.hpp"
 
 namespace skein::cli {
 namespace {
