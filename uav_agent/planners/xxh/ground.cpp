@@ -1,5 +1,5 @@
 // XXH's program at the ground station: collects the UAVs' starts, closes the list, assigns teams and regions
-// (xxh_plan.hpp), and says so until everybody has heard it. `--planner xxh` starts it beside the UAVs.
+// (plan.hpp), and says so until everybody has heard it. `--planner xxh` starts it beside the UAVs.
 // Source: paper, "Task Assignment" of Team XXH. Our choice: a complete list is closed at once, since nobody is left to
 // be waited for; and who could not report is taken to stand where it should, since it will assume the same.
 #include <map>
