@@ -16,8 +16,8 @@ double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d
 /// Distance of the closest point of a mesh, or `distance_max` when it is farther [m]. Pure.
 double clearance(const btBvhTriangleMeshShape& mesh, const Vector3d& p_W, double distance_max);
 
-/// Says of one body, again and again as it moves, whether it has to be tested for contacts with a mesh. It remembers how
-/// much room there was, and looks at the triangles anew only when that is used up.   Threads: one.
+/// Says of one body, again and again as it moves, whether it has to be tested for contacts with a mesh. It remembers
+/// how much room there was, and looks at the triangles anew only when that is used up.   Threads: one.
 class ClearanceMemory {
  public:
   /// @param reach  of the body's contacts around `p_W`.

@@ -1,6 +1,6 @@
 // Keeps the angular momentum of a turning body through one step of a physics engine that knows angular velocity only
-// (Bullet): its own gyroscopic terms cost a spinning body 2 % of its energy in a second. The engine turns the body at the
-// velocity that belongs to the middle of the step, and what its forces and contacts added to that is added to the
+// (Bullet): its own gyroscopic terms cost a spinning body 2 % of its energy in a second. The engine turns the body at
+// the velocity that belongs to the middle of the step, and what its forces and contacts added to that is added to the
 // momentum.
 // Frames: W world; P, whose axes are the body's principal axes of inertia.   Units: SI.   Threads: one.
 #pragma once

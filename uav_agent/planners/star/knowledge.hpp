@@ -1,5 +1,5 @@
-// What one UAV of STAR knows of the structure: the cubes of the site, from its own map and from what the others told, and
-// what follows from them: which surfaces are left to inspect, and which frontiers to explore.
+// What one UAV of STAR knows of the structure: the cubes of the site, from its own map and from what the others told,
+// and what follows from them: which surfaces are left to inspect, and which frontiers to explore.
 // Frame W.   Units: SI.   Threads: one.
 #pragma once
 

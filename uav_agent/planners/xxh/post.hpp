@@ -1,5 +1,5 @@
-// Where a UAV of XXH waits: at a post of its own beside the entry of a region while its team is not ready, and above its
-// start when all is done.
+// Where a UAV of XXH waits: at a post of its own beside the entry of a region while its team is not ready, and above
+// its start when all is done.
 // Frame W.   Units: SI.   Threads: one.   Effort: one search for a way in one call.
 // Source: paper, "Exploration Strategy" of Team XXH, for waiting at the entry; how the posts lie is our choice.
 #pragma once
