@@ -1,6 +1,6 @@
 // What of the network is this very host: a fleet keeps to it unless it is told otherwise, and still meets the nodes
-// beside it that do not, such as ROS 2 nodes with default settings. These announce the addresses of their interfaces and
-// listen to multicast on all of them; on Linux that includes what is sent to a group on the loopback interface.
+// beside it that do not, such as ROS 2 nodes with default settings. These announce the addresses of their interfaces
+// and listen to multicast on all of them; on Linux that includes what is sent to a group on the loopback interface.
 #pragma once
 
 #include <cstdint>

@@ -19,8 +19,8 @@ foreach(library ${libraries})
   add_library(skein::${library} ALIAS skein_${library})
 endforeach()
 
-# Headers of what a planner may use, where SkeinBuild.cmake has them, and under their former names. The rest is internal:
-# the contract's sources get the agent's headers for themselves.
+# Headers of what a planner may use, where SkeinBuild.cmake has them, and under their former names. The rest is
+# internal: the contract's sources get the agent's headers for themselves.
 install(DIRECTORY core DESTINATION include/skein FILES_MATCHING PATTERN "*.hpp")
 foreach(folder api maps flight planning)
   install(DIRECTORY uav_agent/${folder} DESTINATION include/skein/uav_agent FILES_MATCHING PATTERN "*.hpp")

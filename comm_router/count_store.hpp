@@ -12,8 +12,8 @@ namespace skein::router {
 
 class CountStore {
  public:
-  /// Opens or creates the file; what another run counted is none of ours, and begins at 0. It is mapped: what is written
-  /// survives the death of this process (not of the machine).
+  /// Opens or creates the file; what another run counted is none of ours, and begins at 0. It is mapped: what is
+  /// written survives the death of this process (not of the machine).
   /// @throws std::system_error when the file cannot be opened, made as long as it must be, or mapped.
   CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run = RunId::none);
   ~CountStore();

@@ -24,10 +24,6 @@ bool listed(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bus::TopicSpec radio_spec(const std::string& topic, const std::string& type, std::size_t sources = 1) {
-  return {topic, type, bus::Qos{.reliable = true, .latched = false, .depth = topics::radio_depth(sources)}};
-}
-
 std::vector<SentCount> sent_counts(const msg::Done& done) {
   std::vector<SentCount> counts;
   for (const auto& sent : done.sent()) counts.push_back({sent.topic(), sent.count()});
@@ -53,7 +49,8 @@ RouterNode::RouterNode(const Scenario& scenario, std::uint64_t seed, int base_do
       registry_(scenario, table_, endpoints()),
       inbox_(bus.run()),
       world_(bus.join(world_domain(base_domain))),
-      client_(*world_, inbox_, std::string(bus::kRouterName)) {
+      client_(*world_, inbox_, std::string(bus::kRouterName)),
+      arrivals_(scenario, nodes_) {
   for (const Node node : scenario.nodes()) nodes_.push_back(bus.join(node_domain(base_domain, node)));
   for (const Node node : scenario.nodes()) open_door(node, "");
   open_door(kStationNode, bus::kStationName);
@@ -102,17 +99,12 @@ void RouterNode::open_requests(Node node) {
   };
   request_readers_.push_back(
       inbox_.subscribe(*nodes_[node], bus::spec(topics::radio_request()), queue, bus::Bell::silent));
-  const bus::TopicSpec replies = bus::spec(topics::radio_reply());
-  replies_of_.push_back(arrivals_.size());
-  arrivals_.push_back({node, replies.name, std::make_unique<bus::CountedWriter>(*nodes_[node], replies)});
+  arrivals_.open_replies(node);
 }
 
 void RouterNode::open_route(std::size_t number) {
   const RadioRoute& route = table_.routes()[number];
-  if (number == radio_readers_.size()) {
-    radio_readers_.emplace_back();
-    arrival_of_.emplace_back();
-  }
+  if (number == radio_readers_.size()) radio_readers_.emplace_back();
   if (!radio_readers_[number]) {
     const auto queue = [this, number](bus::Sample&& sample) {
       const RadioRoute& of = table_.routes()[number];
@@ -124,22 +116,14 @@ void RouterNode::open_route(std::size_t number) {
     radio_readers_[number] =
         inbox_.subscribe(*nodes_[route.source], radio_spec(route.topic, route.type), queue, bus::Bell::silent);
   }
-  for (std::size_t t = arrival_of_[number].size(); t < route.targets.size(); ++t) {
-    arrival_of_[number].push_back(find_or_open_arrival(route.targets[t], route.type));
-  }
+  arrivals_.open_route(number, route);
 }
 
 // Nothing ever went over it, so whoever opens it again begins to count at 0 as everybody does.
 void RouterNode::close_route(std::size_t number) {
   if (number < declared_routes_) return;
   radio_readers_[number].reset();
-  const std::vector<std::size_t> arrivals = std::exchange(arrival_of_[number], {});
-  for (const std::size_t arrival : arrivals) {
-    const auto uses = [&](const std::vector<std::size_t>& used) {
-      return std::ranges::find(used, arrival) != used.end();
-    };
-    if (std::ranges::none_of(arrival_of_, uses)) arrivals_[arrival].writer.reset();
-  }
+  arrivals_.close_route(number);
 }
 
 // Whoever sends as a member has been attached before.
@@ -164,19 +148,11 @@ std::uint64_t RouterNode::unheard() const {
 }
 
 RadioEndpoints RouterNode::endpoints() {
-  const auto arrival_at = [this](const RadioTarget& target) {
-    return std::find_if(arrivals_.begin(), arrivals_.end(),
-                        [&](const Arrival& a) { return a.node == target.node && a.topic == target.topic; });
-  };
   return {.open = [this](std::size_t route) { open_route(route); },
           .close = [this](std::size_t route) { close_route(route); },
           .hears = [this](std::size_t route,
                           SourceId source) { return bus::contains(radio_readers_[route]->matched(), source); },
-          .reaches =
-              [this, arrival_at](const RadioTarget& target, SourceId source) {
-                const auto arrival = arrival_at(target);
-                return arrival != arrivals_.end() && arrival->writer && arrival->writer->matches(source);
-              },
+          .reaches = [this](const RadioTarget& target, SourceId source) { return arrivals_.reaches(target, source); },
           .declared =
               [this](const RadioTarget& target) {
                 return std::any_of(applicants_.begin(), applicants_.end(), [&](const auto& entry) {
@@ -187,18 +163,6 @@ RadioEndpoints RouterNode::endpoints() {
               },
           .admit = [this](std::size_t route, SourceId source) { sync_.open(source, route); },
           .lost = [this](SourceId source) { return sync_.lost(source); }};
-}
-
-std::size_t RouterNode::find_or_open_arrival(const RadioTarget& target, const std::string& type) {
-  const auto found = std::find_if(arrivals_.begin(), arrivals_.end(),
-                                  [&](const Arrival& a) { return a.node == target.node && a.topic == target.topic; });
-  const auto number = static_cast<std::size_t>(found - arrivals_.begin());
-  if (found == arrivals_.end()) arrivals_.push_back({target.node, target.topic, nullptr});
-  if (!arrivals_[number].writer) {
-    arrivals_[number].writer =
-        std::make_unique<bus::CountedWriter>(*nodes_[target.node], radio_spec(target.topic, type, nodes_.size()));
-  }
-  return number;
 }
 
 void RouterNode::on_ready(std::size_t door, const msg::Ready& ready, bus::ParticipantId source) {
@@ -220,13 +184,7 @@ std::string RouterNode::unmatched(const Applicant& applicant, bus::ParticipantId
       return routes[r].topic;
     }
   }
-  for (const Arrival& arrival : arrivals_) {
-    if (arrival.node == applicant.node && arrival.writer && listed(applicant.reads, arrival.topic) &&
-        !arrival.writer->matches(source)) {
-      return arrival.topic;
-    }
-  }
-  return "";
+  return arrivals_.unmatched(applicant.node, applicant.reads, source);
 }
 
 bool RouterNode::attach() {
@@ -306,23 +264,15 @@ void RouterNode::begin_step() {
 void RouterNode::deliver(const StepBatch& batch) {
   const GatedStep gated = gate_.gate(batch.k, batch.links, batch.messages);
   if (count_store_) count_store_->save(gate_, gated);
-  Delivered delivered;
   for (const Delivery& delivery : gated.deliveries) {
-    write_arrival(arrival_of_[delivery.route][delivery.target], *delivery.payload, delivered);
+    arrivals_.write(delivery.route, delivery.target, *delivery.payload);
   }
-  reply(delivered);
+  reply();
 
   auto routed = bus::message_of<msg::Routed>(inbox_.run());
   routed.k(batch.k);
   routed.epoch(batch.epoch);
-  for (const auto& [node, counts] : delivered) {
-    msg::NodeCounts entry;
-    entry.node(scenario_.node_name(node));
-    for (const auto& [index, total] : counts) {
-      entry.delivered().push_back(bus::topic_count(arrivals_[index].topic, nodes_[node]->id(), total));
-    }
-    routed.nodes().push_back(std::move(entry));
-  }
+  routed.nodes(arrivals_.take_delivered());
   routed.digest(gated.digest);
   routed.decided_by_clock(registry_.decided_by_clock());
   client_.write(topics::routed().name, routed);
@@ -330,16 +280,8 @@ void RouterNode::deliver(const StepBatch& batch) {
   last_step_answered_ = batch.k == last_k_;
 }
 
-void RouterNode::write_arrival(std::size_t index, std::span<const std::uint8_t> payload, Delivered& delivered) {
-  Arrival& arrival = arrivals_[index];
-  const auto [entry, first] = delivered[arrival.node].try_emplace(index, 0);
-  if (first) arrival.writer->begin_step();
-  arrival.writer->write(payload);
-  entry->second = arrival.writer->count();
-}
-
 // Replies are counted like what arrives by radio, but are none: they need no link, and are in no digest.
-void RouterNode::reply(Delivered& delivered) {
+void RouterNode::reply() {
   for (const RadioReply& answer : registry_.end_step()) {
     if (!answer.reason.empty()) {
       spdlog::warn("a radio topic of {} is refused: {}", scenario_.node_name(answer.asker.node), answer.reason);
@@ -350,7 +292,7 @@ void RouterNode::reply(Delivered& delivered) {
     message.open(answer.open);
     message.reason(answer.reason);
     message.unheard(answer.unheard);
-    write_arrival(replies_of_[answer.asker.node], encode(message), delivered);
+    arrivals_.write_reply(answer.asker.node, encode(message));
   }
 }
 

@@ -14,6 +14,7 @@
 #include "bus/lockstep/client_node.hpp"
 #include "bus/lockstep/patience.hpp"
 #include "bus/lockstep/strangers.hpp"
+#include "comm_router/arrivals_node.hpp"
 #include "comm_router/count_store.hpp"
 #include "comm_router/link_gate.hpp"
 #include "comm_router/radio_registry.hpp"
@@ -80,13 +81,6 @@ class RouterNode final : public bus::ClientNode {
     bool attached = false;
   };
 
-  /// One topic on which messages arrive at a node: all sources share it, so their order is one order.
-  struct Arrival {
-    Node node = kStationNode;
-    std::string topic;
-    std::unique_ptr<bus::CountedWriter> writer;  ///< null: closed again
-  };
-
   void open_door(Node node, std::string_view member);
   /// True when a sample is nobody's who was ever attached: it goes nowhere, and is counted.
   bool from_stranger(Node node, const std::string& topic, bus::ParticipantId source);
@@ -97,7 +91,6 @@ class RouterNode final : public bus::ClientNode {
   void close_route(std::size_t number);
   RadioEndpoints endpoints();
   std::vector<RadioRequest> read_requests(const StepBatch& batch);
-  std::size_t find_or_open_arrival(const RadioTarget& target, const std::string& type);
   void on_ready(std::size_t door, const msg::Ready& ready, bus::ParticipantId source);
   /// @returns true while somebody is not attached yet.
   bool attach();
@@ -109,11 +102,8 @@ class RouterNode final : public bus::ClientNode {
   void tell_awaited(bool waits);
   std::vector<msg::Await> awaited() const;
   void begin_step();
-  /// Counts so far of the arrival topics that got something in this step, by node, index into arrivals_.
-  using Delivered = std::map<Node, std::map<std::size_t, std::uint64_t>>;
   void deliver(const StepBatch& batch);
-  void reply(Delivered& delivered);
-  void write_arrival(std::size_t index, std::span<const std::uint8_t> payload, Delivered& delivered);
+  void reply();
 
   const Scenario& scenario_;
   RadioTable table_;
@@ -128,19 +118,17 @@ class RouterNode final : public bus::ClientNode {
   std::uint64_t k_ = 0;  ///< the step that was begun last
   bus::Inbox inbox_;
   std::unique_ptr<bus::Participant> world_;
-  std::vector<std::unique_ptr<bus::Participant>> nodes_;
+  Arrivals::Participants nodes_;
   bus::LockstepClient client_;
   std::unique_ptr<bus::Reader> drop_reader_;
   std::vector<Door> doors_;
   std::vector<std::unique_ptr<bus::Reader>> request_readers_;  ///< by node
   std::vector<std::unique_ptr<bus::Reader>> radio_readers_;    ///< by route; null: closed again
-  std::vector<Arrival> arrivals_;
-  std::vector<std::vector<std::size_t>> arrival_of_;  ///< by route, target: index into arrivals_
-  std::vector<std::size_t> replies_of_;               ///< by node: likewise, where it gets its replies
-  std::optional<StepBatch> batch_;                    ///< while its registrations wait for matches
-  bus::Patience match_patience_{0.0};                 ///< for those
-  std::optional<bus::Patience> word_patience_;        ///< since it waits; over: the server is told
-  std::optional<std::vector<msg::Await>> told_;       ///< to the server, in this step
+  Arrivals arrivals_;
+  std::optional<StepBatch> batch_;               ///< while its registrations wait for matches
+  bus::Patience match_patience_{0.0};            ///< for those
+  std::optional<bus::Patience> word_patience_;   ///< since it waits; over: the server is told
+  std::optional<std::vector<msg::Await>> told_;  ///< to the server, in this step
   std::optional<msg::Routed> last_routed_;
   std::map<bus::ParticipantId, Applicant> applicants_;
   std::optional<std::uint64_t> last_k_;  ///< of the final step

@@ -1,5 +1,6 @@
 // Files that others wrote: a whole one in memory, or line by line. Whatever bears the name, a pipe that nobody writes
-// to, a device without an end, a file of zeros, is told from a text, and neither keeps us nor takes our memory. Any thread.
+// to, a device without an end, a file of zeros, is told from a text, and neither keeps us nor takes our memory.
+// Any thread.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Numbers that name a UAV or a radio node, as types: who mixes them up does not compile. They are made explicitly and read
-// freely, so that they serve as an index. Pure.
+// Numbers that name a UAV or a radio node, as types: who mixes them up does not compile. They are made explicitly and
+// read freely, so that they serve as an index. Pure.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Something for each directed link between two radio nodes. On the wire and in files it is row-major: row by sender, column
-// by receiver. Pure.
+// Something for each directed link between two radio nodes. On the wire and in files it is row-major: row by sender,
+// column by receiver. Pure.
 #pragma once
 
 #include <cstddef>

@@ -52,7 +52,8 @@ class RadioTable {
   /// @param targets  names of other nodes, or {"all"}
   /// @returns the route's number
   /// @throws InputError, and changes nothing, for: a malformed or reserved name; a malformed type, or another type than
-  ///   the topic has; an unknown or repeated target, the source among them, or none; a name that is taken at either end.
+  ///   the topic has; an unknown or repeated target, the source among them, or none; a name that is taken at
+  ///   either end.
   std::size_t open(Node source, const std::string& ros_topic, const std::string& ros_type,
                    const std::vector<std::string>& targets);
   /// Type on the wire of what arrives at a node on a topic that need not exist yet.

@@ -1,6 +1,6 @@
-// What programs report at their end, for the launcher's result.json and for people (program_report.hpp). The key of each
-// member stands in its describe(), in the order in which files have them. A report may be damaged, or a user's: what it
-// lacks is empty.
+// What programs report at their end, for the launcher's result.json and for people (program_report.hpp). The key of
+// each member stands in its describe(), in the order in which files have them. A report may be damaged, or a user's:
+// what it lacks is empty.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// What programs say on their status pipes (status_pipe.hpp) while a run goes on: a JSON object a line, whose "type" says
-// which of these it is. Times in seconds. And what the launcher says on their control pipes.
+// What programs say on their status pipes (status_pipe.hpp) while a run goes on: a JSON object a line, whose "type"
+// says which of these it is. Times in seconds. And what the launcher says on their control pipes.
 #pragma once
 
 #include <array>
@@ -86,8 +86,8 @@ using Line = std::variant<Progress, Tally, WaitingFor, Order, Warning, Rejoined,
 /// For StatusPipe::send().
 nlohmann::json line_json(const Line& line);
 
-/// @returns nullopt when the text is none of these; what a line lacks, or has of another kind, is as above. Never throws:
-/// a user's command may write anything.
+/// @returns nullopt when the text is none of these; what a line lacks, or has of another kind, is as above. Never
+/// throws: a user's command may write anything.
 std::optional<Line> read_line(const std::string& text);
 
 }  // namespace skein::status

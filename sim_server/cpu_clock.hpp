@@ -13,8 +13,8 @@ class CpuClock final : public WorkClock {
  public:
   void begin(Work work) override;
   void end(Work work) override;
-  /// `physics_s` is what the simulation did besides LiDAR, camera and links; lidar_ms_per_scan is there when there was a
-  /// scan; cpu_s is the caller's to fill in.
+  /// `physics_s` is what the simulation did besides LiDAR, camera and links; lidar_ms_per_scan is there when there was
+  /// a scan; cpu_s is the caller's to fill in.
   TimingReport summary() const;
 
  private:

@@ -1,5 +1,5 @@
-// What the server writes for the ground station's side: the GCS domain's topics, and the referee's ledger, which reaches the
-// station over the world's domain.
+// What the server writes for the ground station's side: the GCS domain's topics, and the referee's ledger, which
+// reaches the station over the world's domain.
 #pragma once
 
 #include "bus/bus.hpp"

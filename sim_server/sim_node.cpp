@@ -20,7 +20,6 @@ using std::chrono::milliseconds;
 // While somebody joins, matches come in without a sample to announce them.
 constexpr milliseconds kMatchPoll{2};
 constexpr milliseconds kIdlePoll{100};
-constexpr milliseconds kProgressPeriod{200};
 /// For the step that is under way when the user ends the run.
 constexpr double kStopPatience_s = 2.0;
 
@@ -59,14 +58,12 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       digest_(uav_names_),
       files_(options.out, scenario, digest_),
       inbox_(bus.run()),
-      server_(inbox_) {
+      server_(inbox_),
+      process_faults_(options.faults),
+      progress_(scenario, status) {
   participants_.push_back(bus.join(world_domain(options.base_domain)));
   for (const Node node : scenario.nodes()) {
     participants_.push_back(bus.join(node_domain(options.base_domain, node)));
-  }
-  for (const Fault& fault : options.faults.faults) {
-    const bool of_process = std::holds_alternative<Kill>(fault.action) || std::holds_alternative<Pause>(fault.action);
-    if (of_process) process_faults_.push_back({fault});
   }
   declare_members();
 }
@@ -142,7 +139,7 @@ bus::LockstepNode::Rest SimNode::rest() {
   if (state_ == State::in_step) return {.longest = kIdlePoll, .rings = server_.rings(), .until_rung = true};
   if (state_ != State::pacing) return {.longest = kMatchPoll, .until_rung = false};
   const auto left = std::chrono::ceil<milliseconds>(due() - Clock::now());
-  return {.longest = std::clamp(left, milliseconds(0), kProgressPeriod), .until_rung = false};
+  return {.longest = std::clamp(left, milliseconds(0), ProgressTeller::kPeriod), .until_rung = false};
 }
 
 void SimNode::wait_for(State state, const char* what, double patience_s) {
@@ -195,7 +192,7 @@ void SimNode::begin_step() {
 bool SimNode::take_answers(bool arrived) {
   if (!server_.answered()) {
     const bool told = tell_waiting();
-    if (!arrived && !told) report_progress(false);
+    if (!arrived && !told) progress_.tell(simulation_, summary_.lost);
     if (aborted_ || gives_up_step()) {
       end_run(true);
       return false;
@@ -244,7 +241,7 @@ bool SimNode::let_in_members() {
 // Real time: the next step is due when the wall clock says so; what arrives meanwhile is taken in.
 bool SimNode::keep_pace() {
   if (options_.realtime_factor && Clock::now() < due() && !aborted_ && !stop_requested_) {
-    report_progress(false);
+    progress_.tell(simulation_, summary_.lost);
     return false;
   }
   if (aborted_) {
@@ -278,7 +275,7 @@ void SimNode::end_run(bool joined) {
   if (options_.realtime_factor || summary_.status == RunStatus::interrupted || aborted_) summary_.deterministic = false;
   if (summary_.deterministic) summary_.digest = digest_.hex();
   files_.write_report(simulation_, summary_, status_);
-  if (joined) report_progress(true);
+  if (joined) progress_.tell_now(simulation_, summary_.lost);
   status_.send_surely(status::line_json(status::Ended{summary_.status, stalled_}));
 }
 
@@ -287,25 +284,19 @@ void SimNode::end_run(bool joined) {
 // At the boundary before step k + 1. The order to carry on comes from the launcher: the program cannot hear us.
 void SimNode::end_process_faults() {
   const Tick next_tick = simulation_.tick() + scenario_.exchange_ticks();
-  for (ProcessFault& fault : process_faults_) {
-    if (!fault.acting || fault.fault.active(next_tick)) continue;
-    fault.acting = false;
-    const std::string member = fault_target(fault.fault);
-    if (server_.let_back(member)) tell_order(member, fault.kill() ? What::start : What::resume, next_tick);
+  for (const auto& [member, killed, kind] : process_faults_.take_ending(next_tick)) {
+    if (server_.let_back(member)) tell_order(member, killed ? What::start : What::resume, next_tick);
   }
 }
 
 // Before step k is published, which then tells the victims what to do.
 void SimNode::begin_process_faults() {
   const Tick tick = simulation_.tick();
-  for (ProcessFault& fault : process_faults_) {
-    if (fault.acting || !fault.fault.active(tick)) continue;
-    fault.acting = true;
-    const std::string member = fault_target(fault.fault);
-    if (server_.take_out(member, fault.kill() ? bus::kOrderKill : bus::kOrderStop)) {
-      tell_order(member, fault.kill() ? What::kill : What::stop, tick);
+  for (const auto& [member, killed, kind] : process_faults_.take_beginning(tick)) {
+    if (server_.take_out(member, killed ? bus::kOrderKill : bus::kOrderStop)) {
+      tell_order(member, killed ? What::kill : What::stop, tick);
     } else {
-      summary_.warnings.push_back(fault_kind(fault.fault) + " " + member + ": it took no part in the run then");
+      summary_.warnings.push_back(kind + " " + member + ": it took no part in the run then");
     }
   }
 }
@@ -391,25 +382,7 @@ void SimNode::finish_step() {
       files_.events().add_release(simulation_, uav_names_[i], capture);
     }
   }
-  report_progress(false);
-}
-
-void SimNode::report_progress(bool now) {
-  const Mission& mission = simulation_.mission();
-  if (!now && mission.phase() == last_phase_ && Clock::now() - last_progress_ < kProgressPeriod) return;
-  last_progress_ = Clock::now();
-  last_phase_ = mission.phase();
-  status::Progress progress{.time_s = seconds(simulation_.tick()),
-                            .mission_s = 0.0,
-                            .duration_s = scenario_.duration_s,
-                            .phase = mission.phase()};
-  if (mission.start_tick()) progress.mission_s = seconds(simulation_.tick() - *mission.start_tick());
-  for (const UavIndex i : FirstUavs(simulation_.size())) {
-    if (simulation_.open_links().at(kStationNode, node_of_uav(i))) progress.in_contact.push_back(uav_names_[i]);
-    progress.alive += simulation_.uav(i).alive;
-  }
-  for (const LostProcess& process : summary_.lost) progress.lost.push_back(process.name);
-  status_.send(status::line_json(progress));
+  progress_.tell(simulation_, summary_.lost);
 }
 
 RunStatus SimNode::end_status() const {

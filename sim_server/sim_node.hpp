@@ -19,6 +19,8 @@
 #include "process/status_pipe.hpp"
 #include "sim_server/cpu_clock.hpp"
 #include "sim_server/gcs_node.hpp"
+#include "sim_server/process_faults.hpp"
+#include "sim_server/progress_teller.hpp"
 #include "sim_server/record/fault_timeline.hpp"
 #include "sim_server/record/run_files.hpp"
 #include "sim_server/simulation.hpp"
@@ -62,12 +64,6 @@ class SimNode final : public bus::LockstepNode {
  private:
   using Clock = std::chrono::steady_clock;
   using What = status::Order::What;
-  /// A fault that kills or stops a program.
-  struct ProcessFault {
-    Fault fault;
-    bool acting = false;
-    bool kill() const { return std::holds_alternative<Kill>(fault.action); }
-  };
 
   enum class State { joining, in_step, letting_in, pacing, over };
 
@@ -92,7 +88,6 @@ class SimNode final : public bus::LockstepNode {
   void end_process_faults();
   void tell_order(const std::string& member, What order, Tick tick);
   bool is_last_step() const;
-  void report_progress(bool now);
   RunStatus end_status() const;
 
   const Scenario& scenario_;
@@ -110,7 +105,8 @@ class SimNode final : public bus::LockstepNode {
   bus::Strangers strangers_;  ///< who sends commands without being a member
   std::vector<std::unique_ptr<UavNode>> uavs_;
   std::unique_ptr<GcsNode> gcs_;
-  std::vector<ProcessFault> process_faults_;
+  ProcessFaults process_faults_;
+  ProgressTeller progress_;
   State state_ = State::joining;
   std::optional<WaitTeller> wait_;  ///< for whom this state waits
   double patience_s_ = 0.0;
@@ -121,8 +117,6 @@ class SimNode final : public bus::LockstepNode {
   bool stop_requested_ = false, aborted_ = false, last_step_ = false;
   Clock::time_point stop_requested_at_{};
   std::vector<std::string> stalled_;  ///< who had not answered when a stop was requested, nor for some time after
-  Clock::time_point last_progress_{};
-  Phase last_phase_ = Phase::waiting;  ///< as last told
 };
 
 }  // namespace skein::sim

@@ -19,8 +19,8 @@ class WaitTeller {
   /// The wait begins now. @param what  is awaited of somebody: "to join". @param status  must outlive this.
   WaitTeller(StatusPipe& status, const char* what) : status_(status), what_(what), notice_(told_) {}
 
-  /// To be called again and again while the wait lasts. The launcher hears of it twice a second once it is no trifle, the
-  /// log when a line is due (core/wait_notice.hpp); "due" marks that for the launcher, too.
+  /// To be called again and again while the wait lasts. The launcher hears of it twice a second once it is no trifle,
+  /// the log when a line is due (core/wait_notice.hpp); "due" marks that for the launcher, too.
   /// @param awaited  gives whom; only asked when there is something to tell.
   /// @returns false while it is a trifle.
   template <class Awaited>

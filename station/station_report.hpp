@@ -20,9 +20,9 @@ struct StationNotes {
 /// Writes the three files into `folder`, each in one piece (never half a file).
 ///
 /// score_timeline.csv: time_s, points, score; a line for each change.
-/// captures.csv: uav, capture, tick, time_s, point, q_seen, q_blur, q_res, q_distance, q, delivered_at_s, reason; a line
-///   for each point of each capture in the ledger. `reason` says why it does not count: "not received", "refused: <why>",
-///   "uav collided", "better capture" (another one of this point counts); empty when it does.
+/// captures.csv: uav, capture, tick, time_s, point, q_seen, q_blur, q_res, q_distance, q, delivered_at_s, reason; a
+///   line for each point of each capture in the ledger. `reason` says why it does not count: "not received",
+///   "refused: <why>", "uav collided", "better capture" (another one of this point counts); empty when it does.
 /// station.report.json: a StationReport (process/reports.hpp); score_earned is left out when no entry of the ledger
 ///   stands, points are those that count.
 /// @param uav_names  in fleet order.

@@ -13,8 +13,8 @@
 
 namespace skein::test {
 
-/// Reserves consecutive domain ids for its lifetime, by the locks of the launcher (cli/run/domain_block.hpp), so that no fleet
-/// comes in between. They go with the process, however it ends. Domains below kFirst are left to users.
+/// Reserves consecutive domain ids for its lifetime, by the locks of the launcher (cli/run/domain_block.hpp), so that
+/// no fleet comes in between. They go with the process, however it ends. Domains below kFirst are left to users.
 class FreeDomains {
  public:
   static constexpr int kFirst = 10;

@@ -1,5 +1,5 @@
-// What the two programs of a strategy have in common, the one on board and the one at the ground station: a place in the
-// lock-step, in one domain and no other.
+// What the two programs of a strategy have in common, the one on board and the one at the ground station: a place in
+// the lock-step, in one domain and no other.
 #pragma once
 
 #include <memory>

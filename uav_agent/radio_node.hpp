@@ -19,7 +19,8 @@ class RadioNode {
  public:
   RadioNode(const Scenario& scenario, Node node);
 
-  /// Declares this node's topics, before client.start(). @param received  takes what arrives; it must outlive the client.
+  /// Declares this node's topics, before client.start().
+  /// @param received  takes what arrives; it must outlive the client.
   void declare(bus::LockstepClient& client, std::vector<RadioMessage>& received) const;
   /// Sends what the scenario lets this node send; anything else is left out.
   void send(bus::LockstepClient& client, std::span<const RadioMessage> messages) const;

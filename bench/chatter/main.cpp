@@ -1,6 +1,6 @@
-// bench_chatter: software of a UAV that does nothing but talk, for `skein bench` and for tests. It registers one unicast
-// radio topic to every other node, of a type that exists nowhere else, listens to what the others send it, and sends on
-// each topic in every step.
+// bench_chatter: software of a UAV that does nothing but talk, for `skein bench` and for tests. It registers one
+// unicast radio topic to every other node, of a type that exists nowhere else, listens to what the others send it, and
+// sends on each topic in every step.
 //   skein run FILE --planner exec:bench_chatter        (the launcher sets SKEIN_DOMAIN, SKEIN_UAV, SKEIN_DDS, ...)
 // Each message says which one it is; one that comes twice, out of order or damaged ends the program with exit code 1.
 // Its last line on stdout is JSON: messages heard.

@@ -23,7 +23,8 @@ class Packing {
   Packing(const Packing&) = delete;
   Packing& operator=(const Packing&) = delete;
 
-  /// Before the first hold(). @param type  registered in the participant's domain; all domains of a process may be given.
+  /// Before the first hold().
+  /// @param type  registered in the participant's domain; all domains of a process may be given.
   void install(const ddsi_sertype* type);
   /// From now on, what this thread writes to the domain waits for release().
   void hold();

@@ -1,5 +1,5 @@
-// UDP of Fast DDS on the loopback interface takes no address of this host but 127.0.0.1, though nodes with default settings
-// announce the others and listen on all of them. This one reaches them, and nobody on other hosts.
+// UDP of Fast DDS on the loopback interface takes no address of this host but 127.0.0.1, though nodes with default
+// settings announce the others and listen on all of them. This one reaches them, and nobody on other hosts.
 #pragma once
 
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>

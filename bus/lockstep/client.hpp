@@ -27,7 +27,8 @@ class LockstepClient {
   /// @param member  UAV name, "gcs", "station" or "comm_router".
   LockstepClient(Participant& participant, Inbox& inbox, std::string member);
 
-  /// Declarations, before start(). Handlers run inside poll(), in an order that depends on nothing but the announcement.
+  /// Declarations, before start(). Handlers run inside poll(), in an order that depends on nothing but
+  /// the announcement.
   void read(const TopicSpec& topic, Counterpart counterpart, CountedQueues::Handler handler);
   /// The same for messages: `handler` gets (message); what is no Message is dropped and counted (typed.hpp).
   template <WireMessage Message, class Handler>

@@ -28,8 +28,8 @@ class ClientNode : public LockstepNode {
   virtual std::size_t rings() { return client().rings(); }
   /// Whether the answer to the last step is out.
   virtual bool answered_last() const = 0;
-  /// A fault stopped us and is over. @returns whether start() joins again, with a new participant and a new client; else
-  /// it takes a new node to do that.
+  /// A fault stopped us and is over. @returns whether start() joins again, with a new participant and a new client;
+  /// else it takes a new node to do that.
   virtual bool rejoin() { return false; }
   /// After so long without a step the log tells what it waits for; again after twice as long, and so on.
   virtual std::chrono::milliseconds first_word() const { return WaitNotice::kFirst; }

@@ -1,6 +1,6 @@
-// The seam of all programs of a fleet: whoever drives a node gives it turns, and nothing else makes it work. A program of
-// its own sleeps between them (run_node()); a test, or a process that is home to a whole fleet, gives each node its turn
-// with poll().   Threads: one.
+// The seam of all programs of a fleet: whoever drives a node gives it turns, and nothing else makes it work. A program
+// of its own sleeps between them (run_node()); a test, or a process that is home to a whole fleet, gives each node its
+// turn with poll().   Threads: one.
 #pragma once
 
 #include <chrono>

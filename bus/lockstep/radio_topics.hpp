@@ -36,7 +36,8 @@ class RadioTopics {
   /// First thing in each step: asks again what a router that has come back knows nothing of.
   void begin_step();
 
-  /// Puts a message on the air. While thinking. @returns false when the topic is not open, or this step's share is sent.
+  /// Puts a message on the air. While thinking.
+  /// @returns false when the topic is not open, or this step's share is sent.
   bool write(const std::string& topic, std::span<const std::uint8_t> payload);
   Status sending(const std::string& topic) const { return status(sendings_, topic); }
   Status listening(const std::string& topic) const { return status(listenings_, topic); }

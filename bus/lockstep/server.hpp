@@ -66,12 +66,13 @@ class LockstepServer {
   bool answered();
   /// For Inbox::dispatch(), while answered() is false: each answer that is missing rings once at least.
   std::size_t rings() const;
-  /// While answered() is false and nothing happens: tells the step once more where an answer is missing. Either may have
-  /// been lost with a lease that was over, and whoever has answered answers the same again.
+  /// While answered() is false and nothing happens: tells the step once more where an answer is missing. Either may
+  /// have been lost with a lease that was over, and whoever has answered answers the same again.
   void ask_again();
 
-  /// At a boundary, before publish(): a fault takes this member out, and the steps to come tell it what to do to itself.
-  /// That is no loss. Nobody gets its place until let_back(). @param order  kOrderKill or kOrderStop (names.hpp).
+  /// At a boundary, before publish(): a fault takes this member out, and the steps to come tell it what to do to
+  /// itself. That is no loss. Nobody gets its place until let_back().
+  /// @param order  kOrderKill or kOrderStop (names.hpp).
   /// @returns false, with nothing done, when it is no member.
   bool take_out(const std::string& member, std::string_view order);
   /// At a boundary: the fault is over; at_boundary() waits until the member has joined again.

@@ -21,8 +21,8 @@ class AttitudeController {
     double roll = 0.0, pitch = 0.0;  ///< sums of errors [rad], within +-0.6
   };
 
-  /// @param vehicle  arm, rotor constants and attitude_control are used. The inertia that the law believes in is a key of
-  ///                 its own: the benchmark's law knows the body without rotors and LiDAR.
+  /// @param vehicle  arm, rotor constants and attitude_control are used. The inertia that the law believes in is a key
+  ///                 of its own: the benchmark's law knows the body without rotors and LiDAR.
   explicit AttitudeController(const VehicleConfig& vehicle);
 
   /// Speeds that give the demanded torque and thrust. They are not limited from above (the motors are); a rotor

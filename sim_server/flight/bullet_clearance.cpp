@@ -4,10 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace skein::sim {
 namespace {
 
+// How far around a body the nearest triangle is looked for. Finding none, it may fly so far untested.
+constexpr double kLookAround = 1.5;
+// With less room than this, looking for the nearest triangle at every tick would cost more than the test.
+constexpr double kLeastRoom = 0.02;
+
+btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 double squared_distance_to_edge(const Vector3d& p, const Vector3d& from, const Vector3d& to) {
@@ -44,9 +51,18 @@ double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d
 
 double clearance(const btBvhTriangleMeshShape& mesh, const Vector3d& p_W, double distance_max) {
   Nearest nearest(p_W, distance_max);
-  const btVector3 centre(p_W.x(), p_W.y(), p_W.z()), reach(distance_max, distance_max, distance_max);
+  const btVector3 centre = to_bullet(p_W), reach(distance_max, distance_max, distance_max);
   mesh.processAllTriangles(&nearest, centre - reach, centre + reach);
   return nearest.distance;
+}
+
+bool ClearanceMemory::may_touch(const btBvhTriangleMeshShape& mesh, const Vector3d& p_W, double reach) {
+  if (clear_at_W_ && to_bullet(*clear_at_W_).distance2(to_bullet(p_W)) < room_ * room_) return false;
+  clear_at_W_.reset();
+  room_ = clearance(mesh, p_W, reach + kLookAround) - reach;
+  if (room_ > kLeastRoom) clear_at_W_ = p_W;
+  // One test more where there is room again, so that Bullet drops what it remembers.
+  return std::exchange(tested_, !clear_at_W_) || tested_;
 }
 
 }  // namespace skein::sim

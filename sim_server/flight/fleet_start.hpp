@@ -2,7 +2,8 @@
 // Frame: W.  Units: m, ticks.
 //
 // Drawn per UAV, from streams keyed by (seed, purpose, UAV):
-//   "start_offset"     horizontal offset of the start, evenly in a disc of 0.2 m, such that all stay least_start_distance() apart;
+//   "start_offset"     horizontal offset of the start, evenly in a disc of 0.2 m, such that all stay
+//                      least_start_distance() apart;
 //   "start_delay"      0 to 1 s from its first trajectory command until its motors start; until then commands wait,
 //                      the newest replacing older ones;
 //   "command_latency"  whether its commands take effect at once or one exchange later.

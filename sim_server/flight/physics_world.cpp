@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "core/airframe.hpp"
 #include "sim_server/flight/bullet_clearance.hpp"
 #include "sim_server/flight/mass_frame.hpp"
+#include "sim_server/flight/momentum_keeper.hpp"
 
 namespace skein::sim {
 namespace {
@@ -27,10 +27,6 @@ constexpr double kRotorDiscThickness = 0.025;
 // A UAV is tested for contacts when its sphere comes nearer than this: far beyond the distance at which Bullet keeps
 // contact points, and more than the travel of a tick.
 constexpr double kContactReach = 0.15;
-// How far around that sphere the nearest triangle is looked for. Finding none, a UAV may fly so far untested.
-constexpr double kLookAround = 1.5;
-// With less room than this, looking for the nearest triangle at every tick would cost more than the test.
-constexpr double kLeastRoom = 0.02;
 // Triangles that lie in the ground plane are ground: the floor slab of a building is no obstacle to who lands there.
 constexpr float kGroundSlab = 0.01F;
 constexpr int kSolverIterations = 20;
@@ -97,10 +93,9 @@ struct UavBody {
   double radius = 0.0;                ///< of a sphere about the centre of mass that holds everything
   bool pushed = false;                ///< a wrench acts during the coming tick
   int still_ticks = 0;
-  bool out = false;                   ///< of the world, for good
-  bool tested = false;                ///< for contacts with the structure, when last asked
-  std::optional<btVector3> clear_at;  ///< around here it cannot touch the structure ...
-  double room = 0.0;                  ///< ... as long as it is no farther away than this
+  bool out = false;                      ///< of the world, for good
+  ClearanceMemory clearance;             ///< of the structure
+  std::optional<MomentumKeeper> keeper;  ///< while a step is under way
 
   UavBody(const VehicleConfig& vehicle, const Isometry3d& X_WB)
       : frame(mass_frame(vehicle)),
@@ -133,7 +128,25 @@ struct UavBody {
     body->forceActivationState(DISABLE_DEACTIVATION);
     still_ticks = 0;
   }
-  /// After a step: whether to go on.
+  void begin_step(double step_s) {
+    if (out || asleep()) return;
+    keeper.emplace(frame.inertia, rotation(), to_eigen(body->getAngularVelocity()), step_s);
+    body->setAngularVelocity(to_bullet(keeper->middle_velocity()));
+  }
+  void end_step() {
+    if (!keeper) return;
+    body->setAngularVelocity(to_bullet(keeper->finish(rotation(), to_eigen(body->getAngularVelocity()))));
+    keeper.reset();
+    fall_asleep_if_still();
+  }
+
+ private:
+  Matrix3d rotation() const {
+    const btMatrix3x3& R = body->getWorldTransform().getBasis();
+    Matrix3d R_WP;
+    R_WP << R[0][0], R[0][1], R[0][2], R[1][0], R[1][1], R[1][2], R[2][0], R[2][1], R[2][2];
+    return R_WP;
+  }
   void fall_asleep_if_still() {
     const bool still =
         !pushed && body->getLinearVelocity().norm() < kStillSpeed && body->getAngularVelocity().norm() < kStillSpeed;
@@ -146,46 +159,6 @@ struct UavBody {
   }
 };
 
-/// Turns a body through one step so that its angular momentum is kept: Bullet knows angular velocity only, and its own
-/// gyroscopic terms cost a spinning body 2 % of its energy in a second. Here Bullet turns the body at the velocity that
-/// belongs to the middle of the step, and what its forces and contacts added to that is added to the momentum.
-class MomentumKeeper {
- public:
-  MomentumKeeper(UavBody& uav, double step_s) : body_(*uav.body), inertia_(uav.frame.inertia), R_WP_(rotation()) {
-    const Vector3d w_WP = to_eigen(body_.getAngularVelocity());
-    L_W_ = momentum(R_WP_, w_WP);
-    const double half_turn = 0.5 * step_s * w_WP.norm();
-    const Matrix3d R_WM =
-        half_turn > 0.0 ? Matrix3d(Eigen::AngleAxisd(half_turn, w_WP.normalized()).toRotationMatrix() * R_WP_) : R_WP_;
-    w_middle_W_ = velocity(R_WM, L_W_);
-    body_.setAngularVelocity(to_bullet(w_middle_W_));
-  }
-  /// After the step: the velocity that the momentum now amounts to.
-  void finish() {
-    L_W_ += momentum(R_WP_, to_eigen(body_.getAngularVelocity()) - w_middle_W_);
-    body_.setAngularVelocity(to_bullet(velocity(rotation(), L_W_)));
-  }
-
- private:
-  Matrix3d rotation() const {
-    const btMatrix3x3& R = body_.getWorldTransform().getBasis();
-    Matrix3d R_WP;
-    R_WP << R[0][0], R[0][1], R[0][2], R[1][0], R[1][1], R[1][2], R[2][0], R[2][1], R[2][2];
-    return R_WP;
-  }
-  Vector3d momentum(const Matrix3d& R_WP, const Vector3d& w_W) const {
-    return R_WP * inertia_.cwiseProduct(R_WP.transpose() * w_W);
-  }
-  Vector3d velocity(const Matrix3d& R_WP, const Vector3d& L_W) const {
-    return R_WP * (R_WP.transpose() * L_W).cwiseQuotient(inertia_);
-  }
-
-  btRigidBody& body_;
-  Vector3d inertia_;
-  Matrix3d R_WP_;
-  Vector3d L_W_, w_middle_W_;
-};
-
 }  // namespace
 
 struct PhysicsWorld::Impl {
@@ -194,7 +167,6 @@ struct PhysicsWorld::Impl {
 
   void add_static(btCollisionShape& shape, std::unique_ptr<btRigidBody>& body, int user_index);
   bool worth_testing(UavBody& uav, const btCollisionObject& other);
-  bool near_structure(UavBody& uav, const btVector3& centre) const;
   static void near_callback(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info);
   BodyId identify(const btCollisionObject& object) const;
   void step();
@@ -217,7 +189,6 @@ struct PhysicsWorld::Impl {
   std::unique_ptr<btBvhTriangleMeshShape> structure_shape;
   std::unique_ptr<btRigidBody> structure;
   std::vector<UavBody> uavs;
-  std::vector<MomentumKeeper> keepers;  ///< of the step under way
   const double step_s;
 };
 
@@ -268,18 +239,9 @@ bool PhysicsWorld::Impl::worth_testing(UavBody& uav, const btCollisionObject& ot
   // Bullet refreshes a pair's contact points only when it tests the pair. Skipping is safe as the distances at which
   // it begins are far beyond those at which points are kept.
   const btVector3& centre = uav.body->getWorldTransform().getOrigin();
-  if (other.getUserIndex() == kGroundIndex) return centre.z() < uav.radius + kContactReach;
-  return other.getUserIndex() != kStructureIndex || near_structure(uav, centre);
-}
-
-bool PhysicsWorld::Impl::near_structure(UavBody& uav, const btVector3& centre) const {
-  if (uav.clear_at && uav.clear_at->distance2(centre) < uav.room * uav.room) return false;
-  const double sphere = uav.radius + kContactReach;
-  uav.clear_at.reset();
-  uav.room = clearance(*structure_shape, to_eigen(centre), sphere + kLookAround) - sphere;
-  if (uav.room > kLeastRoom) uav.clear_at = centre;
-  // One test more where there is room again, so that Bullet drops what it remembers.
-  return std::exchange(uav.tested, !uav.clear_at) || uav.tested;
+  const double reach = uav.radius + kContactReach;
+  if (other.getUserIndex() == kGroundIndex) return centre.z() < reach;
+  return other.getUserIndex() != kStructureIndex || uav.clearance.may_touch(*structure_shape, to_eigen(centre), reach);
 }
 
 void PhysicsWorld::Impl::near_callback(btBroadphasePair& pair, btCollisionDispatcher& dispatcher,
@@ -293,15 +255,9 @@ void PhysicsWorld::Impl::near_callback(btBroadphasePair& pair, btCollisionDispat
 }
 
 void PhysicsWorld::Impl::step() {
-  keepers.clear();
-  for (UavBody& uav : uavs) {
-    if (!uav.out && !uav.asleep()) keepers.emplace_back(uav, step_s);
-  }
+  for (UavBody& uav : uavs) uav.begin_step(step_s);
   world.stepSimulation(step_s, 0);
-  for (MomentumKeeper& keeper : keepers) keeper.finish();
-  for (UavBody& uav : uavs) {
-    if (!uav.out && !uav.asleep()) uav.fall_asleep_if_still();
-  }
+  for (UavBody& uav : uavs) uav.end_step();
 }
 
 BodyId PhysicsWorld::Impl::identify(const btCollisionObject& object) const {
@@ -316,32 +272,19 @@ BodyId PhysicsWorld::Impl::identify(const btCollisionObject& object) const {
 }
 
 std::vector<Contact> PhysicsWorld::Impl::read_contacts() {
-  struct Found {
-    Contact contact;
-    double distance;
-  };
-  std::vector<Found> all;
+  std::vector<ContactPoint> points;
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
-    BodyId a = identify(*manifold.getBody0()), b = identify(*manifold.getBody1());
-    if (a.kind != BodyId::Kind::uav || (b.kind == BodyId::Kind::uav && b.uav < a.uav)) std::swap(a, b);
+    const BodyId a = identify(*manifold.getBody0()), b = identify(*manifold.getBody1());
     for (int i = 0; i < manifold.getNumContacts(); ++i) {
       const btManifoldPoint& point = manifold.getContactPoint(i);
       // Bullet also keeps points that are merely near. Two bodies touch when they overlap or push each other.
       if (point.getDistance() > 0.0 && point.getAppliedImpulse() <= 0.0) continue;
       const btVector3 middle = 0.5 * (point.getPositionWorldOnA() + point.getPositionWorldOnB());
-      all.push_back({{a.uav, b, to_eigen(middle)}, point.getDistance()});
+      points.push_back({contact_between(a, b, to_eigen(middle)), point.getDistance()});
     }
   }
-  const auto key = [](const Found& f) { return std::tuple(f.contact.uav, f.contact.other.kind, f.contact.other.uav); };
-  std::stable_sort(all.begin(), all.end(), [&](const Found& x, const Found& y) {
-    return key(x) != key(y) ? key(x) < key(y) : x.distance < y.distance;
-  });
-  all.erase(std::unique(all.begin(), all.end(), [&](const Found& x, const Found& y) { return key(x) == key(y); }),
-            all.end());
-  std::vector<Contact> contacts;
-  for (const Found& found : all) contacts.push_back(found.contact);
-  return contacts;
+  return one_for_each_pair(std::move(points));
 }
 
 void PhysicsWorld::Impl::wake_who_was_hit(const std::vector<Contact>& contacts) {
@@ -428,7 +371,7 @@ void PhysicsWorld::set_state(UavIndex uav, const RigidBodyState& state) {
   UavBody& moved = impl_->uavs[uav];
   if (moved.out) return;
   moved.set_state(state);
-  moved.clear_at.reset();
+  moved.clearance.forget();
   moved.wake();
   impl_->broadphase.getOverlappingPairCache()->cleanProxyFromPairs(moved.body->getBroadphaseProxy(),
                                                                    &impl_->dispatcher);

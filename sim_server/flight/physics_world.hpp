@@ -1,6 +1,7 @@
 // Rigid bodies, gravity and contacts (Bullet, double precision, one thread): the same calls give the same bits.
-// Frames: W world (ENU), B body (FLU).  Units: SI.  States and wrenches are about Bo, the origin of the body frame; that
-// a vehicle's centre of mass is elsewhere (core/airframe.hpp) is settled in here.  A tick is kTickS = 2.5 ms, and one step of the integration.
+// Frames: W world (ENU), B body (FLU).  Units: SI.  States and wrenches are about Bo, the origin of the body frame;
+// that a vehicle's centre of mass is elsewhere (core/airframe.hpp) is settled in here.  A tick is kTickS = 2.5 ms, and
+// one step of the integration.
 #pragma once
 
 #include <limits>
@@ -10,26 +11,11 @@
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
 #include "core/types.hpp"
+#include "sim_server/flight/contacts.hpp"
 
 namespace skein::sim {
 
 inline constexpr double kWorldGravity = 9.8;  ///< [m/s^2]
-
-/// What a UAV can touch.
-struct BodyId {
-  enum class Kind { ground, structure, uav };
-  Kind kind = Kind::ground;
-  UavIndex uav = {};  ///< fleet order; meaningful for Kind::uav only
-
-  bool operator==(const BodyId&) const = default;
-};
-
-/// One UAV touches something; two UAVs that touch appear once, the lower number in `uav`.
-struct Contact {
-  UavIndex uav = {};
-  BodyId other;
-  Vector3d p_W = Vector3d::Zero();
-};
 
 /// Ground plane z = 0, one static mesh, and the fleet. Not thread-safe.
 class PhysicsWorld {

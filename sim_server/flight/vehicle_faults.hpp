@@ -21,8 +21,8 @@ struct VehicleCondition {
 };
 
 /// @param uavs  names in fleet order.
-/// @returns the condition of each UAV in the exchange that begins at `tick`. Delays of one UAV do not add up: the plan's
-///          reader refuses two at once, as it does for the other faults here.
+/// @returns the condition of each UAV in the exchange that begins at `tick`. Delays of one UAV do not add up: the
+///          plan's reader refuses two at once, as it does for the other faults here.
 std::vector<VehicleCondition> vehicle_conditions(const FaultPlan& plan, const std::vector<std::string>& uavs,
                                                  Tick tick);
 

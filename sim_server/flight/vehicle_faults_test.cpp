@@ -179,8 +179,8 @@ TEST_F(Faulty, DelayedCommandsActThatMuchLater) {
   fly(plan({fault(0.0, std::nullopt, CommandDelay{"lead", kDelay})}), 12.0,
       [&](double) { delayed.push_back(lead().state.p_WB); });
   for (std::size_t k = kDelay + 1; k < prompt.size(); ++k) {
-    // Not to the last bit: meanwhile the body has settled on the ground by some hundredths of a millimetre. One step more
-    // or less would be 0.1 m.
+    // Not to the last bit: meanwhile the body has settled on the ground by some hundredths of a millimetre. One step
+    // more or less would be 0.1 m.
     EXPECT_LT((delayed[k] - prompt[k - kDelay]).norm(), 3e-3) << "the same flight, later; step " << k;
   }
 }

@@ -68,9 +68,9 @@ struct OracleReport {
 /// A point counts as the referee would have it: in the search radius and the picture, first thing on the ray within
 /// the camera's tolerance, quality by the scenario's formula. What keeps the clearance does so all the way; the camera
 /// stays above the ground, and pitches as far as its gimbal does. It hangs on a level body that has any heading, and
-/// the gimbal turns the rest, so that the body does not hide the point and nothing of the structure is between the body's
-/// centre and the camera (both as far as the rules want it). Of several kinds of camera in a fleet each point gets the
-/// best.
+/// the gimbal turns the rest, so that the body does not hide the point and nothing of the structure is between the
+/// body's centre and the camera (both as far as the rules want it). Of several kinds of camera in a fleet each point
+/// gets the best.
 ///
 /// Along one direction from the point quality only falls with distance. So the nearest place that is free is the best
 /// one there, and it is found to some centimetres; what is searched is the sphere of directions. More of them never

@@ -353,7 +353,8 @@ TEST(Oracle, TheAnswerDependsOnNothingButTheQuestion) {
   EXPECT_THROW(consult_oracle(photographer(1.0), scene, {0.5, 2.5, 0, 1}), std::invalid_argument);
 }
 
-/// What was found in these scenes by other means, with coarser sets of viewpoints: the oracle should find a little more.
+/// What was found in these scenes by other means, with coarser sets of viewpoints: the oracle should find a little
+/// more.
 void expect_near(const Attainable& found, double points, double score) {
   EXPECT_GE(static_cast<double>(found.points), points);
   EXPECT_LE(static_cast<double>(found.points), 1.05 * points);

@@ -32,10 +32,11 @@ class RayFan {
 
   /// The first triangle on each ray. Watertight: a ray between two triangles that share an edge or a corner meets one
   /// of them. A triangle seen exactly edge-on, or without area, is not met.
-  /// @param directions  unit vectors, row by row of a grid in which neighbours point to similar directions, each row and
-  ///                    each column in one sense. Any list will do, at the price of speed.
+  /// @param directions  unit vectors, row by row of a grid in which neighbours point to similar directions, each row
+  ///                    and each column in one sense. Any list will do, at the price of speed.
   /// @param columns     length of a row, >= 1; divides the number of directions.
-  /// @param reaches     as many, > 0, may be infinite; a ray ends there [m]. A triangle exactly at the end may or may not count.
+  /// @param reaches     as many, > 0, may be infinite; a ray ends there [m]. A triangle exactly at the end may or may
+  ///                    not count.
   /// @param triangles   as many; receives indices of triangles, or kNothing.
   /// Const and safe from any number of threads.
   void trace(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions, std::size_t columns,

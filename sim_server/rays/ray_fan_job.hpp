@@ -1,5 +1,5 @@
-// What RayFan hands to its inside, ray_fan_kernel.hpp: plain arrays, since that is compiled for two instruction sets and
-// must share no inline function with other files.
+// What RayFan hands to its inside, ray_fan_kernel.hpp: plain arrays, since that is compiled for two instruction sets
+// and must share no inline function with other files.
 // Frames: W world, T the search tree's own axes, W turned about z.   Units: m.
 #pragma once
 
@@ -20,7 +20,8 @@ struct alignas(32) Leaf {
   std::uint32_t triangles[kLanes];
 };
 
-/// Boxes of eight children along the axes of T. A lane without a child holds a box of negative size, which no ray meets.
+/// Boxes of eight children along the axes of T. A lane without a child holds a box of negative size, which no ray
+/// meets.
 struct alignas(32) Branch {
   float centre_T[3][kLanes], half_T[3][kLanes];  ///< [axis]
   std::int32_t children[kLanes];                 ///< index of a branch, or ~index of a leaf

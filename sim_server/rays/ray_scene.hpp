@@ -79,7 +79,8 @@ class RayScene {
   /// The first thing *before* the end of a segment, by the single-precision arithmetic of the reference's rays: each
   /// triangle is tested in floats, and what is not strictly nearer than the segment's length as a float is not met.
   /// So a surface that the segment ends on is met or not as its last bits have it. Slower than first_hit().
-  /// @returns its distance from `from_W` and the segment's length, both as rounded; nullopt when nothing is before the end.
+  /// @returns its distance from `from_W` and the segment's length, both as rounded; nullopt when nothing is before
+  /// the end.
   struct HitBeforeEnd {
     float distance = 0.0F, length = 0.0F;
   };

@@ -43,8 +43,8 @@ inline double box_distance(const Ray& ray, const Vector3d& half) {
   return enter <= leave ? enter : kInfinity;
 }
 
-/// Where a ray crosses a triangle, in single precision from end to end (Moeller and Trumbore 1997, both sides): what lies
-/// on its plane or its edges to the last bit is met or missed by rounding. Infinity when it is missed.
+/// Where a ray crosses a triangle, in single precision from end to end (Moeller and Trumbore 1997, both sides): what
+/// lies on its plane or its edges to the last bit is met or missed by rounding. Infinity when it is missed.
 inline float crossing_distance(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                                const std::array<Eigen::Vector3f, 3>& corners) {
   constexpr float kMissed = std::numeric_limits<float>::infinity();

@@ -1,6 +1,6 @@
 // Assimp reads the triangles, but takes an ASCII file as it comes, with commas and numbers that overflow, and looks for
-// byte order marks and colours in the head of a binary one. So the form of a file is checked here, and Assimp sees one of
-// the plainest form.
+// byte order marks and colours in the head of a binary one. So the form of a file is checked here, and Assimp sees one
+// of the plainest form.
 #include "sim_server/scene_files/mesh_file.hpp"
 
 #include <assimp/scene.h>

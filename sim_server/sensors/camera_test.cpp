@@ -278,8 +278,8 @@ TEST(Camera, HidesAsMuchOfThePictureAsTheBodyOfTheReference) {
   }
 }
 
-/// Of free views of points of public MBS within 60 degrees of their normal, each on its triangle to single precision, 45 %
-/// see it by the reference's ray, because that ends at the point; by Skein's own test all do.
+/// Of free views of points of public MBS within 60 degrees of their normal, each on its triangle to single precision,
+/// 45 % see it by the reference's ray, because that ends at the point; by Skein's own test all do.
 TEST(Camera, RayThatEndsAtThePointMissesMoreThanHalf) {
   const auto mesh = test::official_mesh("mbs/mbs.stl");
   const auto points = test::official_points("mbs/mbs_interest_points.pcd");

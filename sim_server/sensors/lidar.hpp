@@ -38,8 +38,8 @@ class Lidar {
   /// Whether a scan falls on this tick: tick 0 and every period after it.
   bool due(Tick tick) const { return tick % period_ == 0; }
 
-  /// Tells where the body was at a tick, before scan() of that tick. Needed with `motion_distortion` only, at every tick;
-  /// without it this does nothing.
+  /// Tells where the body was at a tick, before scan() of that tick. Needed with `motion_distortion` only, at every
+  /// tick; without it this does nothing.
   void move(Tick tick, const Isometry3d& X_WB);
 
   /// One whole scan. Its number counts periods, whether they were scanned or not.

@@ -1,5 +1,5 @@
-// Sight lines between two radio nodes through the world, for trace_link(): remembers what blocked each of them last time.
-// What hid one antenna from another mostly still does a moment later, and to see that costs far less than a ray.
+// Sight lines between two radio nodes through the world, for trace_link(): remembers what blocked each of them last
+// time. What hid one antenna from another mostly still does a moment later, and to see that costs far less than a ray.
 // Frame W.   Units: m.
 #pragma once
 

@@ -1,4 +1,5 @@
-// docs/topics.md says what is true: its tables have every topic with its type, its depth and who writes it, and no other.
+// docs/topics.md says what is true: its tables have every topic with its type, its depth and who writes it, and no
+// other.
 #include <gtest/gtest.h>
 
 #include <algorithm>

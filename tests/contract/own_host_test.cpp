@@ -1,5 +1,5 @@
-// A fleet on one host and whoever else is on it with the settings that the vendors have by themselves, such as ROS 2 nodes:
-// they meet, though the fleet sends nothing to other hosts.
+// A fleet on one host and whoever else is on it with the settings that the vendors have by themselves, such as ROS 2
+// nodes: they meet, though the fleet sends nothing to other hosts.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -117,8 +117,8 @@ TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
   EXPECT_TRUE(result["deterministic"]) << "a stranger's ear changes nothing";
   const long acknowledged = delivered(result, "gcs", "nanyang");
   ASSERT_GT(acknowledged, 0) << "no radio message to listen to";
-  // Nobody waits for a stranger. A writer of another vendor may take a second to match it, and the whole flight takes two;
-  // and what it has not asked for again when the router leaves is gone.
+  // Nobody waits for a stranger. A writer of another vendor may take a second to match it, and the whole flight takes
+  // two; and what it has not asked for again when the router leaves is gone.
   const auto hears = [](const Listener& listener, const WireTopic& topic, long sent) {
     eventually([&] { return listener.samples(topic) >= sent; }, std::chrono::seconds(2));
     EXPECT_LE(listener.samples(topic), sent) << topic.name;

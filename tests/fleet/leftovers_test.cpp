@@ -1,5 +1,5 @@
-// What a user's command starts beside itself ends with the run, wherever it went: in the background, in a session of its own,
-// with another environment. Also when the launcher is killed.
+// What a user's command starts beside itself ends with the run, wherever it went: in the background, in a session of
+// its own, with another environment. Also when the launcher is killed.
 #include <signal.h>
 
 #include <sstream>

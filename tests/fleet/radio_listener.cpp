@@ -1,7 +1,7 @@
 // A stranger in a DDS domain: subscribes to topics, counts what it hears, and is no member of anything.
 //   radio_listener VENDOR DOMAIN FILE TOPIC TYPE [TOPIC TYPE]...
-// With SKEIN_SECURITY it shows the certificate in that folder, else none. Keeps FILE up to date with one line a topic: TOPIC, the number of writers matched, the number of samples heard.
-// Runs until it is killed.
+// With SKEIN_SECURITY it shows the certificate in that folder, else none. Keeps FILE up to date with one line a topic:
+// TOPIC, the number of writers matched, the number of samples heard. Runs until it is killed.
 #include <atomic>
 #include <chrono>
 #include <cstdlib>

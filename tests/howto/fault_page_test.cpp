@@ -1,5 +1,5 @@
-// docs/how-to-test-faults.md, followed word for word: the files that it shows are written, the commands that it shows are
-// run, and what they print must be what it shows.
+// docs/how-to-test-faults.md, followed word for word: the files that it shows are written, the commands that it shows
+// are run, and what they print must be what it shows.
 #include <fstream>
 #include <sstream>
 

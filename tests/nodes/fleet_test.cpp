@@ -1,5 +1,5 @@
-// A whole fleet in this process: the server, router, station and agents of a run as they are, over a bus without threads.
-// Nothing may depend on the order in which they get their turns.
+// A whole fleet in this process: the server, router, station and agents of a run as they are, over a bus without
+// threads. Nothing may depend on the order in which they get their turns.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -28,8 +28,8 @@ constexpr bool linked_in_model(std::size_t from, std::size_t to, std::uint64_t k
   return from != to && (from + to + k) % 4 != 0;
 }
 
-/// Steps in which the server writes on each UAV's latched topic, whose history holds two: some at the very start, as the
-/// boxes, and more than the history later.
+/// Steps in which the server writes on each UAV's latched topic, whose history holds two: some at the very start, as
+/// the boxes, and more than the history later.
 constexpr bool tells_site_in_model(std::uint64_t k) { return k == 0 || k == 2 || k == 4; }
 
 /// A program of the fleet; it acts only in poll().

@@ -32,8 +32,8 @@ struct Hold {};
 /// What the set-point does now. monostate: carry on as told before; before the first motion: motors stay off.
 /// A TrajectoryCommand goes to the flight controller as it is, in this exchange and no other: nothing smooths it or
 /// keeps it within limits, and parts of it may be left at zero (a velocity without a position, an acceleration alone,
-/// yaw alone; docs/rules.md, P1 to P3). After it nothing is sent until the next motion: then the flight controller stays
-/// where the last command lapsed. A Path or Hold after it begins where the UAV is, at the velocity that it has.
+/// yaw alone; docs/rules.md, P1 to P3). After it nothing is sent until the next motion: then the flight controller
+/// stays where the last command lapsed. A Path or Hold after it begins where the UAV is, at the velocity that it has.
 using Motion = std::variant<std::monostate, Setpoint, Path, Hold, TrajectoryCommand>;
 
 }  // namespace skein::agent

@@ -1,5 +1,5 @@
-// A program at the ground station that says nothing: it logs who comes into and goes out of line of sight, and what text
-// the radio brings. `--planner patrol,gcs=listen`.
+// A program at the ground station that says nothing: it logs who comes into and goes out of line of sight, and what
+// text the radio brings. `--planner patrol,gcs=listen`.
 #include <spdlog/spdlog.h>
 
 #include <set>

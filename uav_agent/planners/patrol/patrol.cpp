@@ -10,17 +10,18 @@
 // anything that the map shows in its way, and gives way.
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
 #include "core/euler.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/path_search.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/flight/sortie.hpp"
-#include "uav_agent/planning/standoff.hpp"
-#include "uav_agent/planning/work_share.hpp"
+#include "uav_agent/planners/patrol/config.hpp"
+#include "uav_agent/planners/patrol/rounds.hpp"
 #include "uav_agent/planning/block_work.hpp"
+#include "uav_agent/planning/standoff.hpp"
 #include "uav_agent/planning/survey.hpp"
+#include "uav_agent/planning/work_share.hpp"
 
 namespace skein::agent {
 namespace {
@@ -42,41 +43,7 @@ constexpr int kRoomyRays[] = {16, 12, 8, 8};
 
 class PatrolPlanner final : public Planner {
  public:
-  struct Config {
-    bool use_map = true;             ///< false: knows nothing but the boxes; for comparison
-    bool survey = true;              ///< explorers fly once around everything first
-    bool top = true, bottom = true;  ///< look at these faces, too
-    double clearance_m = 1.2;        ///< from the UAV's body to anything mapped
-    double transit_mps = 5.0, survey_mps = 4.5, climb_mps = 3.0;
-    double survey_standoff_m = 10.0;
-    double standoff_ratio = 0.92;  ///< distance to the surface in units of d*
-    double blind_ratio = 0.55;     ///< distance to a box's face where no surface is mapped
-    double overlap = 0.2;
-    double speed_gain = 1.0;           ///< 1: no blur
-    double blind_height_ratio = 0.45;  ///< of the highest box: below it, only space that was seen free is entered
-    double deliver_every_s = 240.0;
-    double return_margin_s = 12.0;
-
-    template <class R>
-    void describe(R& r) {
-      r.field("use_map", use_map);
-      r.field("survey", survey);
-      r.field("top", top);
-      r.field("bottom", bottom);
-      r.field("clearance_m", clearance_m, within(0.3, 10.0));
-      r.field("transit_mps", transit_mps, within(0.5, 20.0));
-      r.field("survey_mps", survey_mps, within(0.5, 20.0));
-      r.field("climb_mps", climb_mps, within(0.2, 10.0));
-      r.field("survey_standoff_m", survey_standoff_m, within(2.0, 50.0));
-      r.field("standoff_ratio", standoff_ratio, within(0.3, 1.5));
-      r.field("blind_ratio", blind_ratio, within(0.2, 1.5));
-      r.field("overlap", overlap, within(0.0, 0.8));
-      r.field("speed_gain", speed_gain, within(0.2, 5.0));
-      r.field("blind_height_ratio", blind_height_ratio, within(0.0, 1.0));
-      r.field("deliver_every_s", deliver_every_s, within(10.0, 1e6));
-      r.field("return_margin_s", return_margin_s, within(0.0, 600.0));
-    }
-  };
+  using Config = PatrolConfig;
 
   PatrolPlanner(const Config& config, const AgentConfig& agent)
       : config_(config),
@@ -100,7 +67,6 @@ class PatrolPlanner final : public Planner {
   void carry_on(const PlannerInput& in, PlannerOutput& out);
   void begin_survey(const PlannerInput& in, PlannerOutput& out);
   void next_strip(const PlannerInput& in, PlannerOutput& out);
-  void begin_round();
   void approach(const PlannerInput& in, PlannerOutput& out);
   void fly_strip(const PlannerInput& in, PlannerOutput& out);
   void refit(const PlannerInput& in, PlannerOutput& out);
@@ -122,16 +88,13 @@ class PatrolPlanner final : public Planner {
 
   bool shared_ = false;  ///< the boxes have come
   double top_m_ = 0.0, blind_height_m_ = 0.0;
-  WorkShare share_;
-  std::deque<std::size_t> to_do_;  ///< of this round: indices into share_.tour
-  int round_ = -1;
+  PatrolRounds rounds_;
   bool flown_any_ = true;     ///< in this round
   std::size_t boldness_ = 0;  ///< index into kRays
   std::optional<BlockWork> blocks_;
-  std::optional<BlockWork::Task> task_;  ///< of blocks_; else the current strip is of the tour
+  std::optional<BlockWork::Task> task_;  ///< of blocks_; else the current strip is of the rounds
   bool task_flown_ = false;
   int failed_tasks_ = 0;        ///< one after the other
-  std::size_t current_ = 0;     ///< index into share_.tour
   Strip strip_;                 ///< the current one
   bool reversed_ = false;       ///< its direction
   double strip_s_ = 0.0;        ///< where on the strip the present run begins
@@ -206,7 +169,7 @@ void PatrolPlanner::share_work(const PlannerInput& in) {
   blocks_.emplace(blocks, agent_, reach_, by_map ? in.boxes : std::vector<OrientedBox>());
   std::vector<OrientedBox> tight = in.boxes;
   if (by_map) std::erase_if(tight, is_roomy);
-  share_ = own_share(agent_, tight, reach_, 0.5 * top_m_, config);
+  rounds_.know_share(own_share(agent_, tight, reach_, 0.5 * top_m_, config));
 }
 
 /// The detour ends with the rest of this run; what comes behind it is fitted there.
@@ -224,9 +187,9 @@ void PatrolPlanner::blocked(const PlannerInput& in, PlannerOutput& out) {
     return;
   }
   const bool on_strip = phase_ == Phase::transit || phase_ == Phase::strip;
-  const bool of_tour = on_strip && !task_;  // of a block: is offered again anyway
-  if (of_tour && !obstacle) to_do_.push_back(current_);
-  if (of_tour && obstacle && ++failures_ <= kMaxFailures) to_do_.push_front(current_);
+  const bool of_round = on_strip && !task_;  // of a block: is offered again anyway
+  if (of_round && !obstacle) rounds_.again_last();
+  if (of_round && obstacle && ++failures_ <= kMaxFailures) rounds_.again_next();
   idle(in.tick, out);
 }
 
@@ -277,18 +240,6 @@ void PatrolPlanner::begin_survey(const PlannerInput& in, PlannerOutput& out) {
   sortie_.pilot().follow(std::move(path), out);
 }
 
-/// Begins the share again, where the last round ended.
-void PatrolPlanner::begin_round() {
-  ++round_;
-  flown_any_ = false;
-  failures_ = 0;
-  if (round_ > 0) {
-    std::reverse(share_.tour.begin(), share_.tour.end());
-    for (Visit& visit : share_.tour) visit.reversed = !visit.reversed;
-  }
-  for (std::size_t i = 0; i < share_.tour.size(); ++i) to_do_.push_back(i);
-}
-
 /// Takes up a strip in a block, or waits for the map to show one. @returns false if there is other work.
 bool PatrolPlanner::next_block(const PlannerInput& in, PlannerOutput& out) {
   if (task_ && !task_flown_) {
@@ -296,8 +247,8 @@ bool PatrolPlanner::next_block(const PlannerInput& in, PlannerOutput& out) {
     if (++failed_tasks_ % kMaxFailedTasks == 0) boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
   }
   task_ = blocks_->next(in.tick, in.tracking.setpoint.p_WB, in.map);
-  const bool again = task_ && task_->flown > round_;
-  if (!share_.tour.empty() && (!task_ || again)) return false;
+  const bool again = task_ && task_->flown > rounds_.number();
+  if (!rounds_.without_work() && (!task_ || again)) return false;
   if (!task_) {
     idle(in.tick + ticks(kRestS), out);
     return true;
@@ -311,10 +262,10 @@ bool PatrolPlanner::next_block(const PlannerInput& in, PlannerOutput& out) {
 }
 
 void PatrolPlanner::next_strip(const PlannerInput& in, PlannerOutput& out) {
-  const bool shares_done = to_do_.empty() && (round_ >= 0 || share_.tour.empty());
+  const bool shares_done = rounds_.over() && (rounds_.number() >= 0 || rounds_.without_work());
   if (blocks_->any() && shares_done && next_block(in, out)) return;
   task_.reset();
-  if (to_do_.empty() && !flown_any_ && !share_.tour.empty()) {
+  if (rounds_.over() && !flown_any_ && !rounds_.without_work()) {
     // Nothing could be flown: tries from elsewhere, less carefully. A LiDAR that has turned makes a new key frame.
     flown_any_ = true;
     boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
@@ -323,15 +274,18 @@ void PatrolPlanner::next_strip(const PlannerInput& in, PlannerOutput& out) {
     out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
     return;
   }
-  if (to_do_.empty()) begin_round();
-  if (to_do_.empty()) {  // more UAVs than strips
+  if (rounds_.over()) {
+    rounds_.begin();
+    flown_any_ = false;
+    failures_ = 0;
+  }
+  if (rounds_.over()) {  // more UAVs than strips
     idle(in.tick + ticks(kRestS), out);
     return;
   }
-  current_ = to_do_.front();
-  to_do_.pop_front();
-  strip_ = share_.strips[share_.tour[current_].strip];
-  reversed_ = share_.tour[current_].reversed;
+  rounds_.take_next();
+  strip_ = rounds_.strip();
+  reversed_ = rounds_.reversed();
   strip_s_ = 0.0;
   approach(in, out);
 }
@@ -402,7 +356,7 @@ void PatrolPlanner::face_strip(PlannerOutput& out) const {
   const double pitch_limit = agent_.vehicle.gimbal.pitch_limit_deg * kRadPerDeg;
   if (strip_.kind == FaceKind::side) {
     out.yaw = std::atan2(-strip_.out_W.y(), -strip_.out_W.x());
-    const int round = task_ ? task_->flown : std::max(0, round_);
+    const int round = task_ ? task_->flown : std::max(0, rounds_.number());
     const double turn = kViewTurns[static_cast<std::size_t>(round) % std::size(kViewTurns)];
     out.gimbal = GimbalCommand{GimbalMode::angle, 0.0, turn};
     return;

@@ -9,10 +9,10 @@
 //    1.5 s; so pictures are blurred and oblique.
 //
 // Its weaknesses are the published ones: boxes are shared out by volume and never again, empty volume is explored like
-// any other, photographers begin late, and pictures are taken in motion. `faithful` brings back what else the sources tell or leave
-// out: photographers without surface hover for ever where they are, out of sight as they may be; an explorer that has
-// seen everything is done, and a team without a box has nothing to do; UAVs of one team plan without regard to where
-// the others are about to work. Collisions at the start, which are published, are not brought back.
+// any other, photographers begin late, and pictures are taken in motion. `faithful` brings back what else the sources
+// tell or leave out: photographers without surface hover for ever where they are, out of sight as they may be; an
+// explorer that has seen everything is done, and a team without a box has nothing to do; UAVs of one team plan without
+// regard to where the others are about to work. Collisions at the start, which are published, are not brought back.
 // Not published for this contest, and so our choice: all numbers (config.hpp), the messages, and safety.
 #include <algorithm>
 
@@ -20,14 +20,12 @@
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/flight/sortie.hpp"
 #include "uav_agent/planners/star/camera.hpp"
-#include "uav_agent/planners/star/explorer.hpp"
-#include "uav_agent/planners/star/site.hpp"
-#include "uav_agent/planners/star/surfaces.hpp"
+#include "uav_agent/planners/star/knowledge.hpp"
+#include "uav_agent/planners/star/proof.hpp"
 #include "uav_agent/planners/star/talk.hpp"
 #include "uav_agent/planners/star/teams.hpp"
 #include "uav_agent/planners/star/tour.hpp"
 #include "uav_agent/planners/star/way.hpp"
-#include "uav_agent/planning/strips.hpp"
 
 namespace skein::agent {
 namespace {
@@ -41,11 +39,6 @@ constexpr std::size_t kCandidates = 3;  ///< first places tried in one plan
 constexpr int kMaxApproaches = 4;       ///< to a box
 constexpr std::size_t kSidesApart = 3;  ///< between two of them, of twelve
 constexpr int kFruitlessToBold = 2, kFruitlessToRetreat = 9;
-constexpr double kBoldS = 40.0;  ///< for so long
-/// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere.
-constexpr int kRays[] = {8, 6, 4};
-constexpr int kRoomyRays[] = {16, 12, 8};
-constexpr std::size_t kMaxLooks = 40'000;  ///< at unknown cubes, in one look at the map
 
 }  // namespace
 
@@ -56,7 +49,6 @@ class StarPlanner final : public Planner {
   StarPlanner(const Config& config, const AgentConfig& agent)
       : config_(config),
         agent_(agent),
-        sharp_m_(camera_reach(agent.vehicle.camera, agent.desired_mm_per_pixel).sharp_distance_m),
         sortie_({.climb_mps = config.climb_mps,
                  .transit_mps = config.transit_mps,
                  .retreat_mps = config.transit_mps,
@@ -65,13 +57,11 @@ class StarPlanner final : public Planner {
                  .return_margin_s = config.return_margin_s},
                 agent_),
         separation_(Separation::Config(), agent_),
-        talk_({.share_s = config.share_s}, agent_),
-        mapper_({.max_looks = kMaxLooks}) {}
+        talk_({.share_s = config.share_s}, agent_) {}
 
   PlannerOutput plan(const PlannerInput& in) override;
 
  private:
-  using Id = VoxelGrid::Id;
   /// What it flies to, one after the other. Either views or goals are not empty, or none is.
   struct Route {
     std::vector<StarView> views;
@@ -79,13 +69,12 @@ class StarPlanner final : public Planner {
     bool empty() const { return views.empty() && goals.empty(); }
   };
 
-  double clearance_m() const { return centre_clearance_m(agent_, config_.clearance_m); }
   bool has_lidar() const { return agent_.me().role == Role::explorer; }
   FreeSpace::Config space_config() const;
   StarTourConfig tour_config() const;
 
   void survey_site(const PlannerInput& in);
-  void look_at_map(const PlannerInput& in);
+  void look_around(const PlannerInput& in);
   void carry_on(const PlannerInput& in, PlannerOutput& out);
   bool target_done(const PlannerInput& in);
   void decide(const PlannerInput& in, PlannerOutput& out);
@@ -94,7 +83,6 @@ class StarPlanner final : public Planner {
   bool approach(const PlannerInput& in, const FreeSpace& space, std::size_t box, PlannerOutput& out);
   void idle(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out);
   void begin_box(std::size_t box);
-  void bolder(Tick now);
   void nothing_to_reach(const PlannerInput& in, PlannerOutput& out);
   bool fly_through(const std::vector<Vector3d>& places_W, double speed_mps, const FreeSpace& space,
                    const PlannerInput& in, PlannerOutput& out);
@@ -104,20 +92,15 @@ class StarPlanner final : public Planner {
 
   const Config config_;
   const AgentConfig agent_;
-  const double sharp_m_;
   Sortie sortie_;
   Separation separation_;
   StarTalk talk_;
-  VoxelMapper mapper_;
   StarCamera camera_;
+  StarProof proof_;
 
-  std::optional<VoxelGrid> grid_;     ///< once the boxes have come, as all that follows
-  std::optional<VoxelGrid> hearsay_;  ///< of it, what this UAV did not see itself
-  std::optional<StarSurfaces> surfaces_;
-  std::optional<StarExplorer> explorer_;
-  std::size_t leader_ = 0;          ///< of the team
-  std::vector<std::size_t> boxes_;  ///< of the team, in the order of visit
-  std::vector<Id> cubes_;           ///< in them
+  std::optional<StarKnowledge> known_;  ///< once the boxes have come, as all that follows
+  std::size_t leader_ = 0;              ///< of the team
+  std::vector<std::size_t> boxes_;      ///< of the team, in the order of visit
   Site site_;
 
   std::size_t at_box_ = 0;  ///< index into boxes_; the end: explored
@@ -127,18 +110,16 @@ class StarPlanner final : public Planner {
   std::optional<Vector3d> last_cluster_W_;
   Tick planned_at_ = 0, not_before_ = 0;
   std::optional<Tick> idle_since_;
-  std::size_t rounds_ = 0;    ///< after times without anything to do
-  int fruitless_ = 0;         ///< decisions in a row
-  std::size_t boldness_ = 0;  ///< index into kRays
-  Tick bold_until_ = 0;
+  std::size_t rounds_ = 0;  ///< after times without anything to do
+  int fruitless_ = 0;       ///< decisions in a row
 };
 
 PlannerOutput StarPlanner::plan(const PlannerInput& in) {
   PlannerOutput out;
-  if (!in.boxes.empty() && !grid_) survey_site(in);
-  if (grid_) {
-    talk_.listen(in, *grid_);
-    look_at_map(in);
+  if (!in.boxes.empty() && !known_) survey_site(in);
+  if (known_) {
+    talk_.listen(in, known_->grid());
+    look_around(in);
   }
   switch (sortie_.step(in, space_config(), out)) {
     case Sortie::Turn::nothing:
@@ -152,8 +133,8 @@ PlannerOutput StarPlanner::plan(const PlannerInput& in) {
       carry_on(in, out);
       break;
     case Sortie::Turn::blocked:
-      if (!route_.views.empty()) surfaces_->failed(route_.views.front(), in.tick);
-      if (!route_.goals.empty()) explorer_->failed(route_.goals.front(), in.tick);
+      if (!route_.views.empty()) known_->surfaces().failed(route_.views.front(), in.tick);
+      if (!route_.goals.empty()) known_->explorer().failed(route_.goals.front(), in.tick);
       forget_target();
       not_before_ = in.tick + ticks(kRestS);
       break;
@@ -161,20 +142,20 @@ PlannerOutput StarPlanner::plan(const PlannerInput& in) {
       forget_target();
       break;
   }
-  if (grid_) {
+  if (known_) {
     point_camera(in, out);
-    talk_.speak(in, *grid_, own_word(), out);
+    talk_.speak(in, known_->grid(), own_word(), out);
   }
   return out;
 }
 
 FreeSpace::Config StarPlanner::space_config() const {
   FreeSpace::Config config;
-  config.clearance_m = clearance_m();
-  config.rays = site_.roomy ? kRoomyRays[boldness_] : kRays[boldness_];
+  config.clearance_m = centre_clearance_m(agent_, config_.clearance_m);
+  config.rays = proof_.rays(site_.roomy);
   config.blind_height_m = site_.safe_height_m();
   config.floor_m = std::max(config.floor_m, site_.lowest_m);
-  config.hearsay = hearsay_ ? &*hearsay_ : nullptr;
+  config.hearsay = known_ ? known_->hearsay() : nullptr;
   return config;
 }
 
@@ -189,28 +170,18 @@ StarTourConfig StarPlanner::tour_config() const {
 
 /// The teams, and all that follows from the boxes.
 void StarPlanner::survey_site(const PlannerInput& in) {
-  grid_.emplace(star_grid(in.boxes, config_, sharp_m_));
   site_ = site_of(agent_, in.boxes, config_.blind_height_ratio);
-  if (site_.blind_fleet) fill_boxes(in.boxes, *grid_);
   sortie_.know_site(site_.top_m, site_.safe_height_m());
-
   const StarTeam team = own_team(agent_.fleet, agent_.self, in.boxes, config_.volume_weight, !config_.faithful);
   leader_ = team.uavs.front();
   boxes_ = team.boxes;
-  cubes_ = cubes_of_boxes(*grid_, in.boxes, boxes_);
-
-  surfaces_.emplace(surfaces_config(config_, agent_.vehicle, sharp_m_, clearance_m()), agent_.vehicle, *grid_);
-  explorer_.emplace(explorer_config(config_), *grid_);
+  known_.emplace(config_, agent_, site_, in.boxes, boxes_);
   if (!has_lidar()) at_box_ = boxes_.size();
 }
 
-void StarPlanner::look_at_map(const PlannerInput& in) {
-  if (in.k % kCameraSteps == 0 && sortie_.working()) surfaces_->mark_seen(in.state, in.gimbal, mapper_, *grid_);
-  if (!agent_.due(in.k, kLookAtMapS, agent_.self)) return;
-  mapper_.update(in.map, *grid_);
-  const std::vector<Id> changed = grid_->take_changed();
-  if (has_lidar()) explorer_->look(*grid_, changed, in.state.p_WB);
-  hearsay_ = mapper_.hearsay(*grid_);
+void StarPlanner::look_around(const PlannerInput& in) {
+  if (in.k % kCameraSteps == 0 && sortie_.working()) known_->look_at_picture(in.state, in.gimbal);
+  if (agent_.due(in.k, kLookAtMapS, agent_.self)) known_->look_at_map(in.map, in.state.p_WB);
 }
 
 void StarPlanner::forget_target() {
@@ -224,17 +195,17 @@ bool StarPlanner::target_done(const PlannerInput& in) {
   const auto reached = [&](const Vector3d& p) { return (p - in.state.p_WB).norm() < kReachedM; };
   if (!route_.views.empty()) {
     const StarView view = route_.views.front();
-    const bool open = StarSurfaces::open(*grid_, view);
+    const bool open = StarSurfaces::open(known_->grid(), view);
     if (open && !reached(view.p_WB)) return false;
-    if (open) surfaces_->failed(view, in.tick);
+    if (open) known_->surfaces().failed(view, in.tick);
     route_.views.erase(route_.views.begin());
     return true;
   }
   if (route_.goals.empty()) return false;
   const StarGoal& goal = route_.goals.front();
-  const bool open = explorer_->open(goal);
+  const bool open = known_->explorer().open(goal);
   if (open && !reached(goal.p_WB)) return false;
-  if (open) explorer_->failed(goal, in.tick);
+  if (open) known_->explorer().failed(goal, in.tick);
   return true;
 }
 
@@ -248,9 +219,9 @@ void StarPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
 }
 
 void StarPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
-  if (!grid_) return;
+  if (!known_) return;
   planned_at_ = in.tick;
-  if (in.tick >= bold_until_) boldness_ = 0;
+  proof_.settle(in.tick);
   const FreeSpace space(space_config(), in.boxes, in.map, separation_.keep_out(in.tracking.setpoint.p_WB, in.peers));
   if (at_box_ < boxes_.size()) {
     explore(in, space, out) ? void(fruitless_ = 0) : nothing_to_reach(in, out);
@@ -266,7 +237,7 @@ bool StarPlanner::explore(const PlannerInput& in, const FreeSpace& space, Planne
   StarStart start{in.tracking.setpoint.p_WB, in.tracking.setpoint.v_WB, {}};
   if (!config_.faithful) start.mates_W = talk_.goals_W(in.tick);
   const std::size_t box = boxes_[at_box_];
-  std::vector<StarGoal> goals = explorer_->tour(*grid_, space, in.boxes[box], start, in.tick);
+  std::vector<StarGoal> goals = known_->explorer().tour(known_->grid(), space, in.boxes[box], start, in.tick);
   if (goals.empty()) {
     if (!been_there_) {
       if (!route_.empty() || in.tracking.done) return approach(in, space, box, out);
@@ -284,7 +255,7 @@ bool StarPlanner::explore(const PlannerInput& in, const FreeSpace& space, Planne
       route_ = {{}, std::move(goals)};
       return true;
     }
-    explorer_->failed(goals[first], in.tick);
+    known_->explorer().failed(goals[first], in.tick);
   }
   return false;
 }
@@ -292,13 +263,13 @@ bool StarPlanner::explore(const PlannerInput& in, const FreeSpace& space, Planne
 /// On through the viewpoints of surface that is left. @returns false if there is none.
 bool StarPlanner::inspect(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out) {
   const Vector3d here = in.tracking.setpoint.p_WB;
-  const std::vector<StarView> views = surfaces_->views(*grid_, cubes_, mapper_, space, here, in.tick);
+  const std::vector<StarView> views = known_->views(space, here, in.tick);
   if (views.empty()) return false;
   std::vector<Vector3d> places;
   for (const StarView& view : views) places.push_back(view.p_WB);
   const std::vector<Vector3d> mates = config_.faithful ? std::vector<Vector3d>() : talk_.goals_W(in.tick);
   const StarTour tour =
-      hierarchical_tour(*grid_, here, in.tracking.setpoint.v_WB, places, last_cluster_W_, mates, tour_config());
+      hierarchical_tour(known_->grid(), here, in.tracking.setpoint.v_WB, places, last_cluster_W_, mates, tour_config());
   for (std::size_t first = 0; first < std::min(views.size(), kCandidates); ++first) {
     std::vector<Vector3d> on_way;
     Route route;
@@ -313,7 +284,7 @@ bool StarPlanner::inspect(const PlannerInput& in, const FreeSpace& space, Planne
       idle_since_.reset();
       return true;
     }
-    surfaces_->failed(views[tour.visits[first]], in.tick);
+    known_->surfaces().failed(views[tour.visits[first]], in.tick);
   }
   nothing_to_reach(in, out);
   return true;
@@ -348,7 +319,7 @@ void StarPlanner::idle(const PlannerInput& in, const FreeSpace& space, PlannerOu
   const bool waits = !in.tracking.done || seconds(in.tick - *idle_since_) < config_.follow_s;
   if (config_.faithful || boxes_.empty() || waits) return;
   idle_since_ = in.tick;
-  bolder(in.tick);
+  proof_.ask_less(in.tick);
   if (has_lidar()) {
     begin_box(rounds_ % boxes_.size());
     ++rounds_;
@@ -369,24 +340,19 @@ void StarPlanner::begin_box(std::size_t box) {
   route_ = {};
 }
 
-void StarPlanner::bolder(Tick now) {
-  boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
-  bold_until_ = now + ticks(kBoldS);
-}
-
 void StarPlanner::nothing_to_reach(const PlannerInput& in, PlannerOutput& out) {
   forget_target();
   sortie_.pilot().stop(out);
   not_before_ = in.tick + ticks(kRestS);
   ++fruitless_;
-  if (fruitless_ % kFruitlessToBold == 0) bolder(in.tick);
+  if (fruitless_ % kFruitlessToBold == 0) proof_.ask_less(in.tick);
   if (fruitless_ % kFruitlessToRetreat == 0) sortie_.pilot().retreat(out);
 }
 
 /// Sets out through places one after the other; false if there is no way to the first.
 bool StarPlanner::fly_through(const std::vector<Vector3d>& places_W, double speed_mps, const FreeSpace& space,
                               const PlannerInput& in, PlannerOutput& out) {
-  auto path = star_way(*grid_, space, in.boxes, in.tracking.setpoint.p_WB, places_W, speed_mps,
+  auto path = star_way(known_->grid(), space, in.boxes, in.tracking.setpoint.p_WB, places_W, speed_mps,
                        {config_.round_m, config_.horizon_m, config_.transit_mps});
   if (!path) return false;
   sortie_.pilot().follow(std::move(*path), out);
@@ -400,7 +366,7 @@ void StarPlanner::point_camera(const PlannerInput& in, PlannerOutput& out) {
     const StarView& view = route_.views.front();
     camera_.sweep(in.state, in.gimbal, view.p_WB, view.surface_W, out);
   } else if (in.k % kCameraSteps == 0) {
-    auto passed = surfaces_->nearest_open_W(*grid_, mapper_, in.state.p_WB);
+    auto passed = known_->nearest_open_W(in.state.p_WB);
     if (!passed && !route_.goals.empty()) passed = route_.goals.front().middle_W;
     if (passed) camera_.look_at(in.state, *passed, out);
   }

@@ -68,8 +68,8 @@ class XxhRegionMap {
   /// @param last_share  size of the last one, in units of each other.
   Section section(std::size_t index, std::size_t count, double last_share) const;
 
-  /// Places of the spiral's turns that are in a section, each once around the region, beginning at the corner nearest to
-  /// `from_W`. A thin section may have none: it is seen from the turns beside it.
+  /// Places of the spiral's turns that are in a section, each once around the region, beginning at the corner nearest
+  /// to `from_W`. A thin section may have none: it is seen from the turns beside it.
   /// @param bottom_only  just one turn, at the section's first layer.
   std::vector<Vector3d> spiral(const Section& section, const Vector3d& from_W, bool bottom_only = false) const;
 

@@ -39,7 +39,8 @@ class XxhWays {
   void start_anew() { fruitless_ = 0; }
   /// No more proof than that of so many fruitless tries; 0, 1 or 2.
   void dare(int boldness) { dared_ = boldness; }
-  /// Sets out. @param slow_mps  on a short way, and from place to place; a long way there is flown at the speed of transit.
+  /// Sets out.
+  /// @param slow_mps  on a short way, and from place to place; a long way there is flown at the speed of transit.
   /// @returns false, and does nothing, if there is no way.
   bool fly_to(const Vector3d& goal_W, double slow_mps, const PlannerInput& in, PlannerOutput& out);
   /// Along `places` as far as they can be flown one after the other; the first one must be found a way to.

@@ -25,6 +25,7 @@
 #include "uav_agent/planners/xxh/crew.hpp"
 #include "uav_agent/planners/xxh/explore.hpp"
 #include "uav_agent/planners/xxh/inspect.hpp"
+#include "uav_agent/planners/xxh/post.hpp"
 #include "uav_agent/planning/strips.hpp"
 
 namespace skein::agent {
@@ -37,9 +38,6 @@ constexpr double kShortRestS = 0.25;  ///< when another cell may be tried
 constexpr double kLowestM = 2.5;      ///< of places on the spiral and of stops
 constexpr int kTries = 3;             ///< searches for a way in one exchange
 constexpr int kFruitlessToRetreat = 40;
-constexpr double kUpright = 0.7;  ///< a longest edge as steep as that
-constexpr double kPostM = 4.0;    ///< between the posts of those who wait
-constexpr int kPostHeights = 8;
 constexpr double kHandOverS = 25.0;  ///< to find somebody who has not heard its order
 constexpr double kFreshS = 10.0;     ///< after a start in flight: others may know how far the team is
 
@@ -67,7 +65,8 @@ class XxhPlanner final : public Planner {
         crew_(config_, agent_, talk_),
         ways_(config_, agent_, talk_, sortie_.pilot()),
         explorer_(config_, ways_),
-        inspector_(config_, agent_) {}
+        inspector_(config_, agent_),
+        post_(config_, agent_, ways_) {}
 
   PlannerOutput plan(const PlannerInput& in) override;
 
@@ -95,7 +94,6 @@ class XxhPlanner final : public Planner {
   void section_done(const PlannerInput& in);
   void regroup(const PlannerInput& in, PlannerOutput& out);
   void stay_at_post(const PlannerInput& in, PlannerOutput& out);
-  std::vector<Vector3d> posts() const;
   void go_home(const PlannerInput& in, PlannerOutput& out);
   void assume_solid();
   bool free_for_something(const PlannerInput& in) const { return in.tracking.done && in.tick >= not_before_; }
@@ -111,6 +109,7 @@ class XxhPlanner final : public Planner {
   XxhWays ways_;
   XxhExplorer explorer_;
   XxhInspector inspector_;
+  XxhPost post_;
 
   bool site_known_ = false;
   Tick assigned_at_ = 0;
@@ -126,8 +125,6 @@ class XxhPlanner final : public Planner {
   bool exploring_ = false;                   ///< the next one
   std::vector<std::size_t> begun_;           ///< sections that this UAV inspects or has inspected
   bool ordered_ = false;                     ///< knows that its section is explored
-  bool at_post_ = false;
-  std::size_t post_ = 0;
 };
 
 PlannerOutput XxhPlanner::plan(const PlannerInput& in) {
@@ -162,12 +159,12 @@ void XxhPlanner::fly(const PlannerInput& in, PlannerOutput& out) {
   ways_.dare(stage_ == Stage::inspect ? inspector_.pass() : 0);
   switch (sortie_.step(in, ways_.space(), out)) {
     case Sortie::Turn::begin:
-      at_post_ = false;
+      post_.leave();
       not_before_ = in.tick;
       return;
     case Sortie::Turn::blocked:
       inspector_.give_up();
-      at_post_ = false;
+      post_.leave();
       explorer_.give_up();
       not_before_ = in.tick + ticks(kRestS);
       return;
@@ -197,16 +194,10 @@ void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
   const XxhRegion& region = crew_.regions()[region_index_];
   if (region_index_ > 0) {
     const XxhRegion& last = crew_.regions()[region_index_ - 1];
-    const OrientedBox box = region_box(last, in.boxes[last.box]);
-    const int axis = longest_axis(in.boxes[last.box]);
-    came_from_W_ = box.center + (last.from_high_end ? -0.5 : 0.5) * box.size[axis] * box.R_WO.col(axis);
+    came_from_W_ = far_end(last, in.boxes[last.box]);
   }
   const OrientedBox& whole = in.boxes[region.box];
-  const int axis = longest_axis(whole);
-  // Upright ones begin at the top: what is low may only be entered once it was seen from above.
-  const Vector3d along = whole.R_WO.col(axis);
-  const bool from_high_end = std::abs(along.z()) > kUpright ? along.z() > 0.0 : region.from_high_end;
-  region_.emplace(map_config(), region_box(region, whole), axis, from_high_end);
+  region_.emplace(map_config(), region_box(region, whole), longest_axis(whole), mapped_from_high_end(region, whole));
   const auto first_turn = region_->spiral(region_->section(0, 1, 1.0), came_from_W_);
   entry_W_ = first_turn.empty() ? region_->box().center : first_turn.front();
   if (crew_.led()) return change(crew_.leads() ? Stage::explore : Stage::wait, in);
@@ -247,8 +238,7 @@ void XxhPlanner::change(Stage stage, const PlannerInput& in) {
   stage_ = stage;
   stage_since_ = in.tick;
   not_before_ = in.tick;
-  at_post_ = false;
-  post_ = 0;
+  post_.leave_for_good();
 }
 
 void XxhPlanner::work(const PlannerInput& in, PlannerOutput& out) {
@@ -369,35 +359,14 @@ void XxhPlanner::regroup(const PlannerInput& in, PlannerOutput& out) {
   }
 }
 
-/// Beside the entry, each at a distance of its own; where something is in the way, higher.
-std::vector<Vector3d> XxhPlanner::posts() const {
-  Vector3d out = entry_W_ - region_->box().center;
-  out.z() = 0.0;
-  if (out.norm() < 1.0) out = Vector3d::UnitX();
-  const Vector3d place = entry_W_ + kPostM * static_cast<double>(crew_.rank() + 1) * out.normalized();
-  const double lowest = std::max(place.z(), ways_.site().safe_height_m() + kPostM);
-  const double highest = std::max(lowest, ways_.site().top_m + kPostM * static_cast<double>(agent_.self + 2));
-  std::vector<Vector3d> posts;
-  for (int i = 0; i < kPostHeights; ++i) {
-    posts.emplace_back(place.x(), place.y(), lowest + (highest - lowest) * i / (kPostHeights - 1));
-  }
-  return posts;
-}
-
 void XxhPlanner::stay_at_post(const PlannerInput& in, PlannerOutput& out) {
-  if (at_post_ || !free_for_something(in)) return;
-  const auto places = posts();
-  at_post_ = ways_.fly_to(places[post_], config_.transit_mps, in, out);
-  if (at_post_) return;
-  post_ = (post_ + 1) % places.size();
-  recover(in, out);
+  if (post_.taken() || !free_for_something(in)) return;
+  if (!post_.take_beside(entry_W_, region_->box().center, crew_.rank(), in, out)) recover(in, out);
 }
 
 void XxhPlanner::go_home(const PlannerInput& in, PlannerOutput& out) {
-  if (at_post_ || !free_for_something(in)) return;
-  Vector3d home = agent_.me().p_WB_start;
-  home.z() = ways_.site().safe_height_m() + kPostM * static_cast<double>(agent_.self + 1);
-  at_post_ = ways_.fly_to(home, config_.transit_mps, in, out);
+  if (post_.taken() || !free_for_something(in)) return;
+  post_.take_at_home(in, out);
   not_before_ = in.tick + ticks(kRestS);
 }
 

@@ -1,0 +1,37 @@
+// The faults of a plan that kill or stop a program: which begin and which end with an exchange.
+// Threads: one.   Pure: what becomes of the programs is the caller's business.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/fault_plan.hpp"
+
+namespace skein::sim {
+
+class ProcessFaults {
+ public:
+  struct Victim {
+    std::string member;
+    bool killed = false;  ///< else stopped
+    std::string kind;     ///< of the fault, as files spell it
+  };
+
+  explicit ProcessFaults(const FaultPlan& plan);
+
+  /// Those that begin with the exchange at this tick, in the plan's order.
+  std::vector<Victim> take_beginning(Tick tick);
+  /// Those that act, and will no longer in the exchange at this tick.
+  std::vector<Victim> take_ending(Tick tick);
+
+ private:
+  struct Entry {
+    Fault fault;
+    bool acting = false;
+  };
+  std::vector<Victim> take(Tick tick, bool beginning);
+
+  std::vector<Entry> entries_;
+};
+
+}  // namespace skein::sim
