@@ -147,7 +147,8 @@ TEST(FleetInOneProcess, TheOrderOfDiscoveryAndArrivalIsNoMatter) {
   }
 }
 
-// What flies over DDS in tests/fleet/reference_digests_test.cpp has the same digest here: one row for each family and planner.
+// What flies over DDS in tests/fleet/reference_digests_test.cpp has the same digest here: one row for each family and
+// planner.
 TEST(FleetInOneProcess, FliesAsItDoesOverDds) {
   std::ifstream table(SKEIN_SOURCE_DIR "/tests/fleet/reference_digests.csv");
   std::string line;
