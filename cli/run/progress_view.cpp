@@ -16,8 +16,6 @@ std::string fixed(double value, int digits) {
   return out.str();
 }
 
-double number(const Json& object, const char* key) { return value_or(object, key, 0.0); }
-
 /// A measured number, or "-" where nobody reported one.
 std::string cell(const Json& object, const char* key, int digits) {
   const auto found = object.find(key);

@@ -65,6 +65,8 @@ bool write_score_csv(const std::filesystem::path& dir, const Json& station_repor
 /// The value under `key` when it is there and of the same kind as `fallback`, else `fallback`. A null `fallback` takes
 /// any kind. Never throws.
 Json value_or(const Json& object, const char* key, Json fallback);
+/// 0 where there is none.
+inline double number(const Json& object, const char* key) { return value_or(object, key, 0.0).get<double>(); }
 
 /// Parses what a program wrote. @returns null when it is not JSON. What is nested deeper than anything of ours is left
 /// out: copying it would take the stack.

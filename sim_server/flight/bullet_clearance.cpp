@@ -8,8 +8,6 @@
 namespace skein::sim {
 namespace {
 
-Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
 double squared_distance_to_edge(const Vector3d& p, const Vector3d& from, const Vector3d& to) {
   const Vector3d edge = to - from;
   const double length2 = edge.squaredNorm();
@@ -31,6 +29,8 @@ struct Nearest final : btTriangleCallback {
 };
 
 }  // namespace
+
+Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d n = (b - a).cross(c - a);

@@ -5,8 +5,11 @@
 #include "core/types.hpp"
 
 class btBvhTriangleMeshShape;
+class btVector3;
 
 namespace skein::sim {
+
+Vector3d to_eigen(const btVector3& v);
 
 /// Distance of the closest point of a triangle [m], in any position and also of a triangle without area. Pure.
 double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c);
