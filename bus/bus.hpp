@@ -11,8 +11,10 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bus/unsent.hpp"
 #include "core/run_id.hpp"
 
 namespace skein::bus {
@@ -47,7 +49,8 @@ class Writer {
  public:
   virtual ~Writer() = default;
   /// @param payload with encapsulation header. A length that is no multiple of four is padded with zeros, here as on
-  /// the wire. Never blocks for long: what a reader cannot take is lost to it.
+  /// the wire. Never blocks for long: what a reader cannot take is lost to it, and what the vendor does not take at all
+  /// goes to the participant's unsent().
   virtual void write(std::span<const std::uint8_t> payload) = 0;
   /// Participants with a reader that this writer has matched, one entry a reader.
   virtual std::vector<ParticipantId> matched() const = 0;
@@ -69,6 +72,8 @@ using OnSample = std::function<void(Sample&&)>;
 /// One participant in one domain. Endpoints must be destroyed before it.
 class Participant {
  public:
+  /// @param unsent  shared with others, as a rule with all of the bus.
+  explicit Participant(std::shared_ptr<Unsent> unsent = std::make_shared<Unsent>()) : unsent_(std::move(unsent)) {}
   virtual ~Participant() = default;
   virtual ParticipantId id() const = 0;
   virtual std::unique_ptr<Writer> create_writer(const TopicSpec& topic) = 0;
@@ -78,6 +83,11 @@ class Participant {
   /// they were called already; nobody may wait for an answer in between. See Burst.
   virtual void hold() {}
   virtual void release() {}
+  /// Where its writers count what they could not send.
+  Unsent& unsent() const { return *unsent_; }
+
+ private:
+  const std::shared_ptr<Unsent> unsent_;
 };
 
 /// Samples that are written in a row and of use only together: a step's. Sends them at the latest when it ends.
@@ -111,11 +121,14 @@ class Bus {
   virtual ~Bus() = default;
   /// The run that its programs take part in.
   RunId run() const { return run_; }
+  /// What the writers of all participants that it made did not send.
+  const std::shared_ptr<Unsent>& unsent() const { return unsent_; }
   /// @throws InputError when `domain` is not 0 .. kMaxDomain; std::runtime_error when the vendor fails
   virtual std::unique_ptr<Participant> join(int domain) = 0;
 
  private:
   const RunId run_;
+  const std::shared_ptr<Unsent> unsent_ = std::make_shared<Unsent>();
 };
 
 /// @throws InputError (core/types.hpp) for an unknown vendor; the message lists the known ones. Also when a file of

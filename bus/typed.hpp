@@ -1,4 +1,4 @@
-// Writers and subscriptions of messages instead of bytes. A thin layer: everything about order, threads and quality of
+// Topics and subscriptions of messages instead of bytes. A thin layer: everything about order, threads and quality of
 // service is as bus.hpp and inbox.hpp say.
 #pragma once
 
@@ -21,30 +21,6 @@ template <class T>
 TopicSpec topic_of(std::string name, const Qos& qos = {}) {
   return {std::move(name), type_name<T>(), qos};
 }
-
-/// Writes messages and counts them, as lock-step wants it. From one thread at a time.
-template <class T>
-class TypedWriter {
- public:
-  TypedWriter(Participant& participant, std::string name, const Qos& qos = {})
-      : name_(std::move(name)), writer_(participant.create_writer(topic_of<T>(name_, qos))) {}
-
-  void write(const T& message) {
-    writer_->write(encode(message));
-    ++count_;
-  }
-
-  /// Samples written since construction.
-  std::uint64_t count() const { return count_; }
-  const std::string& name() const { return name_; }
-  std::vector<ParticipantId> matched() const { return writer_->matched(); }
-  Writer& raw() { return *writer_; }
-
- private:
-  std::string name_;
-  std::unique_ptr<Writer> writer_;
-  std::uint64_t count_ = 0;
-};
 
 /// Messages of the lock-step: they say which run they belong to.
 template <class T>

@@ -16,8 +16,10 @@
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
+#include "cli/run_command.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
+#include "process/program.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -1,9 +1,9 @@
 // `skein bench`: how fast, how large, and where the time goes. Everything is measured in this one call, with the
-// programs of a user's run; the figures' arithmetic is in bench_report.hpp, what they mean in docs/performance.md.
+// programs of a user's run; the figures' arithmetic is in bench/report.hpp, what they mean in docs/performance.md.
 #pragma once
 
+#include "cli/console.hpp"
 #include "cli/options.hpp"
-#include "cli/run_command.hpp"
 
 namespace skein::cli {
 

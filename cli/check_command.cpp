@@ -9,6 +9,7 @@
 #include "cli/run/preflight.hpp"
 #include "core/config_node.hpp"
 #include "core/scenario_reader.hpp"
+#include "process/program.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

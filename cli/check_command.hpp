@@ -1,8 +1,8 @@
 // `skein check`: is this file right? Scenarios, vehicles, fault files, fault tests, and tables of reference vectors.
 #pragma once
 
+#include "cli/console.hpp"
 #include "cli/options.hpp"
-#include "cli/run_command.hpp"
 
 namespace skein::cli {
 

@@ -6,6 +6,7 @@
 
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "process/program.hpp"
 
 namespace skein::cli {
 namespace {

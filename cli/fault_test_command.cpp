@@ -11,8 +11,10 @@
 #include "cli/run/preflight.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "cli/study/spec.hpp"
-#include "cli/test_command.hpp"
+#include "cli/test_counts.hpp"
+#include "core/text.hpp"
 #include "process/atomic_file.hpp"
+#include "process/program.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -1,8 +1,8 @@
 // `skein test --faults`: flies fault tests and says which expectations hold.
 #pragma once
 
+#include "cli/console.hpp"
 #include "cli/options.hpp"
-#include "cli/run_command.hpp"
 
 namespace skein::cli {
 

@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 
+#include "core/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -14,21 +14,12 @@ namespace {
 
 constexpr double kLongestS = 36000.0, kLeastFactor = 0.001, kGreatestFactor = 1000.0;
 
-/// A finite number in decimal notation, all of the text: no sign "+", no 0x10, no blanks.
-std::optional<double> decimal(const std::string& text) {
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  if (read.ec != std::errc() || read.ptr != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 }  // namespace
 
 std::string check_clock(const std::string& text) {
   if (text == "lockstep" || text == "realtime") return {};
   const std::string prefix = "realtime:";
-  const auto factor = text.starts_with(prefix) ? decimal(text.substr(prefix.size())) : std::nullopt;
+  const auto factor = text.starts_with(prefix) ? parse_number(text.substr(prefix.size())) : std::nullopt;
   if (factor && *factor >= kLeastFactor && *factor <= kGreatestFactor) return {};
   return "must be lockstep, realtime or realtime:FACTOR with a factor within [0.001, 1000], not '" + text + "'";
 }
@@ -42,7 +33,7 @@ std::string check_seed(const std::string& text) {
 }
 
 std::string check_seconds(const std::string& text) {
-  const auto value = decimal(text);
+  const auto value = parse_number(text);
   const bool good = value && *value > 0.0 && *value <= kLongestS;
   return good ? "" : "'" + text + "' must be a number of seconds above 0 and at most 36000";
 }

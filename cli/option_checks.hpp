@@ -1,5 +1,5 @@
-// What the values of the command line's options must be. Each check_*() is a validator for CLI11: it returns what is wrong
-// with a text, or nothing.
+// What the values of the command line's options must be. Each check_*() is a validator for CLI11: it returns what is
+// wrong with a text, or nothing.
 #pragma once
 
 #include <string>

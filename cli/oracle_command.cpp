@@ -1,12 +1,13 @@
 #include "cli/oracle_command.hpp"
 
-#include <iomanip>
-#include <sstream>
+#include <spdlog/fmt/fmt.h>
 
-#include "cli/fault_tests/limits.hpp"
+#include <iomanip>
+
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
+#include "core/text.hpp"
 #include "core/types.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
@@ -65,11 +66,8 @@ std::string metres(double value) { return number_text(value) + " m"; }
 
 /// Points, score, and by how many percent twice as many viewpoints changed it.
 std::string figures(const Json& part) {
-  std::ostringstream text;
-  text << std::setw(10) << value_or(part, "points", 0).get<std::size_t>() << std::fixed << std::setprecision(1)
-       << std::setw(12) << value_or(part, "score", 0.0).get<double>() << std::setprecision(2) << std::showpos
-       << std::setw(10) << value_or(part, "change_percent", 0.0).get<double>() << " %";
-  return text.str();
+  return fmt::format("{:>10}{:>12.1f}{:>+10.2f} %", value_or(part, "points", 0).get<std::size_t>(),
+                     value_or(part, "score", 0.0).get<double>(), value_or(part, "change_percent", 0.0).get<double>());
 }
 
 void print_one(std::ostream& out, const Json& answer, bool outside_only) {

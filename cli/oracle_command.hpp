@@ -1,9 +1,9 @@
 // `skein oracle`: what could be had of a scenario with full knowledge (docs/oracle.md), and the same for `skein run`.
 #pragma once
 
+#include "cli/console.hpp"
 #include "cli/options.hpp"
 #include "cli/run/result.hpp"
-#include "cli/run_command.hpp"
 
 namespace skein::cli {
 

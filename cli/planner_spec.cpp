@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <sstream>
 #include <string_view>
 
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -15,14 +15,6 @@ namespace {
 constexpr std::string_view kExec = "exec:";
 constexpr std::string_view kGround = "gcs";
 constexpr std::size_t kLongestLabel = 100;
-
-/// The pieces between commas, the last one too when it is empty: a command may end with a comma.
-std::vector<std::string> split_at_commas(const std::string& text) {
-  std::vector<std::string> items;
-  std::stringstream rest(text + ',');
-  for (std::string item; std::getline(rest, item, ',');) items.push_back(item);
-  return items;
-}
 
 /// Whether what follows a comma may still belong to this planner.
 bool goes_on(const std::string& spec, bool item_has_key) {
@@ -52,7 +44,7 @@ Planners parse_planners(const std::string& text, const std::vector<std::string>&
   std::map<std::string, std::string> named;
   std::string fallback;
   std::string* last = nullptr;  // the planner that a following parameter belongs to
-  for (const std::string& item : split_at_commas(text)) {
+  for (const std::string& item : split(text)) {
     const std::size_t equals = item.find('=');
     const bool has_key = equals != std::string::npos && equals < item.find(':');
     const std::string key = has_key ? item.substr(0, equals) : "";

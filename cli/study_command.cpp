@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-
 #include "cli/run/results_dir.hpp"
 #include "cli/study/columns.hpp"
 #include "cli/study/csv.hpp"
@@ -11,8 +9,10 @@
 #include "cli/study/page.hpp"
 #include "core/sha256.hpp"
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
+#include "process/program.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

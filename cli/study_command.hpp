@@ -1,7 +1,7 @@
 // `skein contest` and `skein compare`: fly a study and write its report.
 #pragma once
 
-#include "cli/run_command.hpp"
+#include "cli/console.hpp"
 #include "cli/study/figures.hpp"
 #include "cli/study/flights.hpp"
 

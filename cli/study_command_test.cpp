@@ -7,6 +7,7 @@
 #include "cli/study/flights.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "process/program.hpp"
 
 namespace skein::cli {
 namespace {

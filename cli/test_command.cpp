@@ -1,72 +1,13 @@
 #include "cli/test_command.hpp"
 
-#include <fstream>
-#include <iterator>
-#include <regex>
-#include <stdexcept>
-
 #include "cli/fault_test_command.hpp"
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run/result.hpp"
+#include "cli/test_counts.hpp"
+#include "process/program.hpp"
 
 namespace skein::cli {
-namespace {
-
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error(file.string() + ": ctest left no report");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// Counts of a GoogleTest program's own report.
-TestCounts count_cases(const Json& report) {
-  TestCounts counts;
-  for (const Json& suite : value_or(report, "testsuites", Json::array())) {
-    for (const Json& test : value_or(suite, "testsuite", Json::array())) {
-      const Json result = value_or(test, "result", "");
-      if (result == "SUPPRESSED") continue;  // DISABLED_
-      if (!value_or(test, "failures", Json::array()).empty()) {
-        ++counts.failed;
-      } else {
-        ++(result == "SKIPPED" ? counts.skipped : counts.passed);
-      }
-    }
-  }
-  return counts;
-}
-
-}  // namespace
-
-TestCounts count_tests(const std::filesystem::path& junit, const std::filesystem::path& reports) {
-  const std::string text = read_text(junit);
-  static const std::regex kEntry(
-      R"re(<testcase name="([^"]*)"[^>]*\bstatus="([^"]*)"[^>]*>\s*(<skipped message="SKIP_)?)re");
-  TestCounts total;
-  for (auto entry = std::sregex_iterator(text.begin(), text.end(), kEntry); entry != std::sregex_iterator(); ++entry) {
-    const std::string name = (*entry)[1], status = (*entry)[2];
-    const bool skipped = status == "disabled" || (*entry)[3].matched;
-    const bool failed = !skipped && status != "run";  // also one that could not be started
-    const Json report = read_json(reports / (name + ".json"));
-    if (report.is_null()) {  // no GoogleTest program, or one that crashed or timed out
-      ++(failed ? total.failed : skipped ? total.skipped : total.passed);
-      continue;
-    }
-    TestCounts counts = count_cases(report);
-    if (failed && counts.failed == 0) counts.failed = 1;  // all cases passed, yet the program ended badly
-    total.passed += counts.passed;
-    total.failed += counts.failed;
-    total.skipped += counts.skipped;
-  }
-  return total;
-}
-
-std::string summary_line(const TestCounts& counts) {
-  std::string line = std::to_string(counts.passed) + " passed, " + std::to_string(counts.failed) + " failed";
-  if (counts.skipped > 0) line += ", " + std::to_string(counts.skipped) + " skipped";
-  return line;
-}
 
 int run_tests(const TestOptions& options, const Console& console) {
   if (options.faults) return run_fault_tests(options, console);

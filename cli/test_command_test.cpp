@@ -1,4 +1,4 @@
-#include "cli/test_command.hpp"
+#include "cli/test_counts.hpp"
 
 #include <gtest/gtest.h>
 

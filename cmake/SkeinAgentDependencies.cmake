@@ -1,6 +1,7 @@
 # What an agent program links, all from Debian 12. Used by this build and, installed, by find_package(skein).
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(yaml-cpp REQUIRED)
+find_package(pugixml 1.13 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)

@@ -10,4 +10,5 @@ pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
 
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
+  find_package(valijson REQUIRED)
 endif()

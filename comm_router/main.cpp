@@ -16,7 +16,7 @@ namespace {
 
 /// What a router knows beside its counts.
 struct Notes {
-  std::uint64_t malformed = 0, unheard = 0;
+  std::uint64_t malformed = 0, unheard = 0, unsent = 0;
   std::vector<std::string> warnings = {};
   std::vector<std::string> unwritten = {};  ///< files that the disk refused
 };
@@ -37,6 +37,7 @@ void write_report(const std::filesystem::path& folder, const skein::Scenario& sc
   skein::RouterReport report{.total = radio_counts(gate.total()),
                              .malformed = notes.malformed,
                              .unheard = notes.unheard,
+                             .unsent = notes.unsent,
                              .warnings = notes.warnings,
                              .unwritten = notes.unwritten};
   for (const skein::Node from : gate.nodes()) {
@@ -95,7 +96,7 @@ int run(const skein::ProgramOptions& options, bool settle_only, skein::StopSigna
     stop.on_stop({});
     if (end != skein::bus::NodeEnd::resumed) code = skein::bus::exit_code(end, skein::programs::kCommRouter);
     unwritten.insert(unwritten.end(), node.unwritten().begin(), node.unwritten().end());
-    const Notes notes{node.malformed(), node.unheard(), node.stranger_warnings(), unwritten};
+    const Notes notes{node.malformed(), node.unheard(), node.unsent(), node.stranger_warnings(), unwritten};
     if (code) write_report(options.out, scenario, node.gate(), notes, status);
   }
   std::filesystem::remove(counts);

@@ -53,6 +53,8 @@ class RouterNode final : public bus::ClientNode {
   std::vector<std::string> stranger_warnings() const { return stranger_warnings_; }
   /// Samples received that were no message of their topic's type.
   std::uint64_t malformed() const { return inbox_.malformed(); }
+  /// Samples that could not be sent.
+  std::uint64_t unsent() const { return world_->unsent().count(); }
   /// Files that the disk refused, one sentence each.
   const std::vector<std::string>& unwritten() const { return unwritten_; }
 

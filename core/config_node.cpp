@@ -1,5 +1,6 @@
 #include "core/config_node.hpp"
 
+#include <yaml-cpp/emitter.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
@@ -177,57 +178,45 @@ bool is_plain_word(const std::string& text) {
   const auto plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '/' || c == '.' || c == '-' || c == '+';
   };
-  return !text.empty() && text != "-" && text != "null" && text != "---" && text != "..." &&
-         std::all_of(text.begin(), text.end(), plain);
+  return text != "---" && text != "..." && std::all_of(text.begin(), text.end(), plain);
 }
 
-std::string scalar_text(const ConfigNode& node) {
-  if (node.kind == ConfigNode::Kind::null) return "~";
-  if (!node.quoted && is_plain_word(node.scalar)) return node.scalar;
-  std::string out = "\"";
-  for (const char c : node.scalar) {
-    if (c == '\n') {
-      out += "\\n";
-    } else {
-      if (c == '"' || c == '\\') out += '\\';
-      out += c;
-    }
-  }
-  return out + '"';
+/// What is no plain word goes into quotes, as does what yaml-cpp knows to read as something else.
+void emit_scalar(YAML::Emitter& out, const std::string& text, bool quoted) {
+  if (quoted || !is_plain_word(text)) out << YAML::DoubleQuoted;
+  out << text;
 }
 
 bool is_leaf(const ConfigNode& node) {
   return node.kind == ConfigNode::Kind::scalar || node.kind == ConfigNode::Kind::null;
 }
 
-/// Writes the node after "key:" or "-": a leaf on the same line, the rest below, indented by `indent`.
-void write_value(std::ostream& out, const ConfigNode& node, int indent, bool after_dash) {
-  if (is_leaf(node)) {
-    out << (indent > 0 ? " " : "") << scalar_text(node) << '\n';
-    return;
-  }
-  if (node.items.empty()) {
-    out << (node.kind == ConfigNode::Kind::list ? " []\n" : " {}\n");
-    return;
-  }
-  if (node.kind == ConfigNode::Kind::list && std::all_of(node.items.begin(), node.items.end(), is_leaf)) {
-    out << " [";
-    for (std::size_t i = 0; i < node.items.size(); ++i) out << (i ? ", " : "") << scalar_text(node.items[i]);
-    out << "]\n";
-    return;
-  }
-  const std::string margin(static_cast<std::size_t>(indent), ' ');
-  bool on_line = after_dash;  // the first key of a map stands beside its dash
-  if (!after_dash && indent > 0) out << '\n';
-  for (std::size_t i = 0; i < node.items.size(); ++i) {
-    if (node.kind == ConfigNode::Kind::map) {
-      out << (on_line ? " " : margin) << scalar_text(ConfigNode::make_scalar(node.keys[i])) << ':';
-      write_value(out, node.items[i], indent + 2, false);
-    } else {
-      out << (on_line ? " " : margin) << '-';
-      write_value(out, node.items[i], indent + 2, true);
-    }
-    on_line = false;
+/// A list of leaves stands on one line, and so does what is empty.
+void emit(YAML::Emitter& out, const ConfigNode& node) {
+  switch (node.kind) {
+    case ConfigNode::Kind::null:
+      out << YAML::Null;
+      break;
+    case ConfigNode::Kind::scalar:
+      emit_scalar(out, node.scalar, node.quoted);
+      break;
+    case ConfigNode::Kind::list:
+      if (std::all_of(node.items.begin(), node.items.end(), is_leaf)) out << YAML::Flow;
+      out << YAML::BeginSeq;
+      for (const ConfigNode& item : node.items) emit(out, item);
+      out << YAML::EndSeq;
+      break;
+    case ConfigNode::Kind::map:
+      if (node.items.empty()) out << YAML::Flow;
+      out << YAML::BeginMap;
+      for (std::size_t i = 0; i < node.items.size(); ++i) {
+        out << YAML::Key;
+        emit_scalar(out, node.keys[i], false);
+        out << YAML::Value;
+        emit(out, node.items[i]);
+      }
+      out << YAML::EndMap;
+      break;
   }
 }
 
@@ -316,9 +305,9 @@ ConfigDocument parse_assignments(const std::string& text, const std::string& ori
 }
 
 std::string to_yaml(const ConfigNode& node) {
-  std::ostringstream out;
-  write_value(out, node, 0, false);
-  return out.str();
+  YAML::Emitter out;
+  emit(out, node);
+  return out.c_str() + std::string("\n");
 }
 
 }  // namespace skein

@@ -5,15 +5,10 @@
 #include <cmath>
 
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 
 namespace skein {
 namespace {
-
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-  return std::string(text.data(), result.ptr);
-}
 
 /// A plain scalar's text without a leading '+', which YAML allows and from_chars does not.
 std::string_view number_candidate(const ConfigNode& node) {
@@ -37,10 +32,10 @@ std::string wanted(const std::string& what, const Bounds& bounds) {
 }  // namespace
 
 std::string Bounds::text() const {
-  if (lo_open && std::isfinite(hi)) return "above " + number_text(lo) + " and at most " + number_text(hi);
-  if (std::isfinite(lo) && std::isfinite(hi)) return "within [" + number_text(lo) + ", " + number_text(hi) + "]";
-  if (std::isfinite(lo)) return (lo_open ? "above " : "of at least ") + number_text(lo);
-  if (std::isfinite(hi)) return "of at most " + number_text(hi);
+  if (lo_open && std::isfinite(hi)) return "above " + shortest(lo) + " and at most " + shortest(hi);
+  if (std::isfinite(lo) && std::isfinite(hi)) return "within [" + shortest(lo) + ", " + shortest(hi) + "]";
+  if (std::isfinite(lo)) return (lo_open ? "above " : "of at least ") + shortest(lo);
+  if (std::isfinite(hi)) return "of at most " + shortest(hi);
   return "";
 }
 
@@ -125,10 +120,9 @@ void read_bool(const Place& place, bool& value) {
 }
 
 void read_double(const Place& place, double& value, const Bounds& bounds) {
-  double read = 0.0;
-  const bool ok = parse(number_candidate(place.node), read) && std::isfinite(read) && bounds.contain(read);
-  if (!ok) return place.refuse(wanted("a number", bounds));
-  value = read;
+  const std::optional<double> read = parse_number(number_candidate(place.node));
+  if (!read || !bounds.contain(*read)) return place.refuse(wanted("a number", bounds));
+  value = *read;
 }
 
 void read_integer(const Place& place, std::int64_t& value, const Bounds& bounds) {

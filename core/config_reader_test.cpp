@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "core/config_writer.hpp"
 
 namespace skein {
@@ -179,11 +181,22 @@ TEST(ConfigReader, ReadsAssignmentsOfACommandLine) {
 }
 
 TEST(ConfigWriter, QuotesWhatWouldReadAsSomethingElse) {
-  for (const char* text : {"true", "12", "a: b", "- x", "", "#", "it's \"so\"", "two\nlines", "~", "null", "/chat"}) {
+  for (const char* text : {"true", "12", "a: b", "- x", "-", "", "#", "it's \"so\"", "two\nlines", "a\ttab",
+                           "back\\slash", "~", "null", "NULL", "---", "...", "Zürich", "/chat"}) {
     Everything value;
     value.text = text;
-    EXPECT_EQ(parse(config_to_yaml(value)).text, text);
+    if (!std::strchr(text, '\n')) value.named = {{text, 1.0}};  // no key has lines
+    const Everything again = parse(config_to_yaml(value));
+    EXPECT_EQ(again.text, text);
+    EXPECT_EQ(again.named, value.named) << text;
   }
+}
+
+TEST(ConfigWriter, PrintsTheTreeThatItRead) {
+  const std::string text =
+      "word: a/b-c\n\"two words\": \"12\"\nnumber: -1.5e-07\nnothing: ~\nempty: {}\nlist: [1, \"a b\", ~]\n"
+      "maps:\n  - name: a\n    inner:\n      - [1, 2]\n      - []\n  - name: b\n";
+  EXPECT_EQ(to_yaml(parse_config_document(text, "test").root), text);
 }
 
 }  // namespace

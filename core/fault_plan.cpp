@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "core/config_reader.hpp"
 #include "core/random_stream.hpp"
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 
 namespace skein {
 namespace {
@@ -51,12 +51,9 @@ void read_time(R& r, const std::string& key, const Bounds& bounds, std::optional
     r.check(time->earliest_s <= time->latest_s, key, "must be a time, or [earliest, latest]");
     return;
   }
-  const std::string& text = std::get<std::string>(given);
-  double value = 0.0;
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = !text.empty() && end.ec == std::errc() && end.ptr == text.data() + text.size();
-  r.check(is_number && bounds.contain(value), key, "must be a number " + bounds.text() + ", or [earliest, latest]");
-  time = TimeRange{value, value};
+  const std::optional<double> value = parse_number(std::get<std::string>(given));
+  r.check(value && bounds.contain(*value), key, "must be a number " + bounds.text() + ", or [earliest, latest]");
+  time = TimeRange{value.value_or(0.0), value.value_or(0.0)};
 }
 
 /// A fault as the file has it: times, and exactly one of the actions.

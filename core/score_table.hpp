@@ -28,6 +28,9 @@ struct CaptureReport {
   bool operator==(const CaptureReport&) const = default;
 };
 
+/// A report that is not acknowledged is sent again after so many exchanges.
+inline constexpr std::uint64_t kResendSteps = 10;
+
 /// What the referee wrote down.
 struct LedgerEntry {
   std::uint64_t index = 0;  ///< 0, 1, ... without gaps

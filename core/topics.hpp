@@ -107,6 +107,8 @@ inline constexpr int kStateDepth = 8;  ///< one sample a round
 inline constexpr int kCloudDepth = 8;  ///< one large sample a round at most
 inline constexpr int kCommandDepth = 64;
 inline constexpr int kRadioDepth = 256;
+/// Of a topic on which all may send, for who does not know the fleet: twenty UAVs and the ground station.
+inline constexpr std::size_t kMostRadioSources = 21;
 /// Where messages of several sources arrive, each may send its share in one round.
 constexpr int radio_depth(std::size_t sources) { return kRadioDepth * static_cast<int>(sources); }
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/suggestion.hpp"
+#include "process/log_lines.hpp"
 
 namespace skein {
 namespace {
@@ -123,7 +124,7 @@ void set_up_logging(const std::string& name, const std::string& level_option) {
                      suggestion(level, known));
   }
   auto logger = std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->set_pattern("[%n] %l %v");
+  logger->set_pattern(log_lines::kPattern);
   logger->set_level(spdlog::level::from_str(level));
   logger->flush_on(spdlog::level::trace);
   spdlog::set_default_logger(std::move(logger));

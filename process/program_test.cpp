@@ -6,8 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <condition_variable>
 #include <csignal>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
+
+#include "process/log_lines.hpp"
 
 namespace skein {
 namespace {
@@ -95,6 +98,23 @@ TEST(Program, LogsToStderr) {
     return 0;
   });
   EXPECT_EQ(outcome.error, "[tester] info ready\n");
+}
+
+TEST(Program, WarningsAreKnownAmongTheLinesOfALog) {
+  const auto outcome = run({"--log-level", "info"}, [](const ProgramOptions&, StopSignal&) {
+    spdlog::info("ready");
+    spdlog::warn("the first");
+    spdlog::error("no warning but an error");
+    spdlog::info("[x] warning about nothing");
+    spdlog::warn("the second");
+    return 0;
+  });
+  std::istringstream log(outcome.error);
+  std::vector<std::string> warnings;
+  for (std::string line; std::getline(log, line);) {
+    if (log_lines::is_warning(line)) warnings.push_back(line);
+  }
+  EXPECT_EQ(warnings, (std::vector<std::string>{"[tester] warning the first", "[tester] warning the second"}));
 }
 
 TEST(Program, SignalsReachTheBody) {

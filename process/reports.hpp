@@ -22,10 +22,10 @@ using Texts = std::vector<std::string>;
 // ---- sim_server -------------------------------------------------------------------------------------------------
 
 struct CollisionReport {
-  Number time_s;
-  Text uav;
-  Text with;  ///< "ground", "structure" or a UAV
-  std::optional<std::array<double, 3>> position;
+  Number time_s = {};
+  Text uav = {};
+  Text with = {};  ///< "ground", "structure" or a UAV
+  std::optional<std::array<double, 3>> position = {};
 };
 template <class Fields>
 void describe(Fields& f, CollisionReport& collision) {
@@ -37,9 +37,9 @@ void describe(Fields& f, CollisionReport& collision) {
 
 /// A fault of the run's fault file.
 struct FaultReport {
-  Text kind, target;
-  Number at_s, until_s;          ///< without `until_s`: to the end
-  Count began_step, ended_step;  ///< empty: not in this run
+  Text kind = {}, target = {};
+  Number at_s = {}, until_s = {};          ///< without `until_s`: to the end
+  Count began_step = {}, ended_step = {};  ///< empty: not in this run
 };
 template <class Fields>
 void describe(Fields& f, FaultReport& fault) {
@@ -52,10 +52,10 @@ void describe(Fields& f, FaultReport& fault) {
 }
 
 struct LostMember {
-  Text member;
-  Count step;
-  Number time_s;
-  Text reason;
+  Text member = {};
+  Count step = {};
+  Number time_s = {};
+  Text reason = {};
 };
 template <class Fields>
 void describe(Fields& f, LostMember& lost) {
@@ -67,10 +67,10 @@ void describe(Fields& f, LostMember& lost) {
 
 /// CPU time of the server's thread by kind of work, and how often it did it.
 struct TimingReport {
-  Number physics_s, lidar_s, camera_s, links_s, recording_s;
-  Number cpu_s;  ///< in all
-  Count scans, exposures, steps;
-  Number lidar_ms_per_scan;
+  Number physics_s = {}, lidar_s = {}, camera_s = {}, links_s = {}, recording_s = {};
+  Number cpu_s = {};  ///< in all
+  Count scans = {}, exposures = {}, steps = {};
+  Number lidar_ms_per_scan = {};
 };
 template <class Fields>
 void describe(Fields& f, TimingReport& timing) {
@@ -87,13 +87,13 @@ void describe(Fields& f, TimingReport& timing) {
 }
 
 struct UavReport {
-  Text name;
-  std::optional<Role> role;
-  std::optional<bool> alive;
-  Number distance_m, max_speed_mps;
-  Count captures;
-  Number idle_s;
-  Count commands_rejected, commands_unheard;
+  Text name = {};
+  std::optional<Role> role = {};
+  std::optional<bool> alive = {};
+  Number distance_m = {}, max_speed_mps = {};
+  Count captures = {};
+  Number idle_s = {};
+  Count commands_rejected = {}, commands_unheard = {};
 };
 template <class Fields>
 void describe(Fields& f, UavReport& uav) {
@@ -109,21 +109,22 @@ void describe(Fields& f, UavReport& uav) {
 }
 
 struct SimServerReport {
-  std::optional<RunStatus> status;
-  std::optional<bool> deterministic;
-  Text digest;
-  Number sim_time_s, mission_time_s, wall_time_s;
-  Text rules;  ///< the preset
-  Count points_total;
-  Text points_seen;  ///< a digit for each point: 1 was in some picture
-  std::vector<CollisionReport> collisions;
-  std::vector<UavReport> uavs;
-  std::vector<LostMember> lost_members;
-  std::vector<FaultReport> faults;
-  TimingReport timing;
-  Texts warnings;
-  Count malformed;
-  Texts unwritten;  ///< files that the disk refused, one sentence each; of all reports
+  std::optional<RunStatus> status = {};
+  std::optional<bool> deterministic = {};
+  Text digest = {};
+  Number sim_time_s = {}, mission_time_s = {}, wall_time_s = {};
+  Text rules = {};  ///< the preset
+  Count points_total = {};
+  Text points_seen = {};  ///< a digit for each point: 1 was in some picture
+  std::vector<CollisionReport> collisions = {};
+  std::vector<UavReport> uavs = {};
+  std::vector<LostMember> lost_members = {};
+  std::vector<FaultReport> faults = {};
+  TimingReport timing = {};
+  Texts warnings = {};
+  Count malformed = {};  ///< samples that were no message of their topic's type; of all reports, like the next two
+  Count unsent = {};     ///< samples that could not be sent
+  Texts unwritten = {};  ///< files that the disk refused, one sentence each
 };
 template <class Fields>
 void describe(Fields& f, SimServerReport& report) {
@@ -141,6 +142,7 @@ void describe(Fields& f, SimServerReport& report) {
   f.field("status", report.status);
   f.field("timing", report.timing);
   f.field("uavs", report.uavs);
+  f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
   f.field("wall_time_s", report.wall_time_s);
   f.field("warnings", report.warnings);
@@ -150,10 +152,10 @@ void describe(Fields& f, SimServerReport& report) {
 
 /// A point that scored, and by whose capture.
 struct ScoredPointReport {
-  Count index;
-  Number score;
-  Text uav;
-  Count capture;
+  Count index = {};
+  Number score = {};
+  Text uav = {};
+  Count capture = {};
 };
 template <class Fields>
 void describe(Fields& f, ScoredPointReport& point) {
@@ -164,14 +166,14 @@ void describe(Fields& f, ScoredPointReport& point) {
 }
 
 struct StationReport {
-  Count points_detected;
-  Number score;
-  Number score_earned;  ///< empty: nobody knows
-  Named<double> score_by_uav;
-  std::optional<std::vector<ScoredPointReport>> points;
-  Named<std::uint64_t> refused;  ///< capture reports, by reason
-  Count reports_received, duplicates, malformed;
-  Texts unwritten;
+  Count points_detected = {};
+  Number score = {};
+  Number score_earned = {};  ///< empty: nobody knows
+  Named<double> score_by_uav = {};
+  std::optional<std::vector<ScoredPointReport>> points = {};
+  Named<std::uint64_t> refused = {};  ///< capture reports, by reason
+  Count reports_received = {}, duplicates = {}, malformed = {}, unsent = {};
+  Texts unwritten = {};
 };
 template <class Fields>
 void describe(Fields& f, StationReport& report) {
@@ -184,6 +186,7 @@ void describe(Fields& f, StationReport& report) {
   f.field("reports_received", report.reports_received);
   f.field("duplicates", report.duplicates);
   f.field("malformed", report.malformed);
+  f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
 }
 
@@ -191,8 +194,8 @@ void describe(Fields& f, StationReport& report) {
 
 /// What became of radio messages.
 struct RadioCounts {
-  Count sent, delivered, dropped_no_los, dropped_fault, dropped_overflow, duplicated;
-  Count sent_bytes, delivered_bytes;
+  Count sent = {}, delivered = {}, dropped_no_los = {}, dropped_fault = {}, dropped_overflow = {}, duplicated = {};
+  Count sent_bytes = {}, delivered_bytes = {};
 };
 template <class Fields>
 void describe_fates(Fields& f, RadioCounts& counts) {
@@ -210,8 +213,8 @@ void describe_sent(Fields& f, RadioCounts& counts) {
 }
 
 struct LinkReport {
-  Text from, to;
-  RadioCounts counts;
+  Text from = {}, to = {};
+  RadioCounts counts = {};
 };
 template <class Fields>
 void describe(Fields& f, LinkReport& link) {
@@ -222,11 +225,12 @@ void describe(Fields& f, LinkReport& link) {
 }
 
 struct RouterReport {
-  RadioCounts total;
-  Count malformed;
-  Count unheard;  ///< messages of who is no member
-  std::vector<LinkReport> per_link;
-  Texts warnings, unwritten;
+  RadioCounts total = {};
+  Count malformed = {};
+  Count unheard = {};  ///< messages of who is no member
+  Count unsent = {};
+  std::vector<LinkReport> per_link = {};
+  Texts warnings = {}, unwritten = {};
 };
 template <class Fields>
 void describe(Fields& f, RouterReport& report) {
@@ -235,6 +239,7 @@ void describe(Fields& f, RouterReport& report) {
   f.field("per_link", report.per_link);
   describe_sent(f, report.total);
   f.field("unheard", report.unheard);
+  f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
   f.field("warnings", report.warnings);
 }
@@ -242,10 +247,10 @@ void describe(Fields& f, RouterReport& report) {
 // ---- agents -----------------------------------------------------------------------------------------------------
 
 struct AgentReport {
-  Number planner_cpu_s, planner_cpu_p99_ms, planner_cpu_max_ms;
-  Count planner_exchanges_over_50ms;
-  Count malformed;
-  std::optional<Texts> unwritten;
+  Number planner_cpu_s = {}, planner_cpu_p99_ms = {}, planner_cpu_max_ms = {};
+  Count planner_exchanges_over_50ms = {};
+  Count malformed = {}, unsent = {};
+  std::optional<Texts> unwritten = {};
 };
 template <class Fields>
 void describe(Fields& f, AgentReport& report) {
@@ -254,12 +259,13 @@ void describe(Fields& f, AgentReport& report) {
   f.field("planner_cpu_p99_ms", report.planner_cpu_p99_ms);
   f.field("planner_cpu_s", report.planner_cpu_s);
   f.field("planner_exchanges_over_50ms", report.planner_exchanges_over_50ms);
+  f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
 }
 
 /// What an agent program prints of itself (--list-planners).
 struct StrategyList {
-  Texts planners, ground_programs;
+  Texts planners = {}, ground_programs = {};
 };
 template <class Fields>
 void describe(Fields& f, StrategyList& list) {

@@ -20,12 +20,12 @@ const char* const kSimServer = R"({
              "physics_s": 0.4, "recording_s": 0.5, "scans": 4, "steps": 5},
   "uavs": [{"alive": false, "captures": 7, "commands_rejected": 1, "commands_unheard": 2, "distance_m": 10.5,
             "idle_s": 2.0, "max_speed_mps": 4.0, "name": "alpha", "role": "explorer"}],
-  "unwritten": ["x: full"], "wall_time_s": 13.0, "warnings": ["windy"]})";
+  "unsent": 0, "unwritten": ["x: full"], "wall_time_s": 13.0, "warnings": ["windy"]})";
 
 const char* const kStation = R"({
   "points_detected": 2, "score": 1.5, "score_earned": 1.75, "score_by_uav": {"beta": 1.5, "alpha": 0.0},
   "points": [{"index": 2, "score": 0.8999999761581421, "uav": "beta", "capture": 1}],
-  "refused": {"unknown": 1, "borrowed": 2, "altered": 3}, "reports_received": 5, "duplicates": 1, "malformed": 0,
+  "refused": {"unknown": 1, "borrowed": 2, "altered": 3}, "reports_received": 5, "duplicates": 1, "malformed": 0, "unsent": 2,
   "unwritten": []})";
 
 const char* const kRouter = R"({
@@ -33,11 +33,11 @@ const char* const kRouter = R"({
   "duplicated": 4, "malformed": 0,
   "per_link": [{"delivered": 7, "delivered_bytes": 280, "dropped_fault": 1, "dropped_no_los": 2, "dropped_overflow": 0,
                 "duplicated": 0, "from": "alpha", "sent": 10, "sent_bytes": 400, "to": "gcs"}],
-  "sent": 10, "sent_bytes": 400, "unheard": 0, "unwritten": [], "warnings": ["who is that?"]})";
+  "sent": 10, "sent_bytes": 400, "unheard": 0, "unsent": 0, "unwritten": [], "warnings": ["who is that?"]})";
 
 const char* const kAgent = R"({
   "malformed": 0, "planner_cpu_max_ms": 60.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_s": 0.25,
-  "planner_exchanges_over_50ms": 3})";
+  "planner_exchanges_over_50ms": 3, "unsent": 0})";
 
 /// Calls `check` with the place of each value below this one.
 template <class Check>

@@ -20,9 +20,9 @@ struct Progress {
   double time_s = 0.0, mission_s = 0.0;  ///< simulated, since the start and since the first take-off
   double duration_s = 0.0;               ///< of the mission
   Phase phase = Phase::waiting;
-  std::vector<std::string> in_contact;  ///< UAVs with a link to the ground station
-  std::size_t alive = 0;                ///< UAVs
-  std::vector<std::string> lost;        ///< members
+  std::vector<std::string> in_contact = {};  ///< UAVs with a link to the ground station
+  std::size_t alive = 0;                     ///< UAVs
+  std::vector<std::string> lost = {};        ///< members
 };
 
 /// Of the station, when the score has changed.
@@ -35,17 +35,17 @@ struct Tally {
 /// Of sim_server: whom the fleet waits for, as long as it does.
 struct WaitingFor {
   static constexpr const char* kType = "waiting_for";
-  std::vector<std::string> members, missing;  ///< missing: of each, what
-  std::string what;                           ///< "to join"
-  double seconds = 0.0;                       ///< so far
-  bool due = false;                           ///< it is time for a line of text
+  std::vector<std::string> members = {}, missing = {};  ///< missing: of each, what
+  std::string what = {};                                ///< "to join"
+  double seconds = 0.0;                                 ///< so far
+  bool due = false;                                     ///< it is time for a line of text
 };
 
 /// Of sim_server: a fault takes a member out of the run, or lets it back.
 struct Order {
   static constexpr const char* kType = "order";
   enum class What { kill, stop, start, resume };
-  std::string member;
+  std::string member = {};
   What order = What::resume;
   double time_s = 0.0;
 };
@@ -59,20 +59,20 @@ constexpr std::array<EnumName<Order::What>, 4> enum_names(Order::What) {
 /// Of sim_server, for the user to see at once.
 struct Warning {
   static constexpr const char* kType = "warning";
-  std::string text;
+  std::string text = {};
 };
 
 /// Of sim_server: a member takes part again.
 struct Rejoined {
   static constexpr const char* kType = "rejoined";
-  std::string member;
+  std::string member = {};
 };
 
 /// Of sim_server, after its report: the run is over.
 struct Ended {
   static constexpr const char* kType = "ended";
   RunStatus status = RunStatus::completed;
-  std::vector<std::string> stalled;  ///< who had not answered when the user ended the run
+  std::vector<std::string> stalled = {};  ///< who had not answered when the user ended the run
 };
 
 /// Of every program, at its end (reports.hpp).
@@ -98,7 +98,7 @@ namespace skein::orders {
 struct Stop {};
 /// The process of a member has ended.
 struct Lost {
-  std::string member;
+  std::string member = {};
 };
 
 /// From the launcher to sim_server.

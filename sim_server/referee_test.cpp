@@ -13,7 +13,7 @@ Detection detection(std::uint32_t point, double q, bool improved) {
   return {point, 1.0, q, 0.5 + 0.5 * q, q, static_cast<float>(q), improved};
 }
 
-Capture capture(Tick tick, std::vector<Detection> detections) { return {tick, 0, std::move(detections)}; }
+Capture capture(Tick tick, std::vector<Detection> detections) { return {tick, std::move(detections)}; }
 
 TEST(Referee, EntersOnlyWhatImproved) {
   Referee referee(0, 2, 10, RulesConfig{});

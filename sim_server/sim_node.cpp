@@ -268,6 +268,7 @@ void SimNode::end_run(bool joined) {
   summary_.timing = clock_.summary();
   summary_.timing.cpu_s = joined ? thread_cpu_s() - cpu_before_s_ : 0.0;
   summary_.malformed = inbox_.malformed();
+  summary_.unsent = participants_.front()->unsent().count();
   summary_.faults = fault_timeline_.report();
   summary_.status = end_status();
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.

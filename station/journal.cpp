@@ -188,8 +188,7 @@ void Journal::replay(RunId run) {
       rest = rest.subspan(kHeadBytes + body->size());
     }
   }
-  cut_bytes_ = rest.size();
-  if (cut_bytes_ > 0 && ::ftruncate(descriptor_, static_cast<off_t>(bytes.size() - rest.size())) != 0) {
+  if (!rest.empty() && ::ftruncate(descriptor_, static_cast<off_t>(bytes.size() - rest.size())) != 0) {
     fail(file_, "its broken end cannot be cut off");
   }
   if (!ours) trouble_ = write(head);

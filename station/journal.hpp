@@ -32,8 +32,6 @@ class Journal {
 
   /// What the file held when it was opened, oldest first.
   const std::vector<TallyRecord>& replayed() const { return replayed_; }
-  /// Bytes of a broken record, or of another run's journal, that were cut off then.
-  std::uintmax_t cut_bytes() const { return cut_bytes_; }
 
   /// Appends the records of one step and hands them to the operating system: they survive the death of this process
   /// (not of the machine). Nothing is written for an empty list. A disk that refuses ends the journal, with its last
@@ -48,7 +46,6 @@ class Journal {
   std::filesystem::path file_;
   int descriptor_ = -1;
   std::vector<TallyRecord> replayed_;
-  std::uintmax_t cut_bytes_ = 0;
   bool ended_ = false;   ///< by a disk that refused
   std::string trouble_;  ///< at the beginning of the file, to be told
 };

@@ -132,7 +132,8 @@ void StationNode::tell(bool now) {
 }
 
 void StationNode::write_report() {
-  if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, status_, inbox_.malformed(), unwritten_);
+  const StationNotes notes{inbox_.malformed(), gcs_->unsent().count(), unwritten_};
+  if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, status_, notes);
 }
 
 }  // namespace skein::station

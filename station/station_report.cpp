@@ -1,37 +1,31 @@
 #include "station/station_report.hpp"
 
-#include <locale>
-#include <sstream>
+#include <spdlog/fmt/fmt.h>
 
+#include <nlohmann/json.hpp>
+
+#include "core/text.hpp"
 #include "process/atomic_file.hpp"
 #include "process/program_report.hpp"
 #include "process/reports.hpp"
 #include "process/run_folder.hpp"
+#include "process/run_tables.hpp"
 
 namespace skein::station {
 namespace {
 
-/// A stream for numbers as files want them: a point, no thousands, enough digits to read a double back.
-std::ostringstream number_stream() {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(9);
-  return text;
-}
-
 std::string timeline_csv(const Scoreboard& scoreboard) {
-  std::ostringstream text = number_stream();
-  text << "time_s,points,score\n";
+  std::string text = "time_s,points,score\n";
   for (const TimelinePoint& at : scoreboard.timeline()) {
-    text << seconds(at.tick) << ',' << at.points << ',' << at.score << '\n';
+    text += fmt::format("{:.9g},{},{:.9g}\n", seconds(at.tick), at.points, at.score);
   }
-  return text.str();
+  return text;
 }
 
 /// Why a point of a capture does not count; empty when it does.
 std::string reason(const Scoreboard& scoreboard, const LedgerEntry& entry, const CapturePoint& point,
                    const Audit& audit) {
-  if (scoreboard.is_void(entry.uav)) return "uav collided";
+  if (scoreboard.is_void(entry.uav)) return run_tables::kUavCollided;
   if (!audit.delivered) {
     return audit.refused ? "refused: " + std::string(to_string(*audit.refused)) : "not received";
   }
@@ -41,20 +35,19 @@ std::string reason(const Scoreboard& scoreboard, const LedgerEntry& entry, const
 }
 
 std::string captures_csv(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names) {
-  std::ostringstream text = number_stream();
-  text << "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q_distance,q,delivered_at_s,reason\n";
+  std::string text = "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q_distance,q,delivered_at_s,reason\n";
   for (const LedgerEntry& entry : scoreboard.ledger()) {
     if (entry.collision) continue;
     const Audit audit = scoreboard.audit(entry);
     for (const CapturePoint& point : entry.capture.points) {
-      text << uav_names[entry.uav] << ',' << entry.capture.capture << ',' << entry.tick << ',' << seconds(entry.tick)
-           << ',' << point.index << ",1," << point.q_blur << ',' << point.q_res << ',' << point.q_distance << ','
-           << point.q << ',';
-      if (audit.delivered) text << seconds(*audit.delivered);
-      text << ',' << reason(scoreboard, entry, point, audit) << '\n';
+      // Nine digits tell any two floats apart.
+      text += fmt::format(
+          "{},{},{},{:.9g},{},1,{:.9g},{:.9g},{:.9g},{:.9g},{},{}\n", uav_names[entry.uav], entry.capture.capture,
+          entry.tick, seconds(entry.tick), point.index, point.q_blur, point.q_res, point.q_distance, point.q,
+          audit.delivered ? significant(seconds(*audit.delivered), 9) : "", reason(scoreboard, entry, point, audit));
     }
   }
-  return text.str();
+  return text;
 }
 
 StationReport report_of(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names) {
@@ -81,15 +74,15 @@ StationReport report_of(const Scoreboard& scoreboard, const std::vector<std::str
 }  // namespace
 
 void write_station_report(const std::filesystem::path& folder, const Scoreboard& scoreboard,
-                          const std::vector<std::string>& uav_names, StatusPipe& status, std::uint64_t malformed,
-                          std::vector<std::string> unwritten) {
+                          const std::vector<std::string>& uav_names, StatusPipe& status, StationNotes notes) {
   for (std::string trouble : {write_if_possible(folder / run_folder::kScoreTimeline, timeline_csv(scoreboard)),
                               write_if_possible(folder / run_folder::kCaptures, captures_csv(scoreboard, uav_names))}) {
-    if (!trouble.empty()) unwritten.push_back(std::move(trouble));
+    if (!trouble.empty()) notes.unwritten.push_back(std::move(trouble));
   }
   StationReport report = report_of(scoreboard, uav_names);
-  report.malformed = malformed;
-  report.unwritten = std::move(unwritten);
+  report.malformed = notes.malformed;
+  report.unsent = notes.unsent;
+  report.unwritten = std::move(notes.unwritten);
   hand_in_report(json_of(report), folder / run_folder::report_file(programs::kStation), status);
 }
 

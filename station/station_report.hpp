@@ -11,6 +11,12 @@
 
 namespace skein::station {
 
+struct StationNotes {
+  std::uint64_t malformed = 0;              ///< samples received that were no message of their topic's type
+  std::uint64_t unsent = 0;                 ///< samples that could not be sent
+  std::vector<std::string> unwritten = {};  ///< what the disk has refused, one sentence each
+};
+
 /// Writes the three files into `folder`, each in one piece (never half a file).
 ///
 /// score_timeline.csv: time_s, points, score; a line for each change.
@@ -20,11 +26,10 @@ namespace skein::station {
 /// station.report.json: a StationReport (process/reports.hpp); score_earned is left out when no entry of the ledger
 ///   stands, points are those that count.
 /// @param uav_names  in fleet order.
-/// @param malformed  samples received that were no message of their topic's type.
-/// @param unwritten  what the disk has refused before; the report lists it, and which of the tables it refuses.
+/// @param notes  what the station knows beside its tally; the report adds to `unwritten` which of the tables the disk
+///   refuses.
 /// @throws std::runtime_error as hand_in_report().
 void write_station_report(const std::filesystem::path& folder, const Scoreboard& scoreboard,
-                          const std::vector<std::string>& uav_names, StatusPipe& status, std::uint64_t malformed = 0,
-                          std::vector<std::string> unwritten = {});
+                          const std::vector<std::string>& uav_names, StatusPipe& status, StationNotes notes = {});
 
 }  // namespace skein::station

@@ -44,7 +44,8 @@ class StationReport : public testing::Test {
     std::string pattern = (fs::temp_directory_path() / "skein-report-XXXXXX").string();
     folder_ = ::mkdtemp(pattern.data());
     StatusPipe nobody(-1);
-    write_station_report(folder_, eventful_run(), {"jurong", "raffles", "changi"}, nobody);
+    write_station_report(folder_, eventful_run(), {"jurong", "raffles", "changi"}, nobody,
+                         {.malformed = 3, .unsent = 2});
   }
   ~StationReport() override { fs::remove_all(folder_); }
 
@@ -76,7 +77,7 @@ TEST_F(StationReport, TheReportHoldsWhatTheResultNeeds) {
     "score_by_uav": {"jurong": 0.75, "raffles": 0.0, "changi": 0.0},
     "points": [{"index": 2, "score": 0.75, "uav": "jurong", "capture": 0}],
     "refused": {"unknown": 0, "borrowed": 0, "altered": 1},
-    "reports_received": 5, "duplicates": 1, "malformed": 0, "unwritten": []})"));
+    "reports_received": 5, "duplicates": 1, "malformed": 3, "unsent": 2, "unwritten": []})"));
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ int fly(skein::agent::MemberNode& node, const std::string& member, const skein::
                                   .planner_cpu_p99_ms = 1e3 * cpu.quantile_s(0.99),
                                   .planner_cpu_max_ms = 1e3 * cpu.max_s(),
                                   .planner_exchanges_over_50ms = cpu.over_field_exchange(),
-                                  .malformed = node.malformed()};
+                                  .malformed = node.malformed(),
+                                  .unsent = node.unsent()};
   const std::filesystem::path file =
       options.out / skein::run_folder::report_file(skein::programs::agent_program(member));
   skein::StatusPipe status(options.status_fd);

@@ -25,6 +25,8 @@ class MemberNode : public bus::ClientNode {
   const CpuHistogram& planner_cpu() const { return planner_cpu_; }
   /// Samples received that were no message of their topic's type.
   std::uint64_t malformed() const { return inbox_.malformed(); }
+  /// Samples that could not be sent.
+  std::uint64_t unsent() const { return bus_.unsent()->count(); }
 
  protected:
   /// @param member  name in the lock-step: a UAV's, or "gcs".

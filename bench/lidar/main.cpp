@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "process/program.hpp"
+#include "process/run_folder.hpp"
+#include "process/run_tables.hpp"
 #include "process/thread_cpu.hpp"
 #include "sim_server/scenes/scene_source.hpp"
 #include "sim_server/sensors/lidar.hpp"
@@ -33,8 +35,8 @@ using Poses = std::map<std::size_t, Isometry3d>;
 std::map<Tick, Poses> read_trajectories(const std::string& file, const Scenario& scenario) {
   std::ifstream in(file);
   std::string line;
-  if (!std::getline(in, line) || !line.starts_with("time_s,uav,x,y,z,qw,qx,qy,qz,")) {
-    throw skein::InputError(file + ": is no trajectories.csv of a run");
+  if (!std::getline(in, line) || !line.starts_with(skein::run_tables::kPoseColumns)) {
+    throw skein::InputError(file + ": is no " + skein::run_folder::kTrajectories + " of a run");
   }
   std::map<Tick, Poses> poses;
   while (std::getline(in, line)) {

@@ -3,8 +3,6 @@
 // Before all other headers of Cyclone, see there.
 #include "bus/cyclonedds/raw_sertype.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <array>
 #include <map>
 #include <mutex>
@@ -103,7 +101,8 @@ std::vector<ParticipantId> matched_participants(dds_entity_t entity, List list, 
 
 class CycloneWriter : public Writer {
  public:
-  CycloneWriter(dds_entity_t participant, Packing& packing, const TopicSpec& topic) : name_(topic.name) {
+  CycloneWriter(dds_entity_t participant, Packing& packing, const TopicSpec& topic, Unsent& unsent)
+      : name_(topic.name), unsent_(unsent) {
     const RawTopic raw(participant, topic);
     type_ = raw.type();
     packing.install(type_);
@@ -115,7 +114,7 @@ class CycloneWriter : public Writer {
   void write(std::span<const std::uint8_t> payload) override {
     const dds_return_t result = dds_writecdr(entity_, make_raw_sample(type_, payload));
     if (result == DDS_RETCODE_TIMEOUT)
-      spdlog::warn("{}: a sample is lost, its readers are too slow", name_);
+      unsent_.note(name_, "its readers are too slow");
     else
       check(result, "cannot write to " + name_);
   }
@@ -132,6 +131,7 @@ class CycloneWriter : public Writer {
 
  private:
   std::string name_;
+  Unsent& unsent_;
   const ddsi_sertype* type_ = nullptr;  // kept alive by the writer
   dds_entity_t entity_ = 0;
 };
@@ -202,8 +202,9 @@ class CycloneReader : public Reader {
 
 class CycloneParticipant : public Participant {
  public:
-  CycloneParticipant(int domain, const BusConfig& config)
-      : domain_(domain, config),
+  CycloneParticipant(int domain, const BusConfig& config, std::shared_ptr<Unsent> unsent)
+      : Participant(std::move(unsent)),
+        domain_(domain, config),
         entity_(check(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr),
                       "cannot join domain " + std::to_string(domain))) {
     dds_guid_t guid;
@@ -220,7 +221,7 @@ class CycloneParticipant : public Participant {
   ParticipantId id() const override { return id_; }
 
   std::unique_ptr<Writer> create_writer(const TopicSpec& topic) override {
-    return std::make_unique<CycloneWriter>(entity_, packing_, topic);
+    return std::make_unique<CycloneWriter>(entity_, packing_, topic, unsent());
   }
 
   std::unique_ptr<Reader> create_reader(const TopicSpec& topic, OnSample on_sample) override {
@@ -243,7 +244,7 @@ class CycloneBus : public Bus {
 
   std::unique_ptr<Participant> join(int domain) override {
     check_domain(domain);
-    return std::make_unique<CycloneParticipant>(domain, config_);
+    return std::make_unique<CycloneParticipant>(domain, config_, unsent());
   }
 
  private:

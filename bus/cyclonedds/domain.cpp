@@ -8,6 +8,7 @@
 #include "bus/cyclonedds/security.hpp"
 #include "bus/own_host.hpp"
 #include "bus/wire.hpp"
+#include "core/xml_text.hpp"
 
 namespace skein::bus::cyclonedds {
 
@@ -29,39 +30,67 @@ Register& domain_register() {
   return domains;
 }
 
+/// Loopback: no need of multicast, since participants take fixed ports and announce themselves to all of these; but
+/// nodes with default settings are found by it. Datagrams as large as UDP has them; fragments fill one, or else a 4 MB
+/// sample is thousands of them.
+void add_network(pugi::xml_node domain, const BusConfig& config) {
+  if (!config.loopback_only && config.interface.empty()) return;
+  pugi::xml_node general = domain.append_child("General");
+  pugi::xml_node interface = general.append_child("Interfaces").append_child("NetworkInterface");
+  interface.append_attribute("name") = config.loopback_only ? "lo" : config.interface.c_str();
+  if (!config.loopback_only) return;
+  const bool multicast = meets_default_nodes(config) && multicast_on_loopback();
+  interface.append_attribute("multicast") = multicast;
+  add_element(general, "AllowMulticast", multicast ? "spdp" : "false");
+  add_element(general, "MaxMessageSize", "65500B");
+  add_element(general, "FragmentSize", "60000B");
+}
+
+void add_discovery(pugi::xml_node domain, const BusConfig& config) {
+  pugi::xml_node discovery = domain.append_child("Discovery");
+  if (config.loopback_only) {
+    add_element(discovery, "ParticipantIndex", "auto");
+    add_element(discovery, "MaxAutoParticipantIndex", std::to_string(kMaxLocalParticipants - 1));
+    discovery.append_child("Peers").append_child("Peer").append_attribute("address") = "127.0.0.1";
+  }
+  add_element(discovery, "SPDPInterval", std::to_string(announce_period_s(config.lease_s)) + "s");
+  add_element(discovery, "LeaseDuration", std::to_string(config.lease_s) + "s");
+}
+
+/// Watermarks: a writer waits once its unacknowledged bytes exceed WhcHigh. History is KEEP_LAST and bounds them already,
+/// so the mark is put out of reach and a stopped reader holds nobody up.
+void add_internals(pugi::xml_node domain) {
+  pugi::xml_node internal = domain.append_child("Internal");
+  pugi::xml_node watermarks = internal.append_child("Watermarks");
+  add_element(watermarks, "WhcHigh", "2000MB");
+  add_element(watermarks, "WhcHighInit", "2000MB");
+  add_element(watermarks, "WhcAdaptive", "false");
+  pugi::xml_node heartbeat = internal.append_child("HeartbeatInterval");
+  heartbeat.append_attribute("min") = "5ms";
+  heartbeat.append_attribute("minsched") = "10ms";
+  heartbeat.append_attribute("max") = "8s";
+  heartbeat.text() = "50ms";
+  add_element(internal, "NackDelay", "5ms");
+  add_element(internal, "GenerateKeyhash", "true");
+  add_element(internal, "WriterLingerDuration", "50ms");
+  pugi::xml_node buffer = internal.append_child("SocketReceiveBufferSize");
+  buffer.append_attribute("min") = "default";
+  buffer.append_attribute("max") = "4MB";
+}
+
 }  // namespace
 
 std::string domain_configuration(const BusConfig& config) {
-  const std::string last_index = std::to_string(kMaxLocalParticipants - 1);
-  // Loopback: no need of multicast, since participants take fixed ports and announce themselves to all of these; but
-  // nodes with default settings are found by it. Datagrams as large as UDP has them; fragments fill one, or else a 4 MB
-  // sample is thousands of them.
-  const bool multicast = meets_default_nodes(config) && multicast_on_loopback();
-  const std::string network =
-      config.loopback_only
-          ? std::string("<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"") +
-                (multicast ? "true" : "false") + "\"/></Interfaces><AllowMulticast>" + (multicast ? "spdp" : "false") +
-                "</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize><FragmentSize>60000B</FragmentSize></General>"
-      : config.interface.empty()
-          ? ""
-          : "<General><Interfaces><NetworkInterface name=\"" + config.interface + "\"/></Interfaces></General>";
-  const std::string peers = config.loopback_only
-                                ? "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" + last_index +
-                                      "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
-                                : "";
-  // Watermarks: a writer waits once its unacknowledged bytes exceed WhcHigh. History is KEEP_LAST and bounds them
-  // already, so the mark is put out of reach and a stopped reader holds nobody up.
-  return "<CycloneDDS xmlns=\"https://cdds.io/config\"><Domain Id=\"any\">" + network + "<Discovery>" + peers +
-         "<SPDPInterval>" + std::to_string(announce_period_s(config.lease_s)) + "s</SPDPInterval><LeaseDuration>" +
-         std::to_string(config.lease_s) +
-         "s</LeaseDuration></Discovery>"
-         "<Internal><Watermarks><WhcHigh>2000MB</WhcHigh><WhcHighInit>2000MB</WhcHighInit>"
-         "<WhcAdaptive>false</WhcAdaptive></Watermarks>"
-         "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"8s\">50ms</HeartbeatInterval>"
-         "<NackDelay>5ms</NackDelay><GenerateKeyhash>true</GenerateKeyhash>"
-         "<WriterLingerDuration>50ms</WriterLingerDuration>"
-         "<SocketReceiveBufferSize min=\"default\" max=\"4MB\"/></Internal>" +
-         security_configuration(config.security) + "</Domain></CycloneDDS>";
+  pugi::xml_document document;
+  pugi::xml_node root = document.append_child("CycloneDDS");
+  root.append_attribute("xmlns") = "https://cdds.io/config";
+  pugi::xml_node domain = root.append_child("Domain");
+  domain.append_attribute("Id") = "any";
+  add_network(domain, config);
+  add_discovery(domain, config);
+  add_internals(domain);
+  if (!config.security.empty()) add_security(domain, config.security);
+  return xml_line(document);
 }
 
 dds_return_t check(dds_return_t result, const std::string& what) {

@@ -9,10 +9,13 @@
 #include <atomic>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "bus/cyclonedds/domain.hpp"
 #include "bus/vendor_log.hpp"
 #include "core/types.hpp"
+#include "core/xml_text.hpp"
 #include "process/security_files.hpp"
 
 namespace skein::bus::cyclonedds {
@@ -34,21 +37,6 @@ fs::path plugin(const std::string& name) {
   }
   throw InputError("--security: Cyclone DDS has no " + file + " in " + folder.string() +
                    "; on Debian it is in the package libddsc0debian");
-}
-
-std::string escaped(const std::string& text) {
-  std::string xml;
-  for (const char c : text) {
-    if (c == '&')
-      xml += "&amp;";
-    else if (c == '<')
-      xml += "&lt;";
-    else if (c == '"')
-      xml += "&quot;";
-    else
-      xml += c;
-  }
-  return xml;
 }
 
 /// Domains in which this process has a participant. Cyclone's log is one for the whole process: hence static.
@@ -90,23 +78,28 @@ void look_at_newcomers(dds_entity_t reader, void*) {
   }
 }
 
-std::string library_element(const std::string& name) { return "<Library path=\"" + escaped(plugin(name)) + "\"/>"; }
+/// An element of what a plugin is told: the plugin, then its files.
+void add_plugin(pugi::xml_node security, const char* element, const std::string& library,
+                const std::vector<std::pair<const char*, fs::path>>& files) {
+  pugi::xml_node settings = security.append_child(element);
+  settings.append_child("Library").append_attribute("path") = plugin(library).c_str();
+  for (const auto& [name, file] : files) add_element(settings, name, "file:" + file.string());
+}
 
 }  // namespace
 
-std::string security_configuration(const fs::path& folder) {
-  if (folder.empty()) return "";
+void add_security(pugi::xml_node domain, const fs::path& folder) {
   const fs::path absolute = fs::absolute(folder);
-  const auto file = [&](const std::string& element, const char* name) {
-    return "<" + element + ">file:" + escaped(absolute / name) + "</" + element + ">";
-  };
-  return "<Security><Authentication>" + library_element("dds_security_auth") +
-         file("IdentityCA", security_files::kIdentityCa) + file("IdentityCertificate", security_files::kCertificate) +
-         file("PrivateKey", security_files::kKey) + "</Authentication><Cryptographic>" +
-         library_element("dds_security_crypto") + "</Cryptographic><AccessControl>" +
-         library_element("dds_security_ac") + file("PermissionsCA", security_files::kPermissionsCa) +
-         file("Governance", security_files::kGovernance) + file("Permissions", security_files::kPermissions) +
-         "</AccessControl></Security>";
+  pugi::xml_node security = domain.append_child("Security");
+  add_plugin(security, "Authentication", "dds_security_auth",
+             {{"IdentityCA", absolute / security_files::kIdentityCa},
+              {"IdentityCertificate", absolute / security_files::kCertificate},
+              {"PrivateKey", absolute / security_files::kKey}});
+  add_plugin(security, "Cryptographic", "dds_security_crypto", {});
+  add_plugin(security, "AccessControl", "dds_security_ac",
+             {{"PermissionsCA", absolute / security_files::kPermissionsCa},
+              {"Governance", absolute / security_files::kGovernance},
+              {"Permissions", absolute / security_files::kPermissions}});
 }
 
 void log_refusals() {

@@ -4,14 +4,14 @@
 #include <dds/dds.h>
 
 #include <filesystem>
-#include <string>
+#include <pugixml.hpp>
 
 namespace skein::bus::cyclonedds {
 
-/// <Security> of a domain's configuration (XML); empty for an empty folder.
+/// Adds <Security> to a domain's configuration.
 /// @param folder  of process/security_files.hpp
 /// @throws InputError when Cyclone's plugins are not installed; it names the Debian package.
-std::string security_configuration(const std::filesystem::path& folder);
+void add_security(pugi::xml_node domain, const std::filesystem::path& folder);
 
 /// From now on Cyclone's warnings and errors go through log_refusal(), those of all domains of this process.
 void log_refusals();

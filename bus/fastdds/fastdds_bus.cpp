@@ -1,6 +1,6 @@
 #include "bus/fastdds/fastdds_bus.hpp"
 
-#include <spdlog/spdlog.h>
+#include <spdlog/fmt/fmt.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -86,8 +86,9 @@ class Matches {
 
 class FastWriter : public Writer, private dds::DataWriterListener {
  public:
-  FastWriter(dds::Publisher& publisher, dds::Topic& topic, const Qos& qos, const GuidPrefix_t& own)
+  FastWriter(dds::Publisher& publisher, dds::Topic& topic, const Qos& qos, const GuidPrefix_t& own, Unsent& unsent)
       : publisher_(publisher),
+        unsent_(unsent),
         reliable_(qos.reliable),
         matches_(own),
         writer_(created(
@@ -108,9 +109,8 @@ class FastWriter : public Writer, private dds::DataWriterListener {
     // heartbeat goes ahead of each sample: this is how Fast DDS asserts liveliness.
     if (reliable_ && matches_.any_cyclone()) writer_->assert_liveliness();
     RawSample sample = padded(payload);
-    if (!writer_->write(&sample))
-      spdlog::warn("{}: Fast DDS could not send a sample of {} bytes", writer_->get_topic()->get_name(),
-                   payload.size());
+    if (writer_->write(&sample)) return;
+    unsent_.note(writer_->get_topic()->get_name(), fmt::format("Fast DDS does not take its {} bytes", payload.size()));
   }
 
   std::vector<ParticipantId> matched() const override { return matches_.participants(); }
@@ -121,6 +121,7 @@ class FastWriter : public Writer, private dds::DataWriterListener {
   }
 
   dds::Publisher& publisher_;
+  Unsent& unsent_;
   bool reliable_;
   Matches matches_;
   dds::DataWriter* writer_;
@@ -187,8 +188,9 @@ class FastReader : public Reader, private dds::DataReaderListener {
 
 class FastParticipant : public Participant {
  public:
-  FastParticipant(int domain, const BusConfig& config)
-      : participant_(created(dds::DomainParticipantFactory::get_instance()->create_participant(
+  FastParticipant(int domain, const BusConfig& config, std::shared_ptr<Unsent> unsent)
+      : Participant(std::move(unsent)),
+        participant_(created(dds::DomainParticipantFactory::get_instance()->create_participant(
                                  static_cast<std::uint32_t>(domain), participant_qos(domain, config),
                                  config.security.empty() ? nullptr : &stranger_watch_, dds::StatusMask::none()),
                              "a participant in domain " + std::to_string(domain))),
@@ -203,7 +205,7 @@ class FastParticipant : public Participant {
   ParticipantId id() const override { return id_of(prefix_); }
 
   std::unique_ptr<Writer> create_writer(const TopicSpec& topic) override {
-    return std::make_unique<FastWriter>(*publisher_, open(topic), topic.qos, prefix_);
+    return std::make_unique<FastWriter>(*publisher_, open(topic), topic.qos, prefix_, unsent());
   }
 
   std::unique_ptr<Reader> create_reader(const TopicSpec& topic, OnSample on_sample) override {
@@ -243,7 +245,7 @@ class FastBus : public Bus {
 
   std::unique_ptr<Participant> join(int domain) override {
     check_domain(domain);
-    return std::make_unique<FastParticipant>(domain, config_);
+    return std::make_unique<FastParticipant>(domain, config_, unsent());
   }
 
  private:

@@ -142,7 +142,8 @@ class InprocReader : public Reader {
 
 class InprocParticipant : public Participant {
  public:
-  explicit InprocParticipant(int domain) : domain_(domain), id_(Exchange::instance().next_id()) {}
+  InprocParticipant(int domain, std::shared_ptr<Unsent> unsent)
+      : Participant(std::move(unsent)), domain_(domain), id_(Exchange::instance().next_id()) {}
 
   ParticipantId id() const override { return id_; }
 
@@ -165,7 +166,7 @@ class InprocBus : public Bus {
   using Bus::Bus;
   std::unique_ptr<Participant> join(int domain) override {
     check_domain(domain);
-    return std::make_unique<InprocParticipant>(domain);
+    return std::make_unique<InprocParticipant>(domain, unsent());
   }
 };
 

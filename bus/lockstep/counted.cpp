@@ -1,5 +1,7 @@
 #include "bus/lockstep/counted.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 namespace skein::bus {
@@ -17,11 +19,11 @@ bool contains(const std::vector<ParticipantId>& matched, ParticipantId who) {
 }
 
 CountedWriter::CountedWriter(Participant& participant, TopicSpec topic)
-    : topic_(std::move(topic)), writer_(participant.create_writer(topic_)) {}
+    : topic_(std::move(topic)), unsent_(participant.unsent()), writer_(participant.create_writer(topic_)) {}
 
 bool CountedWriter::write(std::span<const std::uint8_t> payload) {
   if (count_ - step_start_ >= static_cast<std::uint64_t>(topic_.qos.depth)) {
-    ++refused_;
+    unsent_.note(topic_.name, fmt::format("a step may have {}", topic_.qos.depth));
     return false;
   }
   writer_->write(payload);

@@ -36,7 +36,8 @@ class CountedWriter {
  public:
   CountedWriter(Participant& participant, TopicSpec topic);
 
-  /// @returns false when this step's share of the history is used up; the sample is not sent then.
+  /// @returns false when this step's share of the history is used up; the sample is not sent then, and counted by the
+  /// participant's unsent().
   bool write(std::span<const std::uint8_t> payload);
   template <WireMessage Message>
   bool write(const Message& message) {
@@ -48,7 +49,6 @@ class CountedWriter {
   bool has_readers() const { return writer_->has_readers(); }
   bool matches(ParticipantId who) const { return contains(writer_->matched(), who); }
   std::uint64_t count() const { return count_; }
-  std::uint64_t refused() const { return refused_; }
   const std::string& topic() const { return topic_.name; }
   bool latched() const { return topic_.qos.latched; }
   /// A new step: the history has room again.
@@ -56,8 +56,9 @@ class CountedWriter {
 
  private:
   TopicSpec topic_;
+  Unsent& unsent_;
   std::unique_ptr<Writer> writer_;
-  std::uint64_t count_ = 0, step_start_ = 0, refused_ = 0;
+  std::uint64_t count_ = 0, step_start_ = 0;
 };
 
 /// Samples of some topics, kept apart by writer until they are called for.
@@ -72,7 +73,6 @@ class CountedQueues {
 
   void add_topic(const std::string& topic, Handler handler);
   void remove_topic(const std::string& topic);
-  bool has_topic(const std::string& topic) const { return topics_.contains(topic); }
   /// The writer had already sent `count` samples when we began to listen.
   void set_base(const std::string& topic, ParticipantId source, std::uint64_t count);
   void arrive(const std::string& topic, Sample&& sample);

@@ -24,8 +24,6 @@ class Patience {
     last_look_ = now;
     return limit_s_ > 0.0 && waited_.count() >= limit_s_;
   }
-  /// As of the last look.
-  double waited_s() const { return waited_.count(); }
 
  private:
   double limit_s_;

@@ -15,7 +15,6 @@ TEST(Patience, IsOverWhenTheTimeIsUp) {
   EXPECT_FALSE(patience.over(start + 1s));
   EXPECT_FALSE(patience.over(start + 1900ms));
   EXPECT_TRUE(patience.over(start + 2100ms));
-  EXPECT_NEAR(patience.waited_s(), 2.1, 1e-9);
 }
 
 TEST(Patience, DoesNotCountTheTimeInWhichItsProcessStoodStill) {

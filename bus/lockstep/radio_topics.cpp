@@ -8,9 +8,6 @@
 namespace skein::bus {
 namespace {
 
-/// As many sources as a fleet may have: each may send its share in one step.
-constexpr std::size_t kMaxSources = 21;
-
 TopicSpec radio_topic(const std::string& topic, const std::string& type, std::size_t sources) {
   return {wire_topic(topic), wire_type(type),
           Qos{.reliable = true, .latched = false, .depth = topics::radio_depth(sources)}};
@@ -84,7 +81,8 @@ void RadioTopics::on_reply(const msg::RadioReply& reply) {
   for (auto& [topic, listening] : listenings_) {
     if (listening.request.id() != reply.id()) continue;
     if (status.open && !listening.status.open) {
-      const TopicSpec spec = radio_topic(arrival_topic(topic, node_), listening.request.type(), kMaxSources);
+      const TopicSpec spec =
+          radio_topic(arrival_topic(topic, node_), listening.request.type(), topics::kMostRadioSources);
       client_.open_radio_reader(spec,
                                 [handler = &listening.handler](Sample&& sample) { (*handler)(std::move(sample)); });
     }

@@ -43,8 +43,9 @@ Json load_entry(std::size_t uavs, const std::vector<Json>& results);
 /// Memory at the end of a short run and of a long one of the same fleet; `growth` is their ratio.
 Json memory_entry(const Json& short_run, const Json& long_run);
 
-/// The targets beside what `report` (speed, rounds, scale, relay, load, memory) says: name, kind (at_least or at_most), target,
-/// value, met (null when it was not measured) and factor: how many times as good as asked for, below 1 when missed.
+/// The targets beside what `report` (speed, rounds, scale, relay, load, memory) says: name, kind (at_least or
+/// at_most), target, value, met (null when it was not measured) and factor: how many times as good as asked for, below
+/// 1 when missed.
 Json targets_of(const Json& report);
 
 /// A run that went to its end with everybody on board.

@@ -6,12 +6,14 @@
 #include <set>
 
 #include "cli/fault_tests/limits.hpp"
+#include "core/score_table.hpp"
+#include "core/text.hpp"
 #include "process/run_folder.hpp"
+#include "process/run_tables.hpp"
 
 namespace skein::cli {
 namespace {
 
-constexpr std::uint64_t kResendSteps = 10;  ///< as uav_agent/onboard/uplink.hpp has it
 constexpr std::size_t kShown = 3;
 constexpr double kScoreError = 1e-4;  ///< captures.csv has nine digits of floats
 
@@ -44,11 +46,12 @@ class Timeline {
       : scenario_(scenario), plan_(plan), last_step_(step_of(value_or(run.result, "sim_time_s", 0.0), scenario)) {
     const std::string station = scenario.node_name(kStationNode);
     for (const EventRow& row : run.events) {
-      if (row.event == "joined" || row.event == "left") present_[row.subject].set(row.step, row.event == "joined");
-      const bool link = row.event == "link_up" || row.event == "link_down";
-      if (link && row.object == station) linked_[row.subject].set(row.step, row.event == "link_up");
-      if (row.event == "captured") captured_[row.subject][row.step].push_back(std::stoull(row.object));
-      if (row.event == "released") released_[{row.subject, std::stoull(row.object)}] = row.step;
+      if (row.event == run_tables::kJoined || row.event == run_tables::kLeft)
+        present_[row.subject].set(row.step, row.event == run_tables::kJoined);
+      const bool link = row.event == run_tables::kLinkUp || row.event == run_tables::kLinkDown;
+      if (link && row.object == station) linked_[row.subject].set(row.step, row.event == run_tables::kLinkUp);
+      if (row.event == run_tables::kCaptured) captured_[row.subject][row.step].push_back(std::stoull(row.object));
+      if (row.event == run_tables::kReleased) released_[{row.subject, std::stoull(row.object)}] = row.step;
     }
     for (const MessageRow& row : run.messages) messages_[{row.uav, row.step}] = row.arrives;
   }
@@ -190,7 +193,7 @@ std::vector<std::string> custody_losses(const RunRecord& run, const Scenario& sc
   const auto account = accounted(run, scenario);
   std::vector<std::string> sentences;
   for (const EventRow& row : run.events) {
-    if (row.event != "released") continue;
+    if (row.event != run_tables::kReleased) continue;
     const CaptureKey capture{row.subject, std::stoull(row.object)};
     const auto found = account.find(capture);
     const bool there = found != account.end() && found->second && *found->second <= row.step;
@@ -227,7 +230,7 @@ std::vector<std::string> custody_differences(const RunRecord& run, const Scenari
   std::set<CaptureKey> all;
   for (const auto& [capture, step] : account) all.insert(capture);
   for (const EventRow& row : run.events) {
-    if (row.event == "captured") all.emplace(row.subject, std::stoull(row.object));
+    if (row.event == run_tables::kCaptured) all.emplace(row.subject, std::stoull(row.object));
   }
   std::vector<std::string> sentences;
   for (const CaptureKey& capture : all) {

@@ -4,7 +4,9 @@
 
 #include "cli/fault_tests/windows.hpp"
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 #include "process/run_folder.hpp"
+#include "process/run_tables.hpp"
 
 namespace skein::cli {
 namespace {
@@ -140,8 +142,8 @@ const std::vector<ExpectationKind>& expectation_kinds() {
           "`delivered`, "
           "`acknowledged`, `lost`, `late` and `score`, and in `uavs` for a UAV's name, all but `score`",
           "", judge_during, Needs::nothing, check_during),
-      members_kind("left", "left", "exactly these programs left the run before its end"),
-      members_kind("rejoined", "joined", "exactly these programs joined again"),
+      members_kind("left", run_tables::kLeft, "exactly these programs left the run before its end"),
+      members_kind("rejoined", run_tables::kJoined, "exactly these programs joined again"),
       kind<TakenOver>("taken_over", "`{uav, within_s, points}`: the work of a UAV that failed is done by others", "",
                       judge_taken_over, Needs::fault_free, check_taken_over),
       kind<Custody>("custody",

@@ -1,5 +1,5 @@
-// What a call of `skein test --faults` flies: each test, its repetitions, and the runs without faults that tests compare
-// with, each of these once. Pure.
+// What a call of `skein test --faults` flies: each test, its repetitions, and the runs without faults that tests
+// compare with, each of these once. Pure.
 #pragma once
 
 #include <optional>

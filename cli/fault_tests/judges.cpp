@@ -1,12 +1,12 @@
 #include "cli/fault_tests/judges.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "cli/fault_tests/custody.hpp"
 #include "cli/run/diff.hpp"
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 
 namespace skein::cli {
 namespace {

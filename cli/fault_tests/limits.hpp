@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/config_reader.hpp"
+#include "core/text.hpp"
 
 namespace skein::cli {
 
@@ -25,11 +26,6 @@ struct Limits {
     r.check(!at_least || !at_most || *at_least <= *at_most, "at_most", "must not be below at_least");
   }
 };
-
-/// To six decimals, none too many.
-std::string number_text(double value);
-/// Nothing unless the whole text is a finite number.
-std::optional<double> parse_number(const std::string& text);
 
 /// Reads `key` of either form; `limits` stays what it is when the key is absent.
 template <class R>

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "cli/study/html.hpp"
+#include "core/text.hpp"
+#include "core/xml_text.hpp"
 
 namespace skein::cli {
 namespace {
@@ -15,16 +16,25 @@ std::string lines_of(const std::vector<std::string>& sentences) {
   return text;
 }
 
-std::string case_xml(const std::string& suite, const FaultVerdict& verdict) {
-  std::string xml = fmt::format("    <testcase classname=\"{}\" name=\"{}\" file=\"{}\" time=\"{:.3f}\">\n",
-                                escaped(suite), escaped(verdict.name), escaped(verdict.file.string()), verdict.wall_s);
-  if (!verdict.flown) xml += "      <skipped message=\"not flown\"/>\n";
+std::string seconds_text(double time_s) { return fmt::format("{:.3f}", time_s); }
+
+void add_attribute(pugi::xml_node element, const char* name, const std::string& text) {
+  element.append_attribute(name) = printable(text).c_str();
+}
+
+void add_case(pugi::xml_node suite, const std::string& suite_name, const FaultVerdict& verdict) {
+  pugi::xml_node test = suite.append_child("testcase");
+  add_attribute(test, "classname", suite_name);
+  add_attribute(test, "name", verdict.name);
+  add_attribute(test, "file", verdict.file.string());
+  add_attribute(test, "time", seconds_text(verdict.wall_s));
+  if (!verdict.flown) add_attribute(test.append_child("skipped"), "message", "not flown");
   if (!verdict.broken.empty()) {
-    xml += fmt::format("      <failure message=\"{}\">{}results: {}</failure>\n", escaped(verdict.broken.front()),
-                       escaped(lines_of(verdict.broken)), escaped(verdict.results.string()));
+    pugi::xml_node failure = test.append_child("failure");
+    add_attribute(failure, "message", verdict.broken.front());
+    failure.text() = printable(lines_of(verdict.broken) + "results: " + verdict.results.string()).c_str();
   }
-  if (!verdict.held.empty()) xml += "      <system-out>" + escaped(lines_of(verdict.held)) + "</system-out>\n";
-  return xml + "    </testcase>\n";
+  if (!verdict.held.empty()) add_element(test, "system-out", printable(lines_of(verdict.held)));
 }
 
 }  // namespace
@@ -40,17 +50,23 @@ void print_verdict(std::ostream& out, const FaultVerdict& verdict, bool verbose)
 }
 
 std::string junit_xml(const std::string& suite, const std::vector<FaultVerdict>& verdicts) {
-  const auto count = [&](const auto& is) { return std::count_if(verdicts.begin(), verdicts.end(), is); };
+  const auto count = [&](const auto& is) {
+    return std::to_string(std::count_if(verdicts.begin(), verdicts.end(), is));
+  };
   double wall_s = 0.0;
   for (const FaultVerdict& verdict : verdicts) wall_s += verdict.wall_s;
-  const std::string counts =
-      fmt::format("name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\"",
-                  escaped(suite), verdicts.size(), count([](const auto& v) { return v.flown && !v.broken.empty(); }),
-                  count([](const auto& v) { return !v.flown; }), wall_s);
-  std::string xml =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites " + counts + ">\n  <testsuite " + counts + ">\n";
-  for (const FaultVerdict& verdict : verdicts) xml += case_xml(suite, verdict);
-  return xml + "  </testsuite>\n</testsuites>\n";
+  pugi::xml_document document;
+  pugi::xml_node suites = document.append_child("testsuites"), only = suites.append_child("testsuite");
+  for (pugi::xml_node element : {suites, only}) {
+    add_attribute(element, "name", suite);
+    add_attribute(element, "tests", std::to_string(verdicts.size()));
+    add_attribute(element, "failures", count([](const auto& v) { return v.flown && !v.broken.empty(); }));
+    add_attribute(element, "errors", "0");
+    add_attribute(element, "skipped", count([](const auto& v) { return !v.flown; }));
+    add_attribute(element, "time", seconds_text(wall_s));
+  }
+  for (const FaultVerdict& verdict : verdicts) add_case(only, suite, verdict);
+  return xml_file(document);
 }
 
 }  // namespace skein::cli

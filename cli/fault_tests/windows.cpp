@@ -1,8 +1,11 @@
 #include "cli/fault_tests/windows.hpp"
+#include "process/run_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "core/text.hpp"
 
 namespace skein::cli {
 namespace {
@@ -32,7 +35,7 @@ class Span {
     if (counted == "acknowledged") {
       for (const EventRow& row : run_.events) {
         const double time_s = static_cast<double>(row.step) * period_s_;
-        if (row.event == "released" && is(row.subject, uav) && holds(time_s)) times.push_back(time_s);
+        if (row.event == run_tables::kReleased && is(row.subject, uav) && holds(time_s)) times.push_back(time_s);
       }
       return times;
     }

@@ -3,23 +3,9 @@
 #include <stdexcept>
 
 #include "core/file_bytes.hpp"
+#include "core/text.hpp"
 
 namespace skein::cli {
-namespace {
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',') {
-      cells.emplace_back();
-    } else {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
-}  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& file) : file_(file), in_(open_text(file)) {
   std::string line;

@@ -1,6 +1,6 @@
-// Under --debug the user starts one agent himself, in a debugger: its end is no child's end that the kernel would tell us
-// of, and the debugger may well live on. So its process is looked for by its command line, or for a user's command by its
-// environment, and watched.   Threads: one.
+// Under --debug the user starts one agent himself, in a debugger: its end is no child's end that the kernel would tell
+// us of, and the debugger may well live on. So its process is looked for by its command line, or for a user's command
+// by its environment, and watched.   Threads: one.
 #pragma once
 
 #include <sys/types.h>

@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 
 #include "cli/run/result.hpp"
 #include "core/file_bytes.hpp"
 #include "core/scenario.hpp"
+#include "core/text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::stringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-  return cells;
-}
 
 /// digests.csv, one row at a time.
 class DigestFile {

@@ -1,5 +1,6 @@
-// A fleet's block of DDS domains: world, ground station, then one domain a UAV. Locks keep two fleets out of each other's
-// blocks wherever their domains would collide: in one network namespace, whoever runs them and whatever their TMPDIR.
+// A fleet's block of DDS domains: world, ground station, then one domain a UAV. Locks keep two fleets out of each
+// other's blocks wherever their domains would collide: in one network namespace, whoever runs them and whatever their
+// TMPDIR.
 #pragma once
 
 #include <optional>
@@ -19,7 +20,8 @@ class DomainBlock {
  public:
   /// @param base the user's choice; without one the first block is taken that is free as a whole.
   /// @param size number of domains. @param realm  for tests: blocks of other realms are not in the way.
-  /// @throws InputError when `base` is out of range or taken (it says by which process), or no block of this size is free.
+  /// @throws InputError when `base` is out of range or taken (it says by which process), or no block of this size is
+  /// free.
   DomainBlock(std::optional<int> base, int size, std::string realm = {});
 
   int base() const { return base_; }

@@ -21,8 +21,8 @@ namespace {
 /// back to SSE2, which every x86-64 has.
 constexpr const char* kBaselineMath = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX,-SSE4_1";
 
-/// Which settings a program's DDS has is decided by its bus alone. RMW_IMPLEMENTATION is left: it is the library that a ROS 2
-/// node of the user's is built on, and none of ours reads it.
+/// Which settings a program's DDS has is decided by its bus alone. RMW_IMPLEMENTATION is left: it is the library that a
+/// ROS 2 node of the user's is built on, and none of ours reads it.
 constexpr std::array<std::string_view, 5> kVendorPrefixes = {"CYCLONE", "FASTDDS_", "FASTRTPS_", "RMW_FASTRTPS_",
                                                              "RMW_CYCLONEDDS_"};
 constexpr std::array<std::string_view, 8> kVendorNames = {"ROS_DISCOVERY_SERVER",  "ROS_SUPER_CLIENT",

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -15,6 +13,7 @@
 #include "cli/run/ground_program.hpp"
 #include "core/config_files.hpp"
 #include "core/scenario_reader.hpp"
+#include "core/text.hpp"
 #include "core/topics.hpp"
 #include "process/run_folder.hpp"
 
@@ -27,13 +26,6 @@ constexpr std::array<const char*, 2> kVendors = {"cyclonedds", "fastdds"};
 
 void append(Arguments& arguments, const Arguments& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
-}
-
-/// Shortest text that reads back to the same number.
-std::string text_of(double value) {
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), end.ptr};
 }
 
 /// A program that is stopped for a while and comes back must not find that the others took it for dead: who it is that
@@ -53,7 +45,7 @@ Arguments scenario_arguments(const FleetPlan& plan) {
                          std::to_string(options.seed)};
   if (options.assets) append(arguments, {"--assets", std::filesystem::absolute(*options.assets)});
   if (options.scene_seed) append(arguments, {"--scene-seed", std::to_string(*options.scene_seed)});
-  if (options.duration_s) append(arguments, {"--duration", text_of(*options.duration_s)});
+  if (options.duration_s) append(arguments, {"--duration", shortest(*options.duration_s)});
   if (options.rules) append(arguments, {"--rules", *options.rules});
   if (options.faults) append(arguments, {"--faults", std::filesystem::absolute(*options.faults)});
   if (options.network) append(arguments, {"--network", *options.network});
@@ -115,9 +107,9 @@ Arguments run_arguments(const FleetPlan& plan, const std::string& program, int b
   if (programs::is_agent(program)) append(arguments, role_arguments(plan, program));
   if (program == programs::kSimServer) {
     append(arguments, {"--clock", plan.options.clock});
-    if (plan.options.stop_at_s) append(arguments, {"--stop-at", text_of(*plan.options.stop_at_s)});
+    if (plan.options.stop_at_s) append(arguments, {"--stop-at", shortest(*plan.options.stop_at_s)});
     if (plan.options.debug_uav) append(arguments, {"--agent-timeout", "0"});
-    if (plan.options.agent_timeout_s) append(arguments, {"--agent-timeout", text_of(*plan.options.agent_timeout_s)});
+    if (plan.options.agent_timeout_s) append(arguments, {"--agent-timeout", shortest(*plan.options.agent_timeout_s)});
     if (plan.ground) arguments.push_back("--ground-program");
   }
   return arguments;
@@ -126,14 +118,6 @@ Arguments run_arguments(const FleetPlan& plan, const std::string& program, int b
 SecureFolder secure_folder(const SecureFolders& secure, const std::string& program) {
   const auto found = secure.find(program);
   return found == secure.end() ? SecureFolder{} : found->second;
-}
-
-std::string quoted_for_shell(const std::string& word) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("_-./:=,", c) != nullptr; };
-  if (std::all_of(word.begin(), word.end(), plain)) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
 }
 
 }  // namespace
@@ -238,14 +222,14 @@ std::string debug_command(const FleetPlan& plan, int base_domain, const std::fil
   std::string command = fleet_environment_prefix(plan.options.native);
   if (is_exec(plan, program)) {
     for (const auto& [name, value] : exec_variables(plan, program, base_domain, out, own)) {
-      command += name + "=" + quoted_for_shell(value) + " ";
+      command += name + "=" + shell_word(value) + " ";
     }
-    return command + "/bin/sh -c " + quoted_for_shell(*exec_command(planner_of(plan, program)));
+    return command + "/bin/sh -c " + shell_word(*exec_command(planner_of(plan, program)));
   }
-  for (const auto& [name, value] : config_variable(plan)) command += name + "=" + quoted_for_shell(value) + " ";
+  for (const auto& [name, value] : config_variable(plan)) command += name + "=" + shell_word(value) + " ";
   command += "gdb --args";
   for (const std::string& argument : run_arguments(plan, program, base_domain, out, own)) {
-    command += " " + quoted_for_shell(argument);
+    command += " " + shell_word(argument);
   }
   return command;
 }

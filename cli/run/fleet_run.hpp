@@ -1,5 +1,5 @@
-// One fleet from its start to its last process: starts the programs, follows what they say, tells sim_server who is lost,
-// carries out what faults do to programs, and ends what does not leave by itself.
+// One fleet from its start to its last process: starts the programs, follows what they say, tells sim_server who is
+// lost, carries out what faults do to programs, and ends what does not leave by itself.
 // Threads: everything from one thread, which must live as long as the programs (see supervisor.hpp).
 #pragma once
 

@@ -11,8 +11,8 @@ namespace skein::cli {
 /// @returns false when the launcher is dead already.
 bool become_minder(pid_t launcher);
 
-/// Waits for the program and for the launcher, whichever ends first, then ends all processes that are left below this one,
-/// and itself in the program's way: with its exit code or its signal. It stops when the program does.
+/// Waits for the program and for the launcher, whichever ends first, then ends all processes that are left below this
+/// one, and itself in the program's way: with its exit code or its signal. It stops when the program does.
 [[noreturn]] void mind(pid_t program, pid_t launcher);
 
 }  // namespace skein::cli

@@ -13,6 +13,8 @@
 #include "core/suggestion.hpp"
 #include "core/types.hpp"
 #include "core/wait_notice.hpp"
+#include "process/log_lines.hpp"
+#include "process/program.hpp"
 
 namespace skein::cli {
 namespace {
@@ -85,12 +87,12 @@ std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs, co
   std::vector<std::string> warnings;
   for (const ProgramSpec& program : programs) {
     const ExitStatus exit = exits.at(program.name);
-    if (exit.code == 2) throw InputError(message_of(program));
+    if (exit.code == kExitBadInput) throw InputError(message_of(program));
     if (!exit.ok()) {
       throw std::runtime_error(program.name + " --check ended with " + exit.text() + "\n" + message_of(program));
     }
     for (std::string& line : last_lines(program.log, kMessageLines)) {
-      if (line.find("] warning ") != std::string::npos) warnings.push_back(std::move(line));
+      if (log_lines::is_warning(line)) warnings.push_back(std::move(line));
     }
   }
   return warnings;

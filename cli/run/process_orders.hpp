@@ -1,6 +1,6 @@
 // What fault files do to programs, at the launcher's end: who has been told to kill or stop itself, who is to come back
-// and can by now, and whose end is therefore none to complain about. sim_server says what and when (status lines of type
-// "order"); the victims carry it out on themselves (docs/lockstep.md), except users' commands.   Threads: one.
+// and can by now, and whose end is therefore none to complain about. sim_server says what and when (status lines of
+// type "order"); the victims carry it out on themselves (docs/lockstep.md), except users' commands.   Threads: one.
 #pragma once
 
 #include <chrono>

@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <iomanip>
 #include <map>
-#include <sstream>
 
 #include "cli/run/score_losses.hpp"
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 
 namespace skein::cli {
 namespace {
-
-std::string fixed(double value, int digits) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(digits) << value;
-  return out.str();
-}
 
 double number(const Json& object, const char* key) { return value_or(object, key, 0.0); }
 

@@ -10,6 +10,7 @@
 
 #include "cli/run/result.hpp"
 #include "core/types.hpp"
+#include "process/run_tables.hpp"
 
 namespace skein::cli {
 
@@ -24,7 +25,7 @@ struct CaptureRow {
   std::string reason;  ///< why it does not count; empty when it does
   double q_blur = 0.0, q_res = 0.0, q_distance = 0.0;
 
-  bool voided() const { return reason == "uav collided"; }
+  bool voided() const { return reason == run_tables::kUavCollided; }
 };
 
 /// One event as the server saw it (events.csv), in force from its step on.
@@ -67,7 +68,8 @@ struct RunRecord {
 std::vector<CaptureRow> read_captures(const std::filesystem::path& dir);
 
 /// A file that a program left out because it died is read as empty.
-/// @throws std::runtime_error when there is no result.json or a row makes no sense: the fault of the run, not of the user.
+/// @throws std::runtime_error when there is no result.json or a row makes no sense: the fault of the run, not of the
+/// user.
 RunRecord read_run(const std::filesystem::path& dir);
 
 }  // namespace skein::cli

@@ -86,10 +86,18 @@ void for_each_report(const Reports& reports, const Look& look) {
   }
 }
 
-/// Samples, on all topics of all programs, that were no messages of their topics' types.
-std::uint64_t malformed_samples(const Reports& reports) {
-  std::uint64_t sum = 0;
-  for_each_report(reports, [&](const auto& report) { sum += report.malformed.value_or(0); });
+/// On all topics of all programs.
+struct SampleCounts {
+  std::uint64_t malformed = 0;  ///< received, and no messages of their topics' types
+  std::uint64_t unsent = 0;     ///< that could not be sent
+};
+
+SampleCounts sample_counts(const Reports& reports) {
+  SampleCounts sum;
+  for_each_report(reports, [&](const auto& report) {
+    sum.malformed += report.malformed.value_or(0);
+    sum.unsent += report.unsent.value_or(0);
+  });
   return sum;
 }
 
@@ -141,9 +149,13 @@ Texts warnings_of(const RunFacts& facts, const SimServerReport& sim, const Route
   warn_of_missing(facts, reports, warnings);
   const std::string unwritten = unwritten_files(reports);
   if (!unwritten.empty()) warnings.push_back("files are missing or cut short: " + unwritten);
-  if (const std::uint64_t malformed = malformed_samples(reports); malformed > 0) {
-    warnings.push_back(std::to_string(malformed) +
+  const SampleCounts samples = sample_counts(reports);
+  if (samples.malformed > 0) {
+    warnings.push_back(std::to_string(samples.malformed) +
                        " malformed samples were received and dropped; the logs name topics");
+  }
+  if (samples.unsent > 0) {
+    warnings.push_back(std::to_string(samples.unsent) + " samples could not be sent; the logs name topics and reasons");
   }
   return warnings;
 }
@@ -222,7 +234,9 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["collisions"] = json_of(sim.collisions);
   result["uavs"] = uav_entries(scenario, sim, reports);
   result["radio"] = radio_counts(router);
-  result["radio"]["malformed"] = malformed_samples(reports);
+  const SampleCounts samples = sample_counts(reports);
+  result["radio"]["malformed"] = samples.malformed;
+  result["radio"]["unsent"] = samples.unsent;
   result["faults"] = json_of(sim.faults);
   result["lost_members"] = json_of(sim.lost_members);
   result["warnings"] = warnings_of(facts, sim, router, reports);

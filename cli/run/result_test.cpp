@@ -96,7 +96,8 @@ class RunResult : public ::testing::Test {
                     "sent_bytes": 400, "delivered_bytes": 280}]})");
     for (const char* uav : {"alpha", "beta"}) {
       write_text(dir_.path() / (std::string("uav_agent-") + uav + ".report.json"), R"({
-        "planner_cpu_s": 0.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_max_ms": 60.25, "planner_exchanges_over_50ms": 3})");
+        "planner_cpu_s": 0.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_max_ms": 60.25,
+        "planner_exchanges_over_50ms": 3})");
     }
   }
 
@@ -216,6 +217,21 @@ TEST_F(RunResult, WhatWasHandedInCountsBeforeAFile) {
   EXPECT_EQ(result["score"], 9.0);
   EXPECT_EQ(result["sim_time_s"], 650.5);
   EXPECT_EQ(result["warnings"].back(), "files are missing or cut short: a: full; b: full");
+}
+
+TEST_F(RunResult, SamplesThatWereNotSentAreSummedUpAndWarnedOf) {
+  write_all_reports();
+  EXPECT_EQ(merged()["radio"]["unsent"], 0);
+  EXPECT_EQ(merged()["warnings"].dump().find("could not be sent"), std::string::npos);
+  std::map<std::string, Json> handed_in;
+  int power = 1;
+  for (const char* program : {"sim_server", "station", "comm_router", "uav_agent-alpha", "uav_agent-beta"}) {
+    handed_in[program] = {{"unsent", power *= 2}};
+  }
+  const Json result = merge_result(facts_, scenario_, read_reports(dir_.path(), scenario_, handed_in));
+  EXPECT_EQ(schema_errors(result), std::vector<std::string>{});
+  EXPECT_EQ(result["radio"]["unsent"], 2 + 4 + 8 + 16 + 32);
+  EXPECT_EQ(result["warnings"].back(), "62 samples could not be sent; the logs name topics and reasons");
 }
 
 TEST_F(RunResult, ADeepOrWrongReportOfAnAgentIsHarmless) {

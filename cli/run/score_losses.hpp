@@ -55,8 +55,8 @@ struct PointLoss {
       best;  ///< the picture that the cause is about: the one that counts, or the one that was lost
 };
 
-/// What one point lost, and to what. It is one cause for all of the loss: a better picture that was lost comes first, unless
-/// the point scored all the same and that picture would have brought less than half of what was to be had.
+/// What one point lost, and to what. It is one cause for all of the loss: a better picture that was lost comes first,
+/// unless the point scored all the same and that picture would have brought less than half of what was to be had.
 PointLoss loss_of(const PointRecord& point);
 
 /// Points with a cause, and the sum of their losses.

@@ -1,9 +1,7 @@
 #include "cli/run/supervisor.hpp"
 
 #include <fcntl.h>
-#include <grp.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
 #include <sys/wait.h>
@@ -20,11 +18,7 @@
 #include <system_error>
 #include <utility>
 
-#include "cli/run/minder.hpp"
-
-extern "C" {  // glibc 2.36's header forgets it
-#include <sys/pidfd.h>
-}
+#include "cli/run/program_start.hpp"
 
 namespace skein::cli {
 namespace {
@@ -34,52 +28,6 @@ constexpr std::size_t kStatusLook = 64 << 10;
 /// A report with the points of the largest scenes is shorter.
 constexpr std::size_t kLongestStatusLine = 16 << 20;
 constexpr std::size_t kLogTail = 64 << 10, kLongestLogLine = 1000;
-
-[[noreturn]] void throw_errno(const std::string& what) {
-  throw std::system_error(errno, std::generic_category(), what);
-}
-
-/// A file descriptor that closes itself.
-class Fd {
- public:
-  Fd() = default;
-  explicit Fd(int fd) : fd_(fd) {}
-  Fd(Fd&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Fd& operator=(Fd&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  ~Fd() { reset(); }
-  int get() const { return fd_; }
-  void reset() {
-    if (fd_ >= 0) ::close(std::exchange(fd_, -1));
-  }
-
- private:
-  int fd_ = -1;
-};
-
-struct Pipe {
-  Fd read, write;
-};
-
-/// Both ends are above the numbers that a child's descriptors get, so that dup2 never overwrites one of them.
-Pipe make_pipe() {
-  int fds[2];
-  if (::pipe2(fds, O_CLOEXEC) != 0) throw_errno("pipe");
-  Fd low_read(fds[0]), low_write(fds[1]);
-  Pipe pipe{Fd(::fcntl(fds[0], F_DUPFD_CLOEXEC, kControlFd + 1)), Fd(::fcntl(fds[1], F_DUPFD_CLOEXEC, kControlFd + 1))};
-  if (pipe.read.get() < 0 || pipe.write.get() < 0) throw_errno("pipe");
-  return pipe;
-}
-
-Fd open_high(const std::filesystem::path& file, int flags) {
-  const Fd low(::open(file.c_str(), flags | O_CLOEXEC, 0644));
-  if (low.get() < 0) throw_errno(file.string());
-  Fd high(::fcntl(low.get(), F_DUPFD_CLOEXEC, kControlFd + 1));
-  if (high.get() < 0) throw_errno(file.string());
-  return high;
-}
 
 /// Whoever starts us with nohup wants us to live on without the terminal.
 bool is_ignored(int signal) {
@@ -99,75 +47,15 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-std::vector<char*> pointers(const std::vector<std::string>& strings) {
-  std::vector<char*> result;
-  for (const std::string& s : strings) result.push_back(const_cast<char*>(s.c_str()));
-  result.push_back(nullptr);
-  return result;
-}
-
-/// What the child does between fork and exec: only calls that are safe there. Writes its process id to `news`, then, when it
-/// cannot go on, errno.
-struct ChildSetup {
-  pid_t parent;                           ///< the launcher, or the program's minder
-  int input, log, status, control, news;  ///< log: -1 keeps the launcher's
-  char* const* argv;
-  char* const* env;
-  const UserId* user;  ///< null: the launcher's
-
-  [[noreturn]] void exec() const {
-    ::setpgid(0, 0);
-    tell(::getpid());
-    bool ready =
-        user == nullptr || (::setgroups(0, nullptr) == 0 && ::setgid(user->gid) == 0 && ::setuid(user->uid) == 0);
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);       // after setuid, which would undo it
-    if (::getppid() != parent) ::_exit(127);  // it died before prctl could tell
-    sigset_t none;
-    sigemptyset(&none);
-    ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    for (int signal = 1; signal < SIGRTMIN; ++signal) ::signal(signal, SIG_DFL);  // what our shell ignored, too
-    const std::array<std::pair<int, int>, 5> files = {
-        {{input, 0}, {log, 1}, {log, 2}, {status, kStatusFd}, {control, kControlFd}}};
-    for (const auto& [from, to] : files) ready = ready && (from < 0 || ::dup2(from, to) >= 0);
-    if (ready) ::execve(argv[0], argv, env);
-    tell(errno);
-    ::_exit(127);
-  }
-
-  void tell(int number) const { [[maybe_unused]] const ssize_t written = ::write(news, &number, sizeof number); }
-};
-
-/// The same with a minder in between.
-[[noreturn]] void exec_minded(ChildSetup setup) {
-  ::setpgid(0, 0);
-  const pid_t launcher = std::exchange(setup.parent, ::getpid());
-  if (!become_minder(launcher)) ::_exit(127);
-  const pid_t program = ::fork();
-  if (program == 0) setup.exec();
-  if (program > 0) mind(program, launcher);
-  setup.tell(0);  // no process, and why
-  setup.tell(errno);
-  ::_exit(127);
-}
-
-/// What a child told; nullopt when it said no more.
-std::optional<int> next_news(const Fd& from) {
-  int number = 0;
-  ssize_t size = 0;
-  do {
-    size = ::read(from.get(), &number, sizeof number);
-  } while (size < 0 && errno == EINTR);
-  return size == sizeof number ? std::optional(number) : std::nullopt;
-}
-
 }  // namespace
 
-struct Supervisor::Child {
-  std::string name;
-  pid_t pid = -1;      ///< our child: the program, or its minder
-  pid_t program = -1;  ///< leads a process group
-  Fd pidfd, status, control;
-  std::uint64_t most_status_bytes = 0, status_bytes = 0;
+struct Supervisor::Child : StartedProgram {
+  explicit Child(const ProgramSpec& spec)
+      : StartedProgram(start_program(spec)), name(spec.name), most_status_bytes(spec.most_status_bytes) {}
+
+  const std::string name;
+  const std::uint64_t most_status_bytes;
+  std::uint64_t status_bytes = 0;
   std::string partial_line;
 
   /// Takes in what the program wrote; closes the pipe when it was too much.
@@ -213,43 +101,7 @@ Supervisor::~Supervisor() {
   ::sigprocmask(SIG_SETMASK, &former_mask_, nullptr);
 }
 
-void Supervisor::start(const ProgramSpec& spec) {
-  const Fd log =
-      spec.log.empty() ? Fd() : open_high(spec.log, O_WRONLY | O_CREAT | (spec.append_log ? O_APPEND : O_TRUNC));
-  const Fd input = open_high("/dev/null", O_RDONLY);
-  Pipe status = make_pipe(), control = make_pipe(), news = make_pipe();
-  const std::vector<char*> argv = pointers(spec.argv), env = pointers(spec.env);
-  const ChildSetup setup{::getpid(),         input.get(),        log.get(),
-                         status.write.get(), control.read.get(), news.write.get(),
-                         argv.data(),        env.data(),         spec.user ? &*spec.user : nullptr};
-  const pid_t pid = ::fork();
-  if (pid < 0) throw_errno("fork");
-  if (pid == 0) spec.minded ? exec_minded(setup) : setup.exec();
-  news.write.reset();
-  const pid_t program = next_news(news.read).value_or(0);
-  const std::optional<int> error = next_news(news.read);
-  if (program == 0 || error) {
-    ::waitpid(pid, nullptr, 0);
-    throw std::system_error(error.value_or(ECHILD), std::generic_category(), "cannot start " + spec.argv[0]);
-  }
-  auto child = std::make_unique<Child>();
-  child->name = spec.name;
-  child->most_status_bytes = spec.most_status_bytes;
-  child->pid = pid;
-  child->program = program;
-  child->pidfd = Fd(::pidfd_open(pid, 0));
-  if (child->pidfd.get() < 0) {
-    const int reason = errno;
-    ::kill(-program, SIGKILL);
-    ::waitpid(pid, nullptr, 0);
-    throw std::system_error(reason, std::generic_category(), "pidfd_open");
-  }
-  child->status = std::move(status.read);
-  child->control = std::move(control.write);
-  ::fcntl(child->status.get(), F_SETFL, O_NONBLOCK);
-  ::fcntl(child->control.get(), F_SETFL, O_NONBLOCK);
-  children_[spec.name] = std::move(child);
-}
+void Supervisor::start(const ProgramSpec& spec) { children_[spec.name] = std::make_unique<Child>(spec); }
 
 std::vector<Event> Supervisor::wait(std::chrono::milliseconds limit) {
   std::vector<pollfd> polled = {{signal_fd_, POLLIN, 0}};
@@ -289,8 +141,8 @@ void Supervisor::read_status(Child& child, std::size_t most, std::vector<Event>&
 }
 
 void Supervisor::reap(Child& child, std::vector<Event>& events) {
-  // Its own children first: as long as the zombie is not reaped, its group's number cannot belong to anyone else. A minder
-  // has ended all that was below it.
+  // Its own children first: as long as the zombie is not reaped, its group's number cannot belong to anyone else. A
+  // minder has ended all that was below it.
   ::kill(-child.pid, SIGKILL);
   // All that it can have left: a process that got away from the group may still write.
   const int left = child.status.get() < 0 ? 0 : ::fcntl(child.status.get(), F_GETPIPE_SZ);

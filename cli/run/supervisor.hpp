@@ -1,5 +1,5 @@
-// Starts programs, watches them and ends them. A program never outlives the launcher, nor do the children of one that is
-// minded (cli/run/minder.hpp), its death is noticed at once
+// Starts programs, watches them and ends them. A program never outlives the launcher, nor do the children of one that
+// is minded (cli/run/minder.hpp), its death is noticed at once
 // (pidfd, not SIGCHLD), and the terminal's Ctrl-C reaches the launcher alone: what to do about it is decided there.
 // Threads: everything from one thread, which must live as long as the programs (PR_SET_PDEATHSIG goes by thread).
 #pragma once
@@ -61,8 +61,8 @@ struct Event {
   ExitStatus exit;
 };
 
-/// From construction to destruction SIGINT, SIGTERM and SIGHUP (unless nohup had it ignored) become Event::interrupt, and
-/// SIGPIPE is ignored.
+/// From construction to destruction SIGINT, SIGTERM and SIGHUP (unless nohup had it ignored) become Event::interrupt,
+/// and SIGPIPE is ignored.
 class Supervisor {
  public:
   Supervisor();
@@ -113,7 +113,8 @@ class Supervisor {
   struct sigaction former_pipe_action_ {};
 };
 
-/// The last lines of a text file, newest last, without what is long ago in a huge one; empty when there is no such file.
+/// The last lines of a text file, newest last, without what is long ago in a huge one; empty when there is no such
+/// file.
 std::vector<std::string> last_lines(const std::filesystem::path& file, std::size_t count);
 
 }  // namespace skein::cli

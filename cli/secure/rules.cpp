@@ -7,6 +7,7 @@
 
 #include "core/radio_routes.hpp"
 #include "core/topics.hpp"
+#include "core/xml_text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {
@@ -14,19 +15,24 @@ namespace {
 
 constexpr std::string_view kSchema = "http://www.omg.org/spec/DDS-Security/20170801/";
 
-std::string document(const std::string& schema, const std::string& body) {
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<dds xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
-         "xsi:noNamespaceSchemaLocation=\"" +
-         std::string(kSchema) + schema + "\">\n" + body + "</dds>\n";
+/// A document's root.
+pugi::xml_node add_root(pugi::xml_document& document, const std::string& schema) {
+  pugi::xml_node root = document.append_child("dds");
+  root.append_attribute("xmlns:xsi") = "http://www.w3.org/2001/XMLSchema-instance";
+  root.append_attribute("xsi:noNamespaceSchemaLocation") = (std::string(kSchema) + schema).c_str();
+  return root;
 }
 
-std::string element(const std::string& name, const std::string& content) {
-  return "<" + name + ">" + content + "</" + name + ">\n";
+void add_domains(pugi::xml_node rule, int first, int last) {
+  pugi::xml_node range = rule.append_child("domains").append_child("id_range");
+  add_element(range, "min", std::to_string(first));
+  add_element(range, "max", std::to_string(last));
 }
 
-std::string domains(int first, int last) {
-  return element("domains",
-                 element("id_range", element("min", std::to_string(first)) + element("max", std::to_string(last))));
+/// What a rule of the permissions says of some topics. @param what  publish, subscribe
+void add_topics(pugi::xml_node rule, const char* what, const std::vector<std::string>& topics) {
+  pugi::xml_node list = rule.append_child(what).append_child("topics");
+  for (const std::string& topic : topics) add_element(list, "topic", topic);
 }
 
 /// @returns days from now as the documents write times; a day's margin each way makes time zones irrelevant
@@ -92,45 +98,54 @@ Rights rights_of(const FleetPlan& plan, const std::string& program, int base_dom
 }
 
 std::string permissions(const std::string& subject, const Rights& rights) {
-  const std::string where = domains(rights.first_domain, rights.last_domain);
-  const auto listed = [](const std::vector<std::string>& topics) {
-    std::string elements;
-    for (const std::string& topic : topics) elements += element("topic", topic);
-    return elements;
+  pugi::xml_document document;
+  pugi::xml_node grant =
+      add_root(document, "omg_shared_ca_permissions.xsd").append_child("permissions").append_child("grant");
+  grant.append_attribute("name") = "skein";
+  add_element(grant, "subject_name", subject);
+  pugi::xml_node validity = grant.append_child("validity");
+  add_element(validity, "not_before", date(-1));
+  add_element(validity, "not_after", date(30));
+  const auto add_rule = [&](const char* kind) {
+    pugi::xml_node rule = grant.append_child(kind);
+    add_domains(rule, rights.first_domain, rights.last_domain);
+    return rule;
   };
-  const std::string refused = listed(rights.not_published), hidden = element("topics", listed(rights.not_read));
-  const std::string everything = element("topics", element("topic", "*"));
   // The first rule that fits decides. Cyclone DDS takes a topic that a rule refuses in one direction for refused as a
   // whole, unless a rule before it allows the other direction.
-  std::string rules;
   if (!rights.not_read.empty()) {
-    rules += element("deny_rule", where + element("publish", hidden) + element("subscribe", hidden));
+    pugi::xml_node hidden = add_rule("deny_rule");
+    add_topics(hidden, "publish", rights.not_read);
+    add_topics(hidden, "subscribe", rights.not_read);
   }
-  rules += element("allow_rule", where + element("subscribe", everything));
-  if (!refused.empty()) rules += element("deny_rule", where + element("publish", element("topics", refused)));
-  rules += element("allow_rule", where + element("publish", everything));
-  const std::string validity = element("validity", element("not_before", date(-1)) + element("not_after", date(30)));
-  return document("omg_shared_ca_permissions.xsd",
-                  element("permissions", "<grant name=\"skein\">\n" + element("subject_name", subject) + validity +
-                                             rules + element("default", "DENY") + "</grant>\n"));
+  add_topics(add_rule("allow_rule"), "subscribe", {"*"});
+  if (!rights.not_published.empty()) add_topics(add_rule("deny_rule"), "publish", rights.not_published);
+  add_topics(add_rule("allow_rule"), "publish", {"*"});
+  add_element(grant, "default", "DENY");
+  return xml_file(document);
 }
 
 std::string governance(int first_domain, int last_domain) {
+  pugi::xml_document document;
+  pugi::xml_node domains = add_root(document, "omg_shared_ca_governance.xsd")
+                               .append_child("domain_access_rules")
+                               .append_child("domain_rule");
+  add_domains(domains, first_domain, last_domain);
+  add_element(domains, "allow_unauthenticated_participants", "false");
+  add_element(domains, "enable_join_access_control", "true");
+  add_element(domains, "discovery_protection_kind", "ENCRYPT");
+  add_element(domains, "liveliness_protection_kind", "ENCRYPT");
+  add_element(domains, "rtps_protection_kind", "NONE");
   // Submessages are encrypted as a whole, so nobody without a certificate can slip in a heartbeat or a gap either.
-  const std::string topics = element(
-      "topic_rule", element("topic_expression", "*") + element("enable_discovery_protection", "true") +
-                        element("enable_liveliness_protection", "true") +
-                        element("enable_read_access_control", "true") + element("enable_write_access_control", "true") +
-                        element("metadata_protection_kind", "ENCRYPT") + element("data_protection_kind", "NONE"));
-  return document(
-      "omg_shared_ca_governance.xsd",
-      element(
-          "domain_access_rules",
-          element("domain_rule",
-                  domains(first_domain, last_domain) + element("allow_unauthenticated_participants", "false") +
-                      element("enable_join_access_control", "true") + element("discovery_protection_kind", "ENCRYPT") +
-                      element("liveliness_protection_kind", "ENCRYPT") + element("rtps_protection_kind", "NONE") +
-                      element("topic_access_rules", topics))));
+  pugi::xml_node topics = domains.append_child("topic_access_rules").append_child("topic_rule");
+  add_element(topics, "topic_expression", "*");
+  add_element(topics, "enable_discovery_protection", "true");
+  add_element(topics, "enable_liveliness_protection", "true");
+  add_element(topics, "enable_read_access_control", "true");
+  add_element(topics, "enable_write_access_control", "true");
+  add_element(topics, "metadata_protection_kind", "ENCRYPT");
+  add_element(topics, "data_protection_kind", "NONE");
+  return xml_file(document);
 }
 
 }  // namespace skein::cli

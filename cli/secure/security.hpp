@@ -38,9 +38,9 @@ class SecureRun {
   const SecureFolders& folders() const { return folders_; }
 
   /// Copies what agents under their own user ids wrote from their own folders to the results folder, once all programs
-  /// have ended (and what they left behind has been): plain files of theirs, under names that begin with the program's, as
-  /// many and as much of them as is sensible. @returns what was left behind or cut, a sentence for each agent that it
-  /// befell.
+  /// have ended (and what they left behind has been): plain files of theirs, under names that begin with the program's,
+  /// as many and as much of them as is sensible. @returns what was left behind or cut, a sentence for each agent that
+  /// it befell.
   std::vector<std::string> collect() const;
 
  private:

@@ -1,5 +1,5 @@
-// User ids for programs that are not to be trusted (docs/security.md): drawn for each run from a range that nobody is given
-// ids of, free when they are taken, and free of processes again when they are given back.   Only for root.
+// User ids for programs that are not to be trusted (docs/security.md): drawn for each run from a range that nobody is
+// given ids of, free when they are taken, and free of processes again when they are given back.   Only for root.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@
 
 namespace skein::cli {
 
-/// systemd's table of ids has none of these in use, nor has Debian's policy; they exist in a container with 65536 ids too.
+/// systemd's table of ids has none of these in use, nor has Debian's policy; they exist in a container with 65536 ids
+/// too.
 inline constexpr uid_t kFirstAgentUser = 60706, kLastAgentUser = 61183;
 
 /// Ends all processes that run as this user, and those that they start meanwhile.

@@ -1,4 +1,4 @@
-// A panel of box plots as SVG: one row a sample, all its values as dots. Colours are CSS classes of study_style.hpp.
+// A panel of box plots as SVG: one row a sample, all its values as dots. Colours are CSS classes of style.hpp.
 // Pure; any thread.
 #pragma once
 

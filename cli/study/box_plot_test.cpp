@@ -28,7 +28,7 @@ TEST(BoxPlot, EverythingIsWithinTheAxis) {
       }
       plot.rows.push_back(row);
     }
-    const auto elements = XmlCheck::elements(box_plot_svg(plot));
+    const auto elements = xml_elements(box_plot_svg(plot));
     double left = 0.0, right = 0.0, bottom = 0.0;
     for (const XmlElement& e : elements) {
       if (has_class(e, "axis")) left = number(e, "x1"), right = number(e, "x2"), bottom = number(e, "y1");
@@ -59,7 +59,7 @@ TEST(BoxPlot, TheBoxIsWhereTheQuartilesAre) {
   // On an axis from 0 to 100 whose ends are dots of another row.
   BoxPlot plot{"", "score", {{"ends", 0, {{0.0, ""}, {100.0, ""}}}, {"five", 1, {}}}};
   for (const double value : {10.0, 20.0, 50.0, 60.0, 90.0}) plot.rows[1].values.push_back({value, ""});
-  const auto elements = XmlCheck::elements(box_plot_svg(plot));
+  const auto elements = xml_elements(box_plot_svg(plot));
   double left = 0.0, right = 0.0;
   std::vector<XmlElement> boxes, medians, dots;
   for (const XmlElement& e : elements) {
@@ -79,7 +79,7 @@ TEST(BoxPlot, TheBoxIsWhereTheQuartilesAre) {
 TEST(BoxPlot, TextsAreEscapedAndARowMayBeEmpty) {
   const BoxPlot plot{"<a & b>", "\"score\"", {{"x<y>&", 0, {}}, {"exec:./a 'b' && c", 9, {{1.0, "<&>"}}}}};
   const std::string svg = box_plot_svg(plot);
-  EXPECT_NO_THROW(XmlCheck::elements(svg));
+  EXPECT_NO_THROW(xml_elements(svg));
   EXPECT_NE(svg.find("no flight"), std::string::npos);
   EXPECT_NE(svg.find("row c2"), std::string::npos) << "colours repeat";
 }

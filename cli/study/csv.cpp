@@ -17,13 +17,7 @@ std::string cell(const std::string& text) {
 constexpr int kDigits = 4;
 
 /// Whole numbers stay whole.
-std::string number(const std::optional<double>& value) {
-  if (!value) return "";
-  std::string text = fixed(*value, kDigits);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
-}
+std::string number(const std::optional<double>& value) { return value ? fixed_at_most(*value, kDigits) : ""; }
 
 std::string number_of_any(const std::vector<double>& values, double value) {
   return values.empty() ? "" : number(value);

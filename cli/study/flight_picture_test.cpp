@@ -57,7 +57,7 @@ TEST(FlightPicture, AFolderWithoutAnythingGivesAnEmptyDrawing) {
   const FlightPicture picture = read_picture(scratch.path());
   EXPECT_TRUE(picture.boxes.empty() && picture.points.empty() && picture.tracks.empty());
   const PictureView view({&picture});
-  EXPECT_NO_THROW(XmlCheck::elements(picture_svg(picture, view, "")));
+  EXPECT_NO_THROW(xml_elements(picture_svg(picture, view, "")));
 }
 
 TEST(FlightPicture, AllThatIsShownIsWithinTheDrawing) {
@@ -74,7 +74,7 @@ TEST(FlightPicture, AllThatIsShownIsWithinTheDrawing) {
       for (const PictureTrack& track : picture->tracks) {
         for (const Vector3d& p_WB : track.p_WB) ASSERT_TRUE(inside(p_WB));
       }
-      ASSERT_NO_THROW(XmlCheck::elements(picture_svg(*picture, view, "a & b")));
+      ASSERT_NO_THROW(xml_elements(picture_svg(*picture, view, "a & b")));
     }
   }
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/run_command.hpp"
+#include "cli/console.hpp"
 #include "cli/study/plan.hpp"
 
 namespace skein::cli {

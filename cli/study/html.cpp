@@ -1,7 +1,5 @@
 #include "cli/study/html.hpp"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +19,7 @@ double round_step(double step) {
 
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : printable(std::string(text))) {
     switch (c) {
       case '&':
         out += "&amp;";
@@ -39,26 +37,15 @@ std::string escaped(std::string_view text) {
         out += "&#39;";
         break;
       default:
-        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
+        out += c;
     }
   }
   return out;
 }
 
-std::string fixed(double value, int digits) {
-  std::string text = fmt::format("{:.{}f}", value, digits);
-  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
-  if (is_zero && text.starts_with('-')) text.erase(0, 1);
-  return text;
-}
-
 std::string fixed(const std::optional<double>& value, int digits) { return value ? fixed(*value, digits) : "–"; }
 
-std::string coordinate(double value) {
-  std::string text = fixed(value, 1);
-  if (text.ends_with(".0")) text.resize(text.size() - 2);
-  return text;
-}
+std::string coordinate(double value) { return fixed_at_most(value, 1); }
 
 std::string shortened(const std::string& text, std::size_t most) {
   const auto begins_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };

@@ -6,13 +6,14 @@
 #include <string_view>
 #include <vector>
 
+#include "core/text.hpp"
+
 namespace skein::cli {
 
 /// Text made fit for elements and attributes in quotes: & < > " '. Control characters that XML forbids become '?'.
 std::string escaped(std::string_view text);
 
-/// The value with this many digits behind the point; "-0" is "0".
-std::string fixed(double value, int digits);
+using skein::fixed;
 /// The same, or a dash.
 std::string fixed(const std::optional<double>& value, int digits);
 

@@ -51,15 +51,15 @@ StudyPictures pictures_of(const Study& study) {
 TEST(StudyPage, IsWellFormedWhateverTheNames) {
   for (const bool contest : {false, true}) {
     const Study study = a_study(contest);
-    EXPECT_NO_THROW(XmlCheck::elements(study_page(study, pictures_of(study))));
-    EXPECT_NO_THROW(XmlCheck::elements(study_page(study, {})));
+    EXPECT_NO_THROW(xml_elements(study_page(study, pictures_of(study))));
+    EXPECT_NO_THROW(xml_elements(study_page(study, {})));
   }
 }
 
 TEST(StudyPage, AsksForNothingFromElsewhere) {
   const Study study = a_study(true);
   const std::string page = study_page(study, pictures_of(study));
-  for (const XmlElement& element : XmlCheck::elements(page)) {
+  for (const XmlElement& element : xml_elements(page)) {
     EXPECT_NE(element.name, "script");
     EXPECT_NE(element.name, "link");
     EXPECT_NE(element.name, "img");

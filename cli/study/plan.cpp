@@ -1,7 +1,5 @@
 #include "cli/study/plan.hpp"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -14,6 +12,7 @@
 #include "core/scenario_reader.hpp"
 #include "core/sha256.hpp"
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 #include "core/types.hpp"
 #include "process/run_folder.hpp"
 
@@ -97,8 +96,8 @@ class AgentDigests {
   std::map<fs::path, std::string> digests_;
 };
 
-/// Whether uav_agent itself has all of a fleet's planners: then it flies them, and what they did does not fall due again
-/// when the user's own agent is built anew.
+/// Whether uav_agent itself has all of a fleet's planners: then it flies them, and what they did does not fall due
+/// again when the user's own agent is built anew.
 bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& built_in) {
   const auto is_built_in = [&](const std::string& spec) {
     return exec_command(spec) || std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;
@@ -173,7 +172,7 @@ std::string command_line(const StudyPlan& plan) {
   }
   if (options.scene_seed) add("--scene-seed", std::to_string(*options.scene_seed));
   if (options.assets) add("--assets", *options.assets);
-  if (options.duration_s) add("--duration", fmt::format("{}", *options.duration_s));
+  if (options.duration_s) add("--duration", shortest(*options.duration_s));
   if (options.rules) add("--rules", *options.rules);
   if (options.dds != StudyOptions{}.dds) add("--dds", options.dds);
   if (options.agent) add("--agent", *options.agent);

@@ -1,5 +1,7 @@
 #include "cli/study/side_by_side.hpp"
 
+#include "process/program.hpp"
+
 namespace skein::cli {
 
 bool SideBySide::fly(std::deque<std::size_t> waiting, const Start& start, const Over& over) {

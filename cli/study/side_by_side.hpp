@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cli/run/supervisor.hpp"
-#include "cli/run_command.hpp"
+#include "cli/console.hpp"
 
 namespace skein::cli {
 

@@ -1,26 +1,18 @@
 #include "cli/study/spec.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <limits>
 #include <set>
-#include <sstream>
 
 #include "cli/planner_spec.hpp"
+#include "core/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
 namespace {
 
 constexpr std::size_t kMostSeeds = 1000;
-
-std::vector<std::string> split_at_commas(const std::string& text) {
-  std::vector<std::string> items;
-  std::stringstream rest(text + ',');
-  for (std::string item; std::getline(rest, item, ',');) items.push_back(item);
-  return items;
-}
 
 /// @throws InputError that quotes the whole text.
 std::uint64_t whole_number(const std::string& digits, const std::string& text) {
@@ -46,7 +38,7 @@ void append_range(std::uint64_t first, std::uint64_t last, const std::string& te
 
 std::vector<std::string> split_planners(const std::string& list) {
   std::vector<std::string> planners;
-  for (const std::string& item : split_at_commas(list)) {
+  for (const std::string& item : split(list)) {
     const std::size_t equals = item.find('='), colon = item.find(':');
     const bool is_parameter = equals != std::string::npos && equals < colon;
     if (is_parameter) {
@@ -76,7 +68,7 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text) {
     return seeds;
   }
   std::vector<std::uint64_t> seeds;
-  for (const std::string& item : split_at_commas(text)) {
+  for (const std::string& item : split(text)) {
     const std::size_t dash = item.find('-');
     const std::uint64_t first = whole_number(item.substr(0, dash), text);
     append_range(first, dash == std::string::npos ? first : whole_number(item.substr(dash + 1), text), text, seeds);
@@ -98,14 +90,6 @@ std::vector<std::string> folder_names(const std::vector<std::string>& texts) {
     names.push_back(name);
   }
   return names;
-}
-
-std::string shell_word(const std::string& word) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_-./:=,+", c) != nullptr; };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
 }
 
 }  // namespace skein::cli

@@ -20,7 +20,4 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text);
 /// A folder's name for each text (planner_label), with "-2", "-3"... after those that came before.
 std::vector<std::string> folder_names(const std::vector<std::string>& texts);
 
-/// A word as a shell takes it, in quotes where it needs them.
-std::string shell_word(const std::string& word);
-
 }  // namespace skein::cli

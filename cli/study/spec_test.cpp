@@ -68,12 +68,5 @@ TEST(StudySpec, FoldersAreDistinctAndSafe) {
   }
 }
 
-TEST(StudySpec, WordsAreQuotedForTheShellWhereTheyNeedIt) {
-  EXPECT_EQ(shell_word("kios:voxel_m=4,x=1"), "kios:voxel_m=4,x=1");
-  EXPECT_EQ(shell_word("a b"), "'a b'");
-  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
-  EXPECT_EQ(shell_word(""), "''");
-}
-
 }  // namespace
 }  // namespace skein::cli

@@ -2,8 +2,9 @@
 
 namespace skein::cli {
 
-// Colours of planners (c) and tracks (t) are Okabe and Ito's, which people with any colour vision can tell apart, darker
-// or lighter where the background asks for it. Qualities (q) are steps of one hue, so that no track looks like one.
+// Colours of planners (c) and tracks (t) are Okabe and Ito's, which people with any colour vision can tell apart,
+// darker or lighter where the background asks for it. Qualities (q) are steps of one hue, so that no track looks like
+// one.
 std::string_view study_style() {
   return R"css(:root {
   color-scheme: light dark;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
+#include <string>
 
 #include "core/euler.hpp"
+#include "core/text.hpp"
 
 namespace skein::sim {
 namespace {
@@ -17,10 +17,8 @@ constexpr double kBrakingShare = 0.8;  ///< of the acceleration; the law's integ
 constexpr double kTiny = 1e-9;         ///< not zero
 
 std::string beyond(const char* what, double value, double limit, const char* unit) {
-  std::ostringstream text;
-  text << std::setprecision(4) << what << " of " << value << " " << unit << " is beyond the vehicle's limit of "
-       << limit << " " << unit;
-  return text.str();
+  return std::string(what) + " of " + significant(value, 4) + " " + unit + " is beyond the vehicle's limit of " +
+         significant(limit, 4) + " " + unit;
 }
 
 bool given(const Vector3d& v) { return v.norm() >= kGiven; }

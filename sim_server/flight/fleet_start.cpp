@@ -1,7 +1,8 @@
 #include "sim_server/flight/fleet_start.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
-#include <sstream>
 
 #include "core/airframe.hpp"
 #include "core/euler.hpp"
@@ -52,10 +53,8 @@ Isometry3d draw_pose(const Scenario& scenario, const std::vector<UavStart>& draw
 }
 
 [[noreturn]] void refuse_start(const Scenario& scenario, const UavConfig& uav, const std::string& why) {
-  std::ostringstream message;
-  message << scenario.file.string() << ": the start of " << uav.name << " at (" << uav.start.x() << ", "
-          << uav.start.y() << ") " << why << "; choose one that is clear of it";
-  throw InputError(message.str());
+  throw InputError(fmt::format("{}: the start of {} at ({:g}, {:g}) {}; choose one that is clear of it",
+                               scenario.file.string(), uav.name, uav.start.x(), uav.start.y(), why));
 }
 
 }  // namespace
@@ -64,10 +63,10 @@ void check_station(const Scenario& scenario, const IsEnclosed& enclosed) {
   constexpr double kAboveGround = 0.01;  // from a place in the ground plane the ground cannot be seen
   const Vector3d& p_W = scenario.station_position;
   if (!enclosed({p_W.x(), p_W.y(), std::max(p_W.z(), kAboveGround)})) return;
-  std::ostringstream message;
-  message << scenario.file.string() << ": station.position: (" << p_W.x() << ", " << p_W.y() << ", " << p_W.z()
-          << ") lies in the structure or is enclosed by it: no line of sight leads out of it; choose a place outside";
-  throw InputError(message.str());
+  throw InputError(fmt::format(
+      "{}: station.position: ({:g}, {:g}, {:g}) lies in the structure or is enclosed by it: no line of sight "
+      "leads out of it; choose a place outside",
+      scenario.file.string(), p_W.x(), p_W.y(), p_W.z()));
 }
 
 std::vector<UavStart> draw_fleet_start(const Scenario& scenario, std::uint64_t seed, const TouchesStructure& touches,

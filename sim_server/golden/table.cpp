@@ -3,10 +3,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
 
 #include "core/euler.hpp"
 #include "core/file_bytes.hpp"
+#include "core/text.hpp"
 
 namespace skein::sim {
 namespace {
@@ -23,13 +23,9 @@ std::string trimmed(const std::string& cell) {
   return text;
 }
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::size_t begin = 0;
-  for (std::size_t end; (end = line.find(',', begin)) != std::string::npos; begin = end + 1) {
-    cells.push_back(trimmed(line.substr(begin, end - begin)));
-  }
-  cells.push_back(trimmed(line.substr(begin)));
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells = split(line);
+  for (std::string& cell : cells) cell = trimmed(cell);
   return cells;
 }
 
@@ -58,13 +54,6 @@ std::optional<bool> as_flag(const std::string& text) {
   return std::nullopt;
 }
 
-std::string to_text(double value) {
-  std::ostringstream out;
-  out.precision(17);
-  out << value;
-  return out.str();
-}
-
 }  // namespace
 
 GoldenTable::GoldenTable(const std::filesystem::path& file) : file_(file) {
@@ -74,7 +63,7 @@ GoldenTable::GoldenTable(const std::filesystem::path& file) : file_(file) {
   for (std::string line; next_line(in, line, file);) {
     if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // an editor's mark of UTF-8
     if (says_nothing(line)) continue;
-    auto cells = split(line);
+    auto cells = cells_of(line);
     const std::string here = file.string() + ":" + std::to_string(number);
     if (width == 0) {
       width = cells.size();
@@ -136,7 +125,7 @@ void GoldenComparison::number(const std::string& column, const std::optional<dou
                               const Tolerance& tolerance) {
   const auto expected = table_.cell(row_, column);
   if (!expected || !computed) {
-    if (expected.has_value() != computed.has_value()) fail(column, computed ? to_text(*computed) : "nothing");
+    if (expected.has_value() != computed.has_value()) fail(column, computed ? significant(*computed, 17) : "nothing");
     return;
   }
   const double allowed = tolerance.absolute + tolerance.relative * std::abs(*expected);
@@ -145,7 +134,7 @@ void GoldenComparison::number(const std::string& column, const std::optional<dou
   const bool same = *computed == *expected || (std::isnan(*computed) && std::isnan(*expected));
   const double share = same ? 0.0 : difference / allowed;
   note_difference(column, share);
-  if (!(share <= 1.0)) fail(column, to_text(*computed));
+  if (!(share <= 1.0)) fail(column, significant(*computed, 17));
 }
 
 void GoldenComparison::vector(const std::string& prefix, const Vector3d& computed, const Tolerance& tolerance) {

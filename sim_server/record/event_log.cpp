@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "process/run_folder.hpp"
+#include "process/run_tables.hpp"
 
 namespace skein::sim {
 
@@ -18,7 +19,7 @@ EventLog::EventLog(const std::filesystem::path& folder, const Scenario& scenario
 void EventLog::add_step(const Simulation& simulation, const std::function<bool(const std::string&)>& is_member) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const bool present = is_member(members_[i]);
-    if (present != present_[i]) add(simulation, present ? "joined" : "left", members_[i], "");
+    if (present != present_[i]) add(simulation, present ? run_tables::kJoined : run_tables::kLeft, members_[i], "");
     present_[i] = present;
   }
   const Links& links = simulation.open_links();
@@ -26,18 +27,19 @@ void EventLog::add_step(const Simulation& simulation, const std::function<bool(c
     for (const Node to : scenario_.nodes()) {
       const bool linked = links.at(from, to) != 0;
       if (linked == (links_.at(from, to) != 0) || from == to) continue;
-      add(simulation, linked ? "link_up" : "link_down", scenario_.node_name(from), scenario_.node_name(to));
+      add(simulation, linked ? run_tables::kLinkUp : run_tables::kLinkDown, scenario_.node_name(from),
+          scenario_.node_name(to));
     }
   }
   links_ = links;
   for (const CaptureEvent& event : simulation.events().captures) {
     if (!event.report) continue;
-    add(simulation, "captured", scenario_.fleet[event.uav].name, std::to_string(event.report->capture));
+    add(simulation, run_tables::kCaptured, scenario_.fleet[event.uav].name, std::to_string(event.report->capture));
   }
 }
 
 void EventLog::add_release(const Simulation& simulation, const std::string& uav, std::uint64_t capture) {
-  add(simulation, "released", uav, std::to_string(capture));
+  add(simulation, run_tables::kReleased, uav, std::to_string(capture));
 }
 
 void EventLog::add(const Simulation& simulation, const char* event, const std::string& subject,

@@ -8,6 +8,7 @@
 #include "process/atomic_file.hpp"
 #include "process/program_report.hpp"
 #include "process/run_folder.hpp"
+#include "process/run_tables.hpp"
 
 namespace skein::sim {
 namespace {
@@ -51,7 +52,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario
       trajectories_(folder / run_folder::kTrajectories),
       digests_(folder / run_folder::kDigests),
       events_(folder, scenario) {
-  trajectories_ << "time_s,uav,x,y,z,qw,qx,qy,qz,vx,vy,vz,gimbal_pitch,gimbal_yaw,alive\n";
+  trajectories_ << run_tables::kPoseColumns << "vx,vy,vz,gimbal_pitch,gimbal_yaw,alive\n";
   digests_ << "k,digest";
   for (const std::string& column : digest.columns()) digests_ << "," << column;
   digests_ << "\n";
@@ -136,6 +137,7 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
                          .timing = summary.timing,
                          .warnings = summary.warnings,
                          .malformed = summary.malformed,
+                         .unsent = summary.unsent,
                          .unwritten = unwritten_};
   if (mission.start_tick()) {
     report.mission_time_s = seconds(mission.end_tick().value_or(simulation.tick()) - *mission.start_tick());

@@ -36,6 +36,7 @@ struct RunSummary {
   std::vector<std::string> warnings;
   std::vector<std::uint64_t> commands_unheard;  ///< by UAV: from outside the lock-step
   std::uint64_t malformed = 0;                  ///< samples received that were no message of their topic's type
+  std::uint64_t unsent = 0;                     ///< samples that could not be sent
   TimingReport timing;
   std::vector<FaultReport> faults;
 };

@@ -53,7 +53,8 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
   const Eigen::Vector3f centre = p_WC.cast<float>();
   const float reach = static_cast<float>(exposure.radius()) + 0.01F;
 
-  Capture capture{tick, next_number_++, {}};
+  Capture capture{tick, {}};
+  ++captures_;
   last_ = tick;
   if (rules_.camera_blind_in_structure && is_through_structure(body.p_WB, p_WC, world)) return capture;
   const auto sees = rules_.ray_ends_at_point ? in_sight_of_reference : in_sight;

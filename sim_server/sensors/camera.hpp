@@ -32,7 +32,6 @@ struct Detection {
 
 struct Capture {
   Tick tick = 0;
-  std::uint64_t number = 0;           ///< 0, 1, ... for this camera
   std::vector<Detection> detections;  ///< by point index
   bool improved() const;              ///< any of them
 };
@@ -55,7 +54,7 @@ class Camera {
   /// Not thread-safe; cameras of different UAVs may work in parallel.
   Capture capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world);
 
-  std::uint64_t captures() const { return next_number_; }
+  std::uint64_t captures() const { return captures_; }
   /// Best score of each interest point so far, 0 when never seen.
   const std::vector<float>& best() const { return best_; }
   /// Which interest points were ever in the picture and in sight, whatever their quality.
@@ -71,7 +70,7 @@ class Camera {
   UavIndex uav_;
   Tick interval_;
   std::optional<Tick> last_;
-  std::uint64_t next_number_ = 0;
+  std::uint64_t captures_ = 0;
   std::vector<float> best_;
   std::vector<bool> seen_;
 };

@@ -63,11 +63,6 @@ CameraMount::CameraMount(const CameraKind& kind, bool body_hides)
       body_hides_(body_hides),
       yaw_limit_(kind.gimbal.yaw_limit_deg * kRadPerDeg) {}
 
-bool CameraMount::hides(const Vector3d& ray_W, double body_yaw) const {
-  if (!body_hides_) return false;
-  return body_.distance({p_BC_, turned(ray_W, -body_yaw)}) < kInfinity;
-}
-
 BodyHeadings CameraMount::clear_headings(const Vector3d& ray_W) const {
   BodyHeadings headings{std::atan2(ray_W.y(), ray_W.x()), {}};
   // A camera below its body that does not look up has nothing of it before it.

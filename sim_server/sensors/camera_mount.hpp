@@ -45,10 +45,7 @@ class CameraMount {
   /// @param body_hides  false: the camera looks through its own body (`rules.own_body_hides`).
   CameraMount(const CameraKind& kind, bool body_hides);
 
-  /// Whether the body is in the way of a ray from its camera. @param body_yaw  heading of the body.
-  bool hides(const Vector3d& ray_W, double body_yaw) const;
-
-  /// The headings with which the body is not in the way, counted from the azimuth of the ray.
+  /// The headings with which the body is not in the way of a ray from its camera, counted from the azimuth of the ray.
   BodyHeadings clear_headings(const Vector3d& ray_W) const;
 
   /// The allowed heading of the body that turns the gimbal least when the camera has a heading; nullopt when none is

@@ -20,7 +20,7 @@ class RandomCamera {
   explicit RandomCamera(std::uint64_t seed) : random_(seed, "detections", 0), best_(kPoints, 0.0F) {}
 
   Capture capture(Tick tick) {
-    Capture capture{tick, number_++, {}};
+    Capture capture{tick, {}};
     for (std::uint32_t point = 0; point < kPoints; ++point) {
       if (random_.uniform(0.0, 1.0) > 0.1) continue;
       const double q = random_.uniform(0.2, 1.0);
@@ -36,7 +36,6 @@ class RandomCamera {
  private:
   RandomStream random_;
   std::vector<float> best_;
-  std::uint64_t number_ = 0;
 };
 
 TEST(DetectionLog, KeepsTheOrderOfDetectionAndTheBestScore) {

@@ -27,8 +27,8 @@ TEST_P(ReferenceDigests, AreThoseOfTheVersionBefore) {
   const Row& row = GetParam();
   const bool official = row.at("scenario") == "mbs" || row.at("scenario") == "crane";
   if (official && std::getenv("SKEIN_ASSETS") == nullptr) GTEST_SKIP() << "SKEIN_ASSETS is not set";
-  Arguments arguments = {row.at("scenario"), "--planner",         row.at("planner"), "--seed", row.at("seed"),
-                         "--duration",       row.at("duration_s"), "--no-oracle"};
+  Arguments arguments = {row.at("scenario"), "--planner",  row.at("planner"),    "--seed",
+                         row.at("seed"),     "--duration", row.at("duration_s"), "--no-oracle"};
   if (!row.at("scene_seed").empty()) arguments.insert(arguments.end(), {"--scene-seed", row.at("scene_seed")});
   if (!row.at("faults").empty()) {
     arguments.insert(arguments.end(), {"--faults", SKEIN_SOURCE_DIR "/config/faults/" + row.at("faults") + ".yaml"});

@@ -1,7 +1,11 @@
 // The rules on this source tree.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 
 #include "tests/layers/rules.hpp"
 
@@ -30,6 +34,7 @@ TEST_F(Layers, TheTreeIsThere) {
 }
 
 TEST_F(Layers, EachLayerIncludesOnlyThoseBelow) { expect_none(check_layers(tree_)); }
+TEST_F(Layers, FoldersOfAnApplicationLookOneWay) { expect_none(check_circles(tree_)); }
 TEST_F(Layers, OnlyNodesTalkOverTheBus) { expect_none(check_bus_users(tree_)); }
 TEST_F(Layers, OnlyAVendorsFolderSeesItsDds) { expect_none(check_dds_headers(tree_)); }
 TEST_F(Layers, LargeLibrariesStayInTheirPlace) { expect_none(check_libraries(tree_, library_rules())); }
@@ -37,8 +42,23 @@ TEST_F(Layers, HeadersAreSafeToInclude) { expect_none(check_headers(tree_)); }
 TEST_F(Layers, NobodyPrints) { expect_none(check_printing(tree_)); }
 TEST_F(Layers, NobodySleeps) { expect_none(check_sleeping(tree_)); }
 TEST_F(Layers, FilesAreShort) { expect_none(check_length(tree_)); }
+TEST_F(Layers, LinesAreShort) { expect_none(check_columns(tree_)); }
 TEST_F(Layers, NothingIsMarkedUnfinished) { expect_none(check_marks(tree_)); }
+TEST_F(Layers, FilesThatAreNamedAreThere) { expect_none(check_references(tree_)); }
 TEST_F(Layers, NoMachineIsNamed) { expect_none(check_machine_paths(tree_)); }
+
+TEST_F(Layers, CodeIsFormatted) {
+  const std::string list = testing::TempDir() + "skein_cpp_files_" + std::to_string(::getpid());
+  std::ofstream out(list);
+  for (const SourceFile& file : tree_) {
+    if (file.is_cpp()) out << file.path << '\n';
+  }
+  out.close();
+  if (std::system("command -v clang-format >/dev/null") != 0) GTEST_SKIP() << "there is no clang-format";
+  const std::string command = "cd '" SKEIN_SOURCE_DIR "' && xargs clang-format --dry-run -Werror <" + list;
+  EXPECT_EQ(std::system(command.c_str()), 0) << "clang-format -i mends it";
+  std::filesystem::remove(list);
+}
 
 TEST_F(Layers, GitTracksNoProductsAndNoLargeFiles) {
   const auto tracked = tracked_files(SKEIN_SOURCE_DIR);

@@ -38,7 +38,7 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
   return std::ranges::any_of(prefixes, [&](const std::string& prefix) { return text.starts_with(prefix); });
 }
 
-/// main.cpp, sim_node.hpp, sim_node_test.cpp.
+/// main.cpp, sim_node.hpp, and the test of a node.
 bool may_use_bus(const std::string& path) {
   static const std::regex kName(R"((^|.*/)(main\.cpp|[^/]*_node(_test)?\.[ch]pp))");
   return std::regex_match(path, kName);
@@ -70,6 +70,56 @@ Violations check_layers(const Tree& tree) {
       violations.push_back(at(file, include.line, file.folder() + " must not include " + include.path));
     }
   }
+  return violations;
+}
+
+namespace {
+
+/// "sim_server/rays" of a file in that folder; "sim_server/mission" of a file beside the folders and of its test's header.
+std::string room_of(const std::string& path) {
+  const std::size_t application = path.find('/'), folder = path.find('/', application + 1);
+  return folder != std::string::npos ? path.substr(0, folder) : path.substr(0, path.rfind('.'));
+}
+
+struct Door {
+  std::string from, to;
+  std::string where;  ///< the first include of this kind
+};
+
+/// Rooms that `from` reaches.
+std::set<std::string> reach(const std::string& from, const std::vector<Door>& doors) {
+  std::set<std::string> reached;
+  std::vector<std::string> next = {from};
+  while (!next.empty()) {
+    const std::string room = next.back();
+    next.pop_back();
+    for (const Door& door : doors) {
+      if (door.from == room && reached.insert(door.to).second) next.push_back(door.to);
+    }
+  }
+  return reached;
+}
+
+}  // namespace
+
+Violations check_circles(const Tree& tree) {
+  std::map<std::pair<std::string, std::string>, std::string> first;
+  for (const SourceFile& file : tree) {
+    if (!applications().contains(file.folder()) || file.is_test()) continue;
+    for (const Include& include : file.includes) {
+      if (!include.path.starts_with(file.folder() + "/")) continue;
+      const std::string from = room_of(file.path), to = room_of(include.path);
+      if (from != to)
+        first.try_emplace({from, to}, at(file, include.line, from + " and " + to + " include each other"));
+    }
+  }
+  std::vector<Door> doors;
+  for (const auto& [rooms, where] : first) doors.push_back({rooms.first, rooms.second, where});
+  Violations violations;
+  for (const Door& door : doors) {
+    if (reach(door.to, doors).contains(door.from)) violations.push_back(door.where);
+  }
+  std::ranges::sort(violations);
   return violations;
 }
 
@@ -174,6 +224,25 @@ Violations check_length(const Tree& tree, std::size_t most_lines) {
   for (const SourceFile& file : tree) {
     if (!file.is_cpp() || file.lines.size() <= most_lines) continue;
     violations.push_back(at(file, file.lines.size(), "is longer than " + std::to_string(most_lines) + " lines"));
+  }
+  return violations;
+}
+
+Violations check_columns(const Tree& tree, std::size_t most_columns) {
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    const bool other_code = file.name() == "CMakeLists.txt" || file.path.ends_with(".cmake") ||
+                            file.path.ends_with(".sh") || file.path == "skein" || file.path == ".ci/run";
+    if (!file.is_cpp() && !other_code) continue;
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+      const auto blank = [i](const std::vector<std::string>& lines) {
+        return i < lines.size() && lines[i].find_first_not_of(' ') == std::string::npos;
+      };
+      if (file.is_cpp() && blank(file.code) && blank(file.comments)) continue;  // the text of a literal
+      const auto columns = std::ranges::count_if(file.lines[i], [](char c) { return (c & 0xc0) != 0x80; });  // of UTF-8
+      if (static_cast<std::size_t>(columns) <= most_columns) continue;
+      violations.push_back(at(file, i + 1, "is longer than " + std::to_string(most_columns) + " columns"));
+    }
   }
   return violations;
 }

@@ -15,9 +15,13 @@ namespace skein::layers {
 using Tree = std::vector<SourceFile>;
 using Violations = std::vector<std::string>;
 
-/// core <- idl <- bus <- applications, and no application includes another. tests/ may include everything, and only
-/// test code may include tests/.
+/// core <- process, idl <- bus <- applications, and no application includes another. tests/ may include everything, and
+/// only test code may include tests/.
 Violations check_layers(const Tree& tree);
+
+/// Inside an application, folders look one way: what a folder includes does not include it, neither directly nor by way of
+/// other folders and of the files beside them, each of which (header and source) counts by itself.
+Violations check_circles(const Tree& tree);
 
 /// In an application only main.cpp and *_node.* include bus/, and nobody else includes their headers.
 Violations check_bus_users(const Tree& tree);
@@ -46,13 +50,21 @@ Violations check_printing(const Tree& tree);
 Violations check_sleeping(const Tree& tree);
 
 /// No C++ file beyond `most_lines`.
-Violations check_length(const Tree& tree, std::size_t most_lines = 500);
+Violations check_length(const Tree& tree, std::size_t most_lines = 400);
+
+/// No line of C++, CMake or shell beyond `most_columns`; lines that are nothing but the text of a literal may.
+Violations check_columns(const Tree& tree, std::size_t most_columns = 120);
 
 /// No marks of unfinished work.
 Violations check_marks(const Tree& tree);
 
 /// No path of somebody's machine, in any text file. docker/ may name paths inside a container.
 Violations check_machine_paths(const Tree& tree);
+
+/// Files that comments of C++ files, docs/, README.md and CONTRIBUTING.md name are there: those with a folder of the tree
+/// ("docs/lockstep.md"), C++ files in whatever folder ("flight/site.hpp"), and in comments also by their names alone
+/// ("tours.hpp"); ".*" means any ending. A page may name what it has its reader write: its code blocks with a name.
+Violations check_references(const Tree& tree);
 
 /// No build products and no large files among `tracked` (paths below the root).
 Violations check_tracked_files(const std::filesystem::path& root, const std::vector<std::string>& tracked,

@@ -53,6 +53,12 @@ TEST(Blanking, LeavesOnlyCode) {
   EXPECT_EQ(blank_comments_and_literals("/* never closed"), "               ");
 }
 
+TEST(Blanking, OrOnlyComments) {
+  EXPECT_EQ(only_comments("a // b\nc /* d\ne */ f"), "  // b\n  /* d\ne */  ");
+  EXPECT_EQ(only_comments("f(\"// a\"); // b"), "           // b");
+  EXPECT_EQ(only_comments("R\"(// a)\""), "         ");
+}
+
 TEST_F(MadeUpTree, IsReadWithoutBuildTreesAndBinaries) {
   file("core/a.hpp", "");
   file("build/b.hpp", "");
@@ -172,6 +178,27 @@ TEST_F(MadeUpTree, LongFilesAreFound) {
   EXPECT_EQ(places(check_length(tree(), 3)), Places{"core/long.cpp:4"});
 }
 
+TEST_F(MadeUpTree, LongLinesAreFoundInAllCode) {
+  file("core/good.cpp", "1234\n12\u00e94\n");
+  file("docs/page.md", "12345\n");
+  file("core/text.cpp", "R\"(\n12345\n)\"\n");
+  EXPECT_EQ(check_columns(tree(), 4), Violations{});
+  file("core/CMakeLists.txt", "\n12345\n");
+  file("core/long.hpp", "12345\n");
+  file("skein", "12345\n");
+  EXPECT_EQ(places(check_columns(tree(), 4)), (Places{"core/CMakeLists.txt:2", "core/long.hpp:1", "skein:1"}));
+}
+
+TEST_F(MadeUpTree, FoldersThatIncludeEachOtherAreFound) {
+  for (const char* path : {"station/a/x.hpp", "station/b/x.hpp", "station/top.hpp", "cli/a/x.hpp"}) file(path, "\n");
+  file("station/a/x.cpp", include("station/a/x.hpp") + include("station/b/x.hpp") + include("station/top.hpp"));
+  file("station/top.cpp", include("station/b/x.hpp"));
+  file("station/b/x_test.cpp", include("station/a/x.hpp"));
+  EXPECT_EQ(check_circles(tree()), Violations{});
+  file("station/b/y.cpp", std::string("\n") + include("station/top.hpp"));  // by way of top.cpp
+  EXPECT_EQ(places(check_circles(tree())), (Places{"station/b/y.cpp:2", "station/top.cpp:1"}));
+}
+
 TEST_F(MadeUpTree, UnfinishedWorkIsFoundInAnyText) {
   file("core/good.cpp",
        "int todo; // METHOD"
@@ -198,6 +225,22 @@ TEST_F(MadeUpTree, PathsOfAMachineAreFoundInAnyText) {
   file("config/bad.yaml", "file: " + work + "/x\n");
   file("docs/bad.md", work + "\n");
   EXPECT_EQ(places(check_machine_paths(tree())), (Places{"config/bad.yaml:1", "core/bad.cpp:2", "docs/bad.md:1"}));
+}
+
+TEST_F(MadeUpTree, NamesOfFilesThatAreNotThereAreFound) {
+  file("core/good.hpp",
+       "// See docs/good.md, core/good.hpp (good.hpp), core/good.*, and what is in my_runs/result.json.\n");
+  file("core/literal.cpp", "open(\"core/none.hpp\");  // and core/*.hpp, x.y.z\n");
+  file("docs/good.md", "`core/good.hpp` and mine/scenario.yaml\n```cpp orbit.cpp\n```\nSave it as `core/orbit.cpp`.\n");
+  file("sim_server/rays/fan.hpp", "// Used by rays/fan.hpp.\n");
+  EXPECT_EQ(check_references(tree()), Violations{});
+
+  file("core/bad.cpp", "// core/none.hpp\nint x;  // rays/good.hpp\n/* docs/none.md */ // gone.hpp\n// core/gone.*\n");
+  file("docs/bad.md", "\nsee `core/gone.hpp`, [this](docs/gone.md), core/orbit.cpp\n");
+  file("README.md", "config/x.yaml, docs/good.md, docs/x.json\n");
+  EXPECT_EQ(places(check_references(tree())),
+            (Places{"README.md:1", "core/bad.cpp:1", "core/bad.cpp:2", "core/bad.cpp:3", "core/bad.cpp:3",
+                    "core/bad.cpp:4", "docs/bad.md:2", "docs/bad.md:2", "docs/bad.md:2"}));
 }
 
 TEST_F(MadeUpTree, ProductsAndLargeFilesAreFoundAmongTheTracked) {

@@ -44,17 +44,25 @@ std::vector<Include> read_includes(const fs::path& root, const SourceFile& file)
   return includes;
 }
 
-/// Walks over C++ text and blanks what is no code.
+/// Walks over C++ text and blanks what is no code; keeps the comments.
 class Blanker {
  public:
-  explicit Blanker(const std::string& text) : text_(text) {}
+  explicit Blanker(const std::string& text) : text_(text), comments_(text) {
+    std::ranges::replace_if(
+        comments_, [](char c) { return c != '\n'; }, ' ');
+    run();
+  }
 
-  std::string run() {
+  const std::string& code() const { return text_; }
+  const std::string& comments() const { return comments_; }
+
+ private:
+  void run() {
     while (at_ < text_.size()) {
       if (starts("//")) {
-        blank_until("\n", 0);
+        take_comment("\n", 0);
       } else if (starts("/*")) {
-        blank_until("*/", 2);
+        take_comment("*/", 2);
       } else if (starts("R\"") && !follows_word()) {
         blank_raw_string();
       } else if (text_[at_] == '"' || (text_[at_] == '\'' && !follows_word())) {
@@ -63,10 +71,8 @@ class Blanker {
         ++at_;
       }
     }
-    return text_;
   }
 
- private:
   bool starts(const char* what) const { return text_.compare(at_, std::char_traits<char>::length(what), what) == 0; }
   /// 1'000 is a number, and FOUR"x" is no raw string.
   bool follows_word() const {
@@ -77,9 +83,11 @@ class Blanker {
       if (text_[at_] != '\n') text_[at_] = ' ';
     }
   }
-  void blank_until(const std::string& mark, std::size_t more) {
+  void take_comment(const std::string& mark, std::size_t more) {
     const std::size_t found = text_.find(mark, at_ + more);
-    blank_to(found == std::string::npos ? text_.size() : found + more);
+    const std::size_t end = found == std::string::npos ? text_.size() : found + more;
+    comments_.replace(at_, end - at_, text_, at_, end - at_);
+    blank_to(end);
   }
   void blank_raw_string() {
     const std::size_t open = text_.find('(', at_);
@@ -93,7 +101,7 @@ class Blanker {
     blank_to(end + 1);
   }
 
-  std::string text_;
+  std::string text_, comments_;
   std::size_t at_ = 0;
 };
 
@@ -110,7 +118,9 @@ std::string SourceFile::name() const { return fs::path(path).filename().string()
 
 bool SourceFile::is_test() const { return folder() == "tests" || fs::path(path).stem().string().ends_with("_test"); }
 
-std::string blank_comments_and_literals(const std::string& text) { return Blanker(text).run(); }
+std::string blank_comments_and_literals(const std::string& text) { return Blanker(text).code(); }
+
+std::string only_comments(const std::string& text) { return Blanker(text).comments(); }
 
 std::vector<SourceFile> read_source_tree(const fs::path& root) {
   std::vector<SourceFile> files;
@@ -120,9 +130,11 @@ std::vector<SourceFile> read_source_tree(const fs::path& root) {
     std::ifstream in(it->path(), std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     if (text.find('\0') != std::string::npos) continue;
-    SourceFile file{it->path().lexically_relative(root).generic_string(), split_lines(text), {}, {}};
+    SourceFile file{it->path().lexically_relative(root).generic_string(), split_lines(text), {}, {}, {}};
     if (is_cpp_file(it->path())) {
-      file.code = split_lines(blank_comments_and_literals(text));
+      const Blanker parts(text);
+      file.code = split_lines(parts.code());
+      file.comments = split_lines(parts.comments());
       file.includes = read_includes(root, file);
     }
     files.push_back(std::move(file));

@@ -13,10 +13,11 @@ struct Include {
 };
 
 struct SourceFile {
-  std::string path;                ///< below the root: "core/types.hpp"
-  std::vector<std::string> lines;  ///< as they are
-  std::vector<std::string> code;   ///< C++ only: the same with blanks for comments, characters and strings
-  std::vector<Include> includes;   ///< C++ only
+  std::string path;                   ///< below the root: "core/types.hpp"
+  std::vector<std::string> lines;     ///< as they are
+  std::vector<std::string> code;      ///< C++ only: the same with blanks for comments, characters and strings
+  std::vector<std::string> comments;  ///< C++ only: blanks for all but comments
+  std::vector<Include> includes;      ///< C++ only
 
   bool is_header() const;
   bool is_cpp() const { return !code.empty(); }
@@ -35,5 +36,8 @@ std::vector<SourceFile> read_source_tree(const std::filesystem::path& root);
 
 /// C++ text with blanks in the place of comments, characters and strings (raw ones too); line breaks stay.
 std::string blank_comments_and_literals(const std::string& text);
+
+/// C++ text with blanks in the place of everything but comments; line breaks stay.
+std::string only_comments(const std::string& text);
 
 }  // namespace skein::layers

@@ -29,7 +29,9 @@ class Fleet {
     folder_ = ::mkdtemp(pattern.data());
     server_ = add(std::make_unique<sim::SimNode>(
         scenario_, sim::load_scene(scenario_),
-        sim::SimNodeOptions{.base_domain = 0, .out = folder_, .seed = 0, .stop_at_s = stop_at_s}, *bus_, status_));
+        sim::SimNodeOptions{
+            .base_domain = 0, .out = folder_, .seed = 0, .realtime_factor = {}, .stop_at_s = stop_at_s, .faults = {}},
+        *bus_, status_));
     add(std::make_unique<router::RouterNode>(scenario_, 0, 0, *bus_));
     station_ = add(std::make_unique<station::StationNode>(scenario_, 0, *bus_, folder_, status_));
     for (const UavIndex uav : scenario_.uavs()) {

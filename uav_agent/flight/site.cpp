@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMinClearanceM = 1.8;
 constexpr double kRoomyM = 45.0, kRoomyHeightM = 20.0;  ///< at least, of a box that says little
-constexpr double kBlindFloorRatio = 0.25;  ///< of the highest box
+constexpr double kBlindFloorRatio = 0.25;               ///< of the highest box
 
 }  // namespace
 

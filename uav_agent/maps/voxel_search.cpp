@@ -13,7 +13,7 @@ using Id = VoxelGrid::Id;
 using Cell = VoxelGrid::Cell;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Best first search from one cube; what it looks for is up to the caller.
+/// Best first search from one cube.
 class Search {
  public:
   Search(const VoxelGrid& grid, Id from, const Passable& passable)
@@ -53,7 +53,6 @@ class Search {
     }
   }
 
-  double cost(Id id) const { return nodes_[id].cost; }
   bool passable(Id id) {
     Node& node = nodes_[id];
     if (node.known == kUnasked) node.known = passable_(id) ? kYes : kNo;
@@ -117,17 +116,6 @@ std::optional<std::vector<Id>> find_voxel_path(const VoxelGrid& grid, Id from, I
     search.expand(*id, to_go);
   }
   return std::nullopt;
-}
-
-std::vector<double> voxel_distances(const VoxelGrid& grid, Id from, const Passable& passable, double max_m) {
-  Search search(grid, from, passable);
-  search.open(from, 0.0, from, 0.0);
-  std::vector<double> distances(grid.count(), kInfinity);
-  for (auto id = search.next(); id && search.cost(*id) <= max_m; id = search.next()) {
-    distances[*id] = search.cost(*id);
-    search.expand(*id, [](Id) { return 0.0; });
-  }
-  return distances;
 }
 
 double voxel_path_length(const VoxelGrid& grid, Id from, const std::vector<Id>& path) {

@@ -1,6 +1,5 @@
-// Ways through a voxel grid from cube to cube: A*, and the distances from one cube to all others (Dijkstra). A step
-// goes to one of the 26 cubes around and needs all cubes that it touches: no corner is cut. Unlike find_path()
-// (path_search.hpp), which searches free space of any kind, this is for planners whose world is the voxel graph, with
+// Ways through a voxel grid from cube to cube, by A*. A step goes to one of the 26 cubes around and needs all cubes that
+// it touches: no corner is cut. Unlike find_path() (uav_agent/flight/path_search.hpp), which searches free space of any kind, this is for planners whose world is the voxel graph, with
 // cubes that others have claimed taken out.
 // Units: metres.   Pure and deterministic: effort is bounded by a count of expanded cubes.
 // Source: the graph of KIOS, whose edges to claimed voxels are removed; A* of XXH.
@@ -27,9 +26,6 @@ struct VoxelSearchConfig {
 std::optional<std::vector<VoxelGrid::Id>> find_voxel_path(const VoxelGrid& grid, VoxelGrid::Id from, VoxelGrid::Id to,
                                                           const Passable& passable,
                                                           const VoxelSearchConfig& config = {});
-
-/// Length of the shortest way from one cube to each other [m]; infinity where there is none within `max_m`.
-std::vector<double> voxel_distances(const VoxelGrid& grid, VoxelGrid::Id from, const Passable& passable, double max_m);
 
 /// Length of the way along the centres [m].
 double voxel_path_length(const VoxelGrid& grid, VoxelGrid::Id from, const std::vector<VoxelGrid::Id>& path);

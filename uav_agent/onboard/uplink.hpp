@@ -8,6 +8,8 @@
 #include <map>
 #include <vector>
 
+#include "core/score_table.hpp"
+
 namespace skein::agent {
 
 /// A capture report that the camera handed out. The report itself stays with whoever feeds the uplink.
@@ -20,7 +22,7 @@ class Uplink {
  public:
   struct Config {
     std::size_t max_bytes_per_step = 200'000;  ///< at least one report goes out, whatever its size
-    std::uint64_t resend_after_steps = 10;     ///< unacknowledged for this long: sent again
+    std::uint64_t resend_after_steps = kResendSteps;
   };
 
   Uplink() : Uplink(Config()) {}

@@ -10,13 +10,13 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::size_t kFewCells = 4;                    ///< a block with fewer is empty
-constexpr double kThinnestM = 2.0;                      ///< of a tight box around a thin member
-constexpr double kCellM = 0.5;                          ///< added to the extent of cells' centres
-constexpr double kGapM = 2.0;                           ///< a face this near to the next block's structure is inside
-constexpr double kSharedFace = 0.5;                     ///< if so much of it is covered
-constexpr int kTurns = 12;                              ///< of a tight box that are tried, within a right angle
-constexpr double kTurnGain = 0.8;  ///< a turned box must be this much smaller than one that is aligned with the site
+constexpr std::size_t kFewCells = 4;  ///< a block with fewer is empty
+constexpr double kThinnestM = 2.0;    ///< of a tight box around a thin member
+constexpr double kCellM = 0.5;        ///< added to the extent of cells' centres
+constexpr double kGapM = 2.0;         ///< a face this near to the next block's structure is inside
+constexpr double kSharedFace = 0.5;   ///< if so much of it is covered
+constexpr int kTurns = 12;            ///< of a tight box that are tried, within a right angle
+constexpr double kTurnGain = 0.8;     ///< a turned box must be this much smaller than one that is aligned with the site
 constexpr double kOthersS = 25.0, kFlownS = 90.0, kFailedS = 30.0;  ///< what makes a strip less attractive
 constexpr double kRetryS = 30.0;                                    ///< after a failure, and longer after the next
 

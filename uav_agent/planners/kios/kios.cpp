@@ -9,8 +9,8 @@
 //
 // Its weaknesses are the published ones: photographers idle while the explorers map; one quick pass on coarse cubes
 // misses thin members; without anybody in line of sight a UAV plans for itself alone and does others' work again.
-// Not published, and so our choice: every number below, where in a free cube it stops (kios_stops.hpp), the lanes
-// (kios_lanes.hpp), the messages (kios_talk.hpp), starts, safety and the way home at the end (sortie.hpp), and that
+// Not published, and so our choice: every number below, where in a free cube it stops (stops.hpp), the lanes
+// (lanes.hpp), the messages (talk.hpp), starts, safety and the way home at the end (sortie.hpp), and that
 // waypoints around the boxes do where nobody has a LiDAR.
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // What KIOS's UAVs tell each other on /plan: what they are about, which cubes they claim, and the map (map_exchange).
-// Frame W.   Units: SI.   Threads: one.   Bounded: one message now and then, see planning/payload.hpp.
+// Frame W.   Units: SI.   Threads: one.   Bounded: one message now and then, see uav_agent/api/payload.hpp.
 // Source: paper ("exchanging data whenever LoS is available"; no two UAVs in one voxel); the format is our own.
 #pragma once
 
@@ -27,7 +27,7 @@ class KiosTalk {
   /// What one UAV said last.
   struct Word {
     bool mapping = false;          ///< has not flown its lanes yet
-    std::uint32_t stop = kNoStop;  ///< that it flies to, see kios_stops.hpp
+    std::uint32_t stop = kNoStop;  ///< that it flies to, see stops.hpp
     Vector3d goal_W = Vector3d::Zero();
     std::vector<Id> claims = {};  ///< where it is, and where it goes next
     Tick heard = 0;

@@ -1,6 +1,6 @@
 // What STAR's UAVs tell each other on /plan: how far they are, where they go, and the map with the surface that was
 // inspected (map_exchange).
-// Frame W.   Units: SI.   Threads: one.   Bounded: one message now and then, see planning/payload.hpp.
+// Frame W.   Units: SI.   Threads: one.   Bounded: one message now and then, see uav_agent/api/payload.hpp.
 // Source: paper (map chunks as in RACER; inspected surfaces shared among photographers); the format, and that all UAVs
 // hear it and not just the team, is our choice.
 #pragma once

@@ -1,7 +1,7 @@
 // What XXH's UAVs and its ground station tell each other on /plan. UAVs: where they start, whether they have the
 // assignment, how far they are with their region, which trajectory they are about to fly, and the region's map. The
 // station: the assignment.
-// Frame W.   Units: SI.   Threads: one.   Bounded: one message now and then, see planning/payload.hpp.
+// Frame W.   Units: SI.   Threads: one.   Bounded: one message now and then, see uav_agent/api/payload.hpp.
 // Source: paper, "Task Assignment" and "Inspection Strategy" (real-time positions and trajectories are shared); the
 // format is our own.
 #pragma once

@@ -1,0 +1,62 @@
+#include "cli/test_counts.hpp"
+
+#include <pugixml.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "cli/run/result.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// Counts of a GoogleTest program's own report.
+TestCounts count_cases(const Json& report) {
+  TestCounts counts;
+  for (const Json& suite : value_or(report, "testsuites", Json::array())) {
+    for (const Json& test : value_or(suite, "testsuite", Json::array())) {
+      const Json result = value_or(test, "result", "");
+      if (result == "SUPPRESSED") continue;  // DISABLED_
+      if (!value_or(test, "failures", Json::array()).empty()) {
+        ++counts.failed;
+      } else {
+        ++(result == "SKIPPED" ? counts.skipped : counts.passed);
+      }
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+TestCounts count_tests(const std::filesystem::path& junit, const std::filesystem::path& reports) {
+  pugi::xml_document document;
+  if (const pugi::xml_parse_result read = document.load_file(junit.c_str()); !read) {
+    throw std::runtime_error(junit.string() + ": ctest left no report: " + read.description());
+  }
+  TestCounts total;
+  for (const pugi::xml_node& entry : document.child("testsuite").children("testcase")) {
+    const std::string name = entry.attribute("name").value(), status = entry.attribute("status").value();
+    const std::string_view why = entry.child("skipped").attribute("message").value();
+    const bool skipped = status == "disabled" || why.starts_with("SKIP_");
+    const bool failed = !skipped && status != "run";  // also one that could not be started
+    const Json report = read_json(reports / (name + ".json"));
+    if (report.is_null()) {  // no GoogleTest program, or one that crashed or timed out
+      ++(failed ? total.failed : skipped ? total.skipped : total.passed);
+      continue;
+    }
+    TestCounts counts = count_cases(report);
+    if (failed && counts.failed == 0) counts.failed = 1;  // all cases passed, yet the program ended badly
+    total.passed += counts.passed;
+    total.failed += counts.failed;
+    total.skipped += counts.skipped;
+  }
+  return total;
+}
+
+std::string summary_line(const TestCounts& counts) {
+  std::string line = std::to_string(counts.passed) + " passed, " + std::to_string(counts.failed) + " failed";
+  if (counts.skipped > 0) line += ", " + std::to_string(counts.skipped) + " skipped";
+  return line;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,18 @@
+// How a line of a program's log looks: "[comm_router] warning text". For run_program(), which sets logs up, and for
+// whoever picks lines from them.
+#pragma once
+
+#include <string_view>
+
+namespace skein::log_lines {
+
+/// For spdlog: name, level, text.
+inline constexpr const char* kPattern = "[%n] %l %v";
+
+inline bool is_warning(std::string_view line) {
+  const std::size_t name_end = line.find("] ");
+  return line.starts_with('[') && name_end != std::string_view::npos &&
+         line.substr(name_end + 2).starts_with("warning ");
+}
+
+}  // namespace skein::log_lines

@@ -1,0 +1,20 @@
+// Words in the tables of a run's folder that one program writes and another one goes by (docs/results.md has them all).
+#pragma once
+
+namespace skein::run_tables {
+
+/// The first columns of trajectories.csv.
+inline constexpr const char* kPoseColumns = "time_s,uav,x,y,z,qw,qx,qy,qz,";
+
+/// Events of events.csv.
+inline constexpr const char* kJoined = "joined";
+inline constexpr const char* kLeft = "left";
+inline constexpr const char* kLinkUp = "link_up";
+inline constexpr const char* kLinkDown = "link_down";
+inline constexpr const char* kCaptured = "captured";
+inline constexpr const char* kReleased = "released";
+
+/// Why a capture does not count, in captures.csv.
+inline constexpr const char* kUavCollided = "uav collided";
+
+}  // namespace skein::run_tables

@@ -1,0 +1,83 @@
+// What comments and documents say of files.
+#include <algorithm>
+#include <regex>
+#include <set>
+
+#include "tests/layers/rules.hpp"
+
+namespace skein::layers {
+namespace {
+
+/// All paths of the tree, and what they end with after a slash.
+class Paths {
+ public:
+  explicit Paths(const Tree& tree) {
+    for (const SourceFile& file : tree) {
+      folders_.insert(file.folder());
+      add(file.path);
+      add(file.path.substr(0, file.path.rfind('.')) + ".*");
+    }
+  }
+  bool has(const std::string& tail) const { return tails_.contains(tail); }
+  /// Of the tree's root.
+  bool has_folder(const std::string& name) const { return folders_.contains(name); }
+
+ private:
+  void add(const std::string& path) {
+    tails_.insert(path);
+    for (std::size_t at = 0; (at = path.find('/', at)) != std::string::npos;) tails_.insert(path.substr(++at));
+  }
+
+  std::set<std::string> tails_, folders_;
+};
+
+std::string name_of(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+/// "```cmake CMakeLists.txt": the names of a page's code blocks.
+std::set<std::string> files_to_write(const SourceFile& page) {
+  static const std::regex kBlock(R"(^```\w+ (\S+)$)");
+  std::set<std::string> names;
+  std::smatch block;
+  for (const std::string& line : page.lines) {
+    if (std::regex_match(line, block, kBlock)) names.insert(name_of(block[1]));
+  }
+  return names;
+}
+
+bool is_page(const SourceFile& file) {
+  return file.path == "README.md" || file.path == "CONTRIBUTING.md" ||
+         (file.folder() == "docs" && file.path.ends_with(".md"));
+}
+
+/// Whether a path is about this tree at all: a user's files and those of a run have folders of their own.
+bool is_ours(const std::string& path, const Paths& paths, bool in_comment) {
+  static const std::regex kCpp(R"(.*\.[ch]pp)");
+  const std::size_t slash = path.find('/');
+  if (slash == std::string::npos) return in_comment && std::regex_match(path, kCpp);
+  return paths.has_folder(path.substr(0, slash)) || std::regex_match(path, kCpp);
+}
+
+}  // namespace
+
+Violations check_references(const Tree& tree) {
+  static const std::regex kPath(
+      R"((^|[^\w/.$<*-])((?:[A-Za-z_][\w-]*/)*\w[\w.-]*\.(?:[ch]pp|[ch]|idl|md|ya?ml|json|cmake|py|sh|txt|\*))(?![\w/*]))");
+  const Paths paths(tree);
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (!file.is_cpp() && !is_page(file)) continue;
+    const std::set<std::string> to_write = files_to_write(file);
+    const std::vector<std::string>& lines = file.is_cpp() ? file.comments : file.lines;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      for (auto match = std::sregex_iterator(lines[i].begin(), lines[i].end(), kPath); match != std::sregex_iterator();
+           ++match) {
+        const std::string path = (*match)[2];
+        if (!is_ours(path, paths, file.is_cpp()) || paths.has(path) || to_write.contains(name_of(path))) continue;
+        violations.push_back(file.path + ":" + std::to_string(i + 1) + ": there is no " + path);
+      }
+    }
+  }
+  return violations;
+}
+
+}  // namespace skein::layers
