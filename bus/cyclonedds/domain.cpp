@@ -57,8 +57,8 @@ void add_discovery(pugi::xml_node domain, const BusConfig& config) {
   add_element(discovery, "LeaseDuration", std::to_string(config.lease_s) + "s");
 }
 
-/// Watermarks: a writer waits once its unacknowledged bytes exceed WhcHigh. History is KEEP_LAST and bounds them already,
-/// so the mark is put out of reach and a stopped reader holds nobody up.
+/// Watermarks: a writer waits once its unacknowledged bytes exceed WhcHigh. History is KEEP_LAST and bounds them
+/// already, so the mark is put out of reach and a stopped reader holds nobody up.
 void add_internals(pugi::xml_node domain) {
   pugi::xml_node internal = domain.append_child("Internal");
   pugi::xml_node watermarks = internal.append_child("Watermarks");

@@ -19,8 +19,8 @@ using Violations = std::vector<std::string>;
 /// only test code may include tests/.
 Violations check_layers(const Tree& tree);
 
-/// Inside an application, folders look one way: what a folder includes does not include it, neither directly nor by way of
-/// other folders and of the files beside them, each of which (header and source) counts by itself.
+/// Inside an application, folders look one way: what a folder includes does not include it, neither directly nor by way
+/// of other folders and of the files beside them, each of which (header and source) counts by itself.
 Violations check_circles(const Tree& tree);
 
 /// In an application only main.cpp and *_node.* include bus/, and nobody else includes their headers.
@@ -61,9 +61,10 @@ Violations check_marks(const Tree& tree);
 /// No path of somebody's machine, in any text file. docker/ may name paths inside a container.
 Violations check_machine_paths(const Tree& tree);
 
-/// Files that comments of C++ files, docs/, README.md and CONTRIBUTING.md name are there: those with a folder of the tree
-/// ("docs/lockstep.md"), C++ files in whatever folder ("flight/site.hpp"), and in comments also by their names alone
-/// ("tours.hpp"); ".*" means any ending. A page may name what it has its reader write: its code blocks with a name.
+/// Files that comments of C++ files, docs/, README.md and CONTRIBUTING.md name are there: those with a folder of the
+/// tree ("docs/lockstep.md"), C++ files in whatever folder ("flight/site.hpp"), and in comments also by their names
+/// alone ("tours.hpp"); ".*" means any ending. A page may name what it has its reader write: its code blocks with a
+/// name.
 Violations check_references(const Tree& tree);
 
 /// No build products and no large files among `tracked` (paths below the root).

@@ -1,6 +1,6 @@
-// Ways through a voxel grid from cube to cube, by A*. A step goes to one of the 26 cubes around and needs all cubes that
-// it touches: no corner is cut. Unlike find_path() (uav_agent/flight/path_search.hpp), which searches free space of any kind, this is for planners whose world is the voxel graph, with
-// cubes that others have claimed taken out.
+// Ways through a voxel grid from cube to cube, by A*. A step goes to one of the 26 cubes around and needs all cubes
+// that it touches: no corner is cut. Unlike find_path() (uav_agent/flight/path_search.hpp), which searches free space
+// of any kind, this is for planners whose world is the voxel graph, with cubes that others have claimed taken out.
 // Units: metres.   Pure and deterministic: effort is bounded by a count of expanded cubes.
 // Source: the graph of KIOS, whose edges to claimed voxels are removed; A* of XXH.
 #pragma once
