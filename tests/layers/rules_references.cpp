@@ -60,8 +60,8 @@ bool is_ours(const std::string& path, const Paths& paths, bool in_comment) {
 }  // namespace
 
 Violations check_references(const Tree& tree) {
-  static const std::regex kPath(
-      R"((^|[^\w/.$<*-])((?:[A-Za-z_][\w-]*/)*\w[\w.-]*\.(?:[ch]pp|[ch]|idl|md|ya?ml|json|cmake|py|sh|txt|\*))(?![\w/*]))");
+  static const std::regex kPath(R"((^|[^\w/.$<*-])((?:[A-Za-z_][\w-]*/)*\w[\w.-]*\.)"
+                                R"((?:[ch]pp|[ch]|idl|md|ya?ml|json|cmake|py|sh|txt|\*))(?![\w/*]))");
   const Paths paths(tree);
   Violations violations;
   for (const SourceFile& file : tree) {
