@@ -11,7 +11,6 @@
 namespace skein::cli {
 namespace {
 
-
 /// A measured number, or "-" where nobody reported one.
 std::string cell(const Json& object, const char* key, int digits) {
   const auto found = object.find(key);

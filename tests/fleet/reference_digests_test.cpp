@@ -43,7 +43,7 @@ TEST_P(ReferenceDigests, AreThoseOfTheVersionBefore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ReferenceDigests, testing::ValuesIn(rows()),
-                         [](const auto& info) { return name_of(info.param); });
+                         [](const auto& row) { return name_of(row.param); });
 
 }  // namespace
 }  // namespace skein::test
