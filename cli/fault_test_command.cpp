@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kLogLines = 5;
+constexpr std::size_t kTailLines = 5;
 
 /// What the programs themselves say to what the tests fly. @throws InputError.
 void check_with_programs(const std::vector<FaultTest>& tests) {
@@ -176,7 +176,7 @@ class FaultTestRun {
     const fs::path dir = *flights_.flights[index].options.out;
     if (fs::exists(dir / run_folder::kResult)) return read_run(dir);
     std::string message = "skein run ended with " + flown_[index].exit->text() + " and without a result";
-    for (const std::string& line : last_lines(dir / run_folder::kFlightLog, kLogLines)) message += "\n       " + line;
+    for (const std::string& line : last_lines(dir / run_folder::kFlightLog, kTailLines)) message += "\n       " + line;
     throw std::runtime_error(message);
   }
 

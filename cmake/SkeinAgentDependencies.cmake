@@ -14,5 +14,17 @@ find_package(CycloneDDS REQUIRED)
 
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OCTOMAP REQUIRED IMPORTED_TARGET octomap)
-# PCL is asked for by module, through pkg-config: its CMake package drags VTK and Qt into every target.
-pkg_check_modules(PCL REQUIRED IMPORTED_TARGET pcl_common pcl_filters)
+
+# skein_find_pcl(PART...)
+# Targets pcl::PART, the libraries alone: PCL's own CMake package, and its pkg-config files, want VTK, Qt and more. Debian's
+# libpcl-PART1.13 will do; headers are for Skein's own build (SkeinDependencies.cmake).
+function(skein_find_pcl)
+  foreach(part ${ARGN})
+    find_library(SKEIN_PCL_${part} NAMES pcl_${part} libpcl_${part}.so.1.13 REQUIRED)
+    if(NOT TARGET pcl::${part})
+      add_library(pcl::${part} UNKNOWN IMPORTED GLOBAL)
+      set_target_properties(pcl::${part} PROPERTIES IMPORTED_LOCATION ${SKEIN_PCL_${part}})
+    endif()
+  endforeach()
+endfunction()
+skein_find_pcl(common filters)

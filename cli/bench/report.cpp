@@ -9,8 +9,6 @@ namespace {
 
 constexpr std::size_t kFleetSize = 5;  ///< of the targets for speed and rounds
 
-double number(const Json& object, const char* key) { return value_or(object, key, 0.0).get<double>(); }
-
 double ratio(double a, double b) { return b > 0.0 ? a / b : 0.0; }
 
 using Measure = std::function<double(const Json&)>;

@@ -7,7 +7,6 @@
 namespace skein::cli {
 namespace {
 
-double number(const Json& object, const char* key) { return value_or(object, key, 0.0).get<double>(); }
 double middle(const Json& object, const char* key) { return number(value_or(object, key, Json::object()), "median"); }
 
 /// "41.2 (39.8-42.0)"

@@ -28,7 +28,7 @@ bool holds(const std::vector<std::string>& words, const std::string& word) {
 
 /// Has the command's environment too, since it hands that on.
 bool is_debugger(pid_t pid) {
-  const std::string name = name_of(pid);
+  const std::string name = process_name(pid);
   for (const char* known : {"gdb", "gdbserver", "lldb", "lldb-server", "rr", "strace"}) {
     if (name == known) return true;
   }

@@ -37,7 +37,7 @@ const std::vector<std::string> kUserNames = {"SKEIN_AGENT",      "SKEIN_ASSETS",
                                              "SKEIN_CONFIG_DIR", "SKEIN_LOG",     "SKEIN_GOLDEN",  "SKEIN_ROS2",
                                              "SKEIN_LONG",       "SKEIN_SANITIZE"};
 
-std::string_view name_of(std::string_view entry) { return entry.substr(0, entry.find('=')); }
+std::string_view variable_in(std::string_view entry) { return entry.substr(0, entry.find('=')); }
 
 template <class Names>
 bool listed(const Names& names, std::string_view name) {
@@ -66,7 +66,7 @@ std::vector<std::string> environment_with(const std::map<std::string, std::strin
   std::vector<std::string> environment;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
-    if (!variables.contains(std::string(name_of(text)))) environment.emplace_back(text);
+    if (!variables.contains(std::string(variable_in(text)))) environment.emplace_back(text);
   }
   for (const auto& [name, value] : variables) environment.push_back(name + "=" + value);
   return environment;
@@ -77,7 +77,7 @@ std::vector<std::string> fleet_environment(bool native, const std::map<std::stri
   for (const auto& [name, value] : more) variables[name] = value;
   std::vector<std::string> environment = environment_with(variables);
   std::erase_if(environment, [&](const std::string& entry) {
-    return is_ignored(name_of(entry)) && !variables.contains(std::string(name_of(entry)));
+    return is_ignored(variable_in(entry)) && !variables.contains(std::string(variable_in(entry)));
   });
   return environment;
 }
@@ -85,7 +85,7 @@ std::vector<std::string> fleet_environment(bool native, const std::map<std::stri
 std::vector<std::string> ignored_variables() {
   std::vector<std::string> names;
   for (char** entry = environ; *entry != nullptr; ++entry) {
-    if (is_ignored(name_of(*entry))) names.emplace_back(name_of(*entry));
+    if (is_ignored(variable_in(*entry))) names.emplace_back(variable_in(*entry));
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -98,7 +98,7 @@ std::vector<std::string> environment_warnings() {
     warnings.push_back("not passed on to the programs, whose DDS is set up by Skein alone: " + joined(ignored));
   }
   for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string name(name_of(*entry));
+    const std::string name(variable_in(*entry));
     if (!name.starts_with("SKEIN_") || is_ignored(name) || listed(kUserNames, name)) continue;
     warnings.push_back("nobody reads the variable " + name + "; " + suggestion(name, kUserNames));
   }

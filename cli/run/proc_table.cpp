@@ -39,7 +39,7 @@ std::vector<pid_t> all_processes() {
 
 pid_t parent_of(pid_t pid) { return static_cast<pid_t>(std::strtol(status_of(pid, "PPid").c_str(), nullptr, 10)); }
 
-std::string name_of(pid_t pid) { return status_of(pid, "Name"); }
+std::string process_name(pid_t pid) { return status_of(pid, "Name"); }
 
 std::vector<std::string> words_of(pid_t pid, const std::string& what) {
   std::ifstream in = open_file(pid, what);

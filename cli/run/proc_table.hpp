@@ -12,7 +12,7 @@ std::vector<pid_t> all_processes();
 /// 0 when it is gone.
 pid_t parent_of(pid_t pid);
 /// Its short name, as `ps` shows it.
-std::string name_of(pid_t pid);
+std::string process_name(pid_t pid);
 /// @param what "cmdline" or "environ".
 std::vector<std::string> words_of(pid_t pid, const std::string& what);
 /// Its user ids: real, effective, saved; none of what is dead and only waits for its parent.

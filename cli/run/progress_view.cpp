@@ -11,7 +11,6 @@
 namespace skein::cli {
 namespace {
 
-double number(const Json& object, const char* key) { return value_or(object, key, 0.0); }
 
 /// A measured number, or "-" where nobody reported one.
 std::string cell(const Json& object, const char* key, int digits) {

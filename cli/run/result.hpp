@@ -66,5 +66,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
 /// score.csv (x,y,z,nx,ny,nz,score,index) from scene.json and the station's report.
 /// @returns false when there is no scene.json.
 bool write_score_csv(const std::filesystem::path& dir, const std::optional<StationReport>& station);
+/// 0 where there is none.
+inline double number(const Json& object, const char* key) { return value_or(object, key, 0.0).get<double>(); }
 
 }  // namespace skein::cli

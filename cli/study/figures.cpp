@@ -6,8 +6,6 @@
 namespace skein::cli {
 namespace {
 
-double number(const Json& object, const char* key) { return value_or(object, key, 0.0).get<double>(); }
-
 /// Collects what the UAVs report one by one.
 struct Mean {
   double sum = 0.0;

@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 constexpr double kPi = 3.14159265358979323846;
 /// Whence one looks: from the south-south-east, down at 25 degrees.
 constexpr double kAzimuth = -60.0 * kPi / 180.0, kElevation = 25.0 * kPi / 180.0;
-constexpr double kWidth = 360.0, kMostHeight = 400.0;  ///< of the world's part
+constexpr double kPictureWidth = 360.0, kMostHeight = 400.0;  ///< of the world's part
 constexpr double kMarginLeft = 28.0, kMarginRight = 28.0, kMarginTop = 8.0, kMarginBottom = 20.0;
 constexpr int kGridLines = 9;  ///< about so many on the longer side
 constexpr double kTrackTolerance = 0.35;
@@ -213,10 +213,10 @@ PictureView::PictureView(const std::vector<const FlightPicture*>& pictures) {
   }
   make_room({low_.x(), low_.y(), high_.z()});  // the scale of heights
   const Vector2d size = most - least;
-  scale_ = std::min((kWidth - kMarginLeft - kMarginRight) / size.x(), kMostHeight / size.y());
-  width_ = kWidth;
+  scale_ = std::min((kPictureWidth - kMarginLeft - kMarginRight) / size.x(), kMostHeight / size.y());
+  width_ = kPictureWidth;
   height_ = scale_ * size.y() + kMarginTop + kMarginBottom;
-  const double centred = 0.5 * (kWidth - kMarginLeft - kMarginRight - scale_ * size.x());
+  const double centred = 0.5 * (kPictureWidth - kMarginLeft - kMarginRight - scale_ * size.x());
   offset_ = Vector2d(kMarginLeft + centred, kMarginTop) - scale_ * least;
 }
 

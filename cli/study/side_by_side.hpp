@@ -6,8 +6,8 @@
 #include <map>
 #include <string>
 
-#include "cli/run/supervisor.hpp"
 #include "cli/console.hpp"
+#include "cli/run/supervisor.hpp"
 
 namespace skein::cli {
 

@@ -14,9 +14,6 @@ constexpr double kLookAround = 1.5;
 // With less room than this, looking for the nearest triangle at every tick would cost more than the test.
 constexpr double kLeastRoom = 0.02;
 
-btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
 double squared_distance_to_edge(const Vector3d& p, const Vector3d& from, const Vector3d& to) {
   const Vector3d edge = to - from;
   const double length2 = edge.squaredNorm();
@@ -38,6 +35,9 @@ struct Nearest final : btTriangleCallback {
 };
 
 }  // namespace
+
+btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d n = (b - a).cross(c - a);

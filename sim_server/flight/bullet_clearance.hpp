@@ -7,8 +7,12 @@
 #include "core/types.hpp"
 
 class btBvhTriangleMeshShape;
+class btVector3;
 
 namespace skein::sim {
+
+btVector3 to_bullet(const Vector3d& v);
+Vector3d to_eigen(const btVector3& v);
 
 /// Distance of the closest point of a triangle [m], in any position and also of a triangle without area. Pure.
 double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c);

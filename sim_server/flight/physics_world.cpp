@@ -36,9 +36,6 @@ constexpr double kStillSpeed = 0.02;  // [m/s], and [rad/s]
 constexpr int kStillTicks = 200;
 constexpr double kNoWrench = 1e-6;  // [N], [N m]
 
-btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
 btTransform to_bullet(const Quaterniond& q, const Vector3d& p) {
   return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), to_bullet(p));
 }

@@ -19,7 +19,7 @@ constexpr double kYawGain = 2.0, kYawIntegralGain = 0.02;
 constexpr double kYawSumLimit = 1.57;
 constexpr double kMaxYawRate = 90.0 * kRadPerDeg;
 
-bool given(const Vector3d& v) { return v.norm() >= kNone; }
+bool asked_for(const Vector3d& v) { return v.norm() >= kNone; }
 
 Vector3d clamped(const Vector3d& v, double limit) { return v.cwiseMax(-limit).cwiseMin(limit); }
 
@@ -81,7 +81,7 @@ void PositionController::update_mode(const RigidBodyState& state, Tick command_a
     return;
   }
   if (command_age == kMaxAge) return;
-  const bool all_zero = !given(command.p_WB) && !given(command.v_WB) && !given(command.a_WB);
+  const bool all_zero = !asked_for(command.p_WB) && !asked_for(command.v_WB) && !asked_for(command.a_WB);
   if (all_zero && memory_.mode != ControlMode::yaw_only) {
     memory_.mode = ControlMode::yaw_only;
     command.p_WB = state.p_WB;
@@ -96,8 +96,8 @@ Vector3d PositionController::demanded_acceleration(const RigidBodyState& state) 
   const Vector3d omega(config_.omega_xy, config_.omega_xy, config_.omega_z);
   const Vector3d zeta(config_.zeta_xy, config_.zeta_xy, config_.zeta_z);
   const Vector3d ki(config_.ki_xy, config_.ki_xy, config_.ki_z);
-  const bool use_position = given(command.p_WB);
-  const bool use_velocity = use_position || given(command.v_WB);
+  const bool use_position = asked_for(command.p_WB);
+  const bool use_velocity = use_position || asked_for(command.v_WB);
 
   Vector3d a = command.a_WB + ki.cwiseProduct(memory_.position_error_sum) + kGravity * Vector3d::UnitZ();
   if (use_position) a += omega.cwiseProduct(omega).cwiseProduct(command.p_WB - state.p_WB);

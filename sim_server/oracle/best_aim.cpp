@@ -16,7 +16,7 @@ constexpr double kTurnStep = 2.0 * std::numbers::pi / kTurns;
 constexpr std::array<double, 7> kLifts = {0.0, -0.4, 0.4, -0.8, 0.8, -1.0, 1.0};
 constexpr double kLeastScore = 0.01;  ///< where rules count even less, this is as far as the oracle looks
 constexpr double kHopeful = 0.5;      ///< a hill whose foot is lower than this part of the best top is not climbed
-constexpr double kFinest = 0.1 * kRadPerDeg;
+constexpr double kFinestStep = 0.1 * kRadPerDeg;
 
 /// Quality is at most (d* / d) sqrt(1 + h^2) sqrt(1 + h^2 + v^2), h and v being the slopes of the picture's corner,
 /// h the larger: the step along a surface spans that many pixels more there than in the centre.
@@ -75,7 +75,7 @@ Aim BestAim::look(const Heading& heading, double lift) const {
 /// Climbs from one aim in ever smaller steps of heading and lift.
 BestAim::Try BestAim::climb(const Vector3d& ray_W, const Vector3d& n_W, const std::function<bool(double)>& allowed,
                             Try best) const {
-  for (double step = 0.5 * kTurnStep; step > kFinest && best.aim.q < 1.0;) {
+  for (double step = 0.5 * kTurnStep; step > kFinestStep && best.aim.q < 1.0;) {
     const Try centre = best;
     // Where the two resolutions are equal there is a ridge, and on it few directions lead up.
     for (const int side : {-2, -1, 0, 1, 2}) {

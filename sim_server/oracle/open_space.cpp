@@ -8,7 +8,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kFinest = 0.25, kCoarsest = 1.0;
+constexpr double kFinestCell = 0.25, kCoarsestCell = 1.0;
 constexpr double kMostLines = 1e6;
 /// Structure farther than this beyond the clearance needs no exact distance: the query costs more than a step.
 constexpr double kFar = 2.0;
@@ -21,12 +21,12 @@ std::size_t lines_over(double length, double step) { return static_cast<std::siz
 
 OpenSpace::Grid::Grid(const Eigen::AlignedBox3d& structure, double clearance)
     // A margin, so that the outermost lines run clear of the structure and all sky hangs together around it.
-    : low(structure.min() - Vector3d::Constant(clearance + 2.0 * kCoarsest)),
-      high(structure.max() + Vector3d::Constant(clearance + 2.0 * kCoarsest)) {
+    : low(structure.min() - Vector3d::Constant(clearance + 2.0 * kCoarsestCell)),
+      high(structure.max() + Vector3d::Constant(clearance + 2.0 * kCoarsestCell)) {
   low.z() = 0.0;
-  high.z() = std::max(high.z(), clearance + 2.0 * kCoarsest);
+  high.z() = std::max(high.z(), clearance + 2.0 * kCoarsestCell);
   const Vector3d size = high - low;
-  step = std::max(std::clamp(clearance, kFinest, kCoarsest), std::sqrt(size.y() * size.z() / kMostLines));
+  step = std::max(std::clamp(clearance, kFinestCell, kCoarsestCell), std::sqrt(size.y() * size.z() / kMostLines));
   lines_y = lines_over(size.y(), step);
   lines_z = lines_over(size.z(), step);
 }

@@ -22,14 +22,9 @@
 namespace skein::sim {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 512u << 20;  ///< kMostTriangles as ASCII, each with 268 characters
-constexpr std::size_t kBinaryHead = 84;            ///< 80 bytes of text, the number of triangles
-constexpr std::size_t kBinaryTriangle = 50;        ///< normal, three vertices, two bytes of attributes
-constexpr std::size_t kAttributes = 48;            ///< bytes before them in a triangle
-
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
-  throw InputError(file.string() + ": " + why);
-}
+constexpr std::size_t kBinaryHead = 84;      ///< 80 bytes of text, the number of triangles
+constexpr std::size_t kBinaryTriangle = 50;  ///< normal, three vertices, two bytes of attributes
+constexpr std::size_t kAttributes = 48;      ///< bytes before them in a triangle
 
 [[noreturn]] void refuse_count(const std::filesystem::path& file, const std::string& triangles) {
   refuse(file, "has " + triangles + " than the " + std::to_string(kMostTriangles) +

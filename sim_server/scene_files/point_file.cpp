@@ -22,16 +22,11 @@
 namespace skein::sim {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 512u << 20;
 constexpr std::array<const char*, 6> kNumbers = {"x", "y", "z", "normal_x", "normal_y", "normal_z"};
 /// The most that LZF can pack into one byte: a reference of three bytes stands for 264.
 constexpr std::size_t kLzfBestRatio = 88;
 
 using Numbers = std::array<float, kNumbers.size()>;  ///< of one point, in the order of kNumbers
-
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
-  throw InputError(file.string() + ": " + why);
-}
 
 void check_fields(const std::filesystem::path& file, const PcdHeader& header) {
   for (const std::string name : kNumbers) {

@@ -16,8 +16,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr std::size_t kPoints = 3600;
-constexpr double kBoxMargin = 0.5;
+constexpr std::size_t kCranesPoints = 3600;
 constexpr double kPi = std::numbers::pi;
 
 // ------------------------------------------------------------------------------------------------------ tower cranes
@@ -195,7 +194,7 @@ Scene make_cranes(std::uint64_t scene_seed) {
   }
   scene.mesh = builder.take();
   vary_boxes(scene, scene_seed);
-  scene.points = sample_surface(scene.mesh, scene.boxes, kPoints, scene_seed);
+  scene.points = sample_surface(scene.mesh, scene.boxes, kCranesPoints, scene_seed);
   return scene;
 }
 

@@ -14,23 +14,21 @@
 namespace skein::sim {
 namespace {
 
-constexpr std::size_t kPoints = 3500;
-constexpr double kBoxMargin = 0.5;
-constexpr double kSunk = -0.2;              ///< walls begin a little below the ground
+constexpr std::size_t kHangarPoints = 3500;
 constexpr double kApron = 11.0;             ///< at least between the origin, near the starts, and the airliner
 constexpr double kWall = 0.4, kRoof = 0.5;  ///< thicknesses
 
 /// Where everything stands. Frame H: origin on the ground in the middle of the hangar's mouth, x into the hangar.
-struct Site {
+struct HangarSite {
   AirlinerShape airliner;
   Isometry3d X_WH = Isometry3d::Identity(), X_WA = Isometry3d::Identity();
   bool nose_first = true;
   double inside = 0.0;  ///< how far the airliner reaches into the hangar
 };
 
-Site draw_site(std::uint64_t scene_seed) {
+HangarSite draw_hangar_site(std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "hangar_site", 0);
-  Site site;
+  HangarSite site;
   site.airliner = draw_airliner(random);
   site.nose_first = random.uniform() < 0.65;
   // Deep enough to be at the mouth, but the wings' outer parts stay out: the doors leave no room for them.
@@ -50,7 +48,7 @@ Site draw_site(std::uint64_t scene_seed) {
 
 class Hangar {
  public:
-  Hangar(MeshBuilder& builder, const Site& site, RandomStream& random)
+  Hangar(MeshBuilder& builder, const HangarSite& site, RandomStream& random)
       : builder_(builder),
         site_(site),
         width_(random.uniform(84.0, 92.0)),
@@ -177,14 +175,14 @@ class Hangar {
   }
 
   MeshBuilder& builder_;
-  const Site& site_;
+  const HangarSite& site_;
   double width_, depth_, eaves_, rise_;
 };
 
 }  // namespace
 
 Scene make_hangar(std::uint64_t scene_seed) {
-  const Site site = draw_site(scene_seed);
+  const HangarSite site = draw_hangar_site(scene_seed);
   RandomStream random(scene_seed, "hangar_building", 0);
   MeshBuilder builder;
   Scene scene;
@@ -196,7 +194,7 @@ Scene make_hangar(std::uint64_t scene_seed) {
   for (const double side : {-1.0, 1.0}) scene.boxes.push_back(hangar.add_doors(side, random));
   scene.mesh = builder.take();
   vary_boxes(scene, scene_seed);
-  scene.points = sample_surface(scene.mesh, scene.boxes, kPoints, scene_seed);
+  scene.points = sample_surface(scene.mesh, scene.boxes, kHangarPoints, scene_seed);
   return scene;
 }
 

@@ -15,6 +15,9 @@ namespace skein::sim {
 using Ring = std::vector<Vector3d>;
 using Polygon = std::vector<Vector2d>;
 
+inline constexpr double kSunk = -0.2;      ///< solids begin a little below the ground, so that none has a gap under it
+inline constexpr double kBoxMargin = 0.5;  ///< of the boxes around a scene's structures [m]
+
 /// Regular polygon about the origin, counter-clockwise; the first corner at `phase` [rad]. Pure.
 Polygon regular_polygon(int corners, double radius, double phase = 0.0);
 /// Axis-aligned rectangle about `center`, its corners cut off by `chamfer`; counter-clockwise. Pure.

@@ -7,7 +7,6 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kSunk = -0.2;
 constexpr double kPier = 0.9;  ///< thickness of the arcade's piers and arches
 
 class Podium {

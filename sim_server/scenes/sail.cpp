@@ -13,9 +13,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr std::size_t kPoints = 4000;
-constexpr double kBoxMargin = 0.5;
-constexpr double kSunk = -0.2;  ///< solids begin a little below the ground, so that none has a gap under it
+constexpr std::size_t kSailPoints = 4000;
 
 /// The shape of a sail. Frame S: origin on the ground below its middle, x across it, y out of its convex side, z up.
 /// u in [-1, 1] runs across, from the mast to the free edge, v in [0, 1] up.
@@ -260,7 +258,7 @@ Scene make_sail(std::uint64_t scene_seed) {
   scene.boxes.push_back(add_small_sail(builder, small_p_W, scene_seed));
   scene.mesh = builder.take();
   vary_boxes(scene, scene_seed);
-  scene.points = sample_surface(scene.mesh, scene.boxes, kPoints, scene_seed);
+  scene.points = sample_surface(scene.mesh, scene.boxes, kSailPoints, scene_seed);
   return scene;
 }
 

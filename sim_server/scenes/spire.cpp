@@ -16,8 +16,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr std::size_t kPoints = 4200;
-constexpr double kBoxMargin = 0.5;
+constexpr std::size_t kSpirePoints = 4200;
 
 /// One face of a tier: a plane wall, x to the right as seen from outside, y inwards, z up from the tier's floor.
 struct Face {
@@ -230,7 +229,7 @@ Scene make_spire(std::uint64_t scene_seed) {
   scene.boxes.insert(scene.boxes.end(), tiers.begin(), tiers.end());
   scene.mesh = builder.take();
   vary_boxes(scene, scene_seed);
-  scene.points = sample_surface(scene.mesh, scene.boxes, kPoints, scene_seed);
+  scene.points = sample_surface(scene.mesh, scene.boxes, kSpirePoints, scene_seed);
   return scene;
 }
 

@@ -10,8 +10,6 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kBoxMargin = 0.5;
-constexpr double kSunk = -0.2;
 constexpr double kTurntable = 1.8;    ///< height of what stands between the mast and the foot of the jib
 constexpr double kCounterHalf = 0.9;  ///< half the width of the counter-jib
 

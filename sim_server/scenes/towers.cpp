@@ -13,13 +13,11 @@
 namespace skein::sim {
 namespace {
 
-constexpr std::size_t kPoints = 4000;
-constexpr double kBoxMargin = 0.5;
+constexpr std::size_t kTowersPoints = 4000;
 constexpr double kStripHeading = -0.3;  ///< of the row of the starts, in W
-constexpr double kSunk = -0.2;          ///< solids begin a little below the ground, so that none has a gap under it
 
 /// Where everything stands. The site is a strip along the row of the starts (core/scene_families.cpp).
-struct Site {
+struct TowersSite {
   double heading = 0.0;                      ///< of the deck, in W
   Isometry3d X_WD = Isometry3d::Identity();  ///< deck: origin on the ground below its middle, x along it
   double deck_length = 0.0, deck_width = 0.0, deck_bottom = 0.0, deck_height = 0.0;
@@ -31,9 +29,9 @@ Vector2d on_strip(double along, double across) {
   return origin + Eigen::Rotation2Dd(kStripHeading) * Vector2d(along, across);
 }
 
-Site draw_site(std::uint64_t scene_seed) {
+TowersSite draw_towers_site(std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "towers_site", 0);
-  Site site;
+  TowersSite site;
   site.heading = kStripHeading + random.uniform(-0.08, 0.08);
   const double along = 64.0 + random.uniform(-1.0, 1.0), across = 28.0 + random.uniform(-1.0, 1.5);
   site.X_WD = standing_at(on_strip(along, across), site.heading);
@@ -133,7 +131,7 @@ class Tower {
   double splay_, recess_, core_width_;
 };
 
-OrientedBox add_tower(MeshBuilder& builder, const Site& site, int number, std::uint64_t scene_seed) {
+OrientedBox add_tower(MeshBuilder& builder, const TowersSite& site, int number, std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "towers_tower", static_cast<std::uint64_t>(number));
   const double along = 35.5 * (number - 1) + random.uniform(-1.0, 1.0);
   const double turn = random.uniform(-0.1, 0.1);
@@ -148,7 +146,7 @@ OrientedBox add_tower(MeshBuilder& builder, const Site& site, int number, std::u
 // ------------------------------------------------------------------------------------------------------------ deck
 
 /// The hull: cross-sections along a gentle bow, narrower towards both ends.
-void add_hull(MeshBuilder& builder, const Site& site, double bow) {
+void add_hull(MeshBuilder& builder, const TowersSite& site, double bow) {
   constexpr int kSections = 30;
   const double bottom = site.deck_bottom, top = bottom + site.deck_height;
   std::vector<Ring> rings;
@@ -167,7 +165,7 @@ void add_hull(MeshBuilder& builder, const Site& site, double bow) {
   builder.add_loft(rings);
 }
 
-void add_deck_relief(MeshBuilder& builder, const Site& site, RandomStream& random) {
+void add_deck_relief(MeshBuilder& builder, const TowersSite& site, RandomStream& random) {
   const double top = site.deck_bottom + site.deck_height, half = 0.5 * site.deck_length;
   const auto box = [&](const Vector3d& center, const Vector3d& size) {
     builder.add_box(site.X_WD * Eigen::Translation3d(center), size);
@@ -200,7 +198,7 @@ void add_deck_relief(MeshBuilder& builder, const Site& site, RandomStream& rando
   }
 }
 
-OrientedBox add_deck(MeshBuilder& builder, const Site& site, std::uint64_t scene_seed) {
+OrientedBox add_deck(MeshBuilder& builder, const TowersSite& site, std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "towers_deck", 0);
   const std::size_t first = builder.mesh().vertices.size();
   add_hull(builder, site, random.uniform(-3.0, 3.0));
@@ -277,7 +275,7 @@ OrientedBox add_kiosk(MeshBuilder& builder, std::uint64_t scene_seed) {
 }  // namespace
 
 Scene make_towers(std::uint64_t scene_seed) {
-  const Site site = draw_site(scene_seed);
+  const TowersSite site = draw_towers_site(scene_seed);
   MeshBuilder builder;
   Scene scene;
   scene.boxes.push_back(add_deck(builder, site, scene_seed));
@@ -286,7 +284,7 @@ Scene make_towers(std::uint64_t scene_seed) {
   scene.boxes.push_back(add_kiosk(builder, scene_seed));
   scene.mesh = builder.take();
   vary_boxes(scene, scene_seed);
-  scene.points = sample_surface(scene.mesh, scene.boxes, kPoints, scene_seed);
+  scene.points = sample_surface(scene.mesh, scene.boxes, kTowersPoints, scene_seed);
   return scene;
 }
 

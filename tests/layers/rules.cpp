@@ -75,8 +75,8 @@ Violations check_layers(const Tree& tree) {
 
 namespace {
 
-/// "sim_server/rays" of a file in that folder; "sim_server/mission" of a file beside the folders and of its
-/// test's header.
+/// "sim_server/rays" of a file in that folder; "sim_server/mission" of a file beside the folders and of its test's
+/// header.
 std::string room_of(const std::string& path) {
   const std::size_t application = path.find('/'), folder = path.find('/', application + 1);
   return folder != std::string::npos ? path.substr(0, folder) : path.substr(0, path.rfind('.'));

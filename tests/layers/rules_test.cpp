@@ -195,7 +195,7 @@ TEST_F(MadeUpTree, FoldersThatIncludeEachOtherAreFound) {
   file("station/top.cpp", include("station/b/x.hpp"));
   file("station/b/x_test.cpp", include("station/a/x.hpp"));
   EXPECT_EQ(check_circles(tree()), Violations{});
-  file("station/b/y.cpp", std::string("\n") + include("station/top.hpp"));  // by way of top.cpp
+  file("station/b/y.cpp", std::string("\n") + include("station/top.hpp"));  // by way of that
   EXPECT_EQ(places(check_circles(tree())), (Places{"station/b/y.cpp:2", "station/top.cpp:1"}));
 }
 

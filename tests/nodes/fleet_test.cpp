@@ -8,35 +8,59 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "cli/run/environment.hpp"
 #include "comm_router/router_node.hpp"
 #include "core/random_stream.hpp"
 #include "core/scenario_reader.hpp"
+#include "core/text.hpp"
 #include "process/run_folder.hpp"
 #include "sim_server/scenes/scene_source.hpp"
 #include "sim_server/sim_node.hpp"
 #include "station/station_node.hpp"
+#include "tests/protocol/sim_network.hpp"
 #include "uav_agent/agent_node.hpp"
+#include "uav_agent/ground_node.hpp"
 
 namespace skein::test {
 namespace {
 
+struct Flight {
+  std::string scenario = "towers", planner = "hover";
+  LoadOptions load = {};
+  std::uint64_t seed = 0;
+  std::optional<double> stop_at_s = {};
+};
+
 class Fleet {
  public:
-  /// @param order  draws who gets the next turn.
-  Fleet(const std::string& scenario, const std::string& planner, double stop_at_s, std::uint64_t order)
-      : scenario_(load_scenario(scenario, {.config_dir = SKEIN_SOURCE_DIR "/config"})), random_(order, "turns", 0) {
+  /// @param order    draws who gets the next turn.
+  /// @param network  the bus is this one, and `order` draws what happens on it next, too.
+  Fleet(const Flight& flight, std::uint64_t order, SimNetwork* network = nullptr)
+      : scenario_(load_scenario(flight.scenario, with_config(flight.load))),
+        random_(order, "turns", 0),
+        network_(network),
+        bus_(network != nullptr ? std::make_unique<SimBus>(*network) : bus::make_bus({.vendor = "inproc"})) {
     std::string pattern = (std::filesystem::temp_directory_path() / "skein-fleet-XXXXXX").string();
     folder_ = ::mkdtemp(pattern.data());
-    server_ = add(std::make_unique<sim::SimNode>(
-        scenario_, sim::load_scene(scenario_),
-        sim::SimNodeOptions{
-            .base_domain = 0, .out = folder_, .seed = 0, .realtime_factor = {}, .stop_at_s = stop_at_s, .faults = {}},
-        *bus_, status_));
-    add(std::make_unique<router::RouterNode>(scenario_, 0, 0, *bus_));
+    server_ =
+        add(std::make_unique<sim::SimNode>(scenario_, sim::load_scene(scenario_),
+                                           sim::SimNodeOptions{.base_domain = 0,
+                                                               .out = folder_,
+                                                               .seed = flight.seed,
+                                                               .realtime_factor = {},
+                                                               .stop_at_s = flight.stop_at_s,
+                                                               .expect_gcs_program = has_ground_program(flight.planner),
+                                                               .faults = {}},
+                                           *bus_, status_));
+    add(std::make_unique<router::RouterNode>(scenario_, flight.seed, 0, *bus_));
     station_ = add(std::make_unique<station::StationNode>(scenario_, 0, *bus_, folder_, status_));
     for (const UavIndex uav : scenario_.uavs()) {
       add(std::make_unique<agent::AgentNode>(
-          scenario_, uav, agent::make_planner(planner, agent::agent_config(scenario_, uav)), 0, *bus_));
+          scenario_, uav, agent::make_planner(flight.planner, agent::agent_config(scenario_, uav)), 0, *bus_));
+    }
+    if (has_ground_program(flight.planner)) {
+      auto program = agent::make_ground_program(flight.planner, agent::ground_config(scenario_));
+      add(std::make_unique<agent::GroundNode>(scenario_, std::move(program), 0, *bus_));
     }
     for (const auto& node : nodes_) node->start();
   }
@@ -44,17 +68,13 @@ class Fleet {
 
   /// Turns in drawn order until the run is over. @returns false when nothing moves any more.
   bool fly() {
-    for (std::uint64_t turn = 0; !server_->end() && turn < 3'000'000; ++turn) {
-      if (const auto& node = nodes_[random_.bits() % nodes_.size()]) node->poll();
-    }
+    for (std::uint64_t turn = 0; !server_->end() && turn < 20'000'000; ++turn) go_on();
     station_->write_report();
     return server_->end() == bus::NodeEnd::finished;
   }
   /// So many turns.
   void fly_on(int turns) {
-    for (int i = 0; i < turns; ++i) {
-      if (const auto& node = nodes_[random_.bits() % nodes_.size()]) node->poll();
-    }
+    for (int i = 0; i < turns; ++i) go_on();
   }
   /// A UAV's program is gone.
   void kill(UavIndex uav) {
@@ -69,6 +89,22 @@ class Fleet {
   }
 
  private:
+  static LoadOptions with_config(LoadOptions load) {
+    load.config_dir = SKEIN_SOURCE_DIR "/config";
+    return load;
+  }
+  static bool has_ground_program(const std::string& planner) {
+    return std::ranges::count(agent::ground_program_names(), planner) > 0;
+  }
+  /// A match or a sample arrives, or somebody gets a turn.
+  void go_on() {
+    if (network_ != nullptr && random_.bits() % 2 == 0) {
+      const auto events = network_->events();
+      if (!events.empty()) return network_->happen(events[random_.bits() % events.size()]);
+    }
+    if (const auto& node = nodes_[random_.bits() % nodes_.size()]) node->poll();
+  }
+
   template <class Node>
   Node* add(std::unique_ptr<Node> node) {
     Node* const raw = node.get();
@@ -80,7 +116,8 @@ class Fleet {
   RandomStream random_;
   std::filesystem::path folder_;
   StatusPipe status_{-1};
-  const std::unique_ptr<bus::Bus> bus_ = bus::make_bus({.vendor = "inproc"});
+  SimNetwork* const network_;
+  const std::unique_ptr<bus::Bus> bus_;
   std::vector<std::unique_ptr<bus::LockstepNode>> nodes_;
   sim::SimNode* server_ = nullptr;
   station::StationNode* station_ = nullptr;
@@ -89,7 +126,7 @@ class Fleet {
 TEST(FleetInOneProcess, TheOrderOfTurnsIsNoMatter) {
   std::set<std::string> digests;
   for (const std::uint64_t order : {1U, 2U, 3U}) {
-    Fleet fleet("towers", "patrol", 25.0, order);
+    Fleet fleet({.planner = "patrol", .stop_at_s = 25.0}, order);
     ASSERT_TRUE(fleet.fly());
     ASSERT_TRUE(fleet.server().summary().deterministic);
     digests.insert(fleet.server().summary().digest.value_or("none"));
@@ -98,8 +135,43 @@ TEST(FleetInOneProcess, TheOrderOfTurnsIsNoMatter) {
   EXPECT_EQ(digests.size(), 1U);
 }
 
+// Harsher than DDS (tests/protocol/sim_network.hpp), with the server as it is and not as a model of it.
+TEST(FleetInOneProcess, TheOrderOfDiscoveryAndArrivalIsNoMatter) {
+  Fleet calm({.planner = "patrol", .stop_at_s = 2.0}, 1);
+  ASSERT_TRUE(calm.fly());
+  for (const std::uint64_t order : {1U, 2U}) {
+    SimNetwork network;
+    Fleet fleet({.planner = "patrol", .stop_at_s = 2.0}, order, &network);
+    ASSERT_TRUE(fleet.fly()) << network.describe();
+    EXPECT_EQ(fleet.server().summary().digest, calm.server().summary().digest);
+  }
+}
+
+// What flies over DDS in tests/fleet/reference_digests_test.cpp has the same digest here: one row for each family and
+// planner.
+TEST(FleetInOneProcess, FliesAsItDoesOverDds) {
+  std::ifstream table(SKEIN_SOURCE_DIR "/tests/fleet/reference_digests.csv");
+  std::string line;
+  std::getline(table, line);
+  int row = 0, flown = 0;
+  while (std::getline(table, line)) {
+    const std::vector<std::string> cells = split(line, ',');
+    const bool procedural = cells.size() == 7 && !cells[1].empty() && cells[5].empty();
+    if (!procedural || row++ % 5 != 0) continue;
+    Fleet fleet({.scenario = cells[0],
+                 .planner = cells[3],
+                 .load = {.duration_s = std::stod(cells[4]), .scene_seed = std::stoull(cells[1])},
+                 .seed = std::stoull(cells[2])},
+                7);
+    ASSERT_TRUE(fleet.fly()) << line;
+    EXPECT_EQ(fleet.server().summary().digest, cells[6]) << line;
+    ++flown;
+  }
+  EXPECT_GE(flown, 4);
+}
+
 TEST(FleetInOneProcess, GoesOnWithoutWhoIsLost) {
-  Fleet fleet("towers", "hover", 6.0, 4);
+  Fleet fleet({.stop_at_s = 6.0}, 4);
   fleet.fly_on(2000);
   fleet.kill(UavIndex{1});
   ASSERT_TRUE(fleet.fly());
@@ -111,7 +183,7 @@ TEST(FleetInOneProcess, GoesOnWithoutWhoIsLost) {
 }
 
 TEST(FleetInOneProcess, EndsAtTheNextStepWhenTheUserSaysSo) {
-  Fleet fleet("towers", "hover", 600.0, 5);
+  Fleet fleet({}, 5);
   fleet.fly_on(2000);
   fleet.server().request_stop();
   ASSERT_TRUE(fleet.fly());
@@ -120,3 +192,17 @@ TEST(FleetInOneProcess, EndsAtTheNextStepWhenTheUserSaysSo) {
 
 }  // namespace
 }  // namespace skein::test
+
+// With the launcher's pins, as all programs of a fleet: libm chooses its code by them when a process starts.
+int main(int argc, char** argv) {
+  constexpr const char* kPinned = "SKEIN_TEST_PINNED";
+  if (std::getenv(kPinned) == nullptr) {
+    std::vector<std::string> variables = skein::cli::fleet_environment(false, {{kPinned, "1"}});
+    std::vector<char*> environment;
+    for (std::string& variable : variables) environment.push_back(variable.data());
+    environment.push_back(nullptr);
+    ::execve("/proc/self/exe", argv, environment.data());
+  }
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLowSiteM = 40.0;                        ///< a site no higher than this is seen from above first
 constexpr double kLowestHeightM = 3.0;                    ///< of the last one in the fleet
-constexpr double kLayerM = 2.0;                           ///< between the heights to which two UAVs climb
+constexpr double kClimbLayerM = 2.0;                      ///< between the heights to which two UAVs climb
 constexpr double kRoomyAsideM = 4.0, kRoomyAboveM = 4.0;  ///< where starts are in a box, and how far above it is out
 
 }  // namespace
@@ -21,7 +21,7 @@ double blind_height_m(const std::vector<OrientedBox>& boxes, double ratio) {
 
 double lift_off_height_m(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const Vector3d& p_WB,
                          double blind_m, double clearance_m) {
-  const double layer = kLayerM * static_cast<double>(agent.fleet.size() - 1 - agent.self);
+  const double layer = kClimbLayerM * static_cast<double>(agent.fleet.size() - 1 - agent.self);
   double height = kLowestHeightM + layer;
   if (!boxes.empty()) height = std::max(height, blind_m + 1.0 + layer);
   for (const OrientedBox& box : boxes) {

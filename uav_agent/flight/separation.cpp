@@ -6,7 +6,7 @@ namespace skein::agent {
 namespace {
 
 constexpr double kStandingMps = 0.3;
-constexpr double kApproachM = 0.05;        ///< a distance that does not shrink by this is no approach
+constexpr double kComingNearerM = 0.05;    ///< a distance that does not shrink by this is no approach
 constexpr double kPatiencePerRankS = 0.5;  ///< two UAVs that wait for each other do not lose patience together
 constexpr double kMovingPatience = 3.0;    ///< times as much with somebody who moves
 constexpr double kPlanAroundM = 15.0;      ///< whoever is farther away will be elsewhere when this UAV comes
@@ -54,7 +54,7 @@ Traffic Separation::judge(Tick now, const std::vector<Vector3d>& ahead, double d
     for (std::size_t i = 1; i < ahead.size() && static_cast<double>(i) * dt_s <= config_.horizon_s; ++i) {
       const double t = static_cast<double>(i) * dt_s;
       const double distance = (ahead[i] - peer.p_W - t * peer.v_W).norm();
-      if (distance >= limit || distance >= distance_now - kApproachM) continue;
+      if (distance >= limit || distance >= distance_now - kComingNearerM) continue;
       conflict = true;
       standing |= stands;
       break;

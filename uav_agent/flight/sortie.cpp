@@ -8,7 +8,7 @@ namespace skein::agent {
 namespace {
 
 constexpr double kAtTopM = 0.5;
-constexpr double kRetryS = 1.0;  ///< after a climb was stopped
+constexpr double kClimbAgainS = 1.0;  ///< after a climb was stopped
 constexpr int kMaxClimbs = 20;
 constexpr double kLowestPlaceM = 6.0;  ///< for delivery
 constexpr double kAboveBlindM = 2.0;
@@ -84,7 +84,7 @@ Sortie::Turn Sortie::react(const PlannerInput& in, PlannerOutput& out) {
   pilot_.stop(out);
   if (state_ == State::working) return Turn::blocked;
   if (state_ == State::climbing) {
-    not_before_ = in.tick + ticks(kRetryS);
+    not_before_ = in.tick + ticks(kClimbAgainS);
   } else {
     situation_ == Situation::obstacle ? delivery_.try_again(in) : delivery_.try_elsewhere(in);
   }

@@ -6,7 +6,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kGain = 1e-9;
+constexpr double kTourGain = 1e-9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Solver {
@@ -127,7 +127,7 @@ class Solver {
   /// Whether two tours are better with these loads: the greater one counts, their sum a little.
   bool better(std::size_t a, std::size_t b, double load_a, double load_b) const {
     const double now = std::max(load_[a], load_[b]) + config_.total_weight * (load_[a] + load_[b]);
-    return std::max(load_a, load_b) + config_.total_weight * (load_a + load_b) < now - kGain;
+    return std::max(load_a, load_b) + config_.total_weight * (load_a + load_b) < now - kTourGain;
   }
 
   /// Agents by what they have to do, most first.

@@ -13,7 +13,7 @@ constexpr double kAutoVoxelRatio = 0.35, kSmallestVoxelM = 2.0, kLargestVoxelM =
 constexpr double kGrowth = 1.1;    ///< of the cubes while there are too many
 constexpr double kAroundM = 12.0;  ///< of the grid, around the boxes
 constexpr double kBesideM = 6.0;   ///< from the box
-constexpr int kDirections = 12;
+constexpr int kWallDirections = 12;
 constexpr double kSpareM = 0.3;  ///< beside the clearance, from a viewpoint to its surface
 
 }  // namespace
@@ -43,8 +43,8 @@ std::vector<Vector3d> places_beside(const OrientedBox& box, const FreeSpace& spa
                                     double lowest_m) {
   const double radius = 0.5 * box.size.head<2>().norm() + kBesideM;
   std::vector<Vector3d> places;
-  for (int i = 0; i < kDirections; ++i) {
-    const double turn = 2.0 * std::numbers::pi * i / kDirections;
+  for (int i = 0; i < kWallDirections; ++i) {
+    const double turn = 2.0 * std::numbers::pi * i / kWallDirections;
     const Vector3d p(box.center.x() + radius * std::cos(turn), box.center.y() + radius * std::sin(turn),
                      std::max(box.center.z(), lowest_m));
     if (space.free(p)) places.push_back(p);
