@@ -13,7 +13,7 @@
 namespace skein::cli {
 namespace {
 
-constexpr std::size_t kLogLines = 5;
+constexpr std::size_t kTailLines = 5;
 
 /// Has an agent program list its strategies. @param said  file for what it prints. @returns nullopt if that is no list.
 std::optional<StrategyList> strategies_of(const std::filesystem::path& agent, const std::filesystem::path& said) {
@@ -44,7 +44,7 @@ std::optional<std::filesystem::path> own_agent(const std::optional<std::filesyst
   if (strategies_of(agent, scratch.path() / "said")) return agent;
   std::string message = what + ": --list-planners does not list its planners; skein_add_agent() makes agent programs " +
                         "(docs/how-to-add-a-planner.md), and a program of another kind flies with --planner exec:CMD";
-  for (const std::string& line : last_lines(scratch.path() / "said", kLogLines)) message += "\n    " + line;
+  for (const std::string& line : last_lines(scratch.path() / "said", kTailLines)) message += "\n    " + line;
   throw InputError(message);
 }
 

@@ -19,7 +19,7 @@ class DigestFile {
     if (!in_) throw InputError(run.string() + ": no digests.csv there; give a folder that `skein run` wrote");
     std::string line;
     next_line(in_, line, file_);
-    columns_ = cells_of(line);
+    columns_ = split(line);
     if (columns_.size() < 2 || columns_[0] != "k" || columns_[1] != "digest") {
       throw InputError(file_.string() + ":1: must begin with the columns k,digest");
     }
@@ -32,7 +32,7 @@ class DigestFile {
     std::string line;
     if (!next_line(in_, line, file_)) return std::nullopt;
     ++line_;
-    std::vector<std::string> cells = cells_of(line);
+    std::vector<std::string> cells = split(line);
     if (cells.size() == columns_.size() && !in_.eof()) return cells;
     if (in_.eof() || in_.peek() == std::ifstream::traits_type::eof()) return std::nullopt;
     throw InputError(file_.string() + ":" + std::to_string(line_) + ": has " + std::to_string(cells.size()) +

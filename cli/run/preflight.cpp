@@ -20,7 +20,7 @@ namespace skein::cli {
 namespace {
 
 constexpr std::size_t kMessageLines = 20;
-constexpr std::chrono::milliseconds kGrace{2000};
+constexpr std::chrono::milliseconds kCheckGrace{2000};
 
 std::string message_of(const ProgramSpec& program) {
   std::string text;
@@ -41,7 +41,7 @@ std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& progra
     }
     for (const Event& event : supervisor.wait(notice.left(WaitNotice::Clock::now()))) {
       if (event.kind == Event::Kind::interrupt) {
-        supervisor.end_all(kGrace);
+        supervisor.end_all(kCheckGrace);
         throw Interrupted{};
       }
       if (event.kind == Event::Kind::exited) exits[event.program] = event.exit;

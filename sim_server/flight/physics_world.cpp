@@ -36,7 +36,7 @@ constexpr double kStillSpeed = 0.02;  // [m/s], and [rad/s]
 constexpr int kStillTicks = 200;
 constexpr double kNoWrench = 1e-6;  // [N], [N m]
 
-btTransform to_bullet(const Quaterniond& q, const Vector3d& p) {
+btTransform transform_of(const Quaterniond& q, const Vector3d& p) {
   return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), to_bullet(p));
 }
 
@@ -54,7 +54,7 @@ class VehicleShape {
     const Isometry3d X_PB = X_BP.inverse();
     const auto add = [&](btCollisionShape& child, const Vector3d& p_B) {
       child.setMargin(kMargin);
-      compound_.addChildShape(to_bullet(Quaterniond(Matrix3d(X_PB.linear())), X_PB * p_B), &child);
+      compound_.addChildShape(transform_of(Quaterniond(Matrix3d(X_PB.linear())), X_PB * p_B), &child);
     };
     const auto add_box = [&](const BodyBox& box) {
       boxes_.push_back(std::make_unique<btBoxShape>(to_bullet(0.5 * box.edges_m)));
@@ -113,7 +113,7 @@ struct UavBody {
   }
   void set_state(const RigidBodyState& state) {
     const MassState moving = mass_state(frame, state);
-    body->setWorldTransform(to_bullet(moving.q_WP, moving.p_WBcm));
+    body->setWorldTransform(transform_of(moving.q_WP, moving.p_WBcm));
     body->setInterpolationWorldTransform(body->getWorldTransform());
     body->setLinearVelocity(to_bullet(moving.v_WBcm));
     body->setAngularVelocity(to_bullet(moving.w_WB));
@@ -318,7 +318,7 @@ bool PhysicsWorld::touches_structure(const VehicleConfig& vehicle, const Isometr
   VehicleShape shape(vehicle);
   btCollisionObject probe;
   probe.setCollisionShape(&shape.compound());
-  probe.setWorldTransform(to_bullet(Quaterniond(X_WB.linear()), X_WB.translation()));
+  probe.setWorldTransform(transform_of(Quaterniond(X_WB.linear()), X_WB.translation()));
   impl_->world.contactPairTest(&probe, impl_->structure.get(), touch);
   return touch.found;
 }

@@ -1,9 +1,10 @@
 // The smallest program that takes part in the lock-step, written from docs/lockstep.md alone: it shares no lock-step
 // code with Skein, only the messages and the bus. It flies its UAV 3 m up and stays there.
-//   skein run --planner hover,UAV=exec:minimal_client   (the launcher sets SKEIN_RUN, SKEIN_DOMAIN, SKEIN_UAV,
-// SKEIN_DDS) Exit code 0 after the last step, 3 when the server dropped it. To see what becomes of a broken client:
-// with an argument it lies from a certain step on; "hang" answers no more; "boast" announces a command more than it
-// sends, "smuggle" one less; "forge" tells the station of captures that no camera took.
+//   skein run --planner hover,UAV=exec:minimal_client
+// The launcher sets SKEIN_RUN, SKEIN_DOMAIN, SKEIN_UAV and SKEIN_DDS. Exit code 0 after the last step, 3 when the
+// server dropped it. To see what becomes of a broken client: with an argument it lies from a certain step on; "hang"
+// answers no more; "boast" announces a command more than it sends, "smuggle" one less; "forge" tells the station of
+// captures that no camera took.
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>

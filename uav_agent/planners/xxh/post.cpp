@@ -5,7 +5,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kApartM = 4.0;  ///< between the posts of those who wait
+constexpr double kPostsApartM = 4.0;  ///< between the posts of those who wait
 constexpr int kHeights = 8;
 
 }  // namespace
@@ -20,9 +20,9 @@ std::vector<Vector3d> XxhPost::places(const Vector3d& entry_W, const Vector3d& c
   Vector3d out = entry_W - centre_W;
   out.z() = 0.0;
   if (out.norm() < 1.0) out = Vector3d::UnitX();
-  const Vector3d place = entry_W + kApartM * static_cast<double>(rank + 1) * out.normalized();
-  const double lowest = std::max(place.z(), ways_.site().safe_height_m() + kApartM);
-  const double highest = std::max(lowest, ways_.site().top_m + kApartM * static_cast<double>(agent_.self + 2));
+  const Vector3d place = entry_W + kPostsApartM * static_cast<double>(rank + 1) * out.normalized();
+  const double lowest = std::max(place.z(), ways_.site().safe_height_m() + kPostsApartM);
+  const double highest = std::max(lowest, ways_.site().top_m + kPostsApartM * static_cast<double>(agent_.self + 2));
   std::vector<Vector3d> places;
   for (int i = 0; i < kHeights; ++i) {
     places.emplace_back(place.x(), place.y(), lowest + (highest - lowest) * i / (kHeights - 1));
@@ -40,7 +40,7 @@ bool XxhPost::take_beside(const Vector3d& entry_W, const Vector3d& centre_W, std
 
 bool XxhPost::take_at_home(const PlannerInput& in, PlannerOutput& out) {
   Vector3d home = agent_.me().p_WB_start;
-  home.z() = ways_.site().safe_height_m() + kApartM * static_cast<double>(agent_.self + 1);
+  home.z() = ways_.site().safe_height_m() + kPostsApartM * static_cast<double>(agent_.self + 1);
   taken_ = ways_.fly_to(home, config_.transit_mps, in, out);
   return taken_;
 }
