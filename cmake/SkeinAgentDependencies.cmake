@@ -16,8 +16,8 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(OCTOMAP REQUIRED IMPORTED_TARGET octomap)
 
 # skein_find_pcl(PART...)
-# Targets pcl::PART, the libraries alone: PCL's own CMake package, and its pkg-config files, want VTK, Qt and more. Debian's
-# libpcl-PART1.13 will do; headers are for Skein's own build (SkeinDependencies.cmake).
+# Targets pcl::PART, the libraries alone: PCL's own CMake package, and its pkg-config files, want VTK, Qt and more.
+# Debian's libpcl-PART1.13 will do; headers are for Skein's own build (SkeinDependencies.cmake).
 function(skein_find_pcl)
   foreach(part ${ARGN})
     find_library(SKEIN_PCL_${part} NAMES pcl_${part} libpcl_${part}.so.1.13 REQUIRED)

@@ -59,7 +59,8 @@ function(skein_compile_by_folder target)
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${SKEIN_UNITY} UNITY_BUILD_MODE GROUP)
   # GCC takes what is included for a header, in which an unnamed namespace would be a mistake.
-  target_compile_options(${target} PRIVATE $<$<AND:$<BOOL:${SKEIN_UNITY}>,$<COMPILE_LANGUAGE:CXX>>:-Wno-subobject-linkage>)
+  target_compile_options(${target} PRIVATE
+    $<$<AND:$<BOOL:${SKEIN_UNITY}>,$<COMPILE_LANGUAGE:CXX>>:-Wno-subobject-linkage>)
 endfunction()
 
 # skein_compile_quickly(TARGET)
