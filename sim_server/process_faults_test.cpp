@@ -36,6 +36,7 @@ TEST(ProcessFaults, AtEachExchangeThoseActThatThePlanSays) {
       }
       for (const auto& victim : faults.take_ending(tick + 20)) {
         EXPECT_EQ(acting.erase(victim.member), 1U) << "ended without a beginning";
+        EXPECT_FALSE(plan.faults[std::stoul(victim.member)].active(tick + 20)) << "ended too early";
       }
     }
   }
