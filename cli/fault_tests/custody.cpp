@@ -235,7 +235,8 @@ std::vector<std::string> custody_differences(const RunRecord& run, const Scenari
   std::vector<std::string> sentences;
   for (const CaptureKey& capture : all) {
     const auto found = derived.find(capture);
-    const auto expected = found == derived.end() ? std::nullopt : std::optional(found->second);
+    std::optional<std::uint64_t> expected;
+    if (found != derived.end()) expected = found->second;
     const auto entry = account.find(capture);
     const auto seen = entry == account.end() ? std::nullopt : entry->second;
     if (expected != seen) {
