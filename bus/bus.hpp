@@ -123,6 +123,9 @@ class Bus {
   RunId run() const { return run_; }
   /// What the writers of all participants that it made did not send.
   const std::shared_ptr<Unsent>& unsent() const { return unsent_; }
+  /// As if the process of its participants had died: they write and hear nothing more, and nobody has matched them.
+  /// For programs that share a process, hence only inproc's does something.
+  virtual void vanish() {}
   /// @throws InputError when `domain` is not 0 .. kMaxDomain; std::runtime_error when the vendor fails
   virtual std::unique_ptr<Participant> join(int domain) = 0;
 

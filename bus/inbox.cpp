@@ -83,6 +83,7 @@ struct Inbox::Impl {
   void push(Arrival&& arrival) {
     {
       const std::scoped_lock lock(mutex);
+      if (deaf && !arrival.work) return;
       if (chaos)
         hold(std::move(arrival));
       else
@@ -145,6 +146,7 @@ struct Inbox::Impl {
   bool waiting = false;   ///< and nobody has notified it yet
   std::size_t wanted_rings = 0;
   bool woken = false;
+  bool deaf = false;
 
   ChaosDelay delay;
   std::multimap<Clock::time_point, Arrival> held;
@@ -220,6 +222,11 @@ void Inbox::wake() {
 }
 
 void Inbox::post(std::function<void()> work) { impl_->push({nullptr, {}, std::move(work)}); }
+
+void Inbox::set_deaf(bool deaf) {
+  const std::scoped_lock lock(impl_->mutex);
+  impl_->deaf = deaf;
+}
 
 void Inbox::note_malformed(const std::string& topic, const Sample& sample) {
   ++malformed_;

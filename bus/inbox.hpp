@@ -46,6 +46,10 @@ class Inbox {
   /// Hands in something from another thread (a control pipe, a timer) to run inside dispatch(), in order of arrival.
   void post(std::function<void()> work);
 
+  /// While it is deaf all samples that arrive are lost, as they are to a process that is stopped for long. Posted work
+  /// is not.
+  void set_deaf(bool deaf);
+
   /// Counts a sample that was no message of its topic's type (typed.hpp); tells of the first one on each topic.
   /// Inside dispatch(), or on its thread.
   void note_malformed(const std::string& topic, const Sample& sample);

@@ -16,6 +16,7 @@
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
+#include "cli/run/supervisor.hpp"
 #include "cli/run_command.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"

@@ -9,6 +9,7 @@
 #include "cli/fault_tests/report.hpp"
 #include "cli/run/environment.hpp"
 #include "cli/run/preflight.hpp"
+#include "cli/run/supervisor.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "cli/study/spec.hpp"
 #include "cli/test_counts.hpp"

@@ -38,9 +38,13 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   command->add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
   command->add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
   command->add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when");
-  command->add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
-      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
-      ->capture_default_str();
+  CLI::Option* dds = command->add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
+                         ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
+                         ->capture_default_str();
+  command
+      ->add_flag("--one-process", run.one_process,
+                 "All programs in one process, without DDS: the same result on one core, and sooner")
+      ->excludes(dds);
   command->add_option("--clock", run.clock, "lockstep, or realtime[:FACTOR]")
       ->check(CLI::Validator(check_clock, "CLOCK"))
       ->capture_default_str();
@@ -238,6 +242,18 @@ CLI::App* add_compare(CLI::App& app, StudyOptions& study) {
   return command;
 }
 
+/// What cannot be had without processes.
+void check_one_process(const RunOptions& run) {
+  if (!run.one_process) return;
+  const auto refuse = [](bool given, const std::string& option, const std::string& why) {
+    if (given) throw InputError(option + " needs processes: " + why + "; leave out --one-process");
+  };
+  refuse(run.debug_uav.has_value(), "--debug", "the program that you debug is one of its own");
+  refuse(run.secure, "--secure", "it keeps programs apart that cannot see each other's memory");
+  refuse(run.network.has_value(), "--network", "other hosts take part over DDS");
+  refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
+}
+
 }  // namespace
 
 Command parse_command_line(const std::vector<std::string>& arguments) {
@@ -282,7 +298,10 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
   }
   refuse_empty_values(app);
-  if (run_command->parsed()) return run;
+  if (run_command->parsed()) {
+    check_one_process(run);
+    return run;
+  }
   if (test_command->parsed()) return test;
   if (scene_command->parsed()) return scene;
   if (bench_command->parsed()) return bench;
@@ -300,7 +319,7 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
                                         run.scenario,
                                         "--planner=" + run.planner,
                                         "--seed=" + std::to_string(run.seed),
-                                        "--dds=" + run.dds,
+                                        run.one_process ? "--one-process" : "--dds=" + run.dds,
                                         "--clock=" + run.clock};
   const auto add = [&](const std::string& option, const auto& value, const auto& text) {
     if (value) arguments.push_back(option + "=" + text(*value));

@@ -25,6 +25,7 @@ struct RunOptions {
   std::string clock = "lockstep";               ///< "lockstep", "realtime" or "realtime:FACTOR"
   std::optional<std::filesystem::path> agent;   ///< program that flies in the place of uav_agent
   std::optional<std::string> debug_uav;
+  bool one_process = false;  ///< all programs in one process, without DDS
   bool native = false;
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
   std::optional<int> domain;

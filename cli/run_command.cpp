@@ -26,10 +26,15 @@ void check_before_flight(const FleetPlan& plan, const Console& console) {
              [&](const std::string& waiting) { console.err << waiting << std::endl; });
 }
 
-std::string start_line(const FleetPlan& plan, const DomainBlock& domains, const std::filesystem::path& out) {
+/// @param domains  none: all in one process.
+std::string start_line(const FleetPlan& plan, const std::optional<DomainBlock>& domains,
+                       const std::filesystem::path& out) {
+  const std::string place =
+      domains ? "DDS domains " + std::to_string(domains->base()) + ".." + std::to_string(domains->last())
+              : "in one process";
   return plan.scenario.name + ": " + std::to_string(plan.scenario.fleet.size()) + " UAVs, planner " +
-         plan.options.planner + ", seed " + std::to_string(plan.options.seed) + ", DDS domains " +
-         std::to_string(domains.base()) + ".." + std::to_string(domains.last()) + ", results in " + out.string();
+         plan.options.planner + ", seed " + std::to_string(plan.options.seed) + ", " + place + ", results in " +
+         out.string();
 }
 
 /// What became of the points; a run is not worth less because of an odd file.
@@ -50,12 +55,12 @@ bool write_result(const ResultsDir& out, const Json& result, std::ostream& err) 
 }
 
 /// What the user should know of his surroundings before the run.
-void warn_of_surroundings(const DomainBlock& domains, FleetRun& run) {
+void warn_of_surroundings(const std::optional<DomainBlock>& domains, FleetRun& run) {
   for (const std::string& warning : environment_warnings()) {
     run.view().message("warning: " + warning);
     run.facts().warnings.push_back(warning);
   }
-  if (domains.last() > kLastQuietDomain) {
+  if (domains && domains->last() > kLastQuietDomain) {
     run.facts().warnings.push_back("DDS domains above " + std::to_string(kLastQuietDomain) +
                                    " use ports that the system may give to other programs");
   }
@@ -91,7 +96,9 @@ int run_fleet(const RunOptions& options, const Console& console) {
       options.out.value_or(default_results_dir(plan.scenario.name, options.planner, options.seed));
   ResultsDir::check(dir, options.force);
   check_before_flight(plan, console);
-  const DomainBlock domains(options.domain, domain_count(plan));
+  std::optional<DomainBlock> domains;
+  if (!options.one_process) domains.emplace(options.domain, domain_count(plan));
+  const int base_domain = domains ? domains->base() : kFirstDomain;
   const ResultsDir out(dir, options.force);
 
   FleetRun run(plan, console.err, console.terminal);
@@ -99,13 +106,13 @@ int run_fleet(const RunOptions& options, const Console& console) {
   warn_of_surroundings(domains, run);
   std::optional<SecureRun> secure;
   if (options.secure) {
-    secure.emplace(plan, domains.base(), out.path());
+    secure.emplace(plan, base_domain, out.path());
     for (const std::string& warning : exposed_files(plan)) {
       run.view().message(warning);
       run.facts().warnings.push_back(warning);
     }
   }
-  run.fly(domains.base(), out.path(), secure ? secure->folders() : SecureFolders{});
+  run.fly(base_domain, out.path(), secure ? secure->folders() : SecureFolders{});
 
   const Reports reports = read_reports(out.path(), plan.scenario, run.reports());
   Json result = merge_result(run.facts(), plan.scenario, reports);

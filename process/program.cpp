@@ -113,23 +113,6 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
       ->group("Launcher");
 }
 
-void set_up_logging(const std::string& name, const std::string& level_option) {
-  std::string level = level_option;
-  const char* from_environment = std::getenv("SKEIN_LOG");
-  if (level.empty() && from_environment) level = from_environment;
-  if (level.empty()) level = "info";
-  static const std::vector<std::string> known = {"trace", "debug", "info", "warn", "error", "off"};
-  if (std::find(known.begin(), known.end(), level) == known.end()) {
-    throw InputError((level_option.empty() ? "SKEIN_LOG: '" : "--log-level: '") + level + "' is no level; " +
-                     suggestion(level, known));
-  }
-  auto logger = std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->set_pattern(log_lines::kPattern);
-  logger->set_level(spdlog::level::from_str(level));
-  logger->flush_on(spdlog::level::trace);
-  spdlog::set_default_logger(std::move(logger));
-}
-
 }  // namespace
 
 LoadOptions ProgramOptions::load_options() const {
@@ -153,8 +136,8 @@ void StopSignal::stop() {
   if (wake_) wake_();
 }
 
-int run_program(const std::string& name, int argc, const char* const* argv, const AddOptions& add_options,
-                const ProgramBody& body) {
+std::variant<ProgramOptions, int> parse_program(const std::string& name, int argc, const char* const* argv,
+                                                const AddOptions& add_options) {
   CLI::App app("Skein: " + name, name);
   ProgramOptions options;
   add_common_options(app, options);
@@ -166,11 +149,29 @@ int run_program(const std::string& name, int argc, const char* const* argv, cons
     std::cerr << name << ": " << error.what() << "\nRun '" << name << " --help' for the options.\n";
     return kExitBadInput;
   }
+  return options;
+}
+
+std::shared_ptr<spdlog::logger> make_log(const std::string& name, const std::string& level_option) {
+  std::string level = level_option;
+  const char* from_environment = std::getenv("SKEIN_LOG");
+  if (level.empty() && from_environment) level = from_environment;
+  if (level.empty()) level = "info";
+  static const std::vector<std::string> known = {"trace", "debug", "info", "warn", "error", "off"};
+  if (std::find(known.begin(), known.end(), level) == known.end()) {
+    throw InputError((level_option.empty() ? "SKEIN_LOG: '" : "--log-level: '") + level + "' is no level; " +
+                     suggestion(level, known));
+  }
+  auto logger = std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger->set_pattern(log_lines::kPattern);
+  logger->set_level(spdlog::level::from_str(level));
+  logger->flush_on(spdlog::level::trace);
+  return logger;
+}
+
+int guarded(const std::string& name, const std::function<int()>& work) {
   try {
-    set_up_logging(name, options.log_level);
-    StopSignal stop;
-    const SignalThread signals(stop);
-    return body(options, stop);
+    return work();
   } catch (const InputError& error) {
     std::cerr << name << ": " << error.what() << '\n';
     return kExitBadInput;
@@ -178,6 +179,19 @@ int run_program(const std::string& name, int argc, const char* const* argv, cons
     std::cerr << name << ": failed: " << error.what() << '\n';
     return kExitProcessFailed;
   }
+}
+
+int run_program(const std::string& name, int argc, const char* const* argv, const AddOptions& add_options,
+                const ProgramBody& body) {
+  const auto options = parse_program(name, argc, argv, add_options);
+  if (const int* code = std::get_if<int>(&options)) return *code;
+  return guarded(name, [&] {
+    const auto& parsed = std::get<ProgramOptions>(options);
+    spdlog::set_default_logger(make_log(name, parsed.log_level));
+    StopSignal stop;
+    const SignalThread signals(stop);
+    return body(parsed, stop);
+  });
 }
 
 }  // namespace skein

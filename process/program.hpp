@@ -14,16 +14,21 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <variant>
 
 #include "core/run_id.hpp"
 #include "core/scenario_reader.hpp"
 
 namespace CLI {
 class App;
+}
+namespace spdlog {
+class logger;
 }
 
 namespace skein {
@@ -96,5 +101,15 @@ using ProgramBody = std::function<int(const ProgramOptions&, StopSignal&)>;
 /// @returns the exit code: `body`'s, or one of the above.
 int run_program(const std::string& name, int argc, const char* const* argv, const AddOptions& add_options,
                 const ProgramBody& body);
+
+// The pieces of run_program(), for a process that is home to several programs (one_process/).
+
+/// The options, or the exit code after --help or a wrong command line, which is told on stderr.
+std::variant<ProgramOptions, int> parse_program(const std::string& name, int argc, const char* const* argv,
+                                                const AddOptions& add_options);
+/// A log that writes to stderr. @param level  empty: SKEIN_LOG, else info. @throws InputError for one that is none
+std::shared_ptr<spdlog::logger> make_log(const std::string& name, const std::string& level);
+/// Does it. @returns its exit code; when it throws, that of a failed program, after telling why on stderr.
+int guarded(const std::string& name, const std::function<int()>& work);
 
 }  // namespace skein

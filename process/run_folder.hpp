@@ -12,6 +12,9 @@ namespace programs {
 inline constexpr const char* kSimServer = "sim_server";
 inline constexpr const char* kCommRouter = "comm_router";
 inline constexpr const char* kStation = "station";
+/// Home to a whole fleet (one_process/); beside an agent's file there is such a program with its planners.
+inline constexpr const char* kOneProcess = "one_process";
+inline constexpr const char* kFleetSuffix = "_fleet";  ///< "uav_agent_fleet"
 /// Those that every fleet has one of, in the order in which they start.
 inline constexpr std::array kServers = {kSimServer, kCommRouter, kStation};
 inline constexpr const char* kAgent = "uav_agent";            ///< the file; running, it is "uav_agent-jurong"

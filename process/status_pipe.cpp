@@ -11,54 +11,59 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
+
+#include "process/shared_lines.hpp"
 
 namespace skein {
-namespace {
 
-std::string line_of(const nlohmann::json& message) {
-  // A stray byte that is not UTF-8 must not end a run.
-  return message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
-}
-
-}  // namespace
-
-StatusPipe::StatusPipe(int fd) : fd_(fd) {
-  if (fd_ < 0) return;
+StatusPipe::StatusPipe(int fd) : pipe_(std::make_shared<Pipe>(fd)) {
+  if (fd < 0) return;
   std::signal(SIGPIPE, SIG_IGN);
-  const int flags = ::fcntl(fd_, F_GETFL);
-  if (flags < 0 || ::fcntl(fd_, F_SETFL, flags | O_NONBLOCK) != 0) {
-    throw std::runtime_error("status pipe: file descriptor " + std::to_string(fd_) + " is not open");
+  const int flags = ::fcntl(fd, F_GETFL);
+  if (flags < 0 || ::fcntl(fd, F_SETFL, flags | O_NONBLOCK) != 0) {
+    throw std::runtime_error("status pipe: file descriptor " + std::to_string(fd) + " is not open");
   }
 }
 
+StatusPipe::StatusPipe(const StatusPipe& shared, std::string program)
+    : pipe_(shared.pipe_), program_(std::move(program)) {}
+
+std::string StatusPipe::line_of(const nlohmann::json& message) const {
+  // A stray byte that is not UTF-8 must not end a run.
+  return (program_.empty() ? message : shared_lines::said_by(program_, message))
+             .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+         '\n';
+}
+
 void StatusPipe::send(const nlohmann::json& message) {
-  if (fd_ < 0) return;
-  const std::lock_guard lock(mutex_);
-  if (!flush()) return;
-  unsent_ = line_of(message);
-  const std::size_t size = unsent_.size();
-  if (!flush() && unsent_.size() == size) unsent_.clear();  // nothing of it has left: drop it whole
+  if (!is_open()) return;
+  const std::lock_guard lock(pipe_->mutex);
+  if (!pipe_->flush()) return;
+  std::string& unsent = pipe_->unsent = line_of(message);
+  const std::size_t size = unsent.size();
+  if (!pipe_->flush() && unsent.size() == size) unsent.clear();  // nothing of it has left: drop it whole
 }
 
 void StatusPipe::send_surely(const nlohmann::json& message) {
-  if (fd_ < 0) return;
-  const std::lock_guard lock(mutex_);
-  unsent_ += line_of(message);
-  while (!flush()) {
-    pollfd waiting{fd_, POLLOUT, 0};
+  if (!is_open()) return;
+  const std::lock_guard lock(pipe_->mutex);
+  pipe_->unsent += line_of(message);
+  while (!pipe_->flush()) {
+    pollfd waiting{pipe_->fd, POLLOUT, 0};
     ::poll(&waiting, 1, -1);
   }
 }
 
-bool StatusPipe::flush() {
-  while (!unsent_.empty()) {
-    const ssize_t written = ::write(fd_, unsent_.data(), unsent_.size());
+bool StatusPipe::Pipe::flush() {
+  while (!unsent.empty()) {
+    const ssize_t written = ::write(fd, unsent.data(), unsent.size());
     if (written > 0) {
-      unsent_.erase(0, static_cast<std::size_t>(written));
+      unsent.erase(0, static_cast<std::size_t>(written));
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       return false;
     } else if (errno != EINTR) {
-      unsent_.clear();  // nobody listens any more
+      unsent.clear();  // nobody listens any more
     }
   }
   return true;

@@ -17,7 +17,9 @@ class StatusPipe {
  public:
   /// @param fd open for writing; negative: nothing is sent. Not closed by this. SIGPIPE is ignored from here on.
   explicit StatusPipe(int fd);
-  bool is_open() const { return fd_ >= 0; }
+  /// One of several programs in this process, which share a pipe: what it sends is wrapped (process/shared_lines.hpp).
+  StatusPipe(const StatusPipe& shared, std::string program);
+  bool is_open() const { return pipe_->fd >= 0; }
 
   /// Never waits: what does not fit because the reader is slow is dropped, always by whole lines. A reader that has
   /// gone is no error.
@@ -26,12 +28,19 @@ class StatusPipe {
   void send_surely(const nlohmann::json& message);
 
  private:
-  /// Writes what it can of `unsent_`; true when nothing is left.
-  bool flush();
+  struct Pipe {
+    /// Writes what it can of `unsent`; true when nothing is left.
+    bool flush();
 
-  const int fd_;
-  std::mutex mutex_;
-  std::string unsent_;  ///< rest of a line that the pipe took only in part
+    const int fd;
+    std::mutex mutex = {};
+    std::string unsent = {};  ///< rest of a line that the pipe took only in part
+  };
+
+  std::string line_of(const nlohmann::json& message) const;
+
+  const std::shared_ptr<Pipe> pipe_;
+  const std::string program_;  ///< empty: alone
 };
 
 /// Reads lines in a thread of its own and hands each, without its end, to a callback there.

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <map>
 #include <mutex>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "bus/wire.hpp"
@@ -12,8 +15,10 @@ namespace skein::bus {
 
 namespace {
 
+struct Channel;
+
 struct Endpoint {
-  int domain = 0;
+  Channel& channel;
   ParticipantId participant = 0;
   TopicSpec topic;
 };
@@ -27,10 +32,35 @@ struct WriterEnd : Endpoint {
   std::deque<std::vector<std::uint8_t>> latched;
 };
 
+template <class End>
+using Ends = std::vector<std::shared_ptr<End>>;
+
+/// All ends of one topic in one domain. Lists are replaced, not changed: who walks through one keeps it.
+struct Channel {
+  std::shared_ptr<const Ends<WriterEnd>> writers = std::make_shared<Ends<WriterEnd>>();
+  std::shared_ptr<const Ends<ReaderEnd>> readers = std::make_shared<Ends<ReaderEnd>>();
+};
+
+template <class End>
+void add_to(std::shared_ptr<const Ends<End>>& ends, const std::shared_ptr<End>& end) {
+  auto more = std::make_shared<Ends<End>>(*ends);
+  more->push_back(end);
+  ends = std::move(more);
+}
+
+/// @returns those that are out.
+template <class End, class Condition>
+Ends<End> remove_from(std::shared_ptr<const Ends<End>>& ends, Condition condition) {
+  Ends<End> out;
+  auto rest = std::make_shared<Ends<End>>();
+  for (const auto& end : *ends) (condition(*end) ? out : *rest).push_back(end);
+  if (!out.empty()) ends = std::move(rest);
+  return out;
+}
+
 /// What DDS asks for: same topic and type, and the writer offers at least what the reader requests.
 bool match(const WriterEnd& writer, const ReaderEnd& reader) {
-  return writer.domain == reader.domain && writer.participant != reader.participant &&
-         writer.topic.name == reader.topic.name && writer.topic.type == reader.topic.type &&
+  return writer.participant != reader.participant && writer.topic.type == reader.topic.type &&
          writer.topic.qos.reliable >= reader.topic.qos.reliable && writer.topic.qos.latched >= reader.topic.qos.latched;
 }
 
@@ -51,32 +81,49 @@ class Exchange {
     return participant_id(prefix);
   }
 
-  void add(const std::shared_ptr<WriterEnd>& writer) {
+  std::shared_ptr<WriterEnd> add_writer(int domain, ParticipantId participant, const TopicSpec& topic) {
     const std::scoped_lock lock(mutex_);
-    writers_.push_back(writer);
+    Channel& channel = channels_[{domain, topic.name}];
+    auto writer = std::make_shared<WriterEnd>(WriterEnd{{channel, participant, topic}, {}});
+    add_to(channel.writers, writer);
+    return writer;
   }
 
-  void add(const std::shared_ptr<ReaderEnd>& reader) {
+  std::shared_ptr<ReaderEnd> add_reader(int domain, ParticipantId participant, const TopicSpec& topic,
+                                        OnSample on_sample) {
     const std::scoped_lock lock(mutex_);
-    readers_.push_back(reader);
-    if (!reader->topic.qos.latched) return;
-    const auto writers = writers_;
-    for (const auto& writer : writers) {
+    Channel& channel = channels_[{domain, topic.name}];
+    auto reader = std::make_shared<ReaderEnd>(ReaderEnd{{channel, participant, topic}, std::move(on_sample)});
+    add_to(channel.readers, reader);
+    if (!topic.qos.latched) return reader;
+    const auto writers = channel.writers;
+    for (const auto& writer : *writers) {
       if (!match(*writer, *reader)) continue;
       const auto latched = writer->latched;
       for (const auto& payload : latched) deliver(*writer, *reader, payload);
     }
+    return reader;
   }
 
-  void remove(const std::shared_ptr<WriterEnd>& writer) {
+  void remove(const WriterEnd& writer) {
     const std::scoped_lock lock(mutex_);
-    std::erase(writers_, writer);
+    remove_from(writer.channel.writers, [&](const WriterEnd& end) { return &end == &writer; });
   }
 
-  void remove(const std::shared_ptr<ReaderEnd>& reader) {
+  void remove(ReaderEnd& reader) {
     const std::scoped_lock lock(mutex_);
-    std::erase(readers_, reader);
-    reader->alive = false;
+    remove_from(reader.channel.readers, [&](const ReaderEnd& end) { return &end == &reader; });
+    reader.alive = false;
+  }
+
+  /// All ends of these participants.
+  void remove(const std::set<ParticipantId>& participants) {
+    const std::scoped_lock lock(mutex_);
+    const auto theirs = [&](const Endpoint& end) { return participants.contains(end.participant); };
+    for (auto& [key, channel] : channels_) {
+      remove_from(channel.writers, theirs);
+      for (const auto& reader : remove_from(channel.readers, theirs)) reader->alive = false;
+    }
   }
 
   void write(WriterEnd& writer, const std::vector<std::uint8_t>& payload) {
@@ -85,25 +132,34 @@ class Exchange {
       writer.latched.push_back(payload);
       if (writer.latched.size() > static_cast<std::size_t>(writer.topic.qos.depth)) writer.latched.pop_front();
     }
-    const auto readers = readers_;
-    for (const auto& reader : readers)
+    const auto readers = writer.channel.readers;
+    for (const auto& reader : *readers) {
       if (match(writer, *reader)) deliver(writer, *reader, payload);
+    }
   }
 
   std::vector<ParticipantId> readers_of(const WriterEnd& writer) {
     const std::scoped_lock lock(mutex_);
     std::vector<ParticipantId> ids;
-    for (const auto& reader : readers_)
+    for (const auto& reader : *writer.channel.readers) {
       if (match(writer, *reader)) ids.push_back(reader->participant);
+    }
     return ids;
   }
 
   std::vector<ParticipantId> writers_of(const ReaderEnd& reader) {
     const std::scoped_lock lock(mutex_);
     std::vector<ParticipantId> ids;
-    for (const auto& writer : writers_)
+    for (const auto& writer : *reader.channel.writers) {
       if (match(*writer, reader)) ids.push_back(writer->participant);
+    }
     return ids;
+  }
+
+  bool has_readers(const WriterEnd& writer) {
+    const std::scoped_lock lock(mutex_);
+    const Ends<ReaderEnd>& readers = *writer.channel.readers;
+    return std::any_of(readers.begin(), readers.end(), [&](const auto& reader) { return match(writer, *reader); });
   }
 
  private:
@@ -113,52 +169,51 @@ class Exchange {
 
   std::recursive_mutex mutex_;
   std::uint64_t participants_ = 0;
-  std::vector<std::shared_ptr<WriterEnd>> writers_;
-  std::vector<std::shared_ptr<ReaderEnd>> readers_;
+  std::map<std::pair<int, std::string>, Channel> channels_;  ///< by domain and topic
 };
 
 class InprocWriter : public Writer {
  public:
-  explicit InprocWriter(std::shared_ptr<WriterEnd> end) : end_(std::move(end)) { Exchange::instance().add(end_); }
-  ~InprocWriter() override { Exchange::instance().remove(end_); }
+  explicit InprocWriter(std::shared_ptr<WriterEnd> end) : end_(std::move(end)) {}
+  ~InprocWriter() override { Exchange::instance().remove(*end_); }
 
   void write(std::span<const std::uint8_t> payload) override { Exchange::instance().write(*end_, padded(payload)); }
   std::vector<ParticipantId> matched() const override { return Exchange::instance().readers_of(*end_); }
+  bool has_readers() const override { return Exchange::instance().has_readers(*end_); }
 
  private:
-  std::shared_ptr<WriterEnd> end_;
+  const std::shared_ptr<WriterEnd> end_;
 };
 
 class InprocReader : public Reader {
  public:
-  explicit InprocReader(std::shared_ptr<ReaderEnd> end) : end_(std::move(end)) { Exchange::instance().add(end_); }
-  ~InprocReader() override { Exchange::instance().remove(end_); }
+  explicit InprocReader(std::shared_ptr<ReaderEnd> end) : end_(std::move(end)) {}
+  ~InprocReader() override { Exchange::instance().remove(*end_); }
 
   std::vector<ParticipantId> matched() const override { return Exchange::instance().writers_of(*end_); }
 
  private:
-  std::shared_ptr<ReaderEnd> end_;
+  const std::shared_ptr<ReaderEnd> end_;
 };
 
 class InprocParticipant : public Participant {
  public:
-  InprocParticipant(int domain, std::shared_ptr<Unsent> unsent)
-      : Participant(std::move(unsent)), domain_(domain), id_(Exchange::instance().next_id()) {}
+  InprocParticipant(int domain, ParticipantId id, std::shared_ptr<Unsent> unsent)
+      : Participant(std::move(unsent)), domain_(domain), id_(id) {}
 
   ParticipantId id() const override { return id_; }
 
   std::unique_ptr<Writer> create_writer(const TopicSpec& topic) override {
-    return std::make_unique<InprocWriter>(std::make_shared<WriterEnd>(WriterEnd{{domain_, id_, topic}, {}}));
+    return std::make_unique<InprocWriter>(Exchange::instance().add_writer(domain_, id_, topic));
   }
 
   std::unique_ptr<Reader> create_reader(const TopicSpec& topic, OnSample on_sample) override {
-    return std::make_unique<InprocReader>(
-        std::make_shared<ReaderEnd>(ReaderEnd{{domain_, id_, topic}, std::move(on_sample)}));
+    return std::make_unique<InprocReader>(Exchange::instance().add_reader(domain_, id_, topic, std::move(on_sample)));
   }
 
  private:
-  int domain_;
-  ParticipantId id_;
+  const int domain_;
+  const ParticipantId id_;
 };
 
 class InprocBus : public Bus {
@@ -166,8 +221,14 @@ class InprocBus : public Bus {
   using Bus::Bus;
   std::unique_ptr<Participant> join(int domain) override {
     check_domain(domain);
-    return std::make_unique<InprocParticipant>(domain, unsent());
+    const ParticipantId id = Exchange::instance().next_id();
+    joined_.insert(id);
+    return std::make_unique<InprocParticipant>(domain, id, unsent());
   }
+  void vanish() override { Exchange::instance().remove(joined_); }
+
+ private:
+  std::set<ParticipantId> joined_;
 };
 
 }  // namespace

@@ -2,7 +2,16 @@
 // only one of a container, the SIGKILL and SIGSTOP that it raises: it does here what comes nearest to them.
 #pragma once
 
+#include <functional>
+
 namespace skein::bus {
+
+/// For a process that is home to several programs: what becomes of one of them instead. `kill` must not return.
+struct SelfSignals {
+  std::function<void()> kill, stop;
+};
+/// Before any program is at work. Empty ones: the process itself, as below.
+void set_self_signals(SelfSignals signals);
 
 /// SIGKILL; the first process of its namespace ends at once with the exit code that shells show for one.
 [[noreturn]] void kill_ourselves();

@@ -7,6 +7,7 @@
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
+#include "cli/run/supervisor.hpp"
 #include "process/reports.hpp"
 #include "process/run_folder.hpp"
 

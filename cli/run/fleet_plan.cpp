@@ -120,6 +120,21 @@ SecureFolder secure_folder(const SecureFolders& secure, const std::string& progr
   return found == secure.end() ? SecureFolder{} : found->second;
 }
 
+/// What flies as objects of one program must be linked with it.
+void check_one_process(const FleetPlan& plan) {
+  const auto refuse_command = [](const std::string& whose, const std::string& spec) {
+    if (!exec_command(spec)) return;
+    throw InputError("--planner " + whose + "=" + spec + " needs processes: it is a program of its own; leave out " +
+                     "--one-process");
+  };
+  for (const UavPlanner& planner : plan.planners) refuse_command(planner.uav, planner.spec);
+  if (plan.ground) refuse_command("gcs", *plan.ground);
+  if (!std::filesystem::exists(fleet_file(plan))) {
+    throw InputError("--one-process: there is no " + fleet_file(plan).string() +
+                     "; skein_add_agent() builds it beside " + "the agent (docs/how-to-add-a-planner.md)");
+  }
+}
+
 }  // namespace
 
 FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir) {
@@ -142,6 +157,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   plan.agent = own_agent(options.agent);
   plan.ground = ground_program(planners, agent_file(plan));
   if (options.debug_uav) plan.scenario.uav_index(*options.debug_uav);  // throws for an unknown name
+  if (options.one_process) check_one_process(plan);
   return plan;
 }
 
@@ -153,6 +169,8 @@ std::uint64_t draw_run_id() {
 }
 
 std::filesystem::path agent_file(const FleetPlan& plan) { return plan.agent.value_or(plan.bin_dir / programs::kAgent); }
+
+std::filesystem::path fleet_file(const FleetPlan& plan) { return agent_file(plan) += programs::kFleetSuffix; }
 
 std::filesystem::path program_dir() {
   const char* chosen = std::getenv("SKEIN_BIN_DIR");
@@ -173,7 +191,9 @@ std::map<std::string, std::string> dds_vendors(const FleetPlan& plan) {
   if (plan.ground) names.push_back(programs::kGroundAgent);
   std::map<std::string, std::string> vendors;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    vendors[names[i]] = plan.options.dds == "mixed" ? kVendors[i % kVendors.size()] : plan.options.dds;
+    vendors[names[i]] = plan.options.one_process      ? "inproc"
+                        : plan.options.dds == "mixed" ? kVendors[i % kVendors.size()]
+                                                      : plan.options.dds;
   }
   return vendors;
 }
@@ -211,6 +231,18 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
     program.minded = programs::is_agent(program.name) && (plan.agent || is_exec(plan, program.name));  // not ours
   }
   return programs;
+}
+
+ProgramSpec shared_process(const FleetPlan& plan, const std::filesystem::path& out) {
+  ProgramSpec process{
+      programs::kOneProcess,
+      {fleet_file(plan), "--status-fd", std::to_string(kStatusFd), "--control-fd", std::to_string(kControlFd)},
+      fleet_environment(plan.options.native, config_variable(plan)),
+      out / run_folder::log_file(programs::kOneProcess)};
+  if (plan.options.agent_timeout_s) append(process.argv, {"--agent-timeout", shortest(*plan.options.agent_timeout_s)});
+  process.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
+  process.minded = plan.agent.has_value();
+  return process;
 }
 
 std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,

@@ -9,7 +9,7 @@
 
 #include "cli/options.hpp"
 #include "cli/planner_spec.hpp"
-#include "cli/run/supervisor.hpp"
+#include "cli/run/program_host.hpp"
 #include "core/fault_plan.hpp"
 #include "core/scenario.hpp"
 
@@ -29,6 +29,9 @@ struct FleetPlan {
 
 /// The program that the UAVs' on-board software is.
 std::filesystem::path agent_file(const FleetPlan& plan);
+
+/// The program that is home to a whole fleet with those agents.
+std::filesystem::path fleet_file(const FleetPlan& plan);
 
 /// What a program of a secured fleet is given (cli/secure/security.hpp).
 struct SecureFolder {
@@ -60,6 +63,9 @@ std::map<std::string, std::string> dds_vendors(const FleetPlan& plan);
 /// @param secure  of all programs, or of none
 std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
                                         const SecureFolders& secure = {});
+
+/// The process that is home to all of them, under --one-process.
+ProgramSpec shared_process(const FleetPlan& plan, const std::filesystem::path& out);
 
 /// True when this program is a user's command (`--planner exec:CMD`) in the place of uav_agent.
 bool is_exec(const FleetPlan& plan, const std::string& program);

@@ -8,6 +8,8 @@
 #include <utility>
 #include <variant>
 
+#include "cli/run/shared_process.hpp"
+#include "cli/run/supervisor.hpp"
 #include "core/suggestion.hpp"
 #include "process/run_folder.hpp"
 
@@ -33,8 +35,7 @@ double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::
 
 }  // namespace
 
-FleetRun::FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal)
-    : plan_(plan), orders_(supervisor_), view_(out, terminal) {
+FleetRun::FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal) : plan_(plan), view_(out, terminal) {
   plan_.run = draw_run_id();
   facts_.scenario = plan.options.scenario;
   facts_.seed = plan.options.seed;
@@ -47,9 +48,16 @@ FleetRun::FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal)
 }
 
 void FleetRun::fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure) {
+  if (plan_.options.one_process) {
+    programs_[programs::kOneProcess] = shared_process(plan_, out);
+    host_ = std::make_unique<SharedProcess>(programs_[programs::kOneProcess]);
+  } else {
+    host_ = std::make_unique<Supervisor>();
+  }
+  orders_.emplace(*host_);
   for (const ProgramSpec& program : fleet_programs(plan_, base_domain, out, secure)) {
     programs_[program.name] = program;
-    supervisor_.start(program);
+    host_->start(program);
   }
   if (plan_.options.debug_uav) {
     view_.message("Start the agent of " + *plan_.options.debug_uav + " yourself; the fleet waits for it:\n\n  " +
@@ -62,13 +70,14 @@ void FleetRun::fly(int base_domain, const std::filesystem::path& out, const Secu
     const bool reported = reports_.contains(program) || std::filesystem::exists(out / run_folder::report_file(program));
     if (!reported && std::filesystem::exists(out / books)) settle(program);
   }
+  handle_all(host_->end_all(scaled(kGrace)));  // the process of them all
   view_.finish();
 }
 
 // ---- following the run ------------------------------------------------------------------------------------------
 
 void FleetRun::watch() {
-  while (!supervisor_.running().empty()) {
+  while (!host_->running().empty()) {
     milliseconds limit{-1};
     if (leave_by_) {
       limit = std::max(std::chrono::ceil<milliseconds>(*leave_by_ - Clock::now()), milliseconds(0));
@@ -78,10 +87,10 @@ void FleetRun::watch() {
       }
     }
     const bool debugged_ended = debugged_ && debugged_->ended();  // before the news: it may end because the run has
-    handle_all(supervisor_.wait(orders_.limit(until_notice(limit))));
+    handle_all(host_->wait(orders_->limit(until_notice(limit))));
     if (debugged_ended) on_debugged_end();
     tell_waiting();
-    for (const std::string& program : orders_.take_returning()) bring_back(program);
+    for (const std::string& program : orders_->take_returning()) bring_back(program);
   }
 }
 
@@ -121,14 +130,14 @@ void FleetRun::on_cut_off(const Event& event) {
 
 void FleetRun::on_exit(const Event& event) {
   const bool of_server = event.program == programs::kSimServer;
-  ProcessUse& use = facts_.processes[event.program];
-  use.peak_memory_mb = std::max(use.peak_memory_mb, event.exit.peak_memory_mb);
-  if (!over_) use.cpu_s += event.exit.cpu_s - std::exchange(cpu_before_s_[event.program], 0.0);
-  if (orders_.on_exit(event.program, event.exit)) return;  // as it should
-  if (!event.exit.ok() && !ending_ && !left_as_asked(event.exit)) complain(event.program, event.exit.text());
+  note_end(event);
+  if (orders_->on_exit(event.program, event.exit)) return;  // as it should
+  if (!event.exit.ok() && !event.exit.dragged && !ending_ && !left_as_asked(event.exit)) {
+    complain(event.program, event.exit.text());
+  }
   if (of_server) {
-    facts_.out_by_fault = orders_.out();
-    orders_.end();
+    facts_.out_by_fault = orders_->out();
+    orders_->end();
   }
   if (of_server && !event.exit.ok()) {
     end_all();  // nobody is left to tell the others how the run goes on
@@ -148,7 +157,7 @@ void FleetRun::on_interrupt() {
   if (facts_.interrupted) return end_all();
   facts_.interrupted = true;
   view_.message("ending the run; press Ctrl-C again to end it at once");
-  supervisor_.send(programs::kSimServer, orders::text_of(orders::Stop{}));
+  host_->send(programs::kSimServer, orders::text_of(orders::Stop{}));
   if (!leave_by_) leave_by_ = Clock::now() + scaled(kStopTime);
 }
 
@@ -165,8 +174,8 @@ void FleetRun::on_debugged_end() {
 /// sim_server says whom the fleet waits for. We do where it says nothing: while it starts, while others leave.
 void FleetRun::tell_waiting() {
   const auto waited_s = silence_.due(Clock::now());
-  if (!waited_s || supervisor_.running().empty()) return;
-  const std::string whom = server_done_ ? joined(supervisor_.running()) + " to leave" : programs::kSimServer;
+  if (!waited_s || host_->running().empty()) return;
+  const std::string whom = server_done_ ? joined(host_->running()) + " to leave" : programs::kSimServer;
   view_.message(fmt::format("waiting for {} ({:.0f} s)", whom, *waited_s));
 }
 
@@ -199,10 +208,10 @@ void FleetRun::hear(const status::Order& order) {
   const std::string when = fmt::format("at {:.2f} s: ", order.time_s);
   if (order.order == What::kill || order.order == What::stop) {
     view_.message(when + "a fault " + name_of(order.order) + "s " + program);
-    orders_.take_out(program, order.order == What::kill, is_exec(plan_, program));
+    orders_->take_out(program, order.order == What::kill, is_exec(plan_, program));
   } else {
     view_.message(when + program + (order.order == What::start ? " is started again" : " goes on"));
-    orders_.let_back(program);
+    orders_->let_back(program);
   }
 }
 
@@ -218,11 +227,11 @@ void FleetRun::hear(const status::Ended& ended) {
 /// What was killed starts again, what was stopped goes on.
 void FleetRun::bring_back(const std::string& program) {
   const auto spec = programs_.find(program);
-  if (supervisor_.running(program) || spec == programs_.end()) return supervisor_.signal(program, SIGCONT);
+  if (host_->running(program) || spec == programs_.end()) return host_->signal(program, SIGCONT);
   spec->second.append_log = true;
   std::ofstream(spec->second.log, std::ios::app) << "[skein] a fault killed this program; here it starts again\n";
   try {
-    supervisor_.start(spec->second);
+    host_->start(spec->second);
   } catch (const std::exception& error) {  // the run has a result all the same
     complain(program, std::string("it cannot be started again: ") + error.what());
     tell_lost(programs::member_name(program));
@@ -235,7 +244,7 @@ void FleetRun::settle(const std::string& program) {
   spec.argv.push_back("--settle");
   spec.append_log = true;
   try {
-    supervisor_.start(spec);
+    host_->start(spec);
   } catch (const std::exception& error) {
     return complain(program, std::string("its books cannot be settled: ") + error.what());
   }
@@ -245,16 +254,16 @@ void FleetRun::settle(const std::string& program) {
     }
   };
   const Clock::time_point deadline = Clock::now() + kLeaveTime;
-  while (supervisor_.running(program) && Clock::now() < deadline) take_report(supervisor_.wait(kGrace));
-  take_report(supervisor_.end_all(kGrace));
+  while (host_->running(program) && Clock::now() < deadline) take_report(host_->wait(kGrace));
+  take_report(host_->end_all(kGrace));
 }
 
 void FleetRun::tell_lost(const std::string& member) {
-  supervisor_.send(programs::kSimServer, orders::text_of(orders::Lost{member}));
+  host_->send(programs::kSimServer, orders::text_of(orders::Lost{member}));
 }
 
 void FleetRun::end_stragglers() {
-  for (const std::string& program : supervisor_.running()) {
+  for (const std::string& program : host_->running()) {
     if (!is_exec(plan_, program) && !facts_.interrupted) complain(program, "not leaving after the run's end");
   }
   end_all();
@@ -263,7 +272,7 @@ void FleetRun::end_stragglers() {
 void FleetRun::end_all() {
   if (ending_) return;
   ending_ = true;
-  handle_all(supervisor_.end_all(scaled(kGrace)));
+  handle_all(host_->end_all(scaled(kGrace)));
 }
 
 /// Names a program that failed, with the end of its log.
@@ -296,7 +305,7 @@ milliseconds FleetRun::scaled(milliseconds time) const {
 }
 
 bool FleetRun::only_commands_run() const {
-  const std::vector<std::string> running = supervisor_.running();
+  const std::vector<std::string> running = host_->running();
   return std::all_of(running.begin(), running.end(), [&](const auto& program) { return is_exec(plan_, program); });
 }
 
@@ -306,16 +315,23 @@ bool FleetRun::only_commands_run() const {
 void FleetRun::on_first_step() {
   first_progress_ = Clock::now();
   facts_.startup_s = seconds_between(started_, *first_progress_);
-  for (const std::string& program : supervisor_.running()) cpu_before_s_[program] = supervisor_.cpu_s(program);
+  for (const std::string& process : host_->processes()) cpu_before_s_[process] = host_->cpu_s(process);
 }
 
 /// What the programs do from here on is leaving.
 void FleetRun::note_use() {
   over_ = true;
-  for (const std::string& program : supervisor_.running()) {
-    facts_.processes[program].cpu_s += supervisor_.cpu_s(program) - cpu_before_s_[program];
-    facts_.processes[program].memory_share_mb = supervisor_.memory_share_mb(program);
+  for (const std::string& process : host_->processes()) {
+    facts_.processes[process].cpu_s += host_->cpu_s(process) - cpu_before_s_[process];
+    facts_.processes[process].memory_share_mb = host_->memory_share_mb(process);
   }
+}
+
+void FleetRun::note_end(const Event& event) {
+  if (event.exit.shared) return;
+  ProcessUse& use = facts_.processes[event.program];
+  use.peak_memory_mb = std::max(use.peak_memory_mb, event.exit.peak_memory_mb);
+  if (!over_) use.cpu_s += event.exit.cpu_s - std::exchange(cpu_before_s_[event.program], 0.0);
 }
 
 }  // namespace skein::cli

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +14,9 @@
 #include "cli/run/debug_watch.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/process_orders.hpp"
+#include "cli/run/program_host.hpp"
 #include "cli/run/progress_view.hpp"
 #include "cli/run/result.hpp"
-#include "cli/run/supervisor.hpp"
 #include "core/wait_notice.hpp"
 #include "process/status_lines.hpp"
 
@@ -57,7 +58,7 @@ class FleetRun {
   void hear(const status::WaitingFor& wait);
   void hear(const status::Order& order);
   void hear(const status::Warning& warning) { view_.message("warning: " + warning.text); }
-  void hear(const status::Rejoined& rejoined) { orders_.returned(program_of(rejoined.member)); }
+  void hear(const status::Rejoined& rejoined) { orders_->returned(program_of(rejoined.member)); }
   void hear(const status::Ended& ended);
   void hear(const status::Report&) {}
 
@@ -78,17 +79,18 @@ class FleetRun {
   // What the programs take of the machine between the first step and the last.
   void on_first_step();
   void note_use();
+  void note_end(const Event& event);
 
   FleetPlan plan_;
-  Supervisor supervisor_;
-  ProcessOrders orders_;
+  std::unique_ptr<ProgramHost> host_;
+  std::optional<ProcessOrders> orders_;
   ProgressView view_;
   RunFacts facts_;
   std::map<std::string, ProgramSpec> programs_;
   std::map<std::string, Json> reports_;  ///< by program
   const Clock::time_point started_ = Clock::now();
   std::optional<Clock::time_point> first_progress_;
-  std::map<std::string, double> cpu_before_s_;  ///< of each program at the first step
+  std::map<std::string, double> cpu_before_s_;  ///< of each process at the first step
   std::optional<Clock::time_point> leave_by_;   ///< whoever runs then is ended
   std::optional<DebugWatch> debugged_;          ///< under --debug
   WaitNotice silence_{Clock::now()};            ///< since sim_server last said something

@@ -10,6 +10,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "cli/run/supervisor.hpp"
 #include "core/suggestion.hpp"
 #include "core/types.hpp"
 #include "core/wait_notice.hpp"

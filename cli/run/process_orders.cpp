@@ -12,7 +12,7 @@ constexpr std::chrono::milliseconds kStopPoll{5};
 
 void ProcessOrders::take_out(const std::string& program, bool kill, bool by_us) {
   programs_[program] = kill ? State::killed : State::stopped;
-  if (by_us) supervisor_.signal(program, kill ? SIGKILL : SIGSTOP);
+  if (by_us) host_.signal(program, kill ? SIGKILL : SIGSTOP);
 }
 
 void ProcessOrders::let_back(const std::string& program) {
@@ -25,8 +25,8 @@ void ProcessOrders::let_back(const std::string& program) {
 std::vector<std::string> ProcessOrders::take_returning() {
   std::vector<std::string> ready;
   for (auto& [program, state] : programs_) {
-    const bool can_start = state == State::to_restart && !supervisor_.running(program);
-    const bool can_go_on = state == State::to_continue && supervisor_.has_stopped(program);
+    const bool can_start = state == State::to_restart && !host_.running(program);
+    const bool can_go_on = state == State::to_continue && host_.has_stopped(program);
     if (!can_start && !can_go_on) continue;
     state = State::returning;
     ready.push_back(program);
@@ -54,7 +54,7 @@ bool ProcessOrders::on_exit(const std::string& program, const ExitStatus& exit) 
 void ProcessOrders::end() {
   for (auto& [program, state] : programs_) {
     state = State::ended;
-    supervisor_.signal(program, SIGKILL);
+    host_.signal(program, SIGKILL);
   }
 }
 

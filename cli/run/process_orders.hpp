@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "cli/run/supervisor.hpp"
+#include "cli/run/program_host.hpp"
 
 namespace skein::cli {
 
 class ProcessOrders {
  public:
-  /// @param supervisor  must outlive this.
-  explicit ProcessOrders(Supervisor& supervisor) : supervisor_(supervisor) {}
+  /// @param host  must outlive this.
+  explicit ProcessOrders(ProgramHost& host) : host_(host) {}
 
   /// The program is killed, or else stopped. @param by_us  it knows no orders: we do it.
   void take_out(const std::string& program, bool kill, bool by_us);
@@ -46,7 +46,7 @@ class ProcessOrders {
     ended         ///< killed by us at the run's end
   };
 
-  Supervisor& supervisor_;
+  ProgramHost& host_;
   std::map<std::string, State> programs_;
 };
 

@@ -5,6 +5,7 @@
 #include <csignal>
 
 #include "cli/run/environment.hpp"
+#include "cli/run/supervisor.hpp"
 #include "cli/testing/fake_programs.hpp"
 
 namespace skein::cli {

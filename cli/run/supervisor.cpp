@@ -27,6 +27,8 @@ namespace {
 constexpr std::size_t kStatusLook = 64 << 10;
 /// A report with the points of the largest scenes is shorter.
 constexpr std::size_t kLongestStatusLine = 16 << 20;
+/// A program that does not read what it is told is not told it.
+constexpr int kSendPatience_ms = 2000;
 constexpr std::size_t kLogTail = 64 << 10, kLongestLogLine = 1000;
 
 /// Whoever starts us with nohup wants us to live on without the terminal.
@@ -185,7 +187,19 @@ void Supervisor::send(const std::string& program, const std::string& line) {
   const auto found = children_.find(program);
   if (found == children_.end()) return;
   const std::string text = line + "\n";
-  [[maybe_unused]] const ssize_t written = ::write(found->second->control.get(), text.data(), text.size());
+  std::string_view left = text;
+  while (!left.empty()) {
+    const ssize_t written = ::write(found->second->control.get(), left.data(), left.size());
+    if (written > 0) left.remove_prefix(static_cast<std::size_t>(written));
+    if (written > 0 || errno == EINTR) continue;
+    pollfd waiting{found->second->control.get(), POLLOUT, 0};
+    if (errno != EAGAIN || ::poll(&waiting, 1, kSendPatience_ms) <= 0) return;
+  }
+}
+
+void Supervisor::hang_up(const std::string& program) {
+  const auto found = children_.find(program);
+  if (found != children_.end()) found->second->control.reset();
 }
 
 void Supervisor::signal(const std::string& program, int signal) {

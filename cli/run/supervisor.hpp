@@ -6,98 +6,40 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include <sys/types.h>
+#include "cli/run/program_host.hpp"
 
 namespace skein::cli {
 
-/// File descriptors under which a program finds its end of the two pipes: JSON lines to us, text lines from us.
-inline constexpr int kStatusFd = 3;
-inline constexpr int kControlFd = 4;
-
-struct UserId {
-  uid_t uid = 0;
-  gid_t gid = 0;
-};
-
-struct ProgramSpec {
-  std::string name;                            ///< unique; names the log file too
-  std::vector<std::string> argv;               ///< argv[0] is the path of the binary
-  std::vector<std::string> env;                ///< the whole environment, NAME=VALUE
-  std::filesystem::path log;                   ///< takes stdout and stderr; empty: they go where the launcher's go
-  bool append_log = false;                     ///< or overwritten
-  std::uint64_t most_status_bytes = 64 << 20;  ///< on the status pipe in all; who writes more is cut off
-  std::optional<UserId> user{};                ///< as whom it runs, in no other group; only root can choose
-  bool minded = false;                         ///< it may have children, which end with it wherever they went
-};
-
-struct ExitStatus {
-  int code = 0;
-  int signal = 0;               ///< 0 unless a signal ended it
-  double peak_memory_mb = 0.0;  ///< largest resident set, shared pages included
-  double cpu_s = 0.0;           ///< of all its threads, from its start to its end
-  bool ok() const { return code == 0 && signal == 0; }
-  /// "exit code 3" or "signal 11 (Segmentation fault)".
-  std::string text() const;
-};
-
-struct Event {
-  enum class Kind {
-    status_line,  ///< `program` wrote `line`
-    cut_off,      ///< `program` wrote too much on its status pipe, as `line` says: it is not listened to any more
-    exited,       ///< `program` ended with `exit`; its last status lines came before
-    interrupt     ///< the user or the system asked the launcher to end (SIGINT, SIGTERM, SIGHUP)
-  };
-  Kind kind = Kind::status_line;
-  std::string program;
-  std::string line;
-  ExitStatus exit;
-};
-
 /// From construction to destruction SIGINT, SIGTERM and SIGHUP (unless nohup had it ignored) become Event::interrupt,
 /// and SIGPIPE is ignored.
-class Supervisor {
+class Supervisor final : public ProgramHost {
  public:
   Supervisor();
   /// Kills whatever still runs.
-  ~Supervisor();
+  ~Supervisor() override;
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// Starts a program in a process group of its own, stdin closed, both pipes open.
-  /// @throws std::system_error when the log cannot be written or the binary cannot be started.
-  void start(const ProgramSpec& spec);
-
-  /// Waits until something happens, at most `limit`. @returns what happened, in order; empty after `limit`. What any
-  /// program wrote before another one ended comes before that end.
-  std::vector<Event> wait(std::chrono::milliseconds limit);
-
-  /// Writes one line to a program's control pipe; nothing happens when the program is gone or does not read.
-  void send(const std::string& program, const std::string& line);
-
-  /// Sends a signal to a program and its children; nothing happens when it is gone.
-  void signal(const std::string& program, int signal);
-  /// Whether a program has been stopped (SIGSTOP) since this was last true for it.
-  bool has_stopped(const std::string& program);
-
-  /// SIGTERM to all, SIGKILL to what is left after `grace` or at once when the user interrupts again.
-  /// @returns all events until the last program ended.
-  std::vector<Event> end_all(std::chrono::milliseconds grace);
-
-  bool running(const std::string& program) const { return children_.contains(program); }
-  /// CPU time of a running program so far, all threads [s]; 0 when it does not run.
-  double cpu_s(const std::string& program) const;
-  /// Its share of the memory that it uses now [MB]: pages that several programs share count in parts (PSS).
-  double memory_share_mb(const std::string& program) const;
-  /// Names of the programs that run, in the order of their names.
-  std::vector<std::string> running() const;
+  /// In a process group of its own, stdin closed, both pipes open.
+  void start(const ProgramSpec& spec) override;
+  std::vector<Event> wait(std::chrono::milliseconds limit) override;
+  void send(const std::string& program, const std::string& line) override;
+  /// There will be no more lines for it.
+  void hang_up(const std::string& program);
+  void signal(const std::string& program, int signal) override;
+  bool has_stopped(const std::string& program) override;
+  std::vector<Event> end_all(std::chrono::milliseconds grace) override;
+  std::vector<std::string> running() const override;
+  bool running(const std::string& program) const override { return children_.contains(program); }
+  std::vector<std::string> processes() const override { return running(); }
+  double cpu_s(const std::string& program) const override;
+  double memory_share_mb(const std::string& program) const override;
 
  private:
   struct Child;

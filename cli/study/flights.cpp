@@ -8,6 +8,7 @@
 
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
+#include "cli/run/supervisor.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "process/atomic_file.hpp"
 #include "process/run_folder.hpp"

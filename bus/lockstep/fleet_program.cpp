@@ -1,0 +1,32 @@
+#include "bus/lockstep/fleet_program.hpp"
+
+namespace skein::bus {
+namespace {
+
+int work(FleetMember& member, StopSignal& stop) {
+  std::optional<int> code;
+  while (!code) {
+    stop.on_stop([&member] { member.on_stop(); });
+    const NodeEnd end = run_node(member.node(), member.stops_at_once() ? &stop : nullptr);
+    stop.on_stop({});
+    code = member.ended(end);
+  }
+  return *code;
+}
+
+}  // namespace
+
+int run_fleet_program(FleetProgram& program, int argc, const char* const* argv) {
+  return run_program(
+      program.name(), argc, argv, [&](CLI::App& app) { program.add_options(app); },
+      [&](const ProgramOptions& options, StopSignal& stop) {
+        StatusPipe status(options.status_fd);
+        const auto prepared = program.prepare(options, status);
+        if (const int* code = std::get_if<int>(&prepared)) return *code;
+        FleetMember& member = *std::get<std::unique_ptr<FleetMember>>(prepared);
+        const ControlPipe control(options.control_fd, [&](const std::string& line) { member.obey(line); });
+        return work(member, stop);
+      });
+}
+
+}  // namespace skein::bus

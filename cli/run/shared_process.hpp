@@ -1,0 +1,41 @@
+// All programs of a fleet in one process (one_process/). What becomes of each of them is told as if it were a process.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cli/run/supervisor.hpp"
+
+namespace skein::cli {
+
+class SharedProcess final : public ProgramHost {
+ public:
+  /// @param process  that is home to them; starts with the first program.
+  explicit SharedProcess(ProgramSpec process) : process_(std::move(process)) {}
+
+  void start(const ProgramSpec& spec) override;
+  std::vector<Event> wait(std::chrono::milliseconds limit) override;
+  void send(const std::string& program, const std::string& line) override;
+  void signal(const std::string& program, int signal) override;
+  bool has_stopped(const std::string& program) override { return stopped_.erase(program) > 0; }
+  std::vector<Event> end_all(std::chrono::milliseconds grace) override;
+  std::vector<std::string> running() const override { return {running_.begin(), running_.end()}; }
+  bool running(const std::string& program) const override { return running_.contains(program); }
+  std::vector<std::string> processes() const override { return supervisor_.processes(); }
+  double cpu_s(const std::string& process) const override { return supervisor_.cpu_s(process); }
+  double memory_share_mb(const std::string& process) const override { return supervisor_.memory_share_mb(process); }
+
+ private:
+  std::vector<Event> translated(const std::vector<Event>& events);
+  void hear(const std::string& text, std::vector<Event>& events);
+  void on_death(const Event& event, std::vector<Event>& events);
+
+  ProgramSpec process_;
+  Supervisor supervisor_;
+  std::set<std::string> running_, stopped_;
+  bool explained_ = false;  ///< of a program that died badly, the process said so
+};
+
+}  // namespace skein::cli

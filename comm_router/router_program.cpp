@@ -1,0 +1,145 @@
+#include "comm_router/router_program.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <system_error>
+
+#include "bus/program_bus.hpp"
+#include "comm_router/router_node.hpp"
+#include "process/program_report.hpp"
+#include "process/reports.hpp"
+
+namespace skein::router {
+namespace {
+
+/// What a router knows beside its counts.
+struct Notes {
+  std::uint64_t malformed = 0, unheard = 0, unsent = 0;
+  std::vector<std::string> warnings = {};
+  std::vector<std::string> unwritten = {};  ///< files that the disk refused
+};
+
+RadioCounts radio_counts(const LinkCounts& counts) {
+  return {.sent = counts.sent,
+          .delivered = counts.delivered,
+          .dropped_no_los = counts.dropped_no_los,
+          .dropped_fault = counts.dropped_fault,
+          .dropped_overflow = counts.dropped_overflow,
+          .duplicated = counts.duplicated,
+          .sent_bytes = counts.sent_bytes,
+          .delivered_bytes = counts.delivered_bytes};
+}
+
+void write_report(const std::filesystem::path& folder, const Scenario& scenario, const LinkGate& gate,
+                  const Notes& notes, StatusPipe& status) {
+  RouterReport report{.total = radio_counts(gate.total()),
+                      .malformed = notes.malformed,
+                      .unheard = notes.unheard,
+                      .unsent = notes.unsent,
+                      .warnings = notes.warnings,
+                      .unwritten = notes.unwritten};
+  for (const Node from : gate.nodes()) {
+    for (const Node to : gate.nodes()) {
+      const LinkCounts& counts = gate.counts().at(from, to);
+      if (counts.sent == 0) continue;
+      report.per_link.push_back(
+          {.from = scenario.node_name(from), .to = scenario.node_name(to), .counts = radio_counts(counts)});
+    }
+  }
+  const std::filesystem::path file = folder / run_folder::report_file(programs::kCommRouter);
+  hand_in_report(json_of(report), file, status);
+}
+
+/// A router that died for good has left its counts: makes its report of them.
+int settle(const std::filesystem::path& folder, const std::filesystem::path& counts, const Scenario& scenario,
+           RunId run, StatusPipe& status) {
+  const std::vector<RadioRoute> no_routes;
+  const std::size_t nodes = scenario.fleet.size() + 1;
+  LinkGate gate(no_routes, nodes);
+  gate.restore(CountStore(counts, nodes, run).earlier_counts());
+  write_report(folder, scenario, gate, {}, status);
+  std::filesystem::remove(counts);
+  return kExitDone;
+}
+
+/// A router without counts on disk routes as well as any; it only forgets them when it is killed.
+void open_counts(std::optional<CountStore>& store, const std::filesystem::path& file, std::size_t nodes, RunId run,
+                 std::vector<std::string>& unwritten) try {
+  store.emplace(file, nodes, run);
+} catch (const std::system_error& error) {
+  spdlog::warn("{}; a router that is killed will not remember what it counted", error.what());
+  unwritten.push_back(error.what());
+}
+
+class RouterMember final : public bus::FleetMember {
+ public:
+  RouterMember(Scenario scenario, FaultPlan faults, const ProgramOptions& options, StatusPipe& status,
+               std::unique_ptr<bus::Bus> bus)
+      : scenario_(std::move(scenario)),
+        faults_(std::move(faults)),
+        options_(options),
+        counts_file_(options.out / run_folder::kCounts),
+        status_(status),
+        bus_(std::move(bus)) {
+    make_node();
+  }
+
+  bus::LockstepNode& node() override { return *node_; }
+  bus::Bus& bus() override { return *bus_; }
+
+  // Once more after a fault that stopped us: what waited in the router is lost, as after its death.
+  std::optional<int> ended(bus::NodeEnd end) override {
+    if (end == bus::NodeEnd::resumed) {
+      make_node();
+      return std::nullopt;
+    }
+    const int code = bus::exit_code(end, programs::kCommRouter);
+    unwritten_.insert(unwritten_.end(), node_->unwritten().begin(), node_->unwritten().end());
+    const Notes notes{node_->malformed(), node_->unheard(), node_->unsent(), node_->stranger_warnings(), unwritten_};
+    write_report(options_.out, scenario_, node_->gate(), notes, status_);
+    std::filesystem::remove(counts_file_);
+    return code;
+  }
+
+ private:
+  void make_node() {
+    node_.reset();
+    store_.reset();
+    unwritten_.clear();
+    open_counts(store_, counts_file_, scenario_.fleet.size() + 1, options_.run, unwritten_);
+    node_.emplace(scenario_, options_.seed, options_.domain, *bus_, faults_, options_.out);
+    if (store_) node_->keep_counts(*store_);
+  }
+
+  const Scenario scenario_;
+  const FaultPlan faults_;
+  const ProgramOptions options_;
+  const std::filesystem::path counts_file_;
+  StatusPipe& status_;
+  const std::unique_ptr<bus::Bus> bus_;
+  std::vector<std::string> unwritten_;
+  std::optional<CountStore> store_;
+  std::optional<RouterNode> node_;
+};
+
+}  // namespace
+
+void RouterProgram::add_options(CLI::App& app) {
+  app.add_flag("--settle", settle_only_, "Write the report of a router that died in this folder, then stop")
+      ->group("Launcher");
+}
+
+std::variant<int, std::unique_ptr<bus::FleetMember>> RouterProgram::prepare(const ProgramOptions& options,
+                                                                            StatusPipe& status) {
+  auto load = options.load_options();
+  load.needs_scene_files = false;
+  Scenario scenario = load_scenario(options.scenario, load);
+  FaultPlan faults = load_fault_plan(options.faults, scenario, options.seed);
+  if (settle_only_) return settle(options.out, options.out / run_folder::kCounts, scenario, options.run, status);
+  auto bus = bus::make_bus(options);
+  if (options.check_only) return kExitDone;
+  return std::make_unique<RouterMember>(std::move(scenario), std::move(faults), options, status, std::move(bus));
+}
+
+}  // namespace skein::router

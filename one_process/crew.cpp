@@ -1,0 +1,211 @@
+#include "one_process/crew.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <csignal>
+#include <iostream>
+#include <system_error>
+#include <utility>
+
+#include "bus/lockstep/self_signal.hpp"
+#include "one_process/death_notice.hpp"
+#include "one_process/program_output.hpp"
+#include "process/thread_cpu.hpp"
+
+namespace skein::one_process {
+namespace {
+
+// What a fault makes of a program in the middle of its turn. No std::exception: nobody but us catches them.
+struct Killed {};
+struct Paused {};
+
+std::vector<const char*> pointers_to(const std::vector<std::string>& texts) {
+  std::vector<const char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  return pointers;
+}
+
+}  // namespace
+
+struct Crew::Place {
+  Place(const shared_lines::Start& order, StatusPipe& pipe)
+      : name(order.program), output(order.log, order.append_log), notice(order.program), status(pipe, order.program) {}
+
+  const std::string name;
+  ProgramOutput output;
+  const DeathNotice notice;
+  StatusPipe status;
+  std::unique_ptr<bus::FleetProgram> program;
+  std::unique_ptr<bus::FleetMember> member;
+  bool started = false;    ///< its present node
+  bool paused = false;     ///< by a fault
+  bool continued = false;  ///< it is over: the program goes on where it stopped
+  bool stopped = false;    ///< it was asked to end
+  bool over = false;
+  double cpu_s = 0.0;
+};
+
+/// As long as it lives, this process is the one of that program.
+struct Crew::Turn {
+  Turn(Crew& crew, Place& place) : crew_(crew), place_(place) {
+    place.output.enter();
+    place.notice.enter();
+    begin_thread_cpu_share(place.cpu_s);
+    crew.current_ = &place;
+    ++crew.turns_;
+  }
+  ~Turn() {
+    ++crew_.turns_;
+    crew_.current_ = nullptr;
+    place_.cpu_s = thread_cpu_s();
+    DeathNotice::stand_down();
+  }
+
+  Crew& crew_;
+  Place& place_;
+};
+
+Crew::Crew(StatusPipe& pipe, MakeProgram make_program) : pipe_(pipe), make_program_(std::move(make_program)) {
+  bus::set_self_signals({.kill = [] { throw Killed{}; },
+                         .stop =
+                             [this] {
+                               if (!std::exchange(current_->continued, false)) throw Paused{};
+                             }});
+}
+
+Crew::~Crew() { bus::set_self_signals({}); }
+
+void Crew::obey(const shared_lines::Order& order) {
+  if (const auto* begins = std::get_if<shared_lines::Start>(&order)) return start(*begins);
+  if (const auto* told = std::get_if<shared_lines::Tell>(&order)) {
+    if (Place* place = find(told->program); place != nullptr && place->member) place->member->obey(told->line);
+  }
+  if (const auto* sent = std::get_if<shared_lines::Signal>(&order)) {
+    if (Place* place = find(sent->program)) signal(*place, sent->signal);
+  }
+}
+
+void Crew::start(const shared_lines::Start& order) try {
+  places_.push_back(std::make_unique<Place>(order, pipe_));
+  Place& place = *places_.back();
+  in_turn(place, [&]() -> std::optional<int> {
+    place.program = make_program_(place.name);
+    const auto argv = pointers_to(order.argv);
+    const auto options = parse_program(place.program->name(), static_cast<int>(argv.size()), argv.data(),
+                                       [&](CLI::App& app) { place.program->add_options(app); });
+    if (const int* code = std::get_if<int>(&options)) return *code;
+    const auto& parsed = std::get<ProgramOptions>(options);
+    place.output.set_log(place.program->name(), parsed.log_level);
+    auto prepared = place.program->prepare(parsed, place.status);
+    if (const int* code = std::get_if<int>(&prepared)) return *code;
+    place.member = std::move(std::get<std::unique_ptr<bus::FleetMember>>(prepared));
+    return std::nullopt;
+  });
+} catch (const std::system_error& error) {  // no log: where others would not start at all
+  spdlog::error("{} cannot be started: {}", order.program, error.what());
+  pipe_.send_surely(shared_lines::news_json(shared_lines::Ended{order.program, kExitProcessFailed, 0, false}));
+}
+
+bool Crew::round() {
+  bool any = false;
+  for (std::size_t i = 0; i < places_.size(); ++i) {  // whoever comes meanwhile is at the end
+    Place& place = *places_[i];
+    if (place.over || place.paused) continue;
+    bus::LockstepNode& node = place.member->node();
+    const bus::LockstepNode::Rest rest = node.rest();
+    const bool ready = node.inbox().ready(rest.rings);
+    if (!place.continued && place.started && !place.stopped && rest.until_rung && !ready) continue;
+    any = any || ready || !place.started || place.continued || place.stopped;
+    in_turn(place, [&] { return go_on(place); });
+  }
+  std::erase_if(places_, [](const auto& place) { return place->over; });
+  return any;
+}
+
+std::optional<int> Crew::go_on(Place& place) {
+  bus::FleetMember& member = *place.member;
+  if (std::exchange(place.stopped, false)) {
+    if (member.stops_at_once()) return member.ended(bus::NodeEnd::stopped);
+    member.on_stop();
+  }
+  bus::LockstepNode& node = member.node();
+  if (!std::exchange(place.started, true)) node.start();
+  if (!node.end()) {
+    const std::size_t rings = place.continued ? 0 : node.rest().rings;
+    node.turn(node.inbox().dispatch(std::chrono::milliseconds(0), rings));
+  }
+  if (!node.end()) return std::nullopt;
+  const std::optional<int> code = member.ended(*node.end());
+  place.started = code.has_value();
+  return code;
+}
+
+void Crew::in_turn(Place& place, const std::function<std::optional<int>()>& work) {
+  std::optional<int> code;
+  int signal = 0;
+  bool killed = false;
+  {
+    const Turn turn(*this, place);
+    try {
+      const int went = guarded(place.program ? place.program->name() : place.name, [&] {
+        code = work();
+        return kExitDone;
+      });
+      if (went != kExitDone) code = went;
+    } catch (const Killed&) {
+      killed = true;
+    } catch (const Paused&) {
+      place.paused = true;
+      place.member->node().inbox().set_deaf(true);
+      pipe_.send_surely(shared_lines::news_json(shared_lines::Stopped{place.name}));
+    } catch (...) {  // where nobody can say what it is, a process of its own would have aborted
+      std::cerr << place.name << ": failed: an exception that is no std::exception" << std::endl;
+      signal = SIGABRT;
+      code = kExitProcessFailed;
+    }
+    if (code) place.member.reset();  // says goodbye
+  }
+  if (killed) return kill(place);
+  if (code) end(place, signal == 0 ? *code : 0, signal);
+}
+
+void Crew::end(Place& place, int code, int signal) {
+  place.over = true;
+  pipe_.send_surely(shared_lines::news_json(shared_lines::Ended{place.name, code, signal, false}));
+}
+
+// Not destroyed: no destructor of its own or of its planner may say or write anything more. It is out of reach, and
+// kept for the memory checkers to see.
+void Crew::kill(Place& place) {
+  static auto& graveyard =
+      *new std::vector<std::pair<std::unique_ptr<bus::FleetProgram>, std::unique_ptr<bus::FleetMember>>>;
+  if (place.member) {
+    place.member->bus().vanish();
+    place.member->node().inbox().set_deaf(true);
+  }
+  graveyard.emplace_back(std::move(place.program), std::move(place.member));
+  end(place, 0, SIGKILL);
+}
+
+void Crew::signal(Place& place, int signal) {
+  if (place.over) return;
+  if (signal == SIGKILL) return kill(place);
+  if (signal == SIGTERM) place.stopped = true;
+  if (!place.paused) return;
+  place.paused = false;
+  place.continued = true;
+  place.member->node().inbox().set_deaf(false);
+}
+
+void Crew::stop() {
+  for (const auto& place : places_) signal(*place, SIGTERM);
+}
+
+Crew::Place* Crew::find(const std::string& program) {
+  const auto found = std::find_if(places_.begin(), places_.end(),
+                                  [&](const auto& place) { return place->name == program && !place->over; });
+  return found == places_.end() ? nullptr : found->get();
+}
+
+}  // namespace skein::one_process

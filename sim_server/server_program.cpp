@@ -1,0 +1,108 @@
+#include "sim_server/server_program.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+
+#include "bus/program_bus.hpp"
+#include "core/scenario_reader.hpp"
+#include "process/status_lines.hpp"
+#include "sim_server/scenes/scene_source.hpp"
+#include "sim_server/scenes/scene_warnings.hpp"
+#include "sim_server/sim_node.hpp"
+
+namespace skein::sim {
+namespace {
+
+std::optional<double> realtime_factor(const std::string& clock) {
+  if (clock == "lockstep") return std::nullopt;
+  const std::string realtime = "realtime";
+  if (clock == realtime) return 1.0;
+  if (clock.starts_with(realtime + ":")) {
+    char* end = nullptr;
+    const std::string text = clock.substr(realtime.size() + 1);
+    const double factor = std::strtod(text.c_str(), &end);
+    if (!text.empty() && *end == '\0' && factor > 0.0 && factor <= 1000.0) return factor;
+  }
+  throw InputError("--clock " + clock + ": it must be lockstep, realtime or realtime:FACTOR with a factor above 0");
+}
+
+class ServerMember final : public bus::FleetMember {
+ public:
+  ServerMember(std::unique_ptr<const Scenario> scenario, Scene scene, const SimNodeOptions& options,
+               std::unique_ptr<bus::Bus> bus, StatusPipe& status)
+      : scenario_(std::move(scenario)),
+        bus_(std::move(bus)),
+        node_(*scenario_, std::move(scene), options, *bus_, status) {}
+
+  bus::LockstepNode& node() override { return node_; }
+  bus::Bus& bus() override { return *bus_; }
+  std::optional<int> ended(bus::NodeEnd) override {
+    return node_.summary().status == RunStatus::aborted ? kExitInterrupted : kExitDone;
+  }
+
+  bool stops_at_once() const override { return false; }
+  void on_stop() override { node_.abort(); }
+  void obey(const std::string& line) override {
+    const std::optional<orders::Line> order = orders::read_line(line);
+    if (!order) {
+      spdlog::warn("unknown order: {}", line);
+    } else if (const auto* lost = std::get_if<orders::Lost>(&*order)) {
+      node_.report_lost(lost->member);
+    } else {
+      node_.request_stop();
+    }
+  }
+
+ private:
+  const std::unique_ptr<const Scenario> scenario_;
+  const std::unique_ptr<bus::Bus> bus_;
+  SimNode node_;
+};
+
+}  // namespace
+
+void ServerProgram::add_options(CLI::App& app) {
+  app.add_option("--clock", clock_, "lockstep, realtime or realtime:FACTOR");
+  app.add_option("--stop-at", stop_at_s_, "end at this simulated time [s]")->check(CLI::PositiveNumber);
+  app.add_option("--agent-timeout", agent_timeout_s_, "wall time to wait for a member [s], 0: for ever")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--ground-program", ground_program_, "wait for a program at the ground station before the start");
+  tasks_.add_options(app);
+}
+
+// Each member adds participants whose discovery the others pay for: on two cores a hundred UAVs take half a minute.
+double ServerProgram::startup_timeout_s(const Scenario& scenario) const {
+  constexpr double kPerUav_s = 2.0, kLeast_s = 20.0;  // however quick the members' answers must be
+  if (agent_timeout_s_ <= 0.0) return 0.0;            // for ever
+  return std::max(agent_timeout_s_, kLeast_s) + kPerUav_s * static_cast<double>(scenario.fleet.size());
+}
+
+std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(const ProgramOptions& options,
+                                                                            StatusPipe& status) {
+  if (!tasks_.golden.empty()) return tasks_.check_golden();
+  auto scenario = std::make_unique<const Scenario>(load_scenario(options.scenario, options.load_options()));
+  if (!tasks_.export_scene.empty()) return tasks_.write_scene(*scenario);
+  if (!tasks_.oracle.empty()) return tasks_.ask_oracle(*scenario);
+  const SimNodeOptions node_options{.base_domain = options.domain,
+                                    .out = options.out,
+                                    .seed = options.seed,
+                                    .realtime_factor = realtime_factor(clock_),
+                                    .stop_at_s = stop_at_s_,
+                                    .agent_timeout_s = agent_timeout_s_,
+                                    .startup_timeout_s = startup_timeout_s(*scenario),
+                                    .expect_gcs_program = ground_program_,
+                                    .faults = load_fault_plan(options.faults, *scenario, options.seed)};
+  Scene scene = load_scene(*scenario);
+  auto bus = bus::make_bus(options);
+  if (options.check_only) {
+    for (const std::string& warning : scene_warnings(scene)) spdlog::warn("{}", warning);
+    Simulation(*scenario, std::move(scene), options.seed);  // starts must be free
+    return kExitDone;
+  }
+  return std::make_unique<ServerMember>(std::move(scenario), std::move(scene), node_options, std::move(bus), status);
+}
+
+}  // namespace skein::sim

@@ -1,0 +1,32 @@
+// sim_server as a program: it flies a run, or does one of the things that take its code and no fleet (server_tasks.hpp).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/lockstep/fleet_program.hpp"
+#include "process/run_folder.hpp"
+#include "sim_server/server_tasks.hpp"
+
+namespace skein::sim {
+
+class ServerProgram final : public bus::FleetProgram {
+ public:
+  const char* name() const override { return programs::kSimServer; }
+  void add_options(CLI::App& app) override;
+  std::variant<int, std::unique_ptr<bus::FleetMember>> prepare(const ProgramOptions& options,
+                                                               StatusPipe& status) override;
+
+ private:
+  double startup_timeout_s(const Scenario& scenario) const;
+
+  std::string clock_ = "lockstep";
+  std::optional<double> stop_at_s_;
+  double agent_timeout_s_ = 60.0;
+  bool ground_program_ = false;
+  ServerTasks tasks_;
+};
+
+}  // namespace skein::sim

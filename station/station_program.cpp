@@ -1,0 +1,67 @@
+#include "station/station_program.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "bus/program_bus.hpp"
+#include "core/scenario_reader.hpp"
+#include "station/settlement.hpp"
+#include "station/station_node.hpp"
+
+namespace skein::station {
+namespace {
+
+class StationMember final : public bus::FleetMember {
+ public:
+  StationMember(Scenario scenario, const ProgramOptions& options, StatusPipe& status, std::unique_ptr<bus::Bus> bus)
+      : scenario_(std::move(scenario)), options_(options), status_(status), bus_(std::move(bus)) {
+    make_node();
+  }
+
+  bus::LockstepNode& node() override { return *node_; }
+  bus::Bus& bus() override { return *bus_; }
+
+  // Once more after a fault that stopped us: the journal is our memory.
+  std::optional<int> ended(bus::NodeEnd end) override {
+    if (end == bus::NodeEnd::resumed) {
+      make_node();
+      return std::nullopt;
+    }
+    node_->write_report();
+    return bus::exit_code(end, programs::kStation);
+  }
+
+ private:
+  void make_node() {
+    node_.reset();
+    node_.emplace(scenario_, options_.domain, *bus_, options_.out, status_);
+  }
+
+  const Scenario scenario_;
+  const ProgramOptions options_;
+  StatusPipe& status_;
+  const std::unique_ptr<bus::Bus> bus_;
+  std::optional<StationNode> node_;
+};
+
+}  // namespace
+
+void StationProgram::add_options(CLI::App& app) {
+  app.add_flag("--settle", settle_only_, "Write the report of a station that died in this folder, then stop")
+      ->group("Launcher");
+}
+
+std::variant<int, std::unique_ptr<bus::FleetMember>> StationProgram::prepare(const ProgramOptions& options,
+                                                                             StatusPipe& status) {
+  auto load = options.load_options();
+  load.needs_scene_files = false;
+  Scenario scenario = load_scenario(options.scenario, load);
+  if (settle_only_) {
+    settle(options.out, scenario, options.run, status);
+    return kExitDone;
+  }
+  auto bus = bus::make_bus(options);
+  if (options.check_only) return kExitDone;
+  return std::make_unique<StationMember>(std::move(scenario), options, status, std::move(bus));
+}
+
+}  // namespace skein::station

@@ -1,0 +1,20 @@
+// The station as a program.
+#pragma once
+
+#include "bus/lockstep/fleet_program.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::station {
+
+class StationProgram final : public bus::FleetProgram {
+ public:
+  const char* name() const override { return programs::kStation; }
+  void add_options(CLI::App& app) override;
+  std::variant<int, std::unique_ptr<bus::FleetMember>> prepare(const ProgramOptions& options,
+                                                               StatusPipe& status) override;
+
+ private:
+  bool settle_only_ = false;
+};
+
+}  // namespace skein::station

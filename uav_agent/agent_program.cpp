@@ -1,0 +1,95 @@
+#include "uav_agent/agent_program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "bus/lockstep/names.hpp"
+#include "bus/program_bus.hpp"
+#include "core/scenario_reader.hpp"
+#include "process/program_report.hpp"
+#include "process/reports.hpp"
+#include "uav_agent/agent_node.hpp"
+#include "uav_agent/ground_node.hpp"
+
+namespace skein::agent {
+namespace {
+
+/// For the launcher and for people: which strategies there are, and which have a program at the ground station.
+int list_strategies() {
+  const StrategyList list{planner_names(), ground_program_names()};
+  std::cout << json_of(list).dump() << std::endl;
+  return kExitDone;
+}
+
+class AgentMember final : public bus::FleetMember {
+ public:
+  /// @param scenario, bus  that the node refers to.
+  AgentMember(const ProgramOptions& options, StatusPipe& status, std::unique_ptr<const Scenario> scenario,
+              std::unique_ptr<bus::Bus> bus, std::unique_ptr<MemberNode> node)
+      : out_(options.out),
+        status_(status),
+        scenario_(std::move(scenario)),
+        bus_(std::move(bus)),
+        node_(std::move(node)) {}
+
+  bus::LockstepNode& node() override { return *node_; }
+  bus::Bus& bus() override { return *bus_; }
+
+  std::optional<int> ended(bus::NodeEnd end) override {
+    const int code = bus::exit_code(end, node_->member());
+    const CpuHistogram& cpu = node_->planner_cpu();
+    const AgentReport report{.planner_cpu_s = cpu.total_s(),
+                             .planner_cpu_p99_ms = 1e3 * cpu.quantile_s(0.99),
+                             .planner_cpu_max_ms = 1e3 * cpu.max_s(),
+                             .planner_exchanges_over_50ms = cpu.over_field_exchange(),
+                             .malformed = node_->malformed(),
+                             .unsent = node_->unsent()};
+    hand_in_report(json_of(report), out_ / run_folder::report_file(programs::agent_program(node_->member())), status_);
+    return code;
+  }
+
+ private:
+  const std::filesystem::path out_;
+  StatusPipe& status_;
+  const std::unique_ptr<const Scenario> scenario_;
+  const std::unique_ptr<bus::Bus> bus_;
+  const std::unique_ptr<MemberNode> node_;
+};
+
+}  // namespace
+
+void AgentProgram::add_options(CLI::App& app) {
+  app.add_option("--role", role_, "uav, or gcs: the strategy's program at the ground station")
+      ->check(CLI::IsMember({"uav", "gcs"}))
+      ->capture_default_str();
+  app.add_option("--uav", uav_, "UAV whose software this is (default: the first of the fleet)");
+  app.add_option("--planner", planner_, "NAME or NAME:key=value,... or NAME:file.yaml");
+  app.add_flag("--list-planners", list_, "Print the strategies' names as JSON, then stop");
+}
+
+std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const ProgramOptions& options,
+                                                                           StatusPipe& status) {
+  if (list_) return list_strategies();
+  auto load = options.load_options();
+  load.needs_scene_files = false;
+  auto scenario = std::make_unique<const Scenario>(load_scenario(options.scenario, load));
+  const UavIndex uav = scenario->uav_index(uav_.empty() ? scenario->fleet.front().name : uav_);
+  std::unique_ptr<GroundProgram> ground;
+  std::unique_ptr<Planner> planner;
+  if (role_ == "gcs") {
+    ground = make_ground_program(planner_, ground_config(*scenario));
+  } else {
+    planner = make_planner(planner_, agent_config(*scenario, uav));
+  }
+  auto bus = bus::make_bus(options);
+  if (options.check_only) return kExitDone;
+  std::unique_ptr<MemberNode> node;
+  if (ground) {
+    node = std::make_unique<GroundNode>(*scenario, std::move(ground), options.domain, *bus);
+  } else {
+    node = std::make_unique<AgentNode>(*scenario, uav, std::move(planner), options.domain, *bus);
+  }
+  return std::make_unique<AgentMember>(options, status, std::move(scenario), std::move(bus), std::move(node));
+}
+
+}  // namespace skein::agent
