@@ -46,7 +46,7 @@ std::vector<FaultTest> load_all(const TestOptions& options) {
   std::string wrong;
   for (const fs::path& file : fault_test_files(*options.faults)) {
     try {
-      tests.push_back(load_fault_test(file, options.assets, options.agent));
+      tests.push_back(load_fault_test(file, options.assets, options.agent, options.one_process));
     } catch (const InputError& error) {
       wrong += (wrong.empty() ? "" : "\n") + std::string(error.what());
     }

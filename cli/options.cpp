@@ -80,15 +80,19 @@ CLI::App* add_test(CLI::App& app, TestOptions& test) {
   CLI::Option* faults =
       command->add_option("--faults", test.faults, "A fault test (YAML) or a folder of them, instead of the suite");
   command
-      ->add_option("--repeat", test.repeat,
-                   "Fly each fault test again and compare digests: again, cyclonedds, fastdds, mixed, chaos")
+      ->add_option(
+          "--repeat", test.repeat,
+          "Fly each fault test again and compare digests: again, cyclonedds, fastdds, mixed, chaos, one_process")
       ->delimiter(',')
-      ->check(CLI::IsMember({"again", "cyclonedds", "fastdds", "mixed", "chaos"}))
+      ->check(CLI::IsMember({"again", "cyclonedds", "fastdds", "mixed", "chaos", "one_process"}))
       ->needs(faults);
   command->add_flag("--rotate", test.rotate, "Only one of the repetitions a test, in turn")->needs("--repeat");
   command->add_option("--out", test.out, "Folder of the fault tests' results")->needs(faults)->capture_default_str();
   command->add_option("--assets", test.assets, "Folder with models/ for scenarios that read files")->needs(faults);
   command->add_option("--agent", test.agent, "Agent program with planners of your own, as for `skein run`")
+      ->needs(faults);
+  command
+      ->add_flag("--one-process", test.one_process, "Fly in one process, without DDS, what no repetition does over it")
       ->needs(faults);
   command->add_option("--seeds", test.seeds, "Fly each fault test with each of these seeds: 1-20 or 3,5,8")
       ->needs(faults);

@@ -46,6 +46,7 @@ struct TestOptions {
   std::filesystem::path out = "runs/faults";    ///< results of fault tests
   std::optional<std::filesystem::path> assets;
   std::optional<std::filesystem::path> agent;  ///< as in RunOptions
+  bool one_process = false;                    ///< as in RunOptions
   std::optional<std::string> seeds;            ///< each test with each of these, as StudyOptions has them
   std::optional<std::filesystem::path> junit;  ///< report of fault tests for those who read XML
   int jobs = 1;                                ///< flights at once

@@ -40,7 +40,7 @@ struct Crew::Place {
   std::unique_ptr<bus::FleetMember> member;
   bool started = false;    ///< its present node
   bool paused = false;     ///< by a fault
-  bool continued = false;  ///< it is over: the program goes on where it stopped
+  bool continued = false;  ///< it is over: the program is due a turn
   bool stopped = false;    ///< it was asked to end
   bool over = false;
   double cpu_s = 0.0;
@@ -52,12 +52,10 @@ struct Crew::Turn {
     place.output.enter();
     place.notice.enter();
     begin_thread_cpu_share(place.cpu_s);
-    crew.current_ = &place;
     ++crew.turns_;
   }
   ~Turn() {
     ++crew_.turns_;
-    crew_.current_ = nullptr;
     place_.cpu_s = thread_cpu_s();
     DeathNotice::stand_down();
   }
@@ -67,11 +65,7 @@ struct Crew::Turn {
 };
 
 Crew::Crew(StatusPipe& pipe, MakeProgram make_program) : pipe_(pipe), make_program_(std::move(make_program)) {
-  bus::set_self_signals({.kill = [] { throw Killed{}; },
-                         .stop =
-                             [this] {
-                               if (!std::exchange(current_->continued, false)) throw Paused{};
-                             }});
+  bus::set_self_signals({.kill = [] { throw Killed{}; }, .stop = [] { throw Paused{}; }});
 }
 
 Crew::~Crew() { bus::set_self_signals({}); }
@@ -132,8 +126,8 @@ std::optional<int> Crew::go_on(Place& place) {
   bus::LockstepNode& node = member.node();
   if (!std::exchange(place.started, true)) node.start();
   if (!node.end()) {
-    const std::size_t rings = place.continued ? 0 : node.rest().rings;
-    node.turn(node.inbox().dispatch(std::chrono::milliseconds(0), rings));
+    place.continued = false;
+    node.turn(node.inbox().dispatch(std::chrono::milliseconds(0)));
   }
   if (!node.end()) return std::nullopt;
   const std::optional<int> code = member.ended(*node.end());

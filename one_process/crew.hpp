@@ -55,7 +55,6 @@ class Crew {
   StatusPipe& pipe_;
   const MakeProgram make_program_;
   std::vector<std::unique_ptr<Place>> places_;
-  Place* current_ = nullptr;
   std::atomic<std::uint64_t> turns_ = 0;
 };
 

@@ -183,7 +183,10 @@ bool LockstepClient::router_matched() {
 LockstepClient::Event LockstepClient::poll() {
   if (phase_ == Phase::dropped) return Event::dropped;
   if (phase_ == Phase::ordered) {
-    obey_(order_);
+    phase_ = Phase::stopped;
+    obey_(order_);  // may throw to whoever gives us turns: then it is over when the next turn comes
+  }
+  if (phase_ == Phase::stopped) {
     phase_ = Phase::dropped;  // the fleet went on, and nobody kept for us what we missed
     return Event::resumed;
   }
@@ -248,6 +251,7 @@ std::string LockstepClient::waiting_for() const {
     case Phase::declared:
       return "the first step";
     case Phase::ordered:
+    case Phase::stopped:
     case Phase::dropped:
       return "nothing: dropped by sim_server";
     case Phase::member:

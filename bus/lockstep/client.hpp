@@ -106,7 +106,7 @@ class LockstepClient {
     bool registered = false;
     bool open = true;  ///< its counterpart is to match it
   };
-  enum class Phase { created, hello, matching, declared, member, ordered, dropped };
+  enum class Phase { created, hello, matching, declared, member, ordered, stopped, dropped };
 
   void on_resync(const msg::Resync& resync, ParticipantId source);
   void on_step(msg::Step& step, ParticipantId source);

@@ -6,7 +6,8 @@
 
 namespace skein::bus {
 
-/// For a process that is home to several programs: what becomes of one of them instead. `kill` must not return.
+/// For a process that is home to several programs: what becomes of one of them instead. Both throw: whoever gives the
+/// program its turns catches it, gives no more to one that is killed, and the next to one that stopped when it goes on.
 struct SelfSignals {
   std::function<void()> kill, stop;
 };

@@ -152,7 +152,7 @@ const std::vector<ExpectationKind>& expectation_kinds() {
                     "kept", judge_custody),
       kind<std::vector<Repeat>>("same_digest",
                                 "further runs with the same digest: `again`, `cyclonedds`, `fastdds`, "
-                                "`mixed`, `chaos`",
+                                "`mixed`, `chaos`, `one_process`",
                                 "[]", judge_same_digest),
   };
   return kinds;

@@ -111,7 +111,7 @@ std::string FaultTest::said_of(const std::string& key, const std::string& what) 
 bool is_fault_test(const ConfigNode& root) { return root.find("expect") != nullptr || root.find("run") != nullptr; }
 
 FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& assets,
-                          const std::optional<fs::path>& agent) {
+                          const std::optional<fs::path>& agent, bool one_process) {
   const fs::path path = fs::absolute(file);
   ConfigDocument document = read_config_document(file);
   ConfigErrors errors(document);
@@ -121,7 +121,8 @@ FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& a
   ConfigDocument without_faults = document;
   without_faults.root.remove("faults");
   TestFile content = read_config<TestFile>(without_faults);
-  const RunOptions options = run_options(content.run, path, assets, agent);
+  RunOptions options = run_options(content.run, path, assets, agent);
+  options.one_process = one_process;
   check_run(options, errors);
   FaultTest test{file.stem(), file, plan_fleet(options, program_dir()), std::move(content.expect), document};
   for (const Expectation& expectation : test.expect.all) {

@@ -31,11 +31,11 @@ struct FaultTest {
 /// True when a document is a fault test rather than a mere fault file.
 bool is_fault_test(const ConfigNode& root);
 
-/// @param assets  for scenarios that read files. @param agent  as `skein run --agent` takes it.
+/// @param assets  for scenarios that read files. @param agent, one_process  as `skein run` takes them.
 /// @throws InputError naming file, line, key and what would be right: also for what is wrong in the faults, the
 ///   scenario or the planner.
 FaultTest load_fault_test(const std::filesystem::path& file, const std::optional<std::filesystem::path>& assets = {},
-                          const std::optional<std::filesystem::path>& agent = {});
+                          const std::optional<std::filesystem::path>& agent = {}, bool one_process = false);
 
 /// The same test with another seed: it draws random links, and times that the file leaves open.
 FaultTest with_seed(FaultTest test, std::uint64_t seed);

@@ -1,5 +1,6 @@
 #include "cli/fault_tests/flights.hpp"
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -8,14 +9,33 @@ namespace {
 
 /// The repetitions that the command line asks for.
 std::vector<Repeat> asked_repeats(const TestOptions& options) {
-  if (options.long_tests) return {Repeat::again, Repeat::fastdds, Repeat::mixed, Repeat::chaos};
   std::vector<Repeat> repeats;
-  for (const std::string& word : options.repeat) {
-    for (const auto& entry : enum_names(Repeat{})) {
-      if (word == entry.name) repeats.push_back(entry.value);
-    }
+  for (const auto& entry : enum_names(Repeat{})) {
+    const bool named = std::ranges::find(options.repeat, entry.name) != options.repeat.end();
+    if (named || options.long_tests) repeats.push_back(entry.value);
   }
   return repeats;
+}
+
+/// The same flight, flown that way. @param number  of the test.
+FaultFlight repeated(FaultFlight flight, Repeat repeat, std::size_t number) {
+  switch (repeat) {
+    case Repeat::again:
+      break;
+    case Repeat::chaos:
+      flight.chaos = number;
+      break;
+    case Repeat::one_process:
+      flight.options.one_process = true;
+      break;
+    case Repeat::cyclonedds:
+    case Repeat::fastdds:
+    case Repeat::mixed:
+      flight.options.one_process = false;
+      flight.options.dds = name_of(repeat);
+      break;
+  }
+  return flight;
 }
 
 class Planning {
@@ -31,10 +51,7 @@ class Planning {
     for (const Repeat repeat : repeats_of(test, index)) {
       const std::string how = name_of(repeat);
       if (repeats.contains(how)) continue;
-      FaultFlight flight{test.name + "-" + how, test.plan.options};
-      if (repeat == Repeat::chaos) flight.chaos = index + 1;
-      if (repeat != Repeat::chaos && repeat != Repeat::again) flight.options.dds = how;
-      repeats[how] = add_flight(std::move(flight));
+      repeats[how] = add_flight(repeated({test.name + "-" + how, test.plan.options}, repeat, index + 1));
     }
     flights.repeats.assign(repeats.begin(), repeats.end());
     planned_.tests.push_back(std::move(flights));

@@ -14,13 +14,14 @@
 namespace skein::cli {
 
 /// One more run of the same test, which must have the same digest.
-enum class Repeat { again, cyclonedds, fastdds, mixed, chaos };
-constexpr std::array<EnumName<Repeat>, 5> enum_names(Repeat) {
+enum class Repeat { again, cyclonedds, fastdds, mixed, chaos, one_process };
+constexpr std::array<EnumName<Repeat>, 6> enum_names(Repeat) {
   return {{{"again", Repeat::again},
            {"cyclonedds", Repeat::cyclonedds},
            {"fastdds", Repeat::fastdds},
            {"mixed", Repeat::mixed},
-           {"chaos", Repeat::chaos}}};
+           {"chaos", Repeat::chaos},
+           {"one_process", Repeat::one_process}}};
 }
 
 /// What a judge looks at.

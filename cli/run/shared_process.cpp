@@ -1,5 +1,7 @@
 #include "cli/run/shared_process.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -29,8 +31,18 @@ void SharedProcess::signal(const std::string& program, int signal) {
 }
 
 std::vector<Event> SharedProcess::end_all(std::chrono::milliseconds grace) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<Event> all;
+  const auto add = [&all](std::vector<Event> events) { std::ranges::move(events, std::back_inserter(all)); };
   supervisor_.hang_up(process_.name);
-  return translated(supervisor_.end_all(grace));
+  // Without programs it ends by itself.
+  for (const auto deadline = Clock::now() + grace; running_.empty() && supervisor_.running(process_.name);) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+    if (left.count() <= 0) break;
+    add(wait(left));
+  }
+  add(translated(supervisor_.end_all(grace)));
+  return all;
 }
 
 std::vector<Event> SharedProcess::translated(const std::vector<Event>& events) {
