@@ -61,6 +61,73 @@ TEST_F(RunCommand, AnAgentOfOnesOwnFliesInThePlaceOfUavAgent) {
             std::string::npos);
 }
 
+TEST_F(RunCommand, EachPlannerFliesInTheAgentThatItNames) {
+  const auto team = [&](const std::string& name) {
+    write_script(programs_.dir() / name,
+                 "[ \"$1\" != --list-planners ] || "
+                 "{ echo '{\"planners\":[\"hover\"],\"ground_programs\":[\"hover\"]}'; exit; }\n" +
+                     std::string(kReadOptions) + "echo \"of " + name + " $planner $SKEIN_CONFIG_DIR.\"\n" + kMember);
+    return (programs_.dir() / name).string();
+  };
+  const std::string a = team("a"), b = team("b");
+  const auto said = [&](const std::string& member) {
+    return read_text(*options_.out / ("uav_agent-" + member + ".log"));
+  };
+  options_.planner = "hover:x=1@" + a + ",beta=hover@" + b;
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(result()["planner"], (Json{{"alpha", "hover:x=1@" + a}, {"beta", "hover@" + b}, {"gcs", "hover:x=1@" + a}}))
+      << "the ground station's is of the agent that flies who is not named";
+  EXPECT_FALSE(result().contains("agent"));
+  EXPECT_NE(said("alpha").find("of a hover:x=1 " SKEIN_SOURCE_DIR "/config."), std::string::npos) << said("alpha");
+  EXPECT_NE(said("beta").find("of b hover " SKEIN_SOURCE_DIR "/config."), std::string::npos) << said("beta");
+  EXPECT_NE(said("gcs").find("of a hover:x=1 "), std::string::npos) << said("gcs");
+
+  options_.force = true;
+  options_.agent = b;
+  options_.planner = "hover,alpha=hover@" + (programs_.dir() / "uav_agent").string() + ",gcs=hover@" + a;
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(result()["agent"], b);
+  EXPECT_EQ(
+      result()["planner"],
+      (Json{{"alpha", "hover@" + (programs_.dir() / "uav_agent").string()}, {"beta", "hover"}, {"gcs", "hover@" + a}}));
+  EXPECT_EQ(said("alpha").find("of "), std::string::npos) << "our own, though the fleet's is another";
+  EXPECT_NE(said("beta").find("of b "), std::string::npos);
+  EXPECT_NE(said("gcs").find("of a "), std::string::npos);
+
+  options_.agent.reset();
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(result()["planner"], (Json{{"alpha", "hover"}, {"beta", "hover"}, {"gcs", "hover@" + a}}))
+      << "the stock program is as good as none";
+}
+
+TEST_F(RunCommand, AnAgentThatAPlannerNamesIsCheckedLikeAnother) {
+  write_text(programs_.dir() / "text", "no program");
+  write_script(programs_.dir() / "other", "echo two of a kind\nexit 3\n");
+  write_script(programs_.dir() / "good",
+               "case \"$*\" in --list-planners) echo '{\"planners\":[],\"ground_programs\":[]}' ;;\n"
+               "*--check*) echo 'no such planner in good' >&2; exit 2 ;; esac\n");
+  const auto refused = [&](const std::string& planner, const std::vector<std::string>& parts) {
+    options_.planner = planner;
+    try {
+      run();
+      ADD_FAILURE() << planner << " flew";
+    } catch (const InputError& error) {
+      for (const std::string& part : parts) {
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << part << " in " << error.what();
+      }
+    }
+    EXPECT_FALSE(std::filesystem::exists(*options_.out));
+  };
+  const std::string dir = programs_.dir();
+  refused("hover@" + dir + "/missing", {"--planner hover@" + dir + "/missing: ", "no such file"});
+  refused("hover,beta=hover@" + dir + "/text", {"--planner hover@" + dir + "/text: ", "cannot be executed"});
+  refused("hover,gcs=hover@" + dir + "/other", {"skein_add_agent()", "exec:CMD", "two of a kind"});
+  refused("hover,beta=hover@" + dir + "/good", {"no such planner in good"});
+  refused("hover,gcs=hover@" + dir + "/good", {"no such planner in good"});
+  refused("waypoints:a@b.yaml", {"no such file", "write waypoints:a@b.yaml@" + dir + "/uav_agent"});
+  refused("hover@", {"--planner hover@: ", "such as hover@build/my_agent"});
+}
+
 TEST_F(RunCommand, WhatIsNoAgentIsRefusedBeforeTheStart) {
   write_text(programs_.dir() / "text", "no program");
   write_script(programs_.dir() / "other", "exit 0\n");

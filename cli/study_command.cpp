@@ -60,7 +60,7 @@ std::string range_text(const Spread& spread, int digits) {
 Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
   Study study{plan.options.contest,
               plan.options.rank,
-              plan.planners,
+              plan.labels,
               plan.scenarios,
               plan.seeds,
               {},

@@ -34,7 +34,8 @@ void remove_stale(const std::filesystem::path& dir) {
 }  // namespace
 
 std::filesystem::path default_results_dir(const std::string& scenario, const std::string& planner, std::uint64_t seed) {
-  return std::filesystem::path("runs") / (scenario + "-" + planner_label(planner) + "-" + std::to_string(seed));
+  return std::filesystem::path("runs") /
+         (scenario + "-" + planner_label(with_short_agents(planner, 1)) + "-" + std::to_string(seed));
 }
 
 void ResultsDir::check(const std::filesystem::path& dir, bool force) {

@@ -94,7 +94,7 @@ class StudyRun {
 
   std::string news_of(const StudyFlight& flight, const StudyOutcome& outcome) const {
     std::string news =
-        fmt::format("{}, {}, seed {}: ", plan_.scenarios[flight.scenario], plan_.planners[flight.planner], flight.seed);
+        fmt::format("{}, {}, seed {}: ", plan_.scenarios[flight.scenario], plan_.labels[flight.planner], flight.seed);
     if (outcome.result.is_object()) {
       const std::size_t collisions = value_or(outcome.result, "collisions", Json::array()).size();
       news += fmt::format("score {:.1f}, {} collision{}, x{:.1f} real time",

@@ -45,7 +45,9 @@ std::vector<std::string> planners_of(const StudyOptions& options) {
   }
   planners.insert(planners.end(), options.planners.begin(), options.planners.end());
   if (planners.empty()) throw InputError("which planners? Give them as --planners A,B");
-  refuse_doubles("planner", planners);
+  std::vector<std::string> whole;
+  for (const std::string& planner : planners) whole.push_back(with_short_agents(planner, kAllNames));
+  refuse_doubles("planner", whole);
   return planners;
 }
 
@@ -86,25 +88,33 @@ std::string programs_digest(const FleetPlan& plan) {
 /// Digests of agent programs, each read once.
 class AgentDigests {
  public:
+  /// Of all that fly a fleet; of one it is the program's own.
+  std::string of(const FleetPlan& plan) {
+    const std::vector<fs::path> agents = agent_files(plan);
+    if (agents.size() == 1) return of(agents.front());
+    Sha256 hash;
+    for (const fs::path& agent : agents) hash.add(of(agent));
+    return hash.hex();
+  }
+
+ private:
   const std::string& of(const fs::path& agent) {
     std::string& digest = digests_[agent];
     if (digest.empty()) digest = Sha256().add(read_file_bytes(agent, kLargestFile)).hex();
     return digest;
   }
 
- private:
   std::map<fs::path, std::string> digests_;
 };
 
-/// Whether uav_agent itself has all of a fleet's planners: then it flies them, and what they did does not fall due
-/// again when the user's own agent is built anew.
+/// Whether uav_agent itself has all planners of a fleet that name no agent: then it flies them, and what they did does
+/// not fall due again when the user's own agent is built anew.
 bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& built_in) {
-  const auto is_built_in = [&](const std::string& spec) {
-    return exec_command(spec) || std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;
+  const auto is_built_in = [&](const UavPlanner& planner) {
+    const std::string& spec = planner.spec;
+    return planner.agent || exec_command(spec) || std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;
   };
-  const auto& uavs = plan.planners;
-  return std::all_of(uavs.begin(), uavs.end(), [&](const UavPlanner& uav) { return is_built_in(uav.spec); }) &&
-         (!plan.ground || is_built_in(*plan.ground));
+  return std::ranges::all_of(plan.planners, is_built_in) && (!plan.ground || is_built_in(*plan.ground));
 }
 
 /// The file that a planner takes its parameters from, if any: "kios:mine.yaml,voxel_m=4".
@@ -124,7 +134,7 @@ std::string input_digest(const FleetPlan& plan) {
   if (scene.family.empty()) files.insert(files.end(), {scene.points, scene.boxes});
   std::vector<std::string> specs;
   for (const UavPlanner& planner : plan.planners) specs.push_back(planner.spec);
-  if (plan.ground) specs.push_back(*plan.ground);
+  if (plan.ground) specs.push_back(plan.ground->spec);
   for (const std::string& spec : specs) {
     if (const auto file = parameter_file(spec)) files.push_back(*file);
   }
@@ -191,11 +201,16 @@ std::string plain(const Json& value) {
 }  // namespace
 
 StudyPlan plan_study(const StudyOptions& options) {
-  StudyPlan plan{options, planners_of(options), scenarios_of(options), parse_seeds(options.seeds), {}, {}, {}, {}};
+  StudyPlan plan;
+  plan.options = options;
+  plan.planners = planners_of(options);
+  plan.labels = planner_labels(plan.planners);
+  plan.scenarios = scenarios_of(options);
+  plan.seeds = parse_seeds(options.seeds);
   plan.out = fs::absolute(options.out.value_or(fs::path("runs") / (options.contest ? "contest" : "compare")));
   std::vector<std::string> stems;
   for (const std::string& scenario : plan.scenarios) stems.push_back(fs::path(scenario).stem());
-  const std::vector<std::string> planner_folders = folder_names(plan.planners), scenario_folders = folder_names(stems);
+  const std::vector<std::string> planner_folders = folder_names(plan.labels), scenario_folders = folder_names(stems);
 
   std::string programs;
   std::vector<StudyFlight> of_one_seed;
@@ -213,7 +228,7 @@ StudyPlan plan_study(const StudyOptions& options) {
       check_with_programs(fleet, p == 0);
       if (programs.empty()) programs = programs_digest(fleet);
       const fs::path dir = plan.out / "flights" / scenario_folders[s] / planner_folders[p];
-      const std::string& agent = digests.of(agent_file(fleet));
+      const std::string agent = digests.of(fleet);
       const Json command = flight_command(fleet, programs, agent);
       of_one_seed.push_back({p, s, 0, dir, fleet.scenario.duration_s, fleet.options.agent, command});
       agents[plan.planners[p]] = agent;

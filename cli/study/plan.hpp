@@ -24,6 +24,7 @@ struct StudyFlight {
 struct StudyPlan {
   StudyOptions options;
   std::vector<std::string> planners;   ///< as `skein run --planner` takes them
+  std::vector<std::string> labels;     ///< what they are called: planner_labels()
   std::vector<std::string> scenarios;  ///< as `skein run` takes them
   std::vector<std::uint64_t> seeds;
   std::filesystem::path out;         ///< absolute

@@ -39,11 +39,9 @@ void append_range(std::uint64_t first, std::uint64_t last, const std::string& te
 std::vector<std::string> split_planners(const std::string& list) {
   std::vector<std::string> planners;
   for (const std::string& item : split(list)) {
-    const std::size_t equals = item.find('='), colon = item.find(':');
-    const bool is_parameter = equals != std::string::npos && equals < colon;
+    const bool is_parameter = key_end(item) != std::string::npos;
     if (is_parameter) {
-      const bool goes_on =
-          !planners.empty() && planners.back().find(':') != std::string::npos && !exec_command(planners.back());
+      const bool goes_on = !planners.empty() && has_parameters(planners.back()) && !exec_command(planners.back());
       if (!goes_on) {
         throw InputError("--planners " + list + ": '" + item +
                          "' is no planner; a planner's first parameter follows a " +
@@ -77,6 +75,21 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text) {
     throw InputError("--seeds " + text + ": a seed is named twice");
   }
   return seeds;
+}
+
+std::vector<std::string> planner_labels(const std::vector<std::string>& planners) {
+  std::vector<std::string> labels;
+  for (const std::string& planner : planners) {
+    const std::string whole = with_short_agents(planner, kAllNames);
+    for (std::size_t names = 1;; ++names) {
+      const std::string label = with_short_agents(planner, names);
+      const auto is_label = [&](const std::string& other) { return with_short_agents(other, names) == label; };
+      if (label != whole && std::ranges::count_if(planners, is_label) > 1) continue;
+      labels.push_back(label);
+      break;
+    }
+  }
+  return labels;
 }
 
 std::vector<std::string> folder_names(const std::vector<std::string>& texts) {

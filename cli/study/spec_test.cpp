@@ -59,6 +59,21 @@ TEST(StudySpec, WhatIsNoSeedIsRefused) {
   }
 }
 
+TEST(StudySpec, AgentsGoWithTheirPlanners) {
+  EXPECT_EQ(split_planners("kios@a/b,kios:x=1,y=2@c=d,kios"), (Texts{"kios@a/b", "kios:x=1,y=2@c=d", "kios"}));
+  EXPECT_THROW(split_planners("kios@a,x=1"), InputError);
+}
+
+TEST(StudySpec, PlannersAreCalledByAsLittleOfTheirAgentsAsTellsThem) {
+  EXPECT_EQ(planner_labels({"kios", "kios@x/a", "kios@x/b", "star@y/a"}),
+            (Texts{"kios", "kios@a", "kios@b", "star@a"}));
+  EXPECT_EQ(planner_labels({"kios@a/build/it", "kios@b/build/it", "kios@b/install/it", "star@c/it"}),
+            (Texts{"kios@a/build/it", "kios@b/build/it", "kios@install/it", "star@it"}));
+  EXPECT_EQ(planner_labels({"kios@/it", "kios@/a/it"}), (Texts{"kios@/it", "kios@a/it"}));
+  EXPECT_EQ(planner_labels({"exec:x @a/b", "exec:x @c/b"}), (Texts{"exec:x @a/b", "exec:x @c/b"}));
+  for (const Texts& alike : {Texts{"kios@/a", "kios@/a"}, {"kios", "kios"}}) EXPECT_EQ(planner_labels(alike), alike);
+}
+
 TEST(StudySpec, FoldersAreDistinctAndSafe) {
   const Texts names = folder_names({"kios", "kios:a=1", "kios_a_1", "kios:a:1", "../x", "kios_a_1-2"});
   EXPECT_EQ(names[0], "kios");
