@@ -27,7 +27,10 @@ void add_network(CLI::App& command, std::optional<std::string>& network) {
 CLI::App* add_run(CLI::App& app, RunOptions& run) {
   CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
   command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
-  command->add_option("--planner", run.planner, "NAME, or UAV=NAME,... for some UAVs; exec:CMD for a program of yours")
+  command
+      ->add_option(
+          "--planner", run.planner,
+          "NAME, or UAV=NAME,... for some UAVs; NAME@AGENT: of that agent program; exec:CMD: a program of yours")
       ->capture_default_str();
   command->add_option("--agent", run.agent,
                       "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
@@ -64,6 +67,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
       "  skein run cranes --planner patrol,jurong=hover --seed 7 --out runs/mine\n"
       "  skein run towers --planner kios --faults config/faults/station_outage.yaml\n"
       "  skein run towers --agent build/my_agent --planner orbit\n"
+      "  skein run towers --planner orbit@team_a/agent,jurong=kios@team_b/agent\n"
       "  skein run towers --planner hover,jurong=exec:./my_program");
   return command;
 }

@@ -45,16 +45,6 @@ UavPlanner read_planner(const std::string& text, const std::string& node, const 
   return {node, name, agent};
 }
 
-/// "AGENT" with no more than its last names.
-std::string short_path(const std::string& agent, std::size_t names) {
-  const std::filesystem::path whole = std::filesystem::absolute(agent).lexically_normal();
-  std::vector<std::filesystem::path> parts(whole.begin(), whole.end());
-  if (names >= parts.size()) return whole;
-  std::filesystem::path path;
-  for (auto part = parts.end() - static_cast<std::ptrdiff_t>(names); part != parts.end(); ++part) path /= *part;
-  return path;
-}
-
 }  // namespace
 
 std::optional<std::string> exec_command(const std::string& spec) {
@@ -118,17 +108,16 @@ std::size_t key_end(const std::string& item) {
   return end_of_key != std::string::npos && item[end_of_key] == '=' ? end_of_key : std::string::npos;
 }
 
-std::string with_short_agents(const std::string& text, std::size_t names) {
-  std::string shortened;
-  bool is_command = false;
-  for (const std::string& item : split(text)) {
-    is_command = is_command || item.starts_with(kExec) || item.find("=" + std::string(kExec)) != std::string::npos;
-    const std::size_t at = is_command ? std::string::npos : item.rfind(kAt);
-    const bool has_agent = at != std::string::npos && at + 1 < item.size();
-    if (!shortened.empty()) shortened += ',';
-    shortened += has_agent ? item.substr(0, at + 1) + short_path(item.substr(at + 1), names) : item;
+std::string with_agents_named(const std::string& text, const NameOfAgent& name_of) {
+  std::vector<std::string> items = split(text);
+  for (std::string& item : items) {
+    if (item.starts_with(kExec) || item.find("=" + std::string(kExec)) != std::string::npos) break;
+    const std::size_t path = item.rfind(kAt) + 1;
+    const bool has_agent = path != 0 && path < item.size();
+    if (has_agent)
+      item.replace(path, item.npos, name_of(std::filesystem::absolute(item.substr(path)).lexically_normal()));
   }
-  return shortened;
+  return joined(items, ",");
 }
 
 std::string planner_label(const std::string& text) {

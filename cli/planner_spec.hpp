@@ -3,7 +3,7 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,18 +48,15 @@ struct Planners {
 /// @throws InputError for an unknown UAV, an empty name, command or AGENT, or two planners for one UAV.
 Planners parse_planners(const std::string& text, const std::vector<std::string>& fleet);
 
-/// Of with_short_agents(): whole paths.
-inline constexpr std::size_t kAllNames = std::numeric_limits<std::size_t>::max();
-
 /// Whether a planner's text has parameters, so that a piece KEY=VALUE after a comma goes on with them.
 bool has_parameters(const std::string& spec);
 
 /// The '=' of a piece `KEY=...`, where it stands before any parameters and before an AGENT; else npos.
 std::size_t key_end(const std::string& item);
 
-/// The text with each AGENT's absolute path cut to its last `names` names: "kios@agent" of "kios@teams/a/agent", and
-/// with 2 "kios@a/agent". From a command on it stays as it is.
-std::string with_short_agents(const std::string& text, std::size_t names);
+/// The text with another name for each AGENT, given its absolute path. From a command on it stays as it is.
+using NameOfAgent = std::function<std::string(const std::filesystem::path& agent)>;
+std::string with_agents_named(const std::string& text, const NameOfAgent& name_of);
 
 /// The text made fit for a folder's name: letters, digits, '.', '_', '-' and '@' stay, all else becomes '_'; the first
 /// 100 characters.

@@ -94,14 +94,18 @@ TEST(PlannerSpec, ACommandKeepsItsAts) {
   EXPECT_FALSE(planners.uavs[2].agent) << "of the fleet's";
 }
 
-TEST(PlannerSpec, AgentsAreCalledByTheirLastNames) {
-  EXPECT_EQ(with_short_agents("kios", 1), "kios");
-  EXPECT_EQ(with_short_agents("kios@a/b/c", 1), "kios@c");
-  EXPECT_EQ(with_short_agents("kios@a/b/../c", 2), "kios@a/c");
-  EXPECT_EQ(with_short_agents("kios:x=1,y=2@a/b,jurong=hover@c/d", 1), "kios:x=1,y=2@b,jurong=hover@d");
-  EXPECT_EQ(with_short_agents("kios@/a/b", kAllNames), "kios@/a/b");
-  EXPECT_EQ(with_short_agents("kios@./a", kAllNames), "kios@" + (std::filesystem::current_path() / "a").string());
-  EXPECT_EQ(with_short_agents("hover@a/b,jurong=exec:x @a/b,c@d/e", 1), "hover@b,jurong=exec:x @a/b,c@d/e");
+TEST(PlannerSpec, AgentsMayBeCalledOtherwise) {
+  const auto short_of = [](const std::string& text) {
+    return with_agents_named(text, [](const std::filesystem::path& agent) { return agent.filename().string(); });
+  };
+  EXPECT_EQ(short_of("kios@a/b/c"), "kios@c");
+  EXPECT_EQ(short_of("kios:x=1,y=2@a/b,jurong=hover@c/../d"), "kios:x=1,y=2@b,jurong=hover@d");
+  EXPECT_EQ(short_of("hover@a/b,jurong=exec:x @a/b,c@d/e"), "hover@b,jurong=exec:x @a/b,c@d/e");
+  for (const char* text : {"kios", "kios:x=1,y=2,jurong=hover", "exec:a@b/c,,d", "kios@", ""}) {
+    EXPECT_EQ(short_of(text), text);
+  }
+  const auto whole = [](const std::filesystem::path& agent) { return agent.string(); };
+  EXPECT_EQ(with_agents_named("kios@./a", whole), "kios@" + (std::filesystem::current_path() / "a").string());
 }
 
 TEST(PlannerSpec, WrongTextIsRefused) {

@@ -163,7 +163,7 @@ TEST_F(StudyCommand, PlannersOfOneNameFromTwoAgentsMeet) {
   options_.seeds = "1";
   ASSERT_EQ(run(), kExitDone) << err_.str();
   EXPECT_EQ(flown(), "patrol 0\n" + a + " 0\n" + b + " 0\nalpha=" + a + ",beta=" + b + " 0\n");
-  for (const char* label : {",orbit@a/agent,", ",orbit@b/agent,", ",\"alpha=orbit@agent,beta=orbit@agent\","}) {
+  for (const char* label : {",orbit@a/agent,", ",orbit@b/agent,", ",\"alpha=orbit@a/agent,beta=orbit@b/agent\","}) {
     EXPECT_NE(file("flights.csv").find(label), std::string::npos) << label << " in " << file("flights.csv");
   }
   EXPECT_NE(file("report.html").find("<span>orbit@a/agent</span>"), std::string::npos);

@@ -15,8 +15,8 @@ namespace skein::cli {
 /// @throws InputError when there is no such program, or it is no agent.
 std::optional<std::filesystem::path> own_agent(const std::optional<std::filesystem::path>& chosen);
 
-/// Looks for the programs of NAME@AGENT, relative to the working directory, and makes their paths absolute. Of uav_agent
-/// none is left where it is the fleet's. @param own  the fleet's, where it is not uav_agent.
+/// Looks for the programs of NAME@AGENT, relative to the working directory, and makes their paths absolute. Of
+/// uav_agent none is left where it is the fleet's. @param own  the fleet's, where it is not uav_agent.
 /// @throws InputError when there is no such program, or it is no agent.
 void find_agents(Planners& planners, const std::optional<std::filesystem::path>& own);
 

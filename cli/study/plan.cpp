@@ -45,9 +45,10 @@ std::vector<std::string> planners_of(const StudyOptions& options) {
   }
   planners.insert(planners.end(), options.planners.begin(), options.planners.end());
   if (planners.empty()) throw InputError("which planners? Give them as --planners A,B");
-  std::vector<std::string> whole;
-  for (const std::string& planner : planners) whole.push_back(with_short_agents(planner, kAllNames));
-  refuse_doubles("planner", whole);
+  std::vector<std::string> with_whole_paths;
+  const auto whole = [](const fs::path& agent) { return agent.string(); };
+  for (const std::string& planner : planners) with_whole_paths.push_back(with_agents_named(planner, whole));
+  refuse_doubles("planner", with_whole_paths);
   return planners;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <set>
 
@@ -11,6 +12,8 @@
 
 namespace skein::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::size_t kMostSeeds = 1000;
 
@@ -32,6 +35,16 @@ void append_range(std::uint64_t first, std::uint64_t last, const std::string& te
     throw InputError("--seeds " + text + ": more than " + std::to_string(kMostSeeds) + " seeds");
   }
   for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
+}
+
+/// "a/agent" are the last two names of "/teams/a/agent".
+fs::path last_names(const fs::path& file, std::size_t names) {
+  fs::path last;
+  for (auto name = file.end(); name != file.begin() && names > 0; --names) {
+    --name;
+    last = last.empty() ? *name : *name / last;
+  }
+  return last;
 }
 
 }  // namespace
@@ -78,17 +91,17 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text) {
 }
 
 std::vector<std::string> planner_labels(const std::vector<std::string>& planners) {
+  std::set<fs::path> agents;
+  const auto note = [&](const fs::path& agent) { return *agents.insert(agent).first; };
+  for (const std::string& planner : planners) with_agents_named(planner, note);
+  const auto name_of = [&](const fs::path& agent) {
+    std::size_t names = 1;
+    const auto is_alike = [&](const fs::path& other) { return last_names(other, names) == last_names(agent, names); };
+    while (std::ranges::count_if(agents, is_alike) > 1) ++names;
+    return last_names(agent, names);
+  };
   std::vector<std::string> labels;
-  for (const std::string& planner : planners) {
-    const std::string whole = with_short_agents(planner, kAllNames);
-    for (std::size_t names = 1;; ++names) {
-      const std::string label = with_short_agents(planner, names);
-      const auto is_label = [&](const std::string& other) { return with_short_agents(other, names) == label; };
-      if (label != whole && std::ranges::count_if(planners, is_label) > 1) continue;
-      labels.push_back(label);
-      break;
-    }
-  }
+  for (const std::string& planner : planners) labels.push_back(with_agents_named(planner, name_of));
   return labels;
 }
 

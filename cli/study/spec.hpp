@@ -18,8 +18,7 @@ std::vector<std::string> split_planners(const std::string& list);
 std::vector<std::uint64_t> parse_seeds(const std::string& text);
 
 /// What a study calls its planners: as they are written, but of the path of each agent (NAME@AGENT) just the last
-/// names, no more than tell it from the others ("kios@agent"; "kios@a/agent" and "kios@b/agent").
-/// @param planners  no two alike, whichever way their agents' paths are written.
+/// names, no more than tell it from the other agents ("kios@agent"; "kios@a/agent" and "star@b/agent").
 std::vector<std::string> planner_labels(const std::vector<std::string>& planners);
 
 /// A folder's name for each text (planner_label), with "-2", "-3"... after those that came before.

@@ -64,14 +64,15 @@ TEST(StudySpec, AgentsGoWithTheirPlanners) {
   EXPECT_THROW(split_planners("kios@a,x=1"), InputError);
 }
 
-TEST(StudySpec, PlannersAreCalledByAsLittleOfTheirAgentsAsTellsThem) {
-  EXPECT_EQ(planner_labels({"kios", "kios@x/a", "kios@x/b", "star@y/a"}),
+TEST(StudySpec, AgentsAreCalledByAsLittleOfTheirPathsAsTellsThem) {
+  EXPECT_EQ(planner_labels({"kios", "kios@x/a", "kios@x/b", "star@x/a"}),
             (Texts{"kios", "kios@a", "kios@b", "star@a"}));
-  EXPECT_EQ(planner_labels({"kios@a/build/it", "kios@b/build/it", "kios@b/install/it", "star@c/it"}),
-            (Texts{"kios@a/build/it", "kios@b/build/it", "kios@install/it", "star@it"}));
+  EXPECT_EQ(planner_labels({"kios@a/build/it", "star:x=1@b/build/it", "kios@b/install/it", "star@c/one"}),
+            (Texts{"kios@a/build/it", "star:x=1@b/build/it", "kios@install/it", "star@one"}));
   EXPECT_EQ(planner_labels({"kios@/it", "kios@/a/it"}), (Texts{"kios@/it", "kios@a/it"}));
-  EXPECT_EQ(planner_labels({"exec:x @a/b", "exec:x @c/b"}), (Texts{"exec:x @a/b", "exec:x @c/b"}));
-  for (const Texts& alike : {Texts{"kios@/a", "kios@/a"}, {"kios", "kios"}}) EXPECT_EQ(planner_labels(alike), alike);
+  EXPECT_EQ(planner_labels({"a=kios@a/it,b=kios@b/it", "exec:x @a/b"}),
+            (Texts{"a=kios@a/it,b=kios@b/it", "exec:x @a/b"}));
+  EXPECT_EQ(planner_labels({"kios@/a", "kios@/b/../a", "kios"}), (Texts{"kios@a", "kios@a", "kios"})) << "the same";
 }
 
 TEST(StudySpec, FoldersAreDistinctAndSafe) {
