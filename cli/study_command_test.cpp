@@ -183,15 +183,18 @@ TEST_F(StudyCommand, AnAgentThatAPlannerNamesFliesItEvenWhatIsBuiltIn) {
   const auto mine = programs_.dir() / "mine";
   write_script(programs_.dir() / "uav_agent", agent_script("\"hover\", \"patrol\"", "stock"));
   write_script(mine, agent_script("\"hover\"", "mine"));
+  const auto other = programs_.dir() / "other";
+  write_script(other, agent_script("\"orbit\"", "other"));
   const std::string named = "hover@" + mine.string();
   options_.agent = mine;
   options_.planner_lists = {"hover," + named};
+  options_.planners = {"hover,beta=orbit@" + other.string()};
   options_.seeds = "1";
   ASSERT_EQ(run(), kExitDone) << err_.str();
   write_script(mine, agent_script("\"hover\"", "anew"));
   options_.force = true;
   ASSERT_EQ(run(), kExitDone) << err_.str();
-  EXPECT_EQ(flown(), named + " 0\n") << "the other flies in uav_agent";
+  EXPECT_EQ(flown(), named + " 0\n") << "the others fly in uav_agent, or in what is not mine";
 }
 
 TEST_F(StudyCommand, AChangedParameterFileMakesANewFlight) {
