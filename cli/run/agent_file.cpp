@@ -2,12 +2,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
+#include "core/suggestion.hpp"
 #include "process/reports.hpp"
 #include "process/run_folder.hpp"
 
@@ -54,6 +56,14 @@ std::string hint_for(const UavPlanner& planner) {
          written(planner) + "@" + stock_agent().string();
 }
 
+/// The agent itself would say so, but not which of them it is.
+void require_known(const UavPlanner& planner, const std::vector<std::string>& known) {
+  const std::string name = planner.spec.substr(0, planner.spec.find(':'));
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  throw InputError("--planner " + written(planner) + ": there is no planner '" + name + "' in it; " +
+                   suggestion(name, known));
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> own_agent(const std::optional<std::filesystem::path>& chosen) {
@@ -66,6 +76,7 @@ std::optional<std::filesystem::path> own_agent(const std::optional<std::filesyst
 
 void find_agents(Planners& planners, const std::optional<std::filesystem::path>& own) {
   std::map<std::filesystem::path, std::filesystem::path> found;
+  std::map<std::filesystem::path, StrategyList> strategies;
   const auto find = [&](UavPlanner& planner) {
     if (!planner.agent) return;
     const auto [program, is_new] = found.try_emplace(*planner.agent);
@@ -74,8 +85,15 @@ void find_agents(Planners& planners, const std::optional<std::filesystem::path>&
     const bool needs_none = planner.spec.find('@') == std::string::npos;  // for its text to read back
     if (!own && planner.agent == stock_agent() && needs_none) planner.agent.reset();
   };
+  const auto find_for_uav = [&](UavPlanner& planner) {
+    find(planner);
+    if (!planner.agent || planner.agent == stock_agent()) return;
+    const auto [list, is_new] = strategies.try_emplace(*planner.agent);
+    if (is_new) list->second = strategies_of(*planner.agent);
+    require_known(planner, list->second.planners);
+  };
   find(planners.fallback);
-  for (UavPlanner& planner : planners.uavs) find(planner);
+  for (UavPlanner& planner : planners.uavs) find_for_uav(planner);
   if (planners.ground) find(*planners.ground);
 }
 

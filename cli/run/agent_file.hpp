@@ -17,7 +17,7 @@ std::optional<std::filesystem::path> own_agent(const std::optional<std::filesyst
 
 /// Looks for the programs of NAME@AGENT, relative to the working directory, and makes their paths absolute. Of
 /// uav_agent none is left where it is the fleet's. @param own  the fleet's, where it is not uav_agent.
-/// @throws InputError when there is no such program, or it is no agent.
+/// @throws InputError when there is no such program, it is no agent, or does not know a UAV's planner.
 void find_agents(Planners& planners, const std::optional<std::filesystem::path>& own);
 
 /// Names of an agent program's strategies for UAVs, in their order.

@@ -12,9 +12,9 @@
 namespace skein::cli {
 namespace {
 
-/// An agent program that knows one planner, at the ground station too.
+/// An agent program that knows two planners, one of them at the ground station too.
 constexpr const char* kAgent =
-    "[ \"$1\" != --list-planners ] || echo '{\"planners\":[\"orbit\"],\"ground_programs\":[\"orbit\"]}'\n";
+    "[ \"$1\" != --list-planners ] || echo '{\"planners\":[\"hover\",\"orbit\"],\"ground_programs\":[\"orbit\"]}'\n";
 
 class AgentFile : public ::testing::Test {
  protected:
@@ -122,6 +122,8 @@ TEST_F(AgentFile, WhatIsNoAgentIsNamedWithWhatWouldBeRight) {
   refused("hover@" + file("missing"), {"--planner hover@" + file("missing") + ": ", "no such file"});
   refused("hover,beta=hover@" + file("text"), {"--planner hover@" + file("text") + ": ", "cannot be executed"});
   refused("hover,gcs=hover@" + file("other"), {"skein_add_agent()", "exec:CMD", "two of a kind"});
+  refused("hover,beta=orbits:x=1@" + agent("a"),
+          {"--planner orbits:x=1@" + file("a") + ": ", "there is no planner 'orbits'", "did you mean 'orbit'?"});
   refused("waypoints:a@b.yaml", {"no such file", "write waypoints:a@b.yaml@" + stock_});
 }
 

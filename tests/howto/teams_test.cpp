@@ -76,7 +76,8 @@ TEST_F(Teams, WhoIsNotThereIsNamed) {
       {"orbit:standoff_m=5@" + nobody + ",speed_mps=2", {"no such file", "the last '@'", "/uav_agent"}},
       {"hover,changi=orbit@" + text, {"--planner orbit@" + text, "cannot be executed"}},
       {"hover,gcs=orbit@/bin/true", {"--planner orbit@/bin/true", "skein_add_agent()"}},
-      {"probe@" + kOrbits, {"probe", "known are", "orbit"}},
+      {"patrol@" + kProbes + ",changi=probe@" + kOrbits, {"--planner probe@" + kOrbits, "known are", "orbit"}},
+      {"hover,gcs=hover@" + kOrbits, {"hover", "ground"}},
       {"orbit@" + kOrbits + ",changi=orbits@" + kOrbits, {"orbits", "did you mean 'orbit'"}},
       {"hover@", {"--planner hover@: ", "such as hover@build/my_agent"}},
       {"@" + kOrbits, {"a planner's name is missing"}}};
