@@ -27,7 +27,10 @@ void add_network(CLI::App& command, std::optional<std::string>& network) {
 CLI::App* add_run(CLI::App& app, RunOptions& run) {
   CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
   command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
-  command->add_option("--planner", run.planner, "NAME, or UAV=NAME,... for some UAVs; exec:CMD for a program of yours")
+  command
+      ->add_option(
+          "--planner", run.planner,
+          "NAME, or UAV=NAME,... for some UAVs; NAME@AGENT: of that agent program; exec:CMD: a program of yours")
       ->capture_default_str();
   command->add_option("--agent", run.agent,
                       "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
@@ -68,6 +71,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
       "  skein run cranes --planner patrol,jurong=hover --seed 7 --out runs/mine\n"
       "  skein run towers --planner kios --faults config/faults/station_outage.yaml\n"
       "  skein run towers --agent build/my_agent --planner orbit\n"
+      "  skein run towers --planner orbit@team_a/agent,jurong=kios@team_b/agent\n"
       "  skein run towers --planner hover,jurong=exec:./my_program");
   return command;
 }
@@ -201,20 +205,23 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
   command.add_option("--assets", study.assets, "Folder with models/ for scenarios that read files");
   command.add_option("--duration", study.duration_s, "Mission time [s], instead of the scenarios'")->check(seconds);
   command.add_option("--rules", study.rules, "Preset of rules, instead of the scenarios': contest, paper or reference");
-  command.add_option("--dds", study.dds, "DDS vendor: cyclonedds, fastdds or mixed")
-      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
-      ->capture_default_str();
+  command
+      .add_option("--dds", study.dds,
+                  "Fly as processes over this DDS vendor: cyclonedds, fastdds or mixed (default: each fleet in one "
+                  "process where it can; the results are the same)")
+      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}));
   add_network(command, study.network);
   command.add_option("--agent", study.agent, "Agent program with planners of your own, as for `skein run`");
   command.add_option("--out", study.out, "Folder of flights and report (default runs/" + command.get_name() + ")");
-  command.add_option("--jobs", study.jobs, "Flights at once; results do not depend on it")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+  command
+      .add_option("--jobs", study.jobs,
+                  "Flights at once; results do not depend on it (default: as many as cores, over DDS one)")
+      ->check(CLI::Range(1, 64));
   command.add_flag("--force", study.force, "Go on in a folder of other settings; flights that fit are kept");
   const bool contest = command.get_name() == "contest";
   command.footer(std::string("Example:\n  skein ") +
-                 (contest ? "contest --planners kios,xxh,star --tests 3 --jobs 2\n\n"
-                          : "compare --planners kios,patrol --scenarios towers,cranes --seeds 1-5 --jobs 2\n\n") +
+                 (contest ? "contest --planners kios,xxh,star --tests 3\n\n"
+                          : "compare --planners kios,patrol --scenarios towers,cranes --seeds 1-5\n\n") +
                  "The same command again goes on where it was stopped. docs/how-to-compare-planners.md has more.");
 }
 
@@ -254,7 +261,6 @@ void check_one_process(const RunOptions& run) {
   };
   refuse(run.debug_uav.has_value(), "--debug", "the program that you debug is one of its own");
   refuse(run.secure, "--secure", "it keeps programs apart that cannot see each other's memory");
-  refuse(run.network.has_value(), "--network", "other hosts take part over DDS");
   refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
 }
 

@@ -110,11 +110,11 @@ struct StudyOptions {
   std::optional<std::filesystem::path> assets;
   std::optional<double> duration_s;            ///< mission time, instead of the scenarios'
   std::optional<std::string> rules;            ///< a preset, instead of the scenarios'
-  std::string dds = "cyclonedds";              ///< a vendor or "mixed"
+  std::optional<std::string> dds;              ///< a vendor or "mixed"; else fleets fly in one process where they can
   std::optional<std::filesystem::path> agent;  ///< as in RunOptions
   std::optional<std::string> network;          ///< as in RunOptions
   std::optional<std::filesystem::path> out;
-  int jobs = 1;  ///< flights at once
+  std::optional<int> jobs;  ///< flights at once; else one, or in one process each as many as there are cores
   bool force = false;
 };
 

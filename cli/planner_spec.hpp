@@ -1,6 +1,9 @@
-// What the user wrote after --planner, taken apart: which planner flies which UAV, and what runs on the ground.
+// What the user wrote after --planner, taken apart: which planner flies which UAV, of which agent program, and what
+// runs on the ground.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,9 +11,14 @@
 namespace skein::cli {
 
 struct UavPlanner {
-  std::string uav;
+  std::string uav;   ///< or "gcs", the ground station
   std::string spec;  ///< "exec:CMD", or as uav_agent takes it: a name, with parameters if any ("hover:height_m=4")
+  /// The program of NAME@AGENT, as written, or absolute once it was found (find_agents()); nullopt: the fleet's.
+  std::optional<std::filesystem::path> agent = {};
 };
+
+/// As --planner takes it: NAME, NAME@AGENT or exec:CMD.
+std::string written(const UavPlanner& planner);
 
 /// CMD of "exec:CMD", a shell command that takes the place of uav_agent; nullopt for a planner of our own.
 std::optional<std::string> exec_command(const std::string& spec);
@@ -18,11 +26,14 @@ std::optional<std::string> exec_command(const std::string& spec);
 /// Flown by every UAV for which the user named none.
 inline constexpr const char* kDefaultPlanner = "patrol";
 
+/// In the place of a planner for `gcs`: nothing runs there.
+inline constexpr const char* kNoGround = "none";
+
 struct Planners {
   std::vector<UavPlanner> uavs;  ///< fleet order
   /// What the ground station runs, if the user said so: a strategy, "exec:CMD" or "none".
-  std::optional<std::string> ground;
-  std::string fallback;  ///< what flies the UAVs that were not named
+  std::optional<UavPlanner> ground;
+  UavPlanner fallback;  ///< what flies the UAVs that were not named
 };
 
 /// Reads `NAME`, `UAV=NAME,...` or both (`patrol,jurong=hover`: patrol for all but jurong). A comma after a planner
@@ -30,12 +41,25 @@ struct Planners {
 /// In place of NAME may stand `exec:CMD`. CMD goes on, commas and all, to the end of the text or to a comma that a
 /// UAV's name and '=' follow; so a planner for all others stands before it: `hover,jurong=exec:./mine --speed 3`.
 /// `gcs=NAME` names the program at the ground station.
+/// NAME, with its parameters if any, may be followed by `@AGENT`, the file of the agent program that knows it:
+/// `jurong=kios:voxel=4,reserve=2@team/agent`. The last '@' is the one: a parameter may hold others (then there must be
+/// an AGENT, the stock uav_agent if no other), the path of an AGENT none, and no comma.
 /// @param fleet names of all UAVs.
-/// @throws InputError for an unknown UAV, an empty name or command, or two planners for one UAV.
+/// @throws InputError for an unknown UAV, an empty name, command or AGENT, or two planners for one UAV.
 Planners parse_planners(const std::string& text, const std::vector<std::string>& fleet);
 
-/// The text made fit for a folder's name: letters, digits, '.', '_' and '-' stay, all else becomes '_'; the first 100
-/// characters.
+/// Whether a planner's text has parameters, so that a piece KEY=VALUE after a comma goes on with them.
+bool has_parameters(const std::string& spec);
+
+/// The '=' of a piece `KEY=...`, where it stands before any parameters and before an AGENT; else npos.
+std::size_t key_end(const std::string& item);
+
+/// The text with another name for each AGENT, given its absolute path. From a command on it stays as it is.
+using NameOfAgent = std::function<std::string(const std::filesystem::path& agent)>;
+std::string with_agents_named(const std::string& text, const NameOfAgent& name_of);
+
+/// The text made fit for a folder's name: letters, digits, '.', '_', '-' and '@' stay, all else becomes '_'; the first
+/// 100 characters.
 std::string planner_label(const std::string& text);
 
 }  // namespace skein::cli

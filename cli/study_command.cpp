@@ -60,15 +60,15 @@ std::string range_text(const Spread& spread, int digits) {
 Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
   Study study{plan.options.contest,
               plan.options.rank,
-              plan.planners,
+              plan.labels,
               plan.scenarios,
               plan.seeds,
               {},
               plan.command_line,
               plan.settings["skein_version"],
               Sha256().add(plan.settings["programs"].dump() + plan.settings["agents"].dump()).hex(),
-              plan.options.dds,
-              plan.options.jobs};
+              plan.medium,
+              plan.jobs};
   std::vector<std::string> conditions;
   if (plan.options.duration_s) conditions.push_back(fmt::format("missions of {} s", *plan.options.duration_s));
   if (plan.options.scene_seed) conditions.push_back(fmt::format("scene seed {}", *plan.options.scene_seed));

@@ -152,6 +152,51 @@ TEST_F(StudyCommand, AnAgentOfOnesOwnBuiltAnewFliesItsOwnPlannersAgainAndNoOther
   EXPECT_EQ(flown(), "hover 0\n");
 }
 
+TEST_F(StudyCommand, PlannersOfOneNameFromTwoAgentsMeet) {
+  for (const char* team : {"a", "b"}) {
+    std::filesystem::create_directory(programs_.dir() / team);
+    write_script(programs_.dir() / team / "agent", agent_script("\"orbit\"", team));
+  }
+  const std::string dir = programs_.dir(), a = "orbit@" + dir + "/a/agent", b = "orbit@" + dir + "/b/agent";
+  options_.planner_lists = {"patrol," + a + "," + b};
+  options_.planners = {"alpha=" + a + ",beta=" + b};
+  options_.seeds = "1";
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(flown(), "patrol 0\n" + a + " 0\n" + b + " 0\nalpha=" + a + ",beta=" + b + " 0\n");
+  for (const char* label : {",orbit@a/agent,", ",orbit@b/agent,", ",\"alpha=orbit@a/agent,beta=orbit@b/agent\","}) {
+    EXPECT_NE(file("flights.csv").find(label), std::string::npos) << label << " in " << file("flights.csv");
+  }
+  EXPECT_NE(file("report.html").find("<span>orbit@a/agent</span>"), std::string::npos);
+  EXPECT_NE(file("report.html").find("patrol," + a + "," + b), std::string::npos) << "the command can be repeated";
+  EXPECT_TRUE(std::filesystem::exists(*options_.out / "flights/small/orbit@a_agent/seed-0/result.json"));
+
+  write_script(programs_.dir() / "b/agent", agent_script("\"orbit\"", "anew"));
+  options_.force = true;
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(flown(), b + " 0\nalpha=" + a + ",beta=" + b + " 0\n") << "those that it flies";
+
+  options_.planner_lists.push_back("orbit@" + dir + "/b/../a/agent");
+  EXPECT_NE(refusal().find("'" + a + "' is named twice"), std::string::npos) << refusal();
+}
+
+TEST_F(StudyCommand, AnAgentThatAPlannerNamesFliesItEvenWhatIsBuiltIn) {
+  const auto mine = programs_.dir() / "mine";
+  write_script(programs_.dir() / "uav_agent", agent_script("\"hover\", \"patrol\"", "stock"));
+  write_script(mine, agent_script("\"hover\"", "mine"));
+  const auto other = programs_.dir() / "other";
+  write_script(other, agent_script("\"orbit\"", "other"));
+  const std::string named = "hover@" + mine.string();
+  options_.agent = mine;
+  options_.planner_lists = {"hover," + named};
+  options_.planners = {"hover,beta=orbit@" + other.string()};
+  options_.seeds = "1";
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  write_script(mine, agent_script("\"hover\"", "anew"));
+  options_.force = true;
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(flown(), named + " 0\n") << "the others fly in uav_agent, or in what is not mine";
+}
+
 TEST_F(StudyCommand, AChangedParameterFileMakesANewFlight) {
   const auto parameters = programs_.dir() / "mine.yaml";
   write_text(parameters, "a: 1\n");

@@ -11,6 +11,7 @@
 #include "bus/lockstep/self_signal.hpp"
 #include "one_process/death_notice.hpp"
 #include "one_process/program_output.hpp"
+#include "process/run_folder.hpp"
 #include "process/thread_cpu.hpp"
 
 namespace skein::one_process {
@@ -30,9 +31,14 @@ std::vector<const char*> pointers_to(const std::vector<std::string>& texts) {
 
 struct Crew::Place {
   Place(const shared_lines::Start& order, StatusPipe& pipe)
-      : name(order.program), output(order.log, order.append_log), notice(order.program), status(pipe, order.program) {}
+      : name(order.program),
+        counts_cpu(order.program == programs::kSimServer),
+        output(order.log, order.append_log),
+        notice(order.program),
+        status(pipe, order.program) {}
 
   const std::string name;
+  const bool counts_cpu;  ///< from one turn to another, as only the server does: asking for the time takes time
   ProgramOutput output;
   const DeathNotice notice;
   StatusPipe status;
@@ -51,12 +57,12 @@ struct Crew::Turn {
   Turn(Crew& crew, Place& place) : crew_(crew), place_(place) {
     place.output.enter();
     place.notice.enter();
-    begin_thread_cpu_share(place.cpu_s);
+    if (place.counts_cpu) begin_thread_cpu_share(place.cpu_s);
     ++crew.turns_;
   }
   ~Turn() {
     ++crew_.turns_;
-    place_.cpu_s = thread_cpu_s();
+    if (place_.counts_cpu) place_.cpu_s = thread_cpu_s();
     DeathNotice::stand_down();
   }
 

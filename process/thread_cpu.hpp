@@ -18,8 +18,8 @@ inline double total_s() {
 
 }  // namespace thread_cpu_detail
 
-/// CPU time of the calling thread [s], user and kernel; of a thread that is shared, the share of the program whose turn
-/// it is.
+/// CPU time of the calling thread [s], user and kernel. On a thread that several programs share, two of them tell the
+/// time between them within one turn; those of a program that begins its share with each turn, its own over all turns.
 inline double thread_cpu_s() { return thread_cpu_detail::total_s() - thread_cpu_detail::of_others_s; }
 
 /// From here on the calling thread works for a program that has cost it `so_far_s` before.

@@ -58,14 +58,23 @@ Arguments command_line(const FleetPlan& plan, const std::filesystem::path& binar
   return arguments;
 }
 
-const std::string& planner_of(const FleetPlan& plan, const std::string& program) {
+const UavPlanner& planner_of(const FleetPlan& plan, const std::string& program) {
   if (program == programs::kGroundAgent) return *plan.ground;
-  return plan.planners[plan.scenario.uav_index(programs::member_name(program))].spec;
+  return plan.planners[plan.scenario.uav_index(programs::member_name(program))];
+}
+
+std::filesystem::path fleets_agent(const FleetPlan& plan) {
+  return plan.agent.value_or(plan.bin_dir / programs::kAgent);
+}
+
+/// Whether it is an agent, and not our uav_agent.
+bool is_foreign(const FleetPlan& plan, const std::string& program) {
+  return programs::is_agent(program) && agent_file(plan, program) != plan.bin_dir / programs::kAgent;
 }
 
 /// An agent from elsewhere does not find the configuration beside it.
-std::map<std::string, std::string> config_variable(const FleetPlan& plan) {
-  if (!plan.agent) return {};
+std::map<std::string, std::string> config_variable(const FleetPlan& plan, const std::string& program) {
+  if (!is_foreign(plan, program)) return {};
   return {{"SKEIN_CONFIG_DIR", std::filesystem::absolute(default_config_dir())}};
 }
 
@@ -89,7 +98,7 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
 
 /// Whose software an agent is.
 Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
-  const Arguments planner = {"--planner", planner_of(plan, program)};
+  const Arguments planner = {"--planner", planner_of(plan, program).spec};
   Arguments arguments = {"--uav", programs::member_name(program)};
   if (program == programs::kGroundAgent) arguments = {"--role", "gcs"};
   append(arguments, planner);
@@ -99,12 +108,13 @@ Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
 /// @param program  of a server or an agent
 Arguments run_arguments(const FleetPlan& plan, const std::string& program, int base_domain,
                         const std::filesystem::path& out, const SecureFolder& secure) {
-  Arguments arguments = command_line(plan, programs::is_agent(program) ? agent_file(plan) : plan.bin_dir / program);
+  const bool is_agent = programs::is_agent(program);
+  Arguments arguments = command_line(plan, is_agent ? agent_file(plan, program) : plan.bin_dir / program);
   append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain), "--out",
                      secure.out.empty() ? out : secure.out});
   if (!secure.keys.empty()) append(arguments, {"--security", secure.keys});
   append(arguments, {"--lease", std::to_string(lease_s(plan)), "--run", std::to_string(plan.run)});
-  if (programs::is_agent(program)) append(arguments, role_arguments(plan, program));
+  if (is_agent) append(arguments, role_arguments(plan, program));
   if (program == programs::kSimServer) {
     append(arguments, {"--clock", plan.options.clock});
     if (plan.options.stop_at_s) append(arguments, {"--stop-at", shortest(*plan.options.stop_at_s)});
@@ -118,21 +128,6 @@ Arguments run_arguments(const FleetPlan& plan, const std::string& program, int b
 SecureFolder secure_folder(const SecureFolders& secure, const std::string& program) {
   const auto found = secure.find(program);
   return found == secure.end() ? SecureFolder{} : found->second;
-}
-
-/// What flies as objects of one program must be linked with it.
-void check_one_process(const FleetPlan& plan) {
-  const auto refuse_command = [](const std::string& whose, const std::string& spec) {
-    if (!exec_command(spec)) return;
-    throw InputError("--planner " + whose + "=" + spec + " needs processes: it is a program of its own; leave out " +
-                     "--one-process");
-  };
-  for (const UavPlanner& planner : plan.planners) refuse_command(planner.uav, planner.spec);
-  if (plan.ground) refuse_command("gcs", *plan.ground);
-  if (!std::filesystem::exists(fleet_file(plan))) {
-    throw InputError("--one-process: there is no " + fleet_file(plan).string() +
-                     "; skein_add_agent() builds it beside " + "the agent (docs/how-to-add-a-planner.md)");
-  }
 }
 
 }  // namespace
@@ -152,12 +147,15 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   plan.faults = load_fault_plan(options.faults.value_or(""), plan.scenario, options.seed);
   std::vector<std::string> names;
   for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
-  const Planners planners = parse_planners(options.planner, names);
-  plan.planners = planners.uavs;
+  Planners planners = parse_planners(options.planner, names);
   plan.agent = own_agent(options.agent);
-  plan.ground = ground_program(planners, agent_file(plan));
+  find_agents(planners, plan.agent);
+  plan.planners = planners.uavs;
+  plan.ground = ground_program(planners, fleets_agent(plan));
   if (options.debug_uav) plan.scenario.uav_index(*options.debug_uav);  // throws for an unknown name
-  if (options.one_process) check_one_process(plan);
+  if (const auto reason = options.one_process ? needs_processes(plan) : std::nullopt) {
+    throw InputError(*reason + "; leave out --one-process");
+  }
   return plan;
 }
 
@@ -168,9 +166,44 @@ std::uint64_t draw_run_id() {
   return run;
 }
 
-std::filesystem::path agent_file(const FleetPlan& plan) { return plan.agent.value_or(plan.bin_dir / programs::kAgent); }
+std::filesystem::path agent_file(const FleetPlan& plan, const std::string& program) {
+  return planner_of(plan, program).agent.value_or(fleets_agent(plan));
+}
 
-std::filesystem::path fleet_file(const FleetPlan& plan) { return agent_file(plan) += programs::kFleetSuffix; }
+std::vector<std::filesystem::path> agent_files(const FleetPlan& plan) {
+  std::vector<std::filesystem::path> files;
+  const auto add = [&](const std::string& program) {
+    const std::filesystem::path file = agent_file(plan, program);
+    if (!is_exec(plan, program) && std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+  };
+  for (const UavPlanner& planner : plan.planners) add(programs::agent_program(planner.uav));
+  if (plan.ground) add(programs::kGroundAgent);
+  if (files.empty()) files.push_back(fleets_agent(plan));
+  return files;
+}
+
+std::filesystem::path fleet_file(const FleetPlan& plan) { return agent_files(plan).front() += programs::kFleetSuffix; }
+
+std::optional<std::string> needs_processes(const FleetPlan& plan) {
+  std::vector<UavPlanner> all = plan.planners;
+  if (plan.ground) all.push_back(*plan.ground);
+  for (const UavPlanner& planner : all) {
+    if (exec_command(planner.spec)) {
+      return "--planner " + planner.uav + "=" + planner.spec + " needs processes: it is a program of its own";
+    }
+  }
+  if (plan.options.network) return "--network needs processes: other hosts take part over DDS";
+  const std::vector<std::filesystem::path> files = agent_files(plan);
+  if (files.size() > 1) {
+    return "--planner " + plan.options.planner + " needs processes: " + files[0].string() + " and " +
+           files[1].string() + " are two programs";
+  }
+  if (!std::filesystem::exists(fleet_file(plan))) {
+    return "there is no " + fleet_file(plan).string() +
+           ", in which such a fleet could fly as one process (skein_add_agent() builds it beside the agent)";
+  }
+  return std::nullopt;
+}
 
 std::filesystem::path program_dir() {
   const char* chosen = std::getenv("SKEIN_BIN_DIR");
@@ -199,25 +232,25 @@ std::map<std::string, std::string> dds_vendors(const FleetPlan& plan) {
 }
 
 bool is_exec(const FleetPlan& plan, const std::string& program) {
-  return programs::is_agent(program) && exec_command(planner_of(plan, program)).has_value();
+  return programs::is_agent(program) && exec_command(planner_of(plan, program).spec).has_value();
 }
 
 std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
                                         const SecureFolders& secure) {
-  const std::vector<std::string> environment = fleet_environment(plan.options.native, config_variable(plan));
   std::vector<ProgramSpec> programs;
   const auto add = [&](const std::string& name) {
     const SecureFolder own = secure_folder(secure, name);
     if (is_exec(plan, name)) {
       programs.push_back({name,
-                          {"/bin/sh", "-c", *exec_command(planner_of(plan, name))},
+                          {"/bin/sh", "-c", *exec_command(planner_of(plan, name).spec)},
                           fleet_environment(plan.options.native, exec_variables(plan, name, base_domain, out, own)),
                           out / run_folder::log_file(name)});
       return;
     }
     Arguments arguments = run_arguments(plan, name, base_domain, out, own);
     append(arguments, {"--status-fd", std::to_string(kStatusFd), "--control-fd", std::to_string(kControlFd)});
-    programs.push_back({name, std::move(arguments), environment, out / run_folder::log_file(name)});
+    programs.push_back({name, std::move(arguments), fleet_environment(plan.options.native, config_variable(plan, name)),
+                        out / run_folder::log_file(name)});
   };
   for (const char* name : programs::kServers) add(name);
   for (const UavConfig& uav : plan.scenario.fleet) {
@@ -228,20 +261,21 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
     // Ours that tell how the run goes on write as long as it does.
     if (!programs::is_agent(program.name)) program.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
     program.user = secure_folder(secure, program.name).user;
-    program.minded = programs::is_agent(program.name) && (plan.agent || is_exec(plan, program.name));  // not ours
+    program.minded = is_foreign(plan, program.name) || is_exec(plan, program.name);  // not ours
   }
   return programs;
 }
 
 ProgramSpec shared_process(const FleetPlan& plan, const std::filesystem::path& out) {
+  const std::string agent = programs::agent_program(plan.scenario.fleet.front().name);  // as all others
   ProgramSpec process{
       programs::kOneProcess,
       {fleet_file(plan), "--status-fd", std::to_string(kStatusFd), "--control-fd", std::to_string(kControlFd)},
-      fleet_environment(plan.options.native, config_variable(plan)),
+      fleet_environment(plan.options.native, config_variable(plan, agent)),
       out / run_folder::log_file(programs::kOneProcess)};
   if (plan.options.agent_timeout_s) append(process.argv, {"--agent-timeout", shortest(*plan.options.agent_timeout_s)});
   process.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
-  process.minded = plan.agent.has_value();
+  process.minded = is_foreign(plan, agent);
   return process;
 }
 
@@ -256,9 +290,9 @@ std::string debug_command(const FleetPlan& plan, int base_domain, const std::fil
     for (const auto& [name, value] : exec_variables(plan, program, base_domain, out, own)) {
       command += name + "=" + shell_word(value) + " ";
     }
-    return command + "/bin/sh -c " + shell_word(*exec_command(planner_of(plan, program)));
+    return command + "/bin/sh -c " + shell_word(*exec_command(planner_of(plan, program).spec));
   }
-  for (const auto& [name, value] : config_variable(plan)) command += name + "=" + shell_word(value) + " ";
+  for (const auto& [name, value] : config_variable(plan, program)) command += name + "=" + shell_word(value) + " ";
   command += "gdb --args";
   for (const std::string& argument : run_arguments(plan, program, base_domain, out, own)) {
     command += " " + shell_word(argument);
@@ -268,26 +302,25 @@ std::string debug_command(const FleetPlan& plan, int base_domain, const std::fil
 
 std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch,
                                         const std::optional<UserId>& agent_user) {
-  const std::vector<std::string> environment = fleet_environment(plan.options.native, config_variable(plan));
   std::vector<ProgramSpec> programs;
   const auto add = [&](const std::string& name, Arguments arguments) {
     arguments.push_back("--check");
-    programs.push_back({name, std::move(arguments), environment, scratch / run_folder::log_file(name)});
+    programs.push_back({name, std::move(arguments), fleet_environment(plan.options.native, config_variable(plan, name)),
+                        scratch / run_folder::log_file(name)});
     if (programs::is_agent(name)) programs.back().user = agent_user;
+  };
+  const auto add_agent = [&](const std::string& name) {
+    Arguments arguments = command_line(plan, agent_file(plan, name));
+    append(arguments, role_arguments(plan, name));
+    add(name, std::move(arguments));
   };
   add(programs::kSimServer, command_line(plan, plan.bin_dir / programs::kSimServer));
   std::set<std::string> checked;
   for (const UavPlanner& planner : plan.planners) {
-    if (exec_command(planner.spec) || !checked.insert(planner.spec).second) continue;
-    Arguments arguments = command_line(plan, agent_file(plan));
-    append(arguments, {"--uav", planner.uav, "--planner", planner.spec});
-    add(programs::agent_program(planner.uav), std::move(arguments));
+    if (exec_command(planner.spec) || !checked.insert(written(planner)).second) continue;
+    add_agent(programs::agent_program(planner.uav));
   }
-  if (plan.ground && !exec_command(*plan.ground)) {
-    Arguments arguments = command_line(plan, agent_file(plan));
-    append(arguments, role_arguments(plan, programs::kGroundAgent));
-    add(programs::kGroundAgent, std::move(arguments));
-  }
+  if (plan.ground && !exec_command(plan.ground->spec)) add_agent(programs::kGroundAgent);
   return programs;
 }
 

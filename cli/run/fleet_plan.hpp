@@ -22,16 +22,23 @@ struct FleetPlan {
   std::vector<UavPlanner> planners;                 ///< fleet order
   std::filesystem::path bin_dir;                    ///< where the programs are
   FaultPlan faults;                                 ///< of --faults
-  std::optional<std::string> ground = {};           ///< what runs at the ground station: a strategy or "exec:CMD"
-  std::optional<std::filesystem::path> agent = {};  ///< flies in the place of uav_agent
+  std::optional<UavPlanner> ground = {};            ///< what runs at the ground station: a strategy or "exec:CMD"
+  std::optional<std::filesystem::path> agent = {};  ///< flies in the place of uav_agent what names no agent of its own
   std::uint64_t run = 0;                            ///< what the programs of one run know each other by (draw_run_id())
 };
 
-/// The program that the UAVs' on-board software is.
-std::filesystem::path agent_file(const FleetPlan& plan);
+/// The program that a UAV's on-board software is, or the one at the ground station: its planner's, else the fleet's.
+/// @param program  of an agent
+std::filesystem::path agent_file(const FleetPlan& plan, const std::string& program);
+
+/// All agent programs of a fleet, each once, in fleet order; of users' commands alone, the one that would fly.
+std::vector<std::filesystem::path> agent_files(const FleetPlan& plan);
 
 /// The program that is home to a whole fleet with those agents.
 std::filesystem::path fleet_file(const FleetPlan& plan);
+
+/// Why a fleet cannot fly in one process, for people; nullopt: it can.
+std::optional<std::string> needs_processes(const FleetPlan& plan);
 
 /// What a program of a secured fleet is given (cli/secure/security.hpp).
 struct SecureFolder {
@@ -74,8 +81,8 @@ bool is_exec(const FleetPlan& plan, const std::string& program);
 std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
                           const SecureFolders& secure = {});
 
-/// Programs that only validate (--check): sim_server, then one agent for each different planner. A user's command is
-/// not asked: nothing is known about it.
+/// Programs that only validate (--check): sim_server, then the agent of each different planner. A user's command is not
+/// asked: nothing is known about it.
 /// @param scratch folder for their logs. @param agent_user  as whom agents will run
 std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch,
                                         const std::optional<UserId>& agent_user = {});

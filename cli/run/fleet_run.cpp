@@ -62,7 +62,8 @@ void FleetRun::fly(int base_domain, const std::filesystem::path& out, const Secu
   if (plan_.options.debug_uav) {
     view_.message("Start the agent of " + *plan_.options.debug_uav + " yourself; the fleet waits for it:\n\n  " +
                   debug_command(plan_, base_domain, out, secure) + "\n");
-    debugged_.emplace(*plan_.options.debug_uav, out, agent_file(plan_));
+    const std::string debugged = programs::agent_program(*plan_.options.debug_uav);
+    debugged_.emplace(*plan_.options.debug_uav, out, agent_file(plan_, debugged));
   }
   watch();
   for (const auto& [program, books] :

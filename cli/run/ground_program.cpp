@@ -6,14 +6,15 @@
 
 namespace skein::cli {
 
-std::optional<std::string> ground_program(const Planners& planners, const std::filesystem::path& agent) {
-  if (planners.ground) return *planners.ground == "none" ? std::nullopt : planners.ground;
-  if (exec_command(planners.fallback)) return std::nullopt;
-  const std::string name = planners.fallback.substr(0, planners.fallback.find(':'));
+std::optional<UavPlanner> ground_program(const Planners& planners, const std::filesystem::path& agent) {
+  if (planners.ground) return planners.ground->spec == kNoGround ? std::nullopt : planners.ground;
+  const UavPlanner& planner = planners.fallback;
+  if (exec_command(planner.spec)) return std::nullopt;
+  const std::string name = planner.spec.substr(0, planner.spec.find(':'));
   // An agent that is missing is complained about where it is needed.
-  const auto listed = ground_programs_of(agent);
+  const auto listed = ground_programs_of(planner.agent.value_or(agent));
   const bool has_one = std::find(listed.begin(), listed.end(), name) != listed.end();
-  return has_one ? std::optional(planners.fallback) : std::nullopt;
+  return has_one ? std::optional(planner) : std::nullopt;
 }
 
 }  // namespace skein::cli

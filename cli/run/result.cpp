@@ -167,8 +167,8 @@ Json description(const RunFacts& facts, const Scenario& scenario) {
   result["scenario"] = facts.scenario;
   result["seed"] = facts.seed;
   result["scene_seed"] = scenario.scene.scene_seed;
-  for (const UavPlanner& planner : facts.planners) result["planner"][planner.uav] = planner.spec;
-  if (facts.ground_program) result["planner"]["gcs"] = *facts.ground_program;
+  for (const UavPlanner& planner : facts.planners) result["planner"][planner.uav] = written(planner);
+  if (facts.ground_program) result["planner"]["gcs"] = written(*facts.ground_program);
   if (facts.agent) result["agent"] = facts.agent->string();
   for (const auto& [process, vendor] : facts.dds) result["dds"][process] = vendor;
   result["clock"] = facts.clock;

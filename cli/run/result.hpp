@@ -28,8 +28,8 @@ struct RunFacts {
   std::string scenario;  ///< as the user named it
   std::uint64_t seed = 0;
   std::vector<UavPlanner> planners;  ///< fleet order
-  std::optional<std::string> ground_program = {};
-  std::optional<std::filesystem::path> agent = {};  ///< that flew in the place of uav_agent
+  std::optional<UavPlanner> ground_program = {};
+  std::optional<std::filesystem::path> agent = {};  ///< that flew in the place of uav_agent, if its planner names none
   std::map<std::string, std::string> dds;           ///< vendor by process
   std::string clock;
   bool native = false;

@@ -170,6 +170,12 @@ TEST_F(RunResult, EachMissingReportKeepsTheOthers) {
   }
 }
 
+TEST_F(RunResult, PlannersStandThereAsTheCommandLineTakesThem) {
+  facts_.planners = {{"alpha", "orbit:x=1", "/teams/a"}, {"beta", "hover"}};
+  facts_.ground_program = UavPlanner{"gcs", "orbit", "/teams/b"};
+  EXPECT_EQ(merged()["planner"], (Json{{"alpha", "orbit:x=1@/teams/a"}, {"beta", "hover"}, {"gcs", "orbit@/teams/b"}}));
+}
+
 TEST_F(RunResult, AProgramOfTheUsersOwnNeedsNoReport) {
   write_all_reports();
   for (const char* uav : {"alpha", "beta"}) {

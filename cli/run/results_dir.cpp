@@ -34,7 +34,9 @@ void remove_stale(const std::filesystem::path& dir) {
 }  // namespace
 
 std::filesystem::path default_results_dir(const std::string& scenario, const std::string& planner, std::uint64_t seed) {
-  return std::filesystem::path("runs") / (scenario + "-" + planner_label(planner) + "-" + std::to_string(seed));
+  const auto name_of = [](const std::filesystem::path& agent) { return agent.filename().string(); };
+  const std::string label = planner_label(with_agents_named(planner, name_of));
+  return std::filesystem::path("runs") / (scenario + "-" + label + "-" + std::to_string(seed));
 }
 
 void ResultsDir::check(const std::filesystem::path& dir, bool force) {

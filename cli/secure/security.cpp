@@ -133,7 +133,7 @@ std::unique_ptr<UserIds> check_agents_access(const FleetPlan& plan) {
   if (::geteuid() != 0) return nullptr;
   auto users = std::make_unique<UserIds>(1);
   const UserId user = users->at(0);
-  require_access(agent_file(plan), user);
+  for (const fs::path& agent : agent_files(plan)) require_access(agent, user);
   require_access(plan.scenario.file, user);
   if (plan.options.faults) require_access(*plan.options.faults, user);
   for (const auto& entry : fs::recursive_directory_iterator(default_config_dir())) {

@@ -50,7 +50,7 @@ struct Study {
   std::vector<std::string> planners, scenarios;
   std::vector<std::uint64_t> seeds;
   std::vector<FlightEntry> flights;
-  std::string command_line, version, programs, dds;
+  std::string command_line, version, programs, medium;
   int jobs = 1;
   std::string conditions = {};  ///< other than the scenarios' own: "missions of 120 s"; empty: none
 

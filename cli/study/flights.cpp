@@ -63,7 +63,7 @@ class StudyRun {
       }
     }
     if (over_ > 0) tell(fmt::format("{} of {} flights are there already", over_, plan_.flights.size()));
-    SideBySide sky(static_cast<std::size_t>(plan_.options.jobs), console_);
+    SideBySide sky(static_cast<std::size_t>(plan_.jobs), console_);
     outcomes_.interrupted = !sky.fly(
         std::move(waiting), [this](std::size_t index) { return start(index); },
         [this](std::size_t index, const ExitStatus& exit) { on_exit(index, exit); });
@@ -95,7 +95,7 @@ class StudyRun {
 
   std::string news_of(const StudyFlight& flight, const StudyOutcome& outcome) const {
     std::string news =
-        fmt::format("{}, {}, seed {}: ", plan_.scenarios[flight.scenario], plan_.planners[flight.planner], flight.seed);
+        fmt::format("{}, {}, seed {}: ", plan_.scenarios[flight.scenario], plan_.labels[flight.planner], flight.seed);
     if (outcome.result.is_object()) {
       const std::size_t collisions = value_or(outcome.result, "collisions", Json::array()).size();
       news += fmt::format("score {:.1f}, {} collision{}, x{:.1f} real time",

@@ -23,7 +23,7 @@ struct StudyOutcomes {
 /// The outcome that is there already: of the same command, to its end, without a problem. nullopt: it must be flown.
 std::optional<StudyOutcome> flown_before(const StudyFlight& flight);
 
-/// Flies what has not been flown, `plan.options.jobs` at once, with progress on `console.err`. A flight that fails is
+/// Flies what has not been flown, `plan.jobs` at once, with progress on `console.err`. A flight that fails is
 /// noted and the others go on; Ctrl-C ends those in the air at their next step, a second one at once.
 /// From one thread, which must live as long as the flights.
 StudyOutcomes fly_study(const StudyPlan& plan, const Console& console);

@@ -216,11 +216,12 @@ std::string explanations(const Study& study) {
   }
   html += "</ul>\n<h2>How to make this page again</h2>\n<pre>" + escaped(study.command_line) + "</pre>\n";
   html += fmt::format(
-      "<p class=\"soft\">Skein {}, DDS {}, programs {}. The same command with the same build gives the same flights, "
+      "<p class=\"soft\">Skein {}, flown in or over {}, programs {}. The same command with the same build gives the "
+      "same flights, "
       "bit by "
       "bit, whatever the machine and however many fly at once. Only CPU and times real time are this machine's; {}. "
       "All figures of all flights: flights.csv; medians: summary.csv{}.</p>\n",
-      escaped(study.version), escaped(study.dds), escaped(study.programs.substr(0, 12)),
+      escaped(study.version), escaped(study.medium), escaped(study.programs.substr(0, 12)),
       study.jobs == 1 ? std::string("one flight at a time")
                       : "up to " + plural(static_cast<std::size_t>(study.jobs), "flight") + " at once",
       study.contest ? "; totals: totals.csv" : "");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "cli/run/agent_file.hpp"
 #include "cli/run/fleet_plan.hpp"
@@ -45,7 +46,10 @@ std::vector<std::string> planners_of(const StudyOptions& options) {
   }
   planners.insert(planners.end(), options.planners.begin(), options.planners.end());
   if (planners.empty()) throw InputError("which planners? Give them as --planners A,B");
-  refuse_doubles("planner", planners);
+  std::vector<std::string> with_whole_paths;
+  const auto whole = [](const fs::path& agent) { return agent.string(); };
+  for (const std::string& planner : planners) with_whole_paths.push_back(with_agents_named(planner, whole));
+  refuse_doubles("planner", with_whole_paths);
   return planners;
 }
 
@@ -68,7 +72,7 @@ RunOptions run_options(const StudyOptions& options, const std::string& scenario,
   run.assets = options.assets;
   run.duration_s = options.duration_s;
   run.rules = options.rules;
-  run.dds = options.dds;
+  run.dds = options.dds.value_or(run.dds);
   run.agent = options.agent;
   run.network = options.network;
   return run;
@@ -86,25 +90,34 @@ std::string programs_digest(const FleetPlan& plan) {
 /// Digests of agent programs, each read once.
 class AgentDigests {
  public:
+  /// Of all that fly a fleet; of one it is the program's own.
+  std::string of(const FleetPlan& plan) {
+    if (plan.options.one_process) return of(fleet_file(plan));
+    const std::vector<fs::path> agents = agent_files(plan);
+    if (agents.size() == 1) return of(agents.front());
+    Sha256 hash;
+    for (const fs::path& agent : agents) hash.add(of(agent));
+    return hash.hex();
+  }
+
+ private:
   const std::string& of(const fs::path& agent) {
     std::string& digest = digests_[agent];
     if (digest.empty()) digest = Sha256().add(read_file_bytes(agent, kLargestFile)).hex();
     return digest;
   }
 
- private:
   std::map<fs::path, std::string> digests_;
 };
 
-/// Whether uav_agent itself has all of a fleet's planners: then it flies them, and what they did does not fall due
-/// again when the user's own agent is built anew.
+/// Whether uav_agent itself has all planners of a fleet that name no agent: then it flies them, and what they did does
+/// not fall due again when the user's own agent is built anew.
 bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& built_in) {
-  const auto is_built_in = [&](const std::string& spec) {
-    return exec_command(spec) || std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;
+  const auto is_built_in = [&](const UavPlanner& planner) {
+    const std::string& spec = planner.spec;
+    return planner.agent || exec_command(spec) || std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;
   };
-  const auto& uavs = plan.planners;
-  return std::all_of(uavs.begin(), uavs.end(), [&](const UavPlanner& uav) { return is_built_in(uav.spec); }) &&
-         (!plan.ground || is_built_in(*plan.ground));
+  return std::ranges::all_of(plan.planners, is_built_in) && (!plan.ground || is_built_in(*plan.ground));
 }
 
 /// The file that a planner takes its parameters from, if any: "kios:mine.yaml,voxel_m=4".
@@ -124,7 +137,7 @@ std::string input_digest(const FleetPlan& plan) {
   if (scene.family.empty()) files.insert(files.end(), {scene.points, scene.boxes});
   std::vector<std::string> specs;
   for (const UavPlanner& planner : plan.planners) specs.push_back(planner.spec);
-  if (plan.ground) specs.push_back(*plan.ground);
+  if (plan.ground) specs.push_back(plan.ground->spec);
   for (const std::string& spec : specs) {
     if (const auto file = parameter_file(spec)) files.push_back(*file);
   }
@@ -145,6 +158,8 @@ void check_with_programs(const FleetPlan& plan, bool with_server) {
   }
 }
 
+std::string medium_of(const FleetPlan& plan) { return plan.options.one_process ? "one process" : plan.options.dds; }
+
 Json flight_command(const FleetPlan& plan, const std::string& programs, const std::string& agent) {
   return {{"skein_version", SKEIN_VERSION},
           {"programs", programs},
@@ -152,7 +167,7 @@ Json flight_command(const FleetPlan& plan, const std::string& programs, const st
           {"scenario", plan.options.scenario},
           {"planner", plan.options.planner},
           {"input", input_digest(plan)},
-          {"dds", plan.options.dds}};
+          {"dds", medium_of(plan)}};
 }
 
 std::string command_line(const StudyPlan& plan) {
@@ -174,7 +189,7 @@ std::string command_line(const StudyPlan& plan) {
   if (options.assets) add("--assets", *options.assets);
   if (options.duration_s) add("--duration", shortest(*options.duration_s));
   if (options.rules) add("--rules", *options.rules);
-  if (options.dds != StudyOptions{}.dds) add("--dds", options.dds);
+  if (options.dds) add("--dds", *options.dds);
   if (options.agent) add("--agent", *options.agent);
   return line;
 }
@@ -191,13 +206,19 @@ std::string plain(const Json& value) {
 }  // namespace
 
 StudyPlan plan_study(const StudyOptions& options) {
-  StudyPlan plan{options, planners_of(options), scenarios_of(options), parse_seeds(options.seeds), {}, {}, {}, {}};
+  StudyPlan plan;
+  plan.options = options;
+  plan.planners = planners_of(options);
+  plan.labels = planner_labels(plan.planners);
+  plan.scenarios = scenarios_of(options);
+  plan.seeds = parse_seeds(options.seeds);
   plan.out = fs::absolute(options.out.value_or(fs::path("runs") / (options.contest ? "contest" : "compare")));
   std::vector<std::string> stems;
   for (const std::string& scenario : plan.scenarios) stems.push_back(fs::path(scenario).stem());
-  const std::vector<std::string> planner_folders = folder_names(plan.planners), scenario_folders = folder_names(stems);
+  const std::vector<std::string> planner_folders = folder_names(plan.labels), scenario_folders = folder_names(stems);
 
   std::string programs;
+  std::set<std::string> media;
   std::vector<StudyFlight> of_one_seed;
   Json inputs = Json::object(), agents = Json::object();
   AgentDigests digests;
@@ -210,16 +231,23 @@ StudyPlan plan_study(const StudyOptions& options) {
         fleet.options.agent = fleet.bin_dir / programs::kAgent;
         fleet = plan_fleet(fleet.options, fleet.bin_dir);
       }
+      fleet.options.one_process = !options.dds && !needs_processes(fleet);
+      media.insert(medium_of(fleet));
       check_with_programs(fleet, p == 0);
       if (programs.empty()) programs = programs_digest(fleet);
       const fs::path dir = plan.out / "flights" / scenario_folders[s] / planner_folders[p];
-      const std::string& agent = digests.of(agent_file(fleet));
+      const std::string agent = digests.of(fleet);
       const Json command = flight_command(fleet, programs, agent);
-      of_one_seed.push_back({p, s, 0, dir, fleet.scenario.duration_s, fleet.options.agent, command});
+      of_one_seed.push_back(
+          {p, s, 0, dir, fleet.scenario.duration_s, fleet.options.agent, fleet.options.one_process, command});
       agents[plan.planners[p]] = agent;
       inputs[plan.scenarios[s] + ", " + plan.planners[p]] = command["input"];
     }
   }
+  const bool all_in_one = std::ranges::all_of(of_one_seed, &StudyFlight::one_process);
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  plan.jobs = options.jobs.value_or(all_in_one ? cores : 1);
+  plan.medium = joined({media.begin(), media.end()});
   for (const std::uint64_t seed : plan.seeds) {
     for (StudyFlight flight : of_one_seed) {
       flight.seed = seed;
@@ -236,7 +264,7 @@ StudyPlan plan_study(const StudyOptions& options) {
                    {"scene_seed", options.scene_seed ? Json(*options.scene_seed) : Json()},
                    {"duration_s", options.duration_s ? Json(*options.duration_s) : Json()},
                    {"rules", options.rules ? Json(*options.rules) : Json()},
-                   {"dds", options.dds},
+                   {"dds", plan.medium},
                    {"programs", programs},
                    {"agents", agents},
                    {"inputs", inputs}};
@@ -278,6 +306,7 @@ std::vector<std::string> flight_arguments(const StudyPlan& plan, const StudyFlig
   RunOptions run = run_options(plan.options, plan.scenarios[flight.scenario], plan.planners[flight.planner]);
   run.seed = flight.seed;
   run.agent = flight.agent;
+  run.one_process = flight.one_process;
   run.out = flight.dir;
   run.force = true;
   std::vector<std::string> arguments = arguments_of(run);

@@ -17,6 +17,7 @@ struct StudyFlight {
   std::filesystem::path dir;
   double mission_s = 0.0;                      ///< at most
   std::optional<std::filesystem::path> agent;  ///< program that flies it; nullopt: the user named none
+  bool one_process = false;                    ///< or as processes over DDS
   /// All that its result depends on; a result that was made under the same needs no second flight.
   Json command;
 };
@@ -24,10 +25,13 @@ struct StudyFlight {
 struct StudyPlan {
   StudyOptions options;
   std::vector<std::string> planners;   ///< as `skein run --planner` takes them
+  std::vector<std::string> labels;     ///< what they are called: planner_labels()
   std::vector<std::string> scenarios;  ///< as `skein run` takes them
   std::vector<std::uint64_t> seeds;
   std::filesystem::path out;         ///< absolute
   std::vector<StudyFlight> flights;  ///< by seed, then scenario, then planner: cut short, all have flown about as much
+  int jobs = 1;                      ///< flights at once
+  std::string medium;                ///< in or over which they fly, for people
   Json settings;                     ///< all that the results of the study depend on
   std::string command_line;          ///< that makes this study, but for how it is flown
 };

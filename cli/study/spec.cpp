@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <set>
 
@@ -11,6 +12,8 @@
 
 namespace skein::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::size_t kMostSeeds = 1000;
 
@@ -34,16 +37,24 @@ void append_range(std::uint64_t first, std::uint64_t last, const std::string& te
   for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
 }
 
+/// "a/agent" are the last two names of "/teams/a/agent".
+fs::path last_names(const fs::path& file, std::size_t names) {
+  fs::path last;
+  for (auto name = file.end(); name != file.begin() && names > 0; --names) {
+    --name;
+    last = last.empty() ? *name : *name / last;
+  }
+  return last;
+}
+
 }  // namespace
 
 std::vector<std::string> split_planners(const std::string& list) {
   std::vector<std::string> planners;
   for (const std::string& item : split(list)) {
-    const std::size_t equals = item.find('='), colon = item.find(':');
-    const bool is_parameter = equals != std::string::npos && equals < colon;
+    const bool is_parameter = key_end(item) != std::string::npos;
     if (is_parameter) {
-      const bool goes_on =
-          !planners.empty() && planners.back().find(':') != std::string::npos && !exec_command(planners.back());
+      const bool goes_on = !planners.empty() && has_parameters(planners.back()) && !exec_command(planners.back());
       if (!goes_on) {
         throw InputError("--planners " + list + ": '" + item +
                          "' is no planner; a planner's first parameter follows a " +
@@ -77,6 +88,21 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text) {
     throw InputError("--seeds " + text + ": a seed is named twice");
   }
   return seeds;
+}
+
+std::vector<std::string> planner_labels(const std::vector<std::string>& planners) {
+  std::set<fs::path> agents;
+  const auto note = [&](const fs::path& agent) { return *agents.insert(agent).first; };
+  for (const std::string& planner : planners) with_agents_named(planner, note);
+  const auto name_of = [&](const fs::path& agent) {
+    std::size_t names = 1;
+    const auto is_alike = [&](const fs::path& other) { return last_names(other, names) == last_names(agent, names); };
+    while (std::ranges::count_if(agents, is_alike) > 1) ++names;
+    return last_names(agent, names);
+  };
+  std::vector<std::string> labels;
+  for (const std::string& planner : planners) labels.push_back(with_agents_named(planner, name_of));
+  return labels;
 }
 
 std::vector<std::string> folder_names(const std::vector<std::string>& texts) {

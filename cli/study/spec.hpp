@@ -17,6 +17,10 @@ std::vector<std::string> split_planners(const std::string& list);
 /// @throws InputError for anything else, a seed named twice, or more than 1000 of them.
 std::vector<std::uint64_t> parse_seeds(const std::string& text);
 
+/// What a study calls its planners: as they are written, but of the path of each agent (NAME@AGENT) just the last
+/// names, no more than tell it from the other agents ("kios@agent"; "kios@a/agent" and "star@b/agent").
+std::vector<std::string> planner_labels(const std::vector<std::string>& planners);
+
 /// A folder's name for each text (planner_label), with "-2", "-3"... after those that came before.
 std::vector<std::string> folder_names(const std::vector<std::string>& texts);
 

@@ -59,6 +59,22 @@ TEST(StudySpec, WhatIsNoSeedIsRefused) {
   }
 }
 
+TEST(StudySpec, AgentsGoWithTheirPlanners) {
+  EXPECT_EQ(split_planners("kios@a/b,kios:x=1,y=2@c=d,kios"), (Texts{"kios@a/b", "kios:x=1,y=2@c=d", "kios"}));
+  EXPECT_THROW(split_planners("kios@a,x=1"), InputError);
+}
+
+TEST(StudySpec, AgentsAreCalledByAsLittleOfTheirPathsAsTellsThem) {
+  EXPECT_EQ(planner_labels({"kios", "kios@x/a", "kios@x/b", "star@x/a"}),
+            (Texts{"kios", "kios@a", "kios@b", "star@a"}));
+  EXPECT_EQ(planner_labels({"kios@a/build/it", "star:x=1@b/build/it", "kios@b/install/it", "star@c/one"}),
+            (Texts{"kios@a/build/it", "star:x=1@b/build/it", "kios@install/it", "star@one"}));
+  EXPECT_EQ(planner_labels({"kios@/it", "kios@/a/it"}), (Texts{"kios@/it", "kios@a/it"}));
+  EXPECT_EQ(planner_labels({"a=kios@a/it,b=kios@b/it", "exec:x @a/b"}),
+            (Texts{"a=kios@a/it,b=kios@b/it", "exec:x @a/b"}));
+  EXPECT_EQ(planner_labels({"kios@/a", "kios@/b/../a", "kios"}), (Texts{"kios@a", "kios@a", "kios"})) << "the same";
+}
+
 TEST(StudySpec, FoldersAreDistinctAndSafe) {
   const Texts names = folder_names({"kios", "kios:a=1", "kios_a_1", "kios:a:1", "../x", "kios_a_1-2"});
   EXPECT_EQ(names[0], "kios");
