@@ -35,7 +35,7 @@ constexpr double kShortS = 600.0, kHourS = 3600.0;
 struct Effort {
   int repeats = 3;
   std::optional<double> mission_s;  ///< of the speed runs; none: the scenario's own
-  double scale_mission_s = 60.0, scale_mission_of_large_s = 10.0;
+  double scale_mission_s = 60.0, scale_mission_of_large_s = 60.0;
   int rounds = 2000, rounds_of_large = 400;
   std::vector<std::size_t> sizes = {1, 5, 10, 20, 50, 100};
   int relayed = 4000;    ///< messages through router and relay
@@ -106,9 +106,9 @@ class Bench {
     for (const std::string& scenario : scenarios()) {
       RunOptions run = fleet_run(scenario, "patrol");
       run.duration_s = effort_.mission_s;
-      std::vector<Json> results;
-      for (int i = 0; i < effort_.repeats; ++i) results.push_back(fly(run, "speed, " + scenario, i));
-      report_["speed"].push_back(speed_entry(results, every_scan(run)));
+      const auto [over_dds, in_one_process] = fly_both(run, "speed, " + scenario);
+      report_["speed"].push_back(speed_entry(over_dds, every_scan(run)));
+      report_["speed"].push_back(speed_entry(in_one_process, nullptr));
     }
   }
 
@@ -136,11 +136,9 @@ class Bench {
     for (const std::size_t uavs : effort_.sizes) {
       const double mission_s = uavs >= kLargeFleet ? effort_.scale_mission_of_large_s : effort_.scale_mission_s;
       const RunOptions run = fleet_run(write_scenario({uavs, mission_s, kExchangeS}, "scale"), "patrol");
-      std::vector<Json> results;
-      for (int i = 0; i < effort_.repeats; ++i) {
-        results.push_back(fly(run, "scale, " + std::to_string(uavs) + " UAVs", i));
-      }
-      report_["scale"].push_back(scale_entry(uavs, results));
+      const auto [over_dds, in_one_process] = fly_both(run, "scale, " + std::to_string(uavs) + " UAVs");
+      report_["scale"].push_back(scale_entry(uavs, over_dds));
+      report_["scale"].push_back(scale_entry(uavs, in_one_process));
     }
   }
 
@@ -192,6 +190,22 @@ class Bench {
     const std::filesystem::path file = scratch_.path() / (use + std::to_string(fleet.uavs) + ".yaml");
     write_file_atomically(file, bench_scenario(fleet));
     return file;
+  }
+
+  struct Both {
+    std::vector<Json> over_dds, in_one_process;
+  };
+
+  /// Over DDS and in one process by turns, so that what else the machine does disturbs both.
+  Both fly_both(RunOptions run, const std::string& what) {
+    Both results;
+    for (int i = 0; i < effort_.repeats; ++i) {
+      run.one_process = false;
+      results.over_dds.push_back(fly(run, what, i));
+      run.one_process = true;
+      results.in_one_process.push_back(fly(run, what + ", one process", i));
+    }
+    return results;
   }
 
   /// One `skein run`. @returns its result.json.

@@ -20,8 +20,9 @@ Json part(const Json& report, const char* key) { return value_or(report, key, Js
 
 void print_speed(std::ostream& out, const Json& speed) {
   out << fmt::format(
-      "\n{}, {} UAVs, patrol: x{} real time, {:.1f} s simulated; {} cores busy, {:.0f} MB, start-up {:.1f} s\n",
-      value_or(speed, "scenario", "").get<std::string>(), number(speed, "uavs"), spread(speed, "real_time_factor", 1),
+      "\n{}, {} UAVs, patrol, {}: x{} real time, {:.1f} s simulated; {} cores busy, {:.0f} MB, start-up {:.1f} s\n",
+      value_or(speed, "scenario", "").get<std::string>(), number(speed, "uavs"),
+      value_or(speed, "medium", "").get<std::string>(), spread(speed, "real_time_factor", 1),
       number(speed, "sim_time_s"), spread(speed, "cores_busy", 2), middle(speed, "memory_mb"),
       middle(speed, "startup_s"));
   out << fmt::format("  {:<16}{:>10}{:>10}{:>18}\n", "CPU time of", "s", "share", "ms a simulated s");
@@ -36,6 +37,7 @@ void print_speed(std::ostream& out, const Json& speed) {
   }
   const Json lidar = value_or(speed, "lidar", Json::object());
   const Json every = value_or(lidar, "every_scan", Json::object());
+  if (every.empty()) return;
   out << fmt::format(
       "  LiDAR: {} scans computed at {:.3f} ms; every scan along the flown path ({}): mean {:.3f}, median {:.3f}, "
       "95 % {:.3f} ms, {:.0f} returns, {} triangles\n",
@@ -62,16 +64,17 @@ void print_rounds(std::ostream& out, const Json& rounds) {
 void print_scale(std::ostream& out, const Json& scale) {
   if (scale.empty()) return;
   out << "\nsizes of fleet, patrol beside the towers\n"
-      << fmt::format("  {:>5}{:>20}{:>12}{:>12}{:>14}{:>14}{:>14}{:>10}{:>10}{:>12}\n", "UAVs", "real-time factor",
-                     "rounds/s", "memory MB", "largest MB", "agent MB", "start-up s", "agents", "exchange",
-                     "to the end");
+      << fmt::format("  {:>5}{:>14}{:>20}{:>12}{:>12}{:>14}{:>14}{:>14}{:>10}{:>10}{:>12}\n", "UAVs", "",
+                     "real-time factor", "rounds/s", "memory MB", "largest MB", "agent MB", "start-up s", "agents",
+                     "exchange", "to the end");
   for (const Json& entry : scale) {
     const Json work = value_or(entry, "work", Json::object());
     const auto share = [&](const char* kind) { return 100.0 * number(value_or(work, kind, Json::object()), "share"); };
-    out << fmt::format("  {:>5}{:>20}{:>12.1f}{:>12.0f}{:>14.0f}{:>14.1f}{:>14.1f}{:>9.0f}%{:>9.0f}%{:>12}\n",
-                       number(entry, "uavs"), spread(entry, "real_time_factor", 1), middle(entry, "rounds_per_s"),
-                       middle(entry, "memory_mb"), number(entry, "largest_process_mb"), number(entry, "mean_agent_mb"),
-                       middle(entry, "startup_s"), share("agents"), share("exchange"),
+    out << fmt::format("  {:>5}{:>14}{:>20}{:>12.1f}{:>12.0f}{:>14.0f}{:>14.1f}{:>14.1f}{:>9.0f}%{:>9.0f}%{:>12}\n",
+                       number(entry, "uavs"), value_or(entry, "medium", "").get<std::string>(),
+                       spread(entry, "real_time_factor", 1), middle(entry, "rounds_per_s"), middle(entry, "memory_mb"),
+                       number(entry, "largest_process_mb"), number(entry, "mean_agent_mb"), middle(entry, "startup_s"),
+                       share("agents"), share("exchange"),
                        value_or(entry, "to_the_end", false).get<bool>() ? "yes" : "no");
   }
 }
