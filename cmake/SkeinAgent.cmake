@@ -1,12 +1,20 @@
 # Agent programs with planners of one's own. Used by this build's tests and, installed, by find_package(skein).
 
 # skein_add_agent(NAME SOURCES ... [LIBS ...])
-# A program like uav_agent: with all planners of Skein, and those that the sources register.
+# A program like uav_agent: with all planners of Skein, and those that the sources register. Beside it NAME_fleet, in
+# which whole fleets of such agents fly as one process.
 function(skein_add_agent name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE skein::agent_main skein::agent skein::agent_nodes ${ARG_LIBS})
   skein_compile_as_skein(${name})
+  add_executable(${name}_fleet $<TARGET_OBJECTS:${name}>)
+  target_link_libraries(${name}_fleet PRIVATE
+    skein::one_process_main skein::one_process skein::sim_node skein::router_node skein::station_node
+    skein::agent skein::agent_nodes ${ARG_LIBS})
+  set_target_properties(${name}_fleet PROPERTIES LINKER_LANGUAGE CXX
+    RUNTIME_OUTPUT_DIRECTORY $<TARGET_PROPERTY:${name},RUNTIME_OUTPUT_DIRECTORY>
+    OUTPUT_NAME $<TARGET_FILE_BASE_NAME:${name}>_fleet)
 endfunction()
 
 # skein_add_planner_test(NAME PLANNERS ... SOURCES ... [LIBS ...])

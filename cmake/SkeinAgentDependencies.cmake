@@ -1,4 +1,4 @@
-# What an agent program links, all from Debian 12. Used by this build and, installed, by find_package(skein).
+# What an agent program links, and a whole fleet in one process, all from Debian 12. Used by this build and, installed, by find_package(skein).
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(yaml-cpp REQUIRED)
 find_package(pugixml 1.13 REQUIRED)
@@ -15,6 +15,11 @@ find_package(CycloneDDS REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OCTOMAP REQUIRED IMPORTED_TARGET octomap)
 
+# The simulator's. Double precision Bullet (Debian ships both).
+pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
+pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
+find_package(embree 3 REQUIRED)
+
 # skein_find_pcl(PART...)
 # Targets pcl::PART, the libraries alone: PCL's own CMake package, and its pkg-config files, want VTK, Qt and more.
 # Debian's libpcl-PART1.13 will do; headers are for Skein's own build (SkeinDependencies.cmake).
@@ -27,4 +32,4 @@ function(skein_find_pcl)
     endif()
   endforeach()
 endfunction()
-skein_find_pcl(common filters)
+skein_find_pcl(common filters io)

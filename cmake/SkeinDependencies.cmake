@@ -2,12 +2,7 @@
 include(SkeinAgentDependencies)  # what an agent needs: planners outside of this tree link it, too
 find_program(FASTDDSGEN fastddsgen REQUIRED)
 
-# Double precision Bullet (Debian ships both).
-pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
-find_package(embree 3 REQUIRED)
-
 # Debian has PCL's headers only in libpcl-dev, which wants 500 packages more: ./skein unpacks what it needs of it.
-skein_find_pcl(io)
 find_path(PCL_INCLUDE_DIR pcl/point_types.h PATH_SUFFIXES pcl-1.13
   PATHS ${PROJECT_SOURCE_DIR}/build/pcl/usr/include)
 if(NOT PCL_INCLUDE_DIR)
@@ -16,8 +11,6 @@ endif()
 foreach(part common filters io)
   target_include_directories(pcl::${part} INTERFACE ${PCL_INCLUDE_DIR})
 endforeach()
-
-pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
 
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)

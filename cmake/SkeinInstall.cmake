@@ -7,11 +7,12 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
 set(SKEIN_CONTRACT_DIR ${PROJECT_SOURCE_DIR}/uav_agent/testing)  # where the sources of skein_add_planner_test() are
 set(installed_contract_dir ${CMAKE_INSTALL_DATADIR}/skein/contract)
 
-install(TARGETS skein sim_server comm_router station uav_agent RUNTIME)
+install(TARGETS skein sim_server comm_router station uav_agent uav_agent_fleet RUNTIME)
 install(DIRECTORY config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/skein/config)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-set(libraries core process idl bus lockstep agent agent_nodes agent_main)
+set(libraries core process idl bus lockstep agent agent_nodes agent_main
+  sim sim_node router router_node station station_node one_process one_process_main)
 foreach(library ${libraries})
   set_target_properties(skein_${library} PROPERTIES EXPORT_NAME ${library})
   install(TARGETS skein_${library} EXPORT skeinTargets

@@ -1,4 +1,4 @@
-// The same input gives the same run from version to version: digests of all bundled scenes and planners, and of some
+// The same input gives the same run from version to version, over DDS and in one process: digests of all bundled scenes and planners, and of some
 // faults, as the version before had them (reference_digests.csv). A change that is meant to change them says so in the
 // CHANGELOG and brings new ones: SKEIN_WRITE_DIGESTS=FILE writes what this test sees.
 #include <cstdlib>
@@ -35,6 +35,10 @@ TEST_P(ReferenceDigests, AreThoseOfTheVersionBefore) {
   }
   const std::string digest = run("run", arguments).digest();
   EXPECT_EQ(digest, row.at("digest"));
+  arguments.push_back("--one-process");
+  EXPECT_EQ(run("one_process", arguments).digest(), row.at("digest"));
+  if (!long_tests() && row.at("faults").empty()) return;
+  EXPECT_EQ(run("chaos", arguments, {{"SKEIN_CHAOS", "1"}}).digest(), row.at("digest"));
   if (const char* const file = std::getenv("SKEIN_WRITE_DIGESTS")) {
     std::ofstream out(file, std::ios::app);
     for (const char* const column : kColumns) out << row.at(column) << ',';

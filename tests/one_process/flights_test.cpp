@@ -1,0 +1,142 @@
+// Fleets in one process, driven as a user does. That they fly as over DDS, fleet_reference_digests_test holds; here is
+// what a process is to its program besides: a log, a death of its own, an end.
+#include <algorithm>
+
+#include "fleet_fixture.hpp"
+#include "small_scene.hpp"
+
+namespace skein::test {
+namespace {
+
+class OneProcess : public FleetTest {
+ protected:
+  Arguments flight(Arguments more, const std::string& duration_s = "8") const {
+    more.insert(more.begin(), {scene_, "--one-process", "--no-oracle", "--duration", duration_s});
+    return more;
+  }
+  /// With the agent of nasty_planner.cpp: jurong does it at 3 s.
+  Arguments nasty(const std::string& how, Arguments more = {}) const {
+    more.insert(more.end(), {"--agent", SKEIN_NASTY_AGENT, "--planner", "hover,jurong=nasty:how=" + how});
+    return flight(more);
+  }
+
+  const std::string scene_ = write_small_scene(folder());  ///< two UAVs: jurong and changi
+};
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(OneProcess, TellsWhatNeedsProcesses) {
+  const std::vector<std::pair<Arguments, std::string>> refused = {
+      {{"--planner", "hover,jurong=exec:true"}, "jurong=exec:true needs processes"},
+      {{"--planner", "hover,gcs=exec:true"}, "gcs=exec:true needs processes"},
+      {{"--planner", std::string("hover,jurong=hover@") + SKEIN_NASTY_AGENT}, "are two programs"},
+      {{"--debug", "jurong"}, "--debug needs processes"},
+      {{"--secure"}, "--secure needs processes"},
+      {{"--network", "all"}, "--network needs processes"},
+      {{"--domain", "5"}, "--domain needs processes"},
+      {{"--dds", "fastdds"}, "--dds"}};
+  int number = 0;
+  for (const auto& [arguments, reason] : refused) {
+    SkeinRun& run = this->run("refused" + std::to_string(++number), flight(arguments), {}, 2);
+    EXPECT_TRUE(says(run.err(), reason)) << run.err();
+    EXPECT_TRUE(says(run.err(), "--one-process")) << run.err();
+    EXPECT_FALSE(std::filesystem::exists(run.dir()));
+  }
+}
+
+TEST_F(OneProcess, LeavesWhatProcessesLeave) {
+  SkeinRun& one = run("one", flight({"--planner", "patrol"}));
+  SkeinRun& many = run("many", {scene_, "--no-oracle", "--duration", "8", "--planner", "patrol"});
+  EXPECT_EQ(one.digest(), many.digest());
+  expect_complete_result(one);
+  std::set<std::string> files, usual;
+  for (const auto& entry : std::filesystem::directory_iterator(one.dir())) files.insert(entry.path().filename());
+  for (const auto& entry : std::filesystem::directory_iterator(many.dir())) usual.insert(entry.path().filename());
+  usual.insert("one_process.log");
+  EXPECT_EQ(files, usual);
+  for (const char* table : {"captures.csv", "events.csv", "score.csv", "score_timeline.csv", "trajectories.csv"}) {
+    EXPECT_EQ(text_of(one.dir() / table), text_of(many.dir() / table)) << table;
+  }
+  EXPECT_EQ(one.result()["processes"].size(), 1U);
+  EXPECT_EQ(one.result()["radio"], many.result()["radio"]);
+}
+
+TEST_F(OneProcess, AnExceptionIsThatMembersDeath) {
+  for (const std::string how : {"throws", "throws_number"}) {
+    SkeinRun& run = this->run(how, nasty(how), {}, 3);
+    const Json result = run.result();
+    EXPECT_EQ(result["status"], "completed") << "the others fly on";
+    ASSERT_EQ(result["lost_members"].size(), 1U) << result["lost_members"];
+    EXPECT_EQ(result["lost_members"][0]["member"], "jurong");
+    EXPECT_FALSE(result["deterministic"]);
+    EXPECT_TRUE(says(run.err(), "uav_agent-jurong failed: ")) << run.err();
+    EXPECT_EQ(says(run.err(), "I do not like it here"), how == "throws") << run.err();
+    expect_complete_result(run);
+  }
+}
+
+TEST_F(OneProcess, WhoTakesTheProcessAlongIsNamed) {
+  const std::vector<std::pair<std::string, std::string>> deaths = {{"segfaults", "signal 11"},
+                                                                   {"aborts", "signal 6"},
+                                                                   {"overflows", "signal 11"},
+                                                                   {"exits", "called exit(0)"},
+                                                                   {"hangs", "did not end its turn for 2 s"}};
+  for (const auto& [how, reason] : deaths) {
+    SCOPED_TRACE(how);
+    SkeinRun& run = this->run(how, nasty(how, {"--agent-timeout", "2"}), {}, 3);
+    EXPECT_TRUE(says(run.err(), "uav_agent-jurong failed: ")) << run.err();
+    EXPECT_FALSE(says(run.err(), "changi failed")) << run.err();
+    EXPECT_FALSE(says(run.err(), "one_process failed")) << run.err();
+#ifndef SKEIN_TEST_SANITIZED  // a sanitizer takes such deaths for its own
+    EXPECT_TRUE(says(run.err(), reason)) << run.err();
+#endif
+    EXPECT_TRUE(says(run.err(), "nasty " + how)) << "the end of its log";
+    EXPECT_NE(run.result()["status"], "completed");
+    expect_complete_result(run);
+    expect_nothing_left();
+  }
+}
+
+TEST_F(OneProcess, WhoIsKilledHasNoLastWords) {
+  const auto faults = write("faults.yaml", "faults:\n  - {at_s: 2, kill: jurong}\n");
+  const auto last_words = [&](const std::string& name, const Arguments& more) {
+    const std::string file = folder() / (name + ".txt");
+    EXPECT_EQ(run(name, nasty("none", more), {{"NASTY_WILL", file}}).result()["status"], "completed");
+    const std::string text = text_of(file);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_EQ(last_words("lives", {}), 2) << "when it is checked before the flight, and after it";
+  EXPECT_EQ(last_words("killed", {"--faults", faults}), 1) << "when it is checked";
+}
+
+TEST_F(OneProcess, EachHasALogOfItsOwn) {
+  SkeinRun& run = this->run("logs", nasty("none"));
+  const std::string log = text_of(run.dir() / "uav_agent-jurong.log");
+  EXPECT_TRUE(says(log, "nasty begins")) << "through printf: " << log;
+  EXPECT_TRUE(says(log, "nasty plans")) << "through std::cerr: " << log;
+  EXPECT_TRUE(says(log, "[uav_agent] info nasty none")) << log;
+  for (const auto& entry : std::filesystem::directory_iterator(run.dir())) {
+    if (entry.path().extension() != ".log" || entry.path().stem() == "uav_agent-jurong") continue;
+    EXPECT_FALSE(says(text_of(entry.path()), "nasty")) << entry.path();
+  }
+}
+
+TEST_F(OneProcess, EndsWhenTheUserSaysSo) {
+  SkeinRun& run = start("stopped", flight({"--planner", "patrol", "--clock", "realtime:10"}, "500"));
+  ASSERT_TRUE(run.wait_until_flying());
+  run.skein().signal(SIGINT);
+  EXPECT_EQ(run.exit_code(), 130) << run.err();
+  EXPECT_EQ(run.result()["status"], "interrupted");
+  expect_complete_result(run);
+}
+
+TEST_F(OneProcess, KeepsToTheWallClockWhenAsked) {
+  SkeinRun& run = this->run("paced", flight({"--clock", "realtime:10", "--planner", "hover"}));
+  const Json result = run.result();
+  EXPECT_EQ(result["status"], "completed");
+  EXPECT_FALSE(result["deterministic"]);
+  EXPECT_LE(result["real_time_factor"].get<double>(), 10.5);
+}
+
+}  // namespace
+}  // namespace skein::test

@@ -1,0 +1,102 @@
+// A planner that does at a given time what no planner should. For tests of what becomes of the others.
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <utility>
+
+#include "uav_agent/api/planner.hpp"
+
+namespace skein::agent {
+
+enum class Nastiness { none, throws, throws_number, segfaults, aborts, exits, overflows, hangs };
+constexpr std::array<EnumName<Nastiness>, 8> enum_names(Nastiness) {
+  return {{{"none", Nastiness::none},
+           {"throws", Nastiness::throws},
+           {"throws_number", Nastiness::throws_number},
+           {"segfaults", Nastiness::segfaults},
+           {"aborts", Nastiness::aborts},
+           {"exits", Nastiness::exits},
+           {"overflows", Nastiness::overflows},
+           {"hangs", Nastiness::hangs}}};
+}
+
+namespace {
+
+/// Where it writes when it is destroyed.
+const char* last_will() {
+  const char* file = std::getenv("NASTY_WILL");
+  return file == nullptr ? "/dev/null" : file;
+}
+
+/// Deeper and deeper; what each call keeps is used, or the compiler would make a loop of it.
+int sink(int depth) {
+  static volatile int bottom = -1;  // is never reached
+  volatile char room[4096] = {};
+  room[depth % 4096] = 1;
+  return depth == bottom ? 0 : sink(depth + 1) + room[0];
+}
+
+}  // namespace
+
+class NastyPlanner final : public Planner {
+ public:
+  struct Config {
+    Nastiness how = Nastiness::none;
+    double at_s = 3.0;
+
+    template <class R>
+    void describe(R& r) {
+      r.field("how", how);
+      r.field("at_s", at_s, within(0.0, 1000.0));
+    }
+  };
+
+  NastyPlanner(const Config& config, const AgentConfig&) : config_(config) { std::printf("nasty begins\n"); }
+
+  /// What a process that is killed cannot do any more.
+  ~NastyPlanner() override { std::ofstream(last_will(), std::ios::app) << "I have lived\n"; }
+
+  PlannerOutput plan(const PlannerInput& in) override {
+    if (!std::exchange(warned_, true)) std::cerr << "nasty plans\n";
+    if (seconds(in.tick) >= config_.at_s && !std::exchange(done_, true)) misbehave();
+    return {};
+  }
+
+ private:
+  void misbehave() const {
+    spdlog::info("nasty {}", name_of(config_.how));
+    switch (config_.how) {
+      case Nastiness::none:
+        return;
+      case Nastiness::throws:
+        throw std::runtime_error("I do not like it here");
+      case Nastiness::throws_number:
+        throw 42;
+      case Nastiness::segfaults:
+        std::raise(SIGSEGV);
+        return;
+      case Nastiness::aborts:
+        std::abort();
+      case Nastiness::exits:
+        std::exit(0);
+      case Nastiness::overflows:
+        std::printf("%d\n", sink(0));
+        return;
+      case Nastiness::hangs:
+        while (true) asm volatile("");
+    }
+  }
+
+  const Config config_;
+  bool done_ = false, warned_ = false;
+};
+
+SKEIN_REGISTER_PLANNER("nasty", NastyPlanner);
+
+}  // namespace skein::agent
