@@ -71,7 +71,7 @@ void add_internals(pugi::xml_node domain, bool one_host) {
   heartbeat.append_attribute("min") = "5ms";
   heartbeat.append_attribute("minsched") = "10ms";
   heartbeat.append_attribute("max") = "8s";
-  heartbeat.text() = one_host ? "500ms" : "50ms";
+  heartbeat.text() = one_host ? "200ms" : "50ms";
   add_element(internal, "NackDelay", "5ms");
   add_element(internal, "GenerateKeyhash", "true");
   add_element(internal, "WriterLingerDuration", "50ms");
