@@ -1,5 +1,5 @@
-// Which UAVs a straight line may meet at all: their bodies as spheres, against one segment in a single sweep. In a large
-// fleet most lines pass most bodies by, and to ask each body costs more than the ray.
+// Which UAVs a straight line may meet at all: their bodies as spheres, against one segment in a single sweep. In a
+// large fleet most lines pass most bodies by, and to ask each body costs more than the ray.
 // Frame: W.   Units: m.   Threads: const calls from any, not beside set().
 #pragma once
 

@@ -101,7 +101,7 @@ TEST(AntennaLink, SightMemoryAnswersAsRaysAlone) {
   EXPECT_GT(blocked, 500);
 }
 
-/// A crowd among walls, from the ground up: bodies that no line can meet and what stands behind a body change no answer.
+/// A crowd among walls, from the ground up: it makes no difference to look only at the bodies about a line.
 TEST(AntennaLink, CrowdIsSeenAsWithAllBodies) {
   RandomStream random(2, "antenna_link_test", 0, 0);
   constexpr std::size_t kCrowd = 70;
