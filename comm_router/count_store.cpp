@@ -54,14 +54,14 @@ LinkMatrix<LinkCounts> CountStore::earlier_counts() const {
 }
 
 void CountStore::save(const LinkGate& gate, const GatedStep& last) {
-  LinkMatrix<LinkCounts> counts = gate.counts();
+  saved_ = gate.counts();
   for (const Delivery& delivery : last.deliveries) {
     const RadioRoute& route = gate.routes()[delivery.route];
-    LinkCounts& link = counts.at(route.source, route.targets[delivery.target].node);
+    LinkCounts& link = saved_.at(route.source, route.targets[delivery.target].node);
     --link.delivered;
     link.delivered_bytes -= delivery.payload->size();
   }
-  std::ranges::copy(counts.row_major(), counts_.begin());
+  std::ranges::copy(saved_.row_major(), counts_.begin());
 }
 
 }  // namespace skein::router

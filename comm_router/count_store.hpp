@@ -34,6 +34,7 @@ class CountStore {
   Head* head_ = nullptr;  ///< the file, in memory
   std::size_t nodes_;
   std::span<LinkCounts> counts_;  ///< of each link, as a LinkMatrix has them
+  LinkMatrix<LinkCounts> saved_;  ///< as the file has it; kept for its memory
 };
 
 }  // namespace skein::router

@@ -18,8 +18,7 @@ GcsNode::GcsNode(const Scenario& scenario, const Simulation& simulation, bus::Lo
       neighbours_(server.writer(domain, bus::spec(topics::neighbour_odometry(bus::kGcsName)))),
       ledger_(world, bus::spec(topics::ledger())) {}
 
-void GcsNode::publish(RunId run) {
-  publish_ledger(run);
+void GcsNode::publish() {
   const Tick tick = simulation_.tick();
   if (boxes_.count() == 0) boxes_.write(to_box_vertices(tick, simulation_.scene().boxes));
   msg::Clock clock;

@@ -14,12 +14,12 @@ class GcsNode {
   GcsNode(const Scenario& scenario, const Simulation& simulation, bus::LockstepServer& server,
           bus::LockstepServer::DomainIndex domain, bus::Participant& world);
 
-  /// All of this step.
-  void publish(RunId run);
-
- private:
+  /// All of this step in the GCS domain.
+  void publish();
+  /// What this step adds to the ledger, in the world domain.
   void publish_ledger(RunId run);
 
+ private:
   const Scenario& scenario_;
   const Simulation& simulation_;
   const std::vector<std::string> uavs_;

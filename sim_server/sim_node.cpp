@@ -18,8 +18,9 @@ namespace {
 using std::chrono::milliseconds;
 
 // While somebody joins, matches come in without a sample to announce them.
-constexpr milliseconds kMatchPoll{2};
-constexpr milliseconds kIdlePoll{100};
+constexpr milliseconds kMatchPoll{2}, kIdlePoll{100};
+// The server's domains; those of the UAVs come in the order of the fleet.
+constexpr std::size_t kWorldDomain = 0, kGcsDomain = 1, kFirstUavDomain = 2;
 /// For the step that is under way when the user ends the run.
 constexpr double kStopPatience_s = 2.0;
 
@@ -77,10 +78,10 @@ void SimNode::declare_members() {
   for (const UavIndex i : FirstUavs(scenario_.fleet.size())) {
     const auto domain = server_.add_domain(uav_names_[i], *participants_[2 + i]);
     server_.add_place(uav_names_[i], domain, true);
-    uavs_.push_back(std::make_unique<UavNode>(i, scenario_, simulation_, server_, domain));
+    uavs_.push_back(std::make_unique<UavNode>(i, scenario_, simulation_, heard_, server_, domain));
   }
   server_.on_stranger([this](auto domain, const std::string& topic, bus::ParticipantId source) {
-    strangers_.add(uav_names_.at(domain - 2), topic, source, simulation_.step());
+    strangers_.add(uav_names_.at(domain - kFirstUavDomain), topic, source, simulation_.step());
   });
   server_.add_place(std::string(bus::kGcsName), gcs, options_.expect_gcs_program);
   server_.add_place(std::string(bus::kStationName), gcs, true);
@@ -340,7 +341,6 @@ void SimNode::publish_step() {
   }
   begin_process_faults();
   tell_of_strangers(kStrangerSteps);
-  server_.hold();
   const StepEvents& events = simulation_.events();
   for (const Collision& collision : events.collisions) {
     spdlog::warn("{}", describe(collision, scenario_));
@@ -350,21 +350,26 @@ void SimNode::publish_step() {
     summary_.warnings.push_back(describe(stray, scenario_));
     spdlog::warn("{}", summary_.warnings.back());
   }
-  for (const auto& uav : uavs_) uav->publish();
-  gcs_->publish(inbox_.run());
   server_.publish({.k = simulation_.step(),
                    .tick = simulation_.tick(),
                    .links = simulation_.links().row_major(),
                    .ledger_upto = events.ledger_end,
-                   .final_step = last_step_});
+                   .final_step = last_step_},
+                  [this](bus::LockstepServer::DomainIndex domain) { write_samples(domain); });
+}
+
+void SimNode::write_samples(bus::LockstepServer::DomainIndex domain) {
+  if (domain == kWorldDomain) return gcs_->publish_ledger(inbox_.run());
+  if (domain == kGcsDomain) return gcs_->publish();
+  uavs_[domain - kFirstUavDomain]->publish();
 }
 
 // The user ends the run, and somebody does not answer: a hung planner, an agent in a debugger that has gone.
 bool SimNode::gives_up_step() {
   if (!stop_requested_ || elapsed_s(stop_requested_at_) < kStopPatience_s) return false;
   stalled_ = names_of(server_.awaited());
-  std::string text = fmt::format("interrupted in step {}, which was not finished; it waited for", simulation_.step());
-  for (const std::string& name : stalled_) text += " " + name;
+  std::string text = fmt::format("interrupted in step {}, which was not finished; it waited for {}", simulation_.step(),
+                                 fmt::join(stalled_, " "));
   spdlog::warn("{}", text);
   summary_.warnings.push_back(std::move(text));
   return true;

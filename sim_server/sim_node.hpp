@@ -79,6 +79,7 @@ class SimNode final : public bus::LockstepNode {
   void end_run(bool joined);
   void give_up_awaited(const std::string& why);
   void publish_step();
+  void write_samples(bus::LockstepServer::DomainIndex domain);
   bool gives_up_step();
   Clock::time_point due() const;
   void finish_step();
@@ -103,6 +104,7 @@ class SimNode final : public bus::LockstepNode {
   std::vector<std::unique_ptr<bus::Participant>> participants_;  ///< world, gcs, UAVs
   bus::LockstepServer server_;
   bus::Strangers strangers_;  ///< who sends commands without being a member
+  HeardKeyFrames heard_;
   std::vector<std::unique_ptr<UavNode>> uavs_;
   std::unique_ptr<GcsNode> gcs_;
   ProcessFaults process_faults_;

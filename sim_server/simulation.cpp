@@ -276,12 +276,15 @@ void Simulation::Impl::trace_links() {
     return AntennaNode{world.state(*uav).p_WB, scenario.fleet[*uav].vehicle.antenna_offset_m};
   };
   const auto on_air = [&](Node node) { return node == kStationNode || mission.alive(*uav_of_node(node)); };
+  std::vector<UavIndex> about;
   for (const Node a : scenario.nodes()) {
     for (const Node b : scenario.nodes()) {
       if (b <= a || !on_air(a) || !on_air(b)) continue;
-      const RayFilter filter{.except_uav = body_of(a), .except_other_uav = body_of(b)};
-      const bool linked = sights.at(a, b).linked(antenna(a), antenna(b), rays, filter);
-      const double distance_m = (antenna(a).p_W - antenna(b).p_W).norm();
+      const AntennaNode from = antenna(a), to = antenna(b);
+      rays.body_spheres().about(from.p_W, to.p_W, std::max(antenna_reach(from), antenna_reach(to)), about);
+      const RayFilter filter{.except_uav = body_of(a), .except_other_uav = body_of(b), .among = about};
+      const bool linked = sights.at(a, b).linked(from, to, rays, filter);
+      const double distance_m = (from.p_W - to.p_W).norm();
       links.at(a, b) = linked && in_range(a, b, distance_m);
       links.at(b, a) = linked && in_range(b, a, distance_m);
     }

@@ -40,11 +40,22 @@ msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& s
   return to_cloud(simulation.tick(), points);
 }
 
-UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation, bus::LockstepServer& server,
-                 bus::LockstepServer::DomainIndex domain)
+std::span<const std::uint8_t> HeardKeyFrames::payload(const Simulation& simulation, std::size_t event) {
+  const std::vector<KeyFrameEvent>& events = simulation.events().key_frames;
+  if (step_ != simulation.step()) payloads_.assign(events.size(), {});
+  step_ = simulation.step();
+  std::vector<std::uint8_t>& payload = payloads_.at(event);
+  const auto& [uav, frame, neighbours] = events[event];
+  if (payload.empty()) payload = encode(to_cloud(frame.tick, frame.points_W, static_cast<float>(node_of_uav(uav))));
+  return payload;
+}
+
+UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation, HeardKeyFrames& heard,
+                 bus::LockstepServer& server, bus::LockstepServer::DomainIndex domain)
     : uav_(uav),
       scenario_(scenario),
       simulation_(simulation),
+      heard_(heard),
       id_(scenario.fleet[uav].name),
       fleet_(scenario.uav_names()),
       odometry_(server.writer(domain, bus::spec(topics::odometry(id_)))),
@@ -116,14 +127,13 @@ void UavNode::publish_clouds() {
   for (const LidarEvent& scan : simulation_.events().scans) {
     if (scan.uav == uav_ && cloud_) send(*cloud_, [&] { return to_cloud(scan.scan.tick, scan.scan.points_W); });
   }
-  for (const KeyFrameEvent& frame : simulation_.events().key_frames) {
+  const std::vector<KeyFrameEvent>& frames = simulation_.events().key_frames;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const KeyFrameEvent& frame = frames[i];
     if (frame.uav == uav_ && self_keyframe_)
       send(*self_keyframe_, [&] { return to_cloud(frame.key_frame.tick, frame.key_frame.points_W); });
     const bool neighbour = std::find(frame.neighbours.begin(), frame.neighbours.end(), uav_) != frame.neighbours.end();
-    if (neighbour) {
-      const auto source = static_cast<float>(node_of_uav(frame.uav));
-      send(neighbour_keyframe_, [&] { return to_cloud(frame.key_frame.tick, frame.key_frame.points_W, source); });
-    }
+    if (neighbour) send(neighbour_keyframe_, [&] { return heard_.payload(simulation_, i); });
   }
 }
 

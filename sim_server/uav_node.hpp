@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,11 +17,23 @@ namespace skein::sim {
 /// Who is linked to `node` at this step: nbr_odom_cloud.
 msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& scenario, Node node);
 
+/// The key frames of a step as those get them who hear their explorer: each is encoded once, however many they are.
+class HeardKeyFrames {
+ public:
+  /// @param event  of this step's key frames. @returns what is valid until the next step.
+  std::span<const std::uint8_t> payload(const Simulation& simulation, std::size_t event);
+
+ private:
+  std::optional<std::uint64_t> step_;
+  std::vector<std::vector<std::uint8_t>> payloads_;  ///< empty: nobody asked yet
+};
+
 class UavNode {
  public:
   /// Declares all topics of UAV `uav` in `domain`. `simulation` gets its commands when a step is answered.
-  UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation, bus::LockstepServer& server,
-          bus::LockstepServer::DomainIndex domain);
+  /// @param heard  shared by all UAVs' nodes.
+  UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation, HeardKeyFrames& heard,
+          bus::LockstepServer& server, bus::LockstepServer::DomainIndex domain);
 
   /// Publishes the samples of the present step.
   void publish();
@@ -41,6 +55,7 @@ class UavNode {
   UavIndex uav_;
   const Scenario& scenario_;
   Simulation& simulation_;
+  HeardKeyFrames& heard_;
   const std::string& id_;
   std::vector<std::string> fleet_;
   bus::CountedWriter &odometry_, &gimbal_, &neighbour_odometry_, &neighbour_keyframe_, &detected_points_, &detected_,

@@ -43,10 +43,10 @@ void AgentNode::read_sensors(LockstepClient& client) {
     client.read<msg::PointCloud2>(bus::spec(topic), Counterpart::server, [this, source](const auto& m) {
       KeyFrame frame;
       frame.source = source;
-      for (const ScanPoint& p : from_cloud<ScanPoint>(m)) {
-        frame.points_W.emplace_back(p.x, p.y, p.z);
-        if (!source) frame.source = node_of(p.intensity);
-      }
+      const std::vector<ScanPoint> points = from_cloud<ScanPoint>(m);
+      frame.points_W.reserve(points.size());
+      for (const ScanPoint& p : points) frame.points_W.emplace_back(p.x, p.y, p.z);
+      if (!source && !points.empty()) frame.source = node_of(points.back().intensity);
       input_.key_frames.push_back(std::move(frame));
     });
   };

@@ -46,7 +46,7 @@ class FastWriter final : public Endpoint {
   FastWriter(const Membership& membership, const Flow& flow)
       : sample_(flow.payload),
         writer_(created(membership.publisher->create_datawriter(membership.topic(flow),
-                                                                bus::fastdds::writer_qos(flow.topic.qos)))) {}
+                                                                bus::fastdds::writer_qos(flow.topic.qos, true)))) {}
 
   std::size_t matched() const override {
     dds::PublicationMatchedStatus status;

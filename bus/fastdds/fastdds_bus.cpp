@@ -71,6 +71,11 @@ class Matches {
     return ids;
   }
 
+  bool empty() const {
+    const std::scoped_lock lock(mutex_);
+    return participants_.empty();
+  }
+
   /// Whether Cyclone DDS is among them.
   bool any_cyclone() const {
     const std::scoped_lock lock(mutex_);
@@ -86,14 +91,15 @@ class Matches {
 
 class FastWriter : public Writer, private dds::DataWriterListener {
  public:
-  FastWriter(dds::Publisher& publisher, dds::Topic& topic, const Qos& qos, const GuidPrefix_t& own, Unsent& unsent)
+  FastWriter(dds::Publisher& publisher, dds::Topic& topic, const Qos& qos, bool one_host, const GuidPrefix_t& own,
+             Unsent& unsent)
       : publisher_(publisher),
         unsent_(unsent),
         reliable_(qos.reliable),
         matches_(own),
-        writer_(created(
-            publisher.create_datawriter(&topic, fastdds::writer_qos(qos), this, dds::StatusMask::publication_matched()),
-            "a writer on " + topic.get_name())) {}
+        writer_(created(publisher.create_datawriter(&topic, fastdds::writer_qos(qos, one_host), this,
+                                                    dds::StatusMask::publication_matched()),
+                        "a writer on " + topic.get_name())) {}
   ~FastWriter() override {
     writer_->set_listener(nullptr);
     // Fast DDS 2.9 gives the samples of a writer that goes back to their pool while its heartbeat may still look at
@@ -114,6 +120,7 @@ class FastWriter : public Writer, private dds::DataWriterListener {
   }
 
   std::vector<ParticipantId> matched() const override { return matches_.participants(); }
+  bool has_readers() const override { return !matches_.empty(); }
 
  private:
   void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
@@ -190,6 +197,7 @@ class FastParticipant : public Participant {
  public:
   FastParticipant(int domain, const BusConfig& config, std::shared_ptr<Unsent> unsent)
       : Participant(std::move(unsent)),
+        one_host_(config.loopback_only),
         participant_(created(dds::DomainParticipantFactory::get_instance()->create_participant(
                                  static_cast<std::uint32_t>(domain), participant_qos(domain, config),
                                  config.security.empty() ? nullptr : &stranger_watch_, dds::StatusMask::none()),
@@ -205,7 +213,7 @@ class FastParticipant : public Participant {
   ParticipantId id() const override { return id_of(prefix_); }
 
   std::unique_ptr<Writer> create_writer(const TopicSpec& topic) override {
-    return std::make_unique<FastWriter>(*publisher_, open(topic), topic.qos, prefix_, unsent());
+    return std::make_unique<FastWriter>(*publisher_, open(topic), topic.qos, one_host_, prefix_, unsent());
   }
 
   std::unique_ptr<Reader> create_reader(const TopicSpec& topic, OnSample on_sample) override {
@@ -230,6 +238,7 @@ class FastParticipant : public Participant {
     return *topic;
   }
 
+  const bool one_host_;
   StrangerWatch stranger_watch_;
   dds::DomainParticipant* participant_;
   GuidPrefix_t prefix_;

@@ -83,7 +83,7 @@ DomainParticipantQos participant_qos(int domain, const BusConfig& config) {
   return qos;
 }
 
-DataWriterQos writer_qos(const Qos& qos) {
+DataWriterQos writer_qos(const Qos& qos, bool one_host) {
   DataWriterQos dds = DATAWRITER_QOS_DEFAULT;
   dds.reliability().kind = qos.reliable ? RELIABLE_RELIABILITY_QOS : BEST_EFFORT_RELIABILITY_QOS;
   dds.reliability().max_blocking_time = milliseconds(10);
@@ -96,8 +96,10 @@ DataWriterQos writer_qos(const Qos& qos) {
   dds.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
   dds.data_sharing().off();
   dds.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;
-  // What got lost is noticed by the next heartbeat; the default of 3 s would stall a lock-step round for as long.
-  dds.reliable_writer_qos().times.heartbeatPeriod = milliseconds(20);
+  // What got lost is noticed by the next heartbeat; the default of 3 s would stall a lock-step round for as long. On
+  // one host nothing is lost but where a buffer overflows, and a heartbeat and its answer cost two datagrams. What is
+  // latched reaches a late joiner by it.
+  dds.reliable_writer_qos().times.heartbeatPeriod = milliseconds(one_host && !qos.latched ? 200 : 20);
   dds.reliable_writer_qos().times.nackResponseDelay = milliseconds(1);
   // Nobody watches it, but it lets FastWriter send heartbeats (fastdds_bus.cpp).
   dds.liveliness().kind = MANUAL_BY_TOPIC_LIVELINESS_QOS;

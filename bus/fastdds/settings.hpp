@@ -10,7 +10,8 @@
 namespace skein::bus::fastdds {
 
 eprosima::fastdds::dds::DomainParticipantQos participant_qos(int domain, const BusConfig& config);
-eprosima::fastdds::dds::DataWriterQos writer_qos(const Qos& qos);
+/// @param one_host  nobody else's network is in between (BusConfig::loopback_only)
+eprosima::fastdds::dds::DataWriterQos writer_qos(const Qos& qos, bool one_host);
 eprosima::fastdds::dds::DataReaderQos reader_qos(const Qos& qos);
 
 }  // namespace skein::bus::fastdds

@@ -174,10 +174,11 @@ bool LockstepClient::matched(Counterpart counterpart, ParticipantId who) const {
 }
 
 bool LockstepClient::router_matched() {
+  if (router_ == 0 || router_ == matched_router_) return true;  // nobody asks the vendor in each step
   // That it hears our Done we know from nobody but our writer: by Attached it says only that it has found it.
   const bool heard = router_ == participant_.id() || done_->matches(router_);
-  if (router_ != matched_router_ && heard && matched(Counterpart::router, router_)) matched_router_ = router_;
-  return router_ == 0 || router_ == matched_router_;
+  if (heard && matched(Counterpart::router, router_)) matched_router_ = router_;
+  return router_ == matched_router_;
 }
 
 LockstepClient::Event LockstepClient::poll() {

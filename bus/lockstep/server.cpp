@@ -145,17 +145,14 @@ std::vector<msg::TopicCount> LockstepServer::take_new_counts(Domain& domain) {
 ParticipantId LockstepServer::source_in(DomainIndex domain, const Place& member) const {
   if (domain == 0 || member.name != kRouterName) return member.source;
   for (const Place& peer : places_) {
+    if (!peer.member || peer.domain != domain) continue;
     const auto attached = attached_.find({member.source, peer.source});
-    if (peer.member && peer.domain == domain && attached != attached_.end()) return attached->second;
+    if (attached != attached_.end()) return attached->second;
   }
   return 0;
 }
 
-void LockstepServer::hold() {
-  for (const auto& domain : domains_) domain->participant->hold();
-}
-
-void LockstepServer::publish(const StepInfo& info) {
+void LockstepServer::publish(const StepInfo& info, const WriteSamples& write_samples) {
   if (membership_changed_) ++epoch_;
   membership_changed_ = false;
   in_step_ = true;
@@ -174,6 +171,8 @@ void LockstepServer::publish(const StepInfo& info) {
   step.final_step(info.final_step);
   for (std::size_t i = 0; i < domains_.size(); ++i) {
     Domain& domain = *domains_[i];
+    const Burst burst(*domain.participant);
+    write_samples(i);
     step.members().clear();
     step.orders().clear();
     for (Place& place : places_) {
@@ -191,7 +190,6 @@ void LockstepServer::publish(const StepInfo& info) {
     for (auto& writer : domain.writers) writer->begin_step();
     domain.step->begin_step();
     domain.step->write(step);
-    domain.participant->release();
     domain.last = step;
   }
 }

@@ -59,9 +59,12 @@ class LockstepServer {
 
   /// At a boundary: lets in whoever knocks. @returns true when nobody is at the door any more: publish() may follow.
   bool at_boundary();
-  /// What is written from here on leaves with the step: call it before the first sample of a step.
-  void hold();
-  void publish(const StepInfo& info);
+  /// Writes a domain's samples of a step; they leave together with the step.
+  using WriteSamples = std::function<void(DomainIndex)>;
+  /// Domain by domain, so that the first members think while the last are still being told.
+  /// @param write_samples  called once for each domain in turn, before its step is told.
+  void publish(
+      const StepInfo& info, const WriteSamples& write_samples = [](DomainIndex) {});
   /// @returns true when everybody has answered the published step; handlers of read() have run then, member by member.
   bool answered();
   /// For Inbox::dispatch(), while answered() is false: each answer that is missing rings once at least.

@@ -78,6 +78,7 @@ struct RayScene::Impl {
   RayFan fan{TriangleMesh{}};
   std::vector<Plane> planes;
   std::vector<Body> bodies;
+  BodySpheres spheres;
 
   Impl(const TriangleMesh& structure, const std::vector<BodyShape>& shapes, bool native_cpu)
       : device(make_device(native_cpu)),
@@ -89,9 +90,7 @@ struct RayScene::Impl {
     rtcSetSceneFlags(scene.get(),
                      static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
-    if (!mesh.triangles.empty()) {
-      add_structure();
-    }
+    if (!mesh.triangles.empty()) add_structure();
     rtcCommitScene(scene.get());
     if (const RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE) {
       throw std::runtime_error("Embree cannot take the structure, error " + std::to_string(error));
@@ -137,9 +136,7 @@ struct RayScene::Impl {
     const Plane& plane = planes[triangle];
     const double slope = plane.normal.dot(ray.direction);
     const double height = plane.offset - plane.normal.dot(ray.origin);
-    if (std::abs(slope) > 0.01) {
-      return std::max(0.0, height / slope);
-    }
+    if (std::abs(slope) > 0.01) return std::max(0.0, height / slope);
     // Almost along the plane the crossing is badly conditioned: keep it on the triangle.
     const auto points = corners(mesh.triangles[triangle]);
     std::array<double, 3> along;
@@ -165,7 +162,9 @@ struct RayScene::Impl {
   }
 
   /// The first of ground and bodies; nullopt when there is none up to `distance_max`.
-  std::optional<Hit> first_shape(const Ray& ray, double distance_max, const RayFilter& filter) const {
+  /// @param enough  what is nearer need not be the first.
+  std::optional<Hit> first_shape(const Ray& ray, double distance_max, const RayFilter& filter,
+                                 double enough = 0.0) const {
     Hit nearest{.distance = distance_max};
     bool any = false;
     if (filter.ground) {
@@ -174,26 +173,32 @@ struct RayScene::Impl {
         any = true;
       }
     }
-    for (const UavIndex uav : FirstUavs(filter.uavs ? bodies.size() : 0)) {
-      if (!takes_part(uav, filter)) {
-        continue;
-      }
+    const auto meet = [&](UavIndex uav) {
+      if (!takes_part(uav, filter)) return;
       const Vector3d offset = bodies[uav].p_WB - ray.origin;
       const double reach = bodies[uav].radius;
       const double along = std::clamp(offset.dot(ray.direction), 0.0, nearest.distance);
-      if ((offset - along * ray.direction).squaredNorm() > reach * reach) {
-        continue;
-      }
+      if ((offset - along * ray.direction).squaredNorm() > reach * reach) return;
       if (const double t = bodies[uav].distance(ray); t <= nearest.distance) {
         nearest = {t, HitKind::uav, uav, kNoTriangle};
         any = true;
       }
+    };
+    const auto meet_all = [&](const auto& uavs) {
+      for (auto uav = uavs.begin(); uav != uavs.end() && nearest.distance >= enough; ++uav) meet(*uav);
+    };
+    if (filter.uavs && filter.among) {
+      meet_all(*filter.among);
+    } else if (filter.uavs) {
+      meet_all(FirstUavs(bodies.size()));
     }
     return any ? std::optional(nearest) : std::nullopt;
   }
 
-  std::optional<Hit> first_hit(const Ray& ray, double distance_max, const RayFilter& filter) const {
-    const auto shape = first_shape(ray, distance_max, filter);
+  std::optional<Hit> first_hit(const Ray& ray, double distance_max, const RayFilter& filter,
+                               double enough = 0.0) const {
+    const auto shape = first_shape(ray, distance_max, filter, enough);
+    if (shape && shape->distance < enough) return shape;
     const auto structure = first_structure(ray, shape ? shape->distance : distance_max);
     return structure ? structure : shape;
   }
@@ -269,9 +274,7 @@ struct RayScene::Impl {
                  double distance_max, std::span<double> distances) const {
     const Vector3d offset = body.p_WB - origin;
     const double far = offset.norm();
-    if (far - body.radius > distance_max) {
-      return;
-    }
+    if (far - body.radius > distance_max) return;
     // Rays outside the cone about the body cannot meet it; from inside its sphere all may.
     const double tangent2 = far * far - body.radius * body.radius;
     const float least_along =
@@ -298,14 +301,10 @@ struct RayScene::Impl {
     auto& nearest = *static_cast<Nearest*>(args->userPtr);
     const Plane& plane = nearest.impl->planes[args->primID];
     const double height = plane.normal.dot(nearest.p) - plane.offset;
-    if (height * height >= nearest.squared) {
-      return false;  // no triangle is nearer than its plane
-    }
+    if (height * height >= nearest.squared) return false;
     const auto [a, b, c] = nearest.impl->corners(nearest.impl->mesh.triangles[args->primID]);
     const double squared = squared_distance(nearest.p, a, b, c);
-    if (squared >= nearest.squared) {
-      return false;
-    }
+    if (squared >= nearest.squared) return false;
     nearest.squared = squared;
     args->query->radius = static_cast<float>(std::sqrt(squared)) * 1.000001F;
     return true;
@@ -323,15 +322,21 @@ void RayScene::set_pose(UavIndex uav, const Isometry3d& X_WB) {
   body.placed = true;
   body.X_BW = X_WB.inverse();
   body.p_WB = X_WB.translation();
+  impl_->spheres.set(uav, body.p_WB, body.radius);
 }
+
+const BodySpheres& RayScene::body_spheres() const { return impl_->spheres; }
 
 std::optional<Hit> RayScene::first_hit(const Vector3d& p_W, const Vector3d& direction_W, double distance_max,
                                        const RayFilter& filter) const {
+  return first_hit_or_blocker(p_W, direction_W, distance_max, 0.0, filter);
+}
+
+std::optional<Hit> RayScene::first_hit_or_blocker(const Vector3d& p_W, const Vector3d& direction_W, double distance_max,
+                                                  double enough, const RayFilter& filter) const {
   const double length = direction_W.norm();
-  if (!(length > 0.0)) {
-    return std::nullopt;
-  }
-  return impl_->first_hit({p_W, direction_W / length}, distance_max, filter);
+  if (!(length > 0.0)) return std::nullopt;
+  return impl_->first_hit({p_W, direction_W / length}, distance_max, filter, enough);
 }
 
 std::optional<double> RayScene::first_hit_distance(const Vector3d& from_W, const Vector3d& to_W,
@@ -345,9 +350,7 @@ std::optional<RayScene::HitBeforeEnd> RayScene::first_hit_before_end(const Vecto
   // Rounded one by one: that the origin moves by its rounding and the length does not is most of what decides.
   const Ray ray{from_W, (to_W - from_W).normalized()};
   const auto length = static_cast<float>((to_W - from_W).norm());
-  if (!(length > 0.0F)) {
-    return std::nullopt;
-  }
+  if (!(length > 0.0F)) return std::nullopt;
   float nearest = impl_->before_end(ray.origin.cast<float>(), ray.direction.cast<float>(), length);
   if (const auto shape = impl_->first_shape(ray, length, filter)) {
     nearest = std::min(nearest, static_cast<float>(shape->distance));
@@ -377,9 +380,7 @@ void RayScene::scan(const Vector3d& p_W, std::span<const Eigen::Vector3f> direct
 }
 
 double RayScene::clearance(const Vector3d& p_W, double distance_max) const {
-  if (impl_->mesh.triangles.empty()) {
-    return kInfinity;
-  }
+  if (impl_->mesh.triangles.empty()) return kInfinity;
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   RTCPointQuery query{};

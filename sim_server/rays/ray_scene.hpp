@@ -19,6 +19,7 @@
 #include "core/airframe.hpp"
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
+#include "sim_server/rays/body_spheres.hpp"
 
 namespace skein::sim {
 
@@ -39,6 +40,8 @@ struct RayFilter {
   bool uavs = true;
   /// UAVs that the ray passes through: sensors and antennas sit inside or close to their own body.
   UavIndex except_uav = kNobody, except_other_uav = kNobody;
+  /// If given, no other bodies are looked at: for who knows that the ray passes the rest by.
+  std::optional<std::span<const UavIndex>> among = {};
 };
 
 enum class HitKind { structure, ground, uav };
@@ -71,6 +74,14 @@ class RayScene {
   ///          who asks about a surface point overshoots it.
   std::optional<Hit> first_hit(const Vector3d& p_W, const Vector3d& direction_W, double distance_max,
                                const RayFilter& filter = {}) const;
+
+  /// As first_hit(), but content with any body or the ground that it meets nearer than `enough`: what it returns then
+  /// need not be the first. Cheaper, for who asks whether a way is blocked.
+  std::optional<Hit> first_hit_or_blocker(const Vector3d& p_W, const Vector3d& direction_W, double distance_max,
+                                          double enough, const RayFilter& filter = {}) const;
+
+  /// The bodies as they stand, for RayFilter::among.
+  const BodySpheres& body_spheres() const;
 
   /// Distance from `from_W` of the first thing on the segment to `to_W`; nullopt when the segment is clear.
   std::optional<double> first_hit_distance(const Vector3d& from_W, const Vector3d& to_W,

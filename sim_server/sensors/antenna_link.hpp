@@ -42,6 +42,9 @@ inline constexpr double kEndTolerance = 0.1;
 /// Antenna positions in W. Pure.
 std::array<Vector3d, kAntennas> antennas(const AntennaNode& node);
 
+/// Distance of the farthest antenna from the node's centre, or a little more. Pure.
+double antenna_reach(const AntennaNode& node);
+
 /// What one sight line amounts to. Pure.
 enum class SightLine { clear, within_tolerance, blocked };
 SightLine judge_sight_line(double length, const std::optional<double>& hit);

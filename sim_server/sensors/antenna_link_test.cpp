@@ -101,5 +101,36 @@ TEST(AntennaLink, SightMemoryAnswersAsRaysAlone) {
   EXPECT_GT(blocked, 500);
 }
 
+/// A crowd among walls, from the ground up: it makes no difference to look only at the bodies about a line.
+TEST(AntennaLink, CrowdIsSeenAsWithAllBodies) {
+  RandomStream random(2, "antenna_link_test", 0, 0);
+  constexpr std::size_t kCrowd = 70;
+  RayScene world(test::random_triangles(30, 1), std::vector<BodyShape>(kCrowd, body_shape(VehicleConfig{})));
+  int linked = 0, blocked = 0;
+  for (int round = 0; round < 10; ++round) {
+    std::vector<AntennaNode> nodes;
+    for (const UavIndex i : FirstUavs(kCrowd)) {
+      const double low = round % 2 == 0 ? 0.0 : -0.5, high = round < 5 ? 0.5 : 8.0;
+      nodes.push_back({test::random_in_box(random, {-8.0, -8.0, low}, {8.0, 8.0, high}), 0.1 + 0.002 * double(i)});
+      world.set_pose(i, Isometry3d(Eigen::Translation3d(nodes.back().p_W)));
+    }
+    std::vector<UavIndex> about;
+    for (const UavIndex i : FirstUavs(kCrowd)) {
+      for (const UavIndex j : FirstUavs(i)) {
+        RayFilter filter{.except_uav = i, .except_other_uav = j};
+        const auto ray = [&](const Vector3d& p, const Vector3d& q) { return world.first_hit_distance(p, q, filter); };
+        const bool expected = trace_link(nodes[i], nodes[j], ray).linked;
+        const double reach = std::max(antenna_reach(nodes[i]), antenna_reach(nodes[j]));
+        world.body_spheres().about(nodes[i].p_W, nodes[j].p_W, reach, about);
+        filter.among = about;
+        ASSERT_EQ(SightMemory().linked(nodes[i], nodes[j], world, filter), expected) << round << " " << i << " " << j;
+        (expected ? linked : blocked) += 1;
+      }
+    }
+  }
+  EXPECT_GT(linked, 1000);
+  EXPECT_GT(blocked, 300);
+}
+
 }  // namespace
 }  // namespace skein::sim

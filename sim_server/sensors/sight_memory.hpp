@@ -16,6 +16,7 @@ class SightMemory {
   SightMemory() { blockers_.fill(kNoTriangle); }
 
   /// As trace_link() with a ray for each sight line.
+  /// @param filter  `among` may be those about the two nodes, within the antennas' reach.
   bool linked(const AntennaNode& from, const AntennaNode& to, const RayScene& world, const RayFilter& filter) {
     std::size_t line = 0;
     return trace_link(
@@ -33,7 +34,7 @@ class SightMemory {
     for (const std::uint32_t known : {blocker, last_}) {
       if (world.surely_blocked_by(known, a, b, before_the_end)) return 0.0;
     }
-    const auto hit = world.first_hit(a, b - a, length, filter);
+    const auto hit = world.first_hit_or_blocker(a, b - a, length, before_the_end, filter);
     blocker = last_ = hit ? hit->triangle : kNoTriangle;
     return hit ? std::optional(hit->distance) : std::nullopt;
   }

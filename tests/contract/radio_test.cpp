@@ -142,7 +142,6 @@ class Server {
       for (std::size_t from = 0; from < kNodes.size(); ++from) {
         for (std::size_t to = 0; to < kNodes.size(); ++to) links.push_back(linked(from, to, k_));
       }
-      server_.hold();
       server_.publish({.k = k_, .tick = 20 * static_cast<Tick>(k_), .links = links, .final_step = k_ + 1 == kSteps});
       in_step_ = true;
     } else if (in_step_ && server_.answered()) {

@@ -1,5 +1,7 @@
 #include "uav_agent/api/peers.hpp"
 
+#include <algorithm>
+
 namespace skein::agent {
 namespace {
 
@@ -26,21 +28,23 @@ void Peers::update(Tick tick, const std::vector<Neighbour>& neighbours) {
       station_visible_ = true;
       continue;
     }
-    for (Peer& peer : peers_) {
-      if (node_of_uav(peer.uav) != neighbour.node) continue;
-      const double gap_s = peer.seen ? seconds(tick - *peer.seen) : kMaxGapS + 1.0;
-      if (neighbour.v_W) {
-        peer.v_W = *neighbour.v_W;
-      } else if (gap_s > kMaxGapS) {
-        peer.v_W.setZero();
-      } else if (gap_s > 0.0) {
-        const Vector3d v_new = (neighbour.p_W - peer.p_W) / gap_s;
-        peer.v_W += kVelocityGain * (v_new - peer.v_W);
-      }
-      peer.p_W = neighbour.p_W;
-      peer.seen = tick;
-      peer.visible = true;
+    const UavIndex uav = *uav_of_node(neighbour.node);
+    const auto found =
+        std::ranges::lower_bound(peers_, std::size_t{uav}, {}, [](const Peer& peer) { return std::size_t{peer.uav}; });
+    if (found == peers_.end() || found->uav != uav) continue;
+    Peer& peer = *found;
+    const double gap_s = peer.seen ? seconds(tick - *peer.seen) : kMaxGapS + 1.0;
+    if (neighbour.v_W) {
+      peer.v_W = *neighbour.v_W;
+    } else if (gap_s > kMaxGapS) {
+      peer.v_W.setZero();
+    } else if (gap_s > 0.0) {
+      const Vector3d v_new = (neighbour.p_W - peer.p_W) / gap_s;
+      peer.v_W += kVelocityGain * (v_new - peer.v_W);
     }
+    peer.p_W = neighbour.p_W;
+    peer.seen = tick;
+    peer.visible = true;
   }
 }
 

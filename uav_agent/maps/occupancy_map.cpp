@@ -3,6 +3,7 @@
 #include <octomap/OcTree.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 
@@ -20,10 +21,13 @@ class CellBlocks {
   /// @returns true when the cell was not set before.
   bool set(const Vector3d& p) {
     const Eigen::Vector3i c = cell(p);
-    std::uint64_t& bits = blocks_[key(block(c))];
+    if (const std::uint64_t its_key = key(block(c)); last_ == nullptr || its_key != last_key_) {
+      last_ = &blocks_[its_key];
+      last_key_ = its_key;
+    }
     const std::uint64_t bit = bit_of(c);
-    if (bits & bit) return false;
-    bits |= bit;
+    if (*last_ & bit) return false;
+    *last_ |= bit;
     ++count_;
     return true;
   }
@@ -79,6 +83,8 @@ class CellBlocks {
 
   const double cell_m_;
   std::unordered_map<std::uint64_t, std::uint64_t> blocks_;
+  std::uint64_t* last_ = nullptr;  ///< block that was set last: the next is most often the same
+  std::uint64_t last_key_ = 0;
   std::size_t count_ = 0;
 };
 
@@ -88,34 +94,45 @@ octomap::point3d to_octomap(const Vector3d& p) {
 
 }  // namespace
 
-/// How many rays have passed each cell of a coarse grid. By hash, since it is asked far more often than the octree
-/// that lends its keys could answer: only ever looked up, never walked through.
+/// How many rays have passed each cell of a coarse grid, in blocks of 4 x 4 x 4 found by hash: a ray passes some cells
+/// of each, and the octree that lends its keys is far slower to ask. Only ever looked up, never walked through.
 class RayCounts {
  public:
   explicit RayCounts(double cell_m) : grid_(cell_m) {}
 
   void add_ray(const Vector3d& from, const Vector3d& to) {
     if (!grid_.computeRayKeys(to_octomap(from), to_octomap(to), ray_)) return;
+    Block* block = nullptr;
+    std::uint64_t its_key = 0;
     for (const octomap::OcTreeKey& key : ray_) {
-      std::uint8_t& count = counts_[packed(key)];
+      if (block == nullptr || block_key(key) != its_key) {
+        its_key = block_key(key);
+        block = &blocks_[its_key];
+      }
+      std::uint8_t& count = (*block)[cell_in_block(key)];
       if (count < kCountedRays) ++count;
     }
   }
   int at(const Vector3d& p) const {
     octomap::OcTreeKey key;
     if (!grid_.coordToKeyChecked(to_octomap(p), key)) return 0;
-    const auto found = counts_.find(packed(key));
-    return found == counts_.end() ? 0 : found->second;
+    const auto found = blocks_.find(block_key(key));
+    return found == blocks_.end() ? 0 : found->second[cell_in_block(key)];
   }
 
  private:
-  static std::uint64_t packed(const octomap::OcTreeKey& key) {
-    return std::uint64_t{key[0]} | std::uint64_t{key[1]} << 16 | std::uint64_t{key[2]} << 32;
+  using Block = std::array<std::uint8_t, 64>;
+
+  static std::uint64_t block_key(const octomap::OcTreeKey& key) {
+    return std::uint64_t{key[0]} >> 2 | std::uint64_t{key[1]} >> 2 << 16 | std::uint64_t{key[2]} >> 2 << 32;
+  }
+  static std::size_t cell_in_block(const octomap::OcTreeKey& key) {
+    return (key[0] & 3U) | (key[1] & 3U) << 2 | (key[2] & 3U) << 4;
   }
 
   const octomap::OcTree grid_;  ///< empty
   octomap::KeyRay ray_;
-  std::unordered_map<std::uint64_t, std::uint8_t> counts_;
+  std::unordered_map<std::uint64_t, Block> blocks_;
 };
 
 struct OccupancyMap::Impl {
