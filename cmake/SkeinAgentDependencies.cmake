@@ -1,4 +1,5 @@
-# What an agent program links, and a whole fleet in one process, all from Debian 12. Used by this build and, installed, by find_package(skein).
+# What an agent program links, and a whole fleet in one process, all from Debian 12. Used by this build and, installed,
+# by find_package(skein).
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(yaml-cpp REQUIRED)
 find_package(pugixml 1.13 REQUIRED)

@@ -1,7 +1,8 @@
 // The programs of a fleet as objects of this process. Each gets a turn when it can do something, on one thread, so that
 // at any time at most one of them is at work.
-// What a process is to its program is kept up: a log of its own, a death that leaves no last words, standing still while
-// it is stopped, an end by an exception; and the CPU time that the server is told is its own (process/thread_cpu.hpp).
+// What a process is to its program is kept up: a log of its own, a death that leaves no last words, standing still
+// while it is stopped, an end by an exception; and the CPU time that the server is told is its own
+// (process/thread_cpu.hpp).
 // Threads: one, but for turns() and whose_turn().
 #pragma once
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <vector>
 
 #include "process/program.hpp"
@@ -89,14 +89,14 @@ void DeathNotice::watch(int fd) {
       [](int code, void*) {
         const DeathNotice* notice = in_turn.exchange(nullptr);
         if (notice == nullptr) return;
-        std::fprintf(stderr, "%s: called exit(%d), which ends the whole fleet here\n", notice->program_.c_str(), code);
+        std::cerr << notice->program_ << ": called exit(" << code << "), which ends the whole fleet here" << std::endl;
         write_news(line_of(notice->program_, code == 0 ? kExitProcessFailed : code, 0));
       },
       nullptr);
 }
 
 void DeathNotice::give_up(const std::string& why) {
-  std::fprintf(stderr, "%s: %s\n", programs::kOneProcess, why.c_str());
+  std::cerr << programs::kOneProcess << ": " << why << std::endl;
   tell_of_death(SIGABRT);
   ::_exit(kExitProcessFailed);
 }

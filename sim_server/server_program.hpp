@@ -1,4 +1,5 @@
-// sim_server as a program: it flies a run, or does one of the things that take its code and no fleet (server_tasks.hpp).
+// sim_server as a program: it flies a run, or does one of the things that take its code and no fleet
+// (server_tasks.hpp).
 #pragma once
 
 #include <filesystem>

@@ -26,7 +26,8 @@ class FleetMember {
   virtual LockstepNode& node() = 0;
   /// All that it has on the bus.
   virtual Bus& bus() = 0;
-  /// Its node has ended so. @returns the program's exit code, once its report is handed in; nullopt: there is a new node.
+  /// Its node has ended so.
+  /// @returns the program's exit code, once its report is handed in; nullopt: there is a new node.
   virtual std::optional<int> ended(NodeEnd end) = 0;
 
   /// Whether a program that is asked to end gets no more turns. Else it takes those in which it comes to its end.

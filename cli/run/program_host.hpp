@@ -1,5 +1,5 @@
-// Whoever runs the programs of a fleet for the launcher: each as a process of its own (supervisor.hpp), or all as objects
-// of one process (shared_process.hpp).
+// Whoever runs the programs of a fleet for the launcher: each as a process of its own (supervisor.hpp), or all as
+// objects of one process (shared_process.hpp).
 #pragma once
 
 #include <sys/types.h>

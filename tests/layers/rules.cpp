@@ -20,9 +20,10 @@ const std::set<std::string>& applications() {
   return kNames;
 }
 
-/// Lower layers have lower numbers; applications share the highest.
+/// Lower layers have lower numbers; applications share one, and a whole fleet in one process is made of them.
 std::optional<int> layer_of(const std::string& folder) {
-  static const std::map<std::string, int> kLayers = {{"core", 0}, {"process", 1}, {"idl", 1}, {"bus", 2}};
+  static const std::map<std::string, int> kLayers = {
+      {"core", 0}, {"process", 1}, {"idl", 1}, {"bus", 2}, {"one_process", 4}};
   if (applications().contains(folder)) return 3;
   const auto found = kLayers.find(folder);
   return found == kLayers.end() ? std::nullopt : std::optional(found->second);
@@ -38,9 +39,9 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
   return std::ranges::any_of(prefixes, [&](const std::string& prefix) { return text.starts_with(prefix); });
 }
 
-/// main.cpp, sim_node.hpp, and the test of a node.
+/// main.cpp, sim_node.hpp, server_program.hpp, and their tests.
 bool may_use_bus(const std::string& path) {
-  static const std::regex kName(R"((^|.*/)(main\.cpp|[^/]*_node(_test)?\.[ch]pp))");
+  static const std::regex kName(R"((^|.*/)(main\.cpp|[^/]*_node(_test)?\.[ch]pp)|[^/]*/[^/]*_program(_test)?\.[ch]pp)");
   return std::regex_match(path, kName);
 }
 
@@ -131,7 +132,8 @@ Violations check_bus_users(const Tree& tree) {
     for (const Include& include : file.includes) {
       const bool of_a_node = include.path.starts_with(file.folder() + "/") && may_use_bus(include.path);
       if (!include.path.starts_with("bus/") && !of_a_node) continue;
-      violations.push_back(at(file, include.line, "only main.cpp and *_node.* may include " + include.path));
+      violations.push_back(
+          at(file, include.line, "only main.cpp, *_node.* and *_program.* may include " + include.path));
     }
   }
   return violations;
@@ -201,10 +203,13 @@ Violations check_headers(const Tree& tree) {
 }
 
 Violations check_printing(const Tree& tree) {
+  // What answers people on a terminal, and flies nothing: a program's options that list, check or write something.
+  static const std::regex kAnswers(R"(.*_(program|tasks)\.cpp)");
   static const std::regex kPrinting(R"(\b(printf|fprintf|puts|fputs|putchar)\s*\(|\bstd\s*::\s*cout\b)");
   Violations violations;
   for (const SourceFile& file : tree) {
-    if (file.folder() == "cli" || file.is_main() || file.is_test()) continue;
+    const bool answers = file.folder() == "cli" || file.is_main() || std::regex_match(file.path, kAnswers);
+    if (answers || file.is_test()) continue;
     find_lines(file, Look::code, kPrinting, "prints; use the logger", violations);
   }
   return violations;

@@ -15,15 +15,15 @@ namespace skein::layers {
 using Tree = std::vector<SourceFile>;
 using Violations = std::vector<std::string>;
 
-/// core <- process, idl <- bus <- applications, and no application includes another. tests/ may include everything, and
-/// only test code may include tests/.
+/// core <- process, idl <- bus <- applications <- one_process, and no application includes another. tests/ may
+/// include everything, and only test code may include tests/.
 Violations check_layers(const Tree& tree);
 
 /// Inside an application, folders look one way: what a folder includes does not include it, neither directly nor by way
 /// of other folders and of the files beside them, each of which (header and source) counts by itself.
 Violations check_circles(const Tree& tree);
 
-/// In an application only main.cpp and *_node.* include bus/, and nobody else includes their headers.
+/// In an application only main.cpp, *_node.* and *_program.* include bus/, and nobody else includes their headers.
 Violations check_bus_users(const Tree& tree);
 
 /// A DDS vendor's headers are for bus/<vendor>/ alone; tests/ may talk raw DDS, to check us from outside.
@@ -43,7 +43,7 @@ Violations check_libraries(const Tree& tree, const std::vector<LibraryRule>& rul
 /// #pragma once, no `using namespace`.
 Violations check_headers(const Tree& tree);
 
-/// No printf and no std::cout, except in cli/, main.cpp and tests.
+/// No printf and no std::cout, except in cli/, main.cpp, *_program.cpp, *_tasks.cpp and tests.
 Violations check_printing(const Tree& tree);
 
 /// Nobody sleeps to wait for somebody else. Helpers under tests/ may poll other processes.

@@ -72,11 +72,12 @@ TEST_F(MadeUpTree, IsReadWithoutBuildTreesAndBinaries) {
 }
 
 TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
-  for (const char* path :
-       {"core/a.hpp", "idl/a.hpp", "bus/a.hpp", "sim_server/a.hpp", "uav_agent/a.hpp", "tests/a.hpp"}) {
+  for (const char* path : {"core/a.hpp", "idl/a.hpp", "bus/a.hpp", "sim_server/a.hpp", "uav_agent/a.hpp",
+                           "one_process/a.hpp", "tests/a.hpp"}) {
     file(path, "\n");
   }
   file("bus/good.cpp", include("core/a.hpp") + include("idl/a.hpp") + include("bus/a.hpp"));
+  file("one_process/good.cpp", include("sim_server/a.hpp") + include("uav_agent/a.hpp") + include("bus/a.hpp"));
   file("tests/good.cpp", include("sim_server/a.hpp") + include("uav_agent/a.hpp") + include("tests/a.hpp"));
   file("station/good_test.cpp", include("tests/a.hpp"));
   EXPECT_EQ(check_layers(tree()), Violations{});
@@ -86,16 +87,17 @@ TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
   file("bus/bad.hpp", include_system("sim_server/a.hpp"));
   file("cli/bad.cpp", std::string("// ") + include("uav_agent/a.hpp") + include("../uav_agent/a.hpp"));
   file("station/bad.cpp", include("tests/a.hpp"));
-  file("uav_agent/bad.cpp", include("sim_server/a.hpp"));
+  file("uav_agent/bad.cpp", include("sim_server/a.hpp") + include("one_process/a.hpp"));
   EXPECT_EQ(places(check_layers(tree())), (Places{"bus/bad.hpp:1", "cli/bad.cpp:2", "core/bad.cpp:2", "idl/bad.cpp:2",
-                                                  "station/bad.cpp:1", "uav_agent/bad.cpp:1"}));
+                                                  "station/bad.cpp:1", "uav_agent/bad.cpp:1", "uav_agent/bad.cpp:2"}));
 }
 
 TEST_F(MadeUpTree, OnlyNodesUseTheBus) {
   file("bus/bus.hpp", "\n");
   file("bus/good.cpp", include("bus/bus.hpp"));
   for (const char* path :
-       {"station/main.cpp", "station/station_node.hpp", "station/station_node.cpp", "station/station_node_test.cpp"}) {
+       {"station/main.cpp", "station/station_node.hpp", "station/station_node.cpp", "station/station_node_test.cpp",
+        "station/station_program.hpp", "station/station_program.cpp"}) {
     file(path, include("bus/bus.hpp"));
   }
   EXPECT_EQ(check_bus_users(tree()), Violations{});
@@ -151,7 +153,8 @@ TEST_F(MadeUpTree, HeadersNeedAGuardAndLeakNoNames) {
 }
 
 TEST_F(MadeUpTree, PrintingIsForTheCommandLine) {
-  for (const char* path : {"cli/a.cpp", "station/main.cpp", "core/a_test.cpp", "tests/a.cpp"}) {
+  for (const char* path : {"cli/a.cpp", "station/main.cpp", "sim_server/server_tasks.cpp",
+                           "uav_agent/agent_program.cpp", "core/a_test.cpp", "tests/a.cpp"}) {
     file(path, "std::cout << 1; printf(text);\n");
   }
   file("core/good.cpp", "// printf(x)\nsnprintf(b, n, f); log(\"std::cout\"); sprintf_like(x);\n");

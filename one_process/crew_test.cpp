@@ -1,0 +1,249 @@
+// The crew with toys for programs: what a process is to its program is kept up without processes.
+#include "one_process/crew.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "bus/lockstep/self_signal.hpp"
+#include "process/thread_cpu.hpp"
+
+namespace skein::one_process {
+namespace {
+
+/// What became of all toys of a test.
+struct Diary {
+  std::map<std::string, int> turns;
+  std::set<std::string> destroyed, ended;
+  std::map<std::string, double> cpu_s;
+};
+Diary* diary = nullptr;
+
+/// Does what its option --do says, in its third turn.
+class Toy final : public bus::FleetMember, public bus::LockstepNode {
+ public:
+  Toy(std::string name, std::string what)
+      : name_(std::move(name)), what_(std::move(what)), bus_(bus::make_bus({.vendor = "inproc"})) {}
+  ~Toy() override { diary->destroyed.insert(name_); }
+
+  bus::LockstepNode& node() override { return *this; }
+  bus::Bus& bus() override { return *bus_; }
+  std::optional<int> ended(bus::NodeEnd end) override {
+    diary->ended.insert(name_);
+    if (end != bus::NodeEnd::resumed) return end == bus::NodeEnd::finished ? 0 : 7;
+    end_.reset();
+    return std::nullopt;
+  }
+
+  void start() override {
+    participant_ = bus_->join(5);
+    writer_ = participant_->create_writer({"hello", "text", {}});
+  }
+  void turn(bool) override {
+    const int turn = ++diary->turns[name_];
+    diary->cpu_s[name_] = thread_cpu_s();
+    std::printf("%s prints\n", name_.c_str());
+    spdlog::info("{} logs", name_);
+    if (turn != 3) return;
+    if (what_ == "ends") end_ = bus::NodeEnd::finished;
+    if (what_ == "throws") throw std::runtime_error("enough");
+    if (what_ == "dies") bus::kill_ourselves();
+    if (what_ == "stops") {
+      bus::stop_ourselves();
+      ADD_FAILURE() << "it went on";
+    }
+    if (what_ == "works") {
+      for (const double until_s = thread_cpu_s() + 0.01; thread_cpu_s() < until_s;) {
+      }
+    }
+  }
+  std::optional<bus::NodeEnd> end() const override { return end_; }
+  bus::Inbox& inbox() override { return inbox_; }
+  Rest rest() override { return {.until_rung = false}; }
+
+ private:
+  const std::string name_, what_;
+  bus::Inbox inbox_;
+  const std::unique_ptr<bus::Bus> bus_;
+  std::unique_ptr<bus::Participant> participant_;
+  std::unique_ptr<bus::Writer> writer_;
+  std::optional<bus::NodeEnd> end_;
+};
+
+class ToyProgram final : public bus::FleetProgram {
+ public:
+  explicit ToyProgram(std::string name) : name_(std::move(name)) {}
+  const char* name() const override { return name_.c_str(); }
+  void add_options(CLI::App& app) override { app.add_option("--do", what_); }
+  std::variant<int, std::unique_ptr<bus::FleetMember>> prepare(const ProgramOptions& options, StatusPipe&) override {
+    if (options.check_only) return 9;
+    if (what_ == "refuses") throw InputError("no such thing");
+    return std::make_unique<Toy>(name_, what_);
+  }
+
+ private:
+  const std::string name_;
+  std::string what_;
+};
+
+class CrewTest : public testing::Test {
+ protected:
+  CrewTest() : stdout_(::dup(STDOUT_FILENO)), stderr_(::dup(STDERR_FILENO)) {
+    diary = &diary_;
+    std::string pattern = (std::filesystem::temp_directory_path() / "skein-crew-XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+    EXPECT_EQ(::pipe2(pipe_, O_NONBLOCK), 0);
+    status_.emplace(pipe_[1]);
+    crew_.emplace(*status_, [](const std::string& name) { return std::make_unique<ToyProgram>(name); });
+  }
+  ~CrewTest() override {
+    crew_.reset();
+    std::fflush(stdout);
+    ::dup2(stdout_, STDOUT_FILENO);
+    ::dup2(stderr_, STDERR_FILENO);
+    for (const int fd : {stdout_, stderr_, pipe_[0], pipe_[1]}) ::close(fd);
+    std::filesystem::remove_all(folder_);
+  }
+
+  void start(const std::string& name, const std::string& what, const std::vector<std::string>& more = {}) {
+    shared_lines::Start order{name, {name, "--do", what}, (folder_ / (name + ".log")).string(), false};
+    order.argv.insert(order.argv.end(), more.begin(), more.end());
+    crew_->obey(order);
+  }
+  void rounds(int count) {
+    for (int i = 0; i < count; ++i) crew_->round();
+  }
+  std::string log(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / (name + ".log")).rdbuf();
+    return text.str();
+  }
+  /// What the launcher has heard of ends, by program.
+  std::map<std::string, shared_lines::Ended> ends() {
+    std::string text(1 << 16, '\0');
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(::read(pipe_[0], text.data(), text.size()), 0)));
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      const auto news = shared_lines::read_news(line);
+      if (news && std::holds_alternative<shared_lines::Ended>(*news)) {
+        ends_[std::get<shared_lines::Ended>(*news).program] = std::get<shared_lines::Ended>(*news);
+      }
+      if (news && std::holds_alternative<shared_lines::Stopped>(*news))
+        stopped_.insert(std::get<shared_lines::Stopped>(*news).program);
+    }
+    return ends_;
+  }
+
+  Diary diary_;
+  std::filesystem::path folder_;
+  int pipe_[2] = {-1, -1};
+  const int stdout_, stderr_;
+  std::optional<StatusPipe> status_;
+  std::optional<Crew> crew_;
+  std::map<std::string, shared_lines::Ended> ends_;
+  std::set<std::string> stopped_;
+};
+
+TEST_F(CrewTest, EveryEndIsToldAndTheOthersGoOn) {
+  for (const char* what : {"ends", "throws", "dies", "stays"}) start(what, what);
+  start("checks", "stays", {"--check"});
+  start("refuses", "refuses");
+  start("mistypes", "stays", {"--nonsense"});
+  rounds(6);
+  auto told = ends();
+  EXPECT_EQ(told.size(), 6U);
+  EXPECT_EQ(told["ends"].code, 0);
+  EXPECT_EQ(told["throws"].code, kExitProcessFailed);
+  EXPECT_EQ(told["dies"].signal, SIGKILL);
+  EXPECT_EQ(told["checks"].code, 9);
+  EXPECT_EQ(told["refuses"].code, kExitBadInput);
+  EXPECT_EQ(told["mistypes"].code, kExitBadInput);
+  for (const auto& [program, end] : told) EXPECT_FALSE(end.fatal) << program;
+  EXPECT_EQ(diary_.turns["stays"], 6);
+  EXPECT_EQ(diary_.turns["ends"], 3);
+  EXPECT_FALSE(crew_->empty());
+  EXPECT_NE(log("throws").find("throws: failed: enough"), std::string::npos) << log("throws");
+  EXPECT_NE(log("refuses").find("no such thing"), std::string::npos);
+}
+
+TEST_F(CrewTest, WhoIsKilledIsGoneWithoutAWord) {
+  start("dies", "dies");
+  start("stays", "stays");
+  const auto outside = bus::make_bus({.vendor = "inproc"})->join(5);
+  const auto reader = outside->create_reader({"hello", "text", {}}, [](bus::Sample&&) {});
+  rounds(1);
+  EXPECT_EQ(reader->matched().size(), 2U);
+  rounds(3);
+  EXPECT_EQ(reader->matched().size(), 1U) << "nobody hears of it any more";
+  EXPECT_FALSE(diary_.destroyed.contains("dies"));
+  EXPECT_FALSE(diary_.ended.contains("dies"));
+  crew_->obey(shared_lines::Signal{"stays", SIGKILL});
+  EXPECT_EQ(reader->matched().size(), 0U);
+  rounds(1);
+  EXPECT_FALSE(diary_.destroyed.contains("stays"));
+  EXPECT_TRUE(crew_->empty());
+  start("dies", "stays");  // anew
+  rounds(2);
+  EXPECT_EQ(diary_.turns["dies"], 5);
+}
+
+TEST_F(CrewTest, WhoIsStoppedStandsStillUntilItGoesOn) {
+  start("stops", "stops");
+  start("stays", "stays");
+  rounds(8);
+  ends();
+  EXPECT_TRUE(stopped_.contains("stops"));
+  EXPECT_EQ(diary_.turns["stops"], 3);
+  EXPECT_EQ(diary_.turns["stays"], 8);
+  crew_->obey(shared_lines::Signal{"stops", SIGCONT});
+  rounds(2);
+  EXPECT_EQ(diary_.turns["stops"], 5);
+}
+
+TEST_F(CrewTest, WhoIsAskedToEndDoesSo) {
+  start("stays", "stays");
+  start("stops", "stops");
+  rounds(4);
+  crew_->stop();
+  rounds(2);
+  auto told = ends();
+  EXPECT_EQ(told["stays"].code, 7);
+  EXPECT_EQ(told["stops"].code, 7) << "also while it stands still";
+  EXPECT_TRUE(crew_->empty());
+  EXPECT_TRUE(diary_.destroyed.contains("stays"));
+}
+
+TEST_F(CrewTest, EachWritesToItsOwnLog) {
+  for (const char* name : {"one", "two"}) start(name, "stays");
+  rounds(2);
+  for (const std::string name : {"one", "two"}) {
+    const std::string other = name == "one" ? "two" : "one", text = log(name);
+    EXPECT_NE(text.find(name + " prints"), std::string::npos) << text;
+    EXPECT_NE(text.find("[" + name + "] info " + name + " logs"), std::string::npos) << text;
+    EXPECT_EQ(text.find(other), std::string::npos) << text;
+  }
+}
+
+TEST_F(CrewTest, TheServersTimeIsItsOwn) {
+  start("sim_server", "stays");
+  start("works", "works");
+  rounds(2);
+  const double before_s = diary_.cpu_s["sim_server"];
+  rounds(2);
+  EXPECT_LT(diary_.cpu_s["sim_server"] - before_s, 0.01) << "in between the other has worked for so long";
+  EXPECT_GE(diary_.cpu_s["sim_server"], before_s);
+}
+
+}  // namespace
+}  // namespace skein::one_process
