@@ -6,6 +6,7 @@ namespace {
 
 /// Long enough that all UAVs fly, photograph and deliver.
 const Arguments kTowers = {"towers", "--planner", "patrol", "--duration", "75"};
+const Arguments kOneProcess = {"--one-process"};
 
 Arguments operator+(Arguments a, const Arguments& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -53,6 +54,7 @@ TEST_F(Determinism, VendorsOrderOfArrivalAndLoadDoNotShowInTheDigest) {
               reference)
         << "SKEIN_CHAOS=" << number;
   }
+  EXPECT_EQ(digest("one_process", kTowers + kOneProcess), reference);
   const BusyCore busy(folder());
   EXPECT_EQ(digest("busy", kTowers), reference);
   std::string text;
@@ -62,7 +64,8 @@ TEST_F(Determinism, VendorsOrderOfArrivalAndLoadDoNotShowInTheDigest) {
 
 TEST_F(Determinism, EverySeedIsAnotherRunAndRepeats) {
   const Arguments one = kTowers + Arguments{"--seed", "1"}, two = kTowers + Arguments{"--seed", "2"};
-  const std::string digest_of_one = digest("seed1", one), digest_of_two = digest("seed2", two);
+  const std::string digest_of_one = digest("seed1", one + kOneProcess),
+                    digest_of_two = digest("seed2", two + kOneProcess);
   EXPECT_NE(digest_of_one, digest_of_two);
   EXPECT_EQ(digest("again", two + Arguments{"--dds", "mixed"}), digest_of_two);
   EXPECT_EQ(digest("again", one + Arguments{"--force"}), digest_of_one) << "of the former result nothing is taken up";
@@ -85,7 +88,9 @@ TEST_F(Determinism, TwoFleetsAtOnceKeepApart) {
 
 TEST_F(Determinism, OnlyWhatMattersEntersTheDigest) {
   const Arguments brief = {"towers", "--planner", "hover", "--duration", "5"};
-  const auto quick = [&](const std::string& name, const Arguments& more) { return run(name, brief + more).digest(); };
+  const auto quick = [&](const std::string& name, const Arguments& more) {
+    return run(name, brief + more + kOneProcess).digest();
+  };
   const std::string reference = quick("default", {});
   EXPECT_EQ(quick("zero", {"--scene-seed", "0"}), reference);
   EXPECT_EQ(quick("longer", {"--stop-at", "1000"}), reference) << "an end that is never reached changes nothing";
@@ -97,15 +102,16 @@ TEST_F(Determinism, AnExportedSceneIsTheSameScene) {
   ChildProcess& scene = skein({"scene", "spire", "--scene-seed", "2", "--out", folder});
   ASSERT_EQ(scene.wait().code, 0) << scene.err();
   const Arguments brief = {"--planner", "patrol", "--duration", "15"};
-  const std::string loaded = run("loaded", Arguments{folder + "/spire.yaml"} + brief).digest();
+  const std::string loaded = run("loaded", Arguments{folder + "/spire.yaml"} + brief + kOneProcess).digest();
   EXPECT_EQ(loaded.size(), 64u);
-  EXPECT_EQ(loaded, run("made", Arguments{"spire", "--scene-seed", "2"} + brief).digest());
+  EXPECT_EQ(loaded, run("made", Arguments{"spire", "--scene-seed", "2"} + brief + kOneProcess).digest());
 }
 
 TEST_F(Determinism, OfficialScene) {
   if (std::getenv("SKEIN_ASSETS") == nullptr) GTEST_SKIP() << "SKEIN_ASSETS is not set";
   const Arguments mbs = {"mbs", "--planner", "patrol", "--duration", "75"};
-  EXPECT_EQ(digest("mixed", mbs + Arguments{"--dds", "mixed"}, {{"SKEIN_CHAOS", "1"}}), digest("cyclonedds", mbs));
+  EXPECT_EQ(digest("mixed", mbs + Arguments{"--dds", "mixed"}, {{"SKEIN_CHAOS", "1"}}),
+            digest("one_process", mbs + kOneProcess));
 }
 
 }  // namespace

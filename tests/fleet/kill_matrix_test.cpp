@@ -58,17 +58,24 @@ TEST_P(KillMatrix, ByFaultFile) {
     faults +=
         "  - {at_s: " + std::to_string(at_s) + ", until_s: " + std::to_string(until_s) + ", kill: " + victim + "}\n";
   }
-  Arguments arguments = kTowers;
-  arguments.insert(arguments.end(),
-                   {"--dds", GetParam() % 2 == 0 ? "mixed" : "cyclonedds", "--faults", write("faults.yaml", faults)});
-  SkeinRun& done = run("scripted", arguments);
-  expect_complete_result(done);
-  const Json result = done.result();
-  EXPECT_TRUE(result["deterministic"]) << faults;
-  EXPECT_TRUE(result["lost_members"].empty()) << result["lost_members"];
-  EXPECT_EQ(result["faults"].size(), kVictims.size());
-  EXPECT_GT(result["score"], 10.0) << faults;
-  expect_custody(done);
+  std::vector<Arguments> ways = {{"--one-process"}, {"--dds", GetParam() % 2 == 0 ? "mixed" : "cyclonedds"}};
+  if (long_tests()) ways.push_back({"--dds", "fastdds"});
+  std::set<std::string> digests;
+  for (const Arguments& way : ways) {
+    Arguments arguments = kTowers;
+    arguments.insert(arguments.end(), {"--faults", write("faults.yaml", faults)});
+    arguments.insert(arguments.end(), way.begin(), way.end());
+    SkeinRun& done = run("scripted" + way.back(), arguments);
+    expect_complete_result(done);
+    const Json result = done.result();
+    EXPECT_TRUE(result["deterministic"]) << faults;
+    EXPECT_TRUE(result["lost_members"].empty()) << result["lost_members"];
+    EXPECT_EQ(result["faults"].size(), kVictims.size());
+    EXPECT_GT(result["score"], 10.0) << faults;
+    expect_custody(done);
+    digests.insert(done.digest());
+  }
+  EXPECT_EQ(digests.size(), 1U) << faults;
 }
 
 TEST_P(KillMatrix, FromOutside) {

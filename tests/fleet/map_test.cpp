@@ -28,12 +28,12 @@ using MapMatters = FleetTest;
 
 TEST_F(MapMatters, PatrolKeepsOffWhatIsInNoBox) {
   const auto scenario = write_small_scene(folder(), hidden_podium());
-  const Json with_map = run("with", {scenario, "--planner", "patrol"}).result();
+  const Json with_map = run("with", {scenario, "--planner", "patrol", "--one-process"}).result();
   EXPECT_EQ(with_map["status"], "completed");
   EXPECT_TRUE(with_map["collisions"].empty()) << with_map["collisions"];
   EXPECT_GT(with_map["score"], 0.0) << "it has not been where the podium is";
 
-  const Json without = run("without", {scenario, "--planner", "patrol:use_map=false"}).result();
+  const Json without = run("without", {scenario, "--planner", "patrol:use_map=false", "--one-process"}).result();
   ASSERT_FALSE(without["collisions"].empty());
   for (const Json& collision : without["collisions"]) {
     EXPECT_EQ(collision["with"], "structure");

@@ -22,7 +22,7 @@ class ProcessFaults : public FleetTest {
   std::pair<Json, Json> fly_twice(const std::string& faults) {
     const std::string one = "one" + std::to_string(pairs_), two = "two" + std::to_string(pairs_);
     ++pairs_;
-    const Json first = fly(one, faults, {}).result();
+    const Json first = fly(one, faults, {"--one-process"}).result();
     const Json second = fly(two, faults, {"--dds", "mixed"}, {{"SKEIN_CHAOS", "1"}}).result();
     for (const Json& result : {first, second}) {
       EXPECT_EQ(result["status"], "completed");

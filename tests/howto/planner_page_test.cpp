@@ -42,6 +42,9 @@ TEST_F(PlannerPage, ItsPlannerFliesTheSameInTheTreeAndOutOfIt) {
   const Json there = Json::parse(text_of(folder() / "runs" / "towers-orbit-0" / "result.json"));
   EXPECT_EQ(there["status"], "completed");
   EXPECT_EQ(there["digest"], inside.digest());
+  const Json sooner = Json::parse(text_of(folder() / "sooner" / "result.json"));
+  EXPECT_EQ(sooner["digest"], inside.digest());
+  EXPECT_EQ(sooner["dds"]["sim_server"], "inproc");
   EXPECT_EQ(there["planner"]["gcs"], "orbit");
   EXPECT_EQ(fs::path(there["agent"].get<std::string>()).filename(), "my_agent");
   EXPECT_TRUE(there["collisions"].empty());

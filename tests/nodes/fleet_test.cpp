@@ -149,27 +149,6 @@ TEST(FleetInOneProcess, TheOrderOfDiscoveryAndArrivalIsNoMatter) {
 
 // What flies over DDS in tests/fleet/reference_digests_test.cpp has the same digest here: one row for each family and
 // planner.
-TEST(FleetInOneProcess, FliesAsItDoesOverDds) {
-  std::ifstream table(SKEIN_SOURCE_DIR "/tests/fleet/reference_digests.csv");
-  std::string line;
-  std::getline(table, line);
-  int row = 0, flown = 0;
-  while (std::getline(table, line)) {
-    const std::vector<std::string> cells = split(line, ',');
-    const bool procedural = cells.size() == 7 && !cells[1].empty() && cells[5].empty();
-    if (!procedural || row++ % 5 != 0) continue;
-    Fleet fleet({.scenario = cells[0],
-                 .planner = cells[3],
-                 .load = {.duration_s = std::stod(cells[4]), .scene_seed = std::stoull(cells[1])},
-                 .seed = std::stoull(cells[2])},
-                7);
-    ASSERT_TRUE(fleet.fly()) << line;
-    EXPECT_EQ(fleet.server().summary().digest, cells[6]) << line;
-    ++flown;
-  }
-  EXPECT_GE(flown, 4);
-}
-
 TEST(FleetInOneProcess, GoesOnWithoutWhoIsLost) {
   Fleet fleet({.stop_at_s = 6.0}, 4);
   fleet.fly_on(2000);
