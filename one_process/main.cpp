@@ -30,11 +30,16 @@ using namespace std::chrono_literals;
 constexpr int kIdleRounds = 3;
 constexpr auto kNap = 100us;
 
-std::unique_ptr<bus::FleetProgram> make_program(const std::string& name) {
+/// More than a large fleet hears in a step.
+constexpr std::size_t kFramesRemembered = 256;
+
+/// @param frames  for all agents
+std::unique_ptr<bus::FleetProgram> make_program(const std::string& name,
+                                                const std::shared_ptr<agent::ReadyFrames>& frames) {
   if (name == programs::kSimServer) return std::make_unique<sim::ServerProgram>();
   if (name == programs::kCommRouter) return std::make_unique<router::RouterProgram>();
   if (name == programs::kStation) return std::make_unique<station::StationProgram>();
-  return std::make_unique<agent::AgentProgram>();
+  return std::make_unique<agent::AgentProgram>(frames);
 }
 
 void fly(Crew& crew, OrderQueue& orders, const StopSignal& stop) {
@@ -70,7 +75,8 @@ int main(int argc, char** argv) {
         one_process::OrderQueue orders;
         const ControlPipe control(
             options.control_fd, [&](const std::string& line) { orders.add(line); }, [&] { orders.end(); });
-        one_process::Crew crew(pipe, one_process::make_program);
+        const auto frames = std::make_shared<agent::ReadyFrames>(one_process::kFramesRemembered);
+        one_process::Crew crew(pipe, [&](const std::string& name) { return one_process::make_program(name, frames); });
         const one_process::Watchdog watchdog(crew, patience_s);
         one_process::fly(crew, orders, stop);
         return kExitDone;

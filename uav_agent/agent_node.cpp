@@ -10,12 +10,12 @@ using bus::LockstepClient;
 using Counterpart = LockstepClient::Counterpart;
 
 AgentNode::AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain,
-                     bus::Bus& bus)
+                     bus::Bus& bus, std::shared_ptr<ReadyFrames> frames)
     : MemberNode(bus, uav_domain(base_domain, uav), scenario.fleet.at(uav).name),
       scenario_(scenario),
       uav_(uav),
       radio_(scenario, node_of_uav(uav)),
-      agent_(agent_config(scenario, uav), std::move(planner)) {}
+      agent_(agent_config(scenario, uav), std::move(planner), std::move(frames)) {}
 
 void AgentNode::declare(LockstepClient& client) {
   read_sensors(client);

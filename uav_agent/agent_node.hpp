@@ -16,7 +16,9 @@ namespace skein::agent {
 
 class AgentNode final : public MemberNode {
  public:
-  AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain, bus::Bus& bus);
+  /// @param frames  see Agent
+  AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain, bus::Bus& bus,
+            std::shared_ptr<ReadyFrames> frames = nullptr);
 
  private:
   void declare(bus::LockstepClient& client) override;

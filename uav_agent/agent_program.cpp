@@ -87,7 +87,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   if (ground) {
     node = std::make_unique<GroundNode>(*scenario, std::move(ground), options.domain, *bus);
   } else {
-    node = std::make_unique<AgentNode>(*scenario, uav, std::move(planner), options.domain, *bus);
+    node = std::make_unique<AgentNode>(*scenario, uav, std::move(planner), options.domain, *bus, frames_);
   }
   return std::make_unique<AgentMember>(options, status, std::move(scenario), std::move(bus), std::move(node));
 }

@@ -3,11 +3,14 @@
 
 #include "bus/lockstep/fleet_program.hpp"
 #include "process/run_folder.hpp"
+#include "uav_agent/onboard/ready_frames.hpp"
 
 namespace skein::agent {
 
 class AgentProgram final : public bus::FleetProgram {
  public:
+  /// @param frames  that the agents of this process have in common; nullptr: there is one.
+  explicit AgentProgram(std::shared_ptr<ReadyFrames> frames = nullptr) : frames_(std::move(frames)) {}
   const char* name() const override { return programs::kAgent; }
   void add_options(CLI::App& app) override;
   std::variant<int, std::unique_ptr<bus::FleetMember>> prepare(const ProgramOptions& options,
@@ -17,6 +20,7 @@ class AgentProgram final : public bus::FleetProgram {
   std::string role_ = "uav";
   std::string uav_, planner_ = "patrol";
   bool list_ = false;
+  const std::shared_ptr<ReadyFrames> frames_;
 };
 
 }  // namespace skein::agent

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 namespace skein::agent {
 namespace {
@@ -100,17 +101,10 @@ class RayCounts {
  public:
   explicit RayCounts(double cell_m) : grid_(cell_m) {}
 
-  void add_ray(const Vector3d& from, const Vector3d& to) {
-    if (!grid_.computeRayKeys(to_octomap(from), to_octomap(to), ray_)) return;
-    Block* block = nullptr;
-    std::uint64_t its_key = 0;
-    for (const octomap::OcTreeKey& key : ray_) {
-      if (block == nullptr || block_key(key) != its_key) {
-        its_key = block_key(key);
-        block = &blocks_[its_key];
-      }
-      std::uint8_t& count = (*block)[cell_in_block(key)];
-      if (count < kCountedRays) ++count;
+  void add(const PassedCells& passed) {
+    for (const auto& [key, counts] : passed.blocks) {
+      PassedCells::Block& block = blocks_[key];
+      for (std::size_t i = 0; i < block.size(); ++i) block[i] = counted(block[i] + counts[i]);
     }
   }
   int at(const Vector3d& p) const {
@@ -120,9 +114,37 @@ class RayCounts {
     return found == blocks_.end() ? 0 : found->second[cell_in_block(key)];
   }
 
- private:
-  using Block = std::array<std::uint8_t, 64>;
+  /// Of one key frame.
+  class Trace {
+   public:
+    explicit Trace(const RayCounts& counts) : grid_(counts.grid_) {}
 
+    void add_ray(const Vector3d& from, const Vector3d& to) {
+      if (!grid_.computeRayKeys(to_octomap(from), to_octomap(to), ray_)) return;
+      PassedCells::Block* block = nullptr;
+      std::uint64_t its_key = 0;
+      for (const octomap::OcTreeKey& key : ray_) {
+        if (block == nullptr || block_key(key) != its_key) {
+          its_key = block_key(key);
+          const auto [found, is_new] = places_.try_emplace(its_key, passed_.blocks.size());
+          if (is_new) passed_.blocks.push_back({its_key, {}});
+          block = &passed_.blocks[found->second].second;
+        }
+        std::uint8_t& count = (*block)[cell_in_block(key)];
+        count = counted(count + 1);
+      }
+    }
+    PassedCells passed() && { return std::move(passed_); }
+
+   private:
+    const octomap::OcTree& grid_;
+    octomap::KeyRay ray_;
+    PassedCells passed_;
+    std::unordered_map<std::uint64_t, std::size_t> places_;  ///< in `passed_`, by block
+  };
+
+ private:
+  static std::uint8_t counted(int rays) { return static_cast<std::uint8_t>(std::min(rays, kCountedRays)); }
   static std::uint64_t block_key(const octomap::OcTreeKey& key) {
     return std::uint64_t{key[0]} >> 2 | std::uint64_t{key[1]} >> 2 << 16 | std::uint64_t{key[2]} >> 2 << 32;
   }
@@ -131,14 +153,11 @@ class RayCounts {
   }
 
   const octomap::OcTree grid_;  ///< empty
-  octomap::KeyRay ray_;
-  std::unordered_map<std::uint64_t, Block> blocks_;
+  std::unordered_map<std::uint64_t, PassedCells::Block> blocks_;
 };
 
 struct OccupancyMap::Impl {
   explicit Impl(const Config& c) : config(c), hits(c.resolution_m), free(c.free_resolution_m), cells(c.resolution_m) {}
-
-  void mark_free(const std::vector<Eigen::Vector3f>& hits_W, const Vector3d& p_WS);
 
   const Config config;
   octomap::OcTree hits;  ///< fine; only hits
@@ -147,24 +166,32 @@ struct OccupancyMap::Impl {
   std::uint64_t revision = 0;
 };
 
-void OccupancyMap::Impl::mark_free(const std::vector<Eigen::Vector3f>& hits_W, const Vector3d& p_WS) {
-  const std::size_t stride = std::max<std::size_t>(1, hits_W.size() / std::max(1, config.max_free_rays));
-  for (std::size_t i = 0; i < hits_W.size(); i += stride) {
-    const Vector3d to_hit = hits_W[i].cast<double>() - p_WS;
-    // The cell of the hit itself is not free, and one cell short of it the ray only grazes what it will hit.
-    const double length = std::min(to_hit.norm() - config.free_resolution_m, config.free_range_m);
-    if (length <= 0.0) continue;
-    free.add_ray(p_WS, p_WS + to_hit.normalized() * length);
-  }
-}
-
 OccupancyMap::OccupancyMap() : OccupancyMap(Config()) {}
 OccupancyMap::OccupancyMap(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
 OccupancyMap::~OccupancyMap() = default;
 OccupancyMap::OccupancyMap(OccupancyMap&&) noexcept = default;
 OccupancyMap& OccupancyMap::operator=(OccupancyMap&&) noexcept = default;
 
+PassedCells OccupancyMap::trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const {
+  const Config& config = impl_->config;
+  if (!p_WS) return {};
+  RayCounts::Trace trace(impl_->free);
+  const std::size_t stride = std::max<std::size_t>(1, hits_W.size() / std::max(1, config.max_free_rays));
+  for (std::size_t i = 0; i < hits_W.size(); i += stride) {
+    const Vector3d to_hit = hits_W[i].cast<double>() - *p_WS;
+    // The cell of the hit itself is not free, and one cell short of it the ray only grazes what it will hit.
+    const double length = std::min(to_hit.norm() - config.free_resolution_m, config.free_range_m);
+    if (length <= 0.0) continue;
+    trace.add_ray(*p_WS, *p_WS + to_hit.normalized() * length);
+  }
+  return std::move(trace).passed();
+}
+
 void OccupancyMap::insert(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) {
+  insert(hits_W, trace(hits_W, p_WS));
+}
+
+void OccupancyMap::insert(const std::vector<Eigen::Vector3f>& hits_W, const PassedCells& passed) {
   bool changed = false;
   for (const Eigen::Vector3f& hit : hits_W) {
     const Vector3d p = hit.cast<double>();
@@ -178,7 +205,7 @@ void OccupancyMap::insert(const std::vector<Eigen::Vector3f>& hits_W, const std:
     changed = true;
   }
   if (changed) ++impl_->revision;
-  if (p_WS) impl_->mark_free(hits_W, *p_WS);
+  impl_->free.add(passed);
 }
 
 bool OccupancyMap::empty() const { return impl_->cells.count() == 0; }

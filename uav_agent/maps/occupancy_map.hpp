@@ -3,14 +3,23 @@
 // Frame W.   Units: metres.   Threads: one.   Deterministic: no answer depends on a hash order.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "uav_agent/api/messages.hpp"
 
 namespace skein::agent {
+
+/// How many of a key frame's rays pass which coarse cells: all that inserting it takes time for.
+struct PassedCells {
+  using Block = std::array<std::uint8_t, 64>;  ///< 4 x 4 x 4 cells; counts end at 20
+  std::vector<std::pair<std::uint64_t, Block>> blocks;
+};
 
 class OccupancyMap {
  public:
@@ -31,6 +40,9 @@ class OccupancyMap {
   /// Marks the hits as occupied, for good: thin members must not be carved away by later rays.
   /// @param p_WS where the sensor stood, if known: free space up to the hits is marked, too.
   void insert(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS);
+  /// The same in two parts: trace() asks for nothing that is in the map, and serves all maps of a Config.
+  void insert(const std::vector<Eigen::Vector3f>& hits_W, const PassedCells& passed);
+  PassedCells trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const;
 
   bool empty() const;
   std::size_t occupied_cells() const;

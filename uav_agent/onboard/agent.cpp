@@ -7,6 +7,7 @@
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
 #include "uav_agent/onboard/key_frame_filter.hpp"
+#include "uav_agent/onboard/ready_frames.hpp"
 #include "uav_agent/onboard/tracker.hpp"
 #include "uav_agent/onboard/uplink.hpp"
 #include "uav_agent/planning/aiming.hpp"
@@ -29,8 +30,12 @@ Tracker::Config tracker_config(const VehicleConfig& vehicle) {
 }  // namespace
 
 struct Agent::Impl {
-  Impl(const AgentConfig& c, std::unique_ptr<Planner> p)
-      : config(c), planner(std::move(p)), peers(c), tracker(tracker_config(c.vehicle)) {}
+  Impl(const AgentConfig& c, std::unique_ptr<Planner> p, std::shared_ptr<ReadyFrames> f)
+      : config(c),
+        planner(std::move(p)),
+        frames(f ? std::move(f) : std::make_shared<ReadyFrames>()),
+        peers(c),
+        tracker(tracker_config(c.vehicle)) {}
 
   void perceive(const AgentInput& input);
   std::vector<KnownBody> known_bodies(const AgentInput& input) const;
@@ -41,12 +46,9 @@ struct Agent::Impl {
 
   const AgentConfig config;
   const std::unique_ptr<Planner> planner;
+  const std::shared_ptr<ReadyFrames> frames;
   Peers peers;
   OccupancyMap map;
-  const KeyFrameFilter filter;
-  /// A lone hit may be a UAV out of sight; but far off, it is all that a LiDAR finds of a thin member, and where one
-  /// box holds everything, UAVs fly between members that were only seen from afar.
-  const KeyFrameFilter filter_keeping_lone_hits{{.lone_min_neighbours = 0}};
   Uplink uplink;
   Tracker tracker;
   std::vector<OrientedBox> boxes;
@@ -71,11 +73,14 @@ void Agent::Impl::perceive(const AgentInput& input) {
   peers.update(input.tick, input.neighbours);
   if (!input.boxes.empty()) boxes = input.boxes;
   if (!input.key_frames.empty()) {
-    const std::vector<KnownBody> bodies = known_bodies(input);
-    const bool roomy = std::any_of(boxes.begin(), boxes.end(), is_roomy);
-    const KeyFrameFilter& chosen = roomy ? filter_keeping_lone_hits : filter;
+    const KnownBodies bodies(known_bodies(input));
+    // A lone hit may be a UAV out of sight; but far off, it is all that a LiDAR finds of a thin member, and where one
+    // box holds everything, UAVs fly between members that were only seen from afar.
+    const bool keep_lone = std::any_of(boxes.begin(), boxes.end(), is_roomy);
     for (const KeyFrame& frame : input.key_frames) {
-      map.insert(chosen(frame.points_W, bodies), sensor_position(frame, input));
+      auto sound_W = frames->filter(keep_lone).sound(frame.points_W, bodies);
+      const ReadyFrames::Frame& ready = frames->ready(std::move(sound_W), sensor_position(frame, input), keep_lone);
+      map.insert(ready.hits_W, ready.passed);
     }
   }
   uplink.take(input.capture_reports);
@@ -131,8 +136,8 @@ std::optional<GimbalCommand> Agent::Impl::point_camera(const GimbalAim& new_aim,
   return std::nullopt;
 }
 
-Agent::Agent(const AgentConfig& config, std::unique_ptr<Planner> planner)
-    : impl_(std::make_unique<Impl>(config, std::move(planner))) {}
+Agent::Agent(const AgentConfig& config, std::unique_ptr<Planner> planner, std::shared_ptr<ReadyFrames> frames)
+    : impl_(std::make_unique<Impl>(config, std::move(planner), std::move(frames))) {}
 
 Agent::~Agent() = default;
 Agent::Agent(Agent&&) noexcept = default;

@@ -10,6 +10,7 @@
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
 #include "uav_agent/api/planner.hpp"
+#include "uav_agent/onboard/ready_frames.hpp"
 #include "uav_agent/onboard/uplink.hpp"
 
 namespace skein::agent {
@@ -43,7 +44,8 @@ struct AgentOutput {
 class Agent {
  public:
   /// @param planner decides; see make_planner().
-  Agent(const AgentConfig& config, std::unique_ptr<Planner> planner);
+  /// @param frames  shared by the agents of this process; nullptr: this one works them out for itself.
+  Agent(const AgentConfig& config, std::unique_ptr<Planner> planner, std::shared_ptr<ReadyFrames> frames = nullptr);
   ~Agent();
   Agent(Agent&&) noexcept;
   Agent& operator=(Agent&&) noexcept;

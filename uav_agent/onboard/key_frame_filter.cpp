@@ -83,50 +83,45 @@ class Neighbourhood {
   std::vector<Entry> entries_;  ///< made when they are first asked for
 };
 
-/// Bodies from west to east: a point is held against the few that may hold it, however large the fleet.
-class SortedBodies {
- public:
-  explicit SortedBodies(const std::vector<KnownBody>& bodies) {
-    for (const KnownBody& body : bodies) {
-      if (!std::isfinite(body.p_W.x())) continue;
-      bodies_.push_back(body);
-      reach_ = std::max(reach_, body.radius_m);
-    }
-    std::ranges::sort(bodies_, {}, x_of);
-    reach_ += 1e-6 + 1e-9 * reach_;  // what is at the edge is judged by the distance alone
-  }
-
-  bool hold(const Vector3d& p_W) const {
-    for (auto body = std::ranges::lower_bound(bodies_, p_W.x() - reach_, {}, x_of);
-         body != bodies_.end() && x_of(*body) <= p_W.x() + reach_; ++body) {
-      if ((p_W - body->p_W).squaredNorm() <= body->radius_m * body->radius_m) return true;
-    }
-    return false;
-  }
-
- private:
-  static double x_of(const KnownBody& body) { return body.p_W.x(); }
-
-  std::vector<KnownBody> bodies_;
-  double reach_ = 0.0;  ///< the largest radius, or a little more
-};
-
 }  // namespace
 
-std::vector<Eigen::Vector3f> KeyFrameFilter::operator()(const std::vector<Eigen::Vector3f>& points_W,
-                                                        const std::vector<KnownBody>& bodies) const {
-  const SortedBodies sorted(bodies);
-  const auto sound = [&](const Eigen::Vector3f& p_W) {
-    const Vector3d p = p_W.cast<double>();
-    return p.allFinite() && p_W.head<2>().cwiseAbs().maxCoeff() <= kHorizonM && p.z() >= config_.lowest_m &&
-           p.z() <= config_.highest_m && !sorted.hold(p);
-  };
-  auto cloud = std::make_shared<Cloud>();
-  cloud->reserve(points_W.size());
-  for (const Eigen::Vector3f& p_W : points_W) {
-    if (sound(p_W)) cloud->push_back({p_W.x(), p_W.y(), p_W.z()});
+KnownBodies::KnownBodies(const std::vector<KnownBody>& bodies) {
+  for (const KnownBody& body : bodies) {
+    if (!std::isfinite(body.p_W.x())) continue;
+    bodies_.push_back(body);
+    reach_ = std::max(reach_, body.radius_m);
   }
-  if (cloud->empty()) return {};
+  std::ranges::sort(bodies_, {}, x_of);
+  reach_ += 1e-6 + 1e-9 * reach_;  // what is at the edge is judged by the distance alone
+}
+
+bool KnownBodies::hold(const Vector3d& p_W) const {
+  for (auto body = std::ranges::lower_bound(bodies_, p_W.x() - reach_, {}, x_of);
+       body != bodies_.end() && x_of(*body) <= p_W.x() + reach_; ++body) {
+    if ((p_W - body->p_W).squaredNorm() <= body->radius_m * body->radius_m) return true;
+  }
+  return false;
+}
+
+std::vector<Eigen::Vector3f> KeyFrameFilter::sound(const std::vector<Eigen::Vector3f>& points_W,
+                                                   const KnownBodies& bodies) const {
+  std::vector<Eigen::Vector3f> sound;
+  sound.reserve(points_W.size());
+  for (const Eigen::Vector3f& p_W : points_W) {
+    const Vector3d p = p_W.cast<double>();
+    if (p.allFinite() && p_W.head<2>().cwiseAbs().maxCoeff() <= kHorizonM && p.z() >= config_.lowest_m &&
+        p.z() <= config_.highest_m && !bodies.hold(p)) {
+      sound.push_back(p_W);
+    }
+  }
+  return sound;
+}
+
+std::vector<Eigen::Vector3f> KeyFrameFilter::thinned(const std::vector<Eigen::Vector3f>& sound_W) const {
+  if (sound_W.empty()) return {};
+  auto cloud = std::make_shared<Cloud>();
+  cloud->reserve(sound_W.size());
+  for (const Eigen::Vector3f& p_W : sound_W) cloud->push_back({p_W.x(), p_W.y(), p_W.z()});
 
   Cloud thinned;
   pcl::VoxelGrid<pcl::PointXYZ> voxels;

@@ -14,6 +14,20 @@ struct KnownBody {
   double radius_m = 0.0;  ///< points closer than this are its own
 };
 
+/// From west to east: a point is held against the few that may hold it, however large the fleet.
+class KnownBodies {
+ public:
+  explicit KnownBodies(const std::vector<KnownBody>& bodies);
+  /// Whether the point is of one of them.
+  bool hold(const Vector3d& p_W) const;
+
+ private:
+  static double x_of(const KnownBody& body) { return body.p_W.x(); }
+
+  std::vector<KnownBody> bodies_;
+  double reach_ = 0.0;  ///< the largest radius, or a little more
+};
+
 class KeyFrameFilter {
  public:
   struct Config {
@@ -29,7 +43,14 @@ class KeyFrameFilter {
 
   /// @param bodies own body and those of UAVs in line of sight.
   std::vector<Eigen::Vector3f> operator()(const std::vector<Eigen::Vector3f>& points_W,
-                                          const std::vector<KnownBody>& bodies) const;
+                                          const std::vector<KnownBody>& bodies) const {
+    return thinned(sound(points_W, KnownBodies(bodies)));
+  }
+
+  /// First part: without bodies and what is absurd.
+  std::vector<Eigen::Vector3f> sound(const std::vector<Eigen::Vector3f>& points_W, const KnownBodies& bodies) const;
+  /// Second part, which takes most of the time: thinned, without lone points.
+  std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& sound_W) const;
 
  private:
   const Config config_;
