@@ -26,6 +26,9 @@ set(SKEIN_SANITIZE OFF CACHE STRING "Build with sanitizers: address (and undefin
 set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test process_status_pipe_test
   one_process_crew_test one_process_flights_test one_process_digests_test)
 
+# What takes minutes with AddressSanitizer, for it flies and computes much; shorter tests and whole fleets reach that code.
+set(SKEIN_LONG_TESTS sim_oracle_oracle_test sim_scenes_scene_families_test)
+
 # -ffp-contract=off: no fused multiply-add, so that a result does not depend on the optimiser's mood.
 # Never -march=native: one binary gives the same bits on every x86-64 machine.
 # -Wno-restrict: GCC 12 sees overlaps in operator+ of a literal and a std::string that are not there.
@@ -103,7 +106,8 @@ endfunction()
 # One GoogleTest program, one CTest entry. Assets come from SKEIN_ASSETS and SKEIN_GOLDEN in the environment.
 function(skein_add_test name)
   cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
-  if(NOT BUILD_TESTING OR (SKEIN_SANITIZE STREQUAL thread AND NOT name IN_LIST SKEIN_THREAD_TESTS))
+  if(NOT BUILD_TESTING OR (SKEIN_SANITIZE STREQUAL thread AND NOT name IN_LIST SKEIN_THREAD_TESTS) OR
+     (SKEIN_SANITIZE AND name IN_LIST SKEIN_LONG_TESTS))
     return()
   endif()
   add_executable(${name} ${ARG_SOURCES})

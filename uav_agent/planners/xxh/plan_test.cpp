@@ -192,6 +192,7 @@ struct Ground {
     XxhCrew crew(config, self, talk);
     const Peers peers(self);
     std::vector<RadioMessage> said;
+    const std::vector<RadioMessage> silence;
     for (std::uint64_t k = 0; k < 20 * 20; ++k) {
       GroundInput at_station{k, static_cast<Tick>(k) * ticks(0.05), boxes, {}, {}, {}};
       for (const std::size_t reporter : reporters) {
@@ -202,7 +203,7 @@ struct Ground {
         at_station.radio.push_back(send_payload("xxh/1", reporter, writer));
       }
       said = station->work(at_station);
-      const PlannerInput in = input(k, peers, hears_station ? said : std::vector<RadioMessage>());
+      const PlannerInput in = input(k, peers, hears_station ? said : silence);
       talk.listen(in, nullptr);
       if (crew.seek_assignment(in, false)) break;
     }
