@@ -26,7 +26,7 @@ set(SKEIN_SANITIZE OFF CACHE STRING "Build with sanitizers: address (and undefin
 set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test process_status_pipe_test
   one_process_crew_test one_process_flights_test one_process_digests_test)
 
-# What takes minutes with AddressSanitizer, for it flies and computes much; shorter tests and whole fleets reach that code.
+# What takes minutes with AddressSanitizer, for it computes much; shorter tests and whole fleets reach that code.
 set(SKEIN_LONG_TESTS sim_oracle_oracle_test sim_scenes_scene_families_test)
 
 # -ffp-contract=off: no fused multiply-add, so that a result does not depend on the optimiser's mood.
