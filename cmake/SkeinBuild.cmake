@@ -27,7 +27,7 @@ set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test proce
   one_process_crew_test one_process_flights_test one_process_digests_test)
 
 # What takes minutes with AddressSanitizer, for it computes much; shorter tests and whole fleets reach that code.
-set(SKEIN_LONG_TESTS sim_oracle_oracle_test sim_scenes_scene_families_test)
+set(SKEIN_LONG_TESTS sim_oracle_oracle_test sim_scenes_scene_families_test agent_planner_contract_test)
 
 # -ffp-contract=off: no fused multiply-add, so that a result does not depend on the optimiser's mood.
 # Never -march=native: one binary gives the same bits on every x86-64 machine.
