@@ -5,7 +5,7 @@
 #include "bus/cyclonedds/cyclonedds_bus.hpp"
 #include "bus/fastdds/fastdds_bus.hpp"
 #include "bus/inproc/inproc_bus.hpp"
-#include "bus/own_host.hpp"
+#include "bus/reach.hpp"
 #include "bus/wire.hpp"
 #include "core/types.hpp"
 #include "process/security_files.hpp"
@@ -13,6 +13,8 @@
 namespace skein::bus {
 
 namespace {
+
+std::string name_of(int domain) { return domain == kEveryDomain ? "all domains" : "domain " + std::to_string(domain); }
 
 void check_security(const BusConfig& config) {
   if (config.security.empty()) return;
@@ -28,11 +30,7 @@ void check_security(const BusConfig& config) {
 
 std::unique_ptr<Bus> make_bus(const BusConfig& config) {
   check_security(config);
-  if (!config.interface.empty() && !address_of(config.interface)) {
-    throw InputError("--network " + config.interface +
-                     ": this host has no network interface of that name with an IPv4 address; `ip -br address` lists "
-                     "them, and \"all\" leaves the choice to the DDS vendor");
-  }
+  for (const auto& [domain, network] : config.networks) check_interface(network, name_of(domain));
   if (config.vendor == "cyclonedds") return make_cyclonedds_bus(config);
   if (config.vendor == "fastdds") return make_fastdds_bus(config);
   if (config.vendor == "inproc") return make_inproc_bus(config.run);
@@ -45,6 +43,17 @@ void check_domain(int domain) {
   if (domain < 0 || domain > kMaxDomain)
     throw InputError("domain " + std::to_string(domain) + " is out of range: it must be 0 to " +
                      std::to_string(kMaxDomain) + ", since its UDP ports begin at 7400 + 250 x domain");
+}
+
+DomainNetwork BusConfig::network(int domain) const {
+  for (const int key : {domain, kEveryDomain}) {
+    if (const auto found = networks.find(key); found != networks.end()) return found->second;
+  }
+  return {};
+}
+
+Reach reach_of(const BusConfig& config, int domain) {
+  return find_reach(config.network(domain), name_of(domain), config.peers_patience);
 }
 
 }  // namespace skein::bus

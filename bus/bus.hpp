@@ -5,9 +5,11 @@
 // thread that owns a program's state. Writers may be used from one thread at a time.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,6 +17,7 @@
 #include <vector>
 
 #include "bus/unsent.hpp"
+#include "core/network_config.hpp"
 #include "core/run_id.hpp"
 
 namespace skein::bus {
@@ -102,13 +105,18 @@ class Burst {
   Participant& participant_;
 };
 
+/// In BusConfig::networks.
+inline constexpr int kEveryDomain = -1;
+
 struct BusConfig {
-  std::string vendor = "cyclonedds";  ///< "cyclonedds", "fastdds" or "inproc"
-  bool loopback_only = true;          ///< nothing leaves the host; false in containers
-  std::string interface {};           ///< otherwise: the only one that is used; empty: as the vendor chooses
-  int lease_s = 8;                    ///< who gives no sign of life for so long is taken for dead, [1, 3600]
-  std::filesystem::path security{};   ///< folder with the files of process/security_files.hpp; empty: an open domain
-  RunId run = RunId::none;            ///< that its programs take part in
+  std::string vendor = "cyclonedds";                 ///< "cyclonedds", "fastdds" or "inproc"
+  std::map<int, DomainNetwork> networks{};           ///< by domain, or kEveryDomain; usual: nothing leaves the host
+  std::chrono::milliseconds peers_patience{10'000};  ///< see find_reach()
+  int lease_s = 8;                   ///< who gives no sign of life for so long is taken for dead, [1, 3600]
+  std::filesystem::path security{};  ///< folder with the files of process/security_files.hpp; empty: an open domain
+  RunId run = RunId::none;           ///< that its programs take part in
+
+  DomainNetwork network(int domain) const;
 };
 
 /// Domain ids run from 0 to this one: the UDP ports of a domain begin at 7400 + 250 x domain and must stay below 65536.

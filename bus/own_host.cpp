@@ -6,42 +6,31 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cstring>
 #include <memory>
 
 namespace skein::bus {
 
-namespace {
-
-/// The first interface with an IPv4 address that fits.
-template <class Fits>
-std::optional<std::string> find_address(Fits fits) {
+std::vector<OwnInterface> own_interfaces() {
   ifaddrs* first = nullptr;
-  if (::getifaddrs(&first) != 0) return std::nullopt;
+  if (::getifaddrs(&first) != 0) return {};
   const std::unique_ptr<ifaddrs, decltype(&::freeifaddrs)> addresses(first, &::freeifaddrs);
+  std::vector<OwnInterface> own;
   for (const ifaddrs* entry = first; entry != nullptr; entry = entry->ifa_next) {
     if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
-    sockaddr_in own;
-    std::memcpy(&own, entry->ifa_addr, sizeof own);
-    std::array<char, INET_ADDRSTRLEN> text{};
-    ::inet_ntop(AF_INET, &own.sin_addr, text.data(), text.size());
-    if (fits(std::string(entry->ifa_name), own.sin_addr)) return std::string(text.data());
+    sockaddr_in address;
+    std::memcpy(&address, entry->ifa_addr, sizeof address);
+    own.push_back({entry->ifa_name, address.sin_addr});
   }
-  return std::nullopt;
+  return own;
 }
-
-}  // namespace
 
 bool is_own_address(std::span<const std::uint8_t, 4> ipv4) {
   if (ipv4[0] == 127) return true;
-  return find_address(
-             [&](const std::string&, const in_addr& own) { return std::memcmp(&own, ipv4.data(), ipv4.size()) == 0; })
-      .has_value();
-}
-
-std::optional<std::string> address_of(const std::string& interface) {
-  return find_address([&](const std::string& name, const in_addr&) { return name == interface; });
+  return std::ranges::any_of(own_interfaces(), [&](const OwnInterface& own) {
+    return std::memcmp(&own.address, ipv4.data(), ipv4.size()) == 0;
+  });
 }
 
 bool multicast_on_loopback() {

@@ -7,12 +7,15 @@
 #include <vector>
 
 #include "bus/bus.hpp"
+#include "bus/reach.hpp"
 
 namespace skein::bus {
 
 /// How many participants of one domain find each other on one machine without multicast: each is announced to this
 /// many ports.
 inline constexpr int kMaxLocalParticipants = 32;
+/// The same for each host of a network.
+inline constexpr int kMaxPeerParticipants = 10;
 
 /// A sign of life is sent so often: several times in a lease.
 inline int announce_period_s(int lease_s) { return std::clamp(lease_s / 4, 1, 2); }
@@ -35,7 +38,12 @@ inline std::vector<std::uint8_t> padded(std::span<const std::uint8_t> payload) {
 
 /// Whether a participant takes part in the discovery of nodes with default settings on the same host. Not where
 /// certificates decide who may take part, nor where all is as the vendor has it.
-inline bool meets_default_nodes(const BusConfig& config) { return config.loopback_only && config.security.empty(); }
+inline bool meets_default_nodes(const BusConfig& config, int domain) {
+  return config.network(domain).host_only() && config.security.empty();
+}
+
+/// The network of one of its domains, looked for now; takes its time where names are not yet known.
+Reach reach_of(const BusConfig& config, int domain);
 
 /// @throws InputError when the domain id is not 0 .. kMaxDomain
 void check_domain(int domain);

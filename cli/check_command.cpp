@@ -4,11 +4,11 @@
 #include <map>
 
 #include "cli/fault_tests/fault_test.hpp"
-#include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "core/config_node.hpp"
 #include "core/scenario_reader.hpp"
+#include "process/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "cli/fault_tests/flights.hpp"
 #include "cli/fault_tests/report.hpp"
-#include "cli/run/environment.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/supervisor.hpp"
 #include "cli/study/side_by_side.hpp"
@@ -15,6 +14,7 @@
 #include "cli/test_counts.hpp"
 #include "core/text.hpp"
 #include "process/atomic_file.hpp"
+#include "process/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

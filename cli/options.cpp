@@ -17,9 +17,12 @@ namespace {
 /// Of run, compare and contest.
 void add_network(CLI::App& command, std::optional<std::string>& network) {
   command
-      .add_option("--network", network,
-                  "Let other hosts take part, by this network interface or all (default: nothing leaves this host)")
-      ->type_name("[IFACE|all]")
+      .add_option(
+          "--network", network,
+          "Let other hosts take part, by this network interface, all, or domain by domain: a YAML file, or its text "
+          "in braces (default: nothing leaves this host)")
+      ->envname("SKEIN_NETWORK")
+      ->type_name("[IFACE|all|FILE]")
       ->expected(0, 1)
       ->default_str("all");
 }

@@ -4,12 +4,12 @@
 
 #include <iomanip>
 
-#include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/supervisor.hpp"
 #include "core/text.hpp"
 #include "core/types.hpp"
+#include "process/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

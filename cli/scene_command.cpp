@@ -1,8 +1,8 @@
 #include "cli/scene_command.hpp"
 
-#include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
+#include "process/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

@@ -1,10 +1,10 @@
 #include "cli/test_command.hpp"
 
 #include "cli/fault_test_command.hpp"
-#include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/test_counts.hpp"
+#include "process/environment.hpp"
 #include "process/program.hpp"
 
 namespace skein::cli {

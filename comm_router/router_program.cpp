@@ -137,7 +137,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> RouterProgram::prepare(cons
   Scenario scenario = load_scenario(options.scenario, load);
   FaultPlan faults = load_fault_plan(options.faults, scenario, options.seed);
   if (settle_only_) return settle(options.out, options.out / run_folder::kCounts, scenario, options.run, status);
-  auto bus = bus::make_bus(options);
+  auto bus = bus::make_bus(options, scenario);
   if (options.check_only) return kExitDone;
   return std::make_unique<RouterMember>(std::move(scenario), std::move(faults), options, status, std::move(bus));
 }

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <vector>
 
+#include "core/scenario.hpp"
+
 namespace skein {
 namespace {
 
@@ -30,6 +32,12 @@ std::vector<std::string_view> split_at_slashes(std::string_view text) {
 }
 
 }  // namespace
+
+std::vector<std::string> domain_names(const Scenario& scenario) {
+  std::vector<std::string> names = {"world", "gcs"};
+  for (const UavConfig& uav : scenario.fleet) names.push_back(uav.name);
+  return names;
+}
 
 std::string wire_topic(std::string_view ros_topic) {
   const std::vector<std::string_view> parts = split_at_slashes(ros_topic);

@@ -11,10 +11,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/types.hpp"
 
 namespace skein {
+
+struct Scenario;
 
 /// "/x" -> "rt/x". @throws InputError when `ros_topic` is not an absolute ROS topic name.
 std::string wire_topic(std::string_view ros_topic);
@@ -26,6 +29,8 @@ std::string wire_type(std::string_view ros_type);
 constexpr int world_domain(int base) { return base; }
 constexpr int gcs_domain(int base) { return base + 1; }
 constexpr int uav_domain(int base, UavIndex uav) { return base + 2 + static_cast<int>(uav); }
+/// Their names, in the order of their numbers: "world", "gcs", the UAVs'.
+std::vector<std::string> domain_names(const Scenario& scenario);
 /// Domain of a radio node: the ground station's or a UAV's.
 constexpr int node_domain(int base, Node node) { return base + 1 + static_cast<int>(node); }
 

@@ -13,6 +13,7 @@
 #include "one_process/death_notice.hpp"
 #include "one_process/order_queue.hpp"
 #include "one_process/watchdog.hpp"
+#include "process/environment.hpp"
 #include "process/run_folder.hpp"
 #include "sim_server/server_program.hpp"
 #include "station/station_program.hpp"
@@ -62,6 +63,7 @@ void fly(Crew& crew, OrderQueue& orders, const StopSignal& stop) {
 }  // namespace skein::one_process
 
 int main(int argc, char** argv) {
+  skein::take_fleet_environment(argv);
   using namespace skein;
   double patience_s = 60.0;
   const auto add_options = [&](CLI::App& app) {

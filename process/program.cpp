@@ -100,8 +100,11 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--security", options.security, "Folder with the process's key, certificate and permissions")
       ->group("Launcher");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error or off (default: SKEIN_LOG)");
-  app.add_option("--network", options.network,
-                 "Other hosts take part: by this network interface, or by those that the DDS vendor chooses (all)")
+  app.add_option(
+         "--network", options.network,
+         "Other hosts take part: by this network interface, by those that the DDS vendor chooses (all), or domain "
+         "by domain: a YAML file, or its text in braces")
+      ->envname("SKEIN_NETWORK")
       ->expected(0, 1)
       ->default_str("all");
   app.add_option("--lease", options.lease_s, "Who gives no sign of life for so long is taken for dead [s]")

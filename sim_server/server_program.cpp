@@ -96,7 +96,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .expect_gcs_program = ground_program_,
                                     .faults = load_fault_plan(options.faults, *scenario, options.seed)};
   Scene scene = load_scene(*scenario);
-  auto bus = bus::make_bus(options);
+  auto bus = bus::make_bus(options, *scenario);
   if (options.check_only) {
     for (const std::string& warning : scene_warnings(scene)) spdlog::warn("{}", warning);
     Simulation(*scenario, std::move(scene), options.seed);  // starts must be free

@@ -59,7 +59,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> StationProgram::prepare(con
     settle(options.out, scenario, options.run, status);
     return kExitDone;
   }
-  auto bus = bus::make_bus(options);
+  auto bus = bus::make_bus(options, scenario);
   if (options.check_only) return kExitDone;
   return std::make_unique<StationMember>(std::move(scenario), options, status, std::move(bus));
 }

@@ -81,7 +81,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   } else {
     planner = make_planner(planner_, agent_config(*scenario, uav));
   }
-  auto bus = bus::make_bus(options);
+  auto bus = bus::make_bus(options, *scenario);
   if (options.check_only) return kExitDone;
   std::unique_ptr<MemberNode> node;
   if (ground) {

@@ -110,7 +110,7 @@ class Fast final : public Vendor {
     Membership& membership = domains_[domain];
     if (membership.participant == nullptr) {
       membership.participant = created(dds::DomainParticipantFactory::get_instance()->create_participant(
-          static_cast<std::uint32_t>(domain), bus::fastdds::participant_qos(domain, {})));
+          static_cast<std::uint32_t>(domain), bus::fastdds::participant_qos(domain, {}, {})));
       membership.publisher = created(membership.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT));
       membership.subscriber = created(membership.participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT));
     }

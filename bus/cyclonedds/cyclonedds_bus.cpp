@@ -3,6 +3,7 @@
 // Before all other headers of Cyclone, see there.
 #include "bus/cyclonedds/raw_sertype.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <mutex>
@@ -18,6 +19,8 @@ namespace skein::bus {
 
 namespace cyclonedds {
 namespace {
+
+constexpr std::size_t kMaxPacked = 14'000;  // bytes of a datagram that samples share, however much UDP would take
 
 /// dds_guid_t holds the bytes as they are on the wire.
 ParticipantId id_of(const dds_guid_t& guid) { return participant_id(std::span<const std::uint8_t, 12>(guid.v, 12)); }
@@ -202,15 +205,16 @@ class CycloneReader : public Reader {
 
 class CycloneParticipant : public Participant {
  public:
-  CycloneParticipant(int domain, const BusConfig& config, std::shared_ptr<Unsent> unsent)
+  CycloneParticipant(int domain, const BusConfig& config, const Reach& reach, std::shared_ptr<Unsent> unsent)
       : Participant(std::move(unsent)),
-        domain_(domain, config),
+        domain_(domain, config, reach),
+        packing_(std::min(kMaxPacked, reach.largest_datagram)),
         entity_(check(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr),
                       "cannot join domain " + std::to_string(domain))) {
     dds_guid_t guid;
     check(dds_get_guid(entity_, &guid), "participant without GUID");
     id_ = id_of(guid);
-    if (meets_default_nodes(config)) reach_own_host(domain_.entity(), entity_);
+    if (meets_default_nodes(config, domain)) reach_own_host(domain_.entity(), entity_);
     if (!config.security.empty()) watch_strangers(domain, entity_);
   }
   ~CycloneParticipant() override {
@@ -244,7 +248,7 @@ class CycloneBus : public Bus {
 
   std::unique_ptr<Participant> join(int domain) override {
     check_domain(domain);
-    return std::make_unique<CycloneParticipant>(domain, config_, unsent());
+    return std::make_unique<CycloneParticipant>(domain, config_, reach_of(config_, domain), unsent());
   }
 
  private:

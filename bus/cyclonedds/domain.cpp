@@ -14,6 +14,8 @@ namespace skein::bus::cyclonedds {
 
 namespace {
 
+constexpr std::size_t kFragmentHeaders = 128;  // RTPS message, timestamp, destination and fragment, with room
+
 /// Cyclone keeps its domains for the whole process and refuses to create one twice: hence the static register. Its
 /// lock is held while a domain is taken down, so that nobody joins the remains.
 struct Register {
@@ -33,25 +35,40 @@ Register& domain_register() {
 /// Loopback: no need of multicast, since participants take fixed ports and announce themselves to all of these; but
 /// nodes with default settings are found by it. Datagrams as large as UDP has them; fragments fill one, or else a 4 MB
 /// sample is thousands of them.
-void add_network(pugi::xml_node domain, const BusConfig& config) {
-  if (!config.loopback_only && config.interface.empty()) return;
+/// Elsewhere datagrams fit a packet: when IP cuts them to pieces, one lost piece loses all.
+void add_network(pugi::xml_node domain, const Reach& reach, bool meets_default_nodes) {
   pugi::xml_node general = domain.append_child("General");
-  pugi::xml_node interface = general.append_child("Interfaces").append_child("NetworkInterface");
-  interface.append_attribute("name") = config.loopback_only ? "lo" : config.interface.c_str();
-  if (!config.loopback_only) return;
-  const bool multicast = meets_default_nodes(config) && multicast_on_loopback();
-  interface.append_attribute("multicast") = multicast;
-  add_element(general, "AllowMulticast", multicast ? "spdp" : "false");
-  add_element(general, "MaxMessageSize", "65500B");
-  add_element(general, "FragmentSize", "60000B");
+  pugi::xml_node interface;
+  if (reach.host_only || !reach.address.empty()) {
+    interface = general.append_child("Interfaces").append_child("NetworkInterface");
+    if (reach.host_only) {
+      interface.append_attribute("name") = "lo";
+    } else {
+      interface.append_attribute("address") = reach.address.c_str();
+    }
+  }
+  if (reach.host_only || reach.by_peers()) {
+    const bool multicast = meets_default_nodes && multicast_on_loopback();
+    if (interface) interface.append_attribute("multicast") = multicast;
+    add_element(general, "AllowMulticast", multicast ? "spdp" : "false");
+  }
+  const std::size_t largest = reach.largest_datagram;
+  const std::size_t fragment = reach.host_only ? 60000 : largest - kFragmentHeaders;
+  add_element(general, "MaxMessageSize", std::to_string(largest) + "B");
+  add_element(general, "FragmentSize", std::to_string(fragment) + "B");
 }
 
-void add_discovery(pugi::xml_node domain, const BusConfig& config) {
+void add_discovery(pugi::xml_node domain, const BusConfig& config, const Reach& reach) {
   pugi::xml_node discovery = domain.append_child("Discovery");
-  if (config.loopback_only) {
+  if (reach.host_only || reach.by_peers()) {
+    const int most = reach.host_only ? kMaxLocalParticipants : kMaxPeerParticipants;
     add_element(discovery, "ParticipantIndex", "auto");
-    add_element(discovery, "MaxAutoParticipantIndex", std::to_string(kMaxLocalParticipants - 1));
-    discovery.append_child("Peers").append_child("Peer").append_attribute("address") = "127.0.0.1";
+    add_element(discovery, "MaxAutoParticipantIndex", std::to_string(most - 1));
+    pugi::xml_node peers = discovery.append_child("Peers");
+    if (reach.host_only) peers.append_child("Peer").append_attribute("address") = "127.0.0.1";
+    for (const std::string& peer : reach.peers) {
+      peers.append_child("Peer").append_attribute("address") = peer.c_str();
+    }
   }
   add_element(discovery, "SPDPInterval", std::to_string(announce_period_s(config.lease_s)) + "s");
   add_element(discovery, "LeaseDuration", std::to_string(config.lease_s) + "s");
@@ -82,15 +99,15 @@ void add_internals(pugi::xml_node domain, bool one_host) {
 
 }  // namespace
 
-std::string domain_configuration(const BusConfig& config) {
+std::string domain_configuration(const BusConfig& config, const Reach& reach) {
   pugi::xml_document document;
   pugi::xml_node root = document.append_child("CycloneDDS");
   root.append_attribute("xmlns") = "https://cdds.io/config";
   pugi::xml_node domain = root.append_child("Domain");
   domain.append_attribute("Id") = "any";
-  add_network(domain, config);
-  add_discovery(domain, config);
-  add_internals(domain, config.loopback_only);
+  add_network(domain, reach, reach.host_only && config.security.empty());
+  add_discovery(domain, config, reach);
+  add_internals(domain, reach.host_only);
   if (!config.security.empty()) add_security(domain, config.security);
   return xml_line(document);
 }
@@ -100,15 +117,16 @@ dds_return_t check(dds_return_t result, const std::string& what) {
   return result;
 }
 
-Domain::Domain(int id, const BusConfig& config) : id_(id) {
+Domain::Domain(int id, const BusConfig& config, const Reach& reach) : id_(id) {
   if (!config.security.empty()) log_refusals();
   Register& known = domain_register();
   const std::scoped_lock lock(known.mutex);
   Register::Entry& entry = known.domains[id];
   if (entry.members == 0)
-    entry.entity = check(dds_create_domain(static_cast<dds_domainid_t>(id), domain_configuration(config).c_str()),
-                         "cannot create domain " + std::to_string(id));
-  if (entry.members == 0 && meets_default_nodes(config)) await_own_host(entry.entity);
+    entry.entity =
+        check(dds_create_domain(static_cast<dds_domainid_t>(id), domain_configuration(config, reach).c_str()),
+              "cannot create domain " + std::to_string(id));
+  if (entry.members == 0 && meets_default_nodes(config, id)) await_own_host(entry.entity);
   entity_ = entry.entity;
   ++entry.members;
 }

@@ -6,11 +6,12 @@
 #include <string>
 
 #include "bus/bus.hpp"
+#include "bus/reach.hpp"
 
 namespace skein::bus::cyclonedds {
 
-/// Cyclone's configuration (XML) for all domains.
-std::string domain_configuration(const BusConfig& config);
+/// Cyclone's configuration (XML) for a domain.
+std::string domain_configuration(const BusConfig& config, const Reach& reach);
 
 /// @throws std::runtime_error "what: Cyclone's reason" when `result` is negative; @returns it otherwise
 dds_return_t check(dds_return_t result, const std::string& what);
@@ -19,7 +20,7 @@ dds_return_t check(dds_return_t result, const std::string& what);
 class Domain {
  public:
   /// @throws std::runtime_error when Cyclone cannot create it
-  Domain(int id, const BusConfig& config);
+  Domain(int id, const BusConfig& config, const Reach& reach);
   ~Domain();
   Domain(const Domain&) = delete;
   Domain& operator=(const Domain&) = delete;

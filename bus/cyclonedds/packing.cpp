@@ -13,8 +13,7 @@ namespace skein::bus::cyclonedds {
 
 namespace {
 
-constexpr std::size_t kHeaderSize = 20;      // RTPS message: protocol, version, vendor, GUID prefix
-constexpr std::size_t kMaxDatagram = 14000;  // near to Cyclone's own limit for a message over a network
+constexpr std::size_t kHeaderSize = 20;  // RTPS message: protocol, version, vendor, GUID prefix
 
 /// What a message said about its destination must not hold for the one that is put behind it: INFO_DST, to nobody in
 /// particular.
@@ -77,7 +76,7 @@ void Packing::add(ddsi_tran_conn_t connection, const ddsi_locator_t& destination
   if (found == datagrams_.end()) found = datagrams_.insert(found, {connection, destination, {}});
   std::vector<std::uint8_t>& bytes = found->bytes;
   // Another participant of this process in the same domain has another header.
-  const bool fits = bytes.size() + size <= kMaxDatagram && vectors[0].iov_len >= kHeaderSize &&
+  const bool fits = bytes.size() + size <= largest_ && vectors[0].iov_len >= kHeaderSize &&
                     std::equal(bytes.begin(), bytes.begin() + static_cast<long>(std::min(bytes.size(), kHeaderSize)),
                                static_cast<const std::uint8_t*>(vectors[0].iov_base));
   if (!fits) send(*found);

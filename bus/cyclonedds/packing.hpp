@@ -10,6 +10,7 @@
 #include <dds/ddsi/ddsi_locator.h>
 #include <dds/ddsi/ddsi_tran.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,7 +19,8 @@ namespace skein::bus::cyclonedds {
 /// Of one participant. Stands between Cyclone and the sockets of its domain.
 class Packing {
  public:
-  Packing() = default;
+  /// @param largest  datagram, in bytes
+  explicit Packing(std::size_t largest) : largest_(largest) {}
   ~Packing() { release(); }
   Packing(const Packing&) = delete;
   Packing& operator=(const Packing&) = delete;
@@ -44,6 +46,7 @@ class Packing {
            const ddsrt_iovec_t* vectors, std::size_t size);
   static void send(Datagram& datagram);
 
+  const std::size_t largest_;
   const ddsi_domaingv* domain_ = nullptr;
   bool holding_ = false;
   std::vector<Datagram> datagrams_;  ///< emptied, not erased: destinations are few and stay

@@ -195,11 +195,11 @@ class FastReader : public Reader, private dds::DataReaderListener {
 
 class FastParticipant : public Participant {
  public:
-  FastParticipant(int domain, const BusConfig& config, std::shared_ptr<Unsent> unsent)
+  FastParticipant(int domain, const BusConfig& config, const Reach& reach, std::shared_ptr<Unsent> unsent)
       : Participant(std::move(unsent)),
-        one_host_(config.loopback_only),
+        one_host_(reach.host_only),
         participant_(created(dds::DomainParticipantFactory::get_instance()->create_participant(
-                                 static_cast<std::uint32_t>(domain), participant_qos(domain, config),
+                                 static_cast<std::uint32_t>(domain), participant_qos(domain, config, reach),
                                  config.security.empty() ? nullptr : &stranger_watch_, dds::StatusMask::none()),
                              "a participant in domain " + std::to_string(domain))),
         prefix_(participant_->guid().guidPrefix),
@@ -254,7 +254,7 @@ class FastBus : public Bus {
 
   std::unique_ptr<Participant> join(int domain) override {
     check_domain(domain);
-    return std::make_unique<FastParticipant>(domain, config_, unsent());
+    return std::make_unique<FastParticipant>(domain, config_, reach_of(config_, domain), unsent());
   }
 
  private:

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "bus/fastdds/own_host.hpp"
 #include "bus/fastdds/security.hpp"
+#include "bus/fastdds/transports.hpp"
 #include "bus/own_host.hpp"
 #include "bus/wire.hpp"
 
@@ -20,6 +20,7 @@ using eprosima::fastrtps::rtps::Locator_t;
 
 namespace {
 
+constexpr const char* kLoopback = "127.0.0.1";
 constexpr std::uint32_t kSocketBuffer = 4 * 1024 * 1024;
 constexpr int kAllocatedSamples = 16;  // at first; more are allocated as they are needed
 
@@ -31,44 +32,63 @@ Locator_t locator_of(const std::string& ipv4, std::uint32_t port) {
   return locator;
 }
 
-Locator_t loopback_locator(std::uint32_t port) { return locator_of("127.0.0.1", port); }
-
 Duration_t milliseconds(std::uint32_t ms) { return {static_cast<std::int32_t>(ms / 1000), ms % 1000 * 1'000'000}; }
 
 }  // namespace
 
-DomainParticipantQos participant_qos(int domain, const BusConfig& config) {
+namespace {
+
+/// Where a participant listens, and to whom it announces itself, without groups.
+/// Ports are given, since Fast DDS would derive them from the number of participants that this process has ever had, in
+/// whatever domain, and soon be out of the range that is announced to. From these first ports on it takes the next
+/// ones that are free. A unicast locator also keeps discovery off multicast, unless that is asked for.
+void discover_without_groups(DomainParticipantQos& qos, int domain, const std::string& own_address,
+                             const std::vector<std::string>& peers, int most) {
+  auto& wire = qos.wire_protocol();
+  const auto domain_id = static_cast<std::uint32_t>(domain);
+  const std::uint32_t first_port = wire.port.getUnicastPort(domain_id, 0);
+  for (const std::string& peer : peers) {
+    wire.builtin.initialPeersList.push_back(locator_of(peer, 0));  // 0: the ports that RTPS has for this domain
+  }
+  wire.builtin.metatrafficUnicastLocatorList.push_back(locator_of(own_address, first_port));
+  wire.default_unicast_locator_list.push_back(
+      locator_of(own_address, first_port + wire.port.offsetd3 - wire.port.offsetd1));
+  wire.builtin.mutation_tries = static_cast<std::uint32_t>(most - 1);
+}
+
+}  // namespace
+
+DomainParticipantQos participant_qos(int domain, const BusConfig& config, const Reach& reach) {
   DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
+  const bool meets_default = meets_default_nodes(config, domain);
 
   // UDP only: shared memory leaves segments behind when a process is killed.
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = udp->receiveBufferSize = kSocketBuffer;
-  if (!config.interface.empty()) udp->interfaceWhiteList.push_back(address_of(config.interface).value_or(""));
-  if (config.loopback_only) {
-    udp->interfaceWhiteList.push_back("127.0.0.1");
+  const std::string address = reach.host_only ? kLoopback : reach.address;
+  if (!address.empty()) udp->interfaceWhiteList.push_back(address);
+  if (reach.host_only) {
     udp->maxInitialPeersRange = kMaxLocalParticipants;
-    auto& builtin = qos.wire_protocol().builtin;
-    builtin.initialPeersList.push_back(loopback_locator(0));  // 0: the ports that RTPS has for this domain
-    // Ports are given, since Fast DDS would derive them from the number of participants that this process has ever
-    // had, in whatever domain, and soon be out of the range that is announced to. From these first ports on it takes
-    // the next ones that are free. A unicast locator also keeps discovery off multicast, unless that is asked for.
-    const auto& ports = qos.wire_protocol().port;
-    const auto domain_id = static_cast<std::uint32_t>(domain);
-    builtin.metatrafficUnicastLocatorList.push_back(loopback_locator(ports.getUnicastPort(domain_id, 0)));
-    qos.wire_protocol().default_unicast_locator_list.push_back(
-        loopback_locator(ports.getUnicastPort(domain_id, 0) + ports.offsetd3 - ports.offsetd1));
-    builtin.mutation_tries = kMaxLocalParticipants - 1;
-    if (meets_default_nodes(config) && multicast_on_loopback()) {
-      const Locator_t group = locator_of("239.255.0.1", ports.getMulticastPort(domain_id));
-      builtin.metatrafficMulticastLocatorList.push_back(group);
-      builtin.initialPeersList.push_back(group);
+    discover_without_groups(qos, domain, address, {kLoopback}, kMaxLocalParticipants);
+    if (meets_default && multicast_on_loopback()) {
+      auto& wire = qos.wire_protocol();
+      const Locator_t group = locator_of("239.255.0.1", wire.port.getMulticastPort(static_cast<std::uint32_t>(domain)));
+      wire.builtin.metatrafficMulticastLocatorList.push_back(group);
+      wire.builtin.initialPeersList.push_back(group);
     }
+  } else {
+    udp->maxInitialPeersRange = kMaxPeerParticipants;
+    if (reach.by_peers()) discover_without_groups(qos, domain, address, reach.peers, kMaxPeerParticipants);
   }
   qos.transport().use_builtin_transports = false;
-  if (meets_default_nodes(config))
-    qos.transport().user_transports.push_back(own_host_transport(udp));
-  else
-    qos.transport().user_transports.push_back(udp);
+  auto& transports = qos.transport().user_transports;
+  if (meets_default) {
+    transports.push_back(own_host_transport(udp));
+  } else if (reach.host_only) {
+    transports.push_back(udp);
+  } else {
+    transports.push_back(packet_transport(udp, reach.largest_datagram));
+  }
 
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.leaseDuration = {config.lease_s, 0};

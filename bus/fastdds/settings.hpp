@@ -6,11 +6,12 @@
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 
 #include "bus/bus.hpp"
+#include "bus/reach.hpp"
 
 namespace skein::bus::fastdds {
 
-eprosima::fastdds::dds::DomainParticipantQos participant_qos(int domain, const BusConfig& config);
-/// @param one_host  nobody else's network is in between (BusConfig::loopback_only)
+eprosima::fastdds::dds::DomainParticipantQos participant_qos(int domain, const BusConfig& config, const Reach& reach);
+/// @param one_host  nobody else's network is in between
 eprosima::fastdds::dds::DataWriterQos writer_qos(const Qos& qos, bool one_host);
 eprosima::fastdds::dds::DataReaderQos reader_qos(const Qos& qos);
 

@@ -6,11 +6,11 @@
 #include <cstdlib>
 #include <map>
 
-#include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/supervisor.hpp"
 #include "core/suggestion.hpp"
+#include "process/environment.hpp"
 #include "process/reports.hpp"
 #include "process/run_folder.hpp"
 

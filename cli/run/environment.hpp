@@ -1,25 +1,12 @@
-// The environment that the launcher gives to every program of a fleet.
+// The launcher's own environment: what its user should know of it. What it gives to programs: process/environment.hpp.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
+#include "process/environment.hpp"
+
 namespace skein::cli {
-
-/// The launcher's own environment with some variables set. @returns NAME=VALUE strings.
-std::vector<std::string> environment_with(const std::map<std::string, std::string>& variables);
-
-/// The launcher's own environment with what could change a result taken out or pinned. Taken out is what would reach
-/// into the DDS of the programs (ignored_variables()). Pinned are the C locale, one OpenMP thread, and the code that
-/// libm selects by CPU (its AVX and FMA variants of sin, exp, pow... differ from the SSE2 ones in last bits).
-/// @param native leaves libm to choose the fastest code for this CPU.
-/// @param more set on top of that, so a program can be given again what was taken out.
-std::vector<std::string> fleet_environment(bool native, const std::map<std::string, std::string>& more = {});
-
-/// Variables of the launcher's environment that no program of a fleet gets, by name: settings of DDS vendors and of ROS
-/// 2 discovery, and what the launcher alone tells a program (SKEIN_DOMAIN...).
-std::vector<std::string> ignored_variables();
 
 /// What the user should know of his environment: what is ignored, and names like SKEIN_CHOAS that nobody reads.
 std::vector<std::string> environment_warnings();

@@ -12,6 +12,7 @@
 #include "cli/run/environment.hpp"
 #include "cli/run/ground_program.hpp"
 #include "core/config_files.hpp"
+#include "core/network_config.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/text.hpp"
 #include "core/topics.hpp"
@@ -152,6 +153,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   find_agents(planners, plan.agent);
   plan.planners = planners.uavs;
   plan.ground = ground_program(planners, fleets_agent(plan));
+  if (options.network) read_network(*options.network).check_names(domain_names(plan.scenario));
   if (options.debug_uav) plan.scenario.uav_index(*options.debug_uav);  // throws for an unknown name
   if (const auto reason = options.one_process ? needs_processes(plan) : std::nullopt) {
     throw InputError(*reason + "; leave out --one-process");

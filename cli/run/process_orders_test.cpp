@@ -4,9 +4,9 @@
 
 #include <csignal>
 
-#include "cli/run/environment.hpp"
 #include "cli/run/supervisor.hpp"
 #include "cli/testing/fake_programs.hpp"
+#include "process/environment.hpp"
 
 namespace skein::cli {
 namespace {

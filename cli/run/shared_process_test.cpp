@@ -5,8 +5,8 @@
 
 #include <csignal>
 
-#include "cli/run/environment.hpp"
 #include "cli/run/preflight.hpp"
+#include "process/environment.hpp"
 #include "process/json_text.hpp"
 
 namespace skein::cli {

@@ -4,8 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cli/run/environment.hpp"
 #include "cli/testing/fake_programs.hpp"
+#include "process/environment.hpp"
 
 namespace skein::cli {
 namespace {

@@ -17,7 +17,9 @@ TEST_P(OwnHost, ParticipantsWithDefaultSettingsAreMet) {
   const auto& [fleet_vendor, other_vendor] = GetParam();
   const FreeDomains domains(1);
   const auto fleet_bus = bus::make_bus({.vendor = fleet_vendor});
-  const auto other_bus = bus::make_bus({.vendor = other_vendor, .loopback_only = false});
+  bus::BusConfig by_default{.vendor = other_vendor};
+  by_default.networks[bus::kEveryDomain].interface = DomainNetwork::kAll;
+  const auto other_bus = bus::make_bus(by_default);
   const bool fleet_first = other_vendor == "fastdds";  // whoever comes first is found by the other
   std::unique_ptr<bus::Participant> fleet, other;
   if (fleet_first) fleet = fleet_bus->join(domains.base());

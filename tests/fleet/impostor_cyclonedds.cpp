@@ -11,7 +11,7 @@ namespace skein::test {
 using bus::cyclonedds::check;
 
 Count join_cyclonedds(const Disguise& disguise) {
-  std::string xml = bus::cyclonedds::domain_configuration(disguise.config);
+  std::string xml = bus::cyclonedds::domain_configuration(disguise.config, bus::Reach());
   const std::string discovery = "<Discovery>";
   xml.insert(xml.find(discovery) + discovery.size(),
              "<ExternalDomainId>" + std::to_string(disguise.other) + "</ExternalDomainId>");

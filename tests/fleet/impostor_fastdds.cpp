@@ -14,7 +14,7 @@ namespace skein::test {
 namespace dds = eprosima::fastdds::dds;
 
 Count join_fastdds(const Disguise& disguise) {
-  dds::DomainParticipantQos qos = bus::fastdds::participant_qos(disguise.other, disguise.config);
+  dds::DomainParticipantQos qos = bus::fastdds::participant_qos(disguise.other, disguise.config, bus::Reach());
   auto& ports = qos.wire_protocol().port;
   ports.portBase = static_cast<std::uint16_t>(ports.portBase + ports.domainIDGain * (disguise.other - disguise.own));
   dds::DomainParticipant* participant =

@@ -5,6 +5,7 @@
 
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
+#include "tests/free_domain.hpp"
 
 namespace skein::test {
 namespace {
@@ -46,6 +47,24 @@ TEST_F(Surroundings, FleetsWithDifferentTemporaryFoldersTakeDifferentDomains) {
     run->skein().signal(SIGINT);
     EXPECT_EQ(run->exit_code(), 130) << run->err();
   }
+}
+
+TEST_F(Surroundings, AProgramThatIsStartedByHandComputesAsOneOfAFleet) {
+  const FreeDomains domains(4);
+  ChildProcess& station = start_program(
+      "station",
+      {program("station"), "--scenario", scenario_, "--domain", std::to_string(domains.base()), "--out", folder()},
+      {{"LC_ALL", "de_DE.UTF-8"}, {"CYCLONEDDS_URI", "nonsense"}});
+  const fs::path environment = "/proc/" + std::to_string(station.pid()) + "/environ";
+  const auto has = [&](const std::string& entry) {
+    const std::string text = '\0' + text_of(environment);
+    return text.find('\0' + entry) != std::string::npos;
+  };
+  EXPECT_TRUE(eventually([&] { return has("LC_ALL=C") || station.ended(); })) << station.err();
+  EXPECT_TRUE(has("GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2")) << text_of(environment);
+  EXPECT_FALSE(has("CYCLONEDDS_URI"));
+  station.signal(SIGTERM);
+  station.wait();
 }
 
 /// Variables that once kept a fleet from forming or could change it; HERE stands for a folder that holds the files.

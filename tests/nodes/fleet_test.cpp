@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "cli/run/environment.hpp"
 #include "comm_router/router_node.hpp"
 #include "core/random_stream.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/text.hpp"
+#include "process/environment.hpp"
 #include "process/run_folder.hpp"
 #include "sim_server/scenes/scene_source.hpp"
 #include "sim_server/sim_node.hpp"
@@ -176,7 +176,7 @@ TEST(FleetInOneProcess, EndsAtTheNextStepWhenTheUserSaysSo) {
 int main(int argc, char** argv) {
   constexpr const char* kPinned = "SKEIN_TEST_PINNED";
   if (std::getenv(kPinned) == nullptr) {
-    std::vector<std::string> variables = skein::cli::fleet_environment(false, {{kPinned, "1"}});
+    std::vector<std::string> variables = skein::fleet_environment(false, {{kPinned, "1"}});
     std::vector<char*> environment;
     for (std::string& variable : variables) environment.push_back(variable.data());
     environment.push_back(nullptr);

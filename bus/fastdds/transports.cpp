@@ -1,4 +1,4 @@
-#include "bus/fastdds/own_host.hpp"
+#include "bus/fastdds/transports.hpp"
 
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastrtps/utils/IPLocator.h>
@@ -17,22 +17,12 @@ using eprosima::fastrtps::rtps::LocatorsIterator;
 
 constexpr std::size_t kIpv4At = 12;  // in a locator's 16 bytes
 
-/// Leaves everything but addresses to the transport below, its channels too: nothing passes through here.
-class OwnHostTransport : public ChainingTransport {
+/// Leaves everything to the transport below, its channels too: nothing passes through here.
+class OpenTransport : public ChainingTransport {
  public:
   using ChainingTransport::ChainingTransport;
 
   TransportDescriptorInterface* get_configuration() override { return low_level_transport_->get_configuration(); }
-
-  bool transform_remote_locator(const Locator& remote, Locator& result) const override {
-    if (!IsLocatorSupported(remote)) return false;
-    result = remote;
-    if (IPLocator::isMulticast(remote)) return true;
-    if (!is_own_address(std::span<const std::uint8_t, 4>(remote.address + kIpv4At, 4))) return false;
-    IPLocator::setIPv4(result, 127, 0, 0, 1);
-    return true;
-  }
-
   bool OpenOutputChannel(SendResourceList& resources, const Locator& locator) override {
     return low_level_transport_->OpenOutputChannel(resources, locator);
   }
@@ -49,15 +39,46 @@ class OwnHostTransport : public ChainingTransport {
                const Locator&) override {}
 };
 
+/// All but addresses is left to the one below.
+class OwnHostTransport : public OpenTransport {
+ public:
+  using OpenTransport::OpenTransport;
+
+  bool transform_remote_locator(const Locator& remote, Locator& result) const override {
+    if (!IsLocatorSupported(remote)) return false;
+    result = remote;
+    if (IPLocator::isMulticast(remote)) return true;
+    if (!is_own_address(std::span<const std::uint8_t, 4>(remote.address + kIpv4At, 4))) return false;
+    IPLocator::setIPv4(result, 127, 0, 0, 1);
+    return true;
+  }
+};
+
 struct OwnHostDescriptor : ChainingTransportDescriptor {
   using ChainingTransportDescriptor::ChainingTransportDescriptor;
   TransportInterface* create_transport() const override { return new OwnHostTransport(*this); }
+};
+
+/// What is sent is limited here; what is received, below.
+struct PacketDescriptor : ChainingTransportDescriptor {
+  PacketDescriptor(std::shared_ptr<TransportDescriptorInterface> udp, std::uint32_t largest)
+      : ChainingTransportDescriptor(std::move(udp)), largest_(largest) {}
+  TransportInterface* create_transport() const override { return new OpenTransport(*this); }
+  std::uint32_t max_message_size() const override { return largest_; }
+
+ private:
+  const std::uint32_t largest_;
 };
 
 }  // namespace
 
 std::shared_ptr<TransportDescriptorInterface> own_host_transport(std::shared_ptr<TransportDescriptorInterface> udp) {
   return std::make_shared<OwnHostDescriptor>(std::move(udp));
+}
+
+std::shared_ptr<TransportDescriptorInterface> packet_transport(std::shared_ptr<TransportDescriptorInterface> udp,
+                                                               std::size_t largest) {
+  return std::make_shared<PacketDescriptor>(std::move(udp), static_cast<std::uint32_t>(largest));
 }
 
 }  // namespace skein::bus::fastdds

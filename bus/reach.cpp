@@ -1,0 +1,164 @@
+#include "bus/reach.hpp"
+
+#include <arpa/inet.h>
+#include <net/if.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "bus/own_host.hpp"
+#include "core/suggestion.hpp"
+#include "core/types.hpp"
+
+namespace skein::bus {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kIpAndUdpHeaders = 28;
+constexpr std::size_t kEthernet = 1500;
+constexpr std::chrono::milliseconds kAskAgain{200};
+
+std::string text_of(const in_addr& address) {
+  std::array<char, INET_ADDRSTRLEN> text{};
+  ::inet_ntop(AF_INET, &address, text.data(), text.size());
+  return text.data();
+}
+
+std::optional<in_addr> address_in(const std::string& text) {
+  in_addr address{};
+  if (::inet_pton(AF_INET, text.c_str(), &address) != 1) return std::nullopt;
+  return address;
+}
+
+/// Whether an interface is the one that a text means: its name, its address, or the subnet in which that is.
+bool is_meant(const OwnInterface& own, const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) return own.name == text || text_of(own.address) == text;
+  const auto subnet = address_in(text.substr(0, slash));
+  unsigned bits = 0;
+  const char* const end = text.data() + text.size();
+  const auto [read, error] = std::from_chars(text.data() + slash + 1, end, bits);
+  if (!subnet || error != std::errc() || read != end || bits > 32) return false;
+  const std::uint32_t mask = bits == 0 ? 0 : ~std::uint32_t{0} << (32 - bits);
+  return ((ntohl(subnet->s_addr) ^ ntohl(own.address.s_addr)) & mask) == 0;
+}
+
+OwnInterface interface_of(const std::string& text, const std::string& domain) {
+  const std::vector<OwnInterface> all = own_interfaces();
+  const auto found = std::ranges::find_if(all, [&](const OwnInterface& own) { return is_meant(own, text); });
+  if (found != all.end()) return *found;
+  std::vector<std::string> known;
+  for (const OwnInterface& own : all) known.push_back(own.name + " (" + text_of(own.address) + ")");
+  throw InputError(
+      "--network " + text + " (" + domain +
+      "): this host has no network interface of that name, address or subnet with an IPv4 address; it has " +
+      joined(known) + ", and \"all\" leaves the choice to the DDS vendor");
+}
+
+std::optional<in_addr> look_up(const std::string& host) {
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* first = nullptr;
+  if (::getaddrinfo(host.c_str(), nullptr, &hints, &first) != 0) return std::nullopt;
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> found(first, &::freeaddrinfo);
+  sockaddr_in address;
+  std::memcpy(&address, found->ai_addr, sizeof address);
+  return address.sin_addr;
+}
+
+/// The own address from which packets to `peer` leave.
+std::optional<in_addr> source_towards(const in_addr& peer) {
+  const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) return std::nullopt;
+  sockaddr_in there{}, here{};
+  there.sin_family = AF_INET;
+  there.sin_port = htons(7400);
+  there.sin_addr = peer;
+  socklen_t size = sizeof here;
+  const bool known = ::connect(fd, reinterpret_cast<const sockaddr*>(&there), sizeof there) == 0 &&
+                     ::getsockname(fd, reinterpret_cast<sockaddr*>(&here), &size) == 0;
+  ::close(fd);
+  return known ? std::optional(here.sin_addr) : std::nullopt;
+}
+
+std::size_t mtu_of(const std::string& address) {
+  const std::vector<OwnInterface> all = own_interfaces();
+  const auto own = std::ranges::find(all, address, [](const OwnInterface& i) { return text_of(i.address); });
+  if (own == all.end()) return kEthernet;
+  ifreq request{};
+  std::strncpy(request.ifr_name, own->name.c_str(), IFNAMSIZ - 1);
+  const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const bool known = fd >= 0 && ::ioctl(fd, SIOCGIFMTU, &request) == 0;
+  if (fd >= 0) ::close(fd);
+  return known ? static_cast<std::size_t>(request.ifr_mtu) : kEthernet;
+}
+
+/// Those that are known after `patience`, at the latest.
+std::vector<in_addr> look_up_all(const DomainNetwork& network, const std::string& domain,
+                                 std::chrono::milliseconds patience) {
+  const auto deadline = Clock::now() + patience;
+  while (true) {
+    std::vector<in_addr> known;
+    std::vector<std::string> unknown;
+    for (const std::string& host : network.peers) {
+      if (const auto address = look_up(host)) {
+        known.push_back(*address);
+      } else {
+        unknown.push_back(host);
+      }
+    }
+    if (unknown.empty()) return known;
+    if (Clock::now() >= deadline) {
+      spdlog::warn("network of {}: no address of {} is known; who comes later will find us", domain, joined(unknown));
+      return known;
+    }
+    ::poll(nullptr, 0, static_cast<int>(kAskAgain.count()));  // nobody tells when a name is given
+  }
+}
+
+}  // namespace
+
+void check_interface(const DomainNetwork& network, const std::string& domain) {
+  const bool given = !network.interface.empty() && network.interface != DomainNetwork::kAll &&
+                     network.interface != DomainNetwork::kHost;
+  if (given) interface_of(network.interface, domain);
+}
+
+Reach find_reach(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience) {
+  Reach reach;
+  if (network.host_only()) return reach;
+  reach.host_only = false;
+  if (!network.interface.empty() && network.interface != DomainNetwork::kAll) {
+    reach.address = text_of(interface_of(network.interface, domain).address);
+  }
+  for (const in_addr& peer : look_up_all(network, domain, patience)) {
+    const auto source = source_towards(peer);
+    const bool ourselves = source && source->s_addr == peer.s_addr;
+    if (!ourselves && source && network.interface.empty() && reach.address.empty()) reach.address = text_of(*source);
+    reach.peers.push_back(text_of(peer));
+  }
+  if (!network.peers.empty() && network.interface.empty() && reach.address.empty()) {
+    throw std::runtime_error("network of " + domain + ": none of its other peers (" + joined(network.peers) +
+                             ") has an address that this host knows a way to; do they run, and in a common network? " +
+                             "`interface:` would tell the own one without them");
+  }
+  if (!network.peers.empty() && reach.peers.empty()) reach.peers.push_back(reach.address);
+  reach.largest_datagram = mtu_of(reach.address) - kIpAndUdpHeaders;
+  return reach;
+}
+
+}  // namespace skein::bus

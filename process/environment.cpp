@@ -1,0 +1,95 @@
+#include "process/environment.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <string_view>
+
+namespace skein {
+namespace {
+
+/// glibc 2.33 and later name CPU features without the former suffix "_Usable". With these off, libm's selectors fall
+/// back to SSE2, which every x86-64 has.
+constexpr const char* kBaselineMath = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX,-SSE4_1";
+
+/// Which settings a program's DDS has is decided by its bus alone. RMW_IMPLEMENTATION is left: it is the library that a
+/// ROS 2 node of the user's is built on, and none of ours reads it.
+constexpr std::array<std::string_view, 5> kVendorPrefixes = {"CYCLONE", "FASTDDS_", "FASTRTPS_", "RMW_FASTRTPS_",
+                                                             "RMW_CYCLONEDDS_"};
+constexpr std::array<std::string_view, 8> kVendorNames = {"ROS_DISCOVERY_SERVER",  "ROS_SUPER_CLIENT",
+                                                          "ROS_DOMAIN_ID",         "ROS_LOCALHOST_ONLY",
+                                                          "ROS_STATIC_PEERS",      "ROS_AUTOMATIC_DISCOVERY_RANGE",
+                                                          "SKIP_DEFAULT_XML_FILE", "SKIP_DEFAULT_XML"};
+/// Told to each program by its launcher; inherited, they are those of another fleet.
+constexpr std::array<std::string_view, 7> kToldNames = {"SKEIN_DDS",      "SKEIN_DOMAIN",   "SKEIN_OUT", "SKEIN_RUN",
+                                                        "SKEIN_SCENARIO", "SKEIN_SECURITY", "SKEIN_UAV"};
+constexpr const char* kPinned = "SKEIN_PINNED";  ///< whoever has it was started with all that
+
+std::string_view variable_in(std::string_view entry) { return entry.substr(0, entry.find('=')); }
+
+template <class Names>
+bool listed(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+bool is_ignored_variable(std::string_view name) {
+  return listed(kVendorNames, name) || listed(kToldNames, name) ||
+         std::any_of(kVendorPrefixes.begin(), kVendorPrefixes.end(),
+                     [&](auto prefix) { return name.starts_with(prefix); });
+}
+
+std::map<std::string, std::string> pinned_variables(bool native) {
+  // The last one: else Fast DDS takes a file DEFAULT_FASTRTPS_PROFILES.xml that happens to lie in the current folder.
+  std::map<std::string, std::string> pins = {
+      {"LC_ALL", "C"}, {"OMP_NUM_THREADS", "1"}, {"SKIP_DEFAULT_XML_FILE", "1"}, {kPinned, "1"}};
+  if (!native) {
+    const char* users = std::getenv("GLIBC_TUNABLES");
+    pins["GLIBC_TUNABLES"] = (users != nullptr && *users != '\0' ? std::string(users) + ":" : "") + kBaselineMath;
+  }
+  return pins;
+}
+
+std::vector<std::string> environment_with(const std::map<std::string, std::string>& variables) {
+  std::vector<std::string> environment;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text(*entry);
+    if (!variables.contains(std::string(variable_in(text)))) environment.emplace_back(text);
+  }
+  for (const auto& [name, value] : variables) environment.push_back(name + "=" + value);
+  return environment;
+}
+
+std::vector<std::string> fleet_environment(bool native, const std::map<std::string, std::string>& more) {
+  std::map<std::string, std::string> variables = pinned_variables(native);
+  for (const auto& [name, value] : more) variables[name] = value;
+  std::vector<std::string> environment = environment_with(variables);
+  std::erase_if(environment, [&](const std::string& entry) {
+    return is_ignored_variable(variable_in(entry)) && !variables.contains(std::string(variable_in(entry)));
+  });
+  return environment;
+}
+
+std::vector<std::string> ignored_variables() {
+  std::vector<std::string> names;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    if (is_ignored_variable(variable_in(*entry))) names.emplace_back(variable_in(*entry));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void take_fleet_environment(char** argv) {
+  if (std::getenv(kPinned) != nullptr) return;
+  std::vector<std::string> variables = fleet_environment(false);
+  std::vector<char*> environment;
+  for (std::string& variable : variables) environment.push_back(variable.data());
+  environment.push_back(nullptr);
+  ::execve("/proc/self/exe", argv, environment.data());
+  // Without /proc it goes on as it is: only a digest that is compared tells the difference.
+}
+
+}  // namespace skein
