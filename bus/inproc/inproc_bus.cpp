@@ -222,12 +222,17 @@ class InprocBus : public Bus {
   std::unique_ptr<Participant> join(int domain) override {
     check_domain(domain);
     const ParticipantId id = Exchange::instance().next_id();
+    const std::scoped_lock lock(mutex_);
     joined_.insert(id);
     return std::make_unique<InprocParticipant>(domain, id, unsent());
   }
-  void vanish() override { Exchange::instance().remove(joined_); }
+  void vanish() override {
+    const std::scoped_lock lock(mutex_);
+    Exchange::instance().remove(joined_);
+  }
 
  private:
+  std::mutex mutex_;  ///< programs join from any thread
   std::set<ParticipantId> joined_;
 };
 
