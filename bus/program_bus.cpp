@@ -1,5 +1,7 @@
 #include "bus/program_bus.hpp"
 
+#include <algorithm>
+
 #include "core/topics.hpp"
 
 namespace skein::bus {
@@ -8,11 +10,11 @@ std::unique_ptr<Bus> make_bus(const ProgramOptions& options, const Scenario& sce
   BusConfig config{.vendor = options.dds, .lease_s = options.lease_s, .security = options.security, .run = options.run};
   if (options.network) {
     const NetworkConfig network = read_network(*options.network);
-    network.check_names(domain_names(scenario));
-    config.networks[kEveryDomain] = network.usual;
     const std::vector<std::string> names = domain_names(scenario);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      config.networks[options.domain + static_cast<int>(i)] = network.of(names[i]);
+    network.check_names(names);
+    config.networks[kEveryDomain] = network.usual;
+    for (const auto& [name, own] : network.domains) {
+      config.networks[options.domain + static_cast<int>(std::ranges::find(names, name) - names.begin())] = own;
     }
   }
   return make_bus(config);

@@ -38,8 +38,8 @@ inline std::vector<std::uint8_t> padded(std::span<const std::uint8_t> payload) {
 
 /// Whether a participant takes part in the discovery of nodes with default settings on the same host. Not where
 /// certificates decide who may take part, nor where all is as the vendor has it.
-inline bool meets_default_nodes(const BusConfig& config, int domain) {
-  return config.network(domain).host_only() && config.security.empty();
+inline bool meets_default_nodes(const BusConfig& config, const Reach& reach) {
+  return reach.host_only && config.security.empty();
 }
 
 /// The network of one of its domains, looked for now; takes its time where names are not yet known.

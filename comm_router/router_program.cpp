@@ -132,9 +132,7 @@ void RouterProgram::add_options(CLI::App& app) {
 
 std::variant<int, std::unique_ptr<bus::FleetMember>> RouterProgram::prepare(const ProgramOptions& options,
                                                                             StatusPipe& status) {
-  auto load = options.load_options();
-  load.needs_scene_files = false;
-  Scenario scenario = load_scenario(options.scenario, load);
+  Scenario scenario = load_scenario(options.scenario, options.load_options_without_scene());
   FaultPlan faults = load_fault_plan(options.faults, scenario, options.seed);
   if (settle_only_) return settle(options.out, options.out / run_folder::kCounts, scenario, options.run, status);
   auto bus = bus::make_bus(options, scenario);

@@ -25,9 +25,6 @@ constexpr std::array<std::string_view, 8> kVendorNames = {"ROS_DISCOVERY_SERVER"
 /// Told to each program by its launcher; inherited, they are those of another fleet.
 constexpr std::array<std::string_view, 7> kToldNames = {"SKEIN_DDS",      "SKEIN_DOMAIN",   "SKEIN_OUT", "SKEIN_RUN",
                                                         "SKEIN_SCENARIO", "SKEIN_SECURITY", "SKEIN_UAV"};
-constexpr const char* kPinned = "SKEIN_PINNED";  ///< whoever has it was started with all that
-
-std::string_view variable_in(std::string_view entry) { return entry.substr(0, entry.find('=')); }
 
 template <class Names>
 bool listed(const Names& names, std::string_view name) {
@@ -35,6 +32,8 @@ bool listed(const Names& names, std::string_view name) {
 }
 
 }  // namespace
+
+std::string_view variable_in(std::string_view entry) { return entry.substr(0, entry.find('=')); }
 
 bool is_ignored_variable(std::string_view name) {
   return listed(kVendorNames, name) || listed(kToldNames, name) ||
@@ -45,7 +44,7 @@ bool is_ignored_variable(std::string_view name) {
 std::map<std::string, std::string> pinned_variables(bool native) {
   // The last one: else Fast DDS takes a file DEFAULT_FASTRTPS_PROFILES.xml that happens to lie in the current folder.
   std::map<std::string, std::string> pins = {
-      {"LC_ALL", "C"}, {"OMP_NUM_THREADS", "1"}, {"SKIP_DEFAULT_XML_FILE", "1"}, {kPinned, "1"}};
+      {"LC_ALL", "C"}, {"OMP_NUM_THREADS", "1"}, {"SKIP_DEFAULT_XML_FILE", "1"}, {kPinnedVariable, "1"}};
   if (!native) {
     const char* users = std::getenv("GLIBC_TUNABLES");
     pins["GLIBC_TUNABLES"] = (users != nullptr && *users != '\0' ? std::string(users) + ":" : "") + kBaselineMath;
@@ -83,7 +82,7 @@ std::vector<std::string> ignored_variables() {
 }
 
 void take_fleet_environment(char** argv) {
-  if (std::getenv(kPinned) != nullptr) return;
+  if (std::getenv(kPinnedVariable) != nullptr) return;
   std::vector<std::string> variables = fleet_environment(false);
   std::vector<char*> environment;
   for (std::string& variable : variables) environment.push_back(variable.data());

@@ -19,6 +19,12 @@ std::vector<std::string> environment_with(const std::map<std::string, std::strin
 /// @param more set on top of that, so a program can be given again what was taken out.
 std::vector<std::string> fleet_environment(bool native, const std::map<std::string, std::string>& more = {});
 
+/// Whoever has this variable was started with all that.
+inline constexpr const char* kPinnedVariable = "SKEIN_PINNED";
+
+/// NAME of NAME=VALUE.
+std::string_view variable_in(std::string_view entry);
+
 /// What of it is set.
 std::map<std::string, std::string> pinned_variables(bool native);
 

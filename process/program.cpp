@@ -127,6 +127,12 @@ LoadOptions ProgramOptions::load_options() const {
   return load;
 }
 
+LoadOptions ProgramOptions::load_options_without_scene() const {
+  LoadOptions load = load_options();
+  load.needs_scene_files = false;
+  return load;
+}
+
 void StopSignal::on_stop(std::function<void()> wake) {
   const std::lock_guard lock(mutex_);
   wake_ = std::move(wake);

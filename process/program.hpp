@@ -68,6 +68,8 @@ struct ProgramOptions {
 
   /// For load_scenario().
   LoadOptions load_options() const;
+  /// The same for a program that has no use for the scene: its files need not be there.
+  LoadOptions load_options_without_scene() const;
 };
 
 /// Has somebody asked the program to end? SIGINT, SIGTERM or stop(). Any thread.

@@ -61,7 +61,7 @@ std::optional<std::variant<Types...>> read_shared(const std::string& text, const
 }  // namespace
 
 nlohmann::json said_by(const std::string& program, const nlohmann::json& line) {
-  return {{"said_by", program}, {"line", line}};
+  return news_json(Said{program, Json(line)});
 }
 
 nlohmann::json news_json(const News& news) {

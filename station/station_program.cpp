@@ -52,9 +52,7 @@ void StationProgram::add_options(CLI::App& app) {
 
 std::variant<int, std::unique_ptr<bus::FleetMember>> StationProgram::prepare(const ProgramOptions& options,
                                                                              StatusPipe& status) {
-  auto load = options.load_options();
-  load.needs_scene_files = false;
-  Scenario scenario = load_scenario(options.scenario, load);
+  Scenario scenario = load_scenario(options.scenario, options.load_options_without_scene());
   if (settle_only_) {
     settle(options.out, scenario, options.run, status);
     return kExitDone;

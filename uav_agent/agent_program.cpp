@@ -70,9 +70,8 @@ void AgentProgram::add_options(CLI::App& app) {
 std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const ProgramOptions& options,
                                                                            StatusPipe& status) {
   if (list_) return list_strategies();
-  auto load = options.load_options();
-  load.needs_scene_files = false;
-  auto scenario = std::make_unique<const Scenario>(load_scenario(options.scenario, load));
+  auto scenario =
+      std::make_unique<const Scenario>(load_scenario(options.scenario, options.load_options_without_scene()));
   const UavIndex uav = scenario->uav_index(uav_.empty() ? scenario->fleet.front().name : uav_);
   std::unique_ptr<GroundProgram> ground;
   std::unique_ptr<Planner> planner;

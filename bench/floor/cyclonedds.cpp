@@ -143,10 +143,11 @@ class Cyclone final : public Vendor {
     Membership& membership = domains_[id];
     if (!membership.domain) {
       const bus::BusConfig config;
-      membership.domain = std::make_unique<Domain>(id, config, bus::Reach());
+      const bus::Reach reach;
+      membership.domain = std::make_unique<Domain>(id, config, reach);
       membership.participant =
           check(dds_create_participant(static_cast<dds_domainid_t>(id), nullptr, nullptr), "cannot join");
-      if (bus::meets_default_nodes(config, id))
+      if (bus::meets_default_nodes(config, reach))
         bus::cyclonedds::reach_own_host(membership.domain->entity(), membership.participant);
     }
     return membership.participant;

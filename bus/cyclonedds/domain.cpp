@@ -36,7 +36,7 @@ Register& domain_register() {
 /// nodes with default settings are found by it. Datagrams as large as UDP has them; fragments fill one, or else a 4 MB
 /// sample is thousands of them.
 /// Elsewhere datagrams fit a packet: when IP cuts them to pieces, one lost piece loses all.
-void add_network(pugi::xml_node domain, const Reach& reach, bool meets_default_nodes) {
+void add_network(pugi::xml_node domain, const Reach& reach, bool with_default_nodes) {
   pugi::xml_node general = domain.append_child("General");
   pugi::xml_node interface;
   if (reach.host_only || !reach.address.empty()) {
@@ -48,7 +48,7 @@ void add_network(pugi::xml_node domain, const Reach& reach, bool meets_default_n
     }
   }
   if (reach.host_only || reach.by_peers()) {
-    const bool multicast = meets_default_nodes && multicast_on_loopback();
+    const bool multicast = with_default_nodes && multicast_on_loopback();
     if (interface) interface.append_attribute("multicast") = multicast;
     add_element(general, "AllowMulticast", multicast ? "spdp" : "false");
   }
@@ -105,7 +105,7 @@ std::string domain_configuration(const BusConfig& config, const Reach& reach) {
   root.append_attribute("xmlns") = "https://cdds.io/config";
   pugi::xml_node domain = root.append_child("Domain");
   domain.append_attribute("Id") = "any";
-  add_network(domain, reach, reach.host_only && config.security.empty());
+  add_network(domain, reach, meets_default_nodes(config, reach));
   add_discovery(domain, config, reach);
   add_internals(domain, reach.host_only);
   if (!config.security.empty()) add_security(domain, config.security);
@@ -126,7 +126,7 @@ Domain::Domain(int id, const BusConfig& config, const Reach& reach) : id_(id) {
     entry.entity =
         check(dds_create_domain(static_cast<dds_domainid_t>(id), domain_configuration(config, reach).c_str()),
               "cannot create domain " + std::to_string(id));
-  if (entry.members == 0 && meets_default_nodes(config, id)) await_own_host(entry.entity);
+  if (entry.members == 0 && meets_default_nodes(config, reach)) await_own_host(entry.entity);
   entity_ = entry.entity;
   ++entry.members;
 }

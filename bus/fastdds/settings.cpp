@@ -34,10 +34,6 @@ Locator_t locator_of(const std::string& ipv4, std::uint32_t port) {
 
 Duration_t milliseconds(std::uint32_t ms) { return {static_cast<std::int32_t>(ms / 1000), ms % 1000 * 1'000'000}; }
 
-}  // namespace
-
-namespace {
-
 /// Where a participant listens, and to whom it announces itself, without groups.
 /// Ports are given, since Fast DDS would derive them from the number of participants that this process has ever had, in
 /// whatever domain, and soon be out of the range that is announced to. From these first ports on it takes the next
@@ -60,7 +56,7 @@ void discover_without_groups(DomainParticipantQos& qos, int domain, const std::s
 
 DomainParticipantQos participant_qos(int domain, const BusConfig& config, const Reach& reach) {
   DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
-  const bool meets_default = meets_default_nodes(config, domain);
+  const bool meets_default = meets_default_nodes(config, reach);
 
   // UDP only: shared memory leaves segments behind when a process is killed.
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <string_view>
 
 #include "cli/option_checks.hpp"
 #include "core/suggestion.hpp"
@@ -19,12 +18,7 @@ namespace {
 /// For the user to set. The last four are the test suite's, and ours.
 const std::vector<std::string> kUserNames = {"SKEIN_AGENT",      "SKEIN_ASSETS", "SKEIN_BIN_DIR",  "SKEIN_CHAOS",
                                              "SKEIN_CONFIG_DIR", "SKEIN_LOG",    "SKEIN_NETWORK",  "SKEIN_GOLDEN",
-                                             "SKEIN_ROS2",       "SKEIN_LONG",   "SKEIN_SANITIZE", "SKEIN_PINNED"};
-
-template <class Names>
-bool listed(const Names& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
+                                             "SKEIN_ROS2",       "SKEIN_LONG",   "SKEIN_SANITIZE", kPinnedVariable};
 
 }  // namespace
 
@@ -35,8 +29,10 @@ std::vector<std::string> environment_warnings() {
     warnings.push_back("not passed on to the programs, whose DDS is set up by Skein alone: " + joined(ignored));
   }
   for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string name(std::string_view(*entry).substr(0, std::string_view(*entry).find('=')));
-    if (!name.starts_with("SKEIN_") || is_ignored_variable(name) || listed(kUserNames, name)) continue;
+    const std::string name(variable_in(*entry));
+    if (!name.starts_with("SKEIN_") || is_ignored_variable(name) ||
+        std::ranges::find(kUserNames, name) != kUserNames.end())
+      continue;
     warnings.push_back("nobody reads the variable " + name + "; " + suggestion(name, kUserNames));
   }
   std::sort(warnings.begin(), warnings.end());

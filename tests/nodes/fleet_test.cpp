@@ -174,14 +174,7 @@ TEST(FleetInOneProcess, EndsAtTheNextStepWhenTheUserSaysSo) {
 
 // With the launcher's pins, as all programs of a fleet: libm chooses its code by them when a process starts.
 int main(int argc, char** argv) {
-  constexpr const char* kPinned = "SKEIN_TEST_PINNED";
-  if (std::getenv(kPinned) == nullptr) {
-    std::vector<std::string> variables = skein::fleet_environment(false, {{kPinned, "1"}});
-    std::vector<char*> environment;
-    for (std::string& variable : variables) environment.push_back(variable.data());
-    environment.push_back(nullptr);
-    ::execve("/proc/self/exe", argv, environment.data());
-  }
+  skein::take_fleet_environment(argv);
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }
