@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <random>
 
-#include "cli/run/domain_block.hpp"
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
+#include "tests/free_domain.hpp"
 
 namespace skein::test {
 namespace {
+
+constexpr int kAttempts = 5;
 
 class Attack : public FleetTest, public testing::WithParamInterface<std::string> {
  protected:
@@ -19,27 +21,43 @@ class Attack : public FleetTest, public testing::WithParamInterface<std::string>
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(name, arguments);
   }
+
+  /// A client of another run at the place of each UAV, from before the fleet starts on.
+  std::vector<ChildProcess*> knock_at(int base) {
+    std::vector<ChildProcess*> clients;
+    for (std::size_t i = 0; i < kFleet.size(); ++i) {
+      clients.push_back(&start_program("leftover_" + kFleet[i], {SKEIN_MINIMAL_CLIENT},
+                                       {{"SKEIN_RUN", "7"},
+                                        {"SKEIN_DOMAIN", std::to_string(uav_domain(base, UavIndex(i)))},
+                                        {"SKEIN_UAV", kFleet[i]},
+                                        {"SKEIN_DDS", GetParam()}}));
+    }
+    return clients;
+  }
 };
 
 TEST_P(Attack, WhatAnotherRunLeftBehindIsNotListenedTo) {
   const std::string digest = brief("alone", "patrol").digest();
-  std::string base;
-  {  // taken only to find a free one: what is left behind holds no lock
-    base = std::to_string(cli::DomainBlock(std::nullopt, 2 + static_cast<int>(kFleet.size())).base());
+  // What is left behind holds no lock, so another test's fleet may take the domains before ours does: then elsewhere.
+  for (int attempt = 1; attempt <= kAttempts; ++attempt) {
+    const int base = FreeDomains(2 + static_cast<int>(kFleet.size())).base();
+    const std::vector<ChildProcess*> leftover = knock_at(base);
+    SkeinRun& visited = start(
+        "visited" + std::to_string(attempt),
+        {"towers", "--planner", "patrol", "--duration", "60", "--dds", GetParam(), "--domain", std::to_string(base)});
+    const bool taken =
+        visited.exit_code() == 2 && visited.err().find("another one of this host uses domain") != std::string::npos;
+    if (taken && attempt < kAttempts) {
+      for (ChildProcess* client : leftover) client->signal(SIGKILL);
+      continue;
+    }
+    ASSERT_EQ(visited.exit_code(), 0) << visited.err();
+    EXPECT_EQ(visited.digest(), digest);
+    EXPECT_TRUE(visited.result()["lost_members"].empty());
+    EXPECT_NE(text_of(visited.dir() / "sim_server.log").find("takes part in another run (7,"), std::string::npos)
+        << "they were there, and it is told";
+    return;
   }
-  // A client of another run knocks at the place of each UAV, before and while the fleet starts.
-  for (std::size_t i = 0; i < kFleet.size(); ++i) {
-    start_program("leftover_" + kFleet[i], {SKEIN_MINIMAL_CLIENT},
-                  {{"SKEIN_RUN", "7"},
-                   {"SKEIN_DOMAIN", std::to_string(uav_domain(std::stoi(base), UavIndex(i)))},
-                   {"SKEIN_UAV", kFleet[i]},
-                   {"SKEIN_DDS", GetParam()}});
-  }
-  SkeinRun& visited = brief("visited", "patrol", {"--domain", base});
-  EXPECT_EQ(visited.digest(), digest);
-  EXPECT_TRUE(visited.result()["lost_members"].empty());
-  EXPECT_NE(text_of(visited.dir() / "sim_server.log").find("takes part in another run (7,"), std::string::npos)
-      << "they were there, and it is told";
 }
 
 TEST_P(Attack, ForgedAcknowledgementsEraseNothing) {
