@@ -133,25 +133,21 @@ std::vector<in_addr> look_up_all(const DomainNetwork& network, const std::string
 }  // namespace
 
 void check_interface(const DomainNetwork& network, const std::string& domain) {
-  const bool given = !network.interface.empty() && network.interface != DomainNetwork::kAll &&
-                     network.interface != DomainNetwork::kHost;
-  if (given) interface_of(network.interface, domain);
+  if (network.names_interface()) interface_of(network.interface, domain);
 }
 
 Reach find_reach(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience) {
   Reach reach;
   if (network.host_only()) return reach;
   reach.host_only = false;
-  if (!network.interface.empty() && network.interface != DomainNetwork::kAll) {
-    reach.address = text_of(interface_of(network.interface, domain).address);
-  }
+  if (network.names_interface()) reach.address = text_of(interface_of(network.interface, domain).address);
   for (const in_addr& peer : look_up_all(network, domain, patience)) {
     const auto source = source_towards(peer);
     const bool ourselves = source && source->s_addr == peer.s_addr;
-    if (!ourselves && source && network.interface.empty() && reach.address.empty()) reach.address = text_of(*source);
+    if (!ourselves && source && reach.address.empty()) reach.address = text_of(*source);
     reach.peers.push_back(text_of(peer));
   }
-  if (!network.peers.empty() && network.interface.empty() && reach.address.empty()) {
+  if (!network.peers.empty() && reach.address.empty()) {
     throw std::runtime_error("network of " + domain + ": none of its other peers (" + joined(network.peers) +
                              ") has an address that this host knows a way to; do they run, and in a common network? " +
                              "`interface:` would tell the own one without them");

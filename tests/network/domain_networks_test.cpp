@@ -21,6 +21,9 @@ constexpr std::size_t kSamples = 20;
 /// Vendors of server, router, a and b.
 using Vendors = std::array<std::string, 4>;
 
+/// What a domain's `interface` says: nothing, its subnet, or "all".
+enum class Interface { none, subnet, all };
+
 class DomainNetworks : public testing::Test {
  protected:
   void SetUp() override {
@@ -40,14 +43,15 @@ class DomainNetworks : public testing::Test {
     if (!folder_.empty()) std::filesystem::remove_all(folder_);
   }
 
-  /// "{world: {peers: [...]}, a: ...}": everybody on its networks but who asks, and on request with the own interface.
-  std::string network(const std::string& host, bool with_interface) const {
+  /// "{world: {peers: [...]}, a: ...}": all on the networks that `host` is on.
+  std::string network(const std::string& host, Interface interface = Interface::none) const {
     std::string text = "{";
     const auto domain = [&](const std::string& name, int number, const std::vector<std::string>& all) {
       if (std::ranges::find(all, host) == all.end()) return;
       text += text.size() > 1 ? ", " : "";
       text += name + ": {";
-      if (with_interface) text += "interface: 10.77." + std::to_string(number) + ".0/24, ";
+      if (interface == Interface::subnet) text += "interface: 10.77." + std::to_string(number) + ".0/24, ";
+      if (interface == Interface::all) text += "interface: all, ";
       text += "peers: [";
       for (const std::string& other : all) text += hosts_.address(number, other) + ", ";
       text += "]}";
@@ -69,11 +73,11 @@ class DomainNetworks : public testing::Test {
     const std::string file = folder_ / std::to_string(id);
     peers_[id] = std::make_unique<ChildProcess>(hosts_.on(host, command), Environment{}, file + ".out", file + ".err");
   }
-  void start_all(const Vendors& vendors, bool with_interface, int bytes) {
-    start("server", vendors[0], 1, network("server", with_interface), bytes, {{"world", 1}, {"a", 2}, {"b", 2}});
-    start("router", vendors[1], 2, network("router", with_interface), bytes, {{"world", 1}, {"a", 2}, {"b", 2}});
-    start("a", vendors[2], 3, network("a", with_interface), bytes, {{"a", 2}});
-    start("b", vendors[3], 4, network("b", with_interface), bytes, {{"b", 2}});
+  void start_all(const Vendors& vendors, Interface interface, int bytes) {
+    start("server", vendors[0], 1, network("server", interface), bytes, {{"world", 1}, {"a", 2}, {"b", 2}});
+    start("router", vendors[1], 2, network("router", interface), bytes, {{"world", 1}, {"a", 2}, {"b", 2}});
+    start("a", vendors[2], 3, network("a", interface), bytes, {{"a", 2}});
+    start("b", vendors[3], 4, network("b", interface), bytes, {{"b", 2}});
   }
   bool all_say(const std::string& word) {
     return eventually([&] {
@@ -107,11 +111,11 @@ class DomainNetworks : public testing::Test {
   std::map<int, std::unique_ptr<ChildProcess>> peers_;
 };
 
-class VendorsOnNetworks : public DomainNetworks, public testing::WithParamInterface<Vendors> {};
+class VendorsOnNetworks : public DomainNetworks, public testing::WithParamInterface<std::pair<Vendors, Interface>> {};
 
 TEST_P(VendorsOnNetworks, HearWhomTheyShareADomainWithAndNobodyElse) {
-  const bool with_interface = GetParam()[0] == "fastdds";
-  start_all(GetParam(), with_interface, 60'000);
+  const auto& [vendors, interface] = GetParam();
+  start_all(vendors, interface, 60'000);
   ASSERT_TRUE(all_say("met")) << errors();
   std::ofstream(go()) << "go";
   for (const int id : {1, 2}) {
@@ -128,19 +132,22 @@ TEST_P(VendorsOnNetworks, HearWhomTheyShareADomainWithAndNobodyElse) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Vendors, VendorsOnNetworks,
-                         testing::Values(Vendors{"cyclonedds", "cyclonedds", "cyclonedds", "cyclonedds"},
-                                         Vendors{"fastdds", "fastdds", "fastdds", "fastdds"},
-                                         Vendors{"cyclonedds", "fastdds", "fastdds", "cyclonedds"},
-                                         Vendors{"fastdds", "cyclonedds", "cyclonedds", "fastdds"}),
-                         [](const auto& vendors) {
-                           return std::to_string(vendors.index) + "_" + vendors.param[0] + "_" + vendors.param[3];
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Vendors, VendorsOnNetworks,
+    testing::Values(std::pair(Vendors{"cyclonedds", "cyclonedds", "cyclonedds", "cyclonedds"}, Interface::all),
+                    std::pair(Vendors{"fastdds", "fastdds", "fastdds", "fastdds"}, Interface::all),
+                    std::pair(Vendors{"fastdds", "fastdds", "fastdds", "fastdds"}, Interface::none),
+                    std::pair(Vendors{"cyclonedds", "fastdds", "fastdds", "cyclonedds"}, Interface::none),
+                    std::pair(Vendors{"fastdds", "cyclonedds", "cyclonedds", "fastdds"}, Interface::subnet)),
+    [](const auto& tested) {
+      const Vendors& vendors = tested.param.first;
+      return std::to_string(tested.index) + "_" + vendors[0] + "_" + vendors[3];
+    });
 
 TEST_F(DomainNetworks, AUavThatAsksForMoreHearsNothing) {
-  start("server", "cyclonedds", 1, network("server", false), 100, {{"world", 1}, {"a", 2}, {"b", 2}});
-  start("router", "fastdds", 2, network("router", false), 100, {{"world", 1}, {"a", 2}, {"b", 2}});
-  start("b", "cyclonedds", 4, network("b", false), 100, {{"b", 2}});
+  start("server", "cyclonedds", 1, network("server"), 100, {{"world", 1}, {"a", 2}, {"b", 2}});
+  start("router", "fastdds", 2, network("router"), 100, {{"world", 1}, {"a", 2}, {"b", 2}});
+  start("b", "cyclonedds", 4, network("b"), 100, {{"b", 2}});
   // It knows all addresses, and joins all domains.
   const std::string all = hosts_.address(0, "server") + ", " + hosts_.address(1, "server") + ", " +
                           hosts_.address(2, "server") + ", " + hosts_.address(2, "b") + ", " +
