@@ -140,19 +140,23 @@ Reach find_reach(const DomainNetwork& network, const std::string& domain, std::c
   Reach reach;
   if (network.host_only()) return reach;
   reach.host_only = false;
+  const bool by_route = !network.names_interface() && network.interface != DomainNetwork::kAll;
   if (network.names_interface()) reach.address = text_of(interface_of(network.interface, domain).address);
   for (const in_addr& peer : look_up_all(network, domain, patience)) {
     const auto source = source_towards(peer);
     const bool ourselves = source && source->s_addr == peer.s_addr;
-    if (!ourselves && source && reach.address.empty()) reach.address = text_of(*source);
+    if (by_route && !ourselves && source && reach.address.empty()) reach.address = text_of(*source);
     reach.peers.push_back(text_of(peer));
   }
-  if (!network.peers.empty() && reach.address.empty()) {
+  if (by_route && !network.peers.empty() && reach.address.empty()) {
     throw std::runtime_error("network of " + domain + ": none of its other peers (" + joined(network.peers) +
                              ") has an address that this host knows a way to; do they run, and in a common network? " +
                              "`interface:` would tell the own one without them");
   }
-  if (!network.peers.empty() && reach.peers.empty()) reach.peers.push_back(reach.address);
+  // None is known yet: still no multicast.
+  if (!network.peers.empty() && reach.peers.empty()) {
+    reach.peers.push_back(reach.address.empty() ? "127.0.0.1" : reach.address);
+  }
   reach.largest_datagram = mtu_of(reach.address) - kIpAndUdpHeaders;
   return reach;
 }
