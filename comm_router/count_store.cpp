@@ -1,14 +1,13 @@
 #include "comm_router/count_store.hpp"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <system_error>
 #include <type_traits>
+#include <utility>
 
 namespace skein::router {
 
@@ -21,47 +20,69 @@ struct CountStore::Head {
   bool operator==(const Head&) const = default;
 };
 
-CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run) : nodes_(nodes) {
-  const std::size_t links = nodes * nodes, bytes = sizeof(Head) + links * sizeof(LinkCounts);
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  void* memory = MAP_FAILED;
-  int reason = errno;
-  // A hole in the file would be filled when it is first written to, and a full disk then ends the process (SIGBUS).
-  if (descriptor >= 0 && ::ftruncate(descriptor, static_cast<off_t>(bytes)) != 0) {
-    reason = errno;
-  } else if (descriptor >= 0 && (reason = ::posix_fallocate(descriptor, 0, static_cast<off_t>(bytes))) == 0) {
-    memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
-    reason = errno;
-  }
-  if (descriptor >= 0) ::close(descriptor);
-  if (memory == MAP_FAILED) throw std::system_error(reason, std::generic_category(), "cannot write " + file.string());
-  head_ = static_cast<Head*>(memory);
-  counts_ = {reinterpret_cast<LinkCounts*>(head_ + 1), links};
+CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run)
+    : file_(file), counts_(nodes), fd_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
+  if (fd_ < 0) throw failure();
+  Head head;
   const Head ours{.run = run};
-  if (*head_ == ours) return;
-  std::ranges::fill(counts_, LinkCounts{});  // new, or of another run: none of ours
-  *head_ = ours;
+  std::vector<LinkCounts> links(nodes * nodes);
+  const std::size_t bytes = links.size() * sizeof(LinkCounts);
+  const bool whole = ::pread(fd_, &head, sizeof head, 0) == ssize_t{sizeof head} &&
+                     ::pread(fd_, links.data(), bytes, sizeof head) == static_cast<ssize_t>(bytes);
+  if (whole && head == ours) {
+    counts_ = {nodes, std::move(links)};
+    return;
+  }
+  // New, or of another run: none of ours. Written in full now: a disk that is full says so before the first count.
+  if (!write(0, &ours, sizeof ours) || !write(sizeof ours, counts_.row_major().data(), bytes) ||
+      ::ftruncate(fd_, static_cast<off_t>(sizeof ours + bytes)) != 0) {
+    const std::system_error error = failure();
+    ::close(fd_);
+    throw error;
+  }
 }
 
-CountStore::~CountStore() { ::munmap(head_, sizeof(Head) + counts_.size_bytes()); }
+CountStore::~CountStore() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+std::system_error CountStore::failure() const {
+  return {errno, std::generic_category(), "cannot write " + file_.string()};
+}
+
+bool CountStore::write(std::size_t at, const void* data, std::size_t bytes) {
+  const auto* next = static_cast<const char*>(data);
+  while (bytes > 0) {
+    const ssize_t written = ::pwrite(fd_, next, bytes, static_cast<off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    next += written;
+    at += static_cast<std::size_t>(written);
+    bytes -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
 
 LinkMatrix<LinkCounts> CountStore::earlier_counts() const {
-  std::vector<LinkCounts> counts(counts_.begin(), counts_.end());
+  std::vector<LinkCounts> counts = counts_.row_major();
   for (LinkCounts& link : counts) {
     link.dropped_fault = link.sent + link.duplicated - link.delivered - link.dropped_no_los - link.dropped_overflow;
   }
-  return {nodes_, std::move(counts)};
+  return {counts_.nodes(), std::move(counts)};
 }
 
 void CountStore::save(const LinkGate& gate, const GatedStep& last) {
-  saved_ = gate.counts();
+  if (fd_ < 0) return;
+  counts_ = gate.counts();
   for (const Delivery& delivery : last.deliveries) {
     const RadioRoute& route = gate.routes()[delivery.route];
-    LinkCounts& link = saved_.at(route.source, route.targets[delivery.target].node);
+    LinkCounts& link = counts_.at(route.source, route.targets[delivery.target].node);
     --link.delivered;
     link.delivered_bytes -= delivery.payload->size();
   }
-  std::ranges::copy(saved_.row_major(), counts_.begin());
+  if (write(sizeof(Head), counts_.row_major().data(), counts_.row_major().size() * sizeof(LinkCounts))) return;
+  trouble_ = failure().what();
+  ::close(std::exchange(fd_, -1));
 }
 
 }  // namespace skein::router

@@ -3,7 +3,8 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
+#include <string>
+#include <system_error>
 
 #include "comm_router/link_gate.hpp"
 #include "core/run_id.hpp"
@@ -12,9 +13,9 @@ namespace skein::router {
 
 class CountStore {
  public:
-  /// Opens or creates the file; what another run counted is none of ours, and begins at 0. It is mapped: what is
-  /// written survives the death of this process (not of the machine).
-  /// @throws std::system_error when the file cannot be opened, made as long as it must be, or mapped.
+  /// Opens or creates the file; what another run counted is none of ours, and begins at 0. What is written survives the
+  /// death of this process (not of the machine).
+  /// @throws std::system_error when the file cannot be opened, or made as long as it must be.
   CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run = RunId::none);
   ~CountStore();
   CountStore(const CountStore&) = delete;
@@ -27,14 +28,19 @@ class CountStore {
   /// After each step. @param last  what left the router with it: it counts as delivered from the next step on, since a
   /// router that dies before takes it along.
   void save(const LinkGate& gate, const GatedStep& last);
+  /// Why nothing is saved any more; empty: it is.
+  const std::string& trouble() const { return trouble_; }
 
  private:
   struct Head;
 
-  Head* head_ = nullptr;  ///< the file, in memory
-  std::size_t nodes_;
-  std::span<LinkCounts> counts_;  ///< of each link, as a LinkMatrix has them
-  LinkMatrix<LinkCounts> saved_;  ///< as the file has it; kept for its memory
+  bool write(std::size_t at, const void* data, std::size_t bytes);
+  std::system_error failure() const;
+
+  const std::filesystem::path file_;
+  LinkMatrix<LinkCounts> counts_;  ///< as the file has them
+  std::string trouble_;
+  int fd_;
 };
 
 }  // namespace skein::router

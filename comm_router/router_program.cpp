@@ -96,6 +96,7 @@ class RouterMember final : public bus::FleetMember {
     }
     const int code = bus::exit_code(end, programs::kCommRouter);
     unwritten_.insert(unwritten_.end(), node_->unwritten().begin(), node_->unwritten().end());
+    if (store_ && !store_->trouble().empty()) unwritten_.push_back(store_->trouble());
     const Notes notes{node_->malformed(), node_->unheard(), node_->unsent(), node_->stranger_warnings(), unwritten_};
     write_report(options_.out, scenario_, node_->gate(), notes, status_);
     std::filesystem::remove(counts_file_);

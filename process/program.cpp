@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/suggestion.hpp"
+#include "process/keeper.hpp"
 #include "process/log_lines.hpp"
 
 namespace skein {
@@ -99,6 +100,7 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--control-fd", options.control_fd, "File descriptor with orders")->group("Launcher");
   app.add_option("--security", options.security, "Folder with the process's key, certificate and permissions")
       ->group("Launcher");
+  app.add_flag("--keep", options.keep, "Start the program again whenever it has been killed");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error or off (default: SKEIN_LOG)");
   app.add_option(
          "--network", options.network,
@@ -196,6 +198,7 @@ int run_program(const std::string& name, int argc, const char* const* argv, cons
   if (const int* code = std::get_if<int>(&options)) return *code;
   return guarded(name, [&] {
     const auto& parsed = std::get<ProgramOptions>(options);
+    if (const auto code = parsed.keep ? keep_alive() : std::nullopt) return *code;
     spdlog::set_default_logger(make_log(name, parsed.log_level));
     StopSignal stop;
     const SignalThread signals(stop);

@@ -59,6 +59,7 @@ struct ProgramOptions {
   std::filesystem::path faults;             ///< --faults: fault file; empty: none
   bool check_only = false;                  ///< --check: validate the input, then stop
   int status_fd = -1;                       ///< --status-fd: where status_pipe.hpp writes; -1: nowhere
+  bool keep = false;                        ///< --keep: see keeper.hpp
   int control_fd = -1;                      ///< --control-fd: where orders come from; -1: nowhere
   std::string log_level;                    ///< --log-level; empty: SKEIN_LOG, else info
   std::optional<std::string> network;       ///< --network: other hosts take part, by this interface or "all"
@@ -66,6 +67,8 @@ struct ProgramOptions {
   RunId run = RunId::none;                  ///< --run: that the program takes part in
   std::filesystem::path security;           ///< --security: folder of process/security_files.hpp; empty: not secured
 
+  /// Whether a launcher is there that tells who has died, kills and restarts, and goes on with what is stopped.
+  bool has_launcher() const { return control_fd >= 0; }
   /// For load_scenario().
   LoadOptions load_options() const;
   /// The same for a program that has no use for the scene: its files need not be there.

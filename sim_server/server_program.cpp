@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "bus/program_bus.hpp"
 #include "core/scenario_reader.hpp"
@@ -32,8 +33,9 @@ std::optional<double> realtime_factor(const std::string& clock) {
 class ServerMember final : public bus::FleetMember {
  public:
   ServerMember(std::unique_ptr<const Scenario> scenario, Scene scene, const SimNodeOptions& options,
-               std::unique_ptr<bus::Bus> bus, StatusPipe& status)
+               std::unique_ptr<bus::Bus> bus, StatusPipe& status, bool has_launcher)
       : scenario_(std::move(scenario)),
+        has_launcher_(has_launcher),
         bus_(std::move(bus)),
         node_(*scenario_, std::move(scene), options, *bus_, status) {}
 
@@ -44,7 +46,12 @@ class ServerMember final : public bus::FleetMember {
   }
 
   bool stops_at_once() const override { return false; }
-  void on_stop() override { node_.abort(); }
+  // The launcher says so first if the run is to end in good order. Without one, the first signal does, the next aborts.
+  void on_stop() override {
+    if (has_launcher_ || std::exchange(asked_to_end_, true)) return node_.abort();
+    spdlog::info("asked to end: the run ends with its next step");
+    node_.request_stop();
+  }
   void obey(const std::string& line) override {
     const std::optional<orders::Line> order = orders::read_line(line);
     if (!order) {
@@ -58,6 +65,8 @@ class ServerMember final : public bus::FleetMember {
 
  private:
   const std::unique_ptr<const Scenario> scenario_;
+  const bool has_launcher_;
+  bool asked_to_end_ = false;
   const std::unique_ptr<bus::Bus> bus_;
   SimNode node_;
 };
@@ -69,12 +78,18 @@ void ServerProgram::add_options(CLI::App& app) {
   app.add_option("--stop-at", stop_at_s_, "end at this simulated time [s]")->check(CLI::PositiveNumber);
   app.add_option("--agent-timeout", agent_timeout_s_, "wall time to wait for a member [s], 0: for ever")
       ->check(CLI::NonNegativeNumber);
+  app.add_option(
+         "--startup-timeout", startup_timeout_s_,
+         "wall time to wait for all to join [s], 0: for ever (default: 20 and 2 for each UAV, or --agent-timeout "
+         "if that is more)")
+      ->check(CLI::NonNegativeNumber);
   app.add_flag("--ground-program", ground_program_, "wait for a program at the ground station before the start");
   tasks_.add_options(app);
 }
 
 // Each member adds participants whose discovery the others pay for: on two cores a hundred UAVs take half a minute.
 double ServerProgram::startup_timeout_s(const Scenario& scenario) const {
+  if (startup_timeout_s_) return *startup_timeout_s_;
   constexpr double kPerUav_s = 2.0, kLeast_s = 20.0;  // however quick the members' answers must be
   if (agent_timeout_s_ <= 0.0) return 0.0;            // for ever
   return std::max(agent_timeout_s_, kLeast_s) + kPerUav_s * static_cast<double>(scenario.fleet.size());
@@ -93,6 +108,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .stop_at_s = stop_at_s_,
                                     .agent_timeout_s = agent_timeout_s_,
                                     .startup_timeout_s = startup_timeout_s(*scenario),
+                                    .notice_deaths = !options.has_launcher(),
                                     .expect_gcs_program = ground_program_,
                                     .faults = load_fault_plan(options.faults, *scenario, options.seed)};
   Scene scene = load_scene(*scenario);
@@ -102,7 +118,8 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
     Simulation(*scenario, std::move(scene), options.seed);  // starts must be free
     return kExitDone;
   }
-  return std::make_unique<ServerMember>(std::move(scenario), std::move(scene), node_options, std::move(bus), status);
+  return std::make_unique<ServerMember>(std::move(scenario), std::move(scene), node_options, std::move(bus), status,
+                                        options.has_launcher());
 }
 
 }  // namespace skein::sim

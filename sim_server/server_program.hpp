@@ -24,7 +24,7 @@ class ServerProgram final : public bus::FleetProgram {
   double startup_timeout_s(const Scenario& scenario) const;
 
   std::string clock_ = "lockstep";
-  std::optional<double> stop_at_s_;
+  std::optional<double> stop_at_s_, startup_timeout_s_;
   double agent_timeout_s_ = 60.0;
   bool ground_program_ = false;
   ServerTasks tasks_;

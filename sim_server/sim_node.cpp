@@ -23,7 +23,6 @@ constexpr milliseconds kMatchPoll{2}, kIdlePoll{100};
 constexpr std::size_t kWorldDomain = 0, kGcsDomain = 1, kFirstUavDomain = 2;
 /// For the step that is under way when the user ends the run.
 constexpr double kStopPatience_s = 2.0;
-
 /// After so long without all answers the step is told again to who owes one, and then as often.
 constexpr double kAskAgain_s = 1.0;
 
@@ -113,6 +112,7 @@ void SimNode::start() {
 }
 
 void SimNode::turn(bool arrived) {
+  if (options_.notice_deaths && !arrived) server_.drop_vanished();  // if all live, something arrives before long
   const auto go_on = [&] {
     switch (state_) {
       case State::joining:

@@ -235,7 +235,10 @@ void LockstepClient::done(const std::vector<std::uint8_t>& digest) {
   last_done_ = std::move(done);
 }
 
-bool LockstepClient::server_present() const { return server_ != 0 && contains(step_reader_->matched(), server_); }
+bool LockstepClient::server_present() const {
+  const std::vector<ParticipantId> writers = step_reader_->matched();
+  return server_ == 0 ? !writers.empty() : contains(writers, server_);
+}
 
 bool LockstepClient::waits_for_matches() const {
   return phase_ == Phase::matching || ((pending_ || handed_out_) && router_ != 0 && router_ != matched_router_);

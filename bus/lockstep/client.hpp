@@ -65,7 +65,8 @@ class LockstepClient {
 
   /// True from the first step on in which we are a member.
   bool is_member() const { return phase_ == Phase::member; }
-  /// True as long as the server's step writer is there: after the last step, stay until it has gone.
+  /// True as long as the server's step writer is there (whoever's, before we are invited): after the last step, stay
+  /// until it has gone.
   bool server_present() const;
   /// The run that we take part in.
   RunId run() const { return inbox_.run(); }

@@ -16,7 +16,7 @@ constexpr double kLinger_s = 5.0;  // as long as the answer to the last step may
 void ClientNode::start() {
   client().start();
   wait_from_now();
-  was_member_ = false;
+  was_member_ = met_server_ = false;
   serving_ = true;
 }
 
@@ -52,10 +52,18 @@ void ClientNode::turn(bool arrived) {
   serving_ = serving || client().waits_for_matches();
   if (answered_last()) {
     leaving_.emplace(kLinger_s);
-  } else if (!arrived && was_member_ && !client().server_present()) {
-    // Also while a match is awaited: a program that was stopped may find nobody left to match.
-    end_ = NodeEnd::server_gone;
+  } else if (!arrived) {
+    look_for_server();
   }
+}
+
+// Also while a match is awaited: a program that was stopped may find nobody left to match.
+void ClientNode::look_for_server() {
+  const bool present = client().server_present();
+  met_server_ = met_server_ || present;
+  if (!met_server_ || present) return;
+  if (!was_member_) spdlog::info("the run is over, without us");
+  end_ = was_member_ ? NodeEnd::server_gone : NodeEnd::finished;
 }
 
 }  // namespace skein::bus

@@ -35,12 +35,13 @@ class ClientNode : public LockstepNode {
   virtual std::chrono::milliseconds first_word() const { return WaitNotice::kFirst; }
 
  private:
+  void look_for_server();
   void wait_from_now() { wait_ = WaitNotice(WaitNotice::Clock::now(), first_word()); }
 
   std::optional<NodeEnd> end_;
   WaitNotice wait_{WaitNotice::Clock::now()};
   std::optional<Patience> leaving_;  ///< since the last step is answered
-  bool was_member_ = false;
+  bool was_member_ = false, met_server_ = false;
   bool serving_ = true;  ///< waits for what no sample announces
 };
 

@@ -1,7 +1,15 @@
 #include "bus/lockstep/fleet_program.hpp"
 
+#include <spdlog/spdlog.h>
+
+#include "bus/lockstep/self_signal.hpp"
+
 namespace skein::bus {
 namespace {
+
+/// A fault that stops a program without a launcher only takes it out of the run: nobody would continue the process. It
+/// asks to be let back at once, and waits for that as long as the fault lasts.
+void stand_aside() { spdlog::info("there is no launcher that would continue it: it waits to be let back"); }
 
 int work(FleetMember& member, StopSignal& stop) {
   std::optional<int> code;
@@ -20,6 +28,7 @@ int run_fleet_program(FleetProgram& program, int argc, const char* const* argv) 
   return run_program(
       program.name(), argc, argv, [&](CLI::App& app) { program.add_options(app); },
       [&](const ProgramOptions& options, StopSignal& stop) {
+        if (!options.has_launcher()) set_self_signals({.kill = {}, .stop = stand_aside});
         StatusPipe status(options.status_fd);
         const auto prepared = program.prepare(options, status);
         if (const int* code = std::get_if<int>(&prepared)) return *code;

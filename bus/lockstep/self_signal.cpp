@@ -1,6 +1,5 @@
 #include "bus/lockstep/self_signal.hpp"
 
-#include <semaphore.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -8,11 +7,6 @@
 
 namespace skein::bus {
 namespace {
-
-/// Posted by the handler of SIGCONT, which may run on any thread and can reach nothing but a global.
-sem_t continued;
-
-extern "C" void on_continued(int) { ::sem_post(&continued); }
 
 SelfSignals& instead() {
   static SelfSignals signals;
@@ -31,20 +25,7 @@ void kill_ourselves() {
 
 void stop_ourselves() {
   if (instead().stop) return instead().stop();
-  if (::getpid() != 1) {
-    std::raise(SIGSTOP);
-    return;
-  }
-  ::sem_init(&continued, 0, 0);
-  struct sigaction action {
-  }, before{};
-  action.sa_handler = on_continued;
-  ::sigaction(SIGCONT, &action, &before);
-  while (::sem_wait(&continued) != 0) {
-    // another signal
-  }
-  ::sigaction(SIGCONT, &before, nullptr);
-  ::sem_destroy(&continued);
+  std::raise(SIGSTOP);
 }
 
 }  // namespace skein::bus

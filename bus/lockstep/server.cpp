@@ -344,6 +344,14 @@ void LockstepServer::lost(const std::string& member, const std::string& reason) 
   leave(*place, reason);
 }
 
+void LockstepServer::drop_vanished() {
+  for (Place& place : places_) {
+    if (place.member && !contains(door_of(place).ready->matched(), place.source)) {
+      leave(place, "it has left, or gives no sign of life");
+    }
+  }
+}
+
 std::vector<LockstepServer::LostMember> LockstepServer::take_lost() { return std::exchange(lost_, {}); }
 
 std::vector<std::string> LockstepServer::take_rejoined() { return std::exchange(rejoined_, {}); }

@@ -84,6 +84,9 @@ class LockstepServer {
 
   /// A process died (launcher), hangs (time-out) or left: nobody waits for it any longer.
   void lost(const std::string& member, const std::string& reason);
+  /// For a fleet in which nobody tells who died: members that have left, or are silent for longer than their lease
+  /// (`--lease`), are lost.
+  void drop_vanished();
   /// Members and joiners that are lost since the last call.
   std::vector<LostMember> take_lost();
 

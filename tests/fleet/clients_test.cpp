@@ -5,10 +5,9 @@
 #include <cstdio>
 #include <sstream>
 
-#include "cli/run/domain_block.hpp"
+#include "by_hand_fixture.hpp"
 #include "core/radio_routes.hpp"
 #include "core/topics.hpp"
-#include "fleet_fixture.hpp"
 
 namespace skein::test {
 namespace {
@@ -164,67 +163,11 @@ TEST_F(Clients, ForeignClientIsWatchedLikeTheOthers) {
   EXPECT_EQ(run.result()["lost_members"][0]["member"], "sentosa");
 }
 
-/// A fleet started by hand, for options that the launcher does not have. It waits 12 s for an answer.
-class ByHand : public FleetTest {
- protected:
-  ByHand() { std::filesystem::create_directories(dir_); }
-
-  /// Starts all programs. @param instead_of  an agent in whose place this client flies.
-  void start_fleet(const std::string& instead_of = "", const Arguments& client = {}) {
-    for (const std::string& name : kPrograms) {
-      const std::string base = std::to_string(domains_.base()), uav = member(name);
-      if (name == instead_of) {
-        const auto index = std::find(kFleet.begin(), kFleet.end(), uav) - kFleet.begin();
-        const std::string domain =
-            std::to_string(uav_domain(domains_.base(), UavIndex(static_cast<std::size_t>(index))));
-        fleet_[name] =
-            &start_program(name, client, {{"SKEIN_DOMAIN", domain}, {"SKEIN_UAV", uav}, {"SKEIN_DDS", "cyclonedds"}});
-        continue;
-      }
-      Arguments argv = {program(name.substr(0, name.find('-'))),
-                        "--scenario",
-                        "towers",
-                        "--duration",
-                        "40",
-                        "--domain",
-                        base,
-                        "--out",
-                        dir_};
-      if (uav != name) argv.insert(argv.end(), {"--uav", uav, "--planner", "patrol"});
-      if (name == "sim_server") argv.insert(argv.end(), {"--agent-timeout", "12"});
-      fleet_[name] = &start_program(name, argv);
-    }
-  }
-
-  /// The run ends by itself without `victim`, which was dropped for `reason`, and all others end in good order.
-  void expect_run_without(const std::string& victim, const std::string& reason) {
-    EXPECT_EQ(fleet_.at("sim_server")->wait().code, 0) << fleet_.at("sim_server")->err();
-    const Json report = Json::parse(text_of(dir_ / "sim_server.report.json"));
-    EXPECT_EQ(report["status"], "completed");
-    EXPECT_FALSE(report["deterministic"]);
-    ASSERT_EQ(report["lost_members"].size(), 1u) << report["lost_members"];
-    const Json lost = report["lost_members"][0];
-    EXPECT_EQ(lost["member"], member(victim));
-    EXPECT_NE(lost["reason"].get<std::string>().find(reason), std::string::npos) << lost["reason"];
-    EXPECT_NE(fleet_.at("sim_server")->err().find(member(victim) + " is lost"), std::string::npos);
-    for (const auto& [name, process] : fleet_) {
-      if (name != victim) {
-        EXPECT_EQ(process->wait().code, 0) << name << ": " << process->err();
-      }
-    }
-  }
-
-  static std::string member(const std::string& program) { return program.substr(program.find('-') + 1); }
-
-  const std::filesystem::path dir_ = folder() / "by_hand";
-  const cli::DomainBlock domains_{std::nullopt, 2 + static_cast<int>(kFleet.size())};
-  std::map<std::string, ChildProcess*> fleet_;
-};
-
 class Hanging : public ByHand, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Hanging, ProgramIsDroppedAndTheRunGoesOn) {
-  start_fleet();
+  // Leases that last for longer than the patience with an answer.
+  start_fleet({.all = {"--duration", "40", "--lease", "60"}, .server = {"--agent-timeout", "12"}});
   ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
   ChildProcess& victim = *fleet_.at(GetParam());
   victim.signal(SIGSTOP);
@@ -242,7 +185,8 @@ INSTANTIATE_TEST_SUITE_P(Programs, Hanging, testing::Values("uav_agent-changi", 
 class Lying : public ByHand, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Lying, ClientIsDroppedAndTheRunGoesOn) {
-  start_fleet("uav_agent-sentosa", {SKEIN_MINIMAL_CLIENT, GetParam()});
+  start_fleet({.all = {"--duration", "40"}, .server = {"--agent-timeout", "12"}},
+              {{"uav_agent-sentosa", {SKEIN_MINIMAL_CLIENT, GetParam()}}});
   expect_run_without("uav_agent-sentosa",
                      GetParam() == "boast" ? "rt/sentosa/command/trajectory 41 of 42" : "sent more than it announced");
   if (GetParam() == "smuggle") {

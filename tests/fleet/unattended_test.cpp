@@ -1,0 +1,124 @@
+// Programs that no launcher watches over (--keep): they notice by themselves who dies, come back when a fault lets them,
+// and end in good order when they are asked to.
+#include <signal.h>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <random>
+#include <sstream>
+
+#include "by_hand_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+class Unattended : public ByHand, public testing::WithParamInterface<std::string> {
+ protected:
+  /// For ever: who is not noticed to be dead holds the run up.
+  Options kept(Arguments more = {}) const {
+    more.insert(more.end(), {"--duration", "60", "--keep", "--dds", GetParam(), "--lease", "3"});
+    return {.all = std::move(more), .server = {"--agent-timeout", "0", "--startup-timeout", "0"}};
+  }
+  /// The process that does the work.
+  pid_t worker(const std::string& name) const {
+    const std::string pid = std::to_string(fleet_.at(name)->pid());
+    std::istringstream children(text_of("/proc/" + pid + "/task/" + pid + "/children"));
+    pid_t child = 0;
+    children >> child;
+    return child;
+  }
+  void expect_good_ends() {
+    for (const auto& [name, process] : fleet_) EXPECT_EQ(process->wait().code, 0) << name << ": " << process->err();
+  }
+  std::string said(const std::string& name) { return fleet_.at(name)->err(); }
+
+  std::mt19937 random_{std::random_device{}()};
+};
+
+// Every program is killed once and stopped once; the order is drawn.
+TEST_P(Unattended, FaultsMeanTheSameAsUnderTheLauncher) {
+  std::vector<std::string> victims = {"changi", "jurong", "sentosa", "station", "comm_router"}, stopped = victims;
+  std::ranges::shuffle(victims, random_);
+  std::ranges::shuffle(stopped, random_);
+  std::string faults = "faults:\n";
+  for (std::size_t i = 0; i < victims.size(); ++i) {
+    const double at_s = 12.0 + 9.0 * static_cast<double>(i);
+    faults += fmt::format("  - {{at_s: {}, until_s: {}, kill: {}}}\n", at_s, at_s + 2.5, victims[i]);
+    faults += fmt::format("  - {{at_s: {}, until_s: {}, pause: {}}}\n", at_s + 4.0, at_s + 6.0, stopped[i]);
+  }
+  SCOPED_TRACE(faults);
+  const std::string file = write("faults.yaml", faults);
+  SkeinRun& launched =
+      run("launched", {"towers", "--planner", "patrol", "--duration", "60", "--dds", GetParam(), "--faults", file});
+  start_fleet(kept({"--faults", file}));
+  expect_good_ends();
+  const Json report = server_report();
+  EXPECT_EQ(report["status"], "completed") << report;
+  EXPECT_TRUE(report["lost_members"].empty()) << report["lost_members"];
+  EXPECT_EQ(report["digest"], launched.digest());
+  for (const std::string& victim : victims) {
+    const std::string program = fleet_.contains(victim) ? victim : "uav_agent-" + victim;
+    EXPECT_NE(said(program).find("here it starts again"), std::string::npos) << program << ": " << said(program);
+    EXPECT_NE(said(program).find("waits to be let back"), std::string::npos) << program << ": " << said(program);
+  }
+  const Json station = Json::parse(text_of(dir_ / "station.report.json"));
+  EXPECT_EQ(station["score"], launched.result()["score"]);
+}
+
+TEST_P(Unattended, WhoIsKilledIsMissedAndWorksAgain) {
+  start_fleet(kept());
+  ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
+  std::vector<std::string> victims = {"uav_agent-changi", "station", "comm_router"};
+  std::ranges::shuffle(victims, random_);
+  for (const std::string& victim : victims) {
+    ::kill(worker(victim), SIGKILL);
+    const std::string back = member(victim) + " joined again";
+    EXPECT_TRUE(eventually([&] { return said("sim_server").find(back) != std::string::npos; }))
+        << victim << ": " << said("sim_server");
+  }
+  expect_good_ends();
+  const Json report = server_report();
+  EXPECT_EQ(report["status"], "completed");
+  ASSERT_EQ(report["lost_members"].size(), victims.size()) << report["lost_members"];
+  for (const Json& lost : report["lost_members"]) EXPECT_EQ(lost["reason"], "it has left, or gives no sign of life");
+  EXPECT_GT(Json::parse(text_of(dir_ / "station.report.json"))["score"], 0.0);
+}
+
+TEST_P(Unattended, WhoIsAskedToEndLeavesAndTheRunGoesOn) {
+  start_fleet(kept());
+  ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
+  const std::string uav = kPrograms.at(std::uniform_int_distribution<std::size_t>(3, kPrograms.size() - 1)(random_));
+  fleet_.at(uav)->signal(SIGTERM);
+  EXPECT_EQ(fleet_.at(uav)->wait().code, 0) << said(uav);
+  expect_run_without(uav, "it has left");
+  EXPECT_TRUE(std::filesystem::exists(dir_ / (uav + ".report.json")));
+}
+
+TEST_P(Unattended, AServerThatIsAskedToEndEndsTheRunInGoodOrder) {
+  start_fleet(kept());
+  ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
+  fleet_.at("sim_server")->signal(SIGTERM);
+  expect_good_ends();
+  EXPECT_EQ(server_report()["status"], "interrupted");
+  EXPECT_TRUE(server_report()["lost_members"].empty()) << server_report()["lost_members"];
+  for (const std::string& name : kPrograms) {
+    EXPECT_TRUE(std::filesystem::exists(dir_ / (name + ".report.json"))) << name;
+  }
+}
+
+TEST_P(Unattended, AllThatAreAskedToEndAtOnceDo) {
+  start_fleet(kept());
+  ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
+  std::vector<std::string> order = kPrograms;
+  std::ranges::shuffle(order, random_);
+  for (const std::string& name : order) fleet_.at(name)->signal(SIGTERM);
+  expect_good_ends();
+  EXPECT_EQ(server_report()["status"], "interrupted");
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, Unattended, testing::Values("cyclonedds", "fastdds"),
+                         [](const auto& vendor) { return vendor.param; });
+
+}  // namespace
+}  // namespace skein::test
