@@ -95,6 +95,8 @@ std::optional<in_addr> source_towards(const in_addr& peer) {
   return known ? std::optional(here.sin_addr) : std::nullopt;
 }
 
+bool is_loopback(const in_addr& address) { return (ntohl(address.s_addr) >> 24) == 127; }
+
 std::size_t mtu_of(const std::string& address) {
   const std::vector<OwnInterface> all = own_interfaces();
   const auto own = std::ranges::find(all, address, [](const OwnInterface& i) { return text_of(i.address); });
@@ -107,27 +109,51 @@ std::size_t mtu_of(const std::string& address) {
   return known ? static_cast<std::size_t>(request.ifr_mtu) : kEthernet;
 }
 
-/// Those that are known after `patience`, at the latest.
-std::vector<in_addr> look_up_all(const DomainNetwork& network, const std::string& domain,
-                                 std::chrono::milliseconds patience) {
-  const auto deadline = Clock::now() + patience;
-  while (true) {
-    std::vector<in_addr> known;
-    std::vector<std::string> unknown;
-    for (const std::string& host : network.peers) {
-      if (const auto address = look_up(host)) {
-        known.push_back(*address);
-      } else {
-        unknown.push_back(host);
-      }
+/// What the peers' names tell now.
+struct Known {
+  std::vector<std::string> peers;  ///< addresses
+  std::vector<std::string> unknown;
+  std::string own;  ///< where packets to another of them leave; else what a name of ours among them stands for
+};
+
+Known look_up_all(const std::vector<std::string>& hosts) {
+  Known known;
+  std::string by_name;
+  for (const std::string& host : hosts) {
+    const auto peer = look_up(host);
+    if (!peer) {
+      known.unknown.push_back(host);
+      continue;
     }
-    if (unknown.empty()) return known;
+    known.peers.push_back(text_of(*peer));
+    const auto source = source_towards(*peer);
+    const bool ourselves = source && source->s_addr == peer->s_addr;
+    if (source && !ourselves && known.own.empty()) known.own = text_of(*source);
+    if (ourselves && !is_loopback(*peer)) by_name = text_of(*peer);
+  }
+  if (known.own.empty()) known.own = by_name;
+  return known;
+}
+
+/// Asks until the own address is known, if it takes peers to know it. Who cannot be found yet comes later, and finds us.
+Known look_up_all(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience) {
+  const bool by_route = !network.names_interface() && network.interface != DomainNetwork::kAll;
+  const auto deadline = Clock::now() + patience;
+  Known known = look_up_all(network.peers);
+  while (by_route && !network.peers.empty() && known.own.empty()) {
     if (Clock::now() >= deadline) {
-      spdlog::warn("network of {}: no address of {} is known; who comes later will find us", domain, joined(unknown));
-      return known;
+      throw std::runtime_error("network of " + domain + ": none of its peers (" + joined(network.peers) +
+                               ") has an address that this host knows a way to; do they run, and in a common " +
+                               "network? `interface:` would tell the own one without them");
     }
     ::poll(nullptr, 0, static_cast<int>(kAskAgain.count()));  // nobody tells when a name is given
+    known = look_up_all(network.peers);
   }
+  if (!known.unknown.empty()) {
+    spdlog::info("network of {}: {} cannot be found yet; who comes later will find us", domain, joined(known.unknown));
+  }
+  if (!by_route) known.own.clear();
+  return known;
 }
 
 }  // namespace
@@ -140,19 +166,9 @@ Reach find_reach(const DomainNetwork& network, const std::string& domain, std::c
   Reach reach;
   if (network.host_only()) return reach;
   reach.host_only = false;
-  const bool by_route = !network.names_interface() && network.interface != DomainNetwork::kAll;
-  if (network.names_interface()) reach.address = text_of(interface_of(network.interface, domain).address);
-  for (const in_addr& peer : look_up_all(network, domain, patience)) {
-    const auto source = source_towards(peer);
-    const bool ourselves = source && source->s_addr == peer.s_addr;
-    if (by_route && !ourselves && source && reach.address.empty()) reach.address = text_of(*source);
-    reach.peers.push_back(text_of(peer));
-  }
-  if (by_route && !network.peers.empty() && reach.address.empty()) {
-    throw std::runtime_error("network of " + domain + ": none of its other peers (" + joined(network.peers) +
-                             ") has an address that this host knows a way to; do they run, and in a common network? " +
-                             "`interface:` would tell the own one without them");
-  }
+  Known known = look_up_all(network, domain, patience);
+  reach.address = network.names_interface() ? text_of(interface_of(network.interface, domain).address) : known.own;
+  reach.peers = std::move(known.peers);
   // None is known yet: still no multicast.
   if (!network.peers.empty() && reach.peers.empty()) {
     reach.peers.push_back(reach.address.empty() ? "127.0.0.1" : reach.address);

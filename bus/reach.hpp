@@ -21,10 +21,10 @@ struct Reach {
 };
 
 /// @param domain    names it in messages.
-/// @param patience  Names are asked for until all are known, at most so long; then without those that are not: a host
-///                  that comes later finds those that are there, and they find it by that.
-/// @throws InputError for an interface that this host has not; std::runtime_error when no peer is known and there is no
-///         interface that would tell the own address.
+/// @param patience  At most so long names are asked for until one tells the own address: that of another peer, or one
+///                  of ours. Peers that are not known yet are left out: who comes later finds those that are there, and
+///                  they find it by that.
+/// @throws InputError for an interface that this host has not; std::runtime_error when the own address stays unknown.
 Reach find_reach(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience);
 
 /// @throws InputError when the interface is given and this host has none such.

@@ -7,6 +7,8 @@
 
 #include "cli/bench_command.hpp"
 #include "cli/check_command.hpp"
+#include "cli/compose_command.hpp"
+#include "cli/merge_command.hpp"
 #include "cli/options.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/run/agent_file.hpp"
@@ -55,6 +57,9 @@ struct Execute {
   int operator()(const BenchOptions& options) const { return run_bench(options, console); }
   int operator()(const OracleOptions& options) const { return consult_oracle(options, console); }
   int operator()(const DiffOptions& options) const { return diff_runs(options, console); }
+  int operator()(const ComposeOptions& options) const { return compose_fleet(options, console); }
+  int operator()(const KeysOptions& options) const { return make_keys(options, console); }
+  int operator()(const MergeOptions& options) const { return merge_reports(options, console); }
   int operator()(const StudyOptions& options) const { return run_study(options, console); }
   int operator()(const HelpText& help) const {
     console.out << help.text;

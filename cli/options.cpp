@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/option_checks.hpp"
+#include "cli/tool_options.hpp"
 #include "core/types.hpp"
 
 #ifndef SKEIN_VERSION
@@ -27,16 +28,14 @@ void add_network(CLI::App& command, std::optional<std::string>& network) {
       ->default_str("all");
 }
 
-CLI::App* add_run(CLI::App& app, RunOptions& run) {
-  CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
+/// What is flown, and how; of run, compose and keys.
+void add_flight_options(CLI::App* command, RunOptions& run) {
   command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
   command
       ->add_option(
           "--planner", run.planner,
           "NAME, or UAV=NAME,... for some UAVs; NAME@AGENT: of that agent program; exec:CMD: a program of yours")
       ->capture_default_str();
-  command->add_option("--agent", run.agent,
-                      "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   command->add_option("--seed", run.seed, "What chance draws; 0 draws nothing")->check(seed)->capture_default_str();
   command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
@@ -44,30 +43,42 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   command->add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
   command->add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
   command->add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when");
-  CLI::Option* dds = command->add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
-                         ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
-                         ->capture_default_str();
-  command
-      ->add_flag("--one-process", run.one_process,
-                 "All programs in one process, without DDS: the same result on one core, and sooner")
-      ->excludes(dds);
+  command->add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
+      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
+      ->capture_default_str();
   command->add_option("--clock", run.clock, "lockstep, or realtime[:FACTOR]")
       ->check(CLI::Validator(check_clock, "CLOCK"))
       ->capture_default_str();
-  CLI::Option* debug = command->add_option("--debug", run.debug_uav, "Leave this UAV's agent to you and your debugger");
   command
       ->add_option("--agent-timeout", run.agent_timeout_s,
                    "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
-      ->check(seconds)
-      ->excludes(debug);  // which waits until Ctrl-C, or until the debugged program ends
-  command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
+      ->check(seconds);
   command->add_flag("--secure", run.secure, "Enforce the isolation of agents: certificates, encryption, user ids");
-  command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
-  add_network(*command, run.network);
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
+}
+
+/// What becomes of its results; of run and compose.
+void add_result_options(CLI::App* command, RunOptions& run) {
   command->add_option("--out", run.out, "Results folder (default runs/<scenario>-<planner>-<seed>)");
   command->add_flag("--force", run.force, "Overwrite an existing result");
   command->add_flag("--no-oracle{false}", run.attainable, "Do not ask after the run what could have been had");
+}
+
+CLI::App* add_run(CLI::App& app, RunOptions& run) {
+  CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
+  add_flight_options(command, run);
+  command->add_option("--agent", run.agent,
+                      "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
+  command
+      ->add_flag("--one-process", run.one_process,
+                 "All programs in one process, without DDS: the same result on one core, and sooner")
+      ->excludes("--dds");
+  command->add_option("--debug", run.debug_uav, "Leave this UAV's agent to you and your debugger")
+      ->excludes("--agent-timeout");  // it waits until Ctrl-C, or until the debugged program ends
+  command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
+  command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
+  add_network(*command, run.network);
+  add_result_options(command, run);
   command->footer(
       "Examples:\n"
       "  skein run towers --planner kios\n"
@@ -79,118 +90,44 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   return command;
 }
 
-CLI::App* add_test(CLI::App& app, TestOptions& test) {
+CLI::App* add_compose(CLI::App& app, ComposeOptions& compose) {
   CLI::App* command =
-      app.add_subcommand("test", "Run the test suite, or your fault tests; the last line is 'N passed, N failed'");
-  command->add_flag("--long", test.long_tests,
-                    "Include the tests that take minutes; with --faults: repeat each in every way");
-  CLI::Option* faults =
-      command->add_option("--faults", test.faults, "A fault test (YAML) or a folder of them, instead of the suite");
-  command
-      ->add_option(
-          "--repeat", test.repeat,
-          "Fly each fault test again and compare digests: again, cyclonedds, fastdds, mixed, chaos, one_process")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"again", "cyclonedds", "fastdds", "mixed", "chaos", "one_process"}))
-      ->needs(faults);
-  command->add_flag("--rotate", test.rotate, "Only one of the repetitions a test, in turn")->needs("--repeat");
-  command->add_option("--out", test.out, "Folder of the fault tests' results")->needs(faults)->capture_default_str();
-  command->add_option("--assets", test.assets, "Folder with models/ for scenarios that read files")->needs(faults);
-  command->add_option("--agent", test.agent, "Agent program with planners of your own, as for `skein run`")
-      ->needs(faults);
-  command
-      ->add_flag("--one-process", test.one_process, "Fly in one process, without DDS, what no repetition does over it")
-      ->needs(faults);
-  command->add_option("--seeds", test.seeds, "Fly each fault test with each of these seeds: 1-20 or 3,5,8")
-      ->needs(faults);
-  command->add_option("--jobs", test.jobs, "Flights at once; results do not depend on it")
-      ->needs(faults)
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
-  command->add_option("--junit", test.junit, "File for a report as JUnit XML, as CI servers read it")->needs(faults);
-  command->add_flag("-v,--verbose", test.verbose, "Tell what was seen where an expectation holds, too")->needs(faults);
+      app.add_subcommand("compose", "A fleet in containers: write a file for docker-compose, or fly it");
+  add_flight_options(command, compose.run);
+  CLI::Option* up = command->add_flag("--up", compose.up, "Bring the fleet up, follow the run, and take it down again");
+  command->add_option("--file", compose.file, "File to write (default: standard output)")->excludes(up);
+  command->add_option("--image", compose.images, "UAV=IMAGE: your own in the place of that UAV's agent")
+      ->allow_extra_args(false);
+  command->add_option("--subnet", compose.subnet,
+                      "IPv4 network to divide, as 172.30.0.0/20 (default: the engine's address pools)");
+  command->add_option("--build-folder", compose.build, "Fly the programs of this build instead of the images'");
+  add_result_options(command, compose.run);
   command->footer(
       "Examples:\n"
-      "  skein test\n"
-      "  skein test --faults config/faults/station_outage.yaml -v\n"
-      "  skein test --faults my_tests --agent build/my_agent --seeds 1-20 --jobs 2 --junit faults.xml\n\n"
-      "A fault test is described in docs/how-to-test-faults.md; config/faults/ has examples.\n"
-      "Exit codes: 0 all passed, 1 one failed, 2 a file is wrong.");
+      "  skein compose towers --planner kios --up\n"
+      "  skein compose towers --planner kios --file compose.yaml\n"
+      "  skein compose towers --planner hover,jurong=orbit --image jurong=my-agent --up\n\n"
+      "docs/containers.md tells how images are built, and what each part of the file is for.");
   return command;
 }
 
-CLI::App* add_check(CLI::App& app, CheckOptions& check) {
+CLI::App* add_keys(CLI::App& app, KeysOptions& keys) {
+  CLI::App* command = app.add_subcommand("keys", "Make the certificates and permissions of a secured fleet");
+  add_flight_options(command, keys.run);
+  command->add_option("--domain", keys.run.domain, "First DDS domain (default 1)");
+  command->add_option("--out", keys.out, "New folder, with a folder for each program")->required();
+  command->footer("Example:\n  skein keys towers --out keys");
+  return command;
+}
+
+CLI::App* add_merge(CLI::App& app, MergeOptions& merge) {
   CLI::App* command =
-      app.add_subcommand("check", "Validate scenarios, vehicles, fault files and fault tests, or reference vectors");
-  command->add_option("FILE", check.files, "YAML files of any of these kinds");
-  command->add_option("--golden", check.golden, "Run reference vectors (CSV) through the production code");
-  command->add_option("--assets", check.assets, "Folder with models/ for scenarios that read files");
-  command->add_option("--scenario", check.scenario, "What fault files are for that name no scenario themselves")
-      ->capture_default_str();
-  command->footer(
-      "Examples:\n"
-      "  skein check my_scenario.yaml my_vehicle.yaml my_faults.yaml\n"
-      "  skein check my_faults.yaml --scenario cranes");
-  return command;
-}
-
-CLI::App* add_scene(CLI::App& app, SceneOptions& scene) {
-  CLI::App* command = app.add_subcommand("scene", "Write a scene as STL, PCD and boxes, with a scenario that flies it");
-  command->add_option("SCENARIO", scene.scenario, "A name under config/scenarios/ or a YAML file")->required();
-  command->add_option("--scene-seed", scene.scene_seed, "Which scene of a procedural family")
-      ->check(CLI::Validator(check_seed, ""));
-  command->add_option("--out", scene.out, "Folder to write to")->required();
-  command->add_option("--assets", scene.assets, "Folder with models/ for scenarios that read files");
-  command->add_flag("--force", scene.force, "Overwrite an earlier export");
-  command->footer("Example:\n  skein scene towers --scene-seed 3 --out my_scene");
-  return command;
-}
-
-CLI::App* add_bench(CLI::App& app, BenchOptions& bench) {
-  CLI::App* command = app.add_subcommand("bench", "Measure speed, scale and memory on this machine");
-  command->add_flag("--quick", bench.quick, "Less of everything: a first impression in less than a minute");
-  command->add_flag("--hour", bench.hour, "Memory over an hour of simulated time too: minutes more");
-  command->add_option("--scenario", bench.scenarios,
-                      "Scenarios of the speed runs (default: towers; mbs with --assets)");
-  command->add_option("--assets", bench.assets, "Folder with models/ for scenarios that read files");
-  command->add_option("--dds", bench.dds, "DDS vendor: cyclonedds or fastdds")
-      ->check(CLI::IsMember({"cyclonedds", "fastdds"}))
-      ->capture_default_str();
-  command->add_option("--sizes", bench.sizes, "Sizes of fleet, as 1,5,20")->delimiter(',')->check(CLI::Range(1, 128));
-  command->add_option("--repeat", bench.repeats, "Runs of each kind; medians are reported")->check(CLI::Range(1, 100));
-  command->add_option("--duration", bench.duration_s, "Mission time of the speed runs [s], instead of the scenario's")
-      ->check(CLI::Validator(check_seconds, ""));
-  command->add_option("--json", bench.json, "File for all figures");
-  command->footer("Example:\n  skein bench --quick --json bench.json");
-  return command;
-}
-
-/// Unlike CLI::Range this refuses "nan" too.
-std::string check_clearance(const std::string& text) {
-  char* end = nullptr;
-  const double clearance = std::strtod(text.c_str(), &end);
-  const bool fits = end != text.c_str() && *end == '\0' && clearance >= 0.0 && clearance <= 100.0;
-  return fits ? "" : "must be a number within [0, 100], not '" + text + "'";
-}
-
-CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
-  CLI::App* command = app.add_subcommand("oracle", "What could be had of a scenario with full knowledge of its scene");
-  command->add_option("SCENARIO", oracle.scenario, "A name under config/scenarios/ or a YAML file")->required();
-  command->add_option("--scene-seed", oracle.scene_seed, "Which scene of a procedural family")
-      ->check(CLI::Validator(check_seed, ""));
-  command->add_option("--assets", oracle.assets, "Folder with models/ for scenarios that read files");
-  command->add_option("--rules", oracle.rules,
-                      "Preset of rules, instead of the scenario's: contest, paper or reference");
-  command
-      ->add_option("--clearance", oracle.clearances_m,
-                   "Of the cameras from the structure [m] (default 0.5); several as 0.5,0.8,1.2 make a table")
-      ->delimiter(',')
-      ->check(CLI::Validator(check_clearance, ""));
-  command->add_flag("--vehicle", oracle.vehicle,
-                    "A sphere about body and rotors keeps the clearance (default then 0), not the camera");
-  command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");
-  command->add_flag("--json", oracle.json, "All figures, for programs");
-  command->footer("Example:\n  skein oracle towers --clearance 0.5,0.8,1.2");
+      app.add_subcommand("merge", "Make result.json of what programs left that ran without the launcher");
+  command->add_option("DIR", merge.dir, "Folder with their reports")->required();
+  command->add_option("--scenario", merge.scenario,
+                      "What was flown, if the server's own word for it is not known here");
+  command->add_option("--assets", merge.assets, "Folder with models/ for scenarios that read files");
+  command->footer("Example:\n  skein merge results");
   return command;
 }
 
@@ -282,6 +219,9 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   BenchOptions bench;
   OracleOptions oracle;
   DiffOptions diff;
+  ComposeOptions compose;
+  KeysOptions keys;
+  MergeOptions merge;
   StudyOptions contest, compare;
   contest.contest = true;
   int tests = 5;
@@ -292,6 +232,9 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   const CLI::App* scene_command = add_scene(app, scene);
   const CLI::App* bench_command = add_bench(app, bench);
   const CLI::App* oracle_command = add_oracle(app, oracle);
+  const CLI::App* compose_command = add_compose(app, compose);
+  const CLI::App* keys_command = add_keys(app, keys);
+  const CLI::App* merge_command = add_merge(app, merge);
   const CLI::App* contest_command = add_contest(app, contest, tests);
   const CLI::App* compare_command = add_compare(app, compare);
   CLI::App* diff_command = app.add_subcommand("diff", "First step, entity and field in which two runs differ");
@@ -304,7 +247,8 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     app.parse(std::move(reversed));
   } catch (const CLI::CallForHelp&) {
     // Of the command that was named, if any.
-    return HelpText{app.help(), run_command->parsed() || contest_command->parsed() || compare_command->parsed()};
+    return HelpText{app.help(), run_command->parsed() || compose_command->parsed() || contest_command->parsed() ||
+                                    compare_command->parsed()};
   } catch (const CLI::CallForVersion& version) {
     return HelpText{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& error) {
@@ -315,6 +259,12 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     check_one_process(run);
     return run;
   }
+  if (compose_command->parsed()) {
+    compose.command = fmt::format("skein {}", fmt::join(arguments, " "));
+    return compose;
+  }
+  if (keys_command->parsed()) return keys;
+  if (merge_command->parsed()) return merge;
   if (test_command->parsed()) return test;
   if (scene_command->parsed()) return scene;
   if (bench_command->parsed()) return bench;

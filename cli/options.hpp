@@ -95,6 +95,28 @@ struct DiffOptions {
   std::filesystem::path run_a, run_b;
 };
 
+/// `skein compose`: a fleet in containers.
+struct ComposeOptions {
+  RunOptions run;
+  std::optional<std::filesystem::path> file;   ///< to write to; else stdout
+  std::vector<std::string> images;             ///< UAV=IMAGE, in the place of an agent's
+  std::optional<std::string> subnet;           ///< "172.30.0.0/20"
+  std::optional<std::filesystem::path> build;  ///< folder of a build whose programs fly
+  bool up = false;                             ///< fly it
+  std::string command;                         ///< as it was typed
+};
+
+struct KeysOptions {
+  RunOptions run;
+  std::filesystem::path out;
+};
+
+struct MergeOptions {
+  std::filesystem::path dir;
+  std::optional<std::string> scenario;  ///< instead of what the server says that it flew
+  std::optional<std::filesystem::path> assets;
+};
+
 /// Which of a planner's totals over the tests decides its rank.
 enum class Rank { maximum, median, worst };
 
@@ -125,7 +147,7 @@ struct HelpText {
 };
 
 using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions,
-                             DiffOptions, StudyOptions, HelpText>;
+                             DiffOptions, StudyOptions, ComposeOptions, KeysOptions, MergeOptions, HelpText>;
 
 /// @param arguments without the program's name. @throws InputError for anything that does not fit.
 Command parse_command_line(const std::vector<std::string>& arguments);

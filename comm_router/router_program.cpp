@@ -31,12 +31,13 @@ RadioCounts radio_counts(const LinkCounts& counts) {
           .delivered_bytes = counts.delivered_bytes};
 }
 
-void write_report(const std::filesystem::path& folder, const Scenario& scenario, const LinkGate& gate,
-                  const Notes& notes, StatusPipe& status) {
+void write_report(const ProgramOptions& options, const Scenario& scenario, const LinkGate& gate, const Notes& notes,
+                  StatusPipe& status) {
   RouterReport report{.total = radio_counts(gate.total()),
                       .malformed = notes.malformed,
                       .unheard = notes.unheard,
                       .unsent = notes.unsent,
+                      .dds = options.dds,
                       .warnings = notes.warnings,
                       .unwritten = notes.unwritten};
   for (const Node from : gate.nodes()) {
@@ -47,18 +48,18 @@ void write_report(const std::filesystem::path& folder, const Scenario& scenario,
           {.from = scenario.node_name(from), .to = scenario.node_name(to), .counts = radio_counts(counts)});
     }
   }
-  const std::filesystem::path file = folder / run_folder::report_file(programs::kCommRouter);
+  const std::filesystem::path file = options.out / run_folder::report_file(programs::kCommRouter);
   hand_in_report(json_of(report), file, status);
 }
 
 /// A router that died for good has left its counts: makes its report of them.
-int settle(const std::filesystem::path& folder, const std::filesystem::path& counts, const Scenario& scenario,
-           RunId run, StatusPipe& status) {
+int settle(const ProgramOptions& options, const Scenario& scenario, StatusPipe& status) {
+  const std::filesystem::path counts = options.out / run_folder::kCounts;
   const std::vector<RadioRoute> no_routes;
   const std::size_t nodes = scenario.fleet.size() + 1;
   LinkGate gate(no_routes, nodes);
-  gate.restore(CountStore(counts, nodes, run).earlier_counts());
-  write_report(folder, scenario, gate, {}, status);
+  gate.restore(CountStore(counts, nodes, options.run).earlier_counts());
+  write_report(options, scenario, gate, {}, status);
   std::filesystem::remove(counts);
   return kExitDone;
 }
@@ -98,7 +99,7 @@ class RouterMember final : public bus::FleetMember {
     unwritten_.insert(unwritten_.end(), node_->unwritten().begin(), node_->unwritten().end());
     if (store_ && !store_->trouble().empty()) unwritten_.push_back(store_->trouble());
     const Notes notes{node_->malformed(), node_->unheard(), node_->unsent(), node_->stranger_warnings(), unwritten_};
-    write_report(options_.out, scenario_, node_->gate(), notes, status_);
+    write_report(options_, scenario_, node_->gate(), notes, status_);
     std::filesystem::remove(counts_file_);
     return code;
   }
@@ -135,7 +136,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> RouterProgram::prepare(cons
                                                                             StatusPipe& status) {
   Scenario scenario = load_scenario(options.scenario, options.load_options_without_scene());
   FaultPlan faults = load_fault_plan(options.faults, scenario, options.seed);
-  if (settle_only_) return settle(options.out, options.out / run_folder::kCounts, scenario, options.run, status);
+  if (settle_only_) return settle(options, scenario, status);
   auto bus = bus::make_bus(options, scenario);
   if (options.check_only) return kExitDone;
   return std::make_unique<RouterMember>(std::move(scenario), std::move(faults), options, status, std::move(bus));

@@ -341,7 +341,8 @@ FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& sce
   plan.name = content.name.empty() ? file.stem().string() : content.name;
   plan.description = content.description;
   if (const auto* named = std::get_if<std::string>(&content.faults)) {
-    document = read_fault_file(file_named(*named, document, file.parent_path()));
+    plan.named = file_named(*named, document, file.parent_path());
+    document = read_fault_file(plan.named);
     content = read_config<FaultFile>(document);
   }
   ConfigErrors errors(document);

@@ -86,7 +86,8 @@ struct Fault {
 struct FaultPlan {
   std::filesystem::path file;  ///< empty: no faults
   std::string name, description;
-  std::vector<Fault> faults;  ///< in the file's order
+  std::vector<Fault> faults;         ///< in the file's order
+  std::filesystem::path named = {};  ///< the fault file that it names; empty: none
 
   bool empty() const { return faults.empty(); }
 };

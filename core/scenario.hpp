@@ -130,6 +130,7 @@ struct RulesConfig {
 
 struct Scenario {
   std::filesystem::path file;
+  std::vector<std::filesystem::path> vehicle_files;  ///< that the fleet was read from
   std::string name;
   std::string description;
   double duration_s = 600.0;          ///< mission time, from the first take-off

@@ -248,7 +248,10 @@ void build_fleet(const ScenarioFile& file, const fs::path& config_dir, Scenario&
         continue;
       }
       const auto [it, is_new] = loaded.try_emplace(vehicle_file.string());
-      if (is_new) it->second = read_config_file<VehicleConfig>(vehicle_file);
+      if (is_new) {
+        it->second = read_config_file<VehicleConfig>(vehicle_file);
+        scenario.vehicle_files.push_back(vehicle_file);
+      }
       uav.vehicle = it->second;
     }
     scenario.fleet.push_back(std::move(uav));

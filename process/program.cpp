@@ -100,6 +100,7 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--control-fd", options.control_fd, "File descriptor with orders")->group("Launcher");
   app.add_option("--security", options.security, "Folder with the process's key, certificate and permissions")
       ->group("Launcher");
+  app.add_option("--health", options.health, "File that is touched as long as the program takes its turns");
   app.add_flag("--keep", options.keep, "Start the program again whenever it has been killed");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error or off (default: SKEIN_LOG)");
   app.add_option(

@@ -60,6 +60,7 @@ struct ProgramOptions {
   bool check_only = false;                  ///< --check: validate the input, then stop
   int status_fd = -1;                       ///< --status-fd: where status_pipe.hpp writes; -1: nowhere
   bool keep = false;                        ///< --keep: see keeper.hpp
+  std::filesystem::path health;             ///< --health: see heartbeat.hpp
   int control_fd = -1;                      ///< --control-fd: where orders come from; -1: nowhere
   std::string log_level;                    ///< --log-level; empty: SKEIN_LOG, else info
   std::optional<std::string> network;       ///< --network: other hosts take part, by this interface or "all"

@@ -108,6 +108,24 @@ void describe(Fields& f, UavReport& uav) {
   f.field("role", uav.role);
 }
 
+/// What a run was: for whoever has no launcher that would know.
+struct FlightReport {
+  Text scenario = {};  ///< as the server was told it
+  Count seed = {}, scene_seed = {}, run = {};
+  Number duration_s = {};
+  Text clock = {}, dds = {};
+};
+template <class Fields>
+void describe(Fields& f, FlightReport& flight) {
+  f.field("clock", flight.clock);
+  f.field("dds", flight.dds);
+  f.field("duration_s", flight.duration_s);
+  f.field("run", flight.run);
+  f.field("scenario", flight.scenario);
+  f.field("scene_seed", flight.scene_seed);
+  f.field("seed", flight.seed);
+}
+
 struct SimServerReport {
   std::optional<RunStatus> status = {};
   std::optional<bool> deterministic = {};
@@ -121,6 +139,7 @@ struct SimServerReport {
   std::vector<LostMember> lost_members = {};
   std::vector<FaultReport> faults = {};
   TimingReport timing = {};
+  FlightReport flight = {};
   Texts warnings = {};
   Count malformed = {};  ///< samples that were no message of their topic's type; of all reports, like the next two
   Count unsent = {};     ///< samples that could not be sent
@@ -132,6 +151,7 @@ void describe(Fields& f, SimServerReport& report) {
   f.field("deterministic", report.deterministic);
   f.nullable("digest", report.digest);
   f.field("faults", report.faults);
+  f.field("flight", report.flight);
   f.field("lost_members", report.lost_members);
   f.field("malformed", report.malformed);
   f.field("mission_time_s", report.mission_time_s);
@@ -173,6 +193,7 @@ struct StationReport {
   std::optional<std::vector<ScoredPointReport>> points = {};
   Named<std::uint64_t> refused = {};  ///< capture reports, by reason
   Count reports_received = {}, duplicates = {}, malformed = {}, unsent = {};
+  Text dds = {};
   Texts unwritten = {};
 };
 template <class Fields>
@@ -185,6 +206,7 @@ void describe(Fields& f, StationReport& report) {
   f.field("refused", report.refused);
   f.field("reports_received", report.reports_received);
   f.field("duplicates", report.duplicates);
+  f.field("dds", report.dds);
   f.field("malformed", report.malformed);
   f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
@@ -230,10 +252,12 @@ struct RouterReport {
   Count unheard = {};  ///< messages of who is no member
   Count unsent = {};
   std::vector<LinkReport> per_link = {};
+  Text dds = {};
   Texts warnings = {}, unwritten = {};
 };
 template <class Fields>
 void describe(Fields& f, RouterReport& report) {
+  f.field("dds", report.dds);
   describe_fates(f, report.total);
   f.field("malformed", report.malformed);
   f.field("per_link", report.per_link);
@@ -250,11 +274,15 @@ struct AgentReport {
   Number planner_cpu_s = {}, planner_cpu_p99_ms = {}, planner_cpu_max_ms = {};
   Count planner_exchanges_over_50ms = {};
   Count malformed = {}, unsent = {};
+  Text planner = {};  ///< as it was told
+  Text dds = {};
   std::optional<Texts> unwritten = {};
 };
 template <class Fields>
 void describe(Fields& f, AgentReport& report) {
+  f.field("dds", report.dds);
   f.field("malformed", report.malformed);
+  f.field("planner", report.planner);
   f.field("planner_cpu_max_ms", report.planner_cpu_max_ms);
   f.field("planner_cpu_p99_ms", report.planner_cpu_p99_ms);
   f.field("planner_cpu_s", report.planner_cpu_s);

@@ -13,6 +13,7 @@ const char* const kSimServer = R"({
   "collisions": [{"position": [1.0, 2.0, 3.5], "time_s": 4.5, "uav": "alpha", "with": "structure"}],
   "deterministic": false, "digest": null,
   "faults": [{"at_s": 1.0, "began_step": 20, "ended_step": null, "kind": "kill", "target": "alpha", "until_s": null}],
+  "flight": {"clock": "realtime:2", "dds": "fastdds", "duration_s": 30.0, "run": 7, "scenario": "towers", "scene_seed": 1, "seed": 2},
   "lost_members": [{"member": "beta", "reason": "died", "step": 12, "time_s": 0.6}], "malformed": 0,
   "mission_time_s": 600.0, "points_seen": "101", "points_total": 3, "rules": "caric", "sim_time_s": 650.5,
   "status": "no_takeoff",
@@ -25,18 +26,18 @@ const char* const kSimServer = R"({
 const char* const kStation = R"({
   "points_detected": 2, "score": 1.5, "score_earned": 1.75, "score_by_uav": {"beta": 1.5, "alpha": 0.0},
   "points": [{"index": 2, "score": 0.8999999761581421, "uav": "beta", "capture": 1}],
-  "refused": {"unknown": 1, "borrowed": 2, "altered": 3}, "reports_received": 5, "duplicates": 1, "malformed": 0, "unsent": 2,
+  "refused": {"unknown": 1, "borrowed": 2, "altered": 3}, "reports_received": 5, "duplicates": 1, "dds": "fastdds", "malformed": 0, "unsent": 2,
   "unwritten": []})";
 
 const char* const kRouter = R"({
-  "delivered": 7, "delivered_bytes": 280, "dropped_fault": 1, "dropped_no_los": 2, "dropped_overflow": 3,
+  "dds": "cyclonedds", "delivered": 7, "delivered_bytes": 280, "dropped_fault": 1, "dropped_no_los": 2, "dropped_overflow": 3,
   "duplicated": 4, "malformed": 0,
   "per_link": [{"delivered": 7, "delivered_bytes": 280, "dropped_fault": 1, "dropped_no_los": 2, "dropped_overflow": 0,
                 "duplicated": 0, "from": "alpha", "sent": 10, "sent_bytes": 400, "to": "gcs"}],
   "sent": 10, "sent_bytes": 400, "unheard": 0, "unsent": 0, "unwritten": [], "warnings": ["who is that?"]})";
 
 const char* const kAgent = R"({
-  "malformed": 0, "planner_cpu_max_ms": 60.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_s": 0.25,
+  "dds": "cyclonedds", "malformed": 0, "planner": "kios:voxel=4", "planner_cpu_max_ms": 60.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_s": 0.25,
   "planner_exchanges_over_50ms": 3, "unsent": 0})";
 
 /// Calls `check` with the place of each value below this one.

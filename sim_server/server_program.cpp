@@ -30,6 +30,16 @@ std::optional<double> realtime_factor(const std::string& clock) {
   throw InputError("--clock " + clock + ": it must be lockstep, realtime or realtime:FACTOR with a factor above 0");
 }
 
+FlightReport flight_of(const ProgramOptions& options, const Scenario& scenario, const std::string& clock) {
+  return {.scenario = options.scenario,
+          .seed = options.seed,
+          .scene_seed = scenario.scene.scene_seed,
+          .run = static_cast<std::uint64_t>(options.run),
+          .duration_s = scenario.duration_s,
+          .clock = clock,
+          .dds = options.dds};
+}
+
 class ServerMember final : public bus::FleetMember {
  public:
   ServerMember(std::unique_ptr<const Scenario> scenario, Scene scene, const SimNodeOptions& options,
@@ -108,6 +118,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .stop_at_s = stop_at_s_,
                                     .agent_timeout_s = agent_timeout_s_,
                                     .startup_timeout_s = startup_timeout_s(*scenario),
+                                    .flight = flight_of(options, *scenario, clock_),
                                     .notice_deaths = !options.has_launcher(),
                                     .expect_gcs_program = ground_program_,
                                     .faults = load_fault_plan(options.faults, *scenario, options.seed)};

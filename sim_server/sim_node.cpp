@@ -56,7 +56,7 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       simulation_(scenario, std::move(scene), options.seed, options.faults),
       fault_timeline_(options.faults),
       digest_(uav_names_),
-      files_(options.out, scenario, digest_),
+      files_(options.out, scenario, digest_, options.flight),
       inbox_(bus.run()),
       server_(inbox_),
       process_faults_(options.faults),

@@ -37,6 +37,7 @@ struct SimNodeOptions {
   std::optional<double> stop_at_s;        ///< end at this simulated time
   double agent_timeout_s = 60.0;          ///< of wall time, for an answer; 0: for ever
   double startup_timeout_s = 60.0;        ///< of wall time, for everybody to join; 0: for ever
+  FlightReport flight = {};               ///< for the report
   bool notice_deaths = false;             ///< nobody tells who died (report_lost())
   bool expect_gcs_program = false;        ///< a user's program at the ground station takes part
   FaultPlan faults;

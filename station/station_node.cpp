@@ -131,8 +131,8 @@ void StationNode::tell(bool now) {
                                                .earned = scoreboard_->earned().score()}));
 }
 
-void StationNode::write_report() {
-  const StationNotes notes{inbox_.malformed(), gcs_->unsent().count(), unwritten_};
+void StationNode::write_report(const std::string& dds) {
+  const StationNotes notes{inbox_.malformed(), gcs_->unsent().count(), dds, unwritten_};
   if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, status_, notes);
 }
 

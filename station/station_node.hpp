@@ -27,7 +27,7 @@ class StationNode final : public bus::ClientNode {
 
   bus::Inbox& inbox() override { return inbox_; }
   /// At the end of its part: the files of a run (station_report.hpp), unless it never heard of the points.
-  void write_report();
+  void write_report(const std::string& dds = {});
 
  private:
   bus::LockstepClient& client() override { return client_; }

@@ -26,7 +26,7 @@ class StationMember final : public bus::FleetMember {
       make_node();
       return std::nullopt;
     }
-    node_->write_report();
+    node_->write_report(options_.dds);
     return bus::exit_code(end, programs::kStation);
   }
 

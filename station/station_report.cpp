@@ -82,6 +82,7 @@ void write_station_report(const std::filesystem::path& folder, const Scoreboard&
   StationReport report = report_of(scoreboard, uav_names);
   report.malformed = notes.malformed;
   report.unsent = notes.unsent;
+  if (!notes.dds.empty()) report.dds = notes.dds;
   report.unwritten = std::move(notes.unwritten);
   hand_in_report(json_of(report), folder / run_folder::report_file(programs::kStation), status);
 }

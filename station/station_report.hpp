@@ -14,6 +14,7 @@ namespace skein::station {
 struct StationNotes {
   std::uint64_t malformed = 0;              ///< samples received that were no message of their topic's type
   std::uint64_t unsent = 0;                 ///< samples that could not be sent
+  std::string dds = {};                     ///< vendor
   std::vector<std::string> unwritten = {};  ///< what the disk has refused, one sentence each
 };
 

@@ -24,9 +24,11 @@ int list_strategies() {
 class AgentMember final : public bus::FleetMember {
  public:
   /// @param scenario, bus  that the node refers to.
-  AgentMember(const ProgramOptions& options, StatusPipe& status, std::unique_ptr<const Scenario> scenario,
+  AgentMember(const ProgramOptions& options, std::string planner, StatusPipe& status, std::unique_ptr<const Scenario> scenario,
               std::unique_ptr<bus::Bus> bus, std::unique_ptr<MemberNode> node)
       : out_(options.out),
+        dds_(options.dds),
+        planner_(std::move(planner)),
         status_(status),
         scenario_(std::move(scenario)),
         bus_(std::move(bus)),
@@ -43,13 +45,16 @@ class AgentMember final : public bus::FleetMember {
                              .planner_cpu_max_ms = 1e3 * cpu.max_s(),
                              .planner_exchanges_over_50ms = cpu.over_field_exchange(),
                              .malformed = node_->malformed(),
-                             .unsent = node_->unsent()};
+                             .unsent = node_->unsent(),
+                             .planner = planner_,
+                             .dds = dds_};
     hand_in_report(json_of(report), out_ / run_folder::report_file(programs::agent_program(node_->member())), status_);
     return code;
   }
 
  private:
   const std::filesystem::path out_;
+  const std::string dds_, planner_;
   StatusPipe& status_;
   const std::unique_ptr<const Scenario> scenario_;
   const std::unique_ptr<bus::Bus> bus_;
@@ -88,7 +93,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   } else {
     node = std::make_unique<AgentNode>(*scenario, uav, std::move(planner), options.domain, *bus, frames_);
   }
-  return std::make_unique<AgentMember>(options, status, std::move(scenario), std::move(bus), std::move(node));
+  return std::make_unique<AgentMember>(options, planner_, status, std::move(scenario), std::move(bus), std::move(node));
 }
 
 }  // namespace skein::agent

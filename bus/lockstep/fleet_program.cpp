@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "bus/lockstep/self_signal.hpp"
+#include "process/heartbeat.hpp"
 
 namespace skein::bus {
 namespace {
@@ -11,11 +12,11 @@ namespace {
 /// asks to be let back at once, and waits for that as long as the fault lasts.
 void stand_aside() { spdlog::info("there is no launcher that would continue it: it waits to be let back"); }
 
-int work(FleetMember& member, StopSignal& stop) {
+int work(FleetMember& member, StopSignal& stop, Heartbeat& health) {
   std::optional<int> code;
   while (!code) {
     stop.on_stop([&member] { member.on_stop(); });
-    const NodeEnd end = run_node(member.node(), member.stops_at_once() ? &stop : nullptr);
+    const NodeEnd end = run_node(member.node(), member.stops_at_once() ? &stop : nullptr, [&] { health.beat(); });
     stop.on_stop({});
     code = member.ended(end);
   }
@@ -34,7 +35,8 @@ int run_fleet_program(FleetProgram& program, int argc, const char* const* argv) 
         if (const int* code = std::get_if<int>(&prepared)) return *code;
         FleetMember& member = *std::get<std::unique_ptr<FleetMember>>(prepared);
         const ControlPipe control(options.control_fd, [&](const std::string& line) { member.obey(line); });
-        return work(member, stop);
+        Heartbeat health(options.health);
+        return work(member, stop, health);
       });
 }
 

@@ -4,10 +4,11 @@
 
 namespace skein::bus {
 
-NodeEnd run_node(LockstepNode& node, const StopSignal* stop) {
+NodeEnd run_node(LockstepNode& node, const StopSignal* stop, const std::function<void()>& on_turn) {
   node.start();
   while (!node.end()) {
     if (stop != nullptr && stop->requested()) return NodeEnd::stopped;
+    if (on_turn) on_turn();
     const LockstepNode::Rest rest = node.rest();
     node.turn(node.inbox().dispatch(rest.longest, rest.rings));
   }

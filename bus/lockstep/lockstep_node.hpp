@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -54,7 +55,8 @@ class LockstepNode {
 
 /// Starts a node and gives it turns on this thread until it ends, asleep between them.
 /// @param stop  asked between turns; inbox().wake() makes it look at once. null: nobody stops it.
-NodeEnd run_node(LockstepNode& node, const StopSignal* stop = nullptr);
+/// @param on_turn  called before each.
+NodeEnd run_node(LockstepNode& node, const StopSignal* stop = nullptr, const std::function<void()>& on_turn = {});
 
 /// Exit code of a program whose node ended so; logs why when that is not a good end.
 int exit_code(NodeEnd end, const std::string& member);

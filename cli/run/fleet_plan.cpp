@@ -49,13 +49,13 @@ Arguments scenario_arguments(const FleetPlan& plan) {
   if (options.duration_s) append(arguments, {"--duration", shortest(*options.duration_s)});
   if (options.rules) append(arguments, {"--rules", *options.rules});
   if (options.faults) append(arguments, {"--faults", std::filesystem::absolute(*options.faults)});
-  if (options.network) append(arguments, {"--network", *options.network});
   return arguments;
 }
 
 Arguments command_line(const FleetPlan& plan, const std::filesystem::path& binary) {
   Arguments arguments = {binary};
   append(arguments, scenario_arguments(plan));
+  if (plan.options.network) append(arguments, {"--network", *plan.options.network});
   return arguments;
 }
 
@@ -110,19 +110,12 @@ Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
 Arguments run_arguments(const FleetPlan& plan, const std::string& program, int base_domain,
                         const std::filesystem::path& out, const SecureFolder& secure) {
   const bool is_agent = programs::is_agent(program);
-  Arguments arguments = command_line(plan, is_agent ? agent_file(plan, program) : plan.bin_dir / program);
-  append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain), "--out",
-                     secure.out.empty() ? out : secure.out});
+  Arguments arguments = {is_agent ? agent_file(plan, program) : plan.bin_dir / program};
+  append(arguments, program_arguments(plan, program, base_domain));
+  if (plan.options.network) append(arguments, {"--network", *plan.options.network});
+  append(arguments, {"--out", secure.out.empty() ? out : secure.out});
   if (!secure.keys.empty()) append(arguments, {"--security", secure.keys});
   append(arguments, {"--lease", std::to_string(lease_s(plan)), "--run", std::to_string(plan.run)});
-  if (is_agent) append(arguments, role_arguments(plan, program));
-  if (program == programs::kSimServer) {
-    append(arguments, {"--clock", plan.options.clock});
-    if (plan.options.stop_at_s) append(arguments, {"--stop-at", shortest(*plan.options.stop_at_s)});
-    if (plan.options.debug_uav) append(arguments, {"--agent-timeout", "0"});
-    if (plan.options.agent_timeout_s) append(arguments, {"--agent-timeout", shortest(*plan.options.agent_timeout_s)});
-    if (plan.ground) arguments.push_back("--ground-program");
-  }
   return arguments;
 }
 
@@ -235,6 +228,20 @@ std::map<std::string, std::string> dds_vendors(const FleetPlan& plan) {
 
 bool is_exec(const FleetPlan& plan, const std::string& program) {
   return programs::is_agent(program) && exec_command(planner_of(plan, program).spec).has_value();
+}
+
+std::vector<std::string> program_arguments(const FleetPlan& plan, const std::string& program, int base_domain) {
+  Arguments arguments = scenario_arguments(plan);
+  append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain)});
+  if (programs::is_agent(program)) append(arguments, role_arguments(plan, program));
+  if (program == programs::kSimServer) {
+    append(arguments, {"--clock", plan.options.clock});
+    if (plan.options.stop_at_s) append(arguments, {"--stop-at", shortest(*plan.options.stop_at_s)});
+    if (plan.options.debug_uav) append(arguments, {"--agent-timeout", "0"});
+    if (plan.options.agent_timeout_s) append(arguments, {"--agent-timeout", shortest(*plan.options.agent_timeout_s)});
+    if (plan.ground) arguments.push_back("--ground-program");
+  }
+  return arguments;
 }
 
 std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,

@@ -66,6 +66,9 @@ int agent_domain(const FleetPlan& plan, const std::string& program, int base_dom
 /// DDS vendor by program. `mixed` deals the vendors out in turn: sim_server, comm_router, station, then the UAVs.
 std::map<std::string, std::string> dds_vendors(const FleetPlan& plan);
 
+/// What one of our programs is told wherever it runs; where it writes, its run, its keys and its network come on top.
+std::vector<std::string> program_arguments(const FleetPlan& plan, const std::string& program, int base_domain);
+
 /// The whole fleet in the order in which it starts, the UAV under --debug left out.
 /// @param secure  of all programs, or of none
 std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,

@@ -54,18 +54,38 @@ void FleetRun::fly(int base_domain, const std::filesystem::path& out, const Secu
   } else {
     host_ = std::make_unique<Supervisor>();
   }
-  orders_.emplace(*host_);
-  for (const ProgramSpec& program : fleet_programs(plan_, base_domain, out, secure)) {
-    programs_[program.name] = program;
-    host_->start(program);
-  }
+  start(fleet_programs(plan_, base_domain, out, secure));
   if (plan_.options.debug_uav) {
     view_.message("Start the agent of " + *plan_.options.debug_uav + " yourself; the fleet waits for it:\n\n  " +
                   debug_command(plan_, base_domain, out, secure) + "\n");
     const std::string debugged = programs::agent_program(*plan_.options.debug_uav);
     debugged_.emplace(*plan_.options.debug_uav, out, agent_file(plan_, debugged));
   }
+  finish(out);
+}
+
+void FleetRun::fly_in_containers(const std::vector<ProgramSpec>& containers, const std::filesystem::path& out) {
+  in_containers_ = true;
+  host_ = std::make_unique<Supervisor>();
+  start(containers);
+  finish(out);
+}
+
+void FleetRun::start(const std::vector<ProgramSpec>& programs) {
+  orders_.emplace(*host_);
+  for (const ProgramSpec& program : programs) {
+    programs_[program.name] = program;
+    host_->start(program);
+  }
+}
+
+void FleetRun::finish(const std::filesystem::path& out) {
   watch();
+  if (in_containers_) {  // what is still to be done for them is done here
+    for (ProgramSpec& program : fleet_programs(plan_, kFirstDomain, out)) {
+      programs_[program.name] = std::move(program);
+    }
+  }
   for (const auto& [program, books] :
        {std::pair(programs::kStation, run_folder::kJournal), {programs::kCommRouter, run_folder::kCounts}}) {
     const bool reported = reports_.contains(program) || std::filesystem::exists(out / run_folder::report_file(program));
@@ -158,7 +178,11 @@ void FleetRun::on_interrupt() {
   if (facts_.interrupted) return end_all();
   facts_.interrupted = true;
   view_.message("ending the run; press Ctrl-C again to end it at once");
-  host_->send(programs::kSimServer, orders::text_of(orders::Stop{}));
+  if (in_containers_) {
+    host_->signal(programs::kSimServer, SIGTERM);
+  } else {
+    host_->send(programs::kSimServer, orders::text_of(orders::Stop{}));
+  }
   if (!leave_by_) leave_by_ = Clock::now() + scaled(kStopTime);
 }
 
@@ -209,10 +233,10 @@ void FleetRun::hear(const status::Order& order) {
   const std::string when = fmt::format("at {:.2f} s: ", order.time_s);
   if (order.order == What::kill || order.order == What::stop) {
     view_.message(when + "a fault " + name_of(order.order) + "s " + program);
-    orders_->take_out(program, order.order == What::kill, is_exec(plan_, program));
+    if (!in_containers_) orders_->take_out(program, order.order == What::kill, is_exec(plan_, program));
   } else {
     view_.message(when + program + (order.order == What::start ? " is started again" : " goes on"));
-    orders_->let_back(program);
+    if (!in_containers_) orders_->let_back(program);
   }
 }
 
@@ -316,12 +340,14 @@ bool FleetRun::only_commands_run() const {
 void FleetRun::on_first_step() {
   first_progress_ = Clock::now();
   facts_.startup_s = seconds_between(started_, *first_progress_);
+  if (in_containers_) return;
   for (const std::string& process : host_->processes()) cpu_before_s_[process] = host_->cpu_s(process);
 }
 
 /// What the programs do from here on is leaving.
 void FleetRun::note_use() {
   over_ = true;
+  if (in_containers_) return;
   for (const std::string& process : host_->processes()) {
     facts_.processes[process].cpu_s += host_->cpu_s(process) - cpu_before_s_[process];
     facts_.processes[process].memory_share_mb = host_->memory_share_mb(process);
@@ -329,7 +355,7 @@ void FleetRun::note_use() {
 }
 
 void FleetRun::note_end(const Event& event) {
-  if (event.exit.shared) return;
+  if (event.exit.shared || in_containers_) return;
   ProcessUse& use = facts_.processes[event.program];
   use.peak_memory_mb = std::max(use.peak_memory_mb, event.exit.peak_memory_mb);
   if (!over_) use.cpu_s += event.exit.cpu_s - std::exchange(cpu_before_s_[event.program], 0.0);

@@ -30,6 +30,10 @@ class FleetRun {
   /// Starts all programs and returns when none is left. Once.
   void fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure);
 
+  /// The same, where something else watches over the programs, brings them back, and tells nobody: what a fault does to
+  /// them is their own business. @param containers  what follows each of them here.
+  void fly_in_containers(const std::vector<ProgramSpec>& containers, const std::filesystem::path& out);
+
   /// What is known of the run so far; for its result.
   RunFacts& facts() { return facts_; }
   ProgressView& view() { return view_; }
@@ -40,6 +44,9 @@ class FleetRun {
  private:
   using Clock = std::chrono::steady_clock;
   using milliseconds = std::chrono::milliseconds;
+
+  void start(const std::vector<ProgramSpec>& programs);
+  void finish(const std::filesystem::path& out);
 
   // Following the run.
   void watch();
@@ -94,10 +101,11 @@ class FleetRun {
   std::optional<Clock::time_point> leave_by_;   ///< whoever runs then is ended
   std::optional<DebugWatch> debugged_;          ///< under --debug
   WaitNotice silence_{Clock::now()};            ///< since sim_server last said something
-  bool server_done_ = false;                    ///< sim_server has ended the run in good order
-  bool stalled_ = false;                        ///< by Ctrl-C, in a step that somebody never answered
-  bool over_ = false;                           ///< the last step is done
-  bool ending_ = false;                         ///< the launcher itself ends the programs
+  bool in_containers_ = false;
+  bool server_done_ = false;  ///< sim_server has ended the run in good order
+  bool stalled_ = false;      ///< by Ctrl-C, in a step that somebody never answered
+  bool over_ = false;         ///< the last step is done
+  bool ending_ = false;       ///< the launcher itself ends the programs
   bool failed_ = false;
 };
 

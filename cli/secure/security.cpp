@@ -87,14 +87,6 @@ void require_access(const fs::path& path, UserId user) {
                    "), keep the file elsewhere, or start skein as an ordinary user");
 }
 
-void write_file(const fs::path& file, const std::string& text) {
-  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0400);
-  const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  const int reason = errno;
-  if (fd >= 0) ::close(fd);
-  if (!written) throw std::system_error(reason, std::generic_category(), file.string());
-}
-
 void give(const fs::path& path, const std::optional<UserId>& user) {
   if (!user || ::lchown(path.c_str(), user->uid, user->gid) == 0) return;
   throw std::system_error(errno, std::generic_category(),
@@ -128,6 +120,32 @@ bool copy_from(const fs::path& from, const fs::path& to, UserId owner, std::uint
 }
 
 }  // namespace
+
+void write_private_file(const fs::path& file, const std::string& text) {
+  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0400);
+  const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const int reason = errno;
+  if (fd >= 0) ::close(fd);
+  if (!written) throw std::system_error(reason, std::generic_category(), file.string());
+}
+
+std::map<std::string, SecurityFiles> security_of(const FleetPlan& plan, int base_domain) {
+  // Two authorities: whoever has a certificate must not be taken for one who may sign permissions.
+  const Authority identities("identities"), documents("permissions");
+  const std::string rules = documents.sign(governance(base_domain, base_domain + domain_count(plan) - 1));
+  std::map<std::string, SecurityFiles> security;
+  for (const auto& [program, vendor] : dds_vendors(plan)) {
+    const Identity identity = identities.issue(program);
+    security[program] = {{security_files::kIdentityCa, identities.certificate()},
+                         {security_files::kCertificate, identity.certificate},
+                         {security_files::kKey, identity.key},
+                         {security_files::kPermissionsCa, documents.certificate()},
+                         {security_files::kGovernance, rules},
+                         {security_files::kPermissions,
+                          documents.sign(permissions(identity.subject, rights_of(plan, program, base_domain)))}};
+  }
+  return security;
+}
 
 std::unique_ptr<UserIds> check_agents_access(const FleetPlan& plan) {
   if (::geteuid() != 0) return nullptr;
@@ -175,26 +193,15 @@ SecureRun::SecureRun(const FleetPlan& plan, int base_domain, fs::path out)
 }
 
 void SecureRun::make_folders(const FleetPlan& plan, int base_domain) {
-  // Two authorities: whoever has a certificate must not be taken for one who may sign permissions.
-  const Authority identities("identities"), documents("permissions");
-  const std::string rules = documents.sign(governance(base_domain, base_domain + domain_count(plan) - 1));
   std::size_t agents = 0;
-  for (const auto& [program, vendor] : dds_vendors(plan)) {
-    const Rights rights = rights_of(plan, program, base_domain);
-    const Identity identity = identities.issue(program);
+  for (const auto& [program, files] : security_of(plan, base_domain)) {
     SecureFolder folder{scratch_.path() / program, {}, {}};
     if (users_ && programs::is_agent(program)) folder.user = users_->at(agents++);
     make_private_folder(folder.keys, folder.user);
-    const auto add = [&](const char* name, const std::string& text) {
-      write_file(folder.keys / name, text);
+    for (const auto& [name, text] : files) {
+      write_private_file(folder.keys / name, text);
       give(folder.keys / name, folder.user);
-    };
-    add(security_files::kIdentityCa, identities.certificate());
-    add(security_files::kCertificate, identity.certificate);
-    add(security_files::kKey, identity.key);
-    add(security_files::kPermissionsCa, documents.certificate());
-    add(security_files::kGovernance, rules);
-    add(security_files::kPermissions, documents.sign(permissions(identity.subject, rights)));
+    }
     if (folder.user) {
       make_private_folder(folder.out = scratch_.path() / (program + ".out"), folder.user);
       require_access(folder.keys / security_files::kKey, *folder.user);

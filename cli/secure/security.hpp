@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,15 @@
 #include "cli/secure/user_ids.hpp"
 
 namespace skein::cli {
+
+/// Texts of one program's security files (process/security_files.hpp), by their names.
+using SecurityFiles = std::map<std::string, std::string>;
+
+/// Of each program of a fleet: keys of its own, rules of the fleet's. New ones at each call.
+std::map<std::string, SecurityFiles> security_of(const FleetPlan& plan, int base_domain);
+
+/// A new file that only its owner can read. @throws std::system_error
+void write_private_file(const std::filesystem::path& file, const std::string& text);
 
 /// Before anything starts: what can be wrong with a secured fleet's agents under user ids of their own.
 /// @returns one such id, for the agents' own checks; null when agents run as the launcher.

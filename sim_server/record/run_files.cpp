@@ -46,8 +46,10 @@ std::string describe(const Stray& stray, const Scenario& scenario) {
       scenario.fleet[stray.uav].name, seconds(stray.tick), p.x(), p.y(), p.z());
 }
 
-RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest)
+RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest,
+                   FlightReport flight)
     : folder_(folder),
+      flight_(std::move(flight)),
       scenario_(scenario),
       trajectories_(folder / run_folder::kTrajectories),
       digests_(folder / run_folder::kDigests),
@@ -135,6 +137,7 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
                          .uavs = uav_reports(simulation, summary),
                          .faults = summary.faults,
                          .timing = summary.timing,
+                         .flight = flight_,
                          .warnings = summary.warnings,
                          .malformed = summary.malformed,
                          .unsent = summary.unsent,

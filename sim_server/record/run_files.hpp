@@ -49,7 +49,7 @@ class RunFiles {
  public:
   /// @throws std::runtime_error when the folder cannot be written. A disk that is full later on ends files, never the
   /// run; the report names them.
-  RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest);
+  RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest, FlightReport flight = {});
 
   void write_scene(const Scene& scene);
   EventLog& events() { return events_; }
@@ -62,6 +62,7 @@ class RunFiles {
   std::vector<UavReport> uav_reports(const Simulation& simulation, const RunSummary& summary) const;
 
   std::filesystem::path folder_;
+  const FlightReport flight_;
   const Scenario& scenario_;
   StreamFile trajectories_, digests_;
   EventLog events_;

@@ -1,0 +1,46 @@
+// A fleet as a file for docker-compose: a container a program, and for each DDS domain a network of its own, so that a
+// UAV's container reaches the server and the router, and nobody else. docs/containers.md tells why each part is there.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run/fleet_plan.hpp"
+
+namespace skein::cli {
+
+/// An IPv4 network, as in "172.30.0.0/20".
+struct Subnet {
+  std::uint32_t address = 0;  ///< host byte order
+  int prefix = 0;
+};
+/// @throws InputError for a text that is none.
+Subnet parse_subnet(const std::string& text);
+
+/// What containers need to know beside the plan. Texts in which `${...}` stands are filled in by docker-compose.
+struct ComposeLayout {
+  std::string command;  ///< that made the file, for its first line
+  std::string image = "${SKEIN_IMAGE:-skein}", agent_image = "${SKEIN_AGENT_IMAGE:-skein-agent}";
+  std::map<std::string, std::string> images;  ///< of users, in the place of an agent's: by UAV, or "gcs"
+  std::string run = "${SKEIN_RUN:-1}";
+  std::string user = "${SKEIN_USER:-1000:1000}";  ///< UID:GID of all programs
+  std::optional<std::filesystem::path> results;   ///< folder of this host; else volumes keep the results
+  std::string keys = "./keys";                    ///< of a secured fleet: a folder a program
+  std::optional<Subnet> subnet;                   ///< whose parts the networks get; else the engine chooses
+  std::optional<std::filesystem::path> build;     ///< folder whose bin/ flies instead of the images' programs
+  bool status_lines = false;                      ///< programs tell on stdout how the run goes (status_lines.hpp)
+};
+
+/// The base of the fleet's DDS domains: containers share them with nobody.
+inline constexpr int kComposeBaseDomain = 1;
+
+/// Where a program's container has its results on this host, below `results`: agents see nobody else's.
+std::filesystem::path results_of(const std::string& program, const std::filesystem::path& results);
+
+/// @throws InputError for what cannot fly in containers, and for a subnet with too little room.
+std::string compose_file(const FleetPlan& plan, const ComposeLayout& layout);
+
+}  // namespace skein::cli

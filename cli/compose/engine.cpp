@@ -1,0 +1,94 @@
+#include "cli/compose/engine.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "cli/run/environment.hpp"
+#include "cli/run/preflight.hpp"
+#include "cli/run/supervisor.hpp"
+#include "core/text.hpp"
+#include "core/types.hpp"
+#include "process/environment.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLastLines = 5;
+
+/// Runs a shell's command. @returns its exit code. @param log  empty: what it says goes nowhere.
+int shell(const std::string& command, const fs::path& log = {}) {
+  const ExitStatus exit = run_to_end(
+      {"docker", {"/bin/sh", "-c", log.empty() ? command + " >/dev/null 2>&1" : command}, environment_with({}), log});
+  return exit.signal != 0 ? 128 + exit.signal : exit.code;
+}
+
+std::string ends_of(const fs::path& log) {
+  std::string text;
+  for (const std::string& line : last_lines(log, kLastLines)) text += "\n    " + line;
+  return text;
+}
+
+/// Version 2 is a part of the client, version 1 a program of its own.
+std::string compose_program() {
+  if (shell("docker compose version") == 0) return "docker compose";
+  if (shell("docker-compose version") == 0) return "docker-compose";
+  throw InputError("there is no docker-compose: on Debian, apt-get install docker-compose");
+}
+
+}  // namespace
+
+void check_engine(const std::vector<std::string>& images) {
+  const ScratchDir scratch;
+  const fs::path log = scratch.path() / "docker.log";
+  if (shell("docker version --format '{{.Server.Version}}'", log) != 0) {
+    throw InputError("no Docker engine answers (`skein doctor` looks closer):" + ends_of(log));
+  }
+  compose_program();
+  for (const std::string& image : images) {
+    if (shell("docker image inspect " + shell_word(image)) == 0) continue;
+    throw InputError("the engine has no image '" + image + "'; docs/containers.md tells how Skein's are built");
+  }
+}
+
+ComposeProject::ComposeProject(fs::path file, std::string name, fs::path log)
+    : file_(std::move(file)), name_(std::move(name)), log_(std::move(log)) {}
+
+ComposeProject::~ComposeProject() {
+  try {
+    shell(command("down --volumes --remove-orphans --timeout 2"), log_);
+  } catch (...) {  // the user has no patience with it: the containers stay, and are named in the log
+  }
+}
+
+std::string ComposeProject::command(const std::string& what) const {
+  return compose_program() + " --project-name " + shell_word(name_) + " --file " + shell_word(file_) + " " + what;
+}
+
+void ComposeProject::create() {
+  if (shell(command("up --no-start"), log_) == 0) return;
+  std::ifstream in(log_);
+  const std::string said{std::istreambuf_iterator<char>(in), {}};
+  const bool no_room = said.find("address pool") != std::string::npos;
+  throw std::runtime_error(std::string("docker-compose cannot make the containers") +
+                           (no_room ? " (the engine has no address ranges left for this many networks: give it more by "
+                                      "\"default-address-pools\" in its daemon.json, or name one with --subnet)"
+                                    : "") +
+                           "; the end of " + log_.string() + ":" + ends_of(log_));
+}
+
+std::map<std::string, std::string> ComposeProject::containers() const {
+  const ScratchDir scratch;
+  const fs::path list = scratch.path() / "containers";
+  shell("docker ps --all --filter label=com.docker.compose.project=" + shell_word(name_) +
+            " --format '{{.Label \"com.docker.compose.service\"}} {{.ID}}'",
+        list);
+  std::map<std::string, std::string> containers;
+  std::ifstream in(list);
+  for (std::string service, id; in >> service >> id;) containers[service] = id;
+  return containers;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,39 @@
+// Docker, as its command line offers it: an engine that answers, and one fleet's containers and networks.
+// Threads: one, which must live as long as the containers.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace skein::cli {
+
+/// @throws InputError when no engine answers, when there is no docker-compose, or an image is missing; it says what
+///   helps.
+void check_engine(const std::vector<std::string>& images);
+
+/// While it lives, the containers of a file exist, under a project's name that nobody else has.
+class ComposeProject {
+ public:
+  /// @param file  for docker-compose. @param log  file for what it says.
+  ComposeProject(std::filesystem::path file, std::string name, std::filesystem::path log);
+  /// Ends the containers and removes them, their networks and volumes.
+  ~ComposeProject();
+  ComposeProject(const ComposeProject&) = delete;
+  ComposeProject& operator=(const ComposeProject&) = delete;
+
+  /// Makes networks and containers, and starts none. @throws std::runtime_error with the reason.
+  void create();
+  /// Containers by service.
+  std::map<std::string, std::string> containers() const;
+  /// A command of docker-compose on it, for people.
+  std::string command(const std::string& what) const;
+
+ private:
+  const std::filesystem::path file_;
+  const std::string name_;
+  const std::filesystem::path log_;
+};
+
+}  // namespace skein::cli

@@ -1,0 +1,131 @@
+#include "cli/merge_command.hpp"
+
+#include <filesystem>
+
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
+#include "cli/run_results.hpp"
+#include "core/scenario_reader.hpp"
+#include "process/atomic_file.hpp"
+#include "process/environment.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What was flown, as the server says; what it does not say is as usual.
+RunOptions options_of(const FlightReport& flight, const MergeOptions& options,
+                      const std::optional<std::string>& rules) {
+  RunOptions run;
+  run.scenario = options.scenario.value_or(flight.scenario.value_or(run.scenario));
+  run.assets = options.assets;
+  run.seed = flight.seed.value_or(0);
+  if (flight.scene_seed.value_or(0) > 0) run.scene_seed = *flight.scene_seed;
+  run.duration_s = flight.duration_s;
+  run.rules = rules;
+  run.clock = flight.clock.value_or(run.clock);
+  return run;
+}
+
+Scenario scenario_of(const RunOptions& run) {
+  LoadOptions load;
+  load.assets_dir = run.assets.value_or("");
+  load.duration_s = run.duration_s;
+  load.scene_seed = run.scene_seed;
+  load.rules = run.rules;
+  load.needs_scene_files = false;
+  try {
+    return load_scenario(run.scenario, load);
+  } catch (const InputError& error) {
+    throw InputError(std::string(error.what()) +
+                     "\n(the server's report names this scenario; --scenario FILE tells another)");
+  }
+}
+
+/// A program that died left books of what it did: it makes its report of them.
+void settle(const char* program, const char* books, const RunOptions& run, const FlightReport& flight,
+            const fs::path& dir) {
+  if (fs::exists(dir / run_folder::report_file(program)) || !fs::exists(dir / books)) return;
+  std::vector<std::string> argv = {program_dir() / program,
+                                   "--settle",
+                                   "--scenario",
+                                   run.scenario,
+                                   "--out",
+                                   dir,
+                                   "--run",
+                                   std::to_string(flight.run.value_or(0))};
+  if (run.rules) argv.insert(argv.end(), {"--rules", *run.rules});
+  run_to_end({program, argv, fleet_environment(false), dir / run_folder::log_file(program), true});
+}
+
+/// A fault without an end keeps a program out.
+std::set<std::string> out_by_fault(const SimServerReport& sim) {
+  std::set<std::string> out;
+  for (const FaultReport& fault : sim.faults) {
+    const bool of_process = fault.kind == "kill" || fault.kind == "pause";
+    if (of_process && fault.began_step && !fault.ended_step && fault.target)
+      out.insert(programs::program_of(*fault.target));
+  }
+  return out;
+}
+
+RunFacts facts_of(const RunOptions& run, const Scenario& scenario, const Reports& reports, const fs::path& dir) {
+  RunFacts facts;
+  facts.scenario = run.scenario;
+  facts.seed = run.seed;
+  facts.clock = run.clock;
+  facts.out_by_fault = out_by_fault(*reports.sim_server);
+  const auto set_vendor = [&](const std::string& program, const auto& vendor) {
+    if (vendor) facts.dds[program] = *vendor;
+  };
+  set_vendor(programs::kSimServer, reports.sim_server->flight.dds);
+  if (reports.station) set_vendor(programs::kStation, reports.station->dds);
+  if (reports.comm_router) set_vendor(programs::kCommRouter, reports.comm_router->dds);
+  for (const UavConfig& uav : scenario.fleet) {
+    const AgentReport agent = reports.agents.at(uav.name).value_or(AgentReport{});
+    facts.planners.push_back({uav.name, agent.planner.value_or("unknown")});
+    set_vendor(programs::agent_program(uav.name), agent.dds);
+  }
+  const Json ground = read_json(dir / run_folder::report_file(programs::kGroundAgent));
+  if (ground.is_object()) {
+    const auto report = struct_of<AgentReport>(ground);
+    facts.ground_program = UavPlanner{"gcs", report.planner.value_or("unknown")};
+    set_vendor(programs::kGroundAgent, report.dds);
+  }
+  return facts;
+}
+
+/// @returns what went wrong, for people.
+std::string write_result_file(const fs::path& dir, const std::string& text) try {
+  write_file_atomically(dir / run_folder::kResult, text);
+  return {};
+} catch (const std::exception& error) {
+  return error.what();
+}
+
+}  // namespace
+
+int merge_reports(const MergeOptions& options, const Console& console) {
+  const fs::path dir = fs::absolute(options.dir);
+  const Json server = read_json(dir / run_folder::report_file(programs::kSimServer));
+  if (!server.is_object()) {
+    throw InputError(options.dir.string() + ": there is no " + run_folder::report_file(programs::kSimServer) +
+                     " in it: the run is not over, or its server died");
+  }
+  const auto sim = struct_of<SimServerReport>(server);
+  const RunOptions run = options_of(sim.flight, options, sim.rules);
+  const Scenario scenario = scenario_of(run);
+  settle(programs::kStation, run_folder::kJournal, run, sim.flight, dir);
+  settle(programs::kCommRouter, run_folder::kCounts, run, sim.flight, dir);
+  const Reports reports = read_reports(dir, scenario);
+  const RunFacts facts = facts_of(run, scenario, reports, dir);
+  const RunResults results{run,     facts, scenario,
+                           reports, dir,   [&](const std::string& text) { return write_result_file(dir, text); }};
+  const auto result = write_results(
+      results, options.dir, [] { return std::vector<std::string>(); }, console);
+  return result && (*result)["lost_members"].empty() ? kExitDone : kExitProcessFailed;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,69 @@
+#include "cli/run_results.hpp"
+
+#include <utility>
+
+#include "cli/oracle_command.hpp"
+#include "cli/run/losses.hpp"
+#include "cli/run/progress_view.hpp"
+#include "core/run_state.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// What became of the points; a run is not worth less because of an odd file.
+Json losses_of(const std::filesystem::path& dir, const Json& answer, const Reports& reports, Json& warnings) try {
+  return write_losses(dir, answer, reports);
+} catch (const std::exception& error) {
+  warnings.push_back(std::string("no losses.csv: ") + error.what());
+  return nullptr;
+}
+
+std::string text_of(const Json& result) { return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+/// @returns false when the disk refuses; then the result is printed, so that it is not lost.
+bool write_result(const RunResults& run, const Json& result, std::ostream& err) {
+  const std::string trouble = run.write(text_of(result));
+  if (!trouble.empty()) err << trouble << "; this is what it would have held:\n" << text_of(result) << std::flush;
+  return trouble.empty();
+}
+
+/// What the result can do without: score.csv, and how the score compares with what could be had.
+void add_score_tables(const RunOptions& options, const std::filesystem::path& dir, const Reports& reports,
+                      Json& result) {
+  Json& warnings = result["warnings"];
+  try {
+    if (!write_score_csv(dir, reports.station)) warnings.push_back("no scene.json: no score.csv");
+  } catch (const std::exception& error) {
+    warnings.push_back(std::string("no score.csv: ") + error.what());
+  }
+  if (!options.attainable || result["status"] != name_of(RunStatus::completed)) return;
+  const AttainableAnswer answer = attainable_of(options);
+  if (!answer.hint.empty()) warnings.push_back(answer.hint);
+  if (!answer.attainable.is_object()) return;
+  result["attainable"] = answer.attainable;
+  result["losses"] = losses_of(dir, answer.by_point, reports, warnings);
+}
+
+}  // namespace
+
+std::optional<Json> write_results(const RunResults& run, const std::filesystem::path& shown,
+                                  const std::function<std::vector<std::string>()>& collect, const Console& console) {
+  Json result = merge_result(run.facts, run.scenario, run.reports);
+  // Before all that may still go wrong, or takes room.
+  const bool written = write_result(run, result, console.err);
+  const std::size_t warnings_written = result["warnings"].size();
+  for (std::string& warning : collect()) result["warnings"].push_back(std::move(warning));
+  add_score_tables(run.options, run.dir, run.reports, result);
+  const bool news = !result["losses"].is_null() || result["attainable"]["score"].is_number() ||
+                    result["warnings"].size() > warnings_written;
+  if (written && news) run.write(text_of(result));  // the one before stands if the disk is full by now
+  print_summary(console.out, result, shown);
+  return written ? std::optional(std::move(result)) : std::nullopt;
+}
+
+int exit_code_of(FleetRun& run, const Json& result) {
+  if (run.facts().interrupted) return kExitInterrupted;
+  return run.anything_failed() || !result["lost_members"].empty() ? kExitProcessFailed : kExitDone;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,128 @@
+#include "cli/tool_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+
+#include "cli/option_checks.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// Unlike CLI::Range this refuses "nan" too.
+std::string check_clearance(const std::string& text) {
+  char* end = nullptr;
+  const double clearance = std::strtod(text.c_str(), &end);
+  const bool fits = end != text.c_str() && *end == '\0' && clearance >= 0.0 && clearance <= 100.0;
+  return fits ? "" : "must be a number within [0, 100], not '" + text + "'";
+}
+
+}  // namespace
+
+CLI::App* add_test(CLI::App& app, TestOptions& test) {
+  CLI::App* command =
+      app.add_subcommand("test", "Run the test suite, or your fault tests; the last line is 'N passed, N failed'");
+  command->add_flag("--long", test.long_tests,
+                    "Include the tests that take minutes; with --faults: repeat each in every way");
+  CLI::Option* faults =
+      command->add_option("--faults", test.faults, "A fault test (YAML) or a folder of them, instead of the suite");
+  command
+      ->add_option(
+          "--repeat", test.repeat,
+          "Fly each fault test again and compare digests: again, cyclonedds, fastdds, mixed, chaos, one_process")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"again", "cyclonedds", "fastdds", "mixed", "chaos", "one_process"}))
+      ->needs(faults);
+  command->add_flag("--rotate", test.rotate, "Only one of the repetitions a test, in turn")->needs("--repeat");
+  command->add_option("--out", test.out, "Folder of the fault tests' results")->needs(faults)->capture_default_str();
+  command->add_option("--assets", test.assets, "Folder with models/ for scenarios that read files")->needs(faults);
+  command->add_option("--agent", test.agent, "Agent program with planners of your own, as for `skein run`")
+      ->needs(faults);
+  command
+      ->add_flag("--one-process", test.one_process, "Fly in one process, without DDS, what no repetition does over it")
+      ->needs(faults);
+  command->add_option("--seeds", test.seeds, "Fly each fault test with each of these seeds: 1-20 or 3,5,8")
+      ->needs(faults);
+  command->add_option("--jobs", test.jobs, "Flights at once; results do not depend on it")
+      ->needs(faults)
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command->add_option("--junit", test.junit, "File for a report as JUnit XML, as CI servers read it")->needs(faults);
+  command->add_flag("-v,--verbose", test.verbose, "Tell what was seen where an expectation holds, too")->needs(faults);
+  command->footer(
+      "Examples:\n"
+      "  skein test\n"
+      "  skein test --faults config/faults/station_outage.yaml -v\n"
+      "  skein test --faults my_tests --agent build/my_agent --seeds 1-20 --jobs 2 --junit faults.xml\n\n"
+      "A fault test is described in docs/how-to-test-faults.md; config/faults/ has examples.\n"
+      "Exit codes: 0 all passed, 1 one failed, 2 a file is wrong.");
+  return command;
+}
+
+CLI::App* add_check(CLI::App& app, CheckOptions& check) {
+  CLI::App* command =
+      app.add_subcommand("check", "Validate scenarios, vehicles, fault files and fault tests, or reference vectors");
+  command->add_option("FILE", check.files, "YAML files of any of these kinds");
+  command->add_option("--golden", check.golden, "Run reference vectors (CSV) through the production code");
+  command->add_option("--assets", check.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--scenario", check.scenario, "What fault files are for that name no scenario themselves")
+      ->capture_default_str();
+  command->footer(
+      "Examples:\n"
+      "  skein check my_scenario.yaml my_vehicle.yaml my_faults.yaml\n"
+      "  skein check my_faults.yaml --scenario cranes");
+  return command;
+}
+
+CLI::App* add_scene(CLI::App& app, SceneOptions& scene) {
+  CLI::App* command = app.add_subcommand("scene", "Write a scene as STL, PCD and boxes, with a scenario that flies it");
+  command->add_option("SCENARIO", scene.scenario, "A name under config/scenarios/ or a YAML file")->required();
+  command->add_option("--scene-seed", scene.scene_seed, "Which scene of a procedural family")
+      ->check(CLI::Validator(check_seed, ""));
+  command->add_option("--out", scene.out, "Folder to write to")->required();
+  command->add_option("--assets", scene.assets, "Folder with models/ for scenarios that read files");
+  command->add_flag("--force", scene.force, "Overwrite an earlier export");
+  command->footer("Example:\n  skein scene towers --scene-seed 3 --out my_scene");
+  return command;
+}
+
+CLI::App* add_bench(CLI::App& app, BenchOptions& bench) {
+  CLI::App* command = app.add_subcommand("bench", "Measure speed, scale and memory on this machine");
+  command->add_flag("--quick", bench.quick, "Less of everything: a first impression in less than a minute");
+  command->add_flag("--hour", bench.hour, "Memory over an hour of simulated time too: minutes more");
+  command->add_option("--scenario", bench.scenarios,
+                      "Scenarios of the speed runs (default: towers; mbs with --assets)");
+  command->add_option("--assets", bench.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--dds", bench.dds, "DDS vendor: cyclonedds or fastdds")
+      ->check(CLI::IsMember({"cyclonedds", "fastdds"}))
+      ->capture_default_str();
+  command->add_option("--sizes", bench.sizes, "Sizes of fleet, as 1,5,20")->delimiter(',')->check(CLI::Range(1, 128));
+  command->add_option("--repeat", bench.repeats, "Runs of each kind; medians are reported")->check(CLI::Range(1, 100));
+  command->add_option("--duration", bench.duration_s, "Mission time of the speed runs [s], instead of the scenario's")
+      ->check(CLI::Validator(check_seconds, ""));
+  command->add_option("--json", bench.json, "File for all figures");
+  command->footer("Example:\n  skein bench --quick --json bench.json");
+  return command;
+}
+
+CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
+  CLI::App* command = app.add_subcommand("oracle", "What could be had of a scenario with full knowledge of its scene");
+  command->add_option("SCENARIO", oracle.scenario, "A name under config/scenarios/ or a YAML file")->required();
+  command->add_option("--scene-seed", oracle.scene_seed, "Which scene of a procedural family")
+      ->check(CLI::Validator(check_seed, ""));
+  command->add_option("--assets", oracle.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--rules", oracle.rules,
+                      "Preset of rules, instead of the scenario's: contest, paper or reference");
+  command
+      ->add_option("--clearance", oracle.clearances_m,
+                   "Of the cameras from the structure [m] (default 0.5); several as 0.5,0.8,1.2 make a table")
+      ->delimiter(',')
+      ->check(CLI::Validator(check_clearance, ""));
+  command->add_flag("--vehicle", oracle.vehicle,
+                    "A sphere about body and rotors keeps the clearance (default then 0), not the camera");
+  command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");
+  command->add_flag("--json", oracle.json, "All figures, for programs");
+  command->footer("Example:\n  skein oracle towers --clearance 0.5,0.8,1.2");
+  return command;
+}
+
+}  // namespace skein::cli
