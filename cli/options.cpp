@@ -6,6 +6,7 @@
 
 #include "cli/option_checks.hpp"
 #include "core/types.hpp"
+#include "process/manual.hpp"
 
 #ifndef SKEIN_VERSION
 #error "SKEIN_VERSION comes from CMake's project()"
@@ -27,7 +28,7 @@ void add_network(CLI::App& command, std::optional<std::string>& network) {
       ->default_str("all");
 }
 
-CLI::App* add_run(CLI::App& app, RunOptions& run) {
+void add_run(CLI::App& app, RunOptions& run) {
   CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
   command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
   command
@@ -76,10 +77,9 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
       "  skein run towers --agent build/my_agent --planner orbit\n"
       "  skein run towers --planner orbit@team_a/agent,jurong=kios@team_b/agent\n"
       "  skein run towers --planner hover,jurong=exec:./my_program");
-  return command;
 }
 
-CLI::App* add_test(CLI::App& app, TestOptions& test) {
+void add_test(CLI::App& app, TestOptions& test) {
   CLI::App* command =
       app.add_subcommand("test", "Run the test suite, or your fault tests; the last line is 'N passed, N failed'");
   command->add_flag("--long", test.long_tests,
@@ -116,10 +116,9 @@ CLI::App* add_test(CLI::App& app, TestOptions& test) {
       "  skein test --faults my_tests --agent build/my_agent --seeds 1-20 --jobs 2 --junit faults.xml\n\n"
       "A fault test is described in docs/how-to-test-faults.md; config/faults/ has examples.\n"
       "Exit codes: 0 all passed, 1 one failed, 2 a file is wrong.");
-  return command;
 }
 
-CLI::App* add_check(CLI::App& app, CheckOptions& check) {
+void add_check(CLI::App& app, CheckOptions& check) {
   CLI::App* command =
       app.add_subcommand("check", "Validate scenarios, vehicles, fault files and fault tests, or reference vectors");
   command->add_option("FILE", check.files, "YAML files of any of these kinds");
@@ -131,10 +130,9 @@ CLI::App* add_check(CLI::App& app, CheckOptions& check) {
       "Examples:\n"
       "  skein check my_scenario.yaml my_vehicle.yaml my_faults.yaml\n"
       "  skein check my_faults.yaml --scenario cranes");
-  return command;
 }
 
-CLI::App* add_scene(CLI::App& app, SceneOptions& scene) {
+void add_scene(CLI::App& app, SceneOptions& scene) {
   CLI::App* command = app.add_subcommand("scene", "Write a scene as STL, PCD and boxes, with a scenario that flies it");
   command->add_option("SCENARIO", scene.scenario, "A name under config/scenarios/ or a YAML file")->required();
   command->add_option("--scene-seed", scene.scene_seed, "Which scene of a procedural family")
@@ -143,10 +141,9 @@ CLI::App* add_scene(CLI::App& app, SceneOptions& scene) {
   command->add_option("--assets", scene.assets, "Folder with models/ for scenarios that read files");
   command->add_flag("--force", scene.force, "Overwrite an earlier export");
   command->footer("Example:\n  skein scene towers --scene-seed 3 --out my_scene");
-  return command;
 }
 
-CLI::App* add_bench(CLI::App& app, BenchOptions& bench) {
+void add_bench(CLI::App& app, BenchOptions& bench) {
   CLI::App* command = app.add_subcommand("bench", "Measure speed, scale and memory on this machine");
   command->add_flag("--quick", bench.quick, "Less of everything: a first impression in less than a minute");
   command->add_flag("--hour", bench.hour, "Memory over an hour of simulated time too: minutes more");
@@ -162,7 +159,6 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench) {
       ->check(CLI::Validator(check_seconds, ""));
   command->add_option("--json", bench.json, "File for all figures");
   command->footer("Example:\n  skein bench --quick --json bench.json");
-  return command;
 }
 
 /// Unlike CLI::Range this refuses "nan" too.
@@ -173,7 +169,7 @@ std::string check_clearance(const std::string& text) {
   return fits ? "" : "must be a number within [0, 100], not '" + text + "'";
 }
 
-CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
+void add_oracle(CLI::App& app, OracleOptions& oracle) {
   CLI::App* command = app.add_subcommand("oracle", "What could be had of a scenario with full knowledge of its scene");
   command->add_option("SCENARIO", oracle.scenario, "A name under config/scenarios/ or a YAML file")->required();
   command->add_option("--scene-seed", oracle.scene_seed, "Which scene of a procedural family")
@@ -191,7 +187,6 @@ CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
   command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");
   command->add_flag("--json", oracle.json, "All figures, for programs");
   command->footer("Example:\n  skein oracle towers --clearance 0.5,0.8,1.2");
-  return command;
 }
 
 /// What `skein contest` and `skein compare` have in common.
@@ -228,7 +223,7 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
                  "The same command again goes on where it was stopped. docs/how-to-compare-planners.md has more.");
 }
 
-CLI::App* add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
+void add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
   CLI::App* command =
       app.add_subcommand("contest", "The contest's protocol: tests of all scenes, totals and a ranking");
   add_study_options(*command, contest);
@@ -243,17 +238,15 @@ CLI::App* add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
                                          "By the greatest total of a test (max), the median or the worst")
       ->check(CLI::IsMember({"max", "median", "worst"}))
       ->default_str("max");
-  return command;
 }
 
-CLI::App* add_compare(CLI::App& app, StudyOptions& study) {
+void add_compare(CLI::App& app, StudyOptions& study) {
   CLI::App* command = app.add_subcommand("compare", "Planners side by side over any scenes and seeds");
   add_study_options(*command, study);
   command->add_option("--seeds", study.seeds, "How many (seeds 0 to K-1), or which: 3,5,8 or 1-5")
       ->capture_default_str();
   command->add_option("--scene-seed", study.scene_seed, "Which scene of a procedural family")
       ->check(CLI::Validator(check_seed, ""));
-  return command;
 }
 
 /// What cannot be had without processes.
@@ -267,14 +260,11 @@ void check_one_process(const RunOptions& run) {
   refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
 }
 
-}  // namespace
+/// The options of all commands, and what CLI11 fills.
+struct OptionParser {
+  OptionParser();
 
-Command parse_command_line(const std::vector<std::string>& arguments) {
-  CLI::App app("Skein: a fleet of inspection UAVs, simulated as separate processes that talk over DDS.", "skein");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", "skein " SKEIN_VERSION);
-  app.failure_message(CLI::FailureMessage::simple);
-  app.footer("Example:\n  skein run towers --planner kios\n\n`skein COMMAND --help` has the options of a command.");
+  CLI::App app;
   RunOptions run;
   TestOptions test;
   CheckOptions check;
@@ -283,48 +273,70 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   OracleOptions oracle;
   DiffOptions diff;
   StudyOptions contest, compare;
-  contest.contest = true;
-  int tests = 5;
+  int tests = 5;  ///< of the contest
+};
 
-  const CLI::App* run_command = add_run(app, run);
-  const CLI::App* test_command = add_test(app, test);
+OptionParser::OptionParser()
+    : app("Skein: a fleet of inspection UAVs, simulated as separate processes that talk over DDS.", "skein") {
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "skein " SKEIN_VERSION);
+  app.failure_message(CLI::FailureMessage::simple);
+  app.footer("Example:\n  skein run towers --planner kios\n\n`skein COMMAND --help` has the options of a command.");
+  contest.contest = true;
+  add_run(app, run);
+  add_test(app, test);
   add_check(app, check);
-  const CLI::App* scene_command = add_scene(app, scene);
-  const CLI::App* bench_command = add_bench(app, bench);
-  const CLI::App* oracle_command = add_oracle(app, oracle);
-  const CLI::App* contest_command = add_contest(app, contest, tests);
-  const CLI::App* compare_command = add_compare(app, compare);
+  add_scene(app, scene);
+  add_bench(app, bench);
+  add_oracle(app, oracle);
+  add_contest(app, contest, tests);
+  add_compare(app, compare);
   CLI::App* diff_command = app.add_subcommand("diff", "First step, entity and field in which two runs differ");
   diff_command->add_option("RUN_A", diff.run_a, "A results folder")->required();
   diff_command->add_option("RUN_B", diff.run_b, "Another one")->required();
   diff_command->footer("Example:\n  skein diff runs/towers-kios-0 runs/again");
+}
 
+}  // namespace
+
+void with_command_line(const std::function<void(const CLI::App&)>& use) { use(OptionParser().app); }
+
+Command parse_command_line(const std::vector<std::string>& arguments) {
+  OptionParser parser;
+  // Not for people: what the manual page is made of, and what a shell asks.
+  if (arguments == std::vector<std::string>{"--manual"}) return HelpText{manual_of(parser.app, "skein")};
+  if (!arguments.empty() && arguments[0] == "--complete") {
+    return CompletionOptions{{arguments.begin() + 1, arguments.end()}};
+  }
+  const auto is = [&parser](const char* command) { return parser.app.got_subcommand(command); };
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
   try {
-    app.parse(std::move(reversed));
+    parser.app.parse(std::move(reversed));
   } catch (const CLI::CallForHelp&) {
     // Of the command that was named, if any.
-    return HelpText{app.help(), run_command->parsed() || contest_command->parsed() || compare_command->parsed()};
+    return HelpText{parser.app.help(), is("run") || is("contest") || is("compare")};
   } catch (const CLI::CallForVersion& version) {
     return HelpText{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& error) {
     throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
   }
-  refuse_empty_values(app);
-  if (run_command->parsed()) {
-    check_one_process(run);
-    return run;
+  refuse_empty_values(parser.app);
+  if (is("run")) {
+    check_one_process(parser.run);
+    return parser.run;
   }
-  if (test_command->parsed()) return test;
-  if (scene_command->parsed()) return scene;
-  if (bench_command->parsed()) return bench;
-  if (oracle_command->parsed()) return oracle;
-  if (diff_command->parsed()) return diff;
-  contest.seeds = "1-" + std::to_string(tests);
-  if (contest_command->parsed()) return contest;
-  if (compare_command->parsed()) return compare;
-  if (check.files.empty() && check.golden.empty()) throw InputError("check: give files, or --golden FILE.csv");
-  return check;
+  if (is("test")) return parser.test;
+  if (is("scene")) return parser.scene;
+  if (is("bench")) return parser.bench;
+  if (is("oracle")) return parser.oracle;
+  if (is("diff")) return parser.diff;
+  parser.contest.seeds = "1-" + std::to_string(parser.tests);
+  if (is("contest")) return parser.contest;
+  if (is("compare")) return parser.compare;
+  if (parser.check.files.empty() && parser.check.golden.empty()) {
+    throw InputError("check: give files, or --golden FILE.csv");
+  }
+  return parser.check;
 }
 
 std::vector<std::string> arguments_of(const RunOptions& run) {

@@ -3,12 +3,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "cli/planner_spec.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace skein::cli {
 
@@ -124,11 +129,19 @@ struct HelpText {
   bool names_planners = false;  ///< a list of the planners there are belongs below it
 };
 
+/// --complete, which a shell asks: the words up to the cursor.
+struct CompletionOptions {
+  std::vector<std::string> words;
+};
+
 using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions,
-                             DiffOptions, StudyOptions, HelpText>;
+                             DiffOptions, StudyOptions, HelpText, CompletionOptions>;
 
 /// @param arguments without the program's name. @throws InputError for anything that does not fit.
 Command parse_command_line(const std::vector<std::string>& arguments);
+
+/// All commands with their options, for who tells about them, before anything is parsed.
+void with_command_line(const std::function<void(const CLI::App&)>& use);
 
 /// The other way: what `skein` must be given for this run.
 std::vector<std::string> arguments_of(const RunOptions& run);
