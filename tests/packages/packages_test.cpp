@@ -104,7 +104,7 @@ TEST_F(Packages, AnInstalledFleetFliesForWhoMayNotWriteThere) {
 }
 
 TEST_F(Packages, DebianPackagesAreTheComponents) {
-  for (const char* tool : {"dpkg-deb", "dpkg-shlibdeps"}) {
+  for (const char* tool : {"dpkg-deb", "dpkg-shlibdeps", "file"}) {
     if (!has_program(tool)) GTEST_SKIP() << "there is no " << tool << " here";
   }
   const std::map<std::string, std::string> names = {
