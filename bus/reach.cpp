@@ -137,7 +137,7 @@ Known look_up_all(const std::vector<std::string>& hosts) {
 
 /// Asks until the own address is known, if it takes peers to know it. Who cannot be found yet comes later, and finds us.
 Known look_up_all(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience) {
-  const bool by_route = !network.names_interface() && network.interface != DomainNetwork::kAll;
+  const bool by_route = !network.names_interface();
   const auto deadline = Clock::now() + patience;
   Known known = look_up_all(network.peers);
   while (by_route && !network.peers.empty() && known.own.empty()) {

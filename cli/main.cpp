@@ -7,6 +7,7 @@
 
 #include "cli/bench_command.hpp"
 #include "cli/check_command.hpp"
+#include "cli/completion.hpp"
 #include "cli/compose_command.hpp"
 #include "cli/merge_command.hpp"
 #include "cli/options.hpp"
@@ -20,6 +21,7 @@
 #include "cli/scene_command.hpp"
 #include "cli/study_command.hpp"
 #include "cli/test_command.hpp"
+#include "core/config_files.hpp"
 #include "core/suggestion.hpp"
 #include "core/types.hpp"
 #include "process/run_folder.hpp"
@@ -38,9 +40,12 @@ int diff_runs(const DiffOptions& options, const Console& console) {
   return kExitCheckFailed;
 }
 
-/// Of the agent program that flies by default. Help is given whatever is wrong with it.
+/// The agent program that flies by default.
+std::filesystem::path default_agent() { return own_agent({}).value_or(program_dir() / programs::kAgent); }
+
+/// Help is given whatever is wrong with the agent program.
 std::string planner_list() try {
-  const std::filesystem::path agent = own_agent({}).value_or(program_dir() / programs::kAgent);
+  const std::filesystem::path agent = default_agent();
   std::string text = "\nPlanners: " + joined(planners_of(agent)) + "\n";
   return text + "With a program at the ground station: " + joined(ground_programs_of(agent)) + "\n";
 } catch (const InputError& error) {
@@ -64,6 +69,12 @@ struct Execute {
   int operator()(const HelpText& help) const {
     console.out << help.text;
     if (help.names_planners) console.out << planner_list();
+    return kExitDone;
+  }
+  int operator()(const CompletionOptions& options) const {
+    const KnownNames known{[] { return config_names(default_config_dir() / "scenarios"); },
+                           [] { return planners_of(default_agent()); }};
+    for (const std::string& candidate : completions(options.words, known)) console.out << candidate << '\n';
     return kExitDone;
   }
 };

@@ -7,6 +7,7 @@
 #include "cli/option_checks.hpp"
 #include "cli/tool_options.hpp"
 #include "core/types.hpp"
+#include "process/manual.hpp"
 
 #ifndef SKEIN_VERSION
 #error "SKEIN_VERSION comes from CMake's project()"
@@ -64,7 +65,7 @@ void add_result_options(CLI::App* command, RunOptions& run) {
   command->add_flag("--no-oracle{false}", run.attainable, "Do not ask after the run what could have been had");
 }
 
-CLI::App* add_run(CLI::App& app, RunOptions& run) {
+void add_run(CLI::App& app, RunOptions& run) {
   CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
   add_flight_options(command, run);
   command->add_option("--agent", run.agent,
@@ -87,10 +88,9 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
       "  skein run towers --agent build/my_agent --planner orbit\n"
       "  skein run towers --planner orbit@team_a/agent,jurong=kios@team_b/agent\n"
       "  skein run towers --planner hover,jurong=exec:./my_program");
-  return command;
 }
 
-CLI::App* add_compose(CLI::App& app, ComposeOptions& compose) {
+void add_compose(CLI::App& app, ComposeOptions& compose) {
   CLI::App* command =
       app.add_subcommand("compose", "A fleet in containers: write a file for docker-compose, or fly it");
   add_flight_options(command, compose.run);
@@ -108,19 +108,17 @@ CLI::App* add_compose(CLI::App& app, ComposeOptions& compose) {
       "  skein compose towers --planner kios --file compose.yaml\n"
       "  skein compose towers --planner hover,jurong=orbit --image jurong=my-agent --up\n\n"
       "docs/containers.md tells how images are built, and what each part of the file is for.");
-  return command;
 }
 
-CLI::App* add_keys(CLI::App& app, KeysOptions& keys) {
+void add_keys(CLI::App& app, KeysOptions& keys) {
   CLI::App* command = app.add_subcommand("keys", "Make the certificates and permissions of a secured fleet");
   add_flight_options(command, keys.run);
   command->add_option("--domain", keys.run.domain, "First DDS domain (default 1)");
   command->add_option("--out", keys.out, "New folder, with a folder for each program")->required();
   command->footer("Example:\n  skein keys towers --out keys");
-  return command;
 }
 
-CLI::App* add_merge(CLI::App& app, MergeOptions& merge) {
+void add_merge(CLI::App& app, MergeOptions& merge) {
   CLI::App* command =
       app.add_subcommand("merge", "Make result.json of what programs left that ran without the launcher");
   command->add_option("DIR", merge.dir, "Folder with their reports")->required();
@@ -128,7 +126,6 @@ CLI::App* add_merge(CLI::App& app, MergeOptions& merge) {
                       "What was flown, if the server's own word for it is not known here");
   command->add_option("--assets", merge.assets, "Folder with models/ for scenarios that read files");
   command->footer("Example:\n  skein merge results");
-  return command;
 }
 
 /// What `skein contest` and `skein compare` have in common.
@@ -165,7 +162,7 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
                  "The same command again goes on where it was stopped. docs/how-to-compare-planners.md has more.");
 }
 
-CLI::App* add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
+void add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
   CLI::App* command =
       app.add_subcommand("contest", "The contest's protocol: tests of all scenes, totals and a ranking");
   add_study_options(*command, contest);
@@ -180,17 +177,15 @@ CLI::App* add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
                                          "By the greatest total of a test (max), the median or the worst")
       ->check(CLI::IsMember({"max", "median", "worst"}))
       ->default_str("max");
-  return command;
 }
 
-CLI::App* add_compare(CLI::App& app, StudyOptions& study) {
+void add_compare(CLI::App& app, StudyOptions& study) {
   CLI::App* command = app.add_subcommand("compare", "Planners side by side over any scenes and seeds");
   add_study_options(*command, study);
   command->add_option("--seeds", study.seeds, "How many (seeds 0 to K-1), or which: 3,5,8 or 1-5")
       ->capture_default_str();
   command->add_option("--scene-seed", study.scene_seed, "Which scene of a procedural family")
       ->check(CLI::Validator(check_seed, ""));
-  return command;
 }
 
 /// What cannot be had without processes.
@@ -204,14 +199,11 @@ void check_one_process(const RunOptions& run) {
   refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
 }
 
-}  // namespace
+/// The options of all commands, and what CLI11 fills.
+struct OptionParser {
+  OptionParser();
 
-Command parse_command_line(const std::vector<std::string>& arguments) {
-  CLI::App app("Skein: a fleet of inspection UAVs, simulated as separate processes that talk over DDS.", "skein");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", "skein " SKEIN_VERSION);
-  app.failure_message(CLI::FailureMessage::simple);
-  app.footer("Example:\n  skein run towers --planner kios\n\n`skein COMMAND --help` has the options of a command.");
+  CLI::App app;
   RunOptions run;
   TestOptions test;
   CheckOptions check;
@@ -223,58 +215,79 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   KeysOptions keys;
   MergeOptions merge;
   StudyOptions contest, compare;
-  contest.contest = true;
-  int tests = 5;
+  int tests = 5;  ///< of the contest
+};
 
-  const CLI::App* run_command = add_run(app, run);
-  const CLI::App* test_command = add_test(app, test);
+OptionParser::OptionParser()
+    : app("Skein: a fleet of inspection UAVs, simulated as separate processes that talk over DDS.", "skein") {
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "skein " SKEIN_VERSION);
+  app.failure_message(CLI::FailureMessage::simple);
+  app.footer("Example:\n  skein run towers --planner kios\n\n`skein COMMAND --help` has the options of a command.");
+  contest.contest = true;
+  add_run(app, run);
+  add_compose(app, compose);
+  add_keys(app, keys);
+  add_merge(app, merge);
+  add_test(app, test);
   add_check(app, check);
-  const CLI::App* scene_command = add_scene(app, scene);
-  const CLI::App* bench_command = add_bench(app, bench);
-  const CLI::App* oracle_command = add_oracle(app, oracle);
-  const CLI::App* compose_command = add_compose(app, compose);
-  const CLI::App* keys_command = add_keys(app, keys);
-  const CLI::App* merge_command = add_merge(app, merge);
-  const CLI::App* contest_command = add_contest(app, contest, tests);
-  const CLI::App* compare_command = add_compare(app, compare);
+  add_scene(app, scene);
+  add_bench(app, bench);
+  add_oracle(app, oracle);
+  add_contest(app, contest, tests);
+  add_compare(app, compare);
   CLI::App* diff_command = app.add_subcommand("diff", "First step, entity and field in which two runs differ");
   diff_command->add_option("RUN_A", diff.run_a, "A results folder")->required();
   diff_command->add_option("RUN_B", diff.run_b, "Another one")->required();
   diff_command->footer("Example:\n  skein diff runs/towers-kios-0 runs/again");
+}
 
+}  // namespace
+
+void with_command_line(const std::function<void(const CLI::App&)>& use) { use(OptionParser().app); }
+
+Command parse_command_line(const std::vector<std::string>& arguments) {
+  OptionParser parser;
+  // Not for people: what the manual page is made of, and what a shell asks.
+  if (arguments == std::vector<std::string>{"--manual"}) return HelpText{manual_of(parser.app, "skein")};
+  if (!arguments.empty() && arguments[0] == "--complete") {
+    return CompletionOptions{{arguments.begin() + 1, arguments.end()}};
+  }
+  const auto is = [&parser](const char* command) { return parser.app.got_subcommand(command); };
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
   try {
-    app.parse(std::move(reversed));
+    parser.app.parse(std::move(reversed));
   } catch (const CLI::CallForHelp&) {
     // Of the command that was named, if any.
-    return HelpText{app.help(), run_command->parsed() || compose_command->parsed() || contest_command->parsed() ||
-                                    compare_command->parsed()};
+    return HelpText{parser.app.help(), is("run") || is("compose") || is("contest") || is("compare")};
   } catch (const CLI::CallForVersion& version) {
     return HelpText{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& error) {
     throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
   }
-  refuse_empty_values(app);
-  if (run_command->parsed()) {
-    check_one_process(run);
-    return run;
+  refuse_empty_values(parser.app);
+  if (is("run")) {
+    check_one_process(parser.run);
+    return parser.run;
   }
-  if (compose_command->parsed()) {
-    compose.command = fmt::format("skein {}", fmt::join(arguments, " "));
-    return compose;
+  if (is("compose")) {
+    parser.compose.command = fmt::format("skein {}", fmt::join(arguments, " "));
+    return parser.compose;
   }
-  if (keys_command->parsed()) return keys;
-  if (merge_command->parsed()) return merge;
-  if (test_command->parsed()) return test;
-  if (scene_command->parsed()) return scene;
-  if (bench_command->parsed()) return bench;
-  if (oracle_command->parsed()) return oracle;
-  if (diff_command->parsed()) return diff;
-  contest.seeds = "1-" + std::to_string(tests);
-  if (contest_command->parsed()) return contest;
-  if (compare_command->parsed()) return compare;
-  if (check.files.empty() && check.golden.empty()) throw InputError("check: give files, or --golden FILE.csv");
-  return check;
+  if (is("keys")) return parser.keys;
+  if (is("merge")) return parser.merge;
+  if (is("test")) return parser.test;
+  if (is("scene")) return parser.scene;
+  if (is("bench")) return parser.bench;
+  if (is("oracle")) return parser.oracle;
+  if (is("diff")) return parser.diff;
+  parser.contest.seeds = "1-" + std::to_string(parser.tests);
+  if (is("contest")) return parser.contest;
+  if (is("compare")) return parser.compare;
+  if (parser.check.files.empty() && parser.check.golden.empty()) {
+    throw InputError("check: give files, or --golden FILE.csv");
+  }
+  return parser.check;
 }
 
 std::vector<std::string> arguments_of(const RunOptions& run) {

@@ -18,7 +18,7 @@ std::string check_clearance(const std::string& text) {
 
 }  // namespace
 
-CLI::App* add_test(CLI::App& app, TestOptions& test) {
+void add_test(CLI::App& app, TestOptions& test) {
   CLI::App* command =
       app.add_subcommand("test", "Run the test suite, or your fault tests; the last line is 'N passed, N failed'");
   command->add_flag("--long", test.long_tests,
@@ -55,10 +55,9 @@ CLI::App* add_test(CLI::App& app, TestOptions& test) {
       "  skein test --faults my_tests --agent build/my_agent --seeds 1-20 --jobs 2 --junit faults.xml\n\n"
       "A fault test is described in docs/how-to-test-faults.md; config/faults/ has examples.\n"
       "Exit codes: 0 all passed, 1 one failed, 2 a file is wrong.");
-  return command;
 }
 
-CLI::App* add_check(CLI::App& app, CheckOptions& check) {
+void add_check(CLI::App& app, CheckOptions& check) {
   CLI::App* command =
       app.add_subcommand("check", "Validate scenarios, vehicles, fault files and fault tests, or reference vectors");
   command->add_option("FILE", check.files, "YAML files of any of these kinds");
@@ -70,10 +69,9 @@ CLI::App* add_check(CLI::App& app, CheckOptions& check) {
       "Examples:\n"
       "  skein check my_scenario.yaml my_vehicle.yaml my_faults.yaml\n"
       "  skein check my_faults.yaml --scenario cranes");
-  return command;
 }
 
-CLI::App* add_scene(CLI::App& app, SceneOptions& scene) {
+void add_scene(CLI::App& app, SceneOptions& scene) {
   CLI::App* command = app.add_subcommand("scene", "Write a scene as STL, PCD and boxes, with a scenario that flies it");
   command->add_option("SCENARIO", scene.scenario, "A name under config/scenarios/ or a YAML file")->required();
   command->add_option("--scene-seed", scene.scene_seed, "Which scene of a procedural family")
@@ -82,10 +80,9 @@ CLI::App* add_scene(CLI::App& app, SceneOptions& scene) {
   command->add_option("--assets", scene.assets, "Folder with models/ for scenarios that read files");
   command->add_flag("--force", scene.force, "Overwrite an earlier export");
   command->footer("Example:\n  skein scene towers --scene-seed 3 --out my_scene");
-  return command;
 }
 
-CLI::App* add_bench(CLI::App& app, BenchOptions& bench) {
+void add_bench(CLI::App& app, BenchOptions& bench) {
   CLI::App* command = app.add_subcommand("bench", "Measure speed, scale and memory on this machine");
   command->add_flag("--quick", bench.quick, "Less of everything: a first impression in less than a minute");
   command->add_flag("--hour", bench.hour, "Memory over an hour of simulated time too: minutes more");
@@ -101,10 +98,9 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench) {
       ->check(CLI::Validator(check_seconds, ""));
   command->add_option("--json", bench.json, "File for all figures");
   command->footer("Example:\n  skein bench --quick --json bench.json");
-  return command;
 }
 
-CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
+void add_oracle(CLI::App& app, OracleOptions& oracle) {
   CLI::App* command = app.add_subcommand("oracle", "What could be had of a scenario with full knowledge of its scene");
   command->add_option("SCENARIO", oracle.scenario, "A name under config/scenarios/ or a YAML file")->required();
   command->add_option("--scene-seed", oracle.scene_seed, "Which scene of a procedural family")
@@ -122,7 +118,6 @@ CLI::App* add_oracle(CLI::App& app, OracleOptions& oracle) {
   command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");
   command->add_flag("--json", oracle.json, "All figures, for programs");
   command->footer("Example:\n  skein oracle towers --clearance 0.5,0.8,1.2");
-  return command;
 }
 
 }  // namespace skein::cli

@@ -19,6 +19,7 @@ pkg_check_modules(OCTOMAP REQUIRED IMPORTED_TARGET octomap)
 # The simulator's. Double precision Bullet (Debian ships both).
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
+pkg_check_modules(LZF REQUIRED IMPORTED_TARGET liblzf)
 find_package(embree 3 REQUIRED)
 
 # skein_find_pcl(PART...)
@@ -33,4 +34,4 @@ function(skein_find_pcl)
     endif()
   endforeach()
 endfunction()
-skein_find_pcl(common filters io)
+skein_find_pcl(common filters)

@@ -8,7 +8,12 @@ find_path(PCL_INCLUDE_DIR pcl/point_types.h PATH_SUFFIXES pcl-1.13
 if(NOT PCL_INCLUDE_DIR)
   message(FATAL_ERROR "PCL's headers are missing: run ./skein once, or install libpcl-dev")
 endif()
-foreach(part common filters io)
+set(pcl_parts common filters)
+if(BUILD_TESTING)
+  skein_find_pcl(io)  # what our own reader of point files is held against
+  list(APPEND pcl_parts io)
+endif()
+foreach(part ${pcl_parts})
   target_include_directories(pcl::${part} INTERFACE ${PCL_INCLUDE_DIR})
 endforeach()
 

@@ -7,40 +7,72 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
 set(SKEIN_CONTRACT_DIR ${PROJECT_SOURCE_DIR}/uav_agent/testing)  # where the sources of skein_add_planner_test() are
 set(installed_contract_dir ${CMAKE_INSTALL_DATADIR}/skein/contract)
 
-install(TARGETS skein sim_server comm_router station uav_agent uav_agent_fleet RUNTIME)
-install(DIRECTORY config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/skein/config)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Components, which are Debian packages too (SkeinPackages.cmake): `runtime` is what flies fleets, `agent` the part of
+# it that flies one UAV, `dev` what planners outside of this tree are built with.
+set(programs skein sim_server comm_router station uav_agent uav_agent_fleet)
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/man)
+foreach(program ${programs})
+  set(manual ${CMAKE_BINARY_DIR}/man/${program}.1.gz)
+  add_custom_command(OUTPUT ${manual} DEPENDS ${program} VERBATIM
+    COMMAND sh -c "\"$1\" --manual | gzip -9n >\"$2\"" sh $<TARGET_FILE:${program}> ${manual})
+  list(APPEND manuals ${manual})
+endforeach()
+add_custom_target(manuals ALL DEPENDS ${manuals})
+add_dependencies(programs manuals)
+
+function(skein_install_programs component)
+  install(TARGETS ${ARGN} RUNTIME COMPONENT ${component})
+  list(TRANSFORM ARGN REPLACE "(.+)" "${CMAKE_BINARY_DIR}/man/\\1.1.gz" OUTPUT_VARIABLE pages)
+  install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
+  install(DIRECTORY config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/skein/config COMPONENT ${component})
+endfunction()
+skein_install_programs(runtime ${programs})
+skein_install_programs(agent uav_agent)
+
+install(FILES cli/completion/skein.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  RENAME skein COMPONENT runtime)
+install(FILES cli/completion/_skein DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT runtime)
+install(FILES cli/completion/skein.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+  COMPONENT runtime)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # Debian has it already
+install(FILES cli/completion/skein.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  RENAME skein COMPONENT runtime)
+install(FILES cli/completion/_skein DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT runtime)
+install(FILES cli/completion/skein.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+  COMPONENT runtime)
 
 set(libraries core process idl bus lockstep agent agent_nodes agent_main
   sim sim_node router router_node station station_node one_process one_process_main)
 foreach(library ${libraries})
   set_target_properties(skein_${library} PROPERTIES EXPORT_NAME ${library})
   install(TARGETS skein_${library} EXPORT skeinTargets
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/skein OBJECTS DESTINATION ${CMAKE_INSTALL_LIBDIR}/skein)
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/skein COMPONENT dev
+    OBJECTS DESTINATION ${CMAKE_INSTALL_LIBDIR}/skein COMPONENT dev)
   add_library(skein::${library} ALIAS skein_${library})
 endforeach()
 
 # Headers of what a planner may use, where SkeinBuild.cmake has them, and under their former names. The rest is
 # internal: the contract's sources get the agent's headers for themselves.
-install(DIRECTORY core DESTINATION include/skein FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY core DESTINATION include/skein COMPONENT dev FILES_MATCHING PATTERN "*.hpp")
 foreach(folder api maps flight planning)
-  install(DIRECTORY uav_agent/${folder} DESTINATION include/skein/uav_agent FILES_MATCHING PATTERN "*.hpp")
+  install(DIRECTORY uav_agent/${folder} DESTINATION include/skein/uav_agent COMPONENT dev
+    FILES_MATCHING PATTERN "*.hpp")
 endforeach()
-install(DIRECTORY ${SKEIN_FORWARD_DIR}/ DESTINATION include/skein)
+install(DIRECTORY ${SKEIN_FORWARD_DIR}/ DESTINATION include/skein COMPONENT dev)
 install(FILES uav_agent/testing/planner_contract_test.cpp uav_agent/testing/test_world.cpp
-  DESTINATION ${installed_contract_dir})
+  DESTINATION ${installed_contract_dir} COMPONENT dev)
 foreach(folder onboard testing)
-  install(DIRECTORY uav_agent/${folder} DESTINATION ${installed_contract_dir}/include/uav_agent
+  install(DIRECTORY uav_agent/${folder} DESTINATION ${installed_contract_dir}/include/uav_agent COMPONENT dev
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 
-install(EXPORT skeinTargets NAMESPACE skein:: DESTINATION ${package})
+install(EXPORT skeinTargets NAMESPACE skein:: DESTINATION ${package} COMPONENT dev)
 export(EXPORT skeinTargets NAMESPACE skein:: FILE ${CMAKE_BINARY_DIR}/skeinTargets.cmake)
 
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/skeinConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 foreach(module SkeinAgent SkeinAgentDependencies)
   configure_file(cmake/${module}.cmake ${CMAKE_BINARY_DIR}/${module}.cmake COPYONLY)
-  install(FILES cmake/${module}.cmake DESTINATION ${package})
+  install(FILES cmake/${module}.cmake DESTINATION ${package} COMPONENT dev)
 endforeach()
 set(contract_dir ${SKEIN_CONTRACT_DIR})
 configure_package_config_file(cmake/skeinConfig.cmake.in ${CMAKE_BINARY_DIR}/skeinConfig.cmake
@@ -49,4 +81,4 @@ set(contract_dir ${installed_contract_dir})
 configure_package_config_file(cmake/skeinConfig.cmake.in ${CMAKE_BINARY_DIR}/installed/skeinConfig.cmake
   INSTALL_DESTINATION ${package} PATH_VARS contract_dir)
 install(FILES ${CMAKE_BINARY_DIR}/installed/skeinConfig.cmake ${CMAKE_BINARY_DIR}/skeinConfigVersion.cmake
-  DESTINATION ${package})
+  DESTINATION ${package} COMPONENT dev)

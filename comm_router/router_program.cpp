@@ -128,6 +128,7 @@ class RouterMember final : public bus::FleetMember {
 }  // namespace
 
 void RouterProgram::add_options(CLI::App& app) {
+  app.description("Skein: passes radio messages on between the UAVs of a fleet");
   app.add_flag("--settle", settle_only_, "Write the report of a router that died in this folder, then stop")
       ->group("Launcher");
 }

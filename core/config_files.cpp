@@ -19,14 +19,14 @@ fs::path default_config_dir() {
     return chosen;
   }
   const fs::path bin = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  const fs::path installed = bin.parent_path() / "share" / "skein" / "config";
+  if (fs::is_directory(installed, ignored)) return installed;
   constexpr int kLevels = 4;
   fs::path above = bin;
   for (int level = 0; level < kLevels; ++level) {
     above = above.parent_path();
     if (fs::is_directory(above / "config" / "scenarios", ignored)) return above / "config";
   }
-  const fs::path installed = bin.parent_path() / "share" / "skein" / "config";
-  if (fs::is_directory(installed, ignored)) return installed;
   throw InputError("no folder config/ with scenarios/ near " + bin.string() + ": set SKEIN_CONFIG_DIR to it");
 }
 

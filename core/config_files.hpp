@@ -7,8 +7,8 @@
 
 namespace skein {
 
-/// Folder of the shipped configuration: SKEIN_CONFIG_DIR, else config/ of the source tree that this executable was
-/// built in (<exe>/../config up to four levels above), else <prefix>/share/skein/config.
+/// Folder of the shipped configuration: SKEIN_CONFIG_DIR, else share/skein/config of the prefix that this executable is
+/// installed in, else config/ of the source tree that it was built in (<exe>/../config up to four levels above).
 /// @throws InputError when there is none.
 std::filesystem::path default_config_dir();
 

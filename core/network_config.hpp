@@ -21,7 +21,7 @@ struct DomainNetwork {
   static constexpr const char* kAll = "all";    ///< as the DDS vendor chooses
 
   /// One of the above; or the only interface that is used, by its name, its IPv4 address, or the subnet in which it has
-  /// one. Empty: the one that leads to the peers; without peers, the host.
+  /// one. Empty: the one that leads to the peers, as is "all" then; without peers, the host.
   std::string interface;
   /// Names or IPv4 addresses of the hosts on which others may run, the own one among them or not. Then nothing is sent
   /// to groups (multicast).

@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
   using namespace skein;
   double patience_s = 60.0;
   const auto add_options = [&](CLI::App& app) {
+    app.description("Skein: home of a whole fleet in one process");
     app.add_option("--agent-timeout", patience_s, "wall time that a program may take for one turn [s], 0: for ever")
         ->check(CLI::NonNegativeNumber);
   };

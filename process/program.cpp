@@ -19,6 +19,7 @@
 #include "core/suggestion.hpp"
 #include "process/keeper.hpp"
 #include "process/log_lines.hpp"
+#include "process/manual.hpp"
 
 namespace skein {
 namespace {
@@ -155,9 +156,12 @@ std::variant<ProgramOptions, int> parse_program(const std::string& name, int arg
   add_common_options(app, options);
   try {
     if (add_options) add_options(app);
+    if (argc == 2 && std::string_view(argv[1]) == "--manual") {  // printed as --version would be
+      throw CLI::CallForVersion(manual_of(app, std::filesystem::path(argv[0]).filename()), 0);
+    }
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --manual
     std::cerr << name << ": " << error.what() << "\nRun '" << name << " --help' for the options.\n";
     return kExitBadInput;
   }

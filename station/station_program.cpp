@@ -46,6 +46,7 @@ class StationMember final : public bus::FleetMember {
 }  // namespace
 
 void StationProgram::add_options(CLI::App& app) {
+  app.description("Skein: the ground station of a fleet, which counts what is delivered");
   app.add_flag("--settle", settle_only_, "Write the report of a station that died in this folder, then stop")
       ->group("Launcher");
 }

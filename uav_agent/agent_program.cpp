@@ -64,6 +64,7 @@ class AgentMember final : public bus::FleetMember {
 }  // namespace
 
 void AgentProgram::add_options(CLI::App& app) {
+  app.description("Skein: on-board software of a UAV, or a program at the ground station");
   app.add_option("--role", role_, "uav, or gcs: the strategy's program at the ground station")
       ->check(CLI::IsMember({"uav", "gcs"}))
       ->capture_default_str();

@@ -1,10 +1,8 @@
-// PCL reads the data, but takes the header on trust, skips what is named "_" and reads 0 where it finds no number. So
-// the form of a file is checked here, and PCL sees one with a plain header and nothing strange behind it.
+// Read here and not by PCL, whose pcl_io brings VTK and 250 MB of packages to every program that links it. A test holds
+// the two against each other (docs/decisions/0015-point-files-and-packages.md).
 #include "sim_server/scene_files/point_file.hpp"
 
-#include <pcl/PCLPointCloud2.h>
-#include <pcl/console/print.h>
-#include <pcl/io/pcd_io.h>
+#include <lzf.h>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <sstream>
+#include <optional>
 #include <string_view>
 
 #include "core/file_bytes.hpp"
@@ -27,6 +25,14 @@ constexpr std::array<const char*, 6> kNumbers = {"x", "y", "z", "normal_x", "nor
 constexpr std::size_t kLzfBestRatio = 88;
 
 using Numbers = std::array<float, kNumbers.size()>;  ///< of one point, in the order of kNumbers
+
+/// Where a point's data have one of its numbers.
+struct Place {
+  std::size_t element = 0;  ///< of an ASCII line
+  std::size_t byte = 0;
+  std::size_t size = 0;  ///< bytes: a float or a double
+};
+using Places = std::array<Place, kNumbers.size()>;
 
 void check_fields(const std::filesystem::path& file, const PcdHeader& header) {
   for (const std::string name : kNumbers) {
@@ -68,51 +74,64 @@ void check_packed(const std::filesystem::path& file, PcdHeader& header, std::str
   if (sizes[1] > kLzfBestRatio * sizes[0]) refuse(file, "malformed: the data do not unpack");
 }
 
-/// ASCII: one line a point, nothing but numbers.
+/// @param header  that check_fields() has seen.
+Places places_of(const PcdHeader& header) {
+  Places places;
+  std::size_t element = 0, byte = 0;
+  for (const PcdField& field : header.fields) {
+    const auto number = std::find(kNumbers.begin(), kNumbers.end(), field.name);
+    if (number != kNumbers.end()) places[number - kNumbers.begin()] = {element, byte, field.size};
+    element += field.count;
+    byte += field.bytes();
+  }
+  return places;
+}
+
+/// ASCII: one line a point, nothing but numbers; lines may be blank. Numbers become floats by way of double, as in PCL.
 class AsciiPoints {
  public:
   AsciiPoints(const std::filesystem::path& file, const PcdHeader& header)
-      : file_(file), per_line_(header.elements_per_point()), line_(header.data_line) {}
+      : file_(file), expected_(header.points), wanted_(header.elements_per_point()), line_(header.data_line) {
+    const Places places = places_of(header);
+    for (std::size_t k = 0; k < places.size(); ++k) wanted_[places[k].element] = k;
+  }
 
-  /// @returns the lines of the points without those between that are blank.
-  std::string check(std::string_view data, std::size_t expected) {
-    std::string text;
-    std::size_t points = 0;
+  std::vector<Numbers> read(std::string_view data) {
+    std::vector<Numbers> points;
+    Numbers numbers{};
     while (!data.empty()) {
       const std::size_t end = std::min(data.find('\n'), data.size());
-      if (check_line(data.substr(0, end))) {
-        text.append(data.substr(0, end)) += '\n';
-        ++points;
-      }
+      if (read_line(data.substr(0, end), numbers)) points.push_back(numbers);
       data.remove_prefix(std::min(end + 1, data.size()));
       ++line_;
     }
-    if (points != expected) {
-      refuse(file_, std::string(points < expected ? "truncated" : "too long") + ": POINTS says " +
-                        std::to_string(expected) + ", but there are " + std::to_string(points));
+    if (points.size() != expected_) {
+      refuse(file_, std::string(points.size() < expected_ ? "truncated" : "too long") + ": POINTS says " +
+                        std::to_string(expected_) + ", but there are " + std::to_string(points.size()));
     }
-    return text;
+    return points;
   }
 
  private:
   /// @returns whether there is a point on it.
-  bool check_line(std::string_view line) const {
-    static constexpr std::string_view kSpace = " \t\r";  // PCL's idea of it
+  bool read_line(std::string_view line, Numbers& numbers) const {
+    static constexpr std::string_view kSpace = " \t\r";
     std::size_t words = 0;
     for (std::size_t at = line.find_first_not_of(kSpace); at != std::string_view::npos;
          at = line.find_first_not_of(kSpace, at), ++words) {
       const std::size_t end = std::min(line.find_first_of(kSpace, at), line.size());
-      check_number(line.substr(at, end - at));
+      const double value = read_number(line.substr(at, end - at));
+      if (words < wanted_.size() && wanted_[words]) numbers[*wanted_[words]] = static_cast<float>(value);
       at = end;
     }
-    if (words != 0 && words != per_line_) {
-      wrong("must have " + std::to_string(per_line_) + " numbers, not " + std::to_string(words));
+    if (words != 0 && words != wanted_.size()) {
+      wrong("must have " + std::to_string(wanted_.size()) + " numbers, not " + std::to_string(words));
     }
     return words != 0;
   }
 
-  void check_number(std::string_view word) const {
-    const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
+  double read_number(std::string_view word) const {
+    const std::string_view digits = word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
     const char* const end = digits.data() + digits.size();
     double value = 0.0;
     const auto result = std::from_chars(digits.data(), end, value);
@@ -120,6 +139,7 @@ class AsciiPoints {
       constexpr std::size_t kShown = 40;
       wrong("'" + std::string(word.substr(0, kShown)) + "' is not a number");
     }
+    return value;
   }
 
   [[noreturn]] void wrong(const std::string& why) const {
@@ -127,111 +147,58 @@ class AsciiPoints {
   }
 
   const std::filesystem::path& file_;
-  const std::size_t per_line_;
+  const std::size_t expected_;                      // points
+  std::vector<std::optional<std::size_t>> wanted_;  // which of kNumbers an element of a line is
   int line_;
 };
 
-/// PCL writes to the console; what it has to say stands in our own messages.
-class QuietPcl {
- public:
-  QuietPcl() : before_(pcl::console::getVerbosityLevel()) { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
-  ~QuietPcl() { pcl::console::setVerbosityLevel(before_); }
-  QuietPcl(const QuietPcl&) = delete;
-  QuietPcl& operator=(const QuietPcl&) = delete;
-
- private:
-  const pcl::console::VERBOSITY_LEVEL before_;
-};
-
-/// The header as PCL likes it best: nothing unknown, in the usual order. Fields that nobody asks for are named by their
-/// number, padding too, which PCL would take out of packed data.
-std::string plain_header(const PcdHeader& header) {
-  std::ostringstream fields, sizes, types, counts;
-  for (std::size_t i = 0; i < header.fields.size(); ++i) {
-    const PcdField& field = header.fields[i];
-    const bool needed = std::find(kNumbers.begin(), kNumbers.end(), field.name) != kNumbers.end();
-    fields << ' ' << (needed ? field.name : "field" + std::to_string(i));
-    sizes << ' ' << field.size;
-    types << ' ' << field.type;
-    counts << ' ' << field.count;
+/// @param data  that check_packed() has seen.
+std::string unpack(const std::filesystem::path& file, std::string_view data) {
+  std::array<std::uint32_t, 2> sizes{};
+  std::memcpy(sizes.data(), data.data(), sizeof sizes);
+  std::string plain(sizes[1], '\0');
+  if (lzf_decompress(data.data() + sizeof sizes, sizes[0], plain.data(), sizes[1]) != sizes[1]) {
+    refuse(file, "malformed: the data do not unpack");
   }
-  std::ostringstream text;
-  text << "VERSION 0.7\nFIELDS" << fields.str() << "\nSIZE" << sizes.str() << "\nTYPE" << types.str() << "\nCOUNT"
-       << counts.str() << "\nWIDTH " << header.points << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << header.points
-       << "\nDATA " << header.data << '\n';
-  return text.str();
+  return plain;
 }
 
-/// @param data  what follows the header; its form was checked.
-pcl::PCLPointCloud2 decode(const std::filesystem::path& file, const PcdHeader& header, std::string_view data) {
-  const QuietPcl quiet;
-  pcl::PCLPointCloud2 cloud;
-  int failed = 0;
-  try {
-    std::istringstream head(plain_header(header));
-    Eigen::Vector4f origin;
-    Eigen::Quaternionf orientation;
-    int version = 0, kind = 0;
-    unsigned ignored = 0;
-    pcl::PCDReader reader;
-    failed = reader.readHeader(head, cloud, origin, orientation, version, kind, ignored);
-    if (cloud.point_step != header.bytes_per_point()) failed = -1;
-    if (failed == 0 && header.data == "ascii") {
-      std::istringstream lines{std::string(data)};
-      failed = reader.readBodyASCII(lines, cloud, version);
-    } else if (failed == 0) {
-      failed = reader.readBodyBinary(reinterpret_cast<const unsigned char*>(data.data()), cloud, version,
-                                     header.data == "binary_compressed", 0);
-    }
-  } catch (const std::exception& error) {
-    refuse(file, std::string("not a readable PCD file: ") + error.what());
-  }
-  const bool complete = failed == 0 && std::size_t{cloud.width} * cloud.height == header.points &&
-                        cloud.data.size() == header.points * cloud.point_step;
-  if (!complete) refuse(file, "malformed: the data do not unpack");
-  return cloud;
-}
-
-/// @param data  what follows the header.
-pcl::PCLPointCloud2 check_and_decode(const std::filesystem::path& file, PcdHeader header, std::string_view data) {
-  check_fields(file, header);
-  if (header.data == "ascii") return decode(file, header, AsciiPoints(file, header).check(data, header.points));
-  if (header.data == "binary") {
-    check_binary(file, header, data);
-  } else {
-    check_packed(file, header, data);
-  }
-  return decode(file, header, data);
-}
-
-/// One number of each point, whatever lies between.
-class Column {
- public:
-  /// @param name  of a float field that the cloud has.
-  Column(const pcl::PCLPointCloud2& cloud, const std::string& name) : cloud_(cloud) {
-    const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(),
-                                    [&](const pcl::PCLPointField& candidate) { return candidate.name == name; });
-    offset_ = field->offset;
-    is_double_ = field->datatype == pcl::PCLPointField::FLOAT64;
-  }
-
-  float at(std::size_t point) const {
-    const std::uint8_t* bytes = cloud_.data.data() + point * cloud_.point_step + offset_;
-    double wide = 0.0;
-    float narrow = 0.0F;
-    if (is_double_) {
-      std::memcpy(&wide, bytes, sizeof wide);
-      return static_cast<float>(wide);
-    }
+float number_at(const char* bytes, std::size_t size) {
+  double wide = 0.0;
+  float narrow = 0.0F;
+  if (size == sizeof narrow) {
     std::memcpy(&narrow, bytes, sizeof narrow);
     return narrow;
   }
+  std::memcpy(&wide, bytes, sizeof wide);
+  return static_cast<float>(wide);
+}
 
- private:
-  const pcl::PCLPointCloud2& cloud_;
-  std::size_t offset_ = 0;
-  bool is_double_ = false;
-};
+/// @param data  of the size that the header says.   @param by_field  a field of all points and then the next field, as
+///   packed data are; else a point and then the next point.
+std::vector<Numbers> read_binary(const PcdHeader& header, std::string_view data, bool by_field) {
+  const Places places = places_of(header);
+  std::vector<Numbers> points(header.points);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto [element, byte, size] = places[k];
+    const char* from = data.data() + (by_field ? byte * header.points : byte);
+    const std::size_t step = by_field ? size : header.bytes_per_point();
+    for (std::size_t i = 0; i < header.points; ++i) points[i][k] = number_at(from + i * step, size);
+  }
+  return points;
+}
+
+/// @param data  what follows the header.
+std::vector<Numbers> read_data(const std::filesystem::path& file, PcdHeader header, std::string_view data) {
+  check_fields(file, header);
+  if (header.data == "ascii") return AsciiPoints(file, header).read(data);
+  if (header.data == "binary") {
+    check_binary(file, header, data);
+    return read_binary(header, data, false);
+  }
+  check_packed(file, header, data);
+  return read_binary(header, unpack(file, data), true);
+}
 
 InterestPoint to_point(const std::filesystem::path& file, std::size_t index, const Numbers& numbers) {
   const Eigen::Map<const Eigen::Matrix<float, 6, 1>> all(numbers.data());
@@ -254,16 +221,10 @@ InterestPoint to_point(const std::filesystem::path& file, std::size_t index, con
 std::vector<InterestPoint> read_points(const std::filesystem::path& file) {
   const std::string bytes = read_file_bytes(file, kMostBytes);
   const PcdHeader header = parse_pcd_header(file, bytes);
-  const pcl::PCLPointCloud2 cloud = check_and_decode(file, header, std::string_view(bytes).substr(header.data_offset));
-  std::vector<Column> columns;
-  for (const char* name : kNumbers) columns.emplace_back(cloud, name);
+  const std::vector<Numbers> numbers = read_data(file, header, std::string_view(bytes).substr(header.data_offset));
   std::vector<InterestPoint> points;
-  points.reserve(header.points);
-  for (std::size_t i = 0; i < header.points; ++i) {
-    Numbers numbers{};
-    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = columns[k].at(i);
-    points.push_back(to_point(file, i, numbers));
-  }
+  points.reserve(numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) points.push_back(to_point(file, i, numbers[i]));
   return points;
 }
 

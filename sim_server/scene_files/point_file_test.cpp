@@ -149,6 +149,7 @@ TEST_F(PointFile, SaysWhatIsWrong) {
   expect(with(ascii(), "FIELDS x y z", "FIELDS x y y"), "x.pcd:2: FIELDS: 'y' is named twice");
   expect(ascii("1e6"), "point 0 is farther than 100 km");
   expect(ascii("nan"), "point 0 has a number that is not finite");
+  expect(ascii("+-5"), "x.pcd:10: '+-5' is not a number");
   expect(ascii("abc"), "x.pcd:10: 'abc' is not a number");
   expect(ascii("1 2"), "x.pcd:10: must have 6 numbers, not 7");
   expect(ascii().substr(0, ascii().size() - 25), "x.pcd");

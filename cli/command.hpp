@@ -1,0 +1,158 @@
+// What `skein` can be told, as plain structs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cli/planner_spec.hpp"
+
+namespace skein::cli {
+
+struct RunOptions {
+  std::string scenario = "towers";  ///< a name under config/scenarios/ or a YAML file
+  std::string planner = kDefaultPlanner;
+  std::uint64_t seed = 0;
+  std::optional<std::uint64_t> scene_seed;
+  std::optional<std::filesystem::path> assets;
+  std::optional<double> duration_s;
+  std::optional<std::string> rules;             ///< a preset, instead of the scenario's
+  std::optional<std::filesystem::path> faults;  ///< fault file
+  std::string dds = "cyclonedds";               ///< a vendor or "mixed"
+  std::string clock = "lockstep";               ///< "lockstep", "realtime" or "realtime:FACTOR"
+  std::optional<std::filesystem::path> agent;   ///< program that flies in the place of uav_agent
+  std::optional<std::string> debug_uav;
+  bool one_process = false;  ///< all programs in one process, without DDS
+  bool native = false;
+  bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
+  std::optional<int> domain;
+  std::optional<std::string> network;  ///< other hosts take part: an interface, or "all"
+  std::optional<double> stop_at_s;
+  std::optional<double> agent_timeout_s;  ///< of wall time, for a program's answer, instead of a minute
+  std::optional<std::filesystem::path> out;
+  bool force = false;
+  bool attainable = true;  ///< ask the oracle after the run
+  double patience = 1.0;   ///< for tests: scales how long the launcher waits for programs to leave
+};
+
+struct TestOptions {
+  bool long_tests = false;
+  std::optional<std::filesystem::path> faults;  ///< a fault test, or a folder of them, instead of the suite
+  std::vector<std::string> repeat;              ///< further runs of each fault test: names of enum Repeat
+  bool rotate = false;                          ///< one of `repeat` a test, in turn
+  std::filesystem::path out = "runs/faults";    ///< results of fault tests
+  std::optional<std::filesystem::path> assets;
+  std::optional<std::filesystem::path> agent;  ///< as in RunOptions
+  bool one_process = false;                    ///< as in RunOptions
+  std::optional<std::string> seeds;            ///< each test with each of these, as StudyOptions has them
+  std::optional<std::filesystem::path> junit;  ///< report of fault tests for those who read XML
+  int jobs = 1;                                ///< flights at once
+  bool verbose = false;                        ///< tell what was seen of expectations that hold too
+};
+
+struct CheckOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> golden;  ///< CSV files of reference vectors
+  std::optional<std::filesystem::path> assets;
+  std::string scenario = "towers";  ///< that fault files are for, unless they name one themselves
+};
+
+struct SceneOptions {
+  std::string scenario;
+  std::optional<std::uint64_t> scene_seed;
+  std::filesystem::path out;
+  std::optional<std::filesystem::path> assets;
+  bool force = false;
+};
+
+struct BenchOptions {
+  bool quick = false;
+  bool hour = false;                   ///< memory over an hour of simulated time too
+  std::vector<std::string> scenarios;  ///< of the speed runs; empty: towers, and mbs with --assets
+  std::optional<std::filesystem::path> assets;
+  std::string dds = "cyclonedds";
+  std::vector<std::size_t> sizes;  ///< of fleets; empty: the usual ones
+  std::optional<int> repeats;
+  std::optional<double> duration_s;  ///< mission time of the speed runs
+  std::optional<std::filesystem::path> json;
+};
+
+struct OracleOptions {
+  std::string scenario;
+  std::optional<std::uint64_t> scene_seed;
+  std::optional<std::filesystem::path> assets;
+  std::optional<std::string> rules;  ///< a preset, instead of the scenario's
+  std::vector<double> clearances_m;  ///< instead of the oracle's own
+  bool vehicle = false;              ///< the UAVs' bodies keep them, not the cameras
+  bool outside_only = false;
+  bool json = false;
+};
+
+struct DiffOptions {
+  std::filesystem::path run_a, run_b;
+};
+
+/// `skein compose`: a fleet in containers.
+struct ComposeOptions {
+  RunOptions run;
+  std::optional<std::filesystem::path> file;   ///< to write to; else stdout
+  std::vector<std::string> images;             ///< UAV=IMAGE, in the place of an agent's
+  std::optional<std::string> subnet;           ///< "172.30.0.0/20"
+  std::optional<std::filesystem::path> build;  ///< folder of a build whose programs fly
+  bool up = false;                             ///< fly it
+  std::string command;                         ///< as it was typed
+};
+
+struct KeysOptions {
+  RunOptions run;
+  std::filesystem::path out;
+};
+
+struct MergeOptions {
+  std::filesystem::path dir;
+  std::optional<std::string> scenario;  ///< instead of what the server says that it flew
+  std::optional<std::filesystem::path> assets;
+};
+
+/// Which of a planner's totals over the tests decides its rank.
+enum class Rank { maximum, median, worst };
+
+/// `skein contest` and `skein compare`: every planner flies every scenario with every seed.
+struct StudyOptions {
+  bool contest = false;                    ///< by the contest's protocol: a test is one seed of all scenarios
+  std::vector<std::string> planner_lists;  ///< of --planners: lists
+  std::vector<std::string> planners;       ///< of --planner: each as `skein run` takes it
+  std::vector<std::string> scenarios;      ///< empty: the usual ones
+  std::string seeds = "5";                 ///< as --seeds takes them
+  Rank rank = Rank::maximum;
+  std::optional<std::uint64_t> scene_seed;
+  std::optional<std::filesystem::path> assets;
+  std::optional<double> duration_s;            ///< mission time, instead of the scenarios'
+  std::optional<std::string> rules;            ///< a preset, instead of the scenarios'
+  std::optional<std::string> dds;              ///< a vendor or "mixed"; else fleets fly in one process where they can
+  std::optional<std::filesystem::path> agent;  ///< as in RunOptions
+  std::optional<std::string> network;          ///< as in RunOptions
+  std::optional<std::filesystem::path> out;
+  std::optional<int> jobs;  ///< flights at once; else one, or in one process each as many as there are cores
+  bool force = false;
+};
+
+/// --help or --version: what to print.
+struct HelpText {
+  std::string text;
+  bool names_planners = false;  ///< a list of the planners there are belongs below it
+};
+
+/// --complete, which a shell asks: the words up to the cursor.
+struct CompletionOptions {
+  std::vector<std::string> words;
+};
+
+using Command =
+    std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
+                 StudyOptions, ComposeOptions, KeysOptions, MergeOptions, HelpText, CompletionOptions>;
+
+}  // namespace skein::cli

@@ -1,0 +1,99 @@
+#include "cli/completion.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/options.hpp"
+#include "core/scenario_reader.hpp"
+
+namespace skein::cli {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names split(const std::string& list) {
+  Names names(1);
+  for (const char c : list) {
+    if (c == ',') {
+      names.emplace_back();
+    } else {
+      names.back() += c;
+    }
+  }
+  return names;
+}
+
+/// What an option's value may be: the set that it is checked against ("TEXT:{a,b}"), or names of a kind.
+Names values_of(const CLI::Option& option, const KnownNames& known) {
+  const std::string type = option.get_type_name(), name = option.get_name();
+  if (const std::size_t open = type.find('{'); open != std::string::npos) {
+    return split(type.substr(open + 1, type.find('}') - open - 1));
+  }
+  if (name == "SCENARIO" || name == "--scenario" || name == "--scenarios") return known.scenarios();
+  if (name == "--planner" || name == "--planners") return known.planners();
+  if (name == "--clock") return {"lockstep", "realtime"};
+  Names presets;
+  if (name == "--rules") {
+    for (const RulesConfig& rules : rules_presets()) presets.push_back(rules.preset);
+  }
+  return presets;
+}
+
+Names option_names(const CLI::App& app) {
+  Names names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// The option of this name that wants a value.
+const CLI::Option* valued_option(const CLI::App& app, const std::string& name) {
+  const CLI::Option* option = name.starts_with("-") ? app.get_option_no_throw(name) : nullptr;
+  return option != nullptr && option->get_type_size() != 0 ? option : nullptr;
+}
+
+/// Of a list ("kios,hov") and of what is said of a UAV ("jurong=hov") the last name is completed.
+Names fitting(const Names& names, const std::string& typed) {
+  const std::size_t cut = typed.find_last_of(",=");
+  const std::string before = cut == std::string::npos ? "" : typed.substr(0, cut + 1);
+  Names result;
+  for (const std::string& name : names) {
+    if ((before + name).starts_with(typed)) result.push_back(before + name);
+  }
+  return result;
+}
+
+Names candidates(const CLI::App& app, const Names& words, const KnownNames& known) {
+  const std::string& typed = words.back();
+  if (words.size() == 1) {
+    Names names = typed.starts_with("-") ? option_names(app) : Names{};
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+      names.push_back(command->get_name());
+    }
+    return fitting(names, typed);
+  }
+  const auto named = app.get_subcommands([&](const CLI::App* command) { return command->get_name() == words.front(); });
+  if (named.empty()) return {};
+  const CLI::App& command = *named.front();
+  const CLI::Option* option = valued_option(command, words.end()[-2]);
+  if (const std::size_t equals = typed.find('='); option == nullptr && equals != std::string::npos) {
+    option = valued_option(command, typed.substr(0, equals));
+  }
+  if (option != nullptr) return fitting(values_of(*option, known), typed);
+  if (typed.starts_with("-")) return fitting(option_names(command), typed);
+  for (const CLI::Option* positional : command.get_options()) {
+    if (positional->get_positional()) return fitting(values_of(*positional, known), typed);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> completions(const std::vector<std::string>& words, const KnownNames& known) {
+  Names names;
+  with_command_line([&](const CLI::App& app) { names = candidates(app, words.empty() ? Names{""} : words, known); });
+  return names;
+}
+
+}  // namespace skein::cli

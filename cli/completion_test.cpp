@@ -1,0 +1,111 @@
+#include "cli/completion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <memory>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "cli/options.hpp"
+
+namespace skein::cli {
+namespace {
+
+using Words = std::vector<std::string>;
+
+const KnownNames kKnown{[] { return Words{"cranes", "sail", "spire"}; }, [] { return Words{"hover", "kios"}; }};
+
+Words offered(const Words& words) { return completions(words, kKnown); }
+
+std::string text_of(const Words& arguments) { return std::get<HelpText>(parse_command_line(arguments)).text; }
+
+/// First words of the indented lines below a heading of --help.
+Words commands_of_help() {
+  const std::string help = text_of({"--help"}), heading = "Subcommands:\n";
+  std::istringstream lines(help.substr(help.find(heading) + heading.size()));
+  Words commands;
+  for (std::string line, word; std::getline(lines, line) && line.starts_with("  ");) {
+    std::istringstream(line) >> word;
+    commands.push_back(word);
+  }
+  return commands;
+}
+
+/// "--seed", "-v" and so on: what an entry of --help begins with.
+std::set<std::string> options_of_help(const std::string& help) {
+  static const std::regex kEntry(R"(\n  (-[-,a-z]*))"), kName("--?[a-z-]+");
+  std::set<std::string> options;
+  for (std::sregex_iterator entry(help.begin(), help.end(), kEntry), end; entry != end; ++entry) {
+    const std::string names = (*entry)[1];
+    for (std::sregex_iterator name(names.begin(), names.end(), kName); name != end; ++name) options.insert(name->str());
+  }
+  return options;
+}
+
+/// As it is read: roff's marks taken away.
+std::string plain(std::string page) {
+  page = std::regex_replace(page, std::regex(R"(\\f[BR])"), "");
+  return std::regex_replace(page, std::regex(R"(\\-)"), "-");
+}
+
+TEST(Completion, EveryCommandAndOptionOfHelpIsOfferedAndInTheManual) {
+  const std::string manual = plain(text_of({"--manual"}));
+  const Words commands = commands_of_help();
+  ASSERT_GE(commands.size(), 9u);
+  EXPECT_EQ(offered({""}), commands);
+  for (const std::string& command : commands) {
+    const std::size_t begin = manual.find("\n.SS skein " + command + " ");
+    ASSERT_NE(begin, std::string::npos) << command;
+    const std::string section = manual.substr(begin, manual.find("\n.S", begin + 1) - begin);
+    const std::set<std::string> options = options_of_help(text_of({command, "--help"}));
+    ASSERT_TRUE(options.contains("--help"));
+    for (const std::string& option : options) {
+      EXPECT_TRUE(std::regex_search(section, std::regex("\n.TP\n(.*, )?" + option + "[ ,\n]")))
+          << command << ' ' << option;
+    }
+    const Words all = offered({command, "-"});
+    EXPECT_EQ(std::set<std::string>(all.begin(), all.end()), options) << command;
+  }
+}
+
+TEST(Completion, ValuesAreOfferedWhereTheyAreKnown) {
+  EXPECT_EQ(offered({"run", ""}), Words({"cranes", "sail", "spire"}));
+  EXPECT_EQ(offered({"run", "s"}), Words({"sail", "spire"}));
+  EXPECT_EQ(offered({"run", "sail", "--planner", ""}), Words({"hover", "kios"}));
+  EXPECT_EQ(offered({"run", "--planner", "kios,jurong=h"}), Words({"kios,jurong=hover"}));
+  EXPECT_EQ(offered({"compare", "--planners", "hover,"}), Words({"hover,hover", "hover,kios"}));
+  EXPECT_EQ(offered({"contest", "--scenarios", "sail,c"}), Words({"sail,cranes"}));
+  EXPECT_EQ(offered({"run", "--dds", ""}), Words({"cyclonedds", "fastdds", "mixed"}));
+  EXPECT_EQ(offered({"run", "--dds=f"}), Words({"--dds=fastdds"}));
+  EXPECT_EQ(offered({"oracle", "--rules", "p"}), Words({"paper"}));
+}
+
+TEST(Completion, NothingIsOfferedWhereAnyTextOrFileWillDo) {
+  EXPECT_EQ(offered({"run", "--out", ""}), Words{});
+  EXPECT_EQ(offered({"check", ""}), Words{});
+  EXPECT_EQ(offered({"no-command", ""}), Words{});
+  EXPECT_EQ(offered({"run", "--no-such"}), Words{});
+}
+
+/// The script's own work: it takes the line apart, and gives bash what it replaces. This `skein` shows its words.
+TEST(Completion, BashGetsTheLastPartOfAWord) {
+  const auto replies = [](const std::string& line) {
+    const std::string script = "skein() { shift; printf \"%s\\n\" \"${@: -1}hover\" \"$#\"; }; . " SKEIN_SOURCE_DIR
+                               "/cli/completion/skein.bash; COMP_LINE=\"" +
+                               line + "\" COMP_POINT=" + std::to_string(line.size()) +
+                               "; _skein skein; echo ${COMPREPLY[*]}";
+    const std::unique_ptr<FILE, decltype(&::pclose)> pipe(::popen(("bash -c '" + script + "'").c_str(), "r"),
+                                                          &::pclose);
+    std::string text(200, '\0');
+    text.resize(std::fread(text.data(), 1, text.size(), pipe.get()));
+    return text;
+  };
+  EXPECT_EQ(replies("skein run --planner "), "hover 3\n");
+  EXPECT_EQ(replies("skein run --planner kios,jurong="), "hover 3\n");
+  EXPECT_EQ(replies("skein run --planner kios,"), "kios,hover 3\n");
+}
+
+}  // namespace
+}  // namespace skein::cli

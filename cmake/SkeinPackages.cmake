@@ -1,0 +1,63 @@
+# Debian packages of the components, for Debian 12: `cpack` in the build folder writes skein, skein-agent and skein-dev.
+# What the programs need of Debian is read from them (dpkg-shlibdeps), so they have to be built on Debian 12.
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL agent runtime dev)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(SKEIN_MAINTAINER "Skein maintainers <maintainers@skein.invalid>" CACHE STRING "Of the Debian packages")
+set(CPACK_PACKAGE_CONTACT ${SKEIN_MAINTAINER})
+set(CPACK_PACKAGE_VENDOR Skein)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(about "Skein simulates a fleet of inspection UAVs: each a process of its own, in a
+DDS domain of its own, repeatable to the last bit.")
+
+set(CPACK_DEBIAN_AGENT_PACKAGE_NAME skein-agent)
+set(CPACK_DEBIAN_AGENT_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_AGENT_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_AGENT_DESCRIPTION "on-board software of a simulated UAV, and Skein's scenarios
+${about}
+.
+This package is the part of the package skein that flies one of the UAVs, for
+small container images.")
+
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME skein)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_PROVIDES "skein-agent (= ${PROJECT_VERSION})")  # it has all that is in there
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONFLICTS skein-agent)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_REPLACES skein-agent)
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "distributed simulator of inspection UAVs
+${about}
+.
+This package is all that flies: the launcher, the simulation server, the
+radio's router, the ground station and the UAVs' on-board software.")
+
+# As ./skein has them for the build, without what only Skein's own build needs.
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME skein-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+string(JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
+  "skein (= ${PROJECT_VERSION})" g++ cmake make pkg-config
+  libfastrtps-dev libfastcdr-dev cyclonedds-dev libbullet-dev libembree-dev liboctomap-dev libeigen3-dev libassimp-dev
+  liblzf-dev libpcl-common1.13 libpcl-filters1.13 libcli11-dev libspdlog-dev libyaml-cpp-dev libpugixml-dev
+  nlohmann-json3-dev libssl-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS libgtest-dev)
+set(CPACK_COMPONENT_DEV_DESCRIPTION "headers and libraries for planners of Skein's UAVs
+${about}
+.
+This package is for planners of your own: find_package(skein) in CMake.")
+
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+configure_file(cmake/debian/changelog.in ${CMAKE_BINARY_DIR}/changelog @ONLY)
+execute_process(COMMAND gzip -9nf ${CMAKE_BINARY_DIR}/changelog)
+foreach(component agent runtime dev)
+  string(TOUPPER ${component} upper)
+  set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+  install(FILES cmake/debian/copyright DESTINATION ${folder} COMPONENT ${component})
+  install(FILES ${CMAKE_BINARY_DIR}/changelog.gz DESTINATION ${folder} COMPONENT ${component})
+endforeach()
+include(CPack)

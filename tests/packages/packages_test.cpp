@@ -1,0 +1,143 @@
+// The components of an installation and the Debian packages made of them: what is in them, and that a fleet flies from
+// a prefix that its user may not write to.
+#include <unistd.h>
+
+#include <set>
+
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::set<std::string>;
+
+const Paths kAllPrograms = {"skein", "sim_server", "comm_router", "station", "uav_agent", "uav_agent_fleet"};
+
+bool has_program(const std::string& name) { return std::system(("command -v " + name + " >/dev/null").c_str()) == 0; }
+
+/// Names of the files below `folder` of which the path begins with `prefix`, without it.
+Paths below(const Paths& files, const std::string& prefix) {
+  Paths found;
+  for (const std::string& file : files) {
+    if (file.starts_with(prefix)) found.insert(file.substr(prefix.size()));
+  }
+  return found;
+}
+
+Paths files_of(const fs::path& folder) {
+  Paths files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_directory()) files.insert(fs::relative(entry.path(), folder));
+  }
+  return files;
+}
+
+class Packages : public FleetTest {
+ protected:
+  /// Runs a program to its end, which must be a good one. @returns what it wrote, messages and all.
+  std::string done(const Arguments& argv) {
+    const std::string name = "step" + std::to_string(steps_++);
+    const Arguments in_shell = {"/bin/sh", "-c", "exec \"$@\" 2>&1", "sh"};
+    Arguments all = in_shell;
+    all.insert(all.end(), argv.begin(), argv.end());
+    ChildProcess& process = start_program(name, all);
+    EXPECT_EQ(process.wait().code, 0) << argv[0] << ": " << process.out();
+    return process.out();
+  }
+
+  fs::path install(const std::string& component) {
+    const fs::path prefix = folder() / component;
+    done({SKEIN_CMAKE, "--install", SKEIN_BUILD_DIR, "--prefix", prefix, "--component", component});
+    return prefix;
+  }
+
+ private:
+  int steps_ = 0;
+};
+
+TEST_F(Packages, EachComponentHasWhatItIsFor) {
+  const Paths runtime = files_of(install("runtime")), agent = files_of(install("agent")),
+              dev = files_of(install("dev"));
+  EXPECT_EQ(below(runtime, "bin/"), kAllPrograms);
+  EXPECT_EQ(below(agent, "bin/"), Paths{"uav_agent"});
+  EXPECT_EQ(below(dev, "bin/"), Paths{});
+  for (const Paths* programs : {&runtime, &agent}) {
+    EXPECT_EQ(below(*programs, "share/skein/config/"), files_of(fs::path(SKEIN_SOURCE_DIR) / "config"));
+    Paths manuals;
+    for (const std::string& program : below(*programs, "bin/")) manuals.insert(program + ".1.gz");
+    EXPECT_EQ(below(*programs, "share/man/man1/"), manuals);
+    EXPECT_EQ(below(*programs, "include/"), Paths{});
+    EXPECT_EQ(below(*programs, "lib/"), Paths{});
+  }
+  EXPECT_TRUE(runtime.contains("share/bash-completion/completions/skein"));
+  EXPECT_TRUE(dev.contains("include/skein/uav_agent/api/planner.hpp"));
+  EXPECT_TRUE(dev.contains("lib/cmake/skein/skeinConfig.cmake"));
+}
+
+TEST_F(Packages, ManualPagesAreReadWithoutWarnings) {
+  if (!has_program("man")) GTEST_SKIP() << "there is no man here";
+  for (const fs::directory_entry& page : fs::directory_iterator(install("runtime") / "share/man/man1")) {
+    const std::string name = page.path().stem().stem();
+    const std::string show = "LC_ALL=C.UTF-8 man --warnings -l " + page.path().string();
+    EXPECT_EQ(done({"/bin/sh", "-c", show + " 2>&1 >/dev/null"}), "") << name;
+    EXPECT_NE(done({"/bin/sh", "-c", show}).find("NAME\n       " + name + " "), std::string::npos) << name;
+  }
+}
+
+TEST_F(Packages, AnInstalledFleetFliesForWhoMayNotWriteThere) {
+  const fs::path prefix = install("runtime"), home = folder() / "home";
+  fs::create_directory(home);
+  fs::permissions(folder(), fs::perms::others_exec | fs::perms::others_read, fs::perm_options::add);
+  fs::permissions(home, fs::perms::all);
+  const std::string without_root = ::geteuid() == 0 ? "setpriv --reuid=nobody --regid=nogroup --clear-groups "
+                                                    : "chmod -R a-w " + prefix.string() + ";";
+  // Nothing may help it to find its programs and its configuration.
+  done({"/bin/sh", "-c",
+        "cd " + home.string() + " && unset SKEIN_CONFIG_DIR SKEIN_BIN_DIR SKEIN_AGENT && export HOME=" + home.string() +
+            " PATH=" + (prefix / "bin").string() + ":$PATH; " + without_root + "sh -c '! touch " +
+            (prefix / "bin" / "new").string() + " && skein run towers --duration 20'"});
+  if (::geteuid() != 0) done({"chmod", "-R", "u+w", prefix});
+  const Json flown = Json::parse(text_of(home / "runs" / "towers-patrol-0" / "result.json"));
+  EXPECT_EQ(flown["status"], "completed");
+  EXPECT_EQ(flown["digest"], run("built", {"towers", "--duration", "20"}).digest());
+}
+
+TEST_F(Packages, DebianPackagesAreTheComponents) {
+  for (const char* tool : {"dpkg-deb", "dpkg-shlibdeps", "file"}) {
+    if (!has_program(tool)) GTEST_SKIP() << "there is no " << tool << " here";
+  }
+  const std::map<std::string, std::string> names = {
+      {"runtime", "skein"}, {"agent", "skein-agent"}, {"dev", "skein-dev"}};
+  done({"env", "-C", SKEIN_BUILD_DIR, SKEIN_CPACK, "-B", folder() / "debs"});
+  std::map<std::string, std::string> depends;
+  for (const auto& [component, name] : names) {
+    fs::path package;
+    for (const fs::directory_entry& file : fs::directory_iterator(folder() / "debs")) {
+      if (file.path().filename().string().starts_with(name + "_")) package = file.path();
+    }
+    ASSERT_FALSE(package.empty()) << name;
+    const auto field = [&](const std::string& key) { return done({"dpkg-deb", "-f", package, key}); };
+    EXPECT_EQ(field("Package"), name + "\n");
+    for (const char* key : {"Version", "Maintainer", "Section", "Description", "Installed-Size"}) {
+      EXPECT_GT(field(key).size(), 1u) << name << ' ' << key;
+    }
+    depends[component] = field("Depends");
+    done({"dpkg-deb", "-x", package, folder() / name});
+    EXPECT_EQ(files_of(folder() / name / "usr"), files_of(install(component))) << name;
+    EXPECT_TRUE(fs::exists(folder() / name / "usr/share/doc" / name / "copyright"));
+  }
+  const auto needs = [&](const char* component, const char* what) {
+    return depends[component].find(what) != std::string::npos;
+  };
+  for (const char* programs : {"runtime", "agent"}) {
+    EXPECT_TRUE(needs(programs, "libfastrtps") && needs(programs, "libddsc") && needs(programs, "libpcl-filters"));
+    EXPECT_FALSE(needs(programs, "-dev") || needs(programs, "g++") || needs(programs, "libpcl-io"));
+  }
+  EXPECT_TRUE(needs("runtime", "libembree3"));
+  EXPECT_FALSE(needs("agent", "libembree3"));
+  EXPECT_TRUE(needs("dev", "skein (= ") && needs("dev", "libeigen3-dev"));
+}
+
+}  // namespace
+}  // namespace skein::test
