@@ -23,6 +23,13 @@
 #include "core/types.hpp"
 
 namespace skein::bus {
+
+std::string text_of(const in_addr& address) {
+  std::array<char, INET_ADDRSTRLEN> text{};
+  ::inet_ntop(AF_INET, &address, text.data(), text.size());
+  return text.data();
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -30,12 +37,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kIpAndUdpHeaders = 28;
 constexpr std::size_t kEthernet = 1500;
 constexpr std::chrono::milliseconds kAskAgain{200};
-
-std::string text_of(const in_addr& address) {
-  std::array<char, INET_ADDRSTRLEN> text{};
-  ::inet_ntop(AF_INET, &address, text.data(), text.size());
-  return text.data();
-}
 
 std::optional<in_addr> address_in(const std::string& text) {
   in_addr address{};
@@ -66,33 +67,6 @@ OwnInterface interface_of(const std::string& text, const std::string& domain) {
       "--network " + text + " (" + domain +
       "): this host has no network interface of that name, address or subnet with an IPv4 address; it has " +
       joined(known) + ", and \"all\" leaves the choice to the DDS vendor");
-}
-
-std::optional<in_addr> look_up(const std::string& host) {
-  addrinfo hints{};
-  hints.ai_family = AF_INET;
-  hints.ai_socktype = SOCK_DGRAM;
-  addrinfo* first = nullptr;
-  if (::getaddrinfo(host.c_str(), nullptr, &hints, &first) != 0) return std::nullopt;
-  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> found(first, &::freeaddrinfo);
-  sockaddr_in address;
-  std::memcpy(&address, found->ai_addr, sizeof address);
-  return address.sin_addr;
-}
-
-/// The own address from which packets to `peer` leave.
-std::optional<in_addr> source_towards(const in_addr& peer) {
-  const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (fd < 0) return std::nullopt;
-  sockaddr_in there{}, here{};
-  there.sin_family = AF_INET;
-  there.sin_port = htons(7400);
-  there.sin_addr = peer;
-  socklen_t size = sizeof here;
-  const bool known = ::connect(fd, reinterpret_cast<const sockaddr*>(&there), sizeof there) == 0 &&
-                     ::getsockname(fd, reinterpret_cast<sockaddr*>(&here), &size) == 0;
-  ::close(fd);
-  return known ? std::optional(here.sin_addr) : std::nullopt;
 }
 
 std::size_t mtu_of(const std::string& address) {
@@ -131,6 +105,32 @@ std::vector<in_addr> look_up_all(const DomainNetwork& network, const std::string
 }
 
 }  // namespace
+
+std::optional<in_addr> look_up(const std::string& host) {
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* first = nullptr;
+  if (::getaddrinfo(host.c_str(), nullptr, &hints, &first) != 0) return std::nullopt;
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> found(first, &::freeaddrinfo);
+  sockaddr_in address;
+  std::memcpy(&address, found->ai_addr, sizeof address);
+  return address.sin_addr;
+}
+
+std::optional<in_addr> source_towards(const in_addr& peer) {
+  const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) return std::nullopt;
+  sockaddr_in there{}, here{};
+  there.sin_family = AF_INET;
+  there.sin_port = htons(7400);
+  there.sin_addr = peer;
+  socklen_t size = sizeof here;
+  const bool known = ::connect(fd, reinterpret_cast<const sockaddr*>(&there), sizeof there) == 0 &&
+                     ::getsockname(fd, reinterpret_cast<sockaddr*>(&here), &size) == 0;
+  ::close(fd);
+  return known ? std::optional(here.sin_addr) : std::nullopt;
+}
 
 void check_interface(const DomainNetwork& network, const std::string& domain) {
   if (network.names_interface()) interface_of(network.interface, domain);

@@ -2,8 +2,11 @@
 // packet. What both vendors' settings are made of.
 #pragma once
 
+#include <netinet/in.h>
+
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,5 +32,14 @@ Reach find_reach(const DomainNetwork& network, const std::string& domain, std::c
 
 /// @throws InputError when the interface is given and this host has none such.
 void check_interface(const DomainNetwork& network, const std::string& domain);
+
+/// The IPv4 address of a host, by name or as it is; nullopt when none is known. The system's resolver takes its time.
+std::optional<in_addr> look_up(const std::string& host);
+
+/// The own address from which packets to `peer` leave; nullopt when there is no way.
+std::optional<in_addr> source_towards(const in_addr& peer);
+
+/// "10.77.0.1"
+std::string text_of(const in_addr& address);
 
 }  // namespace skein::bus
