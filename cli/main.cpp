@@ -7,6 +7,7 @@
 
 #include "cli/bench_command.hpp"
 #include "cli/check_command.hpp"
+#include "cli/doctor_command.hpp"
 #include "cli/options.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/run/agent_file.hpp"
@@ -56,6 +57,7 @@ struct Execute {
   int operator()(const OracleOptions& options) const { return consult_oracle(options, console); }
   int operator()(const DiffOptions& options) const { return diff_runs(options, console); }
   int operator()(const StudyOptions& options) const { return run_study(options, console); }
+  int operator()(const DoctorOptions& options) const { return consult_doctor(options); }
   int operator()(const HelpText& help) const {
     console.out << help.text;
     if (help.names_planners) console.out << planner_list();

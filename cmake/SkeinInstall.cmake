@@ -7,7 +7,7 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
 set(SKEIN_CONTRACT_DIR ${PROJECT_SOURCE_DIR}/uav_agent/testing)  # where the sources of skein_add_planner_test() are
 set(installed_contract_dir ${CMAKE_INSTALL_DATADIR}/skein/contract)
 
-install(TARGETS skein sim_server comm_router station uav_agent uav_agent_fleet RUNTIME)
+install(TARGETS skein sim_server comm_router station uav_agent uav_agent_fleet skein_doctor RUNTIME)
 install(DIRECTORY config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/skein/config)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
