@@ -14,6 +14,8 @@ namespace skein::bus {
 
 namespace {
 
+constexpr std::chrono::seconds kAskedIsNew{5};
+
 std::string name_of(int domain) { return domain == kEveryDomain ? "all domains" : "domain " + std::to_string(domain); }
 
 void check_security(const BusConfig& config) {
@@ -28,9 +30,15 @@ void check_security(const BusConfig& config) {
 
 }  // namespace
 
-std::unique_ptr<Bus> make_bus(const BusConfig& config) {
+std::unique_ptr<Bus> make_bus(BusConfig config) {
   check_security(config);
-  for (const auto& [domain, network] : config.networks) check_interface(network, name_of(domain));
+  std::vector<std::string> peers;
+  for (const auto& [domain, network] : config.networks) {
+    check_interface(network, name_of(domain));
+    peers.insert(peers.end(), network.peers.begin(), network.peers.end());
+  }
+  config.asked.addresses = look_up_all(std::move(peers));
+  config.asked.at = std::chrono::steady_clock::now();
   if (config.vendor == "cyclonedds") return make_cyclonedds_bus(config);
   if (config.vendor == "fastdds") return make_fastdds_bus(config);
   if (config.vendor == "inproc") return make_inproc_bus(config.run);
@@ -53,7 +61,9 @@ DomainNetwork BusConfig::network(int domain) const {
 }
 
 Reach reach_of(const BusConfig& config, int domain) {
-  return find_reach(config.network(domain), name_of(domain), config.peers_patience);
+  const bool just_asked = std::chrono::steady_clock::now() - config.asked.at < kAskedIsNew;
+  return find_reach(config.network(domain), name_of(domain), config.peers_patience,
+                    just_asked ? std::optional(config.asked.addresses) : std::nullopt);
 }
 
 }  // namespace skein::bus

@@ -5,6 +5,8 @@
 // thread that owns a program's state. Writers may be used from one thread at a time.
 #pragma once
 
+#include <netinet/in.h>
+
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -105,6 +107,13 @@ class Burst {
   Participant& participant_;
 };
 
+/// What the names of all peers told at once, and when: who joins many domains need not wait for each. It is soon out of
+/// date, while others come up.
+struct Asked {
+  std::map<std::string, in_addr> addresses{};
+  std::chrono::steady_clock::time_point at{};
+};
+
 /// In BusConfig::networks.
 inline constexpr int kEveryDomain = -1;
 
@@ -112,6 +121,7 @@ struct BusConfig {
   std::string vendor = "cyclonedds";                 ///< "cyclonedds", "fastdds" or "inproc"
   std::map<int, DomainNetwork> networks{};           ///< by domain, or kEveryDomain; usual: nothing leaves the host
   std::chrono::milliseconds peers_patience{10'000};  ///< see find_reach()
+  Asked asked{};                                     ///< make_bus() does
   int lease_s = 8;                   ///< who gives no sign of life for so long is taken for dead, [1, 3600]
   std::filesystem::path security{};  ///< folder with the files of process/security_files.hpp; empty: an open domain
   RunId run = RunId::none;           ///< that its programs take part in
@@ -144,7 +154,7 @@ class Bus {
 
 /// @throws InputError (core/types.hpp) for an unknown vendor; the message lists the known ones. Also when a file of
 /// `security` cannot be read; inproc has no security.
-std::unique_ptr<Bus> make_bus(const BusConfig& config);
+std::unique_ptr<Bus> make_bus(BusConfig config);
 /// Names of all vendors, in the order in which `mixed` deals them out: cyclonedds, fastdds. inproc is not among them.
 std::vector<std::string> dds_vendors();
 

@@ -14,6 +14,7 @@
 #include <array>
 #include <charconv>
 #include <cstring>
+#include <future>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -23,6 +24,13 @@
 #include "core/types.hpp"
 
 namespace skein::bus {
+
+std::string text_of(const in_addr& address) {
+  std::array<char, INET_ADDRSTRLEN> text{};
+  ::inet_ntop(AF_INET, &address, text.data(), text.size());
+  return text.data();
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -30,12 +38,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kIpAndUdpHeaders = 28;
 constexpr std::size_t kEthernet = 1500;
 constexpr std::chrono::milliseconds kAskAgain{200};
-
-std::string text_of(const in_addr& address) {
-  std::array<char, INET_ADDRSTRLEN> text{};
-  ::inet_ntop(AF_INET, &address, text.data(), text.size());
-  return text.data();
-}
 
 std::optional<in_addr> address_in(const std::string& text) {
   in_addr address{};
@@ -68,33 +70,6 @@ OwnInterface interface_of(const std::string& text, const std::string& domain) {
       joined(known) + ", and \"all\" leaves the choice to the DDS vendor");
 }
 
-std::optional<in_addr> look_up(const std::string& host) {
-  addrinfo hints{};
-  hints.ai_family = AF_INET;
-  hints.ai_socktype = SOCK_DGRAM;
-  addrinfo* first = nullptr;
-  if (::getaddrinfo(host.c_str(), nullptr, &hints, &first) != 0) return std::nullopt;
-  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> found(first, &::freeaddrinfo);
-  sockaddr_in address;
-  std::memcpy(&address, found->ai_addr, sizeof address);
-  return address.sin_addr;
-}
-
-/// The own address from which packets to `peer` leave.
-std::optional<in_addr> source_towards(const in_addr& peer) {
-  const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (fd < 0) return std::nullopt;
-  sockaddr_in there{}, here{};
-  there.sin_family = AF_INET;
-  there.sin_port = htons(7400);
-  there.sin_addr = peer;
-  socklen_t size = sizeof here;
-  const bool known = ::connect(fd, reinterpret_cast<const sockaddr*>(&there), sizeof there) == 0 &&
-                     ::getsockname(fd, reinterpret_cast<sockaddr*>(&here), &size) == 0;
-  ::close(fd);
-  return known ? std::optional(here.sin_addr) : std::nullopt;
-}
-
 bool is_loopback(const in_addr& address) { return (ntohl(address.s_addr) >> 24) == 127; }
 
 std::size_t mtu_of(const std::string& address) {
@@ -116,30 +91,32 @@ struct Known {
   std::string own;  ///< where packets to another of them leave; else what a name of ours among them stands for
 };
 
-Known look_up_all(const std::vector<std::string>& hosts) {
+Known addresses_of(const std::vector<std::string>& hosts, const Addresses& addresses) {
   Known known;
   std::string by_name;
   for (const std::string& host : hosts) {
-    const auto peer = look_up(host);
-    if (!peer) {
+    const auto peer = addresses.find(host);
+    if (peer == addresses.end()) {
       known.unknown.push_back(host);
       continue;
     }
-    known.peers.push_back(text_of(*peer));
-    const auto source = source_towards(*peer);
-    const bool ourselves = source && source->s_addr == peer->s_addr;
+    const in_addr& address = peer->second;
+    known.peers.push_back(text_of(address));
+    const auto source = source_towards(address);
+    const bool ourselves = source && source->s_addr == address.s_addr;
     if (source && !ourselves && known.own.empty()) known.own = text_of(*source);
-    if (ourselves && !is_loopback(*peer)) by_name = text_of(*peer);
+    if (ourselves && !is_loopback(address)) by_name = text_of(address);
   }
   if (known.own.empty()) known.own = by_name;
   return known;
 }
 
 /// Asks until the own address is known, if it takes peers to know it. Who cannot be found yet comes later, and finds us.
-Known look_up_all(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience) {
+Known find_peers(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience,
+                 const std::optional<Addresses>& asked) {
   const bool by_route = !network.names_interface();
   const auto deadline = Clock::now() + patience;
-  Known known = look_up_all(network.peers);
+  Known known = addresses_of(network.peers, asked ? *asked : look_up_all(network.peers));
   while (by_route && !network.peers.empty() && known.own.empty()) {
     if (Clock::now() >= deadline) {
       throw std::runtime_error("network of " + domain + ": none of its peers (" + joined(network.peers) +
@@ -147,7 +124,7 @@ Known look_up_all(const DomainNetwork& network, const std::string& domain, std::
                                "network? `interface:` would tell the own one without them");
     }
     ::poll(nullptr, 0, static_cast<int>(kAskAgain.count()));  // nobody tells when a name is given
-    known = look_up_all(network.peers);
+    known = addresses_of(network.peers, look_up_all(network.peers));
   }
   if (!known.unknown.empty()) {
     spdlog::info("network of {}: {} cannot be found yet; who comes later will find us", domain, joined(known.unknown));
@@ -158,15 +135,55 @@ Known look_up_all(const DomainNetwork& network, const std::string& domain, std::
 
 }  // namespace
 
+std::optional<in_addr> look_up(const std::string& host) {
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* first = nullptr;
+  if (::getaddrinfo(host.c_str(), nullptr, &hints, &first) != 0) return std::nullopt;
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> found(first, &::freeaddrinfo);
+  sockaddr_in address;
+  std::memcpy(&address, found->ai_addr, sizeof address);
+  return address.sin_addr;
+}
+
+Addresses look_up_all(std::vector<std::string> hosts) {
+  std::ranges::sort(hosts);
+  hosts.erase(std::ranges::unique(hosts).begin(), hosts.end());
+  std::vector<std::future<std::optional<in_addr>>> answers;
+  for (const std::string& host : hosts)
+    answers.push_back(std::async(std::launch::async, [&host] { return look_up(host); }));
+  Addresses addresses;
+  for (std::size_t i = 0; i < hosts.size(); ++i) {
+    if (const auto address = answers[i].get()) addresses[hosts[i]] = *address;
+  }
+  return addresses;
+}
+
+std::optional<in_addr> source_towards(const in_addr& peer) {
+  const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) return std::nullopt;
+  sockaddr_in there{}, here{};
+  there.sin_family = AF_INET;
+  there.sin_port = htons(7400);
+  there.sin_addr = peer;
+  socklen_t size = sizeof here;
+  const bool known = ::connect(fd, reinterpret_cast<const sockaddr*>(&there), sizeof there) == 0 &&
+                     ::getsockname(fd, reinterpret_cast<sockaddr*>(&here), &size) == 0;
+  ::close(fd);
+  return known ? std::optional(here.sin_addr) : std::nullopt;
+}
+
 void check_interface(const DomainNetwork& network, const std::string& domain) {
   if (network.names_interface()) interface_of(network.interface, domain);
 }
 
-Reach find_reach(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience) {
+Reach find_reach(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience,
+                 const std::optional<Addresses>& asked) {
   Reach reach;
   if (network.host_only()) return reach;
   reach.host_only = false;
-  Known known = look_up_all(network, domain, patience);
+  Known known = find_peers(network, domain, patience, asked);
   reach.address = network.names_interface() ? text_of(interface_of(network.interface, domain).address) : known.own;
   reach.peers = std::move(known.peers);
   // None is known yet: still no multicast.

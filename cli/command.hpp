@@ -91,6 +91,20 @@ struct OracleOptions {
   bool json = false;
 };
 
+struct DoctorOptions {
+  bool net = false;  ///< who hears whom, instead of what this machine grants
+  std::string scenario = "towers";
+  std::optional<std::filesystem::path> assets;
+  std::string dds = "cyclonedds";  ///< a vendor or "mixed"
+  std::optional<int> domain;
+  std::optional<std::string> network;  ///< as in RunOptions
+  std::filesystem::path out = "runs";  ///< where results would go
+  bool json = false;
+  std::optional<std::string> name;  ///< of this host
+  std::vector<std::string> only;    ///< domains in which to take part; empty: all that leave the host
+  std::optional<double> seconds;    ///< to speak and listen
+};
+
 struct DiffOptions {
   std::filesystem::path run_a, run_b;
 };
@@ -153,6 +167,6 @@ struct CompletionOptions {
 
 using Command =
     std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
-                 StudyOptions, ComposeOptions, KeysOptions, MergeOptions, HelpText, CompletionOptions>;
+                 StudyOptions, DoctorOptions, ComposeOptions, KeysOptions, MergeOptions, HelpText, CompletionOptions>;
 
 }  // namespace skein::cli

@@ -104,16 +104,19 @@ void write_keys(const FleetPlan& plan, int base_domain, const fs::path& folder,
   }
 }
 
-/// What follows a container here: hears its status lines on its standard output, keeps the rest as its log, passes
-/// signals on and ends as it does.
+/// What follows a container here: hears its status lines on its standard output, keeps the rest as its log, passes a
+/// SIGTERM on and ends as it does. The signal is for the whole group, so that who listens is in another one.
+std::string follower(const std::string& container, bool tells_status) {
+  return "trap 'docker kill --signal=TERM " + container + " >/dev/null 2>&1' TERM\n" + "setsid docker logs --follow " +
+         container + (tells_status ? " >&3" : "") + " &\nwait $!\nwait\nexit $(docker wait " + container + ")";
+}
+
 std::vector<ProgramSpec> followers(const ComposeProject& project, const ComposeLayout& layout, const fs::path& out) {
   std::vector<ProgramSpec> programs;
   for (const auto& [program, id] : project.containers()) {
     const bool ours = !layout.images.contains(programs::member_name(program));
-    programs.push_back({program,
-                        {"/bin/sh", "-c", "exec docker start --attach " + id + (ours ? " >&3" : "")},
-                        environment_with({}),
-                        out / run_folder::log_file(program)});
+    programs.push_back(
+        {program, {"/bin/sh", "-c", follower(id, ours)}, environment_with({}), out / run_folder::log_file(program)});
     if (ours) programs.back().most_status_bytes = std::numeric_limits<std::uint64_t>::max();
   }
   // As under the launcher: those that every fleet has one of come first.
@@ -164,7 +167,7 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
                            out.path() / "compose.log");
     run.view().message(fmt::format("{}: {} UAVs in containers, planner {}, seed {}, results in {}", plan.scenario.name,
                                    plan.scenario.fleet.size(), options.run.planner, options.run.seed, dir.string()));
-    project.create();
+    project.up();
     run.fly_in_containers(followers(project, layout, out.path()), out.path());
   }
   folders.gather(plan);

@@ -9,6 +9,7 @@
 #include "cli/check_command.hpp"
 #include "cli/completion.hpp"
 #include "cli/compose_command.hpp"
+#include "cli/doctor_command.hpp"
 #include "cli/merge_command.hpp"
 #include "cli/options.hpp"
 #include "cli/oracle_command.hpp"
@@ -62,6 +63,7 @@ struct Execute {
   int operator()(const BenchOptions& options) const { return run_bench(options, console); }
   int operator()(const OracleOptions& options) const { return consult_oracle(options, console); }
   int operator()(const DiffOptions& options) const { return diff_runs(options, console); }
+  int operator()(const DoctorOptions& options) const { return consult_doctor(options); }
   int operator()(const ComposeOptions& options) const { return compose_fleet(options, console); }
   int operator()(const KeysOptions& options) const { return make_keys(options, console); }
   int operator()(const MergeOptions& options) const { return merge_reports(options, console); }

@@ -188,6 +188,49 @@ void add_compare(CLI::App& app, StudyOptions& study) {
       ->check(CLI::Validator(check_seed, ""));
 }
 
+/// What only `skein doctor net` has a use for.
+void check_doctor(const DoctorOptions& doctor) {
+  if (doctor.net) return;
+  const auto refuse = [](bool given, const std::string& option) {
+    if (given) throw InputError(option + ": only `skein doctor net` has a use for it");
+  };
+  refuse(doctor.name.has_value(), "--as");
+  refuse(!doctor.only.empty(), "--only");
+  refuse(doctor.seconds.has_value(), "--seconds");
+}
+
+void add_doctor(CLI::App& app, DoctorOptions& doctor) {
+  CLI::App* command = app.add_subcommand("doctor", "What of this machine or network is in a fleet's way, and its mend");
+  const auto set_net = [&doctor](const std::string&) { doctor.net = true; };
+  command
+      ->add_option_function<std::string>("WHAT", set_net,
+                                         "net: who hears whom, among the hosts on which this runs at the same time")
+      ->check(CLI::IsMember({"net"}));
+  add_network(*command, doctor.network);
+  command->add_option("--scenario", doctor.scenario, "Whose fleet: a name under config/scenarios/ or a YAML file")
+      ->capture_default_str();
+  command->add_option("--assets", doctor.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--domain", doctor.domain, "First DDS domain of the fleet");
+  command->add_option("--dds", doctor.dds, "DDS vendor: cyclonedds, fastdds or mixed")
+      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
+      ->capture_default_str();
+  command->add_option("--out", doctor.out, "Where results would go")->capture_default_str();
+  command->add_flag("--json", doctor.json, "For programs");
+  command->add_option("--as", doctor.name, "net: name of this host (default: its own)");
+  command
+      ->add_option("--only", doctor.only,
+                   "net: domains in which this host takes part: world,gcs,UAV,... (default: all that leave it)")
+      ->delimiter(',');
+  command->add_option("--seconds", doctor.seconds, "net: how long to speak and listen [s] (default 5)")
+      ->check(CLI::Validator(check_seconds, ""));
+  command->callback([&doctor] { check_doctor(doctor); });
+  command->footer(
+      "Examples:\n"
+      "  skein doctor --scenario towers\n"
+      "  skein doctor net --network network.yaml --only world,gcs --seconds 30\n\n"
+      "Exit codes: 0 nothing fails, 1 something does, or a peer was not heard. docs/doctor.md has more.");
+}
+
 /// What cannot be had without processes.
 void check_one_process(const RunOptions& run) {
   if (!run.one_process) return;
@@ -211,6 +254,7 @@ struct OptionParser {
   BenchOptions bench;
   OracleOptions oracle;
   DiffOptions diff;
+  DoctorOptions doctor;
   ComposeOptions compose;
   KeysOptions keys;
   MergeOptions merge;
@@ -236,6 +280,7 @@ OptionParser::OptionParser()
   add_oracle(app, oracle);
   add_contest(app, contest, tests);
   add_compare(app, compare);
+  add_doctor(app, doctor);
   CLI::App* diff_command = app.add_subcommand("diff", "First step, entity and field in which two runs differ");
   diff_command->add_option("RUN_A", diff.run_a, "A results folder")->required();
   diff_command->add_option("RUN_B", diff.run_b, "Another one")->required();
@@ -281,6 +326,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (is("bench")) return parser.bench;
   if (is("oracle")) return parser.oracle;
   if (is("diff")) return parser.diff;
+  if (is("doctor")) return parser.doctor;
   parser.contest.seeds = "1-" + std::to_string(parser.tests);
   if (is("contest")) return parser.contest;
   if (is("compare")) return parser.compare;
@@ -288,40 +334,6 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     throw InputError("check: give files, or --golden FILE.csv");
   }
   return parser.check;
-}
-
-std::vector<std::string> arguments_of(const RunOptions& run) {
-  std::vector<std::string> arguments = {"run",
-                                        run.scenario,
-                                        "--planner=" + run.planner,
-                                        "--seed=" + std::to_string(run.seed),
-                                        run.one_process ? "--one-process" : "--dds=" + run.dds,
-                                        "--clock=" + run.clock};
-  const auto add = [&](const std::string& option, const auto& value, const auto& text) {
-    if (value) arguments.push_back(option + "=" + text(*value));
-  };
-  const auto as_it_is = [](const std::string& text) { return text; };
-  const auto path = [](const std::filesystem::path& file) { return file.string(); };
-  const auto number = [](const auto& value) { return fmt::format("{}", value); };
-  add("--agent", run.agent, path);
-  add("--scene-seed", run.scene_seed, number);
-  add("--assets", run.assets, path);
-  add("--duration", run.duration_s, number);
-  add("--rules", run.rules, as_it_is);
-  add("--network", run.network, as_it_is);
-  add("--faults", run.faults, path);
-  add("--debug", run.debug_uav, as_it_is);
-  add("--domain", run.domain, number);
-  add("--stop-at", run.stop_at_s, number);
-  add("--agent-timeout", run.agent_timeout_s, number);
-  add("--out", run.out, path);
-  for (const auto& [flag, set] : {std::pair("--native", run.native),
-                                  {"--secure", run.secure},
-                                  {"--force", run.force},
-                                  {"--no-oracle", !run.attainable}}) {
-    if (set) arguments.push_back(flag);
-  }
-  return arguments;
 }
 
 }  // namespace skein::cli

@@ -72,6 +72,30 @@ TEST(Options, OtherHostsTakePartOnlyWhenAsked) {
   }
 }
 
+TEST(Options, ADoctorIsToldWhoseFleetAndWhatToLookAt) {
+  const auto plain = parse<DoctorOptions>({"doctor"});
+  EXPECT_FALSE(plain.net || plain.json || plain.network || plain.domain);
+  EXPECT_EQ(plain.scenario, "towers");
+  const auto net = parse<DoctorOptions>({"doctor", "net", "--network", "{world: {peers: [a]}}", "--as", "me", "--only",
+                                         "world,gcs", "--seconds", "2.5", "--dds", "mixed", "--domain", "9"});
+  EXPECT_TRUE(net.net);
+  EXPECT_EQ(net.network, "{world: {peers: [a]}}");
+  EXPECT_EQ(net.name, "me");
+  EXPECT_EQ(net.only, (std::vector<std::string>{"world", "gcs"}));
+  EXPECT_EQ(net.seconds, 2.5);
+  EXPECT_EQ(net.dds, "mixed");
+  EXPECT_EQ(net.domain, 9);
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"doctor", "nett"},
+                                                {"doctor", "--as", "me"},
+                                                {"doctor", "--seconds", "3"},
+                                                {"doctor", "--only", "gcs"},
+                                                {"doctor", "net", "--seconds", "0"},
+                                                {"doctor", "--dds", "other"},
+                                                {"doctor", "--network", ""}}) {
+    EXPECT_THROW(parse_command_line(wrong), InputError) << wrong.back();
+  }
+}
+
 TEST(Options, OtherCommands) {
   EXPECT_TRUE(parse<TestOptions>({"test", "--long"}).long_tests);
   const auto faults =

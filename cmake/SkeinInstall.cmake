@@ -9,7 +9,7 @@ set(installed_contract_dir ${CMAKE_INSTALL_DATADIR}/skein/contract)
 
 # Components, which are Debian packages too (SkeinPackages.cmake): `runtime` is what flies fleets, `agent` the part of
 # it that flies one UAV, `dev` what planners outside of this tree are built with.
-set(programs skein sim_server comm_router station uav_agent uav_agent_fleet)
+set(programs skein sim_server comm_router station uav_agent uav_agent_fleet skein_doctor)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/man)
 foreach(program ${programs})
   set(manual ${CMAKE_BINARY_DIR}/man/${program}.1.gz)
@@ -35,11 +35,6 @@ install(FILES cli/completion/_skein DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/ven
 install(FILES cli/completion/skein.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
   COMPONENT runtime)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # Debian has it already
-install(FILES cli/completion/skein.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
-  RENAME skein COMPONENT runtime)
-install(FILES cli/completion/_skein DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT runtime)
-install(FILES cli/completion/skein.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
-  COMPONENT runtime)
 
 set(libraries core process idl bus lockstep agent agent_nodes agent_main
   sim sim_node router router_node station station_node one_process one_process_main)

@@ -12,6 +12,7 @@ namespace programs {
 inline constexpr const char* kSimServer = "sim_server";
 inline constexpr const char* kCommRouter = "comm_router";
 inline constexpr const char* kStation = "station";
+inline constexpr const char* kDoctor = "skein_doctor";  ///< of no fleet
 /// Home to a whole fleet (one_process/); beside an agent's file there is such a program with its planners.
 inline constexpr const char* kOneProcess = "one_process";
 inline constexpr const char* kFleetSuffix = "_fleet";  ///< "uav_agent_fleet"

@@ -40,6 +40,9 @@ x-program: &program
     - no-new-privileges:true
   sysctls:
     net.ipv4.ip_forward: "0"
+  dns_opt:
+    - timeout:1
+    - attempts:1
   pids_limit: 256
   stop_grace_period: 10s
   healthcheck:

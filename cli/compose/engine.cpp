@@ -67,8 +67,8 @@ std::string ComposeProject::command(const std::string& what) const {
   return compose_program() + " --project-name " + shell_word(name_) + " --file " + shell_word(file_) + " " + what;
 }
 
-void ComposeProject::create() {
-  if (shell(command("up --no-start"), log_) == 0) return;
+void ComposeProject::up() {
+  if (shell(command("up --detach"), log_) == 0) return;
   std::ifstream in(log_);
   const std::string said{std::istreambuf_iterator<char>(in), {}};
   const bool no_room = said.find("address pool") != std::string::npos;

@@ -23,8 +23,8 @@ class ComposeProject {
   ComposeProject(const ComposeProject&) = delete;
   ComposeProject& operator=(const ComposeProject&) = delete;
 
-  /// Makes networks and containers, and starts none. @throws std::runtime_error with the reason.
-  void create();
+  /// Makes networks and containers, and starts them. @throws std::runtime_error with the reason.
+  void up();
   /// Containers by service.
   std::map<std::string, std::string> containers() const;
   /// A command of docker-compose on it, for people.

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::set<std::string>& applications() {
-  static const std::set<std::string> kNames = {"sim_server", "uav_agent", "comm_router", "station", "cli"};
+  static const std::set<std::string> kNames = {"sim_server", "uav_agent", "comm_router", "station", "cli", "doctor"};
   return kNames;
 }
 

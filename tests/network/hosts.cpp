@@ -79,6 +79,10 @@ std::vector<std::string> Hosts::on(const std::string& name, std::vector<std::str
   return command;
 }
 
+bool Hosts::run(const std::string& name, const std::string& command) const {
+  return succeeds("ip netns exec " + space(name) + " " + command);
+}
+
 long Hosts::ip_counter(const std::string& name, const std::string& counter) const {
   std::istringstream lines(output_of("ip netns exec " + space(name) + " cat /proc/net/snmp"));
   std::string titles, values;

@@ -24,6 +24,8 @@ class Hosts {
   std::string address(int network, const std::string& name) const;
   /// The command line of a program on a host.
   std::vector<std::string> on(const std::string& name, std::vector<std::string> command) const;
+  /// Runs a shell's command on a host. @returns whether it succeeded.
+  bool run(const std::string& name, const std::string& command) const;
   /// What a counter of the host's IP layer says, "FragCreates" for one.
   long ip_counter(const std::string& name, const std::string& counter) const;
 

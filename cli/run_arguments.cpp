@@ -1,0 +1,42 @@
+// A run's options as words of a command line.
+#include <spdlog/fmt/fmt.h>
+
+#include "cli/options.hpp"
+
+namespace skein::cli {
+
+std::vector<std::string> arguments_of(const RunOptions& run) {
+  std::vector<std::string> arguments = {"run",
+                                        run.scenario,
+                                        "--planner=" + run.planner,
+                                        "--seed=" + std::to_string(run.seed),
+                                        run.one_process ? "--one-process" : "--dds=" + run.dds,
+                                        "--clock=" + run.clock};
+  const auto add = [&](const std::string& option, const auto& value, const auto& text) {
+    if (value) arguments.push_back(option + "=" + text(*value));
+  };
+  const auto as_it_is = [](const std::string& text) { return text; };
+  const auto path = [](const std::filesystem::path& file) { return file.string(); };
+  const auto number = [](const auto& value) { return fmt::format("{}", value); };
+  add("--agent", run.agent, path);
+  add("--scene-seed", run.scene_seed, number);
+  add("--assets", run.assets, path);
+  add("--duration", run.duration_s, number);
+  add("--rules", run.rules, as_it_is);
+  add("--network", run.network, as_it_is);
+  add("--faults", run.faults, path);
+  add("--debug", run.debug_uav, as_it_is);
+  add("--domain", run.domain, number);
+  add("--stop-at", run.stop_at_s, number);
+  add("--agent-timeout", run.agent_timeout_s, number);
+  add("--out", run.out, path);
+  for (const auto& [flag, set] : {std::pair("--native", run.native),
+                                  {"--secure", run.secure},
+                                  {"--force", run.force},
+                                  {"--no-oracle", !run.attainable}}) {
+    if (set) arguments.push_back(flag);
+  }
+  return arguments;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,90 @@
+#include "doctor/checks_program.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "bus/own_host.hpp"
+#include "bus/reach.hpp"
+#include "bus/wire.hpp"
+#include "core/types.hpp"
+#include "doctor/machine_judges.hpp"
+#include "doctor/network_judges.hpp"
+#include "doctor/software_judges.hpp"
+
+namespace skein::doctor {
+namespace {
+
+std::vector<InterfaceFacts> read_interfaces() {
+  std::vector<InterfaceFacts> interfaces;
+  for (const bus::OwnInterface& own : bus::own_interfaces()) {
+    interfaces.push_back({.name = own.name, .address = bus::text_of(own.address)});
+    look_at(interfaces.back());
+  }
+  return interfaces;
+}
+
+DomainNetworkFacts read_network_of(const std::string& domain, const DomainNetwork& network) {
+  DomainNetworkFacts facts{.domains = {domain}, .network = network};
+  if (network.host_only()) return facts;
+  for (const std::string& name : network.peers) {
+    PeerFacts& peer = facts.peers.emplace_back(PeerFacts{.name = name});
+    const auto address = bus::look_up(name);
+    if (!address) continue;
+    peer.address = bus::text_of(*address);
+    if (const auto source = bus::source_towards(*address)) peer.source = bus::text_of(*source);
+  }
+  try {
+    facts.address = bus::find_reach(network, domain, std::chrono::milliseconds(0)).address;
+  } catch (const InputError& error) {
+    facts.no_interface = error.what();
+  } catch (const std::exception&) {
+    // No peer tells the interface: the peers' own findings say why.
+  }
+  return facts;
+}
+
+/// Domains that have the same network together, in the order of the first ones.
+std::vector<DomainNetworkFacts> read_networks(const Visit& visit) {
+  std::vector<DomainNetworkFacts> networks;
+  for (const std::string& domain : visit.domains) {
+    const DomainNetwork& network = visit.network.of(domain);
+    const auto known = std::ranges::find(networks, network, &DomainNetworkFacts::network);
+    if (known != networks.end()) {
+      known->domains.push_back(domain);
+    } else {
+      networks.push_back(read_network_of(domain, network));
+    }
+  }
+  return networks;
+}
+
+void add(Findings& all, Findings some) { std::ranges::move(some, std::back_inserter(all)); }
+
+}  // namespace
+
+Findings examine(const Visit& visit) {
+  const FleetNeeds needs{visit.uavs};
+  const MachineFacts machine = read_machine();
+  const DiskFacts disk = read_disk(visit.results);
+  Findings findings = {judge_container(machine)};
+  const std::vector<InterfaceFacts> interfaces = read_interfaces();
+  add(findings, judge_interfaces(interfaces, bus::multicast_on_loopback()));
+  bool host_only = true;
+  for (const DomainNetworkFacts& network : read_networks(visit)) {
+    host_only = host_only && network.network.host_only();
+    add(findings, judge_network(network, interfaces));
+  }
+  add(findings,
+      judge_ports(read_ports(), {.base = visit.base,
+                                 .size = static_cast<int>(needs.domains()),
+                                 .participants = host_only ? bus::kMaxLocalParticipants : bus::kMaxPeerParticipants}));
+  add(findings, {judge_open_files(machine, needs), judge_processes(machine, needs), judge_buffers(machine),
+                 judge_memory(machine, needs), judge_cpus(machine), judge_disk(disk), judge_mapping(disk),
+                 judge_shared_memory(read_shared_memory())});
+  add(findings, judge_clocks(read_clocks()));
+  add(findings, judge_variables(read_variables()));
+  findings.push_back(judge_docker(ask_docker()));
+  return findings;
+}
+
+}  // namespace skein::doctor

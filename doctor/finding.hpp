@@ -1,0 +1,35 @@
+// What `skein doctor` says of one thing that it looked at.   Pure; safe from any thread.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "process/json_text.hpp"
+
+namespace skein::doctor {
+
+enum class Verdict { ok, warn, fail };
+/// "ok", "warn" or "FAIL".
+const char* word_of(Verdict verdict);
+
+struct Finding {
+  Verdict verdict = Verdict::ok;
+  std::string what;   ///< was looked at: "open files"
+  std::string found;  ///< one line
+  std::string mend;   ///< how; empty when all is well
+};
+using Findings = std::vector<Finding>;
+
+Finding fine(std::string what, std::string found);
+Finding warning(std::string what, std::string found, std::string mend);
+Finding failure(std::string what, std::string found, std::string mend);
+
+/// kExitDone when nothing fails, else kExitCheckFailed.
+int exit_code(const Findings& findings);
+
+/// One line each.
+void print(std::ostream& out, const Findings& findings);
+Json as_json(const Findings& findings);
+
+}  // namespace skein::doctor

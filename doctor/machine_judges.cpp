@@ -1,0 +1,140 @@
+#include "doctor/machine_judges.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein::doctor {
+namespace {
+
+std::string megabytes(std::uint64_t bytes) {
+  return bytes < 10'000'000 ? fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes))
+                            : fmt::format("{} MB", bytes / 1'000'000);
+}
+
+/// Less of two limits, either of which may be none.
+Limit less_of(const Limit& a, const Limit& b) { return a && b ? std::min(*a, *b) : a ? a : b; }
+
+}  // namespace
+
+Finding judge_container(const MachineFacts& machine) {
+  if (machine.container.empty()) return fine("host", "no container");
+  return fine("host", "a container (" + machine.container + "); limits below are what it is granted");
+}
+
+Finding judge_open_files(const MachineFacts& machine, const FleetNeeds& needs) {
+  const std::string what = "open files";
+  if (!machine.open_files) return fine(what, "no limit");
+  const std::string found =
+      fmt::format("{} a process; {} UAVs need about {}", *machine.open_files, needs.uavs, needs.open_files());
+  if (*machine.open_files >= needs.open_files()) return fine(what, found);
+  const bool may_raise = !machine.most_open_files || *machine.most_open_files >= needs.open_files();
+  const std::string number = std::to_string(needs.open_files());
+  return failure(what, found,
+                 may_raise ? "`ulimit -n " + number + "` before the run; a container: --ulimit nofile=" + number
+                           : "as root raise nofile in /etc/security/limits.conf to " + number +
+                                 " and log in anew; a container: --ulimit nofile=" + number);
+}
+
+Finding judge_processes(const MachineFacts& machine, const FleetNeeds& needs) {
+  const std::string what = "processes";
+  const Limit most = less_of(machine.processes, machine.cgroup.processes);
+  if (!most) return fine(what, "no limit");
+  const std::string found =
+      fmt::format("{} with threads may run; {} UAVs need about {}", *most, needs.uavs, needs.threads());
+  if (*most >= needs.threads()) return fine(what, found);
+  const bool by_cgroup = machine.cgroup.processes == most;
+  return failure(what, found,
+                 by_cgroup ? fmt::format("raise pids.max of the cgroup; a container: --pids-limit {}", needs.threads())
+                           : fmt::format("`ulimit -u {}` before the run", needs.threads()));
+}
+
+Finding judge_buffers(const MachineFacts& machine) {
+  const std::string what = "socket buffers";
+  if (!machine.receive_buffer || !machine.send_buffer) {
+    return fine(what, "the limits cannot be seen from here; on the host: sysctl net.core.rmem_max net.core.wmem_max");
+  }
+  const std::uint64_t least = std::min(*machine.receive_buffer, *machine.send_buffer);
+  const std::string found =
+      fmt::format("{} to receive, {} to send; DDS asks for {}", megabytes(*machine.receive_buffer),
+                  megabytes(*machine.send_buffer), megabytes(kSocketBuffer));
+  if (least >= kSocketBuffer) return fine(what, found);
+  return warning(
+      what, found + "; what overflows is sent again, which slows down large fleets",
+      fmt::format("as root, on the host: sysctl -w net.core.rmem_max={0} net.core.wmem_max={0}", kSocketBuffer));
+}
+
+Finding judge_memory(const MachineFacts& machine, const FleetNeeds& needs) {
+  const std::string what = "memory";
+  const Limit left = less_of(machine.memory, machine.cgroup.memory_left);
+  if (!left) return fine(what, "how much there is cannot be seen from here");
+  const bool by_cgroup = left == machine.cgroup.memory_left;
+  const std::string found =
+      fmt::format("{} available{}; {} UAVs need about {}", megabytes(*left), by_cgroup ? " in this cgroup" : "",
+                  needs.uavs, megabytes(needs.memory_bytes()));
+  const std::string mend =
+      by_cgroup ? "raise memory.max of the cgroup; a container: --memory" : "end other programs, or fly fewer UAVs";
+  if (*left < needs.memory_bytes()) return failure(what, found, mend);
+  if (*left < 2 * needs.memory_bytes()) return warning(what, found + ", large scenes more", mend);
+  return fine(what, found);
+}
+
+Finding judge_cpus(const MachineFacts& machine) {
+  const std::string what = "processors";
+  const std::string found = std::to_string(machine.cpus);
+  const auto& quota = machine.cgroup.cpus;
+  if (!quota || *quota >= machine.cpus) return fine(what, found);
+  const std::string limited = fmt::format("{}, of which the cgroup grants the time of {:.2f}", found, *quota);
+  if (*quota >= 1.0) return fine(what, limited);
+  return warning(what, limited + "; a fleet is then slow, and stands still in between",
+                 "a container: --cpus 1 or more");
+}
+
+Finding judge_disk(const DiskFacts& disk) {
+  const std::string what = "results folder", folder = disk.folder.string();
+  if (!disk.no_file.empty()) {
+    return failure(what, folder + " takes no file: " + disk.no_file, "another folder with --out, or its permissions");
+  }
+  if (!disk.free) return fine(what, folder + "; how much is free is not told");
+  const std::string found = folder + " has " + megabytes(*disk.free) + " free";
+  const std::string mend = "make room, or another folder with --out";
+  if (*disk.free < kLeastDisk) return failure(what, found + ", less than a run writes", mend);
+  if (*disk.free < kAmpleDisk) return warning(what, found + "; a run writes tens of MB", mend);
+  return fine(what, found);
+}
+
+Finding judge_mapping(const DiskFacts& disk) {
+  const std::string what = "shared mapping", folder = disk.folder.string();
+  if (!disk.no_file.empty()) return fine(what, "not tried: the results folder takes no file");
+  if (disk.no_mapping.empty()) return fine(what, "files in " + folder + " can be mapped, as the router's counts are");
+  return failure(what, "files in " + folder + " cannot be mapped (MAP_SHARED): " + disk.no_mapping,
+                 "--out on a local disk or tmpfs; some 9p, FUSE and NFS mounts refuse it");
+}
+
+Findings judge_clocks(const ClockFacts& clocks) {
+  constexpr double kStepS = 0.01, kYear2020 = 1'577'836'800.0;
+  Findings findings;
+  const std::string source = clocks.source.empty() ? "" : ", by " + clocks.source;
+  if (clocks.monotonic_s <= 0.0) {
+    findings.push_back(failure("monotonic clock", "it stands still" + source,
+                               "mend the host's clock source (/sys/devices/system/clocksource)"));
+  } else if (clocks.source == "hpet" || clocks.source == "acpi_pm" || clocks.source == "jiffies") {
+    findings.push_back(warning("monotonic clock", "it goes" + source + ", which takes long to read",
+                               "clocksource=tsc for the host's kernel, where its processor has a steady one"));
+  } else {
+    findings.push_back(fine("monotonic clock", "it goes" + source + "; a fleet waits by it alone"));
+  }
+  const std::string dates = "no result depends on it; fleets of both vendors on several hosts need its agreement";
+  if (clocks.date_s < kYear2020) {
+    findings.push_back(warning("time of day", "it is before 2020; " + dates + ", and certificates of --secure the date",
+                               "set the host's date"));
+  } else if (std::abs(clocks.realtime_s - clocks.monotonic_s) > kStepS) {
+    findings.push_back(warning("time of day", "it is being set right now; " + dates, "try again"));
+  } else {
+    findings.push_back(fine("time of day", "it goes; " + dates));
+  }
+  return findings;
+}
+
+}  // namespace skein::doctor

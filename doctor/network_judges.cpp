@@ -1,0 +1,163 @@
+#include "doctor/network_judges.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "core/suggestion.hpp"
+#include "process/program.hpp"
+
+namespace skein::doctor {
+namespace {
+
+constexpr const char* kLoopback = "127.0.0.1";
+
+/// "world, gcs and 5 more".
+std::string named(const std::vector<std::string>& domains) {
+  constexpr std::size_t kMost = 4;
+  if (domains.size() <= kMost + 1) return joined(domains);
+  const std::vector<std::string> first(domains.begin(), domains.begin() + kMost);
+  return fmt::format("{} and {} more", joined(first), domains.size() - kMost);
+}
+
+std::string text_of(const InterfaceFacts& interface) {
+  return fmt::format("{} {} (MTU {}{})", interface.name, interface.address, interface.mtu,
+                     interface.up ? "" : ", down");
+}
+
+Finding judge_peer(const DomainNetworkFacts& network, const PeerFacts& peer) {
+  const std::string what = "peer " + peer.name, of = " (" + named(network.domains) + ")";
+  if (!peer.address) {
+    return failure(
+        what, "no address is known of it" + of,
+        "start it, if it gets its name when it starts, or write its address; a container hears only names of "
+        "its own networks");
+  }
+  if (peer.ourselves()) return fine(what, *peer.address + " is this host" + of);
+  if (!peer.source) {
+    return failure(what, "there is no way to " + *peer.address + of,
+                   "join its network (`ip route get " + *peer.address + "` shows the ways)");
+  }
+  if (network.address.empty() || network.address == *peer.source) {
+    return fine(what, *peer.address + ", by " + *peer.source + of);
+  }
+  return failure(
+      what, "packets to " + *peer.address + " leave by " + *peer.source + ", not by " + network.address + of,
+      "write the peer's address in the network of " + network.address + ", or `interface: " + *peer.source + "`");
+}
+
+/// "; other fleets have 8..14 (process 4711)": what each process holds in a row; empty when nobody has any.
+std::string held_text(const PortFacts& ports) {
+  std::vector<std::string> blocks;
+  for (auto first = ports.held.begin(); first != ports.held.end();) {
+    auto last = first, next = std::next(first);
+    while (next != ports.held.end() && next->first == last->first + 1 && next->second == first->second) last = next++;
+    const std::string who = first->second ? " (process " + std::to_string(*first->second) + ")" : "";
+    blocks.push_back(fmt::format("{}..{}{}", first->first, last->first, who));
+    first = next;
+  }
+  return blocks.empty() ? "" : "; other fleets have " + joined(blocks);
+}
+
+Finding judge_block(const PortFacts& ports, const BlockWish& wish, int base) {
+  const int last = base + wish.size - 1;
+  const auto taken = ports.held.lower_bound(base);
+  const std::string found =
+      wish.base ? fmt::format("{}..{}", base, last) : fmt::format("{}..{}, the first that are free", base, last);
+  if (taken == ports.held.end() || taken->first > last) return fine("domains", found + held_text(ports));
+  return failure("domains", found + held_text(ports) + ": not free",
+                 "another --domain, or none, for the first block that is free");
+}
+
+/// The first block without a domain that a fleet holds, as the launcher looks for it.
+std::optional<int> free_block(const PortFacts& ports, int size) {
+  for (int base = kFirstDomain; base + size - 1 <= kLastDomain; ++base) {
+    const auto held = ports.held.lower_bound(base);
+    if (held == ports.held.end() || held->first >= base + size) return base;
+  }
+  return std::nullopt;
+}
+
+/// "3 (7 ports), 5 (2 ports)": domains of the block in which somebody is who is of no fleet.
+std::vector<std::string> visited(const PortFacts& ports, const BlockWish& wish, int base) {
+  std::vector<std::string> domains;
+  for (int domain = base; domain < base + wish.size; ++domain) {
+    const DomainPorts range = ports_of(domain, wish.participants);
+    const auto count = std::distance(ports.taken.lower_bound(range.first), ports.taken.upper_bound(range.last));
+    if (count > 0 && !ports.held.contains(domain)) domains.push_back(fmt::format("{} ({} ports)", domain, count));
+  }
+  return domains;
+}
+
+}  // namespace
+
+Findings judge_interfaces(const std::vector<InterfaceFacts>& interfaces, bool multicast) {
+  Findings findings;
+  std::vector<std::string> all;
+  for (const InterfaceFacts& interface : interfaces) all.push_back(text_of(interface));
+  const bool loopback =
+      std::ranges::any_of(interfaces, [](const InterfaceFacts& i) { return i.up && i.address.starts_with("127."); });
+  const std::string there = all.empty() ? "none has an IPv4 address" : joined(all);
+  findings.push_back(loopback ? fine("interfaces", there)
+                              : failure("interfaces", there + "; there is no loopback interface that is up",
+                                        "as root: ip link set lo up"));
+  // All finds itself without; only ROS 2 nodes with default settings then have to use certain ports.
+  findings.push_back(multicast
+                         ? fine("loopback multicast", "groups can be joined")
+                         : warning("loopback multicast",
+                                   "no group can be joined; the fleet does without, some ROS 2 nodes beside it are "
+                                   "not met (docs/ros2.md)",
+                                   "as root: ip link set lo multicast on; some sandboxes have no multicast at all"));
+  return findings;
+}
+
+Findings judge_network(const DomainNetworkFacts& network, const std::vector<InterfaceFacts>& interfaces) {
+  const std::string what = "network of " + named(network.domains);
+  if (network.network.host_only()) return {fine(what, "nothing leaves the host")};
+  Findings findings;
+  const auto own = std::ranges::find(interfaces, network.address, &InterfaceFacts::address);
+  if (!network.no_interface.empty()) {
+    findings.push_back(failure(what, network.no_interface, "write one that it has, or bring it up"));
+  } else if (own == interfaces.end()) {
+    findings.push_back(network.peers.empty() || network.network.interface == DomainNetwork::kAll
+                           ? fine(what, "the DDS vendors choose the interface")
+                           : failure(what, "no peer tells which interface it is: none is known that there is a way to",
+                                     "start the peers, or write `interface:`"));
+  } else if (!own->up) {
+    findings.push_back(failure(what, text_of(*own), "as root: ip link set " + own->name + " up"));
+  } else {
+    const bool alone = own->address == kLoopback;
+    findings.push_back(alone ? warning(what, text_of(*own) + ": other hosts are not reached by it", "another interface")
+                             : fine(what, text_of(*own)));
+  }
+  for (const PeerFacts& peer : network.peers) findings.push_back(judge_peer(network, peer));
+  return findings;
+}
+
+Findings judge_ports(const PortFacts& ports, const BlockWish& wish) {
+  const std::optional<int> base = wish.base ? wish.base : free_block(ports, wish.size);
+  if (!base) {
+    return {failure("domains", fmt::format("no {} in a row are free; fleets of this host have them", wish.size),
+                    "end one of these fleets")};
+  }
+  Findings findings = {judge_block(ports, wish, *base)};
+  const std::vector<std::string> others = visited(ports, wish, *base);
+  findings.push_back(others.empty()
+                         ? fine("ports", fmt::format("UDP {}..{}: free, but for fleets", ports_of(*base, 1).first,
+                                                     ports_of(*base + wish.size - 1, wish.participants).last))
+                         : warning("ports", "somebody who is no fleet has UDP ports of domains " + joined(others),
+                                   "a ROS 2 node? Another --domain keeps out of its way (`ss -ulpn` shows whose)"));
+  const int last = ports_of(*base + wish.size - 1, wish.participants).last;
+  if (last < ports.first_ephemeral) {
+    findings.push_back(fine("client ports", fmt::format("begin at {}, beyond the fleet's", ports.first_ephemeral)));
+  } else {
+    findings.push_back(warning(
+        "client ports",
+        fmt::format("the kernel gives {} and up to clients; the fleet's reach to {}", ports.first_ephemeral, last),
+        "a lower --domain, or as root: sysctl -w net.ipv4.ip_local_port_range='" + std::to_string(last + 1) +
+            " 60999'"));
+  }
+  return findings;
+}
+
+}  // namespace skein::doctor
