@@ -79,6 +79,8 @@ void RouterNode::open_door(Node node, std::string_view member) {
                                                }),
                     bus::subscribe<msg::Done>(inbox_, *nodes_[node], bus::done_spec(member),
                                               [this](const msg::Done& done, bus::ParticipantId source) {
+                                                // At the door we hear of steps that are none of ours, however many.
+                                                if (!radio_open_) return;
                                                 sync_.on_done(source, done.k(), sent_counts(done));
                                               })});
 }

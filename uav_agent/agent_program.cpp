@@ -24,8 +24,8 @@ int list_strategies() {
 class AgentMember final : public bus::FleetMember {
  public:
   /// @param scenario, bus  that the node refers to.
-  AgentMember(const ProgramOptions& options, std::string planner, StatusPipe& status, std::unique_ptr<const Scenario> scenario,
-              std::unique_ptr<bus::Bus> bus, std::unique_ptr<MemberNode> node)
+  AgentMember(const ProgramOptions& options, std::string planner, StatusPipe& status,
+              std::unique_ptr<const Scenario> scenario, std::unique_ptr<bus::Bus> bus, std::unique_ptr<MemberNode> node)
       : out_(options.out),
         dds_(options.dds),
         planner_(std::move(planner)),

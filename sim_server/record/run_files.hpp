@@ -49,7 +49,8 @@ class RunFiles {
  public:
   /// @throws std::runtime_error when the folder cannot be written. A disk that is full later on ends files, never the
   /// run; the report names them.
-  RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest, FlightReport flight = {});
+  RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest,
+           FlightReport flight = {});
 
   void write_scene(const Scene& scene);
   EventLog& events() { return events_; }

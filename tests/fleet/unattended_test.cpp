@@ -13,11 +13,14 @@
 namespace skein::test {
 namespace {
 
+/// Who comes back at once stands at the door for longer than anything is kept for it.
+constexpr double kAway_s = 5.0;
+
 class Unattended : public ByHand, public testing::WithParamInterface<std::string> {
  protected:
   /// For ever: who is not noticed to be dead holds the run up.
-  Options kept(Arguments more = {}) const {
-    more.insert(more.end(), {"--duration", "60", "--keep", "--dds", GetParam(), "--lease", "3"});
+  Options kept(Arguments more = {}, const std::string& duration_s = "60") const {
+    more.insert(more.end(), {"--duration", duration_s, "--keep", "--dds", GetParam(), "--lease", "3"});
     return {.all = std::move(more), .server = {"--agent-timeout", "0", "--startup-timeout", "0"}};
   }
   /// The process that does the work.
@@ -43,15 +46,15 @@ TEST_P(Unattended, FaultsMeanTheSameAsUnderTheLauncher) {
   std::ranges::shuffle(stopped, random_);
   std::string faults = "faults:\n";
   for (std::size_t i = 0; i < victims.size(); ++i) {
-    const double at_s = 12.0 + 9.0 * static_cast<double>(i);
-    faults += fmt::format("  - {{at_s: {}, until_s: {}, kill: {}}}\n", at_s, at_s + 2.5, victims[i]);
-    faults += fmt::format("  - {{at_s: {}, until_s: {}, pause: {}}}\n", at_s + 4.0, at_s + 6.0, stopped[i]);
+    const double at_s = 12.0 + 15.0 * static_cast<double>(i);
+    faults += fmt::format("  - {{at_s: {}, until_s: {}, kill: {}}}\n", at_s, at_s + kAway_s, victims[i]);
+    faults += fmt::format("  - {{at_s: {}, until_s: {}, pause: {}}}\n", at_s + 7.0, at_s + 7.0 + kAway_s, stopped[i]);
   }
   SCOPED_TRACE(faults);
   const std::string file = write("faults.yaml", faults);
   SkeinRun& launched =
-      run("launched", {"towers", "--planner", "patrol", "--duration", "60", "--dds", GetParam(), "--faults", file});
-  start_fleet(kept({"--faults", file}));
+      run("launched", {"towers", "--planner", "patrol", "--duration", "90", "--dds", GetParam(), "--faults", file});
+  start_fleet(kept({"--faults", file}, "90"));
   expect_good_ends();
   const Json report = server_report();
   EXPECT_EQ(report["status"], "completed") << report;
