@@ -1,5 +1,5 @@
-// Programs that no launcher watches over (--keep): they notice who dies, come back when a fault lets them, and end in good
-// order when they are asked to.
+// Programs that no launcher watches over (--keep): they notice who dies, come back when a fault lets them, and end in
+// good order when they are asked to.
 #include <signal.h>
 
 #include <spdlog/fmt/fmt.h>
