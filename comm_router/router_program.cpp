@@ -31,6 +31,10 @@ RadioCounts radio_counts(const LinkCounts& counts) {
           .delivered_bytes = counts.delivered_bytes};
 }
 
+std::filesystem::path report_of(const ProgramOptions& options) {
+  return options.out / run_folder::report_file(programs::kCommRouter);
+}
+
 void write_report(const ProgramOptions& options, const Scenario& scenario, const LinkGate& gate, const Notes& notes,
                   StatusPipe& status) {
   RouterReport report{.total = radio_counts(gate.total()),
@@ -48,8 +52,7 @@ void write_report(const ProgramOptions& options, const Scenario& scenario, const
           {.from = scenario.node_name(from), .to = scenario.node_name(to), .counts = radio_counts(counts)});
     }
   }
-  const std::filesystem::path file = options.out / run_folder::report_file(programs::kCommRouter);
-  hand_in_report(json_of(report), file, status);
+  hand_in_report(json_of(report), report_of(options), status);
 }
 
 /// A router that died for good has left its counts: makes its report of them.
@@ -83,6 +86,7 @@ class RouterMember final : public bus::FleetMember {
         counts_file_(options.out / run_folder::kCounts),
         status_(status),
         bus_(std::move(bus)) {
+    withdraw_report(report_of(options_));
     make_node();
   }
 

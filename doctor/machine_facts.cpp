@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sched.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -126,22 +125,6 @@ Limit resource(decltype(RLIMIT_NOFILE) which, rlim_t rlimit::*part) {
   return limit.*part;
 }
 
-/// Does what the router does with its counts (comm_router/count_store.cpp). @returns why it cannot.
-std::string mapping_trouble(int file) {
-  constexpr std::size_t kBytes = 4096;
-  const auto reason = [](int error) { return std::string(std::strerror(error)); };
-  if (::ftruncate(file, kBytes) != 0) return reason(errno);
-  if (const int error = ::posix_fallocate(file, 0, kBytes); error != 0) return reason(error);
-  void* memory = ::mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  if (memory == MAP_FAILED) return reason(errno);
-  constexpr char kTrace = 'x';
-  std::memset(memory, kTrace, 1);
-  char seen = 0;
-  const bool same = ::pread(file, &seen, 1, 0) == 1 && seen == kTrace;
-  ::munmap(memory, kBytes);
-  return same ? "" : "what is written to memory is not in the file";
-}
-
 double seconds_of(clockid_t clock) {
   timespec now{};
   ::clock_gettime(clock, &now);
@@ -199,7 +182,6 @@ DiskFacts read_disk(const fs::path& results) {
     facts.no_file = std::strerror(errno);
     return facts;
   }
-  facts.no_mapping = mapping_trouble(file);
   ::close(file);
   fs::remove(name, error);
   return facts;

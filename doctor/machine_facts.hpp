@@ -33,7 +33,6 @@ struct DiskFacts {
   std::filesystem::path folder{};  ///< the results folder, or the one above it that exists
   Limit free{};                    ///< [bytes]
   std::string no_file{};           ///< why no file could be made; empty: it could
-  std::string no_mapping{};        ///< why a file cannot be mapped MAP_SHARED; empty: it can
 };
 
 struct ClockFacts {

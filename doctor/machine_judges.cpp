@@ -104,14 +104,6 @@ Finding judge_disk(const DiskFacts& disk) {
   return fine(what, found);
 }
 
-Finding judge_mapping(const DiskFacts& disk) {
-  const std::string what = "shared mapping", folder = disk.folder.string();
-  if (!disk.no_file.empty()) return fine(what, "not tried: the results folder takes no file");
-  if (disk.no_mapping.empty()) return fine(what, "files in " + folder + " can be mapped, as the router's counts are");
-  return failure(what, "files in " + folder + " cannot be mapped (MAP_SHARED): " + disk.no_mapping,
-                 "--out on a local disk or tmpfs; some 9p, FUSE and NFS mounts refuse it");
-}
-
 Findings judge_clocks(const ClockFacts& clocks) {
   constexpr double kStepS = 0.01, kYear2020 = 1'577'836'800.0;
   Findings findings;

@@ -14,7 +14,6 @@ Finding judge_buffers(const MachineFacts& machine);
 Finding judge_memory(const MachineFacts& machine, const FleetNeeds& needs);
 Finding judge_cpus(const MachineFacts& machine);
 Finding judge_disk(const DiskFacts& disk);
-Finding judge_mapping(const DiskFacts& disk);
 /// One for what a run waits by, one for what it dates by.
 Findings judge_clocks(const ClockFacts& clocks);
 

@@ -119,11 +119,8 @@ TEST(MachineJudges, AFullDiskFailsAndANearlyFullOneWarns) {
     EXPECT_EQ(judge_disk(disk).verdict, Verdict::fail);
   }
   DiskFacts disk{.folder = "/results", .free = kAmpleDisk};
-  disk.no_mapping = "No such device";
-  EXPECT_EQ(judge_mapping(disk).verdict, Verdict::fail);
   disk.no_file = "Read-only file system";
   EXPECT_EQ(judge_disk(disk).verdict, Verdict::fail);
-  EXPECT_EQ(judge_mapping(disk).verdict, Verdict::ok) << "one cause, one complaint";
 }
 
 TEST(MachineJudges, ClocksThatGoAreFine) {

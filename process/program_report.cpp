@@ -19,4 +19,9 @@ void hand_in_report(Json report, const std::filesystem::path& file, StatusPipe& 
   status.send_surely(status::line_json(status::Report{std::move(report)}));
 }
 
+void withdraw_report(const std::filesystem::path& file) {
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+}
+
 }  // namespace skein

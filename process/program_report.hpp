@@ -14,4 +14,7 @@ namespace skein {
 /// @throws std::runtime_error when the file cannot be written and there is no launcher either.
 void hand_in_report(Json report, const std::filesystem::path& file, StatusPipe& status);
 
+/// When a program begins to work: what lies there was said of another run, by one that used the same folder.
+void withdraw_report(const std::filesystem::path& file);
+
 }  // namespace skein

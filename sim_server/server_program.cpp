@@ -5,10 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <utility>
 
 #include "bus/program_bus.hpp"
 #include "core/scenario_reader.hpp"
+#include "process/json_text.hpp"
+#include "process/program_report.hpp"
+#include "process/run_folder.hpp"
 #include "process/status_lines.hpp"
 #include "sim_server/scenes/scene_source.hpp"
 #include "sim_server/scenes/scene_warnings.hpp"
@@ -38,6 +42,19 @@ FlightReport flight_of(const ProgramOptions& options, const Scenario& scenario, 
           .duration_s = scenario.duration_s,
           .clock = clock,
           .dds = options.dds};
+}
+
+/// Without a launcher nobody has emptied the folder, and the books of a run with this number would be taken up again.
+void refuse_used_folder(const ProgramOptions& options) {
+  if (options.has_launcher() || !std::filesystem::exists(options.out / run_folder::kDigests)) return;
+  const std::filesystem::path file = options.out / run_folder::report_file(programs::kSimServer);
+  const auto run = struct_of<SimServerReport>(read_json(file)).flight.run;
+  if (run && *run != static_cast<std::uint64_t>(options.run)) return withdraw_report(file);
+  throw InputError(
+      "--out " + options.out.string() + ": a run was flown there" +
+      (run ? " with the same number (" + std::to_string(*run) + ")" : ", and not to its end") +
+      "; choose another folder, or another number of the run (--run; in a compose file SKEIN_RUN, or clear its volumes "
+      "with down --volumes)");
 }
 
 class ServerMember final : public bus::FleetMember {
@@ -124,6 +141,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .expect_gcs_program = ground_program_,
                                     .faults = load_fault_plan(options.faults, *scenario, options.seed)};
   Scene scene = load_scene(*scenario);
+  if (!options.check_only) refuse_used_folder(options);
   auto bus = bus::make_bus(options, *scenario);
   if (options.check_only) {
     for (const std::string& warning : scene_warnings(scene)) spdlog::warn("{}", warning);

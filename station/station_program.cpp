@@ -4,6 +4,8 @@
 
 #include "bus/program_bus.hpp"
 #include "core/scenario_reader.hpp"
+#include "process/program_report.hpp"
+#include "process/run_folder.hpp"
 #include "station/settlement.hpp"
 #include "station/station_node.hpp"
 
@@ -14,6 +16,7 @@ class StationMember final : public bus::FleetMember {
  public:
   StationMember(Scenario scenario, const ProgramOptions& options, StatusPipe& status, std::unique_ptr<bus::Bus> bus)
       : scenario_(std::move(scenario)), options_(options), status_(status), bus_(std::move(bus)) {
+    withdraw_report(options_.out / run_folder::report_file(programs::kStation));
     make_node();
   }
 

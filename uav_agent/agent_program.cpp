@@ -26,13 +26,15 @@ class AgentMember final : public bus::FleetMember {
   /// @param scenario, bus  that the node refers to.
   AgentMember(const ProgramOptions& options, std::string planner, StatusPipe& status,
               std::unique_ptr<const Scenario> scenario, std::unique_ptr<bus::Bus> bus, std::unique_ptr<MemberNode> node)
-      : out_(options.out),
-        dds_(options.dds),
+      : dds_(options.dds),
         planner_(std::move(planner)),
         status_(status),
         scenario_(std::move(scenario)),
         bus_(std::move(bus)),
-        node_(std::move(node)) {}
+        node_(std::move(node)),
+        report_(options.out / run_folder::report_file(programs::agent_program(node_->member()))) {
+    withdraw_report(report_);
+  }
 
   bus::LockstepNode& node() override { return *node_; }
   bus::Bus& bus() override { return *bus_; }
@@ -48,17 +50,17 @@ class AgentMember final : public bus::FleetMember {
                              .unsent = node_->unsent(),
                              .planner = planner_,
                              .dds = dds_};
-    hand_in_report(json_of(report), out_ / run_folder::report_file(programs::agent_program(node_->member())), status_);
+    hand_in_report(json_of(report), report_, status_);
     return code;
   }
 
  private:
-  const std::filesystem::path out_;
   const std::string dds_, planner_;
   StatusPipe& status_;
   const std::unique_ptr<const Scenario> scenario_;
   const std::unique_ptr<bus::Bus> bus_;
   const std::unique_ptr<MemberNode> node_;
+  const std::filesystem::path report_;
 };
 
 }  // namespace

@@ -57,9 +57,15 @@ ComposeProject::ComposeProject(fs::path file, std::string name, fs::path log)
     : file_(std::move(file)), name_(std::move(name)), log_(std::move(log)) {}
 
 ComposeProject::~ComposeProject() {
-  try {
-    shell(command("down --volumes --remove-orphans --timeout 2"), log_);
-  } catch (...) {  // the user has no patience with it: the containers stay, and are named in the log
+  constexpr int kAttempts = 3;  // the user may press Ctrl-C meanwhile, and wants it gone all the more
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    try {
+      shell(command("down --volumes --remove-orphans --timeout 2"), log_);
+      return;
+    } catch (const Interrupted&) {
+    } catch (const std::exception&) {  // no shell: there is nothing that we could do
+      return;
+    }
   }
 }
 

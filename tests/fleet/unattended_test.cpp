@@ -120,6 +120,29 @@ TEST_P(Unattended, AllThatAreAskedToEndAtOnceDo) {
   EXPECT_EQ(server_report()["status"], "interrupted");
 }
 
+// Books and reports of one must not pass for the other's.
+TEST_P(Unattended, TwoRunsInOneFolderAreToldApart) {
+  const auto brief = [&](const std::string& run) {
+    Options options = kept({"--run", run});
+    options.server.insert(options.server.end(), {"--stop-at", "20"});
+    return options;
+  };
+  start_fleet(brief("5"));
+  expect_good_ends();
+  const std::string digest = server_report()["digest"];
+  const Json station = Json::parse(text_of(dir_ / "station.report.json"));
+  start_fleet(brief("6"));
+  expect_good_ends();
+  EXPECT_EQ(server_report()["digest"], digest);
+  EXPECT_EQ(server_report()["flight"]["run"], 6);
+  EXPECT_EQ(Json::parse(text_of(dir_ / "station.report.json"))["score"], station["score"]);
+
+  ChildProcess& again = start_program("again", command("sim_server", brief("6")));
+  EXPECT_EQ(again.wait().code, 2);
+  EXPECT_NE(again.err().find("with the same number (6)"), std::string::npos) << again.err();
+  EXPECT_EQ(server_report()["digest"], digest) << "nothing is lost";
+}
+
 INSTANTIATE_TEST_SUITE_P(Vendors, Unattended, testing::Values("cyclonedds", "fastdds"),
                          [](const auto& vendor) { return vendor.param; });
 
