@@ -179,10 +179,18 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   return result ? exit_code_of(run, *result) : kExitProcessFailed;
 }
 
+/// Containers do not inherit SKEIN_ASSETS; only scenes from files need what it names.
+FleetPlan plan_in_containers(RunOptions options) {
+  if (!options.assets) options.assets = variable_or("SKEIN_ASSETS", "");
+  FleetPlan plan = plan_fleet(options, program_dir());
+  if (!plan.scenario.scene.family.empty() || plan.options.assets->empty()) plan.options.assets.reset();
+  return plan;
+}
+
 }  // namespace
 
 int compose_fleet(const ComposeOptions& options, const Console& console) {
-  const FleetPlan plan = plan_fleet(options.run, program_dir());
+  const FleetPlan plan = plan_in_containers(options.run);
   const ComposeLayout layout = layout_of(options);
   if (options.up) return fly(options, plan, layout, console);
   const std::string text = compose_file(plan, layout);

@@ -4,6 +4,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 
 #include "core/config_files.hpp"
@@ -21,6 +22,7 @@ constexpr const char* kConfigInImage = "/usr/share/skein/config";
 constexpr const char* kResultsInContainer = "/results";
 constexpr const char* kKeysInContainer = "/keys";
 constexpr const char* kBuildInContainer = "/opt/skein";
+constexpr const char* kParametersInContainer = "/planner.yaml";
 /// A network's members (at most four), the engine's own address, the first and the last.
 constexpr int kNetworkPrefix = 28;
 /// Without a launcher this tells who died; whoever is stopped for longer has to join anew.
@@ -55,9 +57,15 @@ x-program: &program
 
 /// YAML reads JSON's texts; what docker-compose would take for a variable is not one.
 std::string in_quotes(const std::string& text) { return Json(text).dump(); }
-std::string literal(std::string text) {
+std::string literal(const Json& value) {
+  std::string text = value.dump();
   for (std::size_t at = 0; (at = text.find('$', at)) != std::string::npos; at += 2) text.insert(at, "$");
-  return in_quotes(text);
+  return text;
+}
+/// The long form of a mount, whose paths may hold colons.
+std::string mount(const fs::path& here, const fs::path& in_container, bool read_only = true) {
+  return literal(
+      {{"type", "bind"}, {"source", here.string()}, {"target", in_container.string()}, {"read_only", read_only}});
 }
 
 /// What a program is called in the networks that it is in: "uav.jurong".
@@ -95,7 +103,7 @@ class Networks {
     for (const std::string& name : of(program)) {
       std::vector<std::string> peers;
       for (const std::string& member : members_.at(name)) peers.push_back(role_of(member) + "." + name);
-      text += fmt::format("{}{}: {{peers: [{}]}}", text.empty() ? "" : ", ", name, fmt::join(peers, ", "));
+      text += fmt::format("{}'{}': {{peers: [{}]}}", text.empty() ? "" : ", ", name, fmt::join(peers, ", "));
     }
     return "{" + text + "}";
   }
@@ -105,15 +113,33 @@ class Networks {
   std::map<std::string, std::vector<std::string>> members_;
 };
 
-/// A file of this host as containers see it: shipped ones are in the image, others are mounted where they are.
-fs::path in_container(const fs::path& file) {
-  const fs::path config = fs::weakly_canonical(default_config_dir()), whole = fs::weakly_canonical(file);
-  const fs::path below = whole.lexically_relative(config);
-  return below.empty() || *below.begin() == ".." ? whole : kConfigInImage / below;
+/// Where the image has a file that is shipped; nullopt: it is none.
+std::optional<fs::path> in_image(const fs::path& file) {
+  const fs::path config = fs::weakly_canonical(default_config_dir());
+  const fs::path below = fs::weakly_canonical(file).lexically_relative(config);
+  if (below.empty() || *below.begin() == "..") return std::nullopt;
+  return kConfigInImage / below;
 }
 
-/// Files of this host that a program reads.
-std::vector<fs::path> files_of(const FleetPlan& plan, const std::string& program) {
+/// A path of this host as containers see it: what is not in the image is mounted where it is.
+fs::path in_container(const fs::path& file) { return in_image(file).value_or(fs::absolute(file).lexically_normal()); }
+
+const UavPlanner& planner_of(const FleetPlan& plan, const std::string& program) {
+  if (program == programs::kGroundAgent) return *plan.ground;
+  return plan.planners[plan.scenario.uav_index(programs::member_name(program))];
+}
+
+/// The file FILE of NAME:FILE, which holds a planner's parameters; empty: there is none.
+fs::path parameter_file(const UavPlanner& planner) {
+  const std::size_t colon = planner.spec.find(':');
+  if (exec_command(planner.spec) || colon == std::string::npos || planner.spec.find('=') != std::string::npos) {
+    return {};
+  }
+  return planner.spec.substr(colon + 1);
+}
+
+/// Files of this host that a program reads, by their paths in its container.
+std::map<fs::path, fs::path> files_of(const FleetPlan& plan, const std::string& program) {
   std::vector<fs::path> files = plan.scenario.vehicle_files;
   files.push_back(plan.scenario.file);
   files.push_back(plan.faults.file);
@@ -124,12 +150,15 @@ std::vector<fs::path> files_of(const FleetPlan& plan, const std::string& program
     files.push_back(scene.points);
     files.push_back(scene.boxes);
   }
-  std::erase_if(files,
-                [](const fs::path& file) { return file.empty() || in_container(file) != fs::weakly_canonical(file); });
-  for (fs::path& file : files) file = fs::weakly_canonical(file);
-  std::ranges::sort(files);
-  files.erase(std::ranges::unique(files).begin(), files.end());
-  return files;
+  std::map<fs::path, fs::path> mounted;
+  for (const fs::path& file : files) {
+    if (!file.empty() && !in_image(file)) mounted[in_container(file)] = fs::weakly_canonical(file);
+  }
+  if (programs::is_agent(program)) {
+    const fs::path parameters = parameter_file(planner_of(plan, program));
+    if (!parameters.empty()) mounted[kParametersInContainer] = fs::weakly_canonical(parameters);
+  }
+  return mounted;
 }
 
 class ComposeText {
@@ -174,7 +203,7 @@ class ComposeText {
     if (foreign) add_variables(program);
     line(4, "networks:");
     for (const std::string& network : networks_.of(program)) {
-      line(6, network + ":");
+      line(6, in_quotes(network) + ":");  // YAML takes some words for truth values
       line(8, "aliases:");
       line(10, "- " + role_of(program) + "." + network);
     }
@@ -186,11 +215,15 @@ class ComposeText {
   /// Quoted; `run` may be a variable.
   std::vector<std::string> arguments_of(const std::string& program) const {
     std::vector<std::string> texts;
-    const std::string scenario = fs::absolute(plan_.scenario.file),
-                      faults = plan_.faults.file.empty() ? "" : fs::absolute(plan_.faults.file);
     std::vector<std::string> arguments = program_arguments(plan_, program, kComposeBaseDomain);
-    for (std::string& argument : arguments) {
-      if (argument == scenario || (!faults.empty() && argument == faults)) argument = in_container(argument);
+    for (const fs::path& path : {plan_.scenario.file, plan_.faults.file, plan_.options.assets.value_or("")}) {
+      if (!path.empty()) std::ranges::replace(arguments, fs::absolute(path).string(), in_container(path).string());
+    }
+    if (programs::is_agent(program)) {
+      const std::string spec = planner_of(plan_, program).spec, file = parameter_file(planner_of(plan_, program));
+      if (!file.empty()) {
+        std::ranges::replace(arguments, spec, spec.substr(0, spec.size() - file.size()) + kParametersInContainer);
+      }
     }
     arguments.insert(arguments.end(), {"--keep", "--health", "/tmp/alive", "--lease", std::to_string(kLease_s), "--out",
                                        kResultsInContainer});
@@ -219,16 +252,15 @@ class ComposeText {
   }
 
   std::vector<std::string> volumes_of(const std::string& program) const {
-    const std::string results = layout_.results ? results_of(program, *layout_.results).string() : volume_of(program);
-    std::vector<std::string> volumes = {in_quotes(results + ":" + kResultsInContainer)};
-    for (const fs::path& file : files_of(plan_, program)) {
-      volumes.push_back(literal(file.string() + ":" + file.string() + ":ro"));
-    }
+    std::vector<std::string> volumes = {layout_.results
+                                            ? mount(results_of(program, *layout_.results), kResultsInContainer, false)
+                                            : in_quotes(volume_of(program) + ":" + kResultsInContainer)};
+    for (const auto& [there, here] : files_of(plan_, program)) volumes.push_back(mount(here, there));
     if (plan_.options.secure)
       volumes.push_back(in_quotes(layout_.keys + "/" + program + ":" + kKeysInContainer + ":ro"));
     if (layout_.build && !layout_.images.contains(programs::member_name(program))) {
-      volumes.push_back(literal((*layout_.build / "bin").string() + ":" + kBuildInContainer + "/bin:ro"));
-      volumes.push_back(literal(default_config_dir().string() + ":" + kBuildInContainer + "/config:ro"));
+      volumes.push_back(mount(*layout_.build / "bin", fs::path(kBuildInContainer) / "bin"));
+      volumes.push_back(mount(default_config_dir(), fs::path(kBuildInContainer) / "config"));
     }
     return volumes;
   }
@@ -240,7 +272,7 @@ class ComposeText {
     text_ += "networks:\n";
     std::uint32_t next = layout_.subnet ? layout_.subnet->address : 0;
     for (const std::string& name : networks_.names()) {
-      line(2, name + ":");
+      line(2, in_quotes(name) + ":");
       line(4, "internal: true");
       if (!layout_.subnet) continue;
       line(4, "ipam:");
@@ -268,7 +300,23 @@ class ComposeText {
   std::string text_;
 };
 
+/// A domain is named for each network, and what runs there for each alias; DNS knows no case.
+void check_names(const Scenario& scenario) {
+  const auto small = [](std::string name) {
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    return name;
+  };
+  std::map<std::string, std::string> seen = {{"world", "world"}, {"gcs", "gcs"}};
+  for (const UavConfig& uav : scenario.fleet) {
+    const auto [other, is_new] = seen.emplace(small(uav.name), uav.name);
+    if (is_new) continue;
+    throw InputError(scenario.file.string() + ": fleet: in containers '" + uav.name + "' cannot be told from '" +
+                     other->second + "', whose network has that name, whatever its case; choose another name");
+  }
+}
+
 void check(const FleetPlan& plan, const ComposeLayout& layout) {
+  check_names(plan.scenario);
   std::vector<UavPlanner> all = plan.planners;
   if (plan.ground) all.push_back(*plan.ground);
   for (const UavPlanner& planner : all) {

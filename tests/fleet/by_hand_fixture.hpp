@@ -15,7 +15,9 @@ namespace skein::test {
 class ByHand : public FleetTest {
  protected:
   struct Options {
+    std::string scenario = "towers";
     Arguments all = {}, server = {};  ///< beside those that every fleet needs
+    std::filesystem::path keys = {};  ///< as `skein keys` makes them; empty: an open fleet
   };
 
   ByHand() { std::filesystem::create_directories(dir_); }
@@ -34,9 +36,15 @@ class ByHand : public FleetTest {
   }
 
   Arguments command(const std::string& name, const Options& options) const {
-    Arguments argv = {program(name.substr(0, name.find('-'))), "--scenario", "towers", "--domain",
-                      std::to_string(domains_.base()),         "--out",      dir_};
+    Arguments argv = {program(name.substr(0, name.find('-'))),
+                      "--scenario",
+                      options.scenario,
+                      "--domain",
+                      std::to_string(domains_.base()),
+                      "--out",
+                      dir_};
     if (member(name) != name) argv.insert(argv.end(), {"--uav", member(name), "--planner", "patrol"});
+    if (!options.keys.empty()) argv.insert(argv.end(), {"--security", options.keys / name});
     argv.insert(argv.end(), options.all.begin(), options.all.end());
     if (name == "sim_server") argv.insert(argv.end(), options.server.begin(), options.server.end());
     return argv;

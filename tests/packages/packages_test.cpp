@@ -12,7 +12,8 @@ namespace {
 namespace fs = std::filesystem;
 using Paths = std::set<std::string>;
 
-const Paths kAllPrograms = {"skein", "sim_server", "comm_router", "station", "uav_agent", "uav_agent_fleet"};
+const Paths kAllPrograms = {"skein",   "skein_doctor", "sim_server",     "comm_router",
+                            "station", "uav_agent",    "uav_agent_fleet"};
 
 bool has_program(const std::string& name) { return std::system(("command -v " + name + " >/dev/null").c_str()) == 0; }
 

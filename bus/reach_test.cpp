@@ -1,0 +1,150 @@
+// How the own address is found by the names of peers. Names that end in .invalid are nobody's (RFC 6761).
+#include "bus/reach.hpp"
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <netdb.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "bus/own_host.hpp"
+#include "core/types.hpp"
+
+namespace {
+
+/// Stands before the system's resolver: names that are nobody's get no answer before so many have been asked for.
+struct Resolver {
+  std::mutex mutex;
+  std::condition_variable asked_more;
+  int asked = 0, awaited = 0;
+
+  bool wait_for_all() {
+    std::unique_lock lock(mutex);
+    ++asked;
+    asked_more.notify_all();
+    return asked_more.wait_for(lock, std::chrono::seconds(60), [&] { return asked >= awaited; });
+  }
+} resolver;
+
+}  // namespace
+
+extern "C" int getaddrinfo(const char* node, const char* service, const addrinfo* hints, addrinfo** found) {
+  if (std::string_view(node).ends_with(".invalid")) return resolver.wait_for_all() ? EAI_NONAME : EAI_FAIL;
+  static const auto systems = reinterpret_cast<decltype(&::getaddrinfo)>(::dlsym(RTLD_NEXT, "getaddrinfo"));
+  return systems(node, service, hints, found);
+}
+
+namespace skein::bus {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// An address in the default network that is not ours: packets there leave from the own address.
+constexpr const char* kAnothers = "192.0.2.77";  // of a network for examples
+
+in_addr address_of(const std::string& text) { return look_up(text).value(); }
+
+class ReachTest : public testing::Test {
+ protected:
+  ReachTest() : before_(spdlog::default_logger()) {
+    resolver.asked = resolver.awaited = 0;
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log_)));
+  }
+  ~ReachTest() override { spdlog::set_default_logger(before_); }
+
+  /// The first own address that is not the loopback's.
+  static std::optional<in_addr> own_address() {
+    for (const OwnInterface& own : own_interfaces()) {
+      if ((ntohl(own.address.s_addr) >> 24) != 127) return own.address;
+    }
+    return std::nullopt;
+  }
+
+  std::ostringstream log_;
+
+ private:
+  const std::shared_ptr<spdlog::logger> before_;
+};
+
+TEST_F(ReachTest, WhoIsKnownCountsAndWhoIsNotIsNamed) {
+  const auto own = own_address();
+  if (!own) GTEST_SKIP() << "this host has no address but the loopback's";
+  std::mt19937 random{std::random_device{}()};
+  for (int round = 0; round < 20; ++round) {
+    DomainNetwork network;
+    Addresses asked;
+    std::set<std::string> unknown, known;
+    const int unknown_count = std::uniform_int_distribution(0, 5)(random);
+    for (int i = 0; i < unknown_count; ++i) unknown.insert("nobody" + std::to_string(i) + ".invalid");
+    known = {"me.invalid"};
+    asked["me.invalid"] = *own;
+    network.peers = {"me.invalid"};
+    network.peers.insert(network.peers.end(), unknown.begin(), unknown.end());
+    std::ranges::shuffle(network.peers, random);
+    log_.str("");
+    const Reach reach = find_reach(network, "world", milliseconds(0), asked);  // no time to ask anybody
+    EXPECT_EQ(reach.address, text_of(*own));
+    EXPECT_EQ(reach.peers, std::vector<std::string>{text_of(*own)});
+    EXPECT_FALSE(reach.host_only);
+    for (const std::string& name : unknown) EXPECT_NE(log_.str().find(name), std::string::npos) << log_.str();
+    EXPECT_EQ(log_.str().empty(), unknown.empty()) << log_.str();
+    EXPECT_EQ(log_.str().find("me.invalid"), std::string::npos) << log_.str();
+    EXPECT_EQ(resolver.asked, 0) << "what was asked already is asked again";
+  }
+}
+
+// An answer that the resolver could never give.
+TEST_F(ReachTest, WhatWasAskedAlreadyIsNotAskedAgain) {
+  const Addresses asked = {{"localhost", address_of(kAnothers)}};
+  const auto source = source_towards(address_of(kAnothers));
+  if (!source) GTEST_SKIP() << "this host has no way to other networks";
+  const Reach reach = find_reach({.interface = "", .peers = {"localhost"}}, "world", milliseconds(0), asked);
+  EXPECT_EQ(reach.peers, std::vector<std::string>{kAnothers});
+  EXPECT_EQ(reach.address, text_of(*source)) << "from where packets to that peer leave";
+}
+
+TEST_F(ReachTest, WithoutAnyPeerThatIsKnownTheOwnAddressIsNot) {
+  const DomainNetwork network{.interface = "", .peers = {"a.invalid", "b.invalid"}};
+  try {
+    find_reach(network, "jurong", milliseconds(0), Addresses{});
+    FAIL() << "nobody could know";
+  } catch (const std::runtime_error& error) {
+    for (const char* word : {"jurong", "a.invalid", "b.invalid", "interface"}) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(ReachTest, AnInterfaceTellsTheOwnAddressWithoutPeers) {
+  const auto own = own_address();
+  if (!own) GTEST_SKIP() << "this host has no address but the loopback's";
+  const DomainNetwork network{.interface = text_of(*own), .peers = {"a.invalid"}};
+  const Reach reach = find_reach(network, "world", milliseconds(0), Addresses{});
+  EXPECT_EQ(reach.address, text_of(*own));
+  EXPECT_TRUE(reach.by_peers()) << "still no multicast";
+  EXPECT_THROW(check_interface({.interface = "no_such0", .peers = {}}, "world"), InputError);
+}
+
+// One after the other, each would wait for the others that are not asked for yet.
+TEST_F(ReachTest, NamesAreLookedUpAtOnceAndEachOnce) {
+  std::vector<std::string> hosts = {"127.0.0.1", "127.0.0.1", "10.1.2.3"};
+  resolver.awaited = 8;
+  for (int i = 0; i < 2 * resolver.awaited; ++i) {
+    hosts.push_back("nobody" + std::to_string(i % resolver.awaited) + ".invalid");
+  }
+  const Addresses addresses = look_up_all(hosts);
+  EXPECT_EQ(resolver.asked, resolver.awaited);
+  ASSERT_EQ(addresses.size(), 2u);
+  for (const auto& [host, address] : addresses) EXPECT_EQ(text_of(address), host);
+}
+
+}  // namespace
+}  // namespace skein::bus

@@ -1,0 +1,383 @@
+// Files for docker-compose, of drawn fleets: who shares a network with whom, and what a container may do and see.
+#include "cli/compose/compose_file.hpp"
+
+#include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <random>
+#include <set>
+
+#include "cli/run/supervisor.hpp"
+#include "cli/testing/fake_programs.hpp"
+#include "core/network_config.hpp"
+#include "process/environment.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Texts = std::vector<std::string>;
+using Names = std::set<std::string>;
+
+const Texts kSceneFiles = {"mesh.stl", "points.pcd", "boxes.yaml"};
+/// What YAML, DNS or docker-compose might take for something else.
+const Texts kOddNames = {"on",      "yes", "null",   "true",       "n",  "usual", "host",
+                         "results", "uav", "router", "sim_server", "E5", "z__9_", std::string(64, 'a')};
+constexpr int kFleets = 40;
+
+/// What docker-compose makes of a text without any variable set: "${X:-y}" is "y", "$$" is "$".
+std::string filled_in(const std::string& text) {
+  std::string filled;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '$') {
+      filled += text[i];
+    } else if (text.compare(i, 2, "$$") == 0) {
+      filled += text[++i];
+    } else {
+      const std::size_t otherwise = text.find(":-", i), end = text.find('}', i);
+      if (text.compare(i, 2, "${") != 0 || otherwise > end) throw std::runtime_error("an odd variable: " + text);
+      filled += text.substr(otherwise + 2, end - otherwise - 2);
+      i = end;
+    }
+  }
+  return filled;
+}
+
+Texts texts_of(const YAML::Node& list) {
+  Texts texts;
+  for (const YAML::Node& text : list) texts.push_back(filled_in(text.as<std::string>()));
+  return texts;
+}
+
+Names names_of(const YAML::Node& map) {
+  Names names;
+  for (const auto& entry : map) names.insert(entry.first.as<std::string>());
+  return names;
+}
+
+/// A file that was made, read as docker-compose does.
+class Compose {
+ public:
+  explicit Compose(const std::string& text) : root_(YAML::Load(text)) {}
+
+  Names services() const { return names_of(root_["services"]); }
+  Names networks() const { return names_of(root_["networks"]); }
+  YAML::Node network(const std::string& name) const { return root_["networks"][name]; }
+  Names volumes() const { return root_["volumes"] ? names_of(root_["volumes"]) : Names(); }
+  /// Its own word, or that of what all have in common.
+  YAML::Node of(const std::string& service, const std::string& key) const {
+    const YAML::Node own = root_["services"][service];
+    return own[key] ? own[key] : own["<<"][key];
+  }
+  std::string text(const std::string& service, const std::string& key) const {
+    return filled_in(of(service, key).as<std::string>());
+  }
+  Names networks_of(const std::string& service) const { return names_of(of(service, "networks")); }
+  Names members(const std::string& network) const {
+    Names members;
+    for (const std::string& service : services()) {
+      if (networks_of(service).contains(network)) members.insert(service);
+    }
+    return members;
+  }
+  Texts aliases(const std::string& service, const std::string& network) const {
+    return texts_of(of(service, "networks")[network]["aliases"]);
+  }
+  /// What is mounted: here, by the path there.
+  std::map<std::string, std::string> mounts(const std::string& service) const {
+    std::map<std::string, std::string> mounts;
+    for (const YAML::Node& volume : of(service, "volumes")) {
+      if (volume.IsMap()) {
+        EXPECT_EQ(volume["type"].as<std::string>(), "bind");
+        mounts[filled_in(volume["target"].as<std::string>())] = filled_in(volume["source"].as<std::string>());
+        continue;
+      }
+      const std::string text = filled_in(volume.as<std::string>()), here = text.substr(0, text.find(':'));
+      const std::string rest = text.substr(here.size() + 1);
+      mounts[rest.substr(0, rest.find(':'))] = here;
+    }
+    return mounts;
+  }
+  /// The value of an option of its command.
+  std::string option(const std::string& service, const std::string& name) const {
+    for (const std::string& argument : texts_of(of(service, "command"))) {
+      if (argument.starts_with(name + "=")) return argument.substr(name.size() + 1);
+    }
+    return {};
+  }
+
+ private:
+  YAML::Node root_;
+};
+
+class ComposeFile : public testing::Test {
+ protected:
+  struct Fleet {
+    FleetPlan plan;
+    ComposeLayout layout;
+    Compose file() const { return Compose(compose_file(plan, layout)); }
+  };
+
+  /// A folder of an odd name with scene, vehicle, parameters and scenario.
+  FleetPlan plan_of(const Texts& uavs, bool scene_files, bool own_vehicle, const RunOptions& options) {
+    fs::create_directories(dir_);
+    for (const std::string& file : kSceneFiles) write_text(dir_ / file, "");
+    fs::copy_file(SKEIN_SOURCE_DIR "/config/vehicles/explorer.yaml", dir_ / "mine.yaml",
+                  fs::copy_options::overwrite_existing);
+    write_text(dir_ / "parameters.yaml", "");
+    std::string text = "name: drawn\ndesired_mm_per_pixel: 2.0\nscene: ";
+    text += scene_files ? "{meshes: [./mesh.stl], points: ./points.pcd, boxes: ./boxes.yaml}" : "{family: towers}";
+    text += "\nfleet:\n";
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      text += fmt::format("  - {{name: \"{}\", vehicle: {}, start: [{}, 0]}}\n", uavs[i],
+                          own_vehicle && i % 2 == 0 ? "./mine.yaml" : "photographer", 10 * i);
+    }
+    write_text(dir_ / "mine_too.yaml", text);
+    RunOptions run = options;
+    run.scenario = dir_ / "mine_too.yaml";
+    run.planner = "hover";
+    return plan_fleet(run, programs_.dir());
+  }
+
+  Texts draw_names(std::mt19937& random) {
+    Texts names = kOddNames;
+    for (int i = 0; i < 20; ++i) names.push_back("u" + std::to_string(i));
+    std::ranges::shuffle(names, random);
+    names.resize(std::uniform_int_distribution<std::size_t>(1, 20)(random));
+    return names;
+  }
+
+  Fleet draw(unsigned seed) {
+    std::mt19937 random(seed);
+    const auto coin = [&] { return std::bernoulli_distribution(0.5)(random); };
+    const Texts names = draw_names(random);
+    RunOptions options;
+    options.secure = coin();
+    options.dds = options.secure || coin() ? "fastdds" : "mixed";
+    options.seed = random();
+    if (coin()) options.faults = dir_ / "faults.yaml";
+    if (coin()) options.duration_s = 31.5;
+    fs::create_directories(dir_);
+    write_text(dir_ / "faults.yaml", "faults:\n  - {at_s: 5, until_s: 9, kill: \"" + names[0] + "\"}\n");
+    Fleet fleet{plan_of(names, coin(), coin(), options), {}};
+    if (coin()) fleet.plan.ground = UavPlanner{"gcs", "xxh"};
+    if (coin()) fleet.plan.planners[0].spec = "hover:" + (dir_ / "parameters.yaml").string();
+    if (coin()) fleet.plan.planners.back().spec = "hover:note=$HOME ${X} \"quoted\"";
+    if (coin()) fleet.layout.images[names.back()] = "mine:latest";
+    if (coin()) fleet.layout.subnet = parse_subnet("172.30.0.0/20");
+    if (coin()) fleet.layout.results = dir_ / "out";
+    return fleet;
+  }
+
+  /// For each of many fleets.
+  void for_all(const std::function<void(const Fleet&, const Compose&)>& look) {
+    for (unsigned seed = 0; seed < kFleets && !HasFailure(); ++seed) {
+      SCOPED_TRACE("fleet " + std::to_string(seed));
+      const Fleet fleet = draw(seed);
+      look(fleet, fleet.file());
+    }
+  }
+  static std::string error_of(const Fleet& fleet) {
+    try {
+      compose_file(fleet.plan, fleet.layout);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  }
+
+  const FakePrograms programs_;
+  const fs::path dir_ = programs_.dir() / "a $b: 'c' \"d\" #{e}";
+};
+
+TEST_F(ComposeFile, EachDomainIsANetworkOfThoseWhoAreInIt) {
+  for_all([](const Fleet& fleet, const Compose& file) {
+    Names networks = {"world", "gcs"}, services = {"sim_server", "comm_router", "station"};
+    if (fleet.plan.ground) services.insert("uav_agent-gcs");
+    for (const UavConfig& uav : fleet.plan.scenario.fleet) {
+      networks.insert(uav.name);
+      services.insert("uav_agent-" + uav.name);
+    }
+    EXPECT_EQ(file.services(), services);
+    ASSERT_EQ(file.networks(), networks);
+    for (const std::string& network : networks) {
+      Names members = {"sim_server", "comm_router"};
+      if (network == "world" || network == "gcs") members.insert("station");
+      if (network != "world" && services.contains("uav_agent-" + network)) members.insert("uav_agent-" + network);
+      EXPECT_EQ(file.members(network), members) << network;
+      EXPECT_TRUE(file.network(network)["internal"].as<bool>()) << network;
+    }
+  });
+}
+
+TEST_F(ComposeFile, EachContainerMayDoLittle) {
+  for_all([](const Fleet&, const Compose& file) {
+    for (const std::string& service : file.services()) {
+      EXPECT_TRUE(file.of(service, "init").as<bool>() && file.of(service, "read_only").as<bool>()) << service;
+      EXPECT_EQ(texts_of(file.of(service, "cap_drop")), Texts{"ALL"});
+      EXPECT_EQ(texts_of(file.of(service, "security_opt")), Texts{"no-new-privileges:true"});
+      EXPECT_NE(file.text(service, "user").substr(0, 2), "0:");
+      EXPECT_GT(file.of(service, "pids_limit").as<int>(), 0);
+      for (const char* key : {"mem_limit", "healthcheck", "stop_grace_period", "restart", "image"}) {
+        EXPECT_TRUE(file.of(service, key).IsDefined()) << service << ' ' << key;
+      }
+      for (const char* key : {"privileged", "cap_add", "devices", "ports", "network_mode", "pid", "ipc"}) {
+        EXPECT_FALSE(file.of(service, key).IsDefined()) << service << ' ' << key;
+      }
+      const std::string health = file.option(service, "--health");
+      EXPECT_NE(file.of(service, "healthcheck")["test"][1].as<std::string>().find(health), std::string::npos);
+    }
+  });
+}
+
+TEST_F(ComposeFile, EachProgramIsToldItsPeersByNamesThatTheyHave) {
+  for_all([](const Fleet&, const Compose& file) {
+    Names all;
+    std::size_t count = 0;
+    for (const std::string& service : file.services()) {
+      for (const std::string& network : file.networks_of(service)) {
+        for (const std::string& alias : file.aliases(service, network)) {
+          all.insert(alias);
+          ++count;
+        }
+      }
+    }
+    EXPECT_EQ(all.size(), count) << "two of one name";
+    for (const std::string& service : file.services()) {
+      const NetworkConfig config = read_network(filled_in(file.of(service, "environment")["SKEIN_NETWORK"].Scalar()));
+      for (const std::string& network : file.networks_of(service)) {
+        Names peers, members;
+        for (const std::string& peer : config.of(network).peers) peers.insert(peer);
+        for (const std::string& member : file.members(network)) {
+          for (const std::string& alias : file.aliases(member, network)) members.insert(alias);
+        }
+        EXPECT_EQ(peers, members) << service << " in " << network;
+      }
+      for (const auto& [domain, network] : config.domains) {
+        EXPECT_TRUE(file.networks_of(service).contains(domain)) << service << " is told of " << domain;
+      }
+    }
+  });
+}
+
+TEST_F(ComposeFile, FilesAreMountedForThoseWhoNeedThem) {
+  for_all([&](const Fleet& fleet, const Compose& file) {
+    for (const std::string& service : file.services()) {
+      const auto mounts = file.mounts(service);
+      Names here;
+      for (const auto& [there, source] : mounts) here.insert(source);
+      for (const std::string& scene : kSceneFiles) {
+        EXPECT_EQ(here.contains(dir_ / scene), service == "sim_server" && fleet.plan.scenario.scene.family.empty())
+            << service << ' ' << scene;
+      }
+      for (const char* option : {"--scenario", "--faults"}) {
+        const std::string path = file.option(service, option);
+        EXPECT_TRUE(path.empty() || mounts.contains(path)) << service << ' ' << path;
+      }
+      for (const fs::path& vehicle : fleet.plan.scenario.vehicle_files) {
+        const bool own = vehicle.filename() == "mine.yaml";
+        EXPECT_EQ(here.contains(fs::weakly_canonical(vehicle)), own) << service << ' ' << vehicle;
+      }
+      EXPECT_EQ(mounts.contains("/keys"), fleet.plan.options.secure);
+      EXPECT_EQ(file.option(service, "--security"), fleet.plan.options.secure ? "/keys" : "");
+    }
+  });
+}
+
+TEST_F(ComposeFile, AgentsSeeOneAnothersResultsAsLittleAsTheServers) {
+  for_all([](const Fleet& fleet, const Compose& file) {
+    std::map<std::string, Names> users;
+    for (const std::string& service : file.services()) {
+      EXPECT_EQ(file.option(service, "--out"), "/results");
+      users[file.mounts(service).at("/results")].insert(service);
+    }
+    EXPECT_EQ(users.size(), file.services().size() - 2);
+    for (const auto& [volume, services] : users) {
+      const Names servers = {"sim_server", "comm_router", "station"};
+      EXPECT_TRUE(services.size() == 1 || services == servers) << volume;
+      EXPECT_EQ(file.volumes().contains(volume), !fleet.layout.results) << volume;
+    }
+  });
+}
+
+TEST_F(ComposeFile, WhatPlannersAreToldReachesThemAsItWasWritten) {
+  for_all([&](const Fleet& fleet, const Compose& file) {
+    for (const UavPlanner& planner : fleet.plan.planners) {
+      const std::string service = "uav_agent-" + planner.uav, told = file.option(service, "--planner");
+      EXPECT_EQ(file.option(service, "--uav"), planner.uav);
+      if (planner.spec.find("parameters.yaml") == std::string::npos) {
+        EXPECT_EQ(told, planner.spec);
+      } else {
+        ASSERT_EQ(told.find("hover:/"), 0u) << told;
+        EXPECT_EQ(file.mounts(service).at(told.substr(6)), dir_ / "parameters.yaml");
+      }
+    }
+  });
+}
+
+TEST_F(ComposeFile, SubnetsLieBesideEachOtherInTheOneThatIsGiven) {
+  for_all([](const Fleet& fleet, const Compose& file) {
+    std::set<std::uint32_t> taken;
+    for (const std::string& network : file.networks()) {
+      const YAML::Node ipam = file.network(network)["ipam"];
+      ASSERT_EQ(ipam.IsDefined(), fleet.layout.subnet.has_value());
+      if (!ipam) continue;
+      const Subnet subnet = parse_subnet(ipam["config"][0]["subnet"].as<std::string>());
+      EXPECT_GE(std::uint32_t{1} << (32 - subnet.prefix), file.members(network).size() + 3);
+      for (std::uint32_t i = 0; i < std::uint32_t{1} << (32 - subnet.prefix); ++i) {
+        EXPECT_TRUE(taken.insert(subnet.address + i).second) << network;
+        EXPECT_EQ((subnet.address + i) >> (32 - fleet.layout.subnet->prefix),
+                  fleet.layout.subnet->address >> (32 - fleet.layout.subnet->prefix));
+      }
+    }
+  });
+}
+
+TEST_F(ComposeFile, WhatIsWrongIsToldWithWhatWouldBeRight) {
+  const auto fleet = [&](const Texts& names) { return Fleet{plan_of(names, false, false, {}), {}}; };
+  for (const Texts& alike : {Texts{"jurong", "Jurong"}, Texts{"a", "world"}, Texts{"GCS"}}) {
+    EXPECT_NE(error_of(fleet(alike)).find("choose another name"), std::string::npos) << alike.back();
+  }
+  Fleet foreign = fleet({"a", "b"});
+  foreign.plan.planners[0].spec = "exec:./mine";
+  EXPECT_NE(error_of(foreign).find("--image a=IMAGE"), std::string::npos) << error_of(foreign);
+  foreign.layout.images["a"] = "mine";
+  EXPECT_EQ(error_of(foreign), "none");
+  foreign.layout.images["bb"] = "mine";
+  EXPECT_NE(error_of(foreign).find("a, b"), std::string::npos) << error_of(foreign);
+  for (std::size_t uavs = 1; uavs <= 20; ++uavs) {  // what the message names is just enough
+    Texts names;
+    for (std::size_t i = 0; i < uavs; ++i) names.push_back("u" + std::to_string(i));
+    Fleet tight = fleet(names);
+    tight.layout.subnet = parse_subnet("10.1.0.0/28");
+    const std::string error = error_of(tight);
+    const int prefix = std::stoi(error.substr(error.find("a /") + 3));
+    tight.layout.subnet = parse_subnet("10.1.0.0/" + std::to_string(prefix));
+    EXPECT_EQ(error_of(tight), "none");
+    tight.layout.subnet->prefix = prefix + 1;
+    EXPECT_EQ(error_of(tight), error);
+  }
+  for (const char* text : {"", "10.0.0.0", "10.0.0.0/", "10.0.0/20", "10.0.0.0/29", "10.0.0.0/7", "10.0.0.0/20x"}) {
+    EXPECT_THROW(parse_subnet(text), InputError) << text;
+  }
+}
+
+TEST_F(ComposeFile, DockerComposeTakesIt) {
+  if (!fs::exists("/usr/bin/docker-compose")) GTEST_SKIP() << "there is no docker-compose here";
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    const Fleet fleet = draw(seed);
+    const fs::path file = programs_.dir() / "compose.yaml", log = programs_.dir() / "compose.log";
+    write_text(file, compose_file(fleet.plan, fleet.layout));
+    const ExitStatus exit = run_to_end(
+        {"docker-compose", {"/usr/bin/docker-compose", "-f", file, "config", "-q"}, environment_with({}), log});
+    EXPECT_EQ(exit.code, 0) << "fleet " << seed << ": " << read_text(log);
+  }
+}
+
+}  // namespace
+}  // namespace skein::cli

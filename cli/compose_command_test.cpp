@@ -1,0 +1,109 @@
+// `skein compose` and `skein keys`, with the real programs beside them.
+#include "cli/compose_command.hpp"
+
+#include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+#include "cli/run/preflight.hpp"
+#include "cli/testing/fake_programs.hpp"
+#include "process/program.hpp"
+#include "process/security_files.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Texts = std::vector<std::string>;
+
+class ComposeCommand : public testing::Test {
+ protected:
+  ComposeCommand() {
+    ::setenv("SKEIN_BIN_DIR", SKEIN_BIN_DIR, 1);
+    ::setenv("SKEIN_CONFIG_DIR", SKEIN_SOURCE_DIR "/config", 1);
+  }
+  ~ComposeCommand() override {
+    for (const char* name : {"SKEIN_BIN_DIR", "SKEIN_CONFIG_DIR"}) ::unsetenv(name);
+  }
+
+  int keys(const Texts& arguments) {
+    Texts all = {"keys"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return make_keys(std::get<KeysOptions>(parse_command_line(all)), {out_, err_, false});
+  }
+  static mode_t mode_of(const fs::path& path) {
+    struct stat status {};
+    return ::lstat(path.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
+  }
+  static std::set<std::string> names_in(const fs::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+    return names;
+  }
+
+  const ScratchDir scratch_;
+  std::ostringstream out_, err_;
+};
+
+TEST_F(ComposeCommand, TheShippedFileIsWhatItWrites) {
+  const Texts words = {"compose", "towers", "--planner", "kios", "--file", "docker/compose.yaml"};
+  auto options = std::get<ComposeOptions>(parse_command_line(words));
+  options.file.reset();
+  EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone);
+  EXPECT_EQ(out_.str(), read_text(SKEIN_SOURCE_DIR "/docker/compose.yaml"))
+      << "mend it in the source tree with: ./skein " << fmt::format("{}", fmt::join(words, " "));
+}
+
+TEST_F(ComposeCommand, AFileIsWrittenOrTheReasonTold) {
+  auto options = std::get<ComposeOptions>(parse_command_line({"compose", "towers"}));
+  options.file = scratch_.path() / "compose.yaml";
+  EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone);
+  EXPECT_EQ(out_.str(), "");
+  options.file.reset();
+  compose_fleet(options, {out_, err_, false});
+  EXPECT_EQ(read_text(scratch_.path() / "compose.yaml"), out_.str());
+  options.file = scratch_.path() / "there is none" / "compose.yaml";
+  EXPECT_THROW(compose_fleet(options, {out_, err_, false}), InputError);
+  options.images = {"jurong"};
+  EXPECT_THROW(compose_fleet(options, {out_, err_, false}), InputError);
+}
+
+TEST_F(ComposeCommand, EachProgramGetsAFolderOfKeysThatOnlyItsOwnerReads) {
+  for (const char* vendor : {"cyclonedds", "fastdds"}) {
+    const fs::path folder = scratch_.path() / vendor;
+    EXPECT_EQ(keys({"towers", "--planner", "xxh", "--dds", vendor, "--out", folder}), kExitDone);
+    std::set<std::string> programs = {"sim_server", "comm_router", "station", "uav_agent-gcs"};
+    for (const char* uav : {"jurong", "raffles", "sentosa", "changi", "nanyang"}) {
+      programs.insert(std::string("uav_agent-") + uav);
+    }
+    EXPECT_EQ(names_in(folder), programs);
+    std::set<std::string> private_keys;
+    for (const std::string& program : programs) {
+      EXPECT_EQ(mode_of(folder / program), 0700u);
+      EXPECT_EQ(names_in(folder / program),
+                std::set<std::string>(security_files::kAll.begin(), security_files::kAll.end()));
+      for (const char* file : security_files::kAll) EXPECT_EQ(mode_of(folder / program / file), 0400u) << file;
+      private_keys.insert(read_text(folder / program / security_files::kKey));
+    }
+    EXPECT_EQ(private_keys.size(), programs.size());
+  }
+}
+
+TEST_F(ComposeCommand, KeysAreNeverOverwritten) {
+  const fs::path folder = scratch_.path() / "keys", key = folder / "station" / security_files::kKey;
+  EXPECT_EQ(keys({"towers", "--out", folder}), kExitDone);
+  const std::string before = read_text(key);
+  EXPECT_THROW(keys({"towers", "--out", folder}), InputError);
+  EXPECT_EQ(read_text(key), before);
+  EXPECT_FALSE(before.empty());
+  write_text(scratch_.path() / "file", "");
+  EXPECT_THROW(keys({"towers", "--out", scratch_.path() / "file" / "keys"}), InputError);
+  EXPECT_THROW(parse_command_line({"keys", "towers"}), InputError) << "where?";
+}
+
+}  // namespace
+}  // namespace skein::cli
