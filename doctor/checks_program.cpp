@@ -78,9 +78,9 @@ Findings examine(const Visit& visit) {
       judge_ports(read_ports(), {.base = visit.base,
                                  .size = static_cast<int>(needs.domains()),
                                  .participants = host_only ? bus::kMaxLocalParticipants : bus::kMaxPeerParticipants}));
-  add(findings, {judge_open_files(machine, needs), judge_processes(machine, needs), judge_buffers(machine),
-                 judge_memory(machine, needs), judge_cpus(machine), judge_disk(disk),
-                 judge_shared_memory(read_shared_memory())});
+  add(findings,
+      {judge_open_files(machine, needs), judge_processes(machine, needs), judge_buffers(machine),
+       judge_memory(machine, needs), judge_cpus(machine), judge_disk(disk), judge_shared_memory(read_shared_memory())});
   add(findings, judge_clocks(read_clocks()));
   add(findings, judge_variables(read_variables()));
   findings.push_back(judge_docker(ask_docker()));

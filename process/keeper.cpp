@@ -64,10 +64,11 @@ int watch(pid_t worker, const WaitedForSignals& signals, bool& asked_to_end) {
 
 }  // namespace
 
-std::optional<int> keep_alive() {
+std::optional<int> keep_alive(int& lives) {
   const pid_t keeper = ::getpid();
   const WaitedForSignals signals;
   for (bool asked_to_end = false;;) {
+    ++lives;
     const pid_t worker = ::fork();
     if (worker < 0) throw std::system_error(errno, std::generic_category(), "no process for the program itself");
     if (worker == 0) {

@@ -41,9 +41,11 @@ class Keeper : public testing::TestWithParam<bool> {
       if (GetParam() && ::unshare(CLONE_NEWPID) != 0) ::_exit(kNotPermitted);
       const pid_t keeper = ::fork();
       if (keeper == 0) {
-        if (const auto code = keep_alive()) ::_exit(*code);
+        int lives = 0;
+        if (const auto code = keep_alive(lives)) ::_exit(*code);
         shared_->worker = ::getpid();
-        ::_exit(work(++shared_->lives));
+        shared_->lives = lives;
+        ::_exit(work(lives));
       }
       if (meanwhile) meanwhile(keeper);
       int status = 0;

@@ -101,6 +101,11 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--control-fd", options.control_fd, "File descriptor with orders")->group("Launcher");
   app.add_option("--security", options.security, "Folder with the process's key, certificate and permissions")
       ->group("Launcher");
+  app.add_option(
+         "--server-timeout", options.server_timeout_s,
+         "Wall time to wait for sim_server to appear [s], 0: for ever; one that was started again waits 8 s at most")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--health", options.health, "File that is touched as long as the program takes its turns");
   app.add_flag("--keep", options.keep, "Start the program again whenever it has been killed");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error or off (default: SKEIN_LOG)");
@@ -199,11 +204,11 @@ int guarded(const std::string& name, const std::function<int()>& work) {
 
 int run_program(const std::string& name, int argc, const char* const* argv, const AddOptions& add_options,
                 const ProgramBody& body) {
-  const auto options = parse_program(name, argc, argv, add_options);
+  auto options = parse_program(name, argc, argv, add_options);
   if (const int* code = std::get_if<int>(&options)) return *code;
   return guarded(name, [&] {
-    const auto& parsed = std::get<ProgramOptions>(options);
-    if (const auto code = parsed.keep ? keep_alive() : std::nullopt) return *code;
+    auto& parsed = std::get<ProgramOptions>(options);
+    if (const auto code = parsed.keep ? keep_alive(parsed.lives) : std::nullopt) return *code;
     spdlog::set_default_logger(make_log(name, parsed.log_level));
     StopSignal stop;
     const SignalThread signals(stop);

@@ -60,6 +60,8 @@ struct ProgramOptions {
   bool check_only = false;                  ///< --check: validate the input, then stop
   int status_fd = -1;                       ///< --status-fd: where status_pipe.hpp writes; -1: nowhere
   bool keep = false;                        ///< --keep: see keeper.hpp
+  int lives = 0;                            ///< so far, if it is kept, this one included
+  double server_timeout_s = 0.0;            ///< --server-timeout: for sim_server to appear; 0: for ever
   std::filesystem::path health;             ///< --health: see heartbeat.hpp
   int control_fd = -1;                      ///< --control-fd: where orders come from; -1: nowhere
   std::string log_level;                    ///< --log-level; empty: SKEIN_LOG, else info

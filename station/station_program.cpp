@@ -29,7 +29,7 @@ class StationMember final : public bus::FleetMember {
       make_node();
       return std::nullopt;
     }
-    node_->write_report(options_.dds);
+    if (!node_->came_too_late()) node_->write_report(options_.dds);
     return bus::exit_code(end, programs::kStation);
   }
 

@@ -41,6 +41,7 @@ class AgentMember final : public bus::FleetMember {
 
   std::optional<int> ended(bus::NodeEnd end) override {
     const int code = bus::exit_code(end, node_->member());
+    if (node_->came_too_late()) return code;
     const CpuHistogram& cpu = node_->planner_cpu();
     const AgentReport report{.planner_cpu_s = cpu.total_s(),
                              .planner_cpu_p99_ms = 1e3 * cpu.quantile_s(0.99),

@@ -17,6 +17,7 @@ void ClientNode::start() {
   client().start();
   wait_from_now();
   was_member_ = met_server_ = false;
+  until_server_ = Patience(patience_with_server_s_);
   serving_ = true;
 }
 
@@ -61,8 +62,8 @@ void ClientNode::turn(bool arrived) {
 void ClientNode::look_for_server() {
   const bool present = client().server_present();
   met_server_ = met_server_ || present;
-  if (!met_server_ || present) return;
-  if (!was_member_) spdlog::info("the run is over, without us");
+  if (present || (!met_server_ && !until_server_.over())) return;
+  if (!was_member_) spdlog::info("{}", met_server_ ? "the run is over, without us" : "there is no sim_server");
   end_ = was_member_ ? NodeEnd::server_gone : NodeEnd::finished;
 }
 

@@ -10,10 +10,14 @@ namespace skein::bus {
 
 class ClientNode : public LockstepNode {
  public:
+  void give_up_after(double seconds) override { patience_with_server_s_ = seconds; }
   void start() override;
   void turn(bool arrived) override;
   std::optional<NodeEnd> end() const override { return end_; }
   Rest rest() override;
+  /// Whether the run ended while it stood at the door: it has nothing to report then. What it did in an earlier life is
+  /// in its books.
+  bool came_too_late() const { return end_ == NodeEnd::finished && !was_member_; }
   /// What it waits for, for a human.
   virtual std::string waiting_for() { return client().waiting_for(); }
 
@@ -41,6 +45,8 @@ class ClientNode : public LockstepNode {
   std::optional<NodeEnd> end_;
   WaitNotice wait_{WaitNotice::Clock::now()};
   std::optional<Patience> leaving_;  ///< since the last step is answered
+  double patience_with_server_s_ = 0.0;
+  Patience until_server_{0.0};
   bool was_member_ = false, met_server_ = false;
   bool serving_ = true;  ///< waits for what no sample announces
 };

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include "bus/lockstep/self_signal.hpp"
 #include "process/heartbeat.hpp"
 
@@ -12,9 +14,18 @@ namespace {
 /// asks to be let back at once, and waits for that as long as the fault lasts.
 void stand_aside() { spdlog::info("there is no launcher that would continue it: it waits to be let back"); }
 
-int work(FleetMember& member, StopSignal& stop, Heartbeat& health) {
+/// Who is started again in the middle of a run finds a server soon, or the run is over.
+double patience_with_server_s(const ProgramOptions& options) {
+  constexpr double kInLaterLives_s = 8.0;
+  if (options.lives <= 1) return options.server_timeout_s;
+  return options.server_timeout_s > 0.0 ? std::min(options.server_timeout_s, kInLaterLives_s) : kInLaterLives_s;
+}
+
+int work(FleetMember& member, StopSignal& stop, const ProgramOptions& options) {
+  Heartbeat health(options.health);
   std::optional<int> code;
   while (!code) {
+    member.node().give_up_after(patience_with_server_s(options));
     stop.on_stop([&member] { member.on_stop(); });
     const NodeEnd end = run_node(member.node(), member.stops_at_once() ? &stop : nullptr, [&] { health.beat(); });
     stop.on_stop({});
@@ -35,8 +46,7 @@ int run_fleet_program(FleetProgram& program, int argc, const char* const* argv) 
         if (const int* code = std::get_if<int>(&prepared)) return *code;
         FleetMember& member = *std::get<std::unique_ptr<FleetMember>>(prepared);
         const ControlPipe control(options.control_fd, [&](const std::string& line) { member.obey(line); });
-        Heartbeat health(options.health);
-        return work(member, stop, health);
+        return work(member, stop, options);
       });
 }
 

@@ -27,6 +27,8 @@ class LockstepNode {
  public:
   virtual ~LockstepNode() = default;
 
+  /// Before start(): a client that has met no server after so long ends, as after a run. 0: it waits for ever.
+  virtual void give_up_after(double /*seconds*/) {}
   /// Begins to look for the others. Once, before any turn.
   virtual void start() = 0;
   /// One turn after Inbox::dispatch(): does all that is possible with what has arrived, and never waits.

@@ -27,6 +27,8 @@ constexpr const char* kParametersInContainer = "/planner.yaml";
 constexpr int kNetworkPrefix = 28;
 /// Without a launcher this tells who died; whoever is stopped for longer has to join anew.
 constexpr int kLease_s = 10;
+/// A container that the engine has started again once the run was over ends after so long.
+constexpr int kServerTimeout_s = 60;
 
 /// What stays the same for all programs. The health check asks whether the program still takes its turns.
 constexpr const char* kCommon = R"(
@@ -225,8 +227,9 @@ class ComposeText {
         std::ranges::replace(arguments, spec, spec.substr(0, spec.size() - file.size()) + kParametersInContainer);
       }
     }
-    arguments.insert(arguments.end(), {"--keep", "--health", "/tmp/alive", "--lease", std::to_string(kLease_s), "--out",
-                                       kResultsInContainer});
+    arguments.insert(arguments.end(),
+                     {"--keep", "--health", "/tmp/alive", "--lease", std::to_string(kLease_s), "--server-timeout",
+                      std::to_string(kServerTimeout_s), "--out", kResultsInContainer});
     if (plan_.options.secure) arguments.insert(arguments.end(), {"--security", kKeysInContainer});
     if (layout_.status_lines) arguments.insert(arguments.end(), {"--status-fd", "1"});
     for (std::size_t i = 0; i < arguments.size(); ++i) {

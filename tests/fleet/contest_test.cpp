@@ -32,7 +32,7 @@ std::vector<std::string> what_repeats(const std::filesystem::path& flights) {
 TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
   ChildProcess& first = skein(contest("one"));
   ASSERT_EQ(first.wait().code, 0) << first.err();
-  for (const std::string said : {"4 of 4: " + scene_, scene_ + ", patrol, seed 2: score"}) {  // which is last is open
+  for (const std::string& said : std::vector{"4 of 4: " + scene_, scene_ + ", patrol, seed 2: score"}) {
     EXPECT_NE(first.err().find(said), std::string::npos) << first.err();
   }
   EXPECT_NE(first.out().find("report.html"), std::string::npos);

@@ -63,8 +63,8 @@ TEST_F(Doctor, PrintsALineForEachFindingAndTheSameAsJson) {
     EXPECT_EQ(finding.contains("mend"), verdict != "ok") << finding;
   }
   for (const char* what : {"host", "interfaces", "loopback multicast", "domains", "ports", "open files", "processes",
-                           "socket buffers", "memory", "processors", "results folder",
-                           "shared memory", "monotonic clock", "time of day", "variables", "DDS libraries", "Docker"}) {
+                           "socket buffers", "memory", "processors", "results folder", "shared memory",
+                           "monotonic clock", "time of day", "variables", "DDS libraries", "Docker"}) {
     EXPECT_NE(data.verdict(what), "none") << what;
   }
 }

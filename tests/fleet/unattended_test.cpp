@@ -120,6 +120,23 @@ TEST_P(Unattended, AllThatAreAskedToEndAtOnceDo) {
   EXPECT_EQ(server_report()["status"], "interrupted");
 }
 
+// However late: also when the server has gone before they are up again.
+TEST_P(Unattended, WhoIsKilledForGoodEndsWithTheRun) {
+  std::vector<std::string> victims = {"changi", "station", "comm_router"};
+  std::string faults = "faults:\n";
+  for (const std::string& victim : victims) {
+    faults += fmt::format("  - {{at_s: {}, kill: {}}}\n", std::uniform_real_distribution(5.0, 20.0)(random_), victim);
+  }
+  SCOPED_TRACE(faults);
+  Options options = kept({"--faults", write("faults.yaml", faults)});
+  options.server.insert(options.server.end(), {"--stop-at", "20"});
+  start_fleet(options);
+  expect_good_ends();
+  EXPECT_EQ(server_report()["status"], "completed");
+  EXPECT_TRUE(server_report()["lost_members"].empty()) << server_report()["lost_members"];
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "uav_agent-changi.report.json")) << "it did nothing in its last life";
+}
+
 // Books and reports of one must not pass for the other's.
 TEST_P(Unattended, TwoRunsInOneFolderAreToldApart) {
   const auto brief = [&](const std::string& run) {
