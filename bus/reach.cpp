@@ -111,7 +111,7 @@ Known addresses_of(const std::vector<std::string>& hosts, const Addresses& addre
   return known;
 }
 
-/// Asks until the own address is known, if it takes peers to know it. Who cannot be found yet comes later, and finds us.
+/// Asks until the own address is known, if it takes peers to know it. Who cannot be found yet comes later and finds us.
 Known find_peers(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience,
                  const std::optional<Addresses>& asked) {
   const bool by_route = !network.names_interface();

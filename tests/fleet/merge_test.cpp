@@ -102,9 +102,15 @@ TEST_F(Merge, AStationThatAFaultKilledForGoodIsSettled) {
   fleet_.at("station")->signal(SIGKILL);
   fleet_.at("station")->wait();
   EXPECT_FALSE(fs::exists(report("station")));
-  const Json result = merged();
+  const auto but_what_the_journal_knows = [](const Json& result) {
+    Json known = comparable(result);
+    known["dds"].erase("station");
+    known.erase("score_earned");  // the launcher has the station's last word
+    return known;
+  };
+  const Json expected = but_what_the_journal_knows(launched), result = but_what_the_journal_knows(merged());
   EXPECT_GT(result["score"], 0.0);
-  EXPECT_EQ(comparable(result), comparable(launched)) << Json::diff(comparable(launched), comparable(result));
+  EXPECT_EQ(result, expected) << Json::diff(expected, result);
 }
 
 TEST_F(Merge, DamagedReportsEndInAMessage) {
