@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <set>
+#include <sstream>
 
 #include "core/types.hpp"
 
@@ -93,6 +95,41 @@ TEST(Options, ADoctorIsToldWhoseFleetAndWhatToLookAt) {
                                                 {"doctor", "--dds", "other"},
                                                 {"doctor", "--network", ""}}) {
     EXPECT_THROW(parse_command_line(wrong), InputError) << wrong.back();
+  }
+}
+
+TEST(Options, FleetsInContainersHaveTheFlightOptionsOfRun) {
+  const auto compose = parse<ComposeOptions>({"compose", "cranes", "--planner", "kios", "--image", "jurong=mine",
+                                              "--image", "changi=mine", "--subnet", "10.1.0.0/20", "--file", "f"});
+  EXPECT_EQ(compose.run.scenario, "cranes");
+  EXPECT_EQ(compose.images, (std::vector<std::string>{"jurong=mine", "changi=mine"}));
+  EXPECT_EQ(
+      compose.command,
+      "skein compose cranes --planner kios --image jurong=mine --image changi=mine --subnet 10.1.0.0/20 --file f");
+  EXPECT_FALSE(compose.up);
+  EXPECT_THROW(parse_command_line({"compose", "--up", "--file", "f"}), InputError);
+  const auto keys = parse<KeysOptions>({"keys", "cranes", "--domain", "7", "--out", "o"});
+  EXPECT_EQ(keys.run.domain, 7);
+  EXPECT_EQ(keys.out, "o");
+  const auto merge = parse<MergeOptions>({"merge", "there", "--scenario", "s.yaml", "--assets", "data"});
+  EXPECT_EQ(merge.dir, "there");
+  EXPECT_EQ(merge.scenario, "s.yaml");
+  EXPECT_EQ(merge.assets, "data");
+  EXPECT_THROW(parse_command_line({"merge"}), InputError) << "of what?";
+}
+
+// Each example of a command is one that it understands.
+TEST(Options, CommandsForContainersShowExamples) {
+  for (const std::string command : {"compose", "keys", "merge"}) {
+    const std::string help = parse<HelpText>({command, "--help"}).text, mark = "\n  skein " + command + " ";
+    std::size_t examples = 0;
+    for (std::size_t at = 0; (at = help.find(mark, at)) != std::string::npos; ++examples) {
+      std::istringstream line(help.substr(at + 9, help.find('\n', at + 1) - at - 9));
+      const std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+      EXPECT_NO_THROW(parse_command_line(words)) << help;
+      at += mark.size();
+    }
+    EXPECT_GT(examples, 0u) << help;
   }
 }
 

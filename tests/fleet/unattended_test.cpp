@@ -160,6 +160,35 @@ TEST_P(Unattended, TwoRunsInOneFolderAreToldApart) {
   EXPECT_EQ(server_report()["digest"], digest) << "nothing is lost";
 }
 
+// As the health check of a container sees it.
+TEST_P(Unattended, WhoHangsTouchesItsFileNoMore) {
+  namespace fs = std::filesystem;
+  const std::string hangs = "uav_agent-jurong", works = "uav_agent-changi";
+  const Options options = kept({}, "600");
+  std::map<std::string, Arguments> with_health;
+  for (const std::string& name : {hangs, works}) {
+    with_health[name] = command(name, options);
+    with_health[name].insert(with_health[name].end(), {"--health", folder() / name});
+  }
+  start_fleet(options, with_health);
+  ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
+  const auto touched = [&](const std::string& name) { return fs::last_write_time(folder() / name); };
+  const pid_t hung = worker(hangs);
+  ::kill(hung, SIGSTOP);
+  ASSERT_TRUE(
+      eventually([&] { return text_of(fmt::format("/proc/{}/stat", hung)).find(") T ") != std::string::npos; }));
+  const auto last = touched(hangs);
+  for (int beat = 0; beat < 2; ++beat) {
+    const auto before = touched(works);
+    EXPECT_TRUE(eventually([&] { return touched(works) > before; }));
+    EXPECT_EQ(touched(hangs), last);
+  }
+  ::kill(hung, SIGCONT);
+  EXPECT_TRUE(eventually([&] { return touched(hangs) > last; }));
+  for (const auto& [name, process] : fleet_) process->signal(SIGTERM);
+  expect_good_ends();
+}
+
 INSTANTIATE_TEST_SUITE_P(Vendors, Unattended, testing::Values("cyclonedds", "fastdds"),
                          [](const auto& vendor) { return vendor.param; });
 

@@ -162,5 +162,25 @@ TEST_F(DomainNetworks, AUavThatAsksForMoreHearsNothing) {
   EXPECT_EQ(heard(3, "b"), "");
 }
 
+// As in containers, where names come and go with them: the first one to start knows none but its own.
+TEST_F(DomainNetworks, AnOwnNameTellsTheOwnAddressBeforeOthersAreKnown) {
+  const std::string network = "{a: {peers: [sim.a, uav.a]}}";
+  hosts_.tell("server", "sim.a", hosts_.address(1, "server"));
+  hosts_.tell("a", "sim.a", hosts_.address(1, "server"));
+  hosts_.tell("a", "uav.a", hosts_.address(1, "a"));
+  for (const Vendors& vendors : {Vendors{"cyclonedds", "", "fastdds", ""}, Vendors{"fastdds", "", "cyclonedds", ""}}) {
+    std::filesystem::remove(go());
+    start("server", vendors[0], 1, network, 100, {{"a", 1}});
+    EXPECT_TRUE(eventually([&] { return peers_.at(1)->out().find("uav.a cannot be found yet") != std::string::npos; }))
+        << errors();
+    start("a", vendors[2], 3, network, 100, {{"a", 1}});
+    ASSERT_TRUE(all_say("met")) << errors();
+    std::ofstream(go()) << "go";
+    EXPECT_EQ(heard(1, "a"), " 3 x 20") << errors();
+    EXPECT_EQ(heard(3, "a"), " 1 x 20");
+    peers_.clear();
+  }
+}
+
 }  // namespace
 }  // namespace skein::test

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -36,6 +38,9 @@ std::vector<std::string> words(const std::string& line) {
   return all;
 }
 
+/// Whose files `ip netns exec` puts in the place of those in /etc.
+std::filesystem::path etc_of(const std::string& space) { return std::filesystem::path("/etc/netns") / space; }
+
 }  // namespace
 
 Hosts::Hosts(const std::vector<std::string>& names) : prefix_("sk" + std::to_string(::getpid()) + "-"), names_(names) {
@@ -48,7 +53,12 @@ Hosts::Hosts(const std::vector<std::string>& names) : prefix_("sk" + std::to_str
 }
 
 Hosts::~Hosts() {
-  for (const std::string& name : names_) succeeds("ip netns del " + space(name));
+  for (const std::string& name : names_) {
+    succeeds("ip netns del " + space(name));
+    std::error_code ignored;
+    std::filesystem::remove_all(etc_of(space(name)), ignored);
+    std::filesystem::remove("/etc/netns", ignored);  // if it is empty
+  }
   succeeds("ip netns del " + space(kSwitch));
 }
 
@@ -71,6 +81,11 @@ std::string Hosts::address(int network, std::size_t host) {
 
 std::string Hosts::address(int network, const std::string& name) const {
   return address(network, static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin()));
+}
+
+void Hosts::tell(const std::string& name, const std::string& alias, const std::string& address) const {
+  std::filesystem::create_directories(etc_of(space(name)));
+  std::ofstream(etc_of(space(name)) / "hosts", std::ios::app) << address << ' ' << alias << '\n';
 }
 
 std::vector<std::string> Hosts::on(const std::string& name, std::vector<std::string> command) const {

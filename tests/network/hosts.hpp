@@ -22,6 +22,8 @@ class Hosts {
   /// Of a host (by its place in the list of all) in a network.
   static std::string address(int network, std::size_t host);
   std::string address(int network, const std::string& name) const;
+  /// What is looked up on this host is known there from now on, for programs that start later.
+  void tell(const std::string& name, const std::string& alias, const std::string& address) const;
   /// The command line of a program on a host.
   std::vector<std::string> on(const std::string& name, std::vector<std::string> command) const;
   /// Runs a shell's command on a host. @returns whether it succeeded.
