@@ -1,11 +1,12 @@
 // A program in a UAV's container that joins DDS domains which are not its own, by all addresses that it knows:
 //   container_intruder VENDOR RUN NETWORK OWN OTHERS...
 // OWN and OTHERS are numbers of domains; NETWORK has the network of its own domain by the name "own". Everywhere it reads
-// and, but in its own, writes what lets a fleet go on. Prints a line a domain: DOMAIN readers writers samples; those of
-// its own domain tell that it can.
+// and, but in its own, writes what lets a fleet go on. Prints a line a domain: DOMAIN readers writers samples, and
+// the topics of the writers that it has found; those of its own domain tell that it can.
 #include <atomic>
 #include <chrono>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <string>
 #include <thread>
@@ -16,18 +17,18 @@
 namespace skein {
 namespace {
 
-constexpr std::chrono::seconds kPatience{20}, kListens{4};
+constexpr std::chrono::seconds kPatience{20}, kListens{3};
 
 struct Place {
   int domain = 0;
   std::unique_ptr<bus::Participant> participant;
-  std::vector<std::unique_ptr<bus::Reader>> readers;
+  std::map<std::string, std::unique_ptr<bus::Reader>> readers;  ///< by topic
   std::vector<std::unique_ptr<bus::Writer>> writers;
   std::atomic<long> heard = 0;
 
   std::size_t writers_found() const {
     std::size_t count = 0;
-    for (const auto& reader : readers) count += reader->matched().size();
+    for (const auto& [topic, reader] : readers) count += reader->matched().size();
     return count;
   }
   std::size_t readers_found() const {
@@ -45,8 +46,8 @@ std::unique_ptr<Place> join(bus::Bus& bus, int domain, bool writes) {
        {topics::step(), topics::done(), topics::ready(), topics::station_done(), topics::attached(), topics::routed(),
         topics::ledger(), topics::capture(), topics::drop(), topics::resync()}) {
     const bus::TopicSpec spec = bus::spec(topic);
-    place->readers.push_back(
-        place->participant->create_reader(spec, [&heard = place->heard](bus::Sample&&) { ++heard; }));
+    place->readers[spec.name] =
+        place->participant->create_reader(spec, [&heard = place->heard](bus::Sample&&) { ++heard; });
     if (writes) place->writers.push_back(place->participant->create_writer(spec));
   }
   return place;
@@ -73,8 +74,11 @@ int intrude(const std::vector<std::string>& arguments) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   for (const auto& place : places) {
-    std::cout << place->domain << ' ' << place->readers_found() << ' ' << place->writers_found() << ' ' << place->heard
-              << std::endl;
+    std::cout << place->domain << ' ' << place->readers_found() << ' ' << place->writers_found() << ' ' << place->heard;
+    for (const auto& [topic, reader] : place->readers) {
+      if (!reader->matched().empty()) std::cout << ' ' << topic;
+    }
+    std::cout << std::endl;
   }
   return 0;
 }

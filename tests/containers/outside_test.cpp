@@ -73,7 +73,7 @@ TEST_F(FromOutside, WhoIsKilledAndStartedAgainWorksAgain) {
 }
 
 TEST_F(FromOutside, WhoStandsStillForAMomentIsMissedByNobody) {
-  const Arguments flown = arguments("patrol", "120");
+  const Arguments flown = arguments();
   SkeinRun& run = start_up("up", flown);
   const std::string id = flying(run, "uav_agent-changi");
   EXPECT_EQ(shell("docker pause " + id + " && sleep 3 && docker unpause " + id).code, 0);
@@ -84,7 +84,7 @@ TEST_F(FromOutside, WhoStandsStillForAMomentIsMissedByNobody) {
 
 // Longer than its lease: it is given up, and has to join anew.
 TEST_F(FromOutside, WhoStandsStillForLongComesBack) {
-  SkeinRun& run = start_up("up", arguments("patrol", "600"));
+  SkeinRun& run = start_up("up", arguments("patrol", "300"));
   const std::string id = flying(run, "uav_agent-changi");
   EXPECT_EQ(shell("docker pause " + id + " && sleep 13 && docker unpause " + id).code, 0);
   EXPECT_EQ(run.exit_code(), 3) << run.err();
@@ -112,7 +112,7 @@ TEST_F(FromOutside, LostPacketsAreSentAgain) {
 }
 
 TEST_F(FromOutside, ACableThatIsPulledForAMomentDoesNotMatter) {
-  const Arguments flown = arguments("patrol", "120");
+  const Arguments flown = arguments();
   SkeinRun& run = start_up("up", flown);
   const Answer link = shell(in_network_of(flying(run, "uav_agent-changi")) + "ip -oneline link show eth0");
   std::smatch match;
