@@ -1,8 +1,8 @@
 // A program in a UAV's container that joins DDS domains which are not its own, by all addresses that it knows:
 //   container_intruder VENDOR RUN NETWORK OWN OTHERS...
-// OWN and OTHERS are numbers of domains; NETWORK has the network of its own domain by the name "own". Everywhere it reads
-// and, but in its own, writes what lets a fleet go on. Prints a line a domain: DOMAIN readers writers samples, and
-// the topics of the writers that it has found; those of its own domain tell that it can.
+// OWN and OTHERS are numbers of domains; NETWORK has the network of its own domain by the name "own". Everywhere it
+// reads and, but in its own, writes what lets a fleet go on. Prints a line a domain: DOMAIN readers writers samples,
+// and the topics of the writers that it has found; those of its own domain tell that it can.
 #include <atomic>
 #include <chrono>
 #include <iostream>
