@@ -22,11 +22,10 @@ class EveryVendor : public FlightInContainers,
 
 TEST_P(EveryVendor, IsTheSameAsWithout) {
   const auto& [vendor, planner] = GetParam();
-  const Arguments flown = arguments(planner, "60", {"--dds", vendor});
-  const SkeinRun& run = up("up", flown);
+  const SkeinRun& run = up("up", arguments(planner, "60", {"--dds", vendor}));
   expect_whole(run);
   EXPECT_GT(run.result()["score"], 0.0);
-  EXPECT_EQ(flight_of(run), alone(flown));
+  EXPECT_EQ(flight_of(run), alone(arguments(planner)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, EveryVendor,
