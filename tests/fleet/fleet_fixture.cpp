@@ -111,9 +111,10 @@ bool is_flying(const fs::path& dir) {
   return !missing && size > kSomeSeconds;
 }
 
-SkeinRun::SkeinRun(const fs::path& folder, const std::string& name, Arguments arguments, const Environment& environment)
+SkeinRun::SkeinRun(const fs::path& folder, const std::string& name, Arguments arguments, const Environment& environment,
+                   const std::string& command)
     : dir_(folder / name) {
-  Arguments argv = {program("skein"), "run"};
+  Arguments argv = {program("skein"), command};
   argv.insert(argv.end(), arguments.begin(), arguments.end());
   argv.insert(argv.end(), {"--out", dir_});
   skein_ = std::make_unique<ChildProcess>(argv, environment, folder / (name + ".out"), folder / (name + ".err"));
@@ -171,8 +172,9 @@ fs::path FleetTest::write(const std::string& name, const std::string& text) cons
   return folder_ / name;
 }
 
-SkeinRun& FleetTest::start(const std::string& name, const Arguments& arguments, const Environment& environment) {
-  runs_.push_back(std::make_unique<SkeinRun>(folder_, name, arguments, with_config(environment, folder_)));
+SkeinRun& FleetTest::start(const std::string& name, const Arguments& arguments, const Environment& environment,
+                           const std::string& command) {
+  runs_.push_back(std::make_unique<SkeinRun>(folder_, name, arguments, with_config(environment, folder_), command));
   return *runs_.back();
 }
 

@@ -35,12 +35,12 @@ std::map<std::string, pid_t> processes_of(const std::filesystem::path& dir);
 /// True once the server has written some simulated seconds of trajectories: it writes them in blocks.
 bool is_flying(const std::filesystem::path& dir);
 
-/// A `skein run`, from its start on.
+/// A `skein run`, or `skein compose --up`, from its start on.
 class SkeinRun {
  public:
-  /// @param folder  of the test; the results go to `folder`/`name`.
+  /// @param folder  of the test; the results go to `folder`/`name`. @param command  of `skein`: "run" or "compose"
   SkeinRun(const std::filesystem::path& folder, const std::string& name, Arguments arguments,
-           const Environment& environment = {});
+           const Environment& environment = {}, const std::string& command = "run");
 
   ChildProcess& skein() { return *skein_; }
   const std::filesystem::path& dir() const { return dir_; }
@@ -71,7 +71,8 @@ class FleetTest : public testing::Test {
   const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path write(const std::string& name, const std::string& text) const;
 
-  SkeinRun& start(const std::string& name, const Arguments& arguments, const Environment& environment = {});
+  SkeinRun& start(const std::string& name, const Arguments& arguments, const Environment& environment = {},
+                  const std::string& command = "run");
   /// Starts and waits; the launcher must end with `exit_code`.
   SkeinRun& run(const std::string& name, const Arguments& arguments, const Environment& environment = {},
                 int exit_code = 0);

@@ -1,0 +1,104 @@
+// A fleet flies in containers as it does without: the same digest, and nothing is left of it.
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <random>
+
+#include "cli/bench/scenario.hpp"
+#include "container_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FlightInContainers : public Containers {
+ protected:
+  std::mt19937 random_{std::random_device{}()};
+};
+
+class EveryVendor : public FlightInContainers,
+                    public testing::WithParamInterface<std::pair<std::string, std::string>> {};
+
+TEST_P(EveryVendor, IsTheSameAsWithout) {
+  const auto& [vendor, planner] = GetParam();
+  const SkeinRun& run = up("up", arguments(planner, "60", {"--dds", vendor}));
+  expect_whole(run);
+  EXPECT_GT(run.result()["score"], 0.0);
+  EXPECT_EQ(flight_of(run), alone(arguments(planner)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, EveryVendor,
+                         testing::Values(std::pair("cyclonedds", "patrol"), std::pair("fastdds", "kios"),
+                                         std::pair("mixed", "patrol")),
+                         [](const auto& vendor) { return vendor.param.first; });
+
+// Every kind of member is killed and stopped once, in an order that is drawn, while messages are lost on the way.
+TEST_F(FlightInContainers, FaultsMeanTheSame) {
+  std::vector<std::string> killed = {"jurong", "changi", "station", "comm_router", "gcs"}, stopped = killed;
+  std::ranges::shuffle(killed, random_);
+  std::ranges::shuffle(stopped, random_);
+  std::string faults = "faults:\n  - {at_s: 8, until_s: 90, link: {to: gcs, loss: 0.3}}\n";
+  for (std::size_t i = 0; i < killed.size(); ++i) {
+    const double at_s = 12.0 + 15.0 * static_cast<double>(i);
+    faults += fmt::format("  - {{at_s: {}, until_s: {}, kill: {}}}\n", at_s, at_s + 5.0, killed[i]);
+    faults += fmt::format("  - {{at_s: {}, until_s: {}, pause: {}}}\n", at_s + 7.0, at_s + 12.0, stopped[i]);
+  }
+  SCOPED_TRACE(faults);
+  const Arguments flown = arguments("patrol,gcs=listen", "120", {"--faults", write("faults.yaml", faults)});
+  const SkeinRun& run = up("up", flown);
+  expect_whole(run);
+  EXPECT_EQ(flight_of(run), alone(flown));
+  EXPECT_GT(run.result()["radio"]["dropped_fault"], 0);
+  // Who was away photographs and delivers again.
+  const auto captures = read_csv(run.dir() / "captures.csv");
+  EXPECT_TRUE(std::ranges::any_of(captures, [](const auto& capture) {
+    return capture.at("uav") == "changi" && std::stod(capture.at("time_s")) > 90.0 &&
+           !capture.at("delivered_at_s").empty();
+  }));
+  for (const std::string& member : killed) {
+    const bool is_uav = std::ranges::find(kFleet, member) != kFleet.end();
+    const std::string program = is_uav || member == "gcs" ? "uav_agent-" + member : member;
+    EXPECT_NE(log_of(run, program).find("here it starts again"), std::string::npos) << program;
+  }
+}
+
+class TwentyUavs : public FlightInContainers, public testing::WithParamInterface<std::string> {};
+
+// The scenario is a file of the user, which the image does not have.
+TEST_P(TwentyUavs, FlyTheSame) {
+  const std::string text = cli::bench_scenario({.uavs = 20, .duration_s = 60});
+  const Arguments flown = {write("twenty.yaml", text), "--planner", "patrol", "--no-oracle"};
+  Arguments in_containers = flown;
+  if (!GetParam().empty()) in_containers.insert(in_containers.end(), {"--subnet", GetParam()});
+  const SkeinRun& run = up("up", in_containers);
+  expect_whole(run);
+  EXPECT_EQ(run.result()["uavs"].size(), 20u);
+  static std::optional<Flight> without;
+  if (!without) without = alone(flown);
+  EXPECT_EQ(flight_of(run), *without);
+  if (!GetParam().empty()) {
+    EXPECT_NE(text_of(run.dir() / "compose.yaml").find("10.99.1.80/28"), std::string::npos) << "the 22nd network";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Subnets, TwentyUavs, testing::Values("", "10.99.0.0/20"),
+                         [](const auto& subnet) { return subnet.param.empty() ? "of_the_engine" : "named"; });
+
+TEST_F(FlightInContainers, SecuredIsTheSameAndItsKeysGo) {
+  const Arguments flown = arguments("patrol", "60", {"--secure"});
+  const SkeinRun& run = up("up", flown);
+  expect_whole(run);
+  EXPECT_EQ(flight_of(run), alone(flown));
+  const std::string file = text_of(run.dir() / "compose.yaml"), mark = "/sim_server:/keys:ro";
+  const std::size_t end = file.find(mark), begin = file.rfind('"', end) + 1;
+  ASSERT_NE(end, std::string::npos) << file;
+  EXPECT_FALSE(fs::exists(file.substr(begin, end - begin)));
+  for (const auto& entry : fs::recursive_directory_iterator(run.dir())) {
+    if (!entry.is_regular_file()) continue;
+    EXPECT_EQ(text_of(entry.path()).find("PRIVATE KEY"), std::string::npos) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace skein::test
