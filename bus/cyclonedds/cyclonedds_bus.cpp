@@ -214,7 +214,11 @@ class CycloneParticipant : public Participant {
     dds_guid_t guid;
     check(dds_get_guid(entity_, &guid), "participant without GUID");
     id_ = id_of(guid);
-    if (meets_default_nodes(config, reach)) reach_own_host(domain_.entity(), entity_);
+    if (meets_default_nodes(config, reach)) {
+      reach_own_host(domain_.entity(), entity_);
+    } else if (!reach.address.empty()) {
+      hear_own_address(domain_.entity(), entity_, reach.address);
+    }
     if (!config.security.empty()) watch_strangers(domain, entity_);
   }
   ~CycloneParticipant() override {

@@ -126,7 +126,8 @@ Domain::Domain(int id, const BusConfig& config, const Reach& reach) : id_(id) {
     entry.entity =
         check(dds_create_domain(static_cast<dds_domainid_t>(id), domain_configuration(config, reach).c_str()),
               "cannot create domain " + std::to_string(id));
-  if (entry.members == 0 && meets_default_nodes(config, reach)) await_own_host(entry.entity);
+  const bool opens_later = meets_default_nodes(config, reach) || !reach.address.empty();
+  if (entry.members == 0 && opens_later) await_own_host(entry.entity);
   entity_ = entry.entity;
   ++entry.members;
 }
