@@ -81,7 +81,11 @@ RunFacts facts_of(const RunOptions& run, const Scenario& scenario, const Reports
     if (vendor) facts.dds[program] = *vendor;
   };
   set_vendor(programs::kSimServer, reports.sim_server->flight.dds);
-  if (reports.station) set_vendor(programs::kStation, reports.station->dds);
+  if (reports.station) {
+    set_vendor(programs::kStation, reports.station->dds);
+    // Books without the ledger: what was delivered has been earned, and more is not known.
+    facts.score_earned = reports.station->score.value_or(0.0);
+  }
   if (reports.comm_router) set_vendor(programs::kCommRouter, reports.comm_router->dds);
   for (const UavConfig& uav : scenario.fleet) {
     const AgentReport agent = reports.agents.at(uav.name).value_or(AgentReport{});
