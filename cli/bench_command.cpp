@@ -1,17 +1,16 @@
 #include "cli/bench_command.hpp"
 
-#include <sched.h>
 #include <sys/utsname.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
 #include "cli/bench/report.hpp"
 #include "cli/bench/scenario.hpp"
 #include "cli/bench/table.hpp"
+#include "cli/machine.hpp"
 #include "cli/run/domain_block.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
@@ -53,16 +52,8 @@ Effort effort_of(const BenchOptions& options) {
 
 Json machine() {
   Json machine = Json::object();
-  std::ifstream cpus("/proc/cpuinfo");
-  for (std::string line; std::getline(cpus, line);) {
-    if (!line.starts_with("model name")) continue;
-    machine["cpu"] = line.substr(std::min(line.size(), line.find(':') + 2));
-    break;
-  }
-  cpu_set_t usable;
-  CPU_ZERO(&usable);
-  ::sched_getaffinity(0, sizeof usable, &usable);
-  machine["cores"] = CPU_COUNT(&usable);
+  if (const std::string cpu = cpu_model(); !cpu.empty()) machine["cpu"] = cpu;
+  machine["cores"] = usable_cores();
   double load = 0.0;
   ::getloadavg(&load, 1);
   machine["load"] = load;
@@ -182,7 +173,7 @@ class Bench {
     run.dds = options_.dds;
     run.out = scratch_.path() / "run";
     run.force = true;
-    run.attainable = false;  // the oracle is no part of a run
+    run.attainable = run.report = false;  // no part of a run
     return run;
   }
 

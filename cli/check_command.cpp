@@ -88,12 +88,10 @@ std::string check_file(const CheckOptions& options, const std::string& file, con
 
 /// Reference vectors go to the program that holds the production code; its words and its exit code are ours.
 int check_golden(const std::string& file) {
-  const ExitStatus exit =
-      run_to_end({programs::kSimServer,
-                  {program_dir() / programs::kSimServer, "--golden", std::filesystem::absolute(file)},
-                  fleet_environment(false),
-                  {}});
-  return exit.signal == 0 && exit.code <= kExitBadInput ? exit.code : kExitProcessFailed;
+  return hand_over({programs::kSimServer,
+                    {program_dir() / programs::kSimServer, "--golden", std::filesystem::absolute(file)},
+                    fleet_environment(false),
+                    {}});
 }
 
 }  // namespace

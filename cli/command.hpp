@@ -12,6 +12,13 @@
 
 namespace skein::cli {
 
+/// A recorded run that is flown again (recording/replay.hpp).
+struct ReplayOf {
+  std::filesystem::path recording;
+  std::optional<double> until_s;  ///< from then on what programs say counts
+  std::vector<std::string> only;  ///< UAVs whose programs take part, or "gcs"; empty: all
+};
+
 struct RunOptions {
   std::string scenario = "towers";  ///< a name under config/scenarios/ or a YAML file
   std::string planner = kDefaultPlanner;
@@ -19,13 +26,17 @@ struct RunOptions {
   std::optional<std::uint64_t> scene_seed;
   std::optional<std::filesystem::path> assets;
   std::optional<double> duration_s;
-  std::optional<std::string> rules;             ///< a preset, instead of the scenario's
-  std::optional<std::filesystem::path> faults;  ///< fault file
-  std::string dds = "cyclonedds";               ///< a vendor or "mixed"
-  std::string clock = "lockstep";               ///< "lockstep", "realtime" or "realtime:FACTOR"
-  std::optional<std::filesystem::path> agent;   ///< program that flies in the place of uav_agent
-  std::optional<std::string> debug_uav;
-  bool one_process = false;  ///< all programs in one process, without DDS
+  std::optional<std::string> rules;                 ///< a preset, instead of the scenario's
+  std::optional<std::filesystem::path> faults;      ///< fault file
+  std::string dds = "cyclonedds";                   ///< a vendor or "mixed"
+  std::string clock = "lockstep";                   ///< "lockstep", "realtime" or "realtime:FACTOR"
+  std::optional<std::filesystem::path> agent;       ///< program that flies in the place of uav_agent
+  std::vector<std::string> debug;                   ///< UAV[=TOOL], see cli/run/debuggee.hpp
+  std::optional<double> break_at_s;                 ///< debugged programs stop before that simulated time
+  std::optional<std::string> break_on;              ///< the same, before that happens to the first of them
+  std::optional<std::filesystem::path> break_from;  ///< results folder of the same flight, which tells when
+  std::vector<std::string> log;                     ///< UAV=LEVEL
+  bool one_process = false;                         ///< all programs in one process, without DDS
   bool native = false;
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
   std::optional<int> domain;
@@ -34,8 +45,12 @@ struct RunOptions {
   std::optional<double> agent_timeout_s;  ///< of wall time, for a program's answer, instead of a minute
   std::optional<std::filesystem::path> out;
   bool force = false;
+  std::string record = "run";  ///< how much goes into the recording: none, run, all or clouds
+  std::optional<ReplayOf> replay;
   bool attainable = true;  ///< ask the oracle after the run
+  bool report = true;      ///< make report.html of the run
   double patience = 1.0;   ///< for tests: scales how long the launcher waits for programs to leave
+  std::string command;     ///< as it was typed; empty: nobody typed one
 };
 
 struct TestOptions {
@@ -117,7 +132,32 @@ struct ComposeOptions {
   std::optional<std::string> subnet;           ///< "172.30.0.0/20"
   std::optional<std::filesystem::path> build;  ///< folder of a build whose programs fly
   bool up = false;                             ///< fly it
-  std::string command;                         ///< as it was typed
+};
+
+struct ReportOptions {
+  std::vector<std::filesystem::path> runs;
+};
+
+/// What `skein rerun` and `skein fork` have in common.
+struct Reflight {
+  std::filesystem::path run;                   ///< its results folder
+  std::optional<std::filesystem::path> agent;  ///< as in RunOptions, like the next ones
+  std::optional<std::string> dds;              ///< else one process where that can be
+  std::vector<std::string> debug;              ///< as in RunOptions
+  std::optional<std::filesystem::path> out;    ///< else a folder in `run`
+  bool force = false;
+};
+
+struct RerunOptions {
+  Reflight reflight;
+  std::string uav;
+  std::optional<std::string> planner;  ///< instead of the one that flew
+};
+
+struct ForkOptions {
+  Reflight reflight;
+  double at_s = 0.0;
+  std::optional<std::string> planner;  ///< "UAV=NAME,..."
 };
 
 struct KeysOptions {
@@ -129,6 +169,16 @@ struct MergeOptions {
   std::filesystem::path dir;
   std::optional<std::string> scenario;  ///< instead of what the server says that it flew
   std::optional<std::filesystem::path> assets;
+  bool report = true;  ///< as in RunOptions
+};
+
+/// `skein ps`: the fleets that fly.
+struct PsOptions {};
+
+/// `skein attach`: a debugger for one of a fleet that flies.
+struct AttachOptions {
+  std::string what;                          ///< UAV[=TOOL], as for --debug
+  std::optional<std::filesystem::path> run;  ///< results folder of its fleet; else the only one that flies
 };
 
 /// Which of a planner's totals over the tests decides its rank.
@@ -150,7 +200,8 @@ struct StudyOptions {
   std::optional<std::filesystem::path> agent;  ///< as in RunOptions
   std::optional<std::string> network;          ///< as in RunOptions
   std::optional<std::filesystem::path> out;
-  std::optional<int> jobs;  ///< flights at once; else one, or in one process each as many as there are cores
+  std::string record = "none";  ///< as in RunOptions
+  std::optional<int> jobs;      ///< flights at once; else one, or in one process each as many as there are cores
   bool force = false;
 };
 
@@ -167,6 +218,7 @@ struct CompletionOptions {
 
 using Command =
     std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
-                 StudyOptions, DoctorOptions, ComposeOptions, KeysOptions, MergeOptions, HelpText, CompletionOptions>;
+                 StudyOptions, DoctorOptions, ComposeOptions, KeysOptions, MergeOptions, ReportOptions, RerunOptions,
+                 ForkOptions, PsOptions, AttachOptions, HelpText, CompletionOptions>;
 
 }  // namespace skein::cli

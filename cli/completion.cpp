@@ -4,23 +4,12 @@
 
 #include "cli/options.hpp"
 #include "core/scenario_reader.hpp"
+#include "core/text.hpp"
 
 namespace skein::cli {
 namespace {
 
 using Names = std::vector<std::string>;
-
-Names split(const std::string& list) {
-  Names names(1);
-  for (const char c : list) {
-    if (c == ',') {
-      names.emplace_back();
-    } else {
-      names.back() += c;
-    }
-  }
-  return names;
-}
 
 /// What an option's value may be: the set that it is checked against ("TEXT:{a,b}"), or names of a kind.
 Names values_of(const CLI::Option& option, const KnownNames& known) {

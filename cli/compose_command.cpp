@@ -27,7 +27,7 @@ constexpr UserId kOrdinaryUser{1000, 1000};
 
 ComposeLayout layout_of(const ComposeOptions& options) {
   ComposeLayout layout;
-  layout.command = options.command;
+  layout.command = options.run.command;
   for (const std::string& image : options.images) {
     const std::size_t equals = image.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == image.size()) {
@@ -126,8 +126,7 @@ std::vector<ProgramSpec> followers(const ComposeProject& project, const ComposeL
 }
 
 void check_before_flight(FleetPlan plan, const ComposeLayout& layout, const Console& console) {
-  check_engine({layout.image, layout.agent_image});
-  std::vector<std::string> images;
+  std::vector<std::string> images = {layout.image, layout.agent_image};
   for (const auto& [member, image] : layout.images) images.push_back(image);
   check_engine(images);
   // Of a user's image nothing is known here.

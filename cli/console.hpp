@@ -5,11 +5,12 @@
 
 namespace skein::cli {
 
-/// `terminal`: the second stream can rewrite its last line.
+/// `terminal`: the second stream can rewrite its last line. `keyboard`: and what is typed comes to us.
 struct Console {
   std::ostream& out;  ///< results
   std::ostream& err;  ///< progress and complaints
   bool terminal = false;
+  bool keyboard = false;
 };
 
 }  // namespace skein::cli

@@ -24,8 +24,7 @@ int consult_doctor(const DoctorOptions& options) {
   if (!options.only.empty()) argv.insert(argv.end(), {"--only", joined(options.only, ",")});
   if (options.net) argv.push_back("--net");
   if (options.json) argv.push_back("--json");
-  const ExitStatus exit = run_to_end({programs::kDoctor, argv, environment_with({}), {}});
-  return exit.signal == 0 && exit.code <= kExitBadInput ? exit.code : kExitProcessFailed;
+  return hand_over({programs::kDoctor, argv, environment_with({}), {}});
 }
 
 }  // namespace skein::cli

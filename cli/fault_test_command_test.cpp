@@ -7,11 +7,14 @@
 
 #include "cli/test_command.hpp"
 #include "cli/testing/fake_programs.hpp"
-#include "cli/testing/xml_check.hpp"
 #include "process/program.hpp"
+#include "report/testing/xml_check.hpp"
 
 namespace skein::cli {
 namespace {
+
+using report::xml_elements;
+using report::XmlElement;
 
 /// Writes a report whose digest tells the vendor and the chaos, and a line of what was flown.
 constexpr const char* kServer = R"(

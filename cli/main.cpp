@@ -5,6 +5,7 @@
 #include <exception>
 #include <iostream>
 
+#include "cli/attach_command.hpp"
 #include "cli/bench_command.hpp"
 #include "cli/check_command.hpp"
 #include "cli/completion.hpp"
@@ -13,11 +14,14 @@
 #include "cli/merge_command.hpp"
 #include "cli/options.hpp"
 #include "cli/oracle_command.hpp"
+#include "cli/report_command.hpp"
+#include "cli/rerun_command.hpp"
 #include "cli/run/agent_file.hpp"
 #include "cli/run/diff.hpp"
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
+#include "cli/run/program_start.hpp"
 #include "cli/run_command.hpp"
 #include "cli/scene_command.hpp"
 #include "cli/study_command.hpp"
@@ -67,6 +71,11 @@ struct Execute {
   int operator()(const ComposeOptions& options) const { return compose_fleet(options, console); }
   int operator()(const KeysOptions& options) const { return make_keys(options, console); }
   int operator()(const MergeOptions& options) const { return merge_reports(options, console); }
+  int operator()(const ReportOptions& options) const { return make_reports(options, console); }
+  int operator()(const RerunOptions& options) const { return rerun(options, console); }
+  int operator()(const ForkOptions& options) const { return fork_run(options, console); }
+  int operator()(const PsOptions&) const { return list_fleets(console); }
+  int operator()(const AttachOptions& options) const { return attach_to(options, console); }
   int operator()(const StudyOptions& options) const { return run_study(options, console); }
   int operator()(const HelpText& help) const {
     console.out << help.text;
@@ -100,5 +109,6 @@ int main(int argc, char** argv) {
   skein::cli::settle_process();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is like a full disk: the call says so
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
-  return skein::cli::execute({argv + 1, argv + argc}, {std::cout, std::cerr, terminal});
+  return skein::cli::execute({argv + 1, argv + argc},
+                             {std::cout, std::cerr, terminal, terminal && skein::cli::owns_terminal()});
 }

@@ -25,16 +25,13 @@ RunOptions options_of(const FlightReport& flight, const MergeOptions& options,
   if (flight.scene_seed.value_or(0) > 0) run.scene_seed = *flight.scene_seed;
   run.duration_s = flight.duration_s;
   run.rules = rules;
+  run.report = options.report;
   run.clock = flight.clock.value_or(run.clock);
   return run;
 }
 
 Scenario scenario_of(const RunOptions& run) {
-  LoadOptions load;
-  load.assets_dir = run.assets.value_or("");
-  load.duration_s = run.duration_s;
-  load.scene_seed = run.scene_seed;
-  load.rules = run.rules;
+  LoadOptions load = load_options(run);
   load.needs_scene_files = false;
   try {
     return load_scenario(run.scenario, load);
@@ -101,14 +98,6 @@ RunFacts facts_of(const RunOptions& run, const Scenario& scenario, const Reports
   return facts;
 }
 
-/// @returns what went wrong, for people.
-std::string write_result_file(const fs::path& dir, const std::string& text) try {
-  write_file_atomically(dir / run_folder::kResult, text);
-  return {};
-} catch (const std::exception& error) {
-  return error.what();
-}
-
 }  // namespace
 
 int merge_reports(const MergeOptions& options, const Console& console) {
@@ -125,8 +114,9 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   settle(programs::kCommRouter, run_folder::kCounts, run, sim.flight, dir);
   const Reports reports = read_reports(dir, scenario);
   const RunFacts facts = facts_of(run, scenario, reports, dir);
-  const RunResults results{run,     facts, scenario,
-                           reports, dir,   [&](const std::string& text) { return write_result_file(dir, text); }};
+  const RunResults results{
+      run,     facts, scenario,
+      reports, dir,   [&](const std::string& text) { return write_if_possible(dir / run_folder::kResult, text); }};
   const auto result = write_results(
       results, options.dir, [] { return std::vector<std::string>(); }, console);
   return result && (*result)["lost_members"].empty() ? kExitDone : kExitProcessFailed;

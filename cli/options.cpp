@@ -6,6 +6,7 @@
 
 #include "cli/option_checks.hpp"
 #include "cli/tool_options.hpp"
+#include "core/text.hpp"
 #include "core/types.hpp"
 #include "process/manual.hpp"
 
@@ -58,11 +59,23 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
 }
 
+/// Of run, compose and those that fly many.
+void add_record(CLI::App& command, std::string& record) {
+  command
+      .add_flag("--record{all}", record,
+                "Record more than poses, commands, captures, radio and events: all that is read; =clouds: LiDAR clouds "
+                "that nobody reads, too; =run: no more; =none: nothing")
+      ->check(CLI::IsMember({"none", "run", "all", "clouds"}))
+      ->default_str(record);
+}
+
 /// What becomes of its results; of run and compose.
 void add_result_options(CLI::App* command, RunOptions& run) {
   command->add_option("--out", run.out, "Results folder (default runs/<scenario>-<planner>-<seed>)");
   command->add_flag("--force", run.force, "Overwrite an existing result");
+  add_record(*command, run.record);
   command->add_flag("--no-oracle{false}", run.attainable, "Do not ask after the run what could have been had");
+  command->add_flag("--no-report{false}", run.report, "Make no report.html");
 }
 
 void add_run(CLI::App& app, RunOptions& run) {
@@ -74,8 +87,33 @@ void add_run(CLI::App& app, RunOptions& run) {
       ->add_flag("--one-process", run.one_process,
                  "All programs in one process, without DDS: the same result on one core, and sooner")
       ->excludes("--dds");
-  command->add_option("--debug", run.debug_uav, "Leave this UAV's agent to you and your debugger")
+  command
+      ->add_option("--debug", run.debug,
+                   "Look into this program while the fleet waits: UAV (or gcs, sim_server, comm_router, station), with "
+                   "=gdb in this terminal, =gdbserver:PORT, =wait until you attach, or =CMD before its command line "
+                   "(default: gdb; without a terminal a command for you to start)")
+      ->type_name("UAV[=TOOL]")
+      ->allow_extra_args(false)
       ->excludes("--agent-timeout");  // it waits until Ctrl-C, or until the debugged program ends
+  command
+      ->add_option("--break-at", run.break_at_s,
+                   "Stop the debugged programs in their debugger, in the exchange before this simulated time [s]")
+      ->check(CLI::Validator(check_seconds, ""))
+      ->needs("--debug");
+  command
+      ->add_option("--break-on", run.break_on,
+                   "The same, before that first happens to the first UAV of --debug; the fleet is flown once before, "
+                   "quietly, to see when")
+      ->check(CLI::IsMember({"collision", "lost", "fault"}))
+      ->needs("--debug")
+      ->excludes("--break-at");
+  command->add_option("--break-from", run.break_from, "Results folder of the same flight, instead of flying it before")
+      ->needs("--break-on");
+  command
+      ->add_option(
+          "--log", run.log,
+          "UAV=LEVEL: how much this program logs (or gcs, sim_server...): trace, debug, info, warn, error, off")
+      ->allow_extra_args(false);
   command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
   command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
   add_network(*command, run.network);
@@ -87,7 +125,8 @@ void add_run(CLI::App& app, RunOptions& run) {
       "  skein run towers --planner kios --faults config/faults/station_outage.yaml\n"
       "  skein run towers --agent build/my_agent --planner orbit\n"
       "  skein run towers --planner orbit@team_a/agent,jurong=kios@team_b/agent\n"
-      "  skein run towers --planner hover,jurong=exec:./my_program");
+      "  skein run towers --planner hover,jurong=exec:./my_program\n"
+      "  skein run towers --planner kios --debug jurong=gdb");
 }
 
 void add_compose(CLI::App& app, ComposeOptions& compose) {
@@ -118,16 +157,6 @@ void add_keys(CLI::App& app, KeysOptions& keys) {
   command->footer("Example:\n  skein keys towers --out keys");
 }
 
-void add_merge(CLI::App& app, MergeOptions& merge) {
-  CLI::App* command =
-      app.add_subcommand("merge", "Make result.json of what programs left that ran without the launcher");
-  command->add_option("DIR", merge.dir, "Folder with their reports")->required();
-  command->add_option("--scenario", merge.scenario,
-                      "What was flown, if the server's own word for it is not known here");
-  command->add_option("--assets", merge.assets, "Folder with models/ for scenarios that read files");
-  command->footer("Example:\n  skein merge results");
-}
-
 /// What `skein contest` and `skein compare` have in common.
 void add_study_options(CLI::App& command, StudyOptions& study) {
   const CLI::Validator seconds(check_seconds, "");
@@ -149,6 +178,7 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}));
   add_network(command, study.network);
   command.add_option("--agent", study.agent, "Agent program with planners of your own, as for `skein run`");
+  add_record(command, study.record);
   command.add_option("--out", study.out, "Folder of flights and report (default runs/" + command.get_name() + ")");
   command
       .add_option("--jobs", study.jobs,
@@ -237,9 +267,16 @@ void check_one_process(const RunOptions& run) {
   const auto refuse = [](bool given, const std::string& option, const std::string& why) {
     if (given) throw InputError(option + " needs processes: " + why + "; leave out --one-process");
   };
-  refuse(run.debug_uav.has_value(), "--debug", "the program that you debug is one of its own");
+  refuse(!run.debug.empty(), "--debug", "the program that you debug is one of its own");
   refuse(run.secure, "--secure", "it keeps programs apart that cannot see each other's memory");
   refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
+}
+
+/// A command line as a shell takes it.
+std::string typed(const std::vector<std::string>& arguments) {
+  std::string text = "skein";
+  for (const std::string& argument : arguments) text += " " + shell_word(argument);
+  return text;
 }
 
 /// The options of all commands, and what CLI11 fills.
@@ -258,6 +295,10 @@ struct OptionParser {
   ComposeOptions compose;
   KeysOptions keys;
   MergeOptions merge;
+  ReportOptions report;
+  RerunOptions rerun;
+  ForkOptions fork;
+  AttachOptions attach;
   StudyOptions contest, compare;
   int tests = 5;  ///< of the contest
 };
@@ -273,6 +314,9 @@ OptionParser::OptionParser()
   add_compose(app, compose);
   add_keys(app, keys);
   add_merge(app, merge);
+  add_report(app, report);
+  add_rerun(app, rerun);
+  add_fork(app, fork);
   add_test(app, test);
   add_check(app, check);
   add_scene(app, scene);
@@ -281,6 +325,8 @@ OptionParser::OptionParser()
   add_contest(app, contest, tests);
   add_compare(app, compare);
   add_doctor(app, doctor);
+  app.add_subcommand("ps", "List the fleets that fly, with their processes");
+  add_attach(app, attach);
   CLI::App* diff_command = app.add_subcommand("diff", "First step, entity and field in which two runs differ");
   diff_command->add_option("RUN_A", diff.run_a, "A results folder")->required();
   diff_command->add_option("RUN_B", diff.run_b, "Another one")->required();
@@ -311,16 +357,23 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
   }
   refuse_empty_values(parser.app);
+  const std::string command = typed(arguments);
   if (is("run")) {
     check_one_process(parser.run);
+    parser.run.command = command;
     return parser.run;
   }
   if (is("compose")) {
-    parser.compose.command = fmt::format("skein {}", fmt::join(arguments, " "));
+    parser.compose.run.command = command;
     return parser.compose;
   }
   if (is("keys")) return parser.keys;
   if (is("merge")) return parser.merge;
+  if (is("report")) return parser.report;
+  if (is("rerun")) return parser.rerun;
+  if (is("fork")) return parser.fork;
+  if (is("ps")) return PsOptions{};
+  if (is("attach")) return parser.attach;
   if (is("test")) return parser.test;
   if (is("scene")) return parser.scene;
   if (is("bench")) return parser.bench;

@@ -23,8 +23,8 @@ TEST(Options, RunHasDefaults) {
   EXPECT_EQ(run.seed, 0u);
   EXPECT_EQ(run.dds, "cyclonedds");
   EXPECT_EQ(run.clock, "lockstep");
-  EXPECT_FALSE(run.scene_seed || run.assets || run.duration_s || run.domain || run.stop_at_s || run.out ||
-               run.debug_uav);
+  EXPECT_FALSE(run.scene_seed || run.assets || run.duration_s || run.domain || run.stop_at_s || run.out);
+  EXPECT_TRUE(run.debug.empty());
   EXPECT_FALSE(run.force || run.native);
 }
 
@@ -44,7 +44,7 @@ TEST(Options, RunReadsAll) {
   EXPECT_EQ(run.duration_s, 90.5);
   EXPECT_EQ(run.dds, "mixed");
   EXPECT_EQ(run.clock, "realtime:2.5");
-  EXPECT_EQ(run.debug_uav, "jurong");
+  EXPECT_EQ(run.debug, (std::vector<std::string>{"jurong"}));
   EXPECT_EQ(run.domain, 20);
   EXPECT_EQ(run.stop_at_s, 12.0);
   EXPECT_EQ(run.out, "o");
@@ -104,7 +104,7 @@ TEST(Options, FleetsInContainersHaveTheFlightOptionsOfRun) {
   EXPECT_EQ(compose.run.scenario, "cranes");
   EXPECT_EQ(compose.images, (std::vector<std::string>{"jurong=mine", "changi=mine"}));
   EXPECT_EQ(
-      compose.command,
+      compose.run.command,
       "skein compose cranes --planner kios --image jurong=mine --image changi=mine --subnet 10.1.0.0/20 --file f");
   EXPECT_FALSE(compose.up);
   EXPECT_THROW(parse_command_line({"compose", "--up", "--file", "f"}), InputError);
@@ -323,12 +323,15 @@ TEST(Options, OfARunCanBeWrittenAsArguments) {
   run.stop_at_s = 1e-3;
   run.out = "here";
   run.native = run.secure = run.force = true;
-  run.attainable = false;
+  run.attainable = run.report = false;
   const RunOptions again = same(run);
   EXPECT_EQ(again.planner, run.planner);
   EXPECT_EQ(again.scenario, run.scenario);
   EXPECT_EQ(again.duration_s, run.duration_s);
   EXPECT_FALSE(again.attainable);
+  EXPECT_FALSE(again.report);
+  EXPECT_NE(again.command.find("'--planner=hover,jurong=exec:./mine --speed 3, 4'"), std::string::npos)
+      << "as a shell takes it: " << again.command;
   EXPECT_TRUE(again.secure);
 }
 

@@ -10,6 +10,9 @@
 
 namespace skein::cli {
 
+/// In the place of a planner: what was recorded of one is flown again.
+inline constexpr const char* kRecorded = "recorded";
+
 struct UavPlanner {
   std::string uav;   ///< or "gcs", the ground station
   std::string spec;  ///< "exec:CMD", or as uav_agent takes it: a name, with parameters if any ("hover:height_m=4")

@@ -11,7 +11,8 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
                                         "--planner=" + run.planner,
                                         "--seed=" + std::to_string(run.seed),
                                         run.one_process ? "--one-process" : "--dds=" + run.dds,
-                                        "--clock=" + run.clock};
+                                        "--clock=" + run.clock,
+                                        "--record=" + run.record};
   const auto add = [&](const std::string& option, const auto& value, const auto& text) {
     if (value) arguments.push_back(option + "=" + text(*value));
   };
@@ -25,7 +26,11 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
   add("--rules", run.rules, as_it_is);
   add("--network", run.network, as_it_is);
   add("--faults", run.faults, path);
-  add("--debug", run.debug_uav, as_it_is);
+  add("--break-at", run.break_at_s, number);
+  add("--break-on", run.break_on, as_it_is);
+  add("--break-from", run.break_from, path);
+  for (const std::string& value : run.log) arguments.push_back("--log=" + value);
+  for (const std::string& value : run.debug) arguments.push_back("--debug=" + value);
   add("--domain", run.domain, number);
   add("--stop-at", run.stop_at_s, number);
   add("--agent-timeout", run.agent_timeout_s, number);
@@ -33,7 +38,8 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
   for (const auto& [flag, set] : {std::pair("--native", run.native),
                                   {"--secure", run.secure},
                                   {"--force", run.force},
-                                  {"--no-oracle", !run.attainable}}) {
+                                  {"--no-oracle", !run.attainable},
+                                  {"--no-report", !run.report}}) {
     if (set) arguments.push_back(flag);
   }
   return arguments;

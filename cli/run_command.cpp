@@ -1,7 +1,9 @@
 #include "cli/run_command.hpp"
 
 #include <optional>
+#include <sstream>
 
+#include "cli/run/break_event.hpp"
 #include "cli/run/domain_block.hpp"
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
@@ -10,6 +12,8 @@
 #include "cli/run/results_dir.hpp"
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
+#include "core/text.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -44,9 +48,47 @@ void warn_of_surroundings(const std::optional<DomainBlock>& domains, FleetRun& r
   }
 }
 
+/// Who has a terminal debugs there, unless he says otherwise.
+RunOptions with_debugger(RunOptions options, const Console& console) {
+  for (std::string& value : options.debug) {
+    if (console.keyboard && !options.secure && value.find('=') == std::string::npos) value += "=gdb";
+  }
+  return options;
+}
+
+/// The flight that is to be debugged, without its debugger: nothing of it is kept or shown.
+Json fly_quietly(RunOptions options) {
+  options.debug.clear();
+  options.log.clear();
+  options.break_on.reset();
+  options.domain.reset();
+  options.one_process = true;
+  options.attainable = false;
+  options.record = "none";
+  const ScratchDir scratch;
+  options.out = scratch.path() / "run";
+  std::ostringstream unseen;
+  if (run_fleet(options, {unseen, unseen}) == kExitInterrupted) throw Interrupted{};
+  return read_json(*options.out / run_folder::kResult);
+}
+
+/// --break-on, as --break-at.
+void find_break(RunOptions& options, const Console& console) {
+  if (!options.break_on) return;
+  const FleetPlan plan = plan_fleet(options, program_dir());
+  if (!options.break_from) console.err << "flying once to see when: --break-on " << *options.break_on << std::endl;
+  const Json result = options.break_from ? result_of_same_flight(*options.break_from, plan) : fly_quietly(options);
+  const std::string& member = plan.debug.front().member;
+  options.break_at_s = event_time_s(result, member, *options.break_on);
+  if (!options.break_at_s) throw InputError("--break-on " + *options.break_on + ": it never happened to " + member);
+  console.err << member << ": " << *options.break_on << " at " << shortest(*options.break_at_s) << " s" << std::endl;
+}
+
 }  // namespace
 
-int run_fleet(const RunOptions& options, const Console& console) {
+int run_fleet(const RunOptions& given, const Console& console) {
+  RunOptions options = with_debugger(given, console);
+  find_break(options, console);
   const FleetPlan plan = plan_fleet(options, program_dir());
   const std::filesystem::path dir =
       options.out.value_or(default_results_dir(plan.scenario.name, options.planner, options.seed));
@@ -71,7 +113,12 @@ int run_fleet(const RunOptions& options, const Console& console) {
   run.fly(base_domain, out.path(), secure ? secure->folders() : SecureFolders{});
 
   const Reports reports = read_reports(out.path(), plan.scenario, run.reports());
-  const auto collect = [&] { return secure ? secure->collect() : std::vector<std::string>(); };
+  const auto collect = [&] {
+    std::vector<std::string> warnings;
+    if (secure) warnings = secure->collect();
+    secure.reset();  // the keys go before what else takes its time
+    return warnings;
+  };
   const RunResults results{options, run.facts(), plan.scenario,
                            reports, out.path(),  [&](const std::string& text) { return out.write_result(text); }};
   const auto result = write_results(results, dir, collect, console);

@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include "cli/report_command.hpp"
 #include "cli/run/result.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
@@ -125,6 +126,30 @@ esac
   EXPECT_FALSE(std::filesystem::exists(*options_.out / "losses.csv"));
 }
 
+TEST_F(RunCommand, ThePageOfARunCanBeMadeAgainOrLeftOut) {
+  options_.command = "skein run 'what was typed'";
+  ASSERT_EQ(run(), kExitDone);
+  const std::filesystem::path page = *options_.out / "report.html";
+  const std::string text = read_text(page);
+  EXPECT_EQ(result()["command"], options_.command);
+  EXPECT_NE(text.find("skein run &#39;what was typed&#39;"), std::string::npos);
+  std::filesystem::remove(page);
+  EXPECT_EQ(make_reports({{*options_.out}}, {out_, err_, false}), kExitDone);
+  EXPECT_EQ(read_text(page), text);
+  EXPECT_THROW(make_reports({{"nowhere"}}, {out_, err_, false}), InputError);
+  options_.force = true;
+  options_.report = false;
+  ASSERT_EQ(run(), kExitDone);
+  EXPECT_FALSE(std::filesystem::exists(page)) << "a stale page is none of this run";
+}
+
+TEST_F(RunCommand, APageThatCannotBeWrittenIsAWarning) {
+  programs_.script("sim_server", "mkdir $out/report.html\n" + std::string(kServer));
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_NE(result()["warnings"].dump().find("no report.html"), std::string::npos) << result()["warnings"];
+  EXPECT_NE(out_.str().find("warning: no report.html"), std::string::npos) << out_.str();
+}
+
 TEST_F(RunCommand, AnExistingResultIsKept) {
   ASSERT_EQ(run(), kExitDone);
   EXPECT_THROW(run(), InputError);
@@ -146,7 +171,7 @@ TEST_F(RunCommand, BadInputStartsNothing) {
 }
 
 TEST_F(RunCommand, AnUnknownDebugUavIsBadInput) {
-  options_.debug_uav = "gamma";
+  options_.debug = {"gamma"};
   EXPECT_THROW(run(), InputError);
 }
 
@@ -287,13 +312,13 @@ TEST_F(RunCommand, ACommandThatFailsIsNamedLikeAnAgent) {
 
 TEST_F(RunCommand, DebugPrintsACommandWithItsEnvironment) {
   options_.planner = "hover,beta=exec:./mine 'a b'";
-  options_.debug_uav = "beta";
+  options_.debug = {"beta"};
   EXPECT_EQ(run(), kExitDone);
   EXPECT_NE(err_.str().find(" SKEIN_UAV=beta /bin/sh -c './mine '\\''a b'\\'''"), std::string::npos) << err_.str();
 }
 
 TEST_F(RunCommand, DebugLeavesOneAgentToTheUser) {
-  options_.debug_uav = "beta";
+  options_.debug = {"beta"};
   EXPECT_EQ(run(), kExitDone);
   EXPECT_FALSE(std::filesystem::exists(*options_.out / "uav_agent-beta.log"));
   EXPECT_NE(err_.str().find("gdb --args"), std::string::npos) << err_.str();

@@ -5,7 +5,9 @@
 #include "cli/oracle_command.hpp"
 #include "cli/run/losses.hpp"
 #include "cli/run/progress_view.hpp"
+#include "cli/run/recording.hpp"
 #include "core/run_state.hpp"
+#include "report/run_report.hpp"
 
 namespace skein::cli {
 namespace {
@@ -44,6 +46,15 @@ void add_score_tables(const RunOptions& options, const std::filesystem::path& di
   result["losses"] = losses_of(dir, answer.by_point, reports, warnings);
 }
 
+/// A page for people; a run is not worth less without.
+bool make_report(const std::filesystem::path& dir, Json& warnings) try {
+  report::write_run_report(dir);
+  return true;
+} catch (const std::exception& error) {
+  warnings.push_back(std::string("no report.html: ") + error.what());
+  return false;
+}
+
 }  // namespace
 
 std::optional<Json> write_results(const RunResults& run, const std::filesystem::path& shown,
@@ -54,9 +65,12 @@ std::optional<Json> write_results(const RunResults& run, const std::filesystem::
   const std::size_t warnings_written = result["warnings"].size();
   for (std::string& warning : collect()) result["warnings"].push_back(std::move(warning));
   add_score_tables(run.options, run.dir, run.reports, result);
+  const std::string trouble = join_recording(run.dir, run.scenario, result);
+  if (!trouble.empty()) result["warnings"].push_back(trouble);
   const bool news = !result["losses"].is_null() || result["attainable"]["score"].is_number() ||
                     result["warnings"].size() > warnings_written;
   if (written && news) run.write(text_of(result));  // the one before stands if the disk is full by now
+  if (written && run.options.report && !make_report(run.dir, result["warnings"])) run.write(text_of(result));
   print_summary(console.out, result, shown);
   return written ? std::optional(std::move(result)) : std::nullopt;
 }

@@ -15,8 +15,7 @@ int export_scene(const SceneOptions& options) {
   if (options.assets) argv.insert(argv.end(), {"--assets", *options.assets});
   if (options.force) argv.push_back("--overwrite-export");
   // As in a run: the same libm makes the same scene.
-  const ExitStatus exit = run_to_end({programs::kSimServer, argv, fleet_environment(false), {}});
-  return exit.signal == 0 && exit.code <= kExitBadInput ? exit.code : kExitProcessFailed;
+  return hand_over({programs::kSimServer, argv, fleet_environment(false), {}});
 }
 
 }  // namespace skein::cli

@@ -2,11 +2,13 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "cli/machine.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/study/columns.hpp"
 #include "cli/study/csv.hpp"
-#include "cli/study/html.hpp"
+#include "cli/study/figure_files.hpp"
 #include "cli/study/page.hpp"
+#include "cli/study/tex.hpp"
 #include "core/sha256.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
@@ -14,11 +16,13 @@
 #include "process/atomic_file.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
+#include "report/html.hpp"
 
 namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using report::shortened;
 
 constexpr const char* kSettings = "study.json";
 constexpr std::size_t kLongestName = 40;  ///< of a planner on the terminal
@@ -38,17 +42,36 @@ StudyPictures pictures_of(const Study& study) {
   StudyPictures pictures;
   for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
     for (std::size_t p = 0; p < study.planners.size(); ++p) {
-      if (const FlightEntry* best = study.best(p, s)) pictures.emplace(std::pair(s, p), read_picture(best->dir));
+      if (const FlightEntry* best = study.best(p, s))
+        pictures.emplace(std::pair(s, p), report::read_picture(best->dir));
     }
   }
   return pictures;
+}
+
+/// Those of a former study in this folder would be taken for this one's.
+void write_figures(const StudyReport& report, const fs::path& dir) {
+  fs::create_directories(dir);
+  for (const fs::directory_entry& entry : fs::directory_iterator(dir)) {
+    if (entry.path().extension() == ".svg") fs::remove(entry.path());
+  }
+  for (const StudyFigure& figure : report.figures) write_file_atomically(dir / figure.file, paper_svg(figure));
 }
 
 void write_report(const Study& study, const fs::path& out) {
   write_file_atomically(out / "flights.csv", flights_csv(study));
   write_file_atomically(out / "summary.csv", summary_csv(study));
   if (study.contest) write_file_atomically(out / "totals.csv", totals_csv(study));
-  write_file_atomically(out / run_folder::kPage, study_page(study, pictures_of(study)));
+  const StudyReport report(study, pictures_of(study));
+  write_file_atomically(out / kTexTable, study_tex(study, report.pairs, report.titles));
+  write_figures(report, out / kFiguresFolder);
+  write_file_atomically(out / run_folder::kPage, study_page(report));
+}
+
+std::string machine_text() {
+  const std::string cpu = cpu_model();
+  return (cpu.empty() ? "an unknown processor" : cpu) +
+         fmt::format(", {} cores, {:.0f} GB of memory", usable_cores(), memory_gb());
 }
 
 std::string range_text(const Spread& spread, int digits) {
@@ -74,11 +97,18 @@ Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
   if (plan.options.scene_seed) conditions.push_back(fmt::format("scene seed {}", *plan.options.scene_seed));
   if (plan.options.rules) conditions.push_back("rules " + *plan.options.rules);
   study.conditions = joined(conditions);
+  study.machine = machine_text();
   for (std::size_t i = 0; i < plan.flights.size(); ++i) {
     const StudyFlight& flight = plan.flights[i];
     const StudyOutcome& outcome = outcomes.flights[i];
     FlightEntry entry{flight.planner, flight.scenario, flight.seed, flight.dir, std::nullopt, outcome.problem};
-    if (outcome.result.is_object()) entry.figures = figures_of(outcome.result);
+    if (outcome.result.is_object()) {
+      entry.figures = figures_of(outcome.result);
+      entry.tables = read_flight_tables(flight.dir);
+    }
+    if (fs::exists(flight.dir / run_folder::kPage)) {
+      entry.page = (flight.dir / run_folder::kPage).lexically_relative(plan.out).generic_string();
+    }
     study.flights.push_back(std::move(entry));
   }
   return study;

@@ -227,7 +227,7 @@ TEST_F(StudyCommand, CtrlCStopsAndTheSameCommandGoesOn) {
   EXPECT_EQ(run(), kExitInterrupted);
   EXPECT_EQ(flown(), "hover 1\npatrol 1\nhover 2\n");
   EXPECT_NE(err_.str().find("goes on from here"), std::string::npos) << err_.str();
-  EXPECT_NE(file("report.html").find("2 of 6 flights count"), std::string::npos);
+  EXPECT_NE(file("report.html").find("<strong>2 of 6</strong>"), std::string::npos);
   hook("");
   EXPECT_EQ(run(), kExitDone);
   EXPECT_EQ(flown(), "hover 2\npatrol 2\nhover 3\npatrol 3\n");

@@ -18,6 +18,22 @@ std::string check_clearance(const std::string& text) {
 
 }  // namespace
 
+void add_attach(CLI::App& app, AttachOptions& attach) {
+  CLI::App* command = app.add_subcommand("attach", "Debug one program of a fleet that is flying, which then waits");
+  command
+      ->add_option("UAV", attach.what,
+                   "A UAV, gcs, sim_server, comm_router or station; with =gdb (default), =gdbserver:PORT, or =CMD, a "
+                   "tool that takes a process id as its last word")
+      ->required()
+      ->type_name("UAV[=TOOL]");
+  command->add_option("--run", attach.run, "Results folder of its fleet (default: the only one that flies)");
+  command->footer(
+      "Examples:\n"
+      "  skein attach jurong\n"
+      "  skein attach jurong='strace -f -p' --run runs/towers-kios-0\n\n"
+      "`skein ps` lists the fleets that fly. docs/how-to-debug.md has more.");
+}
+
 void add_test(CLI::App& app, TestOptions& test) {
   CLI::App* command =
       app.add_subcommand("test", "Run the test suite, or your fault tests; the last line is 'N passed, N failed'");
@@ -82,6 +98,12 @@ void add_scene(CLI::App& app, SceneOptions& scene) {
   command->footer("Example:\n  skein scene towers --scene-seed 3 --out my_scene");
 }
 
+void add_report(CLI::App& app, ReportOptions& report) {
+  CLI::App* command = app.add_subcommand("report", "Make report.html of finished runs again");
+  command->add_option("RUN", report.runs, "Results folders")->required();
+  command->footer("Example:\n  skein report runs/towers-kios-0\n\ndocs/report.md tells what the page shows.");
+}
+
 void add_bench(CLI::App& app, BenchOptions& bench) {
   CLI::App* command = app.add_subcommand("bench", "Measure speed, scale and memory on this machine");
   command->add_flag("--quick", bench.quick, "Less of everything: a first impression in less than a minute");
@@ -118,6 +140,17 @@ void add_oracle(CLI::App& app, OracleOptions& oracle) {
   command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");
   command->add_flag("--json", oracle.json, "All figures, for programs");
   command->footer("Example:\n  skein oracle towers --clearance 0.5,0.8,1.2");
+}
+
+void add_merge(CLI::App& app, MergeOptions& merge) {
+  CLI::App* command =
+      app.add_subcommand("merge", "Make result.json of what programs left that ran without the launcher");
+  command->add_option("DIR", merge.dir, "Folder with their reports")->required();
+  command->add_option("--scenario", merge.scenario,
+                      "What was flown, if the server's own word for it is not known here");
+  command->add_option("--assets", merge.assets, "Folder with models/ for scenarios that read files");
+  command->add_flag("--no-report{false}", merge.report, "Make no report.html");
+  command->footer("Example:\n  skein merge results");
 }
 
 }  // namespace skein::cli

@@ -14,6 +14,11 @@ void add_test(CLI::App& app, TestOptions& test);
 void add_check(CLI::App& app, CheckOptions& check);
 void add_scene(CLI::App& app, SceneOptions& scene);
 void add_bench(CLI::App& app, BenchOptions& bench);
+void add_attach(CLI::App& app, AttachOptions& attach);
 void add_oracle(CLI::App& app, OracleOptions& oracle);
+void add_merge(CLI::App& app, MergeOptions& merge);
+void add_report(CLI::App& app, ReportOptions& report);
+void add_rerun(CLI::App& app, RerunOptions& rerun);
+void add_fork(CLI::App& app, ForkOptions& fork);
 
 }  // namespace skein::cli

@@ -33,9 +33,9 @@ function(skein_add_planner_test name)
 endfunction()
 
 # As Skein itself is compiled: C++20, optimised unless asked otherwise, and no fused multiply-add, so that a result does
-# not depend on the optimiser's mood.
+# not depend on the optimiser's mood. With all that a debugger can show of a planner.
 function(skein_compile_as_skein name)
   target_compile_features(${name} PRIVATE cxx_std_20)
   set_target_properties(${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  target_compile_options(${name} PRIVATE -ffp-contract=off -Wno-psabi $<$<CONFIG:>:-O2>)
+  target_compile_options(${name} PRIVATE -ffp-contract=off -Wno-psabi -g $<$<CONFIG:>:-O2>)
 endfunction()

@@ -20,6 +20,8 @@ pkg_check_modules(OCTOMAP REQUIRED IMPORTED_TARGET octomap)
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
 pkg_check_modules(LZF REQUIRED IMPORTED_TARGET liblzf)
+find_package(zstd REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(embree 3 REQUIRED)
 
 # skein_find_pcl(PART...)

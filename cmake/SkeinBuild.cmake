@@ -46,6 +46,14 @@ if(SKEIN_SANITIZE)
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
+# Function names and lines for debuggers and backtraces, mapped so that neither ccache nor a moved tree minds where it
+# lies (docs/decisions/0018-debugging.md).
+if(NOT SKEIN_SANITIZE)
+  add_compile_options($<$<CONFIG:Release>:-g1>)
+  add_link_options($<$<CONFIG:Release>:-Wl,--compress-debug-sections=zlib>)  # a third of the size
+endif()
+add_compile_options(-fdebug-prefix-map=${CMAKE_SOURCE_DIR}=.)
+
 # skein_add_library(NAME [OBJECT] SOURCES ... PUBLIC libs... PRIVATE libs...)
 # Headers are included from the repository root: #include "core/types.hpp".
 function(skein_add_library name)

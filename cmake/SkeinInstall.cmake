@@ -29,6 +29,9 @@ endfunction()
 skein_install_programs(runtime ${programs})
 skein_install_programs(agent uav_agent)
 
+# What makes reports interactive, where ./skein, or npm in web/, has built it.
+install(FILES ${PROJECT_SOURCE_DIR}/build/web/report.js DESTINATION ${CMAKE_INSTALL_DATADIR}/skein/web
+  COMPONENT runtime OPTIONAL)
 install(FILES cli/completion/skein.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
   RENAME skein COMPONENT runtime)
 install(FILES cli/completion/_skein DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT runtime)
@@ -36,7 +39,7 @@ install(FILES cli/completion/skein.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fis
   COMPONENT runtime)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # Debian has it already
 
-set(libraries core process idl bus lockstep agent agent_nodes agent_main
+set(libraries core process idl mcap bus lockstep recording agent agent_nodes agent_main
   sim sim_node router router_node station station_node one_process one_process_main)
 foreach(library ${libraries})
   set_target_properties(skein_${library} PROPERTIES EXPORT_NAME ${library})

@@ -44,8 +44,9 @@ std::size_t Arrivals::find_or_open(const RadioTarget& target, const std::string&
   const auto number = static_cast<std::size_t>(find(target) - arrivals_.begin());
   if (number == arrivals_.size()) arrivals_.push_back({target.node, target.topic, nullptr});
   if (!arrivals_[number].writer) {
-    arrivals_[number].writer =
-        std::make_unique<bus::CountedWriter>(*nodes_[target.node], radio_spec(target.topic, type, nodes_.size()));
+    const bus::TopicSpec topic = radio_spec(target.topic, type, nodes_.size());
+    bus::Ear ear = tap_ ? tap_->ear(scenario_.node_name(target.node), topic) : bus::Ear{};
+    arrivals_[number].writer = std::make_unique<bus::CountedWriter>(*nodes_[target.node], topic, std::move(ear));
   }
   return number;
 }

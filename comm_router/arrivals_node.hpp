@@ -26,6 +26,8 @@ class Arrivals {
   /// Both must outlive this.
   Arrivals(const Scenario& scenario, const Participants& nodes) : scenario_(scenario), nodes_(nodes) {}
 
+  /// Before anything is opened. `tap` must outlive this.
+  void record_with(bus::Tap& tap) { tap_ = &tap; }
   /// Where a node gets what its requests came to; in the order of the nodes.
   void open_replies(Node node);
   /// Where the messages of a route arrive: at those of its targets that it has not opened yet.
@@ -55,6 +57,7 @@ class Arrivals {
 
   const Scenario& scenario_;
   const Participants& nodes_;
+  bus::Tap* tap_ = nullptr;
   std::vector<Arrival> arrivals_;
   std::vector<std::vector<std::size_t>> of_route_;                  ///< by route, target: index into arrivals_
   std::vector<std::size_t> replies_of_;                             ///< by node: likewise

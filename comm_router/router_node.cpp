@@ -266,6 +266,7 @@ void RouterNode::begin_step() {
 void RouterNode::deliver(const StepBatch& batch) {
   const GatedStep gated = gate_.gate(batch.k, batch.links, batch.messages);
   if (count_store_) count_store_->save(gate_, gated);
+  if (recording_) recording_->add(batch, table_.routes(), gated);
   for (const Delivery& delivery : gated.deliveries) {
     arrivals_.write(delivery.route, delivery.target, *delivery.payload);
   }
@@ -321,6 +322,20 @@ void RouterNode::keep_counts(CountStore& store) {
   gate_.restore(store.earlier_counts());
 }
 
+void RouterNode::record_with(recording::Recorder& recorder) {
+  recording_.emplace(scenario_, recorder);
+  arrivals_.record_with(recorder);
+  client_.before_obeying([this] { recording_->flush(); });
+}
+
+void RouterNode::replay(const recording::ReplayOptions& options) {
+  replay_ = std::make_unique<ReplayNode>(scenario_, table_.routes(), options);
+}
+
+std::optional<std::vector<std::string>> RouterNode::differences() const {
+  return replay_ ? std::optional(replay_->differences().texts()) : std::nullopt;
+}
+
 bool RouterNode::serve() {
   const bool matches = advance();
   tell_awaited(matches || batch_ || sync_.waiting());
@@ -337,6 +352,7 @@ bool RouterNode::advance() {
       match_patience_ = bus::Patience(match_patience_s_);
     }
     if (registry_.waiting() && !match_patience_.over()) return true;
+    if (replay_) replay_->replace(*batch_);
     deliver(*batch_);
     batch_.reset();
   }

@@ -18,6 +18,8 @@
 #include "comm_router/count_store.hpp"
 #include "comm_router/link_gate.hpp"
 #include "comm_router/radio_registry.hpp"
+#include "comm_router/recording_node.hpp"
+#include "comm_router/replay_node.hpp"
 #include "comm_router/router_sync.hpp"
 #include "core/fault_plan.hpp"
 #include "core/scenario.hpp"
@@ -47,6 +49,12 @@ class RouterNode final : public bus::ClientNode {
   std::string waiting_for() override;
   /// Counts on from what the store holds, and keeps it there from now on. It must outlive this.
   void keep_counts(CountStore& store);
+  /// Before start(): records what it hears and hands on. `recorder` must outlive this.
+  void record_with(recording::Recorder& recorder);
+  /// Before start(): hands on what was sent when the recorded run was flown. @throws InputError as ReplayNode does.
+  void replay(const recording::ReplayOptions& options);
+  /// Where members say something else than then, a sentence each; nullopt: nothing is flown again.
+  std::optional<std::vector<std::string>> differences() const;
   const LinkGate& gate() const { return gate_; }
   /// How many radio messages came from outside the lock-step, and who sent them, a line each; for the end of a run.
   std::uint64_t unheard() const;
@@ -113,6 +121,8 @@ class RouterNode final : public bus::ClientNode {
   RouterSync sync_;
   RadioRegistry registry_;
   CountStore* count_store_ = nullptr;
+  std::optional<RecordingNode> recording_;
+  std::unique_ptr<ReplayNode> replay_;
   bus::Strangers strangers_;
   std::vector<std::string> stranger_warnings_;
   std::uint64_t k_ = 0;  ///< the step that was begun last

@@ -18,6 +18,7 @@ struct Notes {
   std::uint64_t malformed = 0, unheard = 0, unsent = 0;
   std::vector<std::string> warnings = {};
   std::vector<std::string> unwritten = {};  ///< files that the disk refused
+  std::optional<std::vector<std::string>> differences = {};
 };
 
 RadioCounts radio_counts(const LinkCounts& counts) {
@@ -43,7 +44,8 @@ void write_report(const ProgramOptions& options, const Scenario& scenario, const
                       .unsent = notes.unsent,
                       .dds = options.dds,
                       .warnings = notes.warnings,
-                      .unwritten = notes.unwritten};
+                      .unwritten = notes.unwritten,
+                      .differences = notes.differences};
   for (const Node from : gate.nodes()) {
     for (const Node to : gate.nodes()) {
       const LinkCounts& counts = gate.counts().at(from, to);
@@ -79,13 +81,15 @@ void open_counts(std::optional<CountStore>& store, const std::filesystem::path& 
 class RouterMember final : public bus::FleetMember {
  public:
   RouterMember(Scenario scenario, FaultPlan faults, const ProgramOptions& options, StatusPipe& status,
-               std::unique_ptr<bus::Bus> bus)
+               std::unique_ptr<bus::Bus> bus, const recording::ReplayOptions& replay)
       : scenario_(std::move(scenario)),
         faults_(std::move(faults)),
         options_(options),
         counts_file_(options.out / run_folder::kCounts),
         status_(status),
-        bus_(std::move(bus)) {
+        bus_(std::move(bus)),
+        replay_(replay),
+        recorder_(options_.out, programs::kCommRouter, recording::scope_of(options_.record)) {
     withdraw_report(report_of(options_));
     make_node();
   }
@@ -102,7 +106,10 @@ class RouterMember final : public bus::FleetMember {
     const int code = bus::exit_code(end, programs::kCommRouter);
     unwritten_.insert(unwritten_.end(), node_->unwritten().begin(), node_->unwritten().end());
     if (store_ && !store_->trouble().empty()) unwritten_.push_back(store_->trouble());
-    const Notes notes{node_->malformed(), node_->unheard(), node_->unsent(), node_->stranger_warnings(), unwritten_};
+    recorder_.close();
+    if (!recorder_.trouble().empty()) unwritten_.push_back(recorder_.trouble());
+    const Notes notes{node_->malformed(),         node_->unheard(), node_->unsent(),
+                      node_->stranger_warnings(), unwritten_,       node_->differences()};
     write_report(options_, scenario_, node_->gate(), notes, status_);
     std::filesystem::remove(counts_file_);
     return code;
@@ -116,6 +123,8 @@ class RouterMember final : public bus::FleetMember {
     open_counts(store_, counts_file_, scenario_.fleet.size() + 1, options_.run, unwritten_);
     node_.emplace(scenario_, options_.seed, options_.domain, *bus_, faults_, options_.out);
     if (store_) node_->keep_counts(*store_);
+    node_->record_with(recorder_);
+    if (replay_.active()) node_->replay(replay_);
   }
 
   const Scenario scenario_;
@@ -124,6 +133,8 @@ class RouterMember final : public bus::FleetMember {
   const std::filesystem::path counts_file_;
   StatusPipe& status_;
   const std::unique_ptr<bus::Bus> bus_;
+  const recording::ReplayOptions replay_;
+  recording::Recorder recorder_;
   std::vector<std::string> unwritten_;
   std::optional<CountStore> store_;
   std::optional<RouterNode> node_;
@@ -135,6 +146,7 @@ void RouterProgram::add_options(CLI::App& app) {
   app.description("Skein: passes radio messages on between the UAVs of a fleet");
   app.add_flag("--settle", settle_only_, "Write the report of a router that died in this folder, then stop")
       ->group("Launcher");
+  recording::add_replay_options(app, replay_);
 }
 
 std::variant<int, std::unique_ptr<bus::FleetMember>> RouterProgram::prepare(const ProgramOptions& options,
@@ -144,7 +156,8 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> RouterProgram::prepare(cons
   if (settle_only_) return settle(options, scenario, status);
   auto bus = bus::make_bus(options, scenario);
   if (options.check_only) return kExitDone;
-  return std::make_unique<RouterMember>(std::move(scenario), std::move(faults), options, status, std::move(bus));
+  return std::make_unique<RouterMember>(std::move(scenario), std::move(faults), options, status, std::move(bus),
+                                        replay_);
 }
 
 }  // namespace skein::router

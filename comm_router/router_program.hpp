@@ -3,6 +3,7 @@
 
 #include "bus/lockstep/fleet_program.hpp"
 #include "process/run_folder.hpp"
+#include "recording/replay.hpp"
 
 namespace skein::router {
 
@@ -15,6 +16,7 @@ class RouterProgram final : public bus::FleetProgram {
 
  private:
   bool settle_only_ = false;
+  recording::ReplayOptions replay_;
 };
 
 }  // namespace skein::router

@@ -29,6 +29,9 @@ std::vector<std::string> split(std::string_view text, char separator = ',');
 /// A word as a shell takes it, in quotes where it needs them.
 std::string shell_word(const std::string& word);
 
+/// The words of a line that shell_word() made each of.
+std::vector<std::string> shell_words(std::string_view line);
+
 /// Control characters other than line breaks and tabs become '?': XML has no way to write them.
 std::string printable(std::string text);
 

@@ -81,6 +81,14 @@ TEST(Text, AShellTakesEveryWordAsOne) {
   EXPECT_EQ(shell_word("$(x)"), "'$(x)'");
 }
 
+TEST(Text, WordsOfAShellReadBackAsTheyWere) {
+  const std::vector<std::string> words = {"skein", "it's", "", "a b", "$(x)", "\\", "'", "kios:voxel=4", "\"q\""};
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
+  EXPECT_EQ(shell_words(line), words);
+  EXPECT_TRUE(shell_words("  ").empty());
+}
+
 TEST(Text, ControlCharactersAreShownAsQuestionMarks) {
   EXPECT_EQ(printable(std::string("a\x01\0b\n\tü", 8)), "a??b\n\tü");
 }

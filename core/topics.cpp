@@ -103,6 +103,12 @@ std::span<const TopicInfo> score_topics() {
   return kAll;
 }
 
+std::span<const TopicInfo> viewer_topics() {
+  static constexpr std::array kAll{kVizStructure, kVizBoxes,  kVizLinks, kVizFrusta, kVizFleet, kVizPaths,
+                                   kVizMap,       kVizScored, kTf,       kTfStatic,  kClock};
+  return kAll;
+}
+
 std::span<const TopicInfo> lockstep_topics() {
   static constexpr std::array kAll{kStep,   kDone,   kReady, kStationReady, kStationDone,  kResync,    kAttached,
                                    kRouted, kAwaits, kDrop,  kLedger,       kRadioRequest, kRadioReply};

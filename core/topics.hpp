@@ -83,7 +83,8 @@ inline constexpr CloudLayout kDetectionLayout{kDetectionFields, 32};
 enum class Direction {
   to_agent,      ///< written by sim_server, read by on-board software (or by a program at the ground station)
   from_agent,    ///< written by on-board software, read by sim_server
-  from_station,  ///< written by the station into the GCS domain
+  from_station,  ///< written by the station into the GCS domain; /viz/scored into the world's
+  to_viewer,     ///< written by sim_server into the world's domain, for who looks on
   internal,      ///< lock-step and custody: between Skein's own processes and lock-step clients
 };
 
@@ -208,6 +209,47 @@ std::span<const TopicInfo> gcs_topics();
 /// The station's name in the lock-step; its node is "gcs", which it may share with a user's program.
 inline constexpr std::string_view kStationMember = "station";
 
+// ---- the world's domain, for who looks on: RViz 2 (docs/ros2.md) --------------------------------------------------
+// Nobody in the fleet reads these, and they are in no count. Written where somebody reads, at 10 Hz at most.
+
+inline constexpr int kVizDepth = 8;
+inline constexpr TopicInfo kVizStructure{
+    "/viz/structure", "visualization_msgs/msg/Marker", Direction::to_viewer, 1, "once, latched", true};
+inline constexpr TopicInfo kVizBoxes{
+    "/viz/boxes", "visualization_msgs/msg/Marker", Direction::to_viewer, 1, "once, latched", true};
+inline constexpr TopicInfo kVizLinks{"/viz/links", "visualization_msgs/msg/Marker", Direction::to_viewer, kVizDepth,
+                                     "10 Hz; links that are open"};
+inline constexpr TopicInfo kVizFrusta{"/viz/frusta", "visualization_msgs/msg/MarkerArray", Direction::to_viewer,
+                                      kVizDepth, "10 Hz; what each camera looks at"};
+inline constexpr TopicInfo kVizFleet{"/viz/fleet", "visualization_msgs/msg/MarkerArray", Direction::to_viewer,
+                                     kVizDepth, "10 Hz; bodies and names"};
+inline constexpr TopicInfo kVizPaths{"/viz/paths", "visualization_msgs/msg/MarkerArray", Direction::to_viewer,
+                                     kVizDepth, "2 Hz; where each UAV was in the last 60 s"};
+/// What all key frames have shown so far, a point for each cube of 0.5 m.
+inline constexpr TopicInfo kVizMap{"/viz/map",
+                                   "sensor_msgs/msg/PointCloud2",
+                                   Direction::to_viewer,
+                                   1,
+                                   "when it has grown, 1 Hz at most; latched",
+                                   true,
+                                   false,
+                                   &kScanLayout};
+/// Points that score by now; intensity = q.
+inline constexpr TopicInfo kVizScored{"/viz/scored",
+                                      "sensor_msgs/msg/PointCloud2",
+                                      Direction::from_station,
+                                      1,
+                                      "when it has changed, 10 Hz at most; latched",
+                                      true,
+                                      false,
+                                      &kScanLayout};
+inline constexpr TopicInfo kTf{"/tf", "tf2_msgs/msg/TFMessage", Direction::to_viewer, kVizDepth, "10 Hz"};
+inline constexpr TopicInfo kTfStatic{"/tf_static", "tf2_msgs/msg/TFMessage", Direction::to_viewer, 1, "once, latched",
+                                     true};
+
+/// All of the above, and the clock.
+std::span<const TopicInfo> viewer_topics();
+
 // ---- lock-step, ledger: see idl/skein_msgs.idl and docs/lockstep.md ---------------------------------------------
 
 inline constexpr TopicInfo kStep{"/skein/step", "skein_msgs/msg/Step", Direction::internal, 8,
@@ -287,6 +329,7 @@ inline WireTopic capture() { return wire(kCapture); }
 inline WireTopic capture_stored() { return wire(kCaptureStored); }
 inline WireTopic score() { return wire(kScore); }
 inline WireTopic score_eval() { return wire(kScoreEval); }
+inline WireTopic viz_scored() { return wire(kVizScored); }
 inline WireTopic step() { return wire(kStep); }
 inline WireTopic done() { return wire(kDone); }
 inline WireTopic ready() { return wire(kReady); }

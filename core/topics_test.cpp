@@ -26,7 +26,8 @@ TEST(Topics, MalformedNamesAreRefused) {
 }
 
 TEST(Topics, EveryEntryOfTheTablesIsWellFormedAndUnique) {
-  for (const auto table : {topics::uav_topics(), topics::gcs_topics(), topics::lockstep_topics()}) {
+  for (const auto table :
+       {topics::uav_topics(), topics::gcs_topics(), topics::viewer_topics(), topics::lockstep_topics()}) {
     std::set<std::string> names;
     for (const topics::TopicInfo& topic : table) {
       const topics::WireTopic wire = topics::wire(topic, "jurong");

@@ -17,6 +17,13 @@ void set_xyz(Message& message, const Vector3d& v) {
   message.z(v.z());
 }
 
+void set_quaternion(msg::Quaternion& message, const Quaterniond& q) {
+  message.x(q.x());
+  message.y(q.y());
+  message.z(q.z());
+  message.w(q.w());
+}
+
 template <class Message>
 Vector3d xyz(const Message& message) {
   return {message.x(), message.y(), message.z()};
@@ -100,16 +107,31 @@ msg::Duration to_duration(double seconds) {
 
 double from_duration(const msg::Duration& duration) { return duration.sec() + duration.nanosec() * 1e-9; }
 
+msg::Point to_point(const Vector3d& p) {
+  msg::Point point;
+  set_xyz(point, p);
+  return point;
+}
+
+msg::Pose to_pose(const Vector3d& p, const Quaterniond& q) {
+  msg::Pose pose;
+  set_xyz(pose.position(), p);
+  set_quaternion(pose.orientation(), q);
+  return pose;
+}
+
+msg::Transform to_transform(const Isometry3d& X) {
+  msg::Transform transform;
+  set_xyz(transform.translation(), X.translation());
+  set_quaternion(transform.rotation(), Quaterniond(X.linear()));
+  return transform;
+}
+
 msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState& state) {
   msg::Odometry odometry;
   odometry.header(to_header(tick));
   odometry.child_frame_id(id + "/base_link");
-  auto& pose = odometry.pose().pose();
-  set_xyz(pose.position(), state.p_WB);
-  pose.orientation().x(state.q_WB.x());
-  pose.orientation().y(state.q_WB.y());
-  pose.orientation().z(state.q_WB.z());
-  pose.orientation().w(state.q_WB.w());
+  odometry.pose().pose(to_pose(state.p_WB, state.q_WB));
   set_xyz(odometry.twist().twist().linear(), state.q_WB.conjugate() * state.v_WB);
   set_xyz(odometry.twist().twist().angular(), state.w_WB_B);
   return odometry;

@@ -22,6 +22,10 @@ msg::Header to_header(Tick tick, const std::string& frame = "world");
 msg::Duration to_duration(double seconds);
 double from_duration(const msg::Duration& duration);
 
+msg::Point to_point(const Vector3d& p);
+msg::Pose to_pose(const Vector3d& p, const Quaterniond& q);
+msg::Transform to_transform(const Isometry3d& X);
+
 /// Twist in the body frame, as CARIC has it.
 msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState& state);
 /// Velocity back in W.

@@ -12,7 +12,9 @@
 #include "idl/sensor_msgs.h"
 #include "idl/skein_msgs.h"
 #include "idl/std_msgs.h"
+#include "idl/tf2_msgs.h"
 #include "idl/trajectory_msgs.h"
+#include "idl/visualization_msgs.h"
 
 namespace skein {
 
@@ -34,24 +36,35 @@ std::string type_name() {
   X(builtin_interfaces, Duration)                  \
   X(std_msgs, Header)                              \
   X(std_msgs, String)                              \
+  X(std_msgs, Float64)                             \
+  X(std_msgs, ColorRGBA)                           \
   X(rosgraph_msgs, Clock)                          \
   X(geometry_msgs, Vector3)                        \
   X(geometry_msgs, Point)                          \
   X(geometry_msgs, Point32)                        \
   X(geometry_msgs, Quaternion)                     \
   X(geometry_msgs, Pose)                           \
+  X(geometry_msgs, PoseStamped)                    \
   X(geometry_msgs, PoseWithCovariance)             \
   X(geometry_msgs, Twist)                          \
   X(geometry_msgs, TwistStamped)                   \
   X(geometry_msgs, TwistWithCovariance)            \
   X(geometry_msgs, Transform)                      \
+  X(geometry_msgs, TransformStamped)               \
   X(nav_msgs, Odometry)                            \
+  X(nav_msgs, Path)                                \
   X(sensor_msgs, PointField)                       \
   X(sensor_msgs, PointCloud2)                      \
+  X(sensor_msgs, CompressedImage)                  \
   X(sensor_msgs, ChannelFloat32)                   \
   X(sensor_msgs, PointCloud)                       \
+  X(tf2_msgs, TFMessage)                           \
   X(trajectory_msgs, MultiDOFJointTrajectory)      \
   X(trajectory_msgs, MultiDOFJointTrajectoryPoint) \
+  X(visualization_msgs, UVCoordinate)              \
+  X(visualization_msgs, MeshFile)                  \
+  X(visualization_msgs, Marker)                    \
+  X(visualization_msgs, MarkerArray)               \
   X(skein_msgs, TopicCount)                        \
   X(skein_msgs, Member)                            \
   X(skein_msgs, Order)                             \
@@ -69,6 +82,10 @@ std::string type_name() {
   X(skein_msgs, RadioReply)                        \
   X(skein_msgs, BoolStamped)                       \
   X(skein_msgs, CommandRejected)                   \
+  X(skein_msgs, Event)                             \
+  X(skein_msgs, Tally)                             \
+  X(skein_msgs, Arrival)                           \
+  X(skein_msgs, Arrivals)                          \
   X(skein_msgs, CapturePoint)                      \
   X(skein_msgs, CaptureReport)                     \
   X(skein_msgs, CaptureReports)                    \

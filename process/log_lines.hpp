@@ -8,6 +8,8 @@ namespace skein::log_lines {
 
 /// For spdlog: name, level, text.
 inline constexpr const char* kPattern = "[%n] %l %v";
+/// The same with the simulated time behind the name (log_time.hpp).
+inline constexpr const char* kTimedPattern = "[%n%*] %l %v";
 
 inline bool is_warning(std::string_view line) {
   const std::size_t name_end = line.find("] ");

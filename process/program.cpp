@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/suggestion.hpp"
+#include "process/crash_notes.hpp"
 #include "process/keeper.hpp"
 #include "process/log_lines.hpp"
 #include "process/manual.hpp"
@@ -95,6 +96,9 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--duration", options.duration_s, "Mission time [s], instead of the scenario's");
   app.add_option("--rules", options.rules, "Preset of rules, instead of what the scenario says of them");
+  app.add_option("--record", options.record, "What goes into recording.mcap: none, run, all or clouds")
+      ->check(CLI::IsMember({"none", "run", "all", "clouds"}))
+      ->capture_default_str();
   app.add_option("--faults", options.faults, "Fault file: what goes wrong, and when");
   app.add_flag("--check", options.check_only, "Validate the input, then stop");
   app.add_option("--status-fd", options.status_fd, "File descriptor for status lines")->group("Launcher");
@@ -107,6 +111,9 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   app.add_option("--health", options.health, "File that is touched as long as the program takes its turns");
+  app.add_option("--break-at", options.break_at_s, "Stop the debugger in the exchange before this simulated time [s]");
+  app.add_flag("--wait-for-debugger", options.wait_for_debugger,
+               "Stand before the first step until a debugger is attached, or SIGCONT comes");
   app.add_flag("--keep", options.keep, "Start the program again whenever it has been killed");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error or off (default: SKEIN_LOG)");
   app.add_option(
@@ -209,6 +216,7 @@ int run_program(const std::string& name, int argc, const char* const* argv, cons
   return guarded(name, [&] {
     auto& parsed = std::get<ProgramOptions>(options);
     if (const auto code = parsed.keep ? keep_alive(parsed.lives) : std::nullopt) return *code;
+    note_crashes();
     spdlog::set_default_logger(make_log(name, parsed.log_level));
     StopSignal stop;
     const SignalThread signals(stop);

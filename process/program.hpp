@@ -57,8 +57,11 @@ struct ProgramOptions {
   std::optional<double> duration_s;         ///< --duration
   std::optional<std::string> rules;         ///< --rules: a preset
   std::filesystem::path faults;             ///< --faults: fault file; empty: none
+  std::string record = "run";               ///< --record: how much (recording/choice.hpp)
   bool check_only = false;                  ///< --check: validate the input, then stop
   int status_fd = -1;                       ///< --status-fd: where status_pipe.hpp writes; -1: nowhere
+  std::optional<double> break_at_s;         ///< --break-at: see bus/lockstep/break_point.hpp
+  bool wait_for_debugger = false;           ///< --wait-for-debugger: see debugger_wait.hpp
   bool keep = false;                        ///< --keep: see keeper.hpp
   int lives = 0;                            ///< so far, if it is kept, this one included
   double server_timeout_s = 0.0;            ///< --server-timeout: for sim_server to appear; 0: for ever

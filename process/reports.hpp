@@ -144,6 +144,7 @@ struct SimServerReport {
   Count malformed = {};  ///< samples that were no message of their topic's type; of all reports, like the next two
   Count unsent = {};     ///< samples that could not be sent
   Texts unwritten = {};  ///< files that the disk refused, one sentence each
+  std::optional<Texts> differences = {};  ///< from the run that was flown again, one sentence each
 };
 template <class Fields>
 void describe(Fields& f, SimServerReport& report) {
@@ -164,6 +165,7 @@ void describe(Fields& f, SimServerReport& report) {
   f.field("uavs", report.uavs);
   f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
+  f.field("differences", report.differences);
   f.field("wall_time_s", report.wall_time_s);
   f.field("warnings", report.warnings);
 }
@@ -254,10 +256,12 @@ struct RouterReport {
   std::vector<LinkReport> per_link = {};
   Text dds = {};
   Texts warnings = {}, unwritten = {};
+  std::optional<Texts> differences = {};  ///< as the server's
 };
 template <class Fields>
 void describe(Fields& f, RouterReport& report) {
   f.field("dds", report.dds);
+  f.field("differences", report.differences);
   describe_fates(f, report.total);
   f.field("malformed", report.malformed);
   f.field("per_link", report.per_link);

@@ -31,10 +31,14 @@ std::string report_file(const std::string& program) { return program + ".report.
 
 std::string log_file(const std::string& program) { return program + ".log"; }
 
+std::string recording_part(const std::string& program, int life) {
+  return program + (life == 0 ? "" : "." + std::to_string(life + 1)) + ".mcap";
+}
+
 bool is_of_a_run(const std::string& name) {
-  constexpr std::array<std::string_view, 11> kTables = {
-      kResult,          kScore,        kCaptures,      kDigests, kLosses, kEvents,
-      kCaptureMessages, kTrajectories, kScoreTimeline, kScene,   kPage};
+  constexpr std::array<std::string_view, 14> kTables = {
+      kFleetLog,        kResult,       kScore,         kCaptures, kDigests, kLosses,    kEvents,
+      kCaptureMessages, kTrajectories, kScoreTimeline, kScene,    kPage,    kRecording, kRecordingLayout};
   // Reports, logs and books: a book of another run would be taken up as if this run's program had been killed.
   const bool of_a_program = programs::is_agent(name) ||
                             std::any_of(programs::kServers.begin(), programs::kServers.end(), [&](const char* program) {

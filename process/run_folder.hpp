@@ -37,6 +37,9 @@ namespace run_folder {
 inline constexpr const char* kResult = "result.json";
 inline constexpr const char* kScore = "score.csv";
 inline constexpr const char* kLosses = "losses.csv";
+inline constexpr const char* kRecording = "recording.mcap";
+inline constexpr const char* kRecordingLayout = "recording.layout.json";
+inline constexpr const char* kFleetLog = "fleet.log";  ///< progress, while a debugger has the terminal
 // sim_server's.
 inline constexpr const char* kScene = "scene.json";
 inline constexpr const char* kTrajectories = "trajectories.csv";
@@ -49,7 +52,7 @@ inline constexpr const char* kJournal = "station.journal";
 // The router's. The counts are what it takes up when it starts again.
 inline constexpr const char* kCaptureMessages = "capture_messages.csv";
 inline constexpr const char* kCounts = "comm_router.counts";
-// Of a study, which is a folder of runs.
+// For people: of a run, or of a study, which is a folder of runs.
 inline constexpr const char* kPage = "report.html";
 inline constexpr const char* kFlightLog = "flight.log";  ///< what `skein run` said
 
@@ -57,6 +60,9 @@ inline constexpr const char* kFlightLog = "flight.log";  ///< what `skein run` s
 std::string report_file(const std::string& program);
 /// What it said meanwhile: "station.log".
 std::string log_file(const std::string& program);
+/// What it recorded, until the launcher makes one recording of it: "station.mcap"; of a program that was started again,
+/// "station.2.mcap". @param life  0, 1, ...
+std::string recording_part(const std::string& program, int life);
 
 /// Whether a run, or the page of a study, writes a file of this name, or one that is being written has it for a while.
 bool is_of_a_run(const std::string& name);

@@ -112,6 +112,7 @@ void ServerProgram::add_options(CLI::App& app) {
          "if that is more)")
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--ground-program", ground_program_, "wait for a program at the ground station before the start");
+  recording::add_replay_options(app, replay_);
   tasks_.add_options(app);
 }
 
@@ -137,6 +138,8 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .agent_timeout_s = agent_timeout_s_,
                                     .startup_timeout_s = startup_timeout_s(*scenario),
                                     .flight = flight_of(options, *scenario, clock_),
+                                    .record = recording::scope_of(options.record),
+                                    .replay = replay_,
                                     .notice_deaths = !options.has_launcher(),
                                     .expect_gcs_program = ground_program_,
                                     .faults = load_fault_plan(options.faults, *scenario, options.seed)};

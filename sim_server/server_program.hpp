@@ -9,6 +9,7 @@
 
 #include "bus/lockstep/fleet_program.hpp"
 #include "process/run_folder.hpp"
+#include "recording/replay.hpp"
 #include "sim_server/server_tasks.hpp"
 
 namespace skein::sim {
@@ -27,6 +28,7 @@ class ServerProgram final : public bus::FleetProgram {
   std::optional<double> stop_at_s_, startup_timeout_s_;
   double agent_timeout_s_ = 60.0;
   bool ground_program_ = false;
+  recording::ReplayOptions replay_;
   ServerTasks tasks_;
 };
 

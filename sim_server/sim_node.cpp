@@ -6,11 +6,9 @@
 
 #include "bus/lockstep/names.hpp"
 #include "core/topics.hpp"
-#include "idl/conversions.hpp"
 #include "process/thread_cpu.hpp"
 #include "sim_server/referee.hpp"
 #include "sim_server/scenes/scene_warnings.hpp"
-#include "sim_server/wait_teller.hpp"
 
 namespace skein::sim {
 namespace {
@@ -25,12 +23,6 @@ constexpr std::size_t kWorldDomain = 0, kGcsDomain = 1, kFirstUavDomain = 2;
 constexpr double kStopPatience_s = 2.0;
 /// After so long without all answers the step is told again to who owes one, and then as often.
 constexpr double kAskAgain_s = 1.0;
-
-std::vector<std::string> names_of(const std::vector<bus::LockstepServer::Awaited>& awaited) {
-  std::vector<std::string> names;
-  for (const auto& one : awaited) names.push_back(one.member);
-  return names;
-}
 
 std::vector<AwaitedMember> for_people(const std::vector<bus::LockstepServer::Awaited>& awaited) {
   std::vector<AwaitedMember> members;
@@ -57,8 +49,9 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       fault_timeline_(options.faults),
       digest_(uav_names_),
       files_(options.out, scenario, digest_, options.flight),
+      recording_(options.out, options.record, scenario, files_.events(), options.replay),
       inbox_(bus.run()),
-      server_(inbox_),
+      server_(inbox_, recording_.tap()),
       process_faults_(options.faults),
       progress_(scenario, status) {
   participants_.push_back(bus.join(world_domain(options.base_domain)));
@@ -74,9 +67,10 @@ void SimNode::declare_members() {
   const auto world = server_.add_domain("", *participants_[0]);
   const auto gcs = server_.add_domain(scenario_.node_name(kStationNode), *participants_[1]);
   gcs_ = std::make_unique<GcsNode>(scenario_, simulation_, server_, gcs, *participants_[0]);
+  viz_ = std::make_unique<VizNode>(scenario_, simulation_, *participants_[0]);
   for (const UavIndex i : FirstUavs(scenario_.fleet.size())) {
     const auto domain = server_.add_domain(uav_names_[i], *participants_[2 + i]);
-    server_.add_place(uav_names_[i], domain, true);
+    server_.add_place(uav_names_[i], domain, options_.replay.takes_part(uav_names_[i]));
     uavs_.push_back(std::make_unique<UavNode>(i, scenario_, simulation_, heard_, server_, domain));
   }
   server_.on_stranger([this](auto domain, const std::string& topic, bus::ParticipantId source) {
@@ -211,6 +205,7 @@ bool SimNode::take_answers(bool arrived) {
     summary_.deterministic = false;
   }
   take_losses();
+  recording_.end_step();
   finish_step();
   if (last_step_) {
     end_run(true);
@@ -271,10 +266,12 @@ void SimNode::end_run(bool joined) {
   summary_.malformed = inbox_.malformed();
   summary_.unsent = participants_.front()->unsent().count();
   summary_.faults = fault_timeline_.report();
+  summary_.differences = recording_.differences();
   summary_.status = end_status();
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
   if (options_.realtime_factor || summary_.status == RunStatus::interrupted || aborted_) summary_.deterministic = false;
   if (summary_.deterministic) summary_.digest = digest_.hex();
+  files_.note_unwritten(recording_.close());
   files_.write_report(simulation_, summary_, status_);
   if (joined) progress_.tell_now(simulation_, summary_.lost);
   status_.send_surely(status::line_json(status::Ended{summary_.status, stalled_}));
@@ -296,7 +293,7 @@ void SimNode::begin_process_faults() {
   for (const auto& [member, killed, kind] : process_faults_.take_beginning(tick)) {
     if (server_.take_out(member, killed ? bus::kOrderKill : bus::kOrderStop)) {
       tell_order(member, killed ? What::kill : What::stop, tick);
-    } else {
+    } else if (options_.replay.takes_part(member)) {
       summary_.warnings.push_back(kind + " " + member + ": it took no part in the run then");
     }
   }
@@ -332,13 +329,14 @@ void SimNode::tell_of_strangers(std::uint64_t patience) {
 
 bool SimNode::is_last_step() const {
   const bool stop_time = options_.stop_at_s && simulation_.tick() >= ticks(*options_.stop_at_s);
-  return stop_requested_ || stop_time || simulation_.mission().phase() == Phase::ended;
+  return stop_requested_ || stop_time || recording_.is_replayed(simulation_.tick()) ||
+         simulation_.mission().phase() == Phase::ended;
 }
 
 void SimNode::publish_step() {
-  for (const std::string& line : fault_timeline_.enter_step(simulation_.step(), simulation_.tick())) {
-    spdlog::info("{}", line);
-  }
+  const auto faults = fault_timeline_.enter_step(simulation_.step(), simulation_.tick());
+  for (const std::string& line : faults) spdlog::info("{}", line);
+  recording_.begin_step(simulation_, faults);
   begin_process_faults();
   tell_of_strangers(kStrangerSteps);
   const StepEvents& events = simulation_.events();
@@ -359,15 +357,17 @@ void SimNode::publish_step() {
 }
 
 void SimNode::write_samples(bus::LockstepServer::DomainIndex domain) {
-  if (domain == kWorldDomain) return gcs_->publish_ledger(inbox_.run());
   if (domain == kGcsDomain) return gcs_->publish();
-  uavs_[domain - kFirstUavDomain]->publish();
+  if (domain != kWorldDomain) return uavs_[domain - kFirstUavDomain]->publish();
+  gcs_->publish_ledger(inbox_.run());
+  viz_->publish();
 }
 
 // The user ends the run, and somebody does not answer: a hung planner, an agent in a debugger that has gone.
 bool SimNode::gives_up_step() {
   if (!stop_requested_ || elapsed_s(stop_requested_at_) < kStopPatience_s) return false;
-  stalled_ = names_of(server_.awaited());
+  stalled_.clear();
+  for (const auto& awaited : server_.awaited()) stalled_.push_back(awaited.member);
   std::string text = fmt::format("interrupted in step {}, which was not finished; it waited for {}", simulation_.step(),
                                  fmt::join(stalled_, " "));
   spdlog::warn("{}", text);

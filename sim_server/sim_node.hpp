@@ -23,8 +23,10 @@
 #include "sim_server/progress_teller.hpp"
 #include "sim_server/record/fault_timeline.hpp"
 #include "sim_server/record/run_files.hpp"
+#include "sim_server/recording_node.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/uav_node.hpp"
+#include "sim_server/viz_node.hpp"
 #include "sim_server/wait_teller.hpp"
 
 namespace skein::sim {
@@ -38,8 +40,10 @@ struct SimNodeOptions {
   double agent_timeout_s = 60.0;          ///< of wall time, for an answer; 0: for ever
   double startup_timeout_s = 60.0;        ///< of wall time, for everybody to join; 0: for ever
   FlightReport flight = {};               ///< for the report
-  bool notice_deaths = false;             ///< nobody tells who died (report_lost())
-  bool expect_gcs_program = false;        ///< a user's program at the ground station takes part
+  recording::Scope record = recording::Scope::none;
+  recording::ReplayOptions replay = {};
+  bool notice_deaths = false;       ///< nobody tells who died (report_lost())
+  bool expect_gcs_program = false;  ///< a user's program at the ground station takes part
   FaultPlan faults;
 };
 
@@ -102,6 +106,7 @@ class SimNode final : public bus::LockstepNode {
   FaultTimeline fault_timeline_;
   RunDigest digest_;
   RunFiles files_;
+  RecordingNode recording_;
   bus::Inbox inbox_;
   std::vector<std::unique_ptr<bus::Participant>> participants_;  ///< world, gcs, UAVs
   bus::LockstepServer server_;
@@ -109,6 +114,7 @@ class SimNode final : public bus::LockstepNode {
   HeardKeyFrames heard_;
   std::vector<std::unique_ptr<UavNode>> uavs_;
   std::unique_ptr<GcsNode> gcs_;
+  std::unique_ptr<VizNode> viz_;
   ProcessFaults process_faults_;
   ProgressTeller progress_;
   State state_ = State::joining;

@@ -12,7 +12,7 @@ namespace {
 // Building a large message only for nobody to read it would be the most expensive thing the server does.
 template <class Make>
 void send(bus::CountedWriter& writer, Make&& make) {
-  if (writer.has_readers()) {
+  if (writer.is_wanted()) {
     writer.write(make());
   } else {
     writer.skip();
@@ -123,7 +123,7 @@ void UavNode::publish_neighbours() {
 }
 
 void UavNode::publish_clouds() {
-  simulation_.want_scans(uav_, cloud_ && cloud_->has_readers());
+  simulation_.want_scans(uav_, cloud_ && cloud_->is_wanted());
   for (const LidarEvent& scan : simulation_.events().scans) {
     if (scan.uav == uav_ && cloud_) send(*cloud_, [&] { return to_cloud(scan.scan.tick, scan.scan.points_W); });
   }

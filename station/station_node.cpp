@@ -18,6 +18,7 @@ using bus::LockstepClient;
 namespace {
 
 constexpr std::chrono::milliseconds kStatusPeriod{200};
+constexpr Tick kVizPeriod = kTicksPerSecond / 10;
 
 }  // namespace
 
@@ -34,6 +35,7 @@ StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bu
       gcs_(bus.join(gcs_domain(base_domain))),
       score_(std::make_unique<bus::CountedWriter>(*gcs_, bus::spec(topics::score()))),
       score_eval_(std::make_unique<bus::CountedWriter>(*gcs_, bus::spec(topics::score_eval()))),
+      viz_scored_(world_->create_writer(bus::spec(topics::viz_scored()))),
       client_(*gcs_, inbox_, std::string(bus::kStationName)) {
   ledger_reader_ = bus::subscribe<msg::Ledger>(inbox_, *world_, bus::spec(topics::ledger()),
                                                [this](const msg::Ledger& ledger) { on_ledger(ledger); });
@@ -87,14 +89,37 @@ void StationNode::think() {
   const bool news = outcome.score_changed || scoreboard_->standing() != stood;
   if (std::string trouble = journal_.append(outcome.records); !trouble.empty()) {
     spdlog::warn("{}; a station that is killed will not remember what it acknowledges from here on", trouble);
-    unwritten_.push_back(std::move(trouble));
+    note_unwritten(std::move(trouble));
   }
   const bus::Burst burst(*gcs_);
   acknowledge(outcome);
   if (outcome.score_changed) show_score(step.tick());
+  if (news) record_tally(step.tick());
+  viz_stale_ |= outcome.score_changed;
+  show_to_viewers(step.tick());
   client_.done(outcome.digest);
   last_step_answered_ = step.final_step();
   tell(news || last_step_answered_);
+}
+
+void StationNode::record_with(recording::Recorder& recorder) {
+  recorder_ = &recorder;
+  client_.before_obeying([this] { recorder_->flush(); });
+}
+
+void StationNode::note_unwritten(std::string trouble) {
+  if (!trouble.empty()) unwritten_.push_back(std::move(trouble));
+}
+
+void StationNode::record_tally(Tick tick) {
+  if (recorder_ == nullptr) return;
+  msg::Tally tally;
+  tally.stamp(to_time(tick));
+  tally.points(static_cast<std::uint32_t>(scoreboard_->delivered().points_detected()));
+  tally.score(scoreboard_->delivered().score());
+  tally.earned(scoreboard_->earned().score());
+  recorder_->set_time(tick);
+  recorder_->add("/skein/tally", tally);
 }
 
 // The whole list, each time that it changes, to whoever looks. Nobody in the fleet waits for it: it is in no count.
@@ -110,6 +135,21 @@ void StationNode::show_score(Tick tick) {
     writer->begin_step();
     writer->write(to_score_cloud(tick, points, with_indices));
   }
+}
+
+// Only we know what was delivered, and we are in the world's domain for the ledger already: who looks on there finds it
+// beside what the server shows. Latched, so that it need not be told again.
+void StationNode::show_to_viewers(Tick tick) {
+  if (!viz_stale_ || tick < viz_due_ || !viz_scored_->has_readers()) return;
+  viz_due_ = tick + kVizPeriod;
+  viz_stale_ = false;
+  const std::vector<PointTally>& tally = scoreboard_->delivered().points();
+  std::vector<ScanPoint> points;
+  for (std::size_t i = 0; i < tally.size(); ++i) {
+    const Eigen::Vector3f& p = points_[i].p_W;
+    if (tally[i].q > 0.0F) points.push_back({p.x(), p.y(), p.z(), tally[i].q});
+  }
+  viz_scored_->write(encode(to_cloud(tick, points)));
 }
 
 void StationNode::acknowledge(const StepOutcome& outcome) {

@@ -13,6 +13,7 @@
 #include "bus/lockstep/client_node.hpp"
 #include "core/scenario.hpp"
 #include "process/status_pipe.hpp"
+#include "recording/recorder.hpp"
 #include "station/journal.hpp"
 #include "station/point_names.hpp"
 #include "station/scoreboard.hpp"
@@ -26,6 +27,10 @@ class StationNode final : public bus::ClientNode {
               StatusPipe& status);
 
   bus::Inbox& inbox() override { return inbox_; }
+  /// Before start(): records the tally. `recorder` must outlive this.
+  void record_with(recording::Recorder& recorder);
+  /// A file of another that the disk refused, a sentence; for the report.
+  void note_unwritten(std::string trouble);
   /// At the end of its part: the files of a run (station_report.hpp), unless it never heard of the points.
   void write_report(const std::string& dds = {});
 
@@ -38,11 +43,14 @@ class StationNode final : public bus::ClientNode {
   void open_scoreboard(std::size_t points);
   void acknowledge(const StepOutcome& outcome);
   void show_score(Tick tick);
+  void record_tally(Tick tick);
+  void show_to_viewers(Tick tick);
   void tell(bool now);
 
   const Scenario& scenario_;
   const std::filesystem::path out_;
   StatusPipe& status_;
+  recording::Recorder* recorder_ = nullptr;
   std::vector<std::string> uavs_;
   Journal journal_;
   std::vector<std::string> unwritten_;    ///< what the disk refused, one sentence each
@@ -53,6 +61,9 @@ class StationNode final : public bus::ClientNode {
   std::unique_ptr<bus::Participant> world_, gcs_;
   std::unique_ptr<bus::Reader> ledger_reader_;
   std::unique_ptr<bus::CountedWriter> score_, score_eval_;
+  std::unique_ptr<bus::Writer> viz_scored_;
+  bool viz_stale_ = true;  ///< what viewers were shown last is not how it stands
+  Tick viz_due_ = 0;
   bus::LockstepClient client_;
   bool last_step_answered_ = false;
   std::chrono::steady_clock::time_point told_{};

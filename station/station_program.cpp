@@ -15,7 +15,11 @@ namespace {
 class StationMember final : public bus::FleetMember {
  public:
   StationMember(Scenario scenario, const ProgramOptions& options, StatusPipe& status, std::unique_ptr<bus::Bus> bus)
-      : scenario_(std::move(scenario)), options_(options), status_(status), bus_(std::move(bus)) {
+      : scenario_(std::move(scenario)),
+        options_(options),
+        status_(status),
+        bus_(std::move(bus)),
+        recorder_(options_.out, programs::kStation, recording::scope_of(options_.record)) {
     withdraw_report(options_.out / run_folder::report_file(programs::kStation));
     make_node();
   }
@@ -29,6 +33,8 @@ class StationMember final : public bus::FleetMember {
       make_node();
       return std::nullopt;
     }
+    recorder_.close();
+    node_->note_unwritten(recorder_.trouble());
     if (!node_->came_too_late()) node_->write_report(options_.dds);
     return bus::exit_code(end, programs::kStation);
   }
@@ -37,12 +43,14 @@ class StationMember final : public bus::FleetMember {
   void make_node() {
     node_.reset();
     node_.emplace(scenario_, options_.domain, *bus_, options_.out, status_);
+    node_->record_with(recorder_);
   }
 
   const Scenario scenario_;
   const ProgramOptions options_;
   StatusPipe& status_;
   const std::unique_ptr<bus::Bus> bus_;
+  recording::Recorder recorder_;
   std::optional<StationNode> node_;
 };
 

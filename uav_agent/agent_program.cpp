@@ -1,11 +1,14 @@
 #include "uav_agent/agent_program.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "bus/lockstep/names.hpp"
 #include "bus/program_bus.hpp"
 #include "core/scenario_reader.hpp"
+#include "process/log_time.hpp"
 #include "process/program_report.hpp"
 #include "process/reports.hpp"
 #include "uav_agent/agent_node.hpp"
@@ -79,6 +82,7 @@ void AgentProgram::add_options(CLI::App& app) {
 std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const ProgramOptions& options,
                                                                            StatusPipe& status) {
   if (list_) return list_strategies();
+  show_log_time(*spdlog::default_logger());
   auto scenario =
       std::make_unique<const Scenario>(load_scenario(options.scenario, options.load_options_without_scene()));
   const UavIndex uav = scenario->uav_index(uav_.empty() ? scenario->fleet.front().name : uav_);

@@ -1,5 +1,7 @@
 #include "uav_agent/member_node.hpp"
 
+#include "core/types.hpp"
+#include "process/log_time.hpp"
 #include "process/thread_cpu.hpp"
 
 namespace skein::agent {
@@ -15,6 +17,7 @@ void MemberNode::start() {
 }
 
 void MemberNode::think() {
+  set_log_time(static_cast<double>(client_->step().tick()) / static_cast<double>(kTicksPerSecond));
   const double before = thread_cpu_s();
   work(client_->step());
   planner_cpu_.add(thread_cpu_s() - before);

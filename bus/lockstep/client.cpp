@@ -185,6 +185,7 @@ LockstepClient::Event LockstepClient::poll() {
   if (phase_ == Phase::dropped) return Event::dropped;
   if (phase_ == Phase::ordered) {
     phase_ = Phase::stopped;
+    if (before_obeying_) before_obeying_();
     obey_(order_);  // may throw to whoever gives us turns: then it is over when the next turn comes
   }
   if (phase_ == Phase::stopped) {

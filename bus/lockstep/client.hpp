@@ -83,6 +83,8 @@ class LockstepClient {
   void think_when(std::function<bool(const Step&)> condition) { think_condition_ = std::move(condition); }
   /// How an order is carried out: by raising SIGKILL or SIGSTOP on this process, unless a test does otherwise.
   void obey_with(std::function<void(Order)> obey) { obey_ = std::move(obey); }
+  /// What is done before an order is carried out: the last chance to write something down.
+  void before_obeying(std::function<void()> prepare) { before_obeying_ = std::move(prepare); }
   /// True while it waits for matches, which no sample announces: poll often.
   bool waits_for_matches() const;
   /// For Inbox::dispatch(): how many rings there must be before poll() can do more than it did.
@@ -132,6 +134,7 @@ class LockstepClient {
   std::function<bool()> declare_condition_;
   std::function<bool(const Step&)> think_condition_;
   std::function<void(Order)> obey_;
+  std::function<void()> before_obeying_;
   std::function<void()> answer_again_;
   std::optional<msg::Done> last_done_;
   Order order_ = Order::kill;  ///< in phase `ordered`

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "bus/lockstep/break_point.hpp"
+
 namespace skein::bus {
 namespace {
 
@@ -42,6 +44,7 @@ void ClientNode::turn(bool arrived) {
   }
   if (end_) return;
   if (event == LockstepClient::Event::think) {
+    break_if_due(client().step().tick());
     think();
     wait_from_now();
   }

@@ -18,8 +18,11 @@ bool contains(const std::vector<ParticipantId>& matched, ParticipantId who) {
   return std::find(matched.begin(), matched.end(), who) != matched.end();
 }
 
-CountedWriter::CountedWriter(Participant& participant, TopicSpec topic)
-    : topic_(std::move(topic)), unsent_(participant.unsent()), writer_(participant.create_writer(topic_)) {}
+CountedWriter::CountedWriter(Participant& participant, TopicSpec topic, Ear ear)
+    : topic_(std::move(topic)),
+      ear_(std::move(ear)),
+      unsent_(participant.unsent()),
+      writer_(participant.create_writer(topic_)) {}
 
 bool CountedWriter::write(std::span<const std::uint8_t> payload) {
   if (count_ - step_start_ >= static_cast<std::uint64_t>(topic_.qos.depth)) {
@@ -27,6 +30,7 @@ bool CountedWriter::write(std::span<const std::uint8_t> payload) {
     return false;
   }
   writer_->write(payload);
+  if (ear_.hear) ear_.hear(payload);
   ++count_;
   return true;
 }

@@ -13,6 +13,7 @@
 
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
+#include "bus/tap.hpp"
 #include "idl/cdr.hpp"
 #include "idl/type_names.hpp"
 
@@ -34,7 +35,8 @@ bool contains(const std::vector<ParticipantId>& matched, ParticipantId who);
 /// beyond that a reader might lose one, and the count would never come out.
 class CountedWriter {
  public:
-  CountedWriter(Participant& participant, TopicSpec topic);
+  /// @param ear  hears what is written.
+  CountedWriter(Participant& participant, TopicSpec topic, Ear ear = {});
 
   /// @returns false when this step's share of the history is used up; the sample is not sent then, and counted by the
   /// participant's unsent().
@@ -43,10 +45,12 @@ class CountedWriter {
   bool write(const Message& message) {
     return write(encode(message));
   }
-  /// Counts a sample that nobody reads without the cost of building it; see has_readers().
+  /// Counts a sample that nobody reads without the cost of building it; see is_wanted().
   void skip() { ++count_; }
 
   bool has_readers() const { return writer_->has_readers(); }
+  /// Somebody reads it, or it is recorded all the same.
+  bool is_wanted() const { return ear_.also_unread || has_readers(); }
   bool matches(ParticipantId who) const { return contains(writer_->matched(), who); }
   std::uint64_t count() const { return count_; }
   const std::string& topic() const { return topic_.name; }
@@ -56,6 +60,7 @@ class CountedWriter {
 
  private:
   TopicSpec topic_;
+  Ear ear_;
   Unsent& unsent_;
   std::unique_ptr<Writer> writer_;
   std::uint64_t count_ = 0, step_start_ = 0;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "bus/lockstep/break_point.hpp"
 #include "bus/lockstep/self_signal.hpp"
+#include "process/debugger_wait.hpp"
 #include "process/heartbeat.hpp"
 
 namespace skein::bus {
@@ -44,6 +46,8 @@ int run_fleet_program(FleetProgram& program, int argc, const char* const* argv) 
         StatusPipe status(options.status_fd);
         const auto prepared = program.prepare(options, status);
         if (const int* code = std::get_if<int>(&prepared)) return *code;
+        if (options.break_at_s) set_break_at(*options.break_at_s);
+        if (options.wait_for_debugger) wait_for_debugger([&] { return stop.requested(); });
         FleetMember& member = *std::get<std::unique_ptr<FleetMember>>(prepared);
         const ControlPipe control(options.control_fd, [&](const std::string& line) { member.obey(line); });
         return work(member, stop, options);

@@ -68,13 +68,14 @@ void LockstepServer::add_place(const std::string& member, DomainIndex domain, bo
 
 CountedWriter& LockstepServer::writer(DomainIndex domain, const TopicSpec& topic) {
   Domain& d = *domains_.at(domain);
-  d.writers.push_back(std::make_unique<CountedWriter>(*d.participant, topic));
+  d.writers.push_back(std::make_unique<CountedWriter>(*d.participant, topic, tap_ ? tap_->ear(d.node, topic) : Ear{}));
   d.announced.push_back(0);
   return *d.writers.back();
 }
 
 void LockstepServer::read(DomainIndex domain, const TopicSpec& topic, CountedQueues::Handler handler) {
   Domain& d = *domains_.at(domain);
+  if (tap_) handler = tap_->taken(d.node, topic, std::move(handler));
   d.commands.add_topic(topic.name, std::move(handler));
   const auto queue = [this, domain, &d, name = topic.name](Sample&& s) {
     // Strangers may write into this domain; only who knocked can become a member, so the rest is not even kept.

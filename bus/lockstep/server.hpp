@@ -34,7 +34,8 @@ class LockstepServer {
     std::string what;  ///< for a human: "done of step 7", "rt/plan 3 of 4"
   };
 
-  explicit LockstepServer(Inbox& inbox) : inbox_(inbox) {}
+  /// @param tap  hears the samples of writer() and of read(); it must outlive this.
+  explicit LockstepServer(Inbox& inbox, Tap* tap = nullptr) : inbox_(inbox), tap_(tap) {}
 
   /// @param node  radio node whose domain this is ("gcs" or a UAV's name); "" for the world's.
   DomainIndex add_domain(const std::string& node, Participant& participant);
@@ -159,6 +160,7 @@ class LockstepServer {
   void amend_step();
 
   Inbox& inbox_;
+  Tap* const tap_;
   OnStranger on_stranger_;
   std::vector<std::unique_ptr<Domain>> domains_;
   std::vector<Place> places_;

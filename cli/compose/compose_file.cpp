@@ -126,11 +126,6 @@ std::optional<fs::path> in_image(const fs::path& file) {
 /// A path of this host as containers see it: what is not in the image is mounted where it is.
 fs::path in_container(const fs::path& file) { return in_image(file).value_or(fs::absolute(file).lexically_normal()); }
 
-const UavPlanner& planner_of(const FleetPlan& plan, const std::string& program) {
-  if (program == programs::kGroundAgent) return *plan.ground;
-  return plan.planners[plan.scenario.uav_index(programs::member_name(program))];
-}
-
 /// The file FILE of NAME:FILE, which holds a planner's parameters; empty: there is none.
 fs::path parameter_file(const UavPlanner& planner) {
   const std::size_t colon = planner.spec.find(':');

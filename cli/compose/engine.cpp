@@ -25,12 +25,6 @@ int shell(const std::string& command, const fs::path& log = {}) {
   return exit.signal != 0 ? 128 + exit.signal : exit.code;
 }
 
-std::string ends_of(const fs::path& log) {
-  std::string text;
-  for (const std::string& line : last_lines(log, kLastLines)) text += "\n    " + line;
-  return text;
-}
-
 /// Version 2 is a part of the client, version 1 a program of its own.
 std::string compose_program() {
   if (shell("docker compose version") == 0) return "docker compose";
@@ -44,7 +38,7 @@ void check_engine(const std::vector<std::string>& images) {
   const ScratchDir scratch;
   const fs::path log = scratch.path() / "docker.log";
   if (shell("docker version --format '{{.Server.Version}}'", log) != 0) {
-    throw InputError("no Docker engine answers (`skein doctor` looks closer):" + ends_of(log));
+    throw InputError("no Docker engine answers (`skein doctor` looks closer):" + last_lines_below(log, kLastLines));
   }
   compose_program();
   for (const std::string& image : images) {
@@ -54,7 +48,7 @@ void check_engine(const std::vector<std::string>& images) {
 }
 
 ComposeProject::ComposeProject(fs::path file, std::string name, fs::path log)
-    : file_(std::move(file)), name_(std::move(name)), log_(std::move(log)) {}
+    : program_(compose_program()), file_(std::move(file)), name_(std::move(name)), log_(std::move(log)) {}
 
 ComposeProject::~ComposeProject() {
   constexpr int kAttempts = 3;  // the user may press Ctrl-C meanwhile, and wants it gone all the more
@@ -70,7 +64,7 @@ ComposeProject::~ComposeProject() {
 }
 
 std::string ComposeProject::command(const std::string& what) const {
-  return compose_program() + " --project-name " + shell_word(name_) + " --file " + shell_word(file_) + " " + what;
+  return program_ + " --project-name " + shell_word(name_) + " --file " + shell_word(file_) + " " + what;
 }
 
 void ComposeProject::up() {
@@ -82,7 +76,7 @@ void ComposeProject::up() {
                            (no_room ? " (the engine has no address ranges left for this many networks: give it more by "
                                       "\"default-address-pools\" in its daemon.json, or name one with --subnet)"
                                     : "") +
-                           "; the end of " + log_.string() + ":" + ends_of(log_));
+                           "; the end of " + log_.string() + ":" + last_lines_below(log_, kLastLines));
 }
 
 std::map<std::string, std::string> ComposeProject::containers() const {

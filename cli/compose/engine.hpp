@@ -16,7 +16,7 @@ void check_engine(const std::vector<std::string>& images);
 /// While it lives, the containers of a file exist, under a project's name that nobody else has.
 class ComposeProject {
  public:
-  /// @param file  for docker-compose. @param log  file for what it says.
+  /// @param file  for docker-compose. @param log  file for what it says. @throws InputError when there is none
   ComposeProject(std::filesystem::path file, std::string name, std::filesystem::path log);
   /// Ends the containers and removes them, their networks and volumes.
   ~ComposeProject();
@@ -27,10 +27,12 @@ class ComposeProject {
   void up();
   /// Containers by service.
   std::map<std::string, std::string> containers() const;
-  /// A command of docker-compose on it, for people.
-  std::string command(const std::string& what) const;
 
  private:
+  /// A command of docker-compose on it.
+  std::string command(const std::string& what) const;
+
+  const std::string program_;
   const std::filesystem::path file_;
   const std::string name_;
   const std::filesystem::path log_;

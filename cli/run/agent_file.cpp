@@ -44,10 +44,9 @@ std::filesystem::path checked_agent(const std::filesystem::path& named, const st
   if (std::error_code none; std::filesystem::equivalent(agent, stock_agent(), none)) return stock_agent();
   const ScratchDir scratch;
   if (strategies_of(agent, scratch.path() / "said")) return agent;
-  std::string message = what + ": --list-planners does not list its planners; skein_add_agent() makes agent programs " +
-                        "(docs/how-to-add-a-planner.md), and a program of another kind flies with --planner exec:CMD";
-  for (const std::string& line : last_lines(scratch.path() / "said", kTailLines)) message += "\n    " + line;
-  throw InputError(message);
+  throw InputError(what + ": --list-planners does not list its planners; skein_add_agent() makes agent programs " +
+                   "(docs/how-to-add-a-planner.md), and a program of another kind flies with --planner exec:CMD" +
+                   last_lines_below(scratch.path() / "said", kTailLines));
 }
 
 /// A '@' may have been meant for a parameter.

@@ -64,8 +64,8 @@ TEST_F(AgentFile, EachPlannerFliesInTheProgramThatItNames) {
   EXPECT_FALSE(is_minded(programs, programs::kSimServer));
   EXPECT_FALSE(plan().agent);
   EXPECT_EQ(agent_files(plan()), (std::vector<std::filesystem::path>{a, b}));
-  options_.debug_uav = "beta";
-  EXPECT_NE(debug_command(plan(), 1, programs_.dir()).find("gdb --args " + b + " "), std::string::npos);
+  options_.debug = {"beta"};
+  EXPECT_NE(debug_command(plan(), beta_, 1, programs_.dir()).find("gdb --args " + b + " "), std::string::npos);
 }
 
 TEST_F(AgentFile, WhoNamesNoneFliesInTheFleets) {

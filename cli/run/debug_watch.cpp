@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/run/proc_table.hpp"
+#include "process/run_folder.hpp"
 
 extern "C" {  // glibc 2.36's header forgets it
 #include <sys/pidfd.h>
@@ -37,11 +38,16 @@ bool is_debugger(pid_t pid) {
 
 }  // namespace
 
-DebugWatch::DebugWatch(std::string uav, std::filesystem::path out, std::filesystem::path agent)
-    : uav_(std::move(uav)), out_(std::move(out)), agent_(agent.filename()) {}
+DebugWatch::DebugWatch(Debuggee debuggee, std::filesystem::path out, std::filesystem::path file)
+    : debuggee_(std::move(debuggee)), out_(std::move(out)), file_(file.filename()) {}
 
 DebugWatch::~DebugWatch() {
   if (fd_ >= 0) ::close(fd_);
+}
+
+bool DebugWatch::appeared() {
+  if (fd_ < 0) look();
+  return fd_ >= 0 && !std::exchange(told_, true);
 }
 
 bool DebugWatch::ended() {
@@ -64,6 +70,7 @@ void DebugWatch::look() {
     }
     pid_ = pid;
     fd_ = fd;
+    told_ = false;
     return;
   }
 }
@@ -71,13 +78,16 @@ void DebugWatch::look() {
 // A debugger has the same words behind its own.
 bool DebugWatch::is_agent_process(pid_t pid) const {
   const std::vector<std::string> words = words_of(pid, "cmdline");
-  return !words.empty() && std::filesystem::path(words[0]).filename() == agent_ && follows(words, "--uav", uav_) &&
-         follows(words, "--out", out_);
+  const bool ours = !words.empty() && std::filesystem::path(words[0]).filename() == file_;
+  const bool same = !programs::is_agent(debuggee_.program) || follows(words, "--uav", debuggee_.member) ||
+                    (debuggee_.program == programs::kGroundAgent && follows(words, "--role", "gcs"));
+  return ours && same && follows(words, "--out", out_);
 }
 
 bool DebugWatch::is_command_process(pid_t pid) const {
   const std::vector<std::string> variables = words_of(pid, "environ");
-  return holds(variables, "SKEIN_UAV=" + uav_) && holds(variables, "SKEIN_OUT=" + out_) && !is_debugger(pid);
+  return holds(variables, "SKEIN_UAV=" + debuggee_.member) && holds(variables, "SKEIN_OUT=" + out_) &&
+         !is_debugger(pid);
 }
 
 }  // namespace skein::cli

@@ -1,6 +1,6 @@
-// Under --debug the user starts one agent himself, in a debugger: its end is no child's end that the kernel would tell
-// us of, and the debugger may well live on. So its process is looked for by its command line, or for a user's command
-// by its environment, and watched.   Threads: one.
+// Under --debug a program is started by the user, or by its debugger: its end is no child's end that the kernel would
+// tell us of, and the debugger may well live on. So its process is looked for by its command line, or for a user's
+// command by its environment, and watched.   Threads: one.
 #pragma once
 
 #include <sys/types.h>
@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <string>
 
+#include "cli/run/debuggee.hpp"
+
 namespace skein::cli {
 
 class DebugWatch {
@@ -16,16 +18,19 @@ class DebugWatch {
   /// Nobody announces that it starts: how often to look.
   static constexpr std::chrono::milliseconds kPeriod{200};
 
-  /// @param out  the results folder, as it stands in the debug command. @param agent  the program that flies the UAV.
-  DebugWatch(std::string uav, std::filesystem::path out, std::filesystem::path agent);
+  /// @param out  the results folder, as it stands in the program's command line. @param file  the program
+  DebugWatch(Debuggee debuggee, std::filesystem::path out, std::filesystem::path file);
   ~DebugWatch();
   DebugWatch(const DebugWatch&) = delete;
   DebugWatch& operator=(const DebugWatch&) = delete;
 
   /// @returns true once for each debugged program that has been seen and has ended; the user may start another one.
   bool ended();
+  /// @returns true once for each debugged program that is there.
+  bool appeared();
   /// Of the last one seen; 0: none yet.
   pid_t pid() const { return pid_; }
+  const Debuggee& debuggee() const { return debuggee_; }
 
  private:
   bool is_agent_process(pid_t pid) const;
@@ -33,8 +38,10 @@ class DebugWatch {
   bool is_debugged(pid_t pid) const { return is_agent_process(pid) || is_command_process(pid); }
   void look();
 
-  const std::string uav_, out_, agent_;
+  const Debuggee debuggee_;
+  const std::string out_, file_;
   pid_t pid_ = 0;
+  bool told_ = true;
   int fd_ = -1;  ///< its pidfd
 };
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "cli/run/agent_file.hpp"
+#include "cli/run/debug_plan.hpp"
 #include "cli/run/environment.hpp"
 #include "cli/run/ground_program.hpp"
 #include "core/config_files.hpp"
@@ -33,7 +34,7 @@ void append(Arguments& arguments, const Arguments& more) {
 /// died, the launcher sees for itself. So leases outlast the time for which anybody is waited for, at a start too.
 int lease_s(const FleetPlan& plan) {
   constexpr int kLongest = 3600;  // that Cyclone DDS takes
-  if (plan.options.debug_uav) return kLongest;
+  if (!plan.debug.empty()) return kLongest;
   constexpr double kUsualTimeout_s = 60.0, kTimes = 3.0;
   const double timeout_s = std::max(plan.options.agent_timeout_s.value_or(kUsualTimeout_s), kUsualTimeout_s);
   return static_cast<int>(std::min(kTimes * timeout_s, static_cast<double>(kLongest)));
@@ -57,11 +58,6 @@ Arguments command_line(const FleetPlan& plan, const std::filesystem::path& binar
   append(arguments, scenario_arguments(plan));
   if (plan.options.network) append(arguments, {"--network", *plan.options.network});
   return arguments;
-}
-
-const UavPlanner& planner_of(const FleetPlan& plan, const std::string& program) {
-  if (program == programs::kGroundAgent) return *plan.ground;
-  return plan.planners[plan.scenario.uav_index(programs::member_name(program))];
 }
 
 std::filesystem::path fleets_agent(const FleetPlan& plan) {
@@ -97,6 +93,15 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
   return variables;
 }
 
+bool has_ground_program(const FleetPlan& plan) { return plan.ground && takes_part(plan, "gcs"); }
+
+Arguments replay_arguments(const ReplayOf& replay) {
+  Arguments arguments = {"--replay", replay.recording};
+  if (replay.until_s) append(arguments, {"--replay-until", shortest(*replay.until_s)});
+  if (!replay.only.empty()) append(arguments, {"--replay-only", joined(replay.only, ",")});
+  return arguments;
+}
+
 /// Whose software an agent is.
 Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
   const Arguments planner = {"--planner", planner_of(plan, program).spec};
@@ -109,12 +114,15 @@ Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
 /// @param program  of a server or an agent
 Arguments run_arguments(const FleetPlan& plan, const std::string& program, int base_domain,
                         const std::filesystem::path& out, const SecureFolder& secure) {
-  const bool is_agent = programs::is_agent(program);
-  Arguments arguments = {is_agent ? agent_file(plan, program) : plan.bin_dir / program};
+  Arguments arguments = {program_file(plan, program)};
   append(arguments, program_arguments(plan, program, base_domain));
   if (plan.options.network) append(arguments, {"--network", *plan.options.network});
   append(arguments, {"--out", secure.out.empty() ? out : secure.out});
   if (!secure.keys.empty()) append(arguments, {"--security", secure.keys});
+  const auto level = plan.log_levels.find(program);
+  if (level != plan.log_levels.end()) append(arguments, {"--log-level", level->second});
+  const bool debugged = std::ranges::find(plan.debug, program, &Debuggee::program) != plan.debug.end();
+  if (debugged && plan.options.break_at_s) append(arguments, {"--break-at", shortest(*plan.options.break_at_s)});
   append(arguments, {"--lease", std::to_string(lease_s(plan)), "--run", std::to_string(plan.run)});
   return arguments;
 }
@@ -126,18 +134,22 @@ SecureFolder secure_folder(const SecureFolders& secure, const std::string& progr
 
 }  // namespace
 
-FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir) {
-  check_environment();
+LoadOptions load_options(const RunOptions& options) {
   LoadOptions load;
   load.assets_dir = options.assets.value_or("");
   load.duration_s = options.duration_s;
   load.scene_seed = options.scene_seed;
   load.rules = options.rules;
+  return load;
+}
+
+FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir) {
+  check_environment();
   if (options.secure && options.dds == "mixed") {
     throw InputError(
         "--secure --dds mixed: the vendors' security does not work together reliably; choose cyclonedds or fastdds");
   }
-  FleetPlan plan{options, load_scenario(options.scenario, load), {}, bin_dir, {}};
+  FleetPlan plan{options, load_scenario(options.scenario, load_options(options)), {}, bin_dir, {}};
   plan.faults = load_fault_plan(options.faults.value_or(""), plan.scenario, options.seed);
   std::vector<std::string> names;
   for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
@@ -147,7 +159,11 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   plan.planners = planners.uavs;
   plan.ground = ground_program(planners, fleets_agent(plan));
   if (options.network) read_network(*options.network).check_names(domain_names(plan.scenario));
-  if (options.debug_uav) plan.scenario.uav_index(*options.debug_uav);  // throws for an unknown name
+  for (const std::string& uav : options.replay ? options.replay->only : std::vector<std::string>()) {
+    if (uav != "gcs") plan.scenario.uav_index(uav);
+  }
+  plan.debug = debuggees(plan);
+  plan.log_levels = log_levels(plan);
   if (const auto reason = options.one_process ? needs_processes(plan) : std::nullopt) {
     throw InputError(*reason + "; leave out --one-process");
   }
@@ -159,6 +175,11 @@ std::uint64_t draw_run_id() {
   std::uint64_t run = 0;
   while (run == 0) run = (std::uint64_t{device()} << 32) | device();
   return run;
+}
+
+const UavPlanner& planner_of(const FleetPlan& plan, const std::string& program) {
+  if (program == programs::kGroundAgent) return *plan.ground;
+  return plan.planners[plan.scenario.uav_index(programs::member_name(program))];
 }
 
 std::filesystem::path agent_file(const FleetPlan& plan, const std::string& program) {
@@ -226,6 +247,11 @@ std::map<std::string, std::string> dds_vendors(const FleetPlan& plan) {
   return vendors;
 }
 
+bool takes_part(const FleetPlan& plan, const std::string& member) {
+  if (!plan.options.replay || plan.options.replay->only.empty()) return true;
+  return std::ranges::find(plan.options.replay->only, member) != plan.options.replay->only.end();
+}
+
 bool is_exec(const FleetPlan& plan, const std::string& program) {
   return programs::is_agent(program) && exec_command(planner_of(plan, program).spec).has_value();
 }
@@ -234,12 +260,15 @@ std::vector<std::string> program_arguments(const FleetPlan& plan, const std::str
   Arguments arguments = scenario_arguments(plan);
   append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain)});
   if (programs::is_agent(program)) append(arguments, role_arguments(plan, program));
+  if (!programs::is_agent(program)) append(arguments, {"--record", plan.options.record});
+  const bool replays = program == programs::kSimServer || program == programs::kCommRouter;
+  if (replays && plan.options.replay) append(arguments, replay_arguments(*plan.options.replay));
   if (program == programs::kSimServer) {
     append(arguments, {"--clock", plan.options.clock});
     if (plan.options.stop_at_s) append(arguments, {"--stop-at", shortest(*plan.options.stop_at_s)});
-    if (plan.options.debug_uav) append(arguments, {"--agent-timeout", "0"});
+    if (!plan.debug.empty()) append(arguments, {"--agent-timeout", "0"});
     if (plan.options.agent_timeout_s) append(arguments, {"--agent-timeout", shortest(*plan.options.agent_timeout_s)});
-    if (plan.ground) arguments.push_back("--ground-program");
+    if (has_ground_program(plan)) arguments.push_back("--ground-program");
   }
   return arguments;
 }
@@ -263,14 +292,22 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
   };
   for (const char* name : programs::kServers) add(name);
   for (const UavConfig& uav : plan.scenario.fleet) {
-    if (plan.options.debug_uav != uav.name) add(programs::agent_program(uav.name));
+    if (takes_part(plan, uav.name)) add(programs::agent_program(uav.name));
   }
-  if (plan.ground) add(programs::kGroundAgent);
+  if (has_ground_program(plan)) add(programs::kGroundAgent);
+  for (const Debuggee& debuggee : plan.debug) {
+    if (debuggee.how == Debuggee::How::by_hand) {
+      std::erase_if(programs, [&](const ProgramSpec& program) { return program.name == debuggee.program; });
+    }
+  }
   for (ProgramSpec& program : programs) {
     // Ours that tell how the run goes on write as long as it does.
     if (!programs::is_agent(program.name)) program.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
     program.user = secure_folder(secure, program.name).user;
     program.minded = is_foreign(plan, program.name) || is_exec(plan, program.name);  // not ours
+    for (const Debuggee& debuggee : plan.debug) {
+      if (debuggee.program == program.name) put_under_tool(program, debuggee);
+    }
   }
   return programs;
 }
@@ -288,9 +325,13 @@ ProgramSpec shared_process(const FleetPlan& plan, const std::filesystem::path& o
   return process;
 }
 
-std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
-                          const SecureFolders& secure) {
-  const std::string program = programs::agent_program(*plan.options.debug_uav);
+std::filesystem::path program_file(const FleetPlan& plan, const std::string& program) {
+  if (is_exec(plan, program)) return "/bin/sh";
+  return programs::is_agent(program) ? agent_file(plan, program) : plan.bin_dir / program;
+}
+
+std::string debug_command(const FleetPlan& plan, const std::string& program, int base_domain,
+                          const std::filesystem::path& out, const SecureFolders& secure) {
   SecureFolder own = secure_folder(secure, program);
   if (own.user) own.out.clear();  // whoever types the command may write to the results folder
   own.user.reset();

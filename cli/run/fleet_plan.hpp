@@ -9,9 +9,10 @@
 
 #include "cli/options.hpp"
 #include "cli/planner_spec.hpp"
+#include "cli/run/debuggee.hpp"
 #include "cli/run/program_host.hpp"
 #include "core/fault_plan.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario_reader.hpp"
 
 namespace skein::cli {
 
@@ -24,8 +25,13 @@ struct FleetPlan {
   FaultPlan faults;                                 ///< of --faults
   std::optional<UavPlanner> ground = {};            ///< what runs at the ground station: a strategy or "exec:CMD"
   std::optional<std::filesystem::path> agent = {};  ///< flies in the place of uav_agent what names no agent of its own
-  std::uint64_t run = 0;                            ///< what the programs of one run know each other by (draw_run_id())
+  std::vector<Debuggee> debug = {};                 ///< what the user looks into
+  std::map<std::string, std::string> log_levels = {};  ///< by program, of --log
+  std::uint64_t run = 0;  ///< what the programs of one run know each other by (draw_run_id())
 };
+
+/// What flies a UAV, or runs at the ground station. @param program  of an agent
+const UavPlanner& planner_of(const FleetPlan& plan, const std::string& program);
 
 /// The program that a UAV's on-board software is, or the one at the ground station: its planner's, else the fleet's.
 /// @param program  of an agent
@@ -51,6 +57,9 @@ using SecureFolders = std::map<std::string, SecureFolder>;  ///< by program
 /// A number that no other run has. It decides nothing and is in no digest.
 std::uint64_t draw_run_id();
 
+/// What a run says of its scenario.
+LoadOptions load_options(const RunOptions& options);
+
 /// Loads the scenario and takes the planners apart. @throws InputError for whatever is wrong in them.
 FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir);
 
@@ -69,7 +78,7 @@ std::map<std::string, std::string> dds_vendors(const FleetPlan& plan);
 /// What one of our programs is told wherever it runs; where it writes, its run, its keys and its network come on top.
 std::vector<std::string> program_arguments(const FleetPlan& plan, const std::string& program, int base_domain);
 
-/// The whole fleet in the order in which it starts, the UAV under --debug left out.
+/// The whole fleet in the order in which it starts; what the user starts himself under --debug is left out.
 /// @param secure  of all programs, or of none
 std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
                                         const SecureFolders& secure = {});
@@ -77,12 +86,18 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
 /// The process that is home to all of them, under --one-process.
 ProgramSpec shared_process(const FleetPlan& plan, const std::filesystem::path& out);
 
+/// Whether the program of this UAV, or of "gcs", flies: all of them, but in some runs that are flown again.
+bool takes_part(const FleetPlan& plan, const std::string& member);
+
 /// True when this program is a user's command (`--planner exec:CMD`) in the place of uav_agent.
 bool is_exec(const FleetPlan& plan, const std::string& program);
 
-/// What to type to run the UAV under --debug in gdb (a user's command: as it is, with its environment).
-std::string debug_command(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
-                          const SecureFolders& secure = {});
+/// What to type to run an agent in gdb (a user's command: as it is, with its environment).
+std::string debug_command(const FleetPlan& plan, const std::string& program, int base_domain,
+                          const std::filesystem::path& out, const SecureFolders& secure = {});
+
+/// The file that a program of the fleet is; of a user's command the shell.
+std::filesystem::path program_file(const FleetPlan& plan, const std::string& program);
 
 /// Programs that only validate (--check): sim_server, then the agent of each different planner. A user's command is not
 /// asked: nothing is known about it.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "cli/run/crash_trace.hpp"
 #include "cli/run/shared_process.hpp"
 #include "cli/run/supervisor.hpp"
 #include "core/suggestion.hpp"
@@ -35,12 +36,16 @@ double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::
 
 }  // namespace
 
-FleetRun::FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal) : plan_(plan), view_(out, terminal) {
+FleetRun::FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal)
+    : plan_(plan), console_(out), terminal_(terminal), view_(out, terminal) {
   plan_.run = draw_run_id();
+  facts_.command = plan.options.command;
   facts_.scenario = plan.options.scenario;
   facts_.seed = plan.options.seed;
-  facts_.planners = plan.planners;
-  facts_.ground_program = plan.ground;
+  for (const UavPlanner& planner : plan.planners) {
+    facts_.planners.push_back(takes_part(plan, planner.uav) ? planner : UavPlanner{planner.uav, kRecorded});
+  }
+  if (takes_part(plan, "gcs")) facts_.ground_program = plan.ground;
   facts_.agent = plan.agent;
   facts_.dds = dds_vendors(plan);
   facts_.clock = plan.options.clock;
@@ -54,13 +59,8 @@ void FleetRun::fly(int base_domain, const std::filesystem::path& out, const Secu
   } else {
     host_ = std::make_unique<Supervisor>();
   }
+  if (!plan_.debug.empty()) debug_.emplace(plan_, base_domain, out, secure, view_, console_, terminal_);
   start(fleet_programs(plan_, base_domain, out, secure));
-  if (plan_.options.debug_uav) {
-    view_.message("Start the agent of " + *plan_.options.debug_uav + " yourself; the fleet waits for it:\n\n  " +
-                  debug_command(plan_, base_domain, out, secure) + "\n");
-    const std::string debugged = programs::agent_program(*plan_.options.debug_uav);
-    debugged_.emplace(*plan_.options.debug_uav, out, agent_file(plan_, debugged));
-  }
   finish(out);
 }
 
@@ -81,7 +81,9 @@ void FleetRun::start(const std::vector<ProgramSpec>& programs) {
 
 void FleetRun::finish(const std::filesystem::path& out) {
   watch();
-  if (in_containers_) {  // what is still to be done for them is done here
+  // What is still to be done for them is done here, and without a debugger.
+  if (in_containers_ || (debug_ && !plan_.options.secure)) {
+    plan_.debug.clear();
     for (ProgramSpec& program : fleet_programs(plan_, kFirstDomain, out)) {
       programs_[program.name] = std::move(program);
     }
@@ -100,16 +102,18 @@ void FleetRun::finish(const std::filesystem::path& out) {
 void FleetRun::watch() {
   while (!host_->running().empty()) {
     milliseconds limit{-1};
-    if (leave_by_) {
+    if (leave_by_ && !being_debugged()) {
       limit = std::max(std::chrono::ceil<milliseconds>(*leave_by_ - Clock::now()), milliseconds(0));
       if (limit == milliseconds(0)) {
         end_stragglers();
         continue;
       }
     }
-    const bool debugged_ended = debugged_ && debugged_->ended();  // before the news: it may end because the run has
+    // Before the news: they may end because the run has.
+    const auto debugged_ended = debug_ ? debug_->take_ended() : std::vector<const DebugWatch*>{};
     handle_all(host_->wait(orders_->limit(until_notice(limit))));
-    if (debugged_ended) on_debugged_end();
+    for (const DebugWatch* watch : debugged_ended) on_debugged_end(*watch);
+    host_->follow_job_control();
     tell_waiting();
     for (const std::string& program : orders_->take_returning()) bring_back(program);
   }
@@ -118,7 +122,7 @@ void FleetRun::watch() {
 /// How long to wait for events at most, so that a word of whom we wait for comes when it is due.
 milliseconds FleetRun::until_notice(milliseconds limit) const {
   milliseconds left = silence_.left(Clock::now());
-  if (debugged_) left = std::min(left, DebugWatch::kPeriod);
+  if (debug_) left = std::min(left, DebugWatch::kPeriod);
   return limit.count() < 0 ? left : std::min(limit, left);
 }
 
@@ -149,12 +153,21 @@ void FleetRun::on_cut_off(const Event& event) {
   view_.message(facts_.warnings.back());
 }
 
-void FleetRun::on_exit(const Event& event) {
+void FleetRun::on_exit(Event event) {
   const bool of_server = event.program == programs::kSimServer;
   note_end(event);
+  const DebugWatch* debugged = debug_ ? debug_->find(event.program) : nullptr;
+  if (debugged != nullptr) {
+    debug_->on_exit(event.program);
+    if (leave_by_ && !facts_.interrupted) leave_by_ = Clock::now() + leave_time();  // others waited for it
+    // A tool does not die of its program's signal.
+    if (orders_->out().contains(event.program) && debugged_lost_.erase(event.program) > 0) event.exit.signal = SIGKILL;
+  }
   if (orders_->on_exit(event.program, event.exit)) return;  // as it should
+  if (debugged != nullptr && debugged->debuggee().here && !event.exit.ok()) return on_debugged_end(*debugged);
+  if (debugged_lost_.contains(event.program)) return;
   if (!event.exit.ok() && !event.exit.dragged && !ending_ && !left_as_asked(event.exit)) {
-    complain(event.program, event.exit.text());
+    complain(event.program, event.exit.text() + crash_text(event.program, event.exit));
   }
   if (of_server) {
     facts_.out_by_fault = orders_->out();
@@ -186,14 +199,25 @@ void FleetRun::on_interrupt() {
   if (!leave_by_) leave_by_ = Clock::now() + scaled(kStopTime);
 }
 
-/// The program that the user debugs is lost like any other one.
-void FleetRun::on_debugged_end() {
-  if (server_done_ || ending_) return;
-  const std::string& uav = *plan_.options.debug_uav;
-  view_.message(fmt::format("the debugged program of {} (process {}) has ended; the fleet goes on without it", uav,
-                            debugged_->pid()));
-  facts_.warnings.push_back("the debugged program of " + uav + " ended before the run did");
-  tell_lost(uav);
+/// The program that the user debugs is lost like any other one, and he may have left its debugger or not.
+void FleetRun::on_debugged_end(const DebugWatch& watch) {
+  const auto& [member, program, how, port, tool, here] = watch.debuggee();
+  if (server_done_ || ending_ || !debugged_lost_.insert(program).second) return;
+  if (orders_->out().contains(program)) return;
+  const bool of_server = program == programs::kSimServer;
+  view_.message(fmt::format("the debugged program of {}{} has ended; the fleet {}", member,
+                            watch.pid() == 0 ? "" : fmt::format(" (process {})", watch.pid()),
+                            of_server ? "ends with it" : "goes on without it"));
+  facts_.warnings.push_back("the debugged program of " + member + " ended before the run did");
+  if (!of_server) return tell_lost(member);
+  failed_ = true;
+  end_all();
+}
+
+/// Who debugs a program takes his time at its end, too.
+bool FleetRun::being_debugged() const {
+  return !facts_.interrupted && std::any_of(plan_.debug.begin(), plan_.debug.end(),
+                                            [&](const Debuggee& debuggee) { return host_->running(debuggee.program); });
 }
 
 /// sim_server says whom the fleet waits for. We do where it says nothing: while it starts, while others leave.
@@ -254,6 +278,8 @@ void FleetRun::bring_back(const std::string& program) {
   const auto spec = programs_.find(program);
   if (host_->running(program) || spec == programs_.end()) return host_->signal(program, SIGCONT);
   spec->second.append_log = true;
+  debugged_lost_.erase(program);
+  if (debug_) debug_->on_restart(program);
   std::ofstream(spec->second.log, std::ios::app) << "[skein] a fault killed this program; here it starts again\n";
   try {
     host_->start(spec->second);
@@ -300,14 +326,21 @@ void FleetRun::end_all() {
   handle_all(host_->end_all(scaled(kGrace)));
 }
 
+/// After a deadly signal: where its log tells more.
+std::string FleetRun::crash_text(const std::string& program, const ExitStatus& exit) {
+  const std::filesystem::path& log = programs_.at(program).log;
+  if (exit.signal == 0 || exit.shared || !explain_crash(log)) return {};
+  const std::string where = "backtrace in " + log.filename().string();
+  facts_.crashes[programs::member_name(program)] = exit.text() + ", " + where;
+  return ", " + where;
+}
+
 /// Names a program that failed, with the end of its log.
 void FleetRun::complain(const std::string& program, const std::string& how) {
   failed_ = true;
   const std::filesystem::path& log = programs_.at(program).log;
   facts_.warnings.push_back(failure_text(program, how));
-  std::string text = facts_.warnings.back() + "; the end of " + log.string() + ":";
-  for (const std::string& line : last_lines(log, kLogLines)) text += "\n    " + line;
-  view_.message(text);
+  view_.message(facts_.warnings.back() + "; the end of " + log.string() + ":" + last_lines_below(log, kLogLines));
 }
 
 /// The UAV under --debug has no program of ours: then it is the member.

@@ -8,10 +8,11 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "cli/run/debug_watch.hpp"
+#include "cli/run/debug_session.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/process_orders.hpp"
 #include "cli/run/program_host.hpp"
@@ -54,9 +55,10 @@ class FleetRun {
   void handle_all(const std::vector<Event>& events);
   void on_status(const Event& event);
   void on_cut_off(const Event& event);
-  void on_exit(const Event& event);
+  void on_exit(Event event);
   void on_interrupt();
-  void on_debugged_end();
+  void on_debugged_end(const DebugWatch& watch);
+  bool being_debugged() const;
   void tell_waiting();
 
   // What sim_server and the station say.
@@ -75,6 +77,7 @@ class FleetRun {
   void tell_lost(const std::string& member);
   void end_stragglers();
   void end_all();
+  std::string crash_text(const std::string& program, const ExitStatus& exit);
   void complain(const std::string& program, const std::string& how);
 
   std::string program_of(const std::string& member) const;
@@ -89,6 +92,8 @@ class FleetRun {
   void note_end(const Event& event);
 
   FleetPlan plan_;
+  std::ostream& console_;
+  const bool terminal_;
   std::unique_ptr<ProgramHost> host_;
   std::optional<ProcessOrders> orders_;
   ProgressView view_;
@@ -99,7 +104,8 @@ class FleetRun {
   std::optional<Clock::time_point> first_progress_;
   std::map<std::string, double> cpu_before_s_;  ///< of each process at the first step
   std::optional<Clock::time_point> leave_by_;   ///< whoever runs then is ended
-  std::optional<DebugWatch> debugged_;          ///< under --debug
+  std::optional<DebugSession> debug_;           ///< under --debug
+  std::set<std::string> debugged_lost_;         ///< programs
   WaitNotice silence_{Clock::now()};            ///< since sim_server last said something
   bool in_containers_ = false;
   bool server_done_ = false;  ///< sim_server has ended the run in good order

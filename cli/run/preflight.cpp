@@ -99,6 +99,11 @@ std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs, co
   return warnings;
 }
 
+int hand_over(const ProgramSpec& program) {
+  const ExitStatus exit = run_to_end(program);
+  return exit.signal == 0 && exit.code <= kExitBadInput ? exit.code : kExitProcessFailed;
+}
+
 ExitStatus run_to_end(const ProgramSpec& program) { return run_all({program}, {}).at(program.name); }
 
 ScratchDir::ScratchDir() {

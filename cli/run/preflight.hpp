@@ -22,6 +22,9 @@ std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs, co
 /// Runs one program and waits for it. @throws Interrupted after ending it when the user pressed Ctrl-C.
 ExitStatus run_to_end(const ProgramSpec& program);
 
+/// Runs the program that does what a command is for. @returns its exit code, or that of a failed one for any odd end.
+int hand_over(const ProgramSpec& program);
+
 /// A folder for one purpose, removed with all that is in it: by this, or, should this process be killed, by the next
 /// one that makes such a folder in the same place. Whoever lives holds a lock on his.
 class ScratchDir {

@@ -39,6 +39,10 @@ std::vector<pid_t> all_processes() {
 
 pid_t parent_of(pid_t pid) { return static_cast<pid_t>(std::strtol(status_of(pid, "PPid").c_str(), nullptr, 10)); }
 
+pid_t tracer_of(pid_t pid) { return static_cast<pid_t>(std::strtol(status_of(pid, "TracerPid").c_str(), nullptr, 10)); }
+
+bool has_stopped(pid_t pid) { return status_of(pid, "State").starts_with("T"); }
+
 std::string process_name(pid_t pid) { return status_of(pid, "Name"); }
 
 std::vector<std::string> words_of(pid_t pid, const std::string& what) {

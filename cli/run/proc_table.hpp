@@ -11,6 +11,10 @@ namespace skein::cli {
 std::vector<pid_t> all_processes();
 /// 0 when it is gone.
 pid_t parent_of(pid_t pid);
+/// Who debugs it; 0: nobody.
+pid_t tracer_of(pid_t pid);
+/// Whether a signal made it stand still.
+bool has_stopped(pid_t pid);
 /// Its short name, as `ps` shows it.
 std::string process_name(pid_t pid);
 /// @param what "cmdline" or "environ".

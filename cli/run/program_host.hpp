@@ -30,6 +30,7 @@ struct ProgramSpec {
   bool append_log = false;                     ///< or overwritten
   std::uint64_t most_status_bytes = 64 << 20;  ///< on the status pipe in all; who writes more is cut off
   std::optional<UserId> user{};                ///< as whom it runs, in no other group; only root can choose
+  bool here = false;                           ///< it has the launcher's terminal, or whatever is in its place
   bool minded = false;                         ///< it may have children, which end with it wherever they went
 };
 
@@ -74,6 +75,9 @@ class ProgramHost {
   virtual void signal(const std::string& program, int signal) = 0;
   /// Whether a program has been stopped (SIGSTOP) since this was last true for it.
   virtual bool has_stopped(const std::string& program) = 0;
+  /// A program that has the terminal may have been stopped there with Ctrl-Z: then we stop, too, as one job with it,
+  /// and both go on together.
+  virtual void follow_job_control() {}
   /// SIGTERM to all, SIGKILL to what is left after `grace` or at once when the user interrupts again.
   /// @returns all events until the last program, and the last process, ended.
   virtual std::vector<Event> end_all(std::chrono::milliseconds grace) = 0;

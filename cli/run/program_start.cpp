@@ -53,13 +53,15 @@ std::vector<char*> pointers(const std::vector<std::string>& strings) {
 /// when it cannot go on, errno.
 struct ChildSetup {
   pid_t parent;                           ///< the launcher, or the program's minder
-  int input, log, status, control, news;  ///< log: -1 keeps the launcher's
+  int input, log, status, control, news;  ///< input, log: -1 keeps the launcher's
   char* const* argv;
   char* const* env;
   const UserId* user;  ///< null: the launcher's
+  bool foreground;     ///< the terminal is to be its
 
   [[noreturn]] void exec() const {
     ::setpgid(0, 0);
+    if (foreground) give_terminal_to(::getpid());
     tell(::getpid());
     bool ready =
         user == nullptr || (::setgroups(0, nullptr) == 0 && ::setgid(user->gid) == 0 && ::setuid(user->uid) == 0);
@@ -115,17 +117,36 @@ Fd watch(pid_t pid, pid_t program) {
 
 }  // namespace
 
+bool owns_terminal() { return ::isatty(STDIN_FILENO) == 1 && ::tcgetpgrp(STDIN_FILENO) == ::getpgrp(); }
+
+void give_terminal_to(pid_t group) {
+  sigset_t output, former;
+  sigemptyset(&output);
+  sigaddset(&output, SIGTTOU);  // who is not in the foreground would be stopped here
+  ::sigprocmask(SIG_BLOCK, &output, &former);
+  ::tcsetpgrp(STDIN_FILENO, group);
+  ::sigprocmask(SIG_SETMASK, &former, nullptr);
+}
+
 void throw_errno(const std::string& what) { throw std::system_error(errno, std::generic_category(), what); }
 
 StartedProgram start_program(const ProgramSpec& spec) {
-  const Fd log =
-      spec.log.empty() ? Fd() : open_high(spec.log, O_WRONLY | O_CREAT | (spec.append_log ? O_APPEND : O_TRUNC));
-  const Fd input = open_high("/dev/null", O_RDONLY);
+  const Fd log = spec.log.empty() || spec.here
+                     ? Fd()
+                     : open_high(spec.log, O_WRONLY | O_CREAT | (spec.append_log ? O_APPEND : O_TRUNC));
+  const Fd input = spec.here ? Fd() : open_high("/dev/null", O_RDONLY);
   Pipe status = make_pipe(), control = make_pipe(), news = make_pipe();
   const std::vector<char*> argv = pointers(spec.argv), env = pointers(spec.env);
-  const ChildSetup setup{::getpid(),         input.get(),        log.get(),
-                         status.write.get(), control.read.get(), news.write.get(),
-                         argv.data(),        env.data(),         spec.user ? &*spec.user : nullptr};
+  const ChildSetup setup{::getpid(),
+                         input.get(),
+                         log.get(),
+                         status.write.get(),
+                         control.read.get(),
+                         news.write.get(),
+                         argv.data(),
+                         env.data(),
+                         spec.user ? &*spec.user : nullptr,
+                         spec.here && owns_terminal()};
   const pid_t pid = ::fork();
   if (pid < 0) throw_errno("fork");
   if (pid == 0) spec.minded ? exec_minded(setup) : setup.exec();
@@ -136,7 +157,8 @@ StartedProgram start_program(const ProgramSpec& spec) {
     ::waitpid(pid, nullptr, 0);
     throw std::system_error(error.value_or(ECHILD), std::generic_category(), "cannot start " + spec.argv[0]);
   }
-  StartedProgram started{pid, program, watch(pid, program), std::move(status.read), std::move(control.write)};
+  StartedProgram started{
+      pid, program, setup.foreground, watch(pid, program), std::move(status.read), std::move(control.write)};
   ::fcntl(started.status.get(), F_SETFL, O_NONBLOCK);
   ::fcntl(started.control.get(), F_SETFL, O_NONBLOCK);
   return started;

@@ -35,13 +35,19 @@ class Fd {
 [[noreturn]] void throw_errno(const std::string& what);
 
 struct StartedProgram {
-  pid_t pid = -1;      ///< our child: the program, or its minder
-  pid_t program = -1;  ///< leads a process group
-  Fd pidfd;            ///< of `pid`
-  Fd status, control;  ///< our ends of the pipes, which never block
+  pid_t pid = -1;           ///< our child: the program, or its minder
+  pid_t program = -1;       ///< leads a process group
+  bool foreground = false;  ///< of the terminal, which was ours
+  Fd pidfd;                 ///< of `pid`
+  Fd status, control;       ///< our ends of the pipes, which never block
 };
 
-/// Starts a program in a process group of its own, stdin closed, both pipes open.
+/// Whether what is typed comes to us.
+bool owns_terminal();
+/// From here on Ctrl-C and what is typed are for that process group.
+void give_terminal_to(pid_t group);
+
+/// Starts a program in a process group of its own, both pipes open, stdin closed unless it is to have the terminal.
 /// @throws std::system_error when the log cannot be written or the binary cannot be started.
 StartedProgram start_program(const ProgramSpec& spec);
 

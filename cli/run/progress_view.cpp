@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <iomanip>
-#include <map>
 
-#include "cli/run/score_losses.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
+#include "report/causes.hpp"
 
 namespace skein::cli {
 namespace {
@@ -26,15 +25,9 @@ std::string uav_state(const Json& uav) {
 
 /// Where the rest of what could be had was lost: a row for each cause that took something.
 void print_losses(std::ostream& out, const Json& losses) {
-  const std::map<LossCause, const char*> texts = {
-      {LossCause::out_of_reach, "no UAV fits there"},    {LossCause::never_in_picture, "never in the picture"},
-      {LossCause::below_threshold, "too poor to count"}, {LossCause::voided, "UAV collided"},
-      {LossCause::not_delivered, "not delivered"},       {LossCause::distance, "from too far away"},
-      {LossCause::tilt, "too much from the side"},       {LossCause::blur, "blurred"},
-      {LossCause::above_estimate, "above the estimate"}};
   const char* head = "lost      ";
-  for (const auto& [cause, text] : texts) {
-    const Json sum = value_or(losses, name_of(cause).c_str(), Json::object());
+  for (const auto& [cause, text] : report::kCauses) {
+    const Json sum = value_or(losses, std::string(cause).c_str(), Json::object());
     if (number(sum, "points") <= 0.0) continue;
     out << head << std::left << std::setw(24) << text << std::right << std::setw(10) << fixed(number(sum, "score"), 3)
         << std::setw(8) << cell(sum, "points", 0) << " points\n";
@@ -75,23 +68,29 @@ void ProgressView::waiting_for(const status::WaitingFor& wait) {
        (wait.missing.empty() ? "" : ": " + joined(wait.missing)));
 }
 
+void ProgressView::write_to(std::ostream& out, bool terminal) {
+  finish();
+  out_ = &out;
+  terminal_ = terminal;
+}
+
 void ProgressView::message(const std::string& text) {
   finish();
-  out_ << text << std::endl;
+  *out_ << text << std::endl;
 }
 
 void ProgressView::finish() {
-  if (!shown_.empty()) out_ << std::endl;
+  if (!shown_.empty()) *out_ << std::endl;
   shown_.clear();
 }
 
 void ProgressView::show(const std::string& text) {
   if (!terminal_) {
-    out_ << text << std::endl;
+    *out_ << text << std::endl;
     return;
   }
   const std::size_t blanks = shown_.size() > text.size() ? shown_.size() - text.size() : 0;
-  out_ << '\r' << text << std::string(blanks, ' ') << std::flush;
+  *out_ << '\r' << text << std::string(blanks, ' ') << std::flush;
   shown_ = text;
 }
 

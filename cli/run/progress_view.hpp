@@ -13,7 +13,10 @@ namespace skein::cli {
 class ProgressView {
  public:
   /// @param terminal whether `out` can rewrite its last line.
-  ProgressView(std::ostream& out, bool terminal) : out_(out), terminal_(terminal) {}
+  ProgressView(std::ostream& out, bool terminal) : out_(&out), terminal_(terminal) {}
+
+  /// From here on it writes there. @param out  must outlive this.
+  void write_to(std::ostream& out, bool terminal);
 
   /// @param wall_s time since the programs started; gives the speed.
   void progress(const status::Progress& progress, double wall_s);
@@ -28,8 +31,8 @@ class ProgressView {
  private:
   void show(const std::string& text);
 
-  std::ostream& out_;
-  const bool terminal_;
+  std::ostream* out_;
+  bool terminal_;
   std::string shown_;
   status::Tally tally_;
   int tenths_shown_ = 0;

@@ -2,10 +2,12 @@
 
 #include <stdexcept>
 
-#include "cli/run/csv_table.hpp"
 #include "process/run_folder.hpp"
+#include "report/csv_table.hpp"
 
 namespace skein::cli {
+
+using report::CsvTable;
 
 std::vector<CaptureRow> read_captures(const std::filesystem::path& dir) {
   std::vector<CaptureRow> captures;

@@ -126,7 +126,8 @@ void warn_of_missing(const RunFacts& facts, const Reports& reports, Texts& warni
   missing(reports.comm_router, programs::kCommRouter, "radio counts are unknown");
   for (const UavPlanner& planner : facts.planners) {
     const auto report = reports.agents.find(planner.uav);
-    if (exec_command(planner.spec) || report == reports.agents.end()) continue;
+    const bool silent = exec_command(planner.spec) || planner.spec == kRecorded;
+    if (silent || report == reports.agents.end()) continue;
     missing(report->second, programs::agent_program(planner.uav), "its planner's CPU time is unknown");
   }
 }
@@ -164,6 +165,7 @@ Texts warnings_of(const RunFacts& facts, const SimServerReport& sim, const Route
 Json description(const RunFacts& facts, const Scenario& scenario) {
   Json result;
   result["skein_version"] = SKEIN_VERSION;
+  if (!facts.command.empty()) result["command"] = facts.command;
   result["scenario"] = facts.scenario;
   result["seed"] = facts.seed;
   result["scene_seed"] = scenario.scene.scene_seed;
@@ -174,6 +176,8 @@ Json description(const RunFacts& facts, const Scenario& scenario) {
   result["clock"] = facts.clock;
   result["math"] = facts.native ? "native" : "baseline";
   result["exchange_period_s"] = scenario.exchange_period_s;
+  const Vector3d& station = scenario.station_position;
+  result["station"] = {{"position", {station.x(), station.y(), station.z()}}};
   return result;
 }
 
@@ -238,7 +242,17 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["radio"]["malformed"] = samples.malformed;
   result["radio"]["unsent"] = samples.unsent;
   result["faults"] = json_of(sim.faults);
+  if (sim.differences) {
+    result["differences"] = *sim.differences;
+    for (const std::string& text : router.differences.value_or(Texts())) result["differences"].push_back(text);
+  }
   result["lost_members"] = json_of(sim.lost_members);
+  for (Json& lost : result["lost_members"]) {
+    const auto crash = facts.crashes.find(value_or(lost, "member", "").get<std::string>());
+    if (crash != facts.crashes.end()) {
+      lost["reason"] = value_or(lost, "reason", "").get<std::string>() + ": " + crash->second;
+    }
+  }
   result["warnings"] = warnings_of(facts, sim, router, reports);
   return result;
 }

@@ -25,7 +25,8 @@ struct ProcessUse {
 
 /// What the launcher itself knows of a run.
 struct RunFacts {
-  std::string scenario;  ///< as the user named it
+  std::string command = {};  ///< as the user typed it; empty: nobody did
+  std::string scenario;      ///< as the user named it
   std::uint64_t seed = 0;
   std::vector<UavPlanner> planners;  ///< fleet order
   std::optional<UavPlanner> ground_program = {};
@@ -39,8 +40,9 @@ struct RunFacts {
   double sim_time_s = 0.0, mission_time_s = 0.0, wall_time_s = 0.0;
   int points_detected = 0;
   double score = 0.0, score_earned = 0.0;
-  std::set<std::string> out_by_fault;  ///< programs that a fault kept out of the run at its end
-  double startup_s = 0.0;              ///< of wall time, from the first program's start to the first step
+  std::set<std::string> out_by_fault;          ///< programs that a fault kept out of the run at its end
+  std::map<std::string, std::string> crashes;  ///< by member, where its log tells of it
+  double startup_s = 0.0;                      ///< of wall time, from the first program's start to the first step
   std::map<std::string, ProcessUse> processes;
 };
 

@@ -97,6 +97,7 @@ Supervisor::~Supervisor() {
   for (const auto& [name, child] : children_) {
     ::kill(-child->program, SIGKILL);
     ::waitpid(child->pid, nullptr, 0);
+    take_terminal_back(*child);
   }
   ::close(signal_fd_);
   ::sigaction(SIGPIPE, &former_pipe_action_, nullptr);
@@ -157,6 +158,7 @@ void Supervisor::reap(Child& child, std::vector<Event>& events) {
   if (WIFSIGNALED(status)) exit.signal = WTERMSIG(status);
   exit.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024.0;
   exit.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  take_terminal_back(child);
   events.push_back({Event::Kind::exited, child.name, {}, exit});
   children_.erase(events.back().program);
 }
@@ -214,6 +216,20 @@ bool Supervisor::has_stopped(const std::string& program) {
          ::waitid(P_PID, static_cast<id_t>(found->second->pid), &info, WSTOPPED | WNOHANG) == 0 && info.si_pid != 0;
 }
 
+void Supervisor::take_terminal_back(const Child& child) {
+  if (child.foreground) give_terminal_to(::getpgrp());
+}
+
+void Supervisor::follow_job_control() {
+  for (const auto& [name, child] : children_) {
+    if (!child->foreground || !has_stopped(name)) continue;
+    take_terminal_back(*child);
+    ::raise(SIGSTOP);  // until the shell's `fg`
+    if (owns_terminal()) give_terminal_to(child->program);
+    signal_child(*child, SIGCONT);
+  }
+}
+
 // A minder stops by itself when its program does, but cannot wake itself.
 void Supervisor::signal_child(const Child& child, int signal) {
   ::kill(-child.program, signal);
@@ -267,6 +283,12 @@ std::vector<std::string> last_lines(const std::filesystem::path& file, std::size
     if (tail.size() > count) tail.pop_front();
   }
   return {tail.begin(), tail.end()};
+}
+
+std::string last_lines_below(const std::filesystem::path& file, std::size_t count) {
+  std::string text;
+  for (const std::string& line : last_lines(file, count)) text += "\n    " + line;
+  return text;
 }
 
 }  // namespace skein::cli

@@ -34,6 +34,7 @@ class Supervisor final : public ProgramHost {
   void hang_up(const std::string& program);
   void signal(const std::string& program, int signal) override;
   bool has_stopped(const std::string& program) override;
+  void follow_job_control() override;
   std::vector<Event> end_all(std::chrono::milliseconds grace) override;
   std::vector<std::string> running() const override;
   bool running(const std::string& program) const override { return children_.contains(program); }
@@ -47,6 +48,7 @@ class Supervisor final : public ProgramHost {
   void read_status(Child& child, std::size_t most, std::vector<Event>& events);
   void reap(Child& child, std::vector<Event>& events);
   static void signal_child(const Child& child, int signal);
+  static void take_terminal_back(const Child& child);
   void signal_all(int signal);
 
   std::map<std::string, std::unique_ptr<Child>> children_;
@@ -58,5 +60,7 @@ class Supervisor final : public ProgramHost {
 /// The last lines of a text file, newest last, without what is long ago in a huge one; empty when there is no such
 /// file.
 std::vector<std::string> last_lines(const std::filesystem::path& file, std::size_t count);
+/// The same for the end of a message: each on a line of its own, indented.
+std::string last_lines_below(const std::filesystem::path& file, std::size_t count);
 
 }  // namespace skein::cli

@@ -65,6 +65,7 @@ std::vector<std::string> server_topics(const std::vector<std::string>& units) {
   }
   add_wire_names(names, topics::uav_topics(), topics::Direction::to_agent, units);
   add_wire_names(names, topics::gcs_topics(), topics::Direction::to_agent, units);
+  add_wire_names(names, topics::viewer_topics(), topics::Direction::to_viewer, units);
   return names;
 }
 
@@ -80,6 +81,7 @@ Rights rights_of(const FleetPlan& plan, const std::string& program, int base_dom
     std::vector<std::string> names = server_topics(all_units);
     add_wire_names(names, topics::uav_topics(), topics::Direction::from_agent, all_units);
     add_wire_names(names, topics::score_topics(), topics::Direction::from_station, all_units);
+    add_wire_names(names, topics::viewer_topics(), topics::Direction::from_station, all_units);
     return {base_domain, last, std::move(names)};
   }
   const bool is_station = program == topics::kStationMember;

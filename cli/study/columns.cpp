@@ -1,5 +1,8 @@
 #include "cli/study/columns.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace skein::cli {
 
 const std::vector<StudyColumn>& study_columns() {
@@ -27,6 +30,12 @@ const std::vector<StudyColumn>& study_columns() {
       {"mission_time_s", "Mission time [s]", "from the first take-off on", 1, false,
        [](const F& f) { return f.mission_time_s; }}};
   return kColumns;
+}
+
+const StudyColumn& study_column(const std::string& name) {
+  const auto found = std::ranges::find(study_columns(), name, &StudyColumn::name);
+  if (found == study_columns().end()) throw std::out_of_range("there is no column " + name);
+  return *found;
 }
 
 std::vector<double> column_values(const StudyColumn& column, const std::vector<const FlightEntry*>& flights) {

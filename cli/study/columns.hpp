@@ -20,6 +20,8 @@ struct StudyColumn {
 };
 
 const std::vector<StudyColumn>& study_columns();
+/// The one of this name. @throws std::out_of_range when there is none.
+const StudyColumn& study_column(const std::string& name);
 
 /// Of the flights of one cell that have this figure.
 std::vector<double> column_values(const StudyColumn& column, const std::vector<const FlightEntry*>& flights);

@@ -1,7 +1,7 @@
 #include "cli/study/csv.hpp"
 
 #include "cli/study/columns.hpp"
-#include "cli/study/html.hpp"
+#include "report/html.hpp"
 
 namespace skein::cli {
 namespace {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/figures.hpp"
+
 namespace skein::cli {
 namespace {
 
@@ -48,7 +50,10 @@ FlightFigures figures_of(const Json& result) {
   figures.points_detected = static_cast<int>(number(result, "points_detected"));
   figures.points_total = static_cast<int>(number(result, "points_total"));
   const double attainable = number(value_or(result, "attainable", Json::object()), "score");
-  if (attainable > 0.0) figures.attainable_percent = 100.0 * figures.score / attainable;
+  if (attainable > 0.0) {
+    figures.attainable = attainable;
+    figures.attainable_percent = 100.0 * figures.score / attainable;
+  }
   if (figures.points_detected > 0) figures.mean_quality = figures.score / figures.points_detected;
   figures.collisions = static_cast<int>(value_or(result, "collisions", Json::array()).size());
   figures.real_time_factor = number(result, "real_time_factor");
@@ -56,11 +61,17 @@ FlightFigures figures_of(const Json& result) {
   figures.status = value_or(result, "status", "").get<std::string>();
   figures.digest = value_or(result, "digest", "").get<std::string>();
   Mean explorers, photographers, cpu;
+  const Json scores = value_or(result, "score_by_uav", Json::object());
   for (const Json& uav : value_or(result, "uavs", Json::array())) {
     (value_or(uav, "role", "") == "explorer" ? explorers : photographers).add(value_or(uav, "idle_s", nullptr));
     figures.distance_m += number(uav, "distance_m");
     cpu.add(value_or(uav, "planner_cpu_s", nullptr));
+    const std::string name = report::text_in(uav, "name");
+    figures.uavs.push_back({name, report::text_in(uav, "role"), number(scores, name.c_str()), number(uav, "distance_m"),
+                            report::number_if_any(uav, "idle_s"), report::number_if_any(uav, "captures")});
   }
+  figures.memory_mb = report::number_if_any(result, "memory_mb");
+  figures.processors = report::processors_of(result);
   figures.idle_explorers_s = explorers.value();
   figures.idle_photographers_s = photographers.value();
   const double sim_time_s = number(result, "sim_time_s");
@@ -95,19 +106,24 @@ bool Study::any_problem() const {
   return std::any_of(flights.begin(), flights.end(), [](const FlightEntry& f) { return !f.problem.empty(); });
 }
 
+std::optional<double> total_of(const Study& study, std::size_t planner, std::uint64_t seed,
+                               const std::function<double(const FlightFigures&)>& value) {
+  double total = 0.0;
+  std::size_t scenes = 0;
+  for (const FlightEntry& flight : study.flights) {
+    if (flight.planner != planner || flight.seed != seed || !flight.figures) continue;
+    total += value(*flight.figures);
+    ++scenes;
+  }
+  return scenes == study.scenarios.size() ? std::optional(total) : std::nullopt;
+}
+
 std::vector<Standing> standings(const Study& study) {
   std::vector<Standing> all;
   for (std::size_t p = 0; p < study.planners.size(); ++p) {
     Standing standing{p, {}, {}, 0};
     for (const std::uint64_t seed : study.seeds) {
-      double total = 0.0;
-      std::size_t scenes = 0;
-      for (const FlightEntry& flight : study.flights) {
-        if (flight.planner != p || flight.seed != seed || !flight.figures) continue;
-        total += flight.figures->score;
-        ++scenes;
-      }
-      standing.totals.push_back(scenes == study.scenarios.size() ? std::optional(total) : std::nullopt);
+      standing.totals.push_back(total_of(study, p, seed, [](const FlightFigures& figures) { return figures.score; }));
     }
     standing.decides = decisive(complete_totals(standing), study.rank);
     all.push_back(std::move(standing));

@@ -2,27 +2,39 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/options.hpp"
 #include "cli/run/result.hpp"
+#include "cli/study/flight_tables.hpp"
 
 namespace skein::cli {
+
+/// One UAV of a flight.
+struct UavFigures {
+  std::string name, role;
+  double score = 0.0, distance_m = 0.0;
+  std::optional<double> idle_s, captures;
+};
 
 /// What is compared of one flight. Empty where nobody could tell.
 struct FlightFigures {
   double score = 0.0;
   int points_detected = 0, points_total = 0;
   std::optional<double> attainable_percent;  ///< of the score that full knowledge could get
+  std::optional<double> attainable;          ///< that score
   std::optional<double> mean_quality;        ///< score by detected point
   int collisions = 0;
   std::optional<double> idle_explorers_s, idle_photographers_s;  ///< a UAV of that role on average
   double distance_m = 0.0;                                       ///< of all UAVs
   std::optional<double> planner_cpu_ms;                          ///< a simulated second and UAV; of UAVs that tell
   double real_time_factor = 0.0, mission_time_s = 0.0;
-  std::string status, digest;  ///< digest: empty where it would not repeat
+  std::string status, digest;                             ///< digest: empty where it would not repeat
+  std::vector<UavFigures> uavs = {};                      ///< fleet order
+  std::optional<double> memory_mb = {}, processors = {};  ///< of all its programs; how many of them were busy
 };
 
 FlightFigures figures_of(const Json& result);
@@ -41,6 +53,8 @@ struct FlightEntry {
   std::filesystem::path dir;
   std::optional<FlightFigures> figures;  ///< none: no result that counts
   std::string problem;                   ///< empty: none
+  std::string page = {};                 ///< its own report, from the study's folder; empty: there is none
+  std::optional<FlightTables> tables = {};
 };
 
 /// All that tables and pages show.
@@ -53,6 +67,7 @@ struct Study {
   std::string command_line, version, programs, medium;
   int jobs = 1;
   std::string conditions = {};  ///< other than the scenarios' own: "missions of 120 s"; empty: none
+  std::string machine = {};     ///< on which this was written; empty: nobody asked
 
   /// The flights of a planner in a scenario that count, by seed.
   std::vector<const FlightEntry*> cell(std::size_t planner, std::size_t scenario) const;
@@ -60,6 +75,10 @@ struct Study {
   const FlightEntry* best(std::size_t planner, std::size_t scenario) const;
   bool any_problem() const;
 };
+
+/// What of all scenes together counts for a planner with a seed: the sum over its flights, if all of them count.
+std::optional<double> total_of(const Study& study, std::size_t planner, std::uint64_t seed,
+                               const std::function<double(const FlightFigures&)>& value);
 
 /// One planner in the ranking.
 struct Standing {

@@ -4,21 +4,37 @@
 
 #include <algorithm>
 
-#include "cli/study/box_plot.hpp"
 #include "cli/study/columns.hpp"
-#include "cli/study/html.hpp"
-#include "cli/study/style.hpp"
+#include "cli/study/page_parts.hpp"
+#include "cli/study/spec.hpp"
 #include "core/suggestion.hpp"
+#include "report/html.hpp"
+#include "report/style.hpp"
 
 namespace skein::cli {
 namespace {
 
-std::string planner_cell(const Study& study, std::size_t planner) {
-  return fmt::format(
-      "<td class=\"name\"><div><span class=\"swatch\" "
-      "style=\"background:var(--c{})\"></span><span>{}</span></div></td>",
-      planner % kPlotColours, escaped(study.planners[planner]));
-}
+using namespace report;
+
+constexpr std::size_t kLongestTitle = 100;
+
+/// What the page of a study has besides.
+constexpr const char* kStudyStyle = R"css(.study svg.plot { max-width: 560px; }
+.study .panels { grid-template-columns: repeat(auto-fit, minmax(min(320px, 100%), 1fr)); }
+.study .panels.large { grid-template-columns: repeat(auto-fit, minmax(min(400px, 100%), 1fr)); }
+.study td strong { font-size: 1.1em; } .study tr.best td.decides strong { font-weight: 800; }
+.study .card strong { overflow-wrap: anywhere; line-height: 1.15; margin: 0.1em 0; }
+.study td.name { font-weight: 400; } @media (min-width: 601px) { .study td.name { min-width: 13em; max-width: 22em; } }
+.study tbody tr.group td { border-top: 2px solid var(--soft); }
+.study td.few { color: var(--soft); font-style: italic; text-align: center; }
+.study a { color: var(--c0); text-decoration-thickness: 1px; text-underline-offset: 2px; }
+.study figcaption a { font-weight: 400; } .study a.file { float: right; font-size: 0.85em; margin-left: 1em; }
+.study .plot text.name { paint-order: stroke; stroke: var(--panel); stroke-width: 3px; }
+.study .columns { columns: 24em; max-width: none; padding-left: 1.2em; }
+.study .columns li { break-inside: avoid; }
+.study .files { overflow-wrap: anywhere; }
+@media print { .study a { color: inherit; } .study a.file { display: none; } }
+)css";
 
 std::string seeds_text(const Study& study) {
   std::vector<std::string> seeds;
@@ -30,219 +46,172 @@ std::string seeds_text(const Study& study) {
   return in_a_row && seeds.size() > 2 ? seeds.front() + " to " + seeds.back() : joined(seeds);
 }
 
-std::string plural(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+std::string study_card(const std::string& name, const std::string& value, const std::string& small,
+                       const std::string& style = "") {
+  return fmt::format("<div class=\"card {}\"><span>{}</span><strong>{}</strong><small>{}</small></div>\n", style, name,
+                     escaped(value), escaped(small));
 }
 
-std::string introduction(const Study& study) {
-  std::size_t counted = 0;
-  for (const FlightEntry& flight : study.flights) counted += flight.figures ? 1 : 0;
-  std::string html = fmt::format("<h1>Skein {}: {}</h1>\n<p>{} in {}, seeds {}: {} of {} flights count. ",
-                                 study.contest ? "contest" : "comparison", escaped(joined(study.planners, " · ")),
-                                 plural(study.planners.size(), "planner"), plural(study.scenarios.size(), "scene"),
-                                 seeds_text(study), counted, study.flights.size());
-  if (!study.conditions.empty()) html += "<b>Not the scenarios' own: " + escaped(study.conditions) + ".</b> ";
-  if (study.contest) html += "A test is one flight in every scene, all with the same seed. ";
-  return html + "Tables show medians over the seeds, and below them the range from the least to the greatest.</p>\n";
-}
-
-std::string ranking(const Study& study) {
-  const std::string by = rank_name(study.rank);
-  std::string html = "<h2>Ranking</h2>\n<p>By the " +
-                     std::string(study.rank == Rank::maximum  ? "greatest"
-                                 : study.rank == Rank::median ? "median"
-                                                              : "worst") +
-                     " of the planner's totals; a total is the sum of the scores of one test.</p>\n"
-                     "<div class=\"wide\"><table>\n<thead><tr><th>Place</th><th class=\"name\">Planner</th>";
-  for (const char* name : {"max", "median", "worst"}) html += fmt::format("<th>Total, {}</th>", name);
-  for (const std::uint64_t seed : study.seeds) html += fmt::format("<th>Test {}</th>", seed);
-  html += "</tr></thead>\n<tbody>\n";
-  for (const Standing& standing : standings(study)) {
-    html += fmt::format("<tr{}><td>{}</td>", standing.place == 1 ? " class=\"best\"" : "",
-                        standing.decides ? std::to_string(standing.place) : "–");
-    html += planner_cell(study, standing.planner);
-    const std::vector<double> totals = complete_totals(standing);
-    const Spread spread = spread_of(totals);
-    for (const auto& [name, value] : {std::pair("max", spread.max), {"median", spread.median}, {"worst", spread.min}}) {
-      html +=
-          fmt::format("<td{}>{}</td>", by == name ? " class=\"decides\"" : "", totals.empty() ? "–" : fixed(value, 1));
-    }
-    for (const std::optional<double>& total : standing.totals) html += "<td>" + fixed(total, 1) + "</td>";
-    html += "</tr>\n";
-  }
-  return html + "</tbody></table></div>\n";
-}
-
-std::string figure(const std::string& caption, const std::string& small, const std::string& svg) {
-  return "<figure><figcaption>" + escaped(caption) + (small.empty() ? "" : "<small>" + escaped(small) + "</small>") +
-         "</figcaption>\n" + svg + "</figure>\n";
-}
-
-std::string box_plots(const Study& study) {
-  std::string html =
-      "<h2>Spread of the scores</h2>\n<p class=\"soft\">Every flight is a dot. The box reaches from the lower to the "
-      "upper "
-      "quartile, the thick line is the median, the whiskers end at the least and the greatest.</p>\n"
-      "<div class=\"panels\">\n";
+/// Who is ahead: of a contest by its rule, else by the median of the totals.
+std::string leader_card(const Study& study) {
   if (study.contest) {
-    BoxPlot totals{"Total of a test", "sum of scores over all scenes", {}};
-    for (std::size_t p = 0; p < study.planners.size(); ++p) totals.rows.push_back({study.planners[p], p, {}});
-    for (const Standing& standing : standings(study)) {
-      for (std::size_t t = 0; t < standing.totals.size(); ++t) {
-        if (!standing.totals[t]) continue;
-        totals.rows[standing.planner].values.push_back(
-            {*standing.totals[t], fmt::format("test {}: {}", study.seeds[t], fixed(*standing.totals[t], 1))});
-      }
+    const std::vector<Standing> all = standings(study);
+    if (all.empty() || !all.front().decides) return study_card("First place", "–", "no complete test", "main");
+    const auto ahead = std::ranges::count(all, all.front().decides, &Standing::decides);
+    if (ahead > 1) {
+      return study_card("First place", plural(static_cast<std::size_t>(ahead), "planner"),
+                        "share it: " + rank_name(study.rank) + " total " + fixed(*all.front().decides, 1), "main");
     }
-    html += figure("Total", "all scenes of a test", box_plot_svg(totals));
+    return study_card("First place", shortened(study.planners[all.front().planner], 24),
+                      rank_name(study.rank) + " total " + fixed(*all.front().decides, 1), "main");
   }
-  for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
-    BoxPlot plot{"Scores in " + study.scenarios[s], "score", {}};
-    for (std::size_t p = 0; p < study.planners.size(); ++p) {
-      PlotRow row{study.planners[p], p, {}};
-      for (const FlightEntry* flight : study.cell(p, s)) {
-        row.values.push_back(
-            {flight->figures->score, fmt::format("seed {}: {}", flight->seed, fixed(flight->figures->score, 1))});
-      }
-      plot.rows.push_back(std::move(row));
-    }
-    html += figure(study.scenarios[s], "", box_plot_svg(plot));
-  }
-  return html + "</div>\n";
-}
-
-/// Median with the range below where there is one.
-std::string value_cell(const StudyColumn& column, const std::vector<double>& values, bool is_best) {
-  if (values.empty()) return "<td>–</td>";
-  const Spread spread = spread_of(values);
-  // The median of an even number of whole numbers may lie between two.
-  const int digits =
-      column.digits == 0 && spread.median != static_cast<double>(static_cast<long>(spread.median)) && spread.max < 100.0
-          ? 1
-          : column.digits;
-  std::string html = fmt::format("<td{}>{}", is_best ? " class=\"best\"" : "", fixed(spread.median, digits));
-  if (values.size() > 1) {
-    html += "<small>" + fixed(spread.min, column.digits) + "–" + fixed(spread.max, column.digits) + "</small>";
-  }
-  return html + "</td>";
-}
-
-std::string scene_table(const Study& study, std::size_t scenario) {
-  std::string html = "<div class=\"wide\"><table>\n<thead><tr><th class=\"name\">Planner</th><th>Flights</th>";
-  for (const StudyColumn& column : study_columns()) {
-    if (column.in_report) {
-      html += "<th title=\"" + escaped(column.help) + "\">" + escaped(column.title) + "</th>";
-    }
-  }
-  html += "</tr></thead>\n<tbody>\n";
-  double best = 0.0;
+  std::optional<double> most;
+  std::size_t first = 0;
   for (std::size_t p = 0; p < study.planners.size(); ++p) {
-    best = std::max(best, spread_of(column_values(study_columns().front(), study.cell(p, scenario))).median);
-  }
-  for (std::size_t p = 0; p < study.planners.size(); ++p) {
-    const auto flights = study.cell(p, scenario);
-    html += "<tr>" + planner_cell(study, p) + "<td>" + std::to_string(flights.size()) + "</td>";
-    for (const StudyColumn& column : study_columns()) {
-      if (!column.in_report) continue;
-      const std::vector<double> values = column_values(column, flights);
-      html += value_cell(column, values, column.name == "score" && best > 0.0 && spread_of(values).median == best);
+    std::vector<double> totals;
+    for (const std::uint64_t seed : study.seeds) {
+      if (const auto total = total_of(study, p, seed, [](const FlightFigures& f) { return f.score; }))
+        totals.push_back(*total);
     }
-    html += "</tr>\n";
+    const double median = spread_of(totals).median;
+    if (totals.empty() || (most && median <= *most)) continue;
+    most = median;
+    first = p;
   }
-  return html + "</tbody></table></div>\n";
+  if (!most) return study_card("Highest score", "–", "no planner has a flight in every scene", "main");
+  return study_card("Highest score", shortened(study.planners[first], 24),
+                    "median " + fixed(*most, 1) + (study.scenarios.size() > 1 ? ", sum over all scenes" : ""), "main");
 }
 
-/// Colours of the drawings of one scene.
-std::string legend(const FlightPicture& picture) {
-  std::string html = "<ul class=\"legend\">\n";
-  for (std::size_t i = 0; i < picture.tracks.size(); ++i) {
-    const PictureTrack& track = picture.tracks[i];
-    html += fmt::format(
-        "<li><svg viewBox=\"0 0 22 10\" aria-hidden=\"true\"><path class=\"track t{}{}{}\" d=\"M1 5L21 5\"/></svg>{}, "
-        "{}"
-        "</li>\n",
-        i % kTrackColours, i >= kTrackColours ? " again" : "", track.explorer ? " explorer" : "", escaped(track.uav),
-        track.explorer ? "explorer" : "photographer");
+std::string study_cards(const Study& study) {
+  std::size_t counted = 0, collisions = 0;
+  double flown_s = 0.0;
+  for (const FlightEntry& flight : study.flights) {
+    if (!flight.figures) continue;
+    ++counted;
+    collisions += static_cast<std::size_t>(flight.figures->collisions);
+    flown_s += flight.figures->mission_time_s;
   }
-  const double step = (1.0 - kDetected) / kScoreColours;
-  html += "<li><span class=\"swatch\" style=\"background:var(--q0)\"></span>not detected</li>\n";
-  for (std::size_t i = 0; i < kScoreColours; ++i) {
-    const double from = kDetected + step * static_cast<double>(i);
-    html += fmt::format("<li><span class=\"swatch\" style=\"background:var(--q{})\"></span>score {} to {}</li>\n",
-                        i + 1, fixed(from, 1), fixed(from + step, 1));
-  }
-  return html + "<li>dashed: boxes that the fleet is told</li>\n</ul>\n";
+  return "<div class=\"cards\">\n" + leader_card(study) +
+         study_card("Flights that count", fmt::format("{} of {}", counted, study.flights.size()),
+                    plural(study.seeds.size(), "seed") + ": " + seeds_text(study),
+                    counted < study.flights.size() ? "bad" : "") +
+         study_card("Planners", std::to_string(study.planners.size()), "each in every scene") +
+         study_card("Scenes", std::to_string(study.scenarios.size()), "all with the same seeds") +
+         study_card("Mission time", fixed(flown_s / 60.0, 0) + " min", "of all flights together") +
+         study_card("Collisions", std::to_string(collisions), "of all flights") + "</div>\n";
 }
 
-std::string drawings(const Study& study, std::size_t scenario, const StudyPictures& pictures) {
-  std::vector<const FlightPicture*> of_scene;
-  for (const auto& [key, picture] : pictures) {
-    if (key.first == scenario) of_scene.push_back(&picture);
-  }
-  if (of_scene.empty()) return "";
-  const PictureView view(of_scene);
-  std::string html =
-      "<p class=\"soft\">The best flight of each planner, all from the same side and at the same scale.</p>\n" +
-      legend(*of_scene.front()) + "<div class=\"panels large\">\n";
-  for (std::size_t p = 0; p < study.planners.size(); ++p) {
-    const auto found = pictures.find({scenario, p});
-    const FlightEntry* best = study.best(p, scenario);
-    if (found == pictures.end() || best == nullptr) continue;
-    const std::string words =
-        fmt::format("{} points detected, {} score", best->figures->points_detected, fixed(best->figures->score, 0));
-    html +=
-        figure(study.planners[p] + ": " + words, fmt::format("{}, seed {}", study.scenarios[scenario], best->seed),
-               picture_svg(found->second, view, study.planners[p] + " in " + study.scenarios[scenario] + ": " + words));
-  }
-  return html + "</div>\n";
+std::string study_facts(const Study& study) {
+  std::string html = "<dl class=\"facts\">\n";
+  const auto fact = [&](const std::string& name, const std::string& value) {
+    html += "<div><dt>" + name + "</dt><dd>" + (value.empty() ? "–" : escaped(value)) + "</dd></div>\n";
+  };
+  fact("Seeds", seeds_text(study));
+  if (!study.conditions.empty()) fact("Not the scenarios' own", study.conditions);
+  fact("DDS", study.medium);
+  fact("Skein", study.version);
+  return html + "<div class=\"long\"><dt>Programs</dt><dd><code>" + escaped(study.programs.substr(0, 12)) +
+         "</code></dd></div>\n</dl>\n";
 }
 
-std::string problems(const Study& study) {
+std::string problem_notes(const StudyReport& report) {
+  const Study& study = report.study;
   if (!study.any_problem()) return "";
-  std::string html = "<h2>Flights that did not go well</h2>\n<ul>\n";
+  std::string html = "<div class=\"note lost\"><b>Flights that did not go well</b><ul>\n";
   for (const FlightEntry& flight : study.flights) {
     if (flight.problem.empty()) continue;
-    html += fmt::format("<li>{}, {}, seed {}: {}{}</li>\n", escaped(study.scenarios[flight.scenario]),
+    html += fmt::format("<li>{}, {}, seed {}: {}{}</li>\n", escaped(report.titles[flight.scenario]),
                         escaped(study.planners[flight.planner]), flight.seed, escaped(flight.problem),
                         flight.figures ? " (its result counts)" : " (does not count)");
   }
-  return html + "</ul>\n";
+  return html + "</ul></div>\n";
 }
 
-std::string explanations(const Study& study) {
-  std::string html = "<h2>What the columns say</h2>\n<ul>\n";
+std::string study_head(const StudyReport& report) {
+  const Study& study = report.study;
+  return fmt::format("<header><p class=\"soft over\">Skein {}</p>\n<h1>{} <span class=\"by\">in</span> {}</h1>\n",
+                     study.contest ? "contest" : "comparison",
+                     escaped(shortened(joined(study.planners, " · "), kLongestTitle)),
+                     escaped(shortened(joined(report.titles, " · "), kLongestTitle))) +
+         study_cards(study) + study_facts(study) + "<pre class=\"command\">" + escaped(study.command_line) +
+         "</pre>\n" + problem_notes(report) + "</header>\n";
+}
+
+std::string explanations() {
+  std::string html = "<section id=\"words\"><h2>What the columns say</h2>\n<ul class=\"columns\">\n";
   for (const StudyColumn& column : study_columns()) {
     if (column.in_report) html += "<li><b>" + escaped(column.title) + "</b>: " + escaped(column.help) + "</li>\n";
   }
-  html += "</ul>\n<h2>How to make this page again</h2>\n<pre>" + escaped(study.command_line) + "</pre>\n";
+  return html + "</ul></section>\n";
+}
+
+std::string file_links(const StudyReport& report) {
+  std::vector<std::string> files = {"flights.csv", "summary.csv"};
+  if (report.study.contest) files.push_back("totals.csv");
+  files.push_back(kTexTable);
+  for (const StudyFigure& figure : report.figures) files.push_back(std::string(kFiguresFolder) + "/" + figure.file);
+  std::string html =
+      "<section id=\"files\"><h2>Files for papers and programs</h2>\n<p>All figures of all flights, medians, a table "
+      "for "
+      "LaTeX (booktabs), and each drawing of this page as an SVG file, black on white.</p>\n<ul class=\"columns "
+      "files\">\n";
+  for (const std::string& file : files) html += fmt::format("<li><a href=\"{0}\">{0}</a></li>\n", escaped(file));
+  return html + "</ul></section>\n";
+}
+
+/// A median over the flights that count, of what they tell of this machine.
+std::optional<double> of_flights(const Study& study, std::optional<double> FlightFigures::*figure) {
+  std::vector<double> values;
+  for (const FlightEntry& flight : study.flights) {
+    if (flight.figures && (*flight.figures).*figure) values.push_back(*((*flight.figures).*figure));
+  }
+  return values.empty() ? std::nullopt : std::optional(spread_of(values).median);
+}
+
+std::string study_footer(const Study& study) {
+  const std::string at_once = study.jobs == 1
+                                  ? std::string("one flight at a time")
+                                  : "up to " + plural(static_cast<std::size_t>(study.jobs), "flight") + " at once";
+  std::string html = "<footer class=\"soft\">\n";
+  if (!study.machine.empty())
+    html += "<p id=\"machine\">Written on " + escaped(study.machine) + "; ";
+  else
+    html += "<p id=\"machine\">";
   html += fmt::format(
-      "<p class=\"soft\">Skein {}, flown in or over {}, programs {}. The same command with the same build gives the "
-      "same flights, "
-      "bit by "
-      "bit, whatever the machine and however many fly at once. Only CPU and times real time are this machine's; {}. "
-      "All figures of all flights: flights.csv; medians: summary.csv{}.</p>\n",
-      escaped(study.version), escaped(study.medium), escaped(study.programs.substr(0, 12)),
-      study.jobs == 1 ? std::string("one flight at a time")
-                      : "up to " + plural(static_cast<std::size_t>(study.jobs), "flight") + " at once",
-      study.contest ? "; totals: totals.csv" : "");
-  return html;
+      "{}. A flight kept {} processors busy and took {} MB of memory (medians). Skein {}, flown in or "
+      "over {}.</p>\n",
+      at_once, fixed(of_flights(study, &FlightFigures::processors), 2),
+      fixed(of_flights(study, &FlightFigures::memory_mb), 0), escaped(study.version), escaped(study.medium));
+  return html +
+         "<p>The same command with the same build gives the same flights, bit by bit, whatever the machine and however "
+         "many fly at once. Only CPU and times real time are this machine's.</p></footer>\n";
 }
 
 }  // namespace
 
-std::string study_page(const Study& study, const StudyPictures& pictures) {
+StudyReport::StudyReport(const Study& of, StudyPictures drawn)
+    : study(of),
+      pictures(std::move(drawn)),
+      titles(scene_titles(of.scenarios)),
+      pairs(planner_pairs(of)),
+      figures(study_figures(of, pictures, pairs, titles)) {}
+
+std::string study_page(const StudyReport& report) {
+  const Study& study = report.study;
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src &#39;none&#39;; style-src "
+      "&#39;unsafe-inline&#39;; base-uri &#39;none&#39;; form-action &#39;none&#39;\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>Skein: " +
-      escaped(joined(study.planners)) + "</title>\n<style>\n" + std::string(study_style()) +
-      "</style>\n</head>\n<body>\n<main>\n";
-  html += introduction(study);
-  if (study.contest) html += ranking(study);
-  html += box_plots(study);
-  for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
-    html += "<h2>" + escaped(study.scenarios[s]) + "</h2>\n" + scene_table(study, s) + drawings(study, s, pictures);
-  }
-  return html + problems(study) + explanations(study) + "</main>\n</body>\n</html>\n";
+      escaped(joined(study.planners)) + "</title>\n<style>\n" + std::string(base_style()) +
+      std::string(drawing_style()) + std::string(run_style()) + kStudyStyle +
+      "</style>\n</head>\n<body class=\"run study\">\n<main>\n";
+  html += study_head(report);
+  if (study.contest) html += ranking_section(report);
+  html += overview_section(report) + spread_section(report) + pairs_section(report) + delivery_section(report);
+  for (std::size_t s = 0; s < study.scenarios.size(); ++s) html += scene_section(report, s);
+  return html + explanations() + file_links(report) + study_footer(study) + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace skein::cli

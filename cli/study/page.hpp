@@ -1,19 +1,31 @@
-// The report of a study as one HTML page: ranking, tables, box plots and drawings of the best flights. It asks for
-// nothing from elsewhere. Pure; any thread.
+// The report of a study as one HTML page: ranking, tables, plots and drawings of the best flights, links to the pages
+// of its flights. It asks for nothing from elsewhere, and its links are relative: the folder can be moved. Pure; any
+// thread.
 #pragma once
 
-#include <map>
 #include <string>
-#include <utility>
+#include <vector>
 
-#include "cli/study/figures.hpp"
-#include "cli/study/flight_picture.hpp"
+#include "cli/study/drawings.hpp"
 
 namespace skein::cli {
 
-/// Of the best flights, by scenario and planner.
-using StudyPictures = std::map<std::pair<std::size_t, std::size_t>, FlightPicture>;
+/// All that the page and the files beside it show.
+struct StudyReport {
+  /// @param study  must live as long as this.
+  StudyReport(const Study& study, StudyPictures pictures);
 
-std::string study_page(const Study& study, const StudyPictures& pictures);
+  const Study& study;
+  StudyPictures pictures;
+  std::vector<std::string> titles;  ///< of the scenes
+  std::vector<PlannerPair> pairs;
+  std::vector<StudyFigure> figures;
+};
+
+/// Where the figures and the LaTeX table are, from the study's folder.
+inline constexpr const char* kFiguresFolder = "figures";
+inline constexpr const char* kTexTable = "table.tex";
+
+std::string study_page(const StudyReport& report);
 
 }  // namespace skein::cli

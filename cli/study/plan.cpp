@@ -75,6 +75,7 @@ RunOptions run_options(const StudyOptions& options, const std::string& scenario,
   run.dds = options.dds.value_or(run.dds);
   run.agent = options.agent;
   run.network = options.network;
+  run.record = options.record;
   return run;
 }
 

@@ -105,6 +105,17 @@ std::vector<std::string> planner_labels(const std::vector<std::string>& planners
   return labels;
 }
 
+std::vector<std::string> scene_titles(const std::vector<std::string>& scenarios) {
+  std::vector<std::string> titles;
+  for (const std::string& scenario : scenarios) {
+    const auto name_of = [](const std::string& text) { return fs::path(text).stem().string(); };
+    const auto is_alike = [&](const std::string& other) { return name_of(other) == name_of(scenario); };
+    titles.push_back(std::ranges::count_if(scenarios, is_alike) > 1 || name_of(scenario).empty() ? scenario
+                                                                                                 : name_of(scenario));
+  }
+  return titles;
+}
+
 std::vector<std::string> folder_names(const std::vector<std::string>& texts) {
   std::vector<std::string> names;
   for (const std::string& text : texts) {

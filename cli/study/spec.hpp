@@ -21,6 +21,9 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text);
 /// names, no more than tell it from the other agents ("kios@agent"; "kios@a/agent" and "star@b/agent").
 std::vector<std::string> planner_labels(const std::vector<std::string>& planners);
 
+/// What a study calls its scenes: by the name of the file, or as it is written where two have the same name.
+std::vector<std::string> scene_titles(const std::vector<std::string>& scenarios);
+
 /// A folder's name for each text (planner_label), with "-2", "-3"... after those that came before.
 std::vector<std::string> folder_names(const std::vector<std::string>& texts);
 

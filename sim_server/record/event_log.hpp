@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scenario.hpp"
@@ -17,6 +18,12 @@
 #include "sim_server/simulation.hpp"
 
 namespace skein::sim {
+
+struct LoggedEvent {
+  std::uint64_t step = 0;
+  Tick tick = 0;
+  std::string event, subject, object;
+};
 
 class EventLog {
  public:
@@ -28,12 +35,15 @@ class EventLog {
   /// The station's acknowledgement has reached the UAV.
   void add_release(const Simulation& simulation, const std::string& uav, std::uint64_t capture);
   StreamFile& file() { return out_; }
+  /// Who is told of each event, too.
+  void tell(std::function<void(const LoggedEvent&)> listener) { listener_ = std::move(listener); }
 
  private:
   void add(const Simulation& simulation, const char* event, const std::string& subject, const std::string& object);
 
   const Scenario& scenario_;
   StreamFile out_;
+  std::function<void(const LoggedEvent&)> listener_;
   std::vector<std::string> members_;
   std::vector<bool> present_;  ///< by members_
   Links links_;                ///< as last told

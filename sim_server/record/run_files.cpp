@@ -84,8 +84,11 @@ void RunFiles::write_scene(const Scene& scene) {
     json["points"].push_back(
         {point.p_W.x(), point.p_W.y(), point.p_W.z(), point.n_W.x(), point.n_W.y(), point.n_W.z()});
   }
-  const std::string trouble = write_if_possible(folder_ / run_folder::kScene, json.dump());
-  if (!trouble.empty()) unwritten_.push_back(trouble);
+  note_unwritten(write_if_possible(folder_ / run_folder::kScene, json.dump()));
+}
+
+void RunFiles::note_unwritten(std::string trouble) {
+  if (!trouble.empty()) unwritten_.push_back(std::move(trouble));
 }
 
 void RunFiles::add_step(const Simulation& simulation, const StepDigest& digest) {
@@ -141,7 +144,8 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
                          .warnings = summary.warnings,
                          .malformed = summary.malformed,
                          .unsent = summary.unsent,
-                         .unwritten = unwritten_};
+                         .unwritten = unwritten_,
+                         .differences = summary.differences};
   if (mission.start_tick()) {
     report.mission_time_s = seconds(mission.end_tick().value_or(simulation.tick()) - *mission.start_tick());
   }

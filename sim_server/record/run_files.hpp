@@ -39,6 +39,7 @@ struct RunSummary {
   std::uint64_t unsent = 0;                     ///< samples that could not be sent
   TimingReport timing;
   std::vector<FaultReport> faults;
+  std::optional<std::vector<std::string>> differences;  ///< from a run that is flown again
 };
 
 /// Who, with what, when and where: a line for the log.
@@ -56,6 +57,8 @@ class RunFiles {
   EventLog& events() { return events_; }
   /// One exchange: a line of digests.csv, and every 100 ms a line per UAV of trajectories.csv.
   void add_step(const Simulation& simulation, const StepDigest& digest);
+  /// Another file that the disk refused, a sentence.
+  void note_unwritten(std::string trouble);
   void write_report(const Simulation& simulation, const RunSummary& summary, StatusPipe& status);
 
  private:

@@ -48,6 +48,7 @@ std::string with_id(std::string_view pattern, const std::string& id) {
 std::string writer(topics::Direction direction) {
   switch (direction) {
     case topics::Direction::to_agent:
+    case topics::Direction::to_viewer:
       return "sim_server";
     case topics::Direction::from_agent:
       return "the agent";
@@ -80,6 +81,7 @@ TEST(TopicsPage, HasEveryTopicAndNoOther) {
   };
   for (const topics::TopicInfo& topic : topics::uav_topics()) expect_row(topic, "{id}");
   for (const topics::TopicInfo& topic : topics::gcs_topics()) expect_row(topic, "gcs");
+  for (const topics::TopicInfo& topic : topics::viewer_topics()) expect_row(topic, "");
   for (const topics::TopicInfo& topic : topics::lockstep_topics()) expect_row(topic, "");
   const std::string captures = captures_topic("{id}"), acks = captures_ack_topic("{id}"), plan(kPlanTopic);
   for (const std::string& name : {captures, arrival_topic(captures, "gcs"), acks, arrival_topic(acks, "{id}"), plan,

@@ -1,5 +1,7 @@
 // `skein contest` and `skein compare` with real fleets, as short as they can be: resumed, and one or two at a time.
 #include <csignal>
+#include <regex>
+#include <set>
 #include <thread>
 
 #include "fleet_fixture.hpp"
@@ -18,6 +20,20 @@ class ContestTest : public FleetTest {
         "--out",   folder() / out};
   }
   std::string file(const std::string& out, const std::string& name) const { return text_of(folder() / out / name); }
+
+  /// Every link of a study's page, and each flight has one to its own page.
+  void expect_links_lead_somewhere(const std::string& out, const std::string& page) const {
+    const std::regex link("href=\"([^\"]*)\"");
+    std::set<std::string> pages, figures;
+    for (std::sregex_iterator it(page.begin(), page.end(), link), end; it != end; ++it) {
+      const std::string target = it->str(1);
+      EXPECT_TRUE(std::filesystem::is_regular_file(folder() / out / target)) << target;
+      if (target.ends_with("/report.html")) pages.insert(target);
+      if (target.ends_with(".svg")) figures.insert(target);
+    }
+    EXPECT_EQ(pages.size(), read_csv(folder() / out / "flights.csv").size());
+    EXPECT_EQ(figures.size(), 6u) << "totals, scores, curves, differences, and the best flight of either planner";
+  }
 };
 
 /// Scores and digests: what does not depend on the machine.
@@ -51,8 +67,13 @@ TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
     EXPECT_GE(std::stod(flight.at("attainable_percent")), 0.0) << "the oracle was asked";
   }
   const std::string page = file("one", "report.html");
-  EXPECT_NE(page.find("points detected"), std::string::npos);
-  EXPECT_NE(page.find("class=\"track"), std::string::npos);
+  for (const char* words :
+       {"points detected", "class=\"track", "class=\"band", "n too small", "Written on", "UAV by UAV"}) {
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
+  EXPECT_NE(page.find("<h2>scenario</h2>"), std::string::npos) << "scenes are called by their names, not their paths";
+  expect_links_lead_somewhere("one", page);
+  EXPECT_NE(file("one", "table.tex").find("\\bottomrule"), std::string::npos);
 
   // A flight that was stopped halfway leaves no mark; it alone is flown again, to the same digest.
   std::filesystem::remove(folder() / "one/flights/scenario/patrol/seed-1/flight.json");
@@ -62,6 +83,12 @@ TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
   const auto repeated = read_csv(folder() / "one" / "flights.csv");
   ASSERT_EQ(repeated.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(repeated[i].at("digest"), flights[i].at("digest"));
+
+  // A flight may lose its page, or be of a time without: it is listed without a link.
+  std::filesystem::remove(folder() / "one/flights/scenario/patrol/seed-1/report.html");
+  ASSERT_EQ(skein(contest("one")).wait().code, 0);
+  EXPECT_EQ(file("one", "report.html").find("patrol/seed-1/report.html"), std::string::npos);
+  EXPECT_NE(file("one", "report.html").find("patrol/seed-2/report.html"), std::string::npos);
 }
 
 TEST_F(ContestTest, TwoAtOnceFlyTheSame) {

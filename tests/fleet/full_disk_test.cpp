@@ -5,6 +5,7 @@
 #include <random>
 
 #include "fleet_fixture.hpp"
+#include "mcap/reader.hpp"
 #include "small_scene.hpp"
 
 namespace skein::test {
@@ -67,6 +68,12 @@ TEST_F(FullDisk, ARunThatFillsItHasItsResultAllTheSame) {
     EXPECT_EQ(run->out().find("warning: files are missing or cut short") != std::string::npos, run != runs[0]);
     const std::string digests = text_of(run->dir() / "digests.csv");
     EXPECT_TRUE(digests.empty() || digests.back() == '\n') << "a line is torn";
+    for (const auto& entry : fs::directory_iterator(run->dir())) {
+      if (entry.path().extension() != ".mcap") continue;
+      int messages = 0;
+      mcap::Reader(entry.path()).messages([&](const mcap::Channel&, const mcap::Message&) { ++messages; });
+      EXPECT_GT(messages, 0) << entry.path();
+    }
   }
 }
 

@@ -22,6 +22,7 @@ const std::vector<std::string> kMeasuredOfUavs = {"planner_cpu_s", "planner_cpu_
 
 /// A result without what differs from flight to flight, or from merge to launcher.
 Json comparable(Json result) {
+  result.erase("command");  // nobody typed one for what ran without the launcher
   for (const auto* keys : {&kOnlyTheLaunchers, &kMeasured}) {
     for (const std::string& key : *keys) result.erase(key);
   }

@@ -19,8 +19,8 @@ constexpr double kAway_s = 5.0;
 class Unattended : public ByHand, public testing::WithParamInterface<std::string> {
  protected:
   /// For ever: who is not noticed to be dead holds the run up.
-  Options kept(Arguments more = {}, const std::string& duration_s = "60") const {
-    more.insert(more.end(), {"--duration", duration_s, "--keep", "--dds", GetParam(), "--lease", "3"});
+  Options kept(Arguments more = {}, const std::string& duration_s = "60", const std::string& lease_s = "3") const {
+    more.insert(more.end(), {"--duration", duration_s, "--keep", "--dds", GetParam(), "--lease", lease_s});
     return {.all = std::move(more), .server = {"--agent-timeout", "0", "--startup-timeout", "0"}};
   }
   /// The process that does the work.
@@ -164,7 +164,7 @@ TEST_P(Unattended, TwoRunsInOneFolderAreToldApart) {
 TEST_P(Unattended, WhoHangsTouchesItsFileNoMore) {
   namespace fs = std::filesystem;
   const std::string hangs = "uav_agent-jurong", works = "uav_agent-changi";
-  const Options options = kept({}, "600");
+  const Options options = kept({}, "600", "60");  // who stands still that long is not dropped, on any machine
   std::map<std::string, Arguments> with_health;
   for (const std::string& name : {hangs, works}) {
     with_health[name] = command(name, options);

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/testing/xml_check.hpp"
 #include "fleet_fixture.hpp"
+#include "report/testing/xml_check.hpp"
 #include "results_page.hpp"
 
 namespace skein::test {
@@ -115,7 +115,7 @@ TEST_F(FaultPage, DoesWhatItSays) {
   for (const auto& run : fs::directory_iterator(folder() / "runs" / "faults")) expect_documented_columns(run.path());
   const std::string report = text_of(folder() / "faults.xml");  // the page's CI job
   ASSERT_FALSE(report.empty());
-  const auto elements = cli::xml_elements(report);
+  const auto elements = report::xml_elements(report);
   EXPECT_EQ(elements.front().name, "testsuites");
   EXPECT_EQ(elements.front().attributes.at("failures"), "0");
   EXPECT_EQ(std::count_if(elements.begin(), elements.end(), [](const auto& e) { return e.name == "testcase"; }), 4);

@@ -15,8 +15,8 @@ namespace skein::layers {
 using Tree = std::vector<SourceFile>;
 using Violations = std::vector<std::string>;
 
-/// core <- process, idl <- bus <- applications <- one_process, and no application includes another. tests/ may
-/// include everything, and only test code may include tests/.
+/// core <- process, idl, mcap <- bus <- recording <- applications <- one_process, and no application includes another.
+/// tests/ may include everything, and only test code may include tests/.
 Violations check_layers(const Tree& tree);
 
 /// Inside an application, folders look one way: what a folder includes does not include it, neither directly nor by way

@@ -26,7 +26,8 @@ bool is_cpp_file(const fs::path& file) {
 }
 
 bool is_left_out(const std::string& folder) {
-  return (folder.starts_with(".") && folder != ".ci") || folder.starts_with("build") || folder.starts_with("runs");
+  return (folder.starts_with(".") && folder != ".ci") || folder.starts_with("build") || folder.starts_with("runs") ||
+         folder == "node_modules";
 }
 
 std::vector<Include> read_includes(const fs::path& root, const SourceFile& file) {

@@ -114,7 +114,7 @@ TEST_F(OneProcess, EachHasALogOfItsOwn) {
   const std::string log = text_of(run.dir() / "uav_agent-jurong.log");
   EXPECT_TRUE(says(log, "nasty begins")) << "through printf: " << log;
   EXPECT_TRUE(says(log, "nasty plans")) << "through std::cerr: " << log;
-  EXPECT_TRUE(says(log, "[uav_agent] info nasty none")) << log;
+  EXPECT_TRUE(says(log, "] info nasty none")) << log;
   for (const auto& entry : std::filesystem::directory_iterator(run.dir())) {
     if (entry.path().extension() != ".log" || entry.path().stem() == "uav_agent-jurong") continue;
     EXPECT_FALSE(says(text_of(entry.path()), "nasty")) << entry.path();

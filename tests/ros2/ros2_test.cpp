@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
 #include "core/topics.hpp"
-#include "fleet_fixture.hpp"
+#include "ros2_fixture.hpp"
 
 namespace skein::test {
 namespace {
@@ -15,49 +14,12 @@ constexpr double kExchange_s = 0.05;
 const std::string kUav = "jurong";  // an explorer, with a LiDAR
 const Arguments kFlight = {"towers", "--stop-at", "40", "--duration", "60"};
 
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-class Ros2 : public FleetTest, public testing::WithParamInterface<std::string> {
+class Ros2 : public Ros2Test, public testing::WithParamInterface<std::string> {
  protected:
-  void SetUp() override {
-    const char* folder = std::getenv("SKEIN_ROS2");
-    if (folder == nullptr || *folder == '\0') GTEST_SKIP() << "no ROS 2: SKEIN_ROS2 is not set";
-    ChildProcess& unpack = start_program(
-        "unpack", {"/bin/sh", "-c", "exec 9>\"$2.lock\"; flock 9; test -e \"$2/env.sh\" || \"$1/unpack.sh\" \"$2\"",
-                   "sh", folder, SKEIN_ROS2_FOLDER});
-    ASSERT_EQ(unpack.wait().code, 0) << unpack.err();
-    ChildProcess& probe = start_node("probe", "cyclonedds", 1, "", "python3 -c 'import rclpy, numpy, yaml'");
-    if (probe.wait().code != 0) GTEST_SKIP() << "no ROS 2: its packages are missing (packages.txt): " << probe.err();
-  }
-
-  /// A shell in which ROS 2 runs, with default settings unless `localhost`.
-  ChildProcess& start_node(const std::string& name, const std::string& middleware, int domain,
-                           const std::string& localhost, const std::string& command) {
-    const std::string shell = std::string(". ") + SKEIN_ROS2_FOLDER + "/env.sh " + middleware + " " +
-                              std::to_string(domain) + " " + localhost + "; exec " + command;
-    return start_program(name, {"/bin/bash", "-c", shell}, {{"ROS_LOG_DIR", folder() / "ros"}});
-  }
-
-  std::string file(const std::string& name) const { return folder() / (name + ".json"); }
-
   ChildProcess& start_listener(const std::string& name, const std::string& middleware, int domain,
                                const std::string& localhost = "") {
     return start_node(name, middleware, domain, localhost,
                       "python3 " SKEIN_ROS2_NODES "/listener.py " + kUav + " " + file(name));
-  }
-
-  bool ready(const std::string& name) const { return std::filesystem::exists(file(name) + ".ready"); }
-
-  /// The agent for which the fleet has waited, by the command that the launcher printed.
-  ChildProcess& start_agent(const SkeinRun& run) {
-    const std::string text = run.err(), gdb = "gdb --args ";
-    const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
-    return start_program(
-        "agent", {"/bin/sh", "-c",
-                  "exec env " + text.substr(begin, at - begin) + text.substr(at + gdb.size(), end - at - gdb.size())});
   }
 
   /// Nobody waits for a listener: a writer may match it when the fleet flies already. From then on it heard everything,

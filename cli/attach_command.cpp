@@ -1,0 +1,120 @@
+#include "cli/attach_command.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+#include "cli/run/debuggee.hpp"
+#include "cli/run/fleets.hpp"
+#include "cli/run/proc_table.hpp"
+#include "core/suggestion.hpp"
+#include "core/text.hpp"
+#include "core/types.hpp"
+#include "process/program.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+std::string shown(const std::filesystem::path& dir) {
+  const std::filesystem::path nearby = std::filesystem::proximate(dir);
+  return nearby.string().starts_with("..") ? dir : nearby;
+}
+
+RunningFleet chosen_fleet(const std::optional<std::filesystem::path>& dir) {
+  std::vector<RunningFleet> fleets = running_fleets(::geteuid());
+  std::vector<std::string> names;
+  for (const RunningFleet& fleet : fleets) names.push_back(shown(fleet.dir));
+  if (dir) {
+    std::erase_if(fleets, [&](const RunningFleet& fleet) {
+      std::error_code gone;
+      return !std::filesystem::equivalent(fleet.dir, *dir, gone);
+    });
+    if (fleets.empty()) throw InputError("--run " + dir->string() + ": no fleet writes there; `skein ps` lists them");
+  }
+  if (fleets.empty()) throw InputError("attach: no fleet of yours is flying");
+  if (fleets.size() > 1)
+    throw InputError("attach: say which fleet, --run " + fmt::format("{}", fmt::join(names, " or ")));
+  return fleets.front();
+}
+
+pid_t chosen_process(const RunningFleet& fleet, const std::string& member) {
+  std::vector<std::string> known;
+  for (const auto& [program, pid] : fleet.programs) {
+    const std::string name = programs::is_agent(program) ? programs::member_name(program) : program;
+    if (name == member) return pid;
+    known.push_back(name);
+  }
+  throw InputError("attach: no program of " + member + " runs there; " + suggestion(member, known));
+}
+
+/// How long the fleet waits for who stands in a debugger.
+std::string patience_text(const RunningFleet& fleet, const std::string& member) {
+  const bool server = member == programs::kSimServer;
+  const bool timed = fleet.agent_timeout_s > 0.0 && !server;
+  const double limit_s = timed ? std::min(fleet.agent_timeout_s, fleet.lease_s) : fleet.lease_s;
+  return fmt::format("the fleet waits for {} up to {} s of wall time at a stop, then {}; fly it with {} for longer",
+                     member, shortest(limit_s), server ? "ends" : "goes on without it",
+                     timed ? "--agent-timeout 3600" : "--debug");
+}
+
+/// The tool's command line, the process at its end.
+std::vector<std::string> tool_words(const std::string& how, pid_t pid, const std::string& why) {
+  const std::string process = std::to_string(pid);
+  std::vector<std::string> words;
+  if (how == "gdb") {
+    words = {"gdb", "-q"};
+    const std::vector<std::string> printers = printer_options();
+    words.insert(words.end(), printers.begin(), printers.end());
+    words.push_back("-p");
+  } else if (const auto port = gdbserver_port(how)) {
+    words = {"gdbserver", "--once", "--attach", "127.0.0.1:" + std::to_string(*port)};
+  } else {
+    words = words_of_command(how);
+  }
+  if (words.empty()) throw InputError(why + ": say with what: gdb, gdbserver:PORT or a command");
+  words[0] = tool_file(words[0], why);
+  words.push_back(process);
+  return words;
+}
+
+}  // namespace
+
+int list_fleets(const Console& console) {
+  const std::vector<RunningFleet> fleets = running_fleets(::geteuid());
+  if (fleets.empty()) console.err << "no fleet of yours is flying" << std::endl;
+  for (const RunningFleet& fleet : fleets) {
+    const auto time_s = simulated_s(fleet);
+    console.out << shown(fleet.dir) << ": " << std::filesystem::path(fleet.scenario).stem().string()
+                << (time_s ? fmt::format(", simulated {:.0f} s", *time_s) : ", starts") << ", DDS domains from "
+                << fleet.base_domain << (fleet.launcher ? fmt::format(", launcher {}", *fleet.launcher) : "") << '\n';
+    for (const auto& [program, pid] : fleet.programs) {
+      console.out << fmt::format("  {:<24} {:>8}  {}\n", program, pid, state_text(pid));
+    }
+  }
+  console.out << std::flush;
+  return kExitDone;
+}
+
+int attach_to(const AttachOptions& options, const Console& console) {
+  const std::size_t cut = options.what.find('=');
+  const std::string member = options.what.substr(0, cut);
+  const std::string how = cut == std::string::npos ? "gdb" : options.what.substr(cut + 1);
+  const RunningFleet fleet = chosen_fleet(options.run);
+  const pid_t pid = chosen_process(fleet, member);
+  const std::string why = "attach " + options.what;
+  if (tracer_of(pid) != 0) throw InputError(why + ": it is already " + state_text(pid));
+  std::vector<std::string> words = tool_words(how, pid, why);
+  console.err << patience_text(fleet, member) << std::endl;
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  ::execv(argv[0], argv.data());
+  throw std::system_error(errno, std::generic_category(), words[0]);
+}
+
+}  // namespace skein::cli

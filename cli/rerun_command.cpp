@@ -1,0 +1,129 @@
+#include "cli/rerun_command.hpp"
+
+#include <algorithm>
+
+#include "cli/options.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run_command.hpp"
+#include "core/text.hpp"
+#include "mcap/reader.hpp"
+#include "process/json_text.hpp"
+#include "process/program.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Json result_of(const fs::path& run) {
+  Json result = read_json(run / run_folder::kResult);
+  if (!result.is_object()) throw InputError(run.string() + ": there is no " + run_folder::kResult + " in it");
+  return result;
+}
+
+/// As the user gave them then. What belongs to that run alone, where it went and who debugged, is left out.
+RunOptions options_of(const fs::path& run, const Json& result) {
+  const std::string command = value_or(result, "command", "").get<std::string>();
+  if (command.empty()) {
+    throw InputError(run.string() + ": its result does not say how it was started, so it cannot be flown again");
+  }
+  std::vector<std::string> words = shell_words(command);
+  words.erase(words.begin());
+  const Command parsed = parse_command_line(words);
+  const auto* flown = std::get_if<RunOptions>(&parsed);
+  const auto* in_containers = std::get_if<ComposeOptions>(&parsed);
+  if (flown == nullptr && in_containers == nullptr) throw InputError(run.string() + ": it was no run: " + command);
+  RunOptions options = flown != nullptr ? *flown : in_containers->run;
+  options.out.reset();
+  options.debug.clear();
+  options.log.clear();
+  options.break_at_s.reset();
+  options.break_on.reset();
+  options.break_from.reset();
+  options.domain.reset();
+  options.network.reset();
+  options.secure = options.force = options.one_process = false;
+  options.record = "run";
+  return options;
+}
+
+ReplayOf replay_of(const fs::path& run) {
+  const fs::path recording = fs::absolute(run / run_folder::kRecording);
+  if (!fs::exists(recording)) {
+    throw InputError(run.string() + ": there is no " + run_folder::kRecording + " in it (`skein run` leaves one)");
+  }
+  if (!mcap::Reader(recording).complete()) {
+    throw InputError(recording.string() + ": the recording is cut off; only a whole one can be flown again");
+  }
+  return {recording, std::nullopt, {}};
+}
+
+/// In one process where that can be: it is sooner there, and the result is the same.
+void choose_processes(const Reflight& reflight, RunOptions& options) {
+  options.dds = reflight.dds.value_or(options.dds);
+  options.debug = reflight.debug;
+  options.agent = reflight.agent ? reflight.agent : options.agent;
+  options.out = reflight.out;
+  options.force = reflight.force;
+  if (reflight.dds || !reflight.debug.empty()) return;
+  options.one_process = !needs_processes(plan_fleet(options, program_dir())).has_value();
+}
+
+/// The digest of then, or what became of it, for people.
+void tell_digest(const Json& then, const Json& now, const Console& console) {
+  if (!then["digest"].is_string() || !now["digest"].is_string() || then["digest"] == now["digest"]) return;
+  console.out << "the world itself is another one: its digest was " << then["digest"].get<std::string>() << ", and is "
+              << now["digest"].get<std::string>() << "; another version, build or scenario file?\n";
+}
+
+std::vector<std::string> differences_of(const Json& result) {
+  std::vector<std::string> texts;
+  for (const Json& text : value_or(result, "differences", Json::array())) {
+    if (text.is_string()) texts.push_back(text.get<std::string>());
+  }
+  return texts;
+}
+
+}  // namespace
+
+int rerun(const RerunOptions& options, const Console& console) {
+  const Json then = result_of(options.reflight.run);
+  RunOptions run = options_of(options.reflight.run, then);
+  run.replay = replay_of(options.reflight.run);
+  run.replay->only = {options.uav};
+  if (options.planner) run.planner += "," + options.uav + "=" + *options.planner;
+  run.attainable = run.report = false;
+  choose_processes(options.reflight, run);
+  if (!run.out) run.out = options.reflight.run / ("rerun-" + options.uav);
+  const int code = run_fleet(run, console);
+  if (code != kExitDone) return code;
+  const Json now = result_of(*run.out);
+  tell_digest(then, now, console);
+  const std::vector<std::string> differences = differences_of(now);
+  for (const std::string& difference : differences) console.out << difference << '\n';
+  if (differences.empty()) console.out << options.uav << " says what it said then\n";
+  console.out << std::flush;
+  return differences.empty() && then["digest"] == now["digest"] ? kExitDone : kExitCheckFailed;
+}
+
+int fork_run(const ForkOptions& options, const Console& console) {
+  const Json then = result_of(options.reflight.run);
+  RunOptions run = options_of(options.reflight.run, then);
+  run.replay = replay_of(options.reflight.run);
+  run.replay->until_s = options.at_s;
+  if (options.planner) run.planner += "," + *options.planner;
+  choose_processes(options.reflight, run);
+  if (!run.out) run.out = options.reflight.run / "fork";
+  const int code = run_fleet(run, console);
+  const Json now = read_json(*run.out / run_folder::kResult);
+  if (!now.is_object()) return code;
+  for (const std::string& difference : differences_of(now)) console.out << difference << '\n';
+  const auto score = [](const Json& result) { return value_or(result, "score", 0.0).get<double>(); };
+  console.out << "score " << score(now) << ", " << score(then) << " in the run that it was\n";
+  if (then["digest"] == now["digest"] && then["digest"].is_string()) console.out << "nothing came out otherwise\n";
+  console.out << std::flush;
+  return code;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,56 @@
+#include "cli/run/break_event.hpp"
+
+#include <algorithm>
+
+#include "core/types.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+void keep_first(std::optional<double>& first, const Json& time_s) {
+  if (time_s.is_number()) first = std::min(first.value_or(time_s.get<double>()), time_s.get<double>());
+}
+
+}  // namespace
+
+std::optional<double> event_time_s(const Json& result, const std::string& member, const std::string& what) {
+  std::optional<double> first;
+  const auto entries = [&](const char* key) { return value_or(result, key, Json::array()); };
+  const auto names = [&](const Json& entry, const char* key) { return value_or(entry, key, "") == member; };
+  const auto time_of = [](const Json& entry, const char* key) { return value_or(entry, key, Json()); };
+  if (what == "collision") {
+    for (const Json& entry : entries("collisions")) {
+      if (names(entry, "uav") || names(entry, "with")) keep_first(first, time_of(entry, "time_s"));
+    }
+  } else if (what == "lost") {
+    for (const Json& entry : entries("lost_members")) {
+      if (names(entry, "member")) keep_first(first, time_of(entry, "time_s"));
+    }
+  } else {
+    for (const Json& entry : entries("faults")) {
+      const Json began = time_of(entry, "began_step"), period_s = time_of(result, "exchange_period_s");
+      if (!names(entry, "target") || !began.is_number() || !period_s.is_number()) continue;
+      keep_first(first, began.get<double>() * period_s.get<double>());
+    }
+  }
+  return first;
+}
+
+Json result_of_same_flight(const std::filesystem::path& run, const FleetPlan& plan) {
+  const Json result = read_json(run / run_folder::kResult);
+  const std::string why = "--break-from " + run.string() + ": ";
+  if (!result.is_object()) throw InputError(why + "there is no " + run_folder::kResult);
+  const auto require = [&](bool same, const std::string& what) {
+    if (!same) throw InputError(why + "it was flown with another " + what);
+  };
+  require(value_or(result, "scenario", "") == plan.options.scenario, "scenario");
+  require(value_or(result, "seed", Json()) == Json(plan.options.seed), "seed");
+  const Json flown = value_or(result, "planner", Json::object());
+  for (const UavPlanner& planner : plan.planners) {
+    require(value_or(flown, planner.uav.c_str(), "") == written(planner), "planner of " + planner.uav);
+  }
+  return result;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,192 @@
+#include "cli/run/debuggee.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "core/config_files.hpp"
+#include "core/text.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+using How = Debuggee::How;
+using Words = std::vector<std::string>;
+
+constexpr int kHighestPort = 65535;
+
+/// Debian's package of a tool, where that is called otherwise.
+std::string package_of(const std::string& tool) {
+  static const std::map<std::string, std::string> others = {{"perf", "linux-perf"}};
+  const auto found = others.find(tool);
+  return found == others.end() ? tool : found->second;
+}
+
+/// Empty: it is not there.
+std::string file_of(const std::string& tool) {
+  const auto is_program = [](const std::filesystem::path& file) {
+    return ::access(file.c_str(), X_OK) == 0 && std::filesystem::is_regular_file(file);
+  };
+  if (tool.find('/') != std::string::npos) return is_program(tool) ? tool : "";
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "/usr/bin:/bin" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (is_program(std::filesystem::path(folder) / tool)) return std::filesystem::path(folder) / tool;
+  }
+  return {};
+}
+
+void set_variable(Words& environment, const std::string& name, const std::string& value) {
+  std::erase_if(environment, [&](const std::string& entry) { return entry.starts_with(name + "="); });
+  environment.push_back(name + "=" + value);
+}
+
+/// gdb hands the arguments to a shell, so the program writes to its log as it always does, and gdb to the terminal. The
+/// exit code is the program's, and none when gdb is left before the program has ended.
+void put_under_gdb(ProgramSpec& program, const Words& tool) {
+  std::string arguments;
+  for (auto word = program.argv.begin() + 1; word != program.argv.end(); ++word) arguments += shell_word(*word) + " ";
+  arguments += ">>" + shell_word(program.log) + " 2>&1";
+  const std::string binary = program.argv[0];
+  program.argv = tool;
+  const Words printers = printer_options();
+  program.argv.insert(program.argv.end(), printers.begin(), printers.end());
+  program.argv.insert(program.argv.end(), {"-ex", "set args " + arguments, binary});
+  set_variable(program.env, "SHELL", "/bin/sh");
+}
+
+}  // namespace
+
+std::vector<Debuggee> parse_debug(const Words& values,
+                                  const std::function<std::string(const std::string&)>& program_of) {
+  std::vector<Debuggee> debuggees;
+  std::set<std::string> seen;
+  for (const std::string& value : values) {
+    const std::size_t cut = value.find('=');
+    Debuggee one;
+    one.member = value.substr(0, cut);
+    one.program = program_of(one.member);
+    const std::string why = "--debug " + value, how = cut == std::string::npos ? "" : value.substr(cut + 1);
+    if (!seen.insert(one.program).second) throw InputError(why + ": " + one.member + " is named twice");
+    if (cut == std::string::npos) {
+      const bool flies = one.program != one.member;  // an agent; how a server goes on is told through its pipes
+      one.how = flies ? How::by_hand : How::wait;
+    } else if (how == "gdb") {
+      one.how = How::gdb;
+      one.tool = {"gdb", "-q", "--return-child-result"};
+    } else if (how == "wait") {
+      one.how = How::wait;
+    } else if (const auto port = gdbserver_port(how)) {
+      one.how = How::gdbserver;
+      one.port = *port;
+      one.tool = {"gdbserver", "--no-startup-with-shell", "--once", "127.0.0.1:" + std::to_string(*port)};
+    } else {
+      one.how = How::command;
+      one.tool = words_of_command(how);
+      if (one.tool.empty()) throw InputError(why + ": say with what: gdb, gdbserver:PORT, wait or a command");
+    }
+    if (one.has_tool()) one.tool[0] = tool_file(one.tool[0], why);
+    debuggees.push_back(one);
+  }
+  if (std::ranges::count(debuggees, How::gdb, &Debuggee::how) > 1) {
+    throw InputError("--debug: one gdb can have this terminal; give the others gdbserver:PORT or wait");
+  }
+  auto first = std::ranges::find(debuggees, How::gdb, &Debuggee::how);
+  if (first == debuggees.end()) first = std::ranges::find(debuggees, How::command, &Debuggee::how);
+  if (first != debuggees.end()) first->here = true;
+  return debuggees;
+}
+
+void put_under_tool(ProgramSpec& program, const Debuggee& debuggee) {
+  if (debuggee.how == How::wait) program.argv.push_back("--wait-for-debugger");
+  if (!debuggee.has_tool()) return;
+  program.minded = true;
+  program.here = debuggee.here;
+  if (debuggee.how == How::gdb) {
+    put_under_gdb(program, debuggee.tool);
+  } else {
+    program.argv.insert(program.argv.begin(), debuggee.tool.begin(), debuggee.tool.end());
+  }
+}
+
+std::string attach_command(pid_t pid) {
+  std::string command = "gdb";
+  for (const std::string& word : printer_options()) command += " " + shell_word(word);
+  return command + " -p " + std::to_string(pid);
+}
+
+std::string connect_command(const Debuggee& debuggee, const std::string& binary) {
+  std::string command = "gdb";
+  for (const std::string& word : printer_options()) command += " " + shell_word(word);
+  return command + " -ex 'target remote 127.0.0.1:" + std::to_string(debuggee.port) + "' " + shell_word(binary);
+}
+
+Words words_of_command(const std::string& command) {
+  Words words;
+  bool in_word = false;
+  char quote = 0;
+  const auto refuse = [&](bool wrong, const std::string& why) {
+    if (wrong) throw InputError("'" + command + "' is no command with its arguments: " + why);
+  };
+  const auto add = [&](char letter) {
+    if (!in_word) words.emplace_back();
+    in_word = true;
+    if (letter != 0) words.back() += letter;
+  };
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    const char letter = command[i];
+    const bool escapes = letter == '\\' && quote != '\'' && i + 1 < command.size() &&
+                         (quote == 0 || std::string("\"\\$`").find(command[i + 1]) != std::string::npos);
+    if (escapes) {
+      add(command[++i]);
+    } else if (letter == quote) {
+      quote = 0;
+    } else if (quote == 0 && (letter == '\'' || letter == '"')) {
+      quote = letter;
+      add(0);  // it may stay empty
+    } else if (quote == 0 && (letter == ' ' || letter == '\t')) {
+      in_word = false;
+    } else {
+      const bool of_shell =
+          quote != '\'' && std::string(quote == 0 ? ";|&<>()$`\n" : "$`").find(letter) != std::string::npos;
+      refuse(of_shell, std::string("for ") + letter + " give it to a shell, /bin/sh -c '...'");
+      add(letter);
+    }
+  }
+  refuse(quote != 0, "a quote is not closed");
+  return words;
+}
+
+std::string tool_file(const std::string& tool, const std::string& why) {
+  const std::string file = file_of(tool);
+  if (!file.empty()) return file;
+  const std::string name = std::filesystem::path(tool).filename();
+  throw InputError(why + ": there is no " + tool + " here; apt-get install " + package_of(name));
+}
+
+std::optional<int> gdbserver_port(const std::string& value) {
+  const std::string prefix = "gdbserver";
+  if (value != prefix && !value.starts_with(prefix + ":")) return std::nullopt;
+  const std::string text = value == prefix ? "" : value.substr(prefix.size() + 1);
+  int port = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || port < 1 || port > kHighestPort) {
+    throw InputError("'" + value + "': must be gdbserver:PORT with a port within [1, 65535]");
+  }
+  return port;
+}
+
+Words printer_options() {
+  const std::filesystem::path file = default_config_dir() / "gdb" / "skein_printers.py";
+  if (!std::filesystem::exists(file)) return {};
+  return {"-x", std::filesystem::absolute(file)};
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,77 @@
+#include "cli/run/debuggee.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/text.hpp"
+#include "core/types.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+using How = Debuggee::How;
+
+std::string program_of(const std::string& name) {
+  if (name == "jurong" || name == "changi") return programs::agent_program(name);
+  if (name == "station") return name;
+  throw InputError("nobody is called " + name);
+}
+
+std::vector<Debuggee> parse(const std::vector<std::string>& values) { return parse_debug(values, program_of); }
+
+TEST(Debuggee, EachWayIsRead) {
+  EXPECT_EQ(parse({"jurong"})[0].how, How::by_hand);
+  EXPECT_EQ(parse({"station"})[0].how, How::wait) << "what it tells the launcher needs a pipe";
+  EXPECT_EQ(parse({"jurong=wait"})[0].how, How::wait);
+  const Debuggee command = parse({"jurong=/bin/sh -c 'a b' \"c d\""})[0];
+  EXPECT_EQ(command.how, How::command);
+  EXPECT_EQ(command.tool, (std::vector<std::string>{"/bin/sh", "-c", "a b", "c d"}));
+  EXPECT_EQ(command.program, "uav_agent-jurong");
+}
+
+TEST(Debuggee, OneHasTheTerminal) {
+  const auto both = parse({"jurong=wait", "changi=/bin/sh", "station=/bin/sh"});
+  EXPECT_FALSE(both[0].here);
+  EXPECT_TRUE(both[1].here);
+  EXPECT_FALSE(both[2].here);
+}
+
+TEST(Debuggee, WhatIsWrongIsNamed) {
+  for (const char* value : {"nobody=wait", "jurong=", "jurong=no_such_tool", "jurong=/no/such/tool", "jurong=gdbserver",
+                            "jurong=gdbserver:", "jurong=gdbserver:0", "jurong=gdbserver:65536", "jurong=gdbserver:1x",
+                            "jurong=sh 'open", "jurong=sh; rm x", "jurong=$(sh)", "jurong=/tmp"}) {
+    EXPECT_THROW(parse({value}), InputError) << value;
+  }
+  EXPECT_THROW(parse({"jurong=wait", "jurong=/bin/sh"}), InputError);
+}
+
+/// Words that are quoted are the same words again.
+TEST(Debuggee, ACommandsWordsAreAsAShellHasThem) {
+  std::mt19937 random(5);
+  const std::string letters = "ab '\"\\$*?~=;|&<>(){}#!`-/.";
+  for (int round = 0; round < 300; ++round) {
+    std::vector<std::string> words(1 + random() % 4);
+    std::string command;
+    for (std::string& word : words) {
+      for (std::size_t left = 1 + random() % 6; left > 0; --left) word += letters[random() % letters.size()];
+      command += " " + shell_word(word);
+    }
+    EXPECT_EQ(words_of_command(command), words) << command;
+  }
+}
+
+TEST(Debuggee, ItsToolStandsBeforeTheCommandLine) {
+  ProgramSpec program{"uav_agent-jurong", {"/bin/agent", "--uav", "jurong"}, {}, "a.log"};
+  put_under_tool(program, parse({"jurong=/bin/sh -e"})[0]);
+  EXPECT_EQ(program.argv, (std::vector<std::string>{"/bin/sh", "-e", "/bin/agent", "--uav", "jurong"}));
+  EXPECT_TRUE(program.minded && program.here);
+  ProgramSpec waiting{"uav_agent-jurong", {"/bin/agent"}, {}, "a.log"};
+  put_under_tool(waiting, parse({"jurong=wait"})[0]);
+  EXPECT_EQ(waiting.argv, (std::vector<std::string>{"/bin/agent", "--wait-for-debugger"}));
+  EXPECT_FALSE(waiting.minded || waiting.here);
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,90 @@
+#include "cli/run/fleets.hpp"
+
+#include <algorithm>
+
+#include "cli/run/proc_table.hpp"
+#include "cli/run/supervisor.hpp"
+#include "core/text.hpp"
+#include "process/host_lock.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+using Words = std::vector<std::string>;
+
+std::string value_after(const Words& words, const std::string& option) {
+  const auto found = std::find(words.begin(), words.end(), option);
+  return found == words.end() || found + 1 == words.end() ? "" : *(found + 1);
+}
+
+std::string variable(const Words& environment, const std::string& name) {
+  const auto found =
+      std::ranges::find_if(environment, [&](const auto& entry) { return entry.starts_with(name + "="); });
+  return found == environment.end() ? "" : found->substr(name.size() + 1);
+}
+
+double number_or(const std::string& text, double otherwise) { return parse_number(text).value_or(otherwise); }
+
+/// What a process is to its fleet; empty: nothing. A debugger's own words come before those of its program.
+std::string program_in(const Words& words) {
+  if (words.size() < 2 || words[1] != "--scenario" || value_after(words, "--out").empty()) return {};
+  const std::string uav = value_after(words, "--uav");
+  if (!uav.empty()) return programs::agent_program(uav);
+  if (value_after(words, "--role") == "gcs") return programs::kGroundAgent;
+  const std::string name = std::filesystem::path(words[0]).filename();
+  return std::ranges::find(programs::kServers, name) == programs::kServers.end() ? "" : name;
+}
+
+bool has_variables(pid_t pid, const std::string& uav, const std::string& out) {
+  const Words environment = words_of(pid, "environ");
+  return variable(environment, "SKEIN_UAV") == uav && variable(environment, "SKEIN_OUT") == out;
+}
+
+void read_server(const Words& words, RunningFleet& fleet) {
+  fleet.scenario = value_after(words, "--scenario");
+  fleet.base_domain = static_cast<int>(number_or(value_after(words, "--domain"), 0.0));
+  fleet.agent_timeout_s = number_or(value_after(words, "--agent-timeout"), fleet.agent_timeout_s);
+  fleet.lease_s = number_or(value_after(words, "--lease"), fleet.lease_s);
+  fleet.launcher = HostLock::holder(domain_lock_name(fleet.base_domain));
+}
+
+}  // namespace
+
+std::vector<RunningFleet> running_fleets(uid_t user) {
+  std::map<std::string, RunningFleet> fleets;
+  for (const pid_t pid : all_processes()) {
+    if (!belongs_to(pid, user)) continue;
+    const Words words = words_of(pid, "cmdline");
+    if (const std::string program = program_in(words); !program.empty()) {
+      RunningFleet& fleet = fleets[value_after(words, "--out")];
+      fleet.programs[program] = pid;
+      if (program == programs::kSimServer) read_server(words, fleet);
+      continue;
+    }
+    // A user's command is the first process with its variables; the others are its children.
+    const Words environment = words_of(pid, "environ");
+    const std::string uav = variable(environment, "SKEIN_UAV"), out = variable(environment, "SKEIN_OUT");
+    if (uav.empty() || out.empty() || has_variables(parent_of(pid), uav, out)) continue;
+    fleets[out].programs[programs::agent_program(uav)] = pid;
+  }
+  std::vector<RunningFleet> all;
+  for (auto& [dir, fleet] : fleets) {
+    fleet.dir = dir;
+    if (fleet.programs.contains(programs::kSimServer)) all.push_back(std::move(fleet));
+  }
+  return all;
+}
+
+std::optional<double> simulated_s(const RunningFleet& fleet) {
+  const std::vector<std::string> lines = last_lines(fleet.dir / run_folder::kTrajectories, 2);  // the last may be cut
+  return lines.size() < 2 ? std::nullopt : parse_number(lines[0].substr(0, lines[0].find(',')));
+}
+
+std::string state_text(pid_t pid) {
+  const pid_t tracer = tracer_of(pid);
+  if (tracer != 0) return "debugged by " + process_name(tracer) + " (process " + std::to_string(tracer) + ")";
+  return has_stopped(pid) ? "stopped" : "runs";
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,94 @@
+#include "cli/study/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random_stream.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr std::size_t kResamples = 10'000, kMostExact = 100;
+
+/// @param values  is left in another order.
+double median_in_place(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return values.size() % 2 == 1 ? *middle : 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// A difference without its sign, and twice its rank: equal ones share a mean, which may end in one half.
+struct Ranked {
+  double size = 0.0;
+  bool positive = false;
+  std::size_t twice_rank = 0;
+};
+
+std::vector<Ranked> ranked(const std::vector<double>& differences) {
+  std::vector<Ranked> all;
+  for (const double difference : differences) {
+    if (difference != 0.0) all.push_back({std::abs(difference), difference > 0.0, 0});
+  }
+  std::ranges::sort(all, {}, &Ranked::size);
+  for (std::size_t from = 0, until = 0; from < all.size(); from = until) {
+    while (until < all.size() && all[until].size == all[from].size) ++until;
+    for (std::size_t i = from; i < until; ++i) all[i].twice_rank = from + until + 1;  // ranks count from 1
+  }
+  return all;
+}
+
+/// The share of all ways to deal signs whose positive ranks sum to `least` or less, twice the ranks being counted.
+double share_up_to(const std::vector<Ranked>& all, std::size_t least, std::size_t whole) {
+  std::vector<double> shares(whole + 1, 0.0);
+  shares[0] = 1.0;
+  std::size_t reach = 0;
+  for (const Ranked& one : all) {
+    reach += one.twice_rank;
+    for (std::size_t sum = reach + 1; sum-- > 0;) {
+      shares[sum] = 0.5 * (shares[sum] + (sum >= one.twice_rank ? shares[sum - one.twice_rank] : 0.0));
+    }
+  }
+  double share = 0.0;
+  for (std::size_t sum = 0; sum <= least; ++sum) share += shares[sum];
+  return share;
+}
+
+/// With corrections for ties and continuity. @param positive, whole  twice the sums of ranks.
+double normal_p(const std::vector<Ranked>& all, std::size_t positive, std::size_t whole) {
+  double variance = 0.0;  // a quarter of the squares' sum, ties or not
+  for (const Ranked& one : all) variance += std::pow(0.5 * static_cast<double>(one.twice_rank), 2) / 4.0;
+  const double off = std::abs(0.5 * static_cast<double>(positive) - 0.25 * static_cast<double>(whole));
+  return std::min(1.0, std::erfc(std::max(0.0, off - 0.5) / std::sqrt(2.0 * variance)));
+}
+
+}  // namespace
+
+Interval median_interval(std::vector<double> values, const std::string& purpose) {
+  std::ranges::sort(values);
+  RandomStream random(0, "median_interval", purpose);
+  std::vector<double> medians(kResamples), sample(values.size());
+  for (double& median : medians) {
+    for (double& value : sample) {
+      value = values[static_cast<std::size_t>(random.uniform() * static_cast<double>(values.size()))];
+    }
+    median = median_in_place(sample);
+  }
+  std::ranges::sort(medians);
+  return {medians[kResamples / 40 - 1], medians[kResamples - kResamples / 40]};
+}
+
+SignedRank signed_rank_test(const std::vector<double>& differences) {
+  const std::vector<Ranked> all = ranked(differences);
+  if (all.empty()) return {};
+  std::size_t positive = 0, whole = 0;
+  for (const Ranked& one : all) {
+    whole += one.twice_rank;
+    positive += one.positive ? one.twice_rank : 0;
+  }
+  if (all.size() > kMostExact) return {all.size(), normal_p(all, positive, whole), false};
+  // What one sign gets and what the other gets are as likely as each other.
+  const double share = share_up_to(all, std::min(positive, whole - positive), whole);
+  return {all.size(), std::min(1.0, 2.0 * share), true};
+}
+
+}  // namespace skein::cli

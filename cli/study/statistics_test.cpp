@@ -1,0 +1,129 @@
+#include "cli/study/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+namespace skein::cli {
+namespace {
+
+/// The definition by words: all ways to deal signs, one after the other.
+double slow_p(const std::vector<double>& differences) {
+  std::vector<double> sizes;
+  std::vector<bool> positive;
+  for (const double d : differences) {
+    if (d == 0.0) continue;
+    sizes.push_back(std::abs(d));
+    positive.push_back(d > 0.0);
+  }
+  if (sizes.empty()) return 1.0;
+  const auto rank_of = [&](double size) {  // mean of the places that equal ones take
+    const auto below = std::ranges::count_if(sizes, [&](double other) { return other < size; });
+    return static_cast<double>(below) + 0.5 * static_cast<double>(std::ranges::count(sizes, size) + 1);
+  };
+  const auto sum_of = [&](const auto& has_sign) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) sum += has_sign(i) ? rank_of(sizes[i]) : 0.0;
+    return sum;
+  };
+  const double middle = 0.5 * sum_of([](std::size_t) { return true; });
+  const double off = std::abs(sum_of([&](std::size_t i) { return positive[i]; }) - middle);
+  std::size_t as_uneven = 0;
+  for (std::size_t signs = 0; signs < std::size_t{1} << sizes.size(); ++signs) {
+    const double sum = sum_of([&](std::size_t i) { return (signs >> i & 1) != 0; });
+    as_uneven += std::abs(sum - middle) >= off - 1e-9 ? 1 : 0;
+  }
+  return static_cast<double>(as_uneven) / static_cast<double>(std::size_t{1} << sizes.size());
+}
+
+TEST(SignedRankTest, AgreesWithAllWaysToDealSigns) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<double> differences(random() % 11);
+    const unsigned most = trial % 2 == 0 ? 6 : 100'000;  // with ties and zeros, and without
+    for (double& d : differences) d = static_cast<double>(random() % most) - static_cast<double>(most / 2);
+    const SignedRank test = signed_rank_test(differences);
+    ASSERT_NEAR(test.p, slow_p(differences), 1e-12);
+    ASSERT_TRUE(test.exact);
+    ASSERT_EQ(test.used, differences.size() - static_cast<std::size_t>(std::ranges::count(differences, 0.0)));
+  }
+}
+
+// Critical sums of the smaller ranks, both sides, as printed tables have them (McCornack, JASA 60, 1965, 864-871):
+// for n = 6, 7, 8, 9, 10 the greatest with p <= 0.05 are 0, 2, 3, 5, 8; for n = 5 there is none.
+TEST(SignedRankTest, HasTheCriticalValuesOfPrintedTables) {
+  const std::map<int, int> critical = {{5, -1}, {6, 0}, {7, 2}, {8, 3}, {9, 5}, {10, 8}};
+  for (const auto& [n, most] : critical) {
+    int greatest = -1;
+    for (int smaller = 0; smaller <= n * (n + 1) / 4; ++smaller) {
+      std::vector<double> differences;  // negative ranks that sum to `smaller`, from the greatest on
+      int left = smaller;
+      for (int rank = n; rank > 0; --rank) {
+        const bool negative = rank <= left;
+        left -= negative ? rank : 0;
+        differences.push_back(negative ? -rank : rank);
+      }
+      if (signed_rank_test(differences).p <= 0.05) greatest = smaller;
+    }
+    EXPECT_EQ(greatest, most) << n;
+  }
+}
+
+TEST(SignedRankTest, ManyPairsGoByTheNormalApproximationCloseToTheExactOne) {
+  std::mt19937 random(7);
+  std::vector<double> differences;
+  for (int i = 0; i < 100; ++i) differences.push_back(static_cast<double>(random() % 1000) - 440.0);
+  const SignedRank exact = signed_rank_test(differences);
+  differences.push_back(1e-3);  // the least of all: hardly any weight
+  const SignedRank normal = signed_rank_test(differences);
+  EXPECT_TRUE(exact.exact);
+  EXPECT_FALSE(normal.exact);
+  EXPECT_NEAR(exact.p, normal.p, 0.01);
+}
+
+TEST(MedianInterval, IsTheSameInAnyOrderAndWithinTheValues) {
+  std::mt19937 random(9);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<double> values(1 + random() % 20);
+    for (double& value : values) value = static_cast<double>(random() % 1000);
+    const Interval interval = median_interval(values, "a");
+    const auto [least, greatest] = std::ranges::minmax(values);
+    ASSERT_LE(least, interval.low);
+    ASSERT_LE(interval.low, interval.high);
+    ASSERT_LE(interval.high, greatest);
+    std::ranges::shuffle(values, random);
+    const Interval again = median_interval(values, "a");
+    ASSERT_EQ(interval.low, again.low);
+    ASSERT_EQ(interval.high, again.high);
+    for (double& value : values) value += 5.0;
+    ASSERT_DOUBLE_EQ(median_interval(values, "a").low, interval.low + 5.0) << "it moves with the values";
+  }
+}
+
+// The median of a sample of an odd n is at most the k-th value when more than half of the draws are: a binomial.
+TEST(MedianInterval, EndsWhereTheBinomialSaysForAnOddNumber) {
+  for (const int n : {5, 9, 15}) {
+    std::vector<double> values;
+    for (int k = 1; k <= n; ++k) values.push_back(k);
+    const auto share_at_most = [&](int k) {
+      double share = 0.0, ways = 1.0;
+      for (int hits = 0; hits <= n; ++hits) {
+        if (hits > n / 2) share += ways * std::pow(double(k) / n, hits) * std::pow(1.0 - double(k) / n, n - hits);
+        ways *= double(n - hits) / (hits + 1);
+      }
+      return share;
+    };
+    const Interval interval = median_interval(values, "binomial");
+    const int low = static_cast<int>(interval.low), high = static_cast<int>(interval.high);
+    EXPECT_GE(share_at_most(low), 0.025 - 0.006) << n;
+    EXPECT_LE(share_at_most(low - 1), 0.025 + 0.006) << n;
+    EXPECT_GE(share_at_most(high), 0.975 - 0.006) << n;
+    EXPECT_LE(share_at_most(high - 1), 0.975 + 0.006) << n;
+  }
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,162 @@
+#include "cli/study/tex.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include "cli/study/columns.hpp"
+#include "core/text.hpp"
+
+namespace skein::cli {
+namespace {
+
+std::string tex_character(char c) {
+  switch (c) {
+    case '\\':
+      return "\\textbackslash{}";
+    case '~':
+      return "\\textasciitilde{}";
+    case '^':
+      return "\\textasciicircum{}";
+    case '<':
+      return "\\textless{}";
+    case '>':
+      return "\\textgreater{}";
+    case '|':
+      return "\\textbar{}";
+    case '`':
+      return "\\char96{}";
+    case '"':
+      return "\\char34{}";
+    case '&':
+    case '%':
+    case '$':
+    case '#':
+    case '_':
+    case '{':
+    case '}':
+      return std::string("\\") + c;
+    case '[':  // behind the end of a row: an option of it
+    case ']':
+    case '*':
+    case '-':  // these make one sign of two
+    case '\'':
+    case ',':
+      return std::string("{") + c + "}";
+    case '\n':
+    case '\t':
+      return " ";
+    default:
+      return std::string(1, c);
+  }
+}
+
+/// How many bytes the character has that begins here; 0: none does.
+std::size_t utf8_length(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = byte(at) < 0x80   ? 1
+                             : byte(at) < 0xC2 ? 0
+                             : byte(at) < 0xE0 ? 2
+                             : byte(at) < 0xF0 ? 3
+                             : byte(at) < 0xF5 ? 4
+                                               : 0;
+  if (length == 0 || at + length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(at + i) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
+
+/// A number with a minus, not a hyphen.
+std::string tex_number(double value, int digits) {
+  const std::string text = fixed(value, digits);
+  return text.starts_with("-") ? "$-$" + text.substr(1) : text;
+}
+
+std::string tex_table(const std::string& comment, const std::string& columns, const std::string& head,
+                      const std::vector<std::string>& rows) {
+  std::string tex = "% " + comment + "\n\\begin{tabular}{" + columns + "}\n\\toprule\n" + head + " \\\\\n\\midrule\n";
+  for (const std::string& row : rows) tex += row + " \\\\\n";
+  return tex + "\\bottomrule\n\\end{tabular}\n";
+}
+
+std::string ranking_tex(const Study& study) {
+  std::vector<std::string> rows;
+  for (const Standing& standing : standings(study)) {
+    const std::vector<double> totals = complete_totals(standing);
+    const Spread spread = spread_of(totals);
+    std::string row = (standing.decides ? std::to_string(standing.place) : "--") + " & " +
+                      tex_escaped(study.planners[standing.planner]);
+    for (const double value : {spread.max, spread.median, spread.min}) {
+      row += " & " + (totals.empty() ? "--" : tex_number(value, 1));
+    }
+    rows.push_back(row + " & " + std::to_string(totals.size()));
+  }
+  return tex_table("Ranking by the " + rank_name(study.rank) + " of the totals of the tests.", "rlrrrr",
+                   "Place & Planner & Max.\\ & Median & Worst & Tests", rows);
+}
+
+std::string scores_tex(const Study& study, const std::vector<std::string>& titles) {
+  std::vector<std::string> rows;
+  for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
+    for (std::size_t p = 0; p < study.planners.size(); ++p) {
+      const auto flights = study.cell(p, s);
+      std::string row =
+          tex_escaped(titles[s]) + " & " + tex_escaped(study.planners[p]) + " & " + std::to_string(flights.size());
+      for (const char* name : {"score", "attainable_percent", "points_detected"}) {
+        const StudyColumn& column = study_column(name);
+        const std::vector<double> values = column_values(column, flights);
+        const Spread spread = spread_of(values);
+        row += " & " + (values.empty() ? "--" : tex_number(spread.median, column.digits));
+        if (column.name == "score") {
+          row += values.empty() ? " & --" : " & " + tex_number(spread.min, 1) + "--" + tex_number(spread.max, 1);
+        }
+      }
+      rows.push_back(row);
+    }
+  }
+  return tex_table("Scores: medians over the seeds, and the range from the least to the greatest.", "llrrrrr",
+                   "Scene & Planner & $n$ & Score & Range & \\% of attainable & Points", rows);
+}
+
+std::string pairs_tex(const Study& study, const std::vector<PlannerPair>& pairs,
+                      const std::vector<std::string>& titles) {
+  std::vector<std::string> rows;
+  for (const PlannerPair& pair : pairs) {
+    std::string row = (pair.scenario ? tex_escaped(titles[*pair.scenario]) : "all scenes") + " & " +
+                      tex_escaped(study.planners[pair.first]) + " $-$ " + tex_escaped(study.planners[pair.second]) +
+                      fmt::format(" & {} & ", pair.differences.size()) +
+                      (pair.median ? tex_number(*pair.median, 1) : "--");
+    const std::string p = p_text(pair.test);
+    row += pair.interval ? " & " + tex_number(pair.interval->low, 1) + " to " + tex_number(pair.interval->high, 1) +
+                               " & " + (p.starts_with("<") ? "$<$" + p.substr(1) : p)
+                         : " & \\multicolumn{2}{c}{$n$ too small}";
+    rows.push_back(row);
+  }
+  return tex_table(
+      "Differences of scores with the same seed: median, 95 % interval by bootstrap, and p of Wilcoxon's "
+      "signed-rank test (two-sided, not corrected for the number of pairs).",
+      "llrrrr", "Scene & Planners & $n$ & Median & 95\\,\\% interval & $p$", rows);
+}
+
+}  // namespace
+
+std::string tex_escaped(const std::string& text) {
+  const std::string plain = printable(text);
+  std::string tex;
+  for (std::size_t at = 0; at < plain.size();) {
+    const std::size_t length = utf8_length(plain, at);
+    tex += length == 0 ? "?" : length == 1 ? tex_character(plain[at]) : plain.substr(at, length);
+    at += std::max<std::size_t>(length, 1);
+  }
+  return tex;
+}
+
+std::string study_tex(const Study& study, const std::vector<PlannerPair>& pairs,
+                      const std::vector<std::string>& titles) {
+  std::string tex = "% Made by Skein " + study.version + ". Needs \\usepackage{booktabs}.\n";
+  if (study.contest) tex += "\n" + ranking_tex(study);
+  tex += "\n" + scores_tex(study, titles);
+  if (!pairs.empty()) tex += "\n" + pairs_tex(study, pairs, titles);
+  return tex;
+}
+
+}  // namespace skein::cli

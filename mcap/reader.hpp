@@ -1,0 +1,47 @@
+// Reads an MCAP file from its beginning, whole or cut off: as far as its records are whole, and no further than to a
+// chunk whose checksum is wrong. Needs no summary. Not thread-safe.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "mcap/records.hpp"
+
+namespace skein::mcap {
+
+/// Largest chunk that is read, uncompressed: more is taken for damage.
+inline constexpr std::uint64_t kLargestChunk = 1ULL << 30;
+
+/// The records of a chunk. @returns nullopt when it is damaged or compressed in another way than by zstd.
+std::optional<Bytes> unpack(const Chunk& chunk);
+
+class Reader {
+ public:
+  /// @throws InputError when it cannot be read or is no MCAP file.
+  explicit Reader(const std::filesystem::path& file);
+
+  /// Calls `on_record` for each record of the data section, in order, chunks packed as they are.
+  /// @param on_record  gets the record and where it stands in the file.
+  void records(const std::function<void(const RawRecord&, std::uint64_t offset)>& on_record) const;
+  /// Calls `on_message` for each message, in the order of the file. The channel is valid as long as this.
+  void messages(const std::function<void(const Channel&, const Message&)>& on_message);
+  /// Known after messages().
+  const std::map<std::uint16_t, Schema>& schemas() const { return schemas_; }
+  const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
+  const std::map<std::string, StringMap>& metadata() const { return metadata_; }
+  /// Whether the file ends as it should: with a footer.
+  bool complete() const;
+
+ private:
+  void take(const RawRecord& record, const std::function<void(const Channel&, const Message&)>& on_message);
+
+  std::string bytes_;
+  std::map<std::uint16_t, Schema> schemas_;
+  std::map<std::uint16_t, Channel> channels_;
+  std::map<std::string, StringMap> metadata_;
+};
+
+}  // namespace skein::mcap

@@ -1,0 +1,18 @@
+// Where a program was when it crashed, as addresses in its log; cli/run/crash_trace.hpp gives them names. Linux.
+#pragma once
+
+#include <string_view>
+
+namespace skein {
+
+namespace crash_notes {
+/// The lines: "[skein] crashed: ...", then one for each frame, innermost first: "  at FILE +0x1a2b".
+inline constexpr std::string_view kHead = "[skein] crashed:";
+inline constexpr std::string_view kFrame = "  at ";
+}  // namespace crash_notes
+
+/// From here on SIGSEGV, SIGABRT, SIGFPE, SIGBUS and SIGILL write that to stderr before the process dies of them. Does
+/// nothing about signals that somebody else, a sanitizer, handles already. Once, before there are threads.
+void note_crashes();
+
+}  // namespace skein

@@ -1,0 +1,57 @@
+#include "recording/choice.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "core/topics.hpp"
+
+namespace skein::recording {
+namespace {
+
+/// Frames have the poses five times a second. What a UAV is told in each exchange follows from its commands.
+constexpr double kPosePeriod_s = 0.5;
+
+bool is(const topics::TopicInfo& info, std::string_view node, std::string_view topic) {
+  return topics::wire(info, node).name == wire_topic(topic);
+}
+
+bool is_one_of(std::initializer_list<topics::TopicInfo> infos, std::string_view node, std::string_view topic) {
+  return std::ranges::any_of(infos, [&](const topics::TopicInfo& info) { return is(info, node, topic); });
+}
+
+}  // namespace
+
+Scope scope_of(std::string_view name) {
+  if (name == "none") return Scope::none;
+  if (name == "run") return Scope::run;
+  if (name == "all") return Scope::all;
+  if (name == "clouds") return Scope::clouds;
+  throw InputError("--record " + std::string(name) + ": it must be none, run, all or clouds");
+}
+
+std::optional<Choice> choice_of(Scope scope, std::string_view node, std::string_view topic) {
+  using namespace topics;
+  if (scope == Scope::none) return std::nullopt;
+  if (is_one_of({kOdometry, kGimbal}, node, topic)) return Choice{ticks(kPosePeriod_s), true};
+  if (is_one_of(
+          {kTrajectoryCommand, kGimbalCommand, kCameraTrigger, kTrigger, kCommandRejected, kCapture, kCaptureStored},
+          node, topic)) {
+    return Choice{0, true};
+  }
+  if (is(kBoundingBoxes, node, topic)) return node == "gcs" ? std::optional(Choice{0, true}) : std::nullopt;
+  if (scope == Scope::run) return std::nullopt;
+  const bool cloud = is_one_of({kCloud, kSelfKeyframe, kNeighbourKeyframe}, node, topic);
+  return Choice{0, cloud && scope == Scope::clouds};
+}
+
+std::string ros_topic(std::string_view wire_name) {
+  return wire_name.starts_with("rt/") ? std::string(wire_name.substr(2)) : "/" + std::string(wire_name);
+}
+
+std::string recorded_topic(std::string_view node, std::string_view topic) {
+  const std::string prefix = "/" + std::string(node);
+  if (node.empty() || topic.starts_with(prefix + "/")) return std::string(topic);
+  return prefix + std::string(topic);
+}
+
+}  // namespace skein::recording

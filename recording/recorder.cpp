@@ -1,0 +1,101 @@
+#include "recording/recorder.hpp"
+
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "idl/message_definition.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::recording {
+namespace {
+
+/// Ids of schemas and channels are unique in the recording, whose parts are joined as they are.
+struct Ids {
+  std::uint16_t first, lives, of_a_life;
+};
+
+Ids ids_of(const std::string& program) {
+  if (program == programs::kCommRouter) return {32'768, 15, 2048};
+  if (program == programs::kStation) return {63'488, 32, 64};
+  return {1, 1, 32'767};
+}
+
+mcap::WriterOptions options_of(const std::string& program, int life) {
+  const Ids ids = ids_of(program);
+  if (life >= ids.lives) throw std::length_error("there is room for " + std::to_string(ids.lives) + " parts");
+  const auto first = static_cast<std::uint16_t>(ids.first + life * ids.of_a_life);
+  return {.first_id = first, .last_id = static_cast<std::uint16_t>(first + ids.of_a_life - 1)};
+}
+
+constexpr std::uint64_t kTickNs = 1'000'000'000 / kTicksPerSecond;
+static_assert(kTickNs * kTicksPerSecond == 1'000'000'000);
+
+std::uint64_t nanoseconds(Tick tick) { return static_cast<std::uint64_t>(tick) * kTickNs; }
+
+}  // namespace
+
+Recorder::Recorder(const std::filesystem::path& folder, const std::string& program, Scope scope) : scope_(scope) {
+  if (scope == Scope::none) return;
+  int life = 0;
+  while (std::filesystem::exists(folder / run_folder::recording_part(program, life))) ++life;
+  try {
+    file_.emplace(folder / run_folder::recording_part(program, life), options_of(program, life));
+  } catch (const std::exception& error) {
+    trouble_ = std::string("the recording of ") + program + " ends: " + error.what();
+  }
+}
+
+bus::Ear Recorder::ear(const std::string& node, const bus::TopicSpec& topic) {
+  const std::string name = ros_topic(topic.name);
+  const auto choice = choice_of(scope_, node, name);
+  if (!choice) return {};
+  auto last = std::make_shared<std::optional<Tick>>();
+  const auto hear = [this, topic = recorded_topic(node, name), type = topic.type, period = choice->period,
+                     last](std::span<const std::uint8_t> payload) {
+    if (*last && tick_ - **last < period && tick_ != **last) return;
+    *last = tick_;
+    add(topic, type, payload);
+  };
+  return {hear, choice->also_unread};
+}
+
+std::uint16_t Recorder::channel(const std::string& topic, const std::string& wire_type) {
+  const auto found = channels_.find(topic);
+  if (found != channels_.end()) return found->second;
+  std::string name, definition;
+  try {
+    const MessageDefinition& known = message_definition(wire_type);
+    name = known.name;
+    definition = known.text;
+  } catch (const std::out_of_range&) {
+  }
+  return channels_.emplace(topic, file_->add_channel(topic, name, definition)).first->second;
+}
+
+void Recorder::add(const std::string& topic, const std::string& wire_type, std::span<const std::uint8_t> payload,
+                   std::uint64_t sequence) {
+  if (!file_) return;
+  try {
+    file_->write(channel(topic, wire_type), nanoseconds(tick_), payload, static_cast<std::uint32_t>(sequence));
+  } catch (const std::length_error& error) {
+    trouble_ = error.what();
+    close();
+  }
+}
+
+void Recorder::flush() {
+  if (file_) file_->flush();
+}
+
+void Recorder::close() {
+  if (!file_) return;
+  file_->close();
+  if (trouble_.empty()) trouble_ = file_->trouble();
+  file_.reset();
+}
+
+std::string Recorder::trouble() const { return file_ && trouble_.empty() ? file_->trouble() : trouble_; }
+
+}  // namespace skein::recording

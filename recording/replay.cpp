@@ -1,0 +1,77 @@
+#include "recording/replay.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <utility>
+
+#include "core/topics.hpp"
+#include "recording/choice.hpp"
+
+namespace skein::recording {
+namespace {
+
+/// By the server, from a UAV: commands, and that the station has a capture.
+bool is_taken(const std::string& topic) {
+  return topic.find("/command/") != std::string::npos || topic.ends_with(topics::kCaptureStored.pattern);
+}
+
+}  // namespace
+
+bool ReplayOptions::takes_part(const std::string& member) const {
+  return only.empty() || std::ranges::find(only, member) != only.end();
+}
+
+void add_replay_options(CLI::App& app, ReplayOptions& options) {
+  app.add_option("--replay", options.file, "recording.mcap of a run that is flown again")->group("Launcher");
+  app.add_option("--replay-until", options.until_s, "From this simulated time on, what programs say counts [s]")
+      ->group("Launcher");
+  app.add_option("--replay-only", options.only, "UAVs whose programs take part (default: all)")
+      ->delimiter(',')
+      ->group("Launcher");
+}
+
+void Differences::compare(const std::string& node, const std::string& topic, const std::string& wire_type, Tick tick,
+                          std::span<const mcap::Bytes> recorded, std::span<const mcap::Bytes> now) {
+  if (std::ranges::any_of(list_, [&](const Difference& known) { return known.node == node; })) return;
+  if (auto found = first_difference(wire_type, recorded, now)) {
+    list_.push_back({node, topic, tick, std::move(found->first), std::move(found->second)});
+  }
+}
+
+std::vector<std::string> Differences::texts() const {
+  std::vector<std::string> texts;
+  for (const Difference& difference : list_) texts.push_back(text_of(difference));
+  return texts;
+}
+
+Replay::Replay(const ReplayOptions& options, bus::Tap& recorder)
+    : options_(options), recorder_(recorder), run_(options.file, is_taken) {}
+
+bus::OnSample Replay::taken(const std::string& node, const bus::TopicSpec& topic, bus::OnSample handler) {
+  const std::string name = recorded_topic(node, ros_topic(topic.name));
+  topics_[name] = {node, topic.type, recorder_.taken(node, topic, std::move(handler)), {}};
+  return [this, name](bus::Sample&& sample) {
+    Taken& taken = topics_.at(name);
+    if (!replays()) return taken.handler(std::move(sample));
+    taken.now.push_back(std::move(sample.payload));
+  };
+}
+
+void Replay::end_step() {
+  if (!replays()) return;
+  std::map<std::string, std::vector<mcap::Bytes>> recorded;
+  for (const Said& said : run_.at(tick_)) {
+    const auto found = topics_.find(said.topic);
+    if (found == topics_.end()) continue;
+    recorded[said.topic].push_back(said.payload);
+    found->second.handler({said.payload, 0});
+  }
+  for (auto& [name, taken] : topics_) {
+    if (options_.takes_part(taken.node)) {
+      differences_.compare(taken.node, name, taken.wire_type, tick_, recorded[name], taken.now);
+    }
+    taken.now.clear();
+  }
+}
+
+}  // namespace skein::recording

@@ -1,0 +1,153 @@
+#include "recording/replay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "bus/lockstep/names.hpp"
+#include "core/topics.hpp"
+#include "idl/cdr.hpp"
+#include "idl/type_names.hpp"
+#include "mcap/testing.hpp"
+#include "process/run_folder.hpp"
+#include "recording/recorder.hpp"
+
+namespace skein::recording {
+namespace {
+
+constexpr Tick kStep = 20;
+
+/// What is said in a step, by a UAV, on one of two topics.
+struct Word {
+  std::string uav;
+  bool gimbal = false;
+  mcap::Bytes payload;
+  bool operator==(const Word&) const = default;
+};
+using Speech = std::vector<std::vector<Word>>;  ///< by step
+
+Speech random_speech(std::uint64_t seed, std::size_t steps) {
+  std::mt19937_64 random(seed);
+  Speech speech(steps);
+  for (auto& words : speech) {
+    for (const char* uav : {"jurong", "raffles"}) {
+      for (std::uint64_t i = random() % 3; i > 0; --i) {
+        msg::Twist twist;
+        twist.linear().x(static_cast<double>(random() % 100));
+        words.push_back({uav, random() % 2 == 0, encode(twist)});
+      }
+    }
+  }
+  return speech;
+}
+
+class ReplayTest : public mcap::McapFiles {
+ protected:
+  /// Takes a speech as a server does. @returns what it took.
+  template <class TapType>
+  Speech hear(TapType& tap, const Speech& speech, const std::function<void(Tick)>& begin,
+              const std::function<void()>& end) {
+    Speech heard(speech.size());
+    std::size_t step = 0;
+    std::map<std::pair<std::string, bool>, bus::OnSample> take;
+    for (const std::string uav : {"jurong", "raffles"}) {
+      for (const bool gimbal : {false, true}) {
+        const auto topic = bus::spec(gimbal ? topics::gimbal_command(uav) : topics::trigger(uav));
+        take[{uav, gimbal}] = tap.taken(uav, topic, [&heard, &step, uav, gimbal](bus::Sample&& sample) {
+          heard[step].push_back({uav, gimbal, std::move(sample.payload)});
+        });
+      }
+    }
+    for (; step < speech.size(); ++step) {
+      begin(static_cast<Tick>(step) * kStep);
+      for (const Word& word : speech[step]) take.at({word.uav, word.gimbal})({word.payload, 0});
+      end();
+    }
+    return heard;
+  }
+
+  /// @returns the file.
+  std::filesystem::path record(const Speech& speech) {
+    Recorder recorder(folder_, programs::kSimServer, Scope::run);
+    EXPECT_EQ(hear(
+                  recorder, speech, [&](Tick tick) { recorder.set_time(tick); }, [] {}),
+              speech);
+    recorder.close();
+    return folder_ / run_folder::recording_part(programs::kSimServer, 0);
+  }
+
+  Speech replay(const ReplayOptions& options, const Speech& now, std::vector<Difference>& differences) {
+    Recorder nobody(folder_, programs::kSimServer, Scope::none);
+    Replay replay(options, nobody);
+    Speech heard = hear(
+        replay, now, [&](Tick tick) { replay.begin_step(tick); }, [&] { replay.end_step(); });
+    differences = replay.differences().list();
+    return heard;
+  }
+};
+
+TEST_F(ReplayTest, TakesWhatWasSaidThenWhateverIsSaidNow) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    std::filesystem::remove(folder_ / run_folder::recording_part(programs::kSimServer, 0));
+    const Speech then = random_speech(seed, 30), now = random_speech(seed + 100, 30);
+    const std::filesystem::path file = record(then);
+    std::vector<Difference> differences;
+    EXPECT_EQ(replay({.file = file, .until_s = {}, .only = {}}, then, differences), then) << seed;
+    EXPECT_TRUE(differences.empty());
+    EXPECT_EQ(replay({.file = file, .until_s = {}, .only = {}}, now, differences), then) << seed;
+    EXPECT_EQ(differences.size(), 2U) << "the first of each UAV";
+  }
+}
+
+TEST_F(ReplayTest, TellsTheFirstDifferenceOfWhoTakesPart) {
+  const Speech then = random_speech(7, 40);
+  const std::filesystem::path file = record(then);
+  std::mt19937_64 random(8);
+  for (int round = 0; round < 30; ++round) {
+    Speech now = then;
+    const std::size_t step = random() % now.size();
+    if (now[step].empty()) continue;
+    const Word said = now[step][random() % now[step].size()];
+    std::erase(now[step], said);
+    for (const std::string only : {"jurong", "raffles"}) {
+      std::vector<Difference> differences;
+      replay({.file = file, .until_s = {}, .only = {only}}, now, differences);
+      ASSERT_EQ(differences.size(), only == said.uav ? 1U : 0U);
+      if (differences.empty()) continue;
+      EXPECT_EQ(differences[0].tick, static_cast<Tick>(step) * kStep);
+      EXPECT_EQ(differences[0].node, said.uav);
+    }
+  }
+}
+
+TEST_F(ReplayTest, LetsGoAtItsTime) {
+  const Speech then = random_speech(1, 40), now = random_speech(2, 40);
+  const std::filesystem::path file = record(then);
+  for (const std::size_t step : {0U, 1U, 17U, 39U}) {
+    Speech expected = then;
+    std::copy(now.begin() + static_cast<std::ptrdiff_t>(step), now.end(),
+              expected.begin() + static_cast<std::ptrdiff_t>(step));
+    std::vector<Difference> differences;
+    const double until_s = seconds(static_cast<Tick>(step) * kStep);
+    EXPECT_EQ(replay({.file = file, .until_s = until_s, .only = {}}, now, differences), expected) << step;
+  }
+}
+
+TEST_F(ReplayTest, AFileThatIsCutOffIsRefused) {
+  const std::filesystem::path file = record(random_speech(1, 10));
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 9);
+  Recorder nobody(folder_, programs::kSimServer, Scope::none);
+  EXPECT_THROW(Replay({.file = file, .until_s = {}, .only = {}}, nobody), InputError);
+}
+
+TEST(ReplayDifference, IsDescribedInWordsThatAnyFileCanHold) {
+  msg::String text;
+  text.data(std::string("\xFF\x00plan", 6));
+  EXPECT_NE(describe(type_name<msg::String>(), encode(text)).find("bytes"), std::string::npos);
+  text.data("hello");
+  EXPECT_EQ(describe(type_name<msg::String>(), encode(text)), "'hello'");
+  EXPECT_NE(describe("their_msgs::msg::dds_::Odd_", encode(text)).find("bytes"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace skein::recording

@@ -1,0 +1,224 @@
+#include "report/figures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "report/flight_picture.hpp"
+
+namespace skein::report {
+namespace {
+
+constexpr double kStep = 0.05;
+
+/// Every figure is held against a count by hand over such runs.
+class Figures : public testing::TestWithParam<unsigned> {
+ protected:
+  Figures() : random_(GetParam()) {
+    for (std::size_t i = 0; i < 1 + below(6); ++i) run_.uavs.push_back("u" + std::to_string(i));
+    run_.explorer.resize(run_.uavs.size());
+    run_.tracks.resize(run_.uavs.size());
+    run_.end_s = kStep * kSteps;
+    for (std::size_t i = 0; i < 3; ++i) {
+      run_.boxes.push_back({"b" + std::to_string(i), draw_place(), Vector3d(10.0, 12.0, 14.0),
+                            Eigen::AngleAxisd(number(3.0), Vector3d::UnitZ()).toRotationMatrix()});
+    }
+    for (std::size_t i = 0; i < 200; ++i) {
+      RunPoint point;
+      point.p_W = draw_place();
+      point.estimate = below(3) > 0 ? number(1.0) : 0.0;
+      point.score = below(2) > 0 ? number(1.0) : 0.0;
+      point.loss = point.estimate - point.score;
+      if (point.loss != 0.0) point.cause = below(kCauses.size());
+      run_.points.push_back(point);
+    }
+    for (std::size_t i = 0; i < 400; ++i) {
+      RunCapture capture{below(run_.uavs.size()), below(40), 0.0, number(1.0), below(50)};
+      capture.time_s = static_cast<double>(capture.capture) + 0.1 * static_cast<double>(capture.uav);
+      if (capture.capture % 3 > 0) capture.delivered_at_s = capture.time_s + static_cast<double>(capture.capture % 7);
+      capture.voided = capture.uav == 0;
+      run_.captures.push_back(capture);
+    }
+    for (std::size_t k = 0; k < kSteps; ++k) {
+      for (std::size_t i = below(3); i > 0; --i) {
+        run_.events.push_back({kStep * static_cast<double>(k), below(2) > 0 ? "link_up" : "link_down", node(), node()});
+      }
+    }
+  }
+
+  static constexpr std::size_t kSteps = 300;
+  std::size_t below(std::size_t limit) { return random_() % limit; }
+  double number(double most) { return most * static_cast<double>(below(1001)) / 1000.0; }
+  Vector3d draw_place() { return {number(30.0), number(30.0), number(30.0)}; }
+  std::string node() {
+    const std::size_t i = below(run_.uavs.size() + 1);
+    return i < run_.uavs.size() ? run_.uavs[i] : "gcs";
+  }
+  /// The links in step k, by brute force: sender, receiver.
+  std::set<std::pair<std::string, std::string>> links_in(std::size_t k) const {
+    std::set<std::pair<std::string, std::string>> up;
+    for (const RunEvent& event : run_.events) {
+      if (event.time_s > kStep * (static_cast<double>(k) + 0.5)) break;
+      if (event.event == "link_up") {
+        up.insert({event.subject, event.object});
+      } else {
+        up.erase({event.subject, event.object});
+      }
+    }
+    return up;
+  }
+  static bool within(const Spans& spans, double time_s) {
+    return std::any_of(spans.begin(), spans.end(),
+                       [&](const Span& s) { return s.from_s <= time_s && time_s < s.until_s; });
+  }
+
+  std::mt19937 random_;
+  RunData run_;
+};
+
+TEST_P(Figures, ABoxHoldsWhatIsBetweenItsFaces) {
+  for (const RunBox& box : run_.boxes) {
+    for (int i = 0; i < 50; ++i) {
+      const Vector3d share(number(2.4) - 1.2, number(2.4) - 1.2, number(2.4) - 1.2);  // of the way to the faces
+      const Vector3d p_W = box.center + box.R_WB * (0.5 * box.size.cwiseProduct(share));
+      if (std::abs(share.cwiseAbs().maxCoeff() - 1.0) < 1e-6) continue;  // on a face
+      EXPECT_EQ(box.holds(p_W), share.cwiseAbs().maxCoeff() < 1.0);
+    }
+  }
+}
+
+TEST_P(Figures, BoxesSumUpToAll) {
+  const std::vector<BoxFigures> boxes = box_figures(run_);
+  const BoxFigures& all = boxes.back();
+  EXPECT_EQ(all.points, run_.points.size());
+  double score = 0.0, loss = 0.0;
+  for (const RunPoint& point : run_.points) {
+    score += point.score;
+    loss += point.loss;
+  }
+  EXPECT_NEAR(all.score, score, 1e-9);
+  EXPECT_NEAR(all.estimate - all.score, loss, 1e-9);
+  BoxFigures sum;
+  for (std::size_t i = 0; i + 1 < boxes.size(); ++i) {
+    sum.points += boxes[i].points;
+    sum.scored += boxes[i].scored;
+    sum.attainable += boxes[i].attainable;
+    sum.score += boxes[i].score;
+    double losses = 0.0;
+    for (const double lost : boxes[i].losses) losses += lost;
+    EXPECT_NEAR(losses, boxes[i].estimate - boxes[i].score, 1e-9) << boxes[i].name;
+  }
+  EXPECT_EQ(sum.points, all.points);
+  EXPECT_EQ(sum.scored, all.scored);
+  EXPECT_EQ(sum.attainable, all.attainable);
+  EXPECT_NEAR(sum.score, all.score, 1e-9);
+}
+
+TEST_P(Figures, WhatWasEarnedIsTheBestPictureOfEachPoint) {
+  const std::vector<RunScore> earned = earned_over_time(run_);
+  for (const RunScore& now : earned) {
+    std::map<std::size_t, double> best;
+    for (const RunCapture& capture : run_.captures) {
+      if (capture.voided || capture.q < kDetected || capture.time_s > now.time_s) continue;
+      best[capture.point] = std::max(best[capture.point], capture.q);
+    }
+    double sum = 0.0;
+    for (const auto& [point, q] : best) sum += q;
+    ASSERT_NEAR(now.score, sum, 1e-9) << now.time_s;
+    ASSERT_EQ(now.points, static_cast<double>(best.size()));
+  }
+}
+
+TEST_P(Figures, ContactIsWhatTheLinksAllow) {
+  const std::vector<Lane> lanes = lanes_of(run_);
+  const double first_s = run_.events.front().time_s;
+  for (std::size_t k = 0; k < kSteps; k += 7) {
+    const double time_s = kStep * (static_cast<double>(k) + 0.5);
+    if (time_s < first_s) continue;
+    const auto up = links_in(k);
+    std::set<std::string> heard = {"gcs"};
+    for (std::size_t before = 0; before != heard.size();) {
+      before = heard.size();
+      for (const auto& [from, to] : up) {
+        if (heard.contains(to)) heard.insert(from);
+      }
+    }
+    for (std::size_t uav = 0; uav < run_.uavs.size(); ++uav) {
+      const bool direct = up.contains({run_.uavs[uav], "gcs"});
+      EXPECT_EQ(within(lanes[uav].direct, time_s), direct) << run_.uavs[uav] << " at " << time_s;
+      EXPECT_EQ(within(lanes[uav].relayed, time_s), !direct && heard.contains(run_.uavs[uav])) << time_s;
+    }
+  }
+}
+
+TEST_P(Figures, SharesOfLinksAreStepsWithALink) {
+  const LinkShares shares = link_shares(run_);
+  std::map<std::pair<std::string, std::string>, double> steps;
+  for (std::size_t k = 0; k < kSteps; ++k) {
+    for (const auto& link : links_in(k)) steps[link] += 1.0 / kSteps;
+  }
+  for (const auto& [link, share] : steps) {
+    ASSERT_TRUE(shares.contains(link));
+    EXPECT_NEAR(shares.at(link), share, 1e-6) << link.first << " to " << link.second;
+  }
+}
+
+TEST_P(Figures, LatencyIsThatOfEachCaptureOnce) {
+  const Latency latency = latency_of(run_);
+  std::map<std::pair<std::size_t, std::uint64_t>, std::optional<double>> captures;
+  for (const RunCapture& line : run_.captures) {
+    captures[{line.uav, line.capture}] =
+        line.delivered_at_s ? std::optional(*line.delivered_at_s - line.time_s) : std::nullopt;
+  }
+  EXPECT_EQ(latency.delays_s.size() + latency.never, captures.size());
+  for (const double share : {0.01, 0.5, 0.9, 1.0}) {
+    const double limit = latency.quantile(share);
+    const auto count = [&](double most) {
+      return static_cast<double>(std::count_if(captures.begin(), captures.end(),
+                                               [&](const auto& c) { return c.second && *c.second <= most; }));
+    };
+    const double all = static_cast<double>(latency.delays_s.size());
+    EXPECT_GE(count(limit) / all, share - 1e-12);
+    EXPECT_LT(count(limit - 1e-9) / all, share);
+  }
+}
+
+TEST_P(Figures, StillIsSlowWithoutABetterPicture) {
+  std::vector<RunPose>& track = run_.tracks[0];
+  for (std::size_t i = 0; i < 600; ++i) {
+    track.push_back({0.1 * static_cast<double>(i), Vector3d::Zero(), (i / 40) % 2 == below(2) ? 1.0 : 0.0, i < 500});
+  }
+  const std::vector<Lane> lanes = lanes_of(run_);
+  for (std::size_t i = 0; i + 1 < track.size(); ++i) {
+    const auto recent = [&](const RunCapture& capture) {
+      return capture.uav == 0 && capture.time_s <= track[i].time_s && capture.time_s > track[i].time_s - 5.0;
+    };
+    const bool still =
+        track[i].alive && track[i].speed < 0.1 && std::none_of(run_.captures.begin(), run_.captures.end(), recent);
+    EXPECT_EQ(within(lanes[0].still, track[i].time_s + 0.05), still) << track[i].time_s;
+  }
+}
+
+TEST_P(Figures, UndeliveredIsHandedOutLessAcknowledged) {
+  run_.events.clear();
+  int waiting = 0;
+  std::map<double, int> expected;
+  for (std::size_t k = 0; k < kSteps; ++k) {
+    const double time_s = kStep * static_cast<double>(k);
+    for (std::size_t i = below(4); i > 0; --i) {
+      const bool out = waiting == 0 || below(2) > 0;
+      waiting += out ? 1 : -1;
+      run_.events.push_back({time_s, out ? "captured" : "released", run_.uavs[0], "1"});
+      expected[time_s] = waiting;
+    }
+  }
+  const std::vector<Lane> lanes = lanes_of(run_);
+  ASSERT_EQ(lanes[0].undelivered.size(), expected.size());
+  for (const Waiting& change : lanes[0].undelivered) EXPECT_EQ(change.captures, expected.at(change.time_s));
+}
+
+INSTANTIATE_TEST_SUITE_P(Drawn, Figures, testing::Range(1U, 9U));
+
+}  // namespace
+}  // namespace skein::report

@@ -1,0 +1,91 @@
+#include "report/html.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein::report {
+namespace {
+
+/// The least of 1, 2, 5 times a power of ten that is not below `step`.
+double round_step(double step) {
+  const double power = std::pow(10.0, std::floor(std::log10(step)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= step * (1.0 - 1e-9)) return factor * power;
+  }
+  return 10.0 * power;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : printable(std::string(text))) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string fixed(const std::optional<double>& value, int digits) { return value ? fixed(*value, digits) : "–"; }
+
+std::string coordinate(double value) { return fixed_at_most(value, 1); }
+
+std::string shortened(const std::string& text, std::size_t most) {
+  const auto begins_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+  if (static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character)) <= most) return text;
+  std::string out;
+  std::size_t characters = 0;
+  for (const char c : text) {
+    if (begins_character(c) && ++characters == most) break;
+    out += c;
+  }
+  return out + "…";
+}
+
+std::string figure(const std::string& caption, const std::string& small, const std::string& svg) {
+  return "<figure><figcaption>" + escaped(caption) + (small.empty() ? "" : "<small>" + escaped(small) + "</small>") +
+         "</figcaption>\n" + svg + "</figure>\n";
+}
+
+std::vector<double> Axis::ticks() const {
+  std::vector<double> ticks;
+  const auto count = std::lround((high - low) / step);
+  for (long i = 0; i <= count; ++i) ticks.push_back(low + static_cast<double>(i) * step);
+  return ticks;
+}
+
+std::string Axis::label(double tick) const {
+  const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+  return fixed(tick, digits);
+}
+
+Axis nice_axis(double low, double high, int about) {
+  if (low > 0.0 && low < 0.5 * high) low = 0.0;
+  if (high < 0.0 && high > 0.5 * low) high = 0.0;
+  if (!(high > low)) {
+    const double margin = low == 0.0 ? 0.5 : 0.05 * std::abs(low);
+    high = low + margin;
+    low -= low == 0.0 ? 0.0 : margin;
+  }
+  const double step = round_step((high - low) / about);
+  return {step * std::floor(low / step + 1e-9), step * std::ceil(high / step - 1e-9), step};
+}
+
+}  // namespace skein::report

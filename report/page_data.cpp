@@ -1,0 +1,159 @@
+#include "report/page_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein::report {
+namespace {
+
+constexpr double kEachS = 0.5;                ///< between two positions of a track
+constexpr std::size_t kMostPoses = 120'000;   ///< of all tracks; more, and they are thinned further
+constexpr std::size_t kMostChanges = 6000;    ///< of a curve
+constexpr std::size_t kMostWaiting = 40'000;  ///< changes of all UAVs' captures not acknowledged
+
+long centimetres(double metres) { return std::lround(100.0 * metres); }
+double rounded(double value, double by) { return std::round(value / by) * by; }
+
+Json in_cm(const Vector3d& p_W) {
+  return Json::array({centimetres(p_W.x()), centimetres(p_W.y()), centimetres(p_W.z())});
+}
+
+/// Times in hundredths of a second and positions in cm, each as the difference to the one before: short numbers.
+Json track_json(const std::vector<RunPose>& track, double each_s) {
+  Json t = Json::array(), x = Json::array(), y = Json::array(), z = Json::array();
+  long last[4] = {0, 0, 0, 0};
+  double next_s = -1e9;
+  for (std::size_t i = 0; i < track.size(); ++i) {
+    if (track[i].time_s < next_s && i + 1 < track.size()) continue;
+    next_s = track[i].time_s + each_s - 1e-6;
+    const long now[4] = {std::lround(100.0 * track[i].time_s), centimetres(track[i].p_WB.x()),
+                         centimetres(track[i].p_WB.y()), centimetres(track[i].p_WB.z())};
+    Json* const columns[4] = {&t, &x, &y, &z};
+    for (std::size_t k = 0; k < 4; ++k) {
+      columns[k]->push_back(now[k] - last[k]);
+      last[k] = now[k];
+    }
+  }
+  return {{"t", std::move(t)}, {"x", std::move(x)}, {"y", std::move(y)}, {"z", std::move(z)}};
+}
+
+/// Times in ms, scores in thousandths.
+Json curve_json(const std::vector<RunScore>& scores) {
+  Json t = Json::array(), v = Json::array();
+  const std::size_t step = scores.size() / kMostChanges + 1;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (i % step != 0 && i + 1 < scores.size()) continue;
+    t.push_back(std::lround(1e3 * scores[i].time_s));
+    v.push_back(std::lround(1e3 * scores[i].score));
+  }
+  return {{"t", std::move(t)}, {"v", std::move(v)}};
+}
+
+Json spans_json(const Spans& spans) {
+  Json flat = Json::array();
+  for (const Span& span : spans) {
+    flat.push_back(rounded(span.from_s, 0.01));
+    flat.push_back(rounded(span.until_s, 0.01));
+  }
+  return flat;
+}
+
+/// x, y, z in cm, normal in hundredths, score and estimate in thousandths, cause (-1: none), one after the other.
+Json points_json(const RunData& run) {
+  Json flat = Json::array();
+  for (const RunPoint& point : run.points) {
+    for (const long value : {centimetres(point.p_W.x()), centimetres(point.p_W.y()), centimetres(point.p_W.z()),
+                             centimetres(point.normal_W.x()), centimetres(point.normal_W.y()),
+                             centimetres(point.normal_W.z()), std::lround(1e3 * point.score),
+                             std::lround(1e3 * point.estimate), point.cause ? static_cast<long>(*point.cause) : -1L}) {
+      flat.push_back(value);
+    }
+  }
+  return flat;
+}
+
+/// Who took the picture that made each point's score, and when: of those delivered the best, the first of equals.
+Json best_json(const RunData& run) {
+  std::vector<const RunCapture*> best(run.points.size(), nullptr);
+  for (const RunCapture& capture : run.captures) {
+    if (!capture.delivered_at_s || capture.voided || capture.point >= best.size() || capture.q < kDetected) continue;
+    const RunCapture*& now = best[capture.point];
+    if (now == nullptr || capture.q > now->q || (capture.q == now->q && capture.time_s < now->time_s)) now = &capture;
+  }
+  Json flat = Json::array();
+  for (const RunCapture* capture : best) {
+    flat.push_back(capture != nullptr ? static_cast<int>(capture->uav) : -1);
+    flat.push_back(capture != nullptr ? std::lround(1e3 * capture->time_s) : 0L);
+  }
+  return flat;
+}
+
+/// Times in ms; of several changes that have to be one, the greatest number.
+Json waiting_json(const std::vector<Waiting>& changes, std::size_t most) {
+  Json t = Json::array(), v = Json::array();
+  const std::size_t step = changes.size() / most + 1;
+  for (std::size_t i = 0; i < changes.size(); i += step) {
+    int captures = 0;
+    for (std::size_t j = i; j < std::min(i + step, changes.size()); ++j) {
+      captures = std::max(captures, changes[j].captures);
+    }
+    t.push_back(std::lround(1e3 * changes[i].time_s));
+    v.push_back(captures);
+  }
+  return {{"t", std::move(t)}, {"v", std::move(v)}};
+}
+
+/// Captures of each second: how many improved a point.
+Json each_second(const std::vector<double>& times_s, double end_s) {
+  std::vector<int> counts(static_cast<std::size_t>(std::min(std::max(end_s, 0.0), 1e5)) + 1, 0);
+  for (const double time_s : times_s) {
+    const auto second = static_cast<std::size_t>(std::max(time_s, 0.0));
+    if (second < counts.size()) ++counts[second];
+  }
+  return counts;
+}
+
+}  // namespace
+
+Json page_data(const RunPage& page) {
+  const RunData& run = page.run;
+  std::size_t poses = 0;
+  for (const auto& track : run.tracks) poses += track.empty() ? 0 : static_cast<std::size_t>(run.end_s / kEachS);
+  const double each_s = kEachS * std::max(1.0, std::ceil(static_cast<double>(poses) / kMostPoses));
+  Json data = {{"end", run.end_s}, {"delivered", curve_json(run.scores)}, {"earned", curve_json(page.earned)}};
+  data["uavs"] = Json::array();
+  for (std::size_t uav = 0; uav < run.uavs.size(); ++uav) {
+    const Lane& lane = page.lanes[uav];
+    data["uavs"].push_back({{"name", run.uavs[uav]},
+                            {"explorer", static_cast<bool>(run.explorer[uav])},
+                            {"track", track_json(run.tracks[uav], each_s)},
+                            {"captures", each_second(lane.captures_s, run.end_s)},
+                            {"waiting", waiting_json(lane.undelivered, kMostWaiting / run.uavs.size() + 1)},
+                            {"still", spans_json(lane.still)},
+                            {"direct", spans_json(lane.direct)},
+                            {"relayed", spans_json(lane.relayed)},
+                            {"collided", lane.collided_s ? Json(*lane.collided_s) : Json()}});
+  }
+  data["points"] = points_json(run);
+  data["best"] = best_json(run);
+  data["causes"] = Json::array();
+  for (const Cause& cause : kCauses) data["causes"].push_back(std::string(cause.title));
+  data["causes_known"] = run.causes_known;
+  data["boxes"] = Json::array();
+  for (const auto& corners : page.picture.boxes) {
+    Json box = Json::array();
+    for (const Vector3d& corner : corners) box.push_back(in_cm(corner));
+    data["boxes"].push_back(std::move(box));
+  }
+  data["station"] = run.station ? in_cm(*run.station) : Json();
+  data["collisions"] = Json::array();
+  for (const Vector3d& p_W : page.picture.collisions) data["collisions"].push_back(in_cm(p_W));
+  data["faults"] = Json::array();
+  for (const RunFault& fault : run.faults) {
+    data["faults"].push_back(
+        {{"name", fault.kind + " " + fault.target}, {"from", fault.from_s}, {"until", fault.until_s}});
+  }
+  return data;
+}
+
+}  // namespace skein::report

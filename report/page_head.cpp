@@ -1,0 +1,194 @@
+// The top of the page, and the pieces that all sections are made of.
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/suggestion.hpp"
+#include "core/text.hpp"
+#include "report/html.hpp"
+#include "report/page_parts.hpp"
+
+namespace skein::report {
+namespace {
+
+FlightPicture picture_of(const RunData& run) {
+  FlightPicture picture;
+  for (const RunBox& box : run.boxes) picture.boxes.push_back(corners_of(box.center, box.size, box.R_WB));
+  for (const RunPoint& point : run.points) picture.points.push_back({point.p_W, point.score, point.cause});
+  for (std::size_t uav = 0; uav < run.uavs.size(); ++uav) {
+    picture.tracks.push_back({run.uavs[uav], run.explorer[uav], {}});
+    for (const RunPose& pose : run.tracks[uav]) picture.tracks.back().p_WB.push_back(pose.p_WB);
+  }
+  picture.station = run.station;
+  for (const RunCollision& collision : run.collisions) {
+    if (collision.p_W) picture.collisions.push_back(*collision.p_W);
+  }
+  return picture;
+}
+
+/// What --planner takes for this fleet: one name, or a name by UAV.
+std::string planner_option(const Json& planners) {
+  std::set<std::string> names;
+  std::vector<std::string> by_uav;
+  for (const auto& [uav, planner] : planners.items()) {
+    if (uav == "gcs" || !planner.is_string()) continue;
+    names.insert(planner.get<std::string>());
+    by_uav.push_back(uav + "=" + planner.get<std::string>());
+  }
+  return names.size() == 1 ? *names.begin() : joined(by_uav, ",");
+}
+
+std::string card(const std::string& name, const std::string& value, const std::string& small,
+                 const std::string& style = "") {
+  return fmt::format("<div class=\"card {}\"><span>{}</span><strong>{}</strong><small>{}</small></div>\n", style, name,
+                     value, small);
+}
+
+std::string percent_of(double part, double whole) { return whole > 0.0 ? fixed(100.0 * part / whole, 1) + " %" : "–"; }
+
+/// The figures that count.
+std::string cards(const RunPage& page) {
+  const Json& result = page.run.result;
+  const Json attainable = value_or(result, "attainable", Json::object());
+  const double score = number_in(result, "score"), earned = number_in(result, "score_earned");
+  const auto possible = number_if_any(attainable, "score");
+  const std::size_t collisions = value_or(result, "collisions", Json::array()).size();
+  std::string html = "<div class=\"cards\">\n";
+  html += card("Score delivered", "<span id=\"score\">" + cell_of(result, "score", 1) + "</span>",
+               possible ? percent_of(score, *possible) + " of the " + fixed(*possible, 1) + " that could be had"
+                        : "what could be had is not known",
+               "main");
+  html += card("Score earned", cell_of(result, "score_earned", 1), percent_of(score, earned) + " of it delivered");
+  html += card("Points detected", cell_of(result, "points_detected", 0),
+               "of " + (number_if_any(attainable, "points") ? cell_of(attainable, "points", 0) + " attainable, " : "") +
+                   cell_of(result, "points_total", 0) + " in all");
+  html +=
+      card("Mission", cell_of(result, "mission_time_s", 1) + " s", cell_of(result, "sim_time_s", 1) + " s simulated");
+  html += card("Collisions", std::to_string(collisions),
+               fmt::format("{} UAVs, {} faults", page.run.uavs.size(), page.run.faults.size()),
+               collisions > 0 ? "bad" : "");
+  html += card("Speed", "×" + cell_of(result, "real_time_factor", 1),
+               "real time, in " + cell_of(result, "wall_time_s", 1) + " s");
+  return html + "</div>\n";
+}
+
+std::string facts(const Json& result) {
+  std::set<std::string> vendors;
+  const Json dds = value_or(result, "dds", Json::object());
+  for (const auto& [program, vendor] : dds.items()) {
+    if (vendor.is_string()) vendors.insert(vendor.get<std::string>());
+  }
+  const Json rules = value_or(result, "rules", nullptr);
+  std::string html = "<dl class=\"facts\">\n";
+  const auto fact = [&](const std::string& name, const std::string& value) {
+    html += "<div><dt>" + name + "</dt><dd>" + (value.empty() ? "–" : escaped(value)) + "</dd></div>\n";
+  };
+  fact("Scenario", text_in(result, "scenario"));
+  fact("Planner", planners_of(result));
+  fact("Seed", cell_of(result, "seed", 0));
+  fact("Scene seed", cell_of(result, "scene_seed", 0));
+  fact("Rules", rules.is_string() ? rules.get<std::string>() : rules.is_null() ? "" : rules.dump());
+  fact("Clock", text_in(result, "clock"));
+  fact("DDS", joined(std::vector<std::string>(vendors.begin(), vendors.end())));
+  fact("Skein", text_in(result, "skein_version") + (text_in(result, "math") == "native" ? ", native mathematics" : ""));
+  html += "<div class=\"long\"><dt>Digest</dt><dd><code>" +
+          (text_in(result, "digest").empty() ? "none: it would not repeat" : escaped(text_in(result, "digest"))) +
+          "</code></dd></div>\n";
+  return html + "</dl>\n";
+}
+
+std::string list_of(const std::string& style, const std::string& title, const std::vector<std::string>& lines) {
+  if (lines.empty()) return "";
+  std::string html = "<div class=\"note " + style + "\"><b>" + title + "</b><ul>\n";
+  for (const std::string& line : lines) html += "<li>" + escaped(line) + "</li>\n";
+  return html + "</ul></div>\n";
+}
+
+std::string notes(const RunPage& page) {
+  std::vector<std::string> warnings, lost;
+  for (const Json& warning : value_or(page.run.result, "warnings", Json::array())) {
+    warnings.push_back(warning.is_string() ? warning.get<std::string>() : warning.dump());
+  }
+  for (const Json& member : value_or(page.run.result, "lost_members", Json::array())) {
+    lost.push_back(text_in(member, "member") + " at " + cell_of(member, "time_s", 1) +
+                   " s: " + text_in(member, "reason"));
+  }
+  return list_of("lost", "Lost in the run", lost) + list_of("warnings", "Warnings", warnings) +
+         list_of("missing", "What this page lacks", page.run.missing);
+}
+
+}  // namespace
+
+RunPage::RunPage(RunData data)
+    : run(std::move(data)),
+      lanes(lanes_of(run)),
+      boxes(box_figures(run)),
+      earned(earned_over_time(run)),
+      links(link_shares(run)),
+      latency(latency_of(run)),
+      picture(picture_of(run)) {}
+
+std::string head_section(const RunPage& page) {
+  const Json& result = page.run.result;
+  const std::string status = text_in(result, "status");
+  static const std::map<std::string, std::string> kWords = {{"completed", "completed"},
+                                                            {"no_takeoff", "nobody took off"},
+                                                            {"interrupted", "interrupted"},
+                                                            {"aborted", "aborted"}};
+  const auto words = kWords.find(status);
+  std::string html = fmt::format(
+      "<header><p class=\"soft over\">Skein run</p>\n<h1>{} <span class=\"by\">by</span> {} "
+      "<span class=\"status {}\">{}</span></h1>\n",
+      escaped(text_in(result, "scenario")), escaped(shortened(planners_of(result), 80)),
+      status == "completed" ? "good" : "bad", words == kWords.end() ? "status unknown" : words->second);
+  return html + cards(page) + facts(result) + "<pre class=\"command\">" + escaped(command_of(result)) + "</pre>\n" +
+         notes(page) + "</header>\n";
+}
+
+std::string planners_of(const Json& result) {
+  std::vector<std::string> names;
+  const Json planners = value_or(result, "planner", Json::object());
+  for (const auto& [uav, planner] : planners.items()) {
+    const std::string name = planner.is_string() ? planner.get<std::string>() : "";
+    if (uav != "gcs" && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return joined(names, " · ");
+}
+
+std::string command_of(const Json& result) {
+  if (const std::string given = text_in(result, "command"); !given.empty()) return given;
+  std::string command = "skein run " + shell_word(text_in(result, "scenario"));
+  const std::string planner = planner_option(value_or(result, "planner", Json::object()));
+  if (!planner.empty()) command += " --planner " + shell_word(planner);
+  command += " --seed " + cell_of(result, "seed", 0);
+  if (number_in(result, "scene_seed") > 0.0) command += " --scene-seed " + cell_of(result, "scene_seed", 0);
+  if (text_in(result, "status") == "completed")
+    command += " --duration " + number_text(number_in(result, "mission_time_s"));
+  const Json rules = value_or(result, "rules", nullptr);
+  if (rules.is_string()) command += " --rules " + shell_word(rules.get<std::string>());
+  const Json dds = value_or(result, "dds", Json::object());
+  if (text_in(dds, "sim_server") == "inproc") command += " --one-process";
+  if (!text_in(result, "agent").empty()) command += " --agent " + shell_word(text_in(result, "agent"));
+  return command;
+}
+
+std::string table_head(const std::vector<std::string>& names) {
+  std::string html = "<thead><tr>";
+  for (const std::string& name : names) html += "<th>" + name + "</th>";
+  return html + "</tr></thead>";
+}
+
+std::string table_row(const std::vector<std::string>& cells, const std::string& style) {
+  std::string html = style.empty() ? "<tr>" : "<tr class=\"" + style + "\">";
+  for (const std::string& cell : cells) html += "<td>" + cell + "</td>";
+  return html + "</tr>\n";
+}
+
+std::string cell_of(const Json& object, const char* key, int digits) {
+  return fixed(number_if_any(object, key), digits);
+}
+
+std::string absent(const std::string& why) { return "<p class=\"absent\">" + why + "</p>\n"; }
+
+}  // namespace skein::report

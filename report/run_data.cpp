@@ -1,0 +1,223 @@
+#include "report/run_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "process/run_folder.hpp"
+#include "process/run_tables.hpp"
+#include "report/causes.hpp"
+#include "report/csv_table.hpp"
+
+namespace skein::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Beyond this no run goes, in metres and seconds; a drawing of such a number would have no end.
+constexpr double kFarthest = 1e7;
+
+double sensible(double value) {
+  if (!(std::abs(value) <= kFarthest)) throw std::runtime_error("a number is out of all bounds");
+  return value;
+}
+
+double number_of(const CsvTable& table, const char* column) { return sensible(table.number(column)); }
+
+Vector3d vector_of(const CsvTable& table, const char* x, const char* y, const char* z) {
+  return {number_of(table, x), number_of(table, y), number_of(table, z)};
+}
+
+/// Throws for what is no vector.
+Vector3d vector_in(const Json& numbers) {
+  return {sensible(numbers.at(0).get<double>()), sensible(numbers.at(1).get<double>()),
+          sensible(numbers.at(2).get<double>())};
+}
+
+/// Each row of a table as far as they make sense; the rest is told of.
+template <class Row>
+void read_rows(const fs::path& dir, const char* file, RunData& data, const Row& row) {
+  std::size_t rows = 0;
+  try {
+    if (!fs::exists(dir / file)) {
+      data.missing.push_back(std::string("There is no ") + file + ".");
+      return;
+    }
+    for (CsvTable table(dir / file); table.next(); ++rows) row(table);
+  } catch (const std::exception& error) {
+    const std::string what = error.what(), folder = dir.string() + "/";
+    data.missing.push_back(std::string(file) + " makes sense for " + std::to_string(rows) + " rows only (" +
+                           (what.starts_with(folder) ? what.substr(folder.size()) : what) + ").");
+  }
+}
+
+RunData read_result(const fs::path& dir) {
+  RunData data;
+  data.result = read_json(dir / run_folder::kResult);
+  if (!data.result.is_object()) {
+    throw InputError(dir.string() + ": there is no " + run_folder::kResult + " in it, or it is damaged");
+  }
+  for (const Json& uav : value_or(data.result, "uavs", Json::array())) {
+    data.uavs.push_back(text_in(uav, "name"));
+    data.explorer.push_back(text_in(uav, "role") == "explorer");
+  }
+  data.tracks.resize(data.uavs.size());
+  return data;
+}
+
+void read_scene(const fs::path& dir, RunData& data) {
+  const Json scene = read_json(dir / run_folder::kScene);
+  if (!scene.is_object()) data.missing.push_back(std::string("There is no ") + run_folder::kScene + ".");
+  try {
+    for (const Json& box : value_or(scene, "boxes", Json::array())) {
+      RunBox next{text_in(box, "name"), vector_in(box.at("center")), vector_in(box.at("size")), {}};
+      for (int row = 0; row < 3; ++row) next.R_WB.row(row) = vector_in(box.at("rotation").at(row)).transpose();
+      data.boxes.push_back(std::move(next));
+    }
+  } catch (const std::exception&) {
+    data.missing.push_back("The boxes of scene.json are damaged.");
+  }
+}
+
+void read_points(const fs::path& dir, RunData& data) {
+  read_rows(dir, run_folder::kScore, data, [&](const CsvTable& table) {
+    RunPoint point;
+    point.p_W = vector_of(table, "x", "y", "z");
+    point.normal_W = vector_of(table, "nx", "ny", "nz");
+    point.score = number_of(table, "score");
+    data.points.push_back(point);
+  });
+  if (value_or(data.result, "losses", nullptr).is_null()) return;
+  data.causes_known = fs::exists(dir / run_folder::kLosses);
+  read_rows(dir, run_folder::kLosses, data, [&](const CsvTable& table) {
+    const std::size_t index = table.count("index");
+    if (index >= data.points.size()) throw std::runtime_error("there is no such point in score.csv");
+    RunPoint& point = data.points[index];
+    point.estimate = number_of(table, "estimate");
+    point.loss = number_of(table, "loss");
+    point.cause = cause_of(table.text("cause"));
+  });
+}
+
+void read_tracks(const fs::path& dir, RunData& data) {
+  read_rows(dir, run_folder::kTrajectories, data, [&](const CsvTable& table) {
+    const auto uav = data.uav_of(table.text("uav"));
+    if (!uav) return;
+    data.tracks[*uav].push_back({number_of(table, "time_s"), vector_of(table, "x", "y", "z"),
+                                 vector_of(table, "vx", "vy", "vz").norm(), table.text("alive") != "0"});
+  });
+}
+
+void read_captures(const fs::path& dir, RunData& data) {
+  read_rows(dir, run_folder::kCaptures, data, [&](const CsvTable& table) {
+    const auto uav = data.uav_of(table.text("uav"));
+    if (!uav) return;
+    RunCapture capture{*uav, table.count("capture"), number_of(table, "time_s"), number_of(table, "q"),
+                       table.count("point")};
+    if (const auto at_s = table.number_if_any("delivered_at_s")) capture.delivered_at_s = sensible(*at_s);
+    capture.voided = table.text("reason") == run_tables::kUavCollided;
+    data.captures.push_back(capture);
+  });
+}
+
+void read_events(const fs::path& dir, RunData& data) {
+  read_rows(dir, run_folder::kEvents, data, [&](const CsvTable& table) {
+    data.events.push_back(
+        {number_of(table, "time_s"), table.text("event"), table.text("subject"), table.text("object")});
+  });
+}
+
+void read_scores(const fs::path& dir, RunData& data) {
+  read_rows(dir, run_folder::kScoreTimeline, data, [&](const CsvTable& table) {
+    data.scores.push_back({number_of(table, "time_s"), number_of(table, "points"), number_of(table, "score")});
+  });
+}
+
+/// As result.json has it; a damaged entry is left out.
+template <class Entry>
+void read_entries(const RunData& data, const char* key, const Entry& entry) {
+  for (const Json& json : value_or(data.result, key, Json::array())) {
+    try {
+      entry(json);
+    } catch (const std::exception&) {
+    }
+  }
+}
+
+void read_incidents(RunData& data) {
+  read_entries(data, "collisions", [&](const Json& json) {
+    RunCollision collision{sensible(number_in(json, "time_s")), text_in(json, "uav"), text_in(json, "with"), {}};
+    if (json.contains("position") && json["position"].is_array()) collision.p_W = vector_in(json["position"]);
+    data.collisions.push_back(std::move(collision));
+  });
+  const double step_s = number_in(data.result, "exchange_period_s");
+  read_entries(data, "faults", [&](const Json& json) {
+    const auto began = number_if_any(json, "began_step"), ended = number_if_any(json, "ended_step");
+    if (!began) return;
+    data.faults.push_back({text_in(json, "kind"), text_in(json, "target"), sensible(*began * step_s),
+                           ended ? sensible(*ended * step_s) : data.end_s});
+  });
+  try {
+    data.station = vector_in(data.result.at("station").at("position"));
+  } catch (const std::exception&) {  // a result of an earlier version does not tell
+  }
+}
+
+double end_of(const RunData& data) {
+  double end_s = std::clamp(number_in(data.result, "sim_time_s"), 0.0, kFarthest);
+  for (const auto& track : data.tracks) {
+    if (!track.empty()) end_s = std::max(end_s, track.back().time_s);
+  }
+  if (!data.events.empty()) end_s = std::max(end_s, data.events.back().time_s);
+  if (!data.scores.empty()) end_s = std::max(end_s, data.scores.back().time_s);
+  return end_s;
+}
+
+}  // namespace
+
+bool RunBox::holds(const Vector3d& p_W) const {
+  const Vector3d p_B = R_WB.transpose() * (p_W - center);
+  return (p_B.array().abs() <= 0.5 * size.array()).all();
+}
+
+std::optional<std::size_t> RunData::uav_of(const std::string& name) const {
+  const auto found = std::find(uavs.begin(), uavs.end(), name);
+  return found == uavs.end() ? std::nullopt : std::optional<std::size_t>(found - uavs.begin());
+}
+
+RunData read_run_data(const fs::path& dir) {
+  RunData data = read_result(dir);
+  read_scene(dir, data);
+  read_points(dir, data);
+  read_tracks(dir, data);
+  read_captures(dir, data);
+  read_events(dir, data);
+  read_scores(dir, data);
+  data.end_s = end_of(data);
+  read_incidents(data);
+  return data;
+}
+
+RunData read_run_deliveries(const fs::path& dir) {
+  RunData data = read_result(dir);
+  read_captures(dir, data);
+  read_scores(dir, data);
+  data.end_s = end_of(data);
+  return data;
+}
+
+std::optional<double> number_if_any(const Json& object, const char* key) {
+  if (!object.is_object()) return std::nullopt;
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
+double number_in(const Json& object, const char* key) { return number_if_any(object, key).value_or(0.0); }
+
+std::string text_in(const Json& object, const char* key) {
+  if (!object.is_object()) return "";
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+}  // namespace skein::report

@@ -1,0 +1,62 @@
+#include "report/run_report.hpp"
+
+#include "process/atomic_file.hpp"
+#include "process/run_folder.hpp"
+#include "report/html.hpp"
+#include "report/page_data.hpp"
+#include "report/page_parts.hpp"
+#include "report/style.hpp"
+#include "report/web_bundle.hpp"
+
+namespace skein::report {
+namespace {
+
+/// Nothing may be fetched, and no script runs but ours.
+std::string policy(const std::optional<std::string>& bundle) {
+  return "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'" +
+         (bundle ? "; script-src '" + script_hash(*bundle) + "'" : std::string());
+}
+
+std::string footer(const RunData& run, const std::optional<std::string>& bundle) {
+  std::string html = "<footer class=\"soft\">";
+  if (!bundle) {
+    html +=
+        "<p id=\"static\">These drawings stand still. With Node.js 18 or newer and npm, <code>npm ci &amp;&amp; npm "
+        "run build</code> "
+        "in Skein's folder <code>web/</code>, then <code>skein report</code> with this folder, make them "
+        "interactive.</p>";
+  }
+  return html + "<p>Skein " + escaped(text_in(run.result, "skein_version")) +
+         ". All figures are from the tables beside this page: result.json, losses.csv, captures.csv, events.csv, "
+         "score_timeline.csv, trajectories.csv and scene.json.</p></footer>\n";
+}
+
+}  // namespace
+
+std::string run_page(RunData data, const std::optional<std::string>& bundle) {
+  const RunPage page(std::move(data));
+  const std::string title = text_in(page.run.result, "scenario") + " by " + planners_of(page.run.result);
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
+      escaped(policy(bundle)) +
+      "\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>Skein: " +
+      escaped(title) + "</title>\n<style>\n" + std::string(base_style()) + std::string(drawing_style()) +
+      std::string(run_style()) + "</style>\n</head>\n<body class=\"run\">\n<main>\n";
+  html += head_section(page) + "<div class=\"pair\">" + losses_section(page) + timeline_section(page) + "</div>\n" +
+          views_section(page) + places_section(page) + boxes_section(page) + fleet_section(page) + radio_section(page) +
+          machine_section(page) + footer(page.run, bundle) + "</main>\n";
+  if (bundle) {
+    const std::string json = page_data(page).dump(-1, ' ', false, Json::error_handler_t::replace);
+    html += "<script type=\"application/json\" id=\"data\">" + script_json(json) + "</script>\n<script>" + *bundle +
+            "</script>\n";
+  }
+  return html + "</body>\n</html>\n";
+}
+
+void write_run_report(const std::filesystem::path& dir) {
+  write_file_atomically(dir / run_folder::kPage, run_page(read_run_data(dir), web_bundle()));
+}
+
+}  // namespace skein::report

@@ -1,0 +1,142 @@
+#include "report/run_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "core/types.hpp"
+#include "report/html.hpp"
+#include "report/page_data.hpp"
+#include "report/testing/odd_run.hpp"
+#include "report/testing/xml_check.hpp"
+#include "report/web_bundle.hpp"
+
+namespace skein::report {
+namespace {
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+/// What a browser takes for the element's text.
+std::string element_text(const std::string& page, const std::string& begin, const std::string& end) {
+  const std::size_t from = page.find(begin) + begin.size();
+  return page.substr(from, page.find(end, from) - from);
+}
+
+class OddRuns : public testing::TestWithParam<unsigned> {};
+
+TEST_P(OddRuns, GiveASoundPage) {
+  std::mt19937 random(GetParam());
+  for (int trial = 0; trial < 12; ++trial) {
+    SCOPED_TRACE(trial);
+    const Scratch scratch;
+    OddRun(random).write(scratch.path());
+    const RunData run = read_run_data(scratch.path());
+    const std::string page = run_page(run, std::nullopt);
+    ASSERT_NO_THROW(xml_elements(page));
+    EXPECT_EQ(page, run_page(run, std::nullopt)) << "the same folder gives the same page";
+    EXPECT_EQ(count_of(page, "<script"), 0u);
+    for (const char* number : {"nan", "inf", "e+"}) {
+      EXPECT_FALSE(std::regex_search(page, std::regex(std::string("[\" ]-?") + number + "[\" ]"))) << "in a drawing";
+    }
+    EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"(?!#)"))) << "something is to be fetched";
+
+    const std::string script = "let x = '<b>' && 1 < 2;";
+    const std::string live = run_page(run, script);
+    EXPECT_EQ(count_of(live, "<script"), 2u) << "a text of the run begins another";
+    EXPECT_EQ(count_of(live, "</script"), 2u);
+    EXPECT_EQ(element_text(live, "</script>\n<script>", "</script>"), script);
+    EXPECT_NE(live.find(escaped(script_hash(script))), std::string::npos);
+    const Json data = Json::parse(element_text(live, "id=\"data\">", "</script>"));
+    ASSERT_EQ(data["uavs"].size(), run.uavs.size());
+    EXPECT_EQ(data["points"].size(), 9 * run.points.size());
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Drawn, OddRuns, testing::Range(1U, 9U));
+
+TEST(RunReport, AFolderWithoutAResultIsTheUsersMistake) {
+  const Scratch scratch;
+  EXPECT_THROW(write_run_report(scratch.path()), InputError);
+  write_text(scratch.path() / "result.json", "{\"score\": ");
+  EXPECT_THROW(write_run_report(scratch.path()), InputError);
+}
+
+TEST(RunReport, WhatIsNotThereIsTold) {
+  const Scratch scratch;
+  write_text(scratch.path() / "result.json", R"({"uavs": [{"name": "a"}], "losses": {}})");
+  write_text(scratch.path() / "events.csv", "step,time_s,event,subject,object\n0,0,joined,a,\n1,0.05,joi");
+  write_run_report(scratch.path());
+  const std::string page = read_text(scratch.path() / "report.html");
+  for (const char* file :
+       {"scene.json", "score.csv", "losses.csv", "captures.csv", "trajectories.csv", "score_timeline.csv"}) {
+    EXPECT_NE(page.find("There is no " + std::string(file)), std::string::npos) << file;
+  }
+  EXPECT_NE(page.find("events.csv makes sense for 1 rows only"), std::string::npos);
+  EXPECT_EQ(page.find(scratch.path().string()), std::string::npos) << "where the folder lies is nobody's business";
+}
+
+TEST(RunReport, ANumberOutOfAllBoundsEndsItsTable) {
+  for (const char* number : {"nan", "-inf", "1e300", "x"}) {
+    const Scratch scratch;
+    write_text(scratch.path() / "result.json", R"({"uavs": [{"name": "a"}]})");
+    const std::string row = ",1,2,0,0,1,0.5,";
+    write_text(scratch.path() / "score.csv",
+               "x,y,z,nx,ny,nz,score,index\n0" + row + "0\n" + number + row + "1\n3" + row + "2\n");
+    const RunData run = read_run_data(scratch.path());
+    EXPECT_EQ(run.points.size(), 1u) << number;
+    EXPECT_NE(run_page(run, std::nullopt).find("score.csv makes sense for 1 rows only"), std::string::npos);
+  }
+}
+
+TEST(RunReport, TheCommandIsAsItWasTypedOrRepeatsTheRun) {
+  const std::string typed = "skein run towers --faults 'my faults.yaml'";
+  const auto page_of = [](const Json& result) {
+    RunData run;
+    run.result = result;
+    return run_page(run, std::nullopt);
+  };
+  EXPECT_NE(page_of({{"command", typed}}).find(escaped(typed)), std::string::npos);
+  const std::string page = page_of({{"scenario", "my scene.yaml"},
+                                    {"seed", 7},
+                                    {"scene_seed", 3},
+                                    {"status", "completed"},
+                                    {"mission_time_s", 120.5},
+                                    {"planner", {{"a", "kios"}, {"b", "exec:./x y"}}},
+                                    {"dds", {{"sim_server", "inproc"}}}});
+  EXPECT_NE(page.find(escaped(
+                "skein run 'my scene.yaml' --planner 'a=kios,b=exec:./x y' --seed 7 --scene-seed 3 --duration 120.5 "
+                "--one-process")),
+            std::string::npos);
+}
+
+TEST(WebBundle, HashesAsBrowsersDo) {
+  EXPECT_EQ(script_hash(""), "sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU=");
+  EXPECT_EQ(script_hash("alert('Hello, world.');"), "sha256-qznLcsROx4GACP2dm0UCKCzCG+HiZ1guq6ZZDob/Tng=");
+}
+
+TEST(WebBundle, WhatDoesNotFitIntoAScriptIsLeftOut) {
+  const Scratch scratch;
+  const auto file = scratch.path() / "report.js";
+  ::setenv("SKEIN_WEB", file.c_str(), 1);
+  EXPECT_EQ(web_bundle(), std::nullopt) << "there is none";
+  for (const auto& [text, fits] : {std::pair("let x = 1;", true), {"'</ScRipt >'", false}, {"'<!-- x'", false}}) {
+    write_text(file, text);
+    EXPECT_EQ(web_bundle().has_value(), fits) << text;
+  }
+  ::unsetenv("SKEIN_WEB");
+}
+
+TEST(WebBundle, NoTextOfJsonEndsItsElement) {
+  for (const std::string& text : kNastyTexts) {
+    const std::string dumped = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace),
+                      json = script_json(dumped);
+    EXPECT_EQ(json.find_first_of("<>&"), std::string::npos);
+    EXPECT_EQ(Json::parse(json), Json::parse(dumped));
+  }
+}
+
+}  // namespace
+}  // namespace skein::report

@@ -1,0 +1,89 @@
+#include "report/web_bundle.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <span>
+
+#include "core/file_bytes.hpp"
+#include "core/sha256.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargest = 3 << 20;
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t j = 0; j < 3; ++j) three = three << 8 | (i + j < bytes.size() ? bytes[i + j] : 0U);
+    for (std::size_t j = 0; j < 4; ++j) {
+      text += i + j <= bytes.size() ? kDigits[three >> (18 - 6 * j) & 63U] : '=';
+    }
+  }
+  return text;
+}
+
+/// Whether a <script> element that holds this text ends where it should.
+bool fits_in_script(const std::string& script) {
+  std::string lower = script;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return lower.find("</script") == std::string::npos && lower.find("<!--") == std::string::npos;
+}
+
+}  // namespace
+
+std::optional<fs::path> find_web_bundle() {
+  const auto there = [](const fs::path& file) {
+    std::error_code error;
+    return fs::is_regular_file(file, error);
+  };
+  if (const char* named = std::getenv("SKEIN_WEB"); named != nullptr && *named != '\0') {
+    return there(named) ? std::optional<fs::path>(named) : std::nullopt;
+  }
+  std::error_code error;
+  const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& file : {fs::path(SKEIN_SOURCE_ROOT) / "build" / "web" / "report.js",
+                               bin.parent_path() / "share" / "skein" / "web" / "report.js"}) {
+    if (there(file)) return file;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> web_bundle() try {
+  const auto file = find_web_bundle();
+  if (!file) return std::nullopt;
+  std::string script = read_file_bytes(*file, kLargest);
+  return fits_in_script(script) ? std::optional(std::move(script)) : std::nullopt;
+} catch (const InputError&) {
+  return std::nullopt;
+}
+
+std::string script_hash(std::string_view script) {
+  const std::span bytes(reinterpret_cast<const std::uint8_t*>(script.data()), script.size());
+  return "sha256-" + base64(Sha256().add(bytes).digest());
+}
+
+std::string script_json(std::string json) {
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<') {
+      out += "\\u003c";
+    } else if (c == '>') {
+      out += "\\u003e";
+    } else if (c == '&') {
+      out += "\\u0026";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+}  // namespace skein::report

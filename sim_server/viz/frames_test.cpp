@@ -1,0 +1,74 @@
+#include "sim_server/viz/frames.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/camera_quality.hpp"
+#include "core/random_stream.hpp"
+#include "idl/conversions.hpp"
+#include "sim_server/testing/test_scenes.hpp"
+
+namespace skein::sim::viz {
+namespace {
+
+/// As tf2 keeps them: by child, for a frame has one parent.
+class Tree {
+ public:
+  void add(const msg::TFMessage& frames) {
+    for (const msg::TransformStamped& frame : frames.transforms()) {
+      const auto& p = frame.transform().translation();
+      const auto& q = frame.transform().rotation();
+      const Quaterniond R(q.w(), q.x(), q.y(), q.z());
+      EXPECT_NEAR(R.norm(), 1.0, 1e-9);
+      const bool fresh = edges_
+                             .emplace(frame.child_frame_id(), std::pair(frame.header().frame_id(),
+                                                                        Eigen::Translation3d(p.x(), p.y(), p.z()) * R))
+                             .second;
+      EXPECT_TRUE(fresh) << frame.child_frame_id() << " has two parents";
+    }
+  }
+  Isometry3d in_world(const std::string& frame) const {
+    if (frame == "world") return Isometry3d::Identity();
+    const auto& [parent, X_PF] = edges_.at(frame);
+    return in_world(parent) * X_PF;
+  }
+  std::size_t size() const { return edges_.size(); }
+
+ private:
+  std::map<std::string, std::pair<std::string, Isometry3d>> edges_;
+};
+
+TEST(Frames, ComposeToThePoseOfTheCamera) {
+  Scenario scenario;
+  scenario.fleet.resize(3);
+  RandomStream random(1, "frames", 0);
+  std::vector<UavView> views(scenario.fleet.size());
+  for (int round = 0; round < 100; ++round) {
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      scenario.fleet[i].name = "uav" + std::to_string(i);
+      scenario.fleet[i].vehicle.camera.p_BC = test::random_in_box(random, {-1, -1, -1}, {1, 1, 1});
+      views[i].state.p_WB = test::random_in_box(random, {-50, -50, 0}, {50, 50, 60});
+      views[i].state.q_WB =
+          Quaterniond(test::rotation(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)));
+      views[i].gimbal = {random.uniform(-1.4, 1.4), random.uniform(-1.5, 1.5), 0.0, 0.0};
+    }
+    const msg::TFMessage moving = moving_frames(7, scenario, views);
+    for (const msg::TransformStamped& frame : moving.transforms()) EXPECT_EQ(frame.header().stamp(), to_time(7));
+    Tree tree;
+    tree.add(moving);
+    tree.add(fixed_frames(scenario));
+    ASSERT_EQ(tree.size(), 1 + 3 * views.size());
+    EXPECT_TRUE(tree.in_world("gcs").translation().isApprox(scenario.station_position));
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const UavConfig& uav = scenario.fleet[i];
+      const Isometry3d X_WC = camera_state(views[i].state, views[i].gimbal, uav.vehicle.camera).X_WC;
+      EXPECT_TRUE(tree.in_world(uav.name + "/base_link").isApprox(views[i].state.X_WB(), 1e-9));
+      EXPECT_TRUE(tree.in_world(uav.name + "/gimbal").isApprox(X_WC, 1e-9));
+      EXPECT_TRUE(tree.in_world(uav.name + "/camera").isApprox(X_WC, 1e-9));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skein::sim::viz

@@ -1,0 +1,42 @@
+// Where each UAV has been of late. Frame W [m]. Not thread-safe.
+#pragma once
+
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "core/types.hpp"
+#include "sim_server/simulation.hpp"
+
+namespace skein::sim::viz {
+
+class Trails {
+ public:
+  static constexpr Tick kSpan = 60 * kTicksPerSecond;
+  static constexpr Tick kPeriod = kTicksPerSecond / 2;  ///< from one place to the next
+
+  explicit Trails(std::size_t uavs) : places_(uavs) {}
+
+  /// @param tick  later than in the call before; places in between two periods are passed over.
+  /// @returns whether there is something new.
+  bool add(Tick tick, std::span<const UavView> uavs) {
+    if (tick < due_) return false;
+    due_ = tick + kPeriod;
+    ticks_.push_back(tick);
+    for (std::size_t i = 0; i < places_.size(); ++i) places_[i].push_back(uavs[i].state.p_WB);
+    for (; ticks_.front() < tick - kSpan; ticks_.pop_front()) {
+      for (auto& places : places_) places.pop_front();
+    }
+    return true;
+  }
+
+  /// The oldest first.
+  const std::deque<Vector3d>& of(UavIndex uav) const { return places_.at(uav); }
+
+ private:
+  Tick due_ = 0;
+  std::deque<Tick> ticks_;  ///< when the places were taken
+  std::vector<std::deque<Vector3d>> places_;
+};
+
+}  // namespace skein::sim::viz

@@ -1,0 +1,56 @@
+// `skein ps` and `skein attach`: into a fleet that is already flying.
+#include "debug_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+class Attach : public DebugTest {
+ protected:
+  SkeinRun& flying_fleet() {
+    SkeinRun& fleet = start("fleet", {scenario_, "--planner", "patrol", "--duration", "600", "--no-oracle"});
+    EXPECT_TRUE(fleet.wait_until_flying()) << fleet.err();
+    return fleet;
+  }
+  static void end(SkeinRun& fleet) {
+    fleet.skein().signal(SIGINT);
+    EXPECT_EQ(fleet.exit_code(), 130) << fleet.err();
+    EXPECT_TRUE(fleet.result()["lost_members"].empty()) << fleet.result()["lost_members"];
+  }
+};
+
+TEST_F(Attach, PsListsTheFleetAndItsPrograms) {
+  SkeinRun& fleet = flying_fleet();
+  const std::string text = skein({"ps"}).out();
+  const std::size_t at = text.find(std::filesystem::path(fleet.dir()).filename().string() + ": scenario, simulated ");
+  ASSERT_NE(at, std::string::npos) << text;
+  expect_part(text, "launcher " + std::to_string(fleet.skein().pid()) + "\n");
+  for (const auto& [program, pid] : processes_of(fleet.dir())) {
+    if (program == "skein") continue;
+    expect_part(text, "  " + program);
+    expect_part(text, std::to_string(pid) + "  runs\n");
+  }
+  end(fleet);
+}
+
+TEST_F(Attach, GdbLooksIntoAFlyingProgramAndLeavesItFlying) {
+  SKEIN_NEEDS_GDB();
+  SkeinRun& fleet = flying_fleet();
+  ChildProcess& gdb = typed("gdb", {"skein", "attach", "changi", "--run", fleet.dir()},
+                            "break skein::agent::PatrolPlanner::plan\ncontinue\nprint in.state.p_WB\ndetach\nquit\n");
+  EXPECT_EQ(gdb.wait().code, 0) << gdb.out() << gdb.err();
+  expect_part(gdb.out(), "$1 = (");
+  expect_part(gdb.err(), "the fleet waits for changi up to 60 s");
+  end(fleet);
+}
+
+TEST_F(Attach, WhoIsNotThereIsBadInput) {
+  EXPECT_EQ(skein({"attach", "changi", "--run", folder()}).wait().code, 2);
+  SkeinRun& fleet = flying_fleet();
+  ChildProcess& wrong = skein({"attach", "chang", "--run", fleet.dir()});
+  EXPECT_EQ(wrong.wait().code, 2);
+  expect_part(wrong.err(), "changi");
+  end(fleet);
+}
+
+}  // namespace
+}  // namespace skein::test

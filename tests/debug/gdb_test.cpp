@@ -1,0 +1,65 @@
+// `skein run --debug UAV=gdb`: what is typed there is heard, what is debugged flies as ever, and who leaves is lost.
+#include <regex>
+
+#include "debug_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+const std::string kBreak = "break skein::agent::PatrolPlanner::plan\nrun\n";
+
+class Gdb : public DebugTest {};
+
+TEST_F(Gdb, BreaksInAPlannerPrintsAndFliesOnToTheSameDigest) {
+  SKEIN_NEEDS_GDB();
+  const ChildProcess& skein =
+      fly("gdb", {"--debug", "changi=gdb"}, kBreak + "print in.k\nprint in.state.p_WB\nbt 4\ndelete\ncontinue\nquit\n");
+  ASSERT_EQ(const_cast<ChildProcess&>(skein).wait().code, 0) << skein.out() << skein.err();
+  const std::string said = skein.out();
+  EXPECT_TRUE(std::regex_search(said, std::regex("\\$1 = [0-9]+\n"))) << said;
+  EXPECT_TRUE(std::regex_search(said, std::regex("\\$2 = \\(-?[0-9.e-]+, -5[0-9.e-]*, [0-9.e-]+\\)\n"))) << said;
+  EXPECT_TRUE(std::regex_search(said, std::regex("patrol\\.cpp:[0-9]+"))) << said;
+  EXPECT_TRUE(std::regex_search(said, std::regex("Agent::step[^#]*agent\\.cpp:[0-9]+"))) << said;
+  EXPECT_EQ(result("gdb")["digest"], plain_digest());
+  expect_part(text_of(dir("gdb") / "fleet.log"), "simulated 5");
+  EXPECT_FALSE(text_of(dir("gdb") / "uav_agent-changi.report.json").empty());
+}
+
+TEST_F(Gdb, WhoQuitsEndsThatProgramAndTheFleetGoesOn) {
+  SKEIN_NEEDS_GDB();
+  ChildProcess& skein = fly("gdb", {"--debug", "changi=gdb"}, kBreak + "quit\n");
+  EXPECT_EQ(skein.wait().code, 3) << skein.out() << skein.err();
+  expect_only_lost("gdb", "changi");
+  EXPECT_EQ(result("gdb")["status"], "completed");
+  expect_part(skein.err() + text_of(dir("gdb") / "fleet.log"), "has ended; the fleet goes on without it");
+}
+
+TEST_F(Gdb, AProgramThatIsKilledThereIsLostThoughGdbLivesOn) {
+  SKEIN_NEEDS_GDB();
+  ChildProcess& skein = fly("gdb", {"--debug", "changi=gdb"},
+                            kBreak + "kill\nshell while ! grep -q 'simulated 5' " +
+                                (dir("gdb") / "fleet.log").string() + "; do sleep 0.1; done\nquit\n");
+  EXPECT_EQ(skein.wait().code, 3) << skein.out() << skein.err();
+  expect_only_lost("gdb", "changi");
+}
+
+TEST_F(Gdb, TheFleetEndsWithItsServer) {
+  SKEIN_NEEDS_GDB();
+  ChildProcess& skein = fly("gdb", {"--debug", "sim_server=gdb"}, "quit\n");
+  EXPECT_EQ(skein.wait().code, 3) << skein.out() << skein.err();
+  expect_part(skein.err() + text_of(dir("gdb") / "fleet.log"), "the debugged program of sim_server has ended");
+}
+
+TEST_F(Gdb, StopsInTheExchangeBeforeATime) {
+  SKEIN_NEEDS_GDB();
+  ChildProcess& skein =
+      fly("gdb", {"--debug", "changi=gdb", "--break-at", "3.02"},
+          "run\nbreak skein::agent::PatrolPlanner::plan\ncontinue\nprint in.tick\ndelete\ncontinue\n");
+  EXPECT_EQ(skein.wait().code, 0) << skein.out() << skein.err();
+  expect_part(skein.out(), "received signal SIGTRAP");
+  expect_part(skein.out(), "$1 = 1200\n");  // 3.00 s
+  EXPECT_EQ(result("gdb")["digest"], plain_digest());
+}
+
+}  // namespace
+}  // namespace skein::test

@@ -1,0 +1,131 @@
+// skein rerun and skein fork: recorded runs flown again, with drawn scenes, planners and faults.
+#include <random>
+
+#include "fleet_fixture.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Rerun : public FleetTest {
+ protected:
+  std::string drawn(const std::vector<std::string>& of) { return of[draw_() % of.size()]; }
+  std::string number(unsigned below) { return std::to_string(draw_() % below); }
+
+  /// Of a run whose scene and planner chance chooses.
+  Arguments drawn_flight() {
+    return {drawn({"towers", "hangar", "cranes", "spire", "sail"}),
+            "--planner",
+            drawn({"patrol", "kios", "xxh", "star"}),
+            "--seed",
+            std::to_string(1 + draw_() % 500),
+            "--scene-seed",
+            number(500),
+            "--duration",
+            "40"};
+  }
+  ChildProcess& again(const std::string& command, const SkeinRun& run, const std::string& out, Arguments more) {
+    Arguments arguments = {command, run.dir(), "--out", folder() / out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return skein(arguments);
+  }
+  Json result_in(const std::string& out) const {
+    return Json::parse(text_of(folder() / out / run_folder::kResult), nullptr, false);
+  }
+  static std::vector<std::string> uavs_of(const SkeinRun& run) {
+    std::vector<std::string> names;
+    const Json result = run.result();
+    for (const Json& uav : result["uavs"]) names.push_back(uav["name"]);
+    EXPECT_GE(names.size(), 3U);
+    return names;
+  }
+  static std::string joined(const Arguments& arguments) {
+    std::string text;
+    for (const std::string& argument : arguments) text += argument + " ";
+    return text;
+  }
+
+  std::mt19937 draw_{static_cast<unsigned>(::getpid())};
+};
+
+TEST_F(Rerun, EachAgentSaysWhatItSaidThen) {
+  for (int round = 0; round < 2; ++round) {
+    Arguments flight = drawn_flight();
+    if (round == 1) {
+      flight.insert(flight.end(), {"--faults", write("faults.yaml",
+                                                     "faults:\n  - {at_s: 8, until_s: 14, kill: changi}\n"
+                                                     "  - {at_s: 0, link: {loss: 0.2}}\n"
+                                                     "  - {at_s: 20, until_s: 24, kill: comm_router}\n")});
+    }
+    SCOPED_TRACE(joined(flight));
+    flight.push_back(round == 0 ? "--dds=mixed" : "--one-process");
+    SkeinRun& run = this->run("run" + std::to_string(round), flight);
+    for (const std::string& uav : uavs_of(run)) {
+      const std::string out = uav + std::to_string(round);
+      ChildProcess& process = again("rerun", run, out, {"--uav", uav});
+      EXPECT_EQ(process.wait().code, 0) << process.out() << process.err();
+      EXPECT_NE(process.out().find(uav + " says what it said then"), std::string::npos) << process.out();
+      EXPECT_EQ(result_in(out)["digest"], run.result()["digest"]) << uav;
+    }
+  }
+}
+
+TEST_F(Rerun, OverDdsItIsTheSame) {
+  SkeinRun& run = this->run("run", drawn_flight());
+  const std::string uav = drawn(uavs_of(run));
+  ChildProcess& process = again("rerun", run, "again", {"--uav", uav, "--dds", drawn({"cyclonedds", "fastdds"})});
+  EXPECT_EQ(process.wait().code, 0) << process.out() << process.err();
+  EXPECT_EQ(result_in("again")["digest"], run.digest());
+}
+
+TEST_F(Rerun, AnotherPlannerHearsTheSameAndIsFoundOut) {
+  SkeinRun& run = this->run("run", {"towers", "--planner", "kios", "--duration", "40", "--one-process"});
+  ChildProcess& process = again("rerun", run, "other", {"--uav", "jurong", "--planner", "patrol"});
+  EXPECT_EQ(process.wait().code, 1) << process.err();
+  EXPECT_NE(process.out().find("jurong first differs at "), std::string::npos) << process.out();
+  EXPECT_EQ(result_in("other")["digest"], run.digest()) << "what it says goes nowhere";
+  EXPECT_EQ(text_of(folder() / "other" / "trajectories.csv"), text_of(run.dir() / "trajectories.csv"));
+}
+
+TEST_F(Rerun, AForkWithoutAChangeIsTheRun) {
+  SkeinRun& run = this->run("run", drawn_flight());
+  ChildProcess& process = again("fork", run, "fork", {"--at", std::to_string(3 + draw_() % 35)});
+  EXPECT_EQ(process.wait().code, 0) << process.out() << process.err();
+  EXPECT_NE(process.out().find("nothing came out otherwise"), std::string::npos) << process.out();
+  EXPECT_EQ(result_in("fork")["digest"], run.digest());
+  EXPECT_TRUE(text_of(folder() / "fork" / run_folder::kRecording) == text_of(run.dir() / run_folder::kRecording))
+      << "the recordings differ";
+}
+
+TEST_F(Rerun, AForkPartsFromTheRunWhereItIsToldTo) {
+  SkeinRun& run = this->run("run", {"towers", "--planner", "kios", "--duration", "60", "--one-process"});
+  ChildProcess& process = again("fork", run, "fork", {"--at", "30", "--planner", "jurong=hover"});
+  EXPECT_EQ(process.wait().code, 0) << process.out() << process.err();
+  const auto then = read_csv(run.dir() / "digests.csv"), now = read_csv(folder() / "fork" / "digests.csv");
+  std::size_t same = 0;
+  while (same < std::min(then.size(), now.size()) && then[same] == now[same]) ++same;
+  EXPECT_GE(same, 600U) << "30 s of 0.05 s";
+  EXPECT_LT(same, 640U);
+}
+
+TEST_F(Rerun, WhatCannotBeFlownAgainIsSaid) {
+  SkeinRun& without = this->run("without", {"towers", "--planner", "hover", "--duration", "2", "--record=none"});
+  const auto refused = [&](const std::string& command, const SkeinRun& run, const Arguments& more,
+                           const std::string& why) {
+    ChildProcess& process = again(command, run, "refused", more);
+    EXPECT_EQ(process.wait().code, 2);
+    EXPECT_NE(process.err().find(why), std::string::npos) << process.err();
+    EXPECT_FALSE(fs::exists(folder() / "refused" / run_folder::kResult));
+  };
+  refused("rerun", without, {"--uav", "jurong"}, "there is no recording.mcap");
+  SkeinRun& whole = this->run("whole", {"towers", "--planner", "hover", "--duration", "2"});
+  refused("rerun", whole, {"--uav", "nobody"}, "nobody");
+  refused("fork", whole, {"--at", "1", "--planner", "jurong=nothing"}, "nothing");
+  fs::resize_file(whole.dir() / run_folder::kRecording, fs::file_size(whole.dir() / run_folder::kRecording) / 2);
+  refused("rerun", whole, {"--uav", "jurong"}, "cut off");
+}
+
+}  // namespace
+}  // namespace skein::test

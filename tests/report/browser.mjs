@@ -1,0 +1,63 @@
+// The browser that looks at pages: what it saw of each, and pictures of it as numbers.
+import {createRequire} from 'node:module';
+import path from 'node:path';
+
+/** @param web  the folder of puppeteer-core's package.json. */
+export async function openBrowser(web, executablePath) {
+  const require = createRequire(path.join(web, 'package.json'));
+  const puppeteer = (await import(require.resolve('puppeteer-core'))).default;
+  const asRoot = process.getuid() === 0 ? ['--no-sandbox'] : [];  // it has no sandbox for root
+  return puppeteer.launch({
+    executablePath,
+    headless: true,
+    args: [...asRoot, '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage'],
+  });
+}
+
+/** Opens a page of a file. @returns it, and what it complained of as it goes on. */
+export async function openPage(browser, file, {width, scheme}) {
+  const page = await browser.newPage();
+  const complaints = [];
+  page.on('console', (message) => message.type() === 'error' && complaints.push(`console: ${message.text()}`));
+  page.on('pageerror', (error) => complaints.push(`error: ${error.message}`));
+  page.on('request', (request) => {
+    const url = request.url();
+    if (url !== `file://${file}` && !url.startsWith('data:') && !url.startsWith('blob:'))
+      complaints.push(`asks for ${url}`);
+  });
+  await page.setViewport({width, height: 900});
+  await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: scheme}]);
+  await page.goto(`file://${file}`, {waitUntil: 'load'});
+  return {page, complaints};
+}
+
+let table = null;  // where pictures are looked at
+
+/**
+ * Of parts of a picture (base64 PNG): how many colours, the share of the most frequent, and the brightness (0 to 1).
+ * @param parts  [left, top, width, height] of each; none: the whole picture, whose figures are returned then.
+ */
+export async function lookAt(browser, png, parts = null) {
+  table ??= await browser.newPage();
+  const seen = await table.evaluate(async (source, rectangles) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${source}`;
+    await image.decode();
+    const canvas = new OffscreenCanvas(image.width, image.height);
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    return (rectangles ?? [[0, 0, image.width, image.height]]).map((rectangle) => {
+      const {data} = context.getImageData(...rectangle);
+      const counts = new Map();
+      let sum = 0;
+      for (let i = 0; i < data.length; i += 4) {
+        const colour = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
+        counts.set(colour, (counts.get(colour) ?? 0) + 1);
+        sum += data[i] + data[i + 1] + data[i + 2];
+      }
+      const pixels = data.length / 4;
+      return {colours: counts.size, largest: Math.max(...counts.values()) / pixels, brightness: sum / pixels / 765};
+    });
+  }, png, parts);
+  return parts === null ? seen[0] : seen;
+}

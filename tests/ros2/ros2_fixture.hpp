@@ -1,0 +1,49 @@
+// Fleets with real ROS 2 nodes beside them; skipped where there is no ROS 2 (SKEIN_ROS2).
+#pragma once
+
+#include <cstdlib>
+
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+
+inline Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+class Ros2Test : public FleetTest {
+ protected:
+  void SetUp() override {
+    const char* folder = std::getenv("SKEIN_ROS2");
+    if (folder == nullptr || *folder == '\0') GTEST_SKIP() << "no ROS 2: SKEIN_ROS2 is not set";
+    ChildProcess& unpack = start_program(
+        "unpack", {"/bin/sh", "-c", "exec 9>\"$2.lock\"; flock 9; test -e \"$2/env.sh\" || \"$1/unpack.sh\" \"$2\"",
+                   "sh", folder, SKEIN_ROS2_FOLDER});
+    ASSERT_EQ(unpack.wait().code, 0) << unpack.err();
+    ChildProcess& probe = start_node("probe", "cyclonedds", 1, "", "python3 -c 'import rclpy, numpy, yaml'");
+    if (probe.wait().code != 0) GTEST_SKIP() << "no ROS 2: its packages are missing (packages.txt): " << probe.err();
+  }
+
+  /// A shell in which ROS 2 runs, with default settings unless `localhost`.
+  ChildProcess& start_node(const std::string& name, const std::string& middleware, int domain,
+                           const std::string& localhost, const std::string& command) {
+    const std::string shell = std::string(". ") + SKEIN_ROS2_FOLDER + "/env.sh " + middleware + " " +
+                              std::to_string(domain) + " " + localhost + "; exec " + command;
+    return start_program(name, {"/bin/bash", "-c", shell}, {{"ROS_LOG_DIR", folder() / "ros"}});
+  }
+
+  std::string file(const std::string& name) const { return folder() / (name + ".json"); }
+  bool ready(const std::string& name) const { return std::filesystem::exists(file(name) + ".ready"); }
+
+  /// The agent for which the fleet has waited, by the command that the launcher printed.
+  ChildProcess& start_agent(const SkeinRun& run) {
+    const std::string text = run.err(), gdb = "gdb --args ";
+    const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
+    return start_program(
+        "agent", {"/bin/sh", "-c",
+                  "exec env " + text.substr(begin, at - begin) + text.substr(at + gdb.size(), end - at - gdb.size())});
+  }
+};
+
+}  // namespace skein::test

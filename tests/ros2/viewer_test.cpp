@@ -1,0 +1,119 @@
+// What a ROS 2 node sees that looks on in the world's domain as RViz 2 does, and whether Skein's messages are those of
+// ROS 2. visualization_msgs and tf2_msgs, which the tests' ROS 2 has not got, are built from Skein's IDL.
+#include <algorithm>
+#include <cmath>
+
+#include "core/topics.hpp"
+#include "ros2_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+const Arguments kFlight = {"towers", "--planner", "patrol", "--stop-at", "40"};
+const std::string kPackages = SKEIN_ROS2_FOLDER "_packages";
+
+class Ros2Definitions : public Ros2Test {};
+
+TEST_F(Ros2Definitions, AreThoseOfOurIdl) {
+  ChildProcess& compare = start_node("compare", "cyclonedds", 1, "",
+                                     "python3 " SKEIN_ROS2_NODES "/definitions.py " SKEIN_SOURCE_DIR "/idl");
+  ASSERT_EQ(compare.wait().code, 0) << compare.err();
+  const Json found = Json::parse(compare.out());
+  EXPECT_EQ(found["different"], Json::array());
+  EXPECT_GE(found["same"].size(), 24U);
+  for (const Json& name : found["missing"]) {
+    const std::string type = name;
+    const bool known = type.starts_with("skein_msgs/") || type.starts_with("visualization_msgs/") ||
+                       type.starts_with("tf2_msgs/") || type == "std_msgs/Float64" ||
+                       type == "sensor_msgs/CompressedImage";
+    EXPECT_TRUE(known) << type << " is not in ROS 2";
+  }
+}
+
+class Ros2Viewer : public Ros2Test, public testing::WithParamInterface<std::string> {
+ protected:
+  void SetUp() override {
+    Ros2Test::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    ChildProcess& build = start_node(
+        "build", "cyclonedds", 1, "",
+        "flock " + kPackages + ".lock python3 " SKEIN_ROS2_NODES "/message_packages.py " SKEIN_SOURCE_DIR "/idl " +
+            kPackages + " tf2_msgs visualization_msgs");
+    ASSERT_EQ(build.wait().code, 0) << build.err();
+  }
+
+  ChildProcess& start_viewer(const std::string& middleware, int domain) {
+    return start_node(middleware, middleware, domain, "",
+                      "env PYTHONPATH=$(echo " + kPackages + "/local/lib/python3*/dist-packages):$PYTHONPATH " +
+                          "LD_LIBRARY_PATH=" + kPackages + "/lib:$LD_LIBRARY_PATH AMENT_PREFIX_PATH=" + kPackages +
+                          ":$AMENT_PREFIX_PATH python3 " SKEIN_ROS2_NODES "/viewer.py " + file(middleware));
+  }
+
+  void expect_all_seen(const SkeinRun& run, const std::string& viewer) const;
+};
+
+void Ros2Viewer::expect_all_seen(const SkeinRun& run, const std::string& viewer) const {
+  SCOPED_TRACE(viewer);
+  const Json seen = Json::parse(text_of(file(viewer)));
+  for (const topics::TopicInfo& topic : topics::viewer_topics()) {
+    EXPECT_EQ(seen["types"][std::string(topic.pattern)], Json({std::string(topic.type)}));
+  }
+  std::set<std::string> names, kinds, expected(kFleet.begin(), kFleet.end());
+  expected.insert("gcs");
+  for (const Json& marker : seen["fleet"]) names.insert(marker[0]);
+  names.erase("");
+  EXPECT_EQ(names, expected);
+  for (const Json& marker : seen["markers"]) {
+    kinds.insert(marker["name"]);
+    EXPECT_EQ(marker["frame"], "world");
+    EXPECT_GT(marker["alpha"], 0.0);
+    EXPECT_TRUE(marker["colors"] == 0 || marker["colors"] == marker["points"]);
+    EXPECT_EQ(marker["rest"], Json({"", "", Json::array(), 0, "", "", Json::array(), false})) << "nothing is shifted";
+  }
+  EXPECT_EQ(kinds, (std::set<std::string>{"body", "boxes", "frustum", "links", "name", "path", "structure"}));
+  ASSERT_FALSE(seen["clouds"].empty());
+  for (const Json& cloud : seen["clouds"]) EXPECT_EQ(cloud[1], Json({"x", "y", "z", "intensity"}));
+
+  std::map<std::string, std::string> parents;
+  std::map<std::pair<std::string, long>, Json> places;
+  for (const Json& frame : seen["frames"]) {
+    parents[frame[2]] = frame[1];
+    places[{frame[2], std::lround(frame[0].get<double>() * 20.0)}] = frame[3];
+  }
+  std::size_t compared = 0;
+  for (const std::string& uav : kFleet) {
+    EXPECT_EQ(parents[uav + "/base_link"], "world");
+    EXPECT_EQ(parents[uav + "/gimbal"], uav + "/base_link");
+    EXPECT_EQ(parents[uav + "/camera"], uav + "/gimbal");
+  }
+  for (const auto& row : read_csv(run.dir() / "trajectories.csv")) {
+    const auto place = places.find({row.at("uav") + "/base_link", std::lround(std::stod(row.at("time_s")) * 20.0)});
+    if (place == places.end()) continue;
+    ++compared;
+    const char* axes[] = {"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(place->second[i].get<double>(), std::stod(row.at(axes[i])), 1e-3);
+  }
+  EXPECT_GT(compared, 100U);
+}
+
+TEST_P(Ros2Viewer, SeesWhatRvizShows) {
+  SkeinRun& fleet = start("fleet", kFlight + Arguments{"--dds", GetParam(), "--debug", "changi"});
+  ASSERT_TRUE(fleet.wait_for("gdb --args")) << fleet.err();
+  const int world = world_domain(fleet.domains().first);
+  const std::vector<std::string> viewers = {"cyclonedds", "fastrtps"};
+  std::vector<ChildProcess*> nodes;
+  for (const std::string& middleware : viewers) nodes.push_back(&start_viewer(middleware, world));
+  ASSERT_TRUE(eventually([&] { return std::ranges::all_of(viewers, [&](const auto& v) { return ready(v); }); }))
+      << nodes[0]->err() << nodes[1]->err();
+  start_agent(fleet);
+  ASSERT_EQ(fleet.exit_code(), 0) << fleet.err();
+  for (ChildProcess* node : nodes) EXPECT_EQ(node->wait().code, 0) << node->err();
+  for (const std::string& viewer : viewers) expect_all_seen(fleet, viewer);
+  EXPECT_EQ(fleet.digest(), run("alone", kFlight).digest());
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, Ros2Viewer, testing::Values("cyclonedds", "fastdds"),
+                         [](const auto& vendor) { return vendor.param; });
+
+}  // namespace
+}  // namespace skein::test

@@ -1,0 +1,262 @@
+// Charts over time: the score, and a lane for each UAV. They zoom together and share a cursor.
+import uPlot from 'uplot';
+
+import {colour, data, element, indexAt, moment, onTheme, replaceDrawing, trackColour} from './page.js';
+
+const sync = uPlot.sync('time');
+const charts = [];
+let zooming = false;
+
+/** Whatever one chart shows of the time, the others show too. */
+function zoomAll(from) {
+  if (zooming) return;
+  zooming = true;
+  const {min, max} = from.scales.x;
+  for (const chart of charts)
+    if (chart !== from) chart.setScale('x', {min, max});
+  zooming = false;
+}
+
+const axis = (more) => ({
+  stroke: () => colour('soft'),
+  grid: {stroke: () => colour('line'), width: 1},
+  ticks: {stroke: () => colour('line'), width: 1},
+  font: '11px system-ui, sans-serif',
+  ...more,
+});
+
+function chart(figure, height, options, columns) {
+  const place = element('div', {class: 'live live-chart'});
+  replaceDrawing(figure, place);
+  const hint = element(
+      'p', {class: 'live live-hint'}, 'Drag to zoom, double click to see all; a click moves the time of the 3D view.');
+  const made = new uPlot(
+      {
+        width: Math.max(place.clientWidth, 200),
+        height,
+        cursor: {sync: {key: sync.key, setSeries: false}, drag: {x: true, y: false}},
+        ...options,
+        scales: {
+          x: {
+            time: false,
+            range: (u, min, max) => (min == null ? [0, data.end] : [Math.max(0, min), Math.min(data.end, max)])
+          },
+          ...options.scales
+        },
+        hooks: {setScale: [(u, key) => key === 'x' && zoomAll(u)], ...options.hooks},
+      },
+      columns,
+      place,
+  );
+  place.append(hint);
+  charts.push(made);
+  made.over.addEventListener('click', () => {
+    if (made.cursor.left >= 0) moment.set(made.posToVal(made.cursor.left, 'x'));
+  });
+  new ResizeObserver(() => {
+    if (place.clientWidth > 0 && place.clientWidth !== made.width) made.setSize({width: place.clientWidth, height});
+  }).observe(place);
+  onTheme(() => made.redraw());
+  moment.listen(() => made.redraw(false));
+  return made;
+}
+
+/** Bars of what went wrong, behind the curves. */
+function drawFaults(u) {
+  const {ctx, bbox} = u;
+  ctx.save();
+  ctx.fillStyle = colour('fault');
+  for (const fault of data.faults) {
+    const left = Math.max(u.valToPos(fault.from, 'x', true), bbox.left);
+    const right = Math.min(u.valToPos(fault.until, 'x', true), bbox.left + bbox.width);
+    if (right > left) ctx.fillRect(left, bbox.top, Math.max(right - left, 1), bbox.height);
+  }
+  ctx.restore();
+}
+
+/** Where the 3D view's time is. */
+function drawMoment(u) {
+  const at = u.valToPos(moment.seconds, 'x', true);
+  const {ctx, bbox} = u;
+  if (moment.seconds >= data.end || at < bbox.left || at > bbox.left + bbox.width) return;
+  ctx.save();
+  ctx.strokeStyle = colour('ink');
+  ctx.setLineDash([4, 4]);
+  ctx.beginPath();
+  ctx.moveTo(at, bbox.top);
+  ctx.lineTo(at, bbox.top + bbox.height);
+  ctx.stroke();
+  ctx.restore();
+}
+
+/** As many UAVs have a row for their captures below the score. */
+const kMostRows = 12;
+const rows = data.uavs.length <= kMostRows ? data.uavs.length : 0;
+const kRow = 0.04;  // of the chart's height
+
+/** Seconds in which a UAV improved a point. */
+function drawCaptures(u) {
+  const {ctx, bbox} = u;
+  const each = (bbox.height * kRow * rows) / (1 + kRow * rows) / Math.max(rows, 1);
+  data.uavs.slice(0, rows).forEach((uav, index) => {
+    const top = bbox.top + bbox.height - each * (rows - index);
+    uav.captures.forEach((count, second) => {
+      if (count > 0) drawSpans(u, [second, second + 1], trackColour(index), top + each * 0.15, each * 0.7);
+    });
+  });
+}
+
+/** A column over common times for what changes at times of its own. */
+function sampled(curve, times) {
+  const at = Float64Array.from(curve.t, (ms) => ms / 1000);
+  return times.map((time) => {
+    const index = indexAt(at, time + 1e-6);
+    return index < 0 ? 0 : curve.v[index] / 1000;
+  });
+}
+
+export function scoreChart(figure) {
+  const all = [0, ...data.delivered.t.map((ms) => ms / 1000), ...data.earned.t.map((ms) => ms / 1000), data.end];
+  const times = [...new Set(all)].sort((a, b) => a - b);
+  const stepped = uPlot.paths.stepped({align: 1});
+  const one = (value) => (value == null ? '–' : value.toFixed(1));
+  const curve = (label, name, dash) => ({
+    label,
+    stroke: () => colour(name),
+    width: 2,
+    dash,
+    paths: stepped,
+    points: {show: false},
+    value: (u, v) => one(v),
+  });
+  chart(
+      figure,
+      320,
+      {
+        series: [
+          {label: 'time', value: (u, v) => (v == null ? '–' : `${v.toFixed(1)} s`)}, curve('earned', 'c1', [6, 4]),
+          curve('delivered', 'c0')
+        ],
+        axes: [
+          axis({
+            label: 'simulated time [s]',
+            size: 26,
+            labelSize: 20,
+            labelGap: 2,
+            labelFont: '11px system-ui, sans-serif'
+          }),
+          axis({size: 54, filter: (u, splits) => splits.map((split) => (split < 0 ? null : split))})
+        ],
+        scales: {
+          y: {
+            range: (u, min, max) => {
+              const high = Math.max((max ?? 0) * 1.04, 1);
+              return [-high * kRow * rows, high];
+            }
+          }
+        },
+        hooks: {drawClear: [drawFaults, drawCaptures], draw: [drawMoment]},
+      },
+      [times, sampled(data.earned, times), sampled(data.delivered, times)],
+  );
+}
+
+const kLane = 54;
+const kRoomForNames = 700;  // of the rows of a lane, in pixels
+
+/** Filled spans of a lane; `flat` holds begin and end, one after the other. */
+function drawSpans(u, flat, name, top, height) {
+  const {ctx, bbox} = u;
+  ctx.fillStyle = colour(name);
+  for (let i = 0; i + 1 < flat.length; i += 2) {
+    const left = Math.max(u.valToPos(flat[i], 'x', true), bbox.left);
+    const right = Math.min(u.valToPos(flat[i + 1], 'x', true), bbox.left + bbox.width);
+    if (right > left) ctx.fillRect(left, top, Math.max(right - left, 0.5), height);
+  }
+}
+
+function drawLane(u, uav, index, most) {
+  const {ctx, bbox} = u;
+  const ratio = devicePixelRatio;
+  const each = bbox.height / data.uavs.length;
+  const strip = each * 0.2;
+  const top = bbox.top + each * index + each * 0.06;
+  const end = uav.collided ?? data.end;
+  drawSpans(u, [0, end], 'flying', top, strip);
+  drawSpans(u, uav.still, 'still', top, strip);
+  if (uav.collided != null) drawSpans(u, [end, data.end], 'bad', top, strip);
+  drawSpans(u, uav.direct, 'direct', top + strip * 1.15, strip);
+  drawSpans(u, uav.relayed, 'relayed', top + strip * 1.15, strip);
+  const base = top + strip * 4.4;
+  const peak = Math.max(1, ...uav.captures);
+  uav.captures.forEach((count, second) => {
+    if (count === 0) return;
+    ctx.globalAlpha = 0.25 + (0.75 * count) / peak;
+    drawSpans(u, [second, second + 1], 'soft', top + strip * 2.3, strip);
+  });
+  ctx.globalAlpha = 0.75;
+  ctx.fillStyle = colour('c1');
+  const {t, v} = uav.waiting;
+  for (let i = 0; i < t.length; ++i) {
+    if (v[i] === 0) continue;
+    const left = Math.max(u.valToPos(t[i] / 1000, 'x', true), bbox.left);
+    const right =
+        Math.min(u.valToPos(i + 1 < t.length ? t[i + 1] / 1000 : data.end, 'x', true), bbox.left + bbox.width);
+    const height = Math.max((v[i] / most) * strip, 1);
+    if (right > left) ctx.fillRect(left, base - height, Math.max(right - left, 0.5), height);
+  }
+  ctx.globalAlpha = 1;
+  ctx.fillStyle = colour('ink');
+  ctx.font = `${11 * ratio}px system-ui, sans-serif`;
+  ctx.textAlign = 'right';
+  ctx.textBaseline = 'middle';
+  const named = u.width >= kRoomForNames && data.uavs.length <= 20;
+  if (named) ctx.textAlign = 'left';
+  ctx.fillText(uav.name.slice(0, 11), named ? 4 * ratio : bbox.left - 8 * ratio, top + strip * (named ? 0.6 : 2));
+  if (!named) return;
+  ctx.textAlign = 'right';
+  ctx.fillStyle = colour('soft');
+  ctx.font = `${9 * ratio}px system-ui, sans-serif`;
+  ['flying, still', 'station', 'captures', 'undelivered'].forEach(
+      (row, i) => ctx.fillText(row, bbox.left - 6 * ratio, top + strip * (0.55 + 1.15 * i)));
+}
+
+export function lanesChart(figure) {
+  if (data.uavs.length === 0) return;
+  const lane = data.uavs.length > 20 ? 20 : kLane;
+  const most = Math.max(1, ...data.uavs.map((uav) => uav.waiting.v.reduce((a, b) => Math.max(a, b), 0)));
+  const draw = (u) => {
+    u.ctx.save();
+    data.uavs.forEach((uav, index) => drawLane(u, uav, index, most));
+    u.ctx.restore();
+    drawMoment(u);
+  };
+  const times = Array.from({length: Math.floor(data.end) + 1}, (_, second) => second);
+  if (times.at(-1) < data.end) times.push(data.end);
+  chart(
+      figure,
+      lane * data.uavs.length + 50,
+      {
+        legend: {show: false},
+        series: [{}, {show: false}],
+        axes: [
+          axis({
+            label: 'simulated time [s]',
+            size: 26,
+            labelSize: 20,
+            labelGap: 2,
+            labelFont: '11px system-ui, sans-serif'
+          }),
+          axis({
+            size: (u) => (u.width < kRoomForNames ? 78 : 142),
+            values: () => [],
+            grid: {show: false},
+            ticks: {show: false}
+          })
+        ],
+        scales: {y: {range: [0, 1]}},
+        hooks: {drawClear: [drawFaults], draw: [draw]},
+      },
+      [times, times.map(() => 0)],
+  );
+}

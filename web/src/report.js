@@ -1,0 +1,14 @@
+// Makes a run's report interactive. Whatever fails, the drawing that stood there stays.
+import uplotStyle from 'uplot/dist/uPlot.min.css';
+
+import {lanesChart, scoreChart} from './charts.js';
+import {element} from './page.js';
+import style from './report.css';
+import {sceneView} from './scene.js';
+
+document.head.append(element('style', {}, uplotStyle + style));
+for (const [name, make] of [['score', scoreChart], ['lanes', lanesChart], ['3d', sceneView]]) {
+  const figure = document.querySelector(`[data-live="${name}"]`);
+  if (figure !== null) make(figure);
+}
+document.body.dataset.live = 'yes';
