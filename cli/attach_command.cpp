@@ -67,14 +67,11 @@ std::vector<std::string> tool_words(const std::string& how, pid_t pid, const std
   const std::string process = std::to_string(pid);
   std::vector<std::string> words;
   if (how == "gdb") {
-    words = {"gdb", "-q"};
-    const std::vector<std::string> printers = printer_options();
-    words.insert(words.end(), printers.begin(), printers.end());
-    words.push_back("-p");
+    words = gdb_words({"-p"});
   } else if (const auto port = gdbserver_port(how)) {
     words = {"gdbserver", "--once", "--attach", "127.0.0.1:" + std::to_string(*port)};
   } else {
-    words = words_of_command(how);
+    words = shell_words(how);
   }
   if (words.empty()) throw InputError(why + ": say with what: gdb, gdbserver:PORT or a command");
   words[0] = tool_file(words[0], why);

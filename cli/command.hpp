@@ -1,6 +1,7 @@
 // What `skein` can be told, as plain structs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -19,11 +20,15 @@ struct ReplayOf {
   std::vector<std::string> only;  ///< UAVs whose programs take part, or "gcs"; empty: all
 };
 
+/// What --break-on knows.
+inline constexpr std::array kBreakEvents = {"collision", "rejected", "lost", "fault"};
+
 struct RunOptions {
   std::string scenario = "towers";  ///< a name under config/scenarios/ or a YAML file
   std::string planner = kDefaultPlanner;
   std::uint64_t seed = 0;
   std::optional<std::uint64_t> scene_seed;
+  std::optional<std::size_t> uavs;  ///< fleet size, instead of the scenario's
   std::optional<std::filesystem::path> assets;
   std::optional<double> duration_s;
   std::optional<std::string> rules;                 ///< a preset, instead of the scenario's
@@ -36,6 +41,7 @@ struct RunOptions {
   std::optional<std::string> break_on;              ///< the same, before that happens to the first of them
   std::optional<std::filesystem::path> break_from;  ///< results folder of the same flight, which tells when
   std::vector<std::string> log;                     ///< UAV=LEVEL
+  bool cores = false;                               ///< programs that crash leave a core
   bool one_process = false;                         ///< all programs in one process, without DDS
   bool native = false;
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible

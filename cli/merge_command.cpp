@@ -23,6 +23,7 @@ RunOptions options_of(const FlightReport& flight, const MergeOptions& options,
   run.assets = options.assets;
   run.seed = flight.seed.value_or(0);
   if (flight.scene_seed.value_or(0) > 0) run.scene_seed = *flight.scene_seed;
+  if (flight.uavs.value_or(0) > 0) run.uavs = *flight.uavs;
   run.duration_s = flight.duration_s;
   run.rules = rules;
   run.report = options.report;
@@ -53,6 +54,7 @@ void settle(const char* program, const char* books, const RunOptions& run, const
                                    dir,
                                    "--run",
                                    std::to_string(flight.run.value_or(0))};
+  if (run.uavs) argv.insert(argv.end(), {"--uavs", std::to_string(*run.uavs)});
   if (run.rules) argv.insert(argv.end(), {"--rules", *run.rules});
   run_to_end({program, argv, fleet_environment(false), dir / run_folder::log_file(program), true});
 }

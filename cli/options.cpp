@@ -41,6 +41,8 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   command->add_option("--seed", run.seed, "What chance draws; 0 draws nothing")->check(seed)->capture_default_str();
   command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
+  command->add_option("--uavs", run.uavs, "Fleet size: the scenario's first UAVs, or more of the same in its places")
+      ->check(CLI::PositiveNumber);
   command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
   command->add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
@@ -104,7 +106,7 @@ void add_run(CLI::App& app, RunOptions& run) {
       ->add_option("--break-on", run.break_on,
                    "The same, before that first happens to the first UAV of --debug; the fleet is flown once before, "
                    "quietly, to see when")
-      ->check(CLI::IsMember({"collision", "lost", "fault"}))
+      ->check(CLI::IsMember(std::vector<std::string>(kBreakEvents.begin(), kBreakEvents.end())))
       ->needs("--debug")
       ->excludes("--break-at");
   command->add_option("--break-from", run.break_from, "Results folder of the same flight, instead of flying it before")
@@ -114,6 +116,7 @@ void add_run(CLI::App& app, RunOptions& run) {
           "--log", run.log,
           "UAV=LEVEL: how much this program logs (or gcs, sim_server...): trace, debug, info, warn, error, off")
       ->allow_extra_args(false);
+  command->add_flag("--cores", run.cores, "A program that crashes leaves its core in the results folder, for gdb");
   command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
   command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
   add_network(*command, run.network);
@@ -268,15 +271,9 @@ void check_one_process(const RunOptions& run) {
     if (given) throw InputError(option + " needs processes: " + why + "; leave out --one-process");
   };
   refuse(!run.debug.empty(), "--debug", "the program that you debug is one of its own");
+  refuse(run.cores, "--cores", "the core would be that of all");
   refuse(run.secure, "--secure", "it keeps programs apart that cannot see each other's memory");
   refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
-}
-
-/// A command line as a shell takes it.
-std::string typed(const std::vector<std::string>& arguments) {
-  std::string text = "skein";
-  for (const std::string& argument : arguments) text += " " + shell_word(argument);
-  return text;
 }
 
 /// The options of all commands, and what CLI11 fills.
@@ -357,7 +354,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
   }
   refuse_empty_values(parser.app);
-  const std::string command = typed(arguments);
+  const std::string command = "skein " + shell_line(arguments);
   if (is("run")) {
     check_one_process(parser.run);
     parser.run.command = command;

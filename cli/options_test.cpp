@@ -313,6 +313,7 @@ TEST(Options, OfARunCanBeWrittenAsArguments) {
   run.planner = "hover,jurong=exec:./mine --speed 3, 4";
   run.seed = 18446744073709551615u;
   run.scene_seed = 4;
+  run.uavs = 7;
   run.assets = "/some where";
   run.duration_s = 0.1;
   run.rules = "paper";
@@ -327,6 +328,7 @@ TEST(Options, OfARunCanBeWrittenAsArguments) {
   const RunOptions again = same(run);
   EXPECT_EQ(again.planner, run.planner);
   EXPECT_EQ(again.scenario, run.scenario);
+  EXPECT_EQ(again.uavs, run.uavs);
   EXPECT_EQ(again.duration_s, run.duration_s);
   EXPECT_FALSE(again.attainable);
   EXPECT_FALSE(again.report);

@@ -24,6 +24,7 @@ constexpr std::size_t kMostLines = 20;  ///< of what the program said
 struct Question {
   std::string scenario;
   std::optional<std::uint64_t> scene_seed;
+  std::optional<std::size_t> uavs;
   std::optional<std::filesystem::path> assets;
   std::optional<std::string> rules;
   std::vector<double> clearances_m;  ///< empty: the oracle's own
@@ -43,6 +44,7 @@ Asked ask(const Question& question) {
   std::vector<std::string> argv = {program_dir() / programs::kSimServer, "--scenario", question.scenario, "--oracle",
                                    answer};
   if (question.scene_seed) argv.insert(argv.end(), {"--scene-seed", std::to_string(*question.scene_seed)});
+  if (question.uavs) argv.insert(argv.end(), {"--uavs", std::to_string(*question.uavs)});
   if (question.assets) argv.insert(argv.end(), {"--assets", *question.assets});
   if (question.rules) argv.insert(argv.end(), {"--rules", *question.rules});
   std::string clearances;
@@ -114,7 +116,7 @@ Json attainable_from(const Json& answer) {
 }
 
 AttainableAnswer attainable_of(const RunOptions& run) try {
-  const Asked asked = ask({run.scenario, run.scene_seed, run.assets, run.rules, {}, false, kPatienceS});
+  const Asked asked = ask({run.scenario, run.scene_seed, run.uavs, run.assets, run.rules, {}, false, kPatienceS});
   if (!asked.exit.ok()) return {nullptr, nullptr, "the oracle failed: " + asked.exit.text() + "\n" + asked.said};
   if (asked.answers.empty()) return {};
   const Json attainable = attainable_from(asked.answers.front());
@@ -153,8 +155,14 @@ void print_oracle(std::ostream& out, const std::string& scenario, const Json& an
 }
 
 int consult_oracle(const OracleOptions& options, const Console& console) {
-  const Asked asked = ask(
-      {options.scenario, options.scene_seed, options.assets, options.rules, options.clearances_m, options.vehicle, {}});
+  const Asked asked = ask({options.scenario,
+                           options.scene_seed,
+                           {},
+                           options.assets,
+                           options.rules,
+                           options.clearances_m,
+                           options.vehicle,
+                           {}});
   if (asked.exit.code == kExitBadInput) throw InputError(asked.said);
   if (!asked.exit.ok() || asked.answers.empty()) {
     throw std::runtime_error("sim_server --oracle ended with " + asked.exit.text() + "\n" + asked.said);

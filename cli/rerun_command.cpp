@@ -43,7 +43,7 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   options.break_from.reset();
   options.domain.reset();
   options.network.reset();
-  options.secure = options.force = options.one_process = false;
+  options.secure = options.force = options.one_process = options.cores = false;
   options.record = "run";
   return options;
 }
@@ -53,9 +53,7 @@ ReplayOf replay_of(const fs::path& run) {
   if (!fs::exists(recording)) {
     throw InputError(run.string() + ": there is no " + run_folder::kRecording + " in it (`skein run` leaves one)");
   }
-  if (!mcap::Reader(recording).complete()) {
-    throw InputError(recording.string() + ": the recording is cut off; only a whole one can be flown again");
-  }
+  mcap::Reader::whole(recording);
   return {recording, std::nullopt, {}};
 }
 

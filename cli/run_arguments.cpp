@@ -21,6 +21,7 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
   const auto number = [](const auto& value) { return fmt::format("{}", value); };
   add("--agent", run.agent, path);
   add("--scene-seed", run.scene_seed, number);
+  add("--uavs", run.uavs, number);
   add("--assets", run.assets, path);
   add("--duration", run.duration_s, number);
   add("--rules", run.rules, as_it_is);
@@ -36,6 +37,7 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
   add("--agent-timeout", run.agent_timeout_s, number);
   add("--out", run.out, path);
   for (const auto& [flag, set] : {std::pair("--native", run.native),
+                                  {"--cores", run.cores},
                                   {"--secure", run.secure},
                                   {"--force", run.force},
                                   {"--no-oracle", !run.attainable},

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "cli/run/break_event.hpp"
+#include "cli/run/core_file.hpp"
 #include "cli/run/domain_block.hpp"
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
@@ -60,10 +61,11 @@ RunOptions with_debugger(RunOptions options, const Console& console) {
 Json fly_quietly(RunOptions options) {
   options.debug.clear();
   options.log.clear();
-  options.break_on.reset();
   options.domain.reset();
-  options.one_process = true;
-  options.attainable = false;
+  options.one_process = options.break_on != "lost";  // who crashes takes the process along
+  options.break_on.reset();
+  options.cores = false;
+  options.attainable = options.report = false;
   options.record = "none";
   const ScratchDir scratch;
   options.out = scratch.path() / "run";
@@ -99,6 +101,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
   const int base_domain = domains ? domains->base() : kFirstDomain;
   const ResultsDir out(dir, options.force);
 
+  if (options.cores) allow_cores();
   FleetRun run(plan, console.err, console.terminal);
   run.view().message(start_line(plan, domains, dir));
   warn_of_surroundings(domains, run);

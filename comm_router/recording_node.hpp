@@ -16,7 +16,6 @@ class RecordingNode {
   /// Both must outlive this.
   RecordingNode(const Scenario& scenario, recording::Recorder& recorder) : scenario_(scenario), recorder_(recorder) {}
 
-  bus::Tap* tap() { return &recorder_; }
   /// A step's messages, before they are handed on. @param gated  what arrives with it.
   void add(const StepBatch& batch, const std::vector<RadioRoute>& routes, const GatedStep& gated);
   void flush() { recorder_.flush(); }

@@ -258,6 +258,16 @@ void build_fleet(const ScenarioFile& file, const fs::path& config_dir, Scenario&
   }
 }
 
+void resize_fleet(std::size_t uavs, std::vector<FleetEntry>& fleet) {
+  if (uavs < 1 || uavs > kMostUavs) throw InputError(fmt::format("--uavs: must be within [1, {}]", kMostUavs));
+  const std::size_t given = fleet.size();
+  for (std::size_t i = given; given > 0 && i < uavs; ++i) {
+    const FleetEntry& model = fleet[i % given];
+    fleet.push_back({model.name + std::to_string(1 + i / given), model.vehicle, std::nullopt, std::nullopt});
+  }
+  fleet.erase(fleet.begin() + static_cast<std::ptrdiff_t>(std::min(uavs, fleet.size())), fleet.end());
+}
+
 void apply_overrides(const LoadOptions& options, Scenario& scenario) {
   if (options.duration_s) {
     const bool fits = *options.duration_s >= scenario.exchange_period_s && *options.duration_s <= 36000.0;
@@ -293,6 +303,7 @@ Scenario load_scenario(const std::string& name_or_path, const LoadOptions& optio
   if (scenario.name.empty()) scenario.name = path.stem().string();
 
   ConfigErrors errors(document);
+  if (options.uavs) resize_fleet(*options.uavs, file.fleet);
   check_times(scenario, errors);
   check_names(file, errors);
   check_scene(scenario.scene, errors);

@@ -19,8 +19,10 @@ struct LoadOptions {
   std::filesystem::path config_dir = {};         ///< empty: default_config_dir()
   std::optional<double> duration_s = {};         ///< instead of the file's, (0, 36000]
   std::optional<std::uint64_t> scene_seed = {};  ///< instead of the file's; only for a procedural scene
-  std::optional<std::string> rules = {};         ///< a preset, instead of all that the file says of rules
-  bool needs_scene_files = true;  ///< false for programs that do not look at the scene: they need no assets
+  /// Fleet size: the first of the file's fleet, or beyond it the same UAVs again ("jurong2") in places of the scene.
+  std::optional<std::size_t> uavs = {};
+  std::optional<std::string> rules = {};  ///< a preset, instead of all that the file says of rules
+  bool needs_scene_files = true;          ///< false for programs that do not look at the scene: they need no assets
 };
 
 /// @param name_or_path a name under config/scenarios/, or a path (it holds a '/' or ends in .yaml).

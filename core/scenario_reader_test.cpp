@@ -193,6 +193,27 @@ TEST_F(ScenarioReader, ASeedForASceneFromFilesIsRefused) {
             std::string::npos);
 }
 
+TEST_F(ScenarioReader, AFleetMayBeOfAnotherSize) {
+  const auto fleet_of = [&](std::size_t uavs) {
+    options_.uavs = uavs;
+    return load_scenario("towers", options_).fleet;
+  };
+  const auto whole = fleet_of(5), more = fleet_of(8);
+  for (std::size_t uavs = 1; uavs <= 8; ++uavs) {
+    const auto fleet = fleet_of(uavs);
+    ASSERT_EQ(fleet.size(), uavs);
+    for (std::size_t i = 0; i < uavs; ++i) {
+      EXPECT_EQ(fleet[i].name, i < 5 ? whole[i].name : whole[i - 5].name + "2");
+      EXPECT_EQ(fleet[i].vehicle.role, whole[i % 5].vehicle.role);
+      EXPECT_EQ(fleet[i].start, more[i].start) << "whoever else flies";
+    }
+  }
+  for (const auto& [uavs, reason] : {std::pair(0, "--uavs"), {129, "--uavs"}, {9, "the scene has places for 8 UAVs"}}) {
+    options_.uavs = static_cast<std::size_t>(uavs);
+    EXPECT_NE(complaint("towers").find(reason), std::string::npos) << complaint("towers");
+  }
+}
+
 TEST_F(ScenarioReader, AVehicleMayStandBesideTheScenario) {
   write("tiny.yaml", "name: tiny\nrole: photographer\nmass_kg: 1.25\n");
   const std::string file = write("s.yaml",

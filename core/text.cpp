@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/types.hpp"
+
 namespace skein {
 
 std::string shortest(double value) {
@@ -61,24 +63,45 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-std::vector<std::string> shell_words(std::string_view line) {
+std::string shell_line(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
+  return line;
+}
+
+std::vector<std::string> shell_words(const std::string& command) {
   std::vector<std::string> words;
-  bool in_word = false, quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == ' ' && !quoted) {
-      in_word = false;
-      continue;
-    }
+  bool in_word = false;
+  char quote = 0;
+  const auto refuse = [&](bool wrong, const std::string& why) {
+    if (wrong) throw InputError("'" + command + "' is no command with its arguments: " + why);
+  };
+  const auto add = [&](char letter) {
     if (!in_word) words.emplace_back();
     in_word = true;
-    if (line[i] == '\'') {
-      quoted = !quoted;
-    } else if (line[i] == '\\' && !quoted && i + 1 < line.size()) {
-      words.back() += line[++i];
+    if (letter != 0) words.back() += letter;
+  };
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    const char letter = command[i];
+    const bool escapes = letter == '\\' && quote != '\'' && i + 1 < command.size() &&
+                         (quote == 0 || std::string("\"\\$`").find(command[i + 1]) != std::string::npos);
+    if (escapes) {
+      add(command[++i]);
+    } else if (letter == quote) {
+      quote = 0;
+    } else if (quote == 0 && (letter == '\'' || letter == '"')) {
+      quote = letter;
+      add(0);  // it may stay empty
+    } else if (quote == 0 && (letter == ' ' || letter == '\t')) {
+      in_word = false;
     } else {
-      words.back() += line[i];
+      const bool of_shell =
+          quote != '\'' && std::string(quote == 0 ? ";|&<>()$`\n" : "$`").find(letter) != std::string::npos;
+      refuse(of_shell, std::string("for ") + letter + " give it to a shell, /bin/sh -c '...'");
+      add(letter);
     }
   }
+  refuse(quote != 0, "a quote is not closed");
   return words;
 }
 

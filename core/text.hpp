@@ -29,8 +29,12 @@ std::vector<std::string> split(std::string_view text, char separator = ',');
 /// A word as a shell takes it, in quotes where it needs them.
 std::string shell_word(const std::string& word);
 
-/// The words of a line that shell_word() made each of.
-std::vector<std::string> shell_words(std::string_view line);
+/// A command line of words.
+std::string shell_line(const std::vector<std::string>& words);
+
+/// The words of a command line, quoted as a shell would have it, without what else a shell does.
+/// @throws InputError when they are no words.
+std::vector<std::string> shell_words(const std::string& line);
 
 /// Control characters other than line breaks and tabs become '?': XML has no way to write them.
 std::string printable(std::string text);

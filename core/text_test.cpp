@@ -8,6 +8,8 @@
 #include <cstring>
 #include <random>
 
+#include "core/types.hpp"
+
 namespace skein {
 namespace {
 
@@ -81,12 +83,21 @@ TEST(Text, AShellTakesEveryWordAsOne) {
   EXPECT_EQ(shell_word("$(x)"), "'$(x)'");
 }
 
+/// As a shell splits them; whatever is in the words.
 TEST(Text, WordsOfAShellReadBackAsTheyWere) {
-  const std::vector<std::string> words = {"skein", "it's", "", "a b", "$(x)", "\\", "'", "kios:voxel=4", "\"q\""};
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
-  EXPECT_EQ(shell_words(line), words);
-  EXPECT_TRUE(shell_words("  ").empty());
+  std::mt19937 random(5);
+  const std::string letters = "ab '\"\\$*?~=;|&<>(){}#!`-/.";
+  for (int round = 0; round < 300; ++round) {
+    std::vector<std::string> words(random() % 5);
+    for (std::string& word : words) {
+      for (std::size_t left = random() % 7; left > 0; --left) word += letters[random() % letters.size()];
+    }
+    EXPECT_EQ(shell_words(shell_line(words)), words) << shell_line(words);
+  }
+  EXPECT_EQ(shell_words("  a\t \"b c\" "), (std::vector<std::string>{"a", "b c"}));
+  for (const char* line : {"a 'b", "a; b", "a | b", "$a", "`a`", "\"$(a)\""}) {
+    EXPECT_THROW(shell_words(line), InputError) << line;
+  }
 }
 
 TEST(Text, ControlCharactersAreShownAsQuestionMarks) {

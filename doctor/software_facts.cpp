@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "core/command_file.hpp"
 #include "core/text.hpp"
 #include "process/environment.hpp"
 
@@ -81,14 +82,6 @@ std::pair<bool, std::string> answer_of(const std::string& command) {
   return {WIFEXITED(status) && WEXITSTATUS(status) == 0, text};
 }
 
-bool in_path(const std::string& program) {
-  const char* path = std::getenv("PATH");
-  for (const std::string& folder : split(path == nullptr ? "" : path, ':')) {
-    if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 SharedMemoryFacts read_shared_memory(const fs::path& root) {
@@ -137,13 +130,13 @@ VariableFacts read_variables() {
 
 DockerFacts ask_docker() {
   DockerFacts facts;
-  facts.client = in_path("docker");
+  facts.client = !command_file("docker").empty();
   if (!facts.client) return facts;
   if (const char* host = std::getenv("DOCKER_HOST")) facts.host = host;
   const auto [answers, version] = answer_of("docker version --format '{{.Server.Version}}'");
   (answers ? facts.engine.emplace() : facts.trouble) = version;
   for (const char* compose : {"docker compose", "docker-compose"}) {
-    if (facts.compose || (std::string(compose) == "docker-compose" && !in_path(compose))) continue;
+    if (facts.compose || (std::string(compose) == "docker-compose" && command_file(compose).empty())) continue;
     const auto [there, number] = answer_of(std::string(compose) + " version --short");
     if (there && !number.empty()) facts.compose = std::string(compose) + " " + number;
   }

@@ -30,17 +30,22 @@ std::vector<Packed> packed_of(const Reader& part) {
   return chunks;
 }
 
-/// Schemas and channels stand where they are first used.
-void learn_names(const Packed& packed, Summary& summary) {
-  const auto records = unpack(packed.chunk);
-  if (!records) return;
-  ByteView left(*records);
-  while (const auto record = take_record(left)) {
-    if (record->opcode == Opcode::schema) {
-      if (const auto schema = parse_schema(record->content)) summary.add(*schema);
-    } else if (record->opcode == Opcode::channel) {
-      if (const auto channel = parse_channel(record->content)) summary.add(*channel);
-    }
+void learn_name(const RawRecord& record, Summary& summary) {
+  if (record.opcode == Opcode::schema) {
+    if (const auto schema = parse_schema(record.content)) summary.add(*schema);
+  } else if (record.opcode == Opcode::channel) {
+    if (const auto channel = parse_channel(record.content)) summary.add(*channel);
+  }
+}
+
+/// Schemas and channels: of a part that is cut off they stand in the chunks, where they are first used.
+void learn_names(const Reader& part, Summary& summary) {
+  if (part.complete()) return part.summary([&](const RawRecord& record) { learn_name(record, summary); });
+  for (const Packed& packed : packed_of(part)) {
+    const auto records = unpack(packed.chunk);
+    if (!records) return;
+    ByteView left(*records);
+    while (const auto record = take_record(left)) learn_name(*record, summary);
   }
 }
 
@@ -72,9 +77,11 @@ std::string join(const std::vector<std::filesystem::path>& parts, const std::fil
   std::string trouble;
   std::vector<std::unique_ptr<Reader>> readers;
   std::vector<Packed> chunks;
+  Summary summary;
   for (const std::filesystem::path& part : parts) {
     try {
       readers.push_back(std::make_unique<Reader>(part));
+      learn_names(*readers.back(), summary);
       std::ranges::move(packed_of(*readers.back()), std::back_inserter(chunks));
     } catch (const InputError& error) {
       trouble = error.what();
@@ -82,12 +89,8 @@ std::string join(const std::vector<std::filesystem::path>& parts, const std::fil
   }
   std::ranges::stable_sort(chunks, {}, [](const Packed& packed) { return packed.chunk.start_time; });
   Output out(file);
-  Summary summary;
   write_head(out);
-  for (const Packed& packed : chunks) {
-    learn_names(packed, summary);
-    copy(packed, out, summary);
-  }
+  for (const Packed& packed : chunks) copy(packed, out, summary);
   for (const Metadata& one : metadata) write_metadata(out, summary, one);
   summary.write(out);
   return out.trouble().empty() ? trouble : out.trouble();

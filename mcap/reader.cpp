@@ -39,6 +39,12 @@ Reader::Reader(const std::filesystem::path& file) : bytes_(read_file_bytes(file,
   }
 }
 
+Reader Reader::whole(const std::filesystem::path& file) {
+  Reader reader(file);
+  if (!reader.complete()) throw InputError(file.string() + ": the recording is cut off; only a whole one will do");
+  return reader;
+}
+
 void Reader::records(const std::function<void(const RawRecord&, std::uint64_t)>& on_record) const {
   ByteView left = view(bytes_).subspan(sizeof(kMagic));
   for (;;) {
@@ -46,6 +52,16 @@ void Reader::records(const std::function<void(const RawRecord&, std::uint64_t)>&
     const auto record = take_record(left);
     if (!record || record->opcode == Opcode::data_end) return;
     on_record(*record, offset);
+  }
+}
+
+void Reader::summary(const std::function<void(const RawRecord&)>& on_record) const {
+  const auto end = footer();
+  if (!end || end->summary_start == 0 || end->summary_start > bytes_.size()) return;
+  ByteView left = view(bytes_).subspan(end->summary_start);
+  while (const auto record = take_record(left)) {
+    if (record->opcode == Opcode::footer) return;
+    on_record(*record);
   }
 }
 
@@ -77,12 +93,15 @@ void Reader::take(const RawRecord& record, const std::function<void(const Channe
   }
 }
 
-bool Reader::complete() const {
+std::optional<Footer> Reader::footer() const {
   constexpr std::size_t kTail = kRecordHead + 20 + sizeof(kMagic);
-  if (bytes_.size() < kTail + sizeof(kMagic)) return false;
+  if (bytes_.size() < kTail + sizeof(kMagic)) return std::nullopt;
   ByteView tail = view(bytes_).last(kTail);
   const auto record = take_record(tail);
-  return record && record->opcode == Opcode::footer && std::equal(tail.begin(), tail.end(), std::begin(kMagic));
+  if (!record || record->opcode != Opcode::footer || !std::equal(tail.begin(), tail.end(), std::begin(kMagic))) {
+    return std::nullopt;
+  }
+  return parse_footer(record->content);
 }
 
 }  // namespace skein::mcap

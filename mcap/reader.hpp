@@ -22,10 +22,14 @@ class Reader {
  public:
   /// @throws InputError when it cannot be read or is no MCAP file.
   explicit Reader(const std::filesystem::path& file);
+  /// @throws InputError when it is cut off, too.
+  static Reader whole(const std::filesystem::path& file);
 
   /// Calls `on_record` for each record of the data section, in order, chunks packed as they are.
   /// @param on_record  gets the record and where it stands in the file.
   void records(const std::function<void(const RawRecord&, std::uint64_t offset)>& on_record) const;
+  /// The same for the summary, of which files that are cut off have none.
+  void summary(const std::function<void(const RawRecord&)>& on_record) const;
   /// Calls `on_message` for each message, in the order of the file. The channel is valid as long as this.
   void messages(const std::function<void(const Channel&, const Message&)>& on_message);
   /// Known after messages().
@@ -33,9 +37,10 @@ class Reader {
   const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
   const std::map<std::string, StringMap>& metadata() const { return metadata_; }
   /// Whether the file ends as it should: with a footer.
-  bool complete() const;
+  bool complete() const { return footer().has_value(); }
 
  private:
+  std::optional<Footer> footer() const;
   void take(const RawRecord& record, const std::function<void(const Channel&, const Message&)>& on_message);
 
   std::string bytes_;

@@ -7,8 +7,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
-#include <vector>
 
+#include "process/crash_notes.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 #include "process/shared_lines.hpp"
@@ -22,7 +22,6 @@ namespace {
 // A signal handler can reach nothing but globals.
 std::atomic<const DeathNotice*> in_turn = nullptr;
 std::atomic<int> status_fd = -1;
-std::array<struct sigaction, 5> former_actions{};
 
 /// The line before it may be torn: a pipe takes what fits.
 std::string line_of(const std::string& program, int code, int signal) {
@@ -31,15 +30,6 @@ std::string line_of(const std::string& program, int code, int signal) {
 
 void write_news(const std::string& line) {
   [[maybe_unused]] const ssize_t written = ::write(status_fd.load(), line.data(), line.size());
-}
-
-/// A planner that has overflowed the stack has none left to handle that on.
-void use_own_signal_stack() {
-  stack_t stack{};
-  if (::sigaltstack(nullptr, &stack) != 0 || (stack.ss_flags & SS_DISABLE) == 0) return;  // a sanitizer has
-  static std::vector<char> memory(std::size_t{64} << 10);
-  stack = {.ss_sp = memory.data(), .ss_flags = 0, .ss_size = memory.size()};
-  ::sigaltstack(&stack, nullptr);
 }
 
 }  // namespace
@@ -53,14 +43,6 @@ void tell_of_death(int signal) {
 }
 
 namespace {
-
-// Dies of it then, as it would have without us.
-extern "C" void on_deadly_signal(int signal) {
-  tell_of_death(signal);
-  const auto* const found = std::find(DeathNotice::kSignals.begin(), DeathNotice::kSignals.end(), signal);
-  ::sigaction(signal, &former_actions[static_cast<std::size_t>(found - DeathNotice::kSignals.begin())], nullptr);
-  ::raise(signal);
-}
 
 extern "C" void on_sanitizer_death() { tell_of_death(SIGABRT); }
 
@@ -79,11 +61,7 @@ void DeathNotice::enter() const { in_turn = this; }
 
 void DeathNotice::watch(int fd) {
   status_fd = fd;
-  use_own_signal_stack();
-  struct sigaction action {};
-  action.sa_handler = on_deadly_signal;
-  action.sa_flags = SA_ONSTACK;
-  for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &action, &former_actions[i]);
+  after_crash_notes(tell_of_death);  // whose log the launcher then quotes has all of them
   if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(on_sanitizer_death);
   ::on_exit(
       [](int code, void*) {

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <vector>
 
 namespace skein {
@@ -16,6 +18,11 @@ namespace {
 
 constexpr std::array kDeadly = {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL};
 constexpr int kMostFrames = 64;
+std::atomic<void (*)(int)> last_call = nullptr;
+std::string& last_folder() {
+  static std::string folder;
+  return folder;
+}
 
 // All below runs in a signal handler: no memory is taken, nothing but write(2) writes.
 void say(std::string_view text) {
@@ -57,13 +64,16 @@ extern "C" void on_crash(int signal, siginfo_t*, void* context) {
   const auto* const first = std::find(frames.data(), frames.data() + count, hit);  // the handler's own come before it
   for (const auto* frame = first == end ? frames.data() : first; frame != end; ++frame)
     say_frame(*frame, *frame == hit);
+  if (auto* const call = last_call.exchange(nullptr)) call(signal);
+  [[maybe_unused]] const int changed = ::chdir(last_folder().c_str());
   ::signal(signal, SIG_DFL);
   ::raise(signal);
 }
 
 }  // namespace
 
-void note_crashes() {
+void note_crashes(const std::filesystem::path& folder) {
+  last_folder() = std::filesystem::absolute(folder);
   std::array<void*, 1> any{};
   ::backtrace(any.data(), 1);                              // the first call loads a library
   static std::vector<char> memory(std::size_t{64} << 10);  // who has overflowed the stack has none left
@@ -78,5 +88,7 @@ void note_crashes() {
     ::sigaction(signal, &action, nullptr);
   }
 }
+
+void after_crash_notes(void (*call)(int signal)) { last_call = call; }
 
 }  // namespace skein

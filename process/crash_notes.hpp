@@ -1,6 +1,7 @@
 // Where a program was when it crashed, as addresses in its log; cli/run/crash_trace.hpp gives them names. Linux.
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 
 namespace skein {
@@ -13,6 +14,9 @@ inline constexpr std::string_view kFrame = "  at ";
 
 /// From here on SIGSEGV, SIGABRT, SIGFPE, SIGBUS and SIGILL write that to stderr before the process dies of them. Does
 /// nothing about signals that somebody else, a sanitizer, handles already. Once, before there are threads.
-void note_crashes();
+/// @param folder  where the process then dies, and leaves its core if it may leave one
+void note_crashes(const std::filesystem::path& folder);
+/// Is called in the handler, when the notes are written: nothing that a signal handler may not do. nullptr: nobody.
+void after_crash_notes(void (*call)(int signal));
 
 }  // namespace skein

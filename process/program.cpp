@@ -94,6 +94,7 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--scene-seed", options.scene_seed, "Seed of a procedural scene, instead of the scenario's")
       ->check(CLI::NonNegativeNumber);
+  app.add_option("--uavs", options.uavs, "Fleet size, instead of the scenario's")->check(CLI::PositiveNumber);
   app.add_option("--duration", options.duration_s, "Mission time [s], instead of the scenario's");
   app.add_option("--rules", options.rules, "Preset of rules, instead of what the scenario says of them");
   app.add_option("--record", options.record, "What goes into recording.mcap: none, run, all or clouds")
@@ -139,6 +140,7 @@ LoadOptions ProgramOptions::load_options() const {
   load.assets_dir = assets;
   load.duration_s = duration_s;
   load.scene_seed = scene_seed;
+  load.uavs = uavs;
   load.rules = rules;
   return load;
 }
@@ -216,7 +218,7 @@ int run_program(const std::string& name, int argc, const char* const* argv, cons
   return guarded(name, [&] {
     auto& parsed = std::get<ProgramOptions>(options);
     if (const auto code = parsed.keep ? keep_alive(parsed.lives) : std::nullopt) return *code;
-    note_crashes();
+    note_crashes(parsed.out);
     spdlog::set_default_logger(make_log(name, parsed.log_level));
     StopSignal stop;
     const SignalThread signals(stop);

@@ -54,6 +54,7 @@ struct ProgramOptions {
   std::filesystem::path out = ".";          ///< --out: folder for what the program writes
   std::uint64_t seed = 0;                   ///< --seed: 0 draws nothing
   std::optional<std::uint64_t> scene_seed;  ///< --scene-seed
+  std::optional<std::size_t> uavs;          ///< --uavs
   std::optional<double> duration_s;         ///< --duration
   std::optional<std::string> rules;         ///< --rules: a preset
   std::filesystem::path faults;             ///< --faults: fault file; empty: none

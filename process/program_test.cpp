@@ -72,8 +72,8 @@ TEST(Program, DefaultsAndOptions) {
   });
   std::string uav;
   const auto outcome = run(
-      {"--scenario", "mbs", "--assets", "/data", "--seed", "18446744073709551615", "--scene-seed", "4", "--duration",
-       "12.5", "--check", "--network", "--status-fd", "7", "--uav", "jurong"},
+      {"--scenario", "mbs", "--assets", "/data", "--seed", "18446744073709551615", "--scene-seed", "4", "--uavs", "7",
+       "--duration", "12.5", "--check", "--network", "--status-fd", "7", "--uav", "jurong"},
       [](const ProgramOptions& options, StopSignal&) {
         EXPECT_EQ(options.scenario, "mbs");
         EXPECT_EQ(options.assets, "/data");
@@ -84,6 +84,7 @@ TEST(Program, DefaultsAndOptions) {
         EXPECT_EQ(options.network, "all");
         EXPECT_EQ(options.status_fd, 7);
         EXPECT_EQ(options.load_options().scene_seed, 4u);
+        EXPECT_EQ(options.load_options().uavs, 7u);
         return 0;
       },
       [&](CLI::App& app) { app.add_option("--uav", uav); });

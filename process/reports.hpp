@@ -93,7 +93,9 @@ struct UavReport {
   Number distance_m = {}, max_speed_mps = {};
   Count captures = {};
   Number idle_s = {};
-  Count commands_rejected = {}, commands_unheard = {};
+  Count commands_rejected = {};
+  Number first_rejected_s = {};
+  Count commands_unheard = {};
 };
 template <class Fields>
 void describe(Fields& f, UavReport& uav) {
@@ -102,6 +104,7 @@ void describe(Fields& f, UavReport& uav) {
   f.field("commands_rejected", uav.commands_rejected);
   f.field("commands_unheard", uav.commands_unheard);
   f.field("distance_m", uav.distance_m);
+  f.field("first_rejected_s", uav.first_rejected_s);
   f.field("idle_s", uav.idle_s);
   f.field("max_speed_mps", uav.max_speed_mps);
   f.field("name", uav.name);
@@ -111,7 +114,7 @@ void describe(Fields& f, UavReport& uav) {
 /// What a run was: for whoever has no launcher that would know.
 struct FlightReport {
   Text scenario = {};  ///< as the server was told it
-  Count seed = {}, scene_seed = {}, run = {};
+  Count seed = {}, scene_seed = {}, uavs = {}, run = {};
   Number duration_s = {};
   Text clock = {}, dds = {};
 };
@@ -124,6 +127,7 @@ void describe(Fields& f, FlightReport& flight) {
   f.field("scenario", flight.scenario);
   f.field("scene_seed", flight.scene_seed);
   f.field("seed", flight.seed);
+  f.field("uavs", flight.uavs);
 }
 
 struct SimServerReport {

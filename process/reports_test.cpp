@@ -13,14 +13,14 @@ const char* const kSimServer = R"({
   "collisions": [{"position": [1.0, 2.0, 3.5], "time_s": 4.5, "uav": "alpha", "with": "structure"}],
   "deterministic": false, "digest": null,
   "faults": [{"at_s": 1.0, "began_step": 20, "ended_step": null, "kind": "kill", "target": "alpha", "until_s": null}],
-  "flight": {"clock": "realtime:2", "dds": "fastdds", "duration_s": 30.0, "run": 7, "scenario": "towers", "scene_seed": 1, "seed": 2},
+  "flight": {"clock": "realtime:2", "dds": "fastdds", "duration_s": 30.0, "run": 7, "scenario": "towers", "scene_seed": 1, "seed": 2, "uavs": 3},
   "lost_members": [{"member": "beta", "reason": "died", "step": 12, "time_s": 0.6}], "malformed": 0,
   "mission_time_s": 600.0, "points_seen": "101", "points_total": 3, "rules": "caric", "sim_time_s": 650.5,
   "status": "no_takeoff",
   "timing": {"camera_s": 0.1, "cpu_s": 1.0, "exposures": 3, "lidar_ms_per_scan": 0.25, "lidar_s": 0.2, "links_s": 0.3,
              "physics_s": 0.4, "recording_s": 0.5, "scans": 4, "steps": 5},
   "uavs": [{"alive": false, "captures": 7, "commands_rejected": 1, "commands_unheard": 2, "distance_m": 10.5,
-            "idle_s": 2.0, "max_speed_mps": 4.0, "name": "alpha", "role": "explorer"}],
+            "first_rejected_s": 3.25, "idle_s": 2.0, "max_speed_mps": 4.0, "name": "alpha", "role": "explorer"}],
   "unsent": 0, "unwritten": ["x: full"], "wall_time_s": 13.0, "warnings": ["windy"]})";
 
 const char* const kStation = R"({

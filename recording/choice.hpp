@@ -13,7 +13,7 @@ namespace skein::recording {
 enum class Scope {
   none,
   run,     ///< what a run is made of: poses, commands, captures, radio messages as sent, tally, events
-  all,     ///< and every sample that somebody in the fleet reads
+  all,     ///< and every sample that somebody in the fleet reads, and the score point by point
   clouds,  ///< and LiDAR clouds that nobody reads, which are otherwise not even made
 };
 

@@ -7,11 +7,7 @@
 namespace skein::recording {
 
 RecordedRun::RecordedRun(const std::filesystem::path& file, const std::function<bool(const std::string&)>& wanted) {
-  mcap::Reader reader(file);
-  if (!reader.complete()) {
-    throw InputError(file.string() + ": the recording is cut off; only a whole one can be flown again");
-  }
-  reader.messages([&](const mcap::Channel& channel, const mcap::Message& message) {
+  mcap::Reader::whole(file).messages([&](const mcap::Channel& channel, const mcap::Message& message) {
     const auto tick = static_cast<Tick>(message.log_time * kTicksPerSecond / 1'000'000'000);
     end_ = std::max(end_, tick);
     if (!wanted(channel.topic)) return;

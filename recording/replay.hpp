@@ -61,8 +61,8 @@ class Replay final : public bus::Tap {
   void begin_step(Tick tick) { tick_ = tick; }
   /// After they were: takes what was said in this step then.
   void end_step();
-  /// Of what was recorded; nothing was said later.
-  Tick end() const { return run_.end(); }
+  /// Whether what was said then would still count, but nothing more was said.
+  bool is_over(Tick tick) const { return options_.replays(tick) && tick >= run_.end(); }
   /// Whether it still goes on.
   bool replays() const { return options_.replays(tick_); }
   const Differences& differences() const { return differences_; }

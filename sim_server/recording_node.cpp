@@ -28,7 +28,7 @@ msg::Event to_event(const LoggedEvent& event) {
 
 RecordingNode::RecordingNode(const std::filesystem::path& folder, recording::Scope scope, const Scenario& scenario,
                              EventLog& events, const recording::ReplayOptions& replay)
-    : scenario_(scenario), recorder_(folder, programs::kSimServer, scope), replay_options_(replay) {
+    : scenario_(scenario), recorder_(folder, programs::kSimServer, scope) {
   if (replay.active()) replay_.emplace(replay, recorder_);
   if (scope == recording::Scope::none) return;
   events.tell([this](const LoggedEvent& event) { recorder_.add(kEventsTopic, to_event(event)); });
@@ -47,9 +47,7 @@ void RecordingNode::end_step() {
   if (replay_) replay_->end_step();
 }
 
-bool RecordingNode::is_replayed(Tick tick) const {
-  return replay_ && replay_options_.replays(tick) && tick >= replay_->end();
-}
+bool RecordingNode::is_replayed(Tick tick) const { return replay_ && replay_->is_over(tick); }
 
 std::optional<std::vector<std::string>> RecordingNode::differences() const {
   return replay_ ? std::optional(replay_->differences().texts()) : std::nullopt;

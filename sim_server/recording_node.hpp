@@ -38,7 +38,6 @@ class RecordingNode {
 
   const Scenario& scenario_;
   recording::Recorder recorder_;
-  const recording::ReplayOptions replay_options_;
   std::optional<recording::Replay> replay_;
   Tick frames_due_ = 0, markers_due_ = 0;
 };

@@ -33,8 +33,7 @@ struct Uav {
   VehicleCondition condition;                   ///< in this exchange
   bool manual_trigger = false, triggered = false;
   bool scans_wanted = true;
-  Tick last_raise = 0;  ///< when a capture last raised a score
-  Tick idle_ticks = 0;
+  Tick last_raise = 0, idle_ticks = 0;  ///< when a capture last raised a score; how long it has idled
 };
 
 std::vector<BodyShape> body_shapes(const Scenario& scenario) {
@@ -320,8 +319,9 @@ void Simulation::Impl::refresh_rays() {
 }
 
 void Simulation::Impl::reject(UavIndex uav, RejectionEvent::Command command, std::string reason) {
-  const std::uint64_t total = ++uavs[uav].view.commands_rejected;
-  rejections.push_back({uav, command, std::move(reason), total});
+  UavView& view = uavs[uav].view;
+  if (!view.first_rejected) view.first_rejected = tick;
+  rejections.push_back({uav, command, std::move(reason), ++view.commands_rejected});
 }
 
 Simulation::Simulation(const Scenario& scenario, Scene scene, std::uint64_t seed, const FaultPlan& faults)

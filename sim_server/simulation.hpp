@@ -40,6 +40,7 @@ struct UavView {
   double idle_s = 0.0;         ///< slow, and no capture raised a score for 5 s; see simulation.cpp
   std::uint64_t captures = 0;  ///< exposures that saw at least one point
   std::uint64_t commands_rejected = 0;
+  std::optional<Tick> first_rejected;  ///< when the first of them was given
 };
 
 /// A scan; all its points are of the instant `scan.tick`.

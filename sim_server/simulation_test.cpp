@@ -147,6 +147,7 @@ TEST_F(Field, RefusedCommandsAreToldAndCounted) {
   EXPECT_EQ(sim.events().rejections[1].command, RejectionEvent::Command::gimbal);
   EXPECT_EQ(sim.events().rejections[1].total, 2U);
   EXPECT_EQ(sim.uav(UavIndex{0}).commands_rejected, 2U);
+  EXPECT_EQ(sim.uav(UavIndex{0}).first_rejected, Tick{0});
   sim.advance();
   EXPECT_TRUE(sim.events().rejections.empty());
 }

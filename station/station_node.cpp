@@ -23,18 +23,19 @@ constexpr Tick kVizPeriod = kTicksPerSecond / 10;
 }  // namespace
 
 StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
-                         StatusPipe& status)
+                         StatusPipe& status, recording::Recorder* recorder)
     : scenario_(scenario),
       out_(out),
       status_(status),
+      recorder_(recorder),
       uavs_(scenario.uav_names()),
       journal_(out / run_folder::kJournal, bus.run()),
       names_(uavs_.size()),
       inbox_(bus.run()),
       world_(bus.join(world_domain(base_domain))),
       gcs_(bus.join(gcs_domain(base_domain))),
-      score_(std::make_unique<bus::CountedWriter>(*gcs_, bus::spec(topics::score()))),
-      score_eval_(std::make_unique<bus::CountedWriter>(*gcs_, bus::spec(topics::score_eval()))),
+      score_(heard_writer(topics::score())),
+      score_eval_(heard_writer(topics::score_eval())),
       viz_scored_(world_->create_writer(bus::spec(topics::viz_scored()))),
       client_(*gcs_, inbox_, std::string(bus::kStationName)) {
   ledger_reader_ = bus::subscribe<msg::Ledger>(inbox_, *world_, bus::spec(topics::ledger()),
@@ -45,6 +46,7 @@ StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bu
                                       [this, i](const msg::CaptureReports& reports) { on_reports(i, reports); });
     client_.declare_writer(bus::spec(topics::captures_ack(uavs_[i])), LockstepClient::Counterpart::router);
   }
+  if (recorder_ != nullptr) client_.before_obeying([this] { recorder_->flush(); });
   client_.think_when([this](const msg::Step& step) {
     return scoreboard_ && points_.size() == scoreboard_->delivered().points().size() &&
            scoreboard_->has_entries(step.ledger_upto());
@@ -102,9 +104,10 @@ void StationNode::think() {
   tell(news || last_step_answered_);
 }
 
-void StationNode::record_with(recording::Recorder& recorder) {
-  recorder_ = &recorder;
-  client_.before_obeying([this] { recorder_->flush(); });
+bus::CountedWriter StationNode::heard_writer(const topics::WireTopic& topic) {
+  bus::TopicSpec spec = bus::spec(topic);
+  bus::Ear ear = recorder_ != nullptr ? recorder_->ear(scenario_.node_name(kStationNode), spec) : bus::Ear{};
+  return {*gcs_, std::move(spec), std::move(ear)};
 }
 
 void StationNode::note_unwritten(std::string trouble) {
@@ -124,14 +127,15 @@ void StationNode::record_tally(Tick tick) {
 
 // The whole list, each time that it changes, to whoever looks. Nobody in the fleet waits for it: it is in no count.
 void StationNode::show_score(Tick tick) {
-  if (!score_->has_readers() && !score_eval_->has_readers()) return;
+  if (!score_.is_wanted() && !score_eval_.is_wanted()) return;
+  if (recorder_ != nullptr) recorder_->set_time(tick);
   const std::vector<PointTally>& tally = scoreboard_->delivered().points();
   std::vector<ScoredPoint> points;
   for (std::uint32_t i = 0; i < tally.size(); ++i) {
     if (tally[i].q > 0.0F) points.push_back({points_[i], tally[i].q, i});
   }
-  for (const auto& [writer, with_indices] : {std::pair(score_.get(), false), std::pair(score_eval_.get(), true)}) {
-    if (!writer->has_readers()) continue;
+  for (const auto& [writer, with_indices] : {std::pair(&score_, false), std::pair(&score_eval_, true)}) {
+    if (!writer->is_wanted()) continue;
     writer->begin_step();
     writer->write(to_score_cloud(tick, points, with_indices));
   }

@@ -12,6 +12,7 @@
 #include "bus/inbox.hpp"
 #include "bus/lockstep/client_node.hpp"
 #include "core/scenario.hpp"
+#include "core/topics.hpp"
 #include "process/status_pipe.hpp"
 #include "recording/recorder.hpp"
 #include "station/journal.hpp"
@@ -23,12 +24,11 @@ namespace skein::station {
 class StationNode final : public bus::ClientNode {
  public:
   /// @param out  where the journal is; what it holds from an earlier life of this run is taken up again.
+  /// @param recorder  records the tally, and the score as others read it; must outlive this. nullptr: nobody does.
   StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
-              StatusPipe& status);
+              StatusPipe& status, recording::Recorder* recorder = nullptr);
 
   bus::Inbox& inbox() override { return inbox_; }
-  /// Before start(): records the tally. `recorder` must outlive this.
-  void record_with(recording::Recorder& recorder);
   /// A file of another that the disk refused, a sentence; for the report.
   void note_unwritten(std::string trouble);
   /// At the end of its part: the files of a run (station_report.hpp), unless it never heard of the points.
@@ -36,6 +36,8 @@ class StationNode final : public bus::ClientNode {
 
  private:
   bus::LockstepClient& client() override { return client_; }
+  /// On the ground station's domain.
+  bus::CountedWriter heard_writer(const topics::WireTopic& topic);
   void think() override;
   bool answered_last() const override { return last_step_answered_; }
   void on_reports(std::size_t source, const msg::CaptureReports& reports);
@@ -50,7 +52,7 @@ class StationNode final : public bus::ClientNode {
   const Scenario& scenario_;
   const std::filesystem::path out_;
   StatusPipe& status_;
-  recording::Recorder* recorder_ = nullptr;
+  recording::Recorder* const recorder_;
   std::vector<std::string> uavs_;
   Journal journal_;
   std::vector<std::string> unwritten_;    ///< what the disk refused, one sentence each
@@ -60,7 +62,7 @@ class StationNode final : public bus::ClientNode {
   bus::Inbox inbox_;
   std::unique_ptr<bus::Participant> world_, gcs_;
   std::unique_ptr<bus::Reader> ledger_reader_;
-  std::unique_ptr<bus::CountedWriter> score_, score_eval_;
+  bus::CountedWriter score_, score_eval_;
   std::unique_ptr<bus::Writer> viz_scored_;
   bool viz_stale_ = true;  ///< what viewers were shown last is not how it stands
   Tick viz_due_ = 0;

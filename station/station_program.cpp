@@ -42,8 +42,7 @@ class StationMember final : public bus::FleetMember {
  private:
   void make_node() {
     node_.reset();
-    node_.emplace(scenario_, options_.domain, *bus_, options_.out, status_);
-    node_->record_with(recorder_);
+    node_.emplace(scenario_, options_.domain, *bus_, options_.out, status_, &recorder_);
   }
 
   const Scenario scenario_;

@@ -19,17 +19,22 @@ std::optional<double> event_time_s(const Json& result, const std::string& member
   const auto entries = [&](const char* key) { return value_or(result, key, Json::array()); };
   const auto names = [&](const Json& entry, const char* key) { return value_or(entry, key, "") == member; };
   const auto time_of = [](const Json& entry, const char* key) { return value_or(entry, key, Json()); };
+  const Json period_s = value_or(result, "exchange_period_s", Json());
   if (what == "collision") {
     for (const Json& entry : entries("collisions")) {
       if (names(entry, "uav") || names(entry, "with")) keep_first(first, time_of(entry, "time_s"));
     }
-  } else if (what == "lost") {
-    for (const Json& entry : entries("lost_members")) {
-      if (names(entry, "member")) keep_first(first, time_of(entry, "time_s"));
+  } else if (what == "lost" || what == "rejected") {
+    const bool lost = what == "lost";
+    for (const Json& entry : entries(lost ? "lost_members" : "uavs")) {
+      if (names(entry, lost ? "member" : "name"))
+        keep_first(first, time_of(entry, lost ? "time_s" : "first_rejected_s"));
     }
+    // It is decided in the exchange of that very time.
+    if (first && period_s.is_number()) *first += 0.5 * period_s.get<double>();
   } else {
     for (const Json& entry : entries("faults")) {
-      const Json began = time_of(entry, "began_step"), period_s = time_of(result, "exchange_period_s");
+      const Json began = time_of(entry, "began_step");
       if (!names(entry, "target") || !began.is_number() || !period_s.is_number()) continue;
       keep_first(first, began.get<double>() * period_s.get<double>());
     }

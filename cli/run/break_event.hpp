@@ -10,7 +10,8 @@
 
 namespace skein::cli {
 
-/// When it first happened to a member [s]. @param what  "collision", "lost" or "fault". @param result  of result.json
+/// A time that lies behind the exchange in which a member has it in its hands, and before the next one [s]: that of the
+/// first one. @param what  of kBreakEvents. @param result  of result.json
 std::optional<double> event_time_s(const Json& result, const std::string& member, const std::string& what);
 
 /// Of a run that must have been the same flight. @throws InputError when there is none, or it was another flight

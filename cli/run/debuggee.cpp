@@ -1,15 +1,12 @@
 #include "cli/run/debuggee.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
-#include <sstream>
 
+#include "core/command_file.hpp"
 #include "core/config_files.hpp"
 #include "core/text.hpp"
 #include "core/types.hpp"
@@ -29,20 +26,6 @@ std::string package_of(const std::string& tool) {
   return found == others.end() ? tool : found->second;
 }
 
-/// Empty: it is not there.
-std::string file_of(const std::string& tool) {
-  const auto is_program = [](const std::filesystem::path& file) {
-    return ::access(file.c_str(), X_OK) == 0 && std::filesystem::is_regular_file(file);
-  };
-  if (tool.find('/') != std::string::npos) return is_program(tool) ? tool : "";
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "/usr/bin:/bin" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (is_program(std::filesystem::path(folder) / tool)) return std::filesystem::path(folder) / tool;
-  }
-  return {};
-}
-
 void set_variable(Words& environment, const std::string& name, const std::string& value) {
   std::erase_if(environment, [&](const std::string& entry) { return entry.starts_with(name + "="); });
   environment.push_back(name + "=" + value);
@@ -51,13 +34,10 @@ void set_variable(Words& environment, const std::string& name, const std::string
 /// gdb hands the arguments to a shell, so the program writes to its log as it always does, and gdb to the terminal. The
 /// exit code is the program's, and none when gdb is left before the program has ended.
 void put_under_gdb(ProgramSpec& program, const Words& tool) {
-  std::string arguments;
-  for (auto word = program.argv.begin() + 1; word != program.argv.end(); ++word) arguments += shell_word(*word) + " ";
-  arguments += ">>" + shell_word(program.log) + " 2>&1";
+  const std::string arguments =
+      shell_line(Words(program.argv.begin() + 1, program.argv.end())) + " >>" + shell_word(program.log) + " 2>&1";
   const std::string binary = program.argv[0];
   program.argv = tool;
-  const Words printers = printer_options();
-  program.argv.insert(program.argv.end(), printers.begin(), printers.end());
   program.argv.insert(program.argv.end(), {"-ex", "set args " + arguments, binary});
   set_variable(program.env, "SHELL", "/bin/sh");
 }
@@ -80,7 +60,7 @@ std::vector<Debuggee> parse_debug(const Words& values,
       one.how = flies ? How::by_hand : How::wait;
     } else if (how == "gdb") {
       one.how = How::gdb;
-      one.tool = {"gdb", "-q", "--return-child-result"};
+      one.tool = gdb_words({"--return-child-result"});
     } else if (how == "wait") {
       one.how = How::wait;
     } else if (const auto port = gdbserver_port(how)) {
@@ -89,7 +69,7 @@ std::vector<Debuggee> parse_debug(const Words& values,
       one.tool = {"gdbserver", "--no-startup-with-shell", "--once", "127.0.0.1:" + std::to_string(*port)};
     } else {
       one.how = How::command;
-      one.tool = words_of_command(how);
+      one.tool = shell_words(how);
       if (one.tool.empty()) throw InputError(why + ": say with what: gdb, gdbserver:PORT, wait or a command");
     }
     if (one.has_tool()) one.tool[0] = tool_file(one.tool[0], why);
@@ -116,56 +96,22 @@ void put_under_tool(ProgramSpec& program, const Debuggee& debuggee) {
   }
 }
 
-std::string attach_command(pid_t pid) {
-  std::string command = "gdb";
-  for (const std::string& word : printer_options()) command += " " + shell_word(word);
-  return command + " -p " + std::to_string(pid);
-}
-
-std::string connect_command(const Debuggee& debuggee, const std::string& binary) {
-  std::string command = "gdb";
-  for (const std::string& word : printer_options()) command += " " + shell_word(word);
-  return command + " -ex 'target remote 127.0.0.1:" + std::to_string(debuggee.port) + "' " + shell_word(binary);
-}
-
-Words words_of_command(const std::string& command) {
-  Words words;
-  bool in_word = false;
-  char quote = 0;
-  const auto refuse = [&](bool wrong, const std::string& why) {
-    if (wrong) throw InputError("'" + command + "' is no command with its arguments: " + why);
-  };
-  const auto add = [&](char letter) {
-    if (!in_word) words.emplace_back();
-    in_word = true;
-    if (letter != 0) words.back() += letter;
-  };
-  for (std::size_t i = 0; i < command.size(); ++i) {
-    const char letter = command[i];
-    const bool escapes = letter == '\\' && quote != '\'' && i + 1 < command.size() &&
-                         (quote == 0 || std::string("\"\\$`").find(command[i + 1]) != std::string::npos);
-    if (escapes) {
-      add(command[++i]);
-    } else if (letter == quote) {
-      quote = 0;
-    } else if (quote == 0 && (letter == '\'' || letter == '"')) {
-      quote = letter;
-      add(0);  // it may stay empty
-    } else if (quote == 0 && (letter == ' ' || letter == '\t')) {
-      in_word = false;
-    } else {
-      const bool of_shell =
-          quote != '\'' && std::string(quote == 0 ? ";|&<>()$`\n" : "$`").find(letter) != std::string::npos;
-      refuse(of_shell, std::string("for ") + letter + " give it to a shell, /bin/sh -c '...'");
-      add(letter);
-    }
-  }
-  refuse(quote != 0, "a quote is not closed");
+Words gdb_words(const Words& more) {
+  Words words = {"gdb", "-q"};
+  const std::filesystem::path printers = default_config_dir() / "gdb" / "skein_printers.py";
+  if (std::filesystem::exists(printers)) words.insert(words.end(), {"-x", std::filesystem::absolute(printers)});
+  words.insert(words.end(), more.begin(), more.end());
   return words;
 }
 
+std::string attach_command(pid_t pid) { return shell_line(gdb_words({"-p", std::to_string(pid)})); }
+
+std::string connect_command(const Debuggee& debuggee, const std::string& binary) {
+  return shell_line(gdb_words({"-ex", "target remote 127.0.0.1:" + std::to_string(debuggee.port), binary}));
+}
+
 std::string tool_file(const std::string& tool, const std::string& why) {
-  const std::string file = file_of(tool);
+  const std::string file = command_file(tool);
   if (!file.empty()) return file;
   const std::string name = std::filesystem::path(tool).filename();
   throw InputError(why + ": there is no " + tool + " here; apt-get install " + package_of(name));
@@ -181,12 +127,6 @@ std::optional<int> gdbserver_port(const std::string& value) {
     throw InputError("'" + value + "': must be gdbserver:PORT with a port within [1, 65535]");
   }
   return port;
-}
-
-Words printer_options() {
-  const std::filesystem::path file = default_config_dir() / "gdb" / "skein_printers.py";
-  if (!std::filesystem::exists(file)) return {};
-  return {"-x", std::filesystem::absolute(file)};
 }
 
 }  // namespace skein::cli

@@ -43,10 +43,6 @@ void put_under_tool(ProgramSpec& program, const Debuggee& debuggee);
 std::string attach_command(pid_t pid);
 std::string connect_command(const Debuggee& debuggee, const std::string& binary);
 
-/// The words of a command, quoted as a shell would have it, without what else a shell does.
-/// @throws InputError when they are no words.
-std::vector<std::string> words_of_command(const std::string& command);
-
 /// The file of a tool. @param why  of the message: "--debug jurong=valgrind"
 /// @throws InputError when it is neither a file nor in PATH, with the package that has it.
 std::string tool_file(const std::string& tool, const std::string& why);
@@ -54,7 +50,7 @@ std::string tool_file(const std::string& tool, const std::string& why);
 /// A port of `gdbserver:PORT`; nullopt: something else. @throws InputError for a port that is none
 std::optional<int> gdbserver_port(const std::string& value);
 
-/// Options of gdb that teach it our types and Eigen's; none when the file is not there.
-std::vector<std::string> printer_options();
+/// gdb, taught our types and Eigen's where the file for that is there.
+std::vector<std::string> gdb_words(const std::vector<std::string>& more);
 
 }  // namespace skein::cli

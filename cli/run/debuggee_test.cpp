@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
-#include "core/text.hpp"
 #include "core/types.hpp"
 #include "process/run_folder.hpp"
 
@@ -45,21 +42,6 @@ TEST(Debuggee, WhatIsWrongIsNamed) {
     EXPECT_THROW(parse({value}), InputError) << value;
   }
   EXPECT_THROW(parse({"jurong=wait", "jurong=/bin/sh"}), InputError);
-}
-
-/// Words that are quoted are the same words again.
-TEST(Debuggee, ACommandsWordsAreAsAShellHasThem) {
-  std::mt19937 random(5);
-  const std::string letters = "ab '\"\\$*?~=;|&<>(){}#!`-/.";
-  for (int round = 0; round < 300; ++round) {
-    std::vector<std::string> words(1 + random() % 4);
-    std::string command;
-    for (std::string& word : words) {
-      for (std::size_t left = 1 + random() % 6; left > 0; --left) word += letters[random() % letters.size()];
-      command += " " + shell_word(word);
-    }
-    EXPECT_EQ(words_of_command(command), words) << command;
-  }
 }
 
 TEST(Debuggee, ItsToolStandsBeforeTheCommandLine) {

@@ -47,6 +47,7 @@ Arguments scenario_arguments(const FleetPlan& plan) {
                          std::to_string(options.seed)};
   if (options.assets) append(arguments, {"--assets", std::filesystem::absolute(*options.assets)});
   if (options.scene_seed) append(arguments, {"--scene-seed", std::to_string(*options.scene_seed)});
+  if (options.uavs) append(arguments, {"--uavs", std::to_string(*options.uavs)});
   if (options.duration_s) append(arguments, {"--duration", shortest(*options.duration_s)});
   if (options.rules) append(arguments, {"--rules", *options.rules});
   if (options.faults) append(arguments, {"--faults", std::filesystem::absolute(*options.faults)});
@@ -139,6 +140,7 @@ LoadOptions load_options(const RunOptions& options) {
   load.assets_dir = options.assets.value_or("");
   load.duration_s = options.duration_s;
   load.scene_seed = options.scene_seed;
+  load.uavs = options.uavs;
   load.rules = options.rules;
   return load;
 }
@@ -343,11 +345,7 @@ std::string debug_command(const FleetPlan& plan, const std::string& program, int
     return command + "/bin/sh -c " + shell_word(*exec_command(planner_of(plan, program).spec));
   }
   for (const auto& [name, value] : config_variable(plan, program)) command += name + "=" + shell_word(value) + " ";
-  command += "gdb --args";
-  for (const std::string& argument : run_arguments(plan, program, base_domain, out, own)) {
-    command += " " + shell_word(argument);
-  }
-  return command;
+  return command + "gdb --args " + shell_line(run_arguments(plan, program, base_domain, out, own));
 }
 
 std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch,

@@ -326,11 +326,10 @@ void FleetRun::end_all() {
   handle_all(host_->end_all(scaled(kGrace)));
 }
 
-/// After a deadly signal: where its log tells more.
+/// After a deadly signal: where more of it is.
 std::string FleetRun::crash_text(const std::string& program, const ExitStatus& exit) {
-  const std::filesystem::path& log = programs_.at(program).log;
-  if (exit.signal == 0 || exit.shared || !explain_crash(log)) return {};
-  const std::string where = "backtrace in " + log.filename().string();
+  const std::string where = crash_evidence(exit, programs_.at(program).log, plan_.options.cores);
+  if (where.empty()) return {};
   facts_.crashes[programs::member_name(program)] = exit.text() + ", " + where;
   return ", " + where;
 }
@@ -340,7 +339,7 @@ void FleetRun::complain(const std::string& program, const std::string& how) {
   failed_ = true;
   const std::filesystem::path& log = programs_.at(program).log;
   facts_.warnings.push_back(failure_text(program, how));
-  view_.message(facts_.warnings.back() + "; the end of " + log.string() + ":" + last_lines_below(log, kLogLines));
+  view_.message(facts_.warnings.back() + "; the end of " + log.string() + ":" + end_of_log(log, kLogLines));
 }
 
 /// The UAV under --debug has no program of ours: then it is the member.

@@ -39,6 +39,7 @@ struct ExitStatus {
   int signal = 0;               ///< 0 unless a signal ended it
   double peak_memory_mb = 0.0;  ///< largest resident set, shared pages included
   double cpu_s = 0.0;           ///< of all its threads, from its start to its end
+  pid_t pid = 0;                ///< of the process that it was
   bool shared = false;          ///< it was no process of its own: memory and time are told of that process
   bool dragged = false;         ///< it ended for no other reason than that its process did
   bool ok() const { return code == 0 && signal == 0; }

@@ -44,6 +44,7 @@ Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Rep
                        {"captures", or_null(flown.captures)},
                        {"idle_s", or_null(flown.idle_s)},
                        {"commands_rejected", or_null(flown.commands_rejected)},
+                       {"first_rejected_s", or_null(flown.first_rejected_s)},
                        {"commands_unheard", or_null(flown.commands_unheard)},
                        {"program_lost", lost},
                        {"planner_cpu_s", or_null(agent.planner_cpu_s)},

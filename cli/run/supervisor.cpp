@@ -156,6 +156,7 @@ void Supervisor::reap(Child& child, std::vector<Event>& events) {
   ExitStatus exit;
   if (WIFEXITED(status)) exit.code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) exit.signal = WTERMSIG(status);
+  exit.pid = child.program;
   exit.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024.0;
   exit.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   take_terminal_back(child);

@@ -1,7 +1,9 @@
 // A fleet flies in containers as it does without: the same digest, and nothing is left of it.
 #include <spdlog/fmt/fmt.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <random>
 
 #include "cli/bench/scenario.hpp"
@@ -61,6 +63,29 @@ TEST_F(FlightInContainers, FaultsMeanTheSame) {
     const std::string program = is_uav || member == "gcs" ? "uav_agent-" + member : member;
     EXPECT_NE(log_of(run, program).find("here it starts again"), std::string::npos) << program;
   }
+}
+
+// As docs/containers.md has it, but for the compiler; in a fleet of another size.
+TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
+  const fs::path context = folder() / "image";
+  fs::create_directory(context);
+  fs::copy_file(SKEIN_CRASH_AGENT, context / "my_agent");
+  std::ofstream(context / "Dockerfile")
+      << "FROM skein-agent\nCOPY my_agent /usr/local/bin/\nENTRYPOINT [\"my_agent\"]\n";
+  const std::string image = "skein-test-" + std::to_string(::getpid());
+  const Answer built = shell("docker build --tag " + image + " " + context.string());
+  ASSERT_EQ(built.code, 0) << built.text;
+  const auto flown = [&](const std::string& of, const Arguments& more) {
+    Arguments all = arguments("patrol,jurong=crash:at_s=100" + of, "60", more);
+    all.insert(all.end(), {"--uavs", "4"});
+    return all;
+  };
+  const SkeinRun& run = up("up", flown("", {"--image", "jurong=" + image}));
+  EXPECT_EQ(shell("docker image rm " + image).code, 0);
+  expect_whole(run);
+  EXPECT_EQ(run.result()["uavs"].size(), 4u);
+  EXPECT_GT(run.result()["uavs"][0]["distance_m"], 1.0) << "it took off";
+  EXPECT_EQ(flight_of(run), alone(flown(std::string("@") + SKEIN_CRASH_AGENT, {})));
 }
 
 class TwentyUavs : public FlightInContainers, public testing::WithParamInterface<std::string> {};

@@ -1,4 +1,4 @@
-// A planner of a test: hovers, and crashes at a simulated time.
+// A planner of a test: hovers until a simulated time, when it crashes or flies faster than it may.
 #include <spdlog/spdlog.h>
 
 #include "uav_agent/api/planner.hpp"
@@ -9,10 +9,12 @@ class CrashPlanner final : public Planner {
  public:
   struct Config {
     double at_s = 2.0;
+    bool reckless = false;  ///< it does not crash
 
     template <class R>
     void describe(R& r) {
       r.field("at_s", at_s, within(0.0, 100.0));
+      r.field("reckless", reckless);
     }
   };
 
@@ -20,8 +22,11 @@ class CrashPlanner final : public Planner {
 
   PlannerOutput plan(const PlannerInput& in) override {
     spdlog::debug("step {}", in.k);
-    if (seconds(in.tick) >= config_.at_s) *nothing_ = 1;  // HERE
-    return {};
+    if (seconds(in.tick) < config_.at_s) return {};
+    if (!config_.reckless) *nothing_ = 1;  // HERE
+    PlannerOutput out;
+    out.motion = TrajectoryCommand{.v_WB = {0.0, 0.0, 1000.0}};
+    return out;
   }
 
  private:

@@ -1,6 +1,10 @@
 // What a program that crashes leaves behind, and what agents log.
+#include <spdlog/fmt/fmt.h>
+
+#include <random>
 #include <regex>
 
+#include "core/command_file.hpp"
 #include "debug_fixture.hpp"
 
 namespace skein::test {
@@ -9,8 +13,8 @@ namespace {
 class Crash : public DebugTest {
  protected:
   Arguments flight(const Arguments& more = {}) const {
-    Arguments words = {scenario_,    "--planner", "hover,changi=crash", "--agent", SKEIN_CRASH_AGENT,
-                       "--duration", "5",         "--no-oracle"};
+    Arguments words = {scenario_, "--agent", SKEIN_CRASH_AGENT, "--duration", "5", "--no-oracle"};
+    if (!std::ranges::count(more, "--planner")) words.insert(words.end(), {"--planner", "hover,changi=crash"});
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
@@ -29,9 +33,39 @@ TEST_F(Crash, ItsBacktraceNamesTheLine) {
       << log;
   expect_part(crashed.err(),
               "uav_agent-changi failed: signal 11 (Segmentation fault), backtrace in uav_agent-changi.log");
+  EXPECT_TRUE(std::regex_search(crashed.err(), std::regex("    #0 .*crash_planner\\.cpp:"))) << "quoted with it";
   const Json lost = crashed.result()["lost_members"];
   ASSERT_EQ(lost.size(), 1u) << lost;
   expect_part(lost[0]["reason"], "backtrace in uav_agent-changi.log");
+}
+
+TEST_F(Crash, ItsCoreIsKeptOnRequest) {
+  SKEIN_NEEDS_GDB();
+  if (text_of("/proc/sys/kernel/core_pattern").starts_with('|')) GTEST_SKIP() << "another program gets the cores here";
+  SkeinRun& crashed = run("crash", flight({"--cores"}), {}, 3);
+  const auto core = crashed.dir() / "uav_agent-changi.core";
+  expect_part(crashed.err(), "backtrace in uav_agent-changi.log, core in uav_agent-changi.core");
+  ASSERT_TRUE(std::filesystem::exists(core));
+  ChildProcess& gdb =
+      start_program("gdb", {command_file("gdb"), "-nx", "-batch", "-ex", "bt", SKEIN_CRASH_AGENT, core});
+  gdb.wait();
+  expect_part(gdb.out(), "crash_planner.cpp:" + std::to_string(crashing_line()));
+}
+
+TEST_F(Crash, BreakOnStopsInTheExchangeInWhichItHappens) {
+  SKEIN_NEEDS_GDB();
+  std::mt19937 random(17);
+  for (const auto& [what, reckless] : {std::pair("rejected", true), std::pair("lost", false)}) {
+    const int step = 30 + static_cast<int>(random() % 50);
+    const std::string planner = fmt::format("changi=crash:at_s={:.2f},reckless={}", 0.05 * step, reckless);
+    Arguments words = flight({"--planner", "hover," + planner, "--debug", "changi=gdb", "--break-on", what});
+    words.insert(words.begin(), {"skein", "run"});
+    words.insert(words.end(), {"--out", dir(what)});
+    ChildProcess& skein =
+        typed(what, words, "run\nbreak skein::agent::CrashPlanner::plan\ncontinue\nprint in.tick\nkill\n");
+    skein.wait();
+    expect_part(skein.out() + skein.err(), fmt::format("$1 = {}\n", 20 * step));  // ticks of 2.5 ms
+  }
 }
 
 TEST_F(Crash, LinesOfAgentsHaveLevelAndSimulatedTime) {

@@ -57,6 +57,8 @@ TEST_F(ComposeCommands, AreTakenByThePrograms) {
                    "7",
                    "--scene-seed",
                    "3",
+                   "--uavs",
+                   "7",
                    "--duration",
                    "61.5",
                    "--rules",

@@ -89,6 +89,8 @@ TEST_F(OneProcess, WhoTakesTheProcessAlongIsNamed) {
     EXPECT_FALSE(says(run.err(), "one_process failed")) << run.err();
 #ifndef SKEIN_TEST_SANITIZED  // a sanitizer takes such deaths for its own
     EXPECT_TRUE(says(run.err(), reason)) << run.err();
+    EXPECT_EQ(says(run.err(), "backtrace in uav_agent-jurong.log"), how != "exits" && how != "hangs") << run.err();
+    EXPECT_EQ(says(run.err(), "    #0 "), how != "exits" && how != "hangs") << run.err();
 #endif
     EXPECT_TRUE(says(run.err(), "nasty " + how)) << "the end of its log";
     EXPECT_NE(run.result()["status"], "completed");

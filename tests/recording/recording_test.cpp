@@ -147,7 +147,7 @@ TEST_F(Recording, LosesNothingWhenAFaultKillsWhoRecords) {
 }
 
 TEST_F(Recording, HasMoreOnRequest) {
-  const Arguments common = {"towers", "--planner", "hover", "--duration", "20", "--one-process"};
+  const Arguments common = {"towers", "--planner", "hover,changi=patrol", "--duration", "40", "--one-process"};
   std::map<std::string, Recorded> by_scope;
   for (const std::string scope : {"run", "all", "clouds"}) {
     Arguments arguments = common;
@@ -157,6 +157,8 @@ TEST_F(Recording, HasMoreOnRequest) {
   const std::string left = "/jurong/nbr_odom_cloud", cloud = "/jurong/cloud_inW";  // hover asks for no cloud
   EXPECT_FALSE(by_scope.at("run").topics.contains(left));
   EXPECT_GT(by_scope.at("all").topics.at(left), 390);
+  EXPECT_FALSE(by_scope.at("run").topics.contains("/gcs/score"));
+  EXPECT_GT(by_scope.at("all").topics.at("/gcs/score"), 3);
   EXPECT_FALSE(by_scope.at("all").topics.contains(cloud));
   EXPECT_GT(by_scope.at("clouds").topics.at(cloud), 150);
   for (const auto& [topic, count] : by_scope.at("run").topics) {

@@ -1,6 +1,5 @@
 // report.html in a browser: it asks for nothing, says what the tables beside it say, and is to be seen everywhere.
-#include <cstdlib>
-
+#include "core/command_file.hpp"
 #include "fleet_fixture.hpp"
 
 namespace skein::test {
@@ -8,22 +7,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a command is; empty: nowhere.
-std::string command(const std::string& name) {
-  std::istringstream folders(std::getenv("PATH") != nullptr ? std::getenv("PATH") : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (::access((folder + "/" + name).c_str(), X_OK) == 0) return folder + "/" + name;
-  }
-  return "";
-}
-
 const fs::path kWeb = fs::path(SKEIN_SOURCE_DIR) / "web", kBundle = fs::path(SKEIN_SOURCE_DIR) / "build/web/report.js";
 
 class ReportInABrowser : public FleetTest {
  protected:
   void SetUp() override {
     for (const char* name : {"node", "chromium"}) {
-      if (command(name).empty()) GTEST_SKIP() << "there is no " << name;
+      if (command_file(name).empty()) GTEST_SKIP() << "there is no " << name;
     }
     if (!fs::exists(kWeb / "node_modules" / "puppeteer-core") || !fs::exists(kBundle)) {
       GTEST_SKIP() << "web/ is not built: ./skein test does that, or `npm ci && npm run build` there";
@@ -32,9 +22,12 @@ class ReportInABrowser : public FleetTest {
 
   /// What look.mjs finds wrong with the pages of these runs.
   void look(const std::vector<std::string>& runs) {
-    Arguments argv = {
-        command("node"), SKEIN_SOURCE_DIR "/tests/report/look.mjs", kWeb, command("chromium"), program("skein"),
-        kBundle};
+    Arguments argv = {command_file("node"),
+                      SKEIN_SOURCE_DIR "/tests/report/look.mjs",
+                      kWeb,
+                      command_file("chromium"),
+                      program("skein"),
+                      kBundle};
     for (const std::string& name : runs) argv.push_back(folder() / name);
     ChildProcess& node = start_program("look", argv);
     EXPECT_EQ(node.wait().code, 0) << node.err() << node.out();
