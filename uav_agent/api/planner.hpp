@@ -53,12 +53,20 @@ struct PlannerInput {
   std::span<const Scan> scans = {};           ///< own, since the step before; only if wants_scans()
 };
 
+/// What a planner tells of itself, as /<id>/debug/<name>: faults may wait for it and properties be about it
+/// (docs/properties.md).
+struct DebugValue {
+  std::string name;
+  double value = 0.0;
+};
+
 struct PlannerOutput {
   Motion motion = {};
   std::optional<double> yaw = {};  ///< body yaw to turn to at the tracker's rate; only with a Path or Hold
   GimbalAim gimbal = {};
   bool trigger = false;                  ///< ask for a capture; only where the camera is in manual mode
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
+  std::vector<DebugValue> debug = {};    ///< of Planner::debug_names()
 };
 
 class Planner {
@@ -70,6 +78,8 @@ class Planner {
   /// has what key frames show without them. A scan that nobody reads is not even computed, and that is most of a run's
   /// cost (docs/decisions/0006-scans-on-demand.md).
   virtual bool wants_scans() const { return false; }
+  /// Names of the values that it publishes; asked before the first exchange, and the answer must stay the same.
+  virtual std::vector<std::string> debug_names() const { return {}; }
 };
 
 /// Makes the planner that `spec` names: "hover", "hover:height_m=4,climb_mps=1" or "patrol:params.yaml" (a
