@@ -59,6 +59,8 @@ struct PlannerOutput {
   GimbalAim gimbal = {};
   bool trigger = false;                  ///< ask for a capture; only where the camera is in manual mode
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
+  /// What others said of their maps (OccupancyMap::octomap_bytes()), to be taken into the one on board.
+  std::vector<std::string> heard_maps = {};
 };
 
 class Planner {

@@ -1,5 +1,5 @@
-// What this UAV knows of the space around it, from LiDAR key frames: an octree of hits (OctoMap), beside it a hashed
-// grid of occupied cells that answers clearance queries fast, and a coarse one of free space.
+// What this UAV knows of the space around it, from LiDAR key frames: occupied, free and unknown, kept by OctoMap in an
+// octree of hits and a coarser one of free space (known_space.hpp).
 // Frame W.   Units: metres.   Threads: one.   Deterministic: no answer depends on a hash order.
 #pragma once
 
@@ -8,6 +8,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,7 +27,7 @@ class OccupancyMap {
  public:
   struct Config {
     double resolution_m = 0.5;       ///< edge of an occupied cell
-    double free_resolution_m = 2.0;  ///< free space is traced on a grid this coarse
+    double free_resolution_m = 2.0;  ///< free space is traced on a grid this coarse: 1, 2, 4, ... times the other
     double ground_m = 0.3;           ///< hits below end a ray, but are no obstacle
     double free_range_m = 30.0;      ///< and only this far from the sensor
     int max_free_rays = 400;         ///< a key frame; evenly picked
@@ -44,10 +46,13 @@ class OccupancyMap {
   void insert(const std::vector<Eigen::Vector3f>& hits_W, const PassedCells& passed);
   PassedCells trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const;
 
+  const Config& config() const;
   bool empty() const;
   std::size_t occupied_cells() const;
   /// Number of insert() calls that changed anything that is occupied.
   std::uint64_t revision() const;
+  /// Number of all insert() calls.
+  std::uint64_t key_frames() const;
 
   /// True when the cell of p holds a hit.
   bool occupied(const Vector3d& p_W) const;
@@ -65,6 +70,16 @@ class OccupancyMap {
                              double radius) const;
   /// Calls `visit` with the centre of every occupied cell that is inside the box, in a fixed order.
   void visit_occupied(const OrientedBox& box, const std::function<void(const Vector3d&)>& visit) const;
+
+  /// All of it as one OcTree in OctoMap's binary serialisation: a leaf is occupied where occupied() is true, free where
+  /// known_free() is with so many rays. What octomap_msgs/msg/Octomap carries.
+  std::string octomap_bytes(int rays = 3) const;
+  /// Takes in what the octomap_bytes() of another UAV's map say: its hits, and of places that were free to it as if so
+  /// many rays had passed here, too, unless more did. To hear the same twice changes nothing.
+  /// @returns false, and takes nothing, when these are no such bytes, or tell of more space than a UAV can know.
+  bool hear(std::string_view bytes, int rays = 3);
+  /// The same with its head: a file of the kind .bt, for octovis and whatever else stands on OctoMap.
+  std::string octomap_file(int rays = 3) const;
 
  private:
   struct Impl;

@@ -135,6 +135,57 @@ TEST(OccupancyMap, TheGroundEndsRaysButIsNoObstacle) {
   EXPECT_TRUE(map.known_free({0.0, 0.0, 5.0}));
 }
 
+/// What a UAV has seen that stood here and there.
+OccupancyMap drawn_map(std::uint64_t seed) {
+  RandomStream random(seed, "seen", 0);
+  OccupancyMap map;
+  for (int frame = 0; frame < 8; ++frame) {
+    std::vector<Eigen::Vector3f> hits;
+    const Vector3d about = random_point(random, 10.0) + Vector3d(0.0, 0.0, 20.0);
+    for (int i = 0; i < 80; ++i) hits.push_back((about + random_point(random, 12.0)).cast<float>());
+    map.insert(hits, about);
+  }
+  return map;
+}
+
+TEST(OccupancyMap, WhatAnotherTellsIsKnownAsFarAsItIsProof) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const OccupancyMap own = drawn_map(2 * seed), other = drawn_map(2 * seed + 1);
+    OccupancyMap both = drawn_map(2 * seed);
+    const std::string told = other.octomap_bytes();
+    const auto revision = both.revision();
+    ASSERT_TRUE(both.hear(told));
+    EXPECT_EQ(both.revision(), revision + 1);
+    RandomStream random(seed, "asked", 0);
+    int free_by_word = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Vector3d p = random_point(random, 22.0) + Vector3d(0.0, 0.0, 20.0);
+      const bool occupied = own.occupied(p) || other.occupied(p);
+      ASSERT_EQ(both.occupied(p), occupied);
+      ASSERT_EQ(both.known_free(p), !occupied && (own.known_free(p) || other.known_free(p)));
+      ASSERT_EQ(both.known_free(p, 12), !occupied && own.known_free(p, 12)) << "a word is no proof";
+      free_by_word += both.known_free(p) && !own.known_free(p) ? 1 : 0;
+    }
+    EXPECT_GT(free_by_word, 50);
+    const std::string whole = both.octomap_bytes();
+    ASSERT_TRUE(both.hear(told));
+    EXPECT_EQ(both.octomap_bytes(), whole) << "the same again is no news";
+    EXPECT_EQ(both.revision(), revision + 1);
+  }
+}
+
+TEST(OccupancyMap, DamagedWordsAreNotHeard) {
+  OccupancyMap map = drawn_map(1);
+  const std::string told = drawn_map(2).octomap_bytes(), before = map.octomap_bytes(1);
+  RandomStream random(1, "cut", 0);
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_FALSE(map.hear(told.substr(0, 1 + random.bits() % (told.size() - 1))));
+  }
+  EXPECT_FALSE(map.hear(told + "x"));
+  EXPECT_FALSE(map.hear(std::string("\x01\x00", 2))) << "an eighth of the world";
+  EXPECT_EQ(map.octomap_bytes(1), before);
+}
+
 TEST(OccupancyMap, EmptyKnowsNothing) {
   const OccupancyMap map;
   EXPECT_TRUE(map.empty());

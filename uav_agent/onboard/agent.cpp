@@ -148,6 +148,7 @@ bool Agent::wants_scans() const { return impl_->planner->wants_scans(); }
 AgentOutput Agent::step(const AgentInput& input) {
   impl_->perceive(input);
   PlannerOutput decision = impl_->planner->plan(impl_->planner_input(input));
+  for (const std::string& bytes : decision.heard_maps) impl_->map.hear(bytes);
   AgentOutput output;
   output.trajectory = impl_->move(decision, input.state);
   output.gimbal = impl_->point_camera(decision.gimbal, input.state);
@@ -158,5 +159,7 @@ AgentOutput Agent::step(const AgentInput& input) {
 }
 
 bool Agent::holds_capture(std::uint64_t capture) const { return impl_->uplink.holds(capture); }
+
+const OccupancyMap& Agent::map() const { return impl_->map; }
 
 }  // namespace skein::agent

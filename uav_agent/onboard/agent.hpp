@@ -56,6 +56,7 @@ class Agent {
   AgentOutput step(const AgentInput& input);
   /// Whether that capture's report may yet have to be sent.
   bool holds_capture(std::uint64_t capture) const;
+  const OccupancyMap& map() const;
 
  private:
   struct Impl;

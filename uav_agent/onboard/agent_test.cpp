@@ -255,6 +255,18 @@ TEST_F(AgentTest, HoldAfterACommandOfItsOwnBrakes) {
   EXPECT_LT(input_.state.p_WB.x(), 5.0);
 }
 
+TEST_F(AgentTest, WhatOthersToldOfTheirMapsIsOnItsOwn) {
+  OccupancyMap other;
+  other.insert({{30.2F, 0.2F, 10.2F}, {30.2F, 1.2F, 10.2F}}, std::nullopt);
+  step();
+  EXPECT_EQ(tape_.cells, 0U);
+  tape_.answer.heard_maps = {other.octomap_bytes()};
+  step();
+  tape_.answer = {};
+  step();
+  EXPECT_EQ(tape_.cells, 2U);
+}
+
 TEST(AgentConfig, HoldsWhatAUavMayKnow) {
   Scenario scenario;
   scenario.fleet.resize(2);

@@ -1,0 +1,57 @@
+// An index of free space: how many rays have passed each cell, in blocks of 4 x 4 x 4 cells found by hash, since a ray
+// passes some cells of each. Only ever looked up, never walked through.
+// Cells have OctoMap's numbers, 0 to 65535 along each axis.   Threads: one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+
+#include "uav_agent/maps/occupancy_map.hpp"
+
+namespace skein::agent {
+
+inline constexpr int kCountedRays = 20;  ///< through a cell; more make no difference
+
+class RayBlocks {
+ public:
+  using Cell = std::array<std::uint16_t, 3>;
+
+  static std::uint64_t block_of(const Cell& cell) {
+    return std::uint64_t{cell[0]} >> 2 | std::uint64_t{cell[1]} >> 2 << 16 | std::uint64_t{cell[2]} >> 2 << 32;
+  }
+  static std::size_t place_of(const Cell& cell) { return (cell[0] & 3U) | (cell[1] & 3U) << 2 | (cell[2] & 3U) << 4; }
+  static Cell cell_of(std::uint64_t block, std::size_t place) {
+    const auto along = [&](int axis) {
+      return static_cast<std::uint16_t>((block >> (16 * axis) & 0x3FFFU) << 2 | (place >> (2 * axis) & 3U));
+    };
+    return {along(0), along(1), along(2)};
+  }
+  static std::uint8_t counted(int rays) { return static_cast<std::uint8_t>(std::min(rays, kCountedRays)); }
+
+  /// @param news  is called as news(cell, rays) for each cell that has more rays now, and how many more.
+  template <class News>
+  void add(const PassedCells& passed, const News& news) {
+    for (const auto& [key, counts] : passed.blocks) {
+      PassedCells::Block& block = blocks_[key];
+      for (std::size_t place = 0; place < block.size(); ++place) {
+        const std::uint8_t rays = counted(block[place] + counts[place]);
+        if (rays == block[place]) continue;
+        news(cell_of(key, place), rays - block[place]);
+        block[place] = rays;
+      }
+    }
+  }
+  int at(const Cell& cell) const {
+    const auto found = blocks_.find(block_of(cell));
+    return found == blocks_.end() ? 0 : found->second[place_of(cell)];
+  }
+
+  bool operator==(const RayBlocks&) const = default;
+
+ private:
+  std::unordered_map<std::uint64_t, PassedCells::Block> blocks_;
+};
+
+}  // namespace skein::agent
