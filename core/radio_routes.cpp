@@ -139,8 +139,9 @@ class RadioTable::Builder {
   void reserve(Node node, std::span<const topics::TopicInfo> table) {
     for (const topics::TopicInfo& topic : table) {
       const topics::WireTopic wire = topics::wire(topic, name(node));
-      const Use::Kind kind =
-          topic.direction == topics::Direction::from_agent ? Use::Kind::standard_own : Use::Kind::standard;
+      const bool own =
+          topic.direction == topics::Direction::from_agent || topic.direction == topics::Direction::shown_by_agent;
+      const Use::Kind kind = own ? Use::Kind::standard_own : Use::Kind::standard;
       uses_[node].emplace(wire.name, Use{kind, std::string(topic.pattern), wire.type});
     }
   }

@@ -87,6 +87,7 @@ std::span<const TopicInfo> uav_topics() {
                                    kGimbalCommand,
                                    kCameraTrigger,
                                    kTrigger,
+                                   kOctomap,
                                    kCapture,
                                    kCaptureStored};
   return kAll;

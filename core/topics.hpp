@@ -81,11 +81,12 @@ inline constexpr CloudLayout kDetectionLayout{kDetectionFields, 32};
 // ---- one entry of the table ------------------------------------------------------------------------------------
 
 enum class Direction {
-  to_agent,      ///< written by sim_server, read by on-board software (or by a program at the ground station)
-  from_agent,    ///< written by on-board software, read by sim_server
-  from_station,  ///< written by the station into the GCS domain; /viz/scored into the world's
-  to_viewer,     ///< written by sim_server into the world's domain, for who looks on
-  internal,      ///< lock-step and custody: between Skein's own processes and lock-step clients
+  to_agent,        ///< written by sim_server, read by on-board software (or by a program at the ground station)
+  from_agent,      ///< written by on-board software, read by sim_server
+  shown_by_agent,  ///< written by on-board software into its UAV's domain, for who looks on
+  from_station,    ///< written by the station into the GCS domain; /viz/scored into the world's
+  to_viewer,       ///< written by sim_server into the world's domain, for who looks on
+  internal,        ///< lock-step and custody: between Skein's own processes and lock-step clients
 };
 
 struct TopicInfo {
@@ -184,6 +185,14 @@ inline constexpr TopicInfo kCameraTrigger{"/{id}/command/camera_trigger", "skein
                                           Direction::from_agent, kCommandDepth, "from the agent"};
 inline constexpr TopicInfo kTrigger{"/{id}/command/trigger", "skein_msgs/msg/BoolStamped", Direction::from_agent,
                                     kCommandDepth, "from the agent"};
+/// What this UAV knows of the space around it: an OcTree in its binary form, occupied and free. In no count: nobody in
+/// the fleet reads it, and it is written where somebody does.
+inline constexpr TopicInfo kOctomap{"/{id}/octomap",
+                                    "octomap_msgs/msg/Octomap",
+                                    Direction::shown_by_agent,
+                                    1,
+                                    "when it has grown, 1 Hz at most; latched",
+                                    true};
 inline constexpr TopicInfo kCapture{"/skein/capture", "skein_msgs/msg/CaptureReports", Direction::internal,
                                     kCommandDepth, "server -> agent: every capture that found something better"};
 inline constexpr TopicInfo kCaptureStored{"/skein/capture_ack", "skein_msgs/msg/CaptureAck", Direction::internal,
@@ -325,6 +334,7 @@ inline WireTopic trajectory_command(std::string_view id) { return wire(kTrajecto
 inline WireTopic gimbal_command(std::string_view id) { return wire(kGimbalCommand, id); }
 inline WireTopic camera_trigger(std::string_view id) { return wire(kCameraTrigger, id); }
 inline WireTopic trigger(std::string_view id) { return wire(kTrigger, id); }
+inline WireTopic octomap(std::string_view id) { return wire(kOctomap, id); }
 inline WireTopic capture() { return wire(kCapture); }
 inline WireTopic capture_stored() { return wire(kCaptureStored); }
 inline WireTopic score() { return wire(kScore); }

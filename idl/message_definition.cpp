@@ -13,11 +13,19 @@ namespace skein {
 namespace {
 
 const std::map<std::string, std::string>& basic_types() {
-  static const std::map<std::string, std::string> kTypes = {
-      {"boolean", "bool"},          {"octet", "uint8"},          {"char", "char"},
-      {"short", "int16"},           {"long", "int32"},           {"long long", "int64"},
-      {"unsigned short", "uint16"}, {"unsigned long", "uint32"}, {"unsigned long long", "uint64"},
-      {"float", "float32"},         {"double", "float64"},       {"string", "string"}};
+  static const std::map<std::string, std::string> kTypes = {{"boolean", "bool"},
+                                                            {"octet", "uint8"},
+                                                            {"int8", "int8"},
+                                                            {"char", "char"},
+                                                            {"short", "int16"},
+                                                            {"long", "int32"},
+                                                            {"long long", "int64"},
+                                                            {"unsigned short", "uint16"},
+                                                            {"unsigned long", "uint32"},
+                                                            {"unsigned long long", "uint64"},
+                                                            {"float", "float32"},
+                                                            {"double", "float64"},
+                                                            {"string", "string"}};
   return kTypes;
 }
 

@@ -8,6 +8,7 @@
 #include "idl/builtin_interfaces.h"
 #include "idl/geometry_msgs.h"
 #include "idl/nav_msgs.h"
+#include "idl/octomap_msgs.h"
 #include "idl/rosgraph_msgs.h"
 #include "idl/sensor_msgs.h"
 #include "idl/skein_msgs.h"
@@ -53,6 +54,7 @@ std::string type_name() {
   X(geometry_msgs, TransformStamped)               \
   X(nav_msgs, Odometry)                            \
   X(nav_msgs, Path)                                \
+  X(octomap_msgs, Octomap)                         \
   X(sensor_msgs, PointField)                       \
   X(sensor_msgs, PointCloud2)                      \
   X(sensor_msgs, CompressedImage)                  \

@@ -31,6 +31,8 @@ std::string report_file(const std::string& program) { return program + ".report.
 
 std::string log_file(const std::string& program) { return program + ".log"; }
 
+std::string map_file(const std::string& uav) { return "map-" + uav + ".bt"; }
+
 std::string recording_part(const std::string& program, int life) {
   return program + (life == 0 ? "" : "." + std::to_string(life + 1)) + ".mcap";
 }
@@ -46,7 +48,8 @@ bool is_of_a_run(const std::string& name) {
                             });
   // What was being written when its program was killed: see atomic_file.hpp.
   const std::string whole = name.substr(0, name.rfind(".tmp"));
-  return of_a_program || std::find(kTables.begin(), kTables.end(), whole) != kTables.end();
+  const bool is_map = whole.starts_with("map-") && whole.ends_with(".bt");
+  return of_a_program || is_map || std::find(kTables.begin(), kTables.end(), whole) != kTables.end();
 }
 
 }  // namespace run_folder

@@ -60,6 +60,8 @@ inline constexpr const char* kFlightLog = "flight.log";  ///< what `skein run` s
 std::string report_file(const std::string& program);
 /// What it said meanwhile: "station.log".
 std::string log_file(const std::string& program);
+/// What it knew at its end of the space around it, as OctoMap writes it: "map-jurong.bt".
+std::string map_file(const std::string& uav);
 /// What it recorded, until the launcher makes one recording of it: "station.mcap"; of a program that was started again,
 /// "station.2.mcap". @param life  0, 1, ...
 std::string recording_part(const std::string& program, int life);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,14 @@ Latency latency_of(const RunData& run);
 std::vector<Latency> latency_by_uav(const RunData& run);
 /// Of all captures of several of them.
 Latency merged(const std::vector<Latency>& parts);
+
+/// What one UAV knew at its end.
+struct MapFigures {
+  double occupied_m3 = 0.0, free_m3 = 0.0;
+  std::optional<double> known_share;  ///< of the boxes' volume, counted in cubes of 2 m at most; none without boxes
+};
+/// By UAV; nullopt: it left no map.
+std::vector<std::optional<MapFigures>> map_figures(const RunData& run);
 
 /// How many processors the programs kept busy on average; none where nobody measured them.
 std::optional<double> processors_of(const Json& result);

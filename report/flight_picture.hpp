@@ -75,6 +75,7 @@ struct PictureStyle {
   bool by_cause = false;                       ///< points in the colours of their causes, not of their scores
   std::optional<std::size_t> only_cause = {};  ///< other points stay pale
   bool tracks = true;
+  std::string ground = {};  ///< SVG, below all that stands and flies
 };
 
 /// @param title  for those who hear the page.

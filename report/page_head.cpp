@@ -127,6 +127,7 @@ RunPage::RunPage(RunData data)
       earned(earned_over_time(run)),
       links(link_shares(run)),
       latency(latency_of(run)),
+      maps(map_figures(run)),
       picture(picture_of(run)) {}
 
 std::string head_section(const RunPage& page) {

@@ -1,6 +1,7 @@
 // The sections of a run's report, as HTML. Each says what it misses where a table is not there. Pure; any thread.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct RunPage {
   std::vector<RunScore> earned;
   LinkShares links;
   Latency latency;
+  std::vector<std::optional<MapFigures>> maps;  ///< by UAV
   FlightPicture picture;
 };
 
@@ -32,6 +34,8 @@ std::string boxes_section(const RunPage& page);
 std::string views_section(const RunPage& page);
 /// Where points were lost: a map for each cause.
 std::string places_section(const RunPage& page);
+/// What each UAV knew at its end: its map in plan.
+std::string maps_section(const RunPage& page);
 std::string fleet_section(const RunPage& page);
 std::string radio_section(const RunPage& page);
 std::string machine_section(const RunPage& page);

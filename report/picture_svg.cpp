@@ -290,7 +290,7 @@ std::string picture_svg(const FlightPicture& picture, const PictureView& view, c
       "<svg class=\"picture\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" "
       "xmlns=\"http://www.w3.org/2000/svg\">\n",
       coordinate(view.width()), coordinate(view.height()), escaped(title));
-  svg += grid_svg(view) + points_svg(picture, view, style) + boxes_svg(picture, view);
+  svg += style.ground + grid_svg(view) + points_svg(picture, view, style) + boxes_svg(picture, view);
   if (style.tracks) svg += tracks_svg(picture, view);
   svg += marks_svg(picture, view);
   return svg + "</svg>\n";

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/file_bytes.hpp"
 #include "process/run_folder.hpp"
 #include "process/run_tables.hpp"
 #include "report/causes.hpp"
 #include "report/csv_table.hpp"
+#include "report/octree_file.hpp"
 
 namespace skein::report {
 namespace {
@@ -16,6 +18,7 @@ namespace fs = std::filesystem;
 
 /// Beyond this no run goes, in metres and seconds; a drawing of such a number would have no end.
 constexpr double kFarthest = 1e7;
+constexpr std::uintmax_t kMostOfAMap = 64 << 20;
 
 double sensible(double value) {
   if (!(std::abs(value) <= kFarthest)) throw std::runtime_error("a number is out of all bounds");
@@ -144,6 +147,22 @@ void read_entries(const RunData& data, const char* key, const Entry& entry) {
   }
 }
 
+/// A UAV that somebody else's program flies leaves none.
+void read_maps(const fs::path& dir, RunData& data) {
+  for (const std::string& uav : data.uavs) {
+    std::string& map = data.maps.emplace_back();
+    const std::string name = run_folder::map_file(uav);
+    if (!fs::exists(dir / name)) continue;
+    try {
+      map = read_file_bytes(dir / name, kMostOfAMap);
+    } catch (const InputError&) {
+    }
+    if (visit_octree_file(map, [](const KnownCube&) {})) continue;
+    map.clear();
+    data.missing.push_back(name + " is damaged.");
+  }
+}
+
 void read_incidents(RunData& data) {
   read_entries(data, "collisions", [&](const Json& json) {
     RunCollision collision{sensible(number_in(json, "time_s")), text_in(json, "uav"), text_in(json, "with"), {}};
@@ -193,6 +212,7 @@ RunData read_run_data(const fs::path& dir) {
   read_captures(dir, data);
   read_events(dir, data);
   read_scores(dir, data);
+  read_maps(dir, data);
   data.end_s = end_of(data);
   read_incidents(data);
   return data;

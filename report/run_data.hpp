@@ -77,6 +77,7 @@ struct RunData {
   std::vector<RunEvent> events;
   std::vector<std::vector<RunPose>> tracks;  ///< by UAV
   std::vector<RunScore> scores;
+  std::vector<std::string> maps;  ///< by UAV: a sound file of octree_file.hpp's; empty: it left none
   std::vector<RunCollision> collisions;
   std::vector<RunFault> faults;  ///< those that happened
   std::optional<Vector3d> station;

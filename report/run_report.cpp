@@ -45,8 +45,8 @@ std::string run_page(RunData data, const std::optional<std::string>& bundle) {
       escaped(title) + "</title>\n<style>\n" + std::string(base_style()) + std::string(drawing_style()) +
       std::string(run_style()) + "</style>\n</head>\n<body class=\"run\">\n<main>\n";
   html += head_section(page) + "<div class=\"pair\">" + losses_section(page) + timeline_section(page) + "</div>\n" +
-          views_section(page) + places_section(page) + boxes_section(page) + fleet_section(page) + radio_section(page) +
-          machine_section(page) + footer(page.run, bundle) + "</main>\n";
+          views_section(page) + places_section(page) + maps_section(page) + boxes_section(page) + fleet_section(page) +
+          radio_section(page) + machine_section(page) + footer(page.run, bundle) + "</main>\n";
   if (bundle) {
     const std::string json = page_data(page).dump(-1, ' ', false, Json::error_handler_t::replace);
     html += "<script type=\"application/json\" id=\"data\">" + script_json(json) + "</script>\n<script>" + *bundle +

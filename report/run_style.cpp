@@ -56,6 +56,10 @@ td.heat { background: color-mix(in srgb, var(--h) var(--v), transparent); }
 .run svg { max-width: none; }
 .views { grid-template-columns: repeat(auto-fit, minmax(min(520px, 100%), 1fr)); }
 .places { grid-template-columns: repeat(auto-fill, minmax(min(235px, 100%), 1fr)); }
+.known path { fill: var(--ink); stroke: none; } .known .m1 { fill: var(--direct); fill-opacity: 0.2; }
+.known .m2 { fill-opacity: 0.3; } .known .m3 { fill-opacity: 0.5; } .known .m4 { fill-opacity: 0.7; } .known .m5 { fill-opacity: 0.95; }
+.swatch.m1 { background: color-mix(in srgb, var(--direct) 20%, transparent); } .swatch.m2 { background: color-mix(in srgb, var(--ink) 30%, transparent); } .swatch.m3 { background: color-mix(in srgb, var(--ink) 50%, transparent); }
+.swatch.m4 { background: color-mix(in srgb, var(--ink) 70%, transparent); } .swatch.m5 { background: color-mix(in srgb, var(--ink) 95%, transparent); }
 .cross { color: var(--bad); }
 .swatch.line { height: 3px; width: 1.2em; vertical-align: 0.22em; }
 .curve.delivered { stroke: var(--c0); } .curve.earned { stroke: var(--c1); stroke-dasharray: 5 3; }

@@ -1,6 +1,7 @@
 #include "uav_agent/agent_node.hpp"
 
 #include "bus/lockstep/names.hpp"
+#include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
 #include "uav_agent/neighbours.hpp"
 
@@ -9,6 +10,21 @@ namespace skein::agent {
 using bus::LockstepClient;
 using Counterpart = LockstepClient::Counterpart;
 
+namespace {
+
+msg::Octomap octomap_of(const OccupancyMap& map, Tick tick) {
+  const std::string bytes = map.octomap_bytes();
+  msg::Octomap message;
+  message.header(to_header(tick));
+  message.binary(true);
+  message.id("OcTree");
+  message.resolution(map.config().resolution_m);
+  message.data().assign(bytes.begin(), bytes.end());
+  return message;
+}
+
+}  // namespace
+
 AgentNode::AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain,
                      bus::Bus& bus, std::shared_ptr<ReadyFrames> frames)
     : MemberNode(bus, uav_domain(base_domain, uav), scenario.fleet.at(uav).name),
@@ -16,6 +32,13 @@ AgentNode::AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Pla
       uav_(uav),
       radio_(scenario, node_of_uav(uav)),
       agent_(agent_config(scenario, uav), std::move(planner), std::move(frames)) {}
+
+void AgentNode::start() {
+  octomap_.reset();  // of the participant that now goes
+  MemberNode::start();
+  octomap_ = participant().create_writer(bus::spec(topics::octomap(member())));
+  shown_key_frames_ = 0;
+}
 
 void AgentNode::declare(LockstepClient& client) {
   read_sensors(client);
@@ -98,6 +121,15 @@ void AgentNode::send(LockstepClient& client) {
   input_.capture_reports.clear();
   input_.capture_acks.clear();
   input_.radio.clear();
+}
+
+void AgentNode::show() {
+  if (input_.tick < octomap_due_) return;
+  octomap_due_ = input_.tick + kTicksPerSecond;
+  const OccupancyMap& map = agent_.map();
+  if (map.key_frames() == shown_key_frames_ || !octomap_->has_readers()) return;
+  shown_key_frames_ = map.key_frames();
+  octomap_->write(encode(octomap_of(map, input_.tick)));
 }
 
 void AgentNode::write(LockstepClient& client) const {

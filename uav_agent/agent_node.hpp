@@ -20,10 +20,14 @@ class AgentNode final : public MemberNode {
   AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain, bus::Bus& bus,
             std::shared_ptr<ReadyFrames> frames = nullptr);
 
+  void start() override;
+  std::optional<std::string> octomap_file() const override { return agent_.map().octomap_file(); }
+
  private:
   void declare(bus::LockstepClient& client) override;
   void work(const bus::LockstepClient::Step& step) override;
   void send(bus::LockstepClient& client) override;
+  void show() override;
   void read_sensors(bus::LockstepClient& client);
   void read_captures(bus::LockstepClient& client);
   void write(bus::LockstepClient& client) const;
@@ -36,6 +40,9 @@ class AgentNode final : public MemberNode {
   AgentOutput output_;
   std::map<std::uint64_t, msg::CaptureReport> reports_;  ///< that may yet have to be sent, by capture
   std::vector<std::uint64_t> released_;                  ///< acknowledged captures that the camera may forget
+  std::unique_ptr<bus::Writer> octomap_;
+  Tick octomap_due_ = 0;
+  std::uint64_t shown_key_frames_ = 0;
 };
 
 }  // namespace skein::agent

@@ -8,6 +8,7 @@
 #include "bus/lockstep/names.hpp"
 #include "bus/program_bus.hpp"
 #include "core/scenario_reader.hpp"
+#include "process/atomic_file.hpp"
 #include "process/log_time.hpp"
 #include "process/program_report.hpp"
 #include "process/reports.hpp"
@@ -35,8 +36,10 @@ class AgentMember final : public bus::FleetMember {
         scenario_(std::move(scenario)),
         bus_(std::move(bus)),
         node_(std::move(node)),
-        report_(options.out / run_folder::report_file(programs::agent_program(node_->member()))) {
+        report_(options.out / run_folder::report_file(programs::agent_program(node_->member()))),
+        map_(options.out / run_folder::map_file(node_->member())) {
     withdraw_report(report_);
+    withdraw_report(map_);
   }
 
   bus::LockstepNode& node() override { return *node_; }
@@ -45,15 +48,18 @@ class AgentMember final : public bus::FleetMember {
   std::optional<int> ended(bus::NodeEnd end) override {
     const int code = bus::exit_code(end, node_->member());
     if (node_->came_too_late()) return code;
+    const auto map = node_->octomap_file();
+    const std::string no_map = map ? write_if_possible(map_, *map) : "";
     const CpuHistogram& cpu = node_->planner_cpu();
-    const AgentReport report{.planner_cpu_s = cpu.total_s(),
-                             .planner_cpu_p99_ms = 1e3 * cpu.quantile_s(0.99),
-                             .planner_cpu_max_ms = 1e3 * cpu.max_s(),
-                             .planner_exchanges_over_50ms = cpu.over_field_exchange(),
-                             .malformed = node_->malformed(),
-                             .unsent = node_->unsent(),
-                             .planner = planner_,
-                             .dds = dds_};
+    AgentReport report{.planner_cpu_s = cpu.total_s(),
+                       .planner_cpu_p99_ms = 1e3 * cpu.quantile_s(0.99),
+                       .planner_cpu_max_ms = 1e3 * cpu.max_s(),
+                       .planner_exchanges_over_50ms = cpu.over_field_exchange(),
+                       .malformed = node_->malformed(),
+                       .unsent = node_->unsent(),
+                       .planner = planner_,
+                       .dds = dds_};
+    if (!no_map.empty()) report.unwritten = {no_map};
     hand_in_report(json_of(report), report_, status_);
     return code;
   }
@@ -64,7 +70,7 @@ class AgentMember final : public bus::FleetMember {
   const std::unique_ptr<const Scenario> scenario_;
   const std::unique_ptr<bus::Bus> bus_;
   const std::unique_ptr<MemberNode> node_;
-  const std::filesystem::path report_;
+  const std::filesystem::path report_, map_;
 };
 
 }  // namespace

@@ -26,6 +26,7 @@ void MemberNode::think() {
     send(*client_);
     client_->done();
   }
+  show();
   last_step_answered_ = client_->step().final_step();
 }
 

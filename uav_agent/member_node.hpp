@@ -27,6 +27,8 @@ class MemberNode : public bus::ClientNode {
   std::uint64_t malformed() const { return inbox_.malformed(); }
   /// Samples that could not be sent.
   std::uint64_t unsent() const { return bus_.unsent()->count(); }
+  /// What it knows of the space around it, as a file that OctoMap reads; nullopt: it keeps no map.
+  virtual std::optional<std::string> octomap_file() const { return std::nullopt; }
 
  protected:
   /// @param member  name in the lock-step: a UAV's, or "gcs".
@@ -39,6 +41,9 @@ class MemberNode : public bus::ClientNode {
   virtual void work(const bus::LockstepClient::Step& step) = 0;
   /// Sends what the step brought forth, and forgets the events of this step.
   virtual void send(bus::LockstepClient& client) = 0;
+  /// For who looks on, when the step is answered. In no count, so that nobody waits for it.
+  virtual void show() {}
+  bus::Participant& participant() { return *participant_; }
 
  private:
   bus::LockstepClient& client() override { return *client_; }

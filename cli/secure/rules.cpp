@@ -80,6 +80,7 @@ Rights rights_of(const FleetPlan& plan, const std::string& program, int base_dom
   if (program == programs::kCommRouter) {
     std::vector<std::string> names = server_topics(all_units);
     add_wire_names(names, topics::uav_topics(), topics::Direction::from_agent, all_units);
+    add_wire_names(names, topics::uav_topics(), topics::Direction::shown_by_agent, all_units);
     add_wire_names(names, topics::score_topics(), topics::Direction::from_station, all_units);
     add_wire_names(names, topics::viewer_topics(), topics::Direction::from_station, all_units);
     return {base_domain, last, std::move(names)};

@@ -8,6 +8,7 @@
 
 #include "process/json_text.hpp"
 #include "report/causes.hpp"
+#include "report/testing/drawn_map.hpp"
 #include "report/testing/scratch.hpp"
 
 namespace skein::report {
@@ -50,6 +51,7 @@ class OddRun {
     table("captures.csv", captures());
     table("events.csv", events());
     table("score_timeline.csv", timeline());
+    for (const std::string& name : names_) table(("map-" + name + ".bt").c_str(), drawn_map(random_));
   }
 
  private:

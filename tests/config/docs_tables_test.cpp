@@ -51,6 +51,7 @@ std::string writer(topics::Direction direction) {
     case topics::Direction::to_viewer:
       return "sim_server";
     case topics::Direction::from_agent:
+    case topics::Direction::shown_by_agent:
       return "the agent";
     case topics::Direction::from_station:
       return "station";

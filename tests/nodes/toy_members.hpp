@@ -61,6 +61,7 @@ class ToyServer {
       const bool from_agent =
           topic.direction == topics::Direction::from_agent || topic.pattern == topics::kCaptureStored.pattern;
       if (topic.direction == topics::Direction::from_station) continue;
+      if (topic.direction == topics::Direction::shown_by_agent) continue;
       if (!from_agent) {
         writers_[{domain, spec.name}] = &lockstep_.writer(domain, spec);
         continue;

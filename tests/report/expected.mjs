@@ -18,7 +18,40 @@ export function readRun(dir) {
     losses: table('losses.csv'),
     captures: table('captures.csv'),
     events: table('events.csv'),
+    map: (uav) => {
+      const file = path.join(dir, `map-${uav}.bt`);
+      return fs.existsSync(file) ? octree(fs.readFileSync(file)) : null;
+    },
   };
+}
+
+/** Leaves of a file of OctoMap's: [lowest corner, edge, whether occupied]. */
+function octree(bytes) {
+  let at = 0;
+  let resolution = 0;
+  for (let line = ''; line !== 'data';) {
+    const end = bytes.indexOf('\n', at);
+    line = bytes.toString('latin1', at, end);
+    if (line.startsWith('res ')) resolution = Number(line.slice(4));
+    at = end + 1;
+  }
+  const leaves = [];
+  const walk = (corner, edge) => {
+    const bits = bytes.readUInt16LE(at);
+    at += 2;
+    const inner = [];
+    for (let i = 0; i < 8; ++i) {
+      const child = (bits >> (2 * i)) & 3;
+      const lowest = corner.map((low, axis) => low + ((i >> axis) & 1) * (edge / 2));
+      if (child === 3)
+        inner.push(lowest);
+      else if (child !== 0)
+        leaves.push([lowest, edge / 2, child === 2]);
+    }
+    for (const lowest of inner) walk(lowest, edge / 2);
+  };
+  if (at < bytes.length) walk([-1, -1, -1].map((sign) => sign * resolution * 32768), resolution * 65536);
+  return leaves;
 }
 
 const kCauses = [
@@ -71,6 +104,36 @@ function boxes({scene, score, losses: lost}) {
     }
     return row;
   });
+}
+
+function maps(run) {
+  const kEdge = 2;
+  const extents = run.scene.boxes.map((box) => [0, 1, 2].map((axis) => {
+    const half = [0, 1, 2].reduce((sum, column) => sum + Math.abs(box.rotation[axis][column]) * 0.5 * box.size[column], 0);
+    return [box.center[axis] - half, box.center[axis] + half];
+  }));
+  const held = (lowest, edge) => {
+    const high = lowest.map((low) => low + edge);
+    if (!extents.some((extent) => extent.every(([from, to], axis) => high[axis] >= from && lowest[axis] <= to))) return 0;
+    if (edge > kEdge) {
+      let sum = 0;
+      for (let i = 0; i < 8; ++i) sum += held(lowest.map((low, axis) => low + ((i >> axis) & 1) * (edge / 2)), edge / 2);
+      return sum;
+    }
+    return run.scene.boxes.some((box) => inBox(box, lowest.map((low) => low + edge / 2))) ? edge ** 3 : 0;
+  };
+  const kWorld = 65536;
+  const whole = held([-1, -1, -1].map((sign) => sign * kWorld / 2), kWorld);
+  const rows = [];
+  for (const {name} of run.result.uavs) {
+    const leaves = run.map(name);
+    if (leaves === null) continue;
+    const volume = (wanted) =>
+        leaves.reduce((sum, [, edge, occupied]) => sum + (occupied === wanted ? edge ** 3 : 0), 0);
+    const known = leaves.reduce((sum, [lowest, edge]) => sum + held(lowest, edge), 0);
+    rows.push([volume(true), volume(false), whole > 0 ? (100 * known) / whole : null]);
+  }
+  return rows.length > 0 ? rows : null;
 }
 
 /** Steps of links, and who reached the station in each, by way of others or without. */
@@ -169,6 +232,7 @@ export function expectedTables(run) {
     uavs: uavs(run),
     links: links(run),
     latency: latency(run),
+    maps: maps(run),
     radio: [
       [radio.sent], [radio.delivered], [radio.dropped_no_los], [radio.dropped_fault], [radio.dropped_overflow],
       [radio.delivered_bytes / 1000]

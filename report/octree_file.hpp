@@ -1,0 +1,15 @@
+// A .bt file of OctoMap's, read: the tree that each UAV leaves behind (run_folder::map_file). Any thread.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "core/octree_bytes.hpp"
+
+namespace skein::report {
+
+/// Calls `visit` with each leaf, in the order of the file.
+/// @returns false for what is no such file, or not a whole one; some leaves may have been visited then.
+bool visit_octree_file(std::string_view file, const std::function<void(const KnownCube&)>& visit);
+
+}  // namespace skein::report
