@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "comm_router/router_node.hpp"
+#include "core/octree_bytes.hpp"
 #include "core/radio_routes.hpp"
+#include "core/random_stream.hpp"
 #include "idl/conversions.hpp"
 #include "tests/nodes/toy_members.hpp"
 #include "uav_agent/ground_node.hpp"
@@ -81,6 +84,73 @@ TEST(AgentNode, FliesByOdometryAndAnswersTheGroundProgramByRadio) {
     EXPECT_EQ(ground_side.heard[k].text, "a: hello " + std::to_string(k));
   }
   EXPECT_EQ(agent.malformed() + ground.malformed(), 0U);
+}
+
+TEST(AgentNode, ShowsItsMapWhereSomebodyLooksOn) {
+  constexpr std::uint64_t kSteps = 200, kLooksFrom = 100;
+  const Scenario scenario = toy_scenario(1);
+  const UavIndex uav{0};
+  const auto bus = bus::make_bus({.vendor = "inproc"});
+  ToyServer server(*bus, scenario, kSteps);
+  server.expect_uavs(scenario);
+  server.expect_router();
+  server.open_topics(ToyServer::domain_of(uav), topics::uav_topics(), "a");
+  bus::CountedWriter& odometry = server.writer(ToyServer::domain_of(uav), topics::odometry("a"));
+  bus::CountedWriter& key_frames = server.writer(ToyServer::domain_of(uav), topics::neighbour_keyframe("a"));
+  RandomStream random(1, "hits", 0);
+  std::vector<Eigen::Vector3f> hits;
+  server.before_step = [&](std::uint64_t k) {
+    odometry.write(to_odometry(static_cast<Tick>(20 * k), "a", {}));
+    if (k % 7 != 0 || k >= kSteps - 40) return;
+    std::vector<Eigen::Vector3f> frame;
+    for (int i = 0; i < 20; ++i) {
+      frame.push_back(
+          Vector3d(random.uniform(20.0, 24.0), random.uniform(0.0, 4.0), random.uniform(5.0, 9.0)).cast<float>());
+    }
+    hits.insert(hits.end(), frame.begin(), frame.end());
+    key_frames.write(to_cloud(static_cast<Tick>(20 * k), frame, 9.0F));
+  };
+  const auto viewer = bus->join(uav_domain(0, uav));
+  std::unique_ptr<bus::Reader> reader;
+  std::vector<msg::Octomap> shown;
+  agent::AgentNode agent(scenario, uav, std::make_unique<Parrot>(), 0, *bus);
+  router::RouterNode router(scenario, 0, 0, *bus);
+  agent.start();
+  router.start();
+  const auto look_on = [&] {
+    if (server.k() < kLooksFrom || reader) return;
+    reader = viewer->create_reader(bus::spec(topics::octomap("a")), [&](bus::Sample&& sample) {
+      EXPECT_TRUE(decode(sample.payload, shown.emplace_back()));
+    });
+    EXPECT_TRUE(shown.empty()) << "was written where nobody read";
+  };
+  ASSERT_TRUE(take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }, look_on}, [&] {
+    return server.over();
+  })) << agent.waiting_for();
+  ASSERT_GE(shown.size(), 2U);
+  EXPECT_LE(shown.size(), 1 + (kSteps - kLooksFrom) / 20) << "once a second at most";
+  double before = 0.0;
+  for (const msg::Octomap& map : shown) {
+    EXPECT_TRUE(map.binary());
+    EXPECT_EQ(map.id(), "OcTree");
+    EXPECT_EQ(map.header().frame_id(), "world");
+    double volume = 0.0;
+    std::vector<KnownCube> occupied;
+    const std::string bytes(map.data().begin(), map.data().end());
+    ASSERT_TRUE(visit_octree(bytes, map.resolution(), [&](const KnownCube& cube) {
+      if (cube.occupied) occupied.push_back(cube);
+      volume += cube.occupied ? std::pow(cube.edge_m, 3) : 0.0;
+    }));
+    EXPECT_GE(volume, before);
+    before = volume;
+    if (&map != &shown.back()) continue;
+    EXPECT_GT(volume, 0.5);
+    for (const KnownCube& cube : occupied) {
+      EXPECT_TRUE(std::ranges::any_of(hits, [&](const Eigen::Vector3f& hit) {
+        return (hit.cast<double>() - cube.middle_W()).cwiseAbs().maxCoeff() <= 0.5 * cube.edge_m + 0.25;
+      })) << cube.middle_W().transpose();
+    }
+  }
 }
 
 TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
