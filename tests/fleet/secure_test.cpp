@@ -12,6 +12,7 @@
 #include "cli/secure/security.hpp"
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
+#include "process/run_folder.hpp"
 #include "process/security_files.hpp"
 #include "small_scene.hpp"
 
@@ -140,6 +141,7 @@ TEST_P(Waiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
   EXPECT_GT(result["score"].get<double>(), 0.0);
   EXPECT_TRUE(result["deterministic"]);
   expect_complete_result(*run_);
+  EXPECT_TRUE(fs::exists(run_->dir() / run_folder::map_file(kOther))) << "its agent may write elsewhere only";
 
   EXPECT_FALSE(fs::exists(keys_.parent_path()));
   for (const auto& entry : fs::directory_iterator(run_->dir())) {
