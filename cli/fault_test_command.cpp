@@ -158,7 +158,8 @@ class FaultTestRun {
     const FaultTest& test = tests_[index];
     const FlightsOfTest& flights = flights_.tests[index];
     const RunRecord own = record_of(flights.own);
-    Evidence evidence{test.plan.scenario, test.plan.faults, own, flown_[flights.own].exit->code, nullptr, {}};
+    const FaultPlan faults = as_flown(test.plan.faults, own.result, test.plan.scenario);
+    Evidence evidence{test.plan.scenario, faults, own, flown_[flights.own].exit->code, nullptr, {}};
     std::optional<RunRecord> fault_free;
     if (flights.fault_free) evidence.fault_free = &fault_free.emplace(record_of(*flights.fault_free));
     std::map<std::string, RunRecord> repeats;

@@ -61,8 +61,10 @@ void LinkGate::send(std::uint64_t k, const Links& links, const SentMessage& mess
     link.dropped_overflow += fate.loss == LinkLoss::overflow;
     if (fate.loss != LinkLoss::none) continue;
     link.duplicated += static_cast<std::uint64_t>(fate.copies - 1);
+    link.corrupted += fate.payload != nullptr;
+    const Payload& payload = fate.payload ? fate.payload : message.payload;
     for (int copy = 0; copy < fate.copies; ++copy) {
-      in_flight_[k + 1 + fate.delay_steps].push_back({message.route, target, message.sequence, message.payload});
+      in_flight_[k + 1 + fate.delay_steps].push_back({message.route, target, message.sequence, payload});
     }
   }
 }
@@ -94,6 +96,7 @@ LinkCounts LinkGate::total() const {
     sum.dropped_fault += link.dropped_fault;
     sum.dropped_overflow += link.dropped_overflow;
     sum.duplicated += link.duplicated;
+    sum.corrupted += link.corrupted;
     sum.sent_bytes += link.sent_bytes;
     sum.delivered_bytes += link.delivered_bytes;
   }

@@ -37,6 +37,7 @@ struct LinkFate {
   LinkLoss loss = LinkLoss::none;
   std::uint64_t delay_steps = 0;  ///< on top of the one step that every message takes
   int copies = 1;                 ///< that arrive, side by side
+  Payload payload = {};           ///< that arrives in place of the one that was sent; null: that one
 };
 
 /// How links treat messages beyond line of sight. Called once a message and target, in a fixed order; random models
@@ -45,6 +46,9 @@ class LinkModel {
  public:
   virtual ~LinkModel() = default;
   virtual LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) = 0;
+  /// A fault of the fault file that waited for a condition begins with the exchange at this tick. Told before that, and
+  /// as often as anybody likes.
+  virtual void set_off(std::size_t /*fault*/, Tick /*tick*/) {}
 };
 
 /// Nothing is lost, nothing is late.
@@ -67,6 +71,7 @@ struct Delivery {
 struct LinkCounts {
   std::uint64_t sent = 0, delivered = 0, dropped_no_los = 0, dropped_fault = 0;
   std::uint64_t dropped_overflow = 0, duplicated = 0;
+  std::uint64_t corrupted = 0;  ///< of those that were not dropped
   std::uint64_t sent_bytes = 0, delivered_bytes = 0;
   bool operator==(const LinkCounts&) const = default;
 };
@@ -93,6 +98,7 @@ class LinkGate {
   /// @throws std::invalid_argument when the links are those of another fleet or a message names no route.
   GatedStep gate(std::uint64_t k, const Links& links, const std::vector<SentMessage>& messages);
 
+  void set_off(std::size_t fault, Tick tick) { model_->set_off(fault, tick); }
   /// Counts of an earlier life: counting goes on from there.
   void restore(LinkMatrix<LinkCounts> counts) { counts_ = std::move(counts); }
 

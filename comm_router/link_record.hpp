@@ -22,6 +22,7 @@ class LinkRecord final : public LinkModel {
              std::vector<std::string>& unwritten);
 
   LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) override;
+  void set_off(std::size_t fault, Tick tick) override { links_->set_off(fault, tick); }
 
  private:
   void write(const std::string& line);

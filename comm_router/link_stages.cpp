@@ -2,33 +2,69 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/random_stream.hpp"
 
 namespace skein::router {
+namespace {
+
+/// Of the serialised message, behind the header that says how it is encoded.
+constexpr std::size_t kEncapsulationBytes = 4;
+
+/// One bit is flipped, or three: an odd number, so that it differs. What has no content is left as it is.
+Payload with_flipped_bits(const std::vector<std::uint8_t>& bytes, RandomStream& random) {
+  if (bytes.size() <= kEncapsulationBytes) return nullptr;
+  auto damaged = std::make_shared<std::vector<std::uint8_t>>(bytes);
+  const std::uint64_t bits = 8 * (bytes.size() - kEncapsulationBytes);
+  for (std::uint64_t flips = random.bits() % 2 == 0 ? 1 : 3; flips > 0; --flips) {
+    const std::uint64_t bit = random.bits() % bits;
+    (*damaged)[kEncapsulationBytes + bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+  }
+  return damaged;
+}
+
+}  // namespace
 
 LinkStages::LinkStages(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed)
     : scenario_(scenario), faults_(faults), seed_(seed), stages_(scenario.fleet.size() + 1) {
   for (std::size_t i = 0; i < scenario.links.size(); ++i) {
-    add_effect(scenario.links[i], "radio.links[" + std::to_string(i) + "]", 0, ~std::uint64_t{0});
+    add_effect(scenario.links[i], "radio.links[" + std::to_string(i) + "]");
   }
   for (std::size_t i = 0; i < faults.faults.size(); ++i) {
-    const Fault& fault = faults.faults[i];
-    const auto* effect = std::get_if<LinkEffect>(&fault.action);
-    if (!effect) continue;
-    add_effect(*effect, "faults[" + std::to_string(i) + "]", step_of(fault.begin()),
-               fault.end() ? step_of(*fault.end()) : ~std::uint64_t{0});
+    const auto* effect = std::get_if<LinkEffect>(&faults.faults[i].action);
+    if (effect) add_effect(*effect, fault_path(i), i);
   }
 }
 
-void LinkStages::add_effect(const LinkEffect& effect, const std::string& name, std::uint64_t first, std::uint64_t end) {
+void LinkStages::add_effect(const LinkEffect& effect, const std::string& name, std::optional<std::size_t> fault) {
   for (const Node from : scenario_.nodes()) {
     for (const Node to : scenario_.nodes()) {
       const std::string &source = scenario_.node_name(from), &target = scenario_.node_name(to);
       if (from == to || !names_node(effect.from, source) || !names_node(effect.to, target)) continue;
-      Stage stage{.effect = effect, .name = name + " " + source + " " + target, .first = first, .end = end};
-      stage.burst_step = first;
+      Stage stage{.effect = effect, .name = name + " " + source + " " + target, .fault = fault};
+      set_times(stage);
       stages_.at(from, to).push_back(std::move(stage));
+    }
+  }
+}
+
+void LinkStages::set_times(Stage& stage) const {
+  if (!stage.fault) return;
+  const Fault& fault = faults_.faults[*stage.fault];
+  stage.first = fault.waits ? ~std::uint64_t{0} : step_of(fault.begin());
+  stage.end = fault.end() ? step_of(*fault.end()) : ~std::uint64_t{0};
+  stage.burst_step = stage.first;
+}
+
+void LinkStages::set_off(std::size_t fault, Tick tick) {
+  if (!faults_.faults.at(fault).waits) return;
+  faults_.faults[fault].set_off(tick);
+  for (const Node from : scenario_.nodes()) {
+    for (const Node to : scenario_.nodes()) {
+      for (Stage& stage : stages_.at(from, to)) {
+        if (stage.fault == fault) set_times(stage);
+      }
     }
   }
 }
@@ -37,12 +73,12 @@ LinkFate LinkStages::fate(std::uint64_t k, const RadioRoute& route, Node target,
   if (is_cut(k, route.source, target)) return {.loss = LinkLoss::fault};
   Passage passage;
   for (Stage& stage : stages_.at(route.source, target)) {
-    if (k < stage.first || k >= stage.end) continue;
+    if (k < stage.first || k >= stage.end || !names_topic(stage.effect.topics, route.ros_topic)) continue;
     pass(stage, k, route, message, passage);
     if (passage.loss != LinkLoss::none) return {.loss = passage.loss};
   }
   const auto delay = static_cast<std::uint64_t>(std::ceil(passage.delay_s / scenario_.exchange_period_s - 1e-9));
-  return {.delay_steps = delay, .copies = passage.twice ? 2 : 1};
+  return {.delay_steps = delay, .copies = passage.twice ? 2 : 1, .payload = std::move(passage.payload)};
 }
 
 // All numbers are drawn for every message, whether they are needed or not, so that each effect sees the same ones
@@ -65,6 +101,9 @@ void LinkStages::pass(Stage& stage, std::uint64_t k, const RadioRoute& route, co
   passage.delay_s += effect.latency_s + jitter * effect.jitter_s;
   if (effect.reordering && reordering < effect.reordering->probability) passage.delay_s += effect.reordering->delay_s;
   passage.twice = passage.twice || duplication < effect.duplication;
+  if (random.uniform() < effect.corruption) {
+    passage.payload = with_flipped_bits(passage.payload ? *passage.payload : *message.payload, random);
+  }
 }
 
 bool LinkStages::queue(Stage& stage, std::uint64_t k, double size_bytes, double& delay_s) const {

@@ -20,15 +20,17 @@ class LinkStages final : public LinkModel {
   LinkStages(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed);
 
   LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) override;
+  void set_off(std::size_t fault, Tick tick) override;
 
  private:
   /// One effect on one directed link.
   struct Stage {
     LinkEffect effect;
-    std::string name;                   ///< of effect and link, part of every key
-    std::uint64_t first = 0, end = ~0;  ///< steps in which it acts: [first, end)
-    double free_at_s = 0.0;             ///< when the last message in the queue will have left
-    std::uint64_t burst_step = 0;       ///< the step to which `in_burst` belongs
+    std::string name;                       ///< of effect and link, part of every key
+    std::optional<std::size_t> fault = {};  ///< of the plan; none: of the scenario
+    std::uint64_t first = 0, end = ~0;      ///< steps in which it acts: [first, end)
+    double free_at_s = 0.0;                 ///< when the last message in the queue will have left
+    std::uint64_t burst_step = 0;           ///< the step to which `in_burst` belongs
     bool in_burst = false;
   };
 
@@ -36,10 +38,13 @@ class LinkStages final : public LinkModel {
   struct Passage {
     double delay_s = 0.0;
     bool twice = false;
+    Payload payload;  ///< damaged; null: as it was sent
     LinkLoss loss = LinkLoss::none;
   };
 
-  void add_effect(const LinkEffect& effect, const std::string& name, std::uint64_t first, std::uint64_t end);
+  void add_effect(const LinkEffect& effect, const std::string& name, std::optional<std::size_t> fault = {});
+  /// From when to when it acts, as far as that is known.
+  void set_times(Stage& stage) const;
   void pass(Stage& stage, std::uint64_t k, const RadioRoute& route, const SentMessage& message, Passage& passage);
   /// Queues for the bandwidth. @returns false when the message does not fit.
   bool queue(Stage& stage, std::uint64_t k, double size_bytes, double& delay_s) const;
@@ -48,7 +53,7 @@ class LinkStages final : public LinkModel {
   bool is_cut(std::uint64_t k, Node from, Node to);
 
   const Scenario scenario_;
-  const FaultPlan faults_;
+  FaultPlan faults_;
   const std::uint64_t seed_;
   LinkMatrix<std::vector<Stage>> stages_;
   std::uint64_t cut_step_ = ~0;  ///< the step to which `cut_` belongs

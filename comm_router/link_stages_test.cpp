@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace skein::router {
@@ -209,6 +210,104 @@ TEST(LinkStages, CutsLinks) {
   EXPECT_FALSE(lost(plan_of(Blackout{"a"}, 1.0, 2.0), 19));
   EXPECT_TRUE(lost(plan_of(Blackout{"a"}, 1.0, 2.0), 20));
   EXPECT_FALSE(lost(plan_of(Blackout{"a"}, 1.0, 2.0), 40));
+}
+
+TEST(LinkStages, ActsOnTheTopicsThatItNamesAndOnNoOther) {
+  for (const std::vector<std::string>& named :
+       std::vector<std::vector<std::string>>{{"all"}, {"/x"}, {"/x/y"}, {"/y", "/x"}, {"/xy"}}) {
+    LinkEffect effect;
+    effect.loss = 1.0;
+    effect.topics = named;
+    LinkStages stages = stages_of(plan_of(effect));
+    for (const std::string topic : {"/x", "/x/y", "/x/y/z", "/xy", "/y"}) {
+      RadioRoute route = kRoute;
+      route.ros_topic = topic;
+      const bool meant = std::ranges::any_of(
+          named, [&](const std::string& name) { return name == "all" || (topic + "/").starts_with(name + "/"); });
+      EXPECT_EQ(stages.fate(0, route, kB, message(0)).loss == LinkLoss::fault, meant) << topic << " of " << named[0];
+    }
+  }
+}
+
+TEST(LinkStages, OneTopicsQueueIsNotAnothers) {
+  LinkEffect effect;
+  effect.bandwidth_bit_s = 8000.0;
+  effect.topics = {"/x"};
+  LinkStages stages = stages_of(plan_of(effect));
+  RadioRoute other = kRoute;
+  other.ros_topic = "/y";
+  for (std::uint64_t i = 0; i < 5; ++i) EXPECT_EQ(stages.fate(0, other, kB, message(i)).delay_steps, 0u);
+  EXPECT_EQ(stages.fate(0, kRoute, kB, message(0)).delay_steps, 2u) << "nothing was before it";
+}
+
+int differing_bits(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  int bits = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) bits += std::popcount(static_cast<unsigned>(a[i] ^ b[i]));
+  return bits;
+}
+
+TEST(LinkStages, CorruptionFlipsBitsOfTheContentAsOftenAsItSays) {
+  LinkEffect effect;
+  effect.corruption = 0.25;
+  LinkStages stages = stages_of(plan_of(effect)), again = stages_of(plan_of(effect));
+  int corrupted = 0, single = 0;
+  for (std::uint64_t i = 0; i < 8000; ++i) {
+    const SentMessage sent = message(i, 1 + i % 60);
+    const LinkFate fate = stages.fate(i, kRoute, kB, sent);
+    const Payload repeated = again.fate(i, kRoute, kB, sent).payload;
+    ASSERT_EQ(fate.payload == nullptr, repeated == nullptr);
+    if (!fate.payload) continue;
+    EXPECT_EQ(*fate.payload, *repeated);
+    ASSERT_GT(sent.payload->size(), 4U) << "there is no content to flip";
+    ASSERT_EQ(fate.payload->size(), sent.payload->size());
+    EXPECT_TRUE(std::equal(sent.payload->begin(), sent.payload->begin() + 4, fate.payload->begin()));
+    const int bits = differing_bits(*sent.payload, *fate.payload);
+    EXPECT_TRUE(bits == 1 || bits == 3) << bits;
+    ++corrupted;
+    single += bits == 1;
+  }
+  EXPECT_NEAR(corrupted, 8000 * 0.25 * 56 / 60, 160);
+  EXPECT_GT(single, corrupted / 3);
+  EXPECT_LT(single, corrupted);
+}
+
+TEST(LinkStages, CorruptionLeavesTheOtherDrawsAsTheyAre) {
+  LinkEffect effect;
+  effect.loss = 0.3;
+  effect.jitter_s = 0.3;
+  effect.duplication = 0.3;
+  LinkStages without = stages_of(plan_of(effect));
+  effect.corruption = 0.5;
+  LinkStages with = stages_of(plan_of(effect));
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    EXPECT_TRUE(same(with.fate(i, kRoute, kB, message(i)), without.fate(i, kRoute, kB, message(i))));
+  }
+}
+
+// Whatever it does is the same as if its time had stood in the file.
+TEST(LinkStages, AFaultThatWaitedActsFromThenOnAsIfItsTimeHadBeenKnown) {
+  LinkEffect effect;
+  effect.loss = 0.3;
+  effect.burst_loss = BurstLoss{0.5, 0.5, 1.0};
+  for (const double at_s : {0.05, 1.0, 2.5}) {
+    const Tick tick = ticks(at_s);
+    FaultPlan waiting = plan_of(effect);
+    waiting.faults[0].when = FaultCondition{"held > 0"};
+    waiting.faults[0].waits = true;
+    waiting.faults[0].for_s = 1.0;
+    LinkStages stages = stages_of(waiting), known = stages_of(plan_of(effect, at_s, at_s + 1.0));
+    const auto begin = static_cast<std::uint64_t>(tick / 20);
+    for (std::uint64_t k = 0; k < 100; ++k) {
+      if (k >= begin) stages.set_off(0, tick);  // told again and again
+      EXPECT_TRUE(same(stages.fate(k, kRoute, kB, message(k)), known.fate(k, kRoute, kB, message(k)))) << k;
+    }
+    LinkStages restarted = stages_of(waiting);  // hears of it later than it began
+    restarted.set_off(0, tick);
+    LinkStages known_again = stages_of(plan_of(effect, at_s, at_s + 1.0));
+    for (std::uint64_t k = begin + 7; k < 100; ++k) {
+      EXPECT_TRUE(same(restarted.fate(k, kRoute, kB, message(k)), known_again.fate(k, kRoute, kB, message(k)))) << k;
+    }
+  }
 }
 
 TEST(LinkStages, StagesActOneAfterTheOther) {

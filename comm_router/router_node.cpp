@@ -258,6 +258,7 @@ void RouterNode::begin_step() {
     if (applicant != applicants_.end()) members.push_back({member.name(), member.source(), applicant->second.node});
   }
   k_ = step.k();
+  for (const msg::FaultBegin& begun : step.faults()) gate_.set_off(begun.fault(), begun.tick());
   tell_of_strangers(step.final_step() ? 0 : kStrangerSteps);
   sync_.on_step(step.k(), step.epoch(), std::move(members), Links(nodes_.size(), step.links()));
   if (step.final_step()) last_k_ = step.k();

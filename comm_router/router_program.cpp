@@ -28,6 +28,7 @@ RadioCounts radio_counts(const LinkCounts& counts) {
           .dropped_fault = counts.dropped_fault,
           .dropped_overflow = counts.dropped_overflow,
           .duplicated = counts.duplicated,
+          .corrupted = counts.corrupted,
           .sent_bytes = counts.sent_bytes,
           .delivered_bytes = counts.delivered_bytes};
 }

@@ -55,6 +55,7 @@ class TreeBuilder final : public YAML::EventHandler {
       node = ConfigNode::make_scalar(value, quoted);
       node.line = mark.line + 1;
     }
+    node.column = mark.column + 1;
     accept(std::move(node));
   }
 
@@ -270,6 +271,32 @@ void ConfigNode::remove(std::string_view key) {
   keys.erase(found);
 }
 
+// YAML changes nothing but blanks on its way from the text to the scalar (escapes aside), so that the letters between
+// them are counted in both.
+ConfigPlace place_in(const ConfigDocument& document, const ConfigNode& scalar, std::size_t at) {
+  const std::string& text = document.text;
+  const auto is_blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  std::size_t begin = 0;
+  for (int line = 1; line < scalar.line && begin < text.size(); ++begin) line += text[begin] == '\n';
+  begin += static_cast<std::size_t>(std::max(0, scalar.column - 1));
+  if (begin >= text.size()) return {scalar.line, scalar.column};
+  if (scalar.quoted && (text[begin] == '|' || text[begin] == '>'))
+    begin = std::min(text.find('\n', begin), text.size());
+  if (scalar.quoted && begin < text.size() && (text[begin] == '"' || text[begin] == '\'')) ++begin;
+  const bool at_end = at >= scalar.scalar.size();
+  auto letters = std::count_if(scalar.scalar.begin(),
+                               scalar.scalar.begin() + static_cast<std::ptrdiff_t>(std::min(at, scalar.scalar.size())),
+                               [&](char c) { return !is_blank(c); });
+  std::size_t place = begin;
+  for (; place < text.size(); ++place) {
+    if (letters == 0 && (at_end || !is_blank(text[place]))) break;
+    if (!is_blank(text[place])) --letters;
+  }
+  const std::size_t line_begin = place == 0 ? 0 : text.rfind('\n', place - 1) + 1;
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(line_begin), '\n');
+  return {static_cast<int>(line), static_cast<int>(place - line_begin) + 1};
+}
+
 ConfigDocument parse_config_document(const std::string& text, const std::string& origin) {
   refuse_binary(text, origin);
   std::istringstream stream(text);
@@ -279,7 +306,7 @@ ConfigDocument parse_config_document(const std::string& text, const std::string&
     parser.HandleNextDocument(builder);
     NothingMore nothing_more(origin);
     parser.HandleNextDocument(nothing_more);
-    return {origin, builder.take()};
+    return {origin, builder.take(), text};
   } catch (const YAML::Exception& error) {
     throw InputError(place(origin, error.mark.line + 1) + ": not valid YAML: " + error.msg);
   }

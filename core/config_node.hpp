@@ -18,6 +18,7 @@ struct ConfigNode {
 
   Kind kind = Kind::null;
   int line = 0;                   ///< counted from 1; 0 means no place in a file
+  int column = 0;                 ///< the same within the line
   bool quoted = false;            ///< a scalar in quotes: text, never a number
   std::string scalar;             ///< of a scalar
   std::vector<ConfigNode> items;  ///< of a list; of a map, the values in the file's order
@@ -45,7 +46,16 @@ struct ConfigNode {
 struct ConfigDocument {
   std::string origin;
   ConfigNode root;
+  std::string text = {};  ///< that it was read from
 };
+
+/// Where something stands in a document's text, both counted from 1.
+struct ConfigPlace {
+  int line = 0, column = 0;
+};
+/// Where a letter of a scalar stands: in lines that YAML has joined, too.
+/// @param at  counted from 0; the scalar's length: behind it
+ConfigPlace place_in(const ConfigDocument& document, const ConfigNode& scalar, std::size_t at);
 
 /// @throws InputError when the file cannot be read or is not YAML; the message names file and line.
 ConfigDocument read_config_document(const std::filesystem::path& file);

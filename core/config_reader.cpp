@@ -39,30 +39,41 @@ std::string Bounds::text() const {
   return "";
 }
 
-void ConfigErrors::add(int line, const std::string& message) { errors_.emplace_back(line, message); }
+void ConfigErrors::add(int line, const std::string& message) { errors_.push_back({{line, 0}, message}); }
 
 void ConfigErrors::check(bool ok, const std::string& key_path, const std::string& what) {
-  if (!ok) add(line_of(key_path), key_path + ": " + what);
+  if (!ok) add(find(key_path).first, key_path + ": " + what);
+}
+
+void ConfigErrors::add_at(const std::string& key_path, std::size_t at, const std::string& what) {
+  const ConfigNode& node = *find(key_path).second;
+  const bool has_place = node.kind == ConfigNode::Kind::scalar && node.line > 0;
+  errors_.push_back({has_place ? place_in(document_, node, at) : ConfigPlace{node.line, 0}, key_path + ": " + what});
 }
 
 void ConfigErrors::throw_if_any() const {
   if (errors_.empty()) return;
   constexpr std::size_t kShown = 10;
   auto sorted = errors_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Error& a, const Error& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
   std::string text;
   for (std::size_t i = 0; i < std::min(sorted.size(), kShown); ++i) {
     if (i > 0) text += '\n';
     text += document_.origin;
-    if (sorted[i].first > 0) text.append(":").append(std::to_string(sorted[i].first));
-    text.append(": ").append(sorted[i].second);
+    const auto& [place, message] = sorted[i];
+    for (const int number : {place.line, place.column}) {
+      if (number > 0) text.append(":").append(std::to_string(number));
+    }
+    text.append(": ").append(message);
   }
   if (sorted.size() > kShown) text += "\nand " + std::to_string(sorted.size() - kShown) + " more";
   throw InputError(text);
 }
 
 /// Walks "a.b[2].c" as far as it goes.
-int ConfigErrors::line_of(const std::string& key_path) const {
+std::pair<int, const ConfigNode*> ConfigErrors::find(const std::string& key_path) const {
   const ConfigNode* node = &document_.root;
   int line = node->line;
   std::size_t at = 0;
@@ -87,7 +98,7 @@ int ConfigErrors::line_of(const std::string& key_path) const {
       at = end;
     }
   }
-  return line;
+  return {line, node};
 }
 
 ConfigReader::ConfigReader(const ConfigNode& map, std::string path, ConfigErrors& errors)

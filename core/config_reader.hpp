@@ -65,15 +65,22 @@ class ConfigErrors {
   void add(int line, const std::string& message);
   /// Adds an error unless `ok`. `key_path` ("fleet[2].start") names the key and finds its line.
   void check(bool ok, const std::string& key_path, const std::string& what);
+  /// Adds an error at a letter of the text under a key. @param at  counted from 0
+  void add_at(const std::string& key_path, std::size_t at, const std::string& what);
   std::size_t count() const { return errors_.size(); }
   /// @throws InputError with one line for each error in the order of the file; ten at most.
   void throw_if_any() const;
 
  private:
-  int line_of(const std::string& key_path) const;
+  struct Error {
+    ConfigPlace place;  ///< column 0: the line as a whole
+    std::string message;
+  };
+  /// The line of a key, and its value: those of what stands around a key that is not there.
+  std::pair<int, const ConfigNode*> find(const std::string& key_path) const;
 
   const ConfigDocument& document_;
-  std::vector<std::pair<int, std::string>> errors_;
+  std::vector<Error> errors_;
 };
 
 /// Reads the keys of one map. Made by read_config(); describe() uses field(), required() and check().

@@ -166,6 +166,33 @@ TEST(ConfigReader, TellsAllErrorsInTheOrderOfTheFile) {
   EXPECT_TRUE(complaint(many).ends_with("\nand 20 more"));
 }
 
+/// Where the letter 'X' of the value of `text` is found to be.
+std::string place_of_x(const std::string& yaml) {
+  const ConfigDocument document = parse_config_document(yaml, "test");
+  ConfigErrors errors(document);
+  errors.add_at("text", document.root.find("text")->scalar.find('X'), "here");
+  try {
+    errors.throw_if_any();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Letters are found where they stand, however YAML lets a text be written.
+TEST(ConfigReader, FindsALetterOfATextInItsLines) {
+  for (const char* yaml : {"text: abX", "text:   a b   X c", "text: 'a X'", "text: \"a b X\"",
+                           "flag: true\ntext: a\n   b\n     X c", "text: >\n  a b\n  c X\n", "text: |\n  a\n  X\n",
+                           "flag: true\ntext: \"a\n  b X\"\nsmall: 3", "{flag: true, text: a X b}"}) {
+    const std::string text = yaml;
+    const std::size_t at = text.find('X'), line_begin = at == 0 ? 0 : text.rfind('\n', at);
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    const std::size_t column = line_begin == std::string::npos ? at + 1 : at - line_begin;
+    EXPECT_EQ(place_of_x(text), "test:" + std::to_string(line) + ":" + std::to_string(column) + ": text: here") << text;
+  }
+  EXPECT_EQ(place_of_x("text: abc"), "test:1:10: text: here") << "behind the end";
+}
+
 TEST(ConfigReader, AnEmptyOptionalIsNone) {
   EXPECT_FALSE(parse("maybe:").maybe.has_value());
   EXPECT_FALSE(parse("maybe: ~").maybe.has_value());

@@ -11,9 +11,11 @@
 #include <variant>
 #include <vector>
 
+#include "core/expression.hpp"
 #include "core/link_effect.hpp"
 #include "core/link_matrix.hpp"
 #include "core/scenario.hpp"
+#include "core/signal_table.hpp"
 
 namespace skein {
 
@@ -43,6 +45,26 @@ struct LidarFailure {
 struct CameraFailure {
   std::string uav;
 };
+/// What the UAV's software, and its neighbours, are told of where it is stays what it was; stamps go on.
+struct OdometryFreeze {
+  std::string uav;
+};
+/// They are told that it is somewhere else. Its flight control knows better.
+struct OdometryJump {
+  std::string uav;
+  Vector3d offset_m = Vector3d::Zero();  ///< in W
+
+  template <class R>
+  void describe(R& r) {
+    r.required("uav", uav);
+    r.required("offset_m", offset_m, within(-1000.0, 1000.0));
+    r.check(!offset_m.isZero(0.0), "offset_m", "must not be zero");
+  }
+};
+/// The gimbal stays where it is, whatever it is told.
+struct StuckGimbal {
+  std::string uav;
+};
 /// A rotor gives only a part of its thrust and torque.
 struct MotorFailure {
   std::string uav;
@@ -69,16 +91,30 @@ struct CommandDelay {
 };
 
 using FaultAction = std::variant<LinkEffect, Partition, Blackout, StationOutage, Kill, Pause, LidarFailure,
-                                 CameraFailure, MotorFailure, CommandDelay>;
+                                 CameraFailure, MotorFailure, CommandDelay, OdometryFreeze, OdometryJump, StuckGimbal>;
+
+/// What a fault waits for: the server looks at it at the end of each exchange.
+struct FaultCondition {
+  std::string text;
+  Expression condition = {};
+  std::vector<SignalUse> signals = {};  ///< that it is about
+};
 
 struct Fault {
-  double at_s = 0.0;              ///< simulated time since the start of the run
+  double at_s = 0.0;              ///< simulated time since the start of the run; while it waits, not before
   std::optional<double> until_s;  ///< none: to the end of the run
   FaultAction action;
+  std::optional<FaultCondition> when = {};  ///< it begins with the first exchange after one in which this holds
+  std::optional<double> for_s = {};         ///< beside `when`: ends so long after its beginning, if not by `until_s`
+  bool waits = false;                       ///< for its condition; then it is not in force
 
+  /// Its condition has held: it begins with the exchange at this tick, unless that is after its end.
+  void set_off(Tick tick);
+  /// Whether it is time to look at its condition, for an exchange at this tick.
+  bool may_begin(Tick tick) const;
   /// Whether it is in force in the exchange at this tick: from the first one at or after `at_s` to the last one
   /// before `until_s`.
-  bool active(Tick tick) const { return tick >= begin() && (!end() || tick < *end()); }
+  bool active(Tick tick) const { return !waits && tick >= begin() && (!end() || tick < *end()); }
   Tick begin() const;  ///< in ticks, rounded up
   std::optional<Tick> end() const;
 };
@@ -92,6 +128,8 @@ struct FaultPlan {
   bool empty() const { return faults.empty(); }
 };
 
+/// Where a fault stands in its file: "faults[2]".
+std::string fault_path(std::size_t index);
 /// The kind of a fault as files spell it ("partition") and whom it concerns ("jurong", "gcs jurong | raffles"); for
 /// results and logs.
 std::string fault_kind(const Fault& fault);

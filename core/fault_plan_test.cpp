@@ -64,13 +64,18 @@ TEST_F(FaultFile, EveryKindIsRead) {
       "  - {at_s: 1, lidar_failure: jurong}\n"
       "  - {at_s: 1, camera_failure: changi}\n"
       "  - {at_s: 1, motor_failure: {uav: changi, rotor: 3, thrust: 0.5}}\n"
-      "  - {at_s: 1, command_delay: {uav: changi, exchanges: 3}}\n");
+      "  - {at_s: 1, command_delay: {uav: changi, exchanges: 3}}\n"
+      "  - {at_s: 1, for_s: 2, odometry_freeze: changi}\n"
+      "  - {at_s: 4, odometry_jump: {uav: changi, offset_m: [1, 0, 0]}}\n"
+      "  - {when: 'held(changi) >= 3', stuck_gimbal: changi}\n");
   const std::vector<std::pair<std::string, std::string>> expected = {
-      {"link", "jurong > gcs"},    {"partition", "gcs jurong | changi"},
-      {"blackout", "changi"},      {"station_outage", "gcs"},
-      {"kill", "comm_router"},     {"pause", "jurong"},
-      {"lidar_failure", "jurong"}, {"camera_failure", "changi"},
-      {"motor_failure", "changi"}, {"command_delay", "changi"}};
+      {"link", "jurong > gcs"},      {"partition", "gcs jurong | changi"},
+      {"blackout", "changi"},        {"station_outage", "gcs"},
+      {"kill", "comm_router"},       {"pause", "jurong"},
+      {"lidar_failure", "jurong"},   {"camera_failure", "changi"},
+      {"motor_failure", "changi"},   {"command_delay", "changi"},
+      {"odometry_freeze", "changi"}, {"odometry_jump", "changi"},
+      {"stuck_gimbal", "changi"}};
   ASSERT_EQ(plan.faults.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_EQ(fault_kind(plan.faults[i]), expected[i].first);
@@ -145,6 +150,58 @@ TEST_F(FaultFile, WrongOnesAreRefusedWithLineAndKey) {
   refused("faults: [{blackout: jurong}]", "missing key 'faults[0].at_s'");
   refused("faults: [{at_s: 1, motor_failure: {uav: changi, rotor: 6}}]", "rotor");
   refused("faults: {at_s: 1", "");
+}
+
+TEST_F(FaultFile, ALengthMayStandInPlaceOfTheEnd) {
+  const std::string text = "faults: [{at_s: [8, 12], for_s: [2, 3], blackout: changi}]";
+  load(text);
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const Fault fault = load_fault_plan(file_, fleet(), seed).faults[0];
+    const double length_s = *fault.until_s - fault.at_s;
+    EXPECT_TRUE(length_s >= 2.0 - 1e-9 && length_s <= 3.0 + 1e-9) << length_s;
+  }
+  refused("faults: [{at_s: 8, for_s: 2, until_s: 9, blackout: changi}]", "for_s: cannot stand beside until_s");
+  refused("faults: [{at_s: 299, for_s: 2, blackout: changi}]", "is after the end");
+  refused("faults: [{at_s: 8, for_s: 2, blackout: changi}, {at_s: 9, blackout: changi}]", "contradicts");
+}
+
+TEST_F(FaultFile, OneThatWaitsActsFromWhenItIsSetOff) {
+  const FaultPlan plan = load(
+      "faults: [{when: held(changi) >= 3, for_s: 2, blackout: changi}, {when: time > 1 s, at_s: 5, until_s: 9, "
+      "blackout: jurong}]");
+  for (const Tick begin : {ticks(1.0), ticks(7.05)}) {
+    Fault fault = plan.faults[0];
+    EXPECT_FALSE(fault.active(begin));
+    EXPECT_TRUE(fault.may_begin(begin));
+    fault.set_off(begin);
+    EXPECT_FALSE(fault.active(begin - 1));
+    EXPECT_TRUE(fault.active(begin));
+    EXPECT_TRUE(fault.active(begin + ticks(2.0) - 1));
+    EXPECT_FALSE(fault.active(begin + ticks(2.0)));
+    EXPECT_FALSE(fault.may_begin(begin)) << "once";
+  }
+  Fault bounded = plan.faults[1];
+  EXPECT_FALSE(bounded.may_begin(ticks(5.0) - 1));
+  EXPECT_TRUE(bounded.may_begin(ticks(5.0)));
+  EXPECT_FALSE(bounded.may_begin(ticks(9.0)));
+}
+
+TEST_F(FaultFile, WrongConditionsAreRefusedWithTheirColumn) {
+  refused("faults:\n  - {when: hold(changi) >= 3, blackout: changi}",
+          ":2:12: faults[0].when: there is no signal 'hold'; did you mean 'held'?");
+  refused("faults:\n  - when: z(changi) >\n      3 s\n    blackout: changi", ":3:7: faults[0].when: units do not fit");
+  refused("faults: [{when: score > 3, blackout: changi}]",
+          ":1:17: faults[0].when: 'score' is known only after the run");
+  refused("faults: [{when: gain(held) > 3, blackout: changi}]", "'gain' looks back");
+  refused("faults: [{when: held > 1, blackout: changi}, {at_s: 200, blackout: changi}]", "contradicts");
+  EXPECT_NO_THROW(load("faults: [{when: held > 1, until_s: 200, blackout: changi}, {at_s: 200, blackout: changi}]"));
+}
+
+TEST_F(FaultFile, WrongTopicsAreRefused) {
+  refused("faults: [{at_s: 1, link: {loss: 1, topics: plan}}]", "'plan' is no topic; write it like '/plan'");
+  refused("faults: [{at_s: 1, link: {loss: 1, topics: []}}]", "must name at least one topic");
+  refused("faults: [{at_s: 1, link: {range_m: 10, topics: [/plan]}}]", "cannot stand beside range_m");
+  EXPECT_NO_THROW(load("faults: [{at_s: 1, link: {loss: 1, topics: [/plan, /captures]}}]"));
 }
 
 TEST_F(FaultFile, ContradictionsAreRefused) {

@@ -3,6 +3,7 @@
 // Times are simulated; a link works in whole exchanges, so delays are rounded up to those.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "core/config_reader.hpp"
+#include "core/topics.hpp"
 
 namespace skein {
 
@@ -49,11 +51,13 @@ struct LinkEffect {
   std::optional<BurstLoss> burst_loss;
   double duplication = 0.0;  ///< probability that a message arrives twice
   std::optional<Reordering> reordering;
+  double corruption = 0.0;                    ///< probability that some bits of a message are flipped
+  std::vector<std::string> topics = {"all"};  ///< that it acts on, or {"all"}; see names_topic()
 
   template <class R>
   void describe(R& r) {
-    describe_nodes(r, "from", from);
-    describe_nodes(r, "to", to);
+    describe_names(r, "from", from);
+    describe_names(r, "to", to);
     r.field("range_m", range_m, Bounds{0.0, 1e6, true});
     r.field("latency_s", latency_s, within(0.0, 60.0));
     r.field("jitter_s", jitter_s, within(0.0, 60.0));
@@ -63,15 +67,25 @@ struct LinkEffect {
     r.field("burst_loss", burst_loss);
     r.field("duplication", duplication, within(0.0, 1.0));
     r.field("reordering", reordering);
+    r.field("corruption", corruption, within(0.0, 1.0));
+    describe_names(r, "topics", topics);
+    for (const std::string& topic : topics) {
+      r.check(topic == "all" || is_topic_name(topic), "topics",
+              "'" + topic + "' is no topic; write it like '/plan': after each '/' letters, digits and '_'");
+    }
+    r.check(!topics.empty(), "topics", "must name at least one topic, or be the word all");
+    r.check(names_every_topic() || !range_m, "topics", "cannot stand beside range_m, which is of the link as a whole");
   }
+
+  bool names_every_topic() const { return std::find(topics.begin(), topics.end(), "all") != topics.end(); }
 
   /// A list of names, or the single word `all`; `all` when the key is absent.
   template <class R>
-  static void describe_nodes(R& r, const std::string& key, std::vector<std::string>& nodes) {
-    std::variant<std::string, std::vector<std::string>> names = nodes;
-    if (nodes.size() == 1) names = nodes[0];
+  static void describe_names(R& r, const std::string& key, std::vector<std::string>& list) {
+    std::variant<std::string, std::vector<std::string>> names = list;
+    if (list.size() == 1) names = list[0];
     r.field(key, names);
-    nodes = names.index() == 0 ? std::vector<std::string>{std::get<0>(names)} : std::get<1>(names);
+    list = names.index() == 0 ? std::vector<std::string>{std::get<0>(names)} : std::get<1>(names);
   }
 };
 
@@ -81,6 +95,15 @@ inline bool names_node(const std::vector<std::string>& nodes, const std::string&
     if (name == "all" || name == node) return true;
   }
   return false;
+}
+
+/// Whether a list of topics means this one: `/captures` means `/captures/jurong`, too.
+inline bool names_topic(const std::vector<std::string>& topics, const std::string& ros_topic) {
+  const auto means = [&](const std::string& name) {
+    return name == "all" ||
+           (ros_topic.starts_with(name) && (ros_topic.size() == name.size() || ros_topic[name.size()] == '/'));
+  };
+  return std::any_of(topics.begin(), topics.end(), means);
 }
 
 }  // namespace skein

@@ -39,11 +39,15 @@ std::vector<std::string> domain_names(const Scenario& scenario) {
   return names;
 }
 
-std::string wire_topic(std::string_view ros_topic) {
-  const std::vector<std::string_view> parts = split_at_slashes(ros_topic);
+bool is_topic_name(std::string_view text) {
+  const std::vector<std::string_view> parts = split_at_slashes(text);
   bool valid = parts.size() >= 2 && parts.front().empty();
   for (std::size_t i = 1; i < parts.size(); ++i) valid = valid && is_token(parts[i]);
-  if (!valid) {
+  return valid;
+}
+
+std::string wire_topic(std::string_view ros_topic) {
+  if (!is_topic_name(ros_topic)) {
     throw InputError("'" + std::string(ros_topic) +
                      "' is not an absolute topic name; write it like '/broadcast': after each '/' letters, "
                      "digits and '_', not beginning with a digit");
@@ -60,6 +64,13 @@ std::string wire_type(std::string_view ros_type) {
 }
 
 namespace topics {
+
+std::string_view debug_name(std::string_view wire_topic, std::string_view id) {
+  const std::string prefix = debug(id, "").name;
+  if (!wire_topic.starts_with(prefix)) return {};
+  const std::string_view name = wire_topic.substr(prefix.size());
+  return is_token(name) ? name : std::string_view();
+}
 
 WireTopic wire(const TopicInfo& topic, std::string_view id) {
   static constexpr std::string_view kPlaceholder = "{id}";

@@ -19,6 +19,8 @@ namespace skein {
 
 struct Scenario;
 
+/// Whether it is an absolute ROS topic name: "/x", "/x/y".
+bool is_topic_name(std::string_view text);
 /// "/x" -> "rt/x". @throws InputError when `ros_topic` is not an absolute ROS topic name.
 std::string wire_topic(std::string_view ros_topic);
 /// "std_msgs/msg/String" -> "std_msgs::msg::dds_::String_".
@@ -333,6 +335,14 @@ inline WireTopic command_rejected(std::string_view id) { return wire(kCommandRej
 inline WireTopic trajectory_command(std::string_view id) { return wire(kTrajectoryCommand, id); }
 inline WireTopic gimbal_command(std::string_view id) { return wire(kGimbalCommand, id); }
 inline WireTopic camera_trigger(std::string_view id) { return wire(kCameraTrigger, id); }
+/// What a program tells of itself under a name of its own, for faults and properties (docs/properties.md). The server
+/// reads those that the program names when it says hello.
+inline WireTopic debug(std::string_view id, std::string_view name) {
+  return {"rt/" + std::string(id) + "/debug/" + std::string(name), wire_type("std_msgs/msg/Float64"), false,
+          kCommandDepth};
+}
+/// The name in such a topic of this UAV's; empty: it is none.
+std::string_view debug_name(std::string_view wire_topic, std::string_view id);
 inline WireTopic trigger(std::string_view id) { return wire(kTrigger, id); }
 inline WireTopic octomap(std::string_view id) { return wire(kOctomap, id); }
 inline WireTopic capture() { return wire(kCapture); }

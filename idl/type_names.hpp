@@ -70,6 +70,7 @@ std::string type_name() {
   X(skein_msgs, TopicCount)                        \
   X(skein_msgs, Member)                            \
   X(skein_msgs, Order)                             \
+  X(skein_msgs, FaultBegin)                        \
   X(skein_msgs, Step)                              \
   X(skein_msgs, Done)                              \
   X(skein_msgs, NodeCounts)                        \

@@ -38,17 +38,19 @@ void describe(Fields& f, CollisionReport& collision) {
 /// A fault of the run's fault file.
 struct FaultReport {
   Text kind = {}, target = {};
-  Number at_s = {}, until_s = {};          ///< without `until_s`: to the end
+  Number at_s = {}, until_s = {};          ///< without `until_s`: to the end; without `at_s`: it waited in vain
   Count began_step = {}, ended_step = {};  ///< empty: not in this run
+  Text when = {};                          ///< what it waited for
 };
 template <class Fields>
 void describe(Fields& f, FaultReport& fault) {
-  f.field("at_s", fault.at_s);
+  f.nullable("at_s", fault.at_s);
   f.nullable("began_step", fault.began_step);
   f.nullable("ended_step", fault.ended_step);
   f.field("kind", fault.kind);
   f.field("target", fault.target);
   f.nullable("until_s", fault.until_s);
+  f.field("when", fault.when);
 }
 
 struct LostMember {
@@ -223,10 +225,12 @@ void describe(Fields& f, StationReport& report) {
 /// What became of radio messages.
 struct RadioCounts {
   Count sent = {}, delivered = {}, dropped_no_los = {}, dropped_fault = {}, dropped_overflow = {}, duplicated = {};
+  Count corrupted = {};
   Count sent_bytes = {}, delivered_bytes = {};
 };
 template <class Fields>
 void describe_fates(Fields& f, RadioCounts& counts) {
+  f.field("corrupted", counts.corrupted);
   f.field("delivered", counts.delivered);
   f.field("delivered_bytes", counts.delivered_bytes);
   f.field("dropped_fault", counts.dropped_fault);

@@ -30,9 +30,9 @@ const char* const kStation = R"({
   "unwritten": []})";
 
 const char* const kRouter = R"({
-  "dds": "cyclonedds", "delivered": 7, "delivered_bytes": 280, "dropped_fault": 1, "dropped_no_los": 2, "dropped_overflow": 3,
+  "dds": "cyclonedds", "corrupted": 2, "delivered": 7, "delivered_bytes": 280, "dropped_fault": 1, "dropped_no_los": 2, "dropped_overflow": 3,
   "duplicated": 4, "malformed": 0,
-  "per_link": [{"delivered": 7, "delivered_bytes": 280, "dropped_fault": 1, "dropped_no_los": 2, "dropped_overflow": 0,
+  "per_link": [{"corrupted": 1, "delivered": 7, "delivered_bytes": 280, "dropped_fault": 1, "dropped_no_los": 2, "dropped_overflow": 0,
                 "duplicated": 0, "from": "alpha", "sent": 10, "sent_bytes": 400, "to": "gcs"}],
   "sent": 10, "sent_bytes": 400, "unheard": 0, "unsent": 0, "unwritten": [], "warnings": ["who is that?"]})";
 

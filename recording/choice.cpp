@@ -38,6 +38,7 @@ std::optional<Choice> choice_of(Scope scope, std::string_view node, std::string_
           node, topic)) {
     return Choice{0, true};
   }
+  if (!debug_name(wire_topic(topic), node).empty()) return Choice{0, true};
   if (is(kBoundingBoxes, node, topic)) return node == "gcs" ? std::optional(Choice{0, true}) : std::nullopt;
   if (scope == Scope::run) return std::nullopt;
   if (is(kScore, node, topic)) return Choice{0, true};  // nobody in a fleet reads it

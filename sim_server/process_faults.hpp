@@ -17,7 +17,9 @@ class ProcessFaults {
     std::string kind;     ///< of the fault, as files spell it
   };
 
+  /// @param plan  must outlive this. Its faults that wait for a condition may be set off meanwhile.
   explicit ProcessFaults(const FaultPlan& plan);
+  explicit ProcessFaults(FaultPlan&&) = delete;
 
   /// Those that begin with the exchange at this tick, in the plan's order.
   std::vector<Victim> take_beginning(Tick tick);
@@ -26,7 +28,7 @@ class ProcessFaults {
 
  private:
   struct Entry {
-    Fault fault;
+    const Fault& fault;
     bool acting = false;
   };
   std::vector<Victim> take(Tick tick, bool beginning);

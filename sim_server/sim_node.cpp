@@ -46,13 +46,12 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       status_(status),
       uav_names_(scenario.uav_names()),
       simulation_(scenario, std::move(scene), options.seed, options.faults),
-      fault_timeline_(options.faults),
       digest_(uav_names_),
       files_(options.out, scenario, digest_, options.flight),
       recording_(options.out, options.record, scenario, files_.events(), options.replay),
       inbox_(bus.run()),
       server_(inbox_, recording_.tap()),
-      process_faults_(options.faults),
+      faults_(scenario, simulation_, server_, status, options_.replay),
       progress_(scenario, status) {
   participants_.push_back(bus.join(world_domain(options.base_domain)));
   for (const Node node : scenario.nodes()) {
@@ -75,6 +74,9 @@ void SimNode::declare_members() {
   }
   server_.on_stranger([this](auto domain, const std::string& topic, bus::ParticipantId source) {
     strangers_.add(uav_names_.at(domain - kFirstUavDomain), topic, source, simulation_.step());
+  });
+  server_.on_hello([this](auto domain, const std::vector<std::string>& writes) {
+    if (domain >= kFirstUavDomain) uavs_.at(domain - kFirstUavDomain)->read_debug(writes);
   });
   server_.add_place(std::string(bus::kGcsName), gcs, options_.expect_gcs_program);
   server_.add_place(std::string(bus::kStationName), gcs, true);
@@ -211,7 +213,7 @@ bool SimNode::take_answers(bool arrived) {
     end_run(true);
     return false;
   }
-  end_process_faults();
+  faults_.let_back_victims();
   wait_for(State::letting_in, "to join again", options_.startup_timeout_s);
   return true;
 }
@@ -265,7 +267,7 @@ void SimNode::end_run(bool joined) {
   summary_.timing.cpu_s = joined ? thread_cpu_s() - cpu_before_s_ : 0.0;
   summary_.malformed = inbox_.malformed();
   summary_.unsent = participants_.front()->unsent().count();
-  summary_.faults = fault_timeline_.report();
+  summary_.faults = faults_.report();
   summary_.differences = recording_.differences();
   summary_.status = end_status();
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
@@ -278,30 +280,6 @@ void SimNode::end_run(bool joined) {
 }
 
 // ---- members and faults -----------------------------------------------------------------------------------------
-
-// At the boundary before step k + 1. The order to carry on comes from the launcher: the program cannot hear us.
-void SimNode::end_process_faults() {
-  const Tick next_tick = simulation_.tick() + scenario_.exchange_ticks();
-  for (const auto& [member, killed, kind] : process_faults_.take_ending(next_tick)) {
-    if (server_.let_back(member)) tell_order(member, killed ? What::start : What::resume, next_tick);
-  }
-}
-
-// Before step k is published, which then tells the victims what to do.
-void SimNode::begin_process_faults() {
-  const Tick tick = simulation_.tick();
-  for (const auto& [member, killed, kind] : process_faults_.take_beginning(tick)) {
-    if (server_.take_out(member, killed ? bus::kOrderKill : bus::kOrderStop)) {
-      tell_order(member, killed ? What::kill : What::stop, tick);
-    } else if (options_.replay.takes_part(member)) {
-      summary_.warnings.push_back(kind + " " + member + ": it took no part in the run then");
-    }
-  }
-}
-
-void SimNode::tell_order(const std::string& member, What order, Tick tick) {
-  status_.send_surely(status::line_json(status::Order{member, order, seconds(tick)}));
-}
 
 void SimNode::take_losses() {
   for (const auto& lost : server_.take_lost()) {
@@ -334,10 +312,11 @@ bool SimNode::is_last_step() const {
 }
 
 void SimNode::publish_step() {
-  const auto faults = fault_timeline_.enter_step(simulation_.step(), simulation_.tick());
+  const std::vector<std::string> faults = faults_.begin_step();
   for (const std::string& line : faults) spdlog::info("{}", line);
   recording_.begin_step(simulation_, faults);
-  begin_process_faults();
+  faults_.take_out_victims();
+  for (std::string& warning : faults_.take_warnings()) summary_.warnings.push_back(std::move(warning));
   tell_of_strangers(kStrangerSteps);
   const StepEvents& events = simulation_.events();
   for (const Collision& collision : events.collisions) {
@@ -352,7 +331,8 @@ void SimNode::publish_step() {
                    .tick = simulation_.tick(),
                    .links = simulation_.links().row_major(),
                    .ledger_upto = events.ledger_end,
-                   .final_step = last_step_},
+                   .final_step = last_step_,
+                   .faults = faults_.begun()},
                   [this](bus::LockstepServer::DomainIndex domain) { write_samples(domain); });
 }
 
@@ -385,8 +365,11 @@ void SimNode::finish_step() {
   for (const UavIndex i : FirstUavs(uavs_.size())) {
     for (const std::uint64_t capture : uavs_[i]->take_released()) {
       files_.events().add_release(simulation_, uav_names_[i], capture);
+      faults_.signals().add_release(i);
     }
+    for (const auto& [name, value] : uavs_[i]->take_debug()) faults_.signals().set_debug(i, name, value);
   }
+  faults_.end_step();
   progress_.tell(simulation_, summary_.lost);
 }
 

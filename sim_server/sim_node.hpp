@@ -18,10 +18,9 @@
 #include "process/status_lines.hpp"
 #include "process/status_pipe.hpp"
 #include "sim_server/cpu_clock.hpp"
+#include "sim_server/fault_node.hpp"
 #include "sim_server/gcs_node.hpp"
-#include "sim_server/process_faults.hpp"
 #include "sim_server/progress_teller.hpp"
-#include "sim_server/record/fault_timeline.hpp"
 #include "sim_server/record/run_files.hpp"
 #include "sim_server/recording_node.hpp"
 #include "sim_server/simulation.hpp"
@@ -69,7 +68,6 @@ class SimNode final : public bus::LockstepNode {
 
  private:
   using Clock = std::chrono::steady_clock;
-  using What = status::Order::What;
 
   enum class State { joining, in_step, letting_in, pacing, over };
 
@@ -91,9 +89,6 @@ class SimNode final : public bus::LockstepNode {
   void finish_step();
   void take_losses();
   void tell_of_strangers(std::uint64_t patience);
-  void begin_process_faults();
-  void end_process_faults();
-  void tell_order(const std::string& member, What order, Tick tick);
   bool is_last_step() const;
   RunStatus end_status() const;
 
@@ -103,7 +98,6 @@ class SimNode final : public bus::LockstepNode {
   std::vector<std::string> uav_names_;
   CpuClock clock_;
   Simulation simulation_;
-  FaultTimeline fault_timeline_;
   RunDigest digest_;
   RunFiles files_;
   RecordingNode recording_;
@@ -115,7 +109,7 @@ class SimNode final : public bus::LockstepNode {
   std::vector<std::unique_ptr<UavNode>> uavs_;
   std::unique_ptr<GcsNode> gcs_;
   std::unique_ptr<VizNode> viz_;
-  ProcessFaults process_faults_;
+  FaultNode faults_;
   ProgressTeller progress_;
   State state_ = State::joining;
   std::optional<WaitTeller> wait_;  ///< for whom this state waits

@@ -11,8 +11,8 @@
 #include "sim_server/flight/physics_world.hpp"
 #include "sim_server/flight/vehicle.hpp"
 #include "sim_server/flight/vehicle_faults.hpp"
+#include "sim_server/link_tracer.hpp"
 #include "sim_server/rays/ray_scene.hpp"
-#include "sim_server/sensors/sight_memory.hpp"
 
 namespace skein::sim {
 namespace {
@@ -63,15 +63,14 @@ struct Simulation::Impl {
   void take_scans();
   void finish_exchange();
   void trace_links();
-  void cut_links();
-  bool in_range(Node from, Node to, double distance_m) const;
+  RigidBodyState told(UavIndex uav, const VehicleCondition& condition) const;
   void refresh_rays();
   void reject(UavIndex uav, RejectionEvent::Command command, std::string reason);
   bool listening(UavIndex uav) const { return mission.alive(uav) && mission.phase() != Phase::ended; }
 
   const Scenario scenario;
   const Scene scene;
-  const FaultPlan faults;
+  FaultPlan faults;
   PhysicsWorld world;
   RayScene rays;
   Mission mission;
@@ -79,7 +78,7 @@ struct Simulation::Impl {
   std::vector<Uav> uavs;
   std::vector<UavView> views;  ///< at the step boundary
   Links links, open_links;
-  LinkMatrix<SightMemory> sights;          ///< of each pair of nodes, the lower one first
+  LinkTracer tracer;
   std::vector<RejectionEvent> rejections;  ///< since the last advance()
   StepEvents events;
   std::uint64_t step = 0;
@@ -96,8 +95,8 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
       world(scene.mesh),
       rays(scene.mesh, body_shapes(scenario)),
       mission(scenario, rest_heights(scenario)),
-      referee(the_seed, scenario.fleet.size(), scene.points.size(), scenario.rules) {
-  sights = LinkMatrix<SightMemory>(scenario.fleet.size() + 1);
+      referee(the_seed, scenario.fleet.size(), scene.points.size(), scenario.rules),
+      tracer(scenario, faults) {
   const auto touches = [this](const VehicleConfig& vehicle, const Isometry3d& X_WB) {
     return world.touches_structure(vehicle, X_WB);
   };
@@ -129,6 +128,7 @@ void Simulation::Impl::meet_faults() {
   for (const UavIndex i : FirstUavs(uavs.size())) {
     uavs[i].condition = conditions[i];
     uavs[i].vehicle.damage_rotors(conditions[i].rotor_shares);
+    uavs[i].vehicle.jam_gimbal(!conditions[i].gimbal_works);
     if (!conditions[i].camera_works) uavs[i].triggered = false;
   }
 }
@@ -245,17 +245,19 @@ void Simulation::Impl::take_scans() {
 
 void Simulation::Impl::finish_exchange() {
   trace_links();
-  cut_links();
-  views.clear();
+  const auto conditions = vehicle_conditions(faults, scenario.uav_names(), tick);  // of the exchange that begins
+  std::vector<UavView> now;
   for (const UavIndex i : FirstUavs(uavs.size())) {
     UavView& view = uavs[i].view;
     view.state = world.state(i);
+    view.told = told(i, conditions[i]);
     view.gimbal = uavs[i].vehicle.gimbal();
     view.alive = mission.alive(i);
     view.airborne = mission.airborne(i);
     view.idle_s = seconds(uavs[i].idle_ticks);
-    views.push_back(view);
+    now.push_back(view);
   }
+  views = std::move(now);
   for (KeyFrameEvent& event : events.key_frames) {
     for (const UavIndex uav : FirstUavs(uavs.size())) {
       if (open_links.at(node_of_uav(event.uav), node_of_uav(uav)) != 0) event.neighbours.push_back(uav);
@@ -267,49 +269,18 @@ void Simulation::Impl::finish_exchange() {
 void Simulation::Impl::trace_links() {
   const WorkSection section(clock, Work::links);
   refresh_rays();
-  links = Links(scenario.fleet.size() + 1);
-  const auto body_of = [](Node node) { return uav_of_node(node).value_or(kNobody); };
-  const auto antenna = [&](Node node) {
-    const auto uav = uav_of_node(node);
-    if (!uav) return AntennaNode{scenario.station_position, scenario.station_antenna_offset_m};
-    return AntennaNode{world.state(*uav).p_WB, scenario.fleet[*uav].vehicle.antenna_offset_m};
-  };
-  const auto on_air = [&](Node node) { return node == kStationNode || mission.alive(*uav_of_node(node)); };
-  std::vector<UavIndex> about;
-  for (const Node a : scenario.nodes()) {
-    for (const Node b : scenario.nodes()) {
-      if (b <= a || !on_air(a) || !on_air(b)) continue;
-      const AntennaNode from = antenna(a), to = antenna(b);
-      rays.body_spheres().about(from.p_W, to.p_W, std::max(antenna_reach(from), antenna_reach(to)), about);
-      const RayFilter filter{.except_uav = body_of(a), .except_other_uav = body_of(b), .among = about};
-      const bool linked = sights.at(a, b).linked(from, to, rays, filter);
-      const double distance_m = (from.p_W - to.p_W).norm();
-      links.at(a, b) = linked && in_range(a, b, distance_m);
-      links.at(b, a) = linked && in_range(b, a, distance_m);
-    }
-  }
+  std::vector<LinkTracer::Place> places;
+  for (const UavIndex i : FirstUavs(uavs.size())) places.push_back({world.state(i).p_WB, mission.alive(i)});
+  links = tracer.trace(tick, rays, places);
+  open_links = tracer.open(tick, links);
 }
 
-void Simulation::Impl::cut_links() {
-  open_links = links;
-  const auto cut = skein::cut_links(faults, scenario, tick);
-  if (!cut) return;
-  for (const Node from : scenario.nodes()) {
-    for (const Node to : scenario.nodes()) open_links.at(from, to) &= static_cast<std::uint8_t>(cut->at(from, to) == 0);
-  }
-}
-
-bool Simulation::Impl::in_range(Node from, Node to, double distance_m) const {
-  const auto ends_before = [&](const LinkEffect& effect) {
-    return effect.range_m && distance_m > *effect.range_m && names_node(effect.from, scenario.node_name(from)) &&
-           names_node(effect.to, scenario.node_name(to));
-  };
-  const auto fails_before = [&](const Fault& fault) {
-    const auto* effect = std::get_if<LinkEffect>(&fault.action);
-    return effect != nullptr && fault.active(tick) && ends_before(*effect);
-  };
-  return std::none_of(scenario.links.begin(), scenario.links.end(), ends_before) &&
-         std::none_of(faults.faults.begin(), faults.faults.end(), fails_before);
+/// What each UAV's software hears of where it is.
+RigidBodyState Simulation::Impl::told(UavIndex uav, const VehicleCondition& condition) const {
+  if (condition.odometry_frozen && step > 0) return views[uav].told;
+  RigidBodyState state = world.state(uav);
+  state.p_WB += condition.odometry_offset_m;
+  return state;
 }
 
 void Simulation::Impl::refresh_rays() {
@@ -351,6 +322,7 @@ bool Simulation::command_gimbal(UavIndex uav, const GimbalCommand& command) {
 void Simulation::trigger_camera(UavIndex uav) { impl_->uavs[uav].link.outbox().trigger = true; }
 void Simulation::stop(UavIndex uav) { impl_->uavs[uav].link.outbox().stop = true; }
 
+void Simulation::set_off(std::size_t fault, Tick tick) { impl_->faults.faults.at(fault).set_off(tick); }
 void Simulation::want_scans(UavIndex uav, bool wanted) { impl_->uavs[uav].scans_wanted = wanted; }
 void Simulation::watch(WorkClock* clock) { impl_->clock = clock; }
 
@@ -375,6 +347,10 @@ const UavView& Simulation::uav(UavIndex i) const { return impl_->views.at(i); }
 std::span<const UavView> Simulation::uavs() const { return impl_->views; }
 const Links& Simulation::links() const { return impl_->links; }
 const Links& Simulation::open_links() const { return impl_->open_links; }
+double Simulation::clearance(UavIndex uav) const {
+  return std::min(kFarClearance_m, impl_->rays.clearance(impl_->views.at(uav).state.p_WB, kFarClearance_m));
+}
+const FaultPlan& Simulation::faults() const { return impl_->faults; }
 const StepEvents& Simulation::events() const { return impl_->events; }
 const Referee& Simulation::referee() const { return impl_->referee; }
 const Scene& Simulation::scene() const { return impl_->scene; }

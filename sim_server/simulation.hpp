@@ -29,9 +29,13 @@
 
 namespace skein::sim {
 
+/// Clearances beyond this are told as this.
+inline constexpr double kFarClearance_m = 100.0;
+
 /// One UAV as it stands at the step boundary.
 struct UavView {
   RigidBodyState state;
+  RigidBodyState told;  ///< what its software, and its neighbours, hear of that: the same unless its odometry fails
   GimbalState gimbal;
   bool alive = true;
   bool airborne = false;
@@ -113,6 +117,9 @@ class Simulation {
   /// Cut the motors, for good: the UAV falls.
   void stop(UavIndex uav);
 
+  /// A fault that waited begins with the exchange at this tick, which is the next one.
+  void set_off(std::size_t fault, Tick tick);
+
   /// Whether anybody reads this UAV's scans (they do, until told otherwise). Those that nobody reads and that would
   /// not become key frames are not computed: the LiDAR is the most expensive sensor. Nothing else depends on it.
   void want_scans(UavIndex uav, bool wanted);
@@ -138,6 +145,10 @@ class Simulation {
   /// By interest point: whether it was ever in a picture and in sight, whatever its quality.
   std::vector<bool> points_seen() const;
   const Scene& scene() const;
+  /// Distance from a body's centre to the structure, kFarClearance_m at most.
+  double clearance(UavIndex uav) const;
+  /// Those that wait for a condition begin by set_off().
+  const FaultPlan& faults() const;
   /// This step for the digest; radio and tally are the caller's to fill in.
   DigestInput digest_input() const;
 

@@ -9,6 +9,9 @@
 namespace skein::sim {
 namespace {
 
+/// A program that names more is not heard of them.
+constexpr std::size_t kMostDebugNames = 64;
+
 // Building a large message only for nobody to read it would be the most expensive thing the server does.
 template <class Make>
 void send(bus::CountedWriter& writer, Make&& make) {
@@ -30,7 +33,7 @@ msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& s
   }
   for (const UavIndex other : FirstUavs(simulation.size())) {
     if (node_of_uav(other) == node || !linked(node_of_uav(other))) continue;
-    const RigidBodyState& state = simulation.uav(other).state;
+    const RigidBodyState& state = simulation.uav(other).told;
     const Eigen::Vector3f p = state.p_WB.cast<float>(), w = state.w_WB_B.cast<float>();
     const Eigen::Vector3f v = (state.q_WB.conjugate() * state.v_WB).cast<float>();
     const Eigen::Quaternionf q = state.q_WB.cast<float>();
@@ -55,6 +58,8 @@ UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation,
     : uav_(uav),
       scenario_(scenario),
       simulation_(simulation),
+      server_(server),
+      domain_(domain),
       heard_(heard),
       id_(scenario.fleet[uav].name),
       fleet_(scenario.uav_names()),
@@ -93,6 +98,15 @@ UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation,
   });
 }
 
+void UavNode::read_debug(const std::vector<std::string>& writes) {
+  for (const std::string& topic : writes) {
+    const std::string name(topics::debug_name(topic, id_));
+    if (name.empty() || debug_names_.size() == kMostDebugNames || !debug_names_.insert(name).second) continue;
+    server_.read<msg::Float64>(domain_, bus::spec(topics::debug(id_, name)),
+                               [this, name](const msg::Float64& value) { debug_.emplace_back(name, value.data()); });
+  }
+}
+
 void UavNode::publish() {
   publish_state();
   publish_neighbours();
@@ -104,7 +118,7 @@ void UavNode::publish() {
 void UavNode::publish_state() {
   const Tick tick = simulation_.tick();
   const UavView& view = simulation_.uav(uav_);
-  send(odometry_, [&] { return to_odometry(tick, id_, view.state); });
+  send(odometry_, [&] { return to_odometry(tick, id_, view.told); });
   send(gimbal_, [&] { return to_gimbal(tick, id_, view.gimbal); });
   send(clock_, [&] {
     msg::Clock clock;

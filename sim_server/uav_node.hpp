@@ -3,7 +3,9 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,10 @@ class UavNode {
   void reject_unheard(const std::string& topic) { unheard_.push_back(topic); }
   /// The agent is new: the camera hands out again whatever was never acknowledged, and all that it has shown.
   void resend_captures() { resend_ = true; }
+  /// The program says hello: reads those of its topics that are debug values.
+  void read_debug(const std::vector<std::string>& writes);
+  /// What it has told of itself since the last call: name, value.
+  std::vector<std::pair<std::string, double>> take_debug() { return std::exchange(debug_, {}); }
   /// Captures that the agent has released since the last call: the station has them.
   std::vector<std::uint64_t> take_released() { return std::exchange(released_, {}); }
 
@@ -55,6 +61,8 @@ class UavNode {
   UavIndex uav_;
   const Scenario& scenario_;
   Simulation& simulation_;
+  bus::LockstepServer& server_;
+  const bus::LockstepServer::DomainIndex domain_;
   HeardKeyFrames& heard_;
   const std::string& id_;
   std::vector<std::string> fleet_;
@@ -64,6 +72,8 @@ class UavNode {
   DetectionLog detections_;
   std::map<std::uint64_t, CaptureReport> card_;  ///< captures that the agent has not released, as it is told of them
   std::vector<std::uint64_t> released_;
+  std::set<std::string> debug_names_;  ///< that are read
+  std::vector<std::pair<std::string, double>> debug_;
   std::vector<std::string> unheard_;  ///< topics
   bool resend_ = false, boxes_sent_ = false;
 };

@@ -49,6 +49,9 @@ void AgentNode::declare(LockstepClient& client) {
   client.declare_writer(bus::spec(topics::gimbal_command(member())), Counterpart::server);
   client.declare_writer(bus::spec(topics::camera_trigger(member())), Counterpart::server);
   client.declare_writer(bus::spec(topics::capture_stored()), Counterpart::server);
+  for (const std::string& name : agent_.debug_names()) {
+    client.declare_writer(bus::spec(topics::debug(member(), name)), Counterpart::server);
+  }
 }
 
 void AgentNode::read_sensors(LockstepClient& client) {
@@ -142,6 +145,11 @@ void AgentNode::write(LockstepClient& client) const {
     trigger.header(to_header(input_.tick));
     trigger.data(true);
     client.write(topics::camera_trigger(member()).name, trigger);
+  }
+  for (const DebugValue& debug : output_.debug) {
+    msg::Float64 value;
+    value.data(debug.value);
+    client.write(topics::debug(member(), debug.name).name, value);
   }
   if (!released_.empty()) {
     msg::CaptureAck ack;

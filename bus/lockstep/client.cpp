@@ -122,9 +122,9 @@ void LockstepClient::say_ready(std::uint32_t revision) {
   auto ready = message_of<msg::Ready>(inbox_.run());
   ready.member(member_);
   ready.revision(revision);
+  for (const Writing& writing : writings_) ready.writes().push_back(writing.topic.name);
   if (revision > 0) {
     for (const Reading& reading : readings_) ready.reads().push_back(reading.topic.name);
-    for (const Writing& writing : writings_) ready.writes().push_back(writing.topic.name);
   }
   ready_->write(ready);
 }

@@ -9,6 +9,7 @@
 
 #include "bus/lockstep/counted.hpp"
 #include "bus/typed.hpp"
+#include "idl/type_names.hpp"
 
 namespace skein::bus {
 
@@ -23,6 +24,7 @@ class LockstepServer {
     std::vector<std::uint8_t> links;  ///< row-major radio matrix, published in the world domain only
     std::uint64_t ledger_upto = 0;
     bool final_step = false;
+    std::vector<msg::FaultBegin> faults = {};  ///< likewise
   };
   struct LostMember {
     std::string name;
@@ -55,6 +57,10 @@ class LockstepServer {
   /// on its way in or out: see is_stranger(). Inside dispatch().
   using OnStranger = std::function<void(DomainIndex, const std::string& topic, ParticipantId source)>;
   void on_stranger(OnStranger tell) { on_stranger_ = std::move(tell); }
+  /// Called when somebody says hello in a domain, with the topics that it means to write: time to read() more of them.
+  /// Inside dispatch().
+  using OnHello = std::function<void(DomainIndex, const std::vector<std::string>& writes)>;
+  void on_hello(OnHello tell) { on_hello_ = std::move(tell); }
   /// True for who neither is a member, nor was one, nor has asked to become one.
   bool is_stranger(ParticipantId source) const;
 
@@ -162,6 +168,7 @@ class LockstepServer {
   Inbox& inbox_;
   Tap* const tap_;
   OnStranger on_stranger_;
+  OnHello on_hello_;
   std::vector<std::unique_ptr<Domain>> domains_;
   std::vector<Place> places_;
   std::unique_ptr<CountedWriter> drop_;

@@ -23,7 +23,10 @@ void LockstepServer::on_ready(DomainIndex domain, std::size_t door, const msg::R
 void LockstepServer::take_ready(Place& place, ParticipantId source, const msg::Ready& ready) {
   if (place.member) return;
   place.source = source;
-  if (ready.revision() == 0) return;
+  if (ready.revision() == 0) {
+    if (on_hello_) on_hello_(place.domain, ready.writes());
+    return;
+  }
   place.declared = true;
   place.reads = ready.reads();
   place.writes = ready.writes();

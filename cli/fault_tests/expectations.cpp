@@ -130,7 +130,7 @@ const std::vector<ExpectationKind>& expectation_kinds() {
       kind<Limits>("score_vs_earned", "delivered score / earned score", "", judge_vs_earned),
       kind<RadioLimits>("radio",
                         "messages `sent`, `delivered`, `dropped_no_los`, `dropped_fault`, `dropped_overflow`, "
-                        "`duplicated`, or `sent_bytes`, `delivered_bytes`, each with its limits",
+                        "`duplicated`, `corrupted`, or `sent_bytes`, `delivered_bytes`, each with its limits",
                         "", judge_radio),
       kind<UavLimits>("uavs",
                       "for a UAV's name: `captures`, `distance_m`, `max_speed_mps`, `idle_s`, "

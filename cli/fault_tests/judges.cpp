@@ -61,9 +61,21 @@ Finding finding(const Limits& wanted, double seen, double end_s, const std::stri
 const Fault* first_fault_of(const std::string& uav, const FaultPlan& plan) {
   const Fault* first = nullptr;
   for (const Fault& fault : plan.faults) {
-    if (fault_target(fault) == uav && (!first || fault.at_s < first->at_s)) first = &fault;
+    const auto when = [](const Fault& one) { return std::pair(one.waits, one.at_s); };
+    if (fault_target(fault) == uav && (!first || when(fault) < when(*first))) first = &fault;
   }
   return first;
+}
+
+FaultPlan as_flown(FaultPlan plan, const Json& result, const Scenario& scenario) {
+  const Json entries = value_or(result, "faults", Json::array());
+  for (std::size_t i = 0; i < std::min(plan.faults.size(), entries.size()); ++i) {
+    const Json step = value_or(entries[i], "began_step", nullptr);
+    if (plan.faults[i].waits && step.is_number()) {
+      plan.faults[i].set_off(step.get<Tick>() * scenario.exchange_ticks());
+    }
+  }
+  return plan;
 }
 
 Findings judge_text(const char* key, const std::string& wanted, const Evidence& evidence) {
@@ -104,10 +116,10 @@ Findings judge_faults_acted(bool wanted, const Evidence& evidence) {
   for (std::size_t i = 0; i < evidence.plan.faults.size(); ++i) {
     const Fault& fault = evidence.plan.faults[i];
     const bool began = i < entries.size() && value_or(entries[i], "began_step", nullptr).is_number();
+    const std::string time = fault.waits ? " when " + fault.when->text : " at " + number_text(fault.at_s) + " s";
     findings.push_back(
         {began == wanted, "expected that " + fault_kind(fault) + " of " + fault_target(fault) +
-                              (wanted ? " begins" : " does not begin") + " at " + number_text(fault.at_s) +
-                              " s, seen that it " +
+                              (wanted ? " begins" : " does not begin") + time + ", seen that it " +
                               (began ? "did" : "did not; the run ended at " + number_text(evidence.end_s()) + " s")});
   }
   return findings;

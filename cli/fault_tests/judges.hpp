@@ -52,8 +52,8 @@ Finding finding(bool holds, const std::string& expected, const std::string& seen
 Finding finding(const Limits& wanted, double seen, double end_s, const std::string& of = "");
 
 constexpr auto radio_counters() {
-  return std::array{"sent",       "delivered",  "dropped_no_los", "dropped_fault", "dropped_overflow",
-                    "duplicated", "sent_bytes", "delivered_bytes"};
+  return std::array{"sent",       "delivered", "dropped_no_los", "dropped_fault",  "dropped_overflow",
+                    "duplicated", "corrupted", "sent_bytes",     "delivered_bytes"};
 }
 using RadioLimits = LimitsByName<radio_counters>;
 
@@ -81,7 +81,9 @@ constexpr std::array<EnumName<Custody>, 3> enum_names(Custody) {
   return {{{"none", Custody::none}, {"kept", Custody::kept}, {"exact", Custody::exact}}};
 }
 
-/// The first fault that concerns a UAV alone.
+/// A plan whose faults began when they did in a run: those that waited for a condition, too.
+FaultPlan as_flown(FaultPlan plan, const Json& result, const Scenario& scenario);
+/// The first fault that concerns a UAV alone. In a plan as it was flown; else those that wait come last.
 const Fault* first_fault_of(const std::string& uav, const FaultPlan& plan);
 
 /// @param key  of result.json

@@ -110,6 +110,7 @@ Json radio_counts(const RouterReport& router) {
           {"dropped_fault", total.dropped_fault.value_or(0)},
           {"dropped_overflow", total.dropped_overflow.value_or(0)},
           {"duplicated", total.duplicated.value_or(0)},
+          {"corrupted", total.corrupted.value_or(0)},
           {"sent_bytes", total.sent_bytes.value_or(0)},
           {"delivered_bytes", total.delivered_bytes.value_or(0)},
           {"unheard", router.unheard.value_or(0)},

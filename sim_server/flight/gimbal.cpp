@@ -48,6 +48,10 @@ void Gimbal::step(const std::optional<GimbalCommand>& command) {
   if (command_.mode == GimbalMode::rate && steps_since_command_ > rate_command_steps_) {
     command_ = {GimbalMode::angle, state_.pitch, state_.yaw};
   }
+  if (jammed_) {
+    state_ = {state_.pitch, state_.yaw, 0.0, 0.0};
+    return;
+  }
 
   const double pitch_limit = config_.pitch_limit_deg * kDegree;
   const double yaw_limit = config_.yaw_limit_deg * kDegree;

@@ -27,6 +27,9 @@ class Gimbal {
   /// @param command  the newest command since the last step, if there is one.
   void step(const std::optional<GimbalCommand>& command);
 
+  /// Stuck: it hears commands and does not move. Let go, it obeys the last one.
+  void jam(bool jammed) { jammed_ = jammed; }
+
   const GimbalState& state() const { return state_; }
   /// What the gimbal does now: a lapsed rate command counts as angle.
   GimbalMode mode() const { return command_.mode; }
@@ -38,6 +41,7 @@ class Gimbal {
   GimbalState state_;
   GimbalCommand command_;
   int steps_since_command_ = 0;
+  bool jammed_ = false;
 };
 
 }  // namespace skein::sim

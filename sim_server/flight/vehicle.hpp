@@ -81,6 +81,8 @@ class Vehicle {
 
   /// Rotors that give only a share of their thrust and torque, from now on; the controllers do not know.
   void damage_rotors(const std::array<double, kRotors>& shares) { rotors_.damage(shares); }
+  /// The gimbal stays where it is, from now on or no longer.
+  void jam_gimbal(bool jammed) { gimbal_.jam(jammed); }
   /// Cut the motors, for good.
   void stop() { position_control_.stop(); }
 

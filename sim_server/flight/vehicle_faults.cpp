@@ -18,6 +18,9 @@ class Applier {
     of(fault.uav).rotor_shares.at(static_cast<std::size_t>(fault.rotor)) = fault.thrust;
   }
   void operator()(const CommandDelay& fault) const { of(fault.uav).command_delay = fault.exchanges; }
+  void operator()(const OdometryFreeze& fault) const { of(fault.uav).odometry_frozen = true; }
+  void operator()(const OdometryJump& fault) const { of(fault.uav).odometry_offset_m = fault.offset_m; }
+  void operator()(const StuckGimbal& fault) const { of(fault.uav).gimbal_works = false; }
   template <class OfSomethingElse>
   void operator()(const OfSomethingElse&) const {}
 

@@ -7,15 +7,18 @@
 #include <vector>
 
 #include "core/fault_plan.hpp"
+#include "core/types.hpp"
 #include "sim_server/flight/attitude_control.hpp"
 
 namespace skein::sim {
 
 /// How one UAV is in an exchange.
 struct VehicleCondition {
-  bool lidar_works = true, camera_works = true;
-  std::array<double, kRotors> rotor_shares;  ///< of its thrust and torque that each rotor gives, [0, 1]
-  int command_delay = 0;                     ///< exchanges, on top of the UAV's own latency
+  bool lidar_works = true, camera_works = true, gimbal_works = true;
+  bool odometry_frozen = false;
+  Vector3d odometry_offset_m = Vector3d::Zero();  ///< in W
+  std::array<double, kRotors> rotor_shares;       ///< of its thrust and torque that each rotor gives, [0, 1]
+  int command_delay = 0;                          ///< exchanges, on top of the UAV's own latency
 
   VehicleCondition() { rotor_shares.fill(1.0); }
 };

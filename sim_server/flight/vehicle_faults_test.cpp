@@ -47,8 +47,9 @@ TEST(VehicleConditions, HoldWhileTheFaultDoesAndForItsUavOnly) {
 }
 
 TEST(FaultTimeline, TellsEachBeginningAndEndOnce) {
-  FaultTimeline timeline(plan({fault(0.1, 0.2, LidarFailure{"a"}), fault(0.2, std::nullopt, CameraFailure{"b"}),
-                               fault(9.0, std::nullopt, Blackout{"a"})}));
+  const FaultPlan faults = plan({fault(0.1, 0.2, LidarFailure{"a"}), fault(0.2, std::nullopt, CameraFailure{"b"}),
+                                 fault(9.0, std::nullopt, Blackout{"a"})});
+  FaultTimeline timeline(faults);
   std::vector<std::string> lines;
   for (std::uint64_t k = 0; k < 10; ++k) {
     for (std::string& line : timeline.enter_step(k, static_cast<Tick>(20 * k))) lines.push_back(std::move(line));
@@ -117,6 +118,9 @@ class Faulty : public testing::Test {
       simulation_->advance();
       watch(t);
     }
+  }
+  void gimbals_to(double yaw) {
+    for (const UavIndex i : FirstUavs(2)) simulation_->command_gimbal(i, {GimbalMode::angle, 0.0, yaw});
   }
   const UavView& lead() const { return simulation_->uav(UavIndex{0}); }
 
@@ -218,6 +222,74 @@ TEST_F(Faulty, ABlackoutSilencesBothWaysButNotTheLineOfSight) {
   EXPECT_TRUE(seen_before);
   EXPECT_TRUE(cut_all_through);
   EXPECT_FALSE(key_frames_out);
+}
+
+TEST_F(Faulty, AFrozenOdometryTellsWhereItWasAndAJumpingOneWhereItIsNot) {
+  const Vector3d offset(2, -1, 0.5);
+  const FaultPlan faults =
+      plan({fault(10.0, 15.0, OdometryFreeze{"lead"}), fault(6.0, 8.0, OdometryJump{"other", offset})});
+  RigidBodyState frozen;
+  double moved = 0.0;
+  fly(faults, 20.0, [&](double) {
+    const double t = seconds(simulation_->tick());
+    const UavView &a = lead(), &b = simulation_->uav(UavIndex{1});
+    if (t < 10.0) frozen = a.state;
+    const bool is_frozen = t >= 10.0 && t < 15.0;
+    if (is_frozen) moved = std::max(moved, (a.state.p_WB - a.told.p_WB).norm());
+    const RigidBodyState& expected = is_frozen ? a.told : a.state;
+    EXPECT_EQ(a.told.p_WB, expected.p_WB) << t;
+    EXPECT_EQ(a.told.v_WB, expected.v_WB) << t;
+    if (is_frozen) {
+      EXPECT_LT((a.told.p_WB - frozen.p_WB).norm(), 0.2) << "of the step in which it began";
+    }
+    const Vector3d jump = t >= 6.0 && t < 8.0 ? offset : Vector3d::Zero();
+    EXPECT_LT((b.told.p_WB - b.state.p_WB - jump).norm(), 1e-12) << t;
+  });
+  EXPECT_GT(moved, 2.0) << "it flew on meanwhile";
+}
+
+TEST_F(Faulty, NobodyFliesOtherwiseBecauseOfWhatHeIsTold) {
+  std::vector<Vector3d> with, without;
+  fly(plan({fault(5.0, std::nullopt, OdometryJump{"lead", {5, 5, 5}})}), 10.0,
+      [&](double) { with.push_back(lead().state.p_WB); });
+  fly({}, 10.0, [&](double) { without.push_back(lead().state.p_WB); });
+  EXPECT_EQ(with, without) << "commands are the same, and flight control knows better";
+}
+
+TEST_F(Faulty, AStuckGimbalStaysAndThenObeysTheLastCommand) {
+  double stuck_at = 0.0;
+  bool still = true, other_moves = false;
+  fly(plan({fault(10.0, 15.0, StuckGimbal{"lead"})}), 20.0, [&](double t) {
+    gimbals_to(t < 9.0 ? 0.3 : -0.3);
+    const double yaw = lead().gimbal.yaw;
+    if (t < 10.0) stuck_at = yaw;
+    if (t >= 10.0 && t < 15.0) still &= yaw == stuck_at && lead().gimbal.yaw_rate == 0.0;
+    other_moves |= t > 10.0 && t < 15.0 && simulation_->uav(UavIndex{1}).gimbal.yaw_rate != 0.0;
+  });
+  EXPECT_TRUE(still);
+  EXPECT_NEAR(lead().gimbal.yaw, -0.3, 1e-3);
+}
+
+TEST_F(Faulty, OneThatWaitedActsFromTheExchangeAtWhichItIsSetOff) {
+  FaultPlan faults = plan({fault(0.0, std::nullopt, LidarFailure{"lead"}), fault(0.0, std::nullopt, Blackout{"lead"})});
+  for (Fault& one : faults.faults) {
+    one.when = FaultCondition{"whatever"};
+    one.waits = true;
+    one.for_s = 2.0;
+  }
+  std::size_t scans_before = 0, scans_within = 0, scans_after = 0;
+  const Node lead_node{1}, other_node{2};
+  fly(faults, 15.0, [&](double) {
+    const double t = seconds(simulation_->tick());
+    const bool open = simulation_->open_links().at(lead_node, other_node) != 0;
+    EXPECT_EQ(open, (t < 10.0 || t >= 12.0) && simulation_->links().at(lead_node, other_node) != 0) << t;
+    (t <= 10.0 ? scans_before : t <= 12.0 ? scans_within : scans_after) += simulation_->events().scans.size();
+    const Tick next = simulation_->tick() + 20;
+    for (std::size_t i = 0; i < 2 && next == ticks(10.0); ++i) simulation_->set_off(i, next);
+  });
+  EXPECT_GT(scans_before, 50U);
+  EXPECT_EQ(scans_within, 0U);
+  EXPECT_GT(scans_after, 20U);
 }
 
 }  // namespace

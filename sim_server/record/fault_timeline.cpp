@@ -7,7 +7,8 @@ namespace {
 
 std::string title(const Fault& fault) {
   const std::string target = fault_target(fault);
-  return target.empty() ? fault_kind(fault) : fault_kind(fault) + " of " + target;
+  const std::string text = target.empty() ? fault_kind(fault) : fault_kind(fault) + " of " + target;
+  return fault.when ? text + ", which waited for " + fault.when->text : text;
 }
 
 }  // namespace
@@ -32,10 +33,11 @@ std::vector<FaultReport> FaultTimeline::report() const {
   for (std::size_t i = 0; i < faults_.size(); ++i) {
     report.push_back({.kind = fault_kind(faults_[i]),
                       .target = fault_target(faults_[i]),
-                      .at_s = faults_[i].at_s,
+                      .at_s = faults_[i].waits ? std::nullopt : std::optional(faults_[i].at_s),
                       .until_s = faults_[i].until_s,
                       .began_step = entries_[i].began,
-                      .ended_step = entries_[i].ended});
+                      .ended_step = entries_[i].ended,
+                      .when = faults_[i].when ? std::optional(faults_[i].when->text) : std::nullopt});
   }
   return report;
 }

@@ -12,7 +12,9 @@ namespace skein::sim {
 
 class FaultTimeline {
  public:
+  /// @param plan  must outlive this. Its faults that wait for a condition may be set off meanwhile.
   explicit FaultTimeline(const FaultPlan& plan) : faults_(plan.faults), entries_(plan.faults.size()) {}
+  explicit FaultTimeline(FaultPlan&&) = delete;
 
   /// Call it once an exchange, in order, as the exchange begins.
   /// @returns a line for the log for each fault that begins or ends with it, in the plan's order.
@@ -26,7 +28,7 @@ class FaultTimeline {
     std::optional<std::uint64_t> began, ended;
   };
 
-  std::vector<Fault> faults_;
+  const std::vector<Fault>& faults_;
   std::vector<Entry> entries_;
 };
 

@@ -53,6 +53,13 @@ struct PlannerInput {
   std::span<const Scan> scans = {};           ///< own, since the step before; only if wants_scans()
 };
 
+/// What a planner tells of itself, as /<id>/debug/<name>: faults may wait for it and properties be about it
+/// (docs/properties.md).
+struct DebugValue {
+  std::string name;
+  double value = 0.0;
+};
+
 struct PlannerOutput {
   Motion motion = {};
   std::optional<double> yaw = {};  ///< body yaw to turn to at the tracker's rate; only with a Path or Hold
@@ -61,6 +68,7 @@ struct PlannerOutput {
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
   /// What others said of their maps (OccupancyMap::octomap_bytes()), to be taken into the one on board.
   std::vector<std::string> heard_maps = {};
+  std::vector<DebugValue> debug = {};    ///< of Planner::debug_names()
 };
 
 class Planner {
@@ -72,6 +80,8 @@ class Planner {
   /// has what key frames show without them. A scan that nobody reads is not even computed, and that is most of a run's
   /// cost (docs/decisions/0006-scans-on-demand.md).
   virtual bool wants_scans() const { return false; }
+  /// Names of the values that it publishes; asked before the first exchange, and the answer must stay the same.
+  virtual std::vector<std::string> debug_names() const { return {}; }
 };
 
 /// Makes the planner that `spec` names: "hover", "hover:height_m=4,climb_mps=1" or "patrol:params.yaml" (a

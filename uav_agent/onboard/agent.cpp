@@ -144,6 +144,7 @@ Agent::Agent(Agent&&) noexcept = default;
 Agent& Agent::operator=(Agent&&) noexcept = default;
 
 bool Agent::wants_scans() const { return impl_->planner->wants_scans(); }
+std::vector<std::string> Agent::debug_names() const { return impl_->planner->debug_names(); }
 
 AgentOutput Agent::step(const AgentInput& input) {
   impl_->perceive(input);
@@ -154,6 +155,7 @@ AgentOutput Agent::step(const AgentInput& input) {
   output.gimbal = impl_->point_camera(decision.gimbal, input.state);
   output.trigger = decision.trigger;
   output.radio = std::move(decision.radio);
+  output.debug = std::move(decision.debug);
   output.captures = impl_->uplink.send(input.k, impl_->peers.station_visible());
   return output;
 }

@@ -39,6 +39,7 @@ struct AgentOutput {
   bool trigger = false;
   std::vector<RadioMessage> radio;
   std::vector<std::uint64_t> captures;  ///< whose reports to send to the station now
+  std::vector<DebugValue> debug;        ///< of the planner
 };
 
 class Agent {
@@ -52,6 +53,8 @@ class Agent {
 
   /// Whether the planner looks at scans: nobody needs to compute them or send them otherwise.
   bool wants_scans() const;
+  /// Names of what the planner tells of itself.
+  std::vector<std::string> debug_names() const;
   /// One exchange. Inputs must come in order of k.
   AgentOutput step(const AgentInput& input);
   /// Whether that capture's report may yet have to be sent.

@@ -1,0 +1,72 @@
+// Reads expressions (expression.hpp). The grammar, from the loosest to the tightest:
+//   condition  or condition        a and b binds tighter than a or b
+//   not condition
+//   number < number                also <=, >, >=, ==, !=
+//   number + number                also -; then * and /; then -number
+//   20 m  80 %  0.5 m/s            a number, with its unit behind it (core/unit.hpp)
+//   separation  link(jurong, gcs)  a signal (core/signal_table.hpp)
+//   min(a, b)  max(a, b)  abs(a)  gain(a)  rises(a)  falls(a)
+//   (anything)
+// Units must fit: what is compared or added must count in the same thing. Who has a language around expressions
+// reads its own words with the same parser.  Pure.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/expression.hpp"
+#include "core/expression_text.hpp"
+#include "core/signal_table.hpp"
+
+namespace skein {
+
+/// What an expression may name.
+struct ExpressionScope {
+  const SignalNames& names;
+  bool live_only = false;                             ///< signals that are known while a run goes on, and no past
+  std::map<std::string, std::string> variables = {};  ///< a UAV's name by what stands for it
+  std::map<std::string, Quantity> parameters = {};
+};
+
+/// Reads a text part by part. All parts throw ExpressionError.
+class ExpressionParser : public ExpressionText {
+ public:
+  /// @param scope, text  must outlive this.
+  /// @param signals  gets those that are used, each once: an expression's slots count in it. Must outlive this.
+  ExpressionParser(std::string_view text, const ExpressionScope& scope, std::vector<SignalUse>& signals)
+      : ExpressionText(text), scope_(scope), signals_(signals) {}
+
+  /// A condition, as far as it goes.
+  Expression condition();
+  /// A number of this unit without signals: "20 s". @param what  it is for, for messages
+  double constant(const Unit& unit, const std::string& what);
+
+ private:
+  Expression disjunction();
+  Expression conjunction();
+  Expression negation();
+  Expression comparison();
+  Expression sum();
+  Expression product();
+  Expression signed_number();
+  Expression primary();
+  Expression nested(Expression (ExpressionParser::*part)());
+  Expression function(Expression::Op op, std::size_t at, const std::string& name);
+  Expression signal(std::size_t at, const std::string& name);
+  const SignalInfo& signal_named(std::size_t at, const std::string& name) const;
+  std::string argument(SignalArgument kind);
+  std::string known(const std::string& name, std::size_t at, const std::vector<std::string>& names,
+                    const std::string& what) const;
+  std::size_t slot_of(SignalUse use);
+
+  const ExpressionScope& scope_;
+  std::vector<SignalUse>& signals_;
+  int depth_ = 0;
+};
+
+/// The whole text as a condition. @throws ExpressionError.
+Expression parse_condition(std::string_view text, const ExpressionScope& scope, std::vector<SignalUse>& signals);
+
+}  // namespace skein

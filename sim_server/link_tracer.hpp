@@ -1,0 +1,40 @@
+// Which radio links there are: line of sight between antennas, range, and what faults cut.
+// Threads: one.   Frames: W.
+#pragma once
+
+#include <vector>
+
+#include "core/fault_plan.hpp"
+#include "core/link_matrix.hpp"
+#include "core/scenario.hpp"
+#include "sim_server/rays/ray_scene.hpp"
+#include "sim_server/sensors/sight_memory.hpp"
+
+namespace skein::sim {
+
+class LinkTracer {
+ public:
+  /// Where a UAV's body is, and whether it is on the air.
+  struct Place {
+    Vector3d p_WB = Vector3d::Zero();
+    bool alive = true;
+  };
+
+  /// Both must outlive this.
+  LinkTracer(const Scenario& scenario, const FaultPlan& faults)
+      : scenario_(scenario), faults_(faults), sights_(scenario.fleet.size() + 1) {}
+
+  /// @param rays  with the bodies where they are. @param uavs  in fleet order.
+  Links trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs);
+  /// Those that blackouts, outages and partitions leave.
+  Links open(Tick tick, const Links& links) const;
+
+ private:
+  bool in_range(Tick tick, Node from, Node to, double distance_m) const;
+
+  const Scenario& scenario_;
+  const FaultPlan& faults_;
+  LinkMatrix<SightMemory> sights_;  ///< of each pair of nodes, the lower one first
+};
+
+}  // namespace skein::sim

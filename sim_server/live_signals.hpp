@@ -1,0 +1,56 @@
+// The signals of a run (core/signal_table.hpp) that the server knows while it goes on: what faults wait for.
+// Threads: one.   Pure: knows no bus.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/fault_plan.hpp"
+#include "core/scenario.hpp"
+#include "core/signal_table.hpp"
+#include "sim_server/simulation.hpp"
+
+namespace skein::sim {
+
+class LiveSignals {
+ public:
+  /// Both must outlive this.
+  LiveSignals(const Scenario& scenario, const Simulation& simulation);
+
+  /// Once a step, when it has been answered. @param is_member  of the run, by name.
+  void end_step(const std::function<bool(const std::string&)>& is_member);
+  /// The station's acknowledgement of a capture has reached this UAV.
+  void add_release(UavIndex uav) { ++captures_.at(uav).released; }
+  /// What this UAV's program has published.
+  void set_debug(UavIndex uav, const std::string& name, double value) { debug_[{uav, name}] = value; }
+  /// @param signal  a live one. @returns its value in this step.
+  double value(const SignalUse& signal) const;
+
+ private:
+  struct Member {
+    bool present = false, was_present = false;
+    int restarts = 0;
+  };
+  struct Captures {
+    double taken = 0.0, released = 0.0;
+  };
+
+  UavIndex uav_of(const SignalUse& signal, std::size_t place = 0) const;
+  double of_uav(const SignalUse& signal) const;
+  double separation(const SignalUse& signal) const;
+  double clearance(const SignalUse& signal) const;
+  double restarts(const std::string& member) const;
+  bool linked(const SignalUse& signal) const;
+  double sum(const SignalUse& signal, const std::function<double(const Captures&)>& of) const;
+
+  const Scenario& scenario_;
+  const Simulation& simulation_;
+  std::map<std::string, Member> members_;
+  std::vector<Captures> captures_;  ///< by UAV
+  std::map<std::pair<std::size_t, std::string>, double> debug_;
+};
+
+}  // namespace skein::sim
