@@ -11,18 +11,20 @@
 #include "process/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
+#include "properties/property_file.hpp"
 
 namespace skein::cli {
 namespace {
 
-enum class FileKind { scenario, vehicle, waypoints, faults, fault_test };
+enum class FileKind { scenario, vehicle, waypoints, faults, fault_test, properties };
 
 /// Told by the first key that only one kind of file has, so that a file that lacks a required key is still recognised.
 FileKind kind_of(const std::string& file) {
   static const std::map<std::string, FileKind> kTellingKeys = {
-      {"fleet", FileKind::scenario}, {"scene", FileKind::scenario},  {"desired_mm_per_pixel", FileKind::scenario},
-      {"role", FileKind::vehicle},   {"mass_kg", FileKind::vehicle}, {"camera", FileKind::vehicle},
-      {"lidar", FileKind::vehicle},  {"paths", FileKind::waypoints}, {"faults", FileKind::faults}};
+      {"fleet", FileKind::scenario},       {"scene", FileKind::scenario},  {"desired_mm_per_pixel", FileKind::scenario},
+      {"role", FileKind::vehicle},         {"mass_kg", FileKind::vehicle}, {"camera", FileKind::vehicle},
+      {"lidar", FileKind::vehicle},        {"paths", FileKind::waypoints}, {"faults", FileKind::faults},
+      {"properties", FileKind::properties}};
   const ConfigNode root = read_config_document(file).root;
   if (is_fault_test(root)) return FileKind::fault_test;
   for (const std::string& key : root.keys) {
@@ -30,7 +32,8 @@ FileKind kind_of(const std::string& file) {
     if (found != kTellingKeys.end()) return found->second;
   }
   throw InputError(file + ":1: is of no known kind: a scenario has the keys 'scene' and 'fleet', a vehicle 'role', a " +
-                   "file for the waypoints planner 'paths', a fault file 'faults', a fault test 'expect' too");
+                   "file for the waypoints planner 'paths', a fault file 'faults', a fault test 'expect' too, a file "
+                   "of properties 'properties'");
 }
 
 /// What the programs themselves say to a plan. Warnings are passed on.
@@ -50,13 +53,14 @@ void check_with_programs(const CheckOptions& options, const std::string& scenari
   check_with_programs(plan_fleet(run, program_dir()), console);
 }
 
-/// @returns the name of the scenario that it was checked with.
-std::string check_fault_file(const CheckOptions& options, const std::filesystem::path& file) {
+/// @returns the name of the scenario that a file was checked with.
+template <class Check>
+std::string checked_with(const CheckOptions& options, const Check& check) {
   LoadOptions load;
   load.assets_dir = options.assets.value_or("");
   load.needs_scene_files = false;  // only the fleet and the times matter
   const Scenario scenario = load_scenario(options.scenario, load);
-  load_fault_plan(file, scenario);
+  check(scenario);
   return scenario.name;
 }
 
@@ -79,7 +83,10 @@ std::string check_file(const CheckOptions& options, const std::string& file, con
       check_with_programs(options, path, kDefaultPlanner, console);
       return "scenario";
     case FileKind::faults:
-      return "fault file, with " + check_fault_file(options, path);
+      return "fault file, with " + checked_with(options, [&](const Scenario& s) { load_fault_plan(path, s); });
+    case FileKind::properties:
+      return "properties, with " +
+             checked_with(options, [&](const Scenario& s) { properties::load_properties(path, s); });
     case FileKind::fault_test:
       return "fault test, with " + check_fault_test(options, path, console);
   }

@@ -7,6 +7,8 @@
 
 #include "cli/fault_tests/flights.hpp"
 #include "cli/fault_tests/report.hpp"
+#include "cli/properties/judge.hpp"
+#include "cli/properties/run_signals.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/supervisor.hpp"
 #include "cli/study/side_by_side.hpp"
@@ -170,6 +172,21 @@ class FaultTestRun {
       const bool tell_time = !finding.holds && finding.at_s;
       const std::string what = finding.text + (tell_time ? ", at " + number_text(*finding.at_s) + " s" : "");
       (finding.holds ? verdict.held : verdict.broken).push_back(test.said_of(judgement.path(), what));
+    }
+    judge_properties_of(test, own, evidence.fault_free, verdict);
+  }
+
+  static void judge_properties_of(const FaultTest& test, const RunRecord& own, const RunRecord* fault_free,
+                                  FaultVerdict& verdict) {
+    if (test.property_set.empty()) return;
+    using Outcome = properties::Verdict::Outcome;
+    FolderSignals signals(own, test.plan.scenario, fault_free);
+    for (const PropertyFinding& finding : judge_properties(test.property_set, signals)) {
+      const Outcome outcome = finding.verdict.outcome;
+      (outcome == Outcome::holds   ? verdict.held
+       : outcome == Outcome::fails ? verdict.broken
+                                   : verdict.vacuous)
+          .push_back(test.said_of("properties." + finding.name, finding.text()));
     }
   }
 

@@ -8,7 +8,7 @@
 //   min(a, b)  max(a, b)  abs(a)  gain(a)  rises(a)  falls(a)
 //   (anything)
 // Units must fit: what is compared or added must count in the same thing. Who has a language around expressions
-// reads its own words with the same parser.  Pure.
+// (properties/property_parser.hpp) reads its own words with the same parser.  Pure.
 #pragma once
 
 #include <map>

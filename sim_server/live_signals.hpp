@@ -1,4 +1,5 @@
-// The signals of a run (core/signal_table.hpp) that the server knows while it goes on: what faults wait for.
+// The signals of a run (core/signal_table.hpp) that the server knows while it goes on: what faults wait for. It has the
+// same values as whoever reads the run's folder later (cli/properties/run_signals.hpp).
 // Threads: one.   Pure: knows no bus.
 #pragma once
 

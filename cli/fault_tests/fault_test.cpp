@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/properties/judge.hpp"
 #include "core/config_files.hpp"
 #include "core/config_reader.hpp"
 #include "core/scenario_reader.hpp"
@@ -40,13 +41,16 @@ struct TestFile {
   std::string name, description;
   RunPart run;
   Expectations expect;
+  std::variant<std::string, properties::PropertyEntries> property_entries;  ///< a text: the file that lists them
 
   template <class R>
   void describe(R& r) {
     r.field("name", name);
     r.field("description", description);
     r.field("run", run);
-    r.required("expect", expect);
+    r.field("properties", property_entries);
+    r.has("properties") ? r.field("expect", expect) : r.required("expect", expect);
+    if (!r.has("expect")) expect.describe(r);  // what is usual
   }
 };
 
@@ -85,10 +89,30 @@ void check_run(const RunOptions& options, ConfigErrors& errors) {
   errors.throw_if_any();
 }
 
+properties::PropertySet read_properties(const std::variant<std::string, properties::PropertyEntries>& given,
+                                        const FleetPlan& plan, ConfigErrors& errors) {
+  static const std::string key = "properties";
+  properties::PropertySet set;
+  if (const auto* file = std::get_if<std::string>(&given)) {
+    if (file->empty()) return set;
+    try {
+      set = properties::load_properties(find_config_file("property file", *file, {}, plan.faults.file.parent_path()),
+                                        plan.scenario);
+    } catch (const InputError& error) {
+      errors.check(false, key, error.what());
+    }
+    return set;
+  }
+  set = properties::parse_properties(std::get<properties::PropertyEntries>(given), key, plan.scenario, errors);
+  check_against_plan(set, plan.faults, plan.scenario, key, errors);
+  return set;
+}
+
 }  // namespace
 
 bool FaultTest::needs_fault_free() const {
-  return std::any_of(expect.all.begin(), expect.all.end(), [](const Expectation& e) { return e.needs_fault_free; });
+  return needs_undisturbed(property_set) ||
+         std::any_of(expect.all.begin(), expect.all.end(), [](const Expectation& e) { return e.needs_fault_free; });
 }
 
 std::vector<Repeat> FaultTest::repeats() const {
@@ -108,7 +132,10 @@ std::string FaultTest::said_of(const std::string& key, const std::string& what) 
   return sentence.what();
 }
 
-bool is_fault_test(const ConfigNode& root) { return root.find("expect") != nullptr || root.find("run") != nullptr; }
+bool is_fault_test(const ConfigNode& root) {
+  const bool may_be_one = root.find("faults") != nullptr && root.find("properties") != nullptr;
+  return may_be_one || root.find("expect") != nullptr || root.find("run") != nullptr;
+}
 
 FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& assets,
                           const std::optional<fs::path>& agent, bool one_process) {
@@ -124,7 +151,8 @@ FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& a
   RunOptions options = run_options(content.run, path, assets, agent);
   options.one_process = one_process;
   check_run(options, errors);
-  FaultTest test{file.stem(), file, plan_fleet(options, program_dir()), std::move(content.expect), document};
+  FaultTest test{file.stem(), file, plan_fleet(options, program_dir()), std::move(content.expect), {}, document};
+  test.property_set = read_properties(content.property_entries, test.plan, errors);
   for (const Expectation& expectation : test.expect.all) {
     if (expectation.check) expectation.check({test.plan.scenario, test.plan.faults, errors});
   }

@@ -9,6 +9,7 @@
 
 #include "cli/fault_tests/expectations.hpp"
 #include "cli/run/fleet_plan.hpp"
+#include "properties/property_file.hpp"
 
 namespace skein::cli {
 
@@ -18,7 +19,8 @@ struct FaultTest {
   std::filesystem::path file;  ///< as it was named
   FleetPlan plan;              ///< with the faults; its options say how to fly it
   Expectations expect;
-  ConfigDocument document;  ///< the file as it is
+  properties::PropertySet property_set;  ///< `properties` of the file
+  ConfigDocument document;               ///< the file as it is
 
   bool needs_fault_free() const;
   /// Those that the file asks for.

@@ -34,7 +34,8 @@ void add_case(pugi::xml_node suite, const std::string& suite_name, const FaultVe
     add_attribute(failure, "message", verdict.broken.front());
     failure.text() = printable(lines_of(verdict.broken) + "results: " + verdict.results.string()).c_str();
   }
-  if (!verdict.held.empty()) add_element(test, "system-out", printable(lines_of(verdict.held)));
+  const std::string seen = lines_of(verdict.held) + lines_of(verdict.vacuous);
+  if (!seen.empty()) add_element(test, "system-out", printable(seen));
 }
 
 }  // namespace
@@ -42,6 +43,7 @@ void add_case(pugi::xml_node suite, const std::string& suite_name, const FaultVe
 void print_verdict(std::ostream& out, const FaultVerdict& verdict, bool verbose) {
   std::string text = (verdict.passed() ? "PASS " : "FAIL ") + verdict.name + "\n";
   for (const std::string& sentence : verdict.broken) text += "     " + sentence + "\n";
+  for (const std::string& sentence : verdict.vacuous) text += "     " + sentence + "\n";
   if (verbose) {
     for (const std::string& sentence : verdict.held) text += "     holds: " + sentence + "\n";
   }

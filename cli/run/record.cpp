@@ -37,7 +37,9 @@ RunRecord read_run(const std::filesystem::path& dir) {
   }
   for (CsvTable table(dir / run_folder::kTrajectories); table.next();) {
     const Vector3d p_W(table.number("x"), table.number("y"), table.number("z"));
-    record.positions.push_back({table.number("time_s"), table.text("uav"), p_W});
+    const Vector3d v_W(table.number("vx"), table.number("vy"), table.number("vz"));
+    record.positions.push_back({table.number("time_s"), table.text("uav"), p_W, v_W, table.number("alive") != 0.0,
+                                table.number_if_any("clearance")});
   }
   for (CsvTable table(dir / run_folder::kScoreTimeline); table.next();) {
     record.scores.push_back({table.number("time_s"), table.number("score")});

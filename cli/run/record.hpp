@@ -47,6 +47,9 @@ struct PositionRow {
   double time_s = 0.0;
   std::string uav;
   Vector3d p_W;
+  Vector3d v_W = Vector3d::Zero();
+  bool alive = true;
+  std::optional<double> clearance_m = {};  ///< to the structure
 };
 
 /// The delivered score from this time on (score_timeline.csv).

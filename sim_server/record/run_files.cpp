@@ -54,7 +54,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario
       trajectories_(folder / run_folder::kTrajectories),
       digests_(folder / run_folder::kDigests),
       events_(folder, scenario) {
-  trajectories_ << run_tables::kPoseColumns << "vx,vy,vz,gimbal_pitch,gimbal_yaw,alive\n";
+  trajectories_ << run_tables::kPoseColumns << "vx,vy,vz,gimbal_pitch,gimbal_yaw,alive,clearance\n";
   digests_ << "k,digest";
   for (const std::string& column : digest.columns()) digests_ << "," << column;
   digests_ << "\n";
@@ -100,10 +100,11 @@ void RunFiles::add_step(const Simulation& simulation, const StepDigest& digest) 
   for (const UavIndex i : FirstUavs(simulation.size())) {
     const UavView& uav = simulation.uav(i);
     const auto& [p, q, v, w] = uav.state;
-    fmt::format_to(std::back_inserter(line),
-                   "{:.2f},{},{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.5f},{:.5f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{}\n",
-                   seconds(simulation.tick()), scenario_.fleet[i].name, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(),
-                   v.x(), v.y(), v.z(), uav.gimbal.pitch, uav.gimbal.yaw, uav.alive ? 1 : 0);
+    fmt::format_to(
+        std::back_inserter(line),
+        "{:.2f},{},{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.5f},{:.5f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.3f}\n",
+        seconds(simulation.tick()), scenario_.fleet[i].name, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(),
+        v.y(), v.z(), uav.gimbal.pitch, uav.gimbal.yaw, uav.alive ? 1 : 0, simulation.clearance(i));
   }
   trajectories_ << std::string_view(line.data(), line.size());
 }

@@ -8,6 +8,9 @@
 #include "cli/fault_tests/fault_test.hpp"
 #include "core/config_files.hpp"
 #include "core/scenario_reader.hpp"
+#include "core/signal_table.hpp"
+#include "core/suggestion.hpp"
+#include "properties/property_file.hpp"
 
 namespace skein::cli {
 namespace {
@@ -96,6 +99,31 @@ TEST_F(FaultFiles, ThePageOfTestsListsEveryExpectation) {
                          std::regex_replace(usual, std::regex(R"([\[\]])"), R"(\$&)") + "\\|");
     EXPECT_TRUE(std::regex_search(text, row)) << kind.key;
   }
+}
+
+TEST_F(FaultFiles, ThePageOfPropertiesListsEverySignalAndEveryReadyProperty) {
+  const std::string text = page("properties.md");
+  const auto has_row = [&](const std::string& row) {
+    EXPECT_NE(text.find("\n" + row + "\n"), std::string::npos) << "missing, or another: " << row;
+  };
+  for (const SignalInfo& info : signal_table()) {
+    const std::string unit = info.is_boolean ? "yes or no" : unit_text(info.unit);
+    has_row("| `" + info.text() + "` | " + unit + " | " + (info.is_live ? "live" : "") + " | " +
+            std::string(info.meaning) + " |");
+  }
+  for (const std::string& name : properties::ready_property_names()) {
+    const properties::ReadyProperty ready = properties::load_ready_property(name);
+    std::vector<std::string> parameters;
+    for (const auto& [parameter, value] : ready.parameters) parameters.push_back("`" + parameter + ": " + value + "`");
+    has_row("| `" + name + "` | " + joined(parameters) + " | " + ready.description + " |");
+  }
+  for (const UnitName& unit : kUnitNames) EXPECT_NE(text.find(unit.name), std::string::npos) << unit.name;
+}
+
+TEST_F(FaultFiles, ExamplesOfThePageOfPropertiesLoad) {
+  const auto blocks = examples(page("properties.md"));
+  ASSERT_FALSE(blocks.empty());
+  for (const std::string& block : blocks) EXPECT_NO_THROW(load_fault_test(written(block))) << block;
 }
 
 }  // namespace

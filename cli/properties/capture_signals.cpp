@@ -1,0 +1,178 @@
+// Signals of captures: what was taken, delivered, acknowledged, and whose work it was.
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "cli/fault_tests/custody.hpp"
+#include "cli/properties/run_signals.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// A capture that its UAV was told is with the station.
+struct Acknowledged {
+  CaptureKey capture;
+  std::size_t taken = 0, told = 0;  ///< exchanges
+};
+
+std::vector<Acknowledged> acknowledged_captures(const RunRecord& run, const std::string& uav) {
+  std::map<CaptureKey, std::size_t> taken;
+  std::vector<Acknowledged> all;
+  for (const EventRow& row : run.events) {
+    const bool is_capture = row.event == run_tables::kCaptured || row.event == run_tables::kReleased;
+    if (!is_capture || (!uav.empty() && row.subject != uav)) continue;
+    const CaptureKey capture{row.subject, std::stoull(row.object)};
+    if (row.event == run_tables::kCaptured) {
+      taken.emplace(capture, row.step);
+    } else {
+      all.push_back({capture, taken[capture], row.step});
+    }
+  }
+  return all;
+}
+
+/// The sum over all points of the best capture so far, by time; of captures that count.
+template <class TimeOf>
+std::vector<std::pair<double, double>> score_steps(const RunRecord& run, const Scenario& scenario,
+                                                   const TimeOf& time_of) {
+  std::vector<std::pair<double, const CaptureRow*>> rows;
+  for (const CaptureRow& row : run.captures) {
+    const std::optional<double> time_s = time_of(row);
+    if (time_s && !row.voided() && row.q >= scenario.rules.min_point_score) rows.emplace_back(*time_s, &row);
+  }
+  std::ranges::stable_sort(rows, {}, [](const auto& row) { return row.first; });
+  std::map<int, double> best;
+  std::vector<std::pair<double, double>> steps;
+  double sum = 0.0;
+  for (const auto& [time_s, row] : rows) {
+    double& standing = best[row->point];
+    if (row->q <= standing) continue;
+    sum += row->q - standing;
+    standing = row->q;
+    steps.emplace_back(time_s, sum);
+  }
+  return steps;
+}
+
+std::vector<std::pair<double, double>> earned_steps(const RunRecord& run, const Scenario& scenario) {
+  return score_steps(run, scenario, [](const CaptureRow& row) { return std::optional(row.time_s); });
+}
+
+/// Points that this UAV photographs from `from_s` on, and nobody else ever, nor itself before.
+std::set<int> work_before(const RunRecord& run, const std::string& uav, double from_s) {
+  std::set<int> own, others;
+  for (const CaptureRow& row : run.captures) {
+    (row.uav == uav && row.time_s >= from_s ? own : others).insert(row.point);
+  }
+  std::erase_if(own, [&](int point) { return others.contains(point); });
+  return own;
+}
+
+}  // namespace
+
+FolderSignals::Values FolderSignals::of_captures(const SignalUse& signal) {
+  const std::string uav = signal.argument(0);
+  const auto events = [&](const char* event) {
+    std::vector<std::size_t> exchanges;
+    for (const EventRow& row : run_.events) {
+      if (row.event == event && (uav.empty() || row.subject == uav)) exchanges.push_back(row.step);
+    }
+    return counted(exchanges);
+  };
+  const auto stepped = [&](const std::vector<std::pair<double, double>>& steps) {
+    Values values = constant(0.0);
+    for (const auto& [time_s, value] : steps) {
+      if (time_s > static_cast<double>(exchanges_ - 1) * period_s() + 1e-6) break;
+      std::fill(values.begin() + static_cast<std::ptrdiff_t>(exchange_at(time_s)), values.end(), value);
+    }
+    return values;
+  };
+  if (signal.is("captures")) return events(run_tables::kCaptured);
+  if (signal.is("acknowledged")) return events(run_tables::kReleased);
+  if (signal.is("held")) {
+    Values held = events(run_tables::kCaptured);
+    const Values released = events(run_tables::kReleased);
+    for (std::size_t k = 0; k < exchanges_; ++k) held[k] -= released[k];
+    return held;
+  }
+  if (signal.is("score")) {
+    std::vector<std::pair<double, double>> steps;
+    for (const ScoreRow& row : run_.scores) steps.emplace_back(row.time_s, row.score);
+    return stepped(steps);
+  }
+  if (signal.is("earned")) return stepped(earned_steps(run_, scenario_));
+  return of_custody(signal);
+}
+
+FolderSignals::Values FolderSignals::of_custody(const SignalUse& signal) {
+  const std::string uav = signal.argument(0);
+  std::map<CaptureKey, std::size_t> delivered;
+  for (const CaptureRow& row : run_.captures) {
+    if (row.delivered_at_s) delivered.emplace(CaptureKey{row.uav, row.capture}, exchange_at(*row.delivered_at_s));
+  }
+  std::vector<std::size_t> exchanges;
+  if (signal.is("delivered")) {
+    for (const auto& [capture, exchange] : delivered) {
+      if (uav.empty() || capture.first == uav) exchanges.push_back(exchange);
+    }
+    return counted(exchanges);
+  }
+  for (const Acknowledged& one : acknowledged_captures(run_, uav)) {
+    const auto found = delivered.find(one.capture);
+    const bool is_kept = found != delivered.end() && found->second <= one.told;
+    if (signal.is("acknowledged_kept") ? is_kept : has_path(one.capture.first, one.taken, one.told)) {
+      exchanges.push_back(one.told);
+    }
+  }
+  return counted(exchanges);
+}
+
+/// Whether a report could go from a UAV to the station and its acknowledgement back, between two exchanges. What is
+/// sent in one exchange arrives in the next; the sender, the router and the receiver must take part.
+bool FolderSignals::has_path(const std::string& uav, std::size_t from, std::size_t to) {
+  const std::string station = scenario_.node_name(kStationNode);
+  const auto passes = [&](const std::vector<double>& link, const std::vector<double>& sender,
+                          const std::vector<double>& receiver, std::size_t k) {
+    return link[k] > 0.0 && sender[k] > 0.0 && use("member", {programs::kCommRouter})[k] > 0.0 &&
+           receiver[std::min(k + 1, exchanges_ - 1)] > 0.0;
+  };
+  const auto& there = use("link", {uav, station});
+  const auto& back = use("link", {station, uav});
+  const auto& sender = use("member", {uav});
+  const auto& receiver = use("member", {programs::kStation});
+  std::size_t k = from;
+  while (k < to && !passes(there, sender, receiver, k)) ++k;
+  for (++k; k < to; ++k) {
+    if (passes(back, receiver, sender, k)) return true;
+  }
+  return false;
+}
+
+FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) const {
+  if (undisturbed_ == nullptr) {
+    throw InputError(signal.text() + ": is known only where the run is compared with one without faults");
+  }
+  if (signal.is("undisturbed_score")) return constant(value_or(undisturbed_->result, "score", 0.0));
+  if (signal.is("undisturbed_earned")) return constant(value_or(undisturbed_->result, "score_earned", 0.0));
+  const std::string uav = signal.argument(0);
+  const auto left = std::ranges::find_if(
+      run_.events, [&](const EventRow& row) { return row.event == run_tables::kLeft && row.subject == uav; });
+  if (left == run_.events.end()) return constant(0.0);
+  const double from_s = static_cast<double>(left->step) * period_s();
+  std::set<int> in_hand = work_before(*undisturbed_, uav, from_s);
+  if (signal.is("in_hand")) return constant(static_cast<double>(in_hand.size()));
+  std::vector<std::size_t> exchanges;
+  std::vector<const CaptureRow*> rows;
+  for (const CaptureRow& row : run_.captures) rows.push_back(&row);
+  std::ranges::stable_sort(rows, {}, [](const CaptureRow* row) { return row->time_s; });
+  for (const CaptureRow* row : rows) {
+    if (row->uav != uav && row->time_s >= from_s && in_hand.erase(row->point) > 0) {
+      exchanges.push_back(exchange_at(row->time_s));
+    }
+  }
+  return counted(exchanges);
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,247 @@
+#include "cli/properties/run_signals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/suggestion.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr double kFarClearance_m = 100.0;  ///< as sim_server tells it
+
+std::size_t exchanges_of(const RunRecord& run, const Scenario& scenario) {
+  const double end_s = value_or(run.result, "sim_time_s", 0.0);
+  return static_cast<std::size_t>(std::llround(end_s / scenario.exchange_period_s)) + 1;
+}
+
+}  // namespace
+
+FolderSignals::FolderSignals(const RunRecord& run, const Scenario& scenario, const RunRecord* undisturbed)
+    : run_(run), scenario_(scenario), undisturbed_(undisturbed), exchanges_(exchanges_of(run, scenario)) {}
+
+std::optional<double> FolderSignals::healed_s() const {
+  double healed_s = 0.0;
+  for (const Json& fault : value_or(run_.result, "faults", Json::array())) {
+    if (!value_or(fault, "began_step", nullptr).is_number()) continue;
+    const Json ended = value_or(fault, "ended_step", nullptr);
+    if (!ended.is_number()) return std::nullopt;
+    healed_s = std::max(healed_s, ended.get<double>() * period_s());
+  }
+  return healed_s;
+}
+
+const std::vector<double>& FolderSignals::values(const SignalUse& signal) {
+  const std::string name = signal.text();
+  const auto found = known_.find(name);
+  return found != known_.end() ? found->second : known_.emplace(name, work_out(signal)).first->second;
+}
+
+FolderSignals::Values FolderSignals::work_out(const SignalUse& signal) {
+  if (signal.is("result")) return result(signal);
+  if (signal.is("debug")) return debug(signal);
+  if (signal.is("separation")) return separation(signal);
+  for (const char* name : {"member", "restarts", "link", "faults", "time"}) {
+    if (signal.is(name)) return of_members(signal);
+  }
+  for (const char* name : {"x", "y", "z", "speed", "distance", "clearance", "alive"}) {
+    if (signal.is(name)) return of_fleet(signal);
+  }
+  for (const char* name : {"sent", "arrived", "arrived_once", "arrived_by_link", "in_flight"}) {
+    if (signal.is(name)) return of_messages(signal);
+  }
+  for (const char* name : {"undisturbed_score", "undisturbed_earned", "in_hand", "taken_over"}) {
+    if (signal.is(name)) return of_work(signal);
+  }
+  return of_captures(signal);
+}
+
+std::size_t FolderSignals::exchange_at(double time_s) const {
+  const auto exchange = static_cast<std::size_t>(std::max(0.0, std::ceil(time_s / period_s() - 1e-6)));
+  return std::min(exchange, exchanges_ - 1);
+}
+
+FolderSignals::Values FolderSignals::counted(const std::vector<std::size_t>& exchanges) const {
+  Values values(exchanges_, 0.0);
+  for (const std::size_t exchange : exchanges) {
+    if (exchange < exchanges_) ++values[exchange];
+  }
+  for (std::size_t k = 1; k < exchanges_; ++k) values[k] += values[k - 1];
+  return values;
+}
+
+// ---- the fleet --------------------------------------------------------------------------------------------------
+
+/// trajectories.csv has each UAV every other exchange; in between it stays where it was.
+const std::map<std::string, FolderSignals::Track>& FolderSignals::tracks() {
+  if (!tracks_.empty()) return tracks_;
+  for (const std::string& name : scenario_.uav_names()) {
+    tracks_[name] = {std::vector<Vector3d>(exchanges_, Vector3d::Zero()),
+                     std::vector<Vector3d>(exchanges_, Vector3d::Zero()), constant(1.0), constant(kFarClearance_m)};
+  }
+  std::map<std::string, std::size_t> next;  // exchange that is not known yet
+  for (const PositionRow& row : run_.positions) {
+    const auto track = tracks_.find(row.uav);
+    if (track == tracks_.end()) continue;
+    const std::size_t exchange = exchange_at(row.time_s);
+    std::size_t& from = next[row.uav];
+    auto& [positions, velocities, alive, clearance] = track->second;
+    for (; from < exchange && from > 0; ++from) {
+      positions[from] = positions[from - 1];
+      velocities[from] = velocities[from - 1];
+      alive[from] = alive[from - 1];
+      clearance[from] = clearance[from - 1];
+    }
+    positions[exchange] = row.p_W;
+    velocities[exchange] = row.v_W;
+    alive[exchange] = row.alive ? 1.0 : 0.0;
+    clearance[exchange] = row.clearance_m.value_or(kFarClearance_m);
+    from = exchange + 1;
+  }
+  for (auto& [name, track] : tracks_) {
+    for (std::size_t k = next[name]; k < exchanges_ && k > 0; ++k) {
+      track.positions[k] = track.positions[k - 1];
+      track.velocities[k] = track.velocities[k - 1];
+      track.alive[k] = track.alive[k - 1];
+      track.clearance[k] = track.clearance[k - 1];
+    }
+  }
+  return tracks_;
+}
+
+FolderSignals::Values FolderSignals::of_fleet(const SignalUse& signal) {
+  const auto& all = tracks();
+  const std::string uav = signal.argument(0);
+  if (signal.is("clearance") && uav.empty()) {
+    Values least = constant(kFarClearance_m);
+    for (const auto& [name, track] : all) {
+      for (std::size_t k = 0; k < exchanges_; ++k) {
+        if (track.alive[k] > 0.0) least[k] = std::min(least[k], track.clearance[k]);
+      }
+    }
+    return least;
+  }
+  Values values = constant(0.0);
+  for (const auto& [name, track] : all) {
+    if (!uav.empty() && name != uav) continue;
+    if (signal.is("clearance")) return track.clearance;
+    if (signal.is("alive")) return track.alive;
+    double way_m = 0.0;
+    for (std::size_t k = 0; k < exchanges_; ++k) {
+      const Vector3d& p_W = track.positions[k];
+      if (k > 0) way_m += (p_W - track.positions[k - 1]).norm();
+      values[k] += signal.is("x")       ? p_W.x()
+                   : signal.is("y")     ? p_W.y()
+                   : signal.is("z")     ? p_W.z()
+                   : signal.is("speed") ? track.velocities[k].norm()
+                                        : way_m;
+    }
+  }
+  return values;
+}
+
+FolderSignals::Values FolderSignals::separation(const SignalUse& signal) {
+  Values least = constant(std::numeric_limits<double>::infinity());
+  const std::string one = signal.argument(0), other = signal.argument(1);
+  for (const auto& [name_a, a] : tracks()) {
+    for (const auto& [name_b, b] : tracks()) {
+      const auto concerns = [&](const std::string& name) { return name.empty() || name == name_a || name == name_b; };
+      if (name_a >= name_b || !concerns(one) || !concerns(other)) continue;
+      for (std::size_t k = 0; k < exchanges_; ++k) {
+        if (a.alive[k] == 0.0 || b.alive[k] == 0.0) continue;
+        least[k] = std::min(least[k], (a.positions[k] - b.positions[k]).norm());
+      }
+    }
+  }
+  return least;
+}
+
+// ---- who takes part ---------------------------------------------------------------------------------------------
+
+/// 1 from an event of the one kind on, 0 from one of the other.
+FolderSignals::Values FolderSignals::on_off(const std::string& on, const std::string& off, const std::string& subject,
+                                            const std::string& object) const {
+  Values values = constant(0.0);
+  for (const EventRow& row : run_.events) {
+    const bool turns_on = row.event == on;
+    if ((!turns_on && row.event != off) || row.subject != subject || row.object != object) continue;
+    std::fill(values.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(row.step, exchanges_)), values.end(),
+              turns_on ? 1.0 : 0.0);
+  }
+  return values;
+}
+
+FolderSignals::Values FolderSignals::of_members(const SignalUse& signal) {
+  const std::string subject = signal.argument(0);
+  if (signal.is("member")) return on_off(run_tables::kJoined, run_tables::kLeft, subject, "");
+  if (signal.is("link")) return on_off(run_tables::kLinkUp, run_tables::kLinkDown, subject, signal.argument(1));
+  if (signal.is("time")) {
+    Values times;
+    for (std::size_t k = 0; k < exchanges_; ++k) times.push_back(static_cast<double>(k) * period_s());
+    return times;
+  }
+  if (signal.is("restarts")) {
+    std::vector<std::size_t> again;
+    std::map<std::string, int> lives;
+    for (const EventRow& row : run_.events) {
+      if (row.event != run_tables::kJoined || (!subject.empty() && row.subject != subject)) continue;
+      if (lives[row.subject]++ > 0) again.push_back(row.step);
+    }
+    return counted(again);
+  }
+  Values in_force = constant(0.0);
+  for (const Json& fault : value_or(run_.result, "faults", Json::array())) {
+    const Json began = value_or(fault, "began_step", nullptr), ended = value_or(fault, "ended_step", nullptr);
+    if (!began.is_number()) continue;
+    const std::size_t end = ended.is_number() ? ended.get<std::size_t>() : exchanges_;
+    for (std::size_t k = began.get<std::size_t>(); k < std::min(end, exchanges_); ++k) ++in_force[k];
+  }
+  return in_force;
+}
+
+// ---- numbers of result.json, and those of programs --------------------------------------------------------------
+
+FolderSignals::Values FolderSignals::result(const SignalUse& signal) const {
+  Json here = run_.result;
+  const std::string path = signal.argument(0);
+  for (const std::string& key : split(path, '.')) {
+    Json next;
+    std::vector<std::string> known;
+    if (here.is_array()) {  // of named things
+      for (const Json& one : here) {
+        known.push_back(value_or(one, "name", "").get<std::string>());
+        if (known.back() == key) next = one;
+      }
+    } else if (here.is_object()) {
+      for (const auto& [name, value] : here.items()) known.push_back(name);
+      if (here.contains(key)) next = here[key];
+    }
+    if (next.is_null()) {
+      throw InputError("result(" + path + "): the run's result has no number '" + key + "'; " + suggestion(key, known));
+    }
+    here = std::move(next);
+  }
+  if (here.is_boolean()) return constant(here.get<bool>() ? 1.0 : 0.0);
+  if (!here.is_number()) throw InputError("result(" + path + "): this is no number of the run's result");
+  return constant(here.get<double>() * unit_of_result(path).factor);
+}
+
+FolderSignals::Values FolderSignals::debug(const SignalUse& signal) {
+  Values values = constant(0.0);
+  const auto found = radio().debug.find({signal.argument(0), signal.argument(1)});
+  if (found == radio().debug.end()) return values;
+  for (const DebugValue& one : found->second) {
+    std::fill(values.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(one.step, exchanges_)), values.end(),
+              one.value);
+  }
+  return values;
+}
+
+const RadioLog& FolderSignals::radio() {
+  if (!radio_) radio_ = read_radio_log(run_.dir, scenario_);
+  return *radio_;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,67 @@
+// The signals (core/signal_table.hpp) of a finished run, from its folder. Each is worked out when it is first asked
+// for. Where the server knows a signal while the run goes on, it has the same values (sim_server/live_signals.hpp).
+// Not thread-safe.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/properties/radio_log.hpp"
+#include "cli/run/record.hpp"
+#include "core/scenario.hpp"
+#include "properties/evaluation.hpp"
+
+namespace skein::cli {
+
+class FolderSignals final : public properties::RunSignals {
+ public:
+  using Values = std::vector<double>;  ///< one for each exchange
+
+  /// @param run, scenario, undisturbed  must outlive this. @param undisturbed  the same run without faults, if there is
+  ///   one.
+  FolderSignals(const RunRecord& run, const Scenario& scenario, const RunRecord* undisturbed = nullptr);
+
+  const std::vector<double>& values(const SignalUse& signal) override;
+  std::size_t exchanges() const override { return exchanges_; }
+  double period_s() const override { return scenario_.exchange_period_s; }
+  std::optional<double> healed_s() const override;
+
+ private:
+  struct Track {
+    std::vector<Vector3d> positions, velocities;
+    Values alive, clearance;
+  };
+
+  Values work_out(const SignalUse& signal);
+  Values of_fleet(const SignalUse& signal);
+  Values of_members(const SignalUse& signal);
+  Values of_captures(const SignalUse& signal);
+  Values of_messages(const SignalUse& signal);
+  Values of_custody(const SignalUse& signal);
+  bool has_path(const std::string& uav, std::size_t from, std::size_t to);
+  Values of_work(const SignalUse& signal) const;
+  Values separation(const SignalUse& signal);
+  Values result(const SignalUse& signal) const;
+  Values debug(const SignalUse& signal);
+  Values on_off(const std::string& on, const std::string& off, const std::string& subject,
+                const std::string& object) const;
+  Values counted(const std::vector<std::size_t>& exchanges) const;
+  Values constant(double value) const { return Values(exchanges_, value); }
+  const RadioLog& radio();
+  const std::map<std::string, Track>& tracks();
+  std::size_t exchange_at(double time_s) const;
+  const std::vector<double>& use(const std::string& name, std::vector<std::string> arguments = {});
+
+  const RunRecord& run_;
+  const Scenario& scenario_;
+  const RunRecord* const undisturbed_;
+  const std::size_t exchanges_;
+  std::map<std::string, Values> known_;  ///< by SignalUse::text()
+  std::optional<RadioLog> radio_;
+  std::map<std::string, Track> tracks_;
+};
+
+}  // namespace skein::cli

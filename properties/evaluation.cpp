@@ -1,0 +1,242 @@
+#include "properties/evaluation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/text.hpp"
+
+namespace skein::properties {
+namespace {
+
+using Outcome = Verdict::Outcome;
+using Kind = Property::Kind;
+
+/// The signals of a property side by side, exchange by exchange.
+class Rows {
+ public:
+  Rows(const Property& property, RunSignals& run) : width_(property.signals.size()), size_(run.exchanges()) {
+    values_.resize(width_ * size_);
+    for (std::size_t slot = 0; slot < width_; ++slot) {
+      const std::vector<double>& signal = run.values(property.signals[slot]);
+      for (std::size_t k = 0; k < size_; ++k) values_[k * width_ + slot] = signal[k];
+    }
+  }
+
+  std::size_t size() const { return size_; }
+  std::span<const double> row(std::size_t k) const { return std::span(values_).subspan(k * width_, width_); }
+  Instant at(std::size_t k, std::size_t anchor) const { return {row(k), row(k == 0 ? 0 : k - 1), row(anchor)}; }
+
+  /// Whether any of the signals that can move did so from `first` to `last`; true when none of them can.
+  bool any_moved(const Property& property, std::size_t first, std::size_t last) const {
+    bool can_move = false;
+    for (std::size_t slot = 0; slot < width_; ++slot) {
+      const SignalUse& signal = property.signals[slot];
+      if (signal.is("time") || signal.is("result")) continue;
+      can_move = true;
+      for (std::size_t k = first + 1; k <= last; ++k) {
+        if (row(k)[slot] != row(first)[slot]) return true;
+      }
+    }
+    return !can_move;
+  }
+
+ private:
+  const std::size_t width_, size_;
+  std::vector<double> values_;
+};
+
+/// Exchanges [first, last] in which a property is looked at.
+struct Stretch {
+  std::size_t first = 0, last = 0;
+  bool is_whole = true;  ///< the run did not end before
+};
+
+/// A margin and the exchange that decided it.
+struct Decision {
+  Margin margin;
+  std::size_t at = 0;
+};
+
+class Evaluation {
+ public:
+  Evaluation(const Property& property, RunSignals& run)
+      : property_(property), run_(run), rows_(property, run), period_s_(run.period_s()) {}
+
+  Verdict verdict() {
+    if (rows_.size() == 0) return vacuous("the run has no exchange");
+    if (property_.window.from == Window::From::heal && !run_.healed_s()) {
+      return vacuous("a fault lasts to the end, so that nothing comes after it");
+    }
+    const auto whole = stretch(begin_s());
+    if (!whole)
+      return vacuous("the run ended at " + number_text(end_s()) + " s, before " + number_text(begin_s()) + " s");
+    const std::vector<std::size_t> starts = property_.whenever ? triggers(*whole) : std::vector{whole->first};
+    if (starts.empty()) return vacuous("what it waits for with 'whenever' never came");
+    Verdict worst;
+    bool decided = false;
+    for (const std::size_t start : starts) {
+      const Stretch part = property_.whenever ? from_trigger(start, *whole) : *whole;
+      const std::optional<Verdict> one = judge(part);
+      if (!one) continue;
+      if (!decided || one->margin < worst.margin ||
+          (one->outcome == Outcome::fails && worst.outcome != Outcome::fails)) {
+        worst = *one;
+      }
+      decided = true;
+    }
+    if (!decided) return vacuous("the run ended before it could be decided");
+    if (property_.kind == Kind::sometimes && worst.outcome == Outcome::fails) return vacuous("it was never reached");
+    if (worst.outcome == Outcome::holds && !rows_.any_moved(property_, whole->first, whole->last)) {
+      return vacuous("nothing that it is about ever moved");
+    }
+    return worst;
+  }
+
+ private:
+  double time_of(std::size_t k) const { return static_cast<double>(k) * period_s_; }
+  double end_s() const { return time_of(rows_.size() - 1); }
+  std::size_t exchange_at(double time_s) const {
+    return static_cast<std::size_t>(std::ceil(time_s / period_s_ - 1e-6));
+  }
+
+  double begin_s() const {
+    switch (property_.window.from) {
+      case Window::From::start:
+        return 0.0;
+      case Window::From::heal:
+        return *run_.healed_s();
+      case Window::From::time:
+        return property_.window.from_s;
+    }
+    return 0.0;
+  }
+
+  /// @returns nullopt when it begins after the run's end.
+  std::optional<Stretch> stretch(double from_s) const {
+    const std::size_t first = exchange_at(from_s);
+    if (first >= rows_.size()) return std::nullopt;
+    std::optional<double> until_s = property_.window.until_s;
+    if (property_.window.within_s && !property_.whenever) {
+      const double deadline_s = from_s + *property_.window.within_s;
+      until_s = std::min(until_s.value_or(deadline_s), deadline_s);
+    }
+    if (!until_s) return Stretch{first, rows_.size() - 1};
+    const auto last = static_cast<std::size_t>(std::floor(*until_s / period_s_ + 1e-6));
+    return Stretch{first, std::max(first, std::min(last, rows_.size() - 1)), last < rows_.size()};
+  }
+
+  Stretch from_trigger(std::size_t start, const Stretch& whole) const {
+    if (!property_.window.within_s) return {start, whole.last, whole.is_whole};
+    const auto last = start + static_cast<std::size_t>(std::floor(*property_.window.within_s / period_s_ + 1e-6));
+    return {start, std::min(last, rows_.size() - 1), last < rows_.size()};
+  }
+
+  /// When `whenever` becomes true.
+  std::vector<std::size_t> triggers(const Stretch& whole) const {
+    std::vector<std::size_t> starts;
+    bool before = false;
+    for (std::size_t k = whole.first; k <= whole.last; ++k) {
+      const bool now = margin_at(*property_.whenever, rows_.at(k, whole.first)).holds;
+      if (now && !before) starts.push_back(k);
+      before = now;
+    }
+    return starts;
+  }
+
+  /// @returns nullopt when the run ended before it was decided.
+  std::optional<Verdict> judge(const Stretch& part) const {
+    const Decision decision = decided(part);
+    const bool holds = decision.margin.holds;
+    const bool may_come = property_.kind == Kind::eventually || property_.kind == Kind::until;
+    if (may_come && !holds && !part.is_whole) return std::nullopt;
+    Verdict verdict;
+    verdict.outcome = holds ? Outcome::holds : Outcome::fails;
+    verdict.margin = decision.margin.margin;
+    verdict.unit = property_.condition.unit;
+    verdict.bound = property_.bound;
+    verdict.at_s = time_of(decision.at);
+    if (!holds) verdict.reason = failure(part, decision.at);
+    return verdict;
+  }
+
+  std::string failure(const Stretch& part, std::size_t at) const {
+    const std::string when = number_text(time_of(at)) + " s";
+    const std::string stretch =
+        "from " + number_text(time_of(part.first)) + " to " + number_text(time_of(part.last)) + " s";
+    switch (property_.kind) {
+      case Kind::always:
+        return "it did not hold at " + when;
+      case Kind::never:
+        return "it held at " + when;
+      case Kind::until:
+        return "it did not hold until the other did, " + stretch;
+      case Kind::sometimes:
+      case Kind::eventually:
+        return "it never held " + stretch;
+    }
+    return "";
+  }
+
+  Decision decided(const Stretch& part) const {
+    if (property_.kind == Kind::until) return decided_until(part);
+    const bool all = property_.kind == Kind::always || property_.kind == Kind::never;
+    std::optional<Decision> result;
+    for (std::size_t k = part.first; k <= part.last; ++k) {
+      const Margin margin = margin_here(k, part.first);
+      const bool decides = !result || (all ? worse(margin, result->margin) : worse(result->margin, margin));
+      if (decides) result = Decision{margin, k};
+    }
+    return *result;
+  }
+
+  Decision decided_until(const Stretch& part) const {
+    Margin so_far = certain(true);
+    std::optional<Decision> result;
+    for (std::size_t k = part.first; k <= part.last; ++k) {
+      const Margin here = both(margin_at(property_.goal, rows_.at(k, part.first)), so_far);
+      if (!result || worse(result->margin, here)) result = Decision{here, k};
+      so_far = both(so_far, margin_at(property_.condition, rows_.at(k, part.first)));
+    }
+    return *result;
+  }
+
+  Margin margin_here(std::size_t k, std::size_t anchor) const {
+    const Margin margin = margin_at(property_.condition, rows_.at(k, anchor));
+    return property_.kind == Kind::never ? opposite(margin) : margin;
+  }
+
+  /// What does not hold is worse than what does, whatever a margin of 0 says.
+  static bool worse(const Margin& a, const Margin& b) { return a.holds != b.holds ? !a.holds : a.margin < b.margin; }
+
+  Verdict vacuous(const std::string& reason) const { return {.bound = property_.bound, .reason = reason}; }
+
+  const Property& property_;
+  RunSignals& run_;
+  const Rows rows_;
+  const double period_s_;
+};
+
+}  // namespace
+
+Verdict evaluate(const Property& property, RunSignals& run) { return Evaluation(property, run).verdict(); }
+
+Verdict worst_of(const std::vector<Verdict>& verdicts) {
+  const auto rank = [](const Verdict& verdict) {
+    const int kind = verdict.outcome == Outcome::fails ? 0 : verdict.outcome == Outcome::holds ? 1 : 2;
+    return std::pair(kind, verdict.margin);
+  };
+  return *std::ranges::min_element(verdicts, {}, rank);
+}
+
+std::vector<double> margins_over_time(const Property& property, RunSignals& run) {
+  const Rows rows(property, run);
+  std::vector<double> margins;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Margin margin = margin_at(property.condition, rows.at(k, 0));
+    margins.push_back(property.kind == Kind::never ? -margin.margin : margin.margin);
+  }
+  return margins;
+}
+
+}  // namespace skein::properties

@@ -1,0 +1,159 @@
+#include "properties/property_file.hpp"
+
+#include <algorithm>
+
+#include "core/config_files.hpp"
+#include "core/suggestion.hpp"
+#include "properties/property_parser.hpp"
+
+namespace skein::properties {
+namespace {
+
+/// What stands in the place of a text for a ready property with its usual parameters.
+constexpr std::string_view kReady = "ready";
+
+std::filesystem::path ready_dir() { return default_config_dir() / "properties"; }
+
+struct ReadyFile {
+  std::string name, description, property;
+  skein::Named<std::string> parameters;
+
+  template <class R>
+  void describe(R& r) {
+    r.field("name", name);
+    r.required("description", description);
+    r.field("parameters", parameters);
+    r.required("property", property);
+  }
+};
+
+struct PropertyFile {
+  std::string name, description;
+  PropertyEntries properties;
+
+  template <class R>
+  void describe(R& r) {
+    r.field("name", name);
+    r.field("description", description);
+    r.required("properties", properties);
+  }
+};
+
+/// "20 s". @throws ExpressionError.
+Quantity quantity_of(const std::string& text) {
+  ExpressionText letters(text);
+  const bool negative = letters.accept_mark("-");
+  if (!letters.at_number()) ExpressionText::fail(letters.at(), "here must be a number, not " + letters.next_text());
+  Quantity value = letters.number();
+  letters.expect_end();
+  if (negative) value.value = -value.value;
+  return value;
+}
+
+std::string unit_name(const Unit& unit) {
+  return unit == kPlainNumber ? "a plain number" : "a number of " + unit_text(unit);
+}
+
+/// Reads one property; what is wrong in it is told at `key` of the document that `errors` is about.
+void parse_text(NamedProperty& property, const std::map<std::string, Quantity>& parameters, const Scenario& scenario,
+                const std::string& key, ConfigErrors& errors) {
+  try {
+    property.cases = parse_property(property.name, property.text, scenario, parameters);
+  } catch (const ExpressionError& error) {
+    errors.add_at(key, error.at, error.what());
+  }
+}
+
+/// A ready property: what is wrong with its own file is no matter of who asks for it.
+class ReadyReader {
+ public:
+  ReadyReader(const std::string& name, const Scenario& scenario)
+      : ready_(load_ready_property(name)), scenario_(scenario) {
+    for (const auto& [parameter, value] : ready_.parameters) parameters_[parameter] = quantity_of(value);
+  }
+
+  /// @param key  of the parameters in the document that `errors` is about.
+  void set(const skein::Named<std::string>& given, const std::string& key, ConfigErrors& errors) {
+    for (const auto& [parameter, text] : given) {
+      const std::string path = key + "." + parameter;
+      const auto known = parameters_.find(parameter);
+      if (known == parameters_.end()) {
+        std::vector<std::string> names;
+        for (const auto& [name, value] : parameters_) names.push_back(name);
+        errors.check(false, path, "'" + ready_.name + "' has no such parameter; " + suggestion(parameter, names));
+        continue;
+      }
+      set_one(known->second, text, path, errors);
+    }
+  }
+
+  NamedProperty read(const std::string& name, const std::string& key, ConfigErrors& errors) const {
+    NamedProperty property{name, ready_.text, {}};
+    try {
+      property.cases = parse_property(name, ready_.text, scenario_, parameters_);
+    } catch (const ExpressionError& error) {
+      errors.check(false, key, "the ready property '" + ready_.name + "' does not fit here: " + error.what());
+    }
+    return property;
+  }
+
+ private:
+  static void set_one(Quantity& value, const std::string& text, const std::string& path, ConfigErrors& errors) {
+    try {
+      const Quantity given = quantity_of(text);
+      if (given.unit != value.unit) {
+        ExpressionText::fail(0, "must be " + unit_name(value.unit) + ", not " + unit_name(given.unit));
+      }
+      value = given;
+    } catch (const ExpressionError& error) {
+      errors.add_at(path, error.at, error.what());
+    }
+  }
+
+  const ReadyProperty ready_;
+  const Scenario& scenario_;
+  std::map<std::string, Quantity> parameters_;
+};
+
+}  // namespace
+
+ReadyProperty load_ready_property(const std::string& name) {
+  const auto file = find_config_file("ready property", name, ready_dir());
+  const auto content = read_config_file<ReadyFile>(file);
+  return {name, content.description, content.property, {content.parameters.begin(), content.parameters.end()}};
+}
+
+std::vector<std::string> ready_property_names() { return config_names(ready_dir()); }
+
+PropertySet parse_properties(const PropertyEntries& entries, const std::string& key, const Scenario& scenario,
+                             ConfigErrors& errors) {
+  PropertySet set;
+  const std::vector<std::string> ready = ready_property_names();
+  for (const auto& [name, entry] : entries) {
+    const std::string path = key + "." + name;
+    const std::string* text = std::get_if<std::string>(&entry);
+    if (text != nullptr && *text != kReady) {
+      parse_text(set.emplace_back(NamedProperty{name, *text, {}}), {}, scenario, path, errors);
+      continue;
+    }
+    if (std::ranges::find(ready, name) == ready.end()) {
+      errors.check(false, path, "there is no ready property '" + name + "'; " + suggestion(name, ready));
+      continue;
+    }
+    ReadyReader reader(name, scenario);
+    if (text == nullptr) reader.set(std::get<1>(entry), path, errors);
+    set.push_back(reader.read(name, path, errors));
+  }
+  return set;
+}
+
+PropertySet load_properties(const std::filesystem::path& file, const Scenario& scenario) {
+  const ConfigDocument document = read_config_document(file);
+  const auto content = read_config<PropertyFile>(document);
+  ConfigErrors errors(document);
+  PropertySet set = parse_properties(content.properties, "properties", scenario, errors);
+  errors.throw_if_any();
+  return set;
+}
+
+}  // namespace skein::properties
