@@ -49,6 +49,7 @@ std::vector<SignalInfo> make_table() {
              "acknowledged captures for which there was a way: an open link to the station after they were taken, and "
              "an open link back after that, with the programs on the way taking part"),
       number("score", {}, 0, kPlainNumber, kAfterwards, "of what is delivered, as the station counts it"),
+      number("points", {}, 0, kPlainNumber, kAfterwards, "interest points with a delivered capture that counts"),
       number("earned", {}, 0, kPlainNumber, kAfterwards, "score of all captures, delivered or not"),
       number("sent", {node, node, topic}, 0, kPlainNumber, kAfterwards,
              "radio messages sent, once for each target: from, to, on a topic; what is left out means all"),

@@ -226,7 +226,9 @@ Verdict worst_of(const std::vector<Verdict>& verdicts) {
     const int kind = verdict.outcome == Outcome::fails ? 0 : verdict.outcome == Outcome::holds ? 1 : 2;
     return std::pair(kind, verdict.margin);
   };
-  return *std::ranges::min_element(verdicts, {}, rank);
+  Verdict worst = *std::ranges::min_element(verdicts, {}, rank);
+  if (worst.outcome == Outcome::vacuous && verdicts.size() > 1) worst.bound.clear();  // so are all
+  return worst;
 }
 
 std::vector<double> margins_over_time(const Property& property, RunSignals& run) {

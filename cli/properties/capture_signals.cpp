@@ -97,9 +97,11 @@ FolderSignals::Values FolderSignals::of_captures(const SignalUse& signal) {
     for (std::size_t k = 0; k < exchanges_; ++k) held[k] -= released[k];
     return held;
   }
-  if (signal.is("score")) {
+  if (signal.is("score") || signal.is("points")) {
     std::vector<std::pair<double, double>> steps;
-    for (const ScoreRow& row : run_.scores) steps.emplace_back(row.time_s, row.score);
+    for (const ScoreRow& row : run_.scores) {
+      steps.emplace_back(row.time_s, signal.is("score") ? row.score : row.points);
+    }
     return stepped(steps);
   }
   if (signal.is("earned")) return stepped(earned_steps(run_, scenario_));

@@ -49,13 +49,16 @@ FolderSignals::Values FolderSignals::of_messages(const SignalUse& signal) {
     }
     return values;
   }
+  std::map<std::pair<std::string, std::string>, const std::vector<double>*> links;
+  const auto was_open = [&](const RadioArrival& arrival) {
+    const std::vector<double>*& link = links[{arrival.stream.source, arrival.target}];
+    if (link == nullptr) link = &use("link", {arrival.stream.source, arrival.target});
+    return arrival.sent < exchanges_ && (*link)[arrival.sent] > 0.0;
+  };
   for (const RadioArrival& arrival : radio().arrivals) {
     if (!is_meant(arrival.stream, arrival.target)) continue;
     if (signal.is("arrived_once") && arrival.again) continue;
-    if (signal.is("arrived_by_link")) {
-      const std::vector<double>& link = use("link", {arrival.stream.source, arrival.target});
-      if (arrival.sent >= exchanges_ || link[arrival.sent] == 0.0) continue;
-    }
+    if (signal.is("arrived_by_link") && !was_open(arrival)) continue;
     exchanges.push_back(arrival.arrives);
   }
   return counted(exchanges);

@@ -42,7 +42,7 @@ RunRecord read_run(const std::filesystem::path& dir) {
                                 table.number_if_any("clearance")});
   }
   for (CsvTable table(dir / run_folder::kScoreTimeline); table.next();) {
-    record.scores.push_back({table.number("time_s"), table.number("score")});
+    record.scores.push_back({table.number("time_s"), table.number("score"), table.number("points")});
   }
   return record;
 }

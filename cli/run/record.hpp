@@ -52,9 +52,9 @@ struct PositionRow {
   std::optional<double> clearance_m = {};  ///< to the structure
 };
 
-/// The delivered score from this time on (score_timeline.csv).
+/// The delivered score from this time on, and of how many points (score_timeline.csv).
 struct ScoreRow {
-  double time_s = 0.0, score = 0.0;
+  double time_s = 0.0, score = 0.0, points = 0.0;
 };
 
 struct RunRecord {
