@@ -124,6 +124,9 @@ function(skein_add_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
     SKEIN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SKEIN_BIN_DIR="${CMAKE_BINARY_DIR}/bin")
+  # Tests are half of what is compiled and most of what is linked; less care for them is a quarter less time.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_link_options(${name} PRIVATE $<$<CONFIG:Release>:-Wl,--strip-debug,--compress-debug-sections=none>)
   add_test(NAME ${name} COMMAND ${name})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
