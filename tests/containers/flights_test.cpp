@@ -69,14 +69,14 @@ TEST_F(FlightInContainers, FaultsMeanTheSame) {
 TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
   const fs::path context = folder() / "image";
   fs::create_directory(context);
-  fs::copy_file(SKEIN_CRASH_AGENT, context / "my_agent");
+  fs::copy_file(SKEIN_PROBE_AGENT, context / "my_agent");
   std::ofstream(context / "Dockerfile")
       << "FROM skein-agent\nCOPY my_agent /usr/local/bin/\nENTRYPOINT [\"my_agent\"]\n";
   const std::string image = "skein-test-" + std::to_string(::getpid());
   const Answer built = shell("docker build --tag " + image + " " + context.string());
   ASSERT_EQ(built.code, 0) << built.text;
   const auto flown = [&](const std::string& of, const Arguments& more) {
-    Arguments all = arguments("patrol,jurong=crash:at_s=100" + of, "60", more);
+    Arguments all = arguments("patrol,jurong=probe:east_m=20" + of, "60", more);
     all.insert(all.end(), {"--uavs", "4"});
     return all;
   };
@@ -85,7 +85,7 @@ TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
   expect_whole(run);
   EXPECT_EQ(run.result()["uavs"].size(), 4u);
   EXPECT_GT(run.result()["uavs"][0]["distance_m"], 1.0) << "it took off";
-  EXPECT_EQ(flight_of(run), alone(flown(std::string("@") + SKEIN_CRASH_AGENT, {})));
+  EXPECT_EQ(flight_of(run), alone(flown(std::string("@") + SKEIN_PROBE_AGENT, {})));
 }
 
 class TwentyUavs : public FlightInContainers, public testing::WithParamInterface<std::string> {};
