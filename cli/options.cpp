@@ -142,6 +142,12 @@ void add_compose(CLI::App& app, ComposeOptions& compose) {
       ->allow_extra_args(false);
   command->add_option("--subnet", compose.subnet,
                       "IPv4 network to divide, as 172.30.0.0/20 (default: the engine's address pools)");
+  command
+      ->add_option("--debug", compose.run.debug,
+                   "This program stands until a debugger is attached, the fleet waits (UAV, gcs or a server)")
+      ->type_name("UAV")
+      ->allow_extra_args(false)
+      ->excludes("--agent-timeout");
   command->add_option("--build-folder", compose.build, "Fly the programs of this build instead of the images'");
   add_result_options(command, compose.run);
   command->footer(
