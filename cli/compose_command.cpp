@@ -178,8 +178,8 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   return result ? exit_code_of(run, *result) : kExitProcessFailed;
 }
 
-/// Containers do not inherit SKEIN_ASSETS; only scenes from files need what it names. A debugger comes to a program, for
-/// no terminal is the container's.
+/// Containers do not inherit SKEIN_ASSETS; only scenes from files need what it names. And they have no terminal: a
+/// debugger comes to the program.
 FleetPlan plan_in_containers(RunOptions options) {
   for (std::string& debugged : options.debug) {
     const std::size_t equals = debugged.find('=');

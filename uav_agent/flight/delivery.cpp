@@ -122,7 +122,7 @@ bool Delivery::step(const PlannerInput& in, const FreeSpace::Config& space, Plan
   if (pilot_.has_path() || in.tick < next_try_) return false;
   next_try_ = in.tick + ticks(kRetryS);
   FreeSpace::Config way = space;
-  Proof::lessen(way, static_cast<std::size_t>(failures_ / kFailuresToAskLess));
+  way.rays = Proof::of(space.rays, static_cast<std::size_t>(failures_ / kFailuresToAskLess));
   heading_home_ = pilot_.fly_to(home(), in, way, out).found;
   if (heading_home_) return false;
   next_place();

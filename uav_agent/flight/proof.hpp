@@ -8,7 +8,7 @@
 #include <array>
 
 #include "core/types.hpp"
-#include "uav_agent/flight/free_space.hpp"
+#include "uav_agent/maps/occupancy_map.hpp"
 
 namespace skein::agent {
 
@@ -19,13 +19,15 @@ class Proof {
   /// @param roomy  the site has a box that is too large to be one piece of structure (site.hpp): what is thin in it
   /// takes many rays to be found.
   static int rays(bool roomy) { return roomy ? kRoomyRays : kProofRays; }
-  /// So many rungs further down than what the space asks for. On the last one, the low space away from all boxes is
-  /// taken to be free.
-  static void lessen(FreeSpace::Config& space, std::size_t rung) {
-    space.rays = space.rays * kRungs[std::min(rung, kLast)] / kRungs.front();
-    if (rung >= kLast) space.blind_height_m = 0.0;
+  /// So many rungs further down than so many rays, but never next to nothing.
+  static int of(int rays, std::size_t rung) {
+    const int least = std::min(rays, rays > kProofRays ? kLeastRoomyRays : kLeastRays);
+    return std::max(least, rays * kRungs[std::min(rung, kLast)] / kRungs.front());
   }
-  void lessen(FreeSpace::Config& space) const { lessen(space, rung_); }
+  int of(int rays) const { return of(rays, rung_); }
+  /// A planner that gets there late may take the low space away from all boxes to be free then. Who gets there in the
+  /// first seconds must not: there is structure in it (mbs).
+  bool at_last() const { return rung_ == kLast; }
 
   void ask_less() { rung_ = std::min(rung_ + 1, kLast); }
   /// Until then, or until it asks for less again.
@@ -40,7 +42,7 @@ class Proof {
   void ask_all() { rung_ = 0; }
 
  private:
-  static constexpr int kRoomyRays = 16;
+  static constexpr int kRoomyRays = 16, kLeastRoomyRays = 8, kLeastRays = 4;
   static constexpr std::array<int, kLast + 1> kRungs = {12, 9, 6, 4};
 
   std::size_t rung_ = 0;

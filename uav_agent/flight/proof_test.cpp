@@ -8,36 +8,41 @@
 namespace skein::agent {
 namespace {
 
-FreeSpace::Config asked(const Proof& proof, bool roomy) {
-  FreeSpace::Config config{.blind_height_m = 10.0, .rays = Proof::rays(roomy)};
-  proof.lessen(config);
-  return config;
-}
+int asked(const Proof& proof, bool roomy) { return proof.of(Proof::rays(roomy)); }
 
 TEST(Proof, WhoSaysNothingAsksForAllOfIt) {
   EXPECT_EQ(FreeSpace::Config().rays, Proof::rays(false));
   EXPECT_EQ(VoxelMapper::Config().rays, Proof::rays(false));
-  for (const bool roomy : {false, true}) EXPECT_EQ(asked(Proof(), roomy).rays, Proof::rays(roomy));
+  for (const bool roomy : {false, true}) EXPECT_EQ(asked(Proof(), roomy), Proof::rays(roomy));
 }
 
 TEST(Proof, LessIsAskedRungByRungAndNeverLittle) {
   for (const bool roomy : {false, true}) {
     Proof proof;
     for (std::size_t rung = 0; rung < 10; ++rung) {
-      const FreeSpace::Config now = asked(proof, roomy);
-      EXPECT_GE(now.rays, asked(proof, false).rays);
-      EXPECT_EQ(now.blind_height_m, rung < Proof::kLast ? 10.0 : 0.0);
+      const int now = asked(proof, roomy);
+      EXPECT_GE(now, asked(proof, false));
+      EXPECT_EQ(proof.at_last(), rung >= Proof::kLast);
       proof.ask_less();
-      EXPECT_LE(asked(proof, roomy).rays, now.rays);
+      EXPECT_LE(asked(proof, roomy), now);
     }
-    EXPECT_GE(asked(proof, roomy).rays, Proof::rays(roomy) / 4);
+    EXPECT_GE(asked(proof, roomy), Proof::rays(roomy) / 4);
     proof.ask_all();
-    EXPECT_EQ(asked(proof, roomy).rays, Proof::rays(roomy));
+    EXPECT_EQ(asked(proof, roomy), Proof::rays(roomy));
+  }
+}
+
+TEST(Proof, WhoAlreadyAsksForLittleIsNotTalkedOutOfIt) {
+  for (int rays = 1; rays < 20; ++rays) {
+    for (std::size_t rung = 0; rung < 6; ++rung) {
+      EXPECT_LE(Proof::of(rays, rung), rays);
+      EXPECT_GE(Proof::of(rays, rung), std::min(rays, 4));
+    }
   }
 }
 
 TEST(Proof, SettlesWhenItsTimeIsOver) {
-  const auto rays = [](const Proof& proof) { return asked(proof, false).rays; };
+  const auto rays = [](const Proof& proof) { return asked(proof, false); };
   Proof proof;
   proof.ask_less(ticks(10.0));
   proof.settle(ticks(9.9));

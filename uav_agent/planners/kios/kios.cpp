@@ -155,9 +155,8 @@ FreeSpace::Config KiosPlanner::space_config() const {
   FreeSpace::Config config;
   config.clearance_m = clearance_m();
   config.jut_m = config_.jut_m;
-  config.rays = Proof::rays(site_.roomy);
-  config.blind_height_m = site_.blind_height_m;
-  proof_.lessen(config);
+  config.rays = proof_.of(Proof::rays(site_.roomy));
+  config.blind_height_m = proof_.at_last() ? 0.0 : site_.blind_height_m;
   config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = hearsay_ ? &*hearsay_ : nullptr;
   return config;

@@ -127,12 +127,11 @@ FreeSpace::Config PatrolPlanner::space_config() const {
   config.use_map = config_.use_map;
   config.jut_m = 0.0;  // it works at a fixed distance from the boxes' faces, seen or not
   const bool roomy = blocks_ && blocks_->any();
-  config.rays = Proof::rays(roomy);
+  config.rays = proof_.of(Proof::rays(roomy));
   if (roomy) {
     config.enter_radius_m = kAnywhereM;  // ways through a roomy box do not lead through a building
   }
-  config.blind_height_m = blind_height_m_;
-  proof_.lessen(config);
+  config.blind_height_m = proof_.at_last() ? 0.0 : blind_height_m_;
   return config;
 }
 

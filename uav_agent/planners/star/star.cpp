@@ -153,9 +153,8 @@ PlannerOutput StarPlanner::plan(const PlannerInput& in) {
 FreeSpace::Config StarPlanner::space_config() const {
   FreeSpace::Config config;
   config.clearance_m = centre_clearance_m(agent_, config_.clearance_m);
-  config.rays = Proof::rays(site_.roomy);
+  config.rays = proof_.of(Proof::rays(site_.roomy));
   config.blind_height_m = site_.safe_height_m();
-  proof_.lessen(config);
   config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = known_ ? known_->hearsay() : nullptr;
   return config;

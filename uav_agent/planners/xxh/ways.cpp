@@ -25,9 +25,9 @@ double XxhWays::clearance_m() const { return centre_clearance_m(agent_, config_.
 FreeSpace::Config XxhWays::space() const {
   FreeSpace::Config config;
   config.clearance_m = clearance_m();
-  config.rays = Proof::rays(site_.roomy);
+  const int rung = std::max(fruitless_ / kFruitlessToBold, dared_);
+  config.rays = Proof::of(Proof::rays(site_.roomy), static_cast<std::size_t>(rung));
   config.blind_height_m = site_.blind_height_m;
-  Proof::lessen(config, static_cast<std::size_t>(std::max(fruitless_ / kFruitlessToBold, dared_)));
   config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = hearsay_;
   return config;
