@@ -84,7 +84,8 @@ struct CheckOptions {
 struct SceneOptions {
   std::string scenario;
   std::optional<std::uint64_t> scene_seed;
-  std::filesystem::path out;
+  std::optional<std::filesystem::path> out;  ///< folder for its files
+  bool picture = false;                      ///< a drawing: there, else in the current folder
   std::optional<std::filesystem::path> assets;
   bool force = false;
 };
