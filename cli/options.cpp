@@ -223,8 +223,16 @@ void add_compare(CLI::App& app, StudyOptions& study) {
   add_study_options(*command, study);
   command->add_option("--seeds", study.seeds, "How many (seeds 0 to K-1), or which: 3,5,8 or 1-5")
       ->capture_default_str();
-  command->add_option("--scene-seed", study.scene_seed, "Which scene of a procedural family")
-      ->check(CLI::Validator(check_seed, ""));
+  CLI::Option* const one = command->add_option("--scene-seed", study.scene_seed, "Which scene of a procedural family");
+  one->check(CLI::Validator(check_seed, ""));
+  command->add_option("--scene-seeds", study.scene_seeds, "Many scenes of a family, as --seeds has them: 0-99")
+      ->excludes(one);
+  command->add_option("--faults", study.faults, "Fault file: what goes wrong in every flight");
+  command->add_flag("--secure", study.secure, "DDS Security, as for `skein run`");
+  command
+      ->add_option("--require", study.requirements,
+                   "What every flight must keep: collisions==0, attainable_percent>=5, ...")
+      ->allow_extra_args(false);
 }
 
 /// What only `skein doctor net` has a use for.
