@@ -16,18 +16,21 @@ class SceneCommand : public ::testing::Test {
 TEST_F(SceneCommand, HandsItsOptionsToTheServer) {
   const std::filesystem::path told = programs_.dir() / "told";
   write_script(programs_.dir() / "sim_server", "echo \"$@\" > " + told.string());
-  EXPECT_EQ(export_scene({"towers", {}, "there", {}, false}), kExitDone);
+  EXPECT_EQ(export_scene({.scenario = "towers", .out = "there"}), kExitDone);
   EXPECT_EQ(read_text(told), "--scenario towers --export-scene there\n");
-  EXPECT_EQ(export_scene({"mine.yaml", 7, "there", "assets", true}), kExitDone);
+  EXPECT_EQ(export_scene({.scenario = "mine.yaml", .scene_seed = 7, .out = "there", .assets = "assets", .force = true}),
+            kExitDone);
   EXPECT_EQ(read_text(told),
             "--scenario mine.yaml --export-scene there --scene-seed 7 --assets assets --overwrite-export\n");
+  EXPECT_EQ(export_scene({.scenario = "towers", .picture = true}), kExitDone);
+  EXPECT_EQ(read_text(told), "--scenario towers --scene-picture .\n");
 }
 
 TEST_F(SceneCommand, ItsExitCodeIsOurs) {
   write_script(programs_.dir() / "sim_server", "exit 2");
-  EXPECT_EQ(export_scene({"towers", {}, "there", {}, false}), kExitBadInput);
+  EXPECT_EQ(export_scene({.scenario = "towers", .out = "there"}), kExitBadInput);
   write_script(programs_.dir() / "sim_server", "kill -9 $$");
-  EXPECT_EQ(export_scene({"towers", {}, "there", {}, false}), kExitProcessFailed);
+  EXPECT_EQ(export_scene({.scenario = "towers", .out = "there"}), kExitProcessFailed);
 }
 
 }  // namespace
