@@ -20,16 +20,10 @@ class ReportInABrowser : public FleetTest {
     }
   }
 
-  /// What look.mjs finds wrong with the pages of these runs.
-  void look(const std::vector<std::string>& runs) {
-    Arguments argv = {command_file("node"),
-                      SKEIN_SOURCE_DIR "/tests/report/look.mjs",
-                      kWeb,
-                      command_file("chromium"),
-                      program("skein"),
-                      kBundle};
-    for (const std::string& name : runs) argv.push_back(folder() / name);
-    ChildProcess& node = start_program("look", argv);
+  /// What look.mjs finds wrong with the page of a run.
+  void look(const std::string& run) {
+    ChildProcess& node = start_program("look", {command_file("node"), SKEIN_SOURCE_DIR "/tests/report/look.mjs", kWeb,
+                                                command_file("chromium"), program("skein"), kBundle, folder() / run});
     EXPECT_EQ(node.wait().code, 0) << node.err() << node.out();
     EXPECT_EQ(node.out(), "");
   }
@@ -41,12 +35,13 @@ TEST_F(ReportInABrowser, OfWholeRuns) {
       {"towers", "--one-process", "--planner", "patrol", "--duration", "40", "--seed", "3", "--no-oracle", "--faults",
        write("faults.yaml",
              "faults:\n  - {at_s: 12, until_s: 20, station_outage: true}\n  - {at_s: 15, kill: changi}\n")});
-  look({"usual", "faulty"});
+  look("usual");
+  look("faulty");
 }
 
 TEST_F(ReportInABrowser, OfRunsThatCameToNothing) {
   run("short", {"towers", "--one-process", "--planner", "hover", "--stop-at", "1"});
-  look({"short"});
+  look("short");
 }
 
 }  // namespace
