@@ -156,14 +156,21 @@ void Pilot::stop(PlannerOutput& out) {
 
 std::string Way::why() const {
   if (found) return "there is a way";
+  if (gave_up) return "the search for a way gave up: it took too much effort";
   if (at_goal == Barrier::none) return "no way was found to a place that is free";
   return "the goal is " + std::string(to_string(at_goal));
 }
 
 Way Pilot::fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
   const FreeSpace free_space = way_space(in, space, goal);
-  const auto corners = find_path(free_space, in.boxes, in.tracking.setpoint.p_WB, goal);
-  if (!corners) return {.found = false, .at_goal = free_space.barrier(goal)};
+  bool gave_up = false;
+  const auto corners = find_path(free_space, in.boxes, in.tracking.setpoint.p_WB, goal, {}, &gave_up);
+  if (!corners) {
+    const Way none{.found = false, .at_goal = free_space.barrier(goal), .gave_up = gave_up};
+    out.no_way = none.why();
+    return none;
+  }
+  out.no_way.clear();
   Path path;
   for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.speed_mps});
   follow(std::move(path), out);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "core/euler.hpp"
 #include "uav_agent/flight/lift_off.hpp"
+#include "uav_agent/flight/way_out.hpp"
 
 namespace skein::agent {
 namespace {
@@ -12,6 +14,13 @@ constexpr double kClimbAgainS = 1.0;  ///< after a climb was stopped
 constexpr int kMaxClimbs = 20;
 constexpr double kLowestPlaceM = 6.0;  ///< for delivery
 constexpr double kAboveBlindM = 2.0;
+constexpr double kTurnAfterS = 5.0, kTurnEveryS = 1.1;  ///< of standing still; a little more than key frames are apart
+constexpr double kTurn = 0.8;                           ///< [rad]
+constexpr double kStirAfterS = 16.0, kStirEveryS = 4.0;
+constexpr int kMostStirred = 4;           ///< attempts that grow less careful
+constexpr double kLeastClearanceM = 0.7;  ///< of the body, when nothing else has helped
+constexpr double kWaitsS = 1.0;
+constexpr double kAnywhereM = 1e6;
 
 }  // namespace
 
@@ -28,9 +37,11 @@ void Sortie::know_site(double top_m, double blind_height_m) {
 }
 
 Sortie::Turn Sortie::step(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
+  watch_.update(in);
   if (state_ == State::ground) return leave_ground(in, out);
   delivery_.update(in, top_m_);
-  if (state_ == State::working && delivery_.due(in)) {
+  const bool working = state_ == State::working || state_ == State::stirring;
+  if (working && delivery_.due(in)) {
     state_ = State::delivering;
     delivery_.begin(in, space, std::max(blind_height_m_ + kAboveBlindM, kLowestPlaceM), out);
     return Turn::leave;
@@ -38,8 +49,43 @@ Sortie::Turn Sortie::step(const PlannerInput& in, const FreeSpace::Config& space
   situation_ = pilot_.look_out(in, space, state_ != State::climbing, out);
   if (situation_ != Situation::flying_on) return react(in, out);
   if (state_ == State::climbing) return in.tracking.done ? climb(in, out) : Turn::nothing;
-  if (state_ == State::working) return Turn::work;
+  if (state_ == State::stirring) return in.tracking.done ? begin_work() : Turn::nothing;
+  look_around(in, out);
+  if (state_ == State::working) return stir(in, space, out) ? Turn::leave : Turn::work;
   return delivery_.step(in, space, out) ? begin_work() : Turn::nothing;
+}
+
+void Sortie::waits_for(std::size_t uav, const PlannerInput& in, PlannerOutput& out) {
+  waits_at_ = in.tick;
+  out.waits_for = uav;
+}
+
+/// A LiDAR that has turned makes a new key frame: who stands still learns more of what is around.
+void Sortie::look_around(const PlannerInput& in, PlannerOutput& out) {
+  if (agent_.me().role != Role::explorer || !in.tracking.done || in.tick < turn_at_) return;
+  if (watch_.still_s(in.tick) < kTurnAfterS) return;
+  out.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
+  turn_at_ = in.tick + ticks(kTurnEveryS);
+}
+
+/// Takes it somewhere else. @returns whether it sets out.
+bool Sortie::stir(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
+  const double still_s = watch_.still_s(in.tick);
+  if (still_s < kTurnAfterS) stirred_ = 0;
+  const bool waits = seconds(in.tick - waits_at_) < kWaitsS;
+  if (waits || still_s < kStirAfterS || in.tick < stir_at_) return false;
+  stir_at_ = in.tick + ticks(kStirEveryS);
+  const int attempt = std::min(stirred_++, kMostStirred);
+  FreeSpace::Config careful = less_careful(space, attempt, agent_.me().body_radius_m + kLeastClearanceM);
+  careful.enter_radius_m = kAnywhereM;
+  const Vector3d here = in.tracking.setpoint.p_WB;
+  const auto corners = find_way_out(pilot_.way_space(in, careful, here), in.boxes, here, stirred_);
+  if (!corners) return false;
+  Path path;
+  for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.retreat_mps});
+  pilot_.follow(std::move(path), out);
+  state_ = State::stirring;
+  return true;
 }
 
 Sortie::Turn Sortie::leave_ground(const PlannerInput& in, PlannerOutput& out) {
@@ -85,6 +131,9 @@ Sortie::Turn Sortie::react(const PlannerInput& in, PlannerOutput& out) {
   if (state_ == State::working) return Turn::blocked;
   if (state_ == State::climbing) {
     not_before_ = in.tick + ticks(kClimbAgainS);
+  } else if (state_ == State::stirring) {
+    state_ = State::working;
+    return Turn::begin;
   } else {
     situation_ == Situation::obstacle ? delivery_.try_again(in) : delivery_.try_elsewhere(in);
   }

@@ -40,6 +40,9 @@ class OneSortie : public testing::Test {
     PlannerOutput out;
     const Turn turn = sortie_.step(in, {}, out);
     if (const Path* path = std::get_if<Path>(&out.motion)) p_WB_ = path->waypoints.back().p_WB;
+    turned_ += out.yaw.has_value();
+    if (waits_) sortie_.waits_for(0, in, out);
+    waited_ += out.waits_for.has_value();
     return turn;
   }
   /// Steps until something else than nothing is to be done.
@@ -59,6 +62,8 @@ class OneSortie : public testing::Test {
   std::optional<double> remaining_s_;
   bool linked_ = false;
   std::size_t undelivered_ = 0;
+  bool waits_ = false;
+  int turned_ = 0, waited_ = 0;  ///< exchanges
 };
 
 TEST_F(OneSortie, NobodyBeginsBeforeTheBoxesAreKnown) {
@@ -85,7 +90,10 @@ TEST_F(OneSortie, LeavesToDeliverAndBeginsAgain) {
   undelivered_ = 5;
   Turn turn = Turn::work;
   int steps = 0;
-  for (; turn == Turn::work && steps < 100; ++steps) turn = step();
+  for (; turn == Turn::work && steps < 100; ++steps) {
+    p_WB_.x() += 2.0;  // it gets on
+    turn = step();
+  }
   EXPECT_EQ(turn, Turn::leave);
   EXPECT_NEAR(0.5 * steps, 30.0, 2.0) << "deliver_every_s";
   EXPECT_FALSE(sortie_.working());
@@ -93,6 +101,40 @@ TEST_F(OneSortie, LeavesToDeliverAndBeginsAgain) {
   linked_ = true;
   undelivered_ = 0;
   EXPECT_EQ(next(), Turn::begin);
+}
+
+TEST_F(OneSortie, WhoStandsStillIsTurnedThenTakenElsewhereAndBeginsAgain) {
+  sortie_.know_site(20.0, 0.0);
+  ASSERT_EQ(next(), Turn::begin);
+  const Vector3d stood = p_WB_;
+  Turn turn = Turn::work;
+  int steps = 0;
+  for (; turn == Turn::work && steps < 100; ++steps) turn = step();
+  EXPECT_EQ(turn, Turn::leave);
+  EXPECT_LT(0.5 * steps, 20.0);
+  EXPECT_GT(turned_, 3) << "its LiDAR sees more";
+  EXPECT_GT((p_WB_ - stood).norm(), 5.0);
+  EXPECT_EQ(next(), Turn::begin);
+}
+
+TEST_F(OneSortie, WhoHasNoLidarIsNotTurned) {
+  agent_.fleet[0].role = Role::photographer;
+  sortie_.know_site(20.0, 0.0);
+  ASSERT_EQ(next(), Turn::begin);
+  for (int i = 0; i < 100; ++i) step();
+  EXPECT_EQ(turned_, 0);
+}
+
+TEST_F(OneSortie, WhoWaitsForAnotherIsLeftAloneAndSaysSo) {
+  sortie_.know_site(20.0, 0.0);
+  ASSERT_EQ(next(), Turn::begin);
+  waits_ = true;
+  for (int i = 0; i < 200; ++i) ASSERT_EQ(step(), Turn::work) << i;
+  EXPECT_EQ(waited_, 200);
+  waits_ = false;
+  Turn turn = Turn::work;
+  for (int i = 0; i < 100 && turn == Turn::work; ++i) turn = step();
+  EXPECT_EQ(turn, Turn::leave) << "no longer";
 }
 
 TEST_F(OneSortie, IsHomeBeforeTheEndAndStaysThere) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/octree_bytes.hpp"
@@ -12,6 +13,21 @@ namespace {
 
 constexpr int kFineSteps = 8;            ///< of cast(), for each coarse one; even
 constexpr double kMostHeardCells = 1e6;  ///< eight million cubic metres of free space
+constexpr int kLookDirections = 192;     ///< evenly over the sphere
+constexpr double kLookTubeM = 0.6;       ///< around the line of a look, where nothing may be mapped
+
+const std::vector<Vector3d>& look_directions() {
+  static const std::vector<Vector3d> directions = [] {
+    const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+    std::vector<Vector3d> all;
+    for (int i = 0; i < kLookDirections; ++i) {
+      const double z = 1.0 - (2.0 * i + 1.0) / kLookDirections, r = std::sqrt(1.0 - z * z);
+      all.emplace_back(r * std::cos(golden_angle * i), r * std::sin(golden_angle * i), z);
+    }
+    return all;
+  }();
+  return directions;
+}
 
 }  // namespace
 
@@ -20,7 +36,7 @@ struct OccupancyMap::Impl {
 
   const Config config;
   KnownSpace known;
-  std::uint64_t revision = 0, key_frames = 0;
+  std::uint64_t revision = 0, key_frames = 0, looks = 0;
 };
 
 OccupancyMap::OccupancyMap() : OccupancyMap(Config()) {}
@@ -58,6 +74,22 @@ void OccupancyMap::insert(const std::vector<Eigen::Vector3f>& hits_W, const Pass
   if (changed) ++impl_->revision;
   impl_->known.add_rays(passed);
   ++impl_->key_frames;
+}
+
+void OccupancyMap::look_from(const Vector3d& p_WS) {
+  const Config& config = impl_->config;
+  if (++impl_->looks % static_cast<std::uint64_t>(config.looks_a_ray) != 0) return;
+  std::vector<Vector3d> ends_W;
+  for (const Vector3d& direction : look_directions()) {
+    const auto met = cast(p_WS, direction, config.look_range_m, kLookTubeM);
+    const double length = met ? *met - config.free_resolution_m : config.look_range_m;
+    if (length > 0.0) ends_W.push_back(p_WS + length * direction);
+  }
+  PassedCells passed = impl_->known.passed_by_rays(p_WS, ends_W);
+  for (auto& [block, counts] : passed.blocks) {
+    for (std::uint8_t& count : counts) count = std::min<std::uint8_t>(count, 1);
+  }
+  impl_->known.add_rays(passed);
 }
 
 bool OccupancyMap::empty() const { return impl_->known.hits().count() == 0; }

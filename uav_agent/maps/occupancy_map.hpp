@@ -35,6 +35,8 @@ class OccupancyMap {
     double ground_m = 0.3;           ///< hits below end a ray, but are no obstacle
     double free_range_m = 30.0;      ///< and only this far from the sensor
     int max_free_rays = 400;         ///< a key frame; evenly picked
+    double look_range_m = 12.0;      ///< of what a look that hit nothing says of free space
+    int looks_a_ray = 2;             ///< so many looks count as one ray
   };
 
   OccupancyMap();
@@ -49,6 +51,11 @@ class OccupancyMap {
   /// The same in two parts: trace() asks for nothing that is in the map, and serves all maps of a Config.
   void insert(const std::vector<Eigen::Vector3f>& hits_W, const PassedCells& passed);
   PassedCells trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const;
+
+  /// A key frame was taken there, and its hits are on the map. What lies in plain view of the sensor near by and was
+  /// not hit is likely to be free, in empty space, too, where no ray ever ends: one frame sees about a third of the
+  /// directions, so several such looks count as much as one ray that passed.
+  void look_from(const Vector3d& p_WS);
 
   const Config& config() const;
   bool empty() const;

@@ -64,6 +64,29 @@ TEST_F(OccupancyMapTest, HoldsEveryHitOnce) {
   EXPECT_EQ(map_.revision(), revision) << "nothing changed";
 }
 
+TEST_F(OccupancyMapTest, ManyLooksProveWhatIsInPlainViewAndNothingBehindIt) {
+  OccupancyMap map;
+  std::vector<Eigen::Vector3f> wall;
+  for (double y = -15.0; y <= 15.0; y += 0.4) {
+    for (double z = 5.0; z <= 35.0; z += 0.4) wall.push_back(Vector3d(5.0, y, z).cast<float>());
+  }
+  map.insert(wall, std::nullopt);
+  const Vector3d here(0, 0, 20);
+  for (int look = 0; look < 4; ++look) map.look_from(here);
+  EXPECT_FALSE(map.known_free({-6, 0, 20}, 8)) << "a few are not enough";
+  for (int look = 0; look < 30; ++look) map.look_from(here);
+  RandomStream random(7, "looks", 0);
+  for (int i = 0; i < 300; ++i) {
+    const Vector3d p = here + random_point(random, 9.0);
+    if (p.x() > 7.5) {
+      EXPECT_FALSE(map.known_free(p, 1)) << "behind the wall: " << p.transpose();
+    } else if (p.x() < 0.0 && (p - here).norm() < 8.0) {
+      EXPECT_TRUE(map.known_free(p, 8)) << p.transpose();
+    }
+  }
+  EXPECT_FALSE(map.known_free(here + Vector3d(-20, 0, 0), 1)) << "too far";
+}
+
 TEST_F(OccupancyMapTest, DistancesAgreeWithBruteForce) {
   RandomStream random(7, "probe", 0);
   for (int i = 0; i < 500; ++i) {

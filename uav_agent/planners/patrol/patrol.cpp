@@ -131,7 +131,7 @@ FreeSpace::Config PatrolPlanner::space_config() const {
   if (roomy) {
     config.enter_radius_m = kAnywhereM;  // ways through a roomy box do not lead through a building
   }
-  config.blind_height_m = proof_.at_last() ? 0.0 : blind_height_m_;
+  config.blind_height_m = blind_height_m_;
   return config;
 }
 
