@@ -15,9 +15,7 @@
 #endif
 
 namespace skein::cli {
-namespace {
 
-/// Of run, compare and contest.
 void add_network(CLI::App& command, std::optional<std::string>& network) {
   command
       .add_option(
@@ -29,6 +27,8 @@ void add_network(CLI::App& command, std::optional<std::string>& network) {
       ->expected(0, 1)
       ->default_str("all");
 }
+
+namespace {
 
 /// What is flown, and how; of run, compose and keys.
 void add_flight_options(CLI::App* command, RunOptions& run) {
@@ -66,8 +66,8 @@ void add_record(CLI::App& command, std::string& record) {
   command
       .add_flag("--record{all}", record,
                 "Record more than poses, commands, captures, radio and events: all that is read; =clouds: LiDAR clouds "
-                "that nobody reads, too; =run: no more; =none: nothing")
-      ->check(CLI::IsMember({"none", "run", "all", "clouds"}))
+                "that nobody reads, too; =run: no more; =messages: only radio; =none: nothing")
+      ->check(CLI::IsMember({"none", "messages", "run", "all", "clouds"}))
       ->default_str(record);
 }
 
@@ -116,6 +116,7 @@ void add_run(CLI::App& app, RunOptions& run) {
           "--log", run.log,
           "UAV=LEVEL: how much this program logs (or gcs, sim_server...): trace, debug, info, warn, error, off")
       ->allow_extra_args(false);
+  command->add_flag("--no-check{false}", run.check, "Do not ask the programs first whether they can fly this");
   command->add_flag("--cores", run.cores, "A program that crashes leaves its core in the results folder, for gdb");
   command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
   command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
@@ -221,49 +222,6 @@ void add_compare(CLI::App& app, StudyOptions& study) {
       ->check(CLI::Validator(check_seed, ""));
 }
 
-/// What only `skein doctor net` has a use for.
-void check_doctor(const DoctorOptions& doctor) {
-  if (doctor.net) return;
-  const auto refuse = [](bool given, const std::string& option) {
-    if (given) throw InputError(option + ": only `skein doctor net` has a use for it");
-  };
-  refuse(doctor.name.has_value(), "--as");
-  refuse(!doctor.only.empty(), "--only");
-  refuse(doctor.seconds.has_value(), "--seconds");
-}
-
-void add_doctor(CLI::App& app, DoctorOptions& doctor) {
-  CLI::App* command = app.add_subcommand("doctor", "What of this machine or network is in a fleet's way, and its mend");
-  const auto set_net = [&doctor](const std::string&) { doctor.net = true; };
-  command
-      ->add_option_function<std::string>("WHAT", set_net,
-                                         "net: who hears whom, among the hosts on which this runs at the same time")
-      ->check(CLI::IsMember({"net"}));
-  add_network(*command, doctor.network);
-  command->add_option("--scenario", doctor.scenario, "Whose fleet: a name under config/scenarios/ or a YAML file")
-      ->capture_default_str();
-  command->add_option("--assets", doctor.assets, "Folder with models/ for scenarios that read files");
-  command->add_option("--domain", doctor.domain, "First DDS domain of the fleet");
-  command->add_option("--dds", doctor.dds, "DDS vendor: cyclonedds, fastdds or mixed")
-      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
-      ->capture_default_str();
-  command->add_option("--out", doctor.out, "Where results would go")->capture_default_str();
-  command->add_flag("--json", doctor.json, "For programs");
-  command->add_option("--as", doctor.name, "net: name of this host (default: its own)");
-  command
-      ->add_option("--only", doctor.only,
-                   "net: domains in which this host takes part: world,gcs,UAV,... (default: all that leave it)")
-      ->delimiter(',');
-  command->add_option("--seconds", doctor.seconds, "net: how long to speak and listen [s] (default 5)")
-      ->check(CLI::Validator(check_seconds, ""));
-  command->callback([&doctor] { check_doctor(doctor); });
-  command->footer(
-      "Examples:\n"
-      "  skein doctor --scenario towers\n"
-      "  skein doctor net --network network.yaml --only world,gcs --seconds 30\n\n"
-      "Exit codes: 0 nothing fails, 1 something does, or a peer was not heard. docs/doctor.md has more.");
-}
-
 /// What cannot be had without processes.
 void check_one_process(const RunOptions& run) {
   if (!run.one_process) return;
@@ -295,6 +253,8 @@ struct OptionParser {
   ReportOptions report;
   RerunOptions rerun;
   ForkOptions fork;
+  HuntOptions hunt;
+  BlameOptions blame;
   AttachOptions attach;
   StudyOptions contest, compare;
   int tests = 5;  ///< of the contest
@@ -315,6 +275,8 @@ OptionParser::OptionParser()
   add_rerun(app, rerun);
   add_fork(app, fork);
   add_test(app, test);
+  add_hunt(app, hunt);
+  add_blame(app, blame);
   add_check(app, check);
   add_scene(app, scene);
   add_bench(app, bench);
@@ -372,7 +334,12 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (is("ps")) return PsOptions{};
   if (is("attach")) return parser.attach;
   if (is("test")) return parser.test;
+  if (is("hunt")) {
+    parser.hunt.run.command = command;
+    return parser.hunt;
+  }
   if (is("scene")) return parser.scene;
+  if (is("blame")) return parser.blame;
   if (is("bench")) return parser.bench;
   if (is("oracle")) return parser.oracle;
   if (is("diff")) return parser.diff;

@@ -16,7 +16,50 @@ std::string check_clearance(const std::string& text) {
   return fits ? "" : "must be a number within [0, 100], not '" + text + "'";
 }
 
+/// What only `skein doctor net` has a use for.
+void check_doctor(const DoctorOptions& doctor) {
+  if (doctor.net) return;
+  const auto refuse = [](bool given, const std::string& option) {
+    if (given) throw InputError(option + ": only `skein doctor net` has a use for it");
+  };
+  refuse(doctor.name.has_value(), "--as");
+  refuse(!doctor.only.empty(), "--only");
+  refuse(doctor.seconds.has_value(), "--seconds");
+}
+
 }  // namespace
+
+void add_doctor(CLI::App& app, DoctorOptions& doctor) {
+  CLI::App* command = app.add_subcommand("doctor", "What of this machine or network is in a fleet's way, and its mend");
+  const auto set_net = [&doctor](const std::string&) { doctor.net = true; };
+  command
+      ->add_option_function<std::string>("WHAT", set_net,
+                                         "net: who hears whom, among the hosts on which this runs at the same time")
+      ->check(CLI::IsMember({"net"}));
+  add_network(*command, doctor.network);
+  command->add_option("--scenario", doctor.scenario, "Whose fleet: a name under config/scenarios/ or a YAML file")
+      ->capture_default_str();
+  command->add_option("--assets", doctor.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--domain", doctor.domain, "First DDS domain of the fleet");
+  command->add_option("--dds", doctor.dds, "DDS vendor: cyclonedds, fastdds or mixed")
+      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
+      ->capture_default_str();
+  command->add_option("--out", doctor.out, "Where results would go")->capture_default_str();
+  command->add_flag("--json", doctor.json, "For programs");
+  command->add_option("--as", doctor.name, "net: name of this host (default: its own)");
+  command
+      ->add_option("--only", doctor.only,
+                   "net: domains in which this host takes part: world,gcs,UAV,... (default: all that leave it)")
+      ->delimiter(',');
+  command->add_option("--seconds", doctor.seconds, "net: how long to speak and listen [s] (default 5)")
+      ->check(CLI::Validator(check_seconds, ""));
+  command->callback([&doctor] { check_doctor(doctor); });
+  command->footer(
+      "Examples:\n"
+      "  skein doctor --scenario towers\n"
+      "  skein doctor net --network network.yaml --only world,gcs --seconds 30\n\n"
+      "Exit codes: 0 nothing fails, 1 something does, or a peer was not heard. docs/doctor.md has more.");
+}
 
 void add_attach(CLI::App& app, AttachOptions& attach) {
   CLI::App* command = app.add_subcommand("attach", "Debug one program of a fleet that is flying, which then waits");

@@ -9,16 +9,22 @@ class App;
 
 namespace skein::cli {
 
+/// --network, of all that may let other hosts take part.
+void add_network(CLI::App& command, std::optional<std::string>& network);
+
 // Each adds a sub-command, whose options are read into the second argument.
 void add_test(CLI::App& app, TestOptions& test);
 void add_check(CLI::App& app, CheckOptions& check);
 void add_scene(CLI::App& app, SceneOptions& scene);
 void add_bench(CLI::App& app, BenchOptions& bench);
 void add_attach(CLI::App& app, AttachOptions& attach);
+void add_doctor(CLI::App& app, DoctorOptions& doctor);
 void add_oracle(CLI::App& app, OracleOptions& oracle);
 void add_merge(CLI::App& app, MergeOptions& merge);
 void add_report(CLI::App& app, ReportOptions& report);
 void add_rerun(CLI::App& app, RerunOptions& rerun);
 void add_fork(CLI::App& app, ForkOptions& fork);
+void add_hunt(CLI::App& app, HuntOptions& hunt);
+void add_blame(CLI::App& app, BlameOptions& blame);
 
 }  // namespace skein::cli
