@@ -111,7 +111,8 @@ struct CheckOptions {
 struct SceneOptions {
   std::string scenario;
   std::optional<std::uint64_t> scene_seed;
-  std::filesystem::path out;
+  std::optional<std::filesystem::path> out;  ///< folder for its files
+  bool picture = false;                      ///< a drawing: there, else in the current folder
   std::optional<std::filesystem::path> assets;
   bool force = false;
 };
@@ -226,6 +227,10 @@ struct StudyOptions {
   std::string seeds = "5";                 ///< as --seeds takes them
   Rank rank = Rank::maximum;
   std::optional<std::uint64_t> scene_seed;
+  std::optional<std::string> scene_seeds;       ///< each scenario with each of these, as --seeds takes them
+  std::vector<std::string> requirements;        ///< of each flight: cli/study/requirement.hpp
+  std::optional<std::filesystem::path> faults;  ///< as in RunOptions
+  bool secure = false;                          ///< as in RunOptions
   std::optional<std::filesystem::path> assets;
   std::optional<double> duration_s;            ///< mission time, instead of the scenarios'
   std::optional<std::string> rules;            ///< a preset, instead of the scenarios'

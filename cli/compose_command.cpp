@@ -178,8 +178,17 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   return result ? exit_code_of(run, *result) : kExitProcessFailed;
 }
 
-/// Containers do not inherit SKEIN_ASSETS; only scenes from files need what it names.
+/// Containers do not inherit SKEIN_ASSETS; only scenes from files need what it names. And they have no terminal: a
+/// debugger comes to the program.
 FleetPlan plan_in_containers(RunOptions options) {
+  for (std::string& debugged : options.debug) {
+    const std::size_t equals = debugged.find('=');
+    if (equals != std::string::npos && debugged.substr(equals) != "=wait") {
+      throw InputError("--debug " + debugged + ": a container waits until a debugger is attached; say only the name, " +
+                       debugged.substr(0, equals));
+    }
+    if (equals == std::string::npos) debugged += "=wait";
+  }
   if (!options.assets) options.assets = variable_or("SKEIN_ASSETS", "");
   FleetPlan plan = plan_fleet(options, program_dir());
   if (!plan.scenario.scene.family.empty() || plan.options.assets->empty()) plan.options.assets.reset();

@@ -105,5 +105,28 @@ TEST_F(ComposeCommand, KeysAreNeverOverwritten) {
   EXPECT_THROW(parse_command_line({"keys", "towers"}), InputError) << "where?";
 }
 
+TEST_F(ComposeCommand, WhoIsDebuggedStandsAndNobodyIsTakenForDead) {
+  const auto file_of = [&](const Texts& more) {
+    Texts all = {"compose", "towers", "--planner", "kios"};
+    all.insert(all.end(), more.begin(), more.end());
+    out_.str("");
+    compose_fleet(std::get<ComposeOptions>(parse_command_line(all)), {out_, err_, false});
+    return out_.str();
+  };
+  const auto count = [](const std::string& text, const std::string& part) {
+    int times = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++times;
+    return times;
+  };
+  const std::string usual = file_of({}), debugged = file_of({"--debug", "jurong", "--debug", "station=wait"});
+  EXPECT_EQ(count(usual, "--wait-for-debugger"), 0);
+  EXPECT_EQ(count(debugged, "--wait-for-debugger"), 2);
+  EXPECT_EQ(count(debugged, "--lease=3600"), count(usual, "--lease=10"));
+  EXPECT_EQ(count(debugged, "--agent-timeout=0"), 1);
+  for (const char* wrong : {"jurong=gdb", "nobody", "jurong="}) {
+    EXPECT_THROW(file_of({"--debug", wrong}), InputError) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace skein::cli

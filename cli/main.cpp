@@ -30,6 +30,7 @@
 #include "cli/study_command.hpp"
 #include "cli/test_command.hpp"
 #include "core/config_files.hpp"
+#include "core/drawn_worlds.hpp"
 #include "core/suggestion.hpp"
 #include "core/types.hpp"
 #include "process/run_folder.hpp"
@@ -58,6 +59,13 @@ std::string planner_list() try {
   return text + "With a program at the ground station: " + joined(ground_programs_of(agent)) + "\n";
 } catch (const InputError& error) {
   return std::string("\nPlanners: ") + error.what() + "\n";
+}
+
+/// Those of files, and those that are drawn.
+std::vector<std::string> scenario_names() {
+  std::vector<std::string> names = config_names(default_config_dir() / "scenarios");
+  names.insert(names.end(), kDrawnWorlds.begin(), kDrawnWorlds.end());
+  return names;
 }
 
 /// One overload a command.
@@ -90,8 +98,7 @@ struct Execute {
     return kExitDone;
   }
   int operator()(const CompletionOptions& options) const {
-    const KnownNames known{[] { return config_names(default_config_dir() / "scenarios"); },
-                           [] { return planners_of(default_agent()); }};
+    const KnownNames known{&scenario_names, [] { return planners_of(default_agent()); }};
     for (const std::string& candidate : completions(options.words, known)) console.out << candidate << '\n';
     return kExitDone;
   }

@@ -15,7 +15,6 @@
 #endif
 
 namespace skein::cli {
-
 void add_network(CLI::App& command, std::optional<std::string>& network) {
   command
       .add_option(
@@ -143,6 +142,12 @@ void add_compose(CLI::App& app, ComposeOptions& compose) {
       ->allow_extra_args(false);
   command->add_option("--subnet", compose.subnet,
                       "IPv4 network to divide, as 172.30.0.0/20 (default: the engine's address pools)");
+  command
+      ->add_option("--debug", compose.run.debug,
+                   "This program stands until a debugger is attached, the fleet waits (UAV, gcs or a server)")
+      ->type_name("UAV")
+      ->allow_extra_args(false)
+      ->excludes("--agent-timeout");
   command->add_option("--build-folder", compose.build, "Fly the programs of this build instead of the images'");
   add_result_options(command, compose.run);
   command->footer(
@@ -218,8 +223,16 @@ void add_compare(CLI::App& app, StudyOptions& study) {
   add_study_options(*command, study);
   command->add_option("--seeds", study.seeds, "How many (seeds 0 to K-1), or which: 3,5,8 or 1-5")
       ->capture_default_str();
-  command->add_option("--scene-seed", study.scene_seed, "Which scene of a procedural family")
-      ->check(CLI::Validator(check_seed, ""));
+  CLI::Option* const one = command->add_option("--scene-seed", study.scene_seed, "Which scene of a procedural family");
+  one->check(CLI::Validator(check_seed, ""));
+  command->add_option("--scene-seeds", study.scene_seeds, "Many scenes of a family, as --seeds has them: 0-99")
+      ->excludes(one);
+  command->add_option("--faults", study.faults, "Fault file: what goes wrong in every flight");
+  command->add_flag("--secure", study.secure, "DDS Security, as for `skein run`");
+  command
+      ->add_option("--require", study.requirements,
+                   "What every flight must keep: collisions==0, attainable_percent>=5, ...")
+      ->allow_extra_args(false);
 }
 
 /// What cannot be had without processes.

@@ -150,6 +150,8 @@ TEST(Options, OtherCommands) {
   EXPECT_EQ(scene.scene_seed, 4u);
   EXPECT_EQ(scene.out, "there");
   EXPECT_TRUE(scene.force);
+  EXPECT_FALSE(scene.picture);
+  EXPECT_TRUE(parse<SceneOptions>({"scene", "wild", "--picture"}).picture);
   EXPECT_THROW(parse<SceneOptions>({"scene", "towers"}), InputError);
   EXPECT_THROW(parse<SceneOptions>({"scene", "towers", "--out", "there", "--scene-seed", "-1"}), InputError);
   EXPECT_EQ(parse<CheckOptions>({"check", "a.yaml", "b.yaml"}).files, (std::vector<std::string>{"a.yaml", "b.yaml"}));

@@ -4,6 +4,7 @@
 
 #include <iomanip>
 
+#include "cli/run/drawn_world.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/supervisor.hpp"
@@ -41,8 +42,8 @@ struct Asked {
 Asked ask(const Question& question) {
   const ScratchDir scratch;
   const std::filesystem::path answer = scratch.path() / "oracle.json", log = scratch.path() / "oracle.log";
-  std::vector<std::string> argv = {program_dir() / programs::kSimServer, "--scenario", question.scenario, "--oracle",
-                                   answer};
+  std::vector<std::string> argv = {program_dir() / programs::kSimServer, "--scenario",
+                                   scenario_source(question.scenario, question.scene_seed), "--oracle", answer};
   if (question.scene_seed) argv.insert(argv.end(), {"--scene-seed", std::to_string(*question.scene_seed)});
   if (question.uavs) argv.insert(argv.end(), {"--uavs", std::to_string(*question.uavs)});
   if (question.assets) argv.insert(argv.end(), {"--assets", *question.assets});

@@ -1,5 +1,6 @@
 #include "cli/scene_command.hpp"
 
+#include "cli/run/drawn_world.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "process/environment.hpp"
@@ -9,8 +10,10 @@
 namespace skein::cli {
 
 int export_scene(const SceneOptions& options) {
-  std::vector<std::string> argv = {program_dir() / programs::kSimServer, "--scenario", options.scenario,
-                                   "--export-scene", options.out};
+  std::vector<std::string> argv = {program_dir() / programs::kSimServer, "--scenario",
+                                   scenario_source(options.scenario, options.scene_seed)};
+  if (options.out) argv.insert(argv.end(), {"--export-scene", *options.out});
+  if (options.picture) argv.insert(argv.end(), {"--scene-picture", options.out.value_or(".")});
   if (options.scene_seed) argv.insert(argv.end(), {"--scene-seed", std::to_string(*options.scene_seed)});
   if (options.assets) argv.insert(argv.end(), {"--assets", *options.assets});
   if (options.force) argv.push_back("--overwrite-export");

@@ -8,6 +8,12 @@
 namespace skein::cli {
 namespace {
 
+SceneOptions of(const std::string& scenario) {
+  SceneOptions options;
+  options.scenario = scenario;
+  return options;
+}
+
 class SceneCommand : public ::testing::Test {
  protected:
   FakePrograms programs_;
@@ -16,18 +22,28 @@ class SceneCommand : public ::testing::Test {
 TEST_F(SceneCommand, HandsItsOptionsToTheServer) {
   const std::filesystem::path told = programs_.dir() / "told";
   write_script(programs_.dir() / "sim_server", "echo \"$@\" > " + told.string());
-  EXPECT_EQ(export_scene({"towers", {}, "there", {}, false}), kExitDone);
+  SceneOptions files = of("towers");
+  files.out = "there";
+  EXPECT_EQ(export_scene(files), kExitDone);
   EXPECT_EQ(read_text(told), "--scenario towers --export-scene there\n");
-  EXPECT_EQ(export_scene({"mine.yaml", 7, "there", "assets", true}), kExitDone);
+  files.scenario = "mine.yaml";
+  files.scene_seed = 7;
+  files.assets = "assets";
+  files.force = true;
+  EXPECT_EQ(export_scene(files), kExitDone);
   EXPECT_EQ(read_text(told),
             "--scenario mine.yaml --export-scene there --scene-seed 7 --assets assets --overwrite-export\n");
+  SceneOptions picture = of("towers");
+  picture.picture = true;
+  EXPECT_EQ(export_scene(picture), kExitDone);
+  EXPECT_EQ(read_text(told), "--scenario towers --scene-picture .\n");
 }
 
 TEST_F(SceneCommand, ItsExitCodeIsOurs) {
   write_script(programs_.dir() / "sim_server", "exit 2");
-  EXPECT_EQ(export_scene({"towers", {}, "there", {}, false}), kExitBadInput);
+  EXPECT_EQ(export_scene(of("towers")), kExitBadInput);
   write_script(programs_.dir() / "sim_server", "kill -9 $$");
-  EXPECT_EQ(export_scene({"towers", {}, "there", {}, false}), kExitProcessFailed);
+  EXPECT_EQ(export_scene(of("towers")), kExitProcessFailed);
 }
 
 }  // namespace

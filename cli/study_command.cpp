@@ -8,7 +8,9 @@
 #include "cli/study/csv.hpp"
 #include "cli/study/figure_files.hpp"
 #include "cli/study/page.hpp"
+#include "cli/study/requirement.hpp"
 #include "cli/study/tex.hpp"
+#include "cli/study/worlds.hpp"
 #include "core/sha256.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
@@ -25,7 +27,8 @@ namespace fs = std::filesystem;
 using report::shortened;
 
 constexpr const char* kSettings = "study.json";
-constexpr std::size_t kLongestName = 40;  ///< of a planner on the terminal
+constexpr std::size_t kLongestName = 40;   ///< of a planner on the terminal
+constexpr std::size_t kMostPictured = 20;  ///< scenes
 
 /// @throws InputError when the folder is of a study with other settings, unless that is wanted.
 void check_settings(const StudyPlan& plan) {
@@ -38,8 +41,10 @@ void check_settings(const StudyPlan& plan) {
   throw InputError(text + "\nChoose another --out, or go on there with --force: flights that fit are kept.");
 }
 
+/// None of a study over so many scenes that nobody would look at them all.
 StudyPictures pictures_of(const Study& study) {
   StudyPictures pictures;
+  if (study.scenarios.size() > kMostPictured) return pictures;
   for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
     for (std::size_t p = 0; p < study.planners.size(); ++p) {
       if (const FlightEntry* best = study.best(p, s))
@@ -96,12 +101,14 @@ Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
   if (plan.options.duration_s) conditions.push_back(fmt::format("missions of {} s", *plan.options.duration_s));
   if (plan.options.scene_seed) conditions.push_back(fmt::format("scene seed {}", *plan.options.scene_seed));
   if (plan.options.rules) conditions.push_back("rules " + *plan.options.rules);
+  if (plan.options.faults) conditions.push_back("faults of " + plan.options.faults->string());
   study.conditions = joined(conditions);
   study.machine = machine_text();
   for (std::size_t i = 0; i < plan.flights.size(); ++i) {
     const StudyFlight& flight = plan.flights[i];
     const StudyOutcome& outcome = outcomes.flights[i];
     FlightEntry entry{flight.planner, flight.scenario, flight.seed, flight.dir, std::nullopt, outcome.problem};
+    entry.command = repeating_command(plan, flight);
     if (outcome.result.is_object()) {
       entry.figures = figures_of(outcome.result);
       entry.tables = read_flight_tables(flight.dir);
@@ -146,6 +153,8 @@ void print_study(std::ostream& out, const Study& study) {
 }
 
 int run_study(const StudyOptions& options, const Console& console) {
+  std::vector<Requirement> requirements;
+  for (const std::string& text : options.requirements) requirements.push_back(parse_requirement(text));
   const StudyPlan plan = plan_study(options);
   check_settings(plan);
   const ResultsDir out(plan.out, false);
@@ -155,13 +164,15 @@ int run_study(const StudyOptions& options, const Console& console) {
   const StudyOutcomes outcomes = fly_study(plan, console);
   const Study study = study_of(plan, outcomes);
   write_report(study, plan.out);
-  print_study(console.out, study);
+  options.scene_seeds ? print_worlds(console.out, study) : print_study(console.out, study);
+  const bool kept = print_requirements(console.out, study, requirements);
   console.out << "report: " << (plan.out / run_folder::kPage).string() << std::endl;
   if (outcomes.interrupted) {
     console.err << "interrupted; the same command goes on from here" << std::endl;
     return kExitInterrupted;
   }
-  return study.any_problem() ? kExitProcessFailed : kExitDone;
+  if (study.any_problem()) return kExitProcessFailed;
+  return kept ? kExitDone : kExitCheckFailed;
 }
 
 }  // namespace skein::cli

@@ -9,7 +9,8 @@ namespace skein::cli {
 
 /// Flies what has not been flown yet, then writes report.html, flights.csv, summary.csv, table.tex, figures/*.svg and,
 /// of a contest, totals.csv; also after Ctrl-C and with flights that failed.
-/// @returns the exit code: kExitProcessFailed when a flight failed. @throws InputError before anything flies;
+/// @returns the exit code: kExitProcessFailed when a flight failed, kExitCheckFailed when one does not keep a
+///   requirement. @throws InputError before anything flies;
 ///   Interrupted while the input is checked.
 int run_study(const StudyOptions& options, const Console& console);
 

@@ -135,10 +135,17 @@ void add_scene(CLI::App& app, SceneOptions& scene) {
   command->add_option("SCENARIO", scene.scenario, "A name under config/scenarios/ or a YAML file")->required();
   command->add_option("--scene-seed", scene.scene_seed, "Which scene of a procedural family")
       ->check(CLI::Validator(check_seed, ""));
-  command->add_option("--out", scene.out, "Folder to write to")->required();
+  command->add_option("--out", scene.out, "Folder to write to");
+  command->add_flag("--picture", scene.picture, "Draw it: SCENARIO.svg, in that folder or the current one");
   command->add_option("--assets", scene.assets, "Folder with models/ for scenarios that read files");
   command->add_flag("--force", scene.force, "Overwrite an earlier export");
-  command->footer("Example:\n  skein scene towers --scene-seed 3 --out my_scene");
+  command->callback([&scene] {
+    if (!scene.out && !scene.picture) throw InputError("scene: --out FOLDER writes it, --picture draws it: which?");
+  });
+  command->footer(
+      "Examples:\n"
+      "  skein scene towers --scene-seed 3 --out my_scene\n"
+      "  skein scene wild --scene-seed 7 --picture");
 }
 
 void add_report(CLI::App& app, ReportOptions& report) {

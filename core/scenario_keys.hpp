@@ -12,6 +12,7 @@
 
 #include "core/airframe.hpp"
 #include "core/config_reader.hpp"
+#include "core/drawn_worlds.hpp"
 #include "core/euler.hpp"
 #include "core/scenario.hpp"
 #include "core/scenario_reader.hpp"
@@ -141,7 +142,7 @@ void describe(R& r, SceneConfig& scene) {
     r.field("family", scene.family);
     r.field("scene_seed", scene.scene_seed);
   }
-  if (R::kReads || scene.family.empty()) {
+  if (R::kReads || from_files(scene)) {
     r.field("meshes", scene.meshes);
     r.field("points", scene.points);
     r.field("boxes", scene.boxes);

@@ -12,6 +12,7 @@
 
 #include "core/airframe.hpp"
 #include "core/config_writer.hpp"
+#include "core/drawn_worlds.hpp"
 #include "core/radio_routes.hpp"
 #include "core/scenario_keys.hpp"
 #include "core/scene_families.hpp"
@@ -162,12 +163,16 @@ void check_radio(const ScenarioFile& file, ConfigErrors& errors) {
 
 void check_scene(const SceneConfig& scene, ConfigErrors& errors) {
   const bool files = !scene.meshes.empty() || !scene.points.empty() || !scene.boxes.empty();
-  if (scene.family.empty()) {
-    errors.check(files, "scene", "needs 'family' (a procedural scene), or 'meshes', 'points' and 'boxes' (files)");
+  const bool drawn = is_drawn_world(scene.family);
+  if (scene.family.empty() || drawn) {
+    errors.check(files || !drawn, "scene.family",
+                 "'" + scene.family + "' is drawn whole, with its fleet: fly it as `skein run " + scene.family + "`");
+    errors.check(files || drawn, "scene",
+                 "needs 'family' (a procedural scene), or 'meshes', 'points' and 'boxes' (files)");
     errors.check(!files || !scene.meshes.empty(), "scene", "needs 'meshes': a list of STL files");
     errors.check(!files || !scene.points.empty(), "scene", "needs 'points': a PCD file of interest points");
     errors.check(!files || !scene.boxes.empty(), "scene", "needs 'boxes': a box_description.yaml");
-    errors.check(scene.scene_seed == 0, "scene.scene_seed", "a scene from files has no seed");
+    errors.check(scene.scene_seed == 0 || drawn, "scene.scene_seed", "a scene from files has no seed");
     return;
   }
   errors.check(!files, "scene", "has either a 'family' or files, not both");
@@ -222,7 +227,7 @@ class SceneFileFinder {
 };
 
 void find_scene_files(Scenario& scenario, const LoadOptions& options, ConfigErrors& errors) {
-  if (!scenario.scene.family.empty()) return;
+  if (!from_files(scenario.scene)) return;
   const SceneFileFinder finder(scenario, options, errors);
   for (std::size_t i = 0; i < scenario.scene.meshes.size(); ++i) {
     finder.resolve(scenario.scene.meshes[i], index_path("scene.meshes", i));
@@ -275,7 +280,9 @@ void apply_overrides(const LoadOptions& options, Scenario& scenario) {
     scenario.duration_s = *options.duration_s;
   }
   if (options.scene_seed) {
-    if (scenario.scene.family.empty()) {
+    const bool as_drawn = from_files(scenario.scene) && !scenario.scene.family.empty() &&
+                          scenario.scene.scene_seed == *options.scene_seed;
+    if (from_files(scenario.scene) && !as_drawn) {
       throw InputError("--scene-seed: scenario '" + scenario.name +
                        "' takes its scene from files and has no seed; "
                        "leave the option out, or run 'towers'");

@@ -9,6 +9,21 @@ namespace skein {
 namespace {
 
 constexpr double kLargestShift = 2.0;
+constexpr double kCrowded = 0.25;    ///< share of the varied seeds
+constexpr double kCrowdStep = 1.45;  ///< between two in a crowd [m]
+
+/// Who starts where, and whether all do so at one place.
+void vary(std::vector<StartPlace>& places, const std::vector<Vector2d>& nominal, RandomStream& random) {
+  for (std::size_t i = places.size(); i > 1; --i) {
+    std::swap(places[i - 1], places[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+  }
+  if (random.uniform() >= kCrowded) return;
+  const Vector2d middle = nominal[static_cast<std::size_t>(random.uniform() * static_cast<double>(nominal.size()))];
+  for (std::size_t i = 0; i < places.size(); ++i) {  // two rows
+    const auto column = static_cast<double>(i / 2) - 0.5 * static_cast<double>((places.size() - 1) / 2);
+    places[i].p_W = middle + kCrowdStep * Vector2d(column, static_cast<double>(i % 2) - 0.5);
+  }
+}
 
 }  // namespace
 
@@ -51,6 +66,10 @@ std::vector<StartPlace> scene_starts(const SceneFamily& family, std::uint64_t sc
       place.yaw = random.uniform(-std::numbers::pi, std::numbers::pi);
     }
     places.push_back(place);
+  }
+  if (scene_seed >= kVariedSeeds) {
+    RandomStream random(scene_seed, std::string(family.name) + "_who_starts_where", 0);
+    vary(places, family.starts, random);
   }
   return places;
 }

@@ -28,8 +28,13 @@ std::span<const SceneFamily> scene_families();
 /// @returns nullptr when no family has this name.
 const SceneFamily* find_scene_family(const std::string& name);
 
+/// From this scene seed on, scenes differ in more than those before: who starts where, and boxes that are loose or
+/// empty.
+inline constexpr std::uint64_t kVariedSeeds = 100;
+
 /// Where a fleet starts in one member of a family: with seed 0 its nominal places and yaw 0, otherwise places up to
-/// 2 m from those, and any yaw. In fleet order. Pure.
+/// 2 m from those, and any yaw. In fleet order. From kVariedSeeds on anybody may start at any of the places; with one
+/// seed in four all crowd at one of them, 1.45 m apart. Pure.
 std::vector<StartPlace> scene_starts(const SceneFamily& family, std::uint64_t scene_seed);
 
 }  // namespace skein

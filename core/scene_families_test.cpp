@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace skein {
 namespace {
 
@@ -22,7 +24,7 @@ TEST(SceneFamilies, SeedZeroStartsAtTheNominalPlaces) {
 TEST(SceneFamilies, StartsOfEverySeedAreApartNearTheNominalOnesAndRepeatable) {
   for (const SceneFamily& family : scene_families()) {
     EXPECT_GE(family.starts.size(), 5u) << family.name;
-    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    for (std::uint64_t seed = 0; seed < kVariedSeeds; ++seed) {
       const auto starts = scene_starts(family, seed), again = scene_starts(family, seed);
       for (std::size_t i = 0; i < starts.size(); ++i) {
         EXPECT_EQ(starts[i].p_W, again[i].p_W);
@@ -33,6 +35,30 @@ TEST(SceneFamilies, StartsOfEverySeedAreApartNearTheNominalOnesAndRepeatable) {
       }
     }
     EXPECT_NE(scene_starts(family, 1)[0].p_W, scene_starts(family, 2)[0].p_W);
+  }
+}
+
+TEST(SceneFamilies, VariedSeedsChangePlacesAndSometimesCrowd) {
+  for (const SceneFamily& family : scene_families()) {
+    int elsewhere = 0, crowded = 0;
+    for (std::uint64_t seed = kVariedSeeds; seed < kVariedSeeds + 200; ++seed) {
+      const auto starts = scene_starts(family, seed);
+      ASSERT_EQ(starts.size(), family.starts.size());
+      elsewhere += (starts[0].p_W - family.starts[0]).norm() > 4.0;
+      double farthest = 0.0;
+      for (std::size_t i = 0; i < starts.size(); ++i) {
+        const auto distance = [&](const Vector2d& nominal) { return (starts[i].p_W - nominal).norm(); };
+        // Nothing is built within 4 m of a nominal place: there is room for a UAV.
+        EXPECT_TRUE(std::ranges::any_of(family.starts, [&](const Vector2d& p) { return distance(p) < 2.4; }));
+        for (std::size_t j = 0; j < i; ++j) {
+          EXPECT_GT((starts[i].p_W - starts[j].p_W).norm(), kRotorSpan) << family.name << ' ' << seed;
+          farthest = std::max(farthest, (starts[i].p_W - starts[j].p_W).norm());
+        }
+      }
+      crowded += farthest < 6.0;
+    }
+    EXPECT_GT(elsewhere, 100) << family.name;
+    EXPECT_NEAR(crowded, 50, 25) << family.name;
   }
 }
 

@@ -37,7 +37,7 @@ void wait_for_debugger(const std::function<bool()>& stop) {
   }, former{};
   action.sa_handler = on_continue;
   ::sigaction(SIGCONT, &action, &former);
-  spdlog::info("it stands until a debugger is attached, or SIGCONT comes");
+  spdlog::info("process {} stands until a debugger is attached, or SIGCONT comes", ::getpid());
   constexpr int kLook_ms = 50;  // that somebody attaches is no event that one could wait for
   pollfd continued{continued_fd, POLLIN, 0};
   while (!stop() && !is_debugged() && ::poll(&continued, 1, kLook_ms) <= 0) {

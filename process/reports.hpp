@@ -94,7 +94,7 @@ struct UavReport {
   std::optional<bool> alive = {};
   Number distance_m = {}, max_speed_mps = {};
   Count captures = {};
-  Number idle_s = {};
+  Number idle_s = {}, frozen_s = {};
   Count commands_rejected = {};
   Number first_rejected_s = {};
   Count commands_unheard = {};
@@ -107,6 +107,7 @@ void describe(Fields& f, UavReport& uav) {
   f.field("commands_unheard", uav.commands_unheard);
   f.field("distance_m", uav.distance_m);
   f.field("first_rejected_s", uav.first_rejected_s);
+  f.field("frozen_s", uav.frozen_s);
   f.field("idle_s", uav.idle_s);
   f.field("max_speed_mps", uav.max_speed_mps);
   f.field("name", uav.name);

@@ -20,7 +20,7 @@ const char* const kSimServer = R"({
   "timing": {"camera_s": 0.1, "cpu_s": 1.0, "exposures": 3, "lidar_ms_per_scan": 0.25, "lidar_s": 0.2, "links_s": 0.3,
              "physics_s": 0.4, "recording_s": 0.5, "scans": 4, "steps": 5},
   "uavs": [{"alive": false, "captures": 7, "commands_rejected": 1, "commands_unheard": 2, "distance_m": 10.5,
-            "first_rejected_s": 3.25, "idle_s": 2.0, "max_speed_mps": 4.0, "name": "alpha", "role": "explorer"}],
+            "first_rejected_s": 3.25, "frozen_s": 1.5, "idle_s": 2.0, "max_speed_mps": 4.0, "name": "alpha", "role": "explorer"}],
   "unsent": 0, "unwritten": ["x: full"], "wall_time_s": 13.0, "warnings": ["windy"]})";
 
 const char* const kStation = R"({

@@ -128,8 +128,8 @@ double ServerProgram::startup_timeout_s(const Scenario& scenario) const {
 std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(const ProgramOptions& options,
                                                                             StatusPipe& status) {
   if (!tasks_.golden.empty()) return tasks_.check_golden();
+  if (!tasks_.export_scene.empty() || !tasks_.scene_picture.empty()) return tasks_.write_scene(options);
   auto scenario = std::make_unique<const Scenario>(load_scenario(options.scenario, options.load_options()));
-  if (!tasks_.export_scene.empty()) return tasks_.write_scene(*scenario);
   if (!tasks_.oracle.empty()) return tasks_.ask_oracle(*scenario);
   const SimNodeOptions node_options{.base_domain = options.domain,
                                     .out = options.out,

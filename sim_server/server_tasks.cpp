@@ -9,18 +9,23 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/scenario_reader.hpp"
 #include "process/atomic_file.hpp"
 #include "process/program.hpp"
+#include "process/user_cache.hpp"
 #include "sim_server/golden/check.hpp"
 #include "sim_server/oracle/cache.hpp"
 #include "sim_server/scenes/scene_export.hpp"
 #include "sim_server/scenes/scene_source.hpp"
+#include "sim_server/wild/world.hpp"
 
 namespace skein::sim {
 
 void ServerTasks::add_options(CLI::App& app) {
   app.add_option("--golden", golden, "run reference vectors through the production code, then stop");
   app.add_option("--export-scene", export_scene, "write the scene's files to this folder, then stop");
+  app.add_option("--scene-picture", scene_picture, "draw the scene into this folder, then stop");
+  app.add_option("--draw-world", draw_world, "with --export-scene: of this drawn world, not of the scenario");
   app.add_flag("--overwrite-export", overwrite_export, "replace the files of an earlier export");
   app.add_option("--oracle", oracle, "write what is attainable in the scenario to this file, then stop");
   app.add_option("--clearance", clearances_m, "with --oracle: of the cameras from the structure [m]")
@@ -43,12 +48,18 @@ int ServerTasks::check_golden() const {
   return passed ? kExitDone : kExitCheckFailed;
 }
 
-int ServerTasks::write_scene(const Scenario& scenario) const {
-  const auto files = scene_export(scenario, load_scene(scenario));
-  write_export(files, export_scene, overwrite_export);
-  for (const ExportedFile& file : files) {
-    std::cout << (export_scene / file.path).string() << ": " << file.summary << '\n';
-  }
+int ServerTasks::write_scene(const ProgramOptions& options) const {
+  const World world = [&] {
+    if (!draw_world.empty()) return sim::draw_world(draw_world, options.scene_seed.value_or(0));
+    const Scenario scenario = load_scenario(options.scenario, options.load_options());
+    return World{scenario, load_scene(scenario)};
+  }();
+  const auto write = [&](const std::vector<ExportedFile>& files, const std::filesystem::path& folder) {
+    write_export(files, folder, overwrite_export);
+    for (const ExportedFile& file : files) std::cout << (folder / file.path).string() << ": " << file.summary << '\n';
+  };
+  if (!export_scene.empty()) write(scene_export(world.scenario, world.scene), export_scene);
+  if (!scene_picture.empty()) write({scene_picture_file(world.scenario, world.scene)}, scene_picture);
   return kExitDone;
 }
 

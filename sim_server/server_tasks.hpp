@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "process/program.hpp"
 
 namespace CLI {
 class App;
@@ -16,7 +18,9 @@ namespace skein::sim {
 /// As its options say.
 struct ServerTasks {
   std::vector<std::filesystem::path> golden;
-  std::filesystem::path export_scene;  ///< folder; empty: none
+  std::filesystem::path export_scene;   ///< folder; empty: none
+  std::filesystem::path scene_picture;  ///< folder for a drawing of it; empty: none
+  std::string draw_world;               ///< the world that is written; empty: the scenario's scene
   bool overwrite_export = false;
   std::filesystem::path oracle;      ///< file for its answer; empty: it is not asked
   std::vector<double> clearances_m;  ///< empty: the usual one
@@ -26,7 +30,7 @@ struct ServerTasks {
   void add_options(CLI::App& app);
   /// Each @returns an exit code.
   int check_golden() const;
-  int write_scene(const Scenario& scenario) const;
+  int write_scene(const ProgramOptions& options) const;
   int ask_oracle(const Scenario& scenario) const;
 };
 

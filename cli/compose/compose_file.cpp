@@ -27,6 +27,7 @@ constexpr const char* kParametersInContainer = "/planner.yaml";
 constexpr int kNetworkPrefix = 28;
 /// Without a launcher this tells who died; whoever is stopped for longer has to join anew.
 constexpr int kLease_s = 10;
+constexpr int kDebuggedLease_s = 3600;  ///< the longest that Cyclone DDS takes: who is debugged stands for long
 /// A container that the engine has started again once the run was over ends after so long.
 constexpr int kServerTimeout_s = 60;
 
@@ -209,6 +210,10 @@ class ComposeText {
     text_ += "\n";
   }
 
+  bool is_debugged(const std::string& program) const {
+    return std::ranges::find(plan_.debug, program, &Debuggee::program) != plan_.debug.end();
+  }
+
   /// Quoted; `run` may be a variable.
   std::vector<std::string> arguments_of(const std::string& program) const {
     std::vector<std::string> texts;
@@ -223,8 +228,10 @@ class ComposeText {
       }
     }
     arguments.insert(arguments.end(),
-                     {"--keep", "--health", "/tmp/alive", "--lease", std::to_string(kLease_s), "--server-timeout",
+                     {"--keep", "--health", "/tmp/alive", "--lease",
+                      std::to_string(plan_.debug.empty() ? kLease_s : kDebuggedLease_s), "--server-timeout",
                       std::to_string(kServerTimeout_s), "--out", kResultsInContainer});
+    if (is_debugged(program)) arguments.push_back("--wait-for-debugger");
     if (plan_.options.secure) arguments.insert(arguments.end(), {"--security", kKeysInContainer});
     if (layout_.status_lines) arguments.insert(arguments.end(), {"--status-fd", "1"});
     for (std::size_t i = 0; i < arguments.size(); ++i) {

@@ -10,6 +10,7 @@
 
 #include "cli/run/agent_file.hpp"
 #include "cli/run/debug_plan.hpp"
+#include "cli/run/drawn_world.hpp"
 #include "cli/run/environment.hpp"
 #include "cli/run/ground_program.hpp"
 #include "core/config_files.hpp"
@@ -151,7 +152,11 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
     throw InputError(
         "--secure --dds mixed: the vendors' security does not work together reliably; choose cyclonedds or fastdds");
   }
-  FleetPlan plan{options, load_scenario(options.scenario, load_options(options)), {}, bin_dir, {}};
+  FleetPlan plan{options,
+                 load_scenario(scenario_source(options.scenario, options.scene_seed), load_options(options)),
+                 {},
+                 bin_dir,
+                 {}};
   plan.faults = load_fault_plan(options.faults.value_or(""), plan.scenario, options.seed);
   std::vector<std::string> names;
   for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);

@@ -108,8 +108,10 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
   out << "status    " << result["status"].get<std::string>() << ", mission " << cell(result, "mission_time_s", 1)
       << " s, " << result["collisions"].size() << " collision" << (result["collisions"].size() == 1 ? "" : "s") << '\n'
       << "speed     x" << cell(result, "real_time_factor", 1) << " (" << cell(result, "sim_time_s", 1)
-      << " s simulated in " << cell(result, "wall_time_s", 1) << " s), memory " << cell(result, "memory_mb", 0)
-      << " MB, LiDAR " << cell(result.contains("timing") ? result["timing"] : result, "lidar_ms_per_scan", 2)
+      << " s simulated in " << cell(result, "wall_time_s", 1) << " s), "
+      << (number(result, "memory_mb") > 0.0 ? "memory " + cell(result, "memory_mb", 0) + " MB, "
+                                            : "")  // by the launcher
+      << "LiDAR " << cell(result.contains("timing") ? result["timing"] : result, "lidar_ms_per_scan", 2)
       << " ms a scan\n"
       << "digest    " << (result["digest"].is_string() ? result["digest"].get<std::string>() : "none") << "\n\n";
   std::size_t width = 3;

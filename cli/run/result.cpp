@@ -43,6 +43,7 @@ Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Rep
                        {"max_speed_mps", or_null(flown.max_speed_mps)},
                        {"captures", or_null(flown.captures)},
                        {"idle_s", or_null(flown.idle_s)},
+                       {"frozen_s", or_null(flown.frozen_s)},
                        {"commands_rejected", or_null(flown.commands_rejected)},
                        {"first_rejected_s", or_null(flown.first_rejected_s)},
                        {"commands_unheard", or_null(flown.commands_unheard)},

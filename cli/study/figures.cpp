@@ -64,6 +64,9 @@ FlightFigures figures_of(const Json& result) {
   const Json scores = value_or(result, "score_by_uav", Json::object());
   for (const Json& uav : value_or(result, "uavs", Json::array())) {
     (value_or(uav, "role", "") == "explorer" ? explorers : photographers).add(value_or(uav, "idle_s", nullptr));
+    if (const auto frozen_s = report::number_if_any(uav, "frozen_s")) {
+      figures.frozen_uavs = figures.frozen_uavs.value_or(0) + (*frozen_s > 0.0 ? 1 : 0);
+    }
     figures.distance_m += number(uav, "distance_m");
     cpu.add(value_or(uav, "planner_cpu_s", nullptr));
     const std::string name = report::text_in(uav, "name");

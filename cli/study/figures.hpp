@@ -28,6 +28,7 @@ struct FlightFigures {
   std::optional<double> attainable;          ///< that score
   std::optional<double> mean_quality;        ///< score by detected point
   int collisions = 0;
+  std::optional<int> frozen_uavs;                                ///< that stood still in vain (docs/results.md)
   std::optional<double> idle_explorers_s, idle_photographers_s;  ///< a UAV of that role on average
   double distance_m = 0.0;                                       ///< of all UAVs
   std::optional<double> planner_cpu_ms;                          ///< a simulated second and UAV; of UAVs that tell
@@ -55,6 +56,7 @@ struct FlightEntry {
   std::string problem;                   ///< empty: none
   std::string page = {};                 ///< its own report, from the study's folder; empty: there is none
   std::optional<FlightTables> tables = {};
+  std::string command = {};  ///< that repeats it
 };
 
 /// All that tables and pages show.

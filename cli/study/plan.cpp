@@ -9,6 +9,7 @@
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/study/spec.hpp"
+#include "core/drawn_worlds.hpp"
 #include "core/file_bytes.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/sha256.hpp"
@@ -64,11 +65,28 @@ std::vector<std::string> scenarios_of(const StudyOptions& options) {
   return scenarios;
 }
 
-RunOptions run_options(const StudyOptions& options, const std::string& scenario, const std::string& planner) {
+/// Each scenario with each scene seed.
+void list_scenes(const StudyOptions& options, StudyPlan& plan) {
+  for (const std::string& scenario : scenarios_of(options)) {
+    if (!options.scene_seeds) {
+      plan.scenes.push_back({scenario, options.scene_seed});
+      plan.scenarios.push_back(scenario);
+      continue;
+    }
+    for (const std::uint64_t scene_seed : parse_seeds(*options.scene_seeds, "--scene-seeds")) {
+      plan.scenes.push_back({scenario, scene_seed});
+      plan.scenarios.push_back(scenario + " " + std::to_string(scene_seed));
+    }
+  }
+}
+
+RunOptions run_options(const StudyOptions& options, const StudyScene& scene, const std::string& planner) {
   RunOptions run;
-  run.scenario = scenario;
+  run.scenario = scene.scenario;
   run.planner = planner;
-  run.scene_seed = options.scene_seed;
+  run.scene_seed = scene.scene_seed;
+  run.faults = options.faults;
+  run.secure = options.secure;
   run.assets = options.assets;
   run.duration_s = options.duration_s;
   run.rules = options.rules;
@@ -135,7 +153,7 @@ std::string input_digest(const FleetPlan& plan) {
   Sha256 hash;
   hash.add(to_yaml(plan.scenario));
   std::vector<fs::path> files = scene.meshes;
-  if (scene.family.empty()) files.insert(files.end(), {scene.points, scene.boxes});
+  if (from_files(scene)) files.insert(files.end(), {scene.points, scene.boxes});
   std::vector<std::string> specs;
   for (const UavPlanner& planner : plan.planners) specs.push_back(planner.spec);
   if (plan.ground) specs.push_back(plan.ground->spec);
@@ -179,7 +197,7 @@ std::string command_line(const StudyPlan& plan) {
   };
   for (const std::string& list : options.planner_lists) add("--planners", list);
   for (const std::string& planner : options.planners) add("--planner", planner);
-  add("--scenarios", joined(plan.scenarios, ","));
+  add("--scenarios", joined(scenarios_of(options), ","));
   if (options.contest) {
     add("--tests", std::to_string(plan.seeds.size()));
     if (options.rank != Rank::maximum) add("--rank", options.rank == Rank::median ? "median" : "worst");
@@ -187,11 +205,15 @@ std::string command_line(const StudyPlan& plan) {
     add("--seeds", options.seeds);
   }
   if (options.scene_seed) add("--scene-seed", std::to_string(*options.scene_seed));
+  if (options.scene_seeds) add("--scene-seeds", *options.scene_seeds);
   if (options.assets) add("--assets", *options.assets);
   if (options.duration_s) add("--duration", shortest(*options.duration_s));
   if (options.rules) add("--rules", *options.rules);
   if (options.dds) add("--dds", *options.dds);
   if (options.agent) add("--agent", *options.agent);
+  if (options.faults) add("--faults", *options.faults);
+  if (options.secure) line += " --secure";
+  for (const std::string& requirement : options.requirements) add("--require", requirement);
   return line;
 }
 
@@ -211,11 +233,14 @@ StudyPlan plan_study(const StudyOptions& options) {
   plan.options = options;
   plan.planners = planners_of(options);
   plan.labels = planner_labels(plan.planners);
-  plan.scenarios = scenarios_of(options);
+  list_scenes(options, plan);
   plan.seeds = parse_seeds(options.seeds);
   plan.out = fs::absolute(options.out.value_or(fs::path("runs") / (options.contest ? "contest" : "compare")));
   std::vector<std::string> stems;
-  for (const std::string& scenario : plan.scenarios) stems.push_back(fs::path(scenario).stem());
+  for (const StudyScene& scene : plan.scenes) {
+    stems.push_back(fs::path(scene.scenario).stem());
+    if (options.scene_seeds) stems.back() += "-" + std::to_string(*scene.scene_seed);
+  }
   const std::vector<std::string> planner_folders = folder_names(plan.labels), scenario_folders = folder_names(stems);
 
   std::string programs;
@@ -227,14 +252,16 @@ StudyPlan plan_study(const StudyOptions& options) {
       own_agent(options.agent) ? planners_of(program_dir() / programs::kAgent) : std::vector<std::string>{};
   for (std::size_t s = 0; s < plan.scenarios.size(); ++s) {
     for (std::size_t p = 0; p < plan.planners.size(); ++p) {
-      FleetPlan fleet = plan_fleet(run_options(options, plan.scenarios[s], plan.planners[p]), program_dir());
+      FleetPlan fleet = plan_fleet(run_options(options, plan.scenes[s], plan.planners[p]), program_dir());
       if (fleet.agent && are_all_built_in(fleet, built_in)) {
         fleet.options.agent = fleet.bin_dir / programs::kAgent;
         fleet = plan_fleet(fleet.options, fleet.bin_dir);
       }
       fleet.options.one_process = !options.dds && !needs_processes(fleet);
       media.insert(medium_of(fleet));
-      check_with_programs(fleet, p == 0);
+      // Scenes of one family differ in nothing that a program would refuse.
+      const bool another_seed = s > 0 && options.scene_seeds && plan.scenes[s].scenario == plan.scenes[s - 1].scenario;
+      if (!another_seed) check_with_programs(fleet, p == 0);
       if (programs.empty()) programs = programs_digest(fleet);
       const fs::path dir = plan.out / "flights" / scenario_folders[s] / planner_folders[p];
       const std::string agent = digests.of(fleet);
@@ -263,6 +290,9 @@ StudyPlan plan_study(const StudyOptions& options) {
                    {"scenarios", plan.scenarios},
                    {"seeds", plan.seeds},
                    {"scene_seed", options.scene_seed ? Json(*options.scene_seed) : Json()},
+                   {"scene_seeds", options.scene_seeds ? Json(*options.scene_seeds) : Json()},
+                   {"faults", options.faults ? Json(options.faults->string()) : Json()},
+                   {"secure", options.secure},
                    {"duration_s", options.duration_s ? Json(*options.duration_s) : Json()},
                    {"rules", options.rules ? Json(*options.rules) : Json()},
                    {"dds", plan.medium},
@@ -303,8 +333,26 @@ std::vector<std::string> differing_settings(const Json& then, const Json& now) {
   return differences;
 }
 
+std::string repeating_command(const StudyPlan& plan, const StudyFlight& flight) {
+  const StudyScene& scene = plan.scenes[flight.scenario];
+  std::string line = "./skein run " + shell_word(scene.scenario);
+  const auto add = [&](const std::string& option, const std::string& value) {
+    line += " " + option + " " + shell_word(value);
+  };
+  if (scene.scene_seed) add("--scene-seed", std::to_string(*scene.scene_seed));
+  add("--planner", plan.planners[flight.planner]);
+  if (flight.seed != 0) add("--seed", std::to_string(flight.seed));
+  if (plan.options.duration_s) add("--duration", shortest(*plan.options.duration_s));
+  if (plan.options.rules) add("--rules", *plan.options.rules);
+  if (plan.options.assets) add("--assets", *plan.options.assets);
+  if (plan.options.faults) add("--faults", *plan.options.faults);
+  if (plan.options.secure) line += " --secure";
+  if (flight.one_process) line += " --one-process";
+  return line;
+}
+
 std::vector<std::string> flight_arguments(const StudyPlan& plan, const StudyFlight& flight, const fs::path& skein) {
-  RunOptions run = run_options(plan.options, plan.scenarios[flight.scenario], plan.planners[flight.planner]);
+  RunOptions run = run_options(plan.options, plan.scenes[flight.scenario], plan.planners[flight.planner]);
   run.seed = flight.seed;
   run.agent = flight.agent;
   run.one_process = flight.one_process;

@@ -22,11 +22,17 @@ struct StudyFlight {
   Json command;
 };
 
+struct StudyScene {
+  std::string scenario;                     ///< as `skein run` takes it
+  std::optional<std::uint64_t> scene_seed;  ///< nullopt: the scenario's own
+};
+
 struct StudyPlan {
   StudyOptions options;
   std::vector<std::string> planners;   ///< as `skein run --planner` takes them
   std::vector<std::string> labels;     ///< what they are called: planner_labels()
-  std::vector<std::string> scenarios;  ///< as `skein run` takes them
+  std::vector<std::string> scenarios;  ///< what its scenes are called: "towers", "wild 7"
+  std::vector<StudyScene> scenes;      ///< the same, as they are flown
   std::vector<std::uint64_t> seeds;
   std::filesystem::path out;         ///< absolute
   std::vector<StudyFlight> flights;  ///< by seed, then scenario, then planner: cut short, all have flown about as much
@@ -43,6 +49,9 @@ StudyPlan plan_study(const StudyOptions& options);
 
 /// How two studies' settings differ, a sentence each; empty when they do not.
 std::vector<std::string> differing_settings(const Json& then, const Json& now);
+
+/// What a user types to fly the same again.
+std::string repeating_command(const StudyPlan& plan, const StudyFlight& flight);
 
 /// The `skein run` that flies it. @param skein  the program.
 std::vector<std::string> flight_arguments(const StudyPlan& plan, const StudyFlight& flight,

@@ -23,16 +23,16 @@ std::uint64_t whole_number(const std::string& digits, const std::string& text) {
   const bool fits =
       !digits.empty() && digits.size() <= kMostDigits && digits.find_first_not_of("0123456789") == std::string::npos;
   if (!fits) {
-    throw InputError("--seeds " + text + ": '" + digits +
+    throw InputError(text + ": '" + digits +
                      "' is no seed; write how many (5 for 0 to 4), a list (3,5,8) or a range (1-5)");
   }
   return std::stoull(digits);
 }
 
 void append_range(std::uint64_t first, std::uint64_t last, const std::string& text, std::vector<std::uint64_t>& seeds) {
-  if (last < first) throw InputError("--seeds " + text + ": a range goes upwards, such as 1-5");
+  if (last < first) throw InputError(text + ": a range goes upwards, such as 1-5");
   if (last - first >= kMostSeeds - seeds.size()) {
-    throw InputError("--seeds " + text + ": more than " + std::to_string(kMostSeeds) + " seeds");
+    throw InputError(text + ": more than " + std::to_string(kMostSeeds) + " seeds");
   }
   for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
 }
@@ -69,23 +69,23 @@ std::vector<std::string> split_planners(const std::string& list) {
   return planners;
 }
 
-std::vector<std::uint64_t> parse_seeds(const std::string& text) {
+std::vector<std::uint64_t> parse_seeds(const std::string& text, const std::string& option) {
+  const std::string said = option + " " + text;
   const bool is_count = text.find_first_of(",-") == std::string::npos;
+  std::vector<std::uint64_t> seeds;
   if (is_count) {
-    const std::uint64_t count = whole_number(text, text);
-    if (count == 0) throw InputError("--seeds 0: there must be one at least; 1 is seed 0, the nominal run");
-    std::vector<std::uint64_t> seeds;
-    append_range(0, count - 1, text, seeds);
+    const std::uint64_t count = whole_number(text, said);
+    if (count == 0) throw InputError(option + " 0: there must be one at least; 1 is seed 0, the nominal run");
+    append_range(0, count - 1, said, seeds);
     return seeds;
   }
-  std::vector<std::uint64_t> seeds;
   for (const std::string& item : split(text)) {
     const std::size_t dash = item.find('-');
-    const std::uint64_t first = whole_number(item.substr(0, dash), text);
-    append_range(first, dash == std::string::npos ? first : whole_number(item.substr(dash + 1), text), text, seeds);
+    const std::uint64_t first = whole_number(item.substr(0, dash), said);
+    append_range(first, dash == std::string::npos ? first : whole_number(item.substr(dash + 1), said), said, seeds);
   }
   if (std::set<std::uint64_t>(seeds.begin(), seeds.end()).size() != seeds.size()) {
-    throw InputError("--seeds " + text + ": a seed is named twice");
+    throw InputError(said + ": a seed is named twice");
   }
   return seeds;
 }

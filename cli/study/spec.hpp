@@ -15,7 +15,8 @@ std::vector<std::string> split_planners(const std::string& list);
 
 /// `K`: the seeds 0..K-1. `3,5,8` and `1-5`, also mixed (`0,4-6`): these.
 /// @throws InputError for anything else, a seed named twice, or more than 1000 of them.
-std::vector<std::uint64_t> parse_seeds(const std::string& text);
+/// @param option  that they were written behind, for messages.
+std::vector<std::uint64_t> parse_seeds(const std::string& text, const std::string& option = "--seeds");
 
 /// What a study calls its planners: as they are written, but of the path of each agent (NAME@AGENT) just the last
 /// names, no more than tell it from the other agents ("kios@agent"; "kios@a/agent" and "star@b/agent").

@@ -1,6 +1,5 @@
 #include "sim_server/oracle/cache.hpp"
 
-#include <cstdlib>
 #include <fstream>
 #include <span>
 
@@ -123,16 +122,6 @@ std::string oracle_key(const Scenario& scenario, const Scene& scene, const Oracl
   hash.add(rules.min_point_score).add(rules.own_body_hides).add(rules.camera_blind_in_structure);
   hash.add(config.clearance_m).add(config.outside_berth_m).add(config.directions).add(config.berth == Berth::body);
   return hash.hex();
-}
-
-std::optional<fs::path> user_cache_folder() {
-  const auto variable = [](const char* name) -> fs::path {
-    const char* value = std::getenv(name);
-    return value == nullptr ? "" : value;
-  };
-  if (const fs::path cache = variable("XDG_CACHE_HOME"); cache.is_absolute()) return cache / "skein";
-  if (const fs::path home = variable("HOME"); home.is_absolute()) return home / ".cache" / "skein";
-  return std::nullopt;
 }
 
 OracleReply ask_oracle(const Scenario& scenario, const Scene& scene, const OracleRequest& request) {

@@ -39,9 +39,6 @@ OracleSummary summary_from_json(const nlohmann::ordered_json& json);
 /// radios. Pure.
 std::string oracle_key(const Scenario& scenario, const Scene& scene, const OracleConfig& config);
 
-/// ${XDG_CACHE_HOME}/skein, else ~/.cache/skein; nullopt where the environment names neither.
-std::optional<std::filesystem::path> user_cache_folder();
-
 struct OracleRequest {
   OracleConfig config;
   /// No answer rather than one that is not in the cache and is expected to take longer [s].

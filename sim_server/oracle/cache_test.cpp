@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 
+#include "process/user_cache.hpp"
 #include "sim_server/testing/test_scenes.hpp"
 
 namespace skein::sim {

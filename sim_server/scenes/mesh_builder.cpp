@@ -170,6 +170,12 @@ void MeshBuilder::add_dome(const Isometry3d& X_WL, const Vector3d& half_axes, do
   add_loft(rings, std::nullopt, X_WL * Vector3d(0, 0, half_axes.z()));
 }
 
+void append(TriangleMesh& all, const TriangleMesh& part) {
+  const auto shift = static_cast<std::uint32_t>(all.vertices.size());
+  all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (const auto& t : part.triangles) all.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+}
+
 OrientedBox enclosing_box(const std::string& name, const TriangleMesh& mesh, std::size_t first_vertex,
                           const Matrix3d& R_WO, double margin) {
   Eigen::AlignedBox3d extent;  // in O

@@ -67,6 +67,9 @@ class MeshBuilder {
   TriangleMesh mesh_;
 };
 
+/// Puts a mesh behind another one, its indices shifted.
+void append(TriangleMesh& all, const TriangleMesh& part);
+
 /// Smallest box with the given axes around some of a mesh's vertices.
 /// @param first_vertex  vertices from this one on.   @param margin  added on all sides [m].
 OrientedBox enclosing_box(const std::string& name, const TriangleMesh& mesh, std::size_t first_vertex,

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/drawn_worlds.hpp"
 #include "core/scenario_reader.hpp"
 #include "process/atomic_file.hpp"
 #include "sim_server/scene_files/box_file.hpp"
 #include "sim_server/scene_files/mesh_file.hpp"
 #include "sim_server/scene_files/point_file.hpp"
+#include "sim_server/scenes/scene_picture.hpp"
 
 namespace skein::sim {
 
@@ -34,7 +36,7 @@ std::string origin(const SceneConfig& scene) {
 /// The scenario with this scene from files beside it.
 std::string scenario_text(Scenario scenario, const fs::path& mesh, const fs::path& points, const fs::path& boxes) {
   const std::string comment = "# Written by `skein scene`. Its scene is from " + origin(scenario.scene) + ".\n";
-  scenario.scene = {};
+  if (!is_drawn_world(scenario.scene.family)) scenario.scene = {};
   scenario.scene.meshes = {"./" + mesh.string()};
   scenario.scene.points = "./" + points.string();
   scenario.scene.boxes = "./" + boxes.string();
@@ -59,6 +61,10 @@ std::vector<ExportedFile> scene_export(const Scenario& scenario, const Scene& sc
   }
   files.push_back({name + ".yaml", "the scenario, " + counted(scenario.fleet.size(), "UAV"), scenario_yaml});
   return files;
+}
+
+ExportedFile scene_picture_file(const Scenario& scenario, const Scene& scene) {
+  return {file_name(scenario.name) + ".svg", "a drawing", scene_picture(scenario, scene)};
 }
 
 void write_export(const std::vector<ExportedFile>& files, const fs::path& folder, bool overwrite) {

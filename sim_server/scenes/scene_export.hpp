@@ -26,6 +26,9 @@ struct ExportedFile {
 /// Pure.
 std::vector<ExportedFile> scene_export(const Scenario& scenario, const Scene& scene);
 
+/// A drawing of the scene (scene_picture.hpp): <name>.svg. Pure.
+ExportedFile scene_picture_file(const Scenario& scenario, const Scene& scene);
+
 /// Writes them, each whole or not at all.
 /// @param overwrite  replace files of an earlier export.
 /// @throws InputError when one of the files exists and `overwrite` is false, before anything is written; or when the

@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "core/drawn_worlds.hpp"
 #include "core/scene_families.hpp"
 #include "sim_server/scene_files/box_file.hpp"
 #include "sim_server/scene_files/limits.hpp"
@@ -10,6 +11,7 @@
 #include "sim_server/scene_files/point_file.hpp"
 #include "sim_server/scenes/cranes.hpp"
 #include "sim_server/scenes/hangar.hpp"
+#include "sim_server/scenes/mesh_builder.hpp"
 #include "sim_server/scenes/sail.hpp"
 #include "sim_server/scenes/spire.hpp"
 #include "sim_server/scenes/towers.hpp"
@@ -32,17 +34,10 @@ Scene make_family(const Scenario& scenario) {
                    "'; there are: " + known);
 }
 
-/// Meshes put one after the other, indices shifted.
-void append(TriangleMesh& all, const TriangleMesh& part) {
-  const auto shift = static_cast<std::uint32_t>(all.vertices.size());
-  all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
-  for (const auto& t : part.triangles) all.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
-}
-
 }  // namespace
 
 Scene load_scene(const Scenario& scenario) {
-  if (!scenario.scene.family.empty()) return make_family(scenario);
+  if (!from_files(scenario.scene)) return make_family(scenario);
   Scene scene;
   for (const auto& file : scenario.scene.meshes) {
     append(scene.mesh, read_mesh(file));

@@ -10,6 +10,7 @@
 
 #include "core/euler.hpp"
 #include "core/random_stream.hpp"
+#include "core/scene_families.hpp"
 
 namespace skein::sim {
 namespace {
@@ -76,10 +77,7 @@ void split_longest(std::vector<OrientedBox>& boxes, double share) {
   boxes.push_back(high);
 }
 
-}  // namespace
-
-void vary_boxes(Scene& scene, std::uint64_t scene_seed) {
-  if (scene_seed == 0) return;
+void vary_as_ever(Scene& scene, std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "scene_boxes", 0);
   const double kind = random.uniform();
   if (kind < kSingleBox) {
@@ -95,6 +93,47 @@ void vary_boxes(Scene& scene, std::uint64_t scene_seed) {
     const OrientedBox old[] = {box};
     box = box_around(box.name, old, rotation_z(turn) * box.R_WO, random.uniform(0.0, kLargestMargin));
   }
+}
+
+/// A box with nothing in it, or nearly so, beside another one.
+OrientedBox idle_box(const OrientedBox& near, RandomStream& random) {
+  const double heading = random.uniform(-std::numbers::pi, std::numbers::pi);
+  const double away = 0.5 * near.size.head<2>().norm() + random.uniform(8.0, 25.0);
+  OrientedBox box;
+  box.name = "idle";
+  box.size = {random.uniform(5.0, 20.0), random.uniform(5.0, 20.0), random.uniform(5.0, 25.0)};
+  box.center << near.center.head<2>() + away * Vector2d(std::cos(heading), std::sin(heading)), 0.5 * box.size.z();
+  box.R_WO = rotation_z(heading);
+  return box;
+}
+
+/// What seeds from kVariedSeeds on have beside the rest.
+void vary_further(std::vector<OrientedBox>& boxes, std::uint64_t scene_seed) {
+  constexpr double kLoose = 0.35, kIdle = 0.3;  // shares of the boxes, of the seeds
+  RandomStream random(scene_seed, "scene_boxes_further", 0);
+  for (OrientedBox& box : boxes) {
+    if (random.uniform() < kLoose) loosen(box, random);
+  }
+  if (random.uniform() < kIdle) boxes.push_back(idle_box(boxes.front(), random));
+}
+
+}  // namespace
+
+void loosen(OrientedBox& box, RandomStream& random) {
+  const double factor = random.uniform(1.0, 4.0);
+  Vector3d share(random.uniform(), random.uniform(), random.uniform());
+  share /= std::max(1e-9, share.sum());
+  for (int axis = 0; axis < 3; ++axis) {
+    const double more = (std::pow(factor, share[axis]) - 1.0) * box.size[axis];
+    box.center += random.uniform(-0.5, 0.5) * more * box.R_WO.col(axis);
+    box.size[axis] += more;
+  }
+}
+
+void vary_boxes(Scene& scene, std::uint64_t scene_seed) {
+  if (scene_seed == 0) return;
+  vary_as_ever(scene, scene_seed);
+  if (scene_seed >= kVariedSeeds) vary_further(scene.boxes, scene_seed);
 }
 
 }  // namespace skein::sim

@@ -1,40 +1,62 @@
 #include "sim_server/sensors/key_frames.hpp"
 
+#include <pcl/filters/uniform_sampling.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <tuple>
+#include <memory>
+#include <numeric>
 
 #include "core/euler.hpp"
 
 namespace skein::sim {
+namespace {
 
-std::vector<Eigen::Vector3f> sample_uniformly(std::span<const Eigen::Vector3f> points_W, double cell_m) {
-  struct Candidate {
-    std::array<std::int64_t, 3> cell;
-    double from_centre;  ///< squared
-    std::size_t index;
-    auto order() const { return std::tie(cell, from_centre, index); }
-  };
-  std::vector<Candidate> candidates;
-  candidates.reserve(points_W.size());
-  for (std::size_t i = 0; i < points_W.size(); ++i) {
-    const Vector3d scaled = points_W[i].cast<double>() / cell_m;
-    const Vector3d cell = scaled.array().floor();
-    candidates.push_back({{static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
-                           static_cast<std::int64_t>(cell.z())},
-                          (scaled.array() - cell.array() - 0.5).matrix().squaredNorm(),
-                          i});
-  }
-  std::ranges::sort(candidates, {}, &Candidate::order);
-  const auto rest = std::ranges::unique(candidates, {}, &Candidate::cell);
-  candidates.erase(rest.begin(), rest.end());
-  std::ranges::sort(candidates, {}, &Candidate::index);
+constexpr double kMostCells = 1e9;  ///< PCL counts them by int
 
+using Points = std::span<const Eigen::Vector3f>;
+
+/// Tells by PCL's filter which of some points are left out: what it keeps comes in the order of a hash table.
+void leave_out(Points points_W, const std::vector<std::size_t>& some, double cell_m, std::vector<bool>& left_out) {
+  auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  cloud->reserve(some.size());
+  for (const std::size_t i : some) cloud->push_back({points_W[i].x(), points_W[i].y(), points_W[i].z()});
+  pcl::UniformSampling<pcl::PointXYZ> sampling(true);  // tells them
+  sampling.setInputCloud(cloud);
+  sampling.setRadiusSearch(cell_m);
+  pcl::PointCloud<pcl::PointXYZ> sampled;
+  sampling.filter(sampled);
+  for (const int i : *sampling.getRemovedIndices()) left_out[some[static_cast<std::size_t>(i)]] = true;
+}
+
+/// The same of points that may lie so far apart that cells between them are too many: they are parted first.
+void leave_out_piecewise(Points points_W, std::vector<std::size_t> some, double cell_m, std::vector<bool>& left_out) {
+  if (some.size() < 2) return;
+  const auto cell = [&](std::size_t i) { return Vector3d((points_W[i].cast<double>() / cell_m).array().floor()); };
+  Eigen::AlignedBox3d extent;
+  for (const std::size_t i : some) extent.extend(cell(i));
+  if ((extent.sizes().array() + 2.0).prod() <= kMostCells) return leave_out(points_W, some, cell_m, left_out);
+  Eigen::Index axis = 0;
+  extent.sizes().maxCoeff(&axis);
+  const double middle = std::floor(extent.center()[axis]);
+  const auto upper = std::stable_partition(some.begin(), some.end(), [&](auto i) { return cell(i)[axis] <= middle; });
+  leave_out_piecewise(points_W, {upper, some.end()}, cell_m, left_out);
+  some.erase(upper, some.end());
+  leave_out_piecewise(points_W, std::move(some), cell_m, left_out);
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3f> sample_uniformly(Points points_W, double cell_m) {
+  std::vector<bool> left_out(points_W.size());
+  std::vector<std::size_t> all(points_W.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  leave_out_piecewise(points_W, std::move(all), cell_m, left_out);
   std::vector<Eigen::Vector3f> kept;
-  kept.reserve(candidates.size());
-  for (const Candidate& candidate : candidates) {
-    kept.push_back(points_W[candidate.index]);
+  for (std::size_t i = 0; i < points_W.size(); ++i) {
+    if (!left_out[i]) kept.push_back(points_W[i]);
   }
   return kept;
 }

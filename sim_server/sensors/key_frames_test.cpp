@@ -115,6 +115,20 @@ TEST(UniformSampling, KeepsTheNearestToEachCentre) {
   EXPECT_EQ(sample_uniformly(cloud, 0.5), expected);
 }
 
+TEST(UniformSampling, HoweverFarApartPointsAreNoneIsTakenForAnother) {
+  RandomStream random(2, "keyframes_test", 0, 0);
+  std::vector<Eigen::Vector3f> cloud;  // pairs in one cell each
+  for (int i = 0; i < 600; ++i) {
+    const Vector3d p = test::random_in_box(random, {-1000.0, -1000.0, -200.0}, {1000.0, 1000.0, 400.0});
+    const Vector3d centre = 0.5 * ((p / 0.5).array().floor() + 0.5).matrix();
+    cloud.push_back(centre.cast<float>());
+    cloud.push_back((centre + Vector3d(0.125, 0.0, 0.0)).cast<float>());
+  }
+  std::vector<Eigen::Vector3f> expected;
+  for (std::size_t i = 0; i < cloud.size(); i += 2) expected.push_back(cloud[i]);
+  EXPECT_EQ(sample_uniformly(cloud, 0.5), expected);
+}
+
 TEST(UniformSampling, EarlierPointWinsATie) {
   const std::vector<Eigen::Vector3f> cloud = {{0.25F, 0.25F, 0.125F}, {0.25F, 0.25F, 0.375F}, {0.75F, 0.25F, 0.25F}};
   EXPECT_EQ(sample_uniformly(cloud, 0.5), (std::vector<Eigen::Vector3f>{cloud[0], cloud[2]}));

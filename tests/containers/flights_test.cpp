@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <fstream>
 #include <random>
+#include <regex>
+#include <thread>
 
 #include "cli/bench/scenario.hpp"
 #include "container_fixture.hpp"
@@ -69,14 +71,14 @@ TEST_F(FlightInContainers, FaultsMeanTheSame) {
 TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
   const fs::path context = folder() / "image";
   fs::create_directory(context);
-  fs::copy_file(SKEIN_CRASH_AGENT, context / "my_agent");
+  fs::copy_file(SKEIN_PROBE_AGENT, context / "my_agent");
   std::ofstream(context / "Dockerfile")
       << "FROM skein-agent\nCOPY my_agent /usr/local/bin/\nENTRYPOINT [\"my_agent\"]\n";
   const std::string image = "skein-test-" + std::to_string(::getpid());
   const Answer built = shell("docker build --tag " + image + " " + context.string());
   ASSERT_EQ(built.code, 0) << built.text;
   const auto flown = [&](const std::string& of, const Arguments& more) {
-    Arguments all = arguments("patrol,jurong=crash:at_s=100" + of, "60", more);
+    Arguments all = arguments("patrol,jurong=probe:east_m=20" + of, "60", more);
     all.insert(all.end(), {"--uavs", "4"});
     return all;
   };
@@ -85,7 +87,31 @@ TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
   expect_whole(run);
   EXPECT_EQ(run.result()["uavs"].size(), 4u);
   EXPECT_GT(run.result()["uavs"][0]["distance_m"], 1.0) << "it took off";
-  EXPECT_EQ(flight_of(run), alone(flown(std::string("@") + SKEIN_CRASH_AGENT, {})));
+  EXPECT_EQ(flight_of(run), alone(flown(std::string("@") + SKEIN_PROBE_AGENT, {})));
+}
+
+// Docker's images have no gdb: SIGCONT lets the program go on, as who leaves gdb does.
+TEST_F(FlightInContainers, TheFleetWaitsForWhoIsDebugged) {
+  const std::string agent = "uav_agent-jurong";
+  const Arguments flown = arguments("kios", "20");
+  Arguments debugged = flown;
+  debugged.insert(debugged.end(), {"--debug", "jurong"});
+  SkeinRun& run = start_up("up", debugged);
+  std::string process;
+  const auto told = [&] {
+    const std::string log = log_of(run, agent);
+    std::smatch match;
+    if (!std::regex_search(log, match, std::regex("process ([0-9]+) stands until a debugger"))) return false;
+    process = match[1];
+    return true;
+  };
+  ASSERT_TRUE(eventually(told)) << run.err();
+  std::this_thread::sleep_for(std::chrono::seconds(12));  // longer than a lease
+  EXPECT_FALSE(run.skein().ended()) << run.err();
+  EXPECT_EQ(shell("docker exec " + container(run, agent) + " bash -c 'kill -CONT " + process + "'").text, "");
+  EXPECT_EQ(run.exit_code(), 0) << run.err();
+  expect_whole(run);
+  EXPECT_EQ(flight_of(run), alone(flown));
 }
 
 class TwentyUavs : public FlightInContainers, public testing::WithParamInterface<std::string> {};

@@ -162,7 +162,10 @@ const std::vector<LibraryRule>& library_rules() {
       {"Bullet", {"bt", "bullet/", "BulletCollision/", "BulletDynamics/", "LinearMath/"}, {"sim_server/"}, 2},
       {"Embree", {"embree"}, {"sim_server/"}, 2},
       {"OctoMap", {"octomap/", "octomath/"}, {"uav_agent/", "tests/recording/map_test.cpp"}, 2},
-      {"PCL", {"pcl/"}, {"uav_agent/", "sim_server/scene_files/point_file_pcl_test.cpp"}, 2},
+      {"PCL",
+       {"pcl/"},
+       {"uav_agent/", "sim_server/sensors/key_frames.cpp", "sim_server/scene_files/point_file_pcl_test.cpp"},
+       2},
       {"Assimp", {"assimp/"}, {"sim_server/scene_files/"}, 1}};
   return kRules;
 }

@@ -68,7 +68,7 @@ struct PlannerOutput {
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
   /// What others said of their maps (OccupancyMap::octomap_bytes()), to be taken into the one on board.
   std::vector<std::string> heard_maps = {};
-  std::vector<DebugValue> debug = {};    ///< of Planner::debug_names()
+  std::vector<DebugValue> debug = {};  ///< of Planner::debug_names()
 };
 
 class Planner {

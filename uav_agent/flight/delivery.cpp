@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "uav_agent/flight/proof.hpp"
+
 namespace skein::agent {
 namespace {
 
@@ -18,6 +20,7 @@ constexpr double kRetryS = 1.0;         ///< after no way was found
 constexpr double kLinkPatienceS = 4.0;  ///< at a place without a link
 constexpr double kLinkAgeS = 1.0;       ///< between two sightings: a link that lasts
 constexpr int kFailuresToRetreat = 3;
+constexpr int kFailuresToAskLess = 4;  ///< proof of free space: what is not delivered is worth nothing
 constexpr double kOutwards[] = {4.0, 8.0, 14.0, 22.0, 32.0};
 
 }  // namespace
@@ -118,7 +121,9 @@ bool Delivery::step(const PlannerInput& in, const FreeSpace::Config& space, Plan
   }
   if (pilot_.has_path() || in.tick < next_try_) return false;
   next_try_ = in.tick + ticks(kRetryS);
-  heading_home_ = pilot_.fly_to(home(), in, space, out).found;
+  FreeSpace::Config way = space;
+  way.rays = Proof::of(space.rays, static_cast<std::size_t>(failures_ / kFailuresToAskLess));
+  heading_home_ = pilot_.fly_to(home(), in, way, out).found;
   if (heading_home_) return false;
   next_place();
   if (++failures_ % kFailuresToRetreat == 0) pilot_.retreat(out, false);

@@ -38,7 +38,7 @@ class FreeSpace {
     double floor_m = 2.0;
     double blind_height_m = 0.0;  ///< below, only space that was seen to be free may be entered
     double jut_m = 3.0;           ///< so far outside a box there may be structure, too; never less than clearance_m
-    int rays = 8;                 ///< that must have passed a place where only what was seen may be entered
+    int rays = kProofRays;        ///< that must have passed a place where only what was seen may be entered
     /// If not empty, boxes may only be entered this near to one of these places, however much was seen of
     /// their inside: a way from here to there does not lead through a building.
     std::vector<Vector3d> enter_near_W = {};

@@ -23,6 +23,10 @@ struct PassedCells {
   std::vector<std::pair<std::uint64_t, Block>> blocks;
 };
 
+/// So many rays must have passed a place before it is believed to be free where something may well be: in and beside
+/// boxes. Measured, see docs/decisions/. Who cannot get anywhere may do with less (flight/proof.hpp).
+inline constexpr int kProofRays = 12;
+
 class OccupancyMap {
  public:
   struct Config {

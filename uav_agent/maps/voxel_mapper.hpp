@@ -15,7 +15,7 @@ namespace skein::agent {
 class VoxelMapper {
  public:
   struct Config {
-    int rays = 8;                  ///< that must have passed the middle of a cube
+    int rays = kProofRays;         ///< that must have passed the middle of a cube
     double around_m = 1.0;         ///< and places this far from it along the axes
     int min_hits = 1;              ///< mapped cells (0.5 m) that make a cube occupied
     std::size_t max_looks = 8000;  ///< unknown cubes looked at in one update; they take turns

@@ -50,7 +50,7 @@ TEST(Standoff, FollowsALeaningSurfaceAtTheSharpDistance) {
   const Facade facade;
   const auto depth = [](double z) { return 1.0 + 0.15 * (z - 11.0); };
   OccupancyMap map;
-  for (const double z : {12.0, 20.0, 30.0, 40.0, 48.0}) add_wall(map, depth, Vector3d(0.0, -12.0, z));
+  for (double z = 12.0; z <= 48.0; z += 4.0) add_wall(map, depth, Vector3d(0.0, -12.0, z));
   const auto runs =
       fit_strip(facade.strip, false, 0.0, {}, FreeSpace({.clearance_m = 1.8}, facade.boxes, map), facade.reach, {});
   ASSERT_EQ(runs.size(), 1U);

@@ -19,6 +19,7 @@
 #include "core/euler.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/path_search.hpp"
+#include "uav_agent/flight/proof.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/flight/sortie.hpp"
 #include "uav_agent/flight/voxel_route.hpp"
@@ -39,11 +40,7 @@ constexpr double kAimPatienceS = 4.0;  ///< at a waypoint; some directions are o
 constexpr int kMaxLaneFailures = 4;
 constexpr std::size_t kCandidates = 5;  ///< stops tried in one decision
 constexpr int kFruitlessToBold = 2, kFruitlessToRetreat = 9;
-constexpr double kBoldS = 40.0;  ///< for so long
-/// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere; in the end it
-/// takes the low space away from all boxes to be free.
-constexpr int kRays[] = {12, 9, 6, 6};
-constexpr int kRoomyRays[] = {16, 12, 8, 8};
+constexpr double kBoldS = 40.0;          ///< for so long it does with less proof of free space
 constexpr double kLookAroundTurn = 0.8;  ///< in vain: a LiDAR that has turned makes a new key frame [rad]
 constexpr double kWaitFactor = 1.5, kWaitExtraS = 20.0;  ///< patience with explorers, beside the time that lanes take
 
@@ -110,8 +107,7 @@ class KiosPlanner final : public Planner {
   std::vector<Vector3d> way_;          ///< to it
   std::optional<Tick> looking_since_;  ///< steady, aimed
   int fruitless_ = 0;                  ///< decisions in a row
-  std::size_t boldness_ = 0;           ///< index into kRays
-  Tick bold_until_ = 0;
+  Proof proof_;                        ///< of free space
 };
 
 PlannerOutput KiosPlanner::plan(const PlannerInput& in) {
@@ -159,8 +155,8 @@ FreeSpace::Config KiosPlanner::space_config() const {
   FreeSpace::Config config;
   config.clearance_m = clearance_m();
   config.jut_m = config_.jut_m;
-  config.rays = site_.roomy ? kRoomyRays[boldness_] : kRays[boldness_];
-  config.blind_height_m = boldness_ + 1 < std::size(kRays) ? site_.blind_height_m : 0.0;
+  config.rays = proof_.of(Proof::rays(site_.roomy));
+  config.blind_height_m = proof_.at_last() ? 0.0 : site_.blind_height_m;
   config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = hearsay_ ? &*hearsay_ : nullptr;
   return config;
@@ -244,17 +240,17 @@ void KiosPlanner::next_lane(const PlannerInput& in, PlannerOutput& out) {
       Path path;
       for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.map_mps});
       sortie_.pilot().follow(std::move(path), out);
-      boldness_ = 0;
+      proof_.ask_all();
       return;
     }
     not_before_ = in.tick + ticks(kRestS);
-    boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
+    proof_.ask_less();
     out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
     lane_failed();
     return;
   }
   waiting_since_ = in.tick;
-  boldness_ = 0;
+  proof_.ask_all();
   phase_ = agent_.me().role == Role::explorer ? Phase::decide : Phase::wait;
   not_before_ = in.tick;
 }
@@ -308,7 +304,7 @@ std::vector<KiosAgent> KiosPlanner::fleet_in_sight(const PlannerInput& in, std::
 
 /// Shares out what is left among those in sight, and sets out for the first of its own that can be reached.
 void KiosPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
-  if (in.tick >= bold_until_) boldness_ = 0;
+  proof_.settle(in.tick);
   const FreeSpace space = free_space(in);
   auto [open, out_of_reach] = stops_.open_stops(*grid_, mapper_, space, in.boxes, in.tick);
   const std::set<std::uint32_t> taken = talk_.taken(in.tick);
@@ -333,10 +329,7 @@ void KiosPlanner::nothing_to_reach(const PlannerInput& in, bool stops_left, Plan
   if (!stops_left) return;
   ++fruitless_;
   out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
-  if (fruitless_ % kFruitlessToBold == 0) {
-    boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
-    bold_until_ = in.tick + ticks(kBoldS);
-  }
+  if (fruitless_ % kFruitlessToBold == 0) proof_.ask_less(in.tick + ticks(kBoldS));
   if (fruitless_ % kFruitlessToRetreat == 0) sortie_.pilot().retreat(out);
 }
 

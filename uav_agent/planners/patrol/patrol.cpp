@@ -14,6 +14,7 @@
 #include "core/euler.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/path_search.hpp"
+#include "uav_agent/flight/proof.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/flight/sortie.hpp"
 #include "uav_agent/planners/patrol/config.hpp"
@@ -33,11 +34,6 @@ constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the s
 constexpr int kMaxFailures = 3;
 constexpr int kMaxFailedTasks = 8;
 constexpr double kAnywhereM = 1e6;
-/// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere; in the
-/// end it takes the low space outside all boxes to be free.
-constexpr int kRays[] = {8, 4, 2, 2};
-/// In a roomy box all structure lies where only rays say what is free, and thin members take many to be found.
-constexpr int kRoomyRays[] = {16, 12, 8, 8};
 
 }  // namespace
 
@@ -89,8 +85,8 @@ class PatrolPlanner final : public Planner {
   bool shared_ = false;  ///< the boxes have come
   double top_m_ = 0.0, blind_height_m_ = 0.0;
   PatrolRounds rounds_;
-  bool flown_any_ = true;     ///< in this round
-  std::size_t boldness_ = 0;  ///< index into kRays
+  bool flown_any_ = true;  ///< in this round
+  Proof proof_;            ///< of free space
   std::optional<BlockWork> blocks_;
   std::optional<BlockWork::Task> task_;  ///< of blocks_; else the current strip is of the rounds
   bool task_flown_ = false;
@@ -130,12 +126,12 @@ FreeSpace::Config PatrolPlanner::space_config() const {
   config.clearance_m = centre_clearance_m(agent_, config_.clearance_m);
   config.use_map = config_.use_map;
   config.jut_m = 0.0;  // it works at a fixed distance from the boxes' faces, seen or not
-  config.rays = kRays[boldness_];
-  if (blocks_ && blocks_->any()) {
-    config.rays = kRoomyRays[boldness_];
+  const bool roomy = blocks_ && blocks_->any();
+  config.rays = proof_.of(Proof::rays(roomy));
+  if (roomy) {
     config.enter_radius_m = kAnywhereM;  // ways through a roomy box do not lead through a building
   }
-  config.blind_height_m = boldness_ + 1 < std::size(kRays) ? blind_height_m_ : 0.0;
+  config.blind_height_m = proof_.at_last() ? 0.0 : blind_height_m_;
   return config;
 }
 
@@ -244,7 +240,7 @@ void PatrolPlanner::begin_survey(const PlannerInput& in, PlannerOutput& out) {
 bool PatrolPlanner::next_block(const PlannerInput& in, PlannerOutput& out) {
   if (task_ && !task_flown_) {
     blocks_->failed(*task_, in.tick);
-    if (++failed_tasks_ % kMaxFailedTasks == 0) boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
+    if (++failed_tasks_ % kMaxFailedTasks == 0) proof_.ask_less();
   }
   task_ = blocks_->next(in.tick, in.tracking.setpoint.p_WB, in.map);
   const bool again = task_ && task_->flown > rounds_.number();
@@ -268,7 +264,7 @@ void PatrolPlanner::next_strip(const PlannerInput& in, PlannerOutput& out) {
   if (rounds_.over() && !flown_any_ && !rounds_.without_work()) {
     // Nothing could be flown: tries from elsewhere, less carefully. A LiDAR that has turned makes a new key frame.
     flown_any_ = true;
-    boldness_ = std::min(boldness_ + 1, std::size(kRays) - 1);
+    proof_.ask_less();
     idle(in.tick + ticks(kRestS), out);
     sortie_.pilot().retreat(out);
     out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
@@ -328,7 +324,7 @@ void PatrolPlanner::fly_strip(const PlannerInput& in, PlannerOutput& out) {
     return;
   }
   flown_any_ = true;
-  boldness_ = 0;
+  proof_.ask_all();
   failed_tasks_ = 0;
   if (task_ && !task_flown_) blocks_->flown(*task_);
   task_flown_ = true;

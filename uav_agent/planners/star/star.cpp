@@ -17,11 +17,11 @@
 #include <algorithm>
 
 #include "uav_agent/api/planner.hpp"
+#include "uav_agent/flight/proof.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/flight/sortie.hpp"
 #include "uav_agent/planners/star/camera.hpp"
 #include "uav_agent/planners/star/knowledge.hpp"
-#include "uav_agent/planners/star/proof.hpp"
 #include "uav_agent/planners/star/talk.hpp"
 #include "uav_agent/planners/star/teams.hpp"
 #include "uav_agent/planners/star/tour.hpp"
@@ -39,6 +39,7 @@ constexpr std::size_t kCandidates = 3;  ///< first places tried in one plan
 constexpr int kMaxApproaches = 4;       ///< to a box
 constexpr std::size_t kSidesApart = 3;  ///< between two of them, of twelve
 constexpr int kFruitlessToBold = 2, kFruitlessToRetreat = 9;
+constexpr double kBoldS = 40.0;  ///< for so long it does with less proof of free space
 
 }  // namespace
 
@@ -96,7 +97,7 @@ class StarPlanner final : public Planner {
   Separation separation_;
   StarTalk talk_;
   StarCamera camera_;
-  StarProof proof_;
+  Proof proof_;
 
   std::optional<StarKnowledge> known_;  ///< once the boxes have come, as all that follows
   std::size_t leader_ = 0;              ///< of the team
@@ -152,7 +153,7 @@ PlannerOutput StarPlanner::plan(const PlannerInput& in) {
 FreeSpace::Config StarPlanner::space_config() const {
   FreeSpace::Config config;
   config.clearance_m = centre_clearance_m(agent_, config_.clearance_m);
-  config.rays = proof_.rays(site_.roomy);
+  config.rays = proof_.of(Proof::rays(site_.roomy));
   config.blind_height_m = site_.safe_height_m();
   config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = known_ ? known_->hearsay() : nullptr;
@@ -319,7 +320,7 @@ void StarPlanner::idle(const PlannerInput& in, const FreeSpace& space, PlannerOu
   const bool waits = !in.tracking.done || seconds(in.tick - *idle_since_) < config_.follow_s;
   if (config_.faithful || boxes_.empty() || waits) return;
   idle_since_ = in.tick;
-  proof_.ask_less(in.tick);
+  proof_.ask_less(in.tick + ticks(kBoldS));
   if (has_lidar()) {
     begin_box(rounds_ % boxes_.size());
     ++rounds_;
@@ -345,7 +346,7 @@ void StarPlanner::nothing_to_reach(const PlannerInput& in, PlannerOutput& out) {
   sortie_.pilot().stop(out);
   not_before_ = in.tick + ticks(kRestS);
   ++fruitless_;
-  if (fruitless_ % kFruitlessToBold == 0) proof_.ask_less(in.tick);
+  if (fruitless_ % kFruitlessToBold == 0) proof_.ask_less(in.tick + ticks(kBoldS));
   if (fruitless_ % kFruitlessToRetreat == 0) sortie_.pilot().retreat(out);
 }
 

@@ -3,13 +3,11 @@
 #include <algorithm>
 
 #include "uav_agent/flight/path_search.hpp"
+#include "uav_agent/flight/proof.hpp"
 
 namespace skein::agent {
 namespace {
 
-/// Rays that must have passed unknown places, less and less of them for a UAV that cannot get anywhere.
-constexpr int kRays[] = {8, 6, 4};
-constexpr int kRoomyFactor = 2;
 constexpr int kFruitlessToBold = 8;
 constexpr double kNearM = 20.0;  ///< a way no longer than this may lead through boxes
 constexpr double kLongWayM = 10.0;
@@ -27,8 +25,8 @@ double XxhWays::clearance_m() const { return centre_clearance_m(agent_, config_.
 FreeSpace::Config XxhWays::space() const {
   FreeSpace::Config config;
   config.clearance_m = clearance_m();
-  const int boldness = std::min(std::max(fruitless_ / kFruitlessToBold, dared_), 2);
-  config.rays = (site_.roomy ? kRoomyFactor : 1) * kRays[boldness];
+  const int rung = std::max(fruitless_ / kFruitlessToBold, dared_);
+  config.rays = Proof::of(Proof::rays(site_.roomy), static_cast<std::size_t>(rung));
   config.blind_height_m = site_.blind_height_m;
   config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = hearsay_;

@@ -37,7 +37,7 @@ class XxhWays {
   /// Times in a row that it could not set out. From some on, fewer rays are proof enough of free space.
   int fruitless() const { return fruitless_; }
   void start_anew() { fruitless_ = 0; }
-  /// No more proof than that of so many fruitless tries; 0, 1 or 2.
+  /// No more proof of free space than that of so many rungs down (proof.hpp).
   void dare(int boldness) { dared_ = boldness; }
   /// Sets out.
   /// @param slow_mps  on a short way, and from place to place; a long way there is flown at the speed of transit.

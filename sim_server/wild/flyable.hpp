@@ -1,0 +1,17 @@
+// Whether a drawn world can be flown at all: every start has a way out for its vehicle, and a good part of the points
+// can be reached, seen and delivered in the time there is.
+// Frame W.   Units: m, s.   Depends on nothing but its arguments.
+#pragma once
+
+#include "core/scenario.hpp"
+#include "core/scene.hpp"
+
+namespace skein::sim::wild {
+
+/// By the oracle's free space (open_space.hpp) with a berth in which every vehicle fits: each start hangs together with
+/// the open sky, the station can be seen from there, and of the points at least a third have a place there from which
+/// a camera at 0.85 d* or nearer sees them, so near that a UAV gets from its start there and on to the station in half
+/// of the mission.
+bool is_flyable(const Scenario& scenario, const Scene& scene);
+
+}  // namespace skein::sim::wild
