@@ -101,6 +101,12 @@ struct BlameOptions {
   std::optional<std::filesystem::path> out;
 };
 
+/// `skein check-planner`: whether its runs are the same in other surroundings.
+struct CheckPlannerOptions {
+  RunOptions run;
+  std::optional<std::filesystem::path> out;  ///< keeps the flights
+};
+
 struct CheckOptions {
   std::vector<std::string> files;
   std::vector<std::string> golden;  ///< CSV files of reference vectors
@@ -254,9 +260,9 @@ struct CompletionOptions {
   std::vector<std::string> words;
 };
 
-using Command =
-    std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
-                 StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions, KeysOptions, MergeOptions,
-                 ReportOptions, RerunOptions, ForkOptions, PsOptions, AttachOptions, HelpText, CompletionOptions>;
+using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions,
+                             DiffOptions, StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions,
+                             CheckPlannerOptions, KeysOptions, MergeOptions, ReportOptions, RerunOptions, ForkOptions,
+                             PsOptions, AttachOptions, HelpText, CompletionOptions>;
 
 }  // namespace skein::cli

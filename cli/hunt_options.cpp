@@ -82,4 +82,26 @@ void add_blame(CLI::App& app, BlameOptions& blame) {
       "docs/how-to-hunt.md has more.");
 }
 
+void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
+  CLI::App* command = app.add_subcommand(
+      "check-planner", "Is a planner repeatable? Fly the same in other surroundings, and name the first difference");
+  constexpr double kShortMission_s = 40.0;
+  const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
+  RunOptions& run = check.run;
+  run.duration_s = kShortMission_s;
+  run.seed = 1;
+  command->add_option("PLANNER", run.planner, "As --planner of `skein run`")->required();
+  command->add_option("--scenario", run.scenario, "A name under config/scenarios/ or a YAML file")
+      ->capture_default_str();
+  command->add_option("--agent", run.agent, "Agent program with planners of your own, as for `skein run`");
+  command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")->check(CLI::PositiveNumber);
+  command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
+  command->add_option("--seed", run.seed, "As for `skein run`")->check(seed)->capture_default_str();
+  command->add_option("--out", check.out, "Folder for the flights (default: they are not kept)");
+  command->footer(
+      "Example:\n  skein check-planner orbit --agent build/my_agent\n\n"
+      "Exit codes: 0 all runs are the same, 1 one is not. docs/how-to-hunt.md has more.");
+}
+
 }  // namespace skein::cli

@@ -9,6 +9,7 @@
 #include "cli/bench_command.hpp"
 #include "cli/blame_command.hpp"
 #include "cli/check_command.hpp"
+#include "cli/check_planner_command.hpp"
 #include "cli/completion.hpp"
 #include "cli/compose_command.hpp"
 #include "cli/doctor_command.hpp"
@@ -77,6 +78,7 @@ struct Execute {
   int operator()(const TestOptions& options) const { return run_tests(options, console); }
   int operator()(const HuntOptions& options) const { return run_hunt(options, console); }
   int operator()(const BlameOptions& options) const { return blame(options, console); }
+  int operator()(const CheckPlannerOptions& options) const { return check_planner(options, console); }
   int operator()(const CheckOptions& options) const { return check_files(options, console); }
   int operator()(const SceneOptions& options) const { return export_scene(options); }
   int operator()(const BenchOptions& options) const { return run_bench(options, console); }

@@ -268,6 +268,7 @@ struct OptionParser {
   ForkOptions fork;
   HuntOptions hunt;
   BlameOptions blame;
+  CheckPlannerOptions check_planner;
   AttachOptions attach;
   StudyOptions contest, compare;
   int tests = 5;  ///< of the contest
@@ -290,6 +291,7 @@ OptionParser::OptionParser()
   add_test(app, test);
   add_hunt(app, hunt);
   add_blame(app, blame);
+  add_check_planner(app, check_planner);
   add_check(app, check);
   add_scene(app, scene);
   add_bench(app, bench);
@@ -353,6 +355,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   }
   if (is("scene")) return parser.scene;
   if (is("blame")) return parser.blame;
+  if (is("check-planner")) return parser.check_planner;
   if (is("bench")) return parser.bench;
   if (is("oracle")) return parser.oracle;
   if (is("diff")) return parser.diff;
