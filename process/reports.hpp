@@ -286,6 +286,8 @@ void describe(Fields& f, RouterReport& report) {
 struct AgentReport {
   Number planner_cpu_s = {}, planner_cpu_p99_ms = {}, planner_cpu_max_ms = {};
   Count planner_exchanges_over_50ms = {};
+  Number waited_s = {};
+  std::optional<Texts> no_way = {};
   Count malformed = {}, unsent = {};
   Text planner = {};  ///< as it was told
   Text dds = {};
@@ -295,6 +297,7 @@ template <class Fields>
 void describe(Fields& f, AgentReport& report) {
   f.field("dds", report.dds);
   f.field("malformed", report.malformed);
+  f.field("no_way", report.no_way);
   f.field("planner", report.planner);
   f.field("planner_cpu_max_ms", report.planner_cpu_max_ms);
   f.field("planner_cpu_p99_ms", report.planner_cpu_p99_ms);
@@ -302,6 +305,7 @@ void describe(Fields& f, AgentReport& report) {
   f.field("planner_exchanges_over_50ms", report.planner_exchanges_over_50ms);
   f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
+  f.field("waited_s", report.waited_s);
 }
 
 /// What an agent program prints of itself (--list-planners).

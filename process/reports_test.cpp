@@ -37,8 +37,8 @@ const char* const kRouter = R"({
   "sent": 10, "sent_bytes": 400, "unheard": 0, "unsent": 0, "unwritten": [], "warnings": ["who is that?"]})";
 
 const char* const kAgent = R"({
-  "dds": "cyclonedds", "malformed": 0, "planner": "kios:voxel=4", "planner_cpu_max_ms": 60.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_s": 0.25,
-  "planner_exchanges_over_50ms": 3, "unsent": 0})";
+  "dds": "cyclonedds", "malformed": 0, "no_way": ["3 times: walled in"], "planner": "kios:voxel=4", "planner_cpu_max_ms": 60.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_s": 0.25,
+  "planner_exchanges_over_50ms": 3, "unsent": 0, "waited_s": 12.5})";
 
 /// Calls `check` with the place of each value below this one.
 template <class Check>

@@ -12,6 +12,7 @@
 #include "sim_server/flight/vehicle.hpp"
 #include "sim_server/flight/vehicle_faults.hpp"
 #include "sim_server/link_tracer.hpp"
+#include "sim_server/rays/moving_clearance.hpp"
 #include "sim_server/rays/ray_scene.hpp"
 
 namespace skein::sim {
@@ -82,6 +83,7 @@ struct Simulation::Impl {
   Referee referee;
   std::vector<Uav> uavs;
   std::vector<UavView> views;  ///< at the step boundary
+  std::vector<MovingClearance> clearances;
   Links links, open_links;
   LinkTracer tracer;
   std::vector<RejectionEvent> rejections;  ///< since the last advance()
@@ -101,6 +103,7 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
       rays(scene.mesh, body_shapes(scenario)),
       mission(scenario, rest_heights(scenario)),
       referee(the_seed, scenario.fleet.size(), scene.points.size(), scenario.rules),
+      clearances(scenario.fleet.size(), MovingClearance(kFarClearance_m)),
       tracer(scenario, faults) {
   const auto touches = [this](const VehicleConfig& vehicle, const Isometry3d& X_WB) {
     return world.touches_structure(vehicle, X_WB);
@@ -360,7 +363,7 @@ std::span<const UavView> Simulation::uavs() const { return impl_->views; }
 const Links& Simulation::links() const { return impl_->links; }
 const Links& Simulation::open_links() const { return impl_->open_links; }
 double Simulation::clearance(UavIndex uav) const {
-  return std::min(kFarClearance_m, impl_->rays.clearance(impl_->views.at(uav).state.p_WB, kFarClearance_m));
+  return impl_->clearances.at(uav).at(impl_->rays, impl_->views.at(uav).state.p_WB);
 }
 const FaultPlan& Simulation::faults() const { return impl_->faults; }
 const StepEvents& Simulation::events() const { return impl_->events; }

@@ -1,5 +1,7 @@
 #include "uav_agent/agent_node.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include "bus/lockstep/names.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
@@ -109,9 +111,17 @@ void AgentNode::work(const msg::Step& step) {
   input_.k = step.k();
   input_.tick = step.tick();
   released_ = input_.capture_acks;
+  const std::size_t reasons = agent_.no_ways().size();
   output_ = agent_.step(input_);
+  if (agent_.no_ways().size() > reasons) spdlog::info("{:.2f} s: no way: {}", seconds(input_.tick), agent_.no_way());
   if (input_.capture_reports.empty() && input_.capture_acks.empty()) return;
   std::erase_if(reports_, [this](const auto& entry) { return !agent_.holds_capture(entry.first); });
+}
+
+std::vector<std::string> AgentNode::no_ways() const {
+  std::vector<std::string> sentences;
+  for (const auto& [reason, times] : agent_.no_ways()) sentences.push_back(fmt::format("{} times: {}", times, reason));
+  return sentences;
 }
 
 void AgentNode::send(LockstepClient& client) {

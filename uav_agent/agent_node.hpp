@@ -22,6 +22,8 @@ class AgentNode final : public MemberNode {
 
   void start() override;
   std::optional<std::string> octomap_file() const override { return agent_.map().octomap_file(); }
+  std::vector<std::string> no_ways() const override;
+  std::optional<double> waited_s() const override { return agent_.waited_s(); }
 
  private:
   void declare(bus::LockstepClient& client) override;

@@ -55,6 +55,8 @@ class AgentMember final : public bus::FleetMember {
                        .planner_cpu_p99_ms = 1e3 * cpu.quantile_s(0.99),
                        .planner_cpu_max_ms = 1e3 * cpu.max_s(),
                        .planner_exchanges_over_50ms = cpu.over_field_exchange(),
+                       .waited_s = node_->waited_s(),
+                       .no_way = node_->no_ways(),
                        .malformed = node_->malformed(),
                        .unsent = node_->unsent(),
                        .planner = planner_,

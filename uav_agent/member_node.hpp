@@ -29,6 +29,10 @@ class MemberNode : public bus::ClientNode {
   std::uint64_t unsent() const { return bus_.unsent()->count(); }
   /// What it knows of the space around it, as a file that OctoMap reads; nullopt: it keeps no map.
   virtual std::optional<std::string> octomap_file() const { return std::nullopt; }
+  /// Why its strategy found no ways, and how often: a sentence for each reason.
+  virtual std::vector<std::string> no_ways() const { return {}; }
+  /// How long its strategy has waited for other UAVs [s]; nullopt: it flies none.
+  virtual std::optional<double> waited_s() const { return std::nullopt; }
 
  protected:
   /// @param member  name in the lock-step: a UAV's, or "gcs".

@@ -48,6 +48,8 @@ Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Rep
                        {"first_rejected_s", or_null(flown.first_rejected_s)},
                        {"commands_unheard", or_null(flown.commands_unheard)},
                        {"program_lost", lost},
+                       {"waited_s", or_null(agent.waited_s)},
+                       {"no_way", agent.no_way.value_or(Texts())},
                        {"planner_cpu_s", or_null(agent.planner_cpu_s)},
                        {"planner_cpu_p99_ms", or_null(agent.planner_cpu_p99_ms)},
                        {"planner_cpu_max_ms", or_null(agent.planner_cpu_max_ms)},

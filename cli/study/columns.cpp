@@ -19,6 +19,8 @@ const std::vector<StudyColumn>& study_columns() {
        [](const F& f) { return f.collisions; }},
       {"frozen_uavs", "Frozen UAVs", "stayed within 3 m of a place for 30 s and photographed nothing better", 0, true,
        [](const F& f) { return f.frozen_uavs; }},
+      {"waiting_uavs", "Waiting UAVs", "the same, while they waited for others as their strategy has it", 0, true,
+       [](const F& f) { return f.waiting_uavs; }},
       {"idle_explorers_s", "Idle explorer [s]",
        "slower than 0.1 m/s without a better capture for 5 s; a UAV on average", 0, true,
        [](const F& f) { return f.idle_explorers_s; }},

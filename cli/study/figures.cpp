@@ -65,7 +65,9 @@ FlightFigures figures_of(const Json& result) {
   for (const Json& uav : value_or(result, "uavs", Json::array())) {
     (value_or(uav, "role", "") == "explorer" ? explorers : photographers).add(value_or(uav, "idle_s", nullptr));
     if (const auto frozen_s = report::number_if_any(uav, "frozen_s")) {
-      figures.frozen_uavs = figures.frozen_uavs.value_or(0) + (*frozen_s > 0.0 ? 1 : 0);
+      const bool waited = *frozen_s <= report::number_if_any(uav, "waited_s").value_or(0.0);
+      figures.frozen_uavs = figures.frozen_uavs.value_or(0) + (*frozen_s > 0.0 && !waited ? 1 : 0);
+      figures.waiting_uavs = figures.waiting_uavs.value_or(0) + (*frozen_s > 0.0 && waited ? 1 : 0);
     }
     figures.distance_m += number(uav, "distance_m");
     cpu.add(value_or(uav, "planner_cpu_s", nullptr));

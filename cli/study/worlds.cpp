@@ -56,24 +56,26 @@ std::vector<const FlightEntry*> worst_flights(const Study& study, std::size_t mo
 }
 
 void print_worlds(std::ostream& out, const Study& study) {
-  out << fmt::format("\n{:<26}{:>8}{:>10}{:>10}{:>10}{:>10}{:>12}\n", "share of the estimate [%]", "flights", "median",
-                     "10th pct", "least", "frozen", "collisions");
+  out << fmt::format("\n{:<26}{:>8}{:>10}{:>10}{:>10}{:>10}{:>10}{:>12}\n", "share of the estimate [%]", "flights",
+                     "median", "10th pct", "least", "frozen", "waiting", "collisions");
   for (std::size_t p = 0; p < study.planners.size(); ++p) {
     std::vector<double> shares;
-    int flights = 0, frozen = 0, collisions = 0;
+    int flights = 0, frozen = 0, waiting = 0, collisions = 0;
     for (const FlightEntry& flight : study.flights) {
       if (flight.planner != p || !flight.figures) continue;
       ++flights;
       frozen += flight.figures->frozen_uavs.value_or(0) > 0;
+      waiting += flight.figures->waiting_uavs.value_or(0) > 0;
       collisions += flight.figures->collisions;
       if (flight.figures->attainable_percent) shares.push_back(*flight.figures->attainable_percent);
     }
     const Spread spread = spread_of(shares);
-    out << fmt::format("  {:<24}{:>8}{:>10.1f}{:>10.1f}{:>10.1f}{:>10}{:>12}\n",
+    out << fmt::format("  {:<24}{:>8}{:>10.1f}{:>10.1f}{:>10.1f}{:>10}{:>10}{:>12}\n",
                        report::shortened(study.planners[p], kLongestPlanner), flights, spread.median,
-                       tenth_percentile(shares), spread.min, frozen, collisions);
+                       tenth_percentile(shares), spread.min, frozen, waiting, collisions);
   }
-  out << "frozen: flights in which a UAV stayed within 3 m of a place for 30 s and photographed nothing better\n\n"
+  out << "frozen: flights in which a UAV stayed within 3 m of a place for 30 s and photographed nothing better\n"
+         "waiting: the same, but that it waited for another UAV, as its strategy has it\n\n"
          "the worst flights, and how to repeat them\n";
   for (const FlightEntry* flight : worst_flights(study, kWorst)) out << text_of(study, *flight);
 }

@@ -68,6 +68,10 @@ struct PlannerOutput {
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
   /// What others said of their maps (OccupancyMap::octomap_bytes()), to be taken into the one on board.
   std::vector<std::string> heard_maps = {};
+  /// Why it found no way in this exchange, if it looked for one: counted by reason, and told in log and report.
+  std::string no_way = {};
+  /// A UAV of the fleet for which it waits in this exchange, as its strategy has it: told in the report.
+  std::optional<std::size_t> waits_for = {};
   std::vector<DebugValue> debug = {};  ///< of Planner::debug_names()
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/flight/site.hpp"
 
 namespace skein::agent {
@@ -11,6 +12,10 @@ constexpr double kLowSiteM = 40.0;                        ///< a site no higher 
 constexpr double kLowestHeightM = 3.0;                    ///< of the last one in the fleet
 constexpr double kClimbLayerM = 2.0;                      ///< between the heights to which two UAVs climb
 constexpr double kRoomyAsideM = 4.0, kRoomyAboveM = 4.0;  ///< where starts are in a box, and how far above it is out
+constexpr double kStandingM = 2.0;                        ///< so high up there is room where somebody was set down
+constexpr int kRoofRays = 4, kBoxRays = 8;                ///< that find a roof, and the structure that is in a box
+constexpr double kColumnM = 0.6;                          ///< around the body
+constexpr double kStepM = 0.5;
 
 }  // namespace
 
@@ -24,17 +29,36 @@ double lift_off_height_m(const AgentConfig& agent, const std::vector<OrientedBox
   const double layer = kClimbLayerM * static_cast<double>(agent.fleet.size() - 1 - agent.self);
   double height = kLowestHeightM + layer;
   if (!boxes.empty()) height = std::max(height, blind_m + 1.0 + layer);
+  const bool sees = std::ranges::any_of(agent.fleet, [](const auto& uav) { return uav.role == Role::explorer; });
   for (const OrientedBox& box : boxes) {
     const double bottom = box.center.z() - (box.R_WO.cwiseAbs() * (0.5 * box.size)).z();
     const double below = bottom - agent.me().body_radius_m - clearance_m;
     const Vector3d beside(p_WB.x(), p_WB.y(), box.center.z());
-    const bool under = box.contains(beside, 1.0) && bottom > p_WB.z();
+    const bool under = !sees && box.contains(beside, 1.0) && bottom > p_WB.z();
     if (under) height = std::min(height, std::max(below, p_WB.z() + kLowestHeightM));
     // Inside a roomy one nothing is known of the space around; above it there is nothing.
     const bool inside = is_roomy(box) && !under && box.contains(beside, kRoomyAsideM);
     if (inside) height = std::max(height, 2.0 * box.center.z() - bottom + kRoomyAboveM + layer);
   }
   return std::max(height, p_WB.z());
+}
+
+double open_height_m(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const OccupancyMap& map,
+                     const Vector3d& from_W, double ground_m, double roof_m, double wanted_m) {
+  FreeSpace::Config column{.clearance_m = agent.me().body_radius_m + kColumnM, .floor_m = 0.0, .rays = kBoxRays};
+  column.jut_m = column.clearance_m;
+  const FreeSpace in_boxes(column, boxes, map);
+  column.rays = kRoofRays;
+  column.blind_height_m = roof_m;
+  const FreeSpace below_roofs(column, boxes, map);
+  double open_m = from_W.z();
+  for (double z = from_W.z(); z < wanted_m; z = std::min(wanted_m, z + kStepM)) {
+    const Vector3d p_W(from_W.x(), from_W.y(), std::min(wanted_m, z + kStepM));
+    const bool standing = p_W.z() < ground_m + kStandingM;
+    if (!standing && !(in_boxes.free(p_W) && below_roofs.free(p_W))) break;
+    open_m = p_W.z();
+  }
+  return open_m;
 }
 
 }  // namespace skein::agent

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "uav_agent/api/agent_config.hpp"
+#include "uav_agent/maps/occupancy_map.hpp"
 
 namespace skein::agent {
 
@@ -15,9 +16,19 @@ namespace skein::agent {
 double blind_height_m(const std::vector<OrientedBox>& boxes, double ratio);
 
 /// Height to climb to, straight up: a layer of its own for each UAV, above the blind space, and above a roomy box
-/// (site.hpp) that it stands in; no higher than fits below a box that hangs over the start.
+/// (site.hpp) that it stands in or below; in a fleet without a LiDAR no higher than fits below a box that hangs over
+/// the start.
 /// @param blind_m  see blind_height_m(); 0: no such space.   @param clearance_m  from the body to a box above.
 double lift_off_height_m(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const Vector3d& p_WB,
                          double blind_m, double clearance_m);
+
+inline constexpr double kRoofM = 10.0;  ///< above a start: no roof over starts is higher
+
+/// How far up the way straight up is open as far as the map tells: nothing is mapped within a metre of the body, and
+/// inside boxes and below `roof_m` it has been looked at. What little is asked for finds a roof, not a cable: who
+/// climbs goes on looking out.
+/// @param ground_m  height of the start: some metres above it are free.   @returns from_W.z() to `wanted_m`.
+double open_height_m(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const OccupancyMap& map,
+                     const Vector3d& from_W, double ground_m, double roof_m, double wanted_m);
 
 }  // namespace skein::agent

@@ -52,8 +52,10 @@ class Search {
       }
       expand(cell, node.cost);
     }
+    gave_up_ = !queue_.empty();
     return std::nullopt;
   }
+  bool gave_up() const { return gave_up_; }
 
  private:
   struct Node {
@@ -174,15 +176,20 @@ class Search {
   std::unordered_map<std::uint64_t, bool> passable_;
   std::priority_queue<Entry, std::vector<Entry>, Later> queue_;
   std::uint64_t sequence_ = 0;
+  bool gave_up_ = false;
 };
 
 }  // namespace
 
 std::optional<std::vector<Vector3d>> find_path(const FreeSpace& space, const std::vector<OrientedBox>& structure,
                                                const Vector3d& from_W, const Vector3d& to_W,
-                                               const PathSearchConfig& config) {
+                                               const PathSearchConfig& config, bool* gave_up) {
+  if (gave_up) *gave_up = false;
   if (space.segment_free(from_W, to_W)) return std::vector<Vector3d>{to_W};
-  return Search(space, structure, from_W, to_W, config).run();
+  Search search(space, structure, from_W, to_W, config);
+  auto path = search.run();
+  if (gave_up) *gave_up = search.gave_up();
+  return path;
 }
 
 double path_length(const Vector3d& from_W, const std::vector<Vector3d>& corners_W) {

@@ -19,9 +19,10 @@ struct PathSearchConfig {
 /// @returns corners from the first after `from_W` up to `to_W`, or nullopt if there is no path or none was
 /// found in time.          A start that is not free itself (something new was seen near by) is left by the
 /// nearest way.
+/// @param gave_up  if given, becomes true when there may be a path, but the search ended after max_expansions.
 std::optional<std::vector<Vector3d>> find_path(const FreeSpace& space, const std::vector<OrientedBox>& structure,
                                                const Vector3d& from_W, const Vector3d& to_W,
-                                               const PathSearchConfig& config = {});
+                                               const PathSearchConfig& config = {}, bool* gave_up = nullptr);
 
 /// Length of the polyline from `from_W` through all corners [m].
 double path_length(const Vector3d& from_W, const std::vector<Vector3d>& corners_W);

@@ -1,6 +1,7 @@
 #include "uav_agent/flight/pilot.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "uav_agent/flight/path_search.hpp"
 
@@ -16,6 +17,7 @@ constexpr int kDriftCount = 4;                   ///< no farther than it oversho
 constexpr double kApproachM = 0.1;               ///< who is too near to something may come nearer by this, not more
 constexpr double kDetourAgainS = 20.0;           ///< a second meeting within this time is no accident
 constexpr double kWatchM = 0.5, kWatchS = 12.0;  ///< no further than this for so long: something is wrong
+constexpr double kCarefulMps = 2.0, kBesideBoxM = 2.0, kSeenStepM = 1.0;
 constexpr double kTrailStepM = 1.0, kRetreatM = 10.0;
 constexpr std::size_t kTrailCount = 100;
 
@@ -53,7 +55,7 @@ Situation Pilot::give_way(const PlannerInput& in, const FreeSpace::Config& space
   switch (separation_.judge(in.tick, ahead, kLookAheadDtS, in.peers)) {
     case Traffic::clear:
       if (!paused_) return Situation::flying_on;
-      follow(std::move(path_), out);
+      set_out(std::move(path_), out);
       return Situation::waiting;
     case Traffic::wait:
       if (!paused_) {
@@ -84,7 +86,7 @@ bool Pilot::go_around(const std::vector<Waypoint>& rest, const PlannerInput& in,
   Path around;
   for (const Vector3d& p : *corners) around.waypoints.push_back({p, config_.speed_mps});
   around.waypoints.insert(around.waypoints.end(), rest.begin() + static_cast<std::ptrdiff_t>(back) + 1, rest.end());
-  follow(std::move(around), out);
+  follow(std::move(around), in, out);
   return true;
 }
 
@@ -135,16 +137,38 @@ bool Pilot::retreat(PlannerOutput& out, bool leave_trail) {
     path.waypoints.push_back({trail_.back(), config_.retreat_mps});
   }
   if (path.waypoints.empty()) return false;
-  follow(std::move(path), out);
+  set_out(std::move(path), out);
   leaves_trail_ = leave_trail;
   return true;
 }
 
-void Pilot::follow(Path path, PlannerOutput& out) {
+void Pilot::follow(Path path, const PlannerInput& in, PlannerOutput& out) {
+  slow_down_where_little_was_seen(in, path);
+  set_out(std::move(path), out);
+}
+
+void Pilot::set_out(Path path, PlannerOutput& out) {
   path_ = std::move(path);
   paused_ = false;
   leaves_trail_ = true;
   out.motion = path_;
+}
+
+/// In and beside boxes, where less than all of the proof is there, a LiDAR sees at the last moment what is thin.
+void Pilot::slow_down_where_little_was_seen(const PlannerInput& in, Path& path) {
+  const auto beside_box = [&](const Vector3d& p_W) {
+    return std::ranges::any_of(in.boxes, [&](const OrientedBox& box) { return box.contains(p_W, kBesideBoxM); });
+  };
+  Vector3d from_W = in.tracking.setpoint.p_WB;
+  for (Waypoint& waypoint : path.waypoints) {
+    const Vector3d way = waypoint.p_WB - from_W;
+    const int steps = std::max(1, static_cast<int>(std::ceil(way.norm() / kSeenStepM)));
+    for (int i = 1; i <= steps && waypoint.speed_mps > kCarefulMps; ++i) {
+      const Vector3d p_W = from_W + way * (static_cast<double>(i) / steps);
+      if (beside_box(p_W) && !in.map.known_free(p_W, kProofRays)) waypoint.speed_mps = kCarefulMps;
+    }
+    from_W = waypoint.p_WB;
+  }
 }
 
 void Pilot::stop(PlannerOutput& out) {
@@ -156,17 +180,24 @@ void Pilot::stop(PlannerOutput& out) {
 
 std::string Way::why() const {
   if (found) return "there is a way";
+  if (gave_up) return "the search for a way gave up: it took too much effort";
   if (at_goal == Barrier::none) return "no way was found to a place that is free";
   return "the goal is " + std::string(to_string(at_goal));
 }
 
 Way Pilot::fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
   const FreeSpace free_space = way_space(in, space, goal);
-  const auto corners = find_path(free_space, in.boxes, in.tracking.setpoint.p_WB, goal);
-  if (!corners) return {.found = false, .at_goal = free_space.barrier(goal)};
+  bool gave_up = false;
+  const auto corners = find_path(free_space, in.boxes, in.tracking.setpoint.p_WB, goal, {}, &gave_up);
+  if (!corners) {
+    const Way none{.found = false, .at_goal = free_space.barrier(goal), .gave_up = gave_up};
+    out.no_way = none.why();
+    return none;
+  }
+  out.no_way.clear();
   Path path;
   for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.speed_mps});
-  follow(std::move(path), out);
+  follow(std::move(path), in, out);
   return {};
 }
 

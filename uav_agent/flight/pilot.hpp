@@ -29,6 +29,7 @@ enum class Situation {
 struct Way {
   bool found = true;
   Barrier at_goal = Barrier::none;  ///< why the goal itself may not be entered
+  bool gave_up = false;             ///< there may be one, but the search took too much effort
 
   explicit operator bool() const { return found; }
   /// For a log: "no way was found to a place that is free".
@@ -50,7 +51,7 @@ class Pilot {
   /// @param may_detour  false: does not leave its path for another UAV (a climb), but is crowded at once.
   Situation look_out(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour, PlannerOutput& out);
 
-  void follow(Path path, PlannerOutput& out);
+  void follow(Path path, const PlannerInput& in, PlannerOutput& out);
   /// Along a path that it finds itself. If there is none, or none was found in time, it does nothing and says why.
   Way fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
   /// Some metres back the way it came, out of a corner where no path begins. @returns false if it came from
@@ -64,6 +65,8 @@ class Pilot {
   bool arrived(const PlannerInput& in) const { return has_path() && !paused_ && in.tracking.done; }
   /// The way here shall not be flown back (it led up from the ground).
   void forget_trail() { trail_.clear(); }
+  /// Where it may fly as of now, other UAVs in sight and boxes that are not near to `goal` or here left out.
+  FreeSpace way_space(const PlannerInput& in, const FreeSpace::Config& space, const Vector3d& goal) const;
   /// Whether it is this UAV's turn to leave the ground.
   bool may_lift_off(const PlannerInput& in) { return separation_.may_lift_off(in.tick, in.peers); }
 
@@ -75,7 +78,8 @@ class Pilot {
   bool obstacle_ahead(const PlannerInput& in, const FreeSpace::Config& space) const;
   bool stands_still(const PlannerInput& in);
   void add_to_trail(const Vector3d& p_W);
-  FreeSpace way_space(const PlannerInput& in, const FreeSpace::Config& space, const Vector3d& goal) const;
+  void set_out(Path path, PlannerOutput& out);
+  static void slow_down_where_little_was_seen(const PlannerInput& in, Path& path);
 
   const Config config_;
   Separation separation_;

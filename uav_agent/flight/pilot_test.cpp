@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "uav_agent/testing/look_around.hpp"
+
 namespace skein::agent {
 namespace {
 
@@ -27,7 +29,8 @@ OccupancyMap wall_at(float x) {
 /// One pilot that flies along a wall, four metres off it, and what it says of a UAV with another state.
 class AlongAWall : public testing::Test {
  protected:
-  Situation look(Pilot& pilot, const Setpoint& setpoint, const RigidBodyState& state, PlannerOutput& out) {
+  template <class Do>
+  auto as_input(const Setpoint& setpoint, const RigidBodyState& state, const Do& act) {
     TrackingState tracking;
     tracking.setpoint = setpoint;
     tracking.done = false;
@@ -43,13 +46,31 @@ class AlongAWall : public testing::Test {
                           .mission_remaining_s = {},
                           .detected = {},
                           .radio = {}};
-    return pilot.look_out(in, {.clearance_m = kClearanceM}, true, out);
+    return act(in);
+  }
+  Situation look(Pilot& pilot, const Setpoint& setpoint, const RigidBodyState& state, PlannerOutput& out) {
+    return as_input(setpoint, state, [&](const PlannerInput& in) {
+      return pilot.look_out(in, {.clearance_m = kClearanceM}, true, out);
+    });
+  }
+  /// Through one place after the other, at 4 m/s.   @returns what it is told to fly at to each.
+  std::vector<double> speeds_of(const std::vector<Vector3d>& places_W) {
+    Path path;
+    for (const Vector3d& p_W : places_W) path.waypoints.push_back({p_W, 4.0});
+    Pilot pilot({}, agent_);
+    PlannerOutput out;
+    as_input({.p_WB = {0.0, 0.0, 20.0}}, {}, [&](const PlannerInput& in) { pilot.follow(path, in, out); });
+    std::vector<double> speeds;
+    for (const Waypoint& waypoint : std::get<Path>(out.motion).waypoints) speeds.push_back(waypoint.speed_mps);
+    return speeds;
   }
   Situation judge(const RigidBodyState& state) {
     Pilot pilot({}, agent_);
     PlannerOutput out;
-    pilot.follow(Path{{{{0.0, 40.0, 20.0}, 4.0}}}, out);
-    return look(pilot, {.p_WB = {0.0, 5.0, 20.0}, .v_WB = {0.0, 4.0, 0.0}}, state, out);
+    const Setpoint setpoint{.p_WB = {0.0, 5.0, 20.0}, .v_WB = {0.0, 4.0, 0.0}};
+    const Path path{{{{0.0, 40.0, 20.0}, 4.0}}};
+    as_input(setpoint, state, [&](const PlannerInput& in) { pilot.follow(path, in, out); });
+    return look(pilot, setpoint, state, out);
   }
   static RigidBodyState at(const Vector3d& p_W, const Vector3d& v_W) {
     RigidBodyState state;
@@ -60,8 +81,8 @@ class AlongAWall : public testing::Test {
 
   const AgentConfig agent_ = one_uav();
   const Peers peers_{agent_};
-  const std::vector<OrientedBox> boxes_;
-  const OccupancyMap map_ = wall_at(4.0F);
+  std::vector<OrientedBox> boxes_;
+  OccupancyMap map_ = wall_at(4.0F);
 };
 
 TEST_F(AlongAWall, FliesOnWhileItFollows) {
@@ -114,6 +135,19 @@ TEST_F(AlongAWall, SaysWhyThereIsNoWay) {
   const Way way = fly_to({-10.0, 20.0, 20.0}, {box}, out);
   EXPECT_TRUE(way) << way.why();
   EXPECT_TRUE(std::holds_alternative<Path>(out.motion));
+}
+
+TEST_F(AlongAWall, FliesSlowlyInBoxesWhereLittleWasSeen) {
+  OrientedBox box;
+  box.center = {0.0, 20.0, 20.0};
+  box.size = {10.0, 10.0, 40.0};
+  boxes_ = {box};
+  const std::vector<Vector3d> places_W = {{0, 8, 20}, {0, 20, 20}, {0, 40, 20}, {0, 60, 20}};
+  const std::vector<double> unseen = {4.0, 2.0, 2.0, 4.0}, seen = {4.0, 4.0, 4.0, 4.0};
+  EXPECT_EQ(speeds_of(places_W), unseen);
+  look_around(map_, {0, 14, 20}, 80);
+  look_around(map_, {0, 26, 20}, 80);
+  EXPECT_EQ(speeds_of(places_W), seen);
 }
 
 TEST_F(AlongAWall, TheNextRetreatGoesFartherBack) {

@@ -25,10 +25,6 @@ class Proof {
     return std::max(least, rays * kRungs[std::min(rung, kLast)] / kRungs.front());
   }
   int of(int rays) const { return of(rays, rung_); }
-  /// A planner that gets there late may take the low space away from all boxes to be free then. Who gets there in the
-  /// first seconds must not: there is structure in it (mbs).
-  bool at_last() const { return rung_ == kLast; }
-
   void ask_less() { rung_ = std::min(rung_ + 1, kLast); }
   /// Until then, or until it asks for less again.
   void ask_less(Tick until) {

@@ -6,6 +6,7 @@ namespace skein::agent {
 namespace {
 
 constexpr double kStandingMps = 0.3;
+constexpr double kBrakingMps2 = 3.0;
 constexpr double kComingNearerM = 0.05;    ///< a distance that does not shrink by this is no approach
 constexpr double kPatiencePerRankS = 0.5;  ///< two UAVs that wait for each other do not lose patience together
 constexpr double kMovingPatience = 3.0;    ///< times as much with somebody who moves
@@ -14,6 +15,13 @@ constexpr double kKeepOutExtraM = 0.3;
 constexpr double kCrowdM = 6.0;          ///< starts nearer than this wait for each other
 constexpr double kClearHeightM = 3.0;    ///< the one before is this far up, or gone: the next may start
 constexpr double kStartPatienceS = 4.0;  ///< for each one before; after that it is taken to be broken
+
+/// What somebody moves in a time who brakes from now on: who flies behind another one is told by nobody that it will.
+Vector3d braked_way(const Vector3d& v_W, double t) {
+  const double speed = v_W.norm(), braking_s = std::min(t, speed / kBrakingMps2);
+  return speed > 0.0 ? Vector3d(v_W / speed * (speed * braking_s - 0.5 * kBrakingMps2 * braking_s * braking_s))
+                     : Vector3d::Zero();
+}
 
 }  // namespace
 
@@ -50,11 +58,15 @@ Traffic Separation::judge(Tick now, const std::vector<Vector3d>& ahead, double d
     const bool stands = peer.v_W.norm() < kStandingMps;
     const bool has_way = stands || peer.uav < agent_.self;
     const double limit = contact_m(peer.uav) + (has_way ? config_.margin_m : config_.tight_m);
+    const double brakes_limit = std::min(limit, contact_m(peer.uav) + config_.tight_m);
     const double distance_now = (ahead.front() - peer.p_W).norm();
     for (std::size_t i = 1; i < ahead.size() && static_cast<double>(i) * dt_s <= config_.horizon_s; ++i) {
       const double t = static_cast<double>(i) * dt_s;
-      const double distance = (ahead[i] - peer.p_W - t * peer.v_W).norm();
-      if (distance >= limit || distance >= distance_now - kComingNearerM) continue;
+      const double on = (ahead[i] - peer.p_W - t * peer.v_W).norm();
+      const double braking = (ahead[i] - peer.p_W - braked_way(peer.v_W, t)).norm();
+      const bool meets = on < limit && on < distance_now - kComingNearerM;
+      const bool runs_into = braking < brakes_limit && braking < distance_now - kComingNearerM;
+      if (!meets && !runs_into) continue;
       conflict = true;
       standing |= stands;
       break;
@@ -80,13 +92,18 @@ std::vector<Sphere> Separation::keep_out(const Vector3d& p_W_now, const Peers& p
   return spheres;
 }
 
+bool Separation::starts_before(std::size_t uav) const {
+  const bool sees = agent_.fleet[uav].role == Role::explorer, i_see = agent_.me().role == Role::explorer;
+  return sees != i_see ? sees : uav < agent_.self;
+}
+
 bool Separation::may_lift_off(Tick now, const Peers& peers) {
   if (!ready_since_) ready_since_ = now;
   int before = 0;
   bool blocked = false;
   for (const Peer& peer : peers.all()) {
     const Vector3d start = agent_.fleet[peer.uav].p_WB_start;
-    if (peer.uav > agent_.self || (start - agent_.me().p_WB_start).norm() > kCrowdM) continue;
+    if (!starts_before(peer.uav) || (start - agent_.me().p_WB_start).norm() > kCrowdM) continue;
     ++before;
     blocked |= (peer.p_W - start).norm() < kClearHeightM;
   }

@@ -37,12 +37,13 @@ class Separation {
   /// The UAVs in line of sight and near by, as places to plan around.
   std::vector<Sphere> keep_out(const Vector3d& p_W_now, const Peers& peers) const;
 
-  /// Whether this UAV may lift off: those of lower number that stand near it first, each a few metres up
-  /// before the next.
+  /// Whether this UAV may lift off: explorers that stand near it first, who look what is above, then those of lower
+  /// number, each a few metres up before the next.
   bool may_lift_off(Tick now, const Peers& peers);
 
  private:
   double contact_m(std::size_t uav) const;
+  bool starts_before(std::size_t uav) const;
 
   const Config config_;
   const AgentConfig& agent_;

@@ -72,15 +72,19 @@ TEST(Separation, MovingApartIsNeverAConflict) {
   EXPECT_EQ(Separation({}, config).judge(0, eastwards(2.0), kDtS, peers), Traffic::clear);
 }
 
-/// What the rules say of one peer: in the same plane, both straight on at their speeds.
+/// What the rules say of one peer: in the same plane, both straight on at their speeds, or the peer brakes at 3 m/s^2.
 bool conflicts(const Separation::Config& config, const AgentConfig& agent, double speed, const Vector3d& p,
                const Vector3d& v) {
   const double wide = 2.0 * 0.63 + config.margin_m, tight = 2.0 * 0.63 + config.tight_m;
   const double limit = v.norm() < 0.3 || agent.self > 0 ? wide : tight;
   const double now = (p - Vector3d(0.0, 0.0, 10.0)).norm();
   for (int i = 1; i <= static_cast<int>(config.horizon_s / kDtS); ++i) {
-    const double distance = (Vector3d(speed * i * kDtS, 0.0, 10.0) - p - i * kDtS * v).norm();
-    if (distance < limit && distance < now - 0.05) return true;
+    const Vector3d own(speed * i * kDtS, 0.0, 10.0);
+    const double stop_s = std::min(i * kDtS, v.norm() / 3.0);
+    const Vector3d braked = v.norm() > 0.0 ? Vector3d(v * stop_s - 1.5 * stop_s * stop_s * v.normalized()) : v;
+    const double on = (own - p - i * kDtS * v).norm(), braking = (own - p - braked).norm();
+    if (on < limit && on < now - 0.05) return true;
+    if (braking < tight && braking < now - 0.05) return true;
   }
   return false;
 }
@@ -105,6 +109,29 @@ TEST(Separation, AConflictIsWhoComesNearWithinTheHorizonAndNobodyElse) {
     ++(expected ? waits : clear);
   }
   EXPECT_GT(std::min(clear, waits), 200) << "both must have been drawn often";
+}
+
+TEST(Separation, NobodyRunsIntoWhoFliesAheadAndStops) {
+  constexpr double kExchangeS = 0.05, kBrakesMps2 = 2.5, kReactsS = 0.4;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    RandomStream random(i, "behind", 0);
+    const AgentConfig agent = fleet(i % 2, {{0, 0, 0}, {20, 0, 0}});
+    Separation separation({}, agent);
+    const double contact = 2.0 * agent.me().body_radius_m;
+    double leader = random.uniform(contact + 1.6, 8.0), leads_mps = random.uniform(2.0, 4.0);
+    double own = 0.0, own_mps = random.uniform(2.0, 4.0), waits_since = -1.0;
+    const double brakes_at = random.uniform(0.0, 3.0);
+    for (double t = 0.0; t < 10.0; t += kExchangeS) {
+      const auto ahead = positions_ahead({own, 0.0, 10.0}, {{{90.0, 0.0, 10.0}, own_mps}}, kDtS, 13);
+      const Peers peers = one_peer(agent, UavIndex(1 - i % 2), {leader, 0.0, 10.0}, {leads_mps, 0.0, 0.0});
+      if (waits_since < 0.0 && separation.judge(ticks(t), ahead, kDtS, peers) != Traffic::clear) waits_since = t;
+      if (t > brakes_at) leads_mps = std::max(0.0, leads_mps - 4.0 * kExchangeS);
+      if (waits_since >= 0.0 && t > waits_since + kReactsS) own_mps = std::max(0.0, own_mps - kBrakesMps2 * kExchangeS);
+      leader += leads_mps * kExchangeS;
+      own += own_mps * kExchangeS;
+      ASSERT_GT(leader - own, contact) << "case " << i << " at " << t;
+    }
+  }
 }
 
 TEST(Separation, WhoIsOutOfSightIsNobody) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "core/euler.hpp"
 #include "uav_agent/flight/lift_off.hpp"
+#include "uav_agent/flight/way_out.hpp"
 
 namespace skein::agent {
 namespace {
@@ -12,6 +14,15 @@ constexpr double kClimbAgainS = 1.0;  ///< after a climb was stopped
 constexpr int kMaxClimbs = 20;
 constexpr double kLowestPlaceM = 6.0;  ///< for delivery
 constexpr double kAboveBlindM = 2.0;
+constexpr double kTurnAfterS = 5.0, kTurnEveryS = 1.1;  ///< of standing still; a little more than key frames are apart
+constexpr double kTurn = 0.8;                           ///< [rad]
+constexpr double kStirAfterS = 16.0, kStirEveryS = 4.0;
+constexpr int kMostStirred = 4;           ///< attempts that grow less careful
+constexpr double kLeastClearanceM = 0.7;  ///< of the body, when nothing else has helped
+constexpr double kWaitsS = 1.0;
+constexpr double kHoverM = 1.6;                      ///< above its start, to look up from
+constexpr double kLookUpS = 8.0, kLookLongS = 16.0;  ///< that shows a roof; that shows what is in a box
+constexpr double kAnywhereM = 1e6;
 
 }  // namespace
 
@@ -28,9 +39,11 @@ void Sortie::know_site(double top_m, double blind_height_m) {
 }
 
 Sortie::Turn Sortie::step(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
+  watch_.update(in);
   if (state_ == State::ground) return leave_ground(in, out);
   delivery_.update(in, top_m_);
-  if (state_ == State::working && delivery_.due(in)) {
+  const bool working = state_ == State::working || state_ == State::stirring;
+  if (working && delivery_.due(in)) {
     state_ = State::delivering;
     delivery_.begin(in, space, std::max(blind_height_m_ + kAboveBlindM, kLowestPlaceM), out);
     return Turn::leave;
@@ -38,8 +51,43 @@ Sortie::Turn Sortie::step(const PlannerInput& in, const FreeSpace::Config& space
   situation_ = pilot_.look_out(in, space, state_ != State::climbing, out);
   if (situation_ != Situation::flying_on) return react(in, out);
   if (state_ == State::climbing) return in.tracking.done ? climb(in, out) : Turn::nothing;
-  if (state_ == State::working) return Turn::work;
+  if (state_ == State::stirring) return in.tracking.done ? begin_work() : Turn::nothing;
+  look_around(in, out);
+  if (state_ == State::working) return stir(in, space, out) ? Turn::leave : Turn::work;
   return delivery_.step(in, space, out) ? begin_work() : Turn::nothing;
+}
+
+void Sortie::waits_for(std::size_t uav, const PlannerInput& in, PlannerOutput& out) {
+  waits_at_ = in.tick;
+  out.waits_for = uav;
+}
+
+/// A LiDAR that has turned makes a new key frame: who stands still learns more of what is around.
+void Sortie::look_around(const PlannerInput& in, PlannerOutput& out) {
+  if (agent_.me().role != Role::explorer || !in.tracking.done || in.tick < turn_at_) return;
+  if (watch_.still_s(in.tick) < kTurnAfterS) return;
+  out.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
+  turn_at_ = in.tick + ticks(kTurnEveryS);
+}
+
+/// Takes it somewhere else. @returns whether it sets out.
+bool Sortie::stir(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
+  const double still_s = watch_.still_s(in.tick);
+  if (still_s < kTurnAfterS) stirred_ = 0;
+  const bool waits = seconds(in.tick - waits_at_) < kWaitsS;
+  if (waits || still_s < kStirAfterS || in.tick < stir_at_) return false;
+  stir_at_ = in.tick + ticks(kStirEveryS);
+  const int attempt = std::min(stirred_++, kMostStirred);
+  FreeSpace::Config careful = less_careful(space, attempt, agent_.me().body_radius_m + kLeastClearanceM);
+  careful.enter_radius_m = kAnywhereM;
+  const Vector3d here = in.tracking.setpoint.p_WB;
+  const auto corners = find_way_out(pilot_.way_space(in, careful, here), in.boxes, here, stirred_);
+  if (!corners) return false;
+  Path path;
+  for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.retreat_mps});
+  pilot_.follow(std::move(path), in, out);
+  state_ = State::stirring;
+  return true;
 }
 
 Sortie::Turn Sortie::leave_ground(const PlannerInput& in, PlannerOutput& out) {
@@ -50,26 +98,64 @@ Sortie::Turn Sortie::leave_ground(const PlannerInput& in, PlannerOutput& out) {
     climb_to_ = p;
     return Turn::nothing;
   }
+  if (!looks_since_) looks_since_ = in.tick;
   if (!pilot_.may_lift_off(in)) return Turn::nothing;
   state_ = State::climbing;
+  ground_m_ = p.z();
+  knows_above_ = std::ranges::none_of(agent_.fleet, [](const auto& uav) { return uav.role == Role::explorer; });
   climb_to_ = {p.x(), p.y(), lift_off_height_m(agent_, in.boxes, p, blind_height_m_, config_.clearance_m)};
-  pilot_.follow(Path{{{climb_to_, config_.climb_mps}}}, out);
   out.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
-  return Turn::nothing;
+  return climb(in, out);
 }
 
-/// At the top: on to work. Stopped on the way: tries again for a while.
+/// At the top: on to work. Stopped on the way, or not sure of what is above: tries again for a while.
 Sortie::Turn Sortie::climb(const PlannerInput& in, PlannerOutput& out) {
-  const bool short_of_top = (climb_to_ - in.tracking.setpoint.p_WB).norm() > kAtTopM;
+  const Vector3d here = climbs_from(in);
+  const bool short_of_top = (climb_to_ - here).norm() > kAtTopM;
   if (short_of_top && climbs_ < kMaxClimbs) {
     if (in.tick < not_before_) return Turn::nothing;
-    ++climbs_;
-    pilot_.follow(Path{{{climb_to_, config_.climb_mps}}}, out);
+    const double open_m = open_above_m(in, ground_m_ + kRoofM), low_m = std::max(here.z(), ground_m_ + kHoverM);
+    open_m >= climb_to_.z() || open_m > low_m + kAtTopM ? rise(open_m, in, out) : look_up(in, out);
     return Turn::nothing;
   }
   if (!site_known_) return Turn::nothing;  // stays where it is until it knows the boxes
   pilot_.forget_trail();
+  watch_.forgive(in);
   return begin_work();
+}
+
+Vector3d Sortie::climbs_from(const PlannerInput& in) const {
+  return in.tracking.airborne ? in.tracking.setpoint.p_WB : in.state.p_WB;
+}
+
+/// How far up it may climb.   @param roof_m  so high up there may be a roof.
+double Sortie::open_above_m(const PlannerInput& in, double roof_m) const {
+  if (knows_above_) return climb_to_.z();
+  return open_height_m(agent_, in.boxes, in.map, climbs_from(in), ground_m_, roof_m, climb_to_.z());
+}
+
+void Sortie::rise(double height_m, const PlannerInput& in, PlannerOutput& out) {
+  looks_since_ = in.tick;
+  pilot_.follow(Path{{{{climb_to_.x(), climb_to_.y(), height_m}, config_.climb_mps}}}, in, out);
+}
+
+/// There may be a roof. Explorers rise as far as they stand free and turn, so that their LiDAR sees all around;
+/// photographers wait for what it sees. In the end, who is in no box and has seen nothing goes up; others stay below.
+void Sortie::look_up(const PlannerInput& in, PlannerOutput& out) {
+  const double here_m = climbs_from(in).z(), hover_m = ground_m_ + kHoverM;
+  const bool sees = agent_.me().role == Role::explorer;
+  const bool low = here_m < hover_m - kAtTopM;
+  const double looked_s = seconds(in.tick - *looks_since_);
+  const bool nothing_seen = looked_s > kLookUpS && open_above_m(in, 0.0) >= climb_to_.z();
+  if (nothing_seen || looked_s > kLookLongS) {
+    if (!nothing_seen) climb_to_.z() = std::max(here_m, hover_m);
+    knows_above_ = true;
+  } else if (low && sees) {
+    rise(hover_m, in, out);
+  } else if (sees && in.tick >= turn_at_) {
+    out.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
+    turn_at_ = in.tick + ticks(kTurnEveryS);
+  }
 }
 
 Sortie::Turn Sortie::begin_work() {
@@ -84,7 +170,11 @@ Sortie::Turn Sortie::react(const PlannerInput& in, PlannerOutput& out) {
   pilot_.stop(out);
   if (state_ == State::working) return Turn::blocked;
   if (state_ == State::climbing) {
+    ++climbs_;
     not_before_ = in.tick + ticks(kClimbAgainS);
+  } else if (state_ == State::stirring) {
+    state_ = State::working;
+    return Turn::begin;
   } else {
     situation_ == Situation::obstacle ? delivery_.try_again(in) : delivery_.try_elsewhere(in);
   }

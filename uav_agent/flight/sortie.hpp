@@ -3,12 +3,16 @@
 //
 //   ground -> climbing -> working <-> delivering
 //
+// Nobody climbs into a roof: explorers look up before, photographers wait for what explorers saw.
+// Nobody stands still: a UAV that neither moves nor photographs anything new is turned, so that its LiDAR sees more,
+// and then taken somewhere else, with less and less caution, from where its planner decides anew.
 // Once per exchange the planner asks step() and acts on its answer.
 // Frame W.   Units: SI.   Threads: one.
 #pragma once
 
 #include "uav_agent/flight/delivery.hpp"
 #include "uav_agent/flight/pilot.hpp"
+#include "uav_agent/flight/progress_watch.hpp"
 
 namespace skein::agent {
 
@@ -46,6 +50,12 @@ class Sortie {
   /// @param space  where this UAV may fly as of now.
   Turn step(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
 
+  /// To be told in each exchange in which this UAV waits for another one, as its strategy has it: nobody moves it.
+  void waits_for(std::size_t uav, const PlannerInput& in, PlannerOutput& out);
+
+  /// Whether it turns on the spot to see more: whoever turns the body has to leave that alone.
+  bool looks_around(Tick now) const { return now < turn_at_; }
+
   /// True from `begin` until `leave`.
   bool working() const { return state_ == State::working; }
   /// What came between, of the last `blocked`.
@@ -55,11 +65,17 @@ class Sortie {
   const Pilot& pilot() const { return pilot_; }
 
  private:
-  enum class State { ground, climbing, working, delivering };
+  enum class State { ground, climbing, working, stirring, delivering };
 
   Turn leave_ground(const PlannerInput& in, PlannerOutput& out);
   Turn climb(const PlannerInput& in, PlannerOutput& out);
+  Vector3d climbs_from(const PlannerInput& in) const;
+  double open_above_m(const PlannerInput& in, double roof_m) const;
+  void rise(double height_m, const PlannerInput& in, PlannerOutput& out);
+  void look_up(const PlannerInput& in, PlannerOutput& out);
   Turn begin_work();
+  void look_around(const PlannerInput& in, PlannerOutput& out);
+  bool stir(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
   Turn react(const PlannerInput& in, PlannerOutput& out);
 
   const Config config_;
@@ -70,8 +86,15 @@ class Sortie {
   Situation situation_ = Situation::flying_on;
   bool site_known_ = false;
   double top_m_ = 0.0, blind_height_m_ = 0.0;
+  double ground_m_ = 0.0;
   Vector3d climb_to_ = Vector3d::Zero();
-  int climbs_ = 0;       ///< begun again
+  bool knows_above_ = false;         ///< that nothing is in the way to climb_to_, or nobody will ever know
+  std::optional<Tick> looks_since_;  ///< up, or waits for others who do
+  ProgressWatch watch_;
+  Tick waits_at_ = -ticks(1e6);  ///< when it last waited for a mate
+  Tick turn_at_ = 0, stir_at_ = 0;
+  int stirred_ = 0;      ///< times, since it last got on by itself
+  int climbs_ = 0;       ///< that were stopped
   Tick not_before_ = 0;  ///< of the next one
 };
 

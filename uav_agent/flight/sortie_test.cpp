@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "uav_agent/testing/look_around.hpp"
+
 namespace skein::agent {
 namespace {
 
@@ -15,7 +17,8 @@ class OneSortie : public testing::Test {
     agent_.station_position = {20.0, 0.0, 0.3};
   }
 
-  Turn step() {
+  Turn step() { return step(sortie_); }
+  Turn step(Sortie& sortie) {
     tick_ += ticks(0.5);
     const Peers peers(agent_);
     TrackingState tracking;
@@ -38,8 +41,11 @@ class OneSortie : public testing::Test {
                           .detected = {},
                           .radio = {}};
     PlannerOutput out;
-    const Turn turn = sortie_.step(in, {}, out);
+    const Turn turn = sortie.step(in, {}, out);
     if (const Path* path = std::get_if<Path>(&out.motion)) p_WB_ = path->waypoints.back().p_WB;
+    turned_ += out.yaw.has_value();
+    if (waits_) sortie_.waits_for(0, in, out);
+    waited_ += out.waits_for.has_value();
     return turn;
   }
   /// Steps until something else than nothing is to be done.
@@ -59,6 +65,8 @@ class OneSortie : public testing::Test {
   std::optional<double> remaining_s_;
   bool linked_ = false;
   std::size_t undelivered_ = 0;
+  bool waits_ = false;
+  int turned_ = 0, waited_ = 0;  ///< exchanges
 };
 
 TEST_F(OneSortie, NobodyBeginsBeforeTheBoxesAreKnown) {
@@ -85,7 +93,10 @@ TEST_F(OneSortie, LeavesToDeliverAndBeginsAgain) {
   undelivered_ = 5;
   Turn turn = Turn::work;
   int steps = 0;
-  for (; turn == Turn::work && steps < 100; ++steps) turn = step();
+  for (; turn == Turn::work && steps < 100; ++steps) {
+    p_WB_.x() += 2.0;  // it gets on
+    turn = step();
+  }
   EXPECT_EQ(turn, Turn::leave);
   EXPECT_NEAR(0.5 * steps, 30.0, 2.0) << "deliver_every_s";
   EXPECT_FALSE(sortie_.working());
@@ -93,6 +104,76 @@ TEST_F(OneSortie, LeavesToDeliverAndBeginsAgain) {
   linked_ = true;
   undelivered_ = 0;
   EXPECT_EQ(next(), Turn::begin);
+}
+
+TEST_F(OneSortie, BelowARoofItBeginsWithoutClimbing) {
+  std::vector<Eigen::Vector3f> roof;
+  for (double x = -5.0; x <= 5.0; x += 0.5) {
+    for (double y = -5.0; y <= 5.0; y += 0.5) roof.push_back(Vector3d(x, y, 7.0).cast<float>());
+  }
+  map_.insert(roof, std::nullopt);
+  sortie_.know_site(20.0, 0.0);
+  EXPECT_EQ(next(), Turn::begin);
+  EXPECT_GT(turned_, 3) << "it has looked up";
+  EXPECT_GT(p_WB_.z(), 1.0);
+  EXPECT_LT(p_WB_.z(), 6.0);
+}
+
+TEST_F(OneSortie, APhotographerWaitsForWhatExplorersSawAndNotForEver) {
+  agent_.fleet.push_back(agent_.fleet[0]);
+  agent_.fleet[1].p_WB_start = {4.0, 0.0, 0.1};
+  agent_.fleet[0].role = Role::photographer;
+  agent_.fleet[1].role = Role::explorer;
+  const auto lifts_off_after_s = [&](int explored_at) {
+    Sortie sortie({}, agent_);
+    sortie.know_site(20.0, 0.0);
+    p_WB_ = {0.0, 0.0, 0.1};
+    int steps = 0;
+    for (; p_WB_.z() < 3.0 && steps < 200; ++steps) {
+      if (steps == explored_at) look_around(map_, {4, 0, 1.8}, 60);
+      step(sortie);
+    }
+    return 0.5 * steps;
+  };
+  const double alone_s = lifts_off_after_s(-1), led_s = lifts_off_after_s(12);
+  EXPECT_GT(alone_s, 7.0);
+  EXPECT_LT(alone_s, 40.0);
+  EXPECT_GE(led_s, 6.0) << "not before";
+  EXPECT_LT(led_s, alone_s - 1.0) << "at once then";
+}
+
+TEST_F(OneSortie, WhoStandsStillIsTurnedThenTakenElsewhereAndBeginsAgain) {
+  sortie_.know_site(20.0, 0.0);
+  ASSERT_EQ(next(), Turn::begin);
+  const Vector3d stood = p_WB_;
+  Turn turn = Turn::work;
+  int steps = 0;
+  for (; turn == Turn::work && steps < 100; ++steps) turn = step();
+  EXPECT_EQ(turn, Turn::leave);
+  EXPECT_LT(0.5 * steps, 20.0);
+  EXPECT_GT(turned_, 3) << "its LiDAR sees more";
+  EXPECT_GT((p_WB_ - stood).norm(), 5.0);
+  EXPECT_EQ(next(), Turn::begin);
+}
+
+TEST_F(OneSortie, WhoHasNoLidarIsNotTurned) {
+  agent_.fleet[0].role = Role::photographer;
+  sortie_.know_site(20.0, 0.0);
+  ASSERT_EQ(next(), Turn::begin);
+  for (int i = 0; i < 100; ++i) step();
+  EXPECT_EQ(turned_, 0);
+}
+
+TEST_F(OneSortie, WhoWaitsForAnotherIsLeftAloneAndSaysSo) {
+  sortie_.know_site(20.0, 0.0);
+  ASSERT_EQ(next(), Turn::begin);
+  waits_ = true;
+  for (int i = 0; i < 200; ++i) ASSERT_EQ(step(), Turn::work) << i;
+  EXPECT_EQ(waited_, 200);
+  waits_ = false;
+  Turn turn = Turn::work;
+  for (int i = 0; i < 100 && turn == Turn::work; ++i) turn = step();
+  EXPECT_EQ(turn, Turn::leave) << "no longer";
 }
 
 TEST_F(OneSortie, IsHomeBeforeTheEndAndStaysThere) {

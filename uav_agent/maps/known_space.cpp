@@ -112,8 +112,11 @@ PassedCells KnownSpace::passed_by_rays(const Vector3d& from_W, const std::vector
   return passed;
 }
 
-void KnownSpace::add_rays(const PassedCells& passed) {
-  rays_.add(passed, [this](const RayBlocks::Cell& cell, int rays) {
+void KnownSpace::add_rays(const PassedCells& passed) { add(passed, rays_); }
+void KnownSpace::add_looks(const PassedCells& passed) { add(passed, looks_); }
+
+void KnownSpace::add(const PassedCells& passed, RayBlocks& counts) {
+  counts.add(passed, [this](const RayBlocks::Cell& cell, int rays) {
     trees_->free.updateNode(octomap::OcTreeKey(cell[0], cell[1], cell[2]), static_cast<float>(rays) * kRayLogOdds,
                             true);
   });
@@ -142,10 +145,11 @@ void KnownSpace::raise_rays(const Vector3d& p_W, int rays) {
   add_rays(passed);
 }
 
-int KnownSpace::rays_at(const Vector3d& p_W) const {
+int KnownSpace::rays_at(const Vector3d& p_W, Evidence evidence) const {
   octomap::OcTreeKey key;
   if (!trees_->free.coordToKeyChecked(octomap_point(p_W), key)) return 0;
-  return rays_.at({key[0], key[1], key[2]});
+  const RayBlocks::Cell cell = {key[0], key[1], key[2]};
+  return evidence == Evidence::rays ? rays_.at(cell) : RayBlocks::counted(rays_.at(cell) + looks_.at(cell));
 }
 
 void KnownSpace::visit_hits(const Vector3d& lowest_W, const Vector3d& highest_W,

@@ -42,9 +42,9 @@ void VoxelMapper::find_free(const OccupancyMap& map, VoxelGrid& grid) {
     if (grid.state(id) != VoxelState::unknown) continue;
     ++looks;
     const Vector3d centre = grid.centre_W(id);
-    bool seen = map.known_free(centre, config_.rays);
+    bool seen = map.known_free(centre, config_.rays, Evidence::rays);
     for (int face = 0; face < VoxelGrid::kFaces && seen; ++face) {
-      seen = map.known_free(centre + config_.around_m * grid.normal_W(face), config_.rays);
+      seen = map.known_free(centre + config_.around_m * grid.normal_W(face), config_.rays, Evidence::rays);
     }
     if (seen) grid.raise(id, VoxelState::free);
   }

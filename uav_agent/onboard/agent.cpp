@@ -53,6 +53,9 @@ struct Agent::Impl {
   Tracker tracker;
   std::vector<OrientedBox> boxes;
   GimbalAim aim;
+  double waited_s = 0.0;
+  std::map<std::string, std::uint64_t> no_ways;
+  std::string no_way;
 };
 
 std::vector<KnownBody> Agent::Impl::known_bodies(const AgentInput& input) const {
@@ -79,8 +82,10 @@ void Agent::Impl::perceive(const AgentInput& input) {
     const bool keep_lone = std::any_of(boxes.begin(), boxes.end(), is_roomy);
     for (const KeyFrame& frame : input.key_frames) {
       auto sound_W = frames->filter(keep_lone).sound(frame.points_W, bodies);
-      const ReadyFrames::Frame& ready = frames->ready(std::move(sound_W), sensor_position(frame, input), keep_lone);
+      const std::optional<Vector3d> p_WS = sensor_position(frame, input);
+      const ReadyFrames::Frame& ready = frames->ready(std::move(sound_W), p_WS, keep_lone);
       map.insert(ready.hits_W, ready.passed);
+      if (ready.plane_W) map.look_from(*p_WS, *ready.plane_W);
     }
   }
   uplink.take(input.capture_reports);
@@ -150,6 +155,9 @@ AgentOutput Agent::step(const AgentInput& input) {
   impl_->perceive(input);
   PlannerOutput decision = impl_->planner->plan(impl_->planner_input(input));
   for (const std::string& bytes : decision.heard_maps) impl_->map.hear(bytes);
+  if (!decision.no_way.empty()) ++impl_->no_ways[decision.no_way];
+  impl_->no_way = std::move(decision.no_way);
+  if (decision.waits_for) impl_->waited_s += impl_->config.exchange_period_s;
   AgentOutput output;
   output.trajectory = impl_->move(decision, input.state);
   output.gimbal = impl_->point_camera(decision.gimbal, input.state);
@@ -163,5 +171,11 @@ AgentOutput Agent::step(const AgentInput& input) {
 bool Agent::holds_capture(std::uint64_t capture) const { return impl_->uplink.holds(capture); }
 
 const OccupancyMap& Agent::map() const { return impl_->map; }
+
+const std::map<std::string, std::uint64_t>& Agent::no_ways() const { return impl_->no_ways; }
+
+const std::string& Agent::no_way() const { return impl_->no_way; }
+
+double Agent::waited_s() const { return impl_->waited_s; }
 
 }  // namespace skein::agent

@@ -3,8 +3,10 @@
 // Pure and deterministic: same inputs, same outputs. Frame W.   Units: SI and radians.   Threads: one.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "uav_agent/api/agent_config.hpp"
@@ -60,6 +62,12 @@ class Agent {
   /// Whether that capture's report may yet have to be sent.
   bool holds_capture(std::uint64_t capture) const;
   const OccupancyMap& map() const;
+  /// Why its planner found no ways (PlannerOutput::no_way), and how often.
+  const std::map<std::string, std::uint64_t>& no_ways() const;
+  /// The reason in the last exchange; empty: there was none.
+  const std::string& no_way() const;
+  /// How long its planner has waited for other UAVs (PlannerOutput::waits_for) [s].
+  double waited_s() const;
 
  private:
   struct Impl;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "uav_agent/maps/occupancy_map.hpp"
+#include "uav_agent/maps/scan_plane.hpp"
 #include "uav_agent/onboard/key_frame_filter.hpp"
 
 namespace skein::agent {
@@ -17,6 +18,7 @@ class ReadyFrames {
   struct Frame {
     std::vector<Eigen::Vector3f> hits_W;
     PassedCells passed;
+    std::optional<Vector3d> plane_W;  ///< normal, if it is known: see scan_plane()
   };
 
   /// @param most  frames that are remembered; one without memory is for an agent that is alone.

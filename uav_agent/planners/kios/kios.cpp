@@ -25,6 +25,7 @@
 #include "uav_agent/flight/voxel_route.hpp"
 #include "uav_agent/planners/kios/config.hpp"
 #include "uav_agent/planners/kios/lanes.hpp"
+#include "uav_agent/planners/kios/patience.hpp"
 #include "uav_agent/planners/kios/stops.hpp"
 #include "uav_agent/planners/kios/talk.hpp"
 #include "uav_agent/planning/aiming.hpp"
@@ -42,7 +43,7 @@ constexpr std::size_t kCandidates = 5;  ///< stops tried in one decision
 constexpr int kFruitlessToBold = 2, kFruitlessToRetreat = 9;
 constexpr double kBoldS = 40.0;          ///< for so long it does with less proof of free space
 constexpr double kLookAroundTurn = 0.8;  ///< in vain: a LiDAR that has turned makes a new key frame [rad]
-constexpr double kWaitFactor = 1.5, kWaitExtraS = 20.0;  ///< patience with explorers, beside the time that lanes take
+constexpr int kMostMoreLanes = 3;        ///< times, for explorers that have found nothing
 
 }  // namespace
 
@@ -58,6 +59,7 @@ class KiosPlanner final : public Planner {
                  config.return_margin_s},
                 agent_),
         talk_({.share_s = config.share_s, .claim_s = config.claim_s}, agent_),
+        patience_(agent_, talk_),
         stops_(stops_config()),
         mapper_({.min_hits = config.min_hits}) {}
 
@@ -76,11 +78,12 @@ class KiosPlanner final : public Planner {
   void look_at_map(const PlannerInput& in);
   void blocked(const PlannerInput& in, PlannerOutput& out);
   void carry_on(const PlannerInput& in, PlannerOutput& out);
+  void lay_lanes(const PlannerInput& in, int count);
   void next_lane(const PlannerInput& in, PlannerOutput& out);
   void lane_failed();
-  bool map_is_ready(const PlannerInput& in) const;
   void decide(const PlannerInput& in, PlannerOutput& out);
   void nothing_to_reach(const PlannerInput& in, bool stops_left, PlannerOutput& out);
+  void fly_more_lanes(const PlannerInput& in, PlannerOutput& out);
   std::vector<KiosAgent> fleet_in_sight(const PlannerInput& in, std::size_t& self) const;
   bool fly_to(const KiosStop& stop, const FreeSpace& space, bool finely, const PlannerInput& in, PlannerOutput& out);
   void look(const PlannerInput& in);
@@ -92,12 +95,12 @@ class KiosPlanner final : public Planner {
   const CameraReach reach_;
   Sortie sortie_;
   KiosTalk talk_;
+  KiosPatience patience_;
   KiosStops stops_;
   VoxelMapper mapper_;
 
   Phase phase_ = Phase::map;
-  Tick not_before_ = 0;  ///< of what comes next in this phase
-  Tick waiting_since_ = 0;
+  Tick not_before_ = 0;               ///< of what comes next in this phase
   int failures_ = 0;                  ///< of this lane
   std::optional<VoxelGrid> grid_;     ///< once the boxes have come
   std::optional<VoxelGrid> hearsay_;  ///< of it, what this UAV did not see itself
@@ -108,6 +111,7 @@ class KiosPlanner final : public Planner {
   std::optional<Tick> looking_since_;  ///< steady, aimed
   int fruitless_ = 0;                  ///< decisions in a row
   Proof proof_;                        ///< of free space
+  int more_lanes_ = 0;                 ///< times that it has flown some more
 };
 
 PlannerOutput KiosPlanner::plan(const PlannerInput& in) {
@@ -156,7 +160,7 @@ FreeSpace::Config KiosPlanner::space_config() const {
   config.clearance_m = clearance_m();
   config.jut_m = config_.jut_m;
   config.rays = proof_.of(Proof::rays(site_.roomy));
-  config.blind_height_m = proof_.at_last() ? 0.0 : site_.blind_height_m;
+  config.blind_height_m = site_.blind_height_m;
   config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = hearsay_ ? &*hearsay_ : nullptr;
   return config;
@@ -173,7 +177,11 @@ void KiosPlanner::survey_site(const PlannerInput& in) {
   // One cube of free space around everything, to look at the outermost faces from.
   grid_.emplace(operational_volume(in.boxes, starts, voxel, 0.0, voxel));
   if (site_.blind_fleet) return fill_boxes(in.boxes, *grid_);
-  const auto corners = mapping_lanes(agent_, *grid_, in.boxes, site_.blind_height_m + 2.0, config_.lanes);
+  lay_lanes(in, config_.lanes);
+}
+
+void KiosPlanner::lay_lanes(const PlannerInput& in, int count) {
+  const auto corners = mapping_lanes(agent_, *grid_, in.boxes, site_.blind_height_m + 2.0, count);
   lanes_.assign(corners.begin(), corners.end());
 }
 
@@ -201,7 +209,7 @@ void KiosPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
       if (in.tracking.done && in.tick >= not_before_) next_lane(in, out);
       return;
     case Phase::wait:
-      if (map_is_ready(in)) rest(in.tick, out);
+      patience_.is_over(in, *grid_, config_) ? rest(in.tick, out) : sortie_.waits_for(patience_.explorer(), in, out);
       return;
     case Phase::decide:
       if (in.tick >= not_before_ && in.tracking.done) decide(in, out);
@@ -239,7 +247,7 @@ void KiosPlanner::next_lane(const PlannerInput& in, PlannerOutput& out) {
     if (corners) {
       Path path;
       for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.map_mps});
-      sortie_.pilot().follow(std::move(path), out);
+      sortie_.pilot().follow(std::move(path), in, out);
       proof_.ask_all();
       return;
     }
@@ -249,7 +257,7 @@ void KiosPlanner::next_lane(const PlannerInput& in, PlannerOutput& out) {
     lane_failed();
     return;
   }
-  waiting_since_ = in.tick;
+  patience_.begin(in.tick);
   proof_.ask_all();
   phase_ = agent_.me().role == Role::explorer ? Phase::decide : Phase::wait;
   not_before_ = in.tick;
@@ -259,22 +267,6 @@ void KiosPlanner::lane_failed() {
   if (++failures_ <= kMaxLaneFailures || lanes_.empty()) return;
   failures_ = 0;
   lanes_.pop_front();
-}
-
-/// For photographers: once an explorer has said that it is done, and none in sight says that it is not.
-bool KiosPlanner::map_is_ready(const PlannerInput& in) const {
-  bool anybody_maps = false, done = false, busy = false;
-  for (const Peer& peer : in.peers.all()) {
-    if (agent_.fleet[peer.uav].role != Role::explorer) continue;
-    anybody_maps = true;
-    const auto word = talk_.word(peer.uav);
-    done |= word && !word->mapping;
-    busy |= word && word->mapping && peer.visible;
-  }
-  if (!anybody_maps || (done && !busy)) return true;
-  if (config_.faithful || !grid_) return false;
-  const double lanes_s = 2.0 * grid_->voxel_m() * grid_->dims().cast<double>().sum() / config_.map_mps;
-  return seconds(in.tick - waiting_since_) > kWaitFactor * lanes_s + kWaitExtraS;
 }
 
 std::vector<KiosAgent> KiosPlanner::fleet_in_sight(const PlannerInput& in, std::size_t& self) const {
@@ -326,11 +318,18 @@ void KiosPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
 
 void KiosPlanner::nothing_to_reach(const PlannerInput& in, bool stops_left, PlannerOutput& out) {
   rest(in.tick + ticks(kRestS), out);
-  if (!stops_left) return;
+  if (!stops_left) return fly_more_lanes(in, out);
   ++fruitless_;
   out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
   if (fruitless_ % kFruitlessToBold == 0) proof_.ask_less(in.tick + ticks(kBoldS));
   if (fruitless_ % kFruitlessToRetreat == 0) sortie_.pilot().retreat(out);
+}
+
+/// An explorer for which nobody has found anything to look at: its lanes were too far from what there is.
+void KiosPlanner::fly_more_lanes(const PlannerInput& in, PlannerOutput& out) {
+  if (agent_.me().role != Role::explorer || more_lanes_ >= kMostMoreLanes) return;
+  lay_lanes(in, config_.lanes + 2 * ++more_lanes_);
+  next_lane(in, out);
 }
 
 /// Through the graph; or, where cubes are too coarse to find a way, on the finer map.
@@ -339,10 +338,14 @@ bool KiosPlanner::fly_to(const KiosStop& stop, const FreeSpace& space, bool fine
   const Vector3d here = in.tracking.setpoint.p_WB;
   const auto corners = finely ? find_path(space, in.boxes, here, stop.p_WB)
                               : find_voxel_route(*grid_, space, here, stop.p_WB, talk_.claimed(in.tick));
-  if (!corners) return false;
+  if (!corners) {
+    out.no_way = Way{.found = false, .at_goal = space.barrier(stop.p_WB)}.why();
+    return false;
+  }
+  out.no_way.clear();
   Path path;
   for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.transit_mps});
-  sortie_.pilot().follow(std::move(path), out);
+  sortie_.pilot().follow(std::move(path), in, out);
   phase_ = Phase::fly;
   stop_ = stop;
   way_ = *corners;

@@ -131,7 +131,7 @@ FreeSpace::Config PatrolPlanner::space_config() const {
   if (roomy) {
     config.enter_radius_m = kAnywhereM;  // ways through a roomy box do not lead through a building
   }
-  config.blind_height_m = proof_.at_last() ? 0.0 : blind_height_m_;
+  config.blind_height_m = blind_height_m_;
   return config;
 }
 
@@ -233,7 +233,7 @@ void PatrolPlanner::begin_survey(const PlannerInput& in, PlannerOutput& out) {
   }
   if (path.waypoints.empty()) return;
   phase_ = Phase::survey;
-  sortie_.pilot().follow(std::move(path), out);
+  sortie_.pilot().follow(std::move(path), in, out);
 }
 
 /// Takes up a strip in a block, or waits for the map to show one. @returns false if there is other work.
@@ -331,7 +331,7 @@ void PatrolPlanner::fly_strip(const PlannerInput& in, PlannerOutput& out) {
   phase_ = Phase::strip;
   refit_at_ = in.tick + ticks(kRefitS);
   run_length_ = runs.front().waypoints.size();
-  sortie_.pilot().follow(Path{runs.front().waypoints}, out);
+  sortie_.pilot().follow(Path{runs.front().waypoints}, in, out);
   face_strip(out);
 }
 
@@ -345,7 +345,7 @@ void PatrolPlanner::refit(const PlannerInput& in, PlannerOutput& out) {
   if (runs.empty() || runs.front().first_s > s) return;  // the safety stop will see to it
   strip_s_ = s;
   run_length_ = runs.front().waypoints.size();
-  sortie_.pilot().follow(Path{runs.front().waypoints}, out);
+  sortie_.pilot().follow(Path{runs.front().waypoints}, in, out);
 }
 
 void PatrolPlanner::face_strip(PlannerOutput& out) const {

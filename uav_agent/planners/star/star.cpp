@@ -355,14 +355,18 @@ bool StarPlanner::fly_through(const std::vector<Vector3d>& places_W, double spee
                               const PlannerInput& in, PlannerOutput& out) {
   auto path = star_way(known_->grid(), space, in.boxes, in.tracking.setpoint.p_WB, places_W, speed_mps,
                        {config_.round_m, config_.horizon_m, config_.transit_mps});
-  if (!path) return false;
-  sortie_.pilot().follow(std::move(*path), out);
+  if (!path) {
+    out.no_way = Way{.found = false, .at_goal = space.barrier(places_W.front())}.why();
+    return false;
+  }
+  out.no_way.clear();
+  sortie_.pilot().follow(std::move(*path), in, out);
   return true;
 }
 
 /// Explorers photograph what they pass, photographers what they fly to.
 void StarPlanner::point_camera(const PlannerInput& in, PlannerOutput& out) {
-  if (!sortie_.working()) return;
+  if (!sortie_.working() || sortie_.looks_around(in.tick)) return;
   if (!route_.views.empty()) {
     const StarView& view = route_.views.front();
     camera_.sweep(in.state, in.gimbal, view.p_WB, view.surface_W, out);

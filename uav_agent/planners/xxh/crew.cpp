@@ -32,6 +32,13 @@ bool XxhCrew::silent(std::size_t uav, Tick now) const {
   return !config_.faithful && talk_.silent_s(uav, now) > config_.silence_s;
 }
 
+std::size_t XxhCrew::awaited(Tick now) const {
+  if (leader() != agent_.self) return leader();
+  const auto found =
+      std::ranges::find_if(team_.members, [&](std::size_t uav) { return uav != agent_.self && !silent(uav, now); });
+  return found == team_.members.end() ? agent_.self : *found;
+}
+
 bool XxhCrew::ordered(std::size_t region) const {
   const XxhWord* word = talk_.word(leader());
   if (!word) return false;

@@ -33,6 +33,8 @@ class XxhCrew {
   std::size_t section_of(std::size_t rank) const { return rank == 0 ? size() - 1 : rank - 1; }
 
   bool silent(std::size_t uav, Tick now) const;
+  /// Whom it waits for at its post: its leader; the leader for the first of the others who can be heard.
+  std::size_t awaited(Tick now) const;
   /// The leader has said that this UAV's section may be inspected.
   bool ordered(std::size_t region) const;
   /// All who can be heard know so of theirs.

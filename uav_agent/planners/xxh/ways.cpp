@@ -60,9 +60,11 @@ bool XxhWays::fly_along(const std::vector<Vector3d>& places_W, double slow_mps, 
   auto corners = find(in, places_W.front());
   if (!corners) {
     ++fruitless_;
+    out.no_way = Way{.found = false, .at_goal = space_for_way(in, places_W.front()).barrier(places_W.front())}.why();
     return false;
   }
   fruitless_ = 0;
+  out.no_way.clear();
   Path path;
   Vector3d at = in.tracking.setpoint.p_WB;
   double speed = path_length(at, *corners) > kLongWayM ? std::max(slow_mps, config_.transit_mps) : slow_mps;
@@ -78,7 +80,7 @@ bool XxhWays::fly_along(const std::vector<Vector3d>& places_W, double slow_mps, 
     corners->push_back(places_W[i]);
   }
   corners_ = std::move(*corners);
-  pilot_.follow(std::move(path), out);
+  pilot_.follow(std::move(path), in, out);
   return true;
 }
 

@@ -264,7 +264,9 @@ void XxhPlanner::work(const PlannerInput& in, PlannerOutput& out) {
 
 /// Around the section, turn by turn.
 void XxhPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
+  const auto turn = out.yaw;  // if the sortie looks around
   explorer_.look_inwards(*region_, in, out);
+  if (sortie_.looks_around(in.tick)) out.yaw = turn;
   if (!free_for_something(in)) return;
   if (explorer_.finished()) return next_section(in);
   if (!explorer_.set_out(in, out)) recover(in, out);
@@ -360,6 +362,7 @@ void XxhPlanner::regroup(const PlannerInput& in, PlannerOutput& out) {
 }
 
 void XxhPlanner::stay_at_post(const PlannerInput& in, PlannerOutput& out) {
+  sortie_.waits_for(crew_.awaited(in.tick), in, out);
   if (post_.taken() || !free_for_something(in)) return;
   if (!post_.take_beside(entry_W_, region_->box().center, crew_.rank(), in, out)) recover(in, out);
 }

@@ -1,0 +1,35 @@
+#include "uav_agent/planners/kios/patience.hpp"
+
+#include <algorithm>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kSilenceS = 45.0, kFliesMps = 0.3;
+constexpr double kWaitFactor = 1.5, kWaitExtraS = 20.0;  ///< beside the time that lanes take
+
+}  // namespace
+
+bool KiosPatience::is_over(const PlannerInput& in, const VoxelGrid& volume, const KiosConfig& config) {
+  bool anybody_maps = false, done = false, busy = false;
+  for (const Peer& peer : in.peers.all()) {
+    if (agent_.fleet[peer.uav].role != Role::explorer) continue;
+    anybody_maps = true;
+    if (peer.visible && peer.v_W.norm() > kFliesMps) seen_flying_ = in.tick;
+    const auto word = talk_.word(peer.uav);
+    done |= word && !word->mapping;
+    busy |= word && word->mapping && peer.visible;
+  }
+  if (!anybody_maps || (done && !busy)) return true;
+  if (config.faithful) return false;
+  const double lanes_s = 2.0 * volume.voxel_m() * volume.dims().cast<double>().sum() / config.map_mps;
+  return seconds(in.tick - std::max(seen_flying_, since_)) > kSilenceS ||
+         seconds(in.tick - since_) > kWaitFactor * lanes_s + kWaitExtraS;
+}
+
+std::size_t KiosPatience::explorer() const {
+  const auto found = std::ranges::find(agent_.fleet, Role::explorer, &FleetMember::role);
+  return static_cast<std::size_t>(found - agent_.fleet.begin());
+}
+
+}  // namespace skein::agent

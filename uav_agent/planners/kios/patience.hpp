@@ -1,0 +1,28 @@
+// How long a photographer of KIOS waits for the explorers' map: until one says that it is done and none in sight that it
+// is not; or until none was seen to fly for a while, or all of them must have come to the end of their lanes.
+// Threads: one.   Source: paper (photographers idle while the explorers map); that it ends is ours.
+#pragma once
+
+#include "uav_agent/planners/kios/config.hpp"
+#include "uav_agent/planners/kios/talk.hpp"
+
+namespace skein::agent {
+
+class KiosPatience {
+ public:
+  /// Both must outlive this.
+  KiosPatience(const AgentConfig& agent, const KiosTalk& talk) : agent_(agent), talk_(talk) {}
+
+  void begin(Tick now) { since_ = now; }
+  /// Once per exchange of waiting.   @param volume  through which the lanes lead.
+  bool is_over(const PlannerInput& in, const VoxelGrid& volume, const KiosConfig& config);
+  /// Whom it waits for; there must be one.
+  std::size_t explorer() const;
+
+ private:
+  const AgentConfig& agent_;
+  const KiosTalk& talk_;
+  Tick since_ = 0, seen_flying_ = 0;  ///< the latter: any explorer
+};
+
+}  // namespace skein::agent
