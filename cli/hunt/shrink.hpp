@@ -1,0 +1,34 @@
+// Makes a find small: what can be taken away of it while the same property fails goes. The order of what is tried, and
+// so the result, does not depend on how many flights are flown at once. Pure, but for the flights.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/hunt/trial.hpp"
+#include "core/scenario.hpp"
+
+namespace skein::cli {
+
+/// Flies these, in any order, and tells what came of each.
+using FlyTrials = std::function<std::vector<TrialOutcome>(const std::vector<Trial>&)>;
+
+struct Shrunk {
+  Trial trial;
+  TrialOutcome outcome;
+  std::size_t flights = 0;  ///< that it took
+};
+
+/// What is tried of a find, the boldest first: faults fewer, shorter, weaker, at rounder times; fewer UAVs, a shorter
+/// mission, no draws of the seed, a planner without parameters, a simpler scene.
+std::vector<Trial> simpler(const Trial& trial, const TrialOutcome& outcome, const std::string& property,
+                           const Scenario& scenario);
+
+/// @param outcome   of the trial, in which `property` fails.
+/// @param scenario  of the trial, with its whole fleet.
+/// @param at_once   trials that `fly` gets in one call.
+Shrunk shrink(const Trial& trial, const TrialOutcome& outcome, const std::string& property, const Scenario& scenario,
+              std::size_t at_once, const FlyTrials& fly);
+
+}  // namespace skein::cli
