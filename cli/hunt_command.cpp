@@ -87,7 +87,7 @@ class Hunt {
     }
     flights_.fly_undisturbed(undisturbed);
     const auto make = [this](std::size_t index) -> std::optional<Trial> {
-      if (is_enough() || !can_make(index)) return std::nullopt;
+      if (is_enough(index) || !can_make(index)) return std::nullopt;
       return trial(index);
     };
     flights_.fly(numbers, make, [this](std::size_t index, TrialOutcome outcome) {
@@ -107,9 +107,12 @@ class Hunt {
     return true;
   }
 
-  bool is_enough() const {
+  /// Whether a case need not be flown any more. Those before the first that fails may be one that fails, too.
+  bool is_enough(std::size_t index) const {
     if (plan_.options.minutes && seconds_since(began_) > 60.0 * *plan_.options.minutes) return true;
-    return plan_.options.first && !failures_of(log_.outcomes(), wanted_).empty();
+    if (!plan_.options.first) return false;
+    const std::vector<Failure> failures = failures_of(log_.outcomes(), wanted_);
+    return !failures.empty() && failures.front().index < index;
   }
 
   /// How many cases count: those without a gap before them, and none behind the first find where that ends the search.

@@ -30,8 +30,14 @@ HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force) : file_(
     throw InputError(dir.string() + " holds another hunt, which differs in " + differing_keys(then, settings) +
                      "; choose another --out, or begin anew there with --force");
   }
+  const std::initializer_list<const char*> parts = {kLogFile, "finds", "flights"};
+  for (const char* part : parts) {
+    if (then.is_null() && fs::exists(dir / part)) {
+      throw InputError("--out " + dir.string() + ": '" + part + "' is there, and is of no hunt; choose another --out");
+    }
+  }
   if (then.is_null() || force) {
-    for (const char* old : {kLogFile, "finds", "flights"}) fs::remove_all(dir / old);
+    for (const char* part : parts) fs::remove_all(dir / part);
     write_file_atomically(dir / kSettingsFile, settings.dump(2) + "\n");
   }
   std::ifstream in(file_);
