@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 using properties::PropertyEntries;
 using properties::PropertyEntry;
 
-constexpr double kAfterDeadline_s = 2.0;  ///< of the mission, behind the longest deadline
+/// Of the mission, behind the longest deadline: towards its end a fleet may stand where it has a link, and wait.
+constexpr double kAfterDeadline_s = 20.0;
 constexpr double kLeastForFaults_s = 5.0;
 constexpr double kPatience_s = 300.0;  ///< of wall time: many flights at once make each slow, and none of them wrong
 constexpr std::uintmax_t kLargestAgent = 2'000'000'000;
@@ -142,7 +143,7 @@ HuntPlan plan_hunt(const HuntOptions& options) {
   if (plan.space.heal_by_s < kLeastForFaults_s) {
     throw InputError("--duration: a mission of " + number_text(duration_s) +
                      " s has no time for faults: what must hold after them has up to " + number_text(deadline_s) +
-                     " s");
+                     " s, and the last " + number_text(kAfterDeadline_s) + " s are for coming home");
   }
   plan.out = options.out.value_or(
       fs::path("runs") / ("hunt-" + plan.fleet.scenario.name + "-" + fs::path(run.planner).filename().string()));

@@ -51,8 +51,8 @@ bool names_any(const Fault& fault, const std::set<std::string>& of) {
 
 class Proposals {
  public:
-  Proposals(const Trial& trial, const TrialOutcome& outcome, const Scenario& scenario)
-      : trial_(trial), outcome_(outcome), scenario_(scenario) {}
+  Proposals(const Trial& trial, const TrialOutcome& outcome, const Scenario& scenario, double after_s)
+      : trial_(trial), outcome_(outcome), scenario_(scenario), after_s_(after_s) {}
 
   std::vector<Trial> all(const std::string& property) {
     fewer_faults();
@@ -113,11 +113,12 @@ class Proposals {
     double healed_s = 0.0;
     for (const Fault& fault : trial_.faults) healed_s = std::max(healed_s, fault.until_s.value_or(0.0));
     const double seen_s = finding != nullptr ? finding->at_s : 0.0;
-    for (const double share : {0.5, 0.7, 0.85}) propose_duration(to_multiple(share * duration_s, 5.0), healed_s);
-    propose_duration(to_multiple(std::max(seen_s, healed_s) + 5.0, 5.0), healed_s);
+    const double least_s = std::max(kLeastMission_s, healed_s + after_s_);
+    for (const double share : {0.5, 0.7, 0.85}) propose_duration(to_multiple(share * duration_s, 5.0), least_s);
+    propose_duration(5.0 * std::ceil(std::max(seen_s + 5.0, least_s) / 5.0), least_s);
   }
-  void propose_duration(double duration_s, double healed_s) {
-    if (duration_s < kLeastMission_s || duration_s <= healed_s || duration_s >= *trial_.run.duration_s) return;
+  void propose_duration(double duration_s, double least_s) {
+    if (duration_s < least_s || duration_s >= *trial_.run.duration_s) return;
     Trial trial = trial_;
     trial.run.duration_s = duration_s;
     propose(std::move(trial));
@@ -214,6 +215,7 @@ class Proposals {
   const Trial& trial_;
   const TrialOutcome& outcome_;
   const Scenario& scenario_;
+  const double after_s_;
   std::vector<Trial> trials_;
 };
 
@@ -222,19 +224,19 @@ std::string identity(const Trial& trial) { return what_is_flown(trial.run) + tri
 }  // namespace
 
 std::vector<Trial> simpler(const Trial& trial, const TrialOutcome& outcome, const std::string& property,
-                           const Scenario& scenario) {
-  std::vector<Trial> trials = Proposals(trial, outcome, scenario).all(property);
+                           const Scenario& scenario, double after_s) {
+  std::vector<Trial> trials = Proposals(trial, outcome, scenario, after_s).all(property);
   for (Trial& one : trials) one.faults = without_contradictions(std::move(one.faults));
   return trials;
 }
 
 Shrunk shrink(const Trial& trial, const TrialOutcome& outcome, const std::string& property, const Scenario& scenario,
-              std::size_t at_once, const FlyTrials& fly) {
+              double after_s, std::size_t at_once, const FlyTrials& fly) {
   Shrunk best{trial, outcome};
   std::set<std::string> tried = {identity(trial)};
   for (bool smaller = true; smaller && best.flights < kMostFlights;) {
     smaller = false;
-    std::vector<Trial> proposals = simpler(best.trial, best.outcome, property, scenario);
+    std::vector<Trial> proposals = simpler(best.trial, best.outcome, property, scenario, after_s);
     std::erase_if(proposals, [&](const Trial& one) { return tried.contains(identity(one)); });
     for (std::size_t first = 0; first < proposals.size() && !smaller; first += at_once) {
       const std::size_t last = std::min(proposals.size(), first + at_once);

@@ -22,13 +22,15 @@ struct Shrunk {
 
 /// What is tried of a find, the boldest first: faults fewer, shorter, weaker, at rounder times; fewer UAVs, a shorter
 /// mission, no draws of the seed, a planner without parameters, a simpler scene.
+/// @param after_s  that the mission lasts beyond the last fault: else what must hold then would fail of itself.
 std::vector<Trial> simpler(const Trial& trial, const TrialOutcome& outcome, const std::string& property,
-                           const Scenario& scenario);
+                           const Scenario& scenario, double after_s);
 
 /// @param outcome   of the trial, in which `property` fails.
 /// @param scenario  of the trial, with its whole fleet.
+/// @param after_s   see simpler().
 /// @param at_once   trials that `fly` gets in one call.
 Shrunk shrink(const Trial& trial, const TrialOutcome& outcome, const std::string& property, const Scenario& scenario,
-              std::size_t at_once, const FlyTrials& fly);
+              double after_s, std::size_t at_once, const FlyTrials& fly);
 
 }  // namespace skein::cli

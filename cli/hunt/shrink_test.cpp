@@ -14,6 +14,8 @@
 namespace skein::cli {
 namespace {
 
+constexpr double kAfter_s = 30.0;
+
 class Shrinking : public testing::Test {
  protected:
   Shrinking() {
@@ -44,7 +46,7 @@ class Shrinking : public testing::Test {
     return outcome;
   }
   Shrunk shrunk(const Trial& trial, std::size_t at_once) {
-    return shrink(trial, outcome_of(trial), "whole", towers_, at_once, [](const std::vector<Trial>& trials) {
+    return shrink(trial, outcome_of(trial), "whole", towers_, kAfter_s, at_once, [](const std::vector<Trial>& trials) {
       std::vector<TrialOutcome> outcomes;
       for (const Trial& one : trials) outcomes.push_back(outcome_of(one));
       return outcomes;
@@ -78,6 +80,9 @@ TEST_F(Shrinking, LeavesWhatMattersAndNothingElse) {
     EXPECT_EQ(small.trial.run.planner, "planted");
     EXPECT_EQ(small.trial.run.uavs, 2U);
     EXPECT_LT(*small.trial.run.duration_s, 120.0);
+    for (const Fault& fault : small.trial.faults) {
+      EXPECT_GE(*small.trial.run.duration_s, *fault.until_s + kAfter_s) << fault_line(fault);
+    }
     for (const Fault& fault : small.trial.faults) EXPECT_EQ(fault.at_s, std::round(fault.at_s)) << fault_line(fault);
   }
 }
@@ -94,7 +99,7 @@ TEST_F(Shrinking, NeverProposesWhatIsNoFaultFile) {
   const ScratchDir scratch;
   for (std::uint64_t number = 0; number < 30; ++number) {
     const Trial trial = drawn(number);
-    for (const Trial& proposal : simpler(trial, outcome_of(trial), "whole", towers_)) {
+    for (const Trial& proposal : simpler(trial, outcome_of(trial), "whole", towers_, kAfter_s)) {
       Scenario scenario = towers_;
       scenario.duration_s = *proposal.run.duration_s;
       if (proposal.run.uavs) scenario.fleet.resize(*proposal.run.uavs);
