@@ -40,6 +40,9 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
       ->check(CLI::PositiveNumber)
       ->excludes(runs);
   command->add_flag("--first", hunt.first, "End the search with the first find");
+  command->add_option("--shrink", hunt.shrink, "Flights that it may take to make a find small")
+      ->check(CLI::Range(0, 10'000))
+      ->capture_default_str();
   command->add_option("--seed", hunt.seed, "What is drawn; the same seed is the same search")
       ->check(seed)
       ->capture_default_str();

@@ -56,10 +56,10 @@ void Finds::go_into(const Failure& failure, const Trial& trial, const TrialOutco
   const Clock::time_point began = Clock::now();
   console_.err << "case " << failure.index << " breaks " << failure.property << " with " << trial.faults.size()
                << " faults; making it smaller" << std::endl;
-  const Shrunk small =
-      shrink(trial, outcome, failure.property, plan_.fleet.scenario,
-             plan_.fleet.scenario.duration_s - plan_.space.heal_by_s, static_cast<std::size_t>(*plan_.options.jobs),
-             [this](const std::vector<Trial>& trials) { return flights_.fly(trials); });
+  const Shrunk small = shrink(trial, outcome, failure.property, plan_.fleet.scenario,
+                              {plan_.fleet.scenario.duration_s - plan_.space.heal_by_s,
+                               static_cast<std::size_t>(*plan_.options.jobs), plan_.options.shrink},
+                              [this](const std::vector<Trial>& trials) { return flights_.fly(trials); });
   Find find;
   find.name = failure.property + "-" + std::to_string(failure.index);
   find.broke = find.property = failure.property;

@@ -25,8 +25,9 @@ namespace fs = std::filesystem;
 using properties::PropertyEntries;
 using properties::PropertyEntry;
 
-/// Of the mission, behind the longest deadline: towards its end a fleet may stand where it has a link, and wait.
-constexpr double kAfterDeadline_s = 20.0;
+/// Of the mission, behind the longest deadline: towards its end whoever has no time left for more work stands where it
+/// has a link, and waits. A program that comes back far from home does so long before the end.
+constexpr double kAfterDeadline_s = 40.0;
 constexpr double kLeastForFaults_s = 5.0;
 constexpr double kPatience_s = 300.0;  ///< of wall time: many flights at once make each slow, and none of them wrong
 constexpr std::uintmax_t kLargestAgent = 2'000'000'000;

@@ -11,7 +11,6 @@
 namespace skein::cli {
 namespace {
 
-constexpr std::size_t kMostFlights = 120;
 constexpr double kLeastMission_s = 10.0, kLeastLength_s = 0.5;
 constexpr const char* kSimplestScene = "towers";
 
@@ -231,19 +230,20 @@ std::vector<Trial> simpler(const Trial& trial, const TrialOutcome& outcome, cons
 }
 
 Shrunk shrink(const Trial& trial, const TrialOutcome& outcome, const std::string& property, const Scenario& scenario,
-              double after_s, std::size_t at_once, const FlyTrials& fly) {
+              const ShrinkOptions& options, const FlyTrials& fly) {
   Shrunk best{trial, outcome};
   std::set<std::string> tried = {identity(trial)};
-  for (bool smaller = true; smaller && best.flights < kMostFlights;) {
+  for (bool smaller = true; smaller && best.flights < options.most;) {
     smaller = false;
-    std::vector<Trial> proposals = simpler(best.trial, best.outcome, property, scenario, after_s);
+    std::vector<Trial> proposals = simpler(best.trial, best.outcome, property, scenario, options.after_s);
     std::erase_if(proposals, [&](const Trial& one) { return tried.contains(identity(one)); });
-    for (std::size_t first = 0; first < proposals.size() && !smaller; first += at_once) {
-      const std::size_t last = std::min(proposals.size(), first + at_once);
+    for (std::size_t first = 0; first < proposals.size() && !smaller && best.flights < options.most;
+         first += options.at_once) {
+      const std::size_t last = std::min(proposals.size(), first + options.at_once);
       const std::vector<Trial> batch(proposals.begin() + static_cast<std::ptrdiff_t>(first),
                                      proposals.begin() + static_cast<std::ptrdiff_t>(last));
       const std::vector<TrialOutcome> outcomes = fly(batch);
-      for (std::size_t i = 0; i < batch.size() && !smaller; ++i) {  // what is behind the first that fails is left out
+      for (std::size_t i = 0; i < batch.size() && !smaller && best.flights < options.most; ++i) {  // as one by one
         ++best.flights;
         tried.insert(identity(batch[i]));
         if (!outcomes[i].fails(property)) continue;

@@ -26,11 +26,15 @@ struct Shrunk {
 std::vector<Trial> simpler(const Trial& trial, const TrialOutcome& outcome, const std::string& property,
                            const Scenario& scenario, double after_s);
 
+struct ShrinkOptions {
+  double after_s = 0.0;     ///< see simpler()
+  std::size_t at_once = 1;  ///< trials that `fly` gets in one call
+  std::size_t most = 120;   ///< flights that count
+};
+
 /// @param outcome   of the trial, in which `property` fails.
 /// @param scenario  of the trial, with its whole fleet.
-/// @param after_s   see simpler().
-/// @param at_once   trials that `fly` gets in one call.
 Shrunk shrink(const Trial& trial, const TrialOutcome& outcome, const std::string& property, const Scenario& scenario,
-              double after_s, std::size_t at_once, const FlyTrials& fly);
+              const ShrinkOptions& options, const FlyTrials& fly);
 
 }  // namespace skein::cli
