@@ -134,7 +134,7 @@ TEST_P(AllDefects, AreFound) {
   Planted planted = of_planner(name);
   if (name == "trusting") planted = {name, {"--agent", SKEIN_TRUSTING_AGENT}, {}, "patrol", "patrol", {}};
   if (name == "hasty") planted = {name, {}, {}, "patrol", "patrol", hasty()};
-  expect_found(planted, 200, {"--shrink", "60"});
+  expect_found(planted, 200, {"--shrink", "30"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Planted, AllDefects,
