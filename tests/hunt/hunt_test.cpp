@@ -107,8 +107,8 @@ TEST_F(Hunts, FindARestartedProgramThatKnowsNoBoxes) { expect_found(of_planner("
 TEST_F(Hunts, GoOnWhereTheyWereStoppedAndDoNotDependOnJobs) {
   const auto hunt = [&](const std::string& out, const std::string& runs, const std::string& jobs) {
     return skein({"hunt", "towers", "--planner", "hover", "--uavs", "2", "--duration", "50", "--faults",
-                  "kill,link,blackout", "--without", "flies_on,others_fly_on,linked_delivers", "--runs", runs, "--jobs",
-                  jobs, "--out", folder() / out});
+                  "kill,link,blackout", "--without", "explorers_fly_on,others_fly_on,linked_delivers", "--runs", runs,
+                  "--jobs", jobs, "--out", folder() / out});
   };
   const auto lines = [&](const std::string& out) {
     std::set<std::string> all;
