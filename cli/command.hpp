@@ -51,8 +51,9 @@ struct RunOptions {
   std::optional<double> agent_timeout_s;  ///< of wall time, for a program's answer, instead of a minute
   std::optional<std::filesystem::path> out;
   bool force = false;
-  std::string record = "run";  ///< how much goes into the recording: none, run, all or clouds
+  std::string record = "run";  ///< how much goes into the recording: none, messages, run, all or clouds
   std::optional<ReplayOf> replay;
+  bool check = true;       ///< ask the programs first whether they can fly this
   bool attainable = true;  ///< ask the oracle after the run
   bool report = true;      ///< make report.html of the run
   double patience = 1.0;   ///< for tests: scales how long the launcher waits for programs to leave
@@ -72,6 +73,39 @@ struct TestOptions {
   std::optional<std::filesystem::path> junit;  ///< report of fault tests for those who read XML
   int jobs = 1;                                ///< flights at once
   bool verbose = false;                        ///< tell what was seen of expectations that hold too
+};
+
+/// `skein hunt`: a search for faults that break a property.
+struct HuntOptions {
+  RunOptions run;                                   ///< what is flown
+  std::optional<std::string> dds;                   ///< a vendor; else in one process where that can be
+  std::optional<std::filesystem::path> properties;  ///< a file of them, instead of the ready ones
+  std::vector<std::string> without;                 ///< properties that are not asked
+  std::vector<std::string> faults;                  ///< kinds; empty: all
+  std::optional<std::size_t> runs;
+  std::optional<double> minutes;
+  std::optional<int> jobs;
+  std::uint64_t seed = 1;    ///< of the search
+  bool first = false;        ///< the first find ends the search
+  std::size_t shrink = 120;  ///< flights that it may take to make a find small
+  std::optional<std::filesystem::path> out, junit;
+  bool force = false;  ///< begin anew where another hunt was
+};
+
+/// `skein blame`: what each fault of a run cost.
+struct BlameOptions {
+  std::filesystem::path what;                  ///< a results folder, or a capsule
+  std::optional<std::filesystem::path> agent;  ///< as in RunOptions, like the next one
+  std::optional<std::filesystem::path> assets;
+  std::optional<std::string> dds;  ///< a vendor; else in one process where that can be
+  std::vector<double> messages;    ///< begin and end: each link's messages are taken away, too
+  std::optional<std::filesystem::path> out;
+};
+
+/// `skein check-planner`: whether its runs are the same in other surroundings.
+struct CheckPlannerOptions {
+  RunOptions run;
+  std::optional<std::filesystem::path> out;  ///< keeps the flights
 };
 
 struct CheckOptions {
@@ -227,9 +261,9 @@ struct CompletionOptions {
   std::vector<std::string> words;
 };
 
-using Command =
-    std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
-                 StudyOptions, DoctorOptions, ComposeOptions, KeysOptions, MergeOptions, ReportOptions, RerunOptions,
-                 ForkOptions, PsOptions, AttachOptions, HelpText, CompletionOptions>;
+using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions,
+                             DiffOptions, StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions,
+                             CheckPlannerOptions, KeysOptions, MergeOptions, ReportOptions, RerunOptions, ForkOptions,
+                             PsOptions, AttachOptions, HelpText, CompletionOptions>;
 
 }  // namespace skein::cli

@@ -7,10 +7,14 @@
 
 #include "cli/attach_command.hpp"
 #include "cli/bench_command.hpp"
+#include "cli/blame_command.hpp"
 #include "cli/check_command.hpp"
+#include "cli/check_planner_command.hpp"
 #include "cli/completion.hpp"
 #include "cli/compose_command.hpp"
 #include "cli/doctor_command.hpp"
+#include "cli/hunt/capsule_run.hpp"
+#include "cli/hunt_command.hpp"
 #include "cli/merge_command.hpp"
 #include "cli/options.hpp"
 #include "cli/oracle_command.hpp"
@@ -68,8 +72,13 @@ std::vector<std::string> scenario_names() {
 /// One overload a command.
 struct Execute {
   const Console& console;
-  int operator()(const RunOptions& options) const { return run_fleet(options, console); }
+  int operator()(const RunOptions& options) const {
+    return is_capsule(options) ? run_capsule(options, console) : run_fleet(options, console);
+  }
   int operator()(const TestOptions& options) const { return run_tests(options, console); }
+  int operator()(const HuntOptions& options) const { return run_hunt(options, console); }
+  int operator()(const BlameOptions& options) const { return blame(options, console); }
+  int operator()(const CheckPlannerOptions& options) const { return check_planner(options, console); }
   int operator()(const CheckOptions& options) const { return check_files(options, console); }
   int operator()(const SceneOptions& options) const { return export_scene(options); }
   int operator()(const BenchOptions& options) const { return run_bench(options, console); }

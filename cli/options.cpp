@@ -65,8 +65,8 @@ void add_record(CLI::App& command, std::string& record) {
   command
       .add_flag("--record{all}", record,
                 "Record more than poses, commands, captures, radio and events: all that is read; =clouds: LiDAR clouds "
-                "that nobody reads, too; =run: no more; =none: nothing")
-      ->check(CLI::IsMember({"none", "run", "all", "clouds"}))
+                "that nobody reads, too; =run: no more; =messages: only radio; =none: nothing")
+      ->check(CLI::IsMember({"none", "messages", "run", "all", "clouds"}))
       ->default_str(record);
 }
 
@@ -115,6 +115,7 @@ void add_run(CLI::App& app, RunOptions& run) {
           "--log", run.log,
           "UAV=LEVEL: how much this program logs (or gcs, sim_server...): trace, debug, info, warn, error, off")
       ->allow_extra_args(false);
+  command->add_flag("--no-check{false}", run.check, "Do not ask the programs first whether they can fly this");
   command->add_flag("--cores", run.cores, "A program that crashes leaves its core in the results folder, for gdb");
   command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
   command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
@@ -265,6 +266,9 @@ struct OptionParser {
   ReportOptions report;
   RerunOptions rerun;
   ForkOptions fork;
+  HuntOptions hunt;
+  BlameOptions blame;
+  CheckPlannerOptions check_planner;
   AttachOptions attach;
   StudyOptions contest, compare;
   int tests = 5;  ///< of the contest
@@ -285,6 +289,9 @@ OptionParser::OptionParser()
   add_rerun(app, rerun);
   add_fork(app, fork);
   add_test(app, test);
+  add_hunt(app, hunt);
+  add_blame(app, blame);
+  add_check_planner(app, check_planner);
   add_check(app, check);
   add_scene(app, scene);
   add_bench(app, bench);
@@ -342,7 +349,13 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (is("ps")) return PsOptions{};
   if (is("attach")) return parser.attach;
   if (is("test")) return parser.test;
+  if (is("hunt")) {
+    parser.hunt.run.command = command;
+    return parser.hunt;
+  }
   if (is("scene")) return parser.scene;
+  if (is("blame")) return parser.blame;
+  if (is("check-planner")) return parser.check_planner;
   if (is("bench")) return parser.bench;
   if (is("oracle")) return parser.oracle;
   if (is("diff")) return parser.diff;

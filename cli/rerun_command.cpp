@@ -85,6 +85,8 @@ std::vector<std::string> differences_of(const Json& result) {
 
 }  // namespace
 
+RunOptions options_of_run(const fs::path& run) { return options_of(run, result_of(run)); }
+
 int rerun(const RerunOptions& options, const Console& console) {
   const Json then = result_of(options.reflight.run);
   RunOptions run = options_of(options.reflight.run, then);

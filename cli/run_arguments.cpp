@@ -40,6 +40,7 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
                                   {"--cores", run.cores},
                                   {"--secure", run.secure},
                                   {"--force", run.force},
+                                  {"--no-check", !run.check},
                                   {"--no-oracle", !run.attainable},
                                   {"--no-report", !run.report}}) {
     if (set) arguments.push_back(flag);

@@ -95,7 +95,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
   const std::filesystem::path dir =
       options.out.value_or(default_results_dir(plan.scenario.name, options.planner, options.seed));
   ResultsDir::check(dir, options.force);
-  check_before_flight(plan, console);
+  if (options.check) check_before_flight(plan, console);
   std::optional<DomainBlock> domains;
   if (!options.one_process) domains.emplace(options.domain, domain_count(plan));
   const int base_domain = domains ? domains->base() : kFirstDomain;

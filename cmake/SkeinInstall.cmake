@@ -28,6 +28,7 @@ function(skein_install_programs component)
 endfunction()
 skein_install_programs(runtime ${programs})
 skein_install_programs(agent uav_agent)
+install(TARGETS skein_other_clock LIBRARY DESTINATION lib/skein COMPONENT runtime)  # of skein check-planner
 
 # What makes reports interactive, where ./skein, or npm in web/, has built it.
 install(FILES ${PROJECT_SOURCE_DIR}/build/web/report.js DESTINATION ${CMAKE_INSTALL_DATADIR}/skein/web

@@ -11,10 +11,7 @@
 #include "core/text.hpp"
 
 namespace skein {
-namespace {
 
-/// What a fault takes hold of: two that hold the same thing at once contradict each other. Links hold nothing, since
-/// several effects may act on one link.
 std::optional<std::string> held_by(const FaultAction& action) {
   using Text = std::optional<std::string>;
   return std::visit(
@@ -33,8 +30,6 @@ std::optional<std::string> held_by(const FaultAction& action) {
                  [](const StuckGimbal& f) -> Text { return "the gimbal of " + f.uav; }},
       action);
 }
-
-}  // namespace
 
 FaultChecker::FaultChecker(const Scenario& scenario, ConfigErrors& errors)
     : scenario_(scenario), errors_(errors), uavs_(scenario.uav_names()) {

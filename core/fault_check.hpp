@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,10 @@
 #include "core/fault_plan.hpp"
 
 namespace skein {
+
+/// What a fault takes hold of: two that hold the same thing at once contradict each other. Links hold nothing, since
+/// several effects may act on one link.
+std::optional<std::string> held_by(const FaultAction& action);
 
 class FaultChecker {
  public:

@@ -142,7 +142,7 @@ struct FaultFile {
 /// Without what only `skein test --faults` looks at (cli/fault_tests/fault_test.hpp).
 ConfigDocument read_fault_file(const std::filesystem::path& file) {
   ConfigDocument document = read_config_document(file);
-  for (const char* key : {"run", "expect", "properties"}) document.root.remove(key);
+  for (const char* key : {"run", "expect", "properties", "capsule"}) document.root.remove(key);
   return document;
 }
 

@@ -97,8 +97,8 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--uavs", options.uavs, "Fleet size, instead of the scenario's")->check(CLI::PositiveNumber);
   app.add_option("--duration", options.duration_s, "Mission time [s], instead of the scenario's");
   app.add_option("--rules", options.rules, "Preset of rules, instead of what the scenario says of them");
-  app.add_option("--record", options.record, "What goes into recording.mcap: none, run, all or clouds")
-      ->check(CLI::IsMember({"none", "run", "all", "clouds"}))
+  app.add_option("--record", options.record, "What goes into recording.mcap: none, messages, run, all or clouds")
+      ->check(CLI::IsMember({"none", "messages", "run", "all", "clouds"}))
       ->capture_default_str();
   app.add_option("--faults", options.faults, "Fault file: what goes wrong, and when");
   app.add_flag("--check", options.check_only, "Validate the input, then stop");

@@ -16,6 +16,8 @@ std::filesystem::path ready_dir() { return default_config_dir() / "properties"; 
 
 struct ReadyFile {
   std::string name, description, property;
+  bool hunt = true;
+  std::vector<std::string> not_with;
   skein::Named<std::string> parameters;
 
   template <class R>
@@ -23,6 +25,8 @@ struct ReadyFile {
     r.field("name", name);
     r.required("description", description);
     r.field("parameters", parameters);
+    r.field("hunt", hunt);
+    r.field("not_with", not_with);
     r.required("property", property);
   }
 };
@@ -88,7 +92,7 @@ class ReadyReader {
   }
 
   NamedProperty read(const std::string& name, const std::string& key, ConfigErrors& errors) const {
-    NamedProperty property{name, ready_.text, {}};
+    NamedProperty property{name, ready_.text, ready_.not_with};
     try {
       property.cases = parse_property(name, ready_.text, scenario_, parameters_);
     } catch (const ExpressionError& error) {
@@ -120,7 +124,8 @@ class ReadyReader {
 ReadyProperty load_ready_property(const std::string& name) {
   const auto file = find_config_file("ready property", name, ready_dir());
   const auto content = read_config_file<ReadyFile>(file);
-  return {name, content.description, content.property, {content.parameters.begin(), content.parameters.end()}};
+  return {name,         content.description, content.property,
+          content.hunt, content.not_with,    {content.parameters.begin(), content.parameters.end()}};
 }
 
 std::vector<std::string> ready_property_names() { return config_names(ready_dir()); }
@@ -133,7 +138,7 @@ PropertySet parse_properties(const PropertyEntries& entries, const std::string& 
     const std::string path = key + "." + name;
     const std::string* text = std::get_if<std::string>(&entry);
     if (text != nullptr && *text != kReady) {
-      parse_text(set.emplace_back(NamedProperty{name, *text, {}}), {}, scenario, path, errors);
+      parse_text(set.emplace_back(NamedProperty{name, *text}), {}, scenario, path, errors);
       continue;
     }
     if (std::ranges::find(ready, name) == ready.end()) {
@@ -145,6 +150,10 @@ PropertySet parse_properties(const PropertyEntries& entries, const std::string& 
     set.push_back(reader.read(name, path, errors));
   }
   return set;
+}
+
+PropertyEntries load_property_entries(const std::filesystem::path& file) {
+  return read_config_file<PropertyFile>(file).properties;
 }
 
 PropertySet load_properties(const std::filesystem::path& file, const Scenario& scenario) {

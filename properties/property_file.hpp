@@ -19,8 +19,9 @@ using PropertyEntries = skein::Named<PropertyEntry>;
 /// A property of a file, ready to be evaluated.
 struct NamedProperty {
   std::string name;
-  std::string text;             ///< as it was written
-  std::vector<Property> cases;  ///< for each of those that its variables stand for
+  std::string text;                        ///< as it was written
+  std::vector<std::string> not_with = {};  ///< of a ready one, see ReadyProperty
+  std::vector<Property> cases = {};        ///< for each of those that its variables stand for
 };
 using PropertySet = std::vector<NamedProperty>;
 
@@ -30,12 +31,18 @@ using PropertySet = std::vector<NamedProperty>;
 PropertySet parse_properties(const PropertyEntries& entries, const std::string& key, const Scenario& scenario,
                              ConfigErrors& errors);
 
-/// A file of its own. @throws InputError.
+/// What a file of its own has under `properties`. @throws InputError.
+PropertyEntries load_property_entries(const std::filesystem::path& file);
+/// The same, ready to be evaluated. @throws InputError.
 PropertySet load_properties(const std::filesystem::path& file, const Scenario& scenario);
 
 /// One of config/properties/.
 struct ReadyProperty {
   std::string name, description, text;
+  bool in_hunts = true;  ///< asked in hunts unless somebody says what is
+  /// Kinds of faults, and effects of links ("duplication"), with which it says nothing of a program: a hunt does not
+  /// ask it of runs with one of them.
+  std::vector<std::string> not_with;
   std::map<std::string, std::string> parameters;  ///< with what they are unless somebody says otherwise: "20 s"
 };
 /// @throws InputError when there is none of this name, or its file is wrong.

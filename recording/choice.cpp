@@ -23,22 +23,25 @@ bool is_one_of(std::initializer_list<topics::TopicInfo> infos, std::string_view 
 
 Scope scope_of(std::string_view name) {
   if (name == "none") return Scope::none;
+  if (name == "messages") return Scope::messages;
   if (name == "run") return Scope::run;
   if (name == "all") return Scope::all;
   if (name == "clouds") return Scope::clouds;
-  throw InputError("--record " + std::string(name) + ": it must be none, run, all or clouds");
+  throw InputError("--record " + std::string(name) + ": it must be none, messages, run, all or clouds");
 }
 
 std::optional<Choice> choice_of(Scope scope, std::string_view node, std::string_view topic) {
   using namespace topics;
   if (scope == Scope::none) return std::nullopt;
+  const bool tells_of_itself = !debug_name(wire_topic(topic), node).empty();
+  if (scope == Scope::messages) return tells_of_itself ? std::optional(Choice{0, true}) : std::nullopt;
   if (is_one_of({kOdometry, kGimbal}, node, topic)) return Choice{ticks(kPosePeriod_s), true};
   if (is_one_of(
           {kTrajectoryCommand, kGimbalCommand, kCameraTrigger, kTrigger, kCommandRejected, kCapture, kCaptureStored},
           node, topic)) {
     return Choice{0, true};
   }
-  if (!debug_name(wire_topic(topic), node).empty()) return Choice{0, true};
+  if (tells_of_itself) return Choice{0, true};
   if (is(kBoundingBoxes, node, topic)) return node == "gcs" ? std::optional(Choice{0, true}) : std::nullopt;
   if (scope == Scope::run) return std::nullopt;
   if (is(kScore, node, topic)) return Choice{0, true};  // nobody in a fleet reads it

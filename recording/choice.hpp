@@ -12,12 +12,13 @@ namespace skein::recording {
 /// How much (`--record`).
 enum class Scope {
   none,
-  run,     ///< what a run is made of: poses, commands, captures, radio messages as sent, tally, events
-  all,     ///< and every sample that somebody in the fleet reads, and the score point by point
-  clouds,  ///< and LiDAR clouds that nobody reads, which are otherwise not even made
+  messages,  ///< radio messages as sent, their arrivals, and what programs tell of themselves
+  run,       ///< what a run is made of: poses, commands, captures, radio messages as sent, tally, events
+  all,       ///< and every sample that somebody in the fleet reads, and the score point by point
+  clouds,    ///< and LiDAR clouds that nobody reads, which are otherwise not even made
 };
 
-/// "none", "run", "all" or "clouds". @throws InputError for anything else.
+/// "none", "messages", "run", "all" or "clouds". @throws InputError for anything else.
 Scope scope_of(std::string_view name);
 
 /// How a topic is recorded.

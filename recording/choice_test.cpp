@@ -10,7 +10,7 @@
 namespace skein::recording {
 namespace {
 
-constexpr Scope kScopes[] = {Scope::none, Scope::run, Scope::all, Scope::clouds};
+constexpr Scope kScopes[] = {Scope::none, Scope::messages, Scope::run, Scope::all, Scope::clouds};
 
 std::string ros_name(const topics::TopicInfo& info, const std::string& id) {
   return topics::wire(info, id).name.substr(2);

@@ -107,11 +107,14 @@ std::string faults_svg(const RunData& run, const TimeScale& time, double top, do
 }
 
 Axis value_axis(const std::vector<TimeCurve>& curves) {
-  double high = 0.0;
+  double low = 0.0, high = 0.0;
   for (const TimeCurve& curve : curves) {
-    for (const auto& [time_s, value] : curve.changes) high = std::max(high, value);
+    for (const auto& [time_s, value] : curve.changes) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
   }
-  return nice_axis(0.0, high, 4);
+  return nice_axis(low, high, 4);
 }
 
 std::string uav_style(std::size_t uav) { return fmt::format("t{}", uav % kTrackColours); }

@@ -30,7 +30,7 @@ RecordingNode::RecordingNode(const std::filesystem::path& folder, recording::Sco
                              EventLog& events, const recording::ReplayOptions& replay)
     : scenario_(scenario), recorder_(folder, programs::kSimServer, scope) {
   if (replay.active()) replay_.emplace(replay, recorder_);
-  if (scope == recording::Scope::none) return;
+  if (scope <= recording::Scope::messages) return;
   events.tell([this](const LoggedEvent& event) { recorder_.add(kEventsTopic, to_event(event)); });
 }
 
@@ -40,7 +40,7 @@ void RecordingNode::begin_step(const Simulation& simulation, const std::vector<s
   for (const std::string& line : faults) {
     recorder_.add(kEventsTopic, to_event({simulation.step(), simulation.tick(), "fault", line, ""}));
   }
-  if (recorder_.scope() != recording::Scope::none) add_views(simulation);
+  if (recorder_.scope() > recording::Scope::messages) add_views(simulation);
 }
 
 void RecordingNode::end_step() {

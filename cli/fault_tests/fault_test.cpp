@@ -21,7 +21,7 @@ constexpr std::array<EnumName<Vendor>, 3> enum_names(Vendor) {
 struct RunPart {
   std::string scenario = RunOptions{}.scenario, planner = kDefaultPlanner;
   std::uint64_t seed = 0;
-  std::optional<std::uint64_t> scene_seed;
+  std::optional<std::uint64_t> scene_seed, uavs;
   double duration_s = 60.0;
   Vendor dds = Vendor::cyclonedds;
 
@@ -31,6 +31,7 @@ struct RunPart {
     r.field("planner", planner);
     r.field("seed", seed);
     r.field("scene_seed", scene_seed);
+    r.field("uavs", uavs, within(1.0, 128.0));
     r.field("duration_s", duration_s, Bounds{0.0, 36000.0, true});
     r.field("dds", dds);
   }
@@ -41,6 +42,7 @@ struct TestFile {
   std::string name, description;
   RunPart run;
   Expectations expect;
+  std::optional<CapsuleMark> capsule;
   std::variant<std::string, properties::PropertyEntries> property_entries;  ///< a text: the file that lists them
 
   template <class R>
@@ -49,6 +51,7 @@ struct TestFile {
     r.field("description", description);
     r.field("run", run);
     r.field("properties", property_entries);
+    r.field("capsule", capsule);
     r.has("properties") ? r.field("expect", expect) : r.required("expect", expect);
     if (!r.has("expect")) expect.describe(r);  // what is usual
   }
@@ -64,6 +67,7 @@ RunOptions run_options(const RunPart& part, const fs::path& file, const std::opt
   options.planner = part.planner;
   options.seed = part.seed;
   options.scene_seed = part.scene_seed;
+  if (part.uavs) options.uavs = static_cast<std::size_t>(*part.uavs);
   options.duration_s = part.duration_s;
   options.dds = name_of(part.dds);
   options.assets = assets;
@@ -152,6 +156,9 @@ FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& a
   options.one_process = one_process;
   check_run(options, errors);
   FaultTest test{file.stem(), file, plan_fleet(options, program_dir()), std::move(content.expect), {}, document};
+  test.capsule = std::move(content.capsule);
+  const auto* entries = std::get_if<properties::PropertyEntries>(&content.property_entries);
+  if (entries != nullptr) test.entries = *entries;
   test.property_set = read_properties(content.property_entries, test.plan, errors);
   for (const Expectation& expectation : test.expect.all) {
     if (expectation.check) expectation.check({test.plan.scenario, test.plan.faults, errors});

@@ -13,6 +13,22 @@
 
 namespace skein::cli {
 
+/// What a capsule, which `skein hunt` made, says of its find.
+struct CapsuleMark {
+  std::string property;  ///< that failed
+  std::string digest;    ///< of the run in which it did; empty: it has none
+  std::string skein;     ///< version
+  std::string command;   ///< of the hunt
+
+  template <class R>
+  void describe(R& r) {
+    r.required("property", property);
+    r.field("digest", digest);
+    r.field("skein", skein);
+    r.field("command", command);
+  }
+};
+
 /// One file, ready to fly.
 struct FaultTest {
   std::string name;            ///< of the file, without .yaml
@@ -21,6 +37,8 @@ struct FaultTest {
   Expectations expect;
   properties::PropertySet property_set;  ///< `properties` of the file
   ConfigDocument document;               ///< the file as it is
+  std::optional<CapsuleMark> capsule = {};
+  properties::PropertyEntries entries = {};  ///< `properties` as the file spells them
 
   bool needs_fault_free() const;
   /// Those that the file asks for.

@@ -101,6 +101,7 @@ std::string what_is_flown(const RunOptions& options) {
   std::ostringstream text;
   text << options.scenario << '\n' << options.planner << '\n' << options.seed << '\n' << *options.duration_s << '\n';
   if (options.scene_seed) text << *options.scene_seed;
+  if (options.uavs) text << "\n" << *options.uavs << " UAVs";
   return text.str();
 }
 

@@ -7,10 +7,11 @@ namespace skein::cli {
 bool SideBySide::fly(std::deque<std::size_t> waiting, const Start& start, const Over& over) {
   for (;;) {
     while (!interrupted_ && in_the_air_.size() < at_once_ && !waiting.empty()) {
-      ProgramSpec program = start(waiting.front());
-      program.name = "flight " + std::to_string(waiting.front());
-      supervisor_.start(program);
-      in_the_air_[program.name] = waiting.front();
+      std::optional<ProgramSpec> program = start(waiting.front());
+      if (!program) break;
+      program->name = "flight " + std::to_string(waiting.front());
+      supervisor_.start(*program);
+      in_the_air_[program->name] = waiting.front();
       waiting.pop_front();
     }
     if (in_the_air_.empty()) return !interrupted_;

@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "cli/console.hpp"
@@ -14,8 +15,9 @@ namespace skein::cli {
 /// From one thread, which must live as long as the flights.
 class SideBySide {
  public:
-  /// What starts flight `index`; its name does not matter.
-  using Start = std::function<ProgramSpec(std::size_t index)>;
+  /// What starts flight `index`; its name does not matter. Nothing: not before another one is over; where none is in
+  /// the air, all is over.
+  using Start = std::function<std::optional<ProgramSpec>(std::size_t index)>;
   /// Told of each flight that came to its end.
   using Over = std::function<void(std::size_t index, const ExitStatus& exit)>;
 

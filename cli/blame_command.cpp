@@ -1,0 +1,172 @@
+#include "cli/blame_command.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "cli/fault_tests/fault_test.hpp"
+#include "cli/hunt/capsule_run.hpp"
+#include "cli/hunt/flights.hpp"
+#include "cli/rerun_command.hpp"
+#include "cli/run/diff.hpp"
+#include "cli/run/record.hpp"
+#include "core/fault_writer.hpp"
+#include "core/suggestion.hpp"
+#include "core/text.hpp"
+#include "process/program.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is looked into: a run with its faults, and what failed in it, if it is a capsule.
+struct Subject {
+  RunOptions run;
+  std::vector<Fault> faults;
+  properties::PropertyEntries entries;
+  std::optional<std::string> property;
+};
+
+Subject subject_of(const BlameOptions& options) {
+  Subject subject;
+  RunOptions probe;
+  probe.scenario = options.what.string();
+  if (is_capsule(probe)) {
+    const FaultTest test = load_fault_test(options.what, options.assets, options.agent);
+    subject.run = test.plan.options;
+    subject.faults = test.plan.faults.faults;
+    subject.property = test.capsule->property;
+    subject.entries = test.entries;
+  } else {
+    subject.run = options_of_run(options.what);
+    if (options.agent) subject.run.agent = options.agent;
+    if (options.assets) subject.run.assets = options.assets;
+    subject.faults = plan_fleet(subject.run, program_dir()).faults.faults;
+  }
+  subject.run.faults.reset();
+  return subject;
+}
+
+HuntPlan plan_of(const BlameOptions& options, const Subject& subject) {
+  HuntOptions hunt;
+  hunt.run = subject.run;
+  hunt.run.attainable = hunt.run.report = hunt.run.check = false;
+  hunt.run.force = true;
+  hunt.run.record = "messages";
+  hunt.run.dds = options.dds.value_or(hunt.run.dds);
+  hunt.jobs = 1;
+  HuntPlan plan{hunt, plan_fleet(hunt.run, program_dir()), subject.entries, {}};
+  plan.one_process = !options.dds && !needs_processes(plan.fleet);
+  plan.fleet.options.one_process = plan.one_process;
+  plan.fleet.options.duration_s = plan.fleet.scenario.duration_s;
+  const bool is_folder = fs::is_directory(options.what);
+  plan.out = options.out.value_or(is_folder ? options.what / "blame" : fs::path("runs") / "blame");
+  return plan;
+}
+
+/// One flight without something.
+struct Without {
+  std::string what;  ///< that was taken away, for people
+  Trial trial;
+  TrialOutcome outcome = {};
+  double points = 0.0;                 ///< that it cost, of the score
+  std::optional<double> seconds = {};  ///< how much sooner the score of the end was there without it
+  std::string parts = {};              ///< where the runs part
+};
+
+std::vector<Without> flights_without(const HuntPlan& plan, const Subject& subject, const BlameOptions& options) {
+  std::vector<Without> all;
+  for (std::size_t i = 0; i < subject.faults.size(); ++i) {
+    Trial trial{plan.fleet.options, subject.faults};
+    trial.faults.erase(trial.faults.begin() + static_cast<std::ptrdiff_t>(i));
+    all.push_back({fault_line(subject.faults[i]), std::move(trial)});
+  }
+  if (options.messages.empty()) return all;
+  const Scenario& scenario = plan.fleet.scenario;
+  for (const Node from : scenario.nodes()) {
+    for (const Node to : scenario.nodes()) {
+      if (from == to) continue;
+      LinkEffect effect;
+      effect.from = {scenario.node_name(from)};
+      effect.to = {scenario.node_name(to)};
+      effect.loss = 1.0;
+      Trial trial{plan.fleet.options, subject.faults};
+      trial.faults.push_back({options.messages[0], options.messages[1], effect});
+      all.push_back({"messages from " + effect.from[0] + " to " + effect.to[0], std::move(trial)});
+    }
+  }
+  return all;
+}
+
+/// When a run had a score; nullopt: never.
+std::optional<double> time_of_score(const RunRecord& run, double score) {
+  constexpr double kRounding = 1e-6;
+  for (const ScoreRow& row : run.scores) {
+    if (row.score >= score - kRounding) return row.time_s;
+  }
+  return std::nullopt;
+}
+
+/// Both ways: what is taken away may have cost something, or brought it.
+void compare(Without& without, const fs::path& there, const fs::path& here, double score) {
+  without.points = without.outcome.score - score;
+  const RunRecord with = read_run(there), less = read_run(here);
+  const double reached = std::min(score, without.outcome.score);
+  const auto with_s = time_of_score(with, reached), less_s = time_of_score(less, reached);
+  if (with_s && less_s) without.seconds = *with_s - *less_s;
+  const auto difference = first_difference(there, here);
+  without.parts = difference ? fmt::format("the runs part at step {} ({} s): {}", difference->step,
+                                           number_text(difference->time_s), joined(difference->fields))
+                             : "it made no difference";
+}
+
+void print(const std::vector<Without>& all, const TrialOutcome& outcome, const Subject& subject,
+           const Console& console) {
+  console.out << fmt::format("as it was: score {:.3f}\n", outcome.score);
+  const auto tell_property = [&](const TrialOutcome& one, const char* indent) {
+    const TrialFinding* finding = subject.property ? one.find(*subject.property) : nullptr;
+    if (finding != nullptr) {
+      console.out << indent << finding->property << (finding->fails() ? " fails: " : ": ") << finding->text << '\n';
+    }
+  };
+  tell_property(outcome, "  ");
+  for (const Without& without : all) {
+    console.out << fmt::format("{:+9.3f} points", without.points);
+    if (without.seconds) console.out << fmt::format(", {:+.2f} s", *without.seconds);
+    console.out << "  without " << without.what << "\n            " << without.parts << '\n';
+    tell_property(without.outcome, "            ");
+  }
+  console.out << std::flush;
+}
+
+}  // namespace
+
+int blame(const BlameOptions& options, const Console& console) {
+  const Subject subject = subject_of(options);
+  if (subject.faults.empty() && options.messages.empty()) {
+    throw InputError(options.what.string() +
+                     ": it has no faults to blame; --messages FROM UNTIL takes away what links carry");
+  }
+  const HuntPlan plan = plan_of(options, subject);
+  TrialFlights flights(plan, console);
+  Trial as_it_was{plan.fleet.options, subject.faults};
+  as_it_was.run.out = fs::absolute(plan.out) / "as-it-was";
+  const TrialOutcome outcome = flights.fly_and_keep(as_it_was);
+  std::vector<Without> all = flights_without(plan, subject, options);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].trial.run.out = fs::absolute(plan.out) / ("without-" + std::to_string(i));
+    console.err << "flying without " << all[i].what << std::endl;
+    all[i].outcome = flights.fly_and_keep(all[i].trial);
+    if (all[i].outcome.findings.empty() || all[i].outcome.fails(kCompletes)) {
+      all[i].parts = all[i].outcome.findings.empty() ? "it could not be flown" : all[i].outcome.findings[0].text;
+    } else {
+      compare(all[i], *as_it_was.run.out, *all[i].trial.run.out, outcome.score);
+    }
+  }
+  std::ranges::stable_sort(all, [](const Without& a, const Without& b) { return a.points > b.points; });
+  print(all, outcome, subject, console);
+  return kExitDone;
+}
+
+}  // namespace skein::cli

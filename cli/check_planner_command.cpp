@@ -1,0 +1,228 @@
+#include "cli/check_planner_command.hpp"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "cli/machine.hpp"
+#include "cli/run/diff.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
+#include "cli/run/program_start.hpp"
+#include "cli/run_command.hpp"
+#include "core/suggestion.hpp"
+#include "core/text.hpp"
+#include "process/json_text.hpp"
+#include "process/other_clock.hpp"
+#include "process/program.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Surroundings in which a mission is flown again.
+struct Surroundings {
+  std::string name, what;  ///< for people
+  std::string causes;      ///< what it usually is if the run is another one there
+  std::map<std::string, std::string> variables = {};
+  std::optional<std::string> dds = {};  ///< processes over this vendor; none: as the first run
+  bool busy = false;                    ///< others want the processors, too
+};
+
+/// Three hundred days ago: whoever waits for a time of the wall clock need not wait then.
+constexpr const char* kOtherTime = "-25920000";
+
+/// Beside the programs, or where it is installed.
+fs::path other_clock(const fs::path& bin_dir) {
+  const fs::path beside = bin_dir / kOtherClockLibrary;
+  return fs::exists(beside) ? beside : bin_dir.parent_path() / "lib" / "skein" / kOtherClockLibrary;
+}
+
+std::vector<Surroundings> all_surroundings(const fs::path& bin_dir) {
+  const std::string order = "the order in which messages arrive, timers, or threads";
+  return {
+      {"again", "the same once more, at other addresses",
+       "a random device, the order of a hash map over pointers, the wall clock, or threads"},
+      {"heap",
+       "memory full of other bytes",
+       "memory that is read before anything was written there",
+       {{"MALLOC_PERTURB_", "173"}}},
+      {"clock",
+       "another time of the wall clock",
+       "the wall clock",
+       {{"LD_PRELOAD", other_clock(bin_dir)}, {kOtherClockVariable, kOtherTime}}},
+      {"load", "beside others who want the processors", "time that is measured, or threads", {}, {}, true},
+      {"cyclonedds",
+       "processes over Cyclone DDS",
+       "something that UAVs share in one process or that outlives a restart there: a static variable",
+       {},
+       "cyclonedds"},
+      {"fastdds", "processes over Fast DDS", order, {}, "fastdds"},
+      {"chaos", "arrivals delayed and reordered at random", order, {{"SKEIN_CHAOS", "7"}}, "cyclonedds"},
+  };
+}
+
+/// Sets variables of this process, and so of all that it starts, while it lives.
+class Variables {
+ public:
+  explicit Variables(const std::map<std::string, std::string>& variables) {
+    for (const auto& [name, value] : variables) {
+      const char* before = std::getenv(name.c_str());
+      former_.emplace_back(name, before == nullptr ? std::nullopt : std::optional<std::string>(before));
+      ::setenv(name.c_str(), value.c_str(), 1);
+    }
+  }
+  ~Variables() {
+    for (const auto& [name, value] : former_) {
+      value ? ::setenv(name.c_str(), value->c_str(), 1) : ::unsetenv(name.c_str());
+    }
+  }
+  Variables(const Variables&) = delete;
+  Variables& operator=(const Variables&) = delete;
+
+ private:
+  std::vector<std::pair<std::string, std::optional<std::string>>> former_;
+};
+
+/// Keeps all processors busy while it lives.
+class Load {
+ public:
+  explicit Load(int processors) {
+    for (int i = 0; i < processors; ++i) {
+      busy_.push_back(start_program({"busy", {"/bin/sh", "-c", "while :; do :; done"}, {}, "/dev/null"}));
+    }
+  }
+  ~Load() {
+    for (const StartedProgram& program : busy_) {
+      ::kill(-program.program, SIGKILL);
+      ::waitpid(program.pid, nullptr, 0);
+    }
+  }
+  Load(const Load&) = delete;
+  Load& operator=(const Load&) = delete;
+
+ private:
+  std::vector<StartedProgram> busy_;
+};
+
+class PlannerCheck {
+ public:
+  PlannerCheck(const CheckPlannerOptions& options, const Console& console) : options_(options), console_(console) {
+    base_ = options.run;
+    base_.attainable = base_.report = false;
+    base_.force = true;
+    const FleetPlan plan = plan_fleet(base_, program_dir());
+    base_.one_process = !needs_processes(plan);
+    duration_s_ = plan.scenario.duration_s;
+    first_uav_ = plan.scenario.fleet.front().name;
+  }
+
+  int run() {
+    const ScratchDir scratch;
+    out_ = options_.out ? fs::absolute(*options_.out) : scratch.path();
+    fs::create_directories(out_);
+    check("a mission", "plain", {});
+    check("a mission with a restart", "restart", restart_file());
+    console_.out << (differences_ == 0 ? "repeatable: all runs are the same" : "not repeatable") << std::endl;
+    return differences_ == 0 ? kExitDone : kExitCheckFailed;
+  }
+
+ private:
+  /// A program that is killed and comes back shows what it does not forget.
+  fs::path restart_file() const {
+    const fs::path file = out_ / "restart.yaml";
+    std::ofstream(file) << "faults:\n  - {at_s: " << shortest(std::floor(duration_s_ / 3.0))
+                        << ", for_s: 3, kill: " << first_uav_ << "}\n";
+    return file;
+  }
+
+  void check(const std::string& what, const std::string& folder, const std::optional<fs::path>& faults) {
+    RunOptions run = base_;
+    run.faults = faults;
+    run.out = out_ / (folder + "-first");
+    const Json first = fly(run);
+    const std::string digest = digest_of(first);
+    console_.out << what << ": digest " << (digest.empty() ? "none" : digest) << std::endl;
+    if (digest.empty()) {
+      ++differences_;
+      console_.out << "  it came to no end of its own, so nothing can be compared\n";
+      return;
+    }
+    run.check = false;
+    for (const Surroundings& surroundings : all_surroundings(program_dir())) {
+      if (surroundings.dds && !base_.one_process && surroundings.dds == base_.dds && surroundings.variables.empty()) {
+        continue;  // that is how all are flown
+      }
+      compare(run, digest, folder, surroundings);
+    }
+  }
+
+  void compare(RunOptions run, const std::string& digest, const std::string& folder, const Surroundings& surroundings) {
+    const fs::path first = *run.out;
+    const Variables variables(surroundings.variables);
+    std::optional<Load> load;
+    if (surroundings.busy) load.emplace(usable_cores());
+    if (surroundings.dds) {
+      run.one_process = false;
+      run.dds = *surroundings.dds;
+    }
+    run.out = out_ / (folder + "-" + surroundings.name);
+    const std::string there = digest_of(fly(run));
+    const bool same = there == digest;
+    console_.out << "  " << (same ? "same" : "DIFFERENT") << "  " << surroundings.name << ": " << surroundings.what
+                 << std::endl;
+    if (same) return;
+    ++differences_;
+    tell(run, first, surroundings);
+  }
+
+  /// Who says something else first, hearing what was heard in the first run.
+  void tell(RunOptions run, const fs::path& first, const Surroundings& surroundings) {
+    if (fs::exists(*run.out / run_folder::kDigests)) {
+      if (const auto difference = first_difference(first, *run.out)) {
+        console_.out << "    the runs part at step " << difference->step << " (" << number_text(difference->time_s)
+                     << " s): " << joined(difference->fields) << '\n';
+      }
+    }
+    run.replay = ReplayOf{first / run_folder::kRecording, std::nullopt, {}};
+    run.faults.reset();
+    run.out = run.out->string() + "-replayed";
+    for (const Json& text : value_or(fly(run), "differences", Json::array())) {
+      if (text.is_string()) console_.out << "    " << text.get<std::string>() << '\n';
+    }
+    console_.out << "    usually it is " << surroundings.causes << std::endl;
+  }
+
+  Json fly(const RunOptions& run) {
+    std::ostringstream unseen;
+    if (run_fleet(run, {unseen, unseen, false}) == kExitInterrupted) throw Interrupted{};
+    return read_json(*run.out / run_folder::kResult);
+  }
+
+  static std::string digest_of(const Json& result) {
+    const Json digest = value_or(result, "digest", nullptr);
+    return digest.is_string() ? digest.get<std::string>() : "";
+  }
+
+  const CheckPlannerOptions& options_;
+  const Console& console_;
+  RunOptions base_;
+  double duration_s_ = 0.0;
+  std::string first_uav_;
+  fs::path out_;
+  int differences_ = 0;
+};
+
+}  // namespace
+
+int check_planner(const CheckPlannerOptions& options, const Console& console) {
+  return PlannerCheck(options, console).run();
+}
+
+}  // namespace skein::cli

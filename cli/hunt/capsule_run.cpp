@@ -1,0 +1,113 @@
+#include "cli/hunt/capsule_run.hpp"
+
+#include <sstream>
+
+#include "cli/fault_tests/fault_test.hpp"
+#include "cli/hunt/trial.hpp"
+#include "cli/properties/judge.hpp"
+#include "cli/properties/run_signals.hpp"
+#include "cli/run/preflight.hpp"
+#include "cli/run/record.hpp"
+#include "cli/run_command.hpp"
+#include "core/config_node.hpp"
+#include "process/program.hpp"
+#include "process/run_folder.hpp"
+
+#ifndef SKEIN_VERSION
+#error "SKEIN_VERSION comes from CMake's project()"
+#endif
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string digest_in(const fs::path& dir) {
+  const Json digest = value_or(read_json(dir / run_folder::kResult), "digest", nullptr);
+  return digest.is_string() ? digest.get<std::string>() : "";
+}
+
+/// The same run in another way, of which nothing is kept but what `look` takes.
+template <class Look>
+void fly_aside(RunOptions run, const Console& console, const Look& look) {
+  const ScratchDir scratch;
+  run.out = scratch.path() / "run";
+  run.check = run.report = false;
+  std::ostringstream unseen;
+  if (run_fleet(run, {unseen, console.err, false}) == kExitInterrupted) throw Interrupted{};
+  look(*run.out);
+}
+
+struct Replayed {
+  bool fails = false;
+  std::string text;
+};
+
+Replayed judge_property(const FaultTest& test, const fs::path& dir, const Console& console) {
+  const RunRecord run = read_run(dir);
+  std::optional<RunRecord> without;
+  if (needs_undisturbed(test.property_set)) {
+    RunOptions undisturbed = test.plan.options;
+    undisturbed.faults.reset();
+    fly_aside(undisturbed, console, [&](const fs::path& aside) { without = read_run(aside); });
+  }
+  FolderSignals signals(run, test.plan.scenario, without ? &*without : nullptr);
+  Replayed verdict{false, "nothing is asked"};
+  for (const PropertyFinding& found : judge_properties(test.property_set, signals)) {
+    if (found.name != test.capsule->property) continue;
+    verdict = {found.verdict.outcome == properties::Verdict::Outcome::fails, found.text()};
+  }
+  return verdict;
+}
+
+Replayed judge_digest(const FaultTest& test, const fs::path& dir, const Console& console) {
+  Replayed verdict;
+  RunOptions other = test.plan.options;
+  other.one_process = !other.one_process;
+  const std::string digest = digest_in(dir);
+  fly_aside(other, console, [&](const fs::path& aside) {
+    const std::string there = digest_in(aside);
+    verdict.fails = digest.empty() || there != digest;
+    verdict.text = "digest " + digest + ", and " + there + (other.one_process ? " in one process" : " over DDS");
+  });
+  return verdict;
+}
+
+}  // namespace
+
+bool is_capsule(const RunOptions& options) {
+  const fs::path file = options.scenario;
+  if (file.extension() != ".yaml" || !fs::is_regular_file(file)) return false;
+  return read_config_document(file).root.find("capsule") != nullptr;
+}
+
+int run_capsule(const RunOptions& options, const Console& console) {
+  FaultTest test = load_fault_test(options.scenario, options.assets, options.agent, options.one_process);
+  RunOptions& run = test.plan.options;
+  run.dds = options.dds;
+  run.out = options.out.value_or(fs::path("runs") / test.name);
+  run.record = options.record == "none" ? "run" : options.record;  // properties may be about messages
+  run.report = options.report;
+  run.command = options.command;
+  const int code = run_fleet(run, console);
+  if (code == kExitInterrupted) throw Interrupted{};
+  const CapsuleMark& mark = *test.capsule;
+  Replayed verdict{code != kExitDone, "skein run ended with exit code " + std::to_string(code)};
+  if (mark.property == kSameDigest) {
+    verdict = judge_digest(test, *run.out, console);
+  } else if (mark.property != kCompletes) {
+    verdict = judge_property(test, *run.out, console);
+  }
+  console.out << mark.property << (verdict.fails ? " fails: " : " holds: ") << verdict.text << '\n';
+  const std::string digest = digest_in(*run.out);
+  if (digest == mark.digest) {
+    console.out << "this is the run that was found, bit for bit\n";
+  } else {
+    console.out << "this is another run: digest " << (digest.empty() ? "none" : digest) << ", then " << mark.digest
+                << "; found by skein " << mark.skein << ", this is skein " << SKEIN_VERSION << '\n';
+  }
+  console.out << std::flush;
+  return verdict.fails ? kExitCheckFailed : kExitDone;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,300 @@
+#include "cli/hunt/fault_maker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+#include "core/fault_check.hpp"
+#include "core/fault_writer.hpp"
+#include "core/radio_routes.hpp"
+#include "core/text.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr double kShortest_s = 0.1, kLongest_s = 40.0;
+/// A vehicle that cannot hold itself up is no matter of its planner.
+constexpr double kLongestFall_s = 2.0, kLeastThrust = 0.6;
+constexpr double kLongestLie_s = 12.0;  ///< of odometry, for the same reason
+constexpr double kShareOfWaiting = 0.2, kShareOfAllNodes = 0.4, kShareOfAllTopics = 0.5;
+
+/// How often each kind is drawn: programs and radio fail in more ways than the rest.
+struct Kind {
+  const char* name;
+  int weight;
+};
+constexpr Kind kKinds[] = {{"link", 4},          {"partition", 2},     {"blackout", 2},        {"station_outage", 2},
+                           {"kill", 5},          {"pause", 3},         {"lidar_failure", 2},   {"camera_failure", 1},
+                           {"motor_failure", 1}, {"command_delay", 1}, {"odometry_freeze", 1}, {"odometry_jump", 1},
+                           {"stuck_gimbal", 1}};
+
+std::size_t below(RandomStream& draw, std::size_t count) {
+  return std::min(static_cast<std::size_t>(draw.uniform() * static_cast<double>(count)), count - 1);
+}
+bool chance(RandomStream& draw, double share) { return draw.uniform() < share; }
+const std::string& one_of(const std::vector<std::string>& names, RandomStream& draw) {
+  return names[below(draw, names.size())];
+}
+double rounded(double value, double step) { return std::round(value / step) * step; }
+/// Tenths, so that a file tells them as they are.
+double tenths(double value) { return std::round(10.0 * value) / 10.0; }
+double hundredths(double value) { return std::round(100.0 * value) / 100.0; }
+/// Mostly short, sometimes long.
+double length(RandomStream& draw, double longest_s) {
+  const double u = draw.uniform();
+  return tenths(kShortest_s + (longest_s - kShortest_s) * u * u);
+}
+
+double longest_of(const Fault& fault) {
+  if (std::holds_alternative<MotorFailure>(fault.action)) return kLongestFall_s;
+  const bool lies =
+      std::holds_alternative<OdometryFreeze>(fault.action) || std::holds_alternative<OdometryJump>(fault.action);
+  return lies ? kLongestLie_s : kLongest_s;
+}
+
+double length_of(const Fault& fault) {
+  return fault.waits ? fault.for_s.value_or(1.0) : fault.until_s.value_or(fault.at_s + 1.0) - fault.at_s;
+}
+void set_length(Fault& fault, double length_s) {
+  if (fault.waits) {
+    fault.for_s = length_s;
+  } else {
+    fault.until_s = tenths(fault.at_s + length_s);
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& fault_kinds() {
+  static const std::vector<std::string> kinds = [] {
+    std::vector<std::string> names;
+    for (const Kind& kind : kKinds) names.emplace_back(kind.name);
+    return names;
+  }();
+  return kinds;
+}
+
+FaultMaker::FaultMaker(const Scenario& scenario, FaultSpace space)
+    : space_(std::move(space)), uavs_(scenario.uav_names()), nodes_(uavs_), programs_(uavs_) {
+  for (const UavConfig& one : scenario.fleet) {
+    if (one.vehicle.lidar) with_lidar_.push_back(one.name);
+  }
+  nodes_.push_back(scenario.node_name(kStationNode));
+  programs_.insert(programs_.end(), {programs::kStation, programs::kCommRouter});
+  if (space_.ground_program) programs_.push_back(scenario.node_name(kStationNode));
+  std::set<std::string> topics;
+  for (const RadioRoute& route : radio_routes(scenario)) {
+    topics.insert(route.ros_topic.substr(0, route.ros_topic.find('/', 1)));  // "/captures" means "/captures/changi"
+  }
+  topics_.assign(topics.begin(), topics.end());
+}
+
+const std::string& FaultMaker::uav(RandomStream& draw) const { return one_of(uavs_, draw); }
+const std::string& FaultMaker::node(RandomStream& draw) const { return one_of(nodes_, draw); }
+const std::string& FaultMaker::program(RandomStream& draw) const { return one_of(programs_, draw); }
+
+LinkEffect FaultMaker::link(RandomStream& draw) const {
+  LinkEffect effect;
+  if (!chance(draw, kShareOfAllNodes)) effect.from = {node(draw)};
+  if (!chance(draw, kShareOfAllNodes)) effect.to = {node(draw)};
+  if (effect.from == effect.to) effect.to = {"all"};
+  if (!topics_.empty() && !chance(draw, kShareOfAllTopics)) effect.topics = {one_of(topics_, draw)};
+  switch (below(draw, 8)) {
+    case 0:
+      effect.loss = chance(draw, 0.5) ? 1.0 : hundredths(draw.uniform(0.1, 0.9));
+      break;
+    case 1:
+      effect.burst_loss = BurstLoss{tenths(draw.uniform(0.5, 8.0)), tenths(draw.uniform(0.5, 5.0)), 1.0};
+      break;
+    case 2:
+      effect.latency_s = hundredths(draw.uniform(0.05, 3.0));
+      effect.jitter_s = hundredths(draw.uniform(0.0, 1.0));
+      break;
+    case 3:
+      effect.bandwidth_bit_s = 1000.0 * std::round(draw.uniform(1.0, 64.0));
+      effect.queue_bytes = 1024 * static_cast<std::int64_t>(draw.uniform(1.0, 33.0));
+      break;
+    case 4:
+      effect.duplication = hundredths(draw.uniform(0.1, 1.0));
+      break;
+    case 5:
+      effect.reordering = Reordering{hundredths(draw.uniform(0.1, 0.9)), tenths(draw.uniform(0.1, 3.0))};
+      break;
+    case 6:
+      effect.corruption = hundredths(draw.uniform(0.05, 0.8));
+      break;
+    default:
+      effect.topics = {"all"};
+      effect.range_m = std::round(draw.uniform(10.0, 80.0));
+  }
+  return effect;
+}
+
+FaultAction FaultMaker::action(const std::string& kind, RandomStream& draw) const {
+  if (kind == "link") return link(draw);
+  if (kind == "partition") {
+    Partition partition{{{}, {}}};
+    for (const std::string& name : nodes_) partition.groups[below(draw, 2)].push_back(name);
+    std::erase_if(partition.groups, [](const auto& group) { return group.empty(); });
+    return partition;
+  }
+  if (kind == "blackout") return Blackout{uav(draw)};
+  if (kind == "station_outage") return StationOutage{};
+  if (kind == "kill") return Kill{program(draw)};
+  if (kind == "pause") return Pause{program(draw)};
+  if (kind == "lidar_failure" && !with_lidar_.empty()) return LidarFailure{one_of(with_lidar_, draw)};
+  if (kind == "motor_failure") {
+    return MotorFailure{uav(draw), static_cast<int>(below(draw, 6)), hundredths(draw.uniform(kLeastThrust, 0.95))};
+  }
+  if (kind == "command_delay") return CommandDelay{uav(draw), 1 + static_cast<int>(below(draw, 20))};
+  if (kind == "odometry_freeze") return OdometryFreeze{uav(draw)};
+  if (kind == "odometry_jump") {
+    const auto offset = [&draw] { return tenths(draw.uniform(-3.0, 3.0)); };
+    Vector3d offset_m(offset(), offset(), offset());
+    if (offset_m.isZero(0.0)) offset_m.x() = 1.0;
+    return OdometryJump{uav(draw), offset_m};
+  }
+  if (kind == "stuck_gimbal") return StuckGimbal{uav(draw)};
+  return CameraFailure{uav(draw)};
+}
+
+std::optional<FaultCondition> FaultMaker::condition(RandomStream& draw) const {
+  const std::string name = uav(draw);
+  const std::string station = nodes_.back();
+  const auto whole = [&draw](double low, double high) { return number_text(std::round(draw.uniform(low, high))); };
+  switch (below(draw, 7)) {
+    case 0:
+      return FaultCondition{"held(" + name + ") >= " + whole(1.0, 20.0)};
+    case 1:
+      return FaultCondition{"not link(" + name + ", " + station + ")"};
+    case 2:
+      return FaultCondition{"link(" + name + ", " + station + ")"};
+    case 3:
+      return FaultCondition{"separation(" + name + ") < " + whole(2.0, 10.0) + " m"};
+    case 4:
+      return FaultCondition{"clearance(" + name + ") < " + whole(2.0, 6.0) + " m"};
+    case 5:
+      return FaultCondition{"not member(" + program(draw) + ")"};
+    default:
+      return FaultCondition{"captures(" + name + ") >= " + whole(1.0, 100.0)};
+  }
+}
+
+/// When it begins and how long it lasts, or what it waits for.
+void FaultMaker::place(Fault& fault, RandomStream& draw) const {
+  fault.at_s = tenths(draw.uniform(1.0, space_.heal_by_s - 1.0));
+  const double length_s = length(draw, longest_of(fault));
+  fault.waits = chance(draw, kShareOfWaiting);
+  fault.when.reset();
+  fault.for_s.reset();
+  if (fault.waits) {
+    fault.when = condition(draw);
+    fault.at_s = rounded(0.5 * fault.at_s, 1.0);
+    fault.until_s = space_.heal_by_s;
+  }
+  set_length(fault, length_s);
+  end_in_time(fault);
+}
+
+void FaultMaker::end_in_time(Fault& fault) const {
+  fault.at_s = std::clamp(fault.at_s, 0.0, space_.heal_by_s - kShortest_s);
+  if (fault.waits) {
+    fault.until_s = space_.heal_by_s;
+    fault.for_s = std::max(kShortest_s, *fault.for_s);
+    return;
+  }
+  const double shortest_s = tenths(fault.at_s + kShortest_s);
+  fault.until_s = std::max(shortest_s, std::min(fault.until_s.value_or(shortest_s), space_.heal_by_s));
+}
+
+Fault FaultMaker::any(RandomStream& draw) const {
+  std::vector<std::string> lots;
+  for (const Kind& kind : kKinds) {
+    const bool wanted = std::ranges::find(space_.kinds, kind.name) != space_.kinds.end();
+    for (int i = 0; wanted && i < kind.weight; ++i) lots.emplace_back(kind.name);
+  }
+  Fault fault{0.0, std::nullopt, action(one_of(lots, draw), draw)};
+  place(fault, draw);
+  return fault;
+}
+
+std::vector<Fault> FaultMaker::schedule(RandomStream& draw) const {
+  std::vector<Fault> faults;
+  for (std::size_t left = 1 + below(draw, 4); left > 0; --left) faults.push_back(any(draw));
+  return without_contradictions(std::move(faults));
+}
+
+std::vector<Fault> FaultMaker::varied(std::vector<Fault> faults, const std::vector<Fault>& other,
+                                      RandomStream& draw) const {
+  for (std::size_t left = 1 + below(draw, 2); left > 0; --left) vary_one(faults, other, draw);
+  if (faults.empty()) faults.push_back(any(draw));
+  return without_contradictions(std::move(faults));
+}
+
+void FaultMaker::vary_one(std::vector<Fault>& faults, const std::vector<Fault>& other, RandomStream& draw) const {
+  constexpr std::size_t kMost = 6;
+  const std::size_t what = below(draw, 8);
+  if (faults.empty() || (what == 0 && faults.size() < kMost)) {
+    faults.push_back(any(draw));
+    return;
+  }
+  const std::size_t at = below(draw, faults.size());
+  Fault& fault = faults[at];
+  switch (what) {
+    case 1:
+      if (faults.size() > 1) faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(at));
+      return;
+    case 2: {  // earlier or later
+      const double length_s = length_of(fault), by_s = draw.uniform(-8.0, 8.0);
+      fault.at_s = tenths(std::max(0.0, fault.at_s + by_s));
+      set_length(fault, length_s);
+      break;
+    }
+    case 3:  // shorter or longer
+      set_length(fault, tenths(std::min(longest_of(fault), length_of(fault) * draw.uniform(0.3, 2.5) + kShortest_s)));
+      break;
+    case 4:  // another target, another strength
+      fault.action = action(fault_kind(fault), draw);
+      break;
+    case 5: {  // together with another one, or right behind it
+      const Fault& with = faults[below(draw, faults.size())];
+      const double length_s = length_of(fault), end_s = with.until_s.value_or(with.at_s);
+      fault.at_s = chance(draw, 0.5) ? with.at_s : std::min(end_s, space_.heal_by_s - 1.0);
+      set_length(fault, length_s);
+      break;
+    }
+    case 6:  // one of another schedule
+      if (!other.empty() && faults.size() < kMost) faults.push_back(other[below(draw, other.size())]);
+      return;
+    default:
+      place(fault, draw);
+  }
+  end_in_time(fault);
+}
+
+std::vector<Fault> without_contradictions(std::vector<Fault> faults) {
+  std::vector<Fault> kept;
+  const auto end = [](const Fault& fault) { return fault.until_s.value_or(1e9); };
+  for (Fault& fault : faults) {
+    const auto held = held_by(fault.action);
+    const bool contradicts =
+        held && std::ranges::any_of(kept, [&](const Fault& other) {
+          return held_by(other.action) == held && fault.at_s < end(other) && other.at_s < end(fault);
+        });
+    if (!contradicts) kept.push_back(std::move(fault));
+  }
+  return kept;
+}
+
+std::vector<std::string> words_of(const Fault& fault) {
+  std::vector<std::string> words = {fault_kind(fault)};
+  if (!std::holds_alternative<LinkEffect>(fault.action)) return words;
+  const ConfigNode node = to_node(fault);
+  const ConfigNode* effect = node.find(words.front());
+  if (effect != nullptr) words.insert(words.end(), effect->keys.begin(), effect->keys.end());
+  return words;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,101 @@
+// Drawn schedules of faults: a fault file of each is accepted, read back as it was, and over in time.
+#include "cli/hunt/fault_maker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "cli/hunt/trial.hpp"
+#include "cli/run/preflight.hpp"
+#include "cli/testing/fake_programs.hpp"
+#include "core/fault_writer.hpp"
+#include "core/scenario_reader.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr std::uint64_t kSchedules = 400;
+
+class FaultMakers : public testing::Test {
+ protected:
+  FaultMakers() {
+    ::setenv("SKEIN_CONFIG_DIR", SKEIN_SOURCE_DIR "/config", 1);
+    LoadOptions load;
+    load.duration_s = 120.0;
+    towers_ = load_scenario("towers", load);
+    space_.heal_by_s = 77.0;
+    space_.ground_program = true;
+  }
+
+  /// Schedules and variations of them, as a search makes them.
+  template <class Look>
+  void each(const Look& look) const {
+    const FaultMaker maker(towers_, space_);
+    std::vector<Fault> former;
+    for (std::uint64_t i = 0; i < kSchedules; ++i) {
+      RandomStream draw(7, "test", i);
+      std::vector<Fault> faults = i % 2 == 0 ? maker.schedule(draw) : maker.varied(former, former, draw);
+      look(faults);
+      former = std::move(faults);
+    }
+  }
+
+  FaultPlan read_back(const std::vector<Fault>& faults) const {
+    const std::filesystem::path file = scratch_.path() / "faults.yaml";
+    write_text(file, Trial{{}, faults}.text());
+    return load_fault_plan(file, towers_);
+  }
+
+  Scenario towers_;
+  FaultSpace space_;
+  const ScratchDir scratch_;
+};
+
+TEST_F(FaultMakers, WhatIsDrawnIsAFaultFileAndReadsBackAsItWas) {
+  each([&](const std::vector<Fault>& faults) {
+    ASSERT_FALSE(faults.empty());
+    const FaultPlan plan = read_back(faults);
+    ASSERT_EQ(plan.faults.size(), faults.size());
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+      EXPECT_EQ(fault_line(plan.faults[i]), fault_line(faults[i]));
+      EXPECT_EQ(plan.faults[i].begin(), faults[i].begin()) << fault_line(faults[i]);
+      EXPECT_EQ(plan.faults[i].end(), faults[i].end()) << fault_line(faults[i]);
+      EXPECT_EQ(plan.faults[i].for_s, faults[i].for_s) << fault_line(faults[i]);
+    }
+  });
+}
+
+TEST_F(FaultMakers, AllIsOverInTime) {
+  each([&](const std::vector<Fault>& faults) {
+    for (const Fault& fault : faults) {
+      ASSERT_TRUE(fault.until_s) << fault_line(fault);
+      EXPECT_LE(*fault.until_s, space_.heal_by_s + 1e-9) << fault_line(fault);
+      EXPECT_LT(fault.at_s, *fault.until_s) << fault_line(fault);
+    }
+  });
+}
+
+TEST_F(FaultMakers, EveryKindIsDrawnOrOnlyThoseThatAreWanted) {
+  std::set<std::string> seen;
+  each([&](const std::vector<Fault>& faults) {
+    for (const Fault& fault : faults) seen.insert(fault_kind(fault));
+  });
+  EXPECT_EQ(seen, std::set<std::string>(fault_kinds().begin(), fault_kinds().end()));
+  seen.clear();
+  space_.kinds = {"kill", "link"};
+  each([&](const std::vector<Fault>& faults) {
+    for (const Fault& fault : faults) seen.insert(fault_kind(fault));
+  });
+  EXPECT_EQ(seen, std::set<std::string>({"kill", "link"}));
+}
+
+TEST_F(FaultMakers, ALinkIsCalledByItsEffectsToo) {
+  LinkEffect effect;
+  effect.duplication = 0.5;
+  const std::vector<std::string> words = words_of({1.0, 2.0, effect});
+  EXPECT_EQ(words, std::vector<std::string>({"link", "duplication"}));
+}
+
+}  // namespace
+}  // namespace skein::cli

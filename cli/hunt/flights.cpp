@@ -1,0 +1,138 @@
+#include "cli/hunt/flights.hpp"
+
+#include <deque>
+#include <fstream>
+#include <numeric>
+
+#include "cli/fault_tests/flights.hpp"
+#include "cli/options.hpp"
+#include "cli/properties/judge.hpp"
+#include "cli/study/side_by_side.hpp"
+#include "process/environment.hpp"
+#include "process/program.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFaultFile = "faults.yaml";
+constexpr const char* kFlightsFolder = "flights";
+
+void remove_folder(const fs::path& dir) {
+  std::error_code ignored;
+  fs::remove_all(dir, ignored);
+}
+
+std::string name_of_trial(std::size_t index) { return "case-" + std::to_string(index); }
+
+}  // namespace
+
+fs::path TrialFlights::dir_of(const std::string& name) const { return fs::absolute(plan_.out) / kFlightsFolder / name; }
+
+const TrialFlights::Setting* TrialFlights::setting_of(const Trial& trial) {
+  const auto [found, is_new] = settings_.try_emplace(what_is_flown(trial.run));
+  if (is_new) {
+    try {
+      Scenario scenario = load_scenario(trial.run.scenario, load_options(trial.run));
+      properties::PropertySet set = properties_of(plan_.entries, scenario);
+      found->second.emplace(Setting{std::move(scenario), std::move(set)});
+    } catch (const InputError&) {
+      found->second.reset();
+    }
+  }
+  return found->second ? &*found->second : nullptr;
+}
+
+ProgramSpec TrialFlights::start(const Trial& trial, const fs::path& dir) const {
+  remove_folder(dir);
+  fs::create_directories(dir);
+  RunOptions run = trial.run;
+  run.out = dir;
+  if (!trial.faults.empty()) {
+    run.faults = dir / kFaultFile;
+    std::ofstream(*run.faults) << trial.text();
+  }
+  std::vector<std::string> arguments = arguments_of(run);
+  arguments.insert(arguments.begin(), program_dir() / "skein");
+  return {"", std::move(arguments), environment_with({}), dir / run_folder::kFlightLog};
+}
+
+TrialOutcome TrialFlights::read(const Trial& trial, const fs::path& dir, const ExitStatus& exit) {
+  ++flown_;
+  const Setting& setting = *setting_of(trial);
+  if (exit.code == kExitBadInput) return {};
+  const auto undisturbed = undisturbed_.find(what_is_flown(trial.run));
+  return read_outcome(dir, exit, trial, setting.set, setting.scenario,
+                      undisturbed == undisturbed_.end() ? std::nullopt : std::optional(undisturbed->second));
+}
+
+void TrialFlights::fly(const std::vector<std::size_t>& numbers, const Make& make, const Over& over) {
+  std::map<std::size_t, Trial> in_the_air;
+  SideBySide sky(static_cast<std::size_t>(*plan_.options.jobs), console_);
+  const auto start_one = [&](std::size_t index) -> std::optional<ProgramSpec> {
+    std::optional<Trial> trial = make(index);
+    if (!trial) return std::nullopt;
+    const fs::path dir = dir_of(name_of_trial(index));
+    ProgramSpec spec = start(*trial, dir);
+    in_the_air.emplace(index, std::move(*trial));
+    return spec;
+  };
+  const auto end_one = [&](std::size_t index, const ExitStatus& exit) {
+    const Trial trial = in_the_air.extract(index).mapped();
+    const fs::path dir = dir_of(name_of_trial(index));
+    TrialOutcome outcome = read(trial, dir, exit);
+    remove_folder(dir);
+    over(index, std::move(outcome));
+  };
+  if (!sky.fly({numbers.begin(), numbers.end()}, start_one, end_one)) throw Interrupted{};
+}
+
+void TrialFlights::fly_undisturbed(const std::vector<Trial>& trials) {
+  std::vector<Trial> missing;
+  std::vector<fs::path> dirs;
+  for (const Trial& trial : trials) {
+    const Setting* setting = setting_of(trial);
+    if (setting == nullptr || !needs_undisturbed(setting->set)) continue;
+    const fs::path dir = dir_of("without-faults-" + std::to_string(undisturbed_.size() + 1));
+    if (!undisturbed_.emplace(what_is_flown(trial.run), dir).second) continue;
+    missing.push_back({trial.run, {}});
+    dirs.push_back(dir);
+  }
+  if (missing.empty()) return;
+  std::deque<std::size_t> waiting(missing.size());
+  std::iota(waiting.begin(), waiting.end(), std::size_t{0});
+  SideBySide sky(static_cast<std::size_t>(*plan_.options.jobs), console_);
+  const bool all = sky.fly(
+      std::move(waiting), [&](std::size_t index) { return start(missing[index], dirs[index]); },
+      [](std::size_t, const ExitStatus&) {});
+  if (!all) throw Interrupted{};
+}
+
+std::vector<TrialOutcome> TrialFlights::fly(const std::vector<Trial>& trials) {
+  std::vector<TrialOutcome> outcomes(trials.size());
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (setting_of(trials[i]) != nullptr) numbers.push_back(i);
+  }
+  fly_undisturbed(trials);
+  fly(
+      numbers, [&](std::size_t index) { return trials[index]; },
+      [&](std::size_t index, TrialOutcome outcome) { outcomes[index] = std::move(outcome); });
+  return outcomes;
+}
+
+TrialOutcome TrialFlights::fly_and_keep(const Trial& trial) {
+  fly_undisturbed({trial});
+  if (setting_of(trial) == nullptr) return {};
+  TrialOutcome outcome;
+  SideBySide sky(1, console_);
+  const bool flown = sky.fly(
+      {0}, [&](std::size_t) { return start(trial, *trial.run.out); },
+      [&](std::size_t, const ExitStatus& exit) { outcome = read(trial, *trial.run.out, exit); });
+  if (!flown) throw Interrupted{};
+  return outcome;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,57 @@
+// The flights of a hunt: each is a `skein run` in a folder of its own, which is gone once it has been looked at.
+// From one thread, which must live as long as the flights.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/console.hpp"
+#include "cli/hunt/plan.hpp"
+#include "cli/hunt/trial.hpp"
+
+namespace skein::cli {
+
+class TrialFlights {
+ public:
+  /// The trial with this number, or none before another one is over.
+  using Make = std::function<std::optional<Trial>(std::size_t index)>;
+  using Over = std::function<void(std::size_t index, TrialOutcome outcome)>;
+
+  /// @param plan, console  must outlive this.
+  TrialFlights(const HuntPlan& plan, const Console& console) : plan_(plan), console_(console) {}
+
+  /// Flies the runs without faults that properties compare these with, each once. @throws Interrupted.
+  void fly_undisturbed(const std::vector<Trial>& trials);
+  /// Flies trials with these numbers in their order, several at once. One that cannot be flown, since it is not what a
+  /// file may say, has an outcome without findings. What they are compared with was flown before. @throws Interrupted.
+  void fly(const std::vector<std::size_t>& numbers, const Make& make, const Over& over);
+  std::vector<TrialOutcome> fly(const std::vector<Trial>& trials);
+  /// Keeps its folder, which `trial.run.out` names. @throws Interrupted.
+  TrialOutcome fly_and_keep(const Trial& trial);
+
+  std::size_t flown() const { return flown_; }
+
+ private:
+  struct Setting {
+    Scenario scenario;
+    properties::PropertySet set;
+  };
+
+  /// nullptr: it makes no sense.
+  const Setting* setting_of(const Trial& trial);
+  std::filesystem::path dir_of(const std::string& name) const;
+  ProgramSpec start(const Trial& trial, const std::filesystem::path& dir) const;
+  TrialOutcome read(const Trial& trial, const std::filesystem::path& dir, const ExitStatus& exit);
+
+  const HuntPlan& plan_;
+  const Console& console_;
+  std::map<std::string, std::optional<Setting>> settings_;    ///< by what is flown
+  std::map<std::string, std::filesystem::path> undisturbed_;  ///< folders of runs without faults, by what is flown
+  std::size_t flown_ = 0;
+};
+
+}  // namespace skein::cli

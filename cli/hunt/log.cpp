@@ -1,0 +1,82 @@
+#include "cli/hunt/log.hpp"
+
+#include "core/types.hpp"
+#include "process/atomic_file.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSettingsFile = "hunt.json";
+constexpr const char* kLogFile = "log.jsonl";
+
+std::string differing_keys(const Json& then, const Json& now) {
+  std::string keys;
+  for (const auto& [key, value] : now.items()) {
+    if (value_or(then, key.c_str(), nullptr) != value) keys += (keys.empty() ? "" : ", ") + key;
+  }
+  return keys;
+}
+
+}  // namespace
+
+HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force) : file_(dir / kLogFile) {
+  std::error_code error;
+  fs::create_directories(dir, error);
+  if (error) throw InputError("--out " + dir.string() + ": " + error.message());
+  const Json then = read_json(dir / kSettingsFile);
+  if (!then.is_null() && then != settings && !force) {
+    throw InputError(dir.string() + " holds another hunt, which differs in " + differing_keys(then, settings) +
+                     "; choose another --out, or begin anew there with --force");
+  }
+  const std::initializer_list<const char*> parts = {kLogFile, "finds", "flights"};
+  for (const char* part : parts) {
+    if (then.is_null() && fs::exists(dir / part)) {
+      throw InputError("--out " + dir.string() + ": '" + part + "' is there, and is of no hunt; choose another --out");
+    }
+  }
+  if (then.is_null() || force) {
+    for (const char* part : parts) fs::remove_all(dir / part);
+    write_file_atomically(dir / kSettingsFile, settings.dump(2) + "\n");
+  }
+  std::ifstream in(file_);
+  for (std::string line; std::getline(in, line);) {  // the last one may be cut off
+    const Json json = parse_json(line);
+    const Json index = value_or(json, "case", nullptr), flown = value_or(json, "flown", nullptr);
+    if (!index.is_number_unsigned() || !flown.is_string()) continue;
+    if (auto outcome = TrialOutcome::from_json(value_or(json, "outcome", nullptr))) {
+      keep(index.get<std::size_t>(), flown.get<std::string>(), std::move(*outcome));
+    }
+  }
+  in.close();
+  lines_.open(file_, std::ios::app);
+  lines_ << std::endl;  // behind one that was cut off
+  if (!lines_) throw InputError("--out " + dir.string() + ": " + kLogFile + " cannot be written");
+}
+
+void HuntLog::check(std::size_t index, const std::string& flown) const {
+  if (index >= outcomes_.size() || !outcomes_[index] || flown_[index] == flown) return;
+  throw InputError(file_.string() + ": case " + std::to_string(index) +
+                   " was another one then; begin anew with --force");
+}
+
+void HuntLog::add(std::size_t index, const std::string& flown, TrialOutcome outcome) {
+  lines_ << Json{{"case", index}, {"flown", flown}, {"outcome", outcome.to_json()}}.dump(-1, ' ', false,
+                                                                                         Json::error_handler_t::replace)
+         << std::endl;
+  keep(index, flown, std::move(outcome));
+}
+
+void HuntLog::keep(std::size_t index, const std::string& flown, TrialOutcome outcome) {
+  constexpr std::size_t kMost = 10'000'000;
+  if (index >= kMost) return;
+  if (index >= outcomes_.size()) {
+    outcomes_.resize(index + 1);
+    flown_.resize(index + 1);
+  }
+  outcomes_[index] = std::move(outcome);
+  flown_[index] = flown;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,36 @@
+// What a hunt has flown, line by line, so that it can go on where it was stopped. One thread.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/hunt/trial.hpp"
+
+namespace skein::cli {
+
+class HuntLog {
+ public:
+  /// Goes on in a folder where the same search has been, else begins there.
+  /// @param settings  what the search depends on. @param force  whatever is there goes.
+  /// @throws InputError when the folder is of another search.
+  HuntLog(const std::filesystem::path& dir, const Json& settings, bool force);
+
+  /// What came of the cases that were flown, by number.
+  const std::vector<std::optional<TrialOutcome>>& outcomes() const { return outcomes_; }
+  /// @throws InputError when what was flown under this number was something else.
+  void check(std::size_t index, const std::string& flown) const;
+  void add(std::size_t index, const std::string& flown, TrialOutcome outcome);
+
+ private:
+  void keep(std::size_t index, const std::string& flown, TrialOutcome outcome);
+
+  const std::filesystem::path file_;
+  std::vector<std::optional<TrialOutcome>> outcomes_;
+  std::vector<std::string> flown_;
+  std::ofstream lines_;
+};
+
+}  // namespace skein::cli

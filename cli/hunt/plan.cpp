@@ -1,0 +1,185 @@
+#include "cli/hunt/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "cli/machine.hpp"
+#include "cli/run/agent_file.hpp"
+#include "cli/run/preflight.hpp"
+#include "core/config_writer.hpp"
+#include "core/fault_writer.hpp"
+#include "core/file_bytes.hpp"
+#include "core/sha256.hpp"
+#include "core/suggestion.hpp"
+#include "core/text.hpp"
+
+#ifndef SKEIN_VERSION
+#error "SKEIN_VERSION comes from CMake's project()"
+#endif
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using properties::PropertyEntries;
+using properties::PropertyEntry;
+
+/// Of the mission, behind the longest deadline: towards its end whoever has no time left for more work stands where it
+/// has a link, and waits. A program that comes back far from home does so long before the end.
+constexpr double kAfterDeadline_s = 40.0;
+constexpr double kLeastForFaults_s = 5.0;
+constexpr double kPatience_s = 300.0;  ///< of wall time: many flights at once make each slow, and none of them wrong
+constexpr std::uintmax_t kLargestAgent = 2'000'000'000;
+
+/// The ready ones that a hunt asks, and that fit this fleet.
+PropertyEntries usual_entries(const Scenario& scenario) {
+  PropertyEntries entries;
+  for (const std::string& name : properties::ready_property_names()) {
+    if (!properties::load_ready_property(name).in_hunts) continue;
+    const PropertyEntries one = {{name, PropertyEntry("ready")}};
+    try {
+      properties_of(one, scenario);
+    } catch (const InputError&) {
+      continue;  // it is about more UAVs than there are, or a longer mission
+    }
+    entries.push_back(one.front());
+  }
+  return entries;
+}
+
+PropertyEntries entries_of(const HuntOptions& options, const Scenario& scenario) {
+  PropertyEntries entries =
+      options.properties ? properties::load_property_entries(*options.properties) : usual_entries(scenario);
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : entries) names.push_back(name);
+  for (const std::string& name : options.without) {
+    if (std::ranges::find(names, name) == names.end()) {
+      throw InputError("--without: there is no property '" + name + "' in this hunt; " + suggestion(name, names));
+    }
+    std::erase_if(entries, [&](const auto& entry) { return entry.first == name; });
+  }
+  return entries;
+}
+
+std::vector<std::string> kinds_of(const HuntOptions& options) {
+  for (const std::string& kind : options.faults) {
+    if (std::ranges::find(fault_kinds(), kind) == fault_kinds().end()) {
+      throw InputError("--faults: there is no fault '" + kind + "'; " + suggestion(kind, fault_kinds()));
+    }
+  }
+  return options.faults.empty() ? fault_kinds() : options.faults;
+}
+
+/// Digest of all that flies: another program is another search.
+std::string programs_digest(const FleetPlan& fleet) {
+  Sha256 hash;
+  std::vector<fs::path> files = {fleet.bin_dir / programs::kSimServer, fleet.bin_dir / programs::kCommRouter,
+                                 fleet.bin_dir / programs::kStation};
+  if (fleet.options.one_process) files = {fleet_file(fleet)};
+  const std::vector<fs::path> agents = agent_files(fleet);
+  files.insert(files.end(), agents.begin(), agents.end());
+  for (const fs::path& file : files) hash.add(read_file_bytes(file, kLargestAgent));
+  return hash.hex();
+}
+
+Json settings_of(const HuntPlan& plan) {
+  const RunOptions& run = plan.fleet.options;
+  Json settings{{"skein_version", SKEIN_VERSION},  {"scenario", to_yaml(plan.fleet.scenario)},
+                {"planner", run.planner},          {"scene_seed", run.scene_seed ? Json(*run.scene_seed) : Json()},
+                {"one_process", plan.one_process}, {"dds", run.dds},
+                {"seed", plan.options.seed},       {"faults", plan.space.kinds},
+                {"properties", Json::object()},    {"programs", programs_digest(plan.fleet)}};
+  for (const auto& [name, entry] : plan.entries) {
+    settings["properties"][name] = flow_text(ConfigWriter::node_of(entry).value_or(ConfigNode{}));
+  }
+  return settings;
+}
+
+RunOptions run_options_of(const HuntOptions& options) {
+  RunOptions run = options.run;
+  run.attainable = run.report = run.check = false;
+  run.force = true;
+  run.record = "messages";
+  if (!run.agent_timeout_s) run.agent_timeout_s = kPatience_s;
+  return run;
+}
+
+}  // namespace
+
+properties::PropertySet properties_of(const PropertyEntries& entries, const Scenario& scenario) {
+  const ConfigDocument document{"properties", ConfigNode::make_map()};
+  ConfigErrors errors(document);
+  properties::PropertySet set = properties::parse_properties(entries, "properties", scenario, errors);
+  errors.throw_if_any();
+  return set;
+}
+
+double longest_deadline_s(const properties::PropertySet& set) {
+  double longest_s = 0.0;
+  for (const properties::NamedProperty& property : set) {
+    for (const properties::Property& one : property.cases) {
+      if (one.window.from == properties::Window::From::heal) {
+        longest_s = std::max(longest_s, one.window.within_s.value_or(0.0));
+      }
+    }
+  }
+  return longest_s;
+}
+
+HuntPlan plan_hunt(const HuntOptions& options) {
+  RunOptions run = run_options_of(options);
+  HuntPlan plan{options, plan_fleet(run, program_dir()), {}, {}};
+  plan.one_process = !options.dds && !needs_processes(plan.fleet);
+  plan.fleet.options.one_process = plan.one_process;
+  if (!options.jobs) plan.options.jobs = plan.one_process ? usable_cores() : 1;
+  if (options.dds) plan.fleet.options.dds = *options.dds;
+  if (options.properties) properties::load_properties(*options.properties, plan.fleet.scenario);  // with its lines
+  plan.entries = entries_of(options, plan.fleet.scenario);
+  plan.space.kinds = kinds_of(options);
+  plan.space.ground_program = plan.fleet.ground.has_value();
+  const double duration_s = plan.fleet.scenario.duration_s;
+  const double deadline_s = longest_deadline_s(properties_of(plan.entries, plan.fleet.scenario));
+  plan.space.heal_by_s = std::floor(duration_s - deadline_s - kAfterDeadline_s);
+  if (plan.space.heal_by_s < kLeastForFaults_s) {
+    throw InputError("--duration: a mission of " + number_text(duration_s) +
+                     " s has no time for faults: what must hold after them has up to " + number_text(deadline_s) +
+                     " s, and the last " + number_text(kAfterDeadline_s) + " s are for coming home");
+  }
+  plan.out = options.out.value_or(
+      fs::path("runs") / ("hunt-" + plan.fleet.scenario.name + "-" + fs::path(run.planner).filename().string()));
+  plan.settings = settings_of(plan);
+  return plan;
+}
+
+std::string capsule_text(const std::string& name, const Trial& trial, const CapsuleMark& mark, const std::string& told,
+                         const PropertyEntries& entries) {
+  const RunOptions& run = trial.run;
+  ConfigNode flown = ConfigNode::make_map();
+  const auto add = [&flown](const std::string& key, const auto& value) {
+    if (const auto node = ConfigWriter::node_of(value)) flown.add(key, *node);
+  };
+  const bool is_file = run.scenario.find('/') != std::string::npos || run.scenario.ends_with(".yaml");
+  add("scenario", is_file ? fs::absolute(run.scenario).string() : run.scenario);
+  add("planner", run.planner);
+  add("seed", run.seed);
+  add("scene_seed", run.scene_seed);
+  add("uavs", run.uavs);
+  add("duration_s", run.duration_s);
+  std::string text =
+      "# fault test\n# " + printable(told) + "\nname: " + name + "\nrun: " + flow_text(flown) + "\n" + trial.text();
+  const auto entry = std::ranges::find(entries, mark.property, [](const auto& one) { return one.first; });
+  if (entry != entries.end()) {
+    ConfigNode node = ConfigWriter::node_of(entry->second).value_or(ConfigNode{});
+    if (node.kind == ConfigNode::Kind::scalar && node.scalar != "ready") node.quoted = true;
+    text += "properties:\n  " + mark.property + ": " + flow_text(node) + "\n";
+  }
+  // What failed is what counts: a UAV that is lost on the way there is another matter.
+  text += mark.property == kSameDigest
+              ? "expect: {same_digest: [one_process], custody: none, collisions: {at_least: 0}}\n"
+              : "expect: {custody: none, collisions: {at_least: 0}}\n";
+  text += "capsule: " + flow_text(ConfigWriter::node_of(mark).value_or(ConfigNode{})) + "\n";
+  return text;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,120 @@
+// Capsules: fault tests that say what failed. What a hunt asks, and what it refuses.
+#include "cli/hunt/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include "cli/testing/fake_programs.hpp"
+#include "core/fault_writer.hpp"
+
+namespace skein::cli {
+namespace {
+
+class HuntPlans : public testing::Test {
+ protected:
+  HuntOptions options() const {
+    HuntOptions hunt;
+    hunt.run.scenario = programs_.scenario().string();
+    hunt.run.planner = "hover";
+    hunt.run.duration_s = 120.0;
+    hunt.dds = "cyclonedds";
+    hunt.out = programs_.dir() / "hunt";
+    return hunt;
+  }
+  void refused(const HuntOptions& hunt, const std::string& words) const {
+    try {
+      plan_hunt(hunt);
+      ADD_FAILURE() << "accepted, not: " << words;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  }
+
+  const FakePrograms programs_;
+};
+
+TEST_F(HuntPlans, ACapsuleIsAFaultTestThatReadsBack) {
+  const HuntPlan plan = plan_hunt(options());
+  const FaultMaker maker(plan.fleet.scenario, plan.space);
+  for (std::uint64_t number = 0; number < 40; ++number) {
+    RandomStream draw(11, "test", number);
+    Trial trial{plan.fleet.options, maker.schedule(draw)};
+    trial.run.seed = number;
+    if (number % 2 == 0) trial.run.uavs = 2;
+    if (number % 3 == 0) trial.run.scene_seed = number;
+    const CapsuleMark mark{plan.entries[number % plan.entries.size()].first, "12ab", "1.2.3", "skein hunt 'x: y'"};
+    const std::filesystem::path file = programs_.dir() / "capsule.yaml";
+    write_text(file, capsule_text("capsule", trial, mark, "it did not hold at 3 s: 'x'", plan.entries));
+    const FaultTest test = load_fault_test(file);
+    ASSERT_TRUE(test.capsule);
+    EXPECT_EQ(test.capsule->property, mark.property);
+    EXPECT_EQ(test.capsule->digest, mark.digest);
+    EXPECT_EQ(test.capsule->command, mark.command);
+    EXPECT_EQ(test.plan.options.seed, trial.run.seed);
+    EXPECT_EQ(test.plan.options.uavs, trial.run.uavs);
+    EXPECT_EQ(test.plan.options.scene_seed, trial.run.scene_seed);
+    EXPECT_EQ(test.plan.options.planner, "hover");
+    ASSERT_EQ(test.property_set.size(), 1U);
+    EXPECT_EQ(test.property_set[0].name, mark.property);
+    EXPECT_EQ((Trial{{}, test.plan.faults.faults}.text()), trial.text());
+  }
+}
+
+TEST_F(HuntPlans, UsersTextsAndParametersStayInACapsule) {
+  const properties::PropertyEntries entries = {
+      {"low", std::string("for u in uavs, always z(u) < 60 m")},
+      {"apart", std::string("always separation > 1 m and not link(alpha, gcs)")}};
+  Trial trial{options().run, {}};
+  for (const auto& [name, text] : entries) {
+    const std::filesystem::path file = programs_.dir() / "capsule.yaml";
+    write_text(file, capsule_text("c", trial, {name, "", "1", ""}, "told", entries));
+    const FaultTest test = load_fault_test(file);
+    ASSERT_EQ(test.property_set.size(), 1U);
+    EXPECT_EQ(test.property_set[0].text, std::get<std::string>(text));
+  }
+}
+
+TEST_F(HuntPlans, AsksTheReadyOnesLessThoseThatAreNotForHunts) {
+  HuntOptions hunt = options();
+  hunt.without = {"separation"};
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : plan_hunt(hunt).entries) names.push_back(name);
+  const auto asks = [&](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
+  EXPECT_TRUE(asks("custody_kept"));
+  EXPECT_FALSE(asks("separation"));
+  EXPECT_FALSE(asks("score_share"));
+}
+
+TEST_F(HuntPlans, RefusesWhatMakesNoSense) {
+  HuntOptions hunt = options();
+  hunt.faults = {"kil"};
+  refused(hunt, "--faults: there is no fault 'kil'; did you mean 'kill'?");
+  hunt = options();
+  hunt.without = {"separatoin"};
+  refused(hunt, "--without: there is no property 'separatoin' in this hunt; did you mean 'separation'?");
+  hunt = options();
+  hunt.run.duration_s = 42.0;
+  refused(hunt, "--duration: a mission of 42 s has no time for faults");
+  hunt = options();
+  hunt.properties = programs_.dir() / "mine.yaml";
+  write_text(*hunt.properties, "properties:\n  low: always hold < 30\n");
+  refused(hunt, "mine.yaml:2:15: properties.low: there is no signal 'hold'; did you mean 'held'?");
+}
+
+TEST_F(HuntPlans, FaultsSilenceWhatSaysNothingWithThem) {
+  const HuntPlan plan = plan_hunt(options());
+  const properties::PropertySet set = properties_of(plan.entries, plan.fleet.scenario);
+  const auto asked = [&](const std::vector<Fault>& faults, const std::string& name) {
+    const properties::PropertySet rest = asked_of(faults, set);
+    return std::ranges::find(rest, name, &properties::NamedProperty::name) != rest.end();
+  };
+  LinkEffect twice, lost;
+  twice.duplication = 0.5;
+  lost.loss = 0.5;
+  EXPECT_TRUE(asked({{1.0, 2.0, lost}}, "delivered_once"));
+  EXPECT_FALSE(asked({{1.0, 2.0, lost}, {1.0, 2.0, twice}}, "delivered_once"));
+  EXPECT_FALSE(asked({{1.0, 2.0, OdometryFreeze{"alpha"}}}, "separation"));
+  EXPECT_TRUE(asked({{1.0, 2.0, OdometryFreeze{"alpha"}}}, "custody_kept"));
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,65 @@
+#include "cli/hunt/search.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace skein::cli {
+namespace {
+
+constexpr double kShareOfNew = 0.4;      ///< of cases that are like none before
+constexpr double kShareOfNearest = 0.5;  ///< of the others: like one that came near
+constexpr double kShareOfOtherSeeds = 0.2;
+
+std::size_t place(RandomStream& draw, std::size_t count) {
+  return std::min(static_cast<std::size_t>(draw.uniform() * static_cast<double>(count)), count - 1);
+}
+
+}  // namespace
+
+bool HuntSearch::may_go_on(const std::vector<std::optional<TrialOutcome>>& before) const {
+  const std::size_t needed = cases_.size() < kLag ? 0 : cases_.size() - kLag + 1;
+  for (std::size_t i = learnt_; i < needed; ++i) {
+    if (i >= before.size() || !before[i]) return false;
+  }
+  return true;
+}
+
+const HuntCase& HuntSearch::next(const std::vector<std::optional<TrialOutcome>>& before) {
+  const std::size_t index = cases_.size(), known = index < kLag ? 0 : index - kLag + 1;
+  for (; learnt_ < known; ++learnt_) learn(learnt_, *before[learnt_]);
+  RandomStream draw(seed_, "hunt", index);
+  HuntCase made;
+  made.seed = 1 + place(draw, kRunSeeds);
+  if (index == 0) return cases_.emplace_back(std::move(made));
+  if (discoverers_.empty() || draw.uniform() < kShareOfNew) {
+    made.faults = maker_.schedule(draw);
+  } else {
+    const HuntCase& like = parent(draw);
+    if (draw.uniform() >= kShareOfOtherSeeds) made.seed = like.seed;
+    made.faults = maker_.varied(like.faults, parent(draw).faults, draw);
+  }
+  return cases_.emplace_back(std::move(made));
+}
+
+const HuntCase& HuntSearch::parent(RandomStream& draw) const {
+  if (!nearest_.empty() && draw.uniform() < kShareOfNearest) {
+    return cases_[std::next(nearest_.begin(), static_cast<std::ptrdiff_t>(place(draw, nearest_.size())))->second.index];
+  }
+  // Rather a late one: what the first ones met, many have met since.
+  const std::size_t late = std::max(place(draw, discoverers_.size()), place(draw, discoverers_.size()));
+  return cases_[discoverers_[late]];
+}
+
+void HuntSearch::learn(std::size_t index, const TrialOutcome& outcome) {
+  bool is_new = false;
+  for (const std::uint64_t state : outcome.states) is_new = states_.insert(state).second || is_new;
+  if (is_new) discoverers_.push_back(index);
+  for (const TrialFinding& finding : outcome.findings) {
+    // What is broken already is known; to come nearer to what is not is what helps.
+    if (finding.fails() || !finding.margin) continue;
+    const auto [nearest, first] = nearest_.try_emplace(finding.property, Nearest{*finding.margin, index});
+    if (!first && *finding.margin < nearest->second.margin) nearest->second = {*finding.margin, index};
+  }
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,116 @@
+// Finds are made small: what does not matter goes, what does stays, whatever is flown at once.
+#include "cli/hunt/shrink.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "cli/hunt/fault_maker.hpp"
+#include "cli/testing/fake_programs.hpp"
+#include "core/fault_writer.hpp"
+#include "core/scenario_reader.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr double kAfter_s = 30.0;
+
+class Shrinking : public testing::Test {
+ protected:
+  Shrinking() {
+    ::setenv("SKEIN_CONFIG_DIR", SKEIN_SOURCE_DIR "/config", 1);
+    LoadOptions load;
+    load.duration_s = 120.0;
+    towers_ = load_scenario("towers", load);
+  }
+
+  /// A defect that needs raffles to be killed while the station is dead.
+  static bool breaks(const Trial& trial) {
+    for (const Fault& kill : trial.faults) {
+      const auto* killed = std::get_if<Kill>(&kill.action);
+      if (killed == nullptr || killed->member != "raffles" || kill.waits) continue;
+      for (const Fault& outage : trial.faults) {
+        if (!std::holds_alternative<StationOutage>(outage.action) || outage.waits) continue;
+        if (kill.at_s >= outage.at_s && kill.at_s < *outage.until_s) return true;
+      }
+    }
+    return false;
+  }
+  static TrialOutcome outcome_of(const Trial& trial) {
+    TrialOutcome outcome;
+    TrialFinding& finding = outcome.findings.emplace_back();
+    finding.property = "whole";
+    finding.outcome = breaks(trial) ? properties::Verdict::Outcome::fails : properties::Verdict::Outcome::holds;
+    for (const Fault& fault : trial.faults) outcome.began_s.push_back(fault.at_s);
+    return outcome;
+  }
+  Shrunk shrunk(const Trial& trial, std::size_t at_once, std::size_t most = 120) {
+    return shrink(trial, outcome_of(trial), "whole", towers_, {kAfter_s, at_once, most},
+                  [](const std::vector<Trial>& trials) {
+                    std::vector<TrialOutcome> outcomes;
+                    for (const Trial& one : trials) outcomes.push_back(outcome_of(one));
+                    return outcomes;
+                  });
+  }
+  /// The defect among faults that do not matter.
+  Trial drawn(std::uint64_t number) const {
+    const FaultMaker maker(towers_, {fault_kinds(), 77.0, false});
+    RandomStream draw(5, "test", number);
+    Trial trial{{}, {}};
+    trial.run.duration_s = 120.0;
+    trial.run.seed = number;
+    trial.run.planner = "planted:defect=this";
+    trial.faults = {{20.0 + static_cast<double>(number % 7), 39.3, StationOutage{}}, {31.7, 47.2, Kill{"raffles"}}};
+    for (Fault& fault : maker.schedule(draw)) trial.faults.push_back(std::move(fault));
+    trial.faults = without_contradictions(std::move(trial.faults));
+    return trial;
+  }
+
+  Scenario towers_;
+};
+
+TEST_F(Shrinking, LeavesWhatMattersAndNothingElse) {
+  for (std::uint64_t number = 0; number < 30; ++number) {
+    const Trial trial = drawn(number);
+    ASSERT_TRUE(breaks(trial));
+    const Shrunk small = shrunk(trial, 1);
+    EXPECT_TRUE(breaks(small.trial)) << small.trial.text();
+    EXPECT_EQ(small.trial.faults.size(), 2U) << small.trial.text();
+    EXPECT_EQ(small.trial.run.seed, 0U);
+    EXPECT_EQ(small.trial.run.planner, "planted");
+    EXPECT_EQ(small.trial.run.uavs, 2U);
+    EXPECT_LT(*small.trial.run.duration_s, 120.0);
+    for (const Fault& fault : small.trial.faults) {
+      EXPECT_GE(*small.trial.run.duration_s, *fault.until_s + kAfter_s) << fault_line(fault);
+    }
+    for (const Fault& fault : small.trial.faults) EXPECT_EQ(fault.at_s, std::round(fault.at_s)) << fault_line(fault);
+  }
+}
+
+TEST_F(Shrinking, DoesNotDependOnHowManyFlyAtOnce) {
+  for (std::uint64_t number = 0; number < 20; ++number) {
+    const std::size_t most = number % 2 == 0 ? 120 : number;
+    const Shrunk one = shrunk(drawn(number), 1, most), four = shrunk(drawn(number), 4, most);
+    EXPECT_LE(one.flights, most);
+    EXPECT_EQ(one.trial.text(), four.trial.text());
+    EXPECT_EQ(one.flights, four.flights);
+  }
+}
+
+TEST_F(Shrinking, NeverProposesWhatIsNoFaultFile) {
+  const ScratchDir scratch;
+  for (std::uint64_t number = 0; number < 30; ++number) {
+    const Trial trial = drawn(number);
+    for (const Trial& proposal : simpler(trial, outcome_of(trial), "whole", towers_, kAfter_s)) {
+      Scenario scenario = towers_;
+      scenario.duration_s = *proposal.run.duration_s;
+      if (proposal.run.uavs) scenario.fleet.resize(*proposal.run.uavs);
+      write_text(scratch.path() / "faults.yaml", proposal.text());
+      EXPECT_NO_THROW(load_fault_plan(scratch.path() / "faults.yaml", scenario)) << proposal.text();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skein::cli

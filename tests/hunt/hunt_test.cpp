@@ -1,0 +1,151 @@
+// Planted defects are found by a search that knows none of them, made small, and stand in a capsule that fails with the
+// defect and passes without, over DDS. One of them in the usual suite; all of them with SKEIN_LONG=1.
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::minutes kPatience{60};
+constexpr std::size_t kMostFaults = 3;
+
+/// A program with a defect, and the same without.
+struct Planted {
+  std::string name;
+  Arguments defect, sound;      ///< what `skein hunt` is told of the agent, and `skein test --faults`
+  std::string planner;          ///< with the defect
+  std::string sound_planner;    ///< without
+  Environment defect_programs;  ///< where the programs with the defect are, if they are not the agent's
+};
+
+Planted of_planner(const std::string& defect) {
+  const Arguments agent = {"--agent", SKEIN_PLANTED_AGENT};
+  return {defect, agent, agent, "planted:defect=" + defect, "planted", {}};
+}
+
+class Hunts : public FleetTest {
+ protected:
+  /// A folder with the station that is too hasty, and all other programs as they are.
+  Environment hasty() const {
+    const fs::path dir = folder() / "hasty";
+    fs::create_directories(dir);
+    for (const char* name : {"skein", "sim_server", "comm_router", "uav_agent"}) {
+      fs::create_symlink(program(name), dir / name);
+    }
+    for (const char* name : {"station", "uav_agent_fleet"})
+      fs::create_symlink(fs::path(SKEIN_HASTY_DIR) / name, dir / name);
+    return {{"SKEIN_BIN_DIR", dir}};
+  }
+
+  /// @returns its exit code. What it said is in `said_`.
+  int skein(const Arguments& words, const Environment& environment = {}) {
+    const std::string name = "call-" + std::to_string(++calls_);
+    Arguments argv = {program("skein")};
+    argv.insert(argv.end(), words.begin(), words.end());
+    ChildProcess child(argv, environment, folder() / (name + ".out"), folder() / (name + ".err"));
+    EXPECT_TRUE(eventually([&] { return child.ended().has_value(); }, kPatience)) << name;
+    said_ = child.out() + child.err();
+    return child.ended()->code;
+  }
+
+  static Arguments joined(Arguments words, const Arguments& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  std::vector<fs::path> capsules(const std::string& out) const {
+    std::vector<fs::path> files;
+    if (!fs::exists(folder() / out / "finds")) return files;
+    for (const auto& entry : fs::directory_iterator(folder() / out / "finds")) {
+      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    }
+    return files;
+  }
+
+  /// The search finds it, and what it leaves fails with the defect and passes without.
+  void expect_found(const Planted& planted, int runs, const Arguments& more) {
+    const Arguments words = joined({"hunt", "towers", "--planner", planted.planner, "--runs", std::to_string(runs),
+                                    "--first", "--seed", "1", "--out", folder() / planted.name},
+                                   joined(planted.defect, more));
+    ASSERT_EQ(skein(words, planted.defect_programs), 1) << said_;
+    const std::vector<fs::path> found = capsules(planted.name);
+    ASSERT_FALSE(found.empty()) << said_;
+    for (const fs::path& capsule : found) {
+      const std::string text = text_of(capsule);
+      std::size_t faults = 0;
+      for (std::size_t at = 0; (at = text.find("\n  - {", at)) != std::string::npos; ++at) ++faults;
+      EXPECT_LE(faults, kMostFaults) << text;
+      EXPECT_EQ(skein(joined({"test", "--faults", capsule, "--out", folder() / "with"}, planted.defect),
+                      planted.defect_programs),
+                1)
+          << text << said_;
+      const fs::path mended = folder() / (planted.name + "-mended.yaml");
+      std::string without = text;
+      if (const std::size_t at = without.find("planner: "); at != std::string::npos) {
+        without.replace(at, without.find(',', at) - at, "planner: " + planted.sound_planner);
+      }
+      std::ofstream(mended) << without;
+      EXPECT_EQ(skein(joined({"test", "--faults", mended, "--out", folder() / "without"}, planted.sound)), 0)
+          << without << said_;
+    }
+  }
+
+  std::string said_;
+  int calls_ = 0;
+};
+
+/// A small fleet and short missions.
+const Arguments kQuick = {"--uavs", "2", "--duration", "90", "--faults", "kill,link,blackout", "--shrink", "12"};
+
+TEST_F(Hunts, FindARestartedProgramThatKnowsNoBoxes) { expect_found(of_planner("no_boxes_again"), 40, kQuick); }
+
+TEST_F(Hunts, GoOnWhereTheyWereStoppedAndDoNotDependOnJobs) {
+  const auto hunt = [&](const std::string& out, const std::string& runs, const std::string& jobs) {
+    return skein({"hunt", "towers", "--planner", "hover", "--uavs", "2", "--duration", "50", "--faults",
+                  "kill,link,blackout", "--without", "explorers_fly_on,others_fly_on,linked_delivers", "--runs", runs,
+                  "--jobs", jobs, "--out", folder() / out});
+  };
+  const auto lines = [&](const std::string& out) {
+    std::set<std::string> all;
+    std::istringstream text(text_of(folder() / out / "log.jsonl"));
+    for (std::string line; std::getline(text, line);) all.insert(line);
+    return all;
+  };
+  hunt("one", "18", "1");
+  hunt("two", "7", "2");
+  hunt("two", "18", "2");
+  EXPECT_NE(said_.find("7 of 18 runs are there already"), std::string::npos) << said_;
+  EXPECT_EQ(lines("one"), lines("two"));
+  EXPECT_EQ(hunt("two", "18", "1"), hunt("one", "18", "1"));
+  EXPECT_EQ(skein({"hunt", "towers", "--planner", "hover", "--out", folder() / "one"}), 2) << "another hunt";
+}
+
+/// The defects of planted.cpp, and two of Skein's own programs.
+class AllDefects : public Hunts, public testing::WithParamInterface<const char*> {};
+
+TEST_P(AllDefects, AreFound) {
+  if (!long_tests()) GTEST_SKIP() << "takes minutes: SKEIN_LONG=1";
+  const std::string name = GetParam();
+  Planted planted = of_planner(name);
+  if (name == "trusting") planted = {name, {"--agent", SKEIN_TRUSTING_AGENT}, {}, "patrol", "patrol", {}};
+  if (name == "hasty") planted = {name, {}, {}, "patrol", "patrol", hasty()};
+  // Who is stopped in the middle of its way stands where patrol would never leave it, and others come near: that is of
+  // the planner around patrol, with its defects and without.
+  Arguments more = {"--shrink", "30"};
+  if (planted.planner != "patrol" && name != "flies_blind")
+    more = {"--shrink", "30", "--without", "no_collision,separation,clearance"};
+  expect_found(planted, 200, more);
+}
+
+INSTANTIATE_TEST_SUITE_P(Planted, AllDefects,
+                         testing::Values("no_boxes_again", "waits_for_dead", "endless_lease", "mutual_wait",
+                                         "flies_blind", "undying_counter", "trusting", "hasty"),
+                         [](const auto& one) { return std::string(one.param); });
+
+}  // namespace
+}  // namespace skein::test

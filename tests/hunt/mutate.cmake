@@ -1,0 +1,10 @@
+# cmake -DFROM=... -DTO=... -DFIND=... -DREPLACE=... -P mutate.cmake
+# A source with one mistake put in. FIND must be there exactly once.
+file(READ ${FROM} text)
+string(FIND "${text}" "${FIND}" first)
+string(FIND "${text}" "${FIND}" last REVERSE)
+if(first EQUAL -1 OR NOT first EQUAL last)
+  message(FATAL_ERROR "${FROM}: '${FIND}' must be there exactly once")
+endif()
+string(REPLACE "${FIND}" "${REPLACE}" text "${text}")
+file(WRITE ${TO} "${text}")

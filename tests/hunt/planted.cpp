@@ -1,0 +1,178 @@
+// Defects for `skein hunt` to find: patrol, with some talk between UAVs around it that stands up to every fault, and of
+// which one part is wrong on request. The hunt knows none of them.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "uav_agent/api/planner.hpp"
+
+namespace skein::agent {
+
+enum class Defect {
+  none,
+  no_boxes_again,  ///< a program that comes back does not take in where the structure is
+  waits_for_dead,  ///< who flies beside a UAV whose program is dead waits for its word
+  endless_lease,   ///< a lease that nobody gives back never ends
+  mutual_wait,     ///< two wait for each other's word, which each says once
+  flies_blind,     ///< without its LiDAR it flies straight to the middle of its work
+  undying_counter  ///< it counts its own start in something that a restart does not wipe out
+};
+constexpr std::array<EnumName<Defect>, 7> enum_names(Defect) {
+  return {{{"none", Defect::none},
+           {"no_boxes_again", Defect::no_boxes_again},
+           {"waits_for_dead", Defect::waits_for_dead},
+           {"endless_lease", Defect::endless_lease},
+           {"mutual_wait", Defect::mutual_wait},
+           {"flies_blind", Defect::flies_blind},
+           {"undying_counter", Defect::undying_counter}}};
+}
+
+namespace {
+
+constexpr const char* kTopic = "/plan";
+constexpr Tick kWordPeriod = kTicksPerSecond;
+constexpr double kLate_s = 5.0;  ///< a program that begins after this was away
+constexpr double kLeaseFrom_s = 12.0, kLeaseUntil_s = 22.0, kMeetAt_s = 28.0;
+constexpr double kQuiet_s = 2.0, kDead_s = 5.0, kLeaseAge_s = 3.0, kPatience_s = 4.0;
+constexpr double kBlind_s = 8.0, kMoving_mps = 1.0, kBlindSpeed_mps = 4.0;
+
+}  // namespace
+
+class PlantedPlanner final : public Planner {
+ public:
+  struct Config {
+    Defect defect = Defect::none;
+
+    template <class R>
+    void describe(R& r) {
+      r.field("defect", defect);
+    }
+  };
+
+  PlantedPlanner(const Config& config, const AgentConfig& agent)
+      : defect_(config.defect), agent_(agent), inner_(make_planner("patrol", agent)) {}
+
+  PlannerOutput plan(const PlannerInput& in) override {
+    const double now_s = seconds(in.tick);
+    if (!began_s_) begin(now_s);
+    hear(in, now_s);
+    PlannerOutput out;
+    if (stands_still(in, now_s)) {
+      if (in.tracking.airborne) out.motion = Hold{};
+    } else if (is_blind(in, now_s)) {
+      out.motion = Path{{{in.boxes.front().center, kBlindSpeed_mps}}};
+    } else {
+      out = inner_->plan(as_seen(in));
+    }
+    speak(in, now_s, out);
+    return out;
+  }
+
+ private:
+  std::size_t self() const { return agent_.self; }
+  std::string word(const char* what) const { return std::string(what) + " " + std::to_string(self()); }
+
+  void begin(double now_s) {
+    began_s_ = now_s;
+    static std::map<std::size_t, int> starts;  // of a process, not of a program
+    forgotten_ = defect_ == Defect::undying_counter && ++starts[self()] > 1;
+  }
+  bool was_away() const { return *began_s_ > kLate_s; }
+
+  void hear(const PlannerInput& in, double now_s) {
+    for (const RadioMessage& message : in.radio) {
+      if (message.topic == kTopic) heard_s_[message.text] = now_s;
+    }
+  }
+  std::optional<double> silence_s(const std::string& what, double now_s) const {
+    const auto heard = heard_s_.find(what);
+    return heard == heard_s_.end() ? std::nullopt : std::optional(now_s - heard->second);
+  }
+
+  bool stands_still(const PlannerInput& in, double now_s) {
+    return forgotten_ || waits_for_neighbour(in, now_s) || waits_for_lease(now_s) || waits_for_meeting(now_s);
+  }
+
+  /// The next UAV is in sight and says nothing: it may be about to say something.
+  bool waits_for_neighbour(const PlannerInput& in, double now_s) const {
+    const std::size_t next = (self() + 1) % agent_.fleet.size();
+    const auto silence = silence_s("beat " + std::to_string(next), now_s);
+    if (!silence || *silence < kQuiet_s) return false;
+    const auto& peers = in.peers.all();
+    const bool visible = std::any_of(peers.begin(), peers.end(),
+                                     [&](const Peer& peer) { return std::size_t{peer.uav} == next && peer.visible; });
+    return visible && (defect_ == Defect::waits_for_dead || *silence < kDead_s);
+  }
+
+  /// The first UAV has the site for itself for a while.
+  bool waits_for_lease(double now_s) const {
+    const auto lease = silence_s("lease 0", now_s), release = silence_s("release 0", now_s);
+    if (self() == 0 || !lease || (release && *release <= *lease)) return false;
+    return defect_ == Defect::endless_lease || *lease < kLeaseAge_s;
+  }
+
+  /// The first two say when they are ready, and go on together.
+  bool waits_for_meeting(double now_s) const {
+    if (self() > 1 || *began_s_ > kMeetAt_s || now_s < kMeetAt_s) return false;
+    if (silence_s("ready " + std::to_string(1 - self()), now_s)) return false;
+    return defect_ == Defect::mutual_wait || now_s < kMeetAt_s + kPatience_s;
+  }
+
+  bool is_blind(const PlannerInput& in, double now_s) {
+    const bool own_frame = std::any_of(in.key_frames.begin(), in.key_frames.end(), [this](const KeyFrame& frame) {
+      return frame.source == node_of_uav(agent_.self);
+    });
+    const bool moves = in.state.v_WB.norm() > kMoving_mps;
+    if (own_frame || !moves) saw_s_ = now_s;
+    return defect_ == Defect::flies_blind && agent_.vehicle.lidar && in.tracking.airborne && !in.boxes.empty() &&
+           now_s - saw_s_.value_or(now_s) > kBlind_s;
+  }
+
+  PlannerInput as_seen(const PlannerInput& in) const {
+    static const std::vector<OrientedBox> none;
+    const bool forgets = defect_ == Defect::no_boxes_again && was_away();
+    return {.k = in.k,
+            .tick = in.tick,
+            .state = in.state,
+            .gimbal = in.gimbal,
+            .tracking = in.tracking,
+            .map = in.map,
+            .boxes = forgets ? none : in.boxes,
+            .peers = in.peers,
+            .mission_remaining_s = in.mission_remaining_s,
+            .station_linked = in.station_linked,
+            .undelivered_captures = in.undelivered_captures,
+            .detected = in.detected,
+            .radio = in.radio,
+            .key_frames = in.key_frames,
+            .scans = in.scans};
+  }
+
+  void speak(const PlannerInput& in, double now_s, PlannerOutput& out) {
+    const auto say = [&](const char* what) { out.radio.push_back({kTopic, word(what), {}}); };
+    const bool due = in.tick % kWordPeriod == 0;
+    if (due) say("beat");
+    if (self() == 0 && *began_s_ < kLeaseFrom_s && now_s >= kLeaseFrom_s) {
+      const bool over = now_s >= kLeaseUntil_s;
+      if (over ? !std::exchange(released_, true) : due) say(over ? "release" : "lease");
+    }
+    if (self() < 2 && *began_s_ < kMeetAt_s && now_s >= kMeetAt_s) {
+      const bool again = due && defect_ != Defect::mutual_wait && now_s < kMeetAt_s + kPatience_s;
+      if (!std::exchange(met_, true) || again) say("ready");
+    }
+  }
+
+  const Defect defect_;
+  const AgentConfig agent_;
+  const std::unique_ptr<Planner> inner_;
+  std::map<std::string, double> heard_s_;  ///< when each word was last heard
+  std::optional<double> began_s_, saw_s_;
+  bool forgotten_ = false, released_ = false, met_ = false;
+};
+
+SKEIN_REGISTER_PLANNER("planted", PlantedPlanner);
+
+}  // namespace skein::agent
