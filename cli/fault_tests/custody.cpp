@@ -95,7 +95,8 @@ class Timeline {
       if (!present(programs::kCommRouter, k)) return std::nullopt;
     }
     // Nothing is handed on to who takes no part, nor kept for who is about to come back.
-    const bool received = present(programs::kStation, *arrives - 1) && present(programs::kStation, *arrives);
+    const bool received = present(programs::kCommRouter, *arrives) && present(programs::kStation, *arrives - 1) &&
+                          present(programs::kStation, *arrives);
     if (*arrives > last_step_ || !received) return std::nullopt;
     return arrives;
   }

@@ -115,7 +115,10 @@ TEST_F(FaultFiles, ThePageOfPropertiesListsEverySignalAndEveryReadyProperty) {
     const properties::ReadyProperty ready = properties::load_ready_property(name);
     std::vector<std::string> parameters;
     for (const auto& [parameter, value] : ready.parameters) parameters.push_back("`" + parameter + ": " + value + "`");
-    has_row("| `" + name + "` | " + joined(parameters) + " | " + ready.description + " |");
+    std::vector<std::string> spoilt_by;
+    for (const std::string& fault : ready.not_with) spoilt_by.push_back("`" + fault + "`");
+    const std::string hunts = !ready.in_hunts ? "no" : spoilt_by.empty() ? "all" : "not with " + joined(spoilt_by);
+    has_row("| `" + name + "` | " + joined(parameters) + " | " + ready.description + " | " + hunts + " |");
   }
   for (const UnitName& unit : kUnitNames) EXPECT_NE(text.find(unit.name), std::string::npos) << unit.name;
 }

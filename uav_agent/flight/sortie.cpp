@@ -21,7 +21,7 @@ constexpr int kMostStirred = 4;           ///< attempts that grow less careful
 constexpr double kLeastClearanceM = 0.7;  ///< of the body, when nothing else has helped
 constexpr double kWaitsS = 1.0;
 constexpr double kHoverM = 1.6;                      ///< above its start, to look up from
-constexpr double kLookUpS = 8.0, kLookLongS = 16.0;  ///< that shows a roof; that shows what is in a box
+constexpr double kLookUpS = 5.0, kLookLongS = 16.0;  ///< that shows a roof; that shows what is in a box
 constexpr double kAnywhereM = 1e6;
 
 }  // namespace
@@ -135,7 +135,7 @@ double Sortie::open_above_m(const PlannerInput& in, double roof_m) const {
 }
 
 void Sortie::rise(double height_m, const PlannerInput& in, PlannerOutput& out) {
-  looks_since_ = in.tick;
+  rose_at_ = in.tick;
   pilot_.follow(Path{{{{climb_to_.x(), climb_to_.y(), height_m}, config_.climb_mps}}}, in, out);
 }
 
@@ -145,12 +145,13 @@ void Sortie::look_up(const PlannerInput& in, PlannerOutput& out) {
   const double here_m = climbs_from(in).z(), hover_m = ground_m_ + kHoverM;
   const bool sees = agent_.me().role == Role::explorer;
   const bool low = here_m < hover_m - kAtTopM;
-  const double looked_s = seconds(in.tick - *looks_since_);
-  const bool nothing_seen = looked_s > kLookUpS && open_above_m(in, 0.0) >= climb_to_.z();
-  if (nothing_seen || looked_s > kLookLongS) {
+  const bool looked = seconds(in.tick - *looks_since_) > kLookUpS;
+  const bool nothing_seen = looked && open_above_m(in, 0.0) >= climb_to_.z();
+  if (nothing_seen || seconds(in.tick - std::max(*looks_since_, rose_at_)) > kLookLongS) {
     if (!nothing_seen) climb_to_.z() = std::max(here_m, hover_m);
     knows_above_ = true;
   } else if (low && sees) {
+    looks_since_ = in.tick;
     rise(hover_m, in, out);
   } else if (sees && in.tick >= turn_at_) {
     out.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);

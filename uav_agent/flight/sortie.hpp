@@ -92,7 +92,7 @@ class Sortie {
   std::optional<Tick> looks_since_;  ///< up, or waits for others who do
   ProgressWatch watch_;
   Tick waits_at_ = -ticks(1e6);  ///< when it last waited for a mate
-  Tick turn_at_ = 0, stir_at_ = 0;
+  Tick rose_at_ = 0, turn_at_ = 0, stir_at_ = 0;
   int stirred_ = 0;      ///< times, since it last got on by itself
   int climbs_ = 0;       ///< that were stopped
   Tick not_before_ = 0;  ///< of the next one

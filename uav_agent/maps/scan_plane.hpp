@@ -1,5 +1,5 @@
-// Where a key frame looked. Its LiDAR's rings lie within 15 degrees of a plane through the sensor that a servo turns, and
-// the frame does not say which; its hits do, wherever they spread far enough around the sensor.
+// Where a key frame looked. Its rings lie within 15 degrees of a plane through the sensor that a servo turns, and the
+// frame does not say which; its hits do, wherever they spread far enough around the sensor.
 // Frame W.   Units: m.   Pure.
 #pragma once
 

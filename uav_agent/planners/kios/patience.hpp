@@ -1,5 +1,5 @@
-// How long a photographer of KIOS waits for the explorers' map: until one says that it is done and none in sight that it
-// is not; or until none was seen to fly for a while, or all of them must have come to the end of their lanes.
+// How long a photographer of KIOS waits for the explorers' map: until one says that it is done and none in sight that
+// it is not; or until none was seen to fly for a while, or all of them must have come to the end of their lanes.
 // Threads: one.   Source: paper (photographers idle while the explorers map); that it ends is ours.
 #pragma once
 

@@ -79,8 +79,8 @@ TEST(Patrol, CopesWithManyBoxes) {
     scene.solids.push_back(make_box(centre, {4.0, 4.0, 2.0 * centre.z()}, 0.2 * i));
     scene.boxes.push_back(make_box(centre + Vector3d(0.0, 0.0, 0.5), {5.0, 5.0, 2.0 * centre.z() + 1.0}, 0.2 * i));
   }
-  TestWorld world(scene, test_fleet(4), "patrol", 120.0);
-  world.run(120.0);
+  TestWorld world(scene, test_fleet(4), "patrol", 140.0);
+  world.run(140.0);
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.4);
   EXPECT_GT(world.coverage(), 0.3);
 }
