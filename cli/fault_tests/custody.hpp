@@ -19,9 +19,10 @@ using CaptureKey = std::pair<std::string, std::uint64_t>;
 /// In which step each capture of the ledger reaches the station; those that never do are left out. This is the rule
 /// of Skein's own on-board software (uav_agent/onboard/uplink.hpp): from the step on in which the camera handed a
 /// report out, it is sent while there is a direct link to the station, again ten steps later as long as it is not
-/// acknowledged; what is sent in one step arrives in the next. It needs the router in the step of sending
-/// and, for its word of it, in that of arrival, the station in the step of arrival and the one before, and a link that does not lose it. Who is killed forgets; its camera hands
-/// out again what was not acknowledged when it is back. Who is paused remembers.
+/// acknowledged; what is sent in one step arrives in the next. It needs the router in the step of sending and, for its
+/// word of it, in that of arrival, the station in the step of arrival and the one before, and a link that does not lose
+/// it. Who is killed forgets; its camera hands out again what was not acknowledged when it is back. Who is paused
+/// remembers.
 std::map<CaptureKey, std::uint64_t> derived_deliveries(const RunRecord& run, const Scenario& scenario,
                                                        const FaultPlan& plan);
 
