@@ -63,13 +63,14 @@ TEST_F(Packages, EachComponentHasWhatItIsFor) {
   EXPECT_EQ(below(runtime, "bin/"), kAllPrograms);
   EXPECT_EQ(below(agent, "bin/"), Paths{"uav_agent"});
   EXPECT_EQ(below(dev, "bin/"), Paths{});
+  EXPECT_EQ(below(runtime, "lib/"), Paths{"skein/libskein_other_clock.so"}) << "of skein check-planner";
+  EXPECT_EQ(below(agent, "lib/"), Paths{});
   for (const Paths* programs : {&runtime, &agent}) {
     EXPECT_EQ(below(*programs, "share/skein/config/"), files_of(fs::path(SKEIN_SOURCE_DIR) / "config"));
     Paths manuals;
     for (const std::string& program : below(*programs, "bin/")) manuals.insert(program + ".1.gz");
     EXPECT_EQ(below(*programs, "share/man/man1/"), manuals);
     EXPECT_EQ(below(*programs, "include/"), Paths{});
-    EXPECT_EQ(below(*programs, "lib/"), Paths{});
   }
   EXPECT_TRUE(runtime.contains("share/bash-completion/completions/skein"));
   EXPECT_TRUE(dev.contains("include/skein/uav_agent/api/planner.hpp"));

@@ -147,7 +147,7 @@ TEST_F(Recording, LosesNothingWhenAFaultKillsWhoRecords) {
 }
 
 TEST_F(Recording, HasMoreOnRequest) {
-  const Arguments common = {"towers", "--planner", "hover,changi=patrol", "--duration", "40", "--one-process"};
+  const Arguments common = {"towers", "--planner", "hover,changi=patrol", "--duration", "70", "--one-process"};
   std::map<std::string, Recorded> by_scope;
   for (const std::string scope : {"run", "all", "clouds"}) {
     Arguments arguments = common;
