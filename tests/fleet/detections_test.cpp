@@ -31,8 +31,8 @@ class Detections : public FleetTest {
   void SetUp() override {
     const std::string scenario = write_small_scene(folder() / "small", dense_scene());
     // Not as fast as it goes: a reader that has found the writer is heard of by it a little later only.
-    run_ = &start(
-        "run", {scenario, "--planner", "patrol", "--duration", "100", "--clock", "realtime:12", "--debug", "changi"});
+    run_ = &start("run",
+                  {scenario, "--planner", "star", "--duration", "60", "--clock", "realtime:12", "--debug", "changi"});
     ASSERT_TRUE(run_->wait_for("gdb --args")) << run_->err();
     const int base = run_->domains().first;
     listen("gcs", "fastdds", gcs_domain(base), {topics::score(), topics::score_eval()});

@@ -26,7 +26,7 @@ TEST_F(Wild, AllPlannersFlyInTenWorlds) {
   for (const auto& flight : flights) {
     flown.insert(flight.at("planner"));
     EXPECT_EQ(flight.at("collisions"), "0");
-    EXPECT_GT(std::stod(flight.at("distance_m")), 10.0) << flight.at("planner") << " in " << flight.at("scenario");
+    EXPECT_GT(std::stod(flight.at("distance_m")), 5.0) << flight.at("planner") << " in " << flight.at("scenario");
   }
   EXPECT_EQ(flown, std::set<std::string>(planners.begin(), planners.end()));
 }
