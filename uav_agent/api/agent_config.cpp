@@ -11,6 +11,12 @@ double body_radius_m(const VehicleConfig& vehicle) {
   return std::max(rotors, box_reach(vehicle));
 }
 
+std::optional<std::size_t> AgentConfig::first_explorer() const {
+  const auto it = std::ranges::find(fleet, Role::explorer, &FleetMember::role);
+  if (it == fleet.end()) return std::nullopt;
+  return static_cast<std::size_t>(it - fleet.begin());
+}
+
 AgentConfig agent_config(const Scenario& scenario, UavIndex self) {
   AgentConfig config;
   config.self = self;

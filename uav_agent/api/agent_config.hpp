@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct AgentConfig {
   Vector3d station_position = Vector3d::Zero();
 
   const FleetMember& me() const { return fleet.at(self); }
+  /// The first of the fleet that has a LiDAR; none: nobody ever sees what is free.
+  std::optional<std::size_t> first_explorer() const;
   /// Whether something that is done every `every_s` falls into exchange k; whoever has another `offset` does it in
   /// another one, so that not all do it at once.
   bool due(std::uint64_t k, double every_s, std::size_t offset) const {

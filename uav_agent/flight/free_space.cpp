@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kSampleM = 0.5;      ///< along a segment
 constexpr double kSeenAroundM = 1.0;  ///< how far around a place must be known to be free
+constexpr double kTightShare = 0.6;   ///< of the clearance: no way out comes nearer to anything
 
 template <class Test>
 bool all_along(const Vector3d& a, const Vector3d& b, const Test& test) {
@@ -19,6 +20,10 @@ bool all_along(const Vector3d& a, const Vector3d& b, const Test& test) {
 }
 
 }  // namespace
+
+double least_on_way_out_m(double now_m, double clearance_m, double slack_m) {
+  return std::max(now_m - slack_m, std::min(now_m, kTightShare * clearance_m));
+}
 
 std::string_view to_string(Barrier barrier) {
   switch (barrier) {

@@ -83,4 +83,9 @@ class FreeSpace {
   const std::vector<Sphere> keep_out_;
 };
 
+/// How near a UAV may come to something mapped that is nearer than its clearance already, on its way out.
+/// @param now_m  how far it is off.   @param slack_m  by so much nearer than that, but not where little is left of the
+///   clearance: whoever tries again and again would come nearer each time.
+double least_on_way_out_m(double now_m, double clearance_m, double slack_m);
+
 }  // namespace skein::agent

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/random_stream.hpp"
+
 namespace skein::agent {
 namespace {
 
@@ -49,6 +51,18 @@ TEST(FreeSpace, WhatRaysHavePassedMayBeEnteredUpToTheClearance) {
   EXPECT_TRUE(space.free({0.0, 0.0, 24.0})) << "in it";
   EXPECT_FALSE(space.free({0.0, 0.0, 19.5})) << "too near to what was hit";
   EXPECT_FALSE(space.free({0.0, 0.0, 15.5})) << "behind it";
+}
+
+TEST(FreeSpace, WhoTriesToGetOutAgainAndAgainComesNoNearer) {
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    RandomStream random(i, "way out", 0);
+    const double clearance = random.uniform(1.0, 2.5), slack = random.uniform(0.05, 0.4);
+    const double begin = random.uniform(0.1, clearance);
+    double now = begin;
+    for (int attempt = 0; attempt < 50; ++attempt) now = least_on_way_out_m(now, clearance, slack);
+    EXPECT_GE(now, std::min(begin, 0.5 * clearance)) << "case " << i;
+    EXPECT_LE(now, begin);
+  }
 }
 
 }  // namespace

@@ -29,12 +29,11 @@ double lift_off_height_m(const AgentConfig& agent, const std::vector<OrientedBox
   const double layer = kClimbLayerM * static_cast<double>(agent.fleet.size() - 1 - agent.self);
   double height = kLowestHeightM + layer;
   if (!boxes.empty()) height = std::max(height, blind_m + 1.0 + layer);
-  const bool sees = std::ranges::any_of(agent.fleet, [](const auto& uav) { return uav.role == Role::explorer; });
   for (const OrientedBox& box : boxes) {
     const double bottom = box.center.z() - (box.R_WO.cwiseAbs() * (0.5 * box.size)).z();
     const double below = bottom - agent.me().body_radius_m - clearance_m;
     const Vector3d beside(p_WB.x(), p_WB.y(), box.center.z());
-    const bool under = !sees && box.contains(beside, 1.0) && bottom > p_WB.z();
+    const bool under = !agent.first_explorer() && box.contains(beside, 1.0) && bottom > p_WB.z();
     if (under) height = std::min(height, std::max(below, p_WB.z() + kLowestHeightM));
     // Inside a roomy one nothing is known of the space around; above it there is nothing.
     const bool inside = is_roomy(box) && !under && box.contains(beside, kRoomyAsideM);

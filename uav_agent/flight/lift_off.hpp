@@ -1,5 +1,5 @@
 // Leaving the ground: how high everybody goes before it flies anywhere, so that a fleet that starts close together
-// comes apart, and nobody enters low space that no LiDAR has seen. Who goes first: Separation::may_lift_off().
+// comes apart, and nobody enters low space that no LiDAR has seen. Who goes first: Separation::lifts_off_after().
 // Frame W.   Units: metres.   Pure.
 #pragma once
 

@@ -15,6 +15,7 @@ using Cell = Eigen::Vector3i;
 
 constexpr double kHeuristicWeight = 1.2;  ///< a path at most this much longer than the best is good enough
 constexpr int kEscapeCells = 3;           ///< how far to look for a free cell around a start that is not free
+constexpr double kEscapeSlackM = 0.3;     ///< nearer to what is too near already
 
 std::uint64_t key_of(const Cell& c) {
   constexpr std::uint64_t kMask = (1U << 21) - 1;
@@ -38,24 +39,30 @@ class Search {
 
   std::optional<std::vector<Vector3d>> run() {
     if (!space_.free(to_)) return std::nullopt;
-    const auto start = start_cell();
-    if (!start) return std::nullopt;
-    open(*start, 0.0, *start);
-    for (int expanded = 0; expanded < config_.max_expansions && !queue_.empty(); ++expanded) {
-      const Cell cell = std::get<2>(queue_.top());
-      queue_.pop();
-      Node& node = nodes_.at(key_of(cell));
-      if (node.closed) continue;
-      node.closed = true;
-      if ((centre(cell) - to_).norm() < 1.8 * config_.cell_m && space_.segment_free(centre(cell), to_)) {
-        return shortened(trace_back(cell));
-      }
-      expand(cell, node.cost);
-    }
-    gave_up_ = !queue_.empty();
-    return std::nullopt;
+    const auto last = search([this](const Cell& cell) {
+      return (centre(cell) - to_).norm() < 1.8 * config_.cell_m && space_.segment_free(centre(cell), to_);
+    });
+    if (!last) return std::nullopt;
+    std::vector<Vector3d> corners = trace_back(*last);
+    corners.push_back(to_);
+    return shortened(corners);
   }
   bool gave_up() const { return gave_up_; }
+
+  /// To the cell nearest to the goal, if that is worth the way.
+  std::optional<std::vector<Vector3d>> run_near(double worth_m) {
+    std::optional<Cell> nearest;
+    double distance = (from_ - to_).norm() - worth_m;
+    search([&](const Cell& cell) {
+      if ((centre(cell) - to_).norm() < distance) {
+        distance = (centre(cell) - to_).norm();
+        nearest = cell;
+      }
+      return false;
+    });
+    if (!nearest) return std::nullopt;
+    return shortened(trace_back(*nearest));
+  }
 
  private:
   struct Node {
@@ -70,6 +77,25 @@ class Search {
       return std::tie(std::get<0>(a), std::get<1>(a)) > std::tie(std::get<0>(b), std::get<1>(b));
     }
   };
+
+  /// @returns the first cell that is the `last` one, of those that can be reached, in the order of A*.
+  template <class Test>
+  std::optional<Cell> search(const Test& last) {
+    const auto start = start_cell();
+    if (!start) return std::nullopt;
+    open(*start, 0.0, *start);
+    for (int expanded = 0; expanded < config_.max_expansions && !queue_.empty(); ++expanded) {
+      const Cell cell = std::get<2>(queue_.top());
+      queue_.pop();
+      Node& node = nodes_.at(key_of(cell));
+      if (node.closed) continue;
+      node.closed = true;
+      if (last(cell)) return cell;
+      expand(cell, node.cost);
+    }
+    gave_up_ = !queue_.empty();
+    return std::nullopt;
+  }
 
   Vector3d centre(const Cell& c) const { return (c.cast<double>() + Vector3d::Constant(0.5)) * config_.cell_m; }
 
@@ -101,12 +127,12 @@ class Search {
     return best;
   }
 
-  /// The way out never comes nearer to anything mapped than the start is.
+  /// The way out hardly comes nearer to anything mapped than the start is.
   bool escapes(const Vector3d& out) const {
     if (!space_.config().use_map) return true;
     const double clearance = space_.config().clearance_m;
     const double now = space_.map().distance_to_occupied(from_, clearance).value_or(clearance);
-    return space_.map().segment_clear(from_, out, std::max(0.0, now - 0.3));
+    return space_.map().segment_clear(from_, out, least_on_way_out_m(now, clearance, kEscapeSlackM));
   }
 
   void open(const Cell& cell, double cost, const Cell& parent) {
@@ -138,7 +164,7 @@ class Search {
   }
 
   std::vector<Vector3d> trace_back(Cell cell) const {
-    std::vector<Vector3d> corners = {to_};
+    std::vector<Vector3d> corners;
     while (true) {
       corners.push_back(centre(cell));
       const Cell parent = nodes_.at(key_of(cell)).parent;
@@ -190,6 +216,12 @@ std::optional<std::vector<Vector3d>> find_path(const FreeSpace& space, const std
   auto path = search.run();
   if (gave_up) *gave_up = search.gave_up();
   return path;
+}
+
+std::optional<std::vector<Vector3d>> find_approach(const FreeSpace& space, const std::vector<OrientedBox>& structure,
+                                                   const Vector3d& from_W, const Vector3d& to_W, double worth_m,
+                                                   const PathSearchConfig& config) {
+  return Search(space, structure, from_W, to_W, config).run_near(worth_m);
 }
 
 double path_length(const Vector3d& from_W, const std::vector<Vector3d>& corners_W) {

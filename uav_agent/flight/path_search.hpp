@@ -24,6 +24,12 @@ std::optional<std::vector<Vector3d>> find_path(const FreeSpace& space, const std
                                                const Vector3d& from_W, const Vector3d& to_W,
                                                const PathSearchConfig& config = {}, bool* gave_up = nullptr);
 
+/// The same to the place, of those that can be reached, that is nearest to a goal which cannot.
+/// @param worth_m  by less than this it is not worth the way: nullopt.
+std::optional<std::vector<Vector3d>> find_approach(const FreeSpace& space, const std::vector<OrientedBox>& structure,
+                                                   const Vector3d& from_W, const Vector3d& to_W, double worth_m,
+                                                   const PathSearchConfig& config = {});
+
 /// Length of the polyline from `from_W` through all corners [m].
 double path_length(const Vector3d& from_W, const std::vector<Vector3d>& corners_W);
 

@@ -82,6 +82,26 @@ TEST(PathSearch, SaysSoWhenThereIsNone) {
   EXPECT_FALSE(find_path(space, boxes, {30.0, 0.0, 10.0}, {40.0, 0.0, 1.0})) << "the goal lies too low";
 }
 
+TEST(PathSearch, GoesAsNearAsItGetsToWhatCannotBeReached) {
+  constexpr double kWorthM = 3.0;
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    RandomStream random(i, "approach", 0);
+    const std::vector<OrientedBox> boxes = {box_at({random.uniform(-5, 5), random.uniform(-5, 5), 20.0}, {20, 20, 40})};
+    const OccupancyMap map;
+    const FreeSpace space({}, boxes, map);
+    const Vector3d goal = boxes[0].center - Vector3d(0.0, 0.0, 10.0);
+    const double heading = random.uniform(0.0, 6.28);
+    const Vector3d from(40.0 * std::cos(heading), 40.0 * std::sin(heading), 10.0);
+    ASSERT_FALSE(find_path(space, boxes, from, goal));
+    const auto path = find_approach(space, boxes, from, goal, kWorthM);
+    ASSERT_TRUE(path) << "case " << i;
+    const Vector3d end = path->back();
+    EXPECT_TRUE(space.free(end));
+    EXPECT_LT((end - goal).norm(), 17.0) << "just beside the box";
+    EXPECT_FALSE(find_approach(space, boxes, end, goal, kWorthM)) << "case " << i << ": it is there";
+  }
+}
+
 TEST(PathSearch, LeavesAPlaceThatIsTooNearToSomething) {
   OccupancyMap map;
   map.insert(wall_with_window({100.0, 0.0, 0.0}, 1.0, 30.0), std::nullopt);

@@ -14,7 +14,8 @@ constexpr std::uint64_t kObstacleSteps = 4;      ///< exchanges between two look
 constexpr double kStopSlackM = 0.4;              ///< the safety stop is this much less careful than planning
 constexpr double kDriftDtS = 0.125;              ///< of where its velocity carries a UAV, whatever it was told
 constexpr int kDriftCount = 4;                   ///< no farther than it overshoots a corner that it brakes for
-constexpr double kApproachM = 0.1;               ///< who is too near to something may come nearer by this, not more
+constexpr double kApproachM = 0.05;              ///< who is too near to something may come nearer by this, not more
+constexpr double kHoversM = 0.05;                ///< about its place
 constexpr double kDetourAgainS = 20.0;           ///< a second meeting within this time is no accident
 constexpr double kWatchM = 0.5, kWatchS = 12.0;  ///< no further than this for so long: something is wrong
 constexpr double kCarefulMps = 2.0, kBesideBoxM = 2.0, kSeenStepM = 1.0;
@@ -97,7 +98,9 @@ bool Pilot::obstacle_ahead(const PlannerInput& in, const FreeSpace::Config& spac
   // Whoever is too near to something already may still move away from it.
   const auto comes_too_near = [&](const std::vector<Vector3d>& ahead) {
     double limit = space.clearance_m - kStopSlackM;
-    if (const auto now = in.map.distance_to_occupied(ahead.front(), limit)) limit = std::max(0.0, *now - kApproachM);
+    if (const auto now = in.map.distance_to_occupied(ahead.front(), limit)) {
+      limit = std::max(0.0, least_on_way_out_m(*now, space.clearance_m, kApproachM) - kHoversM);
+    }
     return std::any_of(ahead.begin() + 1, ahead.end(),
                        [&](const Vector3d& p) { return in.map.any_occupied_within(p, limit); });
   };
@@ -143,6 +146,8 @@ bool Pilot::retreat(PlannerOutput& out, bool leave_trail) {
 }
 
 void Pilot::follow(Path path, const PlannerInput& in, PlannerOutput& out) {
+  missed_W_.reset();
+  out.no_way.clear();
   slow_down_where_little_was_seen(in, path);
   set_out(std::move(path), out);
 }
@@ -175,7 +180,7 @@ void Pilot::stop(PlannerOutput& out) {
   path_.waypoints.clear();
   paused_ = false;
   leaves_trail_ = true;
-  if (std::holds_alternative<std::monostate>(out.motion)) out.motion = Hold{};
+  out.motion = Hold{};
 }
 
 std::string Way::why() const {
@@ -185,16 +190,18 @@ std::string Way::why() const {
   return "the goal is " + std::string(to_string(at_goal));
 }
 
+Way Pilot::no_way(const Vector3d& goal, const FreeSpace& space, PlannerOutput& out, bool gave_up) {
+  const Way none{.found = false, .at_goal = space.barrier(goal), .gave_up = gave_up};
+  out.no_way = none.why();
+  missed_W_ = goal;
+  return none;
+}
+
 Way Pilot::fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
   const FreeSpace free_space = way_space(in, space, goal);
   bool gave_up = false;
   const auto corners = find_path(free_space, in.boxes, in.tracking.setpoint.p_WB, goal, {}, &gave_up);
-  if (!corners) {
-    const Way none{.found = false, .at_goal = free_space.barrier(goal), .gave_up = gave_up};
-    out.no_way = none.why();
-    return none;
-  }
-  out.no_way.clear();
+  if (!corners) return no_way(goal, free_space, out, gave_up);
   Path path;
   for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.speed_mps});
   follow(std::move(path), in, out);

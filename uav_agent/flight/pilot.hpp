@@ -54,21 +54,29 @@ class Pilot {
   void follow(Path path, const PlannerInput& in, PlannerOutput& out);
   /// Along a path that it finds itself. If there is none, or none was found in time, it does nothing and says why.
   Way fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
+  /// To be told by whoever searches for ways itself and finds none. @returns why.
+  Way no_way(const Vector3d& goal, const FreeSpace& space, PlannerOutput& out, bool gave_up = false);
+  /// The goal to which there was no way, if it has followed none since.
+  const std::optional<Vector3d>& missed_W() const { return missed_W_; }
   /// Some metres back the way it came, out of a corner where no path begins. @returns false if it came from
   /// nowhere.
   /// @param leave_trail  false: another retreat from there goes farther back, instead of forth again.
   bool retreat(PlannerOutput& out, bool leave_trail = true);
-  /// Brakes and forgets the path. A motion that was set in this exchange stays.
+  /// Brakes and forgets the path, also one that was set in this exchange: nobody looks out on a path that is forgotten.
   void stop(PlannerOutput& out);
 
+  /// Who is in its way, of the last `waiting`.
+  std::optional<std::size_t> hindered_by() const { return separation_.hindered_by(); }
   bool has_path() const { return !path_.waypoints.empty(); }
   bool arrived(const PlannerInput& in) const { return has_path() && !paused_ && in.tracking.done; }
   /// The way here shall not be flown back (it led up from the ground).
   void forget_trail() { trail_.clear(); }
   /// Where it may fly as of now, other UAVs in sight and boxes that are not near to `goal` or here left out.
   FreeSpace way_space(const PlannerInput& in, const FreeSpace::Config& space, const Vector3d& goal) const;
-  /// Whether it is this UAV's turn to leave the ground.
-  bool may_lift_off(const PlannerInput& in) { return separation_.may_lift_off(in.tick, in.peers); }
+  /// Whom it lets leave the ground first.
+  std::optional<std::size_t> lifts_off_after(const PlannerInput& in) {
+    return separation_.lifts_off_after(in.tick, in.peers);
+  }
 
  private:
   std::vector<Waypoint> rest_of_path(const PlannerInput& in) const;
@@ -86,6 +94,7 @@ class Pilot {
   Path path_;            ///< being flown, or to be taken up again after a pause
   bool paused_ = false;  ///< gives way
   bool leaves_trail_ = true;
+  std::optional<Vector3d> missed_W_;
   std::deque<Vector3d> trail_;     ///< where it was, a metre apart
   std::optional<Tick> detour_at_;  ///< when it last met somebody who stood in the way
   Vector3d watched_p_W_ = Vector3d::Zero();

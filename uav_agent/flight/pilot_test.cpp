@@ -101,6 +101,16 @@ TEST_F(AlongAWall, MayLeaveAWallThatItIsTooNearTo) {
   EXPECT_EQ(judge(at({3.0, 5.0, 20.0}, {-1.0, 4.0, 0.0})), Situation::flying_on);
 }
 
+TEST_F(AlongAWall, WhoIsStoppedStandsAlsoWhereItHasJustSetOut) {
+  Pilot pilot({}, agent_);
+  PlannerOutput out;
+  const Path path{{{{0.0, 40.0, 20.0}, 4.0}}};
+  as_input({.p_WB = {0.0, 5.0, 20.0}}, {}, [&](const PlannerInput& in) { pilot.follow(path, in, out); });
+  pilot.stop(out);
+  EXPECT_FALSE(pilot.has_path());
+  EXPECT_TRUE(std::holds_alternative<Hold>(out.motion)) << "it would fly on, and nobody would look out";
+}
+
 TEST_F(AlongAWall, SaysWhyThereIsNoWay) {
   const auto fly_to = [&](const Vector3d& goal, const std::vector<OrientedBox>& boxes, PlannerOutput& out) {
     TrackingState tracking;

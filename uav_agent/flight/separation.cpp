@@ -52,7 +52,8 @@ double Separation::contact_m(std::size_t uav) const {
 }
 
 Traffic Separation::judge(Tick now, const std::vector<Vector3d>& ahead, double dt_s, const Peers& peers) {
-  bool conflict = false, standing = false;
+  hindered_by_.reset();
+  bool standing = false;
   for (const Peer& peer : peers.all()) {
     if (!peer.visible) continue;
     const bool stands = peer.v_W.norm() < kStandingMps;
@@ -67,12 +68,12 @@ Traffic Separation::judge(Tick now, const std::vector<Vector3d>& ahead, double d
       const bool meets = on < limit && on < distance_now - kComingNearerM;
       const bool runs_into = braking < brakes_limit && braking < distance_now - kComingNearerM;
       if (!meets && !runs_into) continue;
-      conflict = true;
+      hindered_by_ = peer.uav;
       standing |= stands;
       break;
     }
   }
-  if (!conflict) {
+  if (!hindered_by_) {
     waiting_since_.reset();
     return Traffic::clear;
   }
@@ -86,8 +87,10 @@ Traffic Separation::judge(Tick now, const std::vector<Vector3d>& ahead, double d
 std::vector<Sphere> Separation::keep_out(const Vector3d& p_W_now, const Peers& peers) const {
   std::vector<Sphere> spheres;
   for (const Peer& peer : peers.all()) {
-    const bool near = (peer.p_W - p_W_now).norm() < kPlanAroundM;
-    if (peer.visible && near) spheres.push_back({peer.p_W, contact_m(peer.uav) + config_.margin_m + kKeepOutExtraM});
+    const double distance = (peer.p_W - p_W_now).norm();
+    if (!peer.visible || distance >= kPlanAroundM) continue;
+    const double wanted = contact_m(peer.uav) + config_.margin_m + kKeepOutExtraM;
+    spheres.push_back({peer.p_W, std::min(wanted, distance - kComingNearerM)});
   }
   return spheres;
 }
@@ -97,17 +100,17 @@ bool Separation::starts_before(std::size_t uav) const {
   return sees != i_see ? sees : uav < agent_.self;
 }
 
-bool Separation::may_lift_off(Tick now, const Peers& peers) {
+std::optional<std::size_t> Separation::lifts_off_after(Tick now, const Peers& peers) {
   if (!ready_since_) ready_since_ = now;
   int before = 0;
-  bool blocked = false;
+  std::optional<std::size_t> stands;
   for (const Peer& peer : peers.all()) {
     const Vector3d start = agent_.fleet[peer.uav].p_WB_start;
     if (!starts_before(peer.uav) || (start - agent_.me().p_WB_start).norm() > kCrowdM) continue;
     ++before;
-    blocked |= (peer.p_W - start).norm() < kClearHeightM;
+    if ((peer.p_W - start).norm() < kClearHeightM) stands = peer.uav;
   }
-  return !blocked || seconds(now - *ready_since_) > kStartPatienceS * before;
+  return seconds(now - *ready_since_) > kStartPatienceS * before ? std::nullopt : stands;
 }
 
 }  // namespace skein::agent

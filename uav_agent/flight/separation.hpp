@@ -33,13 +33,16 @@ class Separation {
   /// Right of way is by fleet order; whoever stands still has it over whoever moves.
   /// @param ahead  own positions to come, `dt_s` apart.
   Traffic judge(Tick now, const std::vector<Vector3d>& ahead, double dt_s, const Peers& peers);
+  /// Who was in the way when it was last judged.
+  std::optional<std::size_t> hindered_by() const { return hindered_by_; }
 
-  /// The UAVs in line of sight and near by, as places to plan around.
+  /// The UAVs in line of sight and near by, as places to plan around: whoever is too near to one already may leave,
+  /// but not come nearer.
   std::vector<Sphere> keep_out(const Vector3d& p_W_now, const Peers& peers) const;
 
-  /// Whether this UAV may lift off: explorers that stand near it first, who look what is above, then those of lower
-  /// number, each a few metres up before the next.
-  bool may_lift_off(Tick now, const Peers& peers);
+  /// Whom this UAV lets lift off first: explorers that stand near it, who look what is above, then those of lower
+  /// number, each a few metres up before the next. Nobody: it may lift off.
+  std::optional<std::size_t> lifts_off_after(Tick now, const Peers& peers);
 
  private:
   double contact_m(std::size_t uav) const;
@@ -48,6 +51,7 @@ class Separation {
   const Config config_;
   const AgentConfig& agent_;
   std::optional<Tick> waiting_since_, ready_since_;
+  std::optional<std::size_t> hindered_by_;
 };
 
 }  // namespace skein::agent

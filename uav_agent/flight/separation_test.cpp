@@ -134,6 +134,22 @@ TEST(Separation, NobodyRunsIntoWhoFliesAheadAndStops) {
   }
 }
 
+TEST(Separation, WhoStandsInACrowdMayLeaveItButNotPressOn) {
+  const AgentConfig config = fleet(0, {{0, 0, 0}, {20, 0, 0}});
+  const Separation::Config limits;
+  const double wanted = 2.0 * config.me().body_radius_m + limits.margin_m;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    RandomStream random(i, "crowd", 0);
+    const Vector3d here(0.0, 0.0, 10.0);
+    const Vector3d p = here + Vector3d(random.uniform(0.9, 9.0), random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
+    const auto spheres = Separation(limits, config).keep_out(here, one_peer(config, UavIndex{1}, p, Vector3d::Zero()));
+    ASSERT_EQ(spheres.size(), 1U);
+    const double distance = (p - here).norm();
+    EXPECT_LT(spheres[0].radius_m, distance) << "it could go nowhere from where it is";
+    EXPECT_GE(spheres[0].radius_m, std::min(wanted, distance - 0.1)) << "case " << i;
+  }
+}
+
 TEST(Separation, WhoIsOutOfSightIsNobody) {
   const AgentConfig config = fleet(0, {{0, 0, 0}, {20, 0, 0}});
   Peers peers = one_peer(config, UavIndex{1}, {6.0, 0.5, 10.0}, Vector3d::Zero());
@@ -177,14 +193,14 @@ TEST(Separation, PatienceGrowsWithRankIsThreefoldForWhoMovesAndBeginsAnewAfterAC
 TEST(Separation, NeighboursLiftOffOneAfterTheOther) {
   const AgentConfig config = fleet(1, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   Separation separation({}, config);
-  EXPECT_FALSE(separation.may_lift_off(0, Peers(config))) << "number 0 still stands there";
-  EXPECT_FALSE(separation.may_lift_off(400, one_peer(config, UavIndex{0}, {0, 0, 2.0}, {0, 0, 2.0})));
-  EXPECT_TRUE(separation.may_lift_off(800, one_peer(config, UavIndex{0}, {0, 0, 3.5}, {0, 0, 2.0})));
+  EXPECT_EQ(separation.lifts_off_after(0, Peers(config)), 0U) << "number 0 still stands there";
+  EXPECT_EQ(separation.lifts_off_after(400, one_peer(config, UavIndex{0}, {0, 0, 2.0}, {0, 0, 2.0})), 0U);
+  EXPECT_FALSE(separation.lifts_off_after(800, one_peer(config, UavIndex{0}, {0, 0, 3.5}, {0, 0, 2.0})));
   const AgentConfig far = fleet(1, {{0, 0, 0}, {30, 0, 0}});
-  EXPECT_TRUE(Separation({}, far).may_lift_off(0, Peers(far)));
+  EXPECT_FALSE(Separation({}, far).lifts_off_after(0, Peers(far)));
   Separation patient({}, config);
-  EXPECT_FALSE(patient.may_lift_off(0, Peers(config)));
-  EXPECT_TRUE(patient.may_lift_off(ticks(6.0), Peers(config))) << "number 0 seems to be broken";
+  EXPECT_EQ(patient.lifts_off_after(0, Peers(config)), 0U);
+  EXPECT_FALSE(patient.lifts_off_after(ticks(6.0), Peers(config))) << "number 0 seems to be broken";
 }
 
 TEST(Separation, EachOneBeforeIsWaitedForAndNobodyElse) {
@@ -194,7 +210,7 @@ TEST(Separation, EachOneBeforeIsWaitedForAndNobodyElse) {
     const AgentConfig config = fleet(self, starts);
     Separation separation({}, config);
     Tick tick = 100;
-    while (!separation.may_lift_off(tick, Peers(config))) tick += 20;
+    while (separation.lifts_off_after(tick, Peers(config))) tick += 20;
     EXPECT_NEAR(seconds(tick - 100), patience_s[self], 0.051) << self;
   }
 }

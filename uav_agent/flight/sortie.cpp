@@ -4,6 +4,7 @@
 
 #include "core/euler.hpp"
 #include "uav_agent/flight/lift_off.hpp"
+#include "uav_agent/flight/path_search.hpp"
 #include "uav_agent/flight/way_out.hpp"
 
 namespace skein::agent {
@@ -19,6 +20,8 @@ constexpr double kTurn = 0.8;                           ///< [rad]
 constexpr double kStirAfterS = 16.0, kStirEveryS = 4.0;
 constexpr int kMostStirred = 4;           ///< attempts that grow less careful
 constexpr double kLeastClearanceM = 0.7;  ///< of the body, when nothing else has helped
+constexpr double kWorthM = 3.0;  ///< nearer to where it wished to be
+constexpr int kApproachExpansions = 2000;
 constexpr double kWaitsS = 1.0;
 constexpr double kHoverM = 1.6;                      ///< above its start, to look up from
 constexpr double kLookUpS = 5.0, kLookLongS = 16.0;  ///< that shows a roof; that shows what is in a box
@@ -81,7 +84,12 @@ bool Sortie::stir(const PlannerInput& in, const FreeSpace::Config& space, Planne
   FreeSpace::Config careful = less_careful(space, attempt, agent_.me().body_radius_m + kLeastClearanceM);
   careful.enter_radius_m = kAnywhereM;
   const Vector3d here = in.tracking.setpoint.p_WB;
-  const auto corners = find_way_out(pilot_.way_space(in, careful, here), in.boxes, here, stirred_);
+  const FreeSpace way = pilot_.way_space(in, careful, here);
+  std::optional<std::vector<Vector3d>> corners;
+  if (const auto& goal = pilot_.missed_W()) {
+    corners = find_approach(way, in.boxes, here, *goal, kWorthM, {.max_expansions = kApproachExpansions});
+  }
+  if (!corners) corners = find_way_out(way, in.boxes, here, stirred_);
   if (!corners) return false;
   Path path;
   for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.retreat_mps});
@@ -99,10 +107,13 @@ Sortie::Turn Sortie::leave_ground(const PlannerInput& in, PlannerOutput& out) {
     return Turn::nothing;
   }
   if (!looks_since_) looks_since_ = in.tick;
-  if (!pilot_.may_lift_off(in)) return Turn::nothing;
+  if (const auto first = pilot_.lifts_off_after(in)) {
+    waits_for(*first, in, out);
+    return Turn::nothing;
+  }
   state_ = State::climbing;
   ground_m_ = p.z();
-  knows_above_ = std::ranges::none_of(agent_.fleet, [](const auto& uav) { return uav.role == Role::explorer; });
+  knows_above_ = !agent_.first_explorer();
   climb_to_ = {p.x(), p.y(), lift_off_height_m(agent_, in.boxes, p, blind_height_m_, config_.clearance_m)};
   out.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
   return climb(in, out);
@@ -156,6 +167,8 @@ void Sortie::look_up(const PlannerInput& in, PlannerOutput& out) {
   } else if (sees && in.tick >= turn_at_) {
     out.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
     turn_at_ = in.tick + ticks(kTurnEveryS);
+  } else if (!sees) {
+    waits_for(*agent_.first_explorer(), in, out);
   }
 }
 
@@ -166,7 +179,10 @@ Sortie::Turn Sortie::begin_work() {
 
 /// Something came between this UAV and what it was about.
 Sortie::Turn Sortie::react(const PlannerInput& in, PlannerOutput& out) {
-  if (situation_ == Situation::waiting) return Turn::nothing;
+  if (situation_ == Situation::waiting) {
+    out.waits_for = pilot_.hindered_by();
+    return Turn::nothing;
+  }
   if (situation_ == Situation::detour) return state_ == State::working ? Turn::detour : Turn::nothing;
   pilot_.stop(out);
   if (state_ == State::working) return Turn::blocked;

@@ -136,6 +136,7 @@ TEST_F(OneSortie, APhotographerWaitsForWhatExplorersSawAndNotForEver) {
     return 0.5 * steps;
   };
   const double alone_s = lifts_off_after_s(-1), led_s = lifts_off_after_s(9);
+  EXPECT_GT(waited_, 10) << "and says for whom";
   EXPECT_GT(alone_s, 5.0);
   EXPECT_LT(alone_s, 40.0);
   EXPECT_GE(led_s, 4.5) << "not before";
@@ -154,6 +155,23 @@ TEST_F(OneSortie, WhoStandsStillIsTurnedThenTakenElsewhereAndBeginsAgain) {
   EXPECT_GT(turned_, 3) << "its LiDAR sees more";
   EXPECT_GT((p_WB_ - stood).norm(), 5.0);
   EXPECT_EQ(next(), Turn::begin);
+}
+
+TEST_F(OneSortie, WhoFindsNoWayIsTakenAsNearAsItGets) {
+  sortie_.know_site(20.0, 0.0);
+  boxes_.resize(1);
+  boxes_[0].center = {-30.0, -10.0, 15.0};
+  boxes_[0].size = {10.0, 10.0, 20.0};
+  ASSERT_EQ(next(), Turn::begin);
+  const Vector3d goal = boxes_[0].center;
+  PlannerOutput out;
+  sortie_.pilot().no_way(goal, {{}, boxes_, map_}, out);
+  EXPECT_FALSE(out.no_way.empty());
+  const double before = (p_WB_ - goal).norm();
+  Turn turn = Turn::work;
+  for (int i = 0; i < 100 && turn == Turn::work; ++i) turn = step();
+  ASSERT_EQ(turn, Turn::leave);
+  EXPECT_LT((p_WB_ - goal).norm(), std::min(15.0, before)) << "beside the box that nobody may enter";
 }
 
 TEST_F(OneSortie, WhoHasNoLidarIsNotTurned) {

@@ -209,7 +209,7 @@ void KiosPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
       if (in.tracking.done && in.tick >= not_before_) next_lane(in, out);
       return;
     case Phase::wait:
-      patience_.is_over(in, *grid_, config_) ? rest(in.tick, out) : sortie_.waits_for(patience_.explorer(), in, out);
+      patience_.is_over(in, *grid_, config_) ? rest(in.tick, out) : sortie_.waits_for(*agent_.first_explorer(), in, out);
       return;
     case Phase::decide:
       if (in.tick >= not_before_ && in.tracking.done) decide(in, out);
@@ -251,6 +251,7 @@ void KiosPlanner::next_lane(const PlannerInput& in, PlannerOutput& out) {
       proof_.ask_all();
       return;
     }
+    sortie_.pilot().no_way(lanes_.front(), space, out);
     not_before_ = in.tick + ticks(kRestS);
     proof_.ask_less();
     out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
@@ -339,10 +340,9 @@ bool KiosPlanner::fly_to(const KiosStop& stop, const FreeSpace& space, bool fine
   const auto corners = finely ? find_path(space, in.boxes, here, stop.p_WB)
                               : find_voxel_route(*grid_, space, here, stop.p_WB, talk_.claimed(in.tick));
   if (!corners) {
-    out.no_way = Way{.found = false, .at_goal = space.barrier(stop.p_WB)}.why();
+    sortie_.pilot().no_way(stop.p_WB, space, out);
     return false;
   }
-  out.no_way.clear();
   Path path;
   for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.transit_mps});
   sortie_.pilot().follow(std::move(path), in, out);

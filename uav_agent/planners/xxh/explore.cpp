@@ -28,6 +28,7 @@ void XxhExplorer::stop() {
   places_.clear();
   put_off_.clear();
   again_ = false;
+  got_nowhere_ = false;
 }
 
 void XxhExplorer::begin(const XxhRegionMap& region, const XxhRegionMap::Section& section, const PlannerInput& in) {
@@ -42,6 +43,7 @@ void XxhExplorer::begin(const XxhRegionMap& region, const XxhRegionMap::Section&
     for (int shift = 0; shift < kShifts && taken(); ++shift) place += kShiftM * out.normalized();
     if (!taken()) places_.push_back(place);
   }
+  got_nowhere_ = !places_.empty();
 }
 
 void XxhExplorer::look_inwards(const XxhRegionMap& region, const PlannerInput& in, PlannerOutput& out) {
@@ -49,7 +51,10 @@ void XxhExplorer::look_inwards(const XxhRegionMap& region, const PlannerInput& i
   const Vector3d inwards = nearest_in_box(region.box(), here, kInwardsShare);
   out.gimbal = inwards;
   if ((inwards - here).head<2>().norm() > 1.0) out.yaw = std::atan2(inwards.y() - here.y(), inwards.x() - here.x());
-  while (!places_.empty() && (places_.front() - here).norm() < kPassedM) places_.pop_front();
+  while (!places_.empty() && (places_.front() - here).norm() < kPassedM) {
+    places_.pop_front();
+    got_nowhere_ = false;
+  }
   if (!places_.empty()) return;
   if (again_) put_off_.clear();
   again_ = true;

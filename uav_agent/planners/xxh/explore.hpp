@@ -22,6 +22,8 @@ class XxhExplorer {
   void begin(const XxhRegionMap& region, const XxhRegionMap::Section& section, const PlannerInput& in);
   void stop();
   bool finished() const { return places_.empty() && put_off_.empty(); }
+  /// There were places in this section, and it came to none of them.
+  bool got_nowhere() const { return got_nowhere_; }
 
   /// Once per exchange: turns camera and body inwards, and takes note of what was passed.
   void look_inwards(const XxhRegionMap& region, const PlannerInput& in, PlannerOutput& out);
@@ -38,6 +40,7 @@ class XxhExplorer {
   std::deque<Vector3d> places_;             ///< what is left of the spiral
   std::deque<Vector3d> put_off_;            ///< could not be reached yet
   bool again_ = false;                      ///< has begun with those
+  bool got_nowhere_ = false;
   std::optional<Vector3d> looked_down_at_;  ///< the last place that was looked at from above
 };
 

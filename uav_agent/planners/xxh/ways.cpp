@@ -11,7 +11,7 @@ namespace {
 constexpr int kFruitlessToBold = 8;
 constexpr double kNearM = 20.0;  ///< a way no longer than this may lead through boxes
 constexpr double kLongWayM = 10.0;
-constexpr double kAroundPeersM = 15.0, kPeerMarginM = 2.5;
+constexpr double kAroundPeersM = 15.0, kPeerMarginM = 2.5, kLeavesM = 0.05;
 constexpr int kFaithfulExpansions = 1000;
 
 }  // namespace
@@ -39,8 +39,9 @@ FreeSpace XxhWays::space_for_way(const PlannerInput& in, const Vector3d& goal_W)
   if ((goal_W - here).norm() > kNearM) config.enter_near_W = {here, goal_W};
   std::vector<Sphere> keep_out = talk_.trajectories(in);
   for (const Peer& peer : in.peers.all()) {
-    const double radius = agent_.me().body_radius_m + agent_.fleet[peer.uav].body_radius_m + kPeerMarginM;
-    if (peer.visible && (peer.p_W - here).norm() < kAroundPeersM) keep_out.push_back({peer.p_W, radius});
+    const double wanted = agent_.me().body_radius_m + agent_.fleet[peer.uav].body_radius_m + kPeerMarginM;
+    const double distance = (peer.p_W - here).norm();  // whoever is too near already may leave
+    if (peer.visible && distance < kAroundPeersM) keep_out.push_back({peer.p_W, std::min(wanted, distance - kLeavesM)});
   }
   return {config, in.boxes, in.map, std::move(keep_out)};
 }
@@ -60,11 +61,10 @@ bool XxhWays::fly_along(const std::vector<Vector3d>& places_W, double slow_mps, 
   auto corners = find(in, places_W.front());
   if (!corners) {
     ++fruitless_;
-    out.no_way = Way{.found = false, .at_goal = space_for_way(in, places_W.front()).barrier(places_W.front())}.why();
+    pilot_.no_way(places_W.front(), space_for_way(in, places_W.front()), out);
     return false;
   }
   fruitless_ = 0;
-  out.no_way.clear();
   Path path;
   Vector3d at = in.tracking.setpoint.p_WB;
   double speed = path_length(at, *corners) > kLongWayM ? std::max(slow_mps, config_.transit_mps) : slow_mps;

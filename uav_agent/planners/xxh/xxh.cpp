@@ -38,8 +38,11 @@ constexpr double kShortRestS = 0.25;  ///< when another cell may be tried
 constexpr double kLowestM = 2.5;      ///< of places on the spiral and of stops
 constexpr int kTries = 3;             ///< searches for a way in one exchange
 constexpr int kFruitlessToRetreat = 40;
-constexpr double kHandOverS = 25.0;  ///< to find somebody who has not heard its order
-constexpr double kFreshS = 10.0;     ///< after a start in flight: others may know how far the team is
+constexpr double kHandOverS = 25.0;     ///< to find somebody who has not heard its order
+constexpr double kExploreShare = 0.4;   ///< of the time left, for all sections together: others wait meanwhile
+constexpr double kGetsOutS = 30.0;      ///< of a corner from which no place of a section can be reached
+constexpr std::size_t kMostRounds = 8;  ///< through all regions: early ones may have found no way
+constexpr double kFreshS = 10.0;        ///< after a start in flight: others may know how far the team is
 
 Sortie::Config sortie_config(const XxhConfig& config) {
   return {.climb_mps = config.climb_mps,
@@ -116,13 +119,14 @@ class XxhPlanner final : public Planner {
   bool restarted_ = false;  ///< in flight
   Stage stage_ = Stage::none;
   Tick stage_since_ = 0, not_before_ = 0;
-  std::size_t region_index_ = 0;
+  std::size_t region_index_ = 0;  ///< counts on through the rounds
   std::optional<XxhRegionMap> region_;
   bool solid_ = false;  ///< goes by the box, not by a map
   Vector3d entry_W_ = Vector3d::Zero();
   Vector3d came_from_W_ = Vector3d::Zero();  ///< end of the region before
   std::size_t explored_ = 0;                 ///< sections
   bool exploring_ = false;                   ///< the next one
+  Tick explores_until_ = 0;                  ///< at most
   std::vector<std::size_t> begun_;           ///< sections that this UAV inspects or has inspected
   bool ordered_ = false;                     ///< knows that its section is explored
 };
@@ -180,7 +184,8 @@ void XxhPlanner::fly(const PlannerInput& in, PlannerOutput& out) {
 }
 
 void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
-  region_index_ = std::min(index, crew_.regions().size());
+  const std::size_t count = crew_.regions().size(), all = config_.faithful ? count : kMostRounds * count;
+  region_index_ = std::min(index, all);
   talk_.new_map();
   solid_ = false;
   ordered_ = false;
@@ -190,10 +195,10 @@ void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
   begun_.clear();
   region_.reset();
   ways_.believe(nullptr);
-  if (region_index_ == crew_.regions().size()) return change(Stage::finished, in);
-  const XxhRegion& region = crew_.regions()[region_index_];
+  if (region_index_ == all) return change(Stage::finished, in);
+  const XxhRegion& region = crew_.regions()[region_index_ % count];
   if (region_index_ > 0) {
-    const XxhRegion& last = crew_.regions()[region_index_ - 1];
+    const XxhRegion& last = crew_.regions()[(region_index_ - 1) % count];
     came_from_W_ = far_end(last, in.boxes[last.box]);
   }
   const OrientedBox& whole = in.boxes[region.box];
@@ -268,16 +273,24 @@ void XxhPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
   explorer_.look_inwards(*region_, in, out);
   if (sortie_.looks_around(in.tick)) out.yaw = turn;
   if (!free_for_something(in)) return;
-  if (explorer_.finished()) return next_section(in);
+  if (explorer_.finished()) {
+    const bool tries_on = exploring_ && !config_.faithful && seconds(in.tick - stage_since_) < kGetsOutS;
+    if (tries_on && explorer_.got_nowhere()) {
+      return explorer_.begin(*region_, section_layers(explored_), in);
+    }
+    return next_section(in);
+  }
+  if (exploring_ && !config_.faithful && in.tick > explores_until_) return next_section(in);
   if (!explorer_.set_out(in, out)) recover(in, out);
 }
 
-/// Nothing could be reached: a moment for the map to grow and for others to pass; after many, back the way it came.
+/// Nothing could be reached: a moment for the map to grow and for others to pass; after many, back the way it came,
+/// but who explores has to go on from where it is (Sortie sees to that).
 void XxhPlanner::recover(const PlannerInput& in, PlannerOutput& out) {
   not_before_ = in.tick + ticks(stage_ == Stage::inspect ? kShortRestS : kRestS);
   if (ways_.fruitless() < kFruitlessToRetreat) return;
   ways_.start_anew();
-  sortie_.pilot().retreat(out);
+  if (stage_ != Stage::explore) sortie_.pilot().retreat(out);
 }
 
 /// The section that was explored may be inspected from now on; on to the next one.
@@ -285,6 +298,8 @@ void XxhPlanner::next_section(const PlannerInput& in) {
   if (exploring_) ++explored_;
   exploring_ = explored_ < crew_.size();
   if (!exploring_) return change(Stage::hand_over, in);
+  const double left_s = in.mission_remaining_s.value_or(agent_.duration_s);
+  explores_until_ = in.tick + ticks(kExploreShare * left_s / static_cast<double>(crew_.size() - explored_));
   explorer_.begin(*region_, section_layers(explored_), in);
 }
 
@@ -362,8 +377,8 @@ void XxhPlanner::regroup(const PlannerInput& in, PlannerOutput& out) {
 }
 
 void XxhPlanner::stay_at_post(const PlannerInput& in, PlannerOutput& out) {
-  sortie_.waits_for(crew_.awaited(in.tick), in, out);
-  if (post_.taken() || !free_for_something(in)) return;
+  if (post_.taken()) return sortie_.waits_for(crew_.awaited(in.tick), in, out);
+  if (!free_for_something(in)) return;
   if (!post_.take_beside(entry_W_, region_->box().center, crew_.rank(), in, out)) recover(in, out);
 }
 
