@@ -41,7 +41,9 @@ Situation Pilot::look_out(const PlannerInput& in, const FreeSpace::Config& space
   if (leaves_trail_) add_to_trail(in.tracking.setpoint.p_WB);
   const Situation traffic = give_way(in, space, may_detour, out);
   if (traffic != Situation::flying_on) return traffic;
-  if (obstacle_ahead(in, space)) {
+  const bool obstacle = obstacle_ahead(in, space);
+  sets_out_ = false;
+  if (obstacle) {
     stop(out);
     return Situation::obstacle;
   }
@@ -92,7 +94,7 @@ bool Pilot::go_around(const std::vector<Waypoint>& rest, const PlannerInput& in,
 }
 
 bool Pilot::obstacle_ahead(const PlannerInput& in, const FreeSpace::Config& space) const {
-  if (!space.use_map || in.k % kObstacleSteps != 0) return false;
+  if (!space.use_map || (in.k % kObstacleSteps != 0 && !sets_out_)) return false;
   const std::vector<Waypoint> rest = rest_of_path(in);
   if (rest.empty()) return false;
   // Whoever is too near to something already may still move away from it.
@@ -155,6 +157,7 @@ void Pilot::follow(Path path, const PlannerInput& in, PlannerOutput& out) {
 void Pilot::set_out(Path path, PlannerOutput& out) {
   path_ = std::move(path);
   paused_ = false;
+  sets_out_ = true;
   leaves_trail_ = true;
   out.motion = path_;
 }

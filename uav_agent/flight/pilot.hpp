@@ -91,8 +91,9 @@ class Pilot {
 
   const Config config_;
   Separation separation_;
-  Path path_;            ///< being flown, or to be taken up again after a pause
-  bool paused_ = false;  ///< gives way
+  Path path_;              ///< being flown, or to be taken up again after a pause
+  bool paused_ = false;    ///< gives way
+  bool sets_out_ = false;  ///< on a path at which it has not looked yet: no planner is trusted for a moment
   bool leaves_trail_ = true;
   std::optional<Vector3d> missed_W_;
   std::deque<Vector3d> trail_;     ///< where it was, a metre apart

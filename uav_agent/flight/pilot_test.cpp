@@ -35,7 +35,7 @@ class AlongAWall : public testing::Test {
     tracking.setpoint = setpoint;
     tracking.done = false;
     tracking.airborne = true;
-    const PlannerInput in{.k = 4,
+    const PlannerInput in{.k = k_,
                           .tick = 80,
                           .state = state,
                           .gimbal = {},
@@ -81,6 +81,7 @@ class AlongAWall : public testing::Test {
 
   const AgentConfig agent_ = one_uav();
   const Peers peers_{agent_};
+  std::uint64_t k_ = 4;
   std::vector<OrientedBox> boxes_;
   OccupancyMap map_ = wall_at(4.0F);
 };
@@ -99,6 +100,17 @@ TEST_F(AlongAWall, StopsWhenItIsOffItsSetpointAndNearer) {
 
 TEST_F(AlongAWall, MayLeaveAWallThatItIsTooNearTo) {
   EXPECT_EQ(judge(at({3.0, 5.0, 20.0}, {-1.0, 4.0, 0.0})), Situation::flying_on);
+}
+
+TEST_F(AlongAWall, WhoSetsOutTowardsTheWallIsStoppedInTheNextExchange) {
+  for (k_ = 4; k_ < 8; ++k_) {
+    Pilot pilot({}, agent_);
+    PlannerOutput sets_out, out;
+    const Setpoint setpoint{.p_WB = {1.0, 5.0, 20.0}};
+    const Path path{{{{10.0, 5.0, 20.0}, 2.0}}};
+    as_input(setpoint, {}, [&](const PlannerInput& in) { pilot.follow(path, in, sets_out); });
+    EXPECT_EQ(look(pilot, setpoint, at({1.0, 5.0, 20.0}, Vector3d::Zero()), out), Situation::obstacle) << k_;
+  }
 }
 
 TEST_F(AlongAWall, WhoIsStoppedStandsAlsoWhereItHasJustSetOut) {
