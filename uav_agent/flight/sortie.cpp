@@ -20,7 +20,7 @@ constexpr double kTurn = 0.8;                           ///< [rad]
 constexpr double kStirAfterS = 16.0, kStirEveryS = 4.0;
 constexpr int kMostStirred = 4;           ///< attempts that grow less careful
 constexpr double kLeastClearanceM = 0.7;  ///< of the body, when nothing else has helped
-constexpr double kWorthM = 3.0;  ///< nearer to where it wished to be
+constexpr double kWorthM = 3.0;           ///< nearer to where it wished to be
 constexpr int kApproachExpansions = 2000;
 constexpr double kWaitsS = 1.0;
 constexpr double kHoverM = 1.6;                      ///< above its start, to look up from

@@ -209,8 +209,8 @@ void KiosPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
       if (in.tracking.done && in.tick >= not_before_) next_lane(in, out);
       return;
     case Phase::wait:
-      patience_.is_over(in, *grid_, config_) ? rest(in.tick, out) : sortie_.waits_for(*agent_.first_explorer(), in, out);
-      return;
+      if (patience_.is_over(in, *grid_, config_)) return rest(in.tick, out);
+      return sortie_.waits_for(*agent_.first_explorer(), in, out);
     case Phase::decide:
       if (in.tick >= not_before_ && in.tracking.done) decide(in, out);
       return;

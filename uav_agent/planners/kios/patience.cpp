@@ -27,9 +27,4 @@ bool KiosPatience::is_over(const PlannerInput& in, const VoxelGrid& volume, cons
          seconds(in.tick - since_) > kWaitFactor * lanes_s + kWaitExtraS;
 }
 
-std::size_t KiosPatience::explorer() const {
-  const auto found = std::ranges::find(agent_.fleet, Role::explorer, &FleetMember::role);
-  return static_cast<std::size_t>(found - agent_.fleet.begin());
-}
-
 }  // namespace skein::agent

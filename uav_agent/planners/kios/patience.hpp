@@ -16,8 +16,6 @@ class KiosPatience {
   void begin(Tick now) { since_ = now; }
   /// Once per exchange of waiting.   @param volume  through which the lanes lead.
   bool is_over(const PlannerInput& in, const VoxelGrid& volume, const KiosConfig& config);
-  /// Whom it waits for; there must be one.
-  std::size_t explorer() const;
 
  private:
   const AgentConfig& agent_;

@@ -13,6 +13,7 @@ constexpr double kLiftM = 5.0;      ///< between the heights that are tried abov
 constexpr double kAboveM = 0.3;     ///< above the height below which space must have been seen
 constexpr int kShifts = 2;          ///< of a place, outwards
 constexpr double kShiftM = 4.0;
+constexpr double kGetsOutS = 30.0;     ///< of a corner from which no place of a section can be reached
 constexpr double kInwardsShare = 0.6;  ///< of the box: what the camera looks at
 
 /// The nearest place in a box, made smaller about its middle.
@@ -31,10 +32,26 @@ void XxhExplorer::stop() {
   got_nowhere_ = false;
 }
 
-void XxhExplorer::begin(const XxhRegionMap& region, const XxhRegionMap::Section& section, const PlannerInput& in) {
+void XxhExplorer::begin(const XxhRegionMap& region, const XxhRegionMap::Section& section, double at_most_s,
+                        const PlannerInput& in) {
+  section_ = section;
+  since_ = in.tick;
+  until_ = in.tick + ticks(at_most_s);
+  lay_out(region, in);
+}
+
+bool XxhExplorer::finished(const XxhRegionMap& region, const PlannerInput& in) {
+  if (!config_.faithful && in.tick > until_) stop();
+  if (!places_.empty() || !put_off_.empty()) return false;
+  if (config_.faithful || !got_nowhere_ || seconds(in.tick - since_) > kGetsOutS) return true;
+  lay_out(region, in);
+  return false;
+}
+
+void XxhExplorer::lay_out(const XxhRegionMap& region, const PlannerInput& in) {
   stop();
-  if (region.is_empty(section)) return;
-  for (Vector3d place : region.spiral(section, in.tracking.setpoint.p_WB, config_.faithful)) {
+  if (region.is_empty(section_)) return;
+  for (Vector3d place : region.spiral(section_, in.tracking.setpoint.p_WB, config_.faithful)) {
     const Vector3d out = place - nearest_in_box(region.box(), place, 1.0);
     const auto taken = [&] {
       return in.map.any_occupied_within(place, ways_.clearance_m()) ||

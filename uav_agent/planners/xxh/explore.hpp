@@ -19,11 +19,12 @@ class XxhExplorer {
   /// Both must outlive this.
   XxhExplorer(const XxhConfig& config, XxhWays& ways) : config_(config), ways_(ways) {}
 
-  void begin(const XxhRegionMap& region, const XxhRegionMap::Section& section, const PlannerInput& in);
+  /// @param at_most_s  to be spent on this section.
+  void begin(const XxhRegionMap& region, const XxhRegionMap::Section& section, double at_most_s,
+             const PlannerInput& in);
   void stop();
-  bool finished() const { return places_.empty() && put_off_.empty(); }
-  /// There were places in this section, and it came to none of them.
-  bool got_nowhere() const { return got_nowhere_; }
+  /// Been everywhere, or no time is left. Who came to no place at all begins again for a while.
+  bool finished(const XxhRegionMap& region, const PlannerInput& in);
 
   /// Once per exchange: turns camera and body inwards, and takes note of what was passed.
   void look_inwards(const XxhRegionMap& region, const PlannerInput& in, PlannerOutput& out);
@@ -33,14 +34,17 @@ class XxhExplorer {
   void give_up();
 
  private:
+  void lay_out(const XxhRegionMap& region, const PlannerInput& in);
   bool look_from_above(const Vector3d& place_W, const PlannerInput& in, PlannerOutput& out);
 
   const XxhConfig& config_;
   XxhWays& ways_;
-  std::deque<Vector3d> places_;             ///< what is left of the spiral
-  std::deque<Vector3d> put_off_;            ///< could not be reached yet
-  bool again_ = false;                      ///< has begun with those
-  bool got_nowhere_ = false;
+  std::deque<Vector3d> places_;   ///< what is left of the spiral
+  std::deque<Vector3d> put_off_;  ///< could not be reached yet
+  bool again_ = false;            ///< has begun with those
+  bool got_nowhere_ = false;      ///< there were places, and it came to none of them
+  XxhRegionMap::Section section_ = {};
+  Tick since_ = 0, until_ = 0;              ///< in this section
   std::optional<Vector3d> looked_down_at_;  ///< the last place that was looked at from above
 };
 

@@ -40,7 +40,6 @@ constexpr int kTries = 3;             ///< searches for a way in one exchange
 constexpr int kFruitlessToRetreat = 40;
 constexpr double kHandOverS = 25.0;     ///< to find somebody who has not heard its order
 constexpr double kExploreShare = 0.4;   ///< of the time left, for all sections together: others wait meanwhile
-constexpr double kGetsOutS = 30.0;      ///< of a corner from which no place of a section can be reached
 constexpr std::size_t kMostRounds = 8;  ///< through all regions: early ones may have found no way
 constexpr double kFreshS = 10.0;        ///< after a start in flight: others may know how far the team is
 
@@ -126,7 +125,6 @@ class XxhPlanner final : public Planner {
   Vector3d came_from_W_ = Vector3d::Zero();  ///< end of the region before
   std::size_t explored_ = 0;                 ///< sections
   bool exploring_ = false;                   ///< the next one
-  Tick explores_until_ = 0;                  ///< at most
   std::vector<std::size_t> begun_;           ///< sections that this UAV inspects or has inspected
   bool ordered_ = false;                     ///< knows that its section is explored
 };
@@ -273,14 +271,7 @@ void XxhPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
   explorer_.look_inwards(*region_, in, out);
   if (sortie_.looks_around(in.tick)) out.yaw = turn;
   if (!free_for_something(in)) return;
-  if (explorer_.finished()) {
-    const bool tries_on = exploring_ && !config_.faithful && seconds(in.tick - stage_since_) < kGetsOutS;
-    if (tries_on && explorer_.got_nowhere()) {
-      return explorer_.begin(*region_, section_layers(explored_), in);
-    }
-    return next_section(in);
-  }
-  if (exploring_ && !config_.faithful && in.tick > explores_until_) return next_section(in);
+  if (explorer_.finished(*region_, in)) return next_section(in);
   if (!explorer_.set_out(in, out)) recover(in, out);
 }
 
@@ -299,8 +290,8 @@ void XxhPlanner::next_section(const PlannerInput& in) {
   exploring_ = explored_ < crew_.size();
   if (!exploring_) return change(Stage::hand_over, in);
   const double left_s = in.mission_remaining_s.value_or(agent_.duration_s);
-  explores_until_ = in.tick + ticks(kExploreShare * left_s / static_cast<double>(crew_.size() - explored_));
-  explorer_.begin(*region_, section_layers(explored_), in);
+  const double at_most_s = kExploreShare * left_s / static_cast<double>(crew_.size() - explored_);
+  explorer_.begin(*region_, section_layers(explored_), at_most_s, in);
 }
 
 /// Everybody has to hear its order: back to the entry, where they wait.
