@@ -20,20 +20,17 @@ std::uint64_t hit_block_key(const Eigen::Vector3i& block) {
 }  // namespace
 
 bool HitBlocks::set(const Eigen::Vector3i& cell) {
-  if (const std::uint64_t key = hit_block_key(hit_block(cell)); last_ == nullptr || key != last_key_) {
-    last_ = &blocks_[key];
-    last_key_ = key;
-  }
-  if (*last_ & hit_bit(cell)) return false;
-  *last_ |= hit_bit(cell);
+  std::uint64_t& block = blocks_[hit_block_key(hit_block(cell))];
+  if (block & hit_bit(cell)) return false;
+  block |= hit_bit(cell);
   ++count_;
   return true;
 }
 
 bool HitBlocks::test(const Vector3d& p_W) const {
   const Eigen::Vector3i c = cell(p_W);
-  const auto it = blocks_.find(hit_block_key(hit_block(c)));
-  return it != blocks_.end() && (it->second & hit_bit(c));
+  const std::uint64_t* const block = blocks_.find(hit_block_key(hit_block(c)));
+  return block != nullptr && (*block & hit_bit(c));
 }
 
 std::optional<double> HitBlocks::nearest_squared(const Vector3d& p_W, double radius, bool any) const {
@@ -44,9 +41,9 @@ std::optional<double> HitBlocks::nearest_squared(const Vector3d& p_W, double rad
   for (int z = lo.z(); z <= hi.z(); ++z) {
     for (int y = lo.y(); y <= hi.y(); ++y) {
       for (int x = lo.x(); x <= hi.x(); ++x) {
-        const auto it = blocks_.find(hit_block_key({x, y, z}));
-        if (it == blocks_.end()) continue;
-        for (std::uint64_t bits = it->second; bits != 0; bits &= bits - 1) {
+        const std::uint64_t* const block = blocks_.find(hit_block_key({x, y, z}));
+        if (block == nullptr) continue;
+        for (std::uint64_t bits = *block; bits != 0; bits &= bits - 1) {
           const double d2 = (centre({x, y, z}, __builtin_ctzll(bits)) - p_W).squaredNorm();
           if (d2 > best) continue;
           best = d2;

@@ -5,17 +5,15 @@
 
 #include <cstdint>
 #include <optional>
-#include <unordered_map>
 
 #include "core/types.hpp"
+#include "uav_agent/maps/block_table.hpp"
 
 namespace skein::agent {
 
 class HitBlocks {
  public:
   explicit HitBlocks(double cell_m) : cell_m_(cell_m) {}
-  HitBlocks(const HitBlocks&) = delete;  // last_ points into it
-  HitBlocks& operator=(const HitBlocks&) = delete;
 
   /// @param cell  0 begins at 0 m.   @returns true when the cell was not set before.
   bool set(const Eigen::Vector3i& cell);
@@ -34,9 +32,7 @@ class HitBlocks {
   Vector3d centre(const Eigen::Vector3i& block, int bit) const;
 
   const double cell_m_;
-  std::unordered_map<std::uint64_t, std::uint64_t> blocks_;
-  std::uint64_t* last_ = nullptr;  ///< block that was set last: the next is most often the same
-  std::uint64_t last_key_ = 0;
+  BlockTable<std::uint64_t> blocks_;
   std::size_t count_ = 0;
 };
 

@@ -51,6 +51,16 @@ void set_free(octomap::OcTree& tree, const octomap::OcTreeKey& key, unsigned dep
   }
 }
 
+/// All below a node, in one walk: OctoMap's prune() takes one a level, and ends at the first that has nothing to prune.
+void prune(octomap::OcTree& tree, octomap::OcTreeNode* node) {
+  for (unsigned i = 0; i < kChildren; ++i) {
+    if (!tree.nodeChildExists(node, i)) continue;
+    octomap::OcTreeNode* const child = tree.getNodeChild(node, i);
+    if (tree.nodeHasChildren(child)) prune(tree, child);
+  }
+  tree.pruneNode(node);
+}
+
 /// Calls `use` with the middle of each cell of this size in a cube; of a cube that is smaller, with its own.
 template <class Use>
 void each_cell(const KnownCube& cube, double cell_m, const Use& use) {
@@ -92,7 +102,7 @@ bool KnownSpace::add_hit(const Vector3d& p_W) {
 
 PassedCells KnownSpace::passed_by_rays(const Vector3d& from_W, const std::vector<Vector3d>& to_W) const {
   PassedCells passed;
-  std::unordered_map<std::uint64_t, std::size_t> places;  // in `passed`, by block
+  BlockTable<std::size_t> places;  // in `passed`, by block; from 1 on
   for (const Vector3d& to : to_W) {
     if (!trees_->free.computeRayKeys(octomap_point(from_W), octomap_point(to), trees_->ray)) continue;
     PassedCells::Block* block = nullptr;
@@ -101,9 +111,12 @@ PassedCells KnownSpace::passed_by_rays(const Vector3d& from_W, const std::vector
       const RayBlocks::Cell cell = {key[0], key[1], key[2]};
       if (block == nullptr || RayBlocks::block_of(cell) != its_key) {
         its_key = RayBlocks::block_of(cell);
-        const auto [found, is_new] = places.try_emplace(its_key, passed.blocks.size());
-        if (is_new) passed.blocks.push_back({its_key, {}});
-        block = &passed.blocks[found->second].second;
+        std::size_t& place = places[its_key];
+        if (place == 0) {
+          passed.blocks.push_back({its_key, {}});
+          place = passed.blocks.size();
+        }
+        block = &passed.blocks[place - 1].second;
       }
       std::uint8_t& count = (*block)[RayBlocks::place_of(cell)];
       count = RayBlocks::counted(count + 1);
@@ -117,8 +130,13 @@ void KnownSpace::add_looks(const PassedCells& passed) { add(passed, looks_); }
 
 void KnownSpace::add(const PassedCells& passed, RayBlocks& counts) {
   counts.add(passed, [this](const RayBlocks::Cell& cell, int rays) {
-    trees_->free.updateNode(octomap::OcTreeKey(cell[0], cell[1], cell[2]), static_cast<float>(rays) * kRayLogOdds,
-                            true);
+    const octomap::OcTreeKey key(cell[0], cell[1], cell[2]);
+    const float more = static_cast<float>(rays) * kRayLogOdds;
+    if (octomap::OcTreeNode* const leaf = trees_->free.search(key)) {
+      trees_->free.updateNodeLogOdds(leaf, more);
+    } else {
+      trees_->free.updateNode(key, more, true);
+    }
   });
 }
 
@@ -178,8 +196,7 @@ octomap::OcTree KnownSpace::Trees::joined(int rays) const {
     if (rays_of(*leaf) < rays || !tree.coordToKeyChecked(leaf.getCoordinate(), key)) continue;
     set_free(tree, key, tree.getTreeDepth() - finer);
   }
-  tree.updateInnerOccupancy();
-  tree.prune();
+  if (tree.getRoot() != nullptr) prune(tree, tree.getRoot());
   return tree;
 }
 
