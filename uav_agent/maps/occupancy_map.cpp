@@ -51,9 +51,10 @@ OccupancyMap::~OccupancyMap() = default;
 OccupancyMap::OccupancyMap(OccupancyMap&&) noexcept = default;
 OccupancyMap& OccupancyMap::operator=(OccupancyMap&&) noexcept = default;
 
-PassedCells OccupancyMap::trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const {
+FrameCells OccupancyMap::trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const {
   const Config& config = impl_->config;
-  if (!p_WS) return {};
+  FrameCells frame{impl_->known.cells_of_hits(hits_W, config.ground_m), {}};
+  if (!p_WS) return frame;
   std::vector<Vector3d> ends_W;
   const std::size_t stride = std::max<std::size_t>(1, hits_W.size() / std::max(1, config.max_free_rays));
   for (std::size_t i = 0; i < hits_W.size(); i += stride) {
@@ -63,22 +64,17 @@ PassedCells OccupancyMap::trace(const std::vector<Eigen::Vector3f>& hits_W, cons
     if (length <= 0.0) continue;
     ends_W.push_back(*p_WS + to_hit.normalized() * length);
   }
-  return impl_->known.passed_by_rays(*p_WS, ends_W);
+  frame.passed = impl_->known.passed_by_rays(*p_WS, ends_W);
+  return frame;
 }
 
 void OccupancyMap::insert(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) {
-  insert(hits_W, trace(hits_W, p_WS));
+  insert(trace(hits_W, p_WS));
 }
 
-void OccupancyMap::insert(const std::vector<Eigen::Vector3f>& hits_W, const PassedCells& passed) {
-  bool changed = false;
-  for (const Eigen::Vector3f& hit : hits_W) {
-    const Vector3d p = hit.cast<double>();
-    if (p.z() < impl_->config.ground_m) continue;
-    changed |= impl_->known.add_hit(p);
-  }
-  if (changed) ++impl_->revision;
-  impl_->known.add_rays(passed);
+void OccupancyMap::insert(const FrameCells& frame) {
+  if (impl_->known.add_hits(frame.hits)) ++impl_->revision;
+  impl_->known.add_rays(frame.passed);
   ++impl_->key_frames;
 }
 
