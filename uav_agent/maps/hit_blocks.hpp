@@ -38,7 +38,14 @@ class HitBlocks {
  private:
   using Region = std::array<std::uint64_t, 64>;
 
-  Eigen::Vector3i cell(const Vector3d& p_W) const { return (p_W / cell_m_).array().floor().matrix().cast<int>(); }
+  /// Rounded down by hand: floor() is a call on the processors that we build for, and most of a question.
+  Eigen::Vector3i cell(const Vector3d& p_W) const {
+    const auto down = [](double along) {
+      const int whole = static_cast<int>(along);
+      return whole - static_cast<int>(whole > along);
+    };
+    return {down(p_W.x() / cell_m_), down(p_W.y() / cell_m_), down(p_W.z() / cell_m_)};
+  }
   Vector3d centre(const Eigen::Vector3i& block, int bit) const;
 
   const double cell_m_;
