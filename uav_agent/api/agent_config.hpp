@@ -30,6 +30,8 @@ struct AgentConfig {
   Vector3d station_position = Vector3d::Zero();
 
   const FleetMember& me() const { return fleet.at(self); }
+  /// Whether nobody in it has a LiDAR: nobody will ever see what is there.
+  bool blind_fleet() const { return std::ranges::find(fleet, Role::explorer, &FleetMember::role) == fleet.end(); }
   /// Whether something that is done every `every_s` falls into exchange k; whoever has another `offset` does it in
   /// another one, so that not all do it at once.
   bool due(std::uint64_t k, double every_s, std::size_t offset) const {

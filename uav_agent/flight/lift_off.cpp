@@ -29,12 +29,11 @@ double lift_off_height_m(const AgentConfig& agent, const std::vector<OrientedBox
   const double layer = kClimbLayerM * static_cast<double>(agent.fleet.size() - 1 - agent.self);
   double height = kLowestHeightM + layer;
   if (!boxes.empty()) height = std::max(height, blind_m + 1.0 + layer);
-  const bool sees = std::ranges::any_of(agent.fleet, [](const auto& uav) { return uav.role == Role::explorer; });
   for (const OrientedBox& box : boxes) {
     const double bottom = box.center.z() - (box.R_WO.cwiseAbs() * (0.5 * box.size)).z();
     const double below = bottom - agent.me().body_radius_m - clearance_m;
     const Vector3d beside(p_WB.x(), p_WB.y(), box.center.z());
-    const bool under = !sees && box.contains(beside, 1.0) && bottom > p_WB.z();
+    const bool under = agent.blind_fleet() && box.contains(beside, 1.0) && bottom > p_WB.z();
     if (under) height = std::min(height, std::max(below, p_WB.z() + kLowestHeightM));
     // Inside a roomy one nothing is known of the space around; above it there is nothing.
     const bool inside = is_roomy(box) && !under && box.contains(beside, kRoomyAsideM);
@@ -52,8 +51,8 @@ double open_height_m(const AgentConfig& agent, const std::vector<OrientedBox>& b
   column.blind_height_m = roof_m;
   const FreeSpace below_roofs(column, boxes, map);
   double open_m = from_W.z();
-  for (double z = from_W.z(); z < wanted_m; z = std::min(wanted_m, z + kStepM)) {
-    const Vector3d p_W(from_W.x(), from_W.y(), std::min(wanted_m, z + kStepM));
+  while (open_m < wanted_m) {
+    const Vector3d p_W(from_W.x(), from_W.y(), std::min(wanted_m, open_m + kStepM));
     const bool standing = p_W.z() < ground_m + kStandingM;
     if (!standing && !(in_boxes.free(p_W) && below_roofs.free(p_W))) break;
     open_m = p_W.z();

@@ -143,6 +143,7 @@ bool Pilot::retreat(PlannerOutput& out, bool leave_trail) {
 }
 
 void Pilot::follow(Path path, const PlannerInput& in, PlannerOutput& out) {
+  out.no_way.clear();
   slow_down_where_little_was_seen(in, path);
   set_out(std::move(path), out);
 }
@@ -185,16 +186,17 @@ std::string Way::why() const {
   return "the goal is " + std::string(to_string(at_goal));
 }
 
+Way tell_no_way(const Vector3d& goal, const FreeSpace& space, PlannerOutput& out, bool gave_up) {
+  const Way none{.found = false, .at_goal = space.barrier(goal), .gave_up = gave_up};
+  out.no_way = none.why();
+  return none;
+}
+
 Way Pilot::fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
   const FreeSpace free_space = way_space(in, space, goal);
   bool gave_up = false;
   const auto corners = find_path(free_space, in.boxes, in.tracking.setpoint.p_WB, goal, {}, &gave_up);
-  if (!corners) {
-    const Way none{.found = false, .at_goal = free_space.barrier(goal), .gave_up = gave_up};
-    out.no_way = none.why();
-    return none;
-  }
-  out.no_way.clear();
+  if (!corners) return tell_no_way(goal, free_space, out, gave_up);
   Path path;
   for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.speed_mps});
   follow(std::move(path), in, out);

@@ -29,8 +29,7 @@ Site site_of(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, do
   Site site;
   site.top_m = top_of(boxes);
   site.roomy = std::ranges::any_of(boxes, is_roomy);
-  site.blind_fleet =
-      std::ranges::none_of(agent.fleet, [](const FleetMember& uav) { return uav.role == Role::explorer; });
+  site.blind_fleet = agent.blind_fleet();
   if (site.blind_fleet) {
     site.lowest_m = kBlindFloorRatio * site.top_m;
   } else {

@@ -66,6 +66,10 @@ void Sortie::waits_for(std::size_t uav, const PlannerInput& in, PlannerOutput& o
 void Sortie::look_around(const PlannerInput& in, PlannerOutput& out) {
   if (agent_.me().role != Role::explorer || !in.tracking.done || in.tick < turn_at_) return;
   if (watch_.still_s(in.tick) < kTurnAfterS) return;
+  turn(in, out);
+}
+
+void Sortie::turn(const PlannerInput& in, PlannerOutput& out) {
   out.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
   turn_at_ = in.tick + ticks(kTurnEveryS);
 }
@@ -102,7 +106,7 @@ Sortie::Turn Sortie::leave_ground(const PlannerInput& in, PlannerOutput& out) {
   if (!pilot_.may_lift_off(in)) return Turn::nothing;
   state_ = State::climbing;
   ground_m_ = p.z();
-  knows_above_ = std::ranges::none_of(agent_.fleet, [](const auto& uav) { return uav.role == Role::explorer; });
+  knows_above_ = agent_.blind_fleet();
   climb_to_ = {p.x(), p.y(), lift_off_height_m(agent_, in.boxes, p, blind_height_m_, config_.clearance_m)};
   out.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
   return climb(in, out);
@@ -154,8 +158,7 @@ void Sortie::look_up(const PlannerInput& in, PlannerOutput& out) {
     looks_since_ = in.tick;
     rise(hover_m, in, out);
   } else if (sees && in.tick >= turn_at_) {
-    out.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
-    turn_at_ = in.tick + ticks(kTurnEveryS);
+    turn(in, out);
   }
 }
 

@@ -339,10 +339,9 @@ bool KiosPlanner::fly_to(const KiosStop& stop, const FreeSpace& space, bool fine
   const auto corners = finely ? find_path(space, in.boxes, here, stop.p_WB)
                               : find_voxel_route(*grid_, space, here, stop.p_WB, talk_.claimed(in.tick));
   if (!corners) {
-    out.no_way = Way{.found = false, .at_goal = space.barrier(stop.p_WB)}.why();
+    tell_no_way(stop.p_WB, space, out);
     return false;
   }
-  out.no_way.clear();
   Path path;
   for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.transit_mps});
   sortie_.pilot().follow(std::move(path), in, out);

@@ -356,10 +356,9 @@ bool StarPlanner::fly_through(const std::vector<Vector3d>& places_W, double spee
   auto path = star_way(known_->grid(), space, in.boxes, in.tracking.setpoint.p_WB, places_W, speed_mps,
                        {config_.round_m, config_.horizon_m, config_.transit_mps});
   if (!path) {
-    out.no_way = Way{.found = false, .at_goal = space.barrier(places_W.front())}.why();
+    tell_no_way(places_W.front(), space, out);
     return false;
   }
-  out.no_way.clear();
   sortie_.pilot().follow(std::move(*path), in, out);
   return true;
 }

@@ -60,11 +60,10 @@ bool XxhWays::fly_along(const std::vector<Vector3d>& places_W, double slow_mps, 
   auto corners = find(in, places_W.front());
   if (!corners) {
     ++fruitless_;
-    out.no_way = Way{.found = false, .at_goal = space_for_way(in, places_W.front()).barrier(places_W.front())}.why();
+    tell_no_way(places_W.front(), space_for_way(in, places_W.front()), out);
     return false;
   }
   fruitless_ = 0;
-  out.no_way.clear();
   Path path;
   Vector3d at = in.tracking.setpoint.p_WB;
   double speed = path_length(at, *corners) > kLongWayM ? std::max(slow_mps, config_.transit_mps) : slow_mps;
