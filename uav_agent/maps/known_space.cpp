@@ -66,6 +66,37 @@ octomap::OcTreeKey key_of(const Eigen::Vector3i& cell) {
   return {along(0), along(1), along(2)};
 }
 
+/// Visits cells in the order of OctoMap's leaf_bbx_iterator, in much less time.
+template <class Visit>
+class LeavesInBox {
+ public:
+  /// @param lowest, highest  cells at two corners, themselves included.
+  LeavesInBox(const octomap::OcTree& tree, const octomap::OcTreeKey& lowest, const octomap::OcTreeKey& highest,
+              const Visit& visit)
+      : tree_(tree), lowest_(lowest), highest_(highest), visit_(visit) {}
+
+  /// @param first  cell of the node, the lowest on each axis.
+  void below(const octomap::OcTreeNode* node, const octomap::OcTreeKey& first, unsigned depth) const {
+    if (depth == tree_.getTreeDepth()) return visit_(first);
+    const unsigned half = 1U << (tree_.getTreeDepth() - depth - 1);
+    for (unsigned i = 0; i < kChildren; ++i) {
+      if (!tree_.nodeChildExists(node, i)) continue;
+      octomap::OcTreeKey key = first;
+      bool inside = true;
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        key[axis] = static_cast<octomap::key_type>(key[axis] + (i >> axis & 1U) * half);
+        inside = inside && key[axis] <= highest_[axis] && key[axis] + half > lowest_[axis];
+      }
+      if (inside) below(tree_.getNodeChild(node, i), key, depth + 1);
+    }
+  }
+
+ private:
+  const octomap::OcTree& tree_;
+  const octomap::OcTreeKey lowest_, highest_;
+  const Visit& visit_;
+};
+
 /// Hits and free space in one tree, as small as it gets, in OctoMap's binary serialisation: of each inner node two
 /// bytes, two bits a child, before those of its children.
 class JoinedTree {
@@ -269,10 +300,14 @@ int KnownSpace::rays_at(const Vector3d& p_W, Evidence evidence) const {
 void KnownSpace::visit_hits(const Vector3d& lowest_W, const Vector3d& highest_W,
                             const std::function<void(const Vector3d&)>& visit) const {
   const octomap::OcTree& tree = trees_->hits;
-  const auto end = tree.end_leafs_bbx();
-  for (auto leaf = tree.begin_leafs_bbx(octomap_point(lowest_W), octomap_point(highest_W)); leaf != end; ++leaf) {
-    visit({leaf.getX(), leaf.getY(), leaf.getZ()});
+  octomap::OcTreeKey lowest, highest;
+  if (tree.getRoot() == nullptr || !tree.coordToKeyChecked(octomap_point(lowest_W), lowest) ||
+      !tree.coordToKeyChecked(octomap_point(highest_W), highest)) {
+    return;
   }
+  LeavesInBox(tree, lowest, highest, [&](const octomap::OcTreeKey& key) {
+    visit({tree.keyToCoord(key[0]), tree.keyToCoord(key[1]), tree.keyToCoord(key[2])});
+  }).below(tree.getRoot(), {0, 0, 0}, 0);
 }
 
 void KnownSpace::visit_free(const std::function<void(const RayBlocks::Cell&, int)>& visit) const {

@@ -80,6 +80,28 @@ TEST_P(DrawnSpace, IndexesAreWhatTheTreesMakeOfThem) {
   for (int passed = 1; passed <= 6; ++passed) EXPECT_TRUE(counts.contains(passed)) << passed;
 }
 
+TEST_P(DrawnSpace, HitsInABoxComeAsOctoMapWalksThroughThem) {
+  const auto tree = read_back(space_.octomap_file(kCountedRays + 1));
+  tree->expand();
+  const auto point = [](const Vector3d& p_W) {
+    const Eigen::Vector3f p = p_W.cast<float>();
+    return octomap::point3d(p.x(), p.y(), p.z());
+  };
+  std::size_t seen = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d a_W = drawn(random_, 28.0), b_W = drawn(random_, 28.0);
+    const Vector3d lowest_W = a_W.cwiseMin(b_W), highest_W = a_W.cwiseMax(b_W);
+    std::vector<Vector3d> wanted, told;
+    for (auto leaf = tree->begin_leafs_bbx(point(lowest_W), point(highest_W)); leaf != tree->end_leafs_bbx(); ++leaf) {
+      wanted.push_back({leaf.getX(), leaf.getY(), leaf.getZ()});
+    }
+    space_.visit_hits(lowest_W, highest_W, [&](const Vector3d& p_W) { told.push_back(p_W); });
+    ASSERT_EQ(told, wanted);
+    seen += told.size();
+  }
+  EXPECT_GT(seen, 1000U);
+}
+
 TEST_P(DrawnSpace, OctoMapReadsWhatIsKnown) {
   for (const int rays : {1, 3, 6}) {
     const auto tree = read_back(space_.octomap_file(rays));
