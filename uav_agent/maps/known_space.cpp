@@ -66,7 +66,7 @@ octomap::OcTreeKey key_of(const Eigen::Vector3i& cell) {
   return {along(0), along(1), along(2)};
 }
 
-/// Visits cells in the order of OctoMap's leaf_bbx_iterator, in much less time.
+/// Visits cells in the order of OctoMap's leaf_bbx_iterator, in less time.
 template <class Visit>
 class LeavesInBox {
  public:
