@@ -113,9 +113,9 @@ TEST_F(FlownMaps, AnswerEveryQuestionAsAPlainMapDoes) {
         std::vector<Eigen::Vector3f> points_W;
         for (const ScanPoint& p : from_cloud<ScanPoint>(cloud)) points_W.emplace_back(p.x, p.y, p.z);
         const std::vector<Eigen::Vector3f> hits_W = filter.thinned(filter.sound(points_W, agent::KnownBodies({})));
-        const agent::PassedCells passed = map.trace(hits_W, at_W.at(uav));
-        map.insert(hits_W, passed);
-        plain.insert(hits_W, passed);
+        const agent::FrameCells cells = map.trace(hits_W, at_W.at(uav));
+        map.insert(cells);
+        plain.insert(hits_W, cells.passed);
         for (std::size_t i = 0; i < hits_W.size(); i += 10) places.push_back(hits_W[i].cast<double>());
         places.push_back(at_W.at(uav));
       });

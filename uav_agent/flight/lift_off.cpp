@@ -51,8 +51,8 @@ double open_height_m(const AgentConfig& agent, const std::vector<OrientedBox>& b
   column.blind_height_m = roof_m;
   const FreeSpace below_roofs(column, boxes, map);
   double open_m = from_W.z();
-  for (double z = from_W.z(); z < wanted_m; z = std::min(wanted_m, z + kStepM)) {
-    const Vector3d p_W(from_W.x(), from_W.y(), std::min(wanted_m, z + kStepM));
+  while (open_m < wanted_m) {
+    const Vector3d p_W(from_W.x(), from_W.y(), std::min(wanted_m, open_m + kStepM));
     const bool standing = p_W.z() < ground_m + kStandingM;
     if (!standing && !(in_boxes.free(p_W) && below_roofs.free(p_W))) break;
     open_m = p_W.z();

@@ -51,6 +51,7 @@ class Pilot {
   /// @param may_detour  false: does not leave its path for another UAV (a climb), but is crowded at once.
   Situation look_out(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour, PlannerOutput& out);
 
+  /// There is a way, then, whatever was told of others in this exchange.
   void follow(Path path, const PlannerInput& in, PlannerOutput& out);
   /// Along a path that it finds itself. If there is none, or none was found in time, it does nothing and says why.
   Way fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);

@@ -151,10 +151,13 @@ TEST_F(AlongAWall, SaysWhyThereIsNoWay) {
     EXPECT_FALSE(way);
     EXPECT_EQ(way.at_goal, barrier) << to_string(way.at_goal);
     EXPECT_NE(way.why().find(to_string(barrier)), std::string::npos) << way.why();
+    EXPECT_EQ(out.no_way, way.why());
     EXPECT_TRUE(std::holds_alternative<std::monostate>(out.motion)) << "and does nothing";
   }
   PlannerOutput out;
+  EXPECT_FALSE(fly_to(box.center, {box}, out));
   const Way way = fly_to({-10.0, 20.0, 20.0}, {box}, out);
+  EXPECT_EQ(out.no_way, "") << "there was another way";
   EXPECT_TRUE(way) << way.why();
   EXPECT_TRUE(std::holds_alternative<Path>(out.motion));
 }

@@ -69,6 +69,10 @@ void Sortie::waits_for(std::size_t uav, const PlannerInput& in, PlannerOutput& o
 void Sortie::look_around(const PlannerInput& in, PlannerOutput& out) {
   if (agent_.me().role != Role::explorer || !in.tracking.done || in.tick < turn_at_) return;
   if (watch_.still_s(in.tick) < kTurnAfterS) return;
+  turn(in, out);
+}
+
+void Sortie::turn(const PlannerInput& in, PlannerOutput& out) {
   out.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
   turn_at_ = in.tick + ticks(kTurnEveryS);
 }
@@ -165,8 +169,7 @@ void Sortie::look_up(const PlannerInput& in, PlannerOutput& out) {
     looks_since_ = in.tick;
     rise(hover_m, in, out);
   } else if (sees && in.tick >= turn_at_) {
-    out.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
-    turn_at_ = in.tick + ticks(kTurnEveryS);
+    turn(in, out);
   } else if (!sees) {
     waits_for(*agent_.first_explorer(), in, out);
   }

@@ -75,6 +75,7 @@ class Sortie {
   void look_up(const PlannerInput& in, PlannerOutput& out);
   Turn begin_work();
   void look_around(const PlannerInput& in, PlannerOutput& out);
+  void turn(const PlannerInput& in, PlannerOutput& out);
   bool stir(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
   Turn react(const PlannerInput& in, PlannerOutput& out);
 

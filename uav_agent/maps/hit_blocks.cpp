@@ -1,61 +1,70 @@
 #include "uav_agent/maps/hit_blocks.hpp"
 
+#include <bit>
+
 namespace skein::agent {
 namespace {
 
 constexpr int kHitBlockEdge = 4;
 
-Eigen::Vector3i hit_block(const Eigen::Vector3i& cell) { return {cell.x() >> 2, cell.y() >> 2, cell.z() >> 2}; }
-
-std::uint64_t hit_bit(const Eigen::Vector3i& cell) {
-  return std::uint64_t{1} << ((cell.x() & 3) | (cell.y() & 3) << 2 | (cell.z() & 3) << 4);
+/// What a block is to its cells, a region is to its blocks.
+std::uint64_t region_key(const Eigen::Vector3i& block) {
+  constexpr std::uint64_t kMask = (1U << 21) - 1;
+  const Eigen::Vector3i region = HitBlocks::block_of(block);
+  return (static_cast<std::uint64_t>(region.x()) & kMask) | (static_cast<std::uint64_t>(region.y()) & kMask) << 21 |
+         (static_cast<std::uint64_t>(region.z()) & kMask) << 42;
 }
 
-std::uint64_t hit_block_key(const Eigen::Vector3i& block) {
-  constexpr std::uint64_t kMask = (1U << 21) - 1;
-  return (static_cast<std::uint64_t>(block.x()) & kMask) | (static_cast<std::uint64_t>(block.y()) & kMask) << 21 |
-         (static_cast<std::uint64_t>(block.z()) & kMask) << 42;
+/// Calls `use` with each first place from lo to hi of a region along one axis, and with the last one of that region.
+template <class Use>
+void each_region(int lo, int hi, const Use& use) {
+  for (int from = lo; from <= hi; from = (from | (kHitBlockEdge - 1)) + 1) {
+    use(from, std::min(hi, from | (kHitBlockEdge - 1)));
+  }
 }
 
 }  // namespace
 
-bool HitBlocks::set(const Eigen::Vector3i& cell) {
-  if (const std::uint64_t key = hit_block_key(hit_block(cell)); last_ == nullptr || key != last_key_) {
-    last_ = &blocks_[key];
-    last_key_ = key;
-  }
-  if (*last_ & hit_bit(cell)) return false;
-  *last_ |= hit_bit(cell);
-  ++count_;
-  return true;
+std::uint64_t HitBlocks::add(const Eigen::Vector3i& block, std::uint64_t cells) {
+  std::uint64_t& known = regions_[region_key(block)][place_of(block)];
+  const std::uint64_t news = cells & ~known;
+  known |= cells;
+  count_ += static_cast<std::size_t>(std::popcount(news));
+  return news;
 }
 
 bool HitBlocks::test(const Vector3d& p_W) const {
-  const Eigen::Vector3i c = cell(p_W);
-  const auto it = blocks_.find(hit_block_key(hit_block(c)));
-  return it != blocks_.end() && (it->second & hit_bit(c));
+  const Eigen::Vector3i c = cell(p_W), block = block_of(c);
+  const Region* const region = regions_.find(region_key(block));
+  return region != nullptr && ((*region)[place_of(block)] >> place_of(c) & 1U) != 0;
 }
 
 std::optional<double> HitBlocks::nearest_squared(const Vector3d& p_W, double radius, bool any) const {
   double best = radius * radius;
   bool found = false;
-  const Eigen::Vector3i lo = hit_block(cell(p_W - Vector3d::Constant(radius)));
-  const Eigen::Vector3i hi = hit_block(cell(p_W + Vector3d::Constant(radius)));
-  for (int z = lo.z(); z <= hi.z(); ++z) {
-    for (int y = lo.y(); y <= hi.y(); ++y) {
-      for (int x = lo.x(); x <= hi.x(); ++x) {
-        const auto it = blocks_.find(hit_block_key({x, y, z}));
-        if (it == blocks_.end()) continue;
-        for (std::uint64_t bits = it->second; bits != 0; bits &= bits - 1) {
-          const double d2 = (centre({x, y, z}, __builtin_ctzll(bits)) - p_W).squaredNorm();
-          if (d2 > best) continue;
-          best = d2;
-          found = true;
-          if (any) return best;
-        }
-      }
+  const Eigen::Vector3i lo = block_of(cell(p_W - Vector3d::Constant(radius)));
+  const Eigen::Vector3i hi = block_of(cell(p_W + Vector3d::Constant(radius)));
+  const auto look_at = [&](const Region& region, const Eigen::Vector3i& block) {
+    for (std::uint64_t bits = region[place_of(block)]; bits != 0 && !(any && found); bits &= bits - 1) {
+      const double d2 = (centre(block, std::countr_zero(bits)) - p_W).squaredNorm();
+      if (d2 > best) continue;
+      best = d2;
+      found = true;
     }
-  }
+  };
+  each_region(lo.z(), hi.z(), [&](int z_from, int z_to) {
+    each_region(lo.y(), hi.y(), [&](int y_from, int y_to) {
+      each_region(lo.x(), hi.x(), [&](int x_from, int x_to) {
+        const Region* const region = any && found ? nullptr : regions_.find(region_key({x_from, y_from, z_from}));
+        if (region == nullptr) return;
+        for (int z = z_from; z <= z_to; ++z) {
+          for (int y = y_from; y <= y_to; ++y) {
+            for (int x = x_from; x <= x_to; ++x) look_at(*region, {x, y, z});
+          }
+        }
+      });
+    });
+  });
   return found ? std::optional(best) : std::nullopt;
 }
 

@@ -1,24 +1,30 @@
-// An index of occupied cells, for questions of distance: one bit a cell, in blocks of 4 x 4 x 4 cells found by hash.
-// Only ever looked up, never walked through.
+// An index of occupied cells, for questions of distance: one bit a cell, in blocks of 4 x 4 x 4 cells, 4 x 4 x 4 blocks
+// in a region, regions found by hash. Only ever looked up, never walked through.
 // Frame W.   Units: metres.   Threads: one.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
-#include <unordered_map>
 
 #include "core/types.hpp"
+#include "uav_agent/maps/block_table.hpp"
 
 namespace skein::agent {
 
 class HitBlocks {
  public:
   explicit HitBlocks(double cell_m) : cell_m_(cell_m) {}
-  HitBlocks(const HitBlocks&) = delete;  // last_ points into it
-  HitBlocks& operator=(const HitBlocks&) = delete;
 
-  /// @param cell  0 begins at 0 m.   @returns true when the cell was not set before.
-  bool set(const Eigen::Vector3i& cell);
+  /// Block (0, 0, 0) begins with cell (0, 0, 0), and that at 0 m.
+  static Eigen::Vector3i block_of(const Eigen::Vector3i& cell) { return {cell.x() >> 2, cell.y() >> 2, cell.z() >> 2}; }
+  /// Of a cell in its block, 0 to 63.
+  static unsigned place_of(const Eigen::Vector3i& cell) {
+    return static_cast<unsigned>((cell.x() & 3) | (cell.y() & 3) << 2 | (cell.z() & 3) << 4);
+  }
+
+  /// @param cells  bits of a block, by place_of().   @returns those that were not set before.
+  std::uint64_t add(const Eigen::Vector3i& block, std::uint64_t cells);
   bool test(const Vector3d& p_W) const;
   std::size_t count() const { return count_; }
 
@@ -27,16 +33,23 @@ class HitBlocks {
   std::optional<double> nearest_squared(const Vector3d& p_W, double radius, bool any) const;
 
   /// Whether both hold the same cells.
-  bool operator==(const HitBlocks& other) const { return cell_m_ == other.cell_m_ && blocks_ == other.blocks_; }
+  bool operator==(const HitBlocks& other) const { return cell_m_ == other.cell_m_ && regions_ == other.regions_; }
 
  private:
-  Eigen::Vector3i cell(const Vector3d& p_W) const { return (p_W / cell_m_).array().floor().matrix().cast<int>(); }
+  using Region = std::array<std::uint64_t, 64>;
+
+  /// Rounded down by hand: floor() is a call on the processors that we build for, and most of a question.
+  Eigen::Vector3i cell(const Vector3d& p_W) const {
+    const auto down = [](double along) {
+      const int whole = static_cast<int>(along);
+      return whole - static_cast<int>(whole > along);
+    };
+    return {down(p_W.x() / cell_m_), down(p_W.y() / cell_m_), down(p_W.z() / cell_m_)};
+  }
   Vector3d centre(const Eigen::Vector3i& block, int bit) const;
 
   const double cell_m_;
-  std::unordered_map<std::uint64_t, std::uint64_t> blocks_;
-  std::uint64_t* last_ = nullptr;  ///< block that was set last: the next is most often the same
-  std::uint64_t last_key_ = 0;
+  BlockTable<Region> regions_;
   std::size_t count_ = 0;
 };
 

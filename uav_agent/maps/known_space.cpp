@@ -3,6 +3,8 @@
 #include <octomap/OcTree.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -12,7 +14,8 @@ namespace {
 
 constexpr float kRayLogOdds = -0.125F;  ///< of a cell being occupied, for each ray that passed it; sums are exact
 constexpr int kKeyOfOrigin = 1 << 15;   ///< OctoMap's number of the cell that begins at 0
-constexpr std::size_t kChildren = 8;
+constexpr unsigned kChildren = 8;
+constexpr unsigned kBlockLevels = 2;  ///< from a block of 4 x 4 x 4 cells down to a cell
 
 octomap::point3d octomap_point(const Vector3d& p_W) {
   return {static_cast<float>(p_W.x()), static_cast<float>(p_W.y()), static_cast<float>(p_W.z())};
@@ -22,33 +25,24 @@ int rays_of(const octomap::OcTreeNode& free_cell) {
   return static_cast<int>(std::lround(free_cell.getLogOdds() / kRayLogOdds));
 }
 
-/// Whatever is not there below a node becomes free.
-void fill_with_free(octomap::OcTree& tree, octomap::OcTreeNode* node, unsigned depth) {
-  if (depth == tree.getTreeDepth()) return;
-  for (unsigned i = 0; i < kChildren; ++i) {
-    if (tree.nodeChildExists(node, i)) {
-      fill_with_free(tree, tree.getNodeChild(node, i), depth + 1);
-    } else {
-      tree.createNodeChild(node, i)->setLogOdds(tree.getClampingThresMinLog());
-    }
+/// From a node of one depth to that of another on the way to a cell, made if it is not there.
+octomap::OcTreeNode* grown(octomap::OcTree& tree, octomap::OcTreeNode* node, const octomap::OcTreeKey& key,
+                           unsigned from, unsigned to) {
+  for (unsigned depth = from; depth < to; ++depth) {
+    const unsigned child = octomap::computeChildIdx(key, static_cast<int>(tree.getTreeDepth() - 1 - depth));
+    node = tree.nodeChildExists(node, child) ? tree.getNodeChild(node, child) : tree.createNodeChild(node, child);
   }
+  return node;
 }
 
-/// Makes the cube of `depth` that holds the cell `key` free, but for what is occupied in it.
-void set_free(octomap::OcTree& tree, const octomap::OcTreeKey& key, unsigned depth) {
-  if (tree.getRoot() == nullptr) tree.setNodeValue(key, tree.getClampingThresMinLog(), true);
-  octomap::OcTreeNode* node = tree.getRoot();
-  bool is_new = false;
-  for (unsigned above = 0; above < depth; ++above) {
-    const unsigned child = octomap::computeChildIdx(key, static_cast<int>(tree.getTreeDepth() - 1 - above));
-    is_new = !tree.nodeChildExists(node, child);
-    node = is_new ? tree.createNodeChild(node, child) : tree.getNodeChild(node, child);
-  }
-  if (is_new) {
-    node->setLogOdds(tree.getClampingThresMinLog());
-  } else {
-    fill_with_free(tree, node, depth);
-  }
+/// Of the block that a cell is in: the way there is long, and frames bring many cells of a block.
+octomap::OcTreeNode* block_node(octomap::OcTree& tree, const octomap::OcTreeKey& key) {
+  if (tree.getRoot() == nullptr) tree.setNodeValue(key, 0.0F, true);
+  return grown(tree, tree.getRoot(), key, 0, tree.getTreeDepth() - kBlockLevels);
+}
+
+octomap::OcTreeNode* cell_node(octomap::OcTree& tree, octomap::OcTreeNode* block, const octomap::OcTreeKey& key) {
+  return grown(tree, block, key, tree.getTreeDepth() - kBlockLevels, tree.getTreeDepth());
 }
 
 /// Calls `use` with the middle of each cell of this size in a cube; of a cube that is smaller, with its own.
@@ -63,6 +57,115 @@ void each_cell(const KnownCube& cube, double cell_m, const Use& use) {
   }
 }
 
+Eigen::Vector3i cell_of(const octomap::OcTreeKey& key) {
+  return Eigen::Vector3i(key[0], key[1], key[2]).array() - kKeyOfOrigin;
+}
+
+octomap::OcTreeKey key_of(const Eigen::Vector3i& cell) {
+  const auto along = [&](int axis) { return static_cast<octomap::key_type>(cell[axis] + kKeyOfOrigin); };
+  return {along(0), along(1), along(2)};
+}
+
+/// Visits cells in the order of OctoMap's leaf_bbx_iterator, in less time.
+template <class Visit>
+class LeavesInBox {
+ public:
+  /// @param lowest, highest  cells at two corners, themselves included.
+  LeavesInBox(const octomap::OcTree& tree, const octomap::OcTreeKey& lowest, const octomap::OcTreeKey& highest,
+              const Visit& visit)
+      : tree_(tree), lowest_(lowest), highest_(highest), visit_(visit) {}
+
+  /// @param first  cell of the node, the lowest on each axis.
+  void below(const octomap::OcTreeNode* node, const octomap::OcTreeKey& first, unsigned depth) const {
+    if (depth == tree_.getTreeDepth()) return visit_(first);
+    const unsigned half = 1U << (tree_.getTreeDepth() - depth - 1);
+    for (unsigned i = 0; i < kChildren; ++i) {
+      if (!tree_.nodeChildExists(node, i)) continue;
+      octomap::OcTreeKey key = first;
+      bool inside = true;
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        key[axis] = static_cast<octomap::key_type>(key[axis] + (i >> axis & 1U) * half);
+        inside = inside && key[axis] <= highest_[axis] && key[axis] + half > lowest_[axis];
+      }
+      if (inside) below(tree_.getNodeChild(node, i), key, depth + 1);
+    }
+  }
+
+ private:
+  const octomap::OcTree& tree_;
+  const octomap::OcTreeKey lowest_, highest_;
+  const Visit& visit_;
+};
+
+/// Hits and free space in one tree, as small as it gets, in OctoMap's binary serialisation: of each inner node two
+/// bytes, two bits a child, before those of its children.
+class JoinedTree {
+ public:
+  /// @param rays  that a coarse cell must have to be free.
+  JoinedTree(const octomap::OcTree& hits, const octomap::OcTree& free, int rays)
+      : hits_(hits),
+        free_(free),
+        rays_(rays),
+        levels_(static_cast<unsigned>(std::lround(std::log2(free.getResolution() / hits.getResolution())))) {
+    const auto octant = [this](unsigned i) { return write(child(hits_, hits_.getRoot(), i), free_octant(i), false); };
+    if (inner(octant) != kNothing) ++nodes_;
+  }
+
+  const std::string& bytes() const { return bytes_; }
+  std::size_t nodes() const { return nodes_; }
+
+ private:
+  using Node = octomap::OcTreeNode;
+  enum Kind : unsigned { kNothing = 0, kFree = 1, kOccupied = 2, kInner = 3 };
+
+  static const Node* child(const octomap::OcTree& tree, const Node* node, unsigned i) {
+    return node != nullptr && tree.nodeChildExists(node, i) ? tree.getNodeChild(node, i) : nullptr;
+  }
+
+  /// Both trees begin in the middle: a free cell of the same depth is larger, so its tree reaches farther.
+  const Node* free_octant(unsigned i) const {
+    const Node* node = child(free_, free_.getRoot(), i);
+    for (unsigned level = 0; level < levels_; ++level) node = child(free_, node, kChildren - 1 - i);
+    return node;
+  }
+
+  /// @param hit, free  of the same cube, where there are such.   @param in_free  a larger one around it is free.
+  Kind write(const Node* hit, const Node* free, bool in_free) {
+    if (hit != nullptr && !hits_.nodeHasChildren(hit)) return kOccupied;
+    if (free != nullptr && !free_.nodeHasChildren(free)) {
+      in_free = rays_of(*free) >= rays_;
+      free = nullptr;
+    }
+    if (hit == nullptr && free == nullptr) return in_free ? kFree : kNothing;
+    return inner([&](unsigned i) { return write(child(hits_, hit, i), child(free_, free, i), in_free); });
+  }
+
+  /// @param kind_of  writes a child, and says what it is. Children that are all the same are not written.
+  template <class KindOf>
+  Kind inner(const KindOf& kind_of) {
+    const std::size_t begin = bytes_.size();
+    bytes_.append(2, 0);
+    std::array<Kind, kChildren> kinds;
+    for (unsigned i = 0; i < kChildren; ++i) kinds[i] = kind_of(i);
+    if (kinds[0] != kInner && std::ranges::all_of(kinds, [&](Kind kind) { return kind == kinds[0]; })) {
+      bytes_.resize(begin);
+      return kinds[0];
+    }
+    for (unsigned i = 0; i < kChildren; ++i) {
+      bytes_[begin + i / 4] = static_cast<char>(bytes_[begin + i / 4] | kinds[i] << (2 * (i % 4)));
+      nodes_ += kinds[i] == kNothing ? 0 : 1;
+    }
+    return kInner;
+  }
+
+  const octomap::OcTree& hits_;
+  const octomap::OcTree& free_;
+  const int rays_;
+  const unsigned levels_;  ///< between cells of the one tree and of the other
+  std::string bytes_;
+  std::size_t nodes_ = 0;
+};
+
 }  // namespace
 
 /// Never pruned: each known cell is a leaf of the finest depth. Values of inner nodes are not kept up.
@@ -70,8 +173,6 @@ struct KnownSpace::Trees {
   Trees(double cell_m, double free_cell_m) : hits(cell_m), free(free_cell_m) {
     free.setClampingThresMin(octomap::probability(kCountedRays * kRayLogOdds));
   }
-
-  octomap::OcTree joined(int rays) const;
 
   octomap::OcTree hits, free;
   mutable octomap::KeyRay ray;  ///< for the moment: it is large
@@ -81,18 +182,52 @@ KnownSpace::KnownSpace(double cell_m, double free_cell_m)
     : trees_(std::make_unique<Trees>(cell_m, free_cell_m)), hits_(cell_m) {}
 KnownSpace::~KnownSpace() = default;
 
-bool KnownSpace::add_hit(const Vector3d& p_W) {
+HitCells KnownSpace::cells_of_hits(const std::vector<Eigen::Vector3f>& hits_W, double ground_m) const {
+  HitCells hits;
+  BlockTable<std::size_t> places;  // in `hits`, by block; from 1 on
+  for (const Eigen::Vector3f& hit_W : hits_W) {
+    octomap::OcTreeKey key;
+    if (hit_W.cast<double>().z() < ground_m) continue;
+    if (!trees_->hits.coordToKeyChecked(octomap::point3d(hit_W.x(), hit_W.y(), hit_W.z()), key)) continue;
+    std::size_t& place = places[RayBlocks::block_of({key[0], key[1], key[2]})];
+    const Eigen::Vector3i cell = cell_of(key);
+    if (place == 0) {
+      hits.blocks.push_back({HitBlocks::block_of(cell)});
+      place = hits.blocks.size();
+    }
+    hits.blocks[place - 1].cells |= std::uint64_t{1} << HitBlocks::place_of(cell);
+  }
+  return hits;
+}
+
+bool KnownSpace::add_hits(const HitCells& hits) {
   octomap::OcTree& tree = trees_->hits;
+  bool any = false;
+  for (const HitCells::Block& block : hits.blocks) {
+    std::uint64_t news = hits_.add(block.at, block.cells);
+    if (news == 0) continue;
+    any = true;
+    octomap::OcTreeNode* its_node = nullptr;
+    for (; news != 0; news &= news - 1) {
+      const int bit = std::countr_zero(news);
+      const octomap::OcTreeKey key = key_of(4 * block.at + Eigen::Vector3i(bit & 3, bit >> 2 & 3, bit >> 4));
+      if (its_node == nullptr) its_node = block_node(tree, key);
+      cell_node(tree, its_node, key)->setLogOdds(tree.getClampingThresMaxLog());
+    }
+  }
+  return any;
+}
+
+bool KnownSpace::add_hit(const Vector3d& p_W) {
   octomap::OcTreeKey key;
-  if (!tree.coordToKeyChecked(octomap_point(p_W), key)) return false;
-  if (!hits_.set({key[0] - kKeyOfOrigin, key[1] - kKeyOfOrigin, key[2] - kKeyOfOrigin})) return false;
-  tree.updateNode(key, tree.getClampingThresMaxLog(), true);
-  return true;
+  if (!trees_->hits.coordToKeyChecked(octomap_point(p_W), key)) return false;
+  const Eigen::Vector3i cell = cell_of(key);
+  return add_hits({{{HitBlocks::block_of(cell), std::uint64_t{1} << HitBlocks::place_of(cell)}}});
 }
 
 PassedCells KnownSpace::passed_by_rays(const Vector3d& from_W, const std::vector<Vector3d>& to_W) const {
   PassedCells passed;
-  std::unordered_map<std::uint64_t, std::size_t> places;  // in `passed`, by block
+  BlockTable<std::size_t> places;  // in `passed`, by block; from 1 on
   for (const Vector3d& to : to_W) {
     if (!trees_->free.computeRayKeys(octomap_point(from_W), octomap_point(to), trees_->ray)) continue;
     PassedCells::Block* block = nullptr;
@@ -101,9 +236,12 @@ PassedCells KnownSpace::passed_by_rays(const Vector3d& from_W, const std::vector
       const RayBlocks::Cell cell = {key[0], key[1], key[2]};
       if (block == nullptr || RayBlocks::block_of(cell) != its_key) {
         its_key = RayBlocks::block_of(cell);
-        const auto [found, is_new] = places.try_emplace(its_key, passed.blocks.size());
-        if (is_new) passed.blocks.push_back({its_key, {}});
-        block = &passed.blocks[found->second].second;
+        std::size_t& place = places[its_key];
+        if (place == 0) {
+          passed.blocks.push_back({its_key, {}});
+          place = passed.blocks.size();
+        }
+        block = &passed.blocks[place - 1].second;
       }
       std::uint8_t& count = (*block)[RayBlocks::place_of(cell)];
       count = RayBlocks::counted(count + 1);
@@ -116,9 +254,16 @@ void KnownSpace::add_rays(const PassedCells& passed) { add(passed, rays_); }
 void KnownSpace::add_looks(const PassedCells& passed) { add(passed, looks_); }
 
 void KnownSpace::add(const PassedCells& passed, RayBlocks& counts) {
-  counts.add(passed, [this](const RayBlocks::Cell& cell, int rays) {
-    trees_->free.updateNode(octomap::OcTreeKey(cell[0], cell[1], cell[2]), static_cast<float>(rays) * kRayLogOdds,
-                            true);
+  octomap::OcTree& tree = trees_->free;
+  octomap::OcTreeNode* its_node = nullptr;
+  std::uint64_t its_key = 0;
+  counts.add(passed, [&](const RayBlocks::Cell& cell, int rays) {
+    const octomap::OcTreeKey key(cell[0], cell[1], cell[2]);
+    if (const std::uint64_t block = RayBlocks::block_of(cell); its_node == nullptr || block != its_key) {
+      its_node = block_node(tree, key);
+      its_key = block;
+    }
+    tree.updateNodeLogOdds(cell_node(tree, its_node, key), static_cast<float>(rays) * kRayLogOdds);
   });
 }
 
@@ -155,10 +300,14 @@ int KnownSpace::rays_at(const Vector3d& p_W, Evidence evidence) const {
 void KnownSpace::visit_hits(const Vector3d& lowest_W, const Vector3d& highest_W,
                             const std::function<void(const Vector3d&)>& visit) const {
   const octomap::OcTree& tree = trees_->hits;
-  const auto end = tree.end_leafs_bbx();
-  for (auto leaf = tree.begin_leafs_bbx(octomap_point(lowest_W), octomap_point(highest_W)); leaf != end; ++leaf) {
-    visit({leaf.getX(), leaf.getY(), leaf.getZ()});
+  octomap::OcTreeKey lowest, highest;
+  if (tree.getRoot() == nullptr || !tree.coordToKeyChecked(octomap_point(lowest_W), lowest) ||
+      !tree.coordToKeyChecked(octomap_point(highest_W), highest)) {
+    return;
   }
+  LeavesInBox(tree, lowest, highest, [&](const octomap::OcTreeKey& key) {
+    visit({tree.keyToCoord(key[0]), tree.keyToCoord(key[1]), tree.keyToCoord(key[2])});
+  }).below(tree.getRoot(), {0, 0, 0}, 0);
 }
 
 void KnownSpace::visit_free(const std::function<void(const RayBlocks::Cell&, int)>& visit) const {
@@ -169,29 +318,14 @@ void KnownSpace::visit_free(const std::function<void(const RayBlocks::Cell&, int
   }
 }
 
-octomap::OcTree KnownSpace::Trees::joined(int rays) const {
-  octomap::OcTree tree(hits);
-  const auto finer = static_cast<unsigned>(std::lround(std::log2(free.getResolution() / tree.getResolution())));
-  const auto end = free.end_leafs();
-  for (auto leaf = free.begin_leafs(); leaf != end; ++leaf) {
-    octomap::OcTreeKey key;  // of a small cell at the middle of the coarse one
-    if (rays_of(*leaf) < rays || !tree.coordToKeyChecked(leaf.getCoordinate(), key)) continue;
-    set_free(tree, key, tree.getTreeDepth() - finer);
-  }
-  tree.updateInnerOccupancy();
-  tree.prune();
-  return tree;
-}
-
-std::string KnownSpace::octomap_bytes(int rays) const {
-  std::ostringstream out;
-  trees_->joined(rays).writeBinaryData(out);
-  return std::move(out).str();
-}
+std::string KnownSpace::octomap_bytes(int rays) const { return JoinedTree(trees_->hits, trees_->free, rays).bytes(); }
 
 std::string KnownSpace::octomap_file(int rays) const {
+  const JoinedTree joined(trees_->hits, trees_->free, rays);
   std::ostringstream out;
-  trees_->joined(rays).writeBinaryConst(out);
+  out << "# Octomap OcTree binary file\n# (feel free to add / change comments, but leave the first line as it is!)\n"
+      << "#\nid OcTree\nsize " << joined.nodes() << "\nres " << trees_->hits.getResolution() << "\ndata\n"
+      << joined.bytes();
   return std::move(out).str();
 }
 

@@ -24,6 +24,10 @@ class KnownSpace {
   /// Makes the cell of p occupied, for good.
   /// @returns whether that is news; false, too, beyond the tree: kilometres away.
   bool add_hit(const Vector3d& p_W);
+  /// The same for the hits of a key frame. @returns whether any is news.
+  bool add_hits(const HitCells& hits);
+  /// Asks for nothing that is known. @param ground_m  hits below are none.
+  HitCells cells_of_hits(const std::vector<Eigen::Vector3f>& hits_W, double ground_m) const;
   /// Which coarse cells the rays from one place pass; asks for nothing that is known.
   PassedCells passed_by_rays(const Vector3d& from_W, const std::vector<Vector3d>& to_W) const;
   void add_rays(const PassedCells& passed);

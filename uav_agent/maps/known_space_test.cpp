@@ -61,7 +61,10 @@ class DrawnSpace : public testing::TestWithParam<std::uint64_t> {
 
 TEST_P(DrawnSpace, IndexesAreWhatTheTreesMakeOfThem) {
   HitBlocks hits(kCellM);
-  space_.visit_hits(-kFarW, kFarW, [&](const Vector3d& p_W) { hits.set((p_W / kCellM).array().floor().cast<int>()); });
+  space_.visit_hits(-kFarW, kFarW, [&](const Vector3d& p_W) {
+    const Eigen::Vector3i cell = (p_W / kCellM).array().floor().cast<int>();
+    hits.add(HitBlocks::block_of(cell), std::uint64_t{1} << HitBlocks::place_of(cell));
+  });
   EXPECT_GT(hits.count(), 500U);
   EXPECT_EQ(space_.hits().count(), hits.count());
   EXPECT_TRUE(space_.hits() == hits);
@@ -75,6 +78,28 @@ TEST_P(DrawnSpace, IndexesAreWhatTheTreesMakeOfThem) {
   });
   EXPECT_TRUE(space_.rays() == rays);
   for (int passed = 1; passed <= 6; ++passed) EXPECT_TRUE(counts.contains(passed)) << passed;
+}
+
+TEST_P(DrawnSpace, HitsInABoxComeAsOctoMapWalksThroughThem) {
+  const auto tree = read_back(space_.octomap_file(kCountedRays + 1));
+  tree->expand();
+  const auto point = [](const Vector3d& p_W) {
+    const Eigen::Vector3f p = p_W.cast<float>();
+    return octomap::point3d(p.x(), p.y(), p.z());
+  };
+  std::size_t seen = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d a_W = drawn(random_, 28.0), b_W = drawn(random_, 28.0);
+    const Vector3d lowest_W = a_W.cwiseMin(b_W), highest_W = a_W.cwiseMax(b_W);
+    std::vector<Vector3d> wanted, told;
+    for (auto leaf = tree->begin_leafs_bbx(point(lowest_W), point(highest_W)); leaf != tree->end_leafs_bbx(); ++leaf) {
+      wanted.push_back({leaf.getX(), leaf.getY(), leaf.getZ()});
+    }
+    space_.visit_hits(lowest_W, highest_W, [&](const Vector3d& p_W) { told.push_back(p_W); });
+    ASSERT_EQ(told, wanted);
+    seen += told.size();
+  }
+  EXPECT_GT(seen, 1000U);
 }
 
 TEST_P(DrawnSpace, OctoMapReadsWhatIsKnown) {
@@ -92,6 +117,10 @@ TEST_P(DrawnSpace, OctoMapReadsWhatIsKnown) {
     EXPECT_EQ(tree->size(), tree->calcNumNodes());
     const std::string bytes = space_.octomap_bytes(rays), file = space_.octomap_file(rays);
     EXPECT_TRUE(file.ends_with("\ndata\n" + bytes));
+    tree->prune();
+    std::ostringstream again;
+    tree->writeBinaryConst(again);
+    EXPECT_EQ(again.str(), file) << "to the byte as OctoMap writes it, and nothing is left to prune";
   }
 }
 
@@ -127,6 +156,25 @@ TEST(KnownSpace, AFileIsAsSmallAsItGets) {
     }
   }
   EXPECT_EQ(read_back(space.octomap_file(1))->size(), 23U) << "eight cubes of 1 m, one of them occupied";
+}
+
+TEST(KnownSpace, AHitInFreeSpaceLeavesTheRestOfItFree) {
+  KnownSpace space(kCellM, kFreeCellM);
+  for (const double y : {1.0, 3.0}) {  // all eight coarse cells of a cube of 4 m
+    for (const double z : {1.0, 3.0}) space.add_rays(space.passed_by_rays({0.5, y, z}, {{5.0, y, z}}));
+  }
+  const std::size_t before = read_back(space.octomap_file(1))->size();
+  space.add_hit({2.2, 2.2, 2.2});
+  const auto tree = read_back(space.octomap_file(1));
+  EXPECT_GT(tree->size(), before);
+  for (double x = 0.25; x < 4.0; x += 0.5) {
+    for (double y = 0.25; y < 4.0; y += 0.5) {
+      for (double z = 0.25; z < 4.0; z += 0.5) {
+        const bool hit = x == 2.25 && y == 2.25 && z == 2.25;
+        ASSERT_EQ(known_at(*tree, {x, y, z}), hit ? Known::occupied : Known::free) << x << ' ' << y << ' ' << z;
+      }
+    }
+  }
 }
 
 TEST(KnownSpace, BeyondTheTreeIsNothing) {

@@ -15,17 +15,22 @@ namespace {
 constexpr int kFineSteps = 8;            ///< of cast(), for each coarse one; even
 constexpr double kMostHeardCells = 1e6;  ///< eight million cubic metres of free space
 constexpr int kLookDirections = 640;     ///< evenly over the sphere
-constexpr double kLookTubeM = 0.6;       ///< around the line of a look, where nothing may be mapped
+constexpr double kRounding = 1e-9;
+constexpr double kLookTubeM = 0.6;  ///< around the line of a look, where nothing may be mapped
 
-/// Evenly over the sphere; those of one look lie between those of others.
-std::vector<Vector3d> look_directions(std::uint64_t look) {
+/// Evenly over the sphere, but only those that a frame which looked near this plane has surely looked in. Those of one
+/// look lie between those of others.
+std::vector<Vector3d> look_directions(std::uint64_t look, const Vector3d& normal_W) {
   const double golden_ratio = 0.5 * (std::sqrt(5.0) - 1.0), golden_angle = 2.0 * std::numbers::pi * golden_ratio;
   const double shift = std::fmod(golden_ratio * static_cast<double>(look), 1.0);
+  const double tilt = normal_W.head<2>().norm();
   std::vector<Vector3d> all;
   for (int i = 0; i < kLookDirections; ++i) {
     const double z = 1.0 - 2.0 * (i + shift) / kLookDirections, r = std::sqrt(std::max(0.0, 1.0 - z * z));
+    if (std::abs(z * normal_W.z()) - r * tilt > kSurelyLookedSine + kRounding) continue;  // whatever its heading
     const double heading = golden_angle * (i + shift);
-    all.emplace_back(r * std::cos(heading), r * std::sin(heading), z);
+    const Vector3d direction(r * std::cos(heading), r * std::sin(heading), z);
+    if (std::abs(direction.dot(normal_W)) <= kSurelyLookedSine) all.push_back(direction);
   }
   return all;
 }
@@ -46,9 +51,10 @@ OccupancyMap::~OccupancyMap() = default;
 OccupancyMap::OccupancyMap(OccupancyMap&&) noexcept = default;
 OccupancyMap& OccupancyMap::operator=(OccupancyMap&&) noexcept = default;
 
-PassedCells OccupancyMap::trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const {
+FrameCells OccupancyMap::trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const {
   const Config& config = impl_->config;
-  if (!p_WS) return {};
+  FrameCells frame{impl_->known.cells_of_hits(hits_W, config.ground_m), {}};
+  if (!p_WS) return frame;
   std::vector<Vector3d> ends_W;
   const std::size_t stride = std::max<std::size_t>(1, hits_W.size() / std::max(1, config.max_free_rays));
   for (std::size_t i = 0; i < hits_W.size(); i += stride) {
@@ -58,30 +64,24 @@ PassedCells OccupancyMap::trace(const std::vector<Eigen::Vector3f>& hits_W, cons
     if (length <= 0.0) continue;
     ends_W.push_back(*p_WS + to_hit.normalized() * length);
   }
-  return impl_->known.passed_by_rays(*p_WS, ends_W);
+  frame.passed = impl_->known.passed_by_rays(*p_WS, ends_W);
+  return frame;
 }
 
 void OccupancyMap::insert(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) {
-  insert(hits_W, trace(hits_W, p_WS));
+  insert(trace(hits_W, p_WS));
 }
 
-void OccupancyMap::insert(const std::vector<Eigen::Vector3f>& hits_W, const PassedCells& passed) {
-  bool changed = false;
-  for (const Eigen::Vector3f& hit : hits_W) {
-    const Vector3d p = hit.cast<double>();
-    if (p.z() < impl_->config.ground_m) continue;
-    changed |= impl_->known.add_hit(p);
-  }
-  if (changed) ++impl_->revision;
-  impl_->known.add_rays(passed);
+void OccupancyMap::insert(const FrameCells& frame) {
+  if (impl_->known.add_hits(frame.hits)) ++impl_->revision;
+  impl_->known.add_rays(frame.passed);
   ++impl_->key_frames;
 }
 
 void OccupancyMap::look_from(const Vector3d& p_WS, const Vector3d& normal_W) {
   const Config& config = impl_->config;
   std::vector<Vector3d> ends_W;
-  for (const Vector3d& direction : look_directions(impl_->looks++)) {
-    if (std::abs(direction.dot(normal_W)) > kSurelyLookedSine) continue;
+  for (const Vector3d& direction : look_directions(impl_->looks++, normal_W)) {
     const auto met = cast(p_WS, direction, config.look_range_m, kLookTubeM);
     const double length = met ? *met - config.free_resolution_m : config.look_range_m;
     if (length > 0.0) ends_W.push_back(p_WS + length * direction);

@@ -17,10 +17,26 @@
 
 namespace skein::agent {
 
-/// How many of a key frame's rays pass which coarse cells: all that inserting it takes time for.
+/// Which cells the hits of a key frame lie in.
+struct HitCells {
+  struct Block {
+    Eigen::Vector3i at;  ///< see HitBlocks
+    std::uint64_t cells = 0;
+    bool operator==(const Block&) const = default;
+  };
+  std::vector<Block> blocks;
+};
+
+/// How many of a key frame's rays pass which coarse cells.
 struct PassedCells {
   using Block = std::array<std::uint8_t, 64>;  ///< 4 x 4 x 4 cells; counts end at 20
   std::vector<std::pair<std::uint64_t, Block>> blocks;
+};
+
+/// A key frame as a map takes it in: all that inserting it takes time for.
+struct FrameCells {
+  HitCells hits;
+  PassedCells passed;
 };
 
 /// So many rays must have passed a place before it is believed to be free where something may well be: in and beside
@@ -53,8 +69,8 @@ class OccupancyMap {
   /// @param p_WS where the sensor stood, if known: free space up to the hits is marked, too.
   void insert(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS);
   /// The same in two parts: trace() asks for nothing that is in the map, and serves all maps of a Config.
-  void insert(const std::vector<Eigen::Vector3f>& hits_W, const PassedCells& passed);
-  PassedCells trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const;
+  void insert(const FrameCells& frame);
+  FrameCells trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const;
 
   /// A key frame was taken there, and its hits are on the map. What it looked at near by and did not hit is free, in
   /// empty space, too, where no ray ever ends.

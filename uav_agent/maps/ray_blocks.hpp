@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <unordered_map>
 
+#include "uav_agent/maps/block_table.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
 
 namespace skein::agent {
@@ -44,14 +44,14 @@ class RayBlocks {
     }
   }
   int at(const Cell& cell) const {
-    const auto found = blocks_.find(block_of(cell));
-    return found == blocks_.end() ? 0 : found->second[place_of(cell)];
+    const PassedCells::Block* const block = blocks_.find(block_of(cell));
+    return block == nullptr ? 0 : (*block)[place_of(cell)];
   }
 
   bool operator==(const RayBlocks&) const = default;
 
  private:
-  std::unordered_map<std::uint64_t, PassedCells::Block> blocks_;
+  BlockTable<PassedCells::Block> blocks_;
 };
 
 }  // namespace skein::agent

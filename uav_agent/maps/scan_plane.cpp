@@ -3,7 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace skein::agent {
 namespace {
@@ -34,28 +36,51 @@ Vector3d tilted(const Vector3d& normal, double angle, int tilt) {
   return (std::cos(angle) * normal + std::sin(angle) * (std::cos(turn) * a + std::sin(turn) * b)).normalized();
 }
 
-/// Sine of the angle to the plane within which nearly all directions lie.
-double edge(const std::vector<Vector3d>& directions, const Vector3d& normal) {
-  std::vector<double> sines;
-  for (const Vector3d& direction : directions) sines.push_back(std::abs(direction.dot(normal)));
-  const auto last = sines.begin() + static_cast<std::ptrdiff_t>(kWithin * static_cast<double>(sines.size() - 1));
-  std::nth_element(sines.begin(), last, sines.end());
-  return *last;
-}
+/// Directions, and how far they are from planes.
+class Spread {
+ public:
+  explicit Spread(std::vector<Vector3d> directions)
+      : directions_(std::move(directions)),
+        last_(static_cast<std::size_t>(kWithin * static_cast<double>(directions_.size() - 1))) {}
+
+  const std::vector<Vector3d>& directions() const { return directions_; }
+
+  /// Sine of the angle to the plane within which nearly all directions lie; nullopt where that is more than `most`.
+  /// Of most planes a few directions tell that: those that told it of other planes come first.
+  std::optional<double> edge(const Vector3d& normal, double most) {
+    const std::size_t may_be_outside = directions_.size() - 1 - last_;
+    std::size_t outside = 0;
+    sines_.clear();
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      sines_.push_back(std::abs(directions_[i].dot(normal)));
+      if (sines_.back() <= most) continue;
+      std::swap(directions_[i], directions_[outside++]);
+      if (outside > may_be_outside) return std::nullopt;
+    }
+    const auto last = sines_.begin() + static_cast<std::ptrdiff_t>(last_);
+    std::nth_element(sines_.begin(), last, sines_.end());
+    return *last;
+  }
+
+ private:
+  std::vector<Vector3d> directions_;
+  const std::size_t last_;  ///< of nearly all
+  std::vector<double> sines_;
+};
 
 /// The plane that they are nearest to, then the one whose farthest is nearest.
-Vector3d best_normal(const std::vector<Vector3d>& directions) {
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Vector3d& direction : directions) spread += direction * direction.transpose();
-  Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
-  double best = edge(directions, normal);
+Vector3d best_normal(Spread& spread) {
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Vector3d& direction : spread.directions()) squares += direction * direction.transpose();
+  Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors().col(0);
+  double best = *spread.edge(normal, std::numeric_limits<double>::infinity());
   for (const double step : kSteps) {
     for (int move = 0; move < kMostMoves; ++move) {
       const Vector3d from = normal;
       for (int tilt = 0; tilt < kTilts; ++tilt) {
         const Vector3d other = tilted(from, step, tilt);
-        if (const double there = edge(directions, other); there < best) {
-          best = there;
+        if (const auto there = spread.edge(other, best); there && *there < best) {
+          best = *there;
           normal = other;
         }
       }
@@ -68,12 +93,13 @@ Vector3d best_normal(const std::vector<Vector3d>& directions) {
 }  // namespace
 
 std::optional<Vector3d> scan_plane(const Vector3d& p_WS, const std::vector<Eigen::Vector3f>& hits_W) {
-  const std::vector<Vector3d> directions = directions_of(p_WS, hits_W);
+  std::vector<Vector3d> directions = directions_of(p_WS, hits_W);
   if (directions.size() < kFewestHits) return std::nullopt;
-  const Vector3d normal = best_normal(directions);
-  if (edge(directions, normal) > kRingSine) return std::nullopt;
+  Spread spread(std::move(directions));
+  const Vector3d normal = best_normal(spread);
+  if (!spread.edge(normal, kRingSine)) return std::nullopt;
   for (int tilt = 0; tilt < kTilts; ++tilt) {
-    if (edge(directions, tilted(normal, kSure, tilt)) <= kRingSine) return std::nullopt;
+    if (spread.edge(tilted(normal, kSure, tilt), kRingSine)) return std::nullopt;
   }
   return normal;
 }

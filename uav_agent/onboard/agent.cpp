@@ -84,7 +84,7 @@ void Agent::Impl::perceive(const AgentInput& input) {
       auto sound_W = frames->filter(keep_lone).sound(frame.points_W, bodies);
       const std::optional<Vector3d> p_WS = sensor_position(frame, input);
       const ReadyFrames::Frame& ready = frames->ready(std::move(sound_W), p_WS, keep_lone);
-      map.insert(ready.hits_W, ready.passed);
+      map.insert(ready.cells);
       if (ready.plane_W) map.look_from(*p_WS, *ready.plane_W);
     }
   }

@@ -44,8 +44,7 @@ const ReadyFrames::Frame& ReadyFrames::ready(std::vector<Eigen::Vector3f> sound_
 }
 
 ReadyFrames::Frame ReadyFrames::work_out(const Question& question) const {
-  Frame frame{filter(question.keep_lone).thinned(question.sound_W), {}, {}};
-  frame.passed = rays_.trace(frame.hits_W, question.p_WS);
+  Frame frame{rays_.trace(filter(question.keep_lone).thinned(question.sound_W), question.p_WS), {}};
   if (question.p_WS) frame.plane_W = scan_plane(*question.p_WS, question.sound_W);
   return frame;
 }

@@ -16,8 +16,7 @@ namespace skein::agent {
 class ReadyFrames {
  public:
   struct Frame {
-    std::vector<Eigen::Vector3f> hits_W;
-    PassedCells passed;
+    FrameCells cells;
     std::optional<Vector3d> plane_W;  ///< normal, if it is known: see scan_plane()
   };
 

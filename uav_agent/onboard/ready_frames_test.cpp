@@ -30,7 +30,7 @@ Drawn question(int kind) {
 }
 
 bool same(const ReadyFrames::Frame& a, const ReadyFrames::Frame& b) {
-  return a.hits_W == b.hits_W && a.passed.blocks == b.passed.blocks;
+  return a.cells.hits.blocks == b.cells.hits.blocks && a.cells.passed.blocks == b.cells.passed.blocks;
 }
 
 TEST(ReadyFrames, AnswerAsIfNothingWereRemembered) {
@@ -54,7 +54,7 @@ TEST(ReadyFrames, AreWhatAMapMakesOfThem) {
   for (int i = 0; i < 30; ++i) {
     const Drawn drawn = question(i);
     const ReadyFrames::Frame& ready = frames.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone);
-    by_parts.insert(ready.hits_W, ready.passed);
+    by_parts.insert(ready.cells);
     at_once.insert(frames.filter(drawn.keep_lone).thinned(drawn.sound_W), drawn.p_WS);
   }
   EXPECT_EQ(by_parts.occupied_cells(), at_once.occupied_cells());
