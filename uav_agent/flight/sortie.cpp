@@ -22,6 +22,8 @@ constexpr int kMostStirred = 4;           ///< attempts that grow less careful
 constexpr double kLeastClearanceM = 0.7;  ///< of the body, when nothing else has helped
 constexpr double kWorthM = 3.0;           ///< nearer to where it wished to be
 constexpr int kApproachExpansions = 2000;
+constexpr double kStirMps = 2.0, kLowestM = 1.2;  ///< where there is little room, and its floor
+constexpr double kClimbClearanceM = 1.0;          ///< of the body: as much as open_height_m() asks for, and to stop in
 constexpr double kWaitsS = 1.0;
 constexpr double kHoverM = 1.6;                      ///< above its start, to look up from
 constexpr double kLookUpS = 5.0, kLookLongS = 16.0;  ///< that shows a roof; that shows what is in a box
@@ -51,7 +53,7 @@ Sortie::Turn Sortie::step(const PlannerInput& in, const FreeSpace::Config& space
     delivery_.begin(in, space, std::max(blind_height_m_ + kAboveBlindM, kLowestPlaceM), out);
     return Turn::leave;
   }
-  situation_ = pilot_.look_out(in, space, state_ != State::climbing, out);
+  situation_ = pilot_.look_out(in, lookout(space), state_ != State::climbing, out);
   if (situation_ != Situation::flying_on) return react(in, out);
   if (state_ == State::climbing) return in.tracking.done ? climb(in, out) : Turn::nothing;
   if (state_ == State::stirring) return in.tracking.done ? begin_work() : Turn::nothing;
@@ -77,6 +79,14 @@ void Sortie::turn(const PlannerInput& in, PlannerOutput& out) {
   turn_at_ = in.tick + ticks(kTurnEveryS);
 }
 
+/// Who climbs or is taken elsewhere does with less room than its planner wishes, and must not be stopped for that.
+FreeSpace::Config Sortie::lookout(FreeSpace::Config space) const {
+  const double body_m = agent_.me().body_radius_m;
+  if (state_ == State::climbing) space.clearance_m = std::min(space.clearance_m, body_m + kClimbClearanceM);
+  if (state_ == State::stirring) space.clearance_m = std::min(space.clearance_m, stir_clearance_m_);
+  return space;
+}
+
 /// Takes it somewhere else. @returns whether it sets out.
 bool Sortie::stir(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out) {
   const double still_s = watch_.still_s(in.tick);
@@ -85,9 +95,11 @@ bool Sortie::stir(const PlannerInput& in, const FreeSpace::Config& space, Planne
   if (waits || still_s < kStirAfterS || in.tick < stir_at_) return false;
   stir_at_ = in.tick + ticks(kStirEveryS);
   const int attempt = std::min(stirred_++, kMostStirred);
+  const Vector3d here = in.tracking.setpoint.p_WB;
   FreeSpace::Config careful = less_careful(space, attempt, agent_.me().body_radius_m + kLeastClearanceM);
   careful.enter_radius_m = kAnywhereM;
-  const Vector3d here = in.tracking.setpoint.p_WB;
+  careful.floor_m = std::min(careful.floor_m, std::max(here.z(), kLowestM));
+  if (stirred_ % 2 == 0) careful.hearsay = nullptr;  // what others told of may be coarse, and in the way
   const FreeSpace way = pilot_.way_space(in, careful, here);
   std::optional<std::vector<Vector3d>> corners;
   if (const auto& goal = pilot_.missed_W()) {
@@ -96,9 +108,10 @@ bool Sortie::stir(const PlannerInput& in, const FreeSpace::Config& space, Planne
   if (!corners) corners = find_way_out(way, in.boxes, here, stirred_);
   if (!corners) return false;
   Path path;
-  for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.retreat_mps});
+  for (const Vector3d& p : *corners) path.waypoints.push_back({p, kStirMps});
   pilot_.follow(std::move(path), in, out);
   state_ = State::stirring;
+  stir_clearance_m_ = careful.clearance_m;
   return true;
 }
 

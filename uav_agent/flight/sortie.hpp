@@ -74,6 +74,7 @@ class Sortie {
   void rise(double height_m, const PlannerInput& in, PlannerOutput& out);
   void look_up(const PlannerInput& in, PlannerOutput& out);
   Turn begin_work();
+  FreeSpace::Config lookout(FreeSpace::Config space) const;
   void look_around(const PlannerInput& in, PlannerOutput& out);
   void turn(const PlannerInput& in, PlannerOutput& out);
   bool stir(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
@@ -94,6 +95,7 @@ class Sortie {
   ProgressWatch watch_;
   Tick waits_at_ = -ticks(1e6);  ///< when it last waited for a mate
   Tick rose_at_ = 0, turn_at_ = 0, stir_at_ = 0;
+  double stir_clearance_m_ = 0.0;
   int stirred_ = 0;      ///< times, since it last got on by itself
   int climbs_ = 0;       ///< that were stopped
   Tick not_before_ = 0;  ///< of the next one

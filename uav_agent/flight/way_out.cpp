@@ -33,7 +33,8 @@ std::optional<std::vector<Vector3d>> find_way_out(const FreeSpace& space, const 
     for (int i = 0; i < kHeadings; ++i) {
       const double heading = 2.0 * std::numbers::pi * ((i + kHeadingStep * attempt) % kHeadings) / kHeadings;
       for (const double height : kHeights) {
-        const Vector3d to = from_W + Vector3d(distance * std::cos(heading), distance * std::sin(heading), height);
+        Vector3d to = from_W + Vector3d(distance * std::cos(heading), distance * std::sin(heading), height);
+        to.z() = std::max(to.z(), space.config().floor_m);
         if (!space.free(to)) continue;
         if (++searches > kMaxSearches) return std::nullopt;
         if (auto corners = find_path(space, structure, from_W, to, {.max_expansions = kMaxExpansions})) return corners;
