@@ -3,10 +3,13 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "cli/fault_tests/fault_test.hpp"
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/hunt/flights.hpp"
+#include "cli/properties/radio_log.hpp"
 #include "cli/rerun_command.hpp"
 #include "cli/run/diff.hpp"
 #include "cli/run/record.hpp"
@@ -72,10 +75,29 @@ struct Without {
   TrialOutcome outcome = {};
   double points = 0.0;                 ///< that it cost, of the score
   std::optional<double> seconds = {};  ///< how much sooner the score of the end was there without it
-  std::string parts = {};              ///< where the runs part
+  std::string parts = {};              ///< where the runs part; empty: nowhere
 };
 
-std::vector<Without> flights_without(const HuntPlan& plan, const Subject& subject, const BlameOptions& options) {
+void check_window(const std::vector<double>& window_s, double duration_s) {
+  if (window_s.empty() || (window_s[0] >= 0.0 && window_s[0] < window_s[1] && window_s[0] < duration_s)) return;
+  throw InputError("--messages " + number_text(window_s[0]) + " " + number_text(window_s[1]) +
+                   ": FROM must be before UNTIL, and within the mission of " + number_text(duration_s) + " s");
+}
+
+/// From and to whom something was sent in this time that arrived.
+std::set<std::pair<std::string, std::string>> links_used(const fs::path& dir, const Scenario& scenario,
+                                                         const std::vector<double>& window_s) {
+  std::set<std::pair<std::string, std::string>> links;
+  for (const RadioArrival& arrival : read_radio_log(dir, scenario).arrivals) {
+    const double sent_s = static_cast<double>(arrival.sent) * scenario.exchange_period_s;
+    if (sent_s >= window_s[0] && sent_s < window_s[1]) links.emplace(arrival.stream.source, arrival.target);
+  }
+  return links;
+}
+
+/// @param as_it_was  folder of the flight with everything in it.
+std::vector<Without> flights_without(const HuntPlan& plan, const Subject& subject, const BlameOptions& options,
+                                     const fs::path& as_it_was) {
   std::vector<Without> all;
   for (std::size_t i = 0; i < subject.faults.size(); ++i) {
     Trial trial{plan.fleet.options, subject.faults};
@@ -84,9 +106,10 @@ std::vector<Without> flights_without(const HuntPlan& plan, const Subject& subjec
   }
   if (options.messages.empty()) return all;
   const Scenario& scenario = plan.fleet.scenario;
+  const std::set<std::pair<std::string, std::string>> used = links_used(as_it_was, scenario, options.messages);
   for (const Node from : scenario.nodes()) {
     for (const Node to : scenario.nodes()) {
-      if (from == to) continue;
+      if (!used.contains({scenario.node_name(from), scenario.node_name(to)})) continue;
       LinkEffect effect;
       effect.from = {scenario.node_name(from)};
       effect.to = {scenario.node_name(to)};
@@ -116,9 +139,9 @@ void compare(Without& without, const fs::path& there, const fs::path& here, doub
   const auto with_s = time_of_score(with, reached), less_s = time_of_score(less, reached);
   if (with_s && less_s) without.seconds = *with_s - *less_s;
   const auto difference = first_difference(there, here);
-  without.parts = difference ? fmt::format("the runs part at step {} ({} s): {}", difference->step,
-                                           number_text(difference->time_s), joined(difference->fields))
-                             : "it made no difference";
+  if (!difference) return;
+  without.parts = fmt::format("the runs part at step {} ({} s): {}", difference->step, number_text(difference->time_s),
+                              joined(difference->fields));
 }
 
 void print(const std::vector<Without>& all, const TrialOutcome& outcome, const Subject& subject,
@@ -131,12 +154,19 @@ void print(const std::vector<Without>& all, const TrialOutcome& outcome, const S
     }
   };
   tell_property(outcome, "  ");
+  std::string no_difference;
+  if (!all.empty()) console.out << "score, and how much sooner that of the end was there:\n";
   for (const Without& without : all) {
+    if (without.parts.empty()) {
+      no_difference += "            " + without.what + "\n";
+      continue;
+    }
     console.out << fmt::format("{:+9.3f} points", without.points);
     if (without.seconds) console.out << fmt::format(", {:+.2f} s", *without.seconds);
     console.out << "  without " << without.what << "\n            " << without.parts << '\n';
     tell_property(without.outcome, "            ");
   }
+  if (!no_difference.empty()) console.out << "the same run, bit for bit, without any one of these:\n" << no_difference;
   console.out << std::flush;
 }
 
@@ -149,14 +179,15 @@ int blame(const BlameOptions& options, const Console& console) {
                      ": it has no faults to blame; --messages FROM UNTIL takes away what links carry");
   }
   const HuntPlan plan = plan_of(options, subject);
+  check_window(options.messages, plan.fleet.scenario.duration_s);
   TrialFlights flights(plan, console);
   Trial as_it_was{plan.fleet.options, subject.faults};
   as_it_was.run.out = fs::absolute(plan.out) / "as-it-was";
   const TrialOutcome outcome = flights.fly_and_keep(as_it_was);
-  std::vector<Without> all = flights_without(plan, subject, options);
+  std::vector<Without> all = flights_without(plan, subject, options, *as_it_was.run.out);
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i].trial.run.out = fs::absolute(plan.out) / ("without-" + std::to_string(i));
-    console.err << "flying without " << all[i].what << std::endl;
+    console.err << i + 1 << " of " << all.size() << ": flying without " << all[i].what << std::endl;
     all[i].outcome = flights.fly_and_keep(all[i].trial);
     if (all[i].outcome.findings.empty() || all[i].outcome.fails(kCompletes)) {
       all[i].parts = all[i].outcome.findings.empty() ? "it could not be flown" : all[i].outcome.findings[0].text;

@@ -125,6 +125,14 @@ class Hunt {
     return failures.empty() ? count : failures.front().index + 1;
   }
 
+  /// Of the first `count`: those that `skein run` would not fly.
+  std::size_t not_flown(std::size_t count) const {
+    const auto& outcomes = log_.outcomes();
+    return static_cast<std::size_t>(std::count_if(outcomes.begin(),
+                                                  outcomes.begin() + static_cast<std::ptrdiff_t>(count),
+                                                  [](const auto& outcome) { return outcome->findings.empty(); }));
+  }
+
   std::string margins_text() const {
     std::map<std::string, double> least;
     for (const auto& outcome : log_.outcomes()) {
@@ -173,6 +181,9 @@ class Hunt {
                                   3600.0 * static_cast<double>(flown_now_) / std::max(0.1, search_s()));
     }
     console_.out << '\n';
+    if (const std::size_t none = not_flown(count); none > 0) {
+      console_.out << fmt::format("{} runs could not be flown, and say nothing: `skein run` refused them\n", none);
+    }
     for (const Find& find : finds_.all()) {
       console_.out << "FIND " << find.name << ": " << find.property << ": " << find.told << '\n';
       for (const Fault& fault : find.trial.faults) console_.out << "     " << fault_line(fault) << '\n';

@@ -62,6 +62,7 @@ std::vector<SignalInfo> make_table() {
              "messages that are on their way for longer than an exchange, and will arrive"),
       number("undisturbed_score", {}, 0, kPlainNumber, kAfterwards, "`score` of the same run without faults"),
       number("undisturbed_earned", {}, 0, kPlainNumber, kAfterwards, "`earned` of the same run without faults"),
+      number("undisturbed_distance", {uav}, 0, kMetres, kAfterwards, "`distance` in the same run without faults"),
       number("in_hand", {uav}, 1, kPlainNumber, kAfterwards,
              "points that the UAV had before it when its program first left: those that in the run without faults it "
              "is the first to photograph later on, and nobody else does"),

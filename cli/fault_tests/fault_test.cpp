@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "cli/fault_tests/columns.hpp"
 #include "cli/properties/judge.hpp"
 #include "core/config_files.hpp"
 #include "core/config_reader.hpp"
 #include "core/scenario_reader.hpp"
+#include "core/suggestion.hpp"
 
 namespace skein::cli {
 namespace {
@@ -112,6 +114,41 @@ properties::PropertySet read_properties(const std::variant<std::string, properti
   return set;
 }
 
+/// A capsule that is about nothing in the file would hold for ever.
+void check_mark(const CapsuleMark& mark, const properties::PropertySet& set, ConfigErrors& errors) {
+  std::vector<std::string> known = {kCompletes, kSameDigest};
+  for (const properties::NamedProperty& property : set) known.insert(known.begin(), property.name);
+  if (std::ranges::find(known, mark.property) != known.end()) return;
+  errors.check(false, "capsule.property",
+               "there is no property '" + mark.property + "' in this file; " + suggestion(mark.property, known));
+}
+
+FaultTest read_fault_test(const fs::path& file, const ConfigDocument& document, const std::optional<fs::path>& assets,
+                          const std::optional<fs::path>& agent, bool one_process) {
+  const fs::path path = fs::absolute(file);
+  ConfigErrors errors(document);
+  errors.check(document.root.find("faults") != nullptr, "faults",
+               "is missing: a list of faults, or the name of a fault file");
+  errors.throw_if_any();
+  ConfigDocument without_faults = document;
+  without_faults.root.remove("faults");
+  TestFile content = read_config<TestFile>(without_faults);
+  RunOptions options = run_options(content.run, path, assets, agent);
+  options.one_process = one_process;
+  check_run(options, errors);
+  FaultTest test{file.stem(), file, plan_fleet(options, program_dir()), std::move(content.expect), {}, document};
+  test.capsule = std::move(content.capsule);
+  const auto* entries = std::get_if<properties::PropertyEntries>(&content.property_entries);
+  if (entries != nullptr) test.entries = *entries;
+  test.property_set = read_properties(content.property_entries, test.plan, errors);
+  if (test.capsule) check_mark(*test.capsule, test.property_set, errors);
+  for (const Expectation& expectation : test.expect.all) {
+    if (expectation.check) expectation.check({test.plan.scenario, test.plan.faults, errors});
+  }
+  errors.throw_if_any();
+  return test;
+}
+
 }  // namespace
 
 bool FaultTest::needs_fault_free() const {
@@ -143,28 +180,15 @@ bool is_fault_test(const ConfigNode& root) {
 
 FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& assets,
                           const std::optional<fs::path>& agent, bool one_process) {
-  const fs::path path = fs::absolute(file);
-  ConfigDocument document = read_config_document(file);
-  ConfigErrors errors(document);
-  errors.check(document.root.find("faults") != nullptr, "faults",
-               "is missing: a list of faults, or the name of a fault file");
-  errors.throw_if_any();
-  ConfigDocument without_faults = document;
-  without_faults.root.remove("faults");
-  TestFile content = read_config<TestFile>(without_faults);
-  RunOptions options = run_options(content.run, path, assets, agent);
-  options.one_process = one_process;
-  check_run(options, errors);
-  FaultTest test{file.stem(), file, plan_fleet(options, program_dir()), std::move(content.expect), {}, document};
-  test.capsule = std::move(content.capsule);
-  const auto* entries = std::get_if<properties::PropertyEntries>(&content.property_entries);
-  if (entries != nullptr) test.entries = *entries;
-  test.property_set = read_properties(content.property_entries, test.plan, errors);
-  for (const Expectation& expectation : test.expect.all) {
-    if (expectation.check) expectation.check({test.plan.scenario, test.plan.faults, errors});
+  const ConfigDocument document = read_config_document(file);
+  try {
+    return read_fault_test(file, document, assets, agent, one_process);
+  } catch (const InputError& error) {
+    if (document.root.find("capsule") == nullptr) throw;
+    ConfigDocument by_path = document;
+    by_path.origin = fs::absolute(file).string();  // as its faults are called
+    throw InputError(with_columns(with_columns(error.what(), document), by_path));
   }
-  errors.throw_if_any();
-  return test;
 }
 
 FaultTest with_seed(FaultTest test, std::uint64_t seed) {

@@ -13,6 +13,12 @@
 
 namespace skein::cli {
 
+/// What a capsule may be about beside the properties of its file: the run came to its end, with a digest, and all
+/// programs lived.
+inline constexpr const char* kCompletes = "completes";
+/// A run over DDS must be the one that it was in one process.
+inline constexpr const char* kSameDigest = "same_digest";
+
 /// What a capsule, which `skein hunt` made, says of its find.
 struct CapsuleMark {
   std::string property;  ///< that failed

@@ -81,6 +81,28 @@ TEST_F(FaultTestFile, AnythingWrongIsNamedWithItsLine) {
           "faults[0].at_s: is after the end");
 }
 
+TEST_F(FaultTestFile, WhatIsWrongInACapsuleHasAColumn) {
+  const std::string run = "run: {scenario: ./small.yaml, duration_s: 60, uavs: 2}\n";
+  const std::string rest =
+      "faults:\n  - {at_s: 10, until_s: 20, blackout: alpha}\nproperties: {separation: ready}\n"
+      "capsule: {property: separation, digest: '12', skein: '1'}\n";
+  load(run + rest);
+  const auto with = [&](std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    return at == std::string::npos ? ADD_FAILURE() << from, text : text.replace(at, from.size(), to);
+  };
+  refused(with(run, "60", "long") + rest, "mine.yaml:1:31: run.duration_s: must be a number");
+  refused(with(run, "uavs", "uavz") + rest, "mine.yaml:1:47: unknown key 'run.uavz'");
+  refused(with(run, "./small", "./none") + rest, "mine.yaml:1:7: run.scenario: ");
+  refused(run + with(rest, "at_s: 10", "at_s: soon"), "mine.yaml:3:6: ");
+  refused(run + with(rest, "blackout", "blackot"), "mine.yaml:3:");
+  refused(run + with(rest, "alpha", "gamma"), "mine.yaml:3:");
+  refused(run + with(rest, "property: separation", "property: separatoin"),
+          "mine.yaml:5:11: capsule.property: there is no property 'separatoin' in this file; did you mean");
+  refused(run + with(rest, "property: separation, ", ""), "mine.yaml:5:");
+  refused(run + with(rest, "skein", "sken"), "mine.yaml:5:47: unknown key 'capsule.sken'");
+}
+
 TEST_F(FaultTestFile, AFolderIsAllItsFilesAndAFileIsItself) {
   EXPECT_EQ(fault_test_files(programs_.dir() / "small.yaml").size(), 1u);
   EXPECT_THROW(fault_test_files(programs_.dir() / "none.yaml"), InputError);

@@ -14,11 +14,16 @@
 namespace skein::cli {
 namespace {
 
+constexpr std::size_t kMostFaults = 6;
 constexpr double kShortest_s = 0.1, kLongest_s = 40.0;
 /// A vehicle that cannot hold itself up is no matter of its planner.
 constexpr double kLongestFall_s = 2.0, kLeastThrust = 0.6;
 constexpr double kLongestLie_s = 12.0;  ///< of odometry, for the same reason
 constexpr double kShareOfWaiting = 0.2, kShareOfAllNodes = 0.4, kShareOfAllTopics = 0.5;
+constexpr double kShareOfGround = 0.4;    ///< of programs that are killed or stopped: every UAV depends on them
+constexpr double kShareOfForGood = 0.15;  ///< of UAVs' programs that are killed
+/// Of faults that come again and again: what only one instant in ten brings to light is met sooner.
+constexpr double kShareOfRepeated = 0.2, kLeastInterval_s = 2.0, kLongestInterval_s = 12.0;
 
 /// How often each kind is drawn: programs and radio fail in more ways than the rest.
 struct Kind {
@@ -54,10 +59,13 @@ double longest_of(const Fault& fault) {
   return lies ? kLongestLie_s : kLongest_s;
 }
 
+bool is_for_good(const Fault& fault) { return !fault.waits && !fault.until_s; }
+
 double length_of(const Fault& fault) {
   return fault.waits ? fault.for_s.value_or(1.0) : fault.until_s.value_or(fault.at_s + 1.0) - fault.at_s;
 }
 void set_length(Fault& fault, double length_s) {
+  if (is_for_good(fault)) return;
   if (fault.waits) {
     fault.for_s = length_s;
   } else {
@@ -77,13 +85,15 @@ const std::vector<std::string>& fault_kinds() {
 }
 
 FaultMaker::FaultMaker(const Scenario& scenario, FaultSpace space)
-    : space_(std::move(space)), uavs_(scenario.uav_names()), nodes_(uavs_), programs_(uavs_) {
+    : space_(std::move(space)),
+      uavs_(scenario.uav_names()),
+      nodes_(uavs_),
+      ground_programs_{programs::kStation, programs::kCommRouter} {
   for (const UavConfig& one : scenario.fleet) {
     if (one.vehicle.lidar) with_lidar_.push_back(one.name);
   }
   nodes_.push_back(scenario.node_name(kStationNode));
-  programs_.insert(programs_.end(), {programs::kStation, programs::kCommRouter});
-  if (space_.ground_program) programs_.push_back(scenario.node_name(kStationNode));
+  if (space_.ground_program) ground_programs_.push_back(scenario.node_name(kStationNode));
   std::set<std::string> topics;
   for (const RadioRoute& route : radio_routes(scenario)) {
     topics.insert(route.ros_topic.substr(0, route.ros_topic.find('/', 1)));  // "/captures" means "/captures/changi"
@@ -93,7 +103,13 @@ FaultMaker::FaultMaker(const Scenario& scenario, FaultSpace space)
 
 const std::string& FaultMaker::uav(RandomStream& draw) const { return one_of(uavs_, draw); }
 const std::string& FaultMaker::node(RandomStream& draw) const { return one_of(nodes_, draw); }
-const std::string& FaultMaker::program(RandomStream& draw) const { return one_of(programs_, draw); }
+const std::string& FaultMaker::program(RandomStream& draw) const {
+  return chance(draw, kShareOfGround) ? one_of(ground_programs_, draw) : uav(draw);
+}
+bool FaultMaker::is_death(const Fault& fault) const {
+  const auto* kill = std::get_if<Kill>(&fault.action);
+  return kill != nullptr && std::ranges::find(uavs_, kill->member) != uavs_.end();
+}
 
 LinkEffect FaultMaker::link(RandomStream& draw) const {
   LinkEffect effect;
@@ -189,10 +205,14 @@ void FaultMaker::place(Fault& fault, RandomStream& draw) const {
   fault.waits = chance(draw, kShareOfWaiting);
   fault.when.reset();
   fault.for_s.reset();
+  fault.until_s = space_.heal_by_s;
+  if (!fault.waits && is_death(fault) && chance(draw, kShareOfForGood)) {
+    fault.until_s.reset();
+    return;
+  }
   if (fault.waits) {
     fault.when = condition(draw);
     fault.at_s = rounded(0.5 * fault.at_s, 1.0);
-    fault.until_s = space_.heal_by_s;
   }
   set_length(fault, length_s);
   end_in_time(fault);
@@ -200,6 +220,7 @@ void FaultMaker::place(Fault& fault, RandomStream& draw) const {
 
 void FaultMaker::end_in_time(Fault& fault) const {
   fault.at_s = std::clamp(fault.at_s, 0.0, space_.heal_by_s - kShortest_s);
+  if (is_for_good(fault) && is_death(fault)) return;
   if (fault.waits) {
     fault.until_s = space_.heal_by_s;
     fault.for_s = std::max(kShortest_s, *fault.for_s);
@@ -222,8 +243,27 @@ Fault FaultMaker::any(RandomStream& draw) const {
 
 std::vector<Fault> FaultMaker::schedule(RandomStream& draw) const {
   std::vector<Fault> faults;
-  for (std::size_t left = 1 + below(draw, 4); left > 0; --left) faults.push_back(any(draw));
+  for (std::size_t left = 1 + below(draw, 4); left > 0; --left) {
+    faults.push_back(any(draw));
+    if (chance(draw, kShareOfRepeated)) repeat(faults, draw);
+  }
+  if (faults.size() > kMostFaults) faults.resize(kMostFaults);
   return without_contradictions(std::move(faults));
+}
+
+/// The last one again, up to three times, each as long as there is time before the next.
+void FaultMaker::repeat(std::vector<Fault>& faults, RandomStream& draw) const {
+  Fault fault = faults.back();
+  const double interval_s = tenths(draw.uniform(kLeastInterval_s, kLongestInterval_s));
+  const std::size_t times = 1 + below(draw, 3);
+  if (fault.waits || !fault.until_s) return;
+  set_length(fault, std::min(length_of(fault), tenths(0.5 * interval_s)));
+  faults.back() = fault;
+  for (std::size_t i = 0; i < times; ++i) {
+    fault.at_s = tenths(fault.at_s + interval_s);
+    fault.until_s = tenths(*fault.until_s + interval_s);
+    if (*fault.until_s <= space_.heal_by_s) faults.push_back(fault);
+  }
 }
 
 std::vector<Fault> FaultMaker::varied(std::vector<Fault> faults, const std::vector<Fault>& other,
@@ -234,9 +274,8 @@ std::vector<Fault> FaultMaker::varied(std::vector<Fault> faults, const std::vect
 }
 
 void FaultMaker::vary_one(std::vector<Fault>& faults, const std::vector<Fault>& other, RandomStream& draw) const {
-  constexpr std::size_t kMost = 6;
   const std::size_t what = below(draw, 8);
-  if (faults.empty() || (what == 0 && faults.size() < kMost)) {
+  if (faults.empty() || (what == 0 && faults.size() < kMostFaults)) {
     faults.push_back(any(draw));
     return;
   }
@@ -266,7 +305,7 @@ void FaultMaker::vary_one(std::vector<Fault>& faults, const std::vector<Fault>& 
       break;
     }
     case 6:  // one of another schedule
-      if (!other.empty() && faults.size() < kMost) faults.push_back(other[below(draw, other.size())]);
+      if (!other.empty() && faults.size() < kMostFaults) faults.push_back(other[below(draw, other.size())]);
       return;
     default:
       place(fault, draw);

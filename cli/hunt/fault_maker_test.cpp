@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 
@@ -66,14 +67,26 @@ TEST_F(FaultMakers, WhatIsDrawnIsAFaultFileAndReadsBackAsItWas) {
   });
 }
 
-TEST_F(FaultMakers, AllIsOverInTime) {
+TEST_F(FaultMakers, AllIsOverInTimeButSomeDeaths) {
+  const std::vector<std::string> uavs = towers_.uav_names();
+  int deaths = 0, kills = 0;
   each([&](const std::vector<Fault>& faults) {
     for (const Fault& fault : faults) {
-      ASSERT_TRUE(fault.until_s) << fault_line(fault);
+      const auto* kill = std::get_if<Kill>(&fault.action);
+      kills += kill != nullptr ? 1 : 0;
+      EXPECT_LT(fault.at_s, space_.heal_by_s) << fault_line(fault);
+      if (!fault.until_s) {
+        ASSERT_NE(kill, nullptr) << fault_line(fault);
+        EXPECT_NE(std::ranges::find(uavs, kill->member), uavs.end()) << fault_line(fault);
+        ++deaths;
+        continue;
+      }
       EXPECT_LE(*fault.until_s, space_.heal_by_s + 1e-9) << fault_line(fault);
       EXPECT_LT(fault.at_s, *fault.until_s) << fault_line(fault);
     }
   });
+  EXPECT_GT(deaths, 0);
+  EXPECT_LT(3 * deaths, kills);
 }
 
 TEST_F(FaultMakers, EveryKindIsDrawnOrOnlyThoseThatAreWanted) {

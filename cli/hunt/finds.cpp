@@ -25,7 +25,32 @@ std::multiset<std::string> kinds_in(const std::vector<Fault>& faults) {
   return kinds;
 }
 
+/// How long a mission has to go on after the last fault for this property, if that matters: a collision is one whenever
+/// it happens, and what must follow on a fault needs its time.
+std::optional<double> after_s(const std::string& property, const HuntPlan& plan) {
+  using When = properties::Property::Kind;
+  const properties::PropertySet set = properties_of(plan.entries, plan.fleet.scenario);
+  const auto found = std::ranges::find(set, property, &properties::NamedProperty::name);
+  const bool at_any_time = found == set.end() || std::ranges::all_of(found->cases, [](const properties::Property& one) {
+                             return (one.kind == When::always || one.kind == When::never) && !one.whenever &&
+                                    one.window.from != properties::Window::From::heal;
+                           });
+  if (at_any_time) return std::nullopt;
+  return plan.fleet.scenario.duration_s - plan.space.heal_by_s;
+}
+
+/// Beside a capsule: what else is known of a find.
+fs::path notes_of(const Find& find) {
+  fs::path file = find.capsule;
+  return file.replace_extension(".json");
+}
+
 }  // namespace
+
+Json Find::to_json() const {
+  return {{"property", property}, {"told", told},     {"digest", digest},
+          {"flights", flights},   {"wall_s", wall_s}, {"over_dds", over_dds}};
+}
 
 std::vector<Failure> failures_of(const std::vector<std::optional<TrialOutcome>>& outcomes, std::size_t count) {
   std::vector<Failure> failures;
@@ -53,29 +78,64 @@ bool Finds::is_known(const Failure& failure, const Trial& trial) const {
 void Finds::go_into(const Failure& failure, const Trial& trial, const TrialOutcome& outcome) {
   ++counts_[failure.property];
   if (is_known(failure, trial)) return;
-  const Clock::time_point began = Clock::now();
-  console_.err << "case " << failure.index << " breaks " << failure.property << " with " << trial.faults.size()
-               << " faults; making it smaller" << std::endl;
-  const Shrunk small = shrink(trial, outcome, failure.property, plan_.fleet.scenario,
-                              {plan_.fleet.scenario.duration_s - plan_.space.heal_by_s,
-                               static_cast<std::size_t>(*plan_.options.jobs), plan_.options.shrink},
-                              [this](const std::vector<Trial>& trials) { return flights_.fly(trials); });
   Find find;
   find.name = failure.property + "-" + std::to_string(failure.index);
   find.broke = find.property = failure.property;
   find.index = failure.index;
+  find.run = fs::absolute(plan_.out) / "finds" / find.name;
+  find.capsule = plan_.out / "finds" / (find.name + ".yaml");
+  const std::string of = trial.text() + outcome.digest + " shrink " + std::to_string(plan_.options.shrink);
+  if (auto before = made_before(find, of)) {
+    finds_.push_back(std::move(*before));
+    return;
+  }
+  console_.err << "case " << failure.index << " breaks " << failure.property << " with " << trial.faults.size()
+               << " faults; making it smaller" << std::endl;
+  make_small(find, trial, outcome);
+  write(find, of);
+  finds_.push_back(std::move(find));
+}
+
+void Finds::make_small(Find& find, const Trial& trial, const TrialOutcome& outcome) {
+  const Clock::time_point began = Clock::now();
+  flights_.ask(find.broke);
+  const Shrunk small =
+      shrink(trial, outcome, find.broke, plan_.fleet.scenario,
+             {after_s(find.broke, plan_), static_cast<std::size_t>(*plan_.options.jobs), plan_.options.shrink},
+             [this](const std::vector<Trial>& trials) { return flights_.fly(trials); });
   find.trial = small.trial;
   find.flights = small.flights;
-  find.told = small.outcome.find(failure.property)->text;
+  find.told = small.outcome.find(find.broke)->text;
   find.digest = small.outcome.digest;
-  find.run = fs::absolute(plan_.out) / "finds" / find.name;
   Trial kept = small.trial;
   kept.run.out = find.run;
   flights_.fly_and_keep(kept);
   confirm(find, small.outcome);
+  flights_.ask("");
   find.wall_s = std::chrono::duration<double>(Clock::now() - began).count();
-  write(find);
-  finds_.push_back(std::move(find));
+}
+
+/// A find of the same failure that this hunt has made small already, before it was stopped. One that somebody has
+/// changed or taken away is made anew.
+std::optional<Find> Finds::made_before(const Find& find, const std::string& of) const try {
+  const Json notes = read_json(notes_of(find));
+  if (value_or(notes, "of", nullptr) != of || !fs::exists(find.capsule)) return std::nullopt;
+  const RunOptions& run = plan_.fleet.options;
+  const FaultTest test = load_fault_test(find.capsule, run.assets, run.agent, run.one_process);
+  Find before = find;
+  before.trial = {test.plan.options, test.plan.faults.faults};
+  before.trial.run.faults.reset();
+  before.property = notes.at("property").get<std::string>();
+  before.told = notes.at("told").get<std::string>();
+  before.digest = notes.at("digest").get<std::string>();
+  before.flights = notes.at("flights").get<std::size_t>();
+  before.wall_s = notes.at("wall_s").get<double>();
+  before.over_dds = notes.at("over_dds").get<bool>();
+  return before;
+} catch (const InputError&) {
+  return std::nullopt;
+} catch (const Json::exception&) {
+  return std::nullopt;
 }
 
 /// What is found in one process must be so over DDS.
@@ -91,12 +151,15 @@ void Finds::confirm(Find& find, const TrialOutcome& outcome) {
               outcome.digest + "; in one process " + find.told;
 }
 
-void Finds::write(Find& find) {
+/// The notes last: without them a find is not there.
+void Finds::write(const Find& find, const std::string& of) const {
   const CapsuleMark mark{find.property, find.digest, SKEIN_VERSION, plan_.options.run.command};
-  find.capsule = plan_.out / "finds" / (find.name + ".yaml");
   fs::create_directories(find.capsule.parent_path());
   write_file_atomically(find.capsule,
                         capsule_text(find.name, find.trial, mark, find.property + ": " + find.told, plan_.entries));
+  Json notes = find.to_json();
+  notes["of"] = of;
+  write_file_atomically(notes_of(find), notes.dump(2) + "\n");
 }
 
 }  // namespace skein::cli

@@ -25,6 +25,9 @@ struct Find {
   std::size_t flights = 0;    ///< that it took to make it small
   double wall_s = 0.0;
   bool over_dds = false;  ///< it was flown over DDS, too, and was the same
+
+  /// All but the trial, which the capsule has.
+  Json to_json() const;
 };
 
 /// A case in which a property failed.
@@ -45,6 +48,7 @@ class Finds {
       : plan_(plan), flights_(flights), console_(console) {}
 
   /// Makes a find of a failure, unless it has all faults of a find of the same property: then it is taken for the same.
+  /// What was made small before, of the same case with the same options, is not flown again.
   void go_into(const Failure& failure, const Trial& trial, const TrialOutcome& outcome);
 
   const std::vector<Find>& all() const { return finds_; }
@@ -53,8 +57,10 @@ class Finds {
 
  private:
   bool is_known(const Failure& failure, const Trial& trial) const;
+  std::optional<Find> made_before(const Find& find, const std::string& of) const;
+  void make_small(Find& find, const Trial& trial, const TrialOutcome& outcome);
   void confirm(Find& find, const TrialOutcome& outcome);
-  void write(Find& find);
+  void write(const Find& find, const std::string& of) const;
 
   const HuntPlan& plan_;
   TrialFlights& flights_;

@@ -59,12 +59,18 @@ ProgramSpec TrialFlights::start(const Trial& trial, const fs::path& dir) const {
   return {"", std::move(arguments), environment_with({}), dir / run_folder::kFlightLog};
 }
 
+properties::PropertySet TrialFlights::asked(const properties::PropertySet& set) const {
+  properties::PropertySet some = set;
+  if (!asked_.empty()) std::erase_if(some, [this](const auto& property) { return property.name != asked_; });
+  return some;
+}
+
 TrialOutcome TrialFlights::read(const Trial& trial, const fs::path& dir, const ExitStatus& exit) {
   ++flown_;
   const Setting& setting = *setting_of(trial);
   if (exit.code == kExitBadInput) return {};
   const auto undisturbed = undisturbed_.find(what_is_flown(trial.run));
-  return read_outcome(dir, exit, trial, setting.set, setting.scenario,
+  return read_outcome(dir, exit, trial, asked(setting.set), setting.scenario,
                       undisturbed == undisturbed_.end() ? std::nullopt : std::optional(undisturbed->second));
 }
 
@@ -94,7 +100,7 @@ void TrialFlights::fly_undisturbed(const std::vector<Trial>& trials) {
   std::vector<fs::path> dirs;
   for (const Trial& trial : trials) {
     const Setting* setting = setting_of(trial);
-    if (setting == nullptr || !needs_undisturbed(setting->set)) continue;
+    if (setting == nullptr || !needs_undisturbed(asked(setting->set))) continue;
     const fs::path dir = dir_of("without-faults-" + std::to_string(undisturbed_.size() + 1));
     if (!undisturbed_.emplace(what_is_flown(trial.run), dir).second) continue;
     missing.push_back({trial.run, {}});

@@ -24,6 +24,9 @@ class TrialFlights {
   /// @param plan, console  must outlive this.
   TrialFlights(const HuntPlan& plan, const Console& console) : plan_(plan), console_(console) {}
 
+  /// From now on only this property is asked; "" means all of the hunt. Fewer are looked at in less time, and fewer
+  /// runs without faults are flown to compare with.
+  void ask(const std::string& property) { asked_ = property; }
   /// Flies the runs without faults that properties compare these with, each once. @throws Interrupted.
   void fly_undisturbed(const std::vector<Trial>& trials);
   /// Flies trials with these numbers in their order, several at once. One that cannot be flown, since it is not what a
@@ -46,12 +49,14 @@ class TrialFlights {
   std::filesystem::path dir_of(const std::string& name) const;
   ProgramSpec start(const Trial& trial, const std::filesystem::path& dir) const;
   TrialOutcome read(const Trial& trial, const std::filesystem::path& dir, const ExitStatus& exit);
+  properties::PropertySet asked(const properties::PropertySet& set) const;
 
   const HuntPlan& plan_;
   const Console& console_;
   std::map<std::string, std::optional<Setting>> settings_;    ///< by what is flown
   std::map<std::string, std::filesystem::path> undisturbed_;  ///< folders of runs without faults, by what is flown
   std::size_t flown_ = 0;
+  std::string asked_;  ///< see ask()
 };
 
 }  // namespace skein::cli

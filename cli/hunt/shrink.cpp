@@ -12,6 +12,7 @@ namespace skein::cli {
 namespace {
 
 constexpr double kLeastMission_s = 10.0, kLeastLength_s = 0.5;
+constexpr double kAfterSeen_s = 5.0;  ///< that a mission goes on
 constexpr const char* kSimplestScene = "towers";
 
 double to_multiple(double value, double step) { return std::round(value / step) * step; }
@@ -24,7 +25,7 @@ double length_of_fault(const Fault& fault) {
 Fault with_times(Fault fault, double at_s, double length_s) {
   if (fault.waits) {
     fault.for_s = length_s;
-  } else {
+  } else if (fault.until_s) {  // else it is for good
     fault.until_s = to_tenths(at_s + length_s);
   }
   fault.at_s = to_tenths(at_s);
@@ -48,47 +49,58 @@ bool names_any(const Fault& fault, const std::set<std::string>& of) {
       of, [&](const std::string& name) { return names.contains(name) || condition.find(name) != std::string::npos; });
 }
 
+std::string identity(const Trial& trial) { return what_is_flown(trial.run) + trial.text(); }
+
+/// What was refused with the one may do with the other.
+bool is_other_setting(const Trial& a, const Trial& b) {
+  return a.faults.size() != b.faults.size() || a.run.uavs != b.run.uavs;
+}
+
 class Proposals {
  public:
-  Proposals(const Trial& trial, const TrialOutcome& outcome, const Scenario& scenario, double after_s)
+  Proposals(const Trial& trial, const TrialOutcome& outcome, const Scenario& scenario, std::optional<double> after_s)
       : trial_(trial), outcome_(outcome), scenario_(scenario), after_s_(after_s) {}
 
-  std::vector<Trial> all(const std::string& property) {
+  std::vector<Proposal> all(const std::string& property) {
+    const TrialFinding* finding = outcome_.find(property);
+    seen_s_ = finding != nullptr ? finding->at_s : 0.0;
+    shorter_mission();
     fewer_faults();
     fewer_uavs();
-    shorter_mission(property);
     plainer_run();
     for (std::size_t i = 0; i < trial_.faults.size(); ++i) without_waiting(i);
     for (std::size_t i = 0; i < trial_.faults.size(); ++i) shorter(i);
     for (std::size_t i = 0; i < trial_.faults.size(); ++i) weaker(i);
     for (std::size_t i = 0; i < trial_.faults.size(); ++i) rounder(i);
-    return std::move(trials_);
+    return std::move(proposals_);
   }
 
  private:
-  void propose(Trial trial) {
-    if (trial.text() != trial_.text() || what_is_flown(trial.run) != what_is_flown(trial_.run)) {
-      trials_.push_back(std::move(trial));
-    }
+  void propose(const std::string& what, Trial trial) {
+    trial.faults = without_contradictions(std::move(trial.faults));
+    if (identity(trial) != identity(trial_)) proposals_.push_back({what, std::move(trial)});
   }
-  void propose(std::size_t index, Fault fault) {
+  void propose(const std::string& what, std::size_t index, Fault fault) {
     Trial trial = trial_;
     trial.faults[index] = std::move(fault);
-    propose(std::move(trial));
+    propose(what + " " + std::to_string(index), std::move(trial));
   }
 
   void fewer_faults() {
     const std::size_t count = trial_.faults.size();
-    if (count > 1) propose(Trial{trial_.run, {}});
+    Trial trial = trial_;
+    std::erase_if(trial.faults, [&](const Fault& fault) { return fault.at_s > seen_s_; });
+    propose("nothing afterwards", trial);
+    if (count > 1) propose("no faults", Trial{trial_.run, {}});
     if (count > 3) {
       const auto half = trial_.faults.begin() + static_cast<std::ptrdiff_t>(count / 2);
-      propose(Trial{trial_.run, {trial_.faults.begin(), half}});
-      propose(Trial{trial_.run, {half, trial_.faults.end()}});
+      propose("first half", Trial{trial_.run, {trial_.faults.begin(), half}});
+      propose("second half", Trial{trial_.run, {half, trial_.faults.end()}});
     }
     for (std::size_t i = count; i-- > 0;) {
-      Trial trial = trial_;
+      trial = trial_;
       trial.faults.erase(trial.faults.begin() + static_cast<std::ptrdiff_t>(i));
-      propose(std::move(trial));
+      propose("without " + std::to_string(i), trial);
     }
   }
 
@@ -101,43 +113,46 @@ class Proposals {
           std::ranges::none_of(trial_.faults, [&](const Fault& fault) { return names_any(fault, gone); });
       Trial trial = trial_;
       trial.run.uavs = count;
-      if (all_there) propose(std::move(trial));
+      if (all_there) propose("uavs " + std::to_string(count), std::move(trial));
     }
   }
 
   /// As long as what came of it takes to be seen, and some more.
-  void shorter_mission(const std::string& property) {
-    const TrialFinding* finding = outcome_.find(property);
-    const double duration_s = *trial_.run.duration_s;
+  void shorter_mission() {
     double healed_s = 0.0;
-    for (const Fault& fault : trial_.faults) healed_s = std::max(healed_s, fault.until_s.value_or(0.0));
-    const double seen_s = finding != nullptr ? finding->at_s : 0.0;
-    const double least_s = std::max(kLeastMission_s, healed_s + after_s_);
-    for (const double share : {0.5, 0.7, 0.85}) propose_duration(to_multiple(share * duration_s, 5.0), least_s);
-    propose_duration(5.0 * std::ceil(std::max(seen_s + 5.0, least_s) / 5.0), least_s);
+    for (const Fault& fault : trial_.faults) healed_s = std::max(healed_s, fault.until_s.value_or(fault.at_s));
+    const double least_s = std::max({kLeastMission_s, seen_s_ + kAfterSeen_s, after_s_ ? healed_s + *after_s_ : 0.0});
+    propose_duration("shortest", 5.0 * std::ceil(least_s / 5.0), least_s);
+    for (const double share : {0.5, 0.7, 0.85}) {
+      propose_duration("share " + std::to_string(share), to_multiple(share * *trial_.run.duration_s, 5.0), least_s);
+    }
   }
-  void propose_duration(double duration_s, double least_s) {
+  void propose_duration(const std::string& what, double duration_s, double least_s) {
     if (duration_s < least_s || duration_s >= *trial_.run.duration_s) return;
     Trial trial = trial_;
     trial.run.duration_s = duration_s;
-    propose(std::move(trial));
+    std::erase_if(trial.faults, [&](const Fault& fault) { return fault.at_s >= duration_s; });
+    for (Fault& fault : trial.faults) {
+      if (fault.until_s) fault.until_s = std::min(*fault.until_s, duration_s);
+    }
+    propose(what, std::move(trial));
   }
 
   void plainer_run() {
     Trial trial = trial_;
     trial.run.seed = 0;
-    propose(trial);
+    propose("seed", trial);
     trial = trial_;
     trial.run.scene_seed.reset();
-    propose(trial);
+    propose("scene seed", trial);
     trial = trial_;
     trial.run.scenario = kSimplestScene;
-    propose(trial);
+    propose("scene", trial);
     trial = trial_;
     const bool one_for_all = trial.run.planner.find_first_of("=@") == std::string::npos ||
                              trial.run.planner.find(':') < trial.run.planner.find('=');
     if (one_for_all) trial.run.planner = trial.run.planner.substr(0, trial.run.planner.find(':'));
-    propose(trial);
+    propose("parameters", trial);
   }
 
   /// At the time at which it began, if it waited for something.
@@ -151,7 +166,7 @@ class Proposals {
     fault.for_s.reset();
     fault.at_s = to_hundredths(begin_s);
     fault.until_s = to_hundredths(end_s);
-    propose(index, std::move(fault));
+    propose("at once", index, std::move(fault));
   }
 
   void shorter(std::size_t index) {
@@ -159,7 +174,7 @@ class Proposals {
     const double length_s = length_of_fault(fault);
     for (const double share : {0.25, 0.5}) {
       const double shorter_s = to_tenths(share * length_s);
-      if (shorter_s >= kLeastLength_s) propose(index, with_times(fault, fault.at_s, shorter_s));
+      if (shorter_s >= kLeastLength_s) propose("shorter", index, with_times(fault, fault.at_s, shorter_s));
     }
   }
 
@@ -168,13 +183,13 @@ class Proposals {
     if (auto* effect = std::get_if<LinkEffect>(&fault.action)) return weaker_link(index, fault, *effect);
     if (auto* jump = std::get_if<OdometryJump>(&fault.action)) {
       jump->offset_m *= 0.5;
-      if (jump->offset_m.norm() > 0.2) propose(index, fault);
+      if (jump->offset_m.norm() > 0.2) propose("weaker", index, fault);
     } else if (auto* delay = std::get_if<CommandDelay>(&fault.action)) {
       delay->exchanges /= 2;
-      if (delay->exchanges > 0) propose(index, fault);
+      if (delay->exchanges > 0) propose("weaker", index, fault);
     } else if (auto* motor = std::get_if<MotorFailure>(&fault.action)) {
       motor->thrust = to_hundredths(0.5 * (1.0 + motor->thrust));
-      if (motor->thrust < 0.98) propose(index, fault);
+      if (motor->thrust < 0.98) propose("weaker", index, fault);
     }
   }
   /// Of random effects certain ones are simpler: they hang on no draw.
@@ -182,22 +197,22 @@ class Proposals {
     const LinkEffect before = effect;
     if (effect.loss > 0.0 && effect.loss < 1.0) {
       effect.loss = 1.0;
-      propose(index, fault);
+      propose("certain loss", index, fault);
     }
     if (before.burst_loss) {
       effect = before;
       effect.burst_loss.reset();
       effect.loss = 1.0;
-      propose(index, fault);
+      propose("no bursts", index, fault);
     }
     effect = before;
     effect.latency_s = to_hundredths(0.5 * before.latency_s);
     effect.jitter_s = 0.0;
-    if (effect.latency_s >= 0.05) propose(index, fault);
+    if (effect.latency_s >= 0.05) propose("latency", index, fault);
     for (const bool source : {true, false}) {
       effect = before;
       (source ? effect.from : effect.to) = {"all"};
-      propose(index, fault);
+      propose(source ? "from all" : "to all", index, fault);
     }
   }
 
@@ -206,47 +221,55 @@ class Proposals {
     const double length_s = length_of_fault(fault);
     for (const double step : {10.0, 5.0, 1.0}) {
       const double at_s = to_multiple(fault.at_s, step), rounder_s = std::max(step, to_multiple(length_s, step));
-      if (at_s + rounder_s < *trial_.run.duration_s) propose(index, with_times(fault, at_s, rounder_s));
-      if (at_s + length_s < *trial_.run.duration_s) propose(index, with_times(fault, at_s, length_s));
+      const std::string what = "rounder " + std::to_string(step);
+      if (is_in_time(at_s + rounder_s)) propose(what, index, with_times(fault, at_s, rounder_s));
+      if (is_in_time(at_s + length_s)) propose(what + " at", index, with_times(fault, at_s, length_s));
     }
   }
+
+  /// Whether a fault may last until then.
+  bool is_in_time(double end_s) const { return end_s + after_s_.value_or(0.0) <= *trial_.run.duration_s; }
 
   const Trial& trial_;
   const TrialOutcome& outcome_;
   const Scenario& scenario_;
-  const double after_s_;
-  std::vector<Trial> trials_;
+  const std::optional<double> after_s_;
+  double seen_s_ = 0.0;  ///< when it failed
+  std::vector<Proposal> proposals_;
 };
-
-std::string identity(const Trial& trial) { return what_is_flown(trial.run) + trial.text(); }
 
 }  // namespace
 
-std::vector<Trial> simpler(const Trial& trial, const TrialOutcome& outcome, const std::string& property,
-                           const Scenario& scenario, double after_s) {
-  std::vector<Trial> trials = Proposals(trial, outcome, scenario, after_s).all(property);
-  for (Trial& one : trials) one.faults = without_contradictions(std::move(one.faults));
-  return trials;
+std::vector<Proposal> simpler(const Trial& trial, const TrialOutcome& outcome, const std::string& property,
+                              const Scenario& scenario, std::optional<double> after_s) {
+  return Proposals(trial, outcome, scenario, after_s).all(property);
 }
 
 Shrunk shrink(const Trial& trial, const TrialOutcome& outcome, const std::string& property, const Scenario& scenario,
               const ShrinkOptions& options, const FlyTrials& fly) {
   Shrunk best{trial, outcome};
-  std::set<std::string> tried = {identity(trial)};
+  std::set<std::string> tried = {identity(trial)}, refused;
   for (bool smaller = true; smaller && best.flights < options.most;) {
     smaller = false;
-    std::vector<Trial> proposals = simpler(best.trial, best.outcome, property, scenario, options.after_s);
-    std::erase_if(proposals, [&](const Trial& one) { return tried.contains(identity(one)); });
+    std::vector<Proposal> proposals = simpler(best.trial, best.outcome, property, scenario, options.after_s);
+    std::erase_if(proposals, [&](const Proposal& one) {
+      return refused.contains(one.what) || tried.contains(identity(one.trial));
+    });
     for (std::size_t first = 0; first < proposals.size() && !smaller && best.flights < options.most;
          first += options.at_once) {
-      const std::size_t last = std::min(proposals.size(), first + options.at_once);
-      const std::vector<Trial> batch(proposals.begin() + static_cast<std::ptrdiff_t>(first),
-                                     proposals.begin() + static_cast<std::ptrdiff_t>(last));
+      std::vector<Trial> batch;
+      for (std::size_t i = first; i < std::min(proposals.size(), first + options.at_once); ++i) {
+        batch.push_back(proposals[i].trial);
+      }
       const std::vector<TrialOutcome> outcomes = fly(batch);
       for (std::size_t i = 0; i < batch.size() && !smaller && best.flights < options.most; ++i) {  // as one by one
         ++best.flights;
         tried.insert(identity(batch[i]));
-        if (!outcomes[i].fails(property)) continue;
+        if (!outcomes[i].fails(property)) {
+          refused.insert(proposals[first + i].what);
+          continue;
+        }
+        if (is_other_setting(best.trial, batch[i])) refused.clear();
         best.trial = batch[i];
         best.outcome = outcomes[i];
         smaller = true;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,16 +21,25 @@ struct Shrunk {
   std::size_t flights = 0;  ///< that it took
 };
 
-/// What is tried of a find, the boldest first: faults fewer, shorter, weaker, at rounder times; fewer UAVs, a shorter
-/// mission, no draws of the seed, a planner without parameters, a simpler scene.
-/// @param after_s  that the mission lasts beyond the last fault: else what must hold then would fail of itself.
-std::vector<Trial> simpler(const Trial& trial, const TrialOutcome& outcome, const std::string& property,
-                           const Scenario& scenario, double after_s);
+/// Something simpler than a trial.
+struct Proposal {
+  std::string
+      what;  ///< was done to it: one that is refused is not tried again as long as faults and fleet are the same
+  Trial trial;
+};
+
+/// What is tried of a find, what saves most first: a shorter mission, which makes all that follows cheaper; faults
+/// fewer, by halves before one by one; fewer UAVs, no draws of the seed, a planner without parameters, a simpler scene;
+/// faults shorter, weaker, at rounder times.
+/// @param after_s  that the mission lasts beyond the last fault: else what must hold then would fail of itself. None:
+///   it may end when the failure was seen.
+std::vector<Proposal> simpler(const Trial& trial, const TrialOutcome& outcome, const std::string& property,
+                              const Scenario& scenario, std::optional<double> after_s);
 
 struct ShrinkOptions {
-  double after_s = 0.0;     ///< see simpler()
-  std::size_t at_once = 1;  ///< trials that `fly` gets in one call
-  std::size_t most = 120;   ///< flights that count
+  std::optional<double> after_s = 0.0;  ///< see simpler()
+  std::size_t at_once = 1;              ///< trials that `fly` gets in one call
+  std::size_t most = 60;                ///< flights that count
 };
 
 /// @param outcome   of the trial, in which `property` fails.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/fault_tests/fault_test.hpp"
 #include "cli/run/program_host.hpp"
 #include "core/fault_plan.hpp"
 #include "core/scenario.hpp"
@@ -24,11 +25,6 @@ struct Trial {
   /// A fault file. The same text is the same flight.
   std::string text() const;
 };
-
-/// Beside the properties of a hunt: the run came to its end, with a digest, and all programs lived.
-inline constexpr const char* kCompletes = "completes";
-/// Of a run over DDS, which must be the one that it was in one process.
-inline constexpr const char* kSameDigest = "same_digest";
 
 /// What became of one property in a trial.
 struct TrialFinding {

@@ -152,18 +152,21 @@ bool FolderSignals::has_path(const std::string& uav, std::size_t from, std::size
   return false;
 }
 
+const RunRecord& FolderSignals::undisturbed(const SignalUse& signal) const {
+  if (undisturbed_ != nullptr) return *undisturbed_;
+  throw InputError(signal.text() + ": is known only where the run is compared with one without faults");
+}
+
 FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) const {
-  if (undisturbed_ == nullptr) {
-    throw InputError(signal.text() + ": is known only where the run is compared with one without faults");
-  }
-  if (signal.is("undisturbed_score")) return constant(value_or(undisturbed_->result, "score", 0.0));
-  if (signal.is("undisturbed_earned")) return constant(value_or(undisturbed_->result, "score_earned", 0.0));
+  const RunRecord& without = undisturbed(signal);
+  if (signal.is("undisturbed_score")) return constant(value_or(without.result, "score", 0.0));
+  if (signal.is("undisturbed_earned")) return constant(value_or(without.result, "score_earned", 0.0));
   const std::string uav = signal.argument(0);
   const auto left = std::ranges::find_if(
       run_.events, [&](const EventRow& row) { return row.event == run_tables::kLeft && row.subject == uav; });
   if (left == run_.events.end()) return constant(0.0);
   const double from_s = static_cast<double>(left->step) * period_s();
-  std::set<int> in_hand = work_before(*undisturbed_, uav, from_s);
+  std::set<int> in_hand = work_before(without, uav, from_s);
   if (signal.is("in_hand")) return constant(static_cast<double>(in_hand.size()));
   std::vector<std::size_t> exchanges;
   std::vector<const CaptureRow*> rows;

@@ -35,8 +35,7 @@ std::vector<PropertyFinding> judge_properties(const properties::PropertySet& set
 
 bool needs_undisturbed(const properties::PropertySet& set) {
   const auto compares = [](const SignalUse& signal) {
-    return signal.is("undisturbed_score") || signal.is("undisturbed_earned") || signal.is("in_hand") ||
-           signal.is("taken_over");
+    return signal.info->name.starts_with("undisturbed_") || signal.is("in_hand") || signal.is("taken_over");
   };
   return std::ranges::any_of(set, [&](const NamedProperty& property) {
     return std::ranges::any_of(property.cases,

@@ -52,6 +52,7 @@ FolderSignals::Values FolderSignals::work_out(const SignalUse& signal) {
   for (const char* name : {"sent", "arrived", "arrived_once", "arrived_by_link", "in_flight"}) {
     if (signal.is(name)) return of_messages(signal);
   }
+  if (signal.is("undisturbed_distance")) return way_flown(tracks_of(undisturbed(signal)), signal.argument(0));
   for (const char* name : {"undisturbed_score", "undisturbed_earned", "in_hand", "taken_over"}) {
     if (signal.is(name)) return of_work(signal);
   }
@@ -74,17 +75,23 @@ FolderSignals::Values FolderSignals::counted(const std::vector<std::size_t>& exc
 
 // ---- the fleet --------------------------------------------------------------------------------------------------
 
-/// trajectories.csv has each UAV every other exchange; in between it stays where it was.
 const std::map<std::string, FolderSignals::Track>& FolderSignals::tracks() {
-  if (!tracks_.empty()) return tracks_;
+  if (tracks_.empty()) tracks_ = tracks_of(run_);
+  return tracks_;
+}
+
+/// trajectories.csv has each UAV every other exchange; in between it stays where it was.
+std::map<std::string, FolderSignals::Track> FolderSignals::tracks_of(const RunRecord& run) const {
+  std::map<std::string, Track> tracks;
   for (const std::string& name : scenario_.uav_names()) {
-    tracks_[name] = {std::vector<Vector3d>(exchanges_, Vector3d::Zero()),
-                     std::vector<Vector3d>(exchanges_, Vector3d::Zero()), constant(1.0), constant(kFarClearance_m)};
+    tracks[name] = {std::vector<Vector3d>(exchanges_, Vector3d::Zero()),
+                    std::vector<Vector3d>(exchanges_, Vector3d::Zero()), constant(1.0), constant(kFarClearance_m)};
   }
-  std::map<std::string, std::size_t> next;  // exchange that is not known yet
-  for (const PositionRow& row : run_.positions) {
-    const auto track = tracks_.find(row.uav);
-    if (track == tracks_.end()) continue;
+  const double end_s = (static_cast<double>(exchanges_) - 0.5) * period_s();  // another run may have lasted longer
+  std::map<std::string, std::size_t> next;                                    // exchange that is not known yet
+  for (const PositionRow& row : run.positions) {
+    const auto track = tracks.find(row.uav);
+    if (track == tracks.end() || row.time_s > end_s) continue;
     const std::size_t exchange = exchange_at(row.time_s);
     std::size_t& from = next[row.uav];
     auto& [positions, velocities, alive, clearance] = track->second;
@@ -100,7 +107,7 @@ const std::map<std::string, FolderSignals::Track>& FolderSignals::tracks() {
     clearance[exchange] = row.clearance_m.value_or(kFarClearance_m);
     from = exchange + 1;
   }
-  for (auto& [name, track] : tracks_) {
+  for (auto& [name, track] : tracks) {
     for (std::size_t k = next[name]; k < exchanges_ && k > 0; ++k) {
       track.positions[k] = track.positions[k - 1];
       track.velocities[k] = track.velocities[k - 1];
@@ -108,12 +115,27 @@ const std::map<std::string, FolderSignals::Track>& FolderSignals::tracks() {
       track.clearance[k] = track.clearance[k - 1];
     }
   }
-  return tracks_;
+  return tracks;
+}
+
+FolderSignals::Values FolderSignals::way_flown(const std::map<std::string, Track>& tracks,
+                                               const std::string& uav) const {
+  Values values = constant(0.0);
+  for (const auto& [name, track] : tracks) {
+    if (!uav.empty() && name != uav) continue;
+    double way_m = 0.0;
+    for (std::size_t k = 1; k < exchanges_; ++k) {
+      way_m += (track.positions[k] - track.positions[k - 1]).norm();
+      values[k] += way_m;
+    }
+  }
+  return values;
 }
 
 FolderSignals::Values FolderSignals::of_fleet(const SignalUse& signal) {
   const auto& all = tracks();
   const std::string uav = signal.argument(0);
+  if (signal.is("distance")) return way_flown(all, uav);
   if (signal.is("clearance") && uav.empty()) {
     Values least = constant(kFarClearance_m);
     for (const auto& [name, track] : all) {
@@ -128,15 +150,12 @@ FolderSignals::Values FolderSignals::of_fleet(const SignalUse& signal) {
     if (!uav.empty() && name != uav) continue;
     if (signal.is("clearance")) return track.clearance;
     if (signal.is("alive")) return track.alive;
-    double way_m = 0.0;
     for (std::size_t k = 0; k < exchanges_; ++k) {
       const Vector3d& p_W = track.positions[k];
-      if (k > 0) way_m += (p_W - track.positions[k - 1]).norm();
-      values[k] += signal.is("x")       ? p_W.x()
-                   : signal.is("y")     ? p_W.y()
-                   : signal.is("z")     ? p_W.z()
-                   : signal.is("speed") ? track.velocities[k].norm()
-                                        : way_m;
+      values[k] += signal.is("x")   ? p_W.x()
+                   : signal.is("y") ? p_W.y()
+                   : signal.is("z") ? p_W.z()
+                                    : track.velocities[k].norm();
     }
   }
   return values;

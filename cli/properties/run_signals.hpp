@@ -52,6 +52,10 @@ class FolderSignals final : public properties::RunSignals {
   Values constant(double value) const { return Values(exchanges_, value); }
   const RadioLog& radio();
   const std::map<std::string, Track>& tracks();
+  std::map<std::string, Track> tracks_of(const RunRecord& run) const;
+  Values way_flown(const std::map<std::string, Track>& tracks, const std::string& uav) const;
+  /// @throws InputError when there is none.
+  const RunRecord& undisturbed(const SignalUse& signal) const;
   std::size_t exchange_at(double time_s) const;
   const std::vector<double>& use(const std::string& name, std::vector<std::string> arguments = {});
 

@@ -88,6 +88,23 @@ TEST_F(RunSignalsTest, TheFleetIsWhereItsTableSays) {
   }());
 }
 
+TEST_F(RunSignalsTest, TheRunWithoutFaultsIsAsLongAsItWas) {
+  for (const double end_s : {1.0, 2.0, 3.0}) {
+    RunRecord undisturbed = run_;
+    for (std::size_t tenth = 0; 0.1 * static_cast<double>(tenth) < end_s + 0.05; ++tenth) {
+      const double t = 0.1 * static_cast<double>(tenth);
+      undisturbed.positions.push_back({t, "a", {0, 2.0 * t, 1}, {0, 2, 0}, true, 5.0});
+    }
+    const std::vector<double> flown = number("undisturbed_distance(a)", &undisturbed);
+    for (std::size_t k = 0; k < kExchanges; ++k) {
+      const double t = std::min(0.1 * static_cast<double>(k / 2), end_s);
+      EXPECT_NEAR(flown[k], 2.0 * t, 1e-9) << k << " of " << end_s << " s";
+    }
+  }
+  EXPECT_EQ(number("distance(a)"), steps({}));
+  EXPECT_THROW(number("undisturbed_distance(a)"), InputError);
+}
+
 TEST_F(RunSignalsTest, MembersLinksAndFaultsFollowEventsAndResult) {
   run_.events = {{0, "joined", "a", ""},   {0, "link_up", "a", "gcs"}, {5, "link_down", "a", "gcs"},
                  {7, "link_up", "b", "a"}, {10, "left", "a", ""},      {20, "joined", "a", ""},

@@ -60,13 +60,23 @@ class PlantedPlanner final : public Planner {
     if (!began_s_) begin(now_s);
     hear(in, now_s);
     PlannerOutput out;
-    if (stands_still(in, now_s)) {
+    const bool stands = stands_still(in, now_s);
+    if (stands) {
+      if (!stood_) leg_ += in.tracking.leg;
       if (in.tracking.airborne) out.motion = Hold{};
     } else if (is_blind(in, now_s)) {
       out.motion = Path{{{in.boxes.front().center, kBlindSpeed_mps}}};
+    } else if (stood_ && leg_ < path_.waypoints.size()) {
+      out.motion = Path{{path_.waypoints.begin() + static_cast<std::ptrdiff_t>(leg_), path_.waypoints.end()}};
     } else {
       out = inner_->plan(as_seen(in));
+      if (!std::holds_alternative<std::monostate>(out.motion)) {
+        const Path* path = std::get_if<Path>(&out.motion);
+        path_ = path != nullptr ? *path : Path{};
+        leg_ = 0;
+      }
     }
+    stood_ = stands;
     speak(in, now_s, out);
     return out;
   }
@@ -134,11 +144,13 @@ class PlantedPlanner final : public Planner {
   PlannerInput as_seen(const PlannerInput& in) const {
     static const std::vector<OrientedBox> none;
     const bool forgets = defect_ == Defect::no_boxes_again && was_away();
+    TrackingState tracking = in.tracking;
+    tracking.leg += leg_;
     return {.k = in.k,
             .tick = in.tick,
             .state = in.state,
             .gimbal = in.gimbal,
-            .tracking = in.tracking,
+            .tracking = tracking,
             .map = in.map,
             .boxes = forgets ? none : in.boxes,
             .peers = in.peers,
@@ -170,6 +182,10 @@ class PlantedPlanner final : public Planner {
   const std::unique_ptr<Planner> inner_;
   std::map<std::string, double> heard_s_;  ///< when each word was last heard
   std::optional<double> began_s_, saw_s_;
+  /// What patrol flies, to be taken up again after standing still: else it believes that it has arrived.
+  Path path_;
+  std::size_t leg_ = 0;  ///< of it, where the path begins that is being flown
+  bool stood_ = false;
   bool forgotten_ = false, released_ = false, met_ = false;
 };
 

@@ -11,6 +11,7 @@ namespace skein::agent {
 namespace {
 
 constexpr double kAtTopM = 0.5;
+constexpr double kAboveStartM = 0.5;  ///< to the side
 constexpr double kClimbAgainS = 1.0;  ///< after a climb was stopped
 constexpr int kMaxClimbs = 20;
 constexpr double kLowestPlaceM = 6.0;  ///< for delivery
@@ -121,6 +122,7 @@ Sortie::Turn Sortie::leave_ground(const PlannerInput& in, PlannerOutput& out) {
     pilot_.stop(out);
     state_ = State::climbing;
     climb_to_ = p;
+    was_climbing_ = (p - agent_.me().p_WB_start).head<2>().norm() < kAboveStartM;
     return Turn::nothing;
   }
   if (!looks_since_) looks_since_ = in.tick;
@@ -147,9 +149,23 @@ Sortie::Turn Sortie::climb(const PlannerInput& in, PlannerOutput& out) {
     return Turn::nothing;
   }
   if (!site_known_) return Turn::nothing;  // stays where it is until it knows the boxes
+  if (was_climbing_) {
+    climb_on(in);
+    return Turn::nothing;
+  }
   pilot_.forget_trail();
   watch_.forgive(in);
   return begin_work();
+}
+
+/// Whoever was restarted right above its start was on its way up, or may well be: where it is now, no map shows a way.
+void Sortie::climb_on(const PlannerInput& in) {
+  was_climbing_ = false;
+  const Vector3d here = climbs_from(in), start = agent_.me().p_WB_start;
+  ground_m_ = start.z();
+  looks_since_ = in.tick;
+  const double height_m = lift_off_height_m(agent_, in.boxes, start, blind_height_m_, config_.clearance_m);
+  climb_to_ = {here.x(), here.y(), std::max(here.z(), height_m)};
 }
 
 Vector3d Sortie::climbs_from(const PlannerInput& in) const {

@@ -69,6 +69,7 @@ class Sortie {
 
   Turn leave_ground(const PlannerInput& in, PlannerOutput& out);
   Turn climb(const PlannerInput& in, PlannerOutput& out);
+  void climb_on(const PlannerInput& in);
   Vector3d climbs_from(const PlannerInput& in) const;
   double open_above_m(const PlannerInput& in, double roof_m) const;
   void rise(double height_m, const PlannerInput& in, PlannerOutput& out);
@@ -90,6 +91,7 @@ class Sortie {
   double top_m_ = 0.0, blind_height_m_ = 0.0;
   double ground_m_ = 0.0;
   Vector3d climb_to_ = Vector3d::Zero();
+  bool was_climbing_ = false;        ///< when its program was restarted
   bool knows_above_ = false;         ///< that nothing is in the way to climb_to_, or nobody will ever know
   std::optional<Tick> looks_since_;  ///< up, or waits for others who do
   ProgressWatch watch_;

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "uav_agent/testing/look_around.hpp"
+#include "uav_agent/testing/test_world.hpp"
 
 namespace skein::agent {
 namespace {
@@ -84,6 +87,25 @@ TEST_F(OneSortie, WhoBeginsInTheAirWasRestartedAndGoesToWorkWhereItIs) {
   sortie_.know_site(20.0, 0.0);
   EXPECT_EQ(next(), Turn::begin);
   EXPECT_EQ(p_WB_, Vector3d(3.0, 4.0, 17.0));
+}
+
+TEST_F(OneSortie, WhoBeginsRightAboveItsStartClimbsOnAsHighAsFromTheGround) {
+  boxes_ = {make_box({12.0, 0.0, 10.0}, {6.0, 6.0, 20.0})};
+  sortie_.know_site(20.0, 12.0);
+  EXPECT_EQ(next(), Turn::begin);
+  const double top_m = p_WB_.z();
+  EXPECT_GT(top_m, 12.0);
+  for (const double height_m : {3.0, 7.0, 11.0, top_m, top_m + 5.0}) {
+    Sortie restarted({.deliver_every_s = 30.0}, agent_);
+    p_WB_.z() = height_m;
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(step(restarted), Turn::nothing) << "it does not know where it may fly";
+    EXPECT_EQ(p_WB_.z(), height_m);
+    restarted.know_site(20.0, 12.0);
+    int steps = 0;
+    while (step(restarted) != Turn::begin && steps < 200) ++steps;
+    EXPECT_LT(steps, 200);
+    EXPECT_EQ(p_WB_.z(), std::max(height_m, top_m)) << "from " << height_m << " m";
+  }
 }
 
 TEST_F(OneSortie, LeavesToDeliverAndBeginsAgain) {

@@ -44,6 +44,7 @@ constexpr int kFruitlessToBold = 2, kFruitlessToRetreat = 9;
 constexpr double kBoldS = 40.0;          ///< for so long it does with less proof of free space
 constexpr double kLookAroundTurn = 0.8;  ///< in vain: a LiDAR that has turned makes a new key frame [rad]
 constexpr int kMostMoreLanes = 3;        ///< times, for explorers that have found nothing
+constexpr double kBoxesComeS = 5.0;      ///< to whoever is there from the beginning
 
 }  // namespace
 
@@ -176,6 +177,7 @@ void KiosPlanner::survey_site(const PlannerInput& in) {
   const double voxel = config_.voxel_m > 0.0 ? config_.voxel_m : by_camera;
   // One cube of free space around everything, to look at the outermost faces from.
   grid_.emplace(operational_volume(in.boxes, starts, voxel, 0.0, voxel));
+  if (seconds(in.tick) > kBoxesComeS) patience_.came_back();
   if (site_.blind_fleet) return fill_boxes(in.boxes, *grid_);
   lay_lanes(in, config_.lanes);
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "uav_agent/planners/kios/lanes.hpp"
+#include "uav_agent/planners/kios/patience.hpp"
 #include "uav_agent/planners/kios/stops.hpp"
 #include "uav_agent/planners/kios/talk.hpp"
 #include "uav_agent/testing/test_world.hpp"
@@ -141,6 +142,32 @@ TEST(KiosTalk, ClaimsTravelAndExpire) {
   EXPECT_EQ(hears.claimed(500), (std::set<VoxelGrid::Id>{3, 4, 5}));
   EXPECT_TRUE(hears.taken(500).contains(17));
   EXPECT_TRUE(hears.claimed(400 + ticks(10.0)).empty());
+}
+
+TEST(KiosPatience, WhoComesBackBelievesPhotographersThatWork) {
+  const AgentConfig speaker = agent_of(1, 1, 2), listener = agent_of(2, 1, 2);
+  VoxelGrid theirs = long_volume(), ours = long_volume();
+  const OccupancyMap map;
+  const Peers peers(listener);
+  const std::vector<OrientedBox> boxes;
+  const auto input = [&](std::span<const RadioMessage> radio, std::uint64_t k = 0) {
+    return PlannerInput{k, ticks(60.0), {}, {}, {}, map, boxes, peers, {}, false, 0, {}, radio};
+  };
+  for (const bool works : {false, true}) {
+    for (const bool came_back : {false, true}) {
+      KiosTalk says({}, speaker), hears({}, listener);
+      PlannerOutput out;
+      KiosTalk::Word word;
+      if (works) word.stop = 17;
+      for (std::uint64_t k = 0; k < 100 && out.radio.empty(); ++k) says.speak(input({}, k), theirs, word, out);
+      hears.listen(input(out.radio), ours);
+      ASSERT_TRUE(hears.word(1));
+      KiosPatience patience(listener, hears);
+      patience.begin(ticks(60.0));
+      if (came_back) patience.came_back();
+      EXPECT_EQ(patience.is_over(input({}), ours, {}), works && came_back);
+    }
+  }
 }
 
 TEST(Kios, PhotographsTheStructureAndBringsItHome) {

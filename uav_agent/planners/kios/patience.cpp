@@ -13,10 +13,13 @@ constexpr double kWaitFactor = 1.5, kWaitExtraS = 20.0;  ///< beside the time th
 bool KiosPatience::is_over(const PlannerInput& in, const VoxelGrid& volume, const KiosConfig& config) {
   bool anybody_maps = false, done = false, busy = false;
   for (const Peer& peer : in.peers.all()) {
-    if (agent_.fleet[peer.uav].role != Role::explorer) continue;
+    const auto word = talk_.word(peer.uav);
+    if (agent_.fleet[peer.uav].role != Role::explorer) {
+      done |= came_back_ && word && word->stop != KiosTalk::kNoStop;
+      continue;
+    }
     anybody_maps = true;
     if (peer.visible && peer.v_W.norm() > kFliesMps) seen_flying_ = in.tick;
-    const auto word = talk_.word(peer.uav);
     done |= word && !word->mapping;
     busy |= word && word->mapping && peer.visible;
   }

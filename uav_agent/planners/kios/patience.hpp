@@ -1,5 +1,7 @@
 // How long a photographer of KIOS waits for the explorers' map: until one says that it is done and none in sight that
 // it is not; or until none was seen to fly for a while, or all of them must have come to the end of their lanes.
+// Whoever comes back may have missed that word while explorers are out of its sight: it believes photographers that
+// work.
 // Threads: one.   Source: paper (photographers idle while the explorers map); that it ends is ours.
 #pragma once
 
@@ -14,6 +16,8 @@ class KiosPatience {
   KiosPatience(const AgentConfig& agent, const KiosTalk& talk) : agent_(agent), talk_(talk) {}
 
   void begin(Tick now) { since_ = now; }
+  /// To be told when the program was away.
+  void came_back() { came_back_ = true; }
   /// Once per exchange of waiting.   @param volume  through which the lanes lead.
   bool is_over(const PlannerInput& in, const VoxelGrid& volume, const KiosConfig& config);
 
@@ -21,6 +25,7 @@ class KiosPatience {
   const AgentConfig& agent_;
   const KiosTalk& talk_;
   Tick since_ = 0, seen_flying_ = 0;  ///< the latter: any explorer
+  bool came_back_ = false;
 };
 
 }  // namespace skein::agent

@@ -1,0 +1,15 @@
+// Columns for messages that name no more than a line. Programs write capsules (docs/how-to-hunt.md) in long lines with
+// many keys, and there a line is no place.   Pure.
+#pragma once
+
+#include <string>
+
+#include "core/config_node.hpp"
+
+namespace skein::cli {
+
+/// "FILE:LINE: KEY: WHAT" becomes "FILE:LINE:COLUMN: KEY: WHAT", line by line: where the key stands, or the first
+/// letter of the line, if it does not stand there. Whatever else is said stays as it is.
+std::string with_columns(const std::string& said, const ConfigDocument& document);
+
+}  // namespace skein::cli
