@@ -38,8 +38,8 @@ class Proof {
   void ask_all() { rung_ = 0; }
 
  private:
-  static constexpr int kRoomyRays = 16, kLeastRoomyRays = 8, kLeastRays = 4;
-  static constexpr std::array<int, kLast + 1> kRungs = {12, 9, 6, 4};
+  static constexpr int kRoomyRays = 16, kLeastRoomyRays = 8, kLeastRays = 6;
+  static constexpr std::array<int, kLast + 1> kRungs = {12, 9, 6, 6};
 
   std::size_t rung_ = 0;
   Tick until_ = 0;

@@ -164,6 +164,7 @@ void Sortie::climb_on(const PlannerInput& in) {
   const Vector3d here = climbs_from(in), start = agent_.me().p_WB_start;
   ground_m_ = start.z();
   looks_since_ = in.tick;
+  knows_above_ = !agent_.first_explorer();
   const double height_m = lift_off_height_m(agent_, in.boxes, start, blind_height_m_, config_.clearance_m);
   climb_to_ = {here.x(), here.y(), std::max(here.z(), height_m)};
 }
