@@ -87,7 +87,7 @@ struct HuntOptions {
   std::optional<int> jobs;
   std::uint64_t seed = 1;   ///< of the search
   bool first = false;       ///< the first find ends the search
-  std::size_t shrink = 60;  ///< flights that it may take to make a find small
+  std::size_t shrink = 40;  ///< flights that it may take to make a find small
   std::optional<std::filesystem::path> out, junit;
   bool force = false;  ///< begin anew where another hunt was
 };

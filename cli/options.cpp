@@ -243,7 +243,6 @@ void check_one_process(const RunOptions& run) {
   };
   refuse(!run.debug.empty(), "--debug", "the program that you debug is one of its own");
   refuse(run.cores, "--cores", "the core would be that of all");
-  refuse(run.secure, "--secure", "it keeps programs apart that cannot see each other's memory");
   refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
 }
 

@@ -41,7 +41,8 @@ if(SKEIN_SANITIZE)
   # -Wno-maybe-uninitialized: what the sanitizers insert makes GCC see that where it is not.
   add_compile_options(-fsanitize=${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1
     -Wno-maybe-uninitialized)
-  add_link_options(-fsanitize=${sanitizers})
+  # Some two hundred programs of 110 MB each without the rest of this line; with it, of less than half.
+  add_link_options(-fsanitize=${sanitizers} -no-pie -Wl,--compress-debug-sections=zlib)
   # Debian's libpcl frees with plain free() what Eigen allocates here; without this it would not be the same allocator.
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()

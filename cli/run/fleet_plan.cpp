@@ -216,6 +216,8 @@ std::optional<std::string> needs_processes(const FleetPlan& plan) {
     }
   }
   if (plan.options.network) return "--network needs processes: other hosts take part over DDS";
+  if (plan.options.secure)
+    return "--secure needs processes: it keeps programs apart that cannot see each other's memory";
   const std::vector<std::filesystem::path> files = agent_files(plan);
   if (files.size() > 1) {
     return "--planner " + plan.options.planner + " needs processes: " + files[0].string() + " and " +

@@ -91,13 +91,18 @@ TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
   EXPECT_NE(file("one", "report.html").find("patrol/seed-2/report.html"), std::string::npos);
 }
 
-TEST_F(ContestTest, TwoAtOnceFlyTheSame) {
-  for (const auto& [out, jobs] : {std::pair("one", "1"), {"two", "2"}}) {
-    ChildProcess& compare = skein({"compare", "--planners", "patrol", "--scenarios", "towers", "--seeds", "1,4",
-                                   "--duration", "5", "--jobs", jobs, "--out", folder() / out});
+TEST_F(ContestTest, TwoAtOnceFlyTheSameAndSecuredOnesToo) {
+  for (const auto& [out, how] : {std::pair<std::string, Arguments>("one", {"--jobs", "1"}),
+                                 {"two", {"--jobs", "2"}},
+                                 {"secured", {"--jobs", "1", "--secure"}}}) {
+    Arguments words = {"compare", "--planners", "patrol", "--scenarios", "towers",      "--seeds",
+                       "1,4",     "--duration", "5",      "--out",       folder() / out};
+    words.insert(words.end(), how.begin(), how.end());
+    ChildProcess& compare = skein(words);
     ASSERT_EQ(compare.wait().code, 0) << compare.err();
   }
   EXPECT_EQ(what_repeats(folder() / "one" / "flights.csv"), what_repeats(folder() / "two" / "flights.csv"));
+  EXPECT_EQ(what_repeats(folder() / "one" / "flights.csv"), what_repeats(folder() / "secured" / "flights.csv"));
 }
 
 TEST_F(ContestTest, CtrlCEndsTheFlightInTheAirAndNothingIsLeft) {

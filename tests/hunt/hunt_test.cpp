@@ -1,6 +1,7 @@
 // Planted defects are found by a search that knows none of them, made small, and stand in a capsule that fails with the
 // defect and passes without, over DDS. One of them in the usual suite; all of them with SKEIN_LONG=1.
 #include <fstream>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -103,6 +104,34 @@ class Hunts : public FleetTest {
 const Arguments kQuick = {"--uavs", "2", "--duration", "90", "--faults", "kill,link,blackout", "--shrink", "12"};
 
 TEST_F(Hunts, FindARestartedProgramThatKnowsNoBoxes) { expect_found(of_planner("no_boxes_again"), 40, kQuick); }
+
+TEST_F(Hunts, TheirFindsAreThereWhenTheyGoOnAndCanBeTestedAndBlamed) {
+  const Planted planted = of_planner("no_boxes_again");
+  const Arguments words = joined(
+      {"hunt", "towers", "--planner", planted.planner, "--runs", "10", "--seed", "2", "--out", folder() / "hunt"},
+      joined(planted.defect, kQuick));
+  const auto finds = [&] {
+    std::map<std::string, std::string> texts;
+    for (const fs::path& capsule : capsules("hunt")) texts[capsule.filename()] = text_of(capsule);
+    return texts;
+  };
+  ASSERT_EQ(skein(words), 1) << said_;
+  const auto before = finds();
+  ASSERT_FALSE(before.empty()) << said_;
+  EXPECT_EQ(skein(words), 1) << "none is lost";
+  EXPECT_NE(said_.find("10 of 10 runs are there already"), std::string::npos) << said_;
+  EXPECT_EQ(finds(), before);
+  for (const auto& [name, text] : before) EXPECT_NE(said_.find(name), std::string::npos) << said_;
+
+  const fs::path folder_of_finds = folder() / "hunt" / "finds";
+  EXPECT_EQ(skein(joined({"test", "--faults", folder_of_finds, "--out", folder() / "again"}, planted.defect)), 1);
+  EXPECT_NE(said_.find("0 passed, " + std::to_string(before.size()) + " failed"), std::string::npos) << said_;
+
+  const fs::path capsule = folder_of_finds / before.begin()->first;
+  EXPECT_EQ(skein(joined({"blame", capsule, "--messages", "20", "21"}, planted.defect)), 0) << said_;
+  EXPECT_NE(said_.find("kill"), std::string::npos) << "the fault, and " << said_;
+  EXPECT_NE(said_.find("without messages from"), std::string::npos) << said_;
+}
 
 TEST_F(Hunts, GoOnWhereTheyWereStoppedAndDoNotDependOnJobs) {
   const auto hunt = [&](const std::string& out, const std::string& runs, const std::string& jobs) {

@@ -10,16 +10,19 @@ namespace skein::agent {
 namespace {
 
 constexpr double kDetour = 1.5;
-constexpr double kFixedS = 6.0;        ///< to stop, turn and speed up
-constexpr double kLayerM = 3.0;        ///< between the heights of two UAVs
-constexpr double kSightRadiusM = 0.8;  ///< of the tube that must be clear of mapped cells
-constexpr double kStationM = 3.0;      ///< the station's own surroundings are mapped: they do not count
+constexpr double kNeverLinked = 1.7;    ///< times as long: it has yet to find from where the station is seen
+constexpr double kFixedS = 6.0;         ///< to stop, turn and speed up
+constexpr double kLayerM = 3.0;         ///< between the heights of two UAVs
+constexpr double kSightRadiusM = 0.8;   ///< of the tube that must be clear of mapped cells
+constexpr double kStationM = 3.0;       ///< the station's own surroundings are mapped: they do not count
+constexpr double kAboveStationM = 3.0;  ///< what it stands on, a roof perhaps, hides it from below
 constexpr int kDirections = 12;
 constexpr double kAboveAllM = 6.0;      ///< where no place is known
 constexpr double kRetryS = 1.0;         ///< after no way was found
 constexpr double kLinkPatienceS = 4.0;  ///< at a place without a link
 constexpr double kLinkAgeS = 1.0;       ///< between two sightings: a link that lasts
 constexpr int kFailuresToRetreat = 3;
+constexpr double kNearerM = 3.0;       ///< nearer to a place that cannot be reached
 constexpr int kFailuresToAskLess = 4;  ///< proof of free space: what is not delivered is worth nothing
 constexpr double kOutwards[] = {4.0, 8.0, 14.0, 22.0, 32.0};
 
@@ -31,7 +34,8 @@ std::vector<Vector3d> delivery_places(const AgentConfig& agent, const FreeSpace&
     Vector3d p_W;
   };
   std::vector<Candidate> candidates;
-  const double height = lowest_m + kLayerM * static_cast<double>(agent.self);
+  const double lowest_in_sight_m = std::max(lowest_m, agent.station_position.z() + kAboveStationM);
+  const double height = lowest_in_sight_m + kLayerM * static_cast<double>(agent.self);
   const double own_direction =
       2.0 * std::numbers::pi * static_cast<double>(agent.self) / static_cast<double>(agent.fleet.size());
   for (const double outwards : kOutwards) {
@@ -79,7 +83,7 @@ void Delivery::note_link(const PlannerInput& in) {
 
 double Delivery::way_home_s(const PlannerInput& in) const {
   const double way_s = time_home_s(in.state.p_WB, home(), config_.speed_mps);
-  if (!linked_at_W_) return way_s;
+  if (!linked_at_W_) return kNeverLinked * way_s;
   return std::min(way_s, time_home_s(in.state.p_WB, *linked_at_W_, config_.speed_mps));
 }
 
@@ -122,12 +126,21 @@ bool Delivery::step(const PlannerInput& in, const FreeSpace::Config& space, Plan
   if (pilot_.has_path() || in.tick < next_try_) return false;
   next_try_ = in.tick + ticks(kRetryS);
   FreeSpace::Config way = space;
-  way.rays = Proof::of(space.rays, static_cast<std::size_t>(failures_ / kFailuresToAskLess));
+  way.rays = Proof::of(space.rays, static_cast<std::size_t>(failures_ / kFailuresToAskLess), agent_.me().role);
   heading_home_ = pilot_.fly_to(home(), in, way, out).found;
   if (heading_home_) return false;
+  if (++failures_ % kFailuresToRetreat == 0 && !approach(home(), in, way, out)) pilot_.retreat(in, out, false);
   next_place();
-  if (++failures_ % kFailuresToRetreat == 0) pilot_.retreat(out, false);
   return false;
+}
+
+/// As near as it gets: there it may see the station, or how to go on. @returns whether it sets out.
+bool Delivery::approach(const Vector3d& p_W, const PlannerInput& in, const FreeSpace::Config& space,
+                        PlannerOutput& out) {
+  const Vector3d here = in.tracking.setpoint.p_WB;
+  FreeSpace::Config way = space;
+  way.floor_m = std::min(way.floor_m, here.z());
+  return pilot_.fly_nearer(p_W, kNearerM, in, way, out);
 }
 
 void Delivery::try_again(const PlannerInput& in) { next_try_ = in.tick + ticks(kRetryS); }

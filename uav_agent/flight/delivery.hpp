@@ -49,6 +49,7 @@ class Delivery {
   Vector3d home() const;
   void note_link(const PlannerInput& in);
   double way_home_s(const PlannerInput& in) const;
+  bool approach(const Vector3d& p_W, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
   void next_place() { place_ = (place_ + 1) % (places_.size() + 1); }
 
   const Config config_;

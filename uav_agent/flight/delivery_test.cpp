@@ -43,6 +43,20 @@ TEST(DeliveryPlaces, SeeTheStationAndAreApart) {
   }
 }
 
+TEST(DeliveryPlaces, LieAboveAStationOnARoof) {
+  const std::vector<OrientedBox> boxes = {tower()};
+  const OccupancyMap map;
+  const FreeSpace space({.clearance_m = 1.8}, boxes, map);
+  AgentConfig agent = fleet_of(3, 1);
+  for (const double station_m : {0.3, 8.0, 41.0, 60.0}) {
+    agent.station_position = {10.0, 0.0, station_m};
+    if (station_m < 40.0) agent.station_position = {-4.0, 0.0, station_m};  // beside the tower, not in it
+    const auto places = delivery_places(agent, space, 12.0);
+    ASSERT_FALSE(places.empty()) << station_m;
+    for (const Vector3d& place : places) EXPECT_GT(place.z(), station_m + 1.0);
+  }
+}
+
 TEST(DeliveryPlaces, AvoidWhatTheMapShows) {
   OccupancyMap map;
   std::vector<Eigen::Vector3f> roof;  // over the station
@@ -107,6 +121,22 @@ TEST_F(FarOut, LeavesInTimeForThePlaceWhereItLastHadALink) {
   fly({90.0, 20.0, 20.0}, {4.0, 0.0, 0.0}, 2.0, false);
   EXPECT_FALSE(delivery_.due(input({98.0, 20.0, 20.0}, false, 40.0))) << "that place is 3 s away";
   EXPECT_TRUE(delivery_.due(input({98.0, 20.0, 20.0}, false, 15.0)));
+}
+
+TEST_F(FarOut, LeavesSoonerIfItHasNeverHadALink) {
+  for (const double away_m : {40.0, 75.0, 110.0}) {
+    const Vector3d here_W(-1.0 - away_m, 0.0, 20.0);
+    const auto least_left_s = [&](bool had_link) {
+      Delivery delivery({.margin_s = 10.0, .speed_mps = 4.0}, agent_, pilot_);
+      for (int i = 0; i < 100; ++i) delivery.update(input({-1.0, 0.0, 20.0}, had_link, 500.0), 40.0);
+      double left_s = 500.0;
+      while (!delivery.due(input(here_W, false, left_s))) left_s -= 1.0;
+      return left_s;
+    };
+    const double known_s = least_left_s(true);
+    EXPECT_GT(least_left_s(false), 1.4 * known_s) << "it does not know yet from where the station is seen";
+    EXPECT_GT(known_s, away_m / 4.0);
+  }
 }
 
 TEST_F(FarOut, GoesToThatPlaceAndNotToWhereTheLinkBroke) {
@@ -203,7 +233,11 @@ TEST_F(AtThePlace, WorkGoesOnOnlyWhenAllIsDeliveredAndThereIsTimeToComeBack) {
   EXPECT_FALSE(step(false, 0, 500.0, out)) << "without a link nobody knows";
   EXPECT_FALSE(step(true, 1, 500.0, out));
   EXPECT_TRUE(step(true, 0, 500.0, out));
-  // The way home takes six seconds and ten are to be spare: twice that must be left.
+  // The way home takes six seconds, more where there was no link before, and ten are to be spare: twice that must be
+  // left.
+  EXPECT_TRUE(step(true, 0, 41.0, out));
+  EXPECT_FALSE(step(true, 0, 40.0, out));
+  for (int i = 0; i < 100; ++i) delivery_.update(input(place_, true, 500.0), 40.0);
   EXPECT_TRUE(step(true, 0, 33.0, out));
   EXPECT_FALSE(step(true, 0, 31.0, out));
 }

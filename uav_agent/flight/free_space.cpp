@@ -104,6 +104,12 @@ bool FreeSpace::segment_free(const Vector3d& a_W, const Vector3d& b_W) const {
   return !config_.use_map || map_.segment_clear(a_W, b_W, config_.clearance_m);
 }
 
+bool FreeSpace::looked_at(const Vector3d& a_W, const Vector3d& b_W, double body_m) const {
+  return !config_.use_map || all_along(a_W, b_W, [&](const Vector3d& p) {
+    return (p - a_W).norm() < body_m || !must_be_seen(p) || map_.known_free(p, std::min(kFewestRays, config_.rays));
+  });
+}
+
 bool FreeSpace::sees(const Vector3d& a_W, const Vector3d& b_W, double radius) const {
   const bool past_boxes = all_along(a_W, b_W, [this](const Vector3d& p) {
     return std::none_of(boxes_.begin(), boxes_.end(), [&](const OrientedBox& box) { return box.contains(p); }) ||

@@ -11,6 +11,8 @@
 
 namespace skein::agent {
 
+inline constexpr double kAnywhereM = 1e6;  ///< enter_radius_m of who may enter boxes wherever they were seen to be free
+
 /// A place to keep away from: another UAV.
 struct Sphere {
   Vector3d p_W = Vector3d::Zero();
@@ -59,6 +61,8 @@ class FreeSpace {
   Barrier barrier(const Vector3d& p_W) const;
   /// Every point of the segment is free.
   bool segment_free(const Vector3d& a_W, const Vector3d& b_W) const;
+  /// Somebody has looked (kFewestRays) wherever only what was seen may be entered, farther than `body_m` from `a_W`.
+  bool looked_at(const Vector3d& a_W, const Vector3d& b_W, double body_m) const;
   /// Line of sight as far as map and boxes tell: no mapped cell within `radius` of the segment, no unknown box
   /// on it.
   bool sees(const Vector3d& a_W, const Vector3d& b_W, double radius) const;

@@ -14,8 +14,16 @@ constexpr double kClimbLayerM = 2.0;                      ///< between the heigh
 constexpr double kRoomyAsideM = 4.0, kRoomyAboveM = 4.0;  ///< where starts are in a box, and how far above it is out
 constexpr double kStandingM = 2.0;                        ///< so high up there is room where somebody was set down
 constexpr int kRoofRays = 4, kBoxRays = 8;                ///< that find a roof, and the structure that is in a box
-constexpr double kColumnM = 0.6;                          ///< around the body
 constexpr double kStepM = 0.5;
+constexpr double kBesideHeightM = 0.6;                   ///< so low, what is near stands beside the start
+constexpr double kEvenM = 0.3, kLeastBesideWallM = 0.4;  ///< a wall on the map is as even as its cells are
+
+/// Who was set down beside a wall needs no more room than that to rise along it.
+double column_m(double wanted_m, const OccupancyMap& map, const Vector3d& from_W, double ground_m) {
+  const Vector3d low_W(from_W.x(), from_W.y(), ground_m + kBesideHeightM);
+  const auto beside_m = map.distance_to_occupied(low_W, wanted_m);
+  return beside_m ? std::min(wanted_m, std::max(*beside_m - kEvenM, kLeastBesideWallM)) : wanted_m;
+}
 
 }  // namespace
 
@@ -43,8 +51,10 @@ double lift_off_height_m(const AgentConfig& agent, const std::vector<OrientedBox
 }
 
 double open_height_m(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const OccupancyMap& map,
-                     const Vector3d& from_W, double ground_m, double roof_m, double wanted_m) {
-  FreeSpace::Config column{.clearance_m = agent.me().body_radius_m + kColumnM, .floor_m = 0.0, .rays = kBoxRays};
+                     const Vector3d& from_W, double ground_m, double roof_m, double wanted_m, double room_m) {
+  double clearance_m = agent.me().body_radius_m + room_m;
+  if (room_m <= kColumnM) clearance_m = column_m(clearance_m, map, from_W, ground_m);
+  FreeSpace::Config column{.clearance_m = clearance_m, .floor_m = 0.0, .rays = kBoxRays};
   column.jut_m = column.clearance_m;
   const FreeSpace in_boxes(column, boxes, map);
   column.rays = kRoofRays;

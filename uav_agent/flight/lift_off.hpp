@@ -24,11 +24,13 @@ double lift_off_height_m(const AgentConfig& agent, const std::vector<OrientedBox
 
 inline constexpr double kRoofM = 10.0;  ///< above a start: no roof over starts is higher
 
-/// How far up the way straight up is open as far as the map tells: nothing is mapped within a metre of the body, and
+inline constexpr double kColumnM = 0.6;  ///< around the body, for whoever climbs
+
+/// How far up the way straight up is open as far as the map tells: nothing is mapped within `room_m` of the body, and
 /// inside boxes and below `roof_m` it has been looked at. What little is asked for finds a roof, not a cable: who
 /// climbs goes on looking out.
 /// @param ground_m  height of the start: some metres above it are free.   @returns from_W.z() to `wanted_m`.
 double open_height_m(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const OccupancyMap& map,
-                     const Vector3d& from_W, double ground_m, double roof_m, double wanted_m);
+                     const Vector3d& from_W, double ground_m, double roof_m, double wanted_m, double room_m = kColumnM);
 
 }  // namespace skein::agent

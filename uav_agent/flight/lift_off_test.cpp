@@ -89,5 +89,32 @@ TEST(LiftOff, WhoHasNotLookedUpStaysAsLowAsItStandsFree) {
   EXPECT_LT(in_box_m, 15.0) << "and no higher";
 }
 
+/// A wall through x that leans by so much a metre towards the start, from the ground up.
+OccupancyMap map_with_wall(double x, double lean, double top_m) {
+  std::vector<Eigen::Vector3f> hits;
+  for (double z = 0.35; z <= top_m; z += 0.1) {
+    for (double y = -4.0; y <= 4.0; y += 0.1) hits.push_back(Vector3d(x - lean * z, y, z).cast<float>());
+  }
+  OccupancyMap map;
+  map.insert(hits, std::nullopt);
+  return map;
+}
+
+TEST(LiftOff, WhoWasSetDownBesideAWallRisesAlongItButNotWhereItLeansOver) {
+  const AgentConfig agent = fleet_of(2);
+  const double body_m = agent.me().body_radius_m;
+  for (std::uint64_t world = 0; world < 40; ++world) {
+    RandomStream random(world, "wall", 0);
+    const double wall_m = body_m + random.uniform(0.05, 0.6), top_m = random.uniform(6.0, 15.0);
+    const auto open_m = [&](double lean) {
+      OccupancyMap map = map_with_wall(wall_m, lean, top_m);
+      look_around(map, {-3, 0, 1.8}, 60);
+      return open_height_m(agent, {}, map, {0, 0, 0.2}, 0.2, 0.0, top_m + 5.0);
+    };
+    EXPECT_EQ(open_m(0.0), top_m + 5.0) << world;
+    EXPECT_LT(open_m(wall_m / 4.0), 4.0) << world << ": above the start at 4 m";
+  }
+}
+
 }  // namespace
 }  // namespace skein::agent

@@ -15,6 +15,7 @@ using Cell = Eigen::Vector3i;
 
 constexpr double kHeuristicWeight = 1.2;  ///< a path at most this much longer than the best is good enough
 constexpr int kEscapeCells = 3;           ///< how far to look for a free cell around a start that is not free
+constexpr double kEscapeBodyM = 0.6;      ///< so far nothing has to be looked at
 constexpr double kEscapeSlackM = 0.3;     ///< nearer to what is too near already
 
 std::uint64_t key_of(const Cell& c) {
@@ -127,9 +128,10 @@ class Search {
     return best;
   }
 
-  /// The way out hardly comes nearer to anything mapped than the start is.
+  /// The way out hardly comes nearer to anything mapped than the start is, and somebody has looked at it.
   bool escapes(const Vector3d& out) const {
     if (!space_.config().use_map) return true;
+    if (!space_.looked_at(from_, out, kEscapeBodyM)) return false;
     const double clearance = space_.config().clearance_m;
     const double now = space_.map().distance_to_occupied(from_, clearance).value_or(clearance);
     return space_.map().segment_clear(from_, out, least_on_way_out_m(now, clearance, kEscapeSlackM));

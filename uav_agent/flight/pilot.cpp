@@ -10,11 +10,14 @@ namespace {
 
 constexpr double kLookAheadDtS = 0.25;  ///< of the predictions for safety and traffic
 constexpr int kLookAheadCount = 13;
-constexpr std::uint64_t kObstacleSteps = 4;      ///< exchanges between two looks at the map
-constexpr double kStopSlackM = 0.4;              ///< the safety stop is this much less careful than planning
-constexpr double kDriftDtS = 0.125;              ///< of where its velocity carries a UAV, whatever it was told
-constexpr int kDriftCount = 4;                   ///< no farther than it overshoots a corner that it brakes for
-constexpr double kApproachM = 0.05;              ///< who is too near to something may come nearer by this, not more
+constexpr std::uint64_t kObstacleSteps = 4;  ///< exchanges between two looks at the map
+constexpr double kStopSlackM = 0.4;          ///< the safety stop is this much less careful than planning
+constexpr double kDriftDtS = 0.125;          ///< of where its velocity carries a UAV, whatever it was told
+constexpr int kDriftCount = 4;               ///< no farther than it overshoots a corner that it brakes for
+constexpr double kApproachM = 0.05;          ///< who is too near to something may come nearer by this, not more
+constexpr double kClimbApproachM = 0.3, kClimbShare = 0.4;  ///< straight up beside a wall, as even as its cells are
+constexpr double kStandsMps = 0.2;
+constexpr double kElsewhereM = 1.0, kMostBackM = 0.2;
 constexpr double kHoversM = 0.05;                ///< about its place
 constexpr double kDetourAgainS = 20.0;           ///< a second meeting within this time is no accident
 constexpr double kWatchM = 0.5, kWatchS = 12.0;  ///< no further than this for so long: something is wrong
@@ -24,11 +27,17 @@ constexpr std::size_t kTrailCount = 100;
 
 }  // namespace
 
+Path path_through(const std::vector<Vector3d>& places_W, double speed_mps) {
+  Path path;
+  for (const Vector3d& p_W : places_W) path.waypoints.push_back({p_W, speed_mps});
+  return path;
+}
+
 FreeSpace Pilot::way_space(const PlannerInput& in, const FreeSpace::Config& space, const Vector3d& goal) const {
   FreeSpace::Config config = space;
   const Vector3d here = in.tracking.setpoint.p_WB;
   config.enter_near_W = {here, goal};
-  return {config, in.boxes, in.map, separation_.keep_out(here, in.peers)};
+  return {config, in.boxes, in.map, separation_.keep_out(in.tick, here, in.peers)};
 }
 
 std::vector<Waypoint> Pilot::rest_of_path(const PlannerInput& in) const {
@@ -39,9 +48,11 @@ std::vector<Waypoint> Pilot::rest_of_path(const PlannerInput& in) const {
 
 Situation Pilot::look_out(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour, PlannerOutput& out) {
   if (leaves_trail_) add_to_trail(in.tracking.setpoint.p_WB);
+  clearance_m_ = space.use_map ? std::optional(space.clearance_m) : std::nullopt;
+  climbs_ = !may_detour;
   const Situation traffic = give_way(in, space, may_detour, out);
   if (traffic != Situation::flying_on) return traffic;
-  const bool obstacle = obstacle_ahead(in, space);
+  const bool obstacle = refused_ || obstacle_ahead(in, rest_of_path(in));
   sets_out_ = false;
   if (obstacle) {
     stop(out);
@@ -86,32 +97,48 @@ bool Pilot::go_around(const std::vector<Waypoint>& rest, const PlannerInput& in,
   while (back + 1 < rest.size() && !way.free(rest[back].p_WB)) ++back;
   const auto corners = find_path(way, in.boxes, in.tracking.setpoint.p_WB, rest[back].p_WB);
   if (!corners) return false;
-  Path around;
-  for (const Vector3d& p : *corners) around.waypoints.push_back({p, config_.speed_mps});
+  Path around = path_through(*corners, config_.speed_mps);
   around.waypoints.insert(around.waypoints.end(), rest.begin() + static_cast<std::ptrdiff_t>(back) + 1, rest.end());
   follow(std::move(around), in, out);
   return true;
 }
 
-bool Pilot::obstacle_ahead(const PlannerInput& in, const FreeSpace::Config& space) const {
-  if (!space.use_map || (in.k % kObstacleSteps != 0 && !sets_out_)) return false;
-  const std::vector<Waypoint> rest = rest_of_path(in);
-  if (rest.empty()) return false;
+/// @param rest  of the path.
+bool Pilot::obstacle_ahead(const PlannerInput& in, const std::vector<Waypoint>& rest) {
+  if (!clearance_m_ || (in.k % kObstacleSteps != 0 && !sets_out_) || rest.empty()) return false;
   // Whoever is too near to something already may still move away from it.
-  const auto comes_too_near = [&](const std::vector<Vector3d>& ahead) {
-    double limit = space.clearance_m - kStopSlackM;
+  const auto comes_too_near = [&](const std::vector<Vector3d>& ahead, double back_m) {
+    double limit = *clearance_m_ - kStopSlackM;
     if (const auto now = in.map.distance_to_occupied(ahead.front(), limit)) {
-      limit = std::max(0.0, least_on_way_out_m(*now, space.clearance_m, kApproachM) - kHoversM);
+      const double least_m = climbs_ ? std::max(kClimbShare * *clearance_m_, *now - kClimbApproachM)
+                                     : least_on_way_out_m(*now, *clearance_m_, kApproachM);
+      limit = std::max(0.0, std::min(least_m, *now) + back_m - kHoversM);
     }
     return std::any_of(ahead.begin() + 1, ahead.end(),
                        [&](const Vector3d& p) { return in.map.any_occupied_within(p, limit); });
   };
+  const double back_m = climbs_ ? 0.0 : came_nearer_m(in, *clearance_m_ - kStopSlackM);
   // Both where it was told to go and where it is really going.
   const Vector3d demanded = in.tracking.setpoint.p_WB;
-  if (comes_too_near(positions_ahead(demanded, rest, kLookAheadDtS, kLookAheadCount))) return true;
+  if (comes_too_near(positions_ahead(demanded, rest, kLookAheadDtS, kLookAheadCount), back_m)) return true;
   std::vector<Vector3d> drift;
   for (int i = 0; i < kDriftCount; ++i) drift.push_back(in.state.p_WB + i * kDriftDtS * in.state.v_WB);
-  return comes_too_near(drift) || comes_too_near({in.state.p_WB, 0.5 * (in.state.p_WB + demanded), demanded});
+  return comes_too_near(drift, 0.0) || comes_too_near({in.state.p_WB, 0.5 * (in.state.p_WB + demanded), demanded}, 0.0);
+}
+
+/// Each attempt to leave a tight place may end a little nearer to what is there, and there are many. By how much it has
+/// come nearer since it was farthest off, and has to move away now.
+double Pilot::came_nearer_m(const PlannerInput& in, double limit_m) {
+  const Vector3d here_W = in.state.p_WB;
+  const auto now = in.map.distance_to_occupied(here_W, limit_m);
+  const bool elsewhere = tight_at_W_ && (here_W - *tight_at_W_).norm() > kElsewhereM;
+  if (!now || !tight_at_W_ || elsewhere) {
+    tight_at_W_ = now ? std::optional(here_W) : std::nullopt;
+    return 0.0;
+  }
+  const double there_m = in.map.distance_to_occupied(*tight_at_W_, limit_m).value_or(limit_m);
+  if (*now > there_m) tight_at_W_ = here_W;
+  return std::clamp(there_m - *now - kHoversM, 0.0, kMostBackM);
 }
 
 bool Pilot::stands_still(const PlannerInput& in) {
@@ -132,7 +159,7 @@ void Pilot::add_to_trail(const Vector3d& p_W) {
   if (trail_.size() > kTrailCount) trail_.pop_front();
 }
 
-bool Pilot::retreat(PlannerOutput& out, bool leave_trail) {
+bool Pilot::retreat(const PlannerInput& in, PlannerOutput& out, bool leave_trail) {
   Path path;
   double length = 0.0;
   while (trail_.size() > 1 && length < kRetreatM) {
@@ -143,7 +170,9 @@ bool Pilot::retreat(PlannerOutput& out, bool leave_trail) {
   }
   if (path.waypoints.empty()) return false;
   set_out(std::move(path), out);
+  retreated_ = true;
   leaves_trail_ = leave_trail;
+  look_before_leaving(in, out);
   return true;
 }
 
@@ -152,13 +181,23 @@ void Pilot::follow(Path path, const PlannerInput& in, PlannerOutput& out) {
   out.no_way.clear();
   slow_down_where_little_was_seen(in, path);
   set_out(std::move(path), out);
+  retreated_ = false;
+  leaves_trail_ = true;
+  look_before_leaving(in, out);
+}
+
+/// Whoever stands does not leave towards what it will be stopped for: attempt by attempt it would come nearer to that.
+void Pilot::look_before_leaving(const PlannerInput& in, PlannerOutput& out) {
+  const bool stands = in.tracking.done && in.state.v_WB.norm() < kStandsMps;
+  refused_ = stands && obstacle_ahead(in, path_.waypoints);  // tracking.leg is of the path before
+  if (refused_) out.motion = Hold{};
 }
 
 void Pilot::set_out(Path path, PlannerOutput& out) {
   path_ = std::move(path);
   paused_ = false;
   sets_out_ = true;
-  leaves_trail_ = true;
+  refused_ = false;
   out.motion = path_;
 }
 
@@ -182,6 +221,7 @@ void Pilot::slow_down_where_little_was_seen(const PlannerInput& in, Path& path) 
 void Pilot::stop(PlannerOutput& out) {
   path_.waypoints.clear();
   paused_ = false;
+  refused_ = false;
   leaves_trail_ = true;
   out.motion = Hold{};
 }
@@ -205,10 +245,16 @@ Way Pilot::fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace:
   bool gave_up = false;
   const auto corners = find_path(free_space, in.boxes, in.tracking.setpoint.p_WB, goal, {}, &gave_up);
   if (!corners) return no_way(goal, free_space, out, gave_up);
-  Path path;
-  for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.speed_mps});
-  follow(std::move(path), in, out);
+  follow(path_through(*corners, config_.speed_mps), in, out);
   return {};
+}
+
+bool Pilot::fly_nearer(const Vector3d& goal, double worth_m, const PlannerInput& in, const FreeSpace::Config& space,
+                       PlannerOutput& out) {
+  const auto corners = find_approach(way_space(in, space, goal), in.boxes, in.tracking.setpoint.p_WB, goal, worth_m);
+  if (!corners) return false;
+  follow(path_through(*corners, config_.speed_mps), in, out);
+  return true;
 }
 
 }  // namespace skein::agent

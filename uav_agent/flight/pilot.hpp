@@ -36,6 +36,9 @@ struct Way {
   std::string why() const;
 };
 
+/// Through all of these places, at one speed.
+Path path_through(const std::vector<Vector3d>& places_W, double speed_mps);
+
 class Pilot {
  public:
   struct Config {
@@ -55,6 +58,9 @@ class Pilot {
   void follow(Path path, const PlannerInput& in, PlannerOutput& out);
   /// Along a path that it finds itself. If there is none, or none was found in time, it does nothing and says why.
   Way fly_to(const Vector3d& goal, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
+  /// As near to a goal as it gets.   @param worth_m  by less than this it does not set out.   @returns whether it does.
+  bool fly_nearer(const Vector3d& goal, double worth_m, const PlannerInput& in, const FreeSpace::Config& space,
+                  PlannerOutput& out);
   /// To be told by whoever searches for ways itself and finds none. @returns why.
   Way no_way(const Vector3d& goal, const FreeSpace& space, PlannerOutput& out, bool gave_up = false);
   /// The goal to which there was no way, if it has followed none since.
@@ -62,7 +68,9 @@ class Pilot {
   /// Some metres back the way it came, out of a corner where no path begins. @returns false if it came from
   /// nowhere.
   /// @param leave_trail  false: another retreat from there goes farther back, instead of forth again.
-  bool retreat(PlannerOutput& out, bool leave_trail = true);
+  bool retreat(const PlannerInput& in, PlannerOutput& out, bool leave_trail = true);
+  /// Its last motion was a retreat.
+  bool retreated() const { return retreated_; }
   /// Brakes and forgets the path, also one that was set in this exchange: nobody looks out on a path that is forgotten.
   void stop(PlannerOutput& out);
 
@@ -84,10 +92,12 @@ class Pilot {
   Situation give_way(const PlannerInput& in, const FreeSpace::Config& space, bool may_detour, PlannerOutput& out);
   bool go_around(const std::vector<Waypoint>& rest, const PlannerInput& in, const FreeSpace::Config& space,
                  PlannerOutput& out);
-  bool obstacle_ahead(const PlannerInput& in, const FreeSpace::Config& space) const;
+  bool obstacle_ahead(const PlannerInput& in, const std::vector<Waypoint>& rest);
+  double came_nearer_m(const PlannerInput& in, double limit_m);
   bool stands_still(const PlannerInput& in);
   void add_to_trail(const Vector3d& p_W);
   void set_out(Path path, PlannerOutput& out);
+  void look_before_leaving(const PlannerInput& in, PlannerOutput& out);
   static void slow_down_where_little_was_seen(const PlannerInput& in, Path& path);
 
   const Config config_;
@@ -95,10 +105,15 @@ class Pilot {
   Path path_;              ///< being flown, or to be taken up again after a pause
   bool paused_ = false;    ///< gives way
   bool sets_out_ = false;  ///< on a path at which it has not looked yet: no planner is trusted for a moment
+  bool refused_ = false;   ///< the path that it was given: the next look says what for
+  bool climbs_ = false;
   bool leaves_trail_ = true;
+  bool retreated_ = false;
   std::optional<Vector3d> missed_W_;
-  std::deque<Vector3d> trail_;     ///< where it was, a metre apart
-  std::optional<Tick> detour_at_;  ///< when it last met somebody who stood in the way
+  std::optional<double> clearance_m_;   ///< of the last look, if there is a map to look at
+  std::optional<Vector3d> tight_at_W_;  ///< where it was farthest off, of a place with too little room
+  std::deque<Vector3d> trail_;          ///< where it was, a metre apart
+  std::optional<Tick> detour_at_;       ///< when it last met somebody who stood in the way
   Vector3d watched_p_W_ = Vector3d::Zero();
   Tick watched_since_ = 0;
 };

@@ -33,7 +33,8 @@ class AlongAWall : public testing::Test {
   auto as_input(const Setpoint& setpoint, const RigidBodyState& state, const Do& act) {
     TrackingState tracking;
     tracking.setpoint = setpoint;
-    tracking.done = false;
+    tracking.done = done_;
+    tracking.leg = leg_;
     tracking.airborne = true;
     const PlannerInput in{.k = k_,
                           .tick = 80,
@@ -81,6 +82,8 @@ class AlongAWall : public testing::Test {
 
   const AgentConfig agent_ = one_uav();
   const Peers peers_{agent_};
+  bool done_ = false;
+  std::size_t leg_ = 0;  ///< of the path that it was on
   std::uint64_t k_ = 4;
   std::vector<OrientedBox> boxes_;
   OccupancyMap map_ = wall_at(4.0F);
@@ -100,6 +103,66 @@ TEST_F(AlongAWall, StopsWhenItIsOffItsSetpointAndNearer) {
 
 TEST_F(AlongAWall, MayLeaveAWallThatItIsTooNearTo) {
   EXPECT_EQ(judge(at({3.0, 5.0, 20.0}, {-1.0, 4.0, 0.0})), Situation::flying_on);
+}
+
+/// As often as it is told to: else it would come nearer each time.
+TEST_F(AlongAWall, WhoStandsDoesNotLeaveTowardsTheWallAndSaysWhatFor) {
+  done_ = true;
+  for (const double x : {-1.0, 1.0, 2.6, 3.0, 3.3}) {
+    Pilot pilot({}, agent_);
+    const Setpoint here{.p_WB = {x, 5.0, 20.0}};
+    const RigidBodyState stands = at(here.p_WB, Vector3d::Zero());
+    PlannerOutput first, towards, next, away;
+    look(pilot, here, stands, first);
+    as_input(here, stands, [&](const PlannerInput& in) { pilot.follow({{{{10.0, 5.0, 20.0}, 2.0}}}, in, towards); });
+    EXPECT_TRUE(std::holds_alternative<Hold>(towards.motion)) << x;
+    ++k_;
+    EXPECT_EQ(look(pilot, here, stands, next), Situation::obstacle) << x;
+    EXPECT_FALSE(pilot.has_path());
+    as_input(here, stands, [&](const PlannerInput& in) { pilot.follow({{{{-9.0, 5.0, 20.0}, 2.0}}}, in, away); });
+    EXPECT_TRUE(std::holds_alternative<Path>(away.motion)) << x;
+    k_ += 3;
+  }
+}
+
+TEST_F(AlongAWall, WhatItLeavesForIsAllOfTheNewPath) {
+  done_ = true;
+  leg_ = 1;
+  Pilot pilot({}, agent_);
+  const Setpoint here{.p_WB = {1.0, 5.0, 20.0}};
+  const RigidBodyState stands = at(here.p_WB, Vector3d::Zero());
+  const Path round_it{{{{-9.0, 5.0, 20.0}, 2.0}, {{10.0, 5.0, 20.0}, 2.0}}};
+  PlannerOutput first, out;
+  look(pilot, here, stands, first);
+  as_input(here, stands, [&](const PlannerInput& in) { pilot.follow(round_it, in, out); });
+  EXPECT_TRUE(std::holds_alternative<Path>(out.motion));
+}
+
+/// Attempts along the wall, each of which ends a little nearer to it: not as many as it likes.
+TEST_F(AlongAWall, NobodyComesNearerAttemptByAttempt) {
+  done_ = true;
+  Pilot pilot({}, agent_);
+  double x = 2.7;
+  int attempts = 0;
+  for (; attempts < 60; ++attempts) {
+    const Setpoint here{.p_WB = {x, 5.0, 20.0}};
+    const RigidBodyState stands = at(here.p_WB, Vector3d::Zero());
+    PlannerOutput out;
+    look(pilot, here, stands, out);
+    as_input(here, stands, [&](const PlannerInput& in) { pilot.follow({{{{x + 0.02, 40.0, 20.0}, 2.0}}}, in, out); });
+    if (!std::holds_alternative<Path>(out.motion)) break;
+    pilot.stop(out);
+    x += 0.02;
+    ++k_;
+  }
+  EXPECT_LT(attempts, 25);
+  EXPECT_LT(x, 3.2);
+  const Setpoint here{.p_WB = {x, 5.0, 20.0}};
+  PlannerOutput away;
+  as_input(here, at(here.p_WB, Vector3d::Zero()), [&](const PlannerInput& in) {
+    pilot.follow({{{{-9.0, 5.0, 20.0}, 2.0}}}, in, away);
+  });
+  EXPECT_TRUE(std::holds_alternative<Path>(away.motion)) << "but it may leave";
 }
 
 TEST_F(AlongAWall, WhoSetsOutTowardsTheWallIsStoppedInTheNextExchange) {
@@ -189,7 +252,8 @@ TEST_F(AlongAWall, TheNextRetreatGoesFartherBack) {
   double before = y;
   for (int i = 0; i < 3; ++i) {
     PlannerOutput out;
-    ASSERT_TRUE(pilot.retreat(out, false));
+    as_input({.p_WB = {0.0, y, 20.0}}, at({0.0, y, 20.0}, Vector3d::Zero()),
+             [&](const PlannerInput& in) { ASSERT_TRUE(pilot.retreat(in, out, false)); });
     fly_to(std::get<Path>(out.motion).waypoints.back().p_WB.y());
     EXPECT_LT(y, before - 8.0);
     before = y;

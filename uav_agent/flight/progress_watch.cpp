@@ -8,7 +8,12 @@ constexpr std::uint32_t kMostPoints = 1U << 20;  ///< of a scene; a number beyon
 
 }  // namespace
 
-void ProgressWatch::update(const PlannerInput& in) {
+void ProgressWatch::update(const PlannerInput& in, bool retreats) {
+  if ((in.state.p_WB - here_W_).norm() > kMovedM) {
+    here_W_ = in.state.p_WB;
+    here_since_ = in.tick;
+  }
+  if (retreats) stood_W_ = in.state.p_WB;
   bool news = (in.state.p_WB - stood_W_).norm() > kMovedM;
   for (const DetectedPoint& point : in.detected) {
     if (point.order >= kMostPoints) continue;

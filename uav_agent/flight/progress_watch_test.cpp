@@ -11,7 +11,7 @@ namespace {
 
 class Watch : public testing::Test {
  protected:
-  void see(const Vector3d& p_WB, const std::vector<DetectedPoint>& detected = {}) {
+  void see(const Vector3d& p_WB, const std::vector<DetectedPoint>& detected = {}, bool retreats = false) {
     tick_ += ticks(0.5);
     const Peers peers(agent_);
     RigidBodyState state;
@@ -26,7 +26,7 @@ class Watch : public testing::Test {
                           .mission_remaining_s = std::nullopt,
                           .detected = detected,
                           .radio = {}};
-    watch_.update(in);
+    watch_.update(in, retreats);
   }
   double still_s() const { return watch_.still_s(tick_); }
 
@@ -61,6 +61,26 @@ TEST_F(Watch, BeginsAnewWithWhatIsNewOrBetterInAPicture) {
   EXPECT_NEAR(still_s(), 0.5, 1e-9) << "worse";
   see({10, 0, 5}, {{.score = 0.1, .order = 4}});
   EXPECT_EQ(still_s(), 0.0) << "another point";
+}
+
+TEST_F(Watch, BackAndForthIsNoGettingOn) {
+  see({10, 0, 5});
+  for (int i = 0; i < 60; ++i) {
+    see({10.0 + 8.0 * (i / 6 % 2), 0, 5}, {}, true);
+    EXPECT_LE(watch_.here_s(tick_), 3.0) << "but it is elsewhere";
+  }
+  EXPECT_NEAR(still_s(), 30.0, 1e-9);
+  for (int i = 0; i < 3; ++i) see({18, 1.0 * i, 5});
+  EXPECT_GT(still_s(), 30.0) << "not yet";
+  see({18, 4, 5});
+  EXPECT_EQ(still_s(), 0.0);
+}
+
+TEST_F(Watch, WhoPhotographsOnItsWayIsNotWhereItWas) {
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    see({0.9 * i, 0, 5}, {{.score = 0.5, .order = i}});
+    EXPECT_LE(watch_.here_s(tick_), 2.0);
+  }
 }
 
 }  // namespace

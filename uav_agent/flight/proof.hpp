@@ -19,12 +19,13 @@ class Proof {
   /// @param roomy  the site has a box that is too large to be one piece of structure (site.hpp): what is thin in it
   /// takes many rays to be found.
   static int rays(bool roomy) { return roomy ? kRoomyRays : kProofRays; }
-  /// So many rungs further down than so many rays, but never next to nothing.
-  static int of(int rays, std::size_t rung) {
-    const int least = std::min(rays, rays > kProofRays ? kLeastRoomyRays : kLeastRays);
-    return std::max(least, rays * kRungs[std::min(rung, kLast)] / kRungs.front());
+  /// So many rungs further down than so many rays, but never next to nothing. Who has no LiDAR does not see at the last
+  /// moment what these rays have missed, and asks for more.
+  static int of(int rays, std::size_t rung, Role role) {
+    const int few = role != Role::explorer ? kLeastUnseeingRays : rays > kProofRays ? kLeastRoomyRays : kLeastRays;
+    return std::max(std::min(rays, few), rays * kRungs[std::min(rung, kLast)] / kRungs.front());
   }
-  int of(int rays) const { return of(rays, rung_); }
+  int of(int rays, Role role) const { return of(rays, rung_, role); }
   void ask_less() { rung_ = std::min(rung_ + 1, kLast); }
   /// Until then, or until it asks for less again.
   void ask_less(Tick until) {
@@ -38,7 +39,7 @@ class Proof {
   void ask_all() { rung_ = 0; }
 
  private:
-  static constexpr int kRoomyRays = 16, kLeastRoomyRays = 8, kLeastRays = 6;
+  static constexpr int kRoomyRays = 16, kLeastRoomyRays = 8, kLeastRays = 6, kLeastUnseeingRays = 9;
   static constexpr std::array<int, kLast + 1> kRungs = {12, 9, 6, 6};
 
   std::size_t rung_ = 0;

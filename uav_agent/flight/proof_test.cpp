@@ -8,7 +8,7 @@
 namespace skein::agent {
 namespace {
 
-int asked(const Proof& proof, bool roomy) { return proof.of(Proof::rays(roomy)); }
+int asked(const Proof& proof, bool roomy, Role role = Role::explorer) { return proof.of(Proof::rays(roomy), role); }
 
 TEST(Proof, WhoSaysNothingAsksForAllOfIt) {
   EXPECT_EQ(FreeSpace::Config().rays, Proof::rays(false));
@@ -34,9 +34,22 @@ TEST(Proof, LessIsAskedRungByRungAndNeverLittle) {
 TEST(Proof, WhoAlreadyAsksForLittleIsNotTalkedOutOfIt) {
   for (int rays = 1; rays < 20; ++rays) {
     for (std::size_t rung = 0; rung < 6; ++rung) {
-      EXPECT_LE(Proof::of(rays, rung), rays);
-      EXPECT_GE(Proof::of(rays, rung), std::min(rays, 4));
+      for (const Role role : {Role::explorer, Role::photographer}) {
+        EXPECT_LE(Proof::of(rays, rung, role), rays);
+        EXPECT_GE(Proof::of(rays, rung, role), std::min(rays, 4));
+      }
     }
+  }
+}
+
+TEST(Proof, WhoSeesNothingAsksForMore) {
+  for (const bool roomy : {false, true}) {
+    Proof proof;
+    for (std::size_t rung = 0; rung < 6; ++rung, proof.ask_less()) {
+      EXPECT_GE(asked(proof, roomy, Role::photographer), asked(proof, roomy));
+      EXPECT_GE(asked(proof, roomy, Role::photographer), 9);
+    }
+    EXPECT_GT(asked(proof, roomy, Role::photographer), asked(proof, roomy)) << "in the end";
   }
 }
 

@@ -6,12 +6,14 @@ namespace skein::agent {
 namespace {
 
 constexpr double kStandingMps = 0.3;
+constexpr double kStandsOnS = 20.0, kFliesOnS = 2.0;  ///< so long, who went out of sight is reckoned with
 constexpr double kBrakingMps2 = 3.0;
 constexpr double kComingNearerM = 0.05;    ///< a distance that does not shrink by this is no approach
 constexpr double kPatiencePerRankS = 0.5;  ///< two UAVs that wait for each other do not lose patience together
 constexpr double kMovingPatience = 3.0;    ///< times as much with somebody who moves
 constexpr double kPlanAroundM = 15.0;      ///< whoever is farther away will be elsewhere when this UAV comes
 constexpr double kKeepOutExtraM = 0.3;
+constexpr double kPastS = 30.0;          ///< so long, whoever waited in vain for somebody who stands flies past nearer
 constexpr double kCrowdM = 6.0;          ///< starts nearer than this wait for each other
 constexpr double kClearHeightM = 3.0;    ///< the one before is this far up, or gone: the next may start
 constexpr double kStartPatienceS = 4.0;  ///< for each one before; after that it is taken to be broken
@@ -47,18 +49,33 @@ std::vector<Vector3d> positions_ahead(const Vector3d& from_W, const std::vector<
   return positions;
 }
 
+std::vector<Peer> reckoned(const Peers& peers, Tick now) {
+  std::vector<Peer> there;
+  for (Peer peer : peers.all()) {
+    if (!peer.seen) continue;
+    const bool stood = peer.v_W.norm() < kStandingMps;
+    const double out_of_sight_s = peer.visible ? 0.0 : seconds(now - *peer.seen);
+    if (out_of_sight_s > (stood ? kStandsOnS : kFliesOnS)) continue;
+    if (!stood) peer.p_W += out_of_sight_s * peer.v_W;
+    there.push_back(peer);
+  }
+  return there;
+}
+
 double Separation::contact_m(std::size_t uav) const {
   return agent_.me().body_radius_m + agent_.fleet[uav].body_radius_m;
 }
 
+double Separation::margin_m(Tick now) const { return now < past_until_ ? config_.tight_m : config_.margin_m; }
+
 Traffic Separation::judge(Tick now, const std::vector<Vector3d>& ahead, double dt_s, const Peers& peers) {
   hindered_by_.reset();
   bool standing = false;
-  for (const Peer& peer : peers.all()) {
-    if (!peer.visible) continue;
+  for (const Peer& peer : reckoned(peers, now)) {
     const bool stands = peer.v_W.norm() < kStandingMps;
     const bool has_way = stands || peer.uav < agent_.self;
-    const double limit = contact_m(peer.uav) + (has_way ? config_.margin_m : config_.tight_m);
+    const double wanted_m = stands ? margin_m(now) : has_way ? config_.margin_m : config_.tight_m;
+    const double limit = contact_m(peer.uav) + wanted_m;
     const double brakes_limit = std::min(limit, contact_m(peer.uav) + config_.tight_m);
     const double distance_now = (ahead.front() - peer.p_W).norm();
     for (std::size_t i = 1; i < ahead.size() && static_cast<double>(i) * dt_s <= config_.horizon_s; ++i) {
@@ -81,15 +98,16 @@ Traffic Separation::judge(Tick now, const std::vector<Vector3d>& ahead, double d
   const double patience = config_.patience_s + kPatiencePerRankS * static_cast<double>(agent_.self);
   if (seconds(now - *waiting_since_) < (standing ? 1.0 : kMovingPatience) * patience) return Traffic::wait;
   waiting_since_ = now;
+  if (standing) past_until_ = now + ticks(kPastS);
   return Traffic::go_around;
 }
 
-std::vector<Sphere> Separation::keep_out(const Vector3d& p_W_now, const Peers& peers) const {
+std::vector<Sphere> Separation::keep_out(Tick now, const Vector3d& p_W_now, const Peers& peers) const {
   std::vector<Sphere> spheres;
-  for (const Peer& peer : peers.all()) {
+  for (const Peer& peer : reckoned(peers, now)) {
     const double distance = (peer.p_W - p_W_now).norm();
-    if (!peer.visible || distance >= kPlanAroundM) continue;
-    const double wanted = contact_m(peer.uav) + config_.margin_m + kKeepOutExtraM;
+    if (distance >= kPlanAroundM) continue;
+    const double wanted = contact_m(peer.uav) + margin_m(now) + kKeepOutExtraM;
     spheres.push_back({peer.p_W, std::min(wanted, distance - kComingNearerM)});
   }
   return spheres;

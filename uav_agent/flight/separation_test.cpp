@@ -62,8 +62,8 @@ TEST(Separation, GoesAroundWhoeverStandsInTheWayForAWhile) {
   Traffic last = Traffic::wait;
   while (tick < ticks(5.0) && last == Traffic::wait) last = separation.judge(tick += 20, eastwards(4.0), kDtS, peers);
   EXPECT_EQ(last, Traffic::go_around);
-  EXPECT_EQ(separation.keep_out({0.0, 0.0, 10.0}, peers).size(), 1U);
-  EXPECT_TRUE(separation.keep_out({90.0, 0.0, 10.0}, peers).empty()) << "far away";
+  EXPECT_EQ(separation.keep_out(0, {0.0, 0.0, 10.0}, peers).size(), 1U);
+  EXPECT_TRUE(separation.keep_out(0, {90.0, 0.0, 10.0}, peers).empty()) << "far away";
 }
 
 TEST(Separation, MovingApartIsNeverAConflict) {
@@ -142,7 +142,8 @@ TEST(Separation, WhoStandsInACrowdMayLeaveItButNotPressOn) {
     RandomStream random(i, "crowd", 0);
     const Vector3d here(0.0, 0.0, 10.0);
     const Vector3d p = here + Vector3d(random.uniform(0.9, 9.0), random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
-    const auto spheres = Separation(limits, config).keep_out(here, one_peer(config, UavIndex{1}, p, Vector3d::Zero()));
+    const auto spheres =
+        Separation(limits, config).keep_out(0, here, one_peer(config, UavIndex{1}, p, Vector3d::Zero()));
     ASSERT_EQ(spheres.size(), 1U);
     const double distance = (p - here).norm();
     EXPECT_LT(spheres[0].radius_m, distance) << "it could go nowhere from where it is";
@@ -150,15 +151,51 @@ TEST(Separation, WhoStandsInACrowdMayLeaveItButNotPressOn) {
   }
 }
 
-TEST(Separation, WhoIsOutOfSightIsNobody) {
+TEST(Separation, WhoHasWaitedForSomebodyWhoStandsGetsPastWithLessRoomForAWhile) {
   const AgentConfig config = fleet(0, {{0, 0, 0}, {20, 0, 0}});
-  Peers peers = one_peer(config, UavIndex{1}, {6.0, 0.5, 10.0}, Vector3d::Zero());
-  Separation separation({}, config);
-  EXPECT_EQ(separation.judge(0, eastwards(4.0), kDtS, peers), Traffic::wait);
-  EXPECT_EQ(separation.keep_out({0.0, 0.0, 10.0}, peers).size(), 1U);
-  peers.update(20, {});
-  EXPECT_EQ(separation.judge(20, eastwards(4.0), kDtS, peers), Traffic::clear);
-  EXPECT_TRUE(separation.keep_out({0.0, 0.0, 10.0}, peers).empty());
+  const double contact = 2.0 * config.me().body_radius_m;
+  const Separation::Config limits;
+  const auto beside = [&](double gap) { return Vector3d(6.0, contact + gap, 10.0); };
+  const auto beside_m = [&](double gap) { return one_peer(config, UavIndex{1}, beside(gap), Vector3d::Zero()); };
+  Separation separation(limits, config);
+  const double gap = 0.5 * (limits.margin_m + limits.tight_m);
+  Tick tick = 0;
+  while (separation.judge(tick, eastwards(4.0), kDtS, beside_m(gap)) == Traffic::wait && tick < ticks(20.0)) tick += 20;
+  ASSERT_LT(tick, ticks(20.0)) << "it does not wait for ever";
+  EXPECT_EQ(separation.judge(tick + 20, eastwards(4.0), kDtS, beside_m(gap)), Traffic::clear);
+  EXPECT_LT(separation.keep_out(tick + 20, {0.0, 0.0, 10.0}, beside_m(gap))[0].radius_m, contact + gap);
+  EXPECT_EQ(separation.judge(tick + 40, eastwards(4.0), kDtS, beside_m(limits.tight_m - 0.2)), Traffic::wait);
+  EXPECT_EQ(separation.judge(tick + 60, eastwards(4.0), kDtS, beside_m(20.0)), Traffic::clear);
+  EXPECT_EQ(separation.judge(tick + ticks(60.0), eastwards(4.0), kDtS, beside_m(gap)), Traffic::wait) << "as before";
+}
+
+TEST(Separation, WhoWentOutOfSightIsReckonedWithForAWhile) {
+  const AgentConfig config = fleet(0, {{0, 0, 0}, {20, 0, 0}});
+  const Vector3d here(0.0, 0.0, 10.0);
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    RandomStream random(i, "hidden", 0);
+    const bool stood = i % 2 == 0;
+    const double near = stood ? 4.0 : 9.0;
+    const Vector3d p(random.uniform(near, near + 3.0), random.uniform(-1.0, 1.0), 10.0);
+    const Vector3d v = stood ? Vector3d::Zero() : Vector3d(random.uniform(-3.0, -1.0), 0.0, 0.0);
+    Peers peers = one_peer(config, UavIndex{1}, p, v);
+    peers.update(20, {});
+    const double hidden_s = random.uniform(0.0, stood ? 19.0 : 1.5);
+    const Vector3d there = p + hidden_s * v;
+    const auto spheres = Separation({}, config).keep_out(ticks(hidden_s), here, peers);
+    ASSERT_EQ(spheres.size(), 1U) << "case " << i;
+    EXPECT_LT((spheres[0].p_W - there).norm(), 0.02) << "case " << i;
+    EXPECT_EQ(Separation({}, config).judge(ticks(hidden_s), eastwards(4.0), kDtS, peers), Traffic::wait)
+        << "case " << i;
+    const Tick later = ticks(stood ? 21.0 : 2.5);
+    EXPECT_EQ(Separation({}, config).judge(later, eastwards(4.0), kDtS, peers), Traffic::clear) << "case " << i;
+    EXPECT_TRUE(Separation({}, config).keep_out(later, here, peers).empty()) << "case " << i;
+  }
+}
+
+TEST(Separation, WhoWasNeverSeenIsNobody) {
+  const AgentConfig config = fleet(0, {{0, 0, 0}, {6, 0, 10}});
+  EXPECT_EQ(Separation({}, config).judge(0, eastwards(4.0), kDtS, Peers(config)), Traffic::clear);
 }
 
 /// How long a conflict that lasts is waited for [s].

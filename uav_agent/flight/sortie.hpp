@@ -3,7 +3,8 @@
 //
 //   ground -> climbing -> working <-> delivering
 //
-// Nobody climbs into a roof: explorers look up before, photographers wait for what explorers saw.
+// Nobody climbs into a roof: explorers look up before, photographers wait for what explorers saw, who come for them
+// (escort.hpp) if need be.
 // Nobody stands still: a UAV that neither moves nor photographs anything new is turned, so that its LiDAR sees more,
 // and then taken somewhere else, with less and less caution, from where its planner decides anew.
 // Once per exchange the planner asks step() and acts on its answer.
@@ -11,6 +12,7 @@
 #pragma once
 
 #include "uav_agent/flight/delivery.hpp"
+#include "uav_agent/flight/escort.hpp"
 #include "uav_agent/flight/pilot.hpp"
 #include "uav_agent/flight/progress_watch.hpp"
 
@@ -65,39 +67,55 @@ class Sortie {
   const Pilot& pilot() const { return pilot_; }
 
  private:
-  enum class State { ground, climbing, working, stirring, delivering };
+  enum class State { ground, climbing, working, stirring, escorting, delivering };
 
   Turn leave_ground(const PlannerInput& in, PlannerOutput& out);
   Turn climb(const PlannerInput& in, PlannerOutput& out);
   void climb_on(const PlannerInput& in);
   Vector3d climbs_from(const PlannerInput& in) const;
-  double open_above_m(const PlannerInput& in, double roof_m) const;
+  double open_above_m(const PlannerInput& in, double roof_m, double room_m) const;
   void rise(double height_m, const PlannerInput& in, PlannerOutput& out);
+  bool sky_is_open(const PlannerInput& in);
+  bool nothing_above(double room_m, const PlannerInput& in) const;
+  bool is_alone(const PlannerInput& in);
   void look_up(const PlannerInput& in, PlannerOutput& out);
+  bool starts_beside_explorer() const;
+  bool explorer_up(double height_m, std::optional<double> within_m, const PlannerInput& in) const;
+  bool explorer_stays(std::optional<Tick>& since, double height_m, double within_m, const PlannerInput& in);
+  bool explorer_came_up(const PlannerInput& in);
   Turn begin_work();
   FreeSpace::Config lookout(FreeSpace::Config space) const;
   void look_around(const PlannerInput& in, PlannerOutput& out);
   void turn(const PlannerInput& in, PlannerOutput& out);
   bool stir(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
+  bool climb_out(const PlannerInput& in, PlannerOutput& out);
+  Turn escort(const PlannerInput& in, PlannerOutput& out);
   Turn react(const PlannerInput& in, PlannerOutput& out);
 
   const Config config_;
   const AgentConfig& agent_;
   Pilot pilot_;
   Delivery delivery_;
+  Escort escort_;
   State state_ = State::ground;
   Situation situation_ = Situation::flying_on;
   bool site_known_ = false;
   double top_m_ = 0.0, blind_height_m_ = 0.0;
   double ground_m_ = 0.0;
   Vector3d climb_to_ = Vector3d::Zero();
-  bool was_climbing_ = false;        ///< when its program was restarted
+  bool lifts_off_ = true;            ///< else, if it climbs, it had been at work
+  bool was_climbing_ = false;        ///< when its program was restarted...
+  bool climbs_on_ = false;           ///< ...and does so now: it had been told before that nothing is above
   bool knows_above_ = false;         ///< that nothing is in the way to climb_to_, or nobody will ever know
   std::optional<Tick> looks_since_;  ///< up, or waits for others who do
+  std::optional<Tick> came_up_at_;   ///< an explorer, where it sees roofs
+  std::optional<Tick> fetched_at_;   ///< one is beside this UAV
   ProgressWatch watch_;
   Tick waits_at_ = -ticks(1e6);  ///< when it last waited for a mate
   Tick rose_at_ = 0, turn_at_ = 0, stir_at_ = 0;
   double stir_clearance_m_ = 0.0;
+  bool finds_no_way_ = false;
+  int stirs_ = 0;        ///< times in all
   int stirred_ = 0;      ///< times, since it last got on by itself
   int climbs_ = 0;       ///< that were stopped
   Tick not_before_ = 0;  ///< of the next one

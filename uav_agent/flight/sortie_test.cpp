@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "uav_agent/testing/look_around.hpp"
 #include "uav_agent/testing/test_world.hpp"
@@ -23,7 +24,8 @@ class OneSortie : public testing::Test {
   Turn step() { return step(sortie_); }
   Turn step(Sortie& sortie) {
     tick_ += ticks(0.5);
-    const Peers peers(agent_);
+    Peers peers(agent_);
+    peers.update(tick_, seen_);
     TrackingState tracking;
     tracking.setpoint.p_WB = p_WB_;
     tracking.done = true;
@@ -45,6 +47,7 @@ class OneSortie : public testing::Test {
                           .radio = {}};
     PlannerOutput out;
     const Turn turn = sortie.step(in, {}, out);
+    if (turn == Turn::work && retreats_ && ++worked_ % 25 == 0) sortie.pilot().retreat(in, out);
     if (const Path* path = std::get_if<Path>(&out.motion)) p_WB_ = path->waypoints.back().p_WB;
     turned_ += out.yaw.has_value();
     if (waits_) sortie_.waits_for(0, in, out);
@@ -66,10 +69,11 @@ class OneSortie : public testing::Test {
   Tick tick_ = 0;
   Vector3d p_WB_ = {0.0, 0.0, 0.1};
   std::optional<double> remaining_s_;
+  std::vector<Neighbour> seen_;
   bool linked_ = false;
   std::size_t undelivered_ = 0;
-  bool waits_ = false;
-  int turned_ = 0, waited_ = 0;  ///< exchanges
+  bool waits_ = false, retreats_ = false;
+  int turned_ = 0, waited_ = 0, worked_ = 0;  ///< exchanges
 };
 
 TEST_F(OneSortie, NobodyBeginsBeforeTheBoxesAreKnown) {
@@ -100,11 +104,13 @@ TEST_F(OneSortie, WhoBeginsRightAboveItsStartClimbsOnAsHighAsFromTheGround) {
     p_WB_.z() = height_m;
     for (int i = 0; i < 5; ++i) EXPECT_EQ(step(restarted), Turn::nothing) << "it does not know where it may fly";
     EXPECT_EQ(p_WB_.z(), height_m);
+    const double rose_to_m = height_m + 0.8;  // while nobody told it anything
+    p_WB_.z() = rose_to_m;
     restarted.know_site(20.0, 12.0);
     int steps = 0;
     while (step(restarted) != Turn::begin && steps < 200) ++steps;
     EXPECT_LT(steps, 200);
-    EXPECT_EQ(p_WB_.z(), std::max(height_m, top_m)) << "from " << height_m << " m";
+    EXPECT_EQ(p_WB_.z(), std::max(rose_to_m, top_m)) << "from " << height_m << " m";
   }
 }
 
@@ -141,6 +147,27 @@ TEST_F(OneSortie, BelowARoofItBeginsWithoutClimbing) {
   EXPECT_LT(p_WB_.z(), 6.0);
 }
 
+TEST_F(OneSortie, AfterAShortLookWhatIsASideMayBeTheRestOfARoof) {
+  const auto climbs_after_s = [&](double gap_m) {
+    std::vector<Eigen::Vector3f> roof;
+    for (double a = 0.0; a < 6.3; a += 0.3) {
+      roof.push_back(Vector3d(gap_m * std::cos(a), gap_m * std::sin(a), 4.5).cast<float>());
+    }
+    map_ = OccupancyMap();
+    map_.insert(roof, std::nullopt);
+    Sortie sortie({}, agent_);
+    sortie.know_site(20.0, 0.0);
+    p_WB_ = {0.0, 0.0, 0.1};
+    int steps = 0;
+    for (; p_WB_.z() < 4.0 && steps < 200; ++steps) step(sortie);
+    return 0.5 * steps;
+  };
+  agent_.fleet.resize(2, agent_.fleet[0]);  // a second one, so that it rises higher than that
+  EXPECT_LT(climbs_after_s(6.0), 10.0) << "far off";
+  EXPECT_GT(climbs_after_s(2.5), 14.0);
+  EXPECT_LT(climbs_after_s(2.5), 30.0) << "a long look has shown that it has a hole";
+}
+
 TEST_F(OneSortie, APhotographerWaitsForWhatExplorersSawAndNotForEver) {
   agent_.fleet.push_back(agent_.fleet[0]);
   agent_.fleet[1].p_WB_start = {4.0, 0.0, 0.1};
@@ -163,6 +190,26 @@ TEST_F(OneSortie, APhotographerWaitsForWhatExplorersSawAndNotForEver) {
   EXPECT_LT(alone_s, 40.0);
   EXPECT_GE(led_s, 4.5) << "not before";
   EXPECT_LT(led_s, alone_s - 0.9) << "at once then";
+}
+
+TEST_F(OneSortie, APhotographerThatBeganBelowInAShaftRisesWhenAnExplorerIsUpThere) {
+  agent_.fleet.push_back(agent_.fleet[0]);
+  agent_.fleet[1].p_WB_start = {8.0, 0.0, 0.1};
+  agent_.fleet[0].role = Role::photographer;
+  agent_.fleet[1].role = Role::explorer;
+  std::vector<Eigen::Vector3f> shaft;
+  for (double z = 0.4; z <= 4.0; z += 0.2) {
+    for (double a = 0.0; a < 6.3; a += 0.2) shaft.push_back(Vector3d(std::cos(a), std::sin(a), z).cast<float>());
+  }
+  map_.insert(shaft, std::nullopt);
+  sortie_.know_site(33.0, 20.0);
+  ASSERT_EQ(next(), Turn::begin);
+  for (int i = 0; i < 200; ++i) step();
+  ASSERT_LT(p_WB_.z(), 3.0) << "nobody has looked";
+  EXPECT_GT(waited_, 100) << "and it says for whom";
+  seen_ = {{.node = node_of_uav(UavIndex{1}), .p_W = {30.0, 0.0, 20.0}}};
+  for (int i = 0; i < 80; ++i) step();
+  EXPECT_GT(p_WB_.z(), 4.5);
 }
 
 TEST_F(OneSortie, WhoStandsStillIsTurnedThenTakenElsewhereAndBeginsAgain) {
@@ -194,6 +241,24 @@ TEST_F(OneSortie, WhoFindsNoWayIsTakenAsNearAsItGets) {
   for (int i = 0; i < 100 && turn == Turn::work; ++i) turn = step();
   ASSERT_EQ(turn, Turn::leave);
   EXPECT_LT((p_WB_ - goal).norm(), std::min(15.0, before)) << "beside the box that nobody may enter";
+}
+
+TEST_F(OneSortie, WhoGoesBackAndForthBelowTheHeightThatNeedsNoProofClimbsOut) {
+  const double blind_m = 20.0;
+  boxes_ = {make_box({60.0, 0.0, 20.0}, {6.0, 6.0, 40.0})};
+  p_WB_ = {3.0, 4.0, 6.0};
+  sortie_.know_site(40.0, blind_m);
+  ASSERT_EQ(next(), Turn::begin);
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_EQ(step(), Turn::work);
+    p_WB_.x() += 1.0;
+  }
+  retreats_ = true;  // as a planner does that finds nothing to do here
+  int left = 0;
+  for (int i = 0; i < 400 && p_WB_.z() < blind_m; ++i) left += step() == Turn::leave;
+  EXPECT_GE(left, 2) << "first it is taken elsewhere";
+  EXPECT_GE(p_WB_.z(), blind_m);
+  EXPECT_EQ(next(), Turn::begin);
 }
 
 TEST_F(OneSortie, WhoHasNoLidarIsNotTurned) {

@@ -14,7 +14,6 @@ constexpr int kHeadingStep = 3;  ///< of the first direction, from one attempt t
 constexpr double kDistances[] = {12.0, 7.0};
 constexpr double kHeights[] = {3.0, 0.0, -3.0, 8.0};
 constexpr int kMaxSearches = 12, kMaxExpansions = 500;
-constexpr int kFewestRays = 4;
 
 }  // namespace
 

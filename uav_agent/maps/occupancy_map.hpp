@@ -42,6 +42,7 @@ struct FrameCells {
 /// So many rays must have passed a place before it is believed to be free where something may well be: in and beside
 /// boxes. Measured, see docs/decisions/. Who cannot get anywhere may do with less (flight/proof.hpp).
 inline constexpr int kProofRays = 12;
+inline constexpr int kFewestRays = 4;  ///< where fewer have passed, nobody has looked
 
 /// Of free space: rays that ended in a hit beyond; or those and looks (look_from()), which is enough to fly there. Who
 /// maps surfaces counts rays: nothing was seen where a look met nothing.

@@ -14,6 +14,7 @@ constexpr double kMinLookAheadM = 0.15;
 constexpr double kTouchM = 0.1;  ///< a sharp corner counts as reached this close
 constexpr double kSharpSpeedMps = 0.3;
 constexpr double kSharpCosine = 0.5;    ///< turns of more than 60 degrees are sharp
+constexpr double kBendM = 8.0;          ///< corners farther apart are turns of their own
 constexpr double kMinLegM = 1e-3;       ///< shorter legs are no legs
 constexpr double kSlowestPace = 0.1;    ///< of a set-point that waits for its UAV
 constexpr double kLongestStepS = 0.05;  ///< of the point mass; a longer exchange takes several
@@ -24,11 +25,18 @@ Vector3d shortened(const Vector3d& v, double length) {
   return norm > length ? Vector3d(v * (length / norm)) : v;
 }
 
+/// 1 where one of the legs is none.
+double cosine_between(const Vector3d& in, const Vector3d& out) {
+  const bool turns = in.norm() > kMinLegM && out.norm() > kMinLegM;
+  return turns ? in.dot(out) / (in.norm() * out.norm()) : 1.0;
+}
+
 /// Greatest speed at which a turn cuts its corner by no more than `cut`: the circle that touches both legs.
-double corner_speed(double cosine, double cut, double acceleration) {
+/// @param bend_m  of way over which it turns, from the first corner to the last: that much wider a circle.
+double corner_speed(double cosine, double cut, double acceleration, double bend_m) {
   const double half = std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine)));  // cosine of half the turn
   if (half > 1.0 - 1e-6) return std::numeric_limits<double>::infinity();
-  return std::sqrt(acceleration * cut * half / (1.0 - half));
+  return std::sqrt(acceleration * (cut * half / (1.0 - half) + bend_m / (2.0 * std::acos(half))));
 }
 
 }  // namespace
@@ -113,11 +121,25 @@ void Tracker::lay_out(const std::vector<Waypoint>& waypoints) {
   for (std::size_t i = 1; i + 1 < corners_.size(); ++i) {
     const Vector3d in = corners_[i].p_W - corners_[i - 1].p_W;
     const Vector3d out = corners_[i + 1].p_W - corners_[i].p_W;
-    const bool turns = in.norm() > kMinLegM && out.norm() > kMinLegM;
-    const double cosine = turns ? in.dot(out) / (in.norm() * out.norm()) : 1.0;
-    const double acceleration = kBrakingShare * strength(out.normalized() - in.normalized());
-    corners_[i].sharp = cosine < kSharpCosine;
-    corners_[i].speed = corners_[i].sharp ? kSharpSpeedMps : corner_speed(cosine, config_.corner_m, acceleration);
+    corners_[i].sharp = cosine_between(in, out) < kSharpCosine;
+    corners_[i].speed = corners_[i].sharp ? kSharpSpeedMps : turn_speed(in, out, 0.0);
+  }
+  slow_down_in_bends();
+}
+
+double Tracker::turn_speed(const Vector3d& in, const Vector3d& out, double bend_m) const {
+  const double acceleration = kBrakingShare * strength(out.normalized() - in.normalized());
+  return corner_speed(cosine_between(in, out), config_.corner_m, acceleration, bend_m);
+}
+
+/// Each of several corners close together may be gentle, and all of them a sharp turn.
+void Tracker::slow_down_in_bends() {
+  const auto leg = [&](std::size_t i) { return Vector3d(corners_[i].p_W - corners_[i - 1].p_W); };
+  for (std::size_t i = 1; i + 2 < corners_.size(); ++i) {
+    for (std::size_t j = i + 1; j + 1 < corners_.size() && corners_[j].s - corners_[i].s < kBendM; ++j) {
+      const double speed = turn_speed(leg(i), leg(j + 1), corners_[j].s - corners_[i].s);
+      for (std::size_t k = i; k <= j; ++k) corners_[k].speed = std::min(corners_[k].speed, speed);
+    }
   }
 }
 

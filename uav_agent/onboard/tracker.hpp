@@ -62,6 +62,9 @@ class Tracker {
   /// The greatest acceleration in a direction.
   double strength(const Vector3d& direction) const;
   double speed_limit(double dt_s) const;
+  /// From one leg into another, over so much way.
+  double turn_speed(const Vector3d& in, const Vector3d& out, double bend_m) const;
+  void slow_down_in_bends();
   std::size_t leg_at(double s) const;
   Vector3d point_at(double s) const;
 

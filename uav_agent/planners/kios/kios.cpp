@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 
 #include "core/euler.hpp"
 #include "uav_agent/api/planner.hpp"
@@ -41,10 +42,10 @@ constexpr double kAimPatienceS = 4.0;  ///< at a waypoint; some directions are o
 constexpr int kMaxLaneFailures = 4;
 constexpr std::size_t kCandidates = 5;  ///< stops tried in one decision
 constexpr int kFruitlessToBold = 2, kFruitlessToRetreat = 9;
-constexpr double kBoldS = 40.0;          ///< for so long it does with less proof of free space
-constexpr double kLookAroundTurn = 0.8;  ///< in vain: a LiDAR that has turned makes a new key frame [rad]
-constexpr int kMostMoreLanes = 3;        ///< times, for explorers that have found nothing
-constexpr double kBoxesComeS = 5.0;      ///< to whoever is there from the beginning
+constexpr double kBoldS = 40.0;                        ///< for so long it does with less proof of free space
+constexpr double kLookAroundTurn = 0.8;                ///< in vain: a LiDAR that has turned makes a new key frame [rad]
+constexpr int kMostMoreLanes = 3;                      ///< times, for explorers that have found nothing
+constexpr double kBoxesComeS = 5.0, kLiftOffS = 20.0;  ///< to, and of, whoever is there from the beginning
 
 }  // namespace
 
@@ -106,7 +107,8 @@ class KiosPlanner final : public Planner {
   std::optional<VoxelGrid> grid_;     ///< once the boxes have come
   std::optional<VoxelGrid> hearsay_;  ///< of it, what this UAV did not see itself
   Site site_;
-  std::deque<Vector3d> lanes_;  ///< corners left
+  std::deque<Vector3d> lanes_;                         ///< corners left
+  Tick mapped_at_ = std::numeric_limits<Tick>::max();  ///< even if its program was away: the others have the map
   std::optional<KiosStop> stop_;
   std::vector<Vector3d> way_;          ///< to it
   std::optional<Tick> looking_since_;  ///< steady, aimed
@@ -160,7 +162,7 @@ FreeSpace::Config KiosPlanner::space_config() const {
   FreeSpace::Config config;
   config.clearance_m = clearance_m();
   config.jut_m = config_.jut_m;
-  config.rays = proof_.of(Proof::rays(site_.roomy));
+  config.rays = proof_.of(Proof::rays(site_.roomy), agent_.me().role);
   config.blind_height_m = site_.blind_height_m;
   config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = hearsay_ ? &*hearsay_ : nullptr;
@@ -177,9 +179,13 @@ void KiosPlanner::survey_site(const PlannerInput& in) {
   const double voxel = config_.voxel_m > 0.0 ? config_.voxel_m : by_camera;
   // One cube of free space around everything, to look at the outermost faces from.
   grid_.emplace(operational_volume(in.boxes, starts, voxel, 0.0, voxel));
-  if (seconds(in.tick) > kBoxesComeS) patience_.came_back();
+  const bool came_back = seconds(in.tick) > kBoxesComeS;
+  if (came_back) patience_.came_back();
   if (site_.blind_fleet) return fill_boxes(in.boxes, *grid_);
   lay_lanes(in, config_.lanes);
+  if (!came_back || config_.faithful) return;
+  const double lanes_m = path_length(in.tracking.setpoint.p_WB, {lanes_.begin(), lanes_.end()});
+  mapped_at_ = ticks(kLiftOffS + lanes_m / config_.map_mps);
 }
 
 void KiosPlanner::lay_lanes(const PlannerInput& in, int count) {
@@ -247,9 +253,7 @@ void KiosPlanner::next_lane(const PlannerInput& in, PlannerOutput& out) {
     const FreeSpace space = free_space(in);
     const auto corners = find_path(space, in.boxes, in.tracking.setpoint.p_WB, lanes_.front());
     if (corners) {
-      Path path;
-      for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.map_mps});
-      sortie_.pilot().follow(std::move(path), in, out);
+      sortie_.pilot().follow(path_through(*corners, config_.map_mps), in, out);
       proof_.ask_all();
       return;
     }
@@ -325,7 +329,7 @@ void KiosPlanner::nothing_to_reach(const PlannerInput& in, bool stops_left, Plan
   ++fruitless_;
   out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
   if (fruitless_ % kFruitlessToBold == 0) proof_.ask_less(in.tick + ticks(kBoldS));
-  if (fruitless_ % kFruitlessToRetreat == 0) sortie_.pilot().retreat(out);
+  if (fruitless_ % kFruitlessToRetreat == 0) sortie_.pilot().retreat(in, out);
 }
 
 /// An explorer for which nobody has found anything to look at: its lanes were too far from what there is.
@@ -345,9 +349,7 @@ bool KiosPlanner::fly_to(const KiosStop& stop, const FreeSpace& space, bool fine
     sortie_.pilot().no_way(stop.p_WB, space, out);
     return false;
   }
-  Path path;
-  for (const Vector3d& p : *corners) path.waypoints.push_back({p, config_.transit_mps});
-  sortie_.pilot().follow(std::move(path), in, out);
+  sortie_.pilot().follow(path_through(*corners, config_.transit_mps), in, out);
   phase_ = Phase::fly;
   stop_ = stop;
   way_ = *corners;
@@ -371,7 +373,8 @@ void KiosPlanner::look(const PlannerInput& in) {
 /// Claims the cube that it is in and the next ones on its way.
 KiosTalk::Word KiosPlanner::own_word(const PlannerInput& in) const {
   KiosTalk::Word word;
-  word.mapping = phase_ == Phase::map || (agent_.me().role == Role::explorer && !lanes_.empty());
+  const bool maps = phase_ == Phase::map || (agent_.me().role == Role::explorer && !lanes_.empty());
+  word.mapping = maps && in.tick < mapped_at_;
   const Vector3d here = in.tracking.setpoint.p_WB;
   if (stop_) {
     word.stop = stop_->id;

@@ -33,7 +33,6 @@ constexpr double kLookAroundTurn = 0.8;              ///< meanwhile [rad]
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the side, by round [rad]
 constexpr int kMaxFailures = 3;
 constexpr int kMaxFailedTasks = 8;
-constexpr double kAnywhereM = 1e6;
 
 }  // namespace
 
@@ -127,7 +126,7 @@ FreeSpace::Config PatrolPlanner::space_config() const {
   config.use_map = config_.use_map;
   config.jut_m = 0.0;  // it works at a fixed distance from the boxes' faces, seen or not
   const bool roomy = blocks_ && blocks_->any();
-  config.rays = proof_.of(Proof::rays(roomy));
+  config.rays = proof_.of(Proof::rays(roomy), agent_.me().role);
   if (roomy) {
     config.enter_radius_m = kAnywhereM;  // ways through a roomy box do not lead through a building
   }
@@ -225,13 +224,18 @@ void PatrolPlanner::begin_survey(const PlannerInput& in, PlannerOutput& out) {
   const double height = std::max(blind_height_m_ + 2.0, 0.5 * top_m_);
   Path path;
   Vector3d at = in.tracking.setpoint.p_WB;
-  for (const Vector3d& corner : survey_ring(agent_, in.boxes, config_.survey_standoff_m, height)) {
+  const std::vector<Vector3d> ring = survey_ring(agent_, in.boxes, config_.survey_standoff_m, height);
+  for (const Vector3d& corner : ring) {
     const auto way = find_path(space, in.boxes, at, corner);
     if (!way) continue;
     for (const Vector3d& p : *way) path.waypoints.push_back({p, config_.survey_mps});
     at = corner;
   }
-  if (path.waypoints.empty()) return;
+  if (path.waypoints.empty()) {
+    // From a narrow start nothing can be reached yet: the sortie is told where it wished to be.
+    surveyed_ = ring.empty() || sortie_.pilot().fly_to(ring.front(), in, space_config(), out);
+    return;
+  }
   phase_ = Phase::survey;
   sortie_.pilot().follow(std::move(path), in, out);
 }
@@ -266,7 +270,7 @@ void PatrolPlanner::next_strip(const PlannerInput& in, PlannerOutput& out) {
     flown_any_ = true;
     proof_.ask_less();
     idle(in.tick + ticks(kRestS), out);
-    sortie_.pilot().retreat(out);
+    sortie_.pilot().retreat(in, out);
     out.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookAroundTurn);
     return;
   }

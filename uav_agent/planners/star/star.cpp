@@ -153,7 +153,7 @@ PlannerOutput StarPlanner::plan(const PlannerInput& in) {
 FreeSpace::Config StarPlanner::space_config() const {
   FreeSpace::Config config;
   config.clearance_m = centre_clearance_m(agent_, config_.clearance_m);
-  config.rays = proof_.of(Proof::rays(site_.roomy));
+  config.rays = proof_.of(Proof::rays(site_.roomy), agent_.me().role);
   config.blind_height_m = site_.safe_height_m();
   config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = known_ ? known_->hearsay() : nullptr;
@@ -223,7 +223,8 @@ void StarPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   if (!known_) return;
   planned_at_ = in.tick;
   proof_.settle(in.tick);
-  const FreeSpace space(space_config(), in.boxes, in.map, separation_.keep_out(in.tracking.setpoint.p_WB, in.peers));
+  const FreeSpace space(space_config(), in.boxes, in.map,
+                        separation_.keep_out(in.tick, in.tracking.setpoint.p_WB, in.peers));
   if (at_box_ < boxes_.size()) {
     explore(in, space, out) ? void(fruitless_ = 0) : nothing_to_reach(in, out);
   } else if (has_lidar() && config_.faithful) {
@@ -347,7 +348,7 @@ void StarPlanner::nothing_to_reach(const PlannerInput& in, PlannerOutput& out) {
   not_before_ = in.tick + ticks(kRestS);
   ++fruitless_;
   if (fruitless_ % kFruitlessToBold == 0) proof_.ask_less(in.tick + ticks(kBoldS));
-  if (fruitless_ % kFruitlessToRetreat == 0) sortie_.pilot().retreat(out);
+  if (fruitless_ % kFruitlessToRetreat == 0) sortie_.pilot().retreat(in, out);
 }
 
 /// Sets out through places one after the other; false if there is no way to the first.

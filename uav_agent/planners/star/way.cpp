@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "uav_agent/flight/path_search.hpp"
+#include "uav_agent/flight/pilot.hpp"
 #include "uav_agent/flight/rounding.hpp"
 #include "uav_agent/flight/voxel_route.hpp"
 
@@ -43,8 +44,7 @@ std::optional<Path> star_way(const VoxelGrid& grid, const FreeSpace& space, cons
     corners->push_back(places_W[i]);
   }
   const auto free = [&](const Vector3d& a, const Vector3d& b) { return space.segment_free(a, b); };
-  Path path;
-  for (const Vector3d& p : rounded(from_W, *corners, config.round_m, free)) path.waypoints.push_back({p, speed_mps});
+  Path path = path_through(rounded(from_W, *corners, config.round_m, free), speed_mps);
   for (std::size_t i = 0; i < std::min(fast, path.waypoints.size()); ++i) {
     path.waypoints[i].speed_mps = std::max(speed_mps, config.transit_mps);
   }

@@ -4,6 +4,7 @@
 
 #include "uav_agent/flight/path_search.hpp"
 #include "uav_agent/flight/proof.hpp"
+#include "uav_agent/flight/separation.hpp"
 
 namespace skein::agent {
 namespace {
@@ -26,7 +27,7 @@ FreeSpace::Config XxhWays::space() const {
   FreeSpace::Config config;
   config.clearance_m = clearance_m();
   const int rung = std::max(fruitless_ / kFruitlessToBold, dared_);
-  config.rays = Proof::of(Proof::rays(site_.roomy), static_cast<std::size_t>(rung));
+  config.rays = Proof::of(Proof::rays(site_.roomy), static_cast<std::size_t>(rung), agent_.me().role);
   config.blind_height_m = site_.blind_height_m;
   config.floor_m = std::max(config.floor_m, site_.lowest_m);
   config.hearsay = hearsay_;
@@ -38,10 +39,10 @@ FreeSpace XxhWays::space_for_way(const PlannerInput& in, const Vector3d& goal_W)
   const Vector3d here = in.tracking.setpoint.p_WB;
   if ((goal_W - here).norm() > kNearM) config.enter_near_W = {here, goal_W};
   std::vector<Sphere> keep_out = talk_.trajectories(in);
-  for (const Peer& peer : in.peers.all()) {
+  for (const Peer& peer : reckoned(in.peers, in.tick)) {
     const double wanted = agent_.me().body_radius_m + agent_.fleet[peer.uav].body_radius_m + kPeerMarginM;
     const double distance = (peer.p_W - here).norm();  // whoever is too near already may leave
-    if (peer.visible && distance < kAroundPeersM) keep_out.push_back({peer.p_W, std::min(wanted, distance - kLeavesM)});
+    if (distance < kAroundPeersM) keep_out.push_back({peer.p_W, std::min(wanted, distance - kLeavesM)});
   }
   return {config, in.boxes, in.map, std::move(keep_out)};
 }

@@ -281,7 +281,7 @@ void XxhPlanner::recover(const PlannerInput& in, PlannerOutput& out) {
   not_before_ = in.tick + ticks(stage_ == Stage::inspect ? kShortRestS : kRestS);
   if (ways_.fruitless() < kFruitlessToRetreat) return;
   ways_.start_anew();
-  if (stage_ != Stage::explore) sortie_.pilot().retreat(out);
+  if (stage_ != Stage::explore) sortie_.pilot().retreat(in, out);
 }
 
 /// The section that was explored may be inspected from now on; on to the next one.
