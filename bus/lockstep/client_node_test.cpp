@@ -7,6 +7,9 @@
 
 #include <sstream>
 
+#include "bus/lockstep/names.hpp"
+#include "core/topics.hpp"
+
 namespace skein::bus {
 namespace {
 
@@ -16,6 +19,7 @@ class Lonely final : public ClientNode {
   Lonely(Bus& bus, StopSignal& stop)
       : participant_(bus.join(0)), client_(*participant_, inbox_, "jurong"), stop_(stop) {}
   Inbox& inbox() override { return inbox_; }
+  ParticipantId id() const { return participant_->id(); }
 
  private:
   LockstepClient& client() override { return client_; }
@@ -49,6 +53,46 @@ TEST(ClientNode, SaysWhatItWaitsForNowAndThen) {
   for (std::size_t at = said.find(word); at != std::string::npos; at = said.find(word, at + 1)) ++times;
   EXPECT_GE(times, 2U) << said;
   EXPECT_LE(times, 20U) << "each time after twice as long";
+}
+
+/// A server as far as its invitation.
+class Host {
+ public:
+  explicit Host(Bus& bus) : participant_(bus.join(0)), step_(*participant_, spec(topics::step())) {}
+  void invite(ParticipantId member) {
+    auto resync = message_of<msg::Resync>(RunId{});
+    resync.source(member);
+    resync_.begin_step();
+    resync_.write(resync);
+  }
+
+ private:
+  std::unique_ptr<Participant> participant_;
+  CountedWriter step_, resync_{*participant_, spec(topics::resync())};
+};
+
+TEST(ClientNode, WhoNeverHadAnIdleTurnFindsThatTheServerHasGone) {
+  const auto bus = make_bus({.vendor = "inproc"});
+  StopSignal stop;
+  Lonely node(*bus, stop);
+  node.start();
+  auto host = std::make_unique<Host>(*bus);
+  host->invite(node.id());
+  ASSERT_TRUE(node.inbox().dispatch(std::chrono::seconds(10)));
+  node.turn(true);
+  host.reset();
+  EXPECT_EQ(node.end(), std::nullopt);
+  node.turn(false);
+  EXPECT_EQ(node.end(), NodeEnd::finished) << "it was no member yet";
+}
+
+TEST(ClientNode, WhoHeardOfNoServerWaitsForOne) {
+  const auto bus = make_bus({.vendor = "inproc"});
+  StopSignal stop;
+  Lonely node(*bus, stop);
+  node.start();
+  for (int i = 0; i < 10; ++i) node.turn(false);
+  EXPECT_EQ(node.end(), std::nullopt);
 }
 
 }  // namespace
