@@ -223,7 +223,8 @@ std::vector<msg::Await> RouterNode::awaited() const {
     list.back().what(what);
   };
   for (const auto& [source, applicant] : applicants_) {
-    if (!applicant.attached) add(applicant.member, source, true, unmatched(applicant, source) + " to match");
+    if (applicant.attached) continue;
+    add(applicant.member, source, true, radio_open_ ? unmatched(applicant, source) + " to match" : "the radio to open");
   }
   for (const AwaitedMember& missing : sync_.awaited())
     add(missing.member.name, missing.member.source, false, missing.what);

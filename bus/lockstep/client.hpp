@@ -65,6 +65,8 @@ class LockstepClient {
 
   /// True from the first step on in which we are a member.
   bool is_member() const { return phase_ == Phase::member; }
+  /// True once it has said what it reads and writes: the server and it have matched each other's topics.
+  bool has_declared() const { return phase_ >= Phase::declared; }
   /// True as long as the server's step writer is there (whoever's, before we are invited): after the last step, stay
   /// until it has gone.
   bool server_present() const;

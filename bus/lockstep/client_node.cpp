@@ -62,10 +62,11 @@ void ClientNode::turn(bool arrived) {
 }
 
 // Also while a match is awaited: a program that was stopped may find nobody left to match. Who had no idle turn in the
-// whole run looks for the first time when the server has gone, but was invited by it.
+// whole run looks for the first time when the server has gone, but has matched it. An invitation alone says nothing:
+// it may be here before the match is.
 void ClientNode::look_for_server() {
   const bool present = client().server_present();
-  met_server_ = met_server_ || present || client().server() != 0;
+  met_server_ = met_server_ || present || client().has_declared();
   if (present || (!met_server_ && !until_server_.over())) return;
   if (!was_member_) spdlog::info("{}", met_server_ ? "the run is over, without us" : "there is no sim_server");
   end_ = was_member_ ? NodeEnd::server_gone : NodeEnd::finished;

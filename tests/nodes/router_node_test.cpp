@@ -99,5 +99,19 @@ TEST(RouterNode, GoesOnWithoutWhomTheServerGivesUp) {
   EXPECT_TRUE(take_turns(without_b, [&] { return server.over(); }));
 }
 
+TEST(RouterNode, TellsForWhomItWaitsBeforeItsRadioIsOpen) {
+  const Scenario scenario = toy_scenario(1);
+  const auto bus = bus::make_bus({.vendor = "inproc"});
+  ToyServer server(*bus, scenario, 3);
+  server.expect_uavs(scenario);  // and no router: it is not invited
+  router::RouterNode router(scenario, 0, 0, *bus);
+  ToyMember a(*bus, uav_domain(0, UavIndex{0}), "a");
+  router.start();
+  a.start();
+  const std::vector<std::function<void()>> all = {[&] { server.poll(); }, [&] { a.poll(); }, [&] { router.poll(); }};
+  EXPECT_TRUE(take_turns(all, [&] { return server.over(); })) << router.waiting_for();
+  EXPECT_NE(router.waiting_for().find("a: the radio to open"), std::string::npos) << router.waiting_for();
+}
+
 }  // namespace
 }  // namespace skein::test
