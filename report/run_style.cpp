@@ -39,7 +39,7 @@ body.run main { max-width: 1560px; }
 @media (min-width: 1180px) { .pair { grid-template-columns: minmax(0, 5fr) minmax(0, 6fr); } .halves { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
 .run td:first-child, .run th:first-child { background: var(--page); }
 .waterfall { width: 100%; }
-.waterfall th:last-child, .waterfall td:last-child { width: 100%; min-width: 120px; padding: 3px 0 3px 10px; vertical-align: middle; }
+.waterfall th:last-child, .waterfall td:last-child { width: 100%; min-width: 80px; padding: 3px 0 3px 10px; vertical-align: middle; }
 .run svg.fall { max-width: none; width: 100%; height: 18px; margin: 0; }
 .fall rect { fill: var(--c0); } .fall .whole { fill: var(--q0); }
 .fall .k0 { fill: var(--k0); } .fall .k1 { fill: var(--k1); } .fall .k2 { fill: var(--k2); } .fall .k3 { fill: var(--k3); } .fall .k4 { fill: var(--k4); }
