@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "bus/typed.hpp"
-#include "free_domain.hpp"
+#include "tests/free_domain.hpp"
 
 namespace skein::bus {
 namespace {

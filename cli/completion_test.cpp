@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cli/options.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 namespace {
@@ -92,10 +93,9 @@ TEST(Completion, NothingIsOfferedWhereAnyTextOrFileWillDo) {
 /// The script's own work: it takes the line apart, and gives bash what it replaces. This `skein` shows its words.
 TEST(Completion, BashGetsTheLastPartOfAWord) {
   const auto replies = [](const std::string& line) {
-    const std::string script = "skein() { shift; printf \"%s\\n\" \"${@: -1}hover\" \"$#\"; }; . " SKEIN_SOURCE_DIR
-                               "/cli/completion/skein.bash; COMP_LINE=\"" +
-                               line + "\" COMP_POINT=" + std::to_string(line.size()) +
-                               "; _skein skein; echo ${COMPREPLY[*]}";
+    const std::string script = "skein() { shift; printf \"%s\\n\" \"${@: -1}hover\" \"$#\"; }; . " +
+                               source_path("cli/completion/skein.bash") + "; COMP_LINE=\"" + line +
+                               "\" COMP_POINT=" + std::to_string(line.size()) + "; _skein skein; echo ${COMPREPLY[*]}";
     const std::unique_ptr<FILE, decltype(&::pclose)> pipe(::popen(("bash -c '" + script + "'").c_str(), "r"),
                                                           &::pclose);
     std::string text(200, '\0');

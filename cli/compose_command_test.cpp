@@ -13,6 +13,7 @@
 #include "cli/testing/fake_programs.hpp"
 #include "process/program.hpp"
 #include "process/security_files.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 namespace {
@@ -23,8 +24,8 @@ using Texts = std::vector<std::string>;
 class ComposeCommand : public testing::Test {
  protected:
   ComposeCommand() {
-    ::setenv("SKEIN_BIN_DIR", SKEIN_BIN_DIR, 1);
-    ::setenv("SKEIN_CONFIG_DIR", SKEIN_SOURCE_DIR "/config", 1);
+    ::setenv("SKEIN_BIN_DIR", build_path("bin").c_str(), 1);
+    ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
   }
   ~ComposeCommand() override {
     for (const char* name : {"SKEIN_BIN_DIR", "SKEIN_CONFIG_DIR"}) ::unsetenv(name);
@@ -54,7 +55,7 @@ TEST_F(ComposeCommand, TheShippedFileIsWhatItWrites) {
   auto options = std::get<ComposeOptions>(parse_command_line(words));
   options.file.reset();
   EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone);
-  EXPECT_EQ(out_.str(), read_text(SKEIN_SOURCE_DIR "/docker/compose.yaml"))
+  EXPECT_EQ(out_.str(), read_text(source_path("docker/compose.yaml")))
       << "mend it in the source tree with: ./skein " << fmt::format("{}", fmt::join(words, " "));
 }
 

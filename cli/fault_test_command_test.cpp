@@ -9,6 +9,7 @@
 #include "cli/testing/fake_programs.hpp"
 #include "process/program.hpp"
 #include "report/testing/xml_check.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 namespace {
@@ -17,7 +18,7 @@ using report::xml_elements;
 using report::XmlElement;
 
 /// Writes a report whose digest tells the vendor and the chaos, and a line of what was flown.
-constexpr const char* kServer = R"(
+constexpr const char* kFlyingServer = R"(
 faults=no; dds=none
 for word in $arguments; do
   [ "$word" = --faults ] && faults=yes
@@ -35,14 +36,14 @@ END
 class FaultTestCommand : public testing::Test {
  protected:
   FaultTestCommand() {
-    std::filesystem::create_symlink(SKEIN_PROGRAM, programs_.dir() / "skein");
+    std::filesystem::create_symlink(build_path("bin/skein"), programs_.dir() / "skein");
     serve("d");
     programs_.script("station", R"(echo '{"score": 3.0, "score_earned": 4.0}' > "$out/station.report.json")");
   }
 
   /// @param digest  as the shell spells it.
   void serve(const std::string& digest) {
-    std::string body = kServer;
+    std::string body = kFlyingServer;
     body.replace(body.find("DIGEST"), 6, digest);
     write_script(programs_.dir() / "sim_server", "arguments=\"$*\"" + std::string(kReadOptions) + body);
   }

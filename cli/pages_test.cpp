@@ -8,6 +8,7 @@
 #include "cli/options.hpp"
 #include "core/text.hpp"
 #include "core/types.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<fs::path> pages() {
-  const fs::path root = SKEIN_SOURCE_DIR;
+  const fs::path root = source_path();
   std::vector<fs::path> files = {root / "README.md", root / "CONTRIBUTING.md"};
   for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
     if (entry.path().extension() == ".md") files.push_back(entry.path());

@@ -10,6 +10,7 @@
 #include "cli/run/result.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 namespace {
@@ -58,8 +59,7 @@ TEST_F(RunCommand, AnAgentOfOnesOwnFliesInThePlaceOfUavAgent) {
   options_.agent = programs_.dir() / "mine";
   EXPECT_EQ(run(), kExitDone) << err_.str();
   EXPECT_EQ(result()["agent"], (programs_.dir() / "mine").string());
-  EXPECT_NE(read_text(*options_.out / "uav_agent-beta.log").find("config " SKEIN_SOURCE_DIR "/config"),
-            std::string::npos);
+  EXPECT_NE(read_text(*options_.out / "uav_agent-beta.log").find("config " + source_path("config")), std::string::npos);
 }
 
 TEST_F(RunCommand, WhatIsNoAgentIsRefusedBeforeTheStart) {

@@ -27,7 +27,7 @@ int run_tests(const TestOptions& options, const Console& console) {
                                       {}});
   TestCounts counts = count_tests(junit, reports);
   if (!exit.ok() && counts.failed == 0) counts.failed = 1;  // ctest itself failed
-  console.out << summary_line(counts) << std::endl;
+  console.out << parts_table(junit, 20) << summary_line(counts) << std::endl;
   return counts.failed == 0 ? kExitDone : kExitCheckFailed;
 }
 

@@ -1,10 +1,14 @@
 #include "cli/test_counts.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <pugixml.hpp>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "cli/run/result.hpp"
+#include "core/text.hpp"
 
 namespace skein::cli {
 namespace {
@@ -26,13 +30,18 @@ TestCounts count_cases(const Json& report) {
   return counts;
 }
 
-}  // namespace
-
-TestCounts count_tests(const std::filesystem::path& junit, const std::filesystem::path& reports) {
+pugi::xml_document read_junit(const std::filesystem::path& junit) {
   pugi::xml_document document;
   if (const pugi::xml_parse_result read = document.load_file(junit.c_str()); !read) {
     throw std::runtime_error(junit.string() + ": ctest left no report: " + read.description());
   }
+  return document;
+}
+
+}  // namespace
+
+TestCounts count_tests(const std::filesystem::path& junit, const std::filesystem::path& reports) {
+  const pugi::xml_document document = read_junit(junit);
   TestCounts total;
   for (const pugi::xml_node& entry : document.child("testsuite").children("testcase")) {
     const std::string name = entry.attribute("name").value(), status = entry.attribute("status").value();
@@ -51,6 +60,26 @@ TestCounts count_tests(const std::filesystem::path& junit, const std::filesystem
     total.skipped += counts.skipped;
   }
   return total;
+}
+
+std::string parts_table(const std::filesystem::path& junit, std::size_t count) {
+  const pugi::xml_document document = read_junit(junit);
+  std::vector<std::pair<double, std::string>> parts;
+  double total_s = 0.0;
+  for (const pugi::xml_node& entry : document.child("testsuite").children("testcase")) {
+    parts.emplace_back(entry.attribute("time").as_double(), entry.attribute("name").value());
+    total_s += parts.back().first;
+  }
+  if (parts.empty()) return "";
+  count = std::min(count, parts.size());
+  std::ranges::partial_sort(parts, parts.begin() + static_cast<std::ptrdiff_t>(count), std::greater());
+  std::string table = "the slowest " + std::to_string(count) + " of " + std::to_string(parts.size()) +
+                      " parts, which took " + fixed(total_s, 0) + " s together:\n";
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string seconds = fixed(parts[i].first, 1);
+    table += std::string(seconds.size() < 9 ? 9 - seconds.size() : 0, ' ') + seconds + " s  " + parts[i].second + "\n";
+  }
+  return table;
 }
 
 std::string summary_line(const TestCounts& counts) {

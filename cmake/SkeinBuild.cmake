@@ -21,10 +21,10 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 
 option(SKEIN_UNITY "Compile the files of a folder together; OFF: each alone, for who edits and rebuilds much" ON)
 set(SKEIN_SANITIZE OFF CACHE STRING "Build with sanitizers: address (and undefined behaviour), thread, or OFF")
-# What is built and run with ThreadSanitizer: what has threads of its own, and whole fleets over the inproc bus. The
-# vendors' threads are not ours to look into.
+# What is built and run with ThreadSanitizer: what has threads of its own, both vendors' buses, and whole fleets over the
+# inproc bus. What happens between threads of the vendors' own libraries is not looked into (tsan.supp).
 set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test process_status_pipe_test
-  one_process_crew_test one_process_flights_test one_process_digests_test)
+  one_process_crew_test one_process_flights_test one_process_digests_test bus_contract_test radio_contract_test)
 
 # What takes minutes with AddressSanitizer, for it computes much; shorter tests and whole fleets reach that code.
 set(SKEIN_LONG_TESTS sim_oracle_oracle_test sim_scenes_scene_families_test agent_planner_contract_test)
@@ -53,7 +53,7 @@ if(NOT SKEIN_SANITIZE)
   add_compile_options($<$<CONFIG:Release>:-g1>)
   add_link_options($<$<CONFIG:Release>:-Wl,--compress-debug-sections=zlib>)  # a third of the size
 endif()
-add_compile_options(-fdebug-prefix-map=${CMAKE_SOURCE_DIR}=.)
+add_compile_options(-ffile-prefix-map=${CMAKE_SOURCE_DIR}=.)
 
 # skein_add_library(NAME [OBJECT] SOURCES ... PUBLIC libs... PRIVATE libs...)
 # Headers are included from the repository root: #include "core/types.hpp".
@@ -111,29 +111,45 @@ function(skein_add_program name)
   skein_compile_by_folder(${name} ${ARG_SOURCES})
 endfunction()
 
-# skein_add_test(NAME SOURCES ... LIBS ... [LABELS ...] [TIMEOUT s] [SERIAL])
-# One GoogleTest program, one CTest entry. Assets come from SKEIN_ASSETS and SKEIN_GOLDEN in the environment.
+# skein_add_helper(NAME SOURCES ... LIBS ...)
+# A program that only tests start; helper_program(NAME) of tests/support/places.hpp is its path.
+function(skein_add_helper name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  if(NOT BUILD_TESTING)
+    return()
+  endif()
+  add_executable(${name} EXCLUDE_FROM_ALL ${ARG_SOURCES})  # the tests that start it depend on it
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} skein_test_places)
+endfunction()
+
+# skein_add_test(NAME SOURCES ... LIBS ... [LABELS ...] [TIMEOUT s] [SERIAL] [PROGRAMS target...])
+# A CTest entry: the tests that stand in the sources *_test.cpp. The tests of a CMake folder are one program, `core_tests`
+# say, which runs those of one entry at a time (tests/support/main.cpp). PROGRAMS are what its tests start. Assets come
+# from SKEIN_ASSETS and SKEIN_GOLDEN in the environment.
 function(skein_add_test name)
-  cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "SOURCES;LIBS;LABELS;PROGRAMS" ${ARGN})
   if(NOT BUILD_TESTING OR (SKEIN_SANITIZE STREQUAL thread AND NOT name IN_LIST SKEIN_THREAD_TESTS) OR
      (SKEIN_SANITIZE AND name IN_LIST SKEIN_LONG_TESTS))
     return()
   endif()
-  add_executable(${name} ${ARG_SOURCES})
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
-  target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main)
-  target_compile_definitions(${name} PRIVATE
-    SKEIN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SKEIN_BIN_DIR="${CMAKE_BINARY_DIR}/bin")
-  # Tests are half of what is compiled and most of what is linked; less care for them is a quarter less time.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  target_link_options(${name} PRIVATE $<$<CONFIG:Release>:-Wl,--strip-debug,--compress-debug-sections=none>)
-  add_test(NAME ${name} COMMAND ${name})
+  skein_test_program(program)
+  skein_add_test_sources(${program} ${ARG_SOURCES})
+  target_link_libraries(${program} PRIVATE ${ARG_LIBS})
+  if(ARG_PROGRAMS)
+    add_dependencies(${program} ${ARG_PROGRAMS})
+  endif()
+
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  set(files ${ARG_SOURCES})
+  list(FILTER files INCLUDE REGEX "_test\\.cpp$")
+  list(TRANSFORM files PREPEND "--file;${folder}/")
+  add_test(NAME ${name} COMMAND ${program} --entry ${name} ${files})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
   if(SKEIN_SANITIZE)
-    target_compile_options(${name} PRIVATE -O0)  # half of the build, or it would be the longest part of all
     math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")
   endif()
   if(NOT ARG_LABELS)
@@ -143,4 +159,49 @@ function(skein_add_test name)
   if(ARG_SERIAL)
     set_tests_properties(${name} PROPERTIES RUN_SERIAL TRUE)
   endif()
+endfunction()
+
+# The program with the tests of the present folder, made at the first call: core_tests, bus_lockstep_tests, tests_fleet.
+function(skein_test_program out)
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  string(REPLACE "/" "_" program ${folder})
+  if(NOT folder MATCHES "^tests/")
+    string(APPEND program _tests)
+  endif()
+  set(${out} ${program} PARENT_SCOPE)
+  if(TARGET ${program})
+    return()
+  endif()
+  add_executable(${program})
+  add_dependencies(tests ${program})
+  set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests
+    UNITY_BUILD ${SKEIN_UNITY} UNITY_BUILD_MODE GROUP)
+  target_link_libraries(${program} PRIVATE skein_test_main)
+  # Less care for tests is a quarter less time; with sanitizers, half of it.
+  target_compile_options(${program} PRIVATE $<$<CONFIG:Release>:-O1> $<$<BOOL:${SKEIN_SANITIZE}>:-O0>
+    $<$<BOOL:${SKEIN_UNITY}>:-Wno-subobject-linkage -Wno-shadow>)  # what stands in another file is not shadowed
+  target_link_options(${program} PRIVATE $<$<CONFIG:Release>:-Wl,--strip-debug,--compress-debug-sections=none>)
+endfunction()
+
+# Sources of a test program, eight of a folder compiled as one. So a name in an unnamed namespace means one thing in the
+# tests of a folder, too.
+function(skein_add_test_sources program)
+  get_target_property(present ${program} SOURCES)
+  foreach(source ${ARGN})
+    if(source IN_LIST present)
+      continue()
+    endif()
+    target_sources(${program} PRIVATE ${source})
+    get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR}/${source} DIRECTORY)
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+    string(REPLACE "/" "_" folder ${folder})
+    get_property(count GLOBAL PROPERTY skein_test_sources_of_${folder})
+    if(NOT count)
+      set(count 0)
+    endif()
+    math(EXPR batch "${count} / 8")
+    math(EXPR count "${count} + 1")
+    set_property(GLOBAL PROPERTY skein_test_sources_of_${folder} ${count})
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP tests_${folder}_${batch})
+  endforeach()
 endfunction()

@@ -34,7 +34,7 @@ std::vector<RadioRoute> all_to_all() {
   return routes;
 }
 
-SentMessage message(std::size_t route_index, std::uint64_t sequence, const std::string& text) {
+SentMessage routed_message(std::size_t route_index, std::uint64_t sequence, const std::string& text) {
   return {route_index, sequence, std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end())};
 }
 
@@ -64,7 +64,7 @@ TEST(LinkGate, ExactlyTheLinkedTargetsGetAMessage) {
   for (std::uint64_t k = 0; k < 200; ++k) {
     const Links links = random_links(random);
     std::vector<SentMessage> messages;
-    for (std::size_t r = 0; r < gate.routes().size(); ++r) messages.push_back(message(r, k, "m"));
+    for (std::size_t r = 0; r < gate.routes().size(); ++r) messages.push_back(routed_message(r, k, "m"));
     const GatedStep step = gate.gate(k, links, messages);
     std::size_t expected = 0;
     for (const RadioRoute& from : gate.routes()) {
@@ -84,7 +84,7 @@ TEST(LinkGate, DeliveriesAreOrderedBySourceTopicSequenceTarget) {
   LinkGate gate(kAllToAll, kNodes);
   std::vector<SentMessage> messages;
   for (std::size_t r = 0; r < gate.routes().size(); ++r) {
-    for (std::uint64_t sequence = 0; sequence < 3; ++sequence) messages.push_back(message(r, sequence, "m"));
+    for (std::uint64_t sequence = 0; sequence < 3; ++sequence) messages.push_back(routed_message(r, sequence, "m"));
   }
   const GatedStep step = gate.gate(0, kAllLinked, messages);
   const auto key = [&](const Delivery& delivery) {
@@ -107,7 +107,7 @@ TEST(LinkGate, CountsAddUpOnEveryLink) {
   for (std::uint64_t k = 0; k < 100; ++k) {
     std::vector<SentMessage> messages;
     for (std::size_t r = 0; r < gate.routes().size(); ++r) {
-      for (std::uint64_t n = random() % 3; n > 0; --n) messages.push_back(message(r, sequence[r]++, "m"));
+      for (std::uint64_t n = random() % 3; n > 0; --n) messages.push_back(routed_message(r, sequence[r]++, "m"));
     }
     gate.gate(k, random_links(random), messages);
   }
@@ -143,9 +143,9 @@ TEST(LinkGate, CountsAddUpOnEveryLink) {
 TEST(LinkGate, ADelayedMessageKeepsTheLinkItWasSentOn) {
   const std::vector<RadioRoute> routes = {route(Node{1}, "/x", {kStationNode})};
   LinkGate gate(routes, kNodes, std::make_unique<LateLinks>());
-  EXPECT_TRUE(gate.gate(0, kAllLinked, {message(0, 2, "two steps late")}).deliveries.empty());
+  EXPECT_TRUE(gate.gate(0, kAllLinked, {routed_message(0, 2, "two steps late")}).deliveries.empty());
   EXPECT_TRUE(gate.gate(1, kNoneLinked, {}).deliveries.empty());
-  const GatedStep third = gate.gate(2, kNoneLinked, {message(0, 3, "no line of sight")});
+  const GatedStep third = gate.gate(2, kNoneLinked, {routed_message(0, 3, "no line of sight")});
   ASSERT_EQ(third.deliveries.size(), 1U);
   EXPECT_EQ(third.deliveries[0].sequence, 2U);
   EXPECT_EQ(gate.counts().at(Node{1}, kStationNode), (LinkCounts{.sent = 2,
@@ -161,20 +161,20 @@ TEST(LinkGate, TheDigestSeesEveryFieldOfADelivery) {
     return LinkGate(routes, kNodes).gate(0, kAllLinked, {sent}).digest;
   };
   const RadioRoute base = route(Node{1}, "/x", {Node{2}});
-  const auto reference = digest(base, message(0, 5, "hello"));
+  const auto reference = digest(base, routed_message(0, 5, "hello"));
   EXPECT_EQ(reference.size(), 32U);
-  EXPECT_EQ(digest(base, message(0, 5, "hello")), reference);
-  EXPECT_NE(digest(base, message(0, 6, "hello")), reference);
-  EXPECT_NE(digest(base, message(0, 5, "hellp")), reference);
-  EXPECT_NE(digest(route(Node{3}, "/x", {Node{2}}), message(0, 5, "hello")), reference);
-  EXPECT_NE(digest(route(Node{1}, "/y", {Node{2}}), message(0, 5, "hello")), reference);
-  EXPECT_NE(digest(route(Node{1}, "/x", {Node{3}}), message(0, 5, "hello")), reference);
+  EXPECT_EQ(digest(base, routed_message(0, 5, "hello")), reference);
+  EXPECT_NE(digest(base, routed_message(0, 6, "hello")), reference);
+  EXPECT_NE(digest(base, routed_message(0, 5, "hellp")), reference);
+  EXPECT_NE(digest(route(Node{3}, "/x", {Node{2}}), routed_message(0, 5, "hello")), reference);
+  EXPECT_NE(digest(route(Node{1}, "/y", {Node{2}}), routed_message(0, 5, "hello")), reference);
+  EXPECT_NE(digest(route(Node{1}, "/x", {Node{3}}), routed_message(0, 5, "hello")), reference);
 }
 
 TEST(LinkGate, NoDeliveryNoDigest) {
   const std::vector<RadioRoute> routes = {route(Node{1}, "/x", {Node{2}})};
   LinkGate gate(routes, kNodes);
-  EXPECT_TRUE(gate.gate(0, kNoneLinked, {message(0, 0, "lost")}).digest.empty());
+  EXPECT_TRUE(gate.gate(0, kNoneLinked, {routed_message(0, 0, "lost")}).digest.empty());
   EXPECT_TRUE(gate.gate(1, kAllLinked, {}).digest.empty());
 }
 
@@ -182,7 +182,7 @@ TEST(LinkGate, AMatrixOfAnotherSizeIsRefused) {
   const std::vector<RadioRoute> routes = {route(Node{1}, "/x", {Node{2}})};
   LinkGate gate(routes, kNodes);
   EXPECT_THROW(gate.gate(0, Links(3, 1), {}), std::invalid_argument);
-  EXPECT_THROW(gate.gate(0, kAllLinked, {message(1, 0, "?")}), std::invalid_argument);
+  EXPECT_THROW(gate.gate(0, kAllLinked, {routed_message(1, 0, "?")}), std::invalid_argument);
 }
 
 }  // namespace

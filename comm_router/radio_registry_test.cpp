@@ -8,7 +8,7 @@
 namespace skein::router {
 namespace {
 
-constexpr SourceId kA = 11, kB = 12, kStation = 10;
+constexpr SourceId kFirst = 11, kSecond = 12, kStation = 10;
 const std::string kType = "some/msg/Type";
 
 class Registry : public testing::Test {
@@ -45,7 +45,7 @@ class Registry : public testing::Test {
   const Scenario scenario_ = three_nodes();
   RadioTable table_{scenario_};
   std::set<std::size_t> opened_;
-  std::set<SourceId> hears_{kA, kB, kStation}, reaches_{kA, kB, kStation}, admitted_, lost_;
+  std::set<SourceId> hears_{kFirst, kSecond, kStation}, reaches_{kFirst, kSecond, kStation}, admitted_, lost_;
   std::set<Node> declared_;
   RadioRegistry registry_{scenario_,
                           table_,
@@ -60,41 +60,41 @@ class Registry : public testing::Test {
 
 TEST_F(Registry, OpensOnceTheWriterIsFound) {
   hears_.clear();
-  registry_.begin_step({sending(kA, 5)});
+  registry_.begin_step({sending(kFirst, 5)});
   EXPECT_EQ(opened_.size(), 1U);
   EXPECT_TRUE(registry_.waiting());
-  hears_ = {kA};
+  hears_ = {kFirst};
   EXPECT_FALSE(registry_.waiting());
   const auto replies = registry_.end_step();
   ASSERT_EQ(replies.size(), 1U);
-  EXPECT_EQ(replies[0], (RadioReply{.asker = {kA, Node{1}, 5}, .open = true, .unheard = {"gcs", "b"}}));
-  EXPECT_EQ(admitted_, std::set<SourceId>{kA});
+  EXPECT_EQ(replies[0], (RadioReply{.asker = {kFirst, Node{1}, 5}, .open = true, .unheard = {"gcs", "b"}}));
+  EXPECT_EQ(admitted_, std::set<SourceId>{kFirst});
   EXPECT_TRUE(step().empty()) << "nothing has changed";
 }
 
 TEST_F(Registry, SaysThatThereIsNoFittingWriter) {
   hears_.clear();
-  const auto replies = step({sending(kA, 5)});
+  const auto replies = step({sending(kFirst, 5)});
   ASSERT_EQ(replies.size(), 1U);
   EXPECT_FALSE(replies[0].open);
   EXPECT_NE(replies[0].reason.find("BEST_EFFORT"), std::string::npos);
   EXPECT_TRUE(admitted_.empty());
   EXPECT_EQ(registry_.decided_by_clock().size(), 1U) << "with more patience it might have been found";
   EXPECT_TRUE(opened_.empty()) << "what was made for it is freed";
-  hears_ = {kA};
-  EXPECT_TRUE(step({sending(kA, 6)}).at(0).open) << "it may ask again";
+  hears_ = {kFirst};
+  EXPECT_TRUE(step({sending(kFirst, 6)}).at(0).open) << "it may ask again";
   EXPECT_TRUE(registry_.decided_by_clock().empty());
   EXPECT_EQ(opened_.size(), 1U);
 }
 
 TEST_F(Registry, WhoAsksInVainAgainAndAgainIsNotWaitedForAnyMore) {
-  hears_ = {kB};
+  hears_ = {kSecond};
   for (std::uint32_t id = 0; id < RadioRegistry::kMaxVain; ++id) {
-    registry_.begin_step({sending(kA, id)});
+    registry_.begin_step({sending(kFirst, id)});
     EXPECT_TRUE(registry_.waiting());
     EXPECT_FALSE(registry_.end_step().at(0).open);
   }
-  registry_.begin_step({sending(kA, 9), sending(kB, 1)});
+  registry_.begin_step({sending(kFirst, 9), sending(kSecond, 1)});
   EXPECT_FALSE(registry_.waiting()) << "the fleet does not stand still for it";
   const auto replies = registry_.end_step();
   ASSERT_EQ(replies.size(), 2U);
@@ -104,15 +104,15 @@ TEST_F(Registry, WhoAsksInVainAgainAndAgainIsNotWaitedForAnyMore) {
 }
 
 TEST_F(Registry, ListenersMayComeFirstOrLater) {
-  EXPECT_EQ(step({listening(kB, 1)}).at(0), (RadioReply{.asker = {kB, Node{2}, 1}})) << "nobody sends yet";
-  const auto replies = step({sending(kA, 1)});
+  EXPECT_EQ(step({listening(kSecond, 1)}).at(0), (RadioReply{.asker = {kSecond, Node{2}, 1}})) << "nobody sends yet";
+  const auto replies = step({sending(kFirst, 1)});
   ASSERT_EQ(replies.size(), 2U);
   EXPECT_EQ(replies[0].unheard, (std::vector<std::string>{"gcs", "b"})) << "b has yet to open its reader";
-  EXPECT_EQ(replies[1], (RadioReply{.asker = {kB, Node{2}, 1}, .open = true}));
+  EXPECT_EQ(replies[1], (RadioReply{.asker = {kSecond, Node{2}, 1}, .open = true}));
   reaches_.clear();
   registry_.begin_step({listening(kStation, 1)});
   EXPECT_TRUE(registry_.waiting()) << "b says by its answer that it has found us; we wait until we have found it";
-  reaches_ = {kA, kB, kStation};
+  reaches_ = {kFirst, kSecond, kStation};
   const auto more = registry_.end_step();
   ASSERT_EQ(more.size(), 2U);
   EXPECT_EQ(more[0].unheard, std::vector<std::string>{"gcs"});
@@ -122,49 +122,49 @@ TEST_F(Registry, ListenersMayComeFirstOrLater) {
 
 TEST_F(Registry, DeclaredReadersHear) {
   declared_ = {Node{0}, Node{2}};
-  EXPECT_TRUE(step({sending(kA, 1)}).at(0).unheard.empty());
+  EXPECT_TRUE(step({sending(kFirst, 1)}).at(0).unheard.empty());
 }
 
 TEST_F(Registry, ListenerOfAnotherTypeIsRefused) {
-  EXPECT_TRUE(step({listening(kB, 1, "other/msg/Type")}).at(0).reason.empty()) << "it may still become right";
-  const auto replies = step({sending(kA, 1), listening(kStation, 1, "other/msg/Type")});
+  EXPECT_TRUE(step({listening(kSecond, 1, "other/msg/Type")}).at(0).reason.empty()) << "it may still become right";
+  const auto replies = step({sending(kFirst, 1), listening(kStation, 1, "other/msg/Type")});
   ASSERT_EQ(replies.size(), 3U);
-  for (const RadioReply& reply : replies) EXPECT_EQ(reply.open, reply.asker.source == kA) << reply.asker.source;
+  for (const RadioReply& reply : replies) EXPECT_EQ(reply.open, reply.asker.source == kFirst) << reply.asker.source;
 }
 
 TEST_F(Registry, TheLostAreForgotten) {
-  step({sending(kA, 1), listening(kB, 1)});
+  step({sending(kFirst, 1), listening(kSecond, 1)});
   EXPECT_EQ(step().at(0).unheard, std::vector<std::string>{"gcs"});
-  lost_ = {kB};
+  lost_ = {kSecond};
   EXPECT_EQ(step().at(0).unheard, (std::vector<std::string>{"gcs", "b"})) << "nobody listens there any more";
   hears_.clear();
-  lost_ = {kB, kA};
+  lost_ = {kSecond, kFirst};
   registry_.begin_step({});
   EXPECT_FALSE(registry_.waiting());
   EXPECT_TRUE(registry_.end_step().empty());
 }
 
 TEST_F(Registry, MoreTargetsMayBeAddedAndTheSourceIsTheAsker) {
-  EXPECT_EQ(step({sending(kA, 1, {"b"})}).at(0).unheard, std::vector<std::string>{"b"});
-  EXPECT_EQ(step({sending(kA, 2, {"gcs"})}).at(0).unheard, (std::vector<std::string>{"b", "gcs"}));
-  RadioRequest false_source = sending(kA, 3);
+  EXPECT_EQ(step({sending(kFirst, 1, {"b"})}).at(0).unheard, std::vector<std::string>{"b"});
+  EXPECT_EQ(step({sending(kFirst, 2, {"gcs"})}).at(0).unheard, (std::vector<std::string>{"b", "gcs"}));
+  RadioRequest false_source = sending(kFirst, 3);
   false_source.source = "b";
   EXPECT_NE(step({false_source}).at(0).reason.find("'b' is not the asking node"), std::string::npos);
-  EXPECT_NE(step({sending(kA, 4, {"a"})}).at(0).reason.find("is the source itself"), std::string::npos);
+  EXPECT_NE(step({sending(kFirst, 4, {"a"})}).at(0).reason.find("is the source itself"), std::string::npos);
   EXPECT_EQ(table_.routes().back().targets.size(), 2U) << "a refused request changes nothing";
 }
 
 TEST_F(Registry, WhoIsLostWhileTheOthersAreAwaitedIsForgotten) {
-  step({sending(kA, 1), listening(kB, 1)});
+  step({sending(kFirst, 1), listening(kSecond, 1)});
   step();
   hears_.clear();
-  registry_.begin_step({sending(kB, 2)});
+  registry_.begin_step({sending(kSecond, 2)});
   EXPECT_TRUE(registry_.waiting());
-  lost_ = {kB};
+  lost_ = {kSecond};
   EXPECT_FALSE(registry_.waiting());
   const auto replies = registry_.end_step();
   ASSERT_EQ(replies.size(), 1U) << "none to the lost";
-  EXPECT_EQ(replies[0].asker.source, kA);
+  EXPECT_EQ(replies[0].asker.source, kFirst);
   EXPECT_EQ(replies[0].unheard, (std::vector<std::string>{"gcs", "b"}));
 }
 
@@ -176,13 +176,14 @@ TEST_F(Registry, AMemberHasSoManyTopicsAndNoMore) {
       return made;
     };
     std::vector<RadioRequest> many;
-    for (std::size_t i = 0; i < RadioRegistry::kMaxTopics; ++i) many.push_back(request(kA, "/t" + std::to_string(i)));
+    for (std::size_t i = 0; i < RadioRegistry::kMaxTopics; ++i)
+      many.push_back(request(kFirst, "/t" + std::to_string(i)));
     for (const RadioReply& reply : step(many)) ASSERT_EQ(reply.reason, "");
-    auto replies = step({request(kA, "/one_more")});
+    auto replies = step({request(kFirst, "/one_more")});
     std::erase_if(replies, [](const RadioReply& reply) { return reply.reason.empty(); });  // what changed for others
     ASSERT_EQ(replies.size(), 1U);
     EXPECT_NE(replies[0].reason.find("1024 registered topics at most"), std::string::npos) << replies[0].reason;
-    for (const RadioReply& reply : step({request(kB, "/t0")})) EXPECT_EQ(reply.reason, "") << "another member may";
+    for (const RadioReply& reply : step({request(kSecond, "/t0")})) EXPECT_EQ(reply.reason, "") << "another member may";
   }
 }
 

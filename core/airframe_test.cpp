@@ -8,6 +8,7 @@
 
 #include "core/random_stream.hpp"
 #include "core/scenario_reader.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein {
 namespace {
@@ -33,13 +34,13 @@ VehicleConfig drawn_vehicle(RandomStream& random) {
   return vehicle;
 }
 
-struct Part {
+struct RigidPart {
   double mass;
   Vector3d inertia, p_B;
 };
 
-std::vector<Part> parts(const VehicleConfig& vehicle) {
-  std::vector<Part> parts{{vehicle.mass_kg, vehicle.inertia, Vector3d::Zero()}};
+std::vector<RigidPart> parts(const VehicleConfig& vehicle) {
+  std::vector<RigidPart> parts{{vehicle.mass_kg, vehicle.inertia, Vector3d::Zero()}};
   for (const Vector3d& p_BR : rotor_hubs(vehicle)) parts.push_back({vehicle.rotor_mass_kg, Vector3d::Zero(), p_BR});
   for (const VehicleLink& link : vehicle.links) parts.push_back({link.mass_kg, link.inertia, link.p_BL});
   return parts;
@@ -53,7 +54,7 @@ TEST(Airframe, TurningPartsHaveTheMomentumAndEnergyOfTheWhole) {
     const Vector3d w = draw(random, -3.0, 3.0);  // about the centre of mass
     double mass = 0.0, energy = 0.0;
     Vector3d momentum = Vector3d::Zero(), angular_momentum = Vector3d::Zero();
-    for (const Part& part : parts(vehicle)) {
+    for (const RigidPart& part : parts(vehicle)) {
       const Vector3d r = part.p_B - whole.p_BBcm, v = w.cross(r);
       mass += part.mass;
       momentum += part.mass * v;
@@ -76,7 +77,7 @@ TEST(Airframe, OneBodyIsJustThatBody) {
 }
 
 TEST(Airframe, TheShippedVehiclesByHand) {
-  const std::filesystem::path config = std::filesystem::path(SKEIN_SOURCE_DIR) / "config";
+  const std::filesystem::path config = source_path("config");
   const MassProperties explorer = mass_properties(load_vehicle("explorer", config));
   EXPECT_NEAR(explorer.mass_kg, 3.385, 1e-12);
   // 2.5 kg at 0, 0.81 kg at 0.2 m, six times 0.0125 kg at 0.074 m, 0.43 m out.

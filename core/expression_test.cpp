@@ -11,7 +11,7 @@
 namespace skein {
 namespace {
 
-Scenario fleet() {
+Scenario signal_fleet() {
   Scenario scenario;
   for (const char* name : {"jurong", "changi"}) {
     UavConfig uav;
@@ -43,7 +43,7 @@ class Expressions : public testing::Test {
     }
   }
 
-  const SignalNames names_{fleet()};
+  const SignalNames names_{signal_fleet()};
   ExpressionScope scope_{.names = names_};
   std::vector<SignalUse> signals_;
 };

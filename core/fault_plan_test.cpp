@@ -7,6 +7,8 @@
 #include <fstream>
 #include <set>
 
+#include "tests/support/places.hpp"
+
 namespace skein {
 namespace {
 
@@ -84,7 +86,7 @@ TEST_F(FaultFile, EveryKindIsRead) {
 }
 
 TEST_F(FaultFile, MayBeAFaultTestAndMayNameAnother) {
-  ::setenv("SKEIN_CONFIG_DIR", SKEIN_SOURCE_DIR "/config", 1);
+  ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
   EXPECT_EQ(load("faults: [{at_s: 1, blackout: changi}]\nrun: {seed: 1}\nexpect: {}\n").faults.size(), 1u);
   const std::filesystem::path other = file_.string() + "_other.yaml";
   std::filesystem::copy_file(file_, other);

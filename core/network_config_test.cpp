@@ -11,7 +11,7 @@
 namespace skein {
 namespace {
 
-std::string refusal(const std::string& text, const std::vector<std::string>& known = {"world", "jurong"}) {
+std::string network_refusal(const std::string& text, const std::vector<std::string>& known = {"world", "jurong"}) {
   try {
     read_network(text).check_names(known);
   } catch (const InputError& error) {
@@ -45,14 +45,16 @@ TEST(NetworkConfig, DomainsHaveTheirOwnAndTheRestTheUsualOne) {
 }
 
 TEST(NetworkConfig, MistakesAreNamed) {
-  EXPECT_EQ(refusal("{jurong: {peers: [a]}}"), "");
-  EXPECT_NE(refusal("{jurnog: eth0}").find("did you mean 'jurong'"), std::string::npos) << refusal("{jurnog: eth0}");
-  EXPECT_NE(refusal("{world: {peer: [a]}}").find("peer"), std::string::npos);
-  EXPECT_NE(refusal("{world: {peers: a}}").find("world.peers"), std::string::npos);
-  EXPECT_NE(refusal("{world: {peers: ['']}}").find("names or IPv4 addresses"), std::string::npos);
-  EXPECT_NE(refusal("{world: {interface: host, peers: [a]}}").find("nothing leaves the host"), std::string::npos);
-  EXPECT_NE(refusal("{world: [").find("--network"), std::string::npos);
-  EXPECT_NE(refusal("/nowhere/net.yaml").find("/nowhere/net.yaml"), std::string::npos);
+  EXPECT_EQ(network_refusal("{jurong: {peers: [a]}}"), "");
+  EXPECT_NE(network_refusal("{jurnog: eth0}").find("did you mean 'jurong'"), std::string::npos)
+      << network_refusal("{jurnog: eth0}");
+  EXPECT_NE(network_refusal("{world: {peer: [a]}}").find("peer"), std::string::npos);
+  EXPECT_NE(network_refusal("{world: {peers: a}}").find("world.peers"), std::string::npos);
+  EXPECT_NE(network_refusal("{world: {peers: ['']}}").find("names or IPv4 addresses"), std::string::npos);
+  EXPECT_NE(network_refusal("{world: {interface: host, peers: [a]}}").find("nothing leaves the host"),
+            std::string::npos);
+  EXPECT_NE(network_refusal("{world: [").find("--network"), std::string::npos);
+  EXPECT_NE(network_refusal("/nowhere/net.yaml").find("/nowhere/net.yaml"), std::string::npos);
 }
 
 }  // namespace

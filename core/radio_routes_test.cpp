@@ -31,7 +31,7 @@ std::vector<std::string> arrivals(const RadioRoute& route) {
 }
 
 /// What is said when `declared` is added to the scenario; empty when nothing is wrong.
-std::string complaint(const std::vector<RadioTopicConfig>& declared) {
+std::string routes_complaint(const std::vector<RadioTopicConfig>& declared) {
   Scenario scenario = three_uavs();
   scenario.radio = declared;
   try {
@@ -109,7 +109,7 @@ TEST(RadioRoutes, TheScoreNeverGoesOnTheRadio) {
   RadioTable table(scenario);
   for (const std::string name : {"/gcs/score", "/score_eval"}) {
     for (const char* source : {"gcs", "jurong"}) {
-      const std::string said = complaint({{name, cloud, {source}, {"all"}}});
+      const std::string said = routes_complaint({{name, cloud, {source}, {"all"}}});
       EXPECT_NE(said.find("radio.topics[0].name: '" + name + "' is the station's own"), std::string::npos) << said;
     }
     for (const Node node : FirstNodes(scenario.fleet.size() + 1)) {
@@ -117,7 +117,7 @@ TEST(RadioRoutes, TheScoreNeverGoesOnTheRadio) {
       EXPECT_THROW(table.arrival(node, name, cloud), InputError) << name << " at node " << node;
     }
   }
-  EXPECT_EQ(complaint({{"/score", cloud, {"gcs"}, {"all"}}}), "") << "a name of one's own";
+  EXPECT_EQ(routes_complaint({{"/score", cloud, {"gcs"}, {"all"}}}), "") << "a name of one's own";
 }
 
 TEST(RadioRoutes, NothingArrivesUnderTheNameOfTheScore) {
@@ -137,7 +137,7 @@ struct BadDeclaration {
 class BadRadioTopics : public testing::TestWithParam<BadDeclaration> {};
 
 TEST_P(BadRadioTopics, AreRefusedByFileAndKey) {
-  const std::string message = complaint(GetParam().declared);
+  const std::string message = routes_complaint(GetParam().declared);
   EXPECT_TRUE(message.starts_with("towers.yaml: ")) << message;
   EXPECT_NE(message.find(GetParam().key), std::string::npos) << message;
   EXPECT_NE(message.find(GetParam().hint), std::string::npos) << message;

@@ -9,6 +9,7 @@
 
 #include "core/euler.hpp"
 #include "core/random_stream.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein {
 namespace {
@@ -22,7 +23,7 @@ class ScenarioReader : public ::testing::Test {
     std::string pattern = (fs::path(::testing::TempDir()) / "skein_scenario_XXXXXX").string();
     folder_ = ::mkdtemp(pattern.data());
     ::unsetenv("SKEIN_ASSETS");
-    options_.config_dir = fs::path(SKEIN_SOURCE_DIR) / "config";
+    options_.config_dir = source_path("config");
   }
   ~ScenarioReader() override { fs::remove_all(folder_); }
 
@@ -266,7 +267,7 @@ TEST_F(ScenarioReader, HelpsWithAMistypedScenario) {
 }
 
 TEST(ConfigDir, IsWhatTheEnvironmentSays) {
-  const std::string config = std::string(SKEIN_SOURCE_DIR) + "/config";
+  const std::string config = source_path("config");
   ASSERT_EQ(::setenv("SKEIN_CONFIG_DIR", config.c_str(), 1), 0);
   EXPECT_EQ(default_config_dir(), config);
   ASSERT_EQ(::setenv("SKEIN_CONFIG_DIR", "/no/such/folder", 1), 0);

@@ -10,6 +10,7 @@
 #include "core/config_files.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/signal_table.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::properties {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 class PropertyFiles : public testing::Test {
  protected:
   PropertyFiles() {
-    ::setenv("SKEIN_CONFIG_DIR", SKEIN_SOURCE_DIR "/config", 1);
+    ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
     file_ = std::filesystem::path(testing::TempDir()) / ("skein_properties_" + std::to_string(::getpid()) + ".yaml");
     LoadOptions load;
     load.needs_scene_files = false;
@@ -76,7 +77,7 @@ TEST_F(PropertyFiles, EveryReadyOneFitsTheShippedScenarios) {
   EXPECT_GE(names.size(), 10U);
   std::set<std::string> signals;
   for (const SignalInfo& info : signal_table()) signals.emplace(info.name);
-  for (const std::string& scenario : config_names(std::filesystem::path(SKEIN_SOURCE_DIR) / "config/scenarios")) {
+  for (const std::string& scenario : config_names(source_path("config/scenarios"))) {
     LoadOptions options;
     options.needs_scene_files = false;
     const Scenario fleet = load_scenario(scenario, options);

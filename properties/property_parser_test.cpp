@@ -6,7 +6,7 @@
 namespace skein::properties {
 namespace {
 
-Scenario fleet() {
+Scenario parser_fleet() {
   Scenario scenario;
   scenario.name = "small";
   scenario.duration_s = 60.0;
@@ -19,7 +19,7 @@ Scenario fleet() {
   return scenario;
 }
 
-std::vector<Property> parse(const std::string& text) { return parse_property("it", text, fleet()); }
+std::vector<Property> parse(const std::string& text) { return parse_property("it", text, parser_fleet()); }
 
 void refused(const std::string& text, std::size_t at, const std::string& words) {
   try {
@@ -95,7 +95,7 @@ TEST(PropertyParser, WrongOnesAreRefusedWhereTheyAreWrong) {
 }
 
 TEST(PropertyParser, ASetMayBeEmpty) {
-  Scenario scenario = fleet();
+  Scenario scenario = parser_fleet();
   scenario.fleet.erase(scenario.fleet.begin());
   EXPECT_THROW(parse_property("it", "for u in explorers, always held(u) < 3", scenario), ExpressionError);
 }

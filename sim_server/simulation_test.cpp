@@ -10,11 +10,10 @@
 
 #include "core/scenario_reader.hpp"
 #include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim {
 namespace {
-
-const std::filesystem::path kConfig = std::filesystem::path(SKEIN_SOURCE_DIR) / "config";
 
 /// A few UAVs on a field; a wall from y = -10 to 10 at x = 12, 20 m high, with interest points on its near side.
 class Field : public testing::Test {
@@ -32,7 +31,7 @@ class Field : public testing::Test {
   }
   void add(const std::string& type, double x, double y) {
     scenario_.fleet.push_back({.name = "uav" + std::to_string(scenario_.fleet.size()),
-                               .vehicle = load_vehicle(type, kConfig),
+                               .vehicle = load_vehicle(type, source_path("config")),
                                .start = {x, y}});
   }
   Simulation& start(std::uint64_t seed = 0) {

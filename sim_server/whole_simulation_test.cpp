@@ -11,11 +11,10 @@
 #include "core/scenario_reader.hpp"
 #include "sim_server/scenes/scene_source.hpp"
 #include "sim_server/simulation.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim {
 namespace {
-
-const std::filesystem::path kConfig = std::filesystem::path(SKEIN_SOURCE_DIR) / "config";
 
 /// Flies each UAV straight up, out over the highest box's edge, down to its height and round it, camera to the middle.
 class Surveyor {
@@ -83,7 +82,7 @@ std::string survey(const Scenario& scenario, const Scene& scene, std::uint64_t s
   return survey(scenario, sim, duration_s);
 }
 
-Scenario towers() { return load_scenario("towers", {.config_dir = kConfig}); }
+Scenario towers() { return load_scenario("towers", {.config_dir = source_path("config")}); }
 
 TEST(WholeSimulation, RepeatsBitForBitAndSeedsDiffer) {
   const Scenario scenario = towers();
@@ -177,7 +176,7 @@ TEST(WholeSimulation, SpeedOnTowers) { measure(towers(), 120.0); }
 TEST(WholeSimulation, SpeedOnMbs) {
   const char* assets = std::getenv("SKEIN_ASSETS");
   if (assets == nullptr) GTEST_SKIP() << "SKEIN_ASSETS is not set";
-  measure(load_scenario("mbs", {.assets_dir = assets, .config_dir = kConfig}), 120.0);
+  measure(load_scenario("mbs", {.assets_dir = assets, .config_dir = source_path("config")}), 120.0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "cli/testing/fake_programs.hpp"
 #include "core/scenario_reader.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 Scenario written_and_read(const BenchFleet& fleet) {
   const ScratchDir scratch;
   write_text(scratch.path() / "bench.yaml", bench_scenario(fleet));
-  return load_scenario(scratch.path() / "bench.yaml", {.config_dir = SKEIN_SOURCE_DIR "/config"});
+  return load_scenario(scratch.path() / "bench.yaml", {.config_dir = source_path("config")});
 }
 
 TEST(BenchScenario, EverySizeIsAValidScenario) {

@@ -16,6 +16,7 @@
 #include "core/network_config.hpp"
 #include "process/environment.hpp"
 #include "process/run_folder.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 namespace {
@@ -127,7 +128,7 @@ class ComposeFile : public testing::Test {
   FleetPlan plan_of(const Texts& uavs, bool scene_files, bool own_vehicle, const RunOptions& options) {
     fs::create_directories(dir_);
     for (const std::string& file : kSceneFiles) write_text(dir_ / file, "");
-    fs::copy_file(SKEIN_SOURCE_DIR "/config/vehicles/explorer.yaml", dir_ / "mine.yaml",
+    fs::copy_file(source_path("config/vehicles/explorer.yaml"), dir_ / "mine.yaml",
                   fs::copy_options::overwrite_existing);
     write_text(dir_ / "parameters.yaml", "");
     std::string text = "name: drawn\ndesired_mm_per_pixel: 2.0\nscene: ";

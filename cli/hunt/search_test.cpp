@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "core/scenario_reader.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 namespace {
@@ -15,7 +16,7 @@ using Outcomes = std::vector<std::optional<TrialOutcome>>;
 class Searches : public testing::Test {
  protected:
   Searches() {
-    ::setenv("SKEIN_CONFIG_DIR", SKEIN_SOURCE_DIR "/config", 1);
+    ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
     towers_ = load_scenario("towers", {});
   }
   HuntSearch search(std::uint64_t seed) const { return HuntSearch(FaultMaker(towers_, {}), seed); }

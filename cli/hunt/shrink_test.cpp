@@ -10,6 +10,7 @@
 #include "cli/testing/fake_programs.hpp"
 #include "core/fault_writer.hpp"
 #include "core/scenario_reader.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 namespace {
@@ -20,7 +21,7 @@ constexpr std::size_t kMostFlights = 45;
 class Shrinking : public testing::Test {
  protected:
   Shrinking() {
-    ::setenv("SKEIN_CONFIG_DIR", SKEIN_SOURCE_DIR "/config", 1);
+    ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
     LoadOptions load;
     load.duration_s = 120.0;
     towers_ = load_scenario("towers", load);

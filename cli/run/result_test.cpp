@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/testing/fake_programs.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 namespace {
@@ -55,7 +56,7 @@ void validate(const Json& value, const Json& schema, const std::string& path, st
 
 std::vector<std::string> schema_errors(const Json& result) {
   std::vector<std::string> errors;
-  validate(result, read_json(std::filesystem::path(SKEIN_SOURCE_DIR) / "docs/result.schema.json"), "result", errors);
+  validate(result, read_json(source_path("docs/result.schema.json")), "result", errors);
   return errors;
 }
 

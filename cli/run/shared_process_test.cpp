@@ -8,6 +8,7 @@
 #include "cli/run/preflight.hpp"
 #include "process/environment.hpp"
 #include "process/json_text.hpp"
+#include "tests/support/eventually.hpp"
 
 namespace skein::cli {
 namespace {
@@ -26,10 +27,10 @@ class SharedProcessTest : public testing::Test {
   /// Until nobody runs, or `end` comes.
   std::vector<Event> hear(const std::string& end = "") {
     std::vector<Event> all;
-    for (const auto deadline = std::chrono::steady_clock::now() + 20s; std::chrono::steady_clock::now() < deadline;) {
+    eventually([&] {
       for (Event& event : host_->wait(1000ms)) all.push_back(std::move(event));
-      if (host_->running().empty() || (!all.empty() && all.back().program == end)) break;
-    }
+      return host_->running().empty() || (!all.empty() && all.back().program == end);
+    });
     return all;
   }
   static std::vector<Event> ends_in(const std::vector<Event>& events) {

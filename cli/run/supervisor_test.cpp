@@ -10,7 +10,7 @@
 namespace skein::cli {
 namespace {
 
-constexpr std::chrono::milliseconds kForever{-1};
+constexpr std::chrono::milliseconds kNoLimit{-1};
 
 /// Programs started while it lives inherit one end of a pipe; the other end tells when the last of them is gone.
 class OpenUntilAllEnded {
@@ -38,7 +38,7 @@ class SupervisorTest : public ::testing::Test {
   std::vector<Event> run_out() {
     std::vector<Event> all;
     while (!supervisor_.running().empty()) {
-      for (Event& event : supervisor_.wait(kForever)) all.push_back(std::move(event));
+      for (Event& event : supervisor_.wait(kNoLimit)) all.push_back(std::move(event));
     }
     return all;
   }
@@ -49,7 +49,7 @@ class SupervisorTest : public ::testing::Test {
 
 TEST_F(SupervisorTest, ProcessorTimeIsToldWhileAProgramRunsAndAtItsEnd) {
   supervisor_.start(shell("a", "i=0; while [ $i -lt 20000 ]; do i=$((i + 1)); done; echo >&3; read line <&4"));
-  EXPECT_EQ(supervisor_.wait(kForever).at(0).kind, Event::Kind::status_line);
+  EXPECT_EQ(supervisor_.wait(kNoLimit).at(0).kind, Event::Kind::status_line);
   const double so_far_s = supervisor_.cpu_s("a");
   EXPECT_GT(so_far_s, 0.0);
   EXPECT_GT(supervisor_.memory_share_mb("a"), 0.0);
@@ -103,7 +103,7 @@ TEST_F(SupervisorTest, AFullControlPipeDoesNotBlock) {
 TEST_F(SupervisorTest, EndAllUsesTermFirstAndKillForThoseThatIgnoreIt) {
   supervisor_.start(shell("polite", "trap 'exit 7' TERM; echo ready >&3; while :; do read line <&4; done"));
   supervisor_.start(shell("stubborn", "trap '' TERM; echo ready >&3; while :; do read line <&4; done"));
-  for (std::size_t ready = 0; ready < 2;) ready += supervisor_.wait(kForever).size();
+  for (std::size_t ready = 0; ready < 2;) ready += supervisor_.wait(kNoLimit).size();
   std::map<std::string, ExitStatus> exits;
   for (const Event& event : supervisor_.end_all(std::chrono::milliseconds(300))) exits[event.program] = event.exit;
   EXPECT_EQ(exits["polite"].code, 7);
@@ -112,7 +112,7 @@ TEST_F(SupervisorTest, EndAllUsesTermFirstAndKillForThoseThatIgnoreIt) {
 
 TEST_F(SupervisorTest, AStoppedProgramCanBeEnded) {
   supervisor_.start(shell("a", "echo ready >&3; kill -STOP $$; read line <&4"));
-  while (supervisor_.wait(kForever).empty()) {
+  while (supervisor_.wait(kNoLimit).empty()) {
   }
   supervisor_.end_all(std::chrono::milliseconds(300));
   EXPECT_TRUE(supervisor_.running().empty());
@@ -120,7 +120,7 @@ TEST_F(SupervisorTest, AStoppedProgramCanBeEnded) {
 
 TEST_F(SupervisorTest, AProgramThatStopsItselfIsSeenOnceAndCanBeContinued) {
   supervisor_.start(shell("a", "echo stopping >&3; kill -STOP $$; echo going on >&3"));
-  EXPECT_EQ(supervisor_.wait(kForever).at(0).line, "stopping");
+  EXPECT_EQ(supervisor_.wait(kNoLimit).at(0).line, "stopping");
   while (!supervisor_.has_stopped("a")) supervisor_.wait(std::chrono::milliseconds(1));
   EXPECT_FALSE(supervisor_.has_stopped("a"));
   supervisor_.signal("a", SIGCONT);
@@ -159,7 +159,7 @@ TEST_F(SupervisorTest, AMindedProgramIsLikeAnyOtherOne) {
   ProgramSpec program = shell("a", "echo stopping >&3; kill -STOP $$; read line <&4; kill -SEGV $$");
   program.minded = true;
   supervisor_.start(program);
-  EXPECT_EQ(supervisor_.wait(kForever).at(0).line, "stopping");
+  EXPECT_EQ(supervisor_.wait(kNoLimit).at(0).line, "stopping");
   while (!supervisor_.has_stopped("a")) supervisor_.wait(std::chrono::milliseconds(1));
   supervisor_.signal("a", SIGCONT);
   EXPECT_GT(supervisor_.memory_share_mb("a"), 0.0);
@@ -184,7 +184,7 @@ TEST_F(SupervisorTest, AStoppedMindedProgramCanBeEnded) {
 TEST_F(SupervisorTest, TheTerminalsSignalsBecomeAnEventAndDoNotReachThePrograms) {
   supervisor_.start(shell("a", "read line <&4; exit 0"));
   ::kill(::getpid(), SIGINT);
-  const std::vector<Event> events = supervisor_.wait(kForever);
+  const std::vector<Event> events = supervisor_.wait(kNoLimit);
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, Event::Kind::interrupt);
   EXPECT_TRUE(supervisor_.running("a"));
@@ -219,7 +219,7 @@ TEST_P(KilledLauncher, IsOutlivedByNothing) {
     ProgramSpec program{"a", {"/bin/sh", "-c", script + "echo ready >&3; read line <&3"}, environment_with({}), {}};
     program.minded = minded;
     supervisor.start(program);
-    while (supervisor.wait(kForever).empty()) {
+    while (supervisor.wait(kNoLimit).empty()) {
     }
     ::kill(::getpid(), SIGKILL);
   }
@@ -233,7 +233,7 @@ TEST_F(SupervisorTest, WhoWritesALineWithoutAnEndIsCutOffAndNamed) {
   supervisor_.start(shell("other", "read line <&4; echo \"$line\" >&3"));
   std::vector<Event> events;
   while (supervisor_.running("endless")) {
-    for (Event& event : supervisor_.wait(kForever)) events.push_back(std::move(event));
+    for (Event& event : supervisor_.wait(kNoLimit)) events.push_back(std::move(event));
   }
   ASSERT_EQ(events.size(), 3U);
   EXPECT_EQ(events[0].line, "first");
@@ -251,7 +251,7 @@ TEST_F(SupervisorTest, WhoWritesLinesWithoutAnEndIsCutOffToo) {
   supervisor_.start(endless);
   std::size_t lines = 0, most_at_once = 0, cuts = 0;
   while (supervisor_.running("endless")) {
-    const std::vector<Event> events = supervisor_.wait(kForever);
+    const std::vector<Event> events = supervisor_.wait(kNoLimit);
     most_at_once = std::max(most_at_once, events.size());
     for (const Event& event : events) {
       lines += event.kind == Event::Kind::status_line;

@@ -12,7 +12,7 @@
 namespace skein::cli {
 namespace {
 
-StudyPictures pictures_of(const Study& study) {
+StudyPictures drawn(const Study& study) {
   StudyPictures pictures;
   for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
     for (std::size_t p = 0; p < study.planners.size(); ++p) {
@@ -29,7 +29,7 @@ TEST(FigureFiles, StandAloneWhateverTheNames) {
   std::mt19937 random(8);
   for (int trial = 0; trial < 40; ++trial) {
     const Study study = odd_study(random, trial % 2 == 0);
-    const StudyReport report(study, pictures_of(study));
+    const StudyReport report(study, drawn(study));
     std::set<std::string> files;
     for (const StudyFigure& figure : report.figures) {
       EXPECT_TRUE(files.insert(figure.file).second) << figure.file;
@@ -51,7 +51,7 @@ TEST(FigureFiles, ScenesAndPlannersOfOneNameDoNotOverwriteEachOther) {
   for (std::size_t s = 0; s < 3; ++s) {
     for (std::size_t p = 0; p < 4; ++p) study.flights.push_back({p, s, 1, {}, FlightFigures{}, ""});
   }
-  const StudyReport report(study, pictures_of(study));
+  const StudyReport report(study, drawn(study));
   std::set<std::string> files;
   for (const StudyFigure& figure : report.figures) EXPECT_TRUE(files.insert(figure.file).second) << figure.file;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/run/preflight.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 
@@ -52,7 +53,7 @@ class FakePrograms {
  public:
   FakePrograms() {
     ::setenv("SKEIN_BIN_DIR", dir().c_str(), 1);
-    ::setenv("SKEIN_CONFIG_DIR", SKEIN_SOURCE_DIR "/config", 1);
+    ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
     for (const char* name : {"sim_server", "comm_router", "station", "uav_agent"}) script(name, "");
     write_text(scenario(), kSmallScenario);
   }

@@ -9,6 +9,7 @@
 #include "sim_server/scene_files/box_file.hpp"
 #include "sim_server/scenes/mesh_builder.hpp"
 #include "sim_server/scenes/scene_source.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim {
 namespace {
@@ -76,7 +77,7 @@ TEST(Enclosure, TheSameHallWithItsDoorShutIsClosed) {
 }
 
 TEST(Enclosure, NoShippedScenarioHasAnEnclosedStart) {
-  const std::filesystem::path config = std::filesystem::path(SKEIN_SOURCE_DIR) / "config";
+  const std::filesystem::path config = source_path("config");
   const char* assets = std::getenv("SKEIN_ASSETS");
   for (const std::string& name : config_names(config / "scenarios")) {
     LoadOptions options;

@@ -11,6 +11,7 @@
 #include "sim_server/flight/enclosure.hpp"
 #include "sim_server/flight/physics_world.hpp"
 #include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim {
 namespace {
@@ -72,9 +73,7 @@ TEST(FleetStart, DrawsStayInBoundsAndNeverOverlap) {
   EXPECT_NEAR(static_cast<double>(late), 300.0, 60.0);
 }
 
-VehicleConfig shipped(const std::string& name) {
-  return load_vehicle(name, std::filesystem::path(SKEIN_SOURCE_DIR) / "config");
-}
+VehicleConfig shipped(const std::string& name) { return load_vehicle(name, source_path("config")); }
 
 TEST(FleetStart, WhoStartsAsFarAwayAsItMustTouchesNobody) {
   RandomStream random(1, "pairs", 0);

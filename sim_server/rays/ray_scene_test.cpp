@@ -31,7 +31,7 @@ double distance_of(const RayScene& world, const test::TestRay& ray, double dista
 }
 
 /// Compares on many rays, single and in scans. A ray within `kEdge` of an edge may pass on either side of it.
-void expect_like_brute_force(const TriangleMesh& mesh, const Vector3d& low, const Vector3d& high, int rays) {
+void expect_nearest_of_all(const TriangleMesh& mesh, const Vector3d& low, const Vector3d& high, int rays) {
   const RayScene world(mesh);
   RandomStream random(1, "ray_scene_test", 0, 0);
   constexpr double kReach = 80.0, kEdge = 2e-5;
@@ -62,7 +62,7 @@ void expect_like_brute_force(const TriangleMesh& mesh, const Vector3d& low, cons
 
 TEST(RayScene, LikeBruteForceOnGeneratedMesh) {
   const TriangleMesh mesh = test::random_triangles(2000, 7);
-  expect_like_brute_force(mesh, {-25.0, -25.0, -25.0}, {25.0, 25.0, 25.0}, 2500);
+  expect_nearest_of_all(mesh, {-25.0, -25.0, -25.0}, {25.0, 25.0, 25.0}, 2500);
 }
 
 TEST(RayScene, LikeBruteForceOnMbs) {
@@ -71,7 +71,7 @@ TEST(RayScene, LikeBruteForceOnMbs) {
     GTEST_SKIP() << "SKEIN_ASSETS is not set";
   }
   const TriangleMesh part = test::every_nth_triangle(*mbs, 16);
-  expect_like_brute_force(part, {-20.0, -40.0, 0.0}, {90.0, 40.0, 60.0}, 1200);
+  expect_nearest_of_all(part, {-20.0, -40.0, 0.0}, {90.0, 40.0, 60.0}, 1200);
 }
 
 TEST(RayScene, EmptyWorldHasOnlyGround) {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/scenario_reader.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 class RunFilesTest : public testing::Test {
  protected:
   RunFilesTest() {
-    const std::filesystem::path config = std::filesystem::path(SKEIN_SOURCE_DIR) / "config";
+    const std::filesystem::path config = source_path("config");
     scenario_.file = "files.yaml";
     for (const char* name : {"jurong", "changi"}) {
       const double y = 3.0 * static_cast<double>(scenario_.fleet.size());

@@ -54,7 +54,7 @@ std::string text_bytes(const auto& value) { return {reinterpret_cast<const char*
 
 TriangleMesh small_mesh() { return box_surface({"b", {1, 2, 3}, {4, 5, 6}, Matrix3d::Identity()}); }
 
-std::string ascii_stl() {
+std::string small_ascii_stl() {
   std::string text = "solid small\n";
   for (const char* z : {"0", "1.5", "-2e-3", "+7"}) {
     text += std::string("facet normal 0 0 1\n outer loop\n  vertex 0 0 ") + z + "\n  vertex 1 0 " + z +
@@ -157,7 +157,7 @@ struct Kind {
 };
 
 std::vector<Kind> corpus() {
-  return {{"binary STL", to_stl(small_mesh()), load_mesh},     {"ASCII STL", ascii_stl(), load_mesh},
+  return {{"binary STL", to_stl(small_mesh()), load_mesh},     {"ASCII STL", small_ascii_stl(), load_mesh},
           {"binary PCD", to_pcd(small_points()), load_points}, {"ASCII PCD", ascii_pcd(), load_points},
           {"packed PCD", packed_pcd(), load_points},           {"boxes", boxes(), load_boxes}};
 }

@@ -59,15 +59,15 @@ std::string ascii(const std::string& first_number = "0") {
 }
 
 template <class T>
-void append_bytes(std::string& bytes, const T& value) {
+void append_field(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 /// Packed data with their sizes.
 std::string sized(const std::string& packed, std::size_t unpacked) {
   std::string bytes;
-  append_bytes(bytes, static_cast<std::uint32_t>(packed.size()));
-  append_bytes(bytes, static_cast<std::uint32_t>(unpacked));
+  append_field(bytes, static_cast<std::uint32_t>(packed.size()));
+  append_field(bytes, static_cast<std::uint32_t>(unpacked));
   return bytes + packed;
 }
 
@@ -77,10 +77,10 @@ std::string sized(const std::string& packed, std::size_t unpacked) {
 std::string compressed(std::size_t padding = 0) {
   std::string plain(kPoints * padding, '\x7f');
   for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < kPoints; ++i) append_bytes(plain, static_cast<double>(position(i)[axis]));
+    for (std::size_t i = 0; i < kPoints; ++i) append_field(plain, static_cast<double>(position(i)[axis]));
   }
   for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < kPoints; ++i) append_bytes(plain, normal(i)[axis]);
+    for (std::size_t i = 0; i < kPoints; ++i) append_field(plain, normal(i)[axis]);
   }
   std::string packed;
   for (std::size_t at = 0; at < plain.size(); at += 32) {
@@ -162,11 +162,11 @@ TEST_F(PointFile, FieldsMayStandInAnyOrderAmongOthers) {
       "TYPE U F F I F F F F\r\nCOUNT 1 1 1 3 1 1 1 1\r\nWIDTH 1\r\nHEIGHT 1\r\nVIEWPOINT 0 0 0 1 0 0 0\r\n"
       "POINTS 1\r\nDATA ";
   std::string binary = mixed + "binary\n";
-  append_bytes(binary, std::uint32_t{7});
-  append_bytes(binary, -0.8F);
-  append_bytes(binary, 1.5);
+  append_field(binary, std::uint32_t{7});
+  append_field(binary, -0.8F);
+  append_field(binary, 1.5);
   binary.append(6, '\x7f');
-  for (const float number : {2.5F, 0.6F, 3.5F, 0.0F}) append_bytes(binary, number);
+  for (const float number : {2.5F, 0.6F, 3.5F, 0.0F}) append_field(binary, number);
   const std::string text = mixed + "ascii\r\n4294967295 -0.8 +1.5 -1 -2 -3 2.5 0.6 3.5 0\r\n\r\n";
   for (const std::string& bytes : {binary, text}) {
     const auto points = read_points(write("mixed.pcd", bytes));

@@ -6,6 +6,7 @@
 #include "core/scene_families.hpp"
 #include "sim_server/scene_files/scratch_files.hpp"
 #include "sim_server/scenes/scene_source.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim {
 namespace {
@@ -43,7 +44,7 @@ class SceneExport : public ScratchFiles {
  protected:
   LoadOptions options() const {
     LoadOptions options;
-    options.config_dir = fs::path(SKEIN_SOURCE_DIR) / "config";
+    options.config_dir = source_path("config");
     return options;
   }
 

@@ -17,6 +17,7 @@
 #include "sim_server/flight/enclosure.hpp"
 #include "sim_server/rays/ray_scene.hpp"
 #include "sim_server/scenes/scene_source.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim {
 namespace {
@@ -25,8 +26,7 @@ constexpr std::uint64_t kSeeds = 6;
 
 struct Built {
   Built(const std::string& family, std::uint64_t scene_seed) {
-    scenario = load_scenario(
-        family, {.config_dir = std::filesystem::path(SKEIN_SOURCE_DIR) / "config", .scene_seed = scene_seed});
+    scenario = load_scenario(family, {.config_dir = source_path("config"), .scene_seed = scene_seed});
     scene = load_scene(scenario);
     world = std::make_unique<RayScene>(scene.mesh);
   }
@@ -45,7 +45,7 @@ const Built& built(const std::string& family, std::uint64_t scene_seed) {
 }
 
 template <typename T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+bool equal_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
@@ -220,9 +220,9 @@ class EveryFamily : public testing::TestWithParam<std::string> {};
 TEST_P(EveryFamily, SameSeedGivesTheSameBytes) {
   const Scene& once = built(GetParam(), 2).scene;
   const Scene again = load_scene(built(GetParam(), 2).scenario);
-  EXPECT_TRUE(same_bytes(once.mesh.vertices, again.mesh.vertices));
-  EXPECT_TRUE(same_bytes(once.mesh.triangles, again.mesh.triangles));
-  EXPECT_TRUE(same_bytes(once.points, again.points));
+  EXPECT_TRUE(equal_bytes(once.mesh.vertices, again.mesh.vertices));
+  EXPECT_TRUE(equal_bytes(once.mesh.triangles, again.mesh.triangles));
+  EXPECT_TRUE(equal_bytes(once.points, again.points));
   ASSERT_EQ(once.boxes.size(), again.boxes.size());
   for (std::size_t i = 0; i < once.boxes.size(); ++i) {
     EXPECT_EQ(once.boxes[i].center, again.boxes[i].center);
@@ -234,8 +234,8 @@ TEST_P(EveryFamily, SameSeedGivesTheSameBytes) {
 TEST_P(EveryFamily, SeedsDifferInShapePointsAndBoxes) {
   for (std::uint64_t seed = 1; seed < kSeeds; ++seed) {
     const Scene &a = built(GetParam(), seed - 1).scene, &b = built(GetParam(), seed).scene;
-    EXPECT_FALSE(same_bytes(a.mesh.vertices, b.mesh.vertices)) << seed;
-    EXPECT_FALSE(same_bytes(a.points, b.points)) << seed;
+    EXPECT_FALSE(equal_bytes(a.mesh.vertices, b.mesh.vertices)) << seed;
+    EXPECT_FALSE(equal_bytes(a.points, b.points)) << seed;
     EXPECT_NE(a.boxes[0].center, b.boxes[0].center) << seed;
   }
 }

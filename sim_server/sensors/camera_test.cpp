@@ -14,6 +14,7 @@
 #include "core/euler.hpp"
 #include "core/scenario_reader.hpp"
 #include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim {
 namespace {
@@ -256,7 +257,7 @@ TEST(Camera, HidesAsMuchOfThePictureAsTheBodyOfTheReference) {
   // A sphere of points around the camera, on a ball's surface: each pixel of the picture has some.
   RandomStream random(5, "camera_test", 1);
   for (const Row& row : rows) {
-    const VehicleConfig vehicle = load_vehicle(row.vehicle, std::filesystem::path(SKEIN_SOURCE_DIR) / "config");
+    const VehicleConfig vehicle = load_vehicle(row.vehicle, source_path("config"));
     const CameraConfig& camera = vehicle.camera;
     RigidBodyState body;
     body.p_WB = {0.0, 0.0, 50.0};

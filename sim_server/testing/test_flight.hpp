@@ -10,12 +10,11 @@
 #include "core/scenario_reader.hpp"
 #include "sim_server/flight/physics_world.hpp"
 #include "sim_server/flight/vehicle.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim::test {
 
-inline VehicleConfig vehicle_named(const std::string& name) {
-  return load_vehicle(name, std::filesystem::path(SKEIN_SOURCE_DIR) / "config");
-}
+inline VehicleConfig vehicle_named(const std::string& name) { return load_vehicle(name, source_path("config")); }
 
 /// Neither refused nor led: commands reach the control law as they are.
 inline RulesConfig no_limits() {

@@ -20,11 +20,12 @@
 #include "sim_server/simulation.hpp"
 #include "sim_server/wild/flyable.hpp"
 #include "sim_server/wild/site.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim {
 namespace {
 
-const std::filesystem::path kConfig = std::filesystem::path(SKEIN_SOURCE_DIR) / "config";
+const std::filesystem::path kConfig = source_path("config");
 constexpr std::uint64_t kFirst = 100, kSeeds = 6;
 
 const World& drawn(const std::string& family, std::uint64_t seed) {

@@ -9,13 +9,12 @@
 
 #include "core/random_stream.hpp"
 #include "core/scenario_keys.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kConfig = fs::path(SKEIN_SOURCE_DIR) / "config";
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file);
@@ -78,21 +77,22 @@ void fuzz(const fs::path& file, const Load& load) {
 
 TEST(ConfigFuzz, DamagedScenario) {
   for (const char* name : {"towers.yaml", "mbs.yaml"}) {
-    fuzz(kConfig / "scenarios" / name, [](const ConfigDocument& document) { read_config<ScenarioFile>(document); });
+    fuzz(source_path("config/scenarios") + "/" + name,
+         [](const ConfigDocument& document) { read_config<ScenarioFile>(document); });
   }
 }
 
 TEST(ConfigFuzz, DamagedVehicle) {
-  fuzz(kConfig / "vehicles" / "explorer.yaml",
+  fuzz(source_path("config/vehicles/explorer.yaml"),
        [](const ConfigDocument& document) { read_config<VehicleConfig>(document); });
 }
 
 /// The whole loader, cross-checks included; through a file, so only a few rounds.
 TEST(ConfigFuzz, DamagedScenarioFile) {
   const fs::path copy = fs::path(::testing::TempDir()) / "skein_config_fuzz.yaml";
-  const std::string original = text_of(kConfig / "scenarios" / "mbs.yaml");
+  const std::string original = text_of(source_path("config/scenarios/mbs.yaml"));
   LoadOptions options;
-  options.config_dir = kConfig;
+  options.config_dir = source_path("config");
   options.needs_scene_files = false;
   for (std::uint64_t round = 0; round < 200; ++round) {
     RandomStream random(1, "config_fuzz", "file", round);
@@ -110,7 +110,7 @@ TEST(ConfigFuzz, DamagedScenarioFile) {
 }
 
 TEST(ConfigFuzz, WhatIsPrintedReadsBackTheSame) {
-  const std::string original = text_of(kConfig / "vehicles" / "photographer.yaml");
+  const std::string original = text_of(source_path("config/vehicles/photographer.yaml"));
   for (std::uint64_t round = 0; round < 1000; ++round) {
     RandomStream random(2, "config_fuzz", "print", round);
     std::string text = original;

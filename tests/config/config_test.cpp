@@ -12,14 +12,15 @@
 #include "core/config_node.hpp"
 #include "core/fault_plan.hpp"
 #include "core/scenario_reader.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kConfig = fs::path(SKEIN_SOURCE_DIR) / "config";
-const fs::path kHere = fs::path(SKEIN_SOURCE_DIR) / "tests" / "config";
+const fs::path kConfig = source_path("config");
+const fs::path kHere = source_path("tests/config");
 
 std::vector<std::string> bad_files() {
   std::vector<std::string> names;

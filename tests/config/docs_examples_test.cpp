@@ -9,13 +9,14 @@
 #include "core/config_node.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/scene_families.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = SKEIN_SOURCE_DIR;
+const fs::path kRoot = source_path();
 
 std::string page() {
   std::ifstream stream(kRoot / "docs" / "scenarios.md");

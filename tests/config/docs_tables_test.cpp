@@ -12,6 +12,7 @@
 
 #include "core/radio_routes.hpp"
 #include "core/topics.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein {
 namespace {
@@ -21,7 +22,7 @@ struct TopicRow {
 };
 
 std::vector<TopicRow> rows_of_page() {
-  std::ifstream page(std::filesystem::path(SKEIN_SOURCE_DIR) / "docs" / "topics.md");
+  std::ifstream page(source_path("docs/topics.md"));
   std::vector<TopicRow> rows;
   for (std::string line; std::getline(page, line);) {
     if (!line.starts_with("| `/")) continue;

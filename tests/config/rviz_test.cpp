@@ -8,13 +8,14 @@
 #include <string>
 
 #include "core/topics.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein {
 namespace {
 
 class RvizConfig : public testing::Test {
  protected:
-  const YAML::Node manager_ = YAML::LoadFile(SKEIN_SOURCE_DIR "/config/skein.rviz")["Visualization Manager"];
+  const YAML::Node manager_ = YAML::LoadFile(source_path("config/skein.rviz"))["Visualization Manager"];
 };
 
 /// "visualization_msgs/msg/Marker" -> "rviz_default_plugins/Marker"

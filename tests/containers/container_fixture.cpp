@@ -10,6 +10,8 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/support/places.hpp"
+
 namespace skein::test {
 namespace {
 
@@ -104,7 +106,7 @@ Arguments Containers::arguments(const std::string& planner, const std::string& d
 }
 
 SkeinRun& Containers::start_up(const std::string& name, Arguments arguments, const Environment& environment) {
-  arguments.insert(arguments.end(), {"--up", "--build-folder", SKEIN_BUILD_DIR});
+  arguments.insert(arguments.end(), {"--up", "--build-folder", build_path()});
   SkeinRun& run = start(name, arguments, environment, "compose");
   fleets_.push_back(&run);
   return run;

@@ -10,6 +10,7 @@
 
 #include "cli/bench/scenario.hpp"
 #include "container_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -71,7 +72,7 @@ TEST_F(FlightInContainers, FaultsMeanTheSame) {
 TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
   const fs::path context = folder() / "image";
   fs::create_directory(context);
-  fs::copy_file(SKEIN_PROBE_AGENT, context / "my_agent");
+  fs::copy_file(helper_program("probe_agent"), context / "my_agent");
   std::ofstream(context / "Dockerfile")
       << "FROM skein-agent\nCOPY my_agent /usr/local/bin/\nENTRYPOINT [\"my_agent\"]\n";
   const std::string image = "skein-test-" + std::to_string(::getpid());
@@ -87,7 +88,7 @@ TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
   expect_whole(run);
   EXPECT_EQ(run.result()["uavs"].size(), 4u);
   EXPECT_GT(run.result()["uavs"][0]["distance_m"], 1.0) << "it took off";
-  EXPECT_EQ(flight_of(run), alone(flown(std::string("@") + SKEIN_PROBE_AGENT, {})));
+  EXPECT_EQ(flight_of(run), alone(flown("@" + helper_program("probe_agent"), {})));
 }
 
 // Docker's images have no gdb: SIGCONT lets the program go on, as who leaves gdb does.

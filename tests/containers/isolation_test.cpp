@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "container_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -105,7 +106,7 @@ class Intruder : public Isolation, public testing::WithParamInterface<std::strin
 TEST_P(Intruder, HearsNothingOfOtherDomainsAndNobodyHearsIt) {
   SkeinRun& run = start_up("up", arguments("patrol", "300", {"--dds", GetParam()}));
   const std::string spy = container(run, kAgent);
-  fs::copy_file(SKEIN_INTRUDER, run.dir() / "agents" / kSpy / "intruder");
+  fs::copy_file(helper_program("container_intruder"), run.dir() / "agents" / kSpy / "intruder");
   const std::string compose = text_of(run.dir() / "compose.yaml");
   std::smatch run_id;
   ASSERT_TRUE(std::regex_search(compose, run_id, std::regex("--run=(\\d+)")));

@@ -5,22 +5,18 @@
 #include <condition_variable>
 #include <cstdint>
 #include <cstring>
-#include <functional>
 #include <mutex>
 #include <span>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "bus/bus.hpp"
+#include "tests/support/eventually.hpp"
 
 namespace skein::test {
 
 using Bytes = std::vector<std::uint8_t>;
-
-/// Far longer than anything takes, on a busy machine too; a test that waits so long has failed.
-inline constexpr std::chrono::seconds kPatience{60};
 
 /// A type that nobody has compiled: all that a backend knows of it is its name.
 inline bus::TopicSpec topic(const std::string& name, const bus::Qos& qos = {}) {
@@ -40,16 +36,6 @@ inline std::uint64_t number_of(std::span<const std::uint8_t> payload) {
   std::uint64_t number = 0;
   std::memcpy(&number, payload.data() + 4, sizeof number);
   return number;
-}
-
-/// Polls: for what a backend does not announce. @returns whether `condition` came true.
-inline bool eventually(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
 }
 
 /// Collects what a reader gets.

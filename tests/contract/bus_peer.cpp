@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "contract/bus_fixture.hpp"
+#include "tests/contract/bus_fixture.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;

@@ -9,8 +9,9 @@
 #include <fstream>
 #include <set>
 
-#include "contract/bus_fixture.hpp"
-#include "free_domain.hpp"
+#include "tests/contract/bus_fixture.hpp"
+#include "tests/free_domain.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -23,7 +24,7 @@ using bus::Sample;
 class Peer {
  public:
   Peer(const std::string& vendor, int domain) {
-    std::string program = SKEIN_BUS_PEER, vendor_arg = vendor, domain_arg = std::to_string(domain);
+    std::string program = helper_program("bus_contract_peer"), vendor_arg = vendor, domain_arg = std::to_string(domain);
     char* const argv[] = {program.data(), vendor_arg.data(), domain_arg.data(), nullptr};
     if (posix_spawn(&pid_, program.c_str(), nullptr, nullptr, argv, environ) != 0)
       throw std::runtime_error("cannot start " + program);

@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "bus/bus.hpp"
-#include "contract/bus_fixture.hpp"
 #include "core/types.hpp"
-#include "free_domain.hpp"
+#include "tests/contract/bus_fixture.hpp"
+#include "tests/free_domain.hpp"
 
 namespace skein::test {
 namespace {

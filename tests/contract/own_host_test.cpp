@@ -6,7 +6,7 @@
 
 #include "bus/own_host.hpp"
 #include "bus_fixture.hpp"
-#include "free_domain.hpp"
+#include "tests/free_domain.hpp"
 
 namespace skein::test {
 namespace {

@@ -13,9 +13,9 @@
 #include "bus/lockstep/radio_topics.hpp"
 #include "bus/lockstep/server.hpp"
 #include "comm_router/router_node.hpp"
-#include "contract/bus_fixture.hpp"
 #include "core/random_stream.hpp"
-#include "free_domain.hpp"
+#include "tests/contract/bus_fixture.hpp"
+#include "tests/free_domain.hpp"
 
 namespace skein::test {
 namespace {

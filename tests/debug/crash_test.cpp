@@ -6,6 +6,7 @@
 
 #include "core/command_file.hpp"
 #include "debug_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -13,13 +14,13 @@ namespace {
 class Crash : public DebugTest {
  protected:
   Arguments flight(const Arguments& more = {}) const {
-    Arguments words = {scenario_, "--agent", SKEIN_CRASH_AGENT, "--duration", "5", "--no-oracle"};
+    Arguments words = {scenario_, "--agent", helper_program("crash_agent"), "--duration", "5", "--no-oracle"};
     if (!std::ranges::count(more, "--planner")) words.insert(words.end(), {"--planner", "hover,changi=crash"});
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
   static std::size_t crashing_line() {
-    const std::string text = text_of(SKEIN_SOURCE_DIR "/tests/debug/crash_planner.cpp");
+    const std::string text = text_of(source_path("tests/debug/crash_planner.cpp"));
     return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + text.find("// HERE"), '\n'));
   }
 };
@@ -47,7 +48,7 @@ TEST_F(Crash, ItsCoreIsKeptOnRequest) {
   expect_part(crashed.err(), "backtrace in uav_agent-changi.log, core in uav_agent-changi.core");
   ASSERT_TRUE(std::filesystem::exists(core));
   ChildProcess& gdb =
-      start_program("gdb", {command_file("gdb"), "-nx", "-batch", "-ex", "bt", SKEIN_CRASH_AGENT, core});
+      start_program("gdb", {command_file("gdb"), "-nx", "-batch", "-ex", "bt", helper_program("crash_agent"), core});
   gdb.wait();
   expect_part(gdb.out(), "crash_planner.cpp:" + std::to_string(crashing_line()));
 }

@@ -11,13 +11,14 @@
 #include "core/signal_table.hpp"
 #include "core/suggestion.hpp"
 #include "properties/property_file.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = SKEIN_SOURCE_DIR;
+const fs::path kRoot = source_path();
 
 std::string page(const std::string& name) {
   std::ifstream in(kRoot / "docs" / name);

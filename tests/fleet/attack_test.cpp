@@ -8,6 +8,7 @@
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
 #include "tests/free_domain.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -26,7 +27,7 @@ class Attack : public FleetTest, public testing::WithParamInterface<std::string>
   std::vector<ChildProcess*> knock_at(int base) {
     std::vector<ChildProcess*> clients;
     for (std::size_t i = 0; i < kFleet.size(); ++i) {
-      clients.push_back(&start_program("leftover_" + kFleet[i], {SKEIN_MINIMAL_CLIENT},
+      clients.push_back(&start_program("leftover_" + kFleet[i], {helper_program("minimal_client")},
                                        {{"SKEIN_RUN", "7"},
                                         {"SKEIN_DOMAIN", std::to_string(uav_domain(base, UavIndex(i)))},
                                         {"SKEIN_UAV", kFleet[i]},
@@ -63,7 +64,7 @@ TEST_P(Attack, WhatAnotherRunLeftBehindIsNotListenedTo) {
 TEST_P(Attack, ForgedAcknowledgementsEraseNothing) {
   SkeinRun& alone = brief("alone", "patrol");
   ASSERT_GT(alone.result()["score"], 0.0);
-  std::string forger = std::string("patrol,gcs=exec:") + SKEIN_FORGER;
+  std::string forger = "patrol,gcs=exec:" + helper_program("forger");
   for (const std::string& uav : kFleet) forger += " " + uav;
   SkeinRun& forged = brief("forged", forger);
   EXPECT_TRUE(forged.result()["lost_members"].empty()) << "it takes part";

@@ -11,17 +11,13 @@
 #include <string>
 #include <vector>
 
-namespace skein::test {
+#include "tests/support/eventually.hpp"
 
-/// Far longer than anything takes, on a busy machine too; a test that waits so long has failed.
-inline constexpr std::chrono::seconds kPatience{120};
+namespace skein::test {
 
 using Arguments = std::vector<std::string>;
 /// Set on top of the test's own environment.
 using Environment = std::map<std::string, std::string>;
-
-/// Polls: for what nobody announces. @returns whether `condition` came true in time.
-bool eventually(const std::function<bool()>& condition, std::chrono::milliseconds limit = kPatience);
 
 std::string text_of(const std::filesystem::path& file);
 

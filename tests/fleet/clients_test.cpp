@@ -8,6 +8,7 @@
 #include "by_hand_fixture.hpp"
 #include "core/radio_routes.hpp"
 #include "core/topics.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -40,7 +41,7 @@ class Listener {
   explicit Listener(std::filesystem::path file) : file_(std::move(file)) {}
 
   Arguments command(int domain, const std::vector<WireTopic>& topics) const {
-    Arguments argv = {SKEIN_RADIO_LISTENER, "fastdds", std::to_string(domain), file_};
+    Arguments argv = {helper_program("radio_listener"), "fastdds", std::to_string(domain), file_};
     for (const WireTopic& topic : topics) argv.insert(argv.end(), {topic.name, topic.type});
     return argv;
   }
@@ -134,7 +135,7 @@ TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
   }
 }
 
-const std::string kForeignPlanner = std::string("hover,sentosa=exec:") + SKEIN_MINIMAL_CLIENT;
+const std::string kForeignPlanner = "hover,sentosa=exec:" + helper_program("minimal_client");
 
 TEST_F(Clients, ForeignClientTakesPartInTheLockStep) {
   std::set<std::string> digests;
@@ -186,7 +187,7 @@ class Lying : public ByHand, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Lying, ClientIsDroppedAndTheRunGoesOn) {
   start_fleet({.all = {"--duration", "40"}, .server = {"--agent-timeout", "12"}},
-              {{"uav_agent-sentosa", {SKEIN_MINIMAL_CLIENT, GetParam()}}});
+              {{"uav_agent-sentosa", {helper_program("minimal_client"), GetParam()}}});
   expect_run_without("uav_agent-sentosa",
                      GetParam() == "boast" ? "rt/sentosa/command/trajectory 41 of 42" : "sent more than it announced");
   if (GetParam() == "smuggle") {

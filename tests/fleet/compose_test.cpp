@@ -2,6 +2,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "fleet_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -34,7 +35,7 @@ class ComposeCommands : public FleetTest {
   /// What a container has elsewhere, where this host has it.
   std::string here(std::string argument) const {
     const std::map<std::string, std::string> places = {
-        {"/usr/share/skein/config", std::string(SKEIN_SOURCE_DIR) + "/config"},
+        {"/usr/share/skein/config", source_path("config")},
         {"=/results", "=" + folder().string()},
         {":/planner.yaml", ":" + (folder() / "parameters.yaml").string()},
         {"${SKEIN_RUN:-1}", "1"}};
@@ -64,7 +65,7 @@ TEST_F(ComposeCommands, AreTakenByThePrograms) {
                    "--rules",
                    "reference",
                    "--faults",
-                   std::string(SKEIN_SOURCE_DIR) + "/config/faults/station_outage.yaml",
+                   source_path("config/faults/station_outage.yaml"),
                    "--dds",
                    "fastdds",
                    "--clock",

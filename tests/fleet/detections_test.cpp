@@ -7,11 +7,12 @@
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
 
-constexpr int kColumns = 12, kRows = 5;
+constexpr int kWallColumns = 12, kWallRows = 5;
 const std::vector<std::string> kSmallFleet = {"jurong", "changi"};
 using Numbers = std::vector<double>;
 
@@ -21,9 +22,10 @@ class Detections : public FleetTest {
   static SmallScene dense_scene() {
     SmallScene scene = default_scene();
     scene.points.clear();
-    for (int i = 0; i < kColumns * kRows; ++i) {
-      const int place = 37 * i % (kColumns * kRows);
-      scene.points.push_back({20.0, -4.5 + 0.8 * (place % kColumns), 2.0 + 1.9 * (place / kColumns), -1.0, 0.0, 0.0});
+    for (int i = 0; i < kWallColumns * kWallRows; ++i) {
+      const int place = 37 * i % (kWallColumns * kWallRows);
+      scene.points.push_back(
+          {20.0, -4.5 + 0.8 * (place % kWallColumns), 2.0 + 1.9 * (place / kWallColumns), -1.0, 0.0, 0.0});
     }
     return scene;
   }
@@ -47,7 +49,7 @@ class Detections : public FleetTest {
     ASSERT_EQ(run_->exit_code(), 0) << run_->err();
     const Json scene = Json::parse(text_of(run_->dir() / "scene.json"));
     for (const Json& point : scene["points"]) scene_.push_back(point);
-    ASSERT_EQ(scene_.size(), static_cast<std::size_t>(kColumns * kRows));
+    ASSERT_EQ(scene_.size(), static_cast<std::size_t>(kWallColumns * kWallRows));
   }
 
   /// The command that the launcher printed, gdb left out.
@@ -59,7 +61,7 @@ class Detections : public FleetTest {
 
   void listen(const std::string& name, const std::string& vendor, int domain,
               const std::vector<topics::WireTopic>& topics) {
-    Arguments argv = {SKEIN_CLOUD_LISTENER, vendor, std::to_string(domain), heard(name)};
+    Arguments argv = {helper_program("cloud_listener"), vendor, std::to_string(domain), heard(name)};
     for (const topics::WireTopic& topic : topics) argv.insert(argv.end(), {topic.name, topic.type});
     start_program(name + "_listener", argv);
   }

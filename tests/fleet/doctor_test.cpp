@@ -10,6 +10,7 @@
 #include "child_process.hpp"
 #include "core/text.hpp"
 #include "tests/free_domain.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -39,7 +40,7 @@ class Doctor : public testing::Test {
   };
   /// @param before  shell's commands, "ulimit -n 60; "
   Answer ask(const std::string& words, const std::string& before = {}, const Environment& environment = {}) {
-    const std::string skein = std::filesystem::path(SKEIN_BIN_DIR) / "skein";
+    const std::string skein = build_path("bin/skein");
     ChildProcess child({"/bin/sh", "-c", before + "exec " + shell_word(skein) + " doctor " + words}, environment,
                        folder_ / "out", folder_ / "err");
     Answer answer{.code = child.wait().code, .out = child.out(), .err = child.err(), .report = {}};

@@ -11,6 +11,7 @@
 #include "json_schema.hpp"
 #include "process/host_lock.hpp"
 #include "results_page.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -54,7 +55,7 @@ std::set<std::string> shared_memory() {
 Environment with_config(Environment environment, const fs::path& folder) {
   environment.try_emplace("XDG_CACHE_HOME", folder / "cache");
   if (std::getenv("SKEIN_CONFIG_DIR") == nullptr) {
-    environment.try_emplace("SKEIN_CONFIG_DIR", std::string(SKEIN_SOURCE_DIR) + "/config");
+    environment.try_emplace("SKEIN_CONFIG_DIR", source_path("config"));
   }
   return environment;
 }
@@ -66,7 +67,7 @@ bool long_tests() {
   return asked != nullptr && std::string(asked) == "1";
 }
 
-std::string program(const std::string& name) { return std::string(SKEIN_BIN_DIR) + "/" + name; }
+std::string program(const std::string& name) { return build_path("bin/") + name; }
 
 std::vector<std::map<std::string, std::string>> read_csv(const fs::path& file) {
   std::ifstream in(file);
@@ -216,7 +217,7 @@ void FleetTest::expect_nothing_left() {
 }
 
 void FleetTest::expect_complete_result(const SkeinRun& run) {
-  const Json schema = Json::parse(text_of(fs::path(SKEIN_SOURCE_DIR) / "docs" / "result.schema.json"));
+  const Json schema = Json::parse(text_of(source_path("docs/result.schema.json")));
   const Json result = run.result();
   for (const std::string& error : schema_errors(result, schema)) ADD_FAILURE() << error;
   EXPECT_EQ(result["uavs"].size() + result["planner"].count("gcs"), result["planner"].size());

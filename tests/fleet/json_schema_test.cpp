@@ -5,12 +5,14 @@
 
 #include <fstream>
 
+#include "tests/support/places.hpp"
+
 namespace skein::test {
 namespace {
 
 using Json = nlohmann::json;
 
-Json schema() { return Json::parse(std::ifstream(SKEIN_SOURCE_DIR "/docs/result.schema.json")); }
+Json schema() { return Json::parse(std::ifstream(source_path("docs/result.schema.json"))); }
 
 /// The least that a schema takes: of each type the first, and of each object what it requires.
 Json example_of(const Json& schema) {

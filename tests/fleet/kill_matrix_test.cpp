@@ -11,7 +11,7 @@
 namespace skein::test {
 namespace {
 
-const Arguments kTowers = {"towers", "--planner", "patrol", "--duration", "60"};
+const Arguments kMinute = {"towers", "--planner", "patrol", "--duration", "60"};
 const std::vector<std::string> kVictims = {"comm_router", "station", "sentosa", "changi", "nanyang", "jurong"};
 
 std::string program_of(const std::string& member) {
@@ -62,7 +62,7 @@ TEST_P(KillMatrix, ByFaultFile) {
   if (long_tests()) ways.push_back({"--dds", "fastdds"});
   std::set<std::string> digests;
   for (const Arguments& way : ways) {
-    Arguments arguments = kTowers;
+    Arguments arguments = kMinute;
     arguments.insert(arguments.end(), {"--faults", write("faults.yaml", faults)});
     arguments.insert(arguments.end(), way.begin(), way.end());
     SkeinRun& done = run("scripted" + way.back(), arguments);
@@ -80,7 +80,7 @@ TEST_P(KillMatrix, ByFaultFile) {
 
 TEST_P(KillMatrix, FromOutside) {
   const std::string victim = kVictims[GetParam() % kVictims.size()];
-  Arguments arguments = kTowers;
+  Arguments arguments = kMinute;
   arguments.insert(arguments.end(), {"--dds", "mixed"});
   SkeinRun& hit = start("outside", arguments);
   // A moment that depends on the machine: whatever it is, the books must be right.

@@ -6,6 +6,7 @@
 
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -24,7 +25,7 @@ class Leftovers : public FleetTest {
 
   SkeinRun& start_run(const std::string& duration) {
     const std::string command =
-        "/bin/sh " + script_.string() + " " SKEIN_MINIMAL_CLIENT " " + (folder() / "pids").string();
+        "/bin/sh " + script_.string() + " " + helper_program("minimal_client") + " " + (folder() / "pids").string();
     return start("run", {scenario_, "--duration", duration, "--planner", "hover,jurong=exec:" + command});
   }
 

@@ -7,6 +7,7 @@
 #include "by_hand_fixture.hpp"
 #include "json_schema.hpp"
 #include "process/run_folder.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -59,7 +60,7 @@ class Merge : public ByHand {
   }
   Json result() const {
     const Json result = Json::parse(text_of(dir_ / run_folder::kResult), nullptr, false);
-    const Json schema = Json::parse(text_of(fs::path(SKEIN_SOURCE_DIR) / "docs" / "result.schema.json"));
+    const Json schema = Json::parse(text_of(source_path("docs/result.schema.json")));
     for (const std::string& error : schema_errors(result, schema)) ADD_FAILURE() << error;
     return result;
   }
@@ -148,7 +149,7 @@ TEST_F(Merge, WithoutAServersReportThereIsNothingToMerge) {
 }
 
 TEST_F(Merge, AScenarioMayHaveMovedSinceItWasFlown) {
-  const fs::path flown = write("flown.yaml", text_of(fs::path(SKEIN_SOURCE_DIR) / "config/scenarios/towers.yaml")),
+  const fs::path flown = write("flown.yaml", text_of(source_path("config/scenarios/towers.yaml"))),
                  moved = folder() / "elsewhere" / "moved.yaml";
   fly({}, flown);
   const Json whole = merged();

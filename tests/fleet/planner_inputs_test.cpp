@@ -3,6 +3,7 @@
 
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -33,8 +34,8 @@ TEST_F(PlannerInputs, ScansForWhoAsksAndCommandsAsTheyAre) {
     more.insert(more.begin(), brief.begin(), brief.end());
     return run(name, more);
   };
-  SkeinRun& probe = fly("probe", {"--agent", SKEIN_PROBE_AGENT, "--planner", "probe"});
-  SkeinRun& plain = fly("plain", {"--agent", SKEIN_PROBE_AGENT, "--planner", "hover"});
+  SkeinRun& probe = fly("probe", {"--agent", helper_program("probe_agent"), "--planner", "probe"});
+  SkeinRun& plain = fly("plain", {"--agent", helper_program("probe_agent"), "--planner", "hover"});
   const Json result = probe.result();
   EXPECT_EQ(result["status"], "completed");
   EXPECT_TRUE(result["deterministic"]);
@@ -67,8 +68,8 @@ TEST_F(PlannerInputs, ScansForWhoAsksAndCommandsAsTheyAre) {
 TEST_F(PlannerInputs, ANewAgentIsToldAllThatItsCameraHasShown) {
   const std::string scenario = write_small_scene(folder() / "small");
   const auto faults = write("restart.yaml", "faults: [{at_s: 20.0, until_s: 21.0, kill: changi}]\n");
-  SkeinRun& done = run("run", {scenario, "--agent", SKEIN_PROBE_AGENT, "--planner", "probe:east_m=12,up_m=0",
-                               "--duration", "25", "--faults", faults});
+  SkeinRun& done = run("run", {scenario, "--agent", helper_program("probe_agent"), "--planner",
+                               "probe:east_m=12,up_m=0", "--duration", "25", "--faults", faults});
   EXPECT_TRUE(done.result()["collisions"].empty());
   for (const std::string uav : {"jurong", "changi"}) {
     std::set<std::string> seen;

@@ -1,18 +1,19 @@
 // Programs that a fault file kills or stops, and lets back: such a run is as exact and repeatable as any other.
 #include "fleet_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
 
 /// Long enough that photographers work before, while and after programs are away.
-const Arguments kTowers = {"towers", "--planner", "patrol", "--duration", "75"};
+const Arguments kFaultedTowers = {"towers", "--planner", "patrol", "--duration", "75"};
 
 class ProcessFaults : public FleetTest {
  protected:
   /// @param faults  lines of the file's list.
   SkeinRun& fly(const std::string& name, const std::string& faults, const Arguments& more,
                 const Environment& environment = {}) {
-    Arguments arguments = kTowers;
+    Arguments arguments = kFaultedTowers;
     arguments.insert(arguments.end(), more.begin(), more.end());
     arguments.insert(arguments.end(), {"--faults", write(name + ".yaml", "faults:\n" + faults)});
     return run(name, arguments, environment);
@@ -86,7 +87,7 @@ TEST_F(ProcessFaults, WhoNeverComesBackLeavesItsBooks) {
 
 TEST_F(ProcessFaults, AUsersCommandIsKilledByTheLauncherAndMissedWhenItDoesNotComeBack) {
   const std::string command = "test ! -e " + (folder() / "second").string() + " && touch " +
-                              (folder() / "second").string() + " && exec " SKEIN_MINIMAL_CLIENT;
+                              (folder() / "second").string() + " && exec " + helper_program("minimal_client");
   const auto faults = write("command.yaml", "faults: [{at_s: 4.0, until_s: 6.0, kill: sentosa}]\n");
   SkeinRun& run = this->run(
       "command", {"towers", "--planner", "hover,sentosa=exec:" + command, "--duration", "20", "--faults", faults}, {},

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.hpp"
+
 namespace skein::test {
 namespace {
 
@@ -16,7 +18,7 @@ using Names = std::vector<std::string>;
 
 /// The columns that the page lists below "### FILE".
 Names documented(const std::string& file) {
-  std::ifstream page(fs::path(SKEIN_SOURCE_DIR) / "docs" / "results.md");
+  std::ifstream page(source_path("docs/results.md"));
   Names columns;
   bool here = false, in_table = false;
   for (std::string line; std::getline(page, line);) {

@@ -15,6 +15,7 @@
 #include "process/run_folder.hpp"
 #include "process/security_files.hpp"
 #include "small_scene.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -44,7 +45,7 @@ class Secure : public FleetTest {
 };
 
 /// A secured fleet that waits for the agent of kVictim, so that there is time to knock at its doors.
-class Waiting : public Secure, public testing::WithParamInterface<std::string> {
+class SecureWaiting : public Secure, public testing::WithParamInterface<std::string> {
  protected:
   void start_fleet(const std::string& planner = "patrol", const std::string& clock = "lockstep") {
     run_ = &start("secure", arguments(GetParam(), {"--secure", "--debug", kVictim, "--clock", clock}, planner));
@@ -65,7 +66,7 @@ class Waiting : public Secure, public testing::WithParamInterface<std::string> {
   }
   ChildProcess& listen(const std::string& name, const std::string& vendor, const fs::path& keys, int offset,
                        const topics::WireTopic& topic) {
-    Arguments argv = {SKEIN_RADIO_LISTENER, vendor, domain(offset), heard(name), topic.name, topic.type};
+    Arguments argv = {helper_program("radio_listener"), vendor, domain(offset), heard(name), topic.name, topic.type};
     return start_program(name, argv, keys.empty() ? Environment{} : Environment{{"SKEIN_SECURITY", keys}});
   }
 
@@ -106,7 +107,7 @@ class Waiting : public Secure, public testing::WithParamInterface<std::string> {
   fs::path keys_;  ///< the victim's
 };
 
-TEST_P(Waiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
+TEST_P(SecureWaiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
   const std::string vendor = GetParam(), other_vendor = vendor == "fastdds" ? "cyclonedds" : "fastdds";
   SkeinRun& open = run("open", arguments(vendor));
   start_fleet();
@@ -116,8 +117,8 @@ TEST_P(Waiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
   listen("foreigner", other_vendor, {});
   listen("forger", vendor, forged_keys());
   listen("neighbour", vendor, others_keys);
-  start_program("impostor", {SKEIN_IMPOSTOR, vendor, domain(kOthersDomain), domain(kVictimsDomain), heard("impostor"),
-                             others_keys, topic_.name, topic_.type});
+  start_program("impostor", {helper_program("impostor"), vendor, domain(kOthersDomain), domain(kVictimsDomain),
+                             heard("impostor"), others_keys, topic_.name, topic_.type});
   // Whoever has the victim's own certificate hears, so the others had the time to.
   EXPECT_TRUE(eventually([&] { return ears("friend").first == 1; }));
   const std::string refusal = vendor == "fastdds" ? "Not found a rule allowing to use the domain" : "denied by default";
@@ -149,7 +150,7 @@ TEST_P(Waiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
   }
 }
 
-TEST_P(Waiting, TheStationsProgramReadsTheScoreButNoIndices) {
+TEST_P(SecureWaiting, TheStationsProgramReadsTheScoreButNoIndices) {
   start_fleet("patrol,gcs=listen", "realtime:10");  // time for writers to hear of the readers that found them
   const fs::path keys = keys_.parent_path() / "uav_agent-gcs", station = keys_.parent_path() / "station";
   constexpr int kGcsDomain = 1;
@@ -165,7 +166,7 @@ TEST_P(Waiting, TheStationsProgramReadsTheScoreButNoIndices) {
   EXPECT_LE(ears("indices").second, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Vendors, Waiting, testing::Values("cyclonedds", "fastdds"),
+INSTANTIATE_TEST_SUITE_P(Vendors, SecureWaiting, testing::Values("cyclonedds", "fastdds"),
                          [](const auto& vendor) { return vendor.param; });
 
 TEST_F(Secure, AgentsCannotLookAtWhatIsNotTheirs) {
@@ -182,7 +183,8 @@ TEST_F(Secure, AgentsCannotLookAtWhatIsNotTheirs) {
                                     "done > $SKEIN_OUT/looked\n"
                                     "cat $SKEIN_SECURITY/key.pem > /dev/null && id -u >> $SKEIN_OUT/looked\n"
                                     "kill -0 $PPID 2> /dev/null && echo can kill >> $SKEIN_OUT/looked\n"
-                                    "exec " SKEIN_MINIMAL_CLIENT "\n");
+                                    "exec " +
+                                    helper_program("minimal_client") + "\n");
   SkeinRun& probed = run("probed", {scenario_, "--secure", "--duration", "10", "--planner",
                                     "hover," + kOther + "=exec:exec /bin/sh " + script.string()});
   const std::string looked = text_of(probed.dir() / ("uav_agent-" + kOther + ".looked"));
@@ -202,7 +204,8 @@ TEST_F(Secure, NobodyIsLeftUnderTheUserIdsOfARun) {
   const fs::path script = write("stay.sh",
                                 "setsid sleep 1000 &\n"
                                 "id -u > $SKEIN_OUT/uid\n"
-                                "exec " SKEIN_MINIMAL_CLIENT "\n");
+                                "exec " +
+                                    helper_program("minimal_client") + "\n");
   const auto fly = [&](const std::string& name) {
     SkeinRun& done = run(name, {scenario_, "--secure", "--duration", "5", "--planner",
                                 "hover," + kOther + "=exec:exec /bin/sh " + script.string()});
@@ -224,7 +227,7 @@ TEST_F(Secure, NobodyIsLeftUnderTheUserIdsOfARun) {
 
 TEST_F(Secure, ForgedReportsAreRefusedAndCounted) {
   SkeinRun& forged = run("forged", {scenario_, "--secure", "--duration", "10", "--planner",
-                                    "hover," + kOther + "=exec:exec " SKEIN_MINIMAL_CLIENT " forge"});
+                                    "hover," + kOther + "=exec:exec " + helper_program("minimal_client") + " forge"});
   const Json station = Json::parse(text_of(forged.dir() / "station.report.json"));
   EXPECT_GT(station["reports_received"], 100);
   EXPECT_GT(station["refused"]["unknown"], 100);

@@ -8,6 +8,7 @@
 
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -39,8 +40,8 @@ class Viewer : public FleetTest, public testing::WithParamInterface<Vendors> {
     arguments.insert(arguments.end(), {"--dds", GetParam().fleet, "--debug", "changi"});
     SkeinRun& run = start("seen", arguments);
     if (!run.wait_for("gdb --args")) throw std::runtime_error(run.err());
-    ChildProcess& viewer = start_program(
-        "viewer", {SKEIN_VIZ_LISTENER, GetParam().viewer, std::to_string(world_domain(run.domains().first)), heard()});
+    ChildProcess& viewer = start_program("viewer", {helper_program("viz_listener"), GetParam().viewer,
+                                                    std::to_string(world_domain(run.domains().first)), heard()});
     EXPECT_TRUE(eventually([&] { return text_of(heard()).find("listening") != std::string::npos; }));
     if (signal != 0) viewer.signal(signal);
     const std::string text = run.err(), gdb = "gdb --args ";

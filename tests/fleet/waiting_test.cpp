@@ -5,6 +5,7 @@
 
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -51,8 +52,8 @@ TEST_F(Waiting, AServerThatSaysNothingIsNamed) {
 }
 
 TEST_F(Waiting, SeveralHungPlannersCostOneTimeOut) {
-  SkeinRun& run = start("run", {scenario_, "--planner", "exec:" SKEIN_MINIMAL_CLIENT " hang", "--duration", "20",
-                                "--agent-timeout", "1"});
+  SkeinRun& run = start("run", {scenario_, "--planner", "exec:" + helper_program("minimal_client") + " hang",
+                                "--duration", "20", "--agent-timeout", "1"});
   EXPECT_EQ(run.exit_code(), 3) << run.err();
   const Json lost = run.result()["lost_members"];
   ASSERT_EQ(lost.size(), 2u) << lost;
@@ -113,7 +114,7 @@ TEST_F(Debugged, AProgramThatEndsIsLostThoughItsToolLivesOn) {
 }
 
 TEST_F(Debugged, ACommandThatEndsIsLostToo) {
-  start_fleet("hover,changi=exec:exec " SKEIN_MINIMAL_CLIENT);
+  start_fleet("hover,changi=exec:exec " + helper_program("minimal_client"));
   start_tool("");
   ASSERT_TRUE(run_->wait_until_flying()) << run_->err();
   ::kill(debugged(), SIGKILL);

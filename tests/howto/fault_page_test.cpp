@@ -6,6 +6,7 @@
 #include "fleet_fixture.hpp"
 #include "report/testing/xml_check.hpp"
 #include "results_page.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -58,7 +59,7 @@ class FaultPage : public FleetTest {
   void SetUp() override {
     fs::create_directories(folder() / "build");
     fs::create_symlink(program("skein"), folder() / "skein");
-    fs::create_symlink(SKEIN_HOWTO_AGENT, folder() / "build" / "my_agent");
+    fs::create_symlink(helper_program("howto_agent"), folder() / "build" / "my_agent");
   }
 
   /// @returns what it printed.
@@ -100,7 +101,7 @@ class FaultPage : public FleetTest {
 
 TEST_F(FaultPage, DoesWhatItSays) {
   std::size_t followed = 0;
-  for (const Block& block : blocks_of(fs::path(SKEIN_SOURCE_DIR) / "docs" / "how-to-test-faults.md")) {
+  for (const Block& block : blocks_of(source_path("docs/how-to-test-faults.md"))) {
     if (!block.name.empty()) {
       const fs::path file = folder() / block.name;
       fs::create_directories(file.parent_path());
@@ -126,9 +127,9 @@ TEST_F(FaultPage, NothingIsSaidOfAFolderThatCannotBeTested) {
   for (const auto& [arguments, words] : std::vector<std::pair<std::string, std::string>>{
            {"--faults empty", "there is no fault test"},
            {"--faults none.yaml", "there is no such file or folder"},
-           {"--faults " SKEIN_SOURCE_DIR "/config/faults/dead_camera.yaml --seeds 5-1", "seed"},
-           {"--faults " SKEIN_SOURCE_DIR "/config/faults/dead_camera.yaml --junit none/faults.xml", "--junit"},
-           {"--faults " SKEIN_SOURCE_DIR "/config/faults/dead_camera.yaml --agent none", "--agent"}}) {
+           {"--faults " + source_path("config/faults/dead_camera.yaml --seeds 5-1"), "seed"},
+           {"--faults " + source_path("config/faults/dead_camera.yaml --junit none/faults.xml"), "--junit"},
+           {"--faults " + source_path("config/faults/dead_camera.yaml --agent none"), "--agent"}}) {
     errors_.clear();
     EXPECT_EQ(typed("./skein test " + arguments + "; echo $?"), "2\n") << arguments;
     EXPECT_NE(errors_.find(words), std::string::npos) << arguments << "\n" << errors_;

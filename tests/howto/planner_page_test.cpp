@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "fleet_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -16,8 +17,8 @@ using PlannerPage = FleetTest;
 void lay_out(const fs::path& folder, bool with_tests) {
   fs::create_directories(folder / "my_planners");
   fs::create_directories(folder / "skein" / "build");
-  fs::create_directory_symlink(SKEIN_BUILD_DIR, folder / "skein" / "build" / "release");
-  const fs::path page = SKEIN_PAGE_DIR;
+  fs::create_directory_symlink(build_path(), folder / "skein" / "build" / "release");
+  const fs::path page = build_path("tests/howto/page");
   fs::copy_file(page / "orbit.cpp", folder / "my_planners" / "orbit.cpp");
   fs::copy_file(page / "outside.sh", folder / "outside.sh");
   std::ofstream(folder / "my_planners" / "CMakeLists.txt")
@@ -31,13 +32,12 @@ TEST_F(PlannerPage, ItsPlannerFliesTheSameInTheTreeAndOutOfIt) {
                              " && unset SKEIN_CONFIG_DIR SKEIN_BIN_DIR && set -e && . ./outside.sh" +
                              (long_tests() ? " && ctest --test-dir my_planners/build --output-on-failure" : "");
   Environment environment = {{"XDG_CACHE_HOME", folder() / "cache"}};
-  if (const std::string launcher = SKEIN_COMPILER_LAUNCHER; !launcher.empty()) {
-    environment["CMAKE_CXX_COMPILER_LAUNCHER"] = launcher;
-  }
+  environment["CMAKE_CXX_COMPILER_LAUNCHER"] = compiler_launcher();
   ChildProcess outside({"/bin/sh", "-c", follow}, environment, folder() / "outside.out", folder() / "outside.err");
   ASSERT_TRUE(eventually([&] { return outside.ended().has_value(); }, kCompilersPatience));
   ASSERT_EQ(outside.ended()->code, 0) << outside.out() << outside.err();
-  SkeinRun& inside = run("inside", {"towers", "--agent", SKEIN_HOWTO_AGENT, "--planner", "orbit", "--duration", "20"});
+  SkeinRun& inside =
+      run("inside", {"towers", "--agent", helper_program("howto_agent"), "--planner", "orbit", "--duration", "20"});
 
   const Json there = Json::parse(text_of(folder() / "runs" / "towers-orbit-0" / "result.json"));
   EXPECT_EQ(there["status"], "completed");
@@ -53,7 +53,8 @@ TEST_F(PlannerPage, ItsPlannerFliesTheSameInTheTreeAndOutOfIt) {
 }
 
 TEST_F(PlannerPage, AnAgentOfOnesOwnKnowsTheOtherPlannersAndNamesThem) {
-  SkeinRun& unknown = run("unknown", {"towers", "--agent", SKEIN_HOWTO_AGENT, "--planner", "orbits"}, {}, 2);
+  SkeinRun& unknown =
+      run("unknown", {"towers", "--agent", helper_program("howto_agent"), "--planner", "orbits"}, {}, 2);
   EXPECT_NE(unknown.err().find("did you mean 'orbit'"), std::string::npos) << unknown.err();
   const std::string plain = skein({"run", "towers", "--planner", "orbit", "--out", folder() / "plain"}).err();
   EXPECT_NE(plain.find("patrol"), std::string::npos) << plain;

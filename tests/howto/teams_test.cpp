@@ -4,12 +4,13 @@
 
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
 
 /// Two agent programs: of one only the first knows orbit, of the other only the second knows probe.
-const std::string kOrbits = SKEIN_HOWTO_AGENT, kProbes = SKEIN_PROBE_AGENT;
+const std::string kOrbits = helper_program("howto_agent"), kProbes = helper_program("probe_agent");
 
 class Teams : public FleetTest {
  protected:

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "fleet_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -25,7 +26,7 @@ struct Planted {
 };
 
 Planted of_planner(const std::string& defect) {
-  const Arguments agent = {"--agent", SKEIN_PLANTED_AGENT};
+  const Arguments agent = {"--agent", helper_program("planted_agent")};
   return {defect, agent, agent, "planted:defect=" + defect, "planted", {}};
 }
 
@@ -39,7 +40,7 @@ class Hunts : public FleetTest {
       fs::create_symlink(program(name), dir / name);
     }
     for (const char* name : {"station", "uav_agent_fleet"})
-      fs::create_symlink(fs::path(SKEIN_HASTY_DIR) / name, dir / name);
+      fs::create_symlink(build_path("tests/hasty") + "/" + name, dir / name);
     return {{"SKEIN_BIN_DIR", dir}};
   }
 
@@ -161,7 +162,8 @@ TEST_P(AllDefects, AreFound) {
   if (!long_tests()) GTEST_SKIP() << "takes minutes: SKEIN_LONG=1";
   const std::string name = GetParam();
   Planted planted = of_planner(name);
-  if (name == "trusting") planted = {name, {"--agent", SKEIN_TRUSTING_AGENT}, {}, "patrol", "patrol", {}};
+  if (name == "trusting")
+    planted = {name, {"--agent", helper_program("mutants/trusting_agent")}, {}, "patrol", "patrol", {}};
   if (name == "hasty") planted = {name, {}, {}, "patrol", "patrol", hasty()};
   expect_found(planted, 200, {"--shrink", "30"});
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "tests/layers/rules.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::layers {
 namespace {
@@ -16,7 +17,7 @@ using testing::Test;
 
 class Layers : public Test {
  protected:
-  static void SetUpTestSuite() { tree_ = read_source_tree(SKEIN_SOURCE_DIR); }
+  static void SetUpTestSuite() { tree_ = read_source_tree(source_path()); }
 
   static void expect_none(const Violations& violations) {
     for (const std::string& violation : violations) ADD_FAILURE() << violation;
@@ -41,6 +42,7 @@ TEST_F(Layers, LargeLibrariesStayInTheirPlace) { expect_none(check_libraries(tre
 TEST_F(Layers, HeadersAreSafeToInclude) { expect_none(check_headers(tree_)); }
 TEST_F(Layers, NobodyPrints) { expect_none(check_printing(tree_)); }
 TEST_F(Layers, NobodySleeps) { expect_none(check_sleeping(tree_)); }
+TEST_F(Layers, TestsReadNoClock) { expect_none(check_clocks(tree_)); }
 TEST_F(Layers, FilesAreShort) { expect_none(check_length(tree_)); }
 TEST_F(Layers, LinesAreShort) { expect_none(check_columns(tree_)); }
 TEST_F(Layers, NothingIsMarkedUnfinished) { expect_none(check_marks(tree_)); }
@@ -55,16 +57,16 @@ TEST_F(Layers, CodeIsFormatted) {
   }
   out.close();
   if (std::system("command -v clang-format >/dev/null") != 0) GTEST_SKIP() << "there is no clang-format";
-  const std::string command = "cd '" SKEIN_SOURCE_DIR "' && xargs clang-format --dry-run -Werror <" + list;
+  const std::string command = "cd '" + source_path() + "' && xargs clang-format --dry-run -Werror <" + list;
   EXPECT_EQ(std::system(command.c_str()), 0) << "clang-format -i mends it";
   std::filesystem::remove(list);
 }
 
 TEST_F(Layers, GitTracksNoProductsAndNoLargeFiles) {
-  const auto tracked = tracked_files(SKEIN_SOURCE_DIR);
+  const auto tracked = tracked_files(source_path());
   if (!tracked) GTEST_SKIP() << "this is no git checkout, or there is no git";
   EXPECT_FALSE(tracked->empty());
-  expect_none(check_tracked_files(SKEIN_SOURCE_DIR, *tracked));
+  expect_none(check_tracked_files(source_path(), *tracked));
 }
 
 }  // namespace

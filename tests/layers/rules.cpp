@@ -229,6 +229,19 @@ Violations check_sleeping(const Tree& tree) {
   return violations;
 }
 
+Violations check_clocks(const Tree& tree) {
+  // The one place where tests wait, a test whose subject is the clock, and a program that runs without Skein's code.
+  static const std::set<std::string> kAllowed = {"tests/support/eventually.cpp", "process/heartbeat_test.cpp",
+                                                 "tests/containers/intruder.cpp"};
+  static const std::regex kClock(R"(\b(\w*[cC]lock\s*::\s*now|clock_gettime|gettimeofday|std\s*::\s*time)\b)");
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (!file.is_test() || kAllowed.contains(file.path)) continue;
+    find_lines(file, Look::code, kClock, "a test reads the clock; wait for a fact with eventually()", violations);
+  }
+  return violations;
+}
+
 Violations check_length(const Tree& tree, std::size_t most_lines) {
   Violations violations;
   for (const SourceFile& file : tree) {

@@ -49,6 +49,9 @@ Violations check_printing(const Tree& tree);
 /// Nobody sleeps to wait for somebody else. Helpers under tests/ may poll other processes.
 Violations check_sleeping(const Tree& tree);
 
+/// Tests do not read the clock: they wait for facts with tests/support/eventually.hpp.
+Violations check_clocks(const Tree& tree);
+
 /// No C++ file beyond `most_lines`.
 Violations check_length(const Tree& tree, std::size_t most_lines = 400);
 

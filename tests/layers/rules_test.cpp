@@ -179,6 +179,18 @@ TEST_F(MadeUpTree, NobodySleepsOutsideOfTests) {
   EXPECT_EQ(places(check_sleeping(tree())), (Places{"bus/bad.cpp:1", "bus/bad.cpp:2", "bus/bad_test.cpp:1"}));
 }
 
+TEST_F(MadeUpTree, TestsReadNoClock) {
+  file("tests/support/eventually.cpp", "auto t = std::chrono::steady_clock::now();\n");
+  file("core/good.cpp", "auto t = std::chrono::steady_clock::now();\n");
+  file("core/good_test.cpp", "// steady_clock::now()\nstd::chrono::steady_clock::time_point t; std::timed(x);\n");
+  EXPECT_EQ(check_clocks(tree()), Violations{});
+
+  file("core/bad_test.cpp", "auto t = Clock::now();\nauto u = steady_clock :: now();\n::clock_gettime(0, &t);\n");
+  file("tests/bad.cpp", "std::time(nullptr);\n");
+  EXPECT_EQ(places(check_clocks(tree())),
+            (Places{"core/bad_test.cpp:1", "core/bad_test.cpp:2", "core/bad_test.cpp:3", "tests/bad.cpp:1"}));
+}
+
 TEST_F(MadeUpTree, LongFilesAreFound) {
   file("docs/long.md", "1\n2\n3\n4\n");
   file("core/good.cpp", "1\n2\n3\n");

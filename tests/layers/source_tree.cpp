@@ -117,7 +117,10 @@ std::string SourceFile::folder() const {
 
 std::string SourceFile::name() const { return fs::path(path).filename().string(); }
 
-bool SourceFile::is_test() const { return folder() == "tests" || fs::path(path).stem().string().ends_with("_test"); }
+bool SourceFile::is_test() const {
+  return folder() == "tests" || fs::path(path).stem().string().ends_with("_test") ||
+         fs::path(path).parent_path().filename() == "testing";
+}
 
 std::string blank_comments_and_literals(const std::string& text) { return Blanker(text).code(); }
 

@@ -12,6 +12,7 @@
 #include "child_process.hpp"
 #include "hosts.hpp"
 #include "tests/free_domain.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -49,7 +50,7 @@ class DoctorNet : public testing::Test {
   }
 
   void start(const std::string& host, const Arguments& more = {}) {
-    Arguments command = {SKEIN_BIN_DIR "/skein", "doctor", "net", "--json", "--as", host, "--scenario", scenario()};
+    Arguments command = {build_path("bin/skein"), "doctor", "net", "--json", "--as", host, "--scenario", scenario()};
     command.insert(command.end(), more.begin(), more.end());
     const auto unless_given = [&](const std::string& option, const std::string& value) {
       if (std::ranges::find(more, option) == more.end()) command.insert(command.end(), {option, value});

@@ -12,6 +12,7 @@
 #include "child_process.hpp"
 #include "hosts.hpp"
 #include "tests/free_domain.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -64,8 +65,9 @@ class DomainNetworks : public testing::Test {
 
   void start(const std::string& host, const std::string& vendor, int id, const std::string& network, int bytes,
              const std::map<std::string, int>& others) {
-    Arguments command = {SKEIN_NETWORK_PEER,   vendor, go(), network, std::to_string(id), std::to_string(kSamples),
-                         std::to_string(bytes)};
+    Arguments command = {
+        helper_program("network_peer"), vendor, go(), network, std::to_string(id), std::to_string(kSamples),
+        std::to_string(bytes)};
     for (const auto& [name, count] : others) {
       const int domain = domains_.base() + (name == "world" ? 0 : name == "a" ? 1 : 2);
       command.push_back(std::to_string(domain) + "=" + name + ":" + std::to_string(count));

@@ -11,9 +11,9 @@
 #include <memory>
 #include <thread>
 
-#include "contract/bus_fixture.hpp"
 #include "core/network_config.hpp"
 #include "core/text.hpp"
+#include "tests/contract/bus_fixture.hpp"
 
 namespace skein::test {
 namespace {

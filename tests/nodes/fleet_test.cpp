@@ -18,6 +18,8 @@
 #include "sim_server/sim_node.hpp"
 #include "station/station_node.hpp"
 #include "tests/protocol/sim_network.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/test_program.hpp"
 #include "uav_agent/agent_node.hpp"
 #include "uav_agent/ground_node.hpp"
 
@@ -90,7 +92,7 @@ class Fleet {
 
  private:
   static LoadOptions with_config(LoadOptions load) {
-    load.config_dir = SKEIN_SOURCE_DIR "/config";
+    load.config_dir = source_path("config");
     return load;
   }
   static bool has_ground_program(const std::string& planner) {
@@ -175,6 +177,5 @@ TEST(FleetInOneProcess, EndsAtTheNextStepWhenTheUserSaysSo) {
 // With the launcher's pins, as all programs of a fleet: libm chooses its code by them when a process starts.
 int main(int argc, char** argv) {
   skein::take_fleet_environment(argv);
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
+  return skein::run_test_program(argc, argv);
 }

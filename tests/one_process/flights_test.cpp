@@ -4,6 +4,7 @@
 
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -16,7 +17,7 @@ class OneProcess : public FleetTest {
   }
   /// With the agent of nasty_planner.cpp: jurong does it at 3 s.
   Arguments nasty(const std::string& how, Arguments more = {}) const {
-    more.insert(more.end(), {"--agent", SKEIN_NASTY_AGENT, "--planner", "hover,jurong=nasty:how=" + how});
+    more.insert(more.end(), {"--agent", helper_program("nasty_agent"), "--planner", "hover,jurong=nasty:how=" + how});
     return flight(more);
   }
 
@@ -29,7 +30,7 @@ TEST_F(OneProcess, TellsWhatNeedsProcesses) {
   const std::vector<std::pair<Arguments, std::string>> refused = {
       {{"--planner", "hover,jurong=exec:true"}, "jurong=exec:true needs processes"},
       {{"--planner", "hover,gcs=exec:true"}, "gcs=exec:true needs processes"},
-      {{"--planner", std::string("hover,jurong=hover@") + SKEIN_NASTY_AGENT}, "are two programs"},
+      {{"--planner", "hover,jurong=hover@" + helper_program("nasty_agent")}, "are two programs"},
       {{"--debug", "jurong"}, "--debug needs processes"},
       {{"--secure"}, "--secure needs processes"},
       {{"--network", "all"}, "--network needs processes"},
@@ -87,12 +88,12 @@ TEST_F(OneProcess, WhoTakesTheProcessAlongIsNamed) {
     EXPECT_TRUE(says(run.err(), "uav_agent-jurong failed: ")) << run.err();
     EXPECT_FALSE(says(run.err(), "changi failed")) << run.err();
     EXPECT_FALSE(says(run.err(), "one_process failed")) << run.err();
-#ifndef SKEIN_TEST_SANITIZED  // a sanitizer takes such deaths for its own, and has the end of the log
-    EXPECT_TRUE(says(run.err(), "nasty " + how)) << "what it said last";
-    EXPECT_TRUE(says(run.err(), reason)) << run.err();
-    EXPECT_EQ(says(run.err(), "backtrace in uav_agent-jurong.log"), how != "exits" && how != "hangs") << run.err();
-    EXPECT_EQ(says(run.err(), "    #0 "), how != "exits" && how != "hangs") << run.err();
-#endif
+    if (sanitizer().empty()) {  // a sanitizer takes such deaths for its own, and has the end of the log
+      EXPECT_TRUE(says(run.err(), "nasty " + how)) << "what it said last";
+      EXPECT_TRUE(says(run.err(), reason)) << run.err();
+      EXPECT_EQ(says(run.err(), "backtrace in uav_agent-jurong.log"), how != "exits" && how != "hangs") << run.err();
+      EXPECT_EQ(says(run.err(), "    #0 "), how != "exits" && how != "hangs") << run.err();
+    }
     EXPECT_NE(run.result()["status"], "completed");
     expect_complete_result(run);
     expect_nothing_left();

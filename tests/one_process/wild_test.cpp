@@ -2,6 +2,7 @@
 #include <set>
 
 #include "fleet_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -9,19 +10,15 @@ namespace {
 class Wild : public FleetTest {};
 
 TEST_F(Wild, AllPlannersFlyInTenWorlds) {
-#ifdef SKEIN_TEST_SANITIZED
-  constexpr std::size_t kWorlds = 2;
-#else
-  constexpr std::size_t kWorlds = 10;
-#endif
+  const std::size_t worlds = sanitizer().empty() ? 10 : 2;
   const std::vector<std::string> planners = {"kios", "patrol", "star", "xxh"};
-  const std::string seeds = "100-" + std::to_string(100 + kWorlds - 1);
+  const std::string seeds = "100-" + std::to_string(100 + worlds - 1);
   ChildProcess& study =
       skein({"compare", "--planners", "kios,patrol,star,xxh", "--scenarios", "wild", "--scene-seeds", seeds, "--seeds",
              "1", "--duration", "60", "--require", "collisions==0", "--out", folder() / "study"});
   ASSERT_EQ(study.wait().code, 0) << study.err() << study.out();
   const auto flights = read_csv(folder() / "study" / "flights.csv");
-  EXPECT_EQ(flights.size(), kWorlds * planners.size());
+  EXPECT_EQ(flights.size(), worlds * planners.size());
   std::set<std::string> flown;
   for (const auto& flight : flights) {
     flown.insert(flight.at("planner"));

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "fleet_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -49,7 +50,7 @@ class Packages : public FleetTest {
 
   fs::path install(const std::string& component) {
     const fs::path prefix = folder() / component;
-    done({SKEIN_CMAKE, "--install", SKEIN_BUILD_DIR, "--prefix", prefix, "--component", component});
+    done({"cmake", "--install", build_path(), "--prefix", prefix, "--component", component});
     return prefix;
   }
 
@@ -66,7 +67,7 @@ TEST_F(Packages, EachComponentHasWhatItIsFor) {
   EXPECT_EQ(below(runtime, "lib/"), Paths{"skein/libskein_other_clock.so"}) << "of skein check-planner";
   EXPECT_EQ(below(agent, "lib/"), Paths{});
   for (const Paths* programs : {&runtime, &agent}) {
-    EXPECT_EQ(below(*programs, "share/skein/config/"), files_of(fs::path(SKEIN_SOURCE_DIR) / "config"));
+    EXPECT_EQ(below(*programs, "share/skein/config/"), files_of(source_path("config")));
     Paths manuals;
     for (const std::string& program : below(*programs, "bin/")) manuals.insert(program + ".1.gz");
     EXPECT_EQ(below(*programs, "share/man/man1/"), manuals);
@@ -111,7 +112,7 @@ TEST_F(Packages, DebianPackagesAreTheComponents) {
   }
   const std::map<std::string, std::string> names = {
       {"runtime", "skein"}, {"agent", "skein-agent"}, {"dev", "skein-dev"}};
-  done({"env", "-C", SKEIN_BUILD_DIR, SKEIN_CPACK, "-B", folder() / "debs"});
+  done({"env", "-C", build_path(), "cpack", "-B", folder() / "debs"});
   std::map<std::string, std::string> depends;
   for (const auto& [component, name] : names) {
     fs::path package;

@@ -10,6 +10,7 @@
 #include "idl/type_names.hpp"
 #include "mcap/reader.hpp"
 #include "process/run_folder.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -45,7 +46,7 @@ class Recording : public FleetTest {
     if (std::system("command -v node >/dev/null && command -v npm >/dev/null") != 0) {
       GTEST_SKIP() << "node or npm is missing: no independent reader";
     }
-    const std::string to = SKEIN_RECORDING_CHECK_FOLDER, from = SKEIN_RECORDING_CHECK;
+    const std::string to = build_path("recording_check"), from = source_path("tests/recording");
     const std::string install = "mkdir -p " + to + " && cd " + to + " && exec 9>.lock && flock 9 && cp " + from +
                                 "/package.json " + from + "/package-lock.json " + from + "/check.mjs . && " +
                                 "if ! cmp -s package-lock.json .installed; then npm ci --no-audit --no-fund >npm.log " +
@@ -55,9 +56,8 @@ class Recording : public FleetTest {
   /// What the independent reader found. @param mode  "" or "stream"
   Json read_by_others(const fs::path& recording, const std::string& mode = "") {
     const fs::path answer = folder() / "answer.json";
-    const std::string command = std::string("node ") + SKEIN_RECORDING_CHECK_FOLDER + "/check.mjs " +
-                                recording.string() + " " + mode + " >" + answer.string() + " 2>" +
-                                (folder() / "check.err").string();
+    const std::string command = "node " + build_path("recording_check") + "/check.mjs " + recording.string() + " " +
+                                mode + " >" + answer.string() + " 2>" + (folder() / "check.err").string();
     EXPECT_EQ(std::system(command.c_str()), 0) << text_of(folder() / "check.err");
     return Json::parse(text_of(answer), nullptr, false);
   }
@@ -189,7 +189,7 @@ TEST_F(Recording, OfARunThatWasKilledIsReadAsFarAsItGoes) {
   SkeinRun& flown = start("flown", {"towers", "--planner", "patrol", "--clock", "realtime:20"});
   const fs::path part = flown.dir() / run_folder::recording_part(programs::kSimServer, 0);
   ASSERT_TRUE(flown.wait_until_flying());
-  while (!fs::exists(part) || Recorded(part).last_s < 15.0) ::usleep(50'000);
+  ASSERT_TRUE(eventually([&] { return fs::exists(part) && Recorded(part).last_s >= 15.0; }));
   for (const auto& [name, pid] : processes_of(flown.dir())) ::kill(pid, SIGKILL);
   EXPECT_NE(flown.exit_code(), 0);
   const fs::path left = fs::exists(part) ? part : file(flown);

@@ -1,13 +1,14 @@
 // report.html in a browser: it asks for nothing, says what the tables beside it say, and is to be seen everywhere.
 #include "core/command_file.hpp"
 #include "fleet_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kWeb = fs::path(SKEIN_SOURCE_DIR) / "web", kBundle = fs::path(SKEIN_SOURCE_DIR) / "build/web/report.js";
+const fs::path kWeb = source_path("web"), kBundle = source_path("build/web/report.js");
 
 class ReportInABrowser : public FleetTest {
  protected:
@@ -22,7 +23,7 @@ class ReportInABrowser : public FleetTest {
 
   /// What look.mjs finds wrong with the page of a run.
   void look(const std::string& run) {
-    ChildProcess& node = start_program("look", {command_file("node"), SKEIN_SOURCE_DIR "/tests/report/look.mjs", kWeb,
+    ChildProcess& node = start_program("look", {command_file("node"), source_path("tests/report/look.mjs"), kWeb,
                                                 command_file("chromium"), program("skein"), kBundle, folder() / run});
     EXPECT_EQ(node.wait().code, 0) << node.err() << node.out();
     EXPECT_EQ(node.out(), "");

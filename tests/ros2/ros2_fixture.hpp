@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "fleet_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 
@@ -19,7 +20,7 @@ class Ros2Test : public FleetTest {
     if (folder == nullptr || *folder == '\0') GTEST_SKIP() << "no ROS 2: SKEIN_ROS2 is not set";
     ChildProcess& unpack = start_program(
         "unpack", {"/bin/sh", "-c", "exec 9>\"$2.lock\"; flock 9; test -e \"$2/env.sh\" || \"$1/unpack.sh\" \"$2\"",
-                   "sh", folder, SKEIN_ROS2_FOLDER});
+                   "sh", folder, build_path("ros2")});
     ASSERT_EQ(unpack.wait().code, 0) << unpack.err();
     ChildProcess& probe = start_node("probe", "cyclonedds", 1, "", "python3 -c 'import rclpy, numpy, yaml'");
     if (probe.wait().code != 0) GTEST_SKIP() << "no ROS 2: its packages are missing (packages.txt): " << probe.err();
@@ -28,8 +29,8 @@ class Ros2Test : public FleetTest {
   /// A shell in which ROS 2 runs, with default settings unless `localhost`.
   ChildProcess& start_node(const std::string& name, const std::string& middleware, int domain,
                            const std::string& localhost, const std::string& command) {
-    const std::string shell = std::string(". ") + SKEIN_ROS2_FOLDER + "/env.sh " + middleware + " " +
-                              std::to_string(domain) + " " + localhost + "; exec " + command;
+    const std::string shell = ". " + build_path("ros2") + "/env.sh " + middleware + " " + std::to_string(domain) + " " +
+                              localhost + "; exec " + command;
     return start_program(name, {"/bin/bash", "-c", shell}, {{"ROS_LOG_DIR", folder() / "ros"}});
   }
 

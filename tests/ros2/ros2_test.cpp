@@ -6,6 +6,7 @@
 
 #include "core/topics.hpp"
 #include "ros2_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -19,7 +20,7 @@ class Ros2 : public Ros2Test, public testing::WithParamInterface<std::string> {
   ChildProcess& start_listener(const std::string& name, const std::string& middleware, int domain,
                                const std::string& localhost = "") {
     return start_node(name, middleware, domain, localhost,
-                      "python3 " SKEIN_ROS2_NODES "/listener.py " + kUav + " " + file(name));
+                      "python3 " + source_path("tests/ros2/listener.py") + " " + kUav + " " + file(name));
   }
 
   /// Nobody waits for a listener: a writer may match it when the fleet flies already. From then on it heard everything,
@@ -75,11 +76,12 @@ TEST_P(Ros2, NodesWithDefaultSettingsHearAUavAndAreToldWhenTheyAreNotHeard) {
     const std::size_t end = name.find('_');
     nodes.push_back(&start_listener(name, name.substr(0, end), domain, end == std::string::npos ? "" : "localhost"));
   }
-  ChildProcess& commander = start_node("commander", GetParam() == "fastdds" ? "cyclonedds" : "fastrtps", domain, "",
-                                       "python3 " SKEIN_ROS2_NODES "/commander.py " + kUav + " " + file("commander"));
+  ChildProcess& commander =
+      start_node("commander", GetParam() == "fastdds" ? "cyclonedds" : "fastrtps", domain, "",
+                 "python3 " + source_path("tests/ros2/commander.py") + " " + kUav + " " + file("commander"));
   const topics::WireTopic rejected = topics::command_rejected(kUav);
-  start_program("rejections", {SKEIN_RADIO_LISTENER, GetParam(), std::to_string(domain), folder() / "rejections",
-                               rejected.name, rejected.type});
+  start_program("rejections", {helper_program("radio_listener"), GetParam(), std::to_string(domain),
+                               folder() / "rejections", rejected.name, rejected.type});
   ASSERT_TRUE(eventually([&] {
     return ready("commander") &&
            std::all_of(listeners.begin(), listeners.end(), [&](const auto& name) { return ready(name); });

@@ -6,18 +6,19 @@
 
 #include "core/topics.hpp"
 #include "ros2_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
 
-const Arguments kFlight = {"towers", "--planner", "patrol", "--stop-at", "40"};
-const std::string kPackages = SKEIN_ROS2_FOLDER "_packages";
+const Arguments kWatched = {"towers", "--planner", "patrol", "--stop-at", "40"};
+const std::string kPackages = build_path("ros2_packages");
 
 class Ros2Definitions : public Ros2Test {};
 
 TEST_F(Ros2Definitions, AreThoseOfOurIdl) {
   ChildProcess& compare = start_node("compare", "cyclonedds", 1, "",
-                                     "python3 " SKEIN_ROS2_NODES "/definitions.py " SKEIN_SOURCE_DIR "/idl");
+                                     "python3 " + source_path("tests/ros2/definitions.py") + " " + source_path("idl"));
   ASSERT_EQ(compare.wait().code, 0) << compare.err();
   const Json found = Json::parse(compare.out());
   EXPECT_EQ(found["different"], Json::array());
@@ -36,10 +37,10 @@ class Ros2Viewer : public Ros2Test, public testing::WithParamInterface<std::stri
   void SetUp() override {
     Ros2Test::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    ChildProcess& build = start_node(
-        "build", "cyclonedds", 1, "",
-        "flock " + kPackages + ".lock python3 " SKEIN_ROS2_NODES "/message_packages.py " SKEIN_SOURCE_DIR "/idl " +
-            kPackages + " tf2_msgs visualization_msgs");
+    ChildProcess& build =
+        start_node("build", "cyclonedds", 1, "",
+                   "flock " + kPackages + ".lock python3 " + source_path("tests/ros2/message_packages.py") + " " +
+                       source_path("idl") + " " + kPackages + " tf2_msgs visualization_msgs");
     ASSERT_EQ(build.wait().code, 0) << build.err();
   }
 
@@ -47,7 +48,8 @@ class Ros2Viewer : public Ros2Test, public testing::WithParamInterface<std::stri
     return start_node(middleware, middleware, domain, "",
                       "env PYTHONPATH=$(echo " + kPackages + "/local/lib/python3*/dist-packages):$PYTHONPATH " +
                           "LD_LIBRARY_PATH=" + kPackages + "/lib:$LD_LIBRARY_PATH AMENT_PREFIX_PATH=" + kPackages +
-                          ":$AMENT_PREFIX_PATH python3 " SKEIN_ROS2_NODES "/viewer.py " + file(middleware));
+                          ":$AMENT_PREFIX_PATH python3 " + source_path("tests/ros2/viewer.py") + " " +
+                          file(middleware));
   }
 
   void expect_all_seen(const SkeinRun& run, const std::string& viewer) const;
@@ -98,7 +100,7 @@ void Ros2Viewer::expect_all_seen(const SkeinRun& run, const std::string& viewer)
 }
 
 TEST_P(Ros2Viewer, SeesWhatRvizShows) {
-  SkeinRun& fleet = start("fleet", kFlight + Arguments{"--dds", GetParam(), "--debug", "changi"});
+  SkeinRun& fleet = start("fleet", kWatched + Arguments{"--dds", GetParam(), "--debug", "changi"});
   ASSERT_TRUE(fleet.wait_for("gdb --args")) << fleet.err();
   const int world = world_domain(fleet.domains().first);
   const std::vector<std::string> viewers = {"cyclonedds", "fastrtps"};
@@ -110,7 +112,7 @@ TEST_P(Ros2Viewer, SeesWhatRvizShows) {
   ASSERT_EQ(fleet.exit_code(), 0) << fleet.err();
   for (ChildProcess* node : nodes) EXPECT_EQ(node->wait().code, 0) << node->err();
   for (const std::string& viewer : viewers) expect_all_seen(fleet, viewer);
-  EXPECT_EQ(fleet.digest(), run("alone", kFlight).digest());
+  EXPECT_EQ(fleet.digest(), run("alone", kWatched).digest());
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, Ros2Viewer, testing::Values("cyclonedds", "fastdds"),

@@ -17,7 +17,7 @@ OrientedBox box_at(const Vector3d& centre, const Vector3d& size) {
   return box;
 }
 
-AgentConfig fleet_of(std::size_t count) {
+AgentConfig team_of(std::size_t count) {
   AgentConfig agent;
   agent.fleet.resize(count);
   return agent;
@@ -30,7 +30,7 @@ TEST(LiftOff, ALowSiteIsBlindUpToItsTopAHighOneInPart) {
 }
 
 TEST(LiftOff, EverybodyGetsALayerOfItsOwn) {
-  AgentConfig agent = fleet_of(6);
+  AgentConfig agent = team_of(6);
   std::set<double> heights;
   for (const UavIndex self : FirstUavs(6)) {
     agent.self = self;
@@ -42,7 +42,7 @@ TEST(LiftOff, EverybodyGetsALayerOfItsOwn) {
 }
 
 TEST(LiftOff, WithoutALidarItStaysBelowWhatHangsOverTheStartAndClimbsOutOfASite) {
-  AgentConfig agent = fleet_of(1);
+  AgentConfig agent = team_of(1);
   agent.fleet[0].role = Role::photographer;
   const double below = lift_off_height_m(agent, {box_at({0, 0, 15}, {20, 20, 10})}, Vector3d::Zero(), 20.0, 1.2);
   EXPECT_LT(below, 10.0 - agent.me().body_radius_m - 1.0);
@@ -62,7 +62,7 @@ OccupancyMap map_with_roof(double height_m) {
 }
 
 TEST(LiftOff, NobodyClimbsIntoARoofWhateverItsHeight) {
-  const AgentConfig agent = fleet_of(2);
+  const AgentConfig agent = team_of(2);
   for (std::uint64_t world = 0; world < 30; ++world) {
     RandomStream random(world, "roof", 0);
     const double roof_m = random.uniform(4.5, 20.0), wanted_m = random.uniform(3.0, 25.0);
@@ -78,7 +78,7 @@ TEST(LiftOff, NobodyClimbsIntoARoofWhateverItsHeight) {
 }
 
 TEST(LiftOff, WhoHasNotLookedUpStaysAsLowAsItStandsFree) {
-  const AgentConfig agent = fleet_of(2);
+  const AgentConfig agent = team_of(2);
   OccupancyMap map;
   EXPECT_LT(open_height_m(agent, {}, map, {0, 0, 0.2}, 0.2, 0.2 + kRoofM, 20.0), 2.5);
   look_around(map, {0, 0, 1.8}, 40);
@@ -101,7 +101,7 @@ OccupancyMap map_with_wall(double x, double lean, double top_m) {
 }
 
 TEST(LiftOff, WhoWasSetDownBesideAWallRisesAlongItButNotWhereItLeansOver) {
-  const AgentConfig agent = fleet_of(2);
+  const AgentConfig agent = team_of(2);
   const double body_m = agent.me().body_radius_m;
   for (std::uint64_t world = 0; world < 40; ++world) {
     RandomStream random(world, "wall", 0);

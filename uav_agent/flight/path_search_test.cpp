@@ -8,7 +8,7 @@
 namespace skein::agent {
 namespace {
 
-OrientedBox box_at(const Vector3d& centre, const Vector3d& size) {
+OrientedBox upright_box(const Vector3d& centre, const Vector3d& size) {
   OrientedBox box;
   box.center = centre;
   box.size = size;
@@ -62,7 +62,7 @@ TEST(PathSearch, FindsTheWindowInAWall) {
 }
 
 TEST(PathSearch, GoesAroundUnknownBoxes) {
-  const std::vector<OrientedBox> boxes = {box_at({0.0, 0.0, 20.0}, {40.0, 10.0, 40.0})};
+  const std::vector<OrientedBox> boxes = {upright_box({0.0, 0.0, 20.0}, {40.0, 10.0, 40.0})};
   const OccupancyMap map;
   const FreeSpace space({.clearance_m = 1.8}, boxes, map);
   const Vector3d from(0.0, -12.0, 12.0), to(0.0, 12.0, 12.0);
@@ -76,7 +76,7 @@ TEST(PathSearch, GoesAroundUnknownBoxes) {
 }
 
 TEST(PathSearch, SaysSoWhenThereIsNone) {
-  const std::vector<OrientedBox> boxes = {box_at({0.0, 0.0, 20.0}, {20.0, 20.0, 40.0})};
+  const std::vector<OrientedBox> boxes = {upright_box({0.0, 0.0, 20.0}, {20.0, 20.0, 40.0})};
   const OccupancyMap map;
   const FreeSpace space({}, boxes, map);
   EXPECT_FALSE(find_path(space, boxes, {30.0, 0.0, 10.0}, {0.0, 0.0, 10.0})) << "the goal lies in an unknown box";
@@ -87,7 +87,8 @@ TEST(PathSearch, GoesAsNearAsItGetsToWhatCannotBeReached) {
   constexpr double kWorthM = 3.0;
   for (std::uint64_t i = 0; i < 20; ++i) {
     RandomStream random(i, "approach", 0);
-    const std::vector<OrientedBox> boxes = {box_at({random.uniform(-5, 5), random.uniform(-5, 5), 20.0}, {20, 20, 40})};
+    const std::vector<OrientedBox> boxes = {
+        upright_box({random.uniform(-5, 5), random.uniform(-5, 5), 20.0}, {20, 20, 40})};
     const OccupancyMap map;
     const FreeSpace space({}, boxes, map);
     const Vector3d goal = boxes[0].center - Vector3d(0.0, 0.0, 10.0);

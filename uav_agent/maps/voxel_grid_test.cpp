@@ -20,7 +20,7 @@ VoxelGrid turned_grid() {
 }
 
 /// A repeatable draw from [0, 1).
-class Draw {
+class GridDraw {
  public:
   double operator()() {
     state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
@@ -35,7 +35,7 @@ class Draw {
   std::uint64_t state_ = 42;
 };
 
-void fill(VoxelGrid& grid, std::size_t count, Draw& draw) {
+void fill(VoxelGrid& grid, std::size_t count, GridDraw& draw) {
   for (std::size_t i = 0; i < count; ++i) {
     const Id id = static_cast<Id>(draw.below(grid.count()));
     grid.raise(id, draw() < 0.5 ? VoxelState::free : VoxelState::occupied);
@@ -99,7 +99,7 @@ TEST(VoxelGrid, KnowledgeOnlyGrows) {
 
 TEST(VoxelGrid, ASegmentPassesTheCubesThatItsPointsLieIn) {
   const VoxelGrid grid = turned_grid();
-  Draw draw;
+  GridDraw draw;
   for (int i = 0; i < 200; ++i) {
     const Vector3d a = draw.in({-25, 0, -5}, {25, 35, 15}), b = draw.in({-25, 0, -5}, {25, 35, 15});
     std::set<Id> passed, sampled;
@@ -130,7 +130,7 @@ TEST(VoxelGrid, OccupiedCubesHideWhatIsBehind) {
 
 TEST(VoxelGrid, ChunksCarryTheWholeMap) {
   VoxelGrid from = turned_grid(), to = turned_grid();
-  Draw draw;
+  GridDraw draw;
   fill(from, 100, draw);
   ASSERT_EQ(from.chunks(), 5U) << "140 cubes in chunks of 32";
   for (std::size_t chunk = 0; chunk < from.chunks(); ++chunk) {
@@ -147,7 +147,7 @@ TEST(VoxelGrid, ChunksCarryTheWholeMap) {
 
 TEST(VoxelGrid, MergingIsTheSameInAnyOrderAndTwice) {
   VoxelGrid a = turned_grid(), b = turned_grid();
-  Draw draw;
+  GridDraw draw;
   fill(a, 90, draw);
   fill(b, 90, draw);
   const auto merge = [](VoxelGrid& to, const VoxelGrid& from) {
@@ -169,7 +169,7 @@ TEST(VoxelGrid, MergingIsTheSameInAnyOrderAndTwice) {
 
 TEST(VoxelGrid, NonsenseIsNotMerged) {
   VoxelGrid grid = turned_grid();
-  Draw draw;
+  GridDraw draw;
   for (int i = 0; i < 2000; ++i) {
     PayloadWriter writer;
     const std::size_t length = draw.below(80);

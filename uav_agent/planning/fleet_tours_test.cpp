@@ -31,7 +31,7 @@ FleetTourProblem random_problem(std::size_t agents, std::size_t tasks, std::uint
 }
 
 /// Cheapest way for each agent to visit each set of tasks (Held and Karp), then the best partition.
-double optimum(const FleetTourProblem& p) {
+double fleet_optimum(const FleetTourProblem& p) {
   const std::size_t n = p.costs.nodes() - p.agents, sets = std::size_t{1} << n;
   const double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> longest(sets, infinity);
@@ -82,7 +82,7 @@ TEST(FleetTours, SmallOnesAreNearlyOptimal) {
     const FleetTourProblem problem = random_problem(agents, tasks, static_cast<std::uint64_t>(i));
     const FleetTours tours = solve_fleet_tours(problem);
     expect_partition(tours, agents, agents + tasks);
-    const double gap = tours.longest / optimum(problem) - 1.0;
+    const double gap = tours.longest / fleet_optimum(problem) - 1.0;
     EXPECT_GE(gap, -1e-9);
     gaps += gap;
     worst = std::max(worst, gap);

@@ -1,0 +1,65 @@
+#include "tests/support/test_program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace skein {
+namespace {
+
+/// Takes `option VALUE` out of the arguments, each time that it is there.
+std::vector<std::string> take(std::vector<std::string>& arguments, const std::string& option) {
+  std::vector<std::string> values;
+  for (auto at = arguments.begin(); (at = std::find(at, arguments.end(), option)) != arguments.end();) {
+    if (at + 1 == arguments.end()) break;
+    values.push_back(at[1]);
+    at = arguments.erase(at, at + 2);
+  }
+  return values;
+}
+
+/// GoogleTest's filter for the tests that stand in a file. Empty if there is none.
+std::string filter_of(const std::string& file) {
+  const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
+  std::string filter;
+  for (int i = 0; i < all.total_test_suite_count(); ++i) {
+    const ::testing::TestSuite& suite = *all.GetTestSuite(i);
+    for (int k = 0; k < suite.total_test_count(); ++k) {
+      const ::testing::TestInfo& test = *suite.GetTestInfo(k);
+      if (!("/" + std::string(test.file())).ends_with("/" + file)) continue;
+      filter += std::string(suite.name()) + "." + test.name() + ":";
+    }
+  }
+  return filter;
+}
+
+}  // namespace
+
+int run_test_program(int argc, char** argv) {
+  ::testing::InitGoogleMock(&argc, argv);
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  const std::vector<std::string> entries = take(arguments, "--entry"), files = take(arguments, "--file");
+  if (!arguments.empty()) {
+    std::fprintf(stderr, "%s: unknown argument '%s'\n", argv[0], arguments.front().c_str());
+    return 2;
+  }
+  std::string filter;
+  for (const std::string& file : files) {
+    const std::string tests = filter_of(file);
+    if (tests.empty()) {
+      std::fprintf(stderr, "%s: no test of '%s' is in here\n", argv[0], file.c_str());
+      return 2;
+    }
+    filter += tests;
+  }
+  if (!files.empty() && GTEST_FLAG_GET(filter) == "*") GTEST_FLAG_SET(filter, filter);
+  const std::string output = GTEST_FLAG_GET(output);
+  if (!entries.empty() && output.ends_with("/")) GTEST_FLAG_SET(output, output + entries.front() + ".json");
+  return RUN_ALL_TESTS();
+}
+
+}  // namespace skein
