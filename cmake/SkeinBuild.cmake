@@ -21,8 +21,8 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 
 option(SKEIN_UNITY "Compile the files of a folder together; OFF: each alone, for who edits and rebuilds much" ON)
 set(SKEIN_SANITIZE OFF CACHE STRING "Build with sanitizers: address (and undefined behaviour), thread, or OFF")
-# What is built and run with ThreadSanitizer: what has threads of its own, both vendors' buses, and whole fleets over the
-# inproc bus. What happens between threads of the vendors' own libraries is not looked into (tsan.supp).
+# What is built and run with ThreadSanitizer: what has threads of its own, both vendors' buses, and whole fleets over
+# the inproc bus. What happens between threads of the vendors' own libraries is not looked into (tsan.supp).
 set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test process_status_pipe_test
   one_process_crew_test one_process_flights_test one_process_digests_test bus_contract_test radio_contract_test)
 
@@ -125,8 +125,8 @@ function(skein_add_helper name)
 endfunction()
 
 # skein_add_test(NAME SOURCES ... LIBS ... [LABELS ...] [TIMEOUT s] [SERIAL] [PROGRAMS target...])
-# A CTest entry: the tests that stand in the sources *_test.cpp. The tests of a CMake folder are one program, `core_tests`
-# say, which runs those of one entry at a time (tests/support/main.cpp). PROGRAMS are what its tests start. Assets come
+# A CTest entry: the tests that stand in the sources *_test.cpp. The tests of a CMake folder are one program,
+# `core_tests` say, which runs those of one entry at a time (tests/support/main.cpp). PROGRAMS are what its tests start. Assets come
 # from SKEIN_ASSETS and SKEIN_GOLDEN in the environment.
 function(skein_add_test name)
   cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "SOURCES;LIBS;LABELS;PROGRAMS" ${ARGN})
@@ -149,16 +149,22 @@ function(skein_add_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
-  if(SKEIN_SANITIZE)
-    math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")
-  endif()
+  skein_set_timeout(${name} ${ARG_TIMEOUT})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}")
   if(ARG_SERIAL)
     set_tests_properties(${name} PROPERTIES RUN_SERIAL TRUE)
   endif()
+endfunction()
+
+# skein_set_timeout(NAME s)
+# When CTest kills an entry that takes s on an idle machine at most: five times that, for machines that are busy, and
+# for sanitizers. What does not end by itself is found earlier, by the test itself (tests/support/eventually.hpp).
+function(skein_set_timeout name seconds)
+  math(EXPR seconds "5 * ${seconds}")
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${seconds})
 endfunction()
 
 # The program with the tests of the present folder, made at the first call: core_tests, bus_lockstep_tests, tests_fleet.

@@ -33,6 +33,22 @@
 
 namespace skein {
 
+/// A number that cannot be negative: a time, a distance, a score. JSON that says otherwise does not fit.
+class Amount {
+ public:
+  constexpr Amount(double value = 0.0) : value_(value) {}  // NOLINT: it stands for its number
+  constexpr operator double() const { return value_; }     // NOLINT
+
+ private:
+  double value_;
+};
+
+/// For Json's own conversions.
+template <class AnyJson>
+void to_json(AnyJson& json, const Amount& amount) {
+  json = static_cast<double>(amount);
+}
+
 /// An object whose keys are names, in their order.
 template <class T>
 using Named = std::vector<std::pair<std::string, T>>;
@@ -106,7 +122,8 @@ class Reader {
 
 template <class T>
 Json write(const T& value) {
-  if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string> || std::is_same_v<T, Json>) {
+  if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, Amount> || std::is_same_v<T, std::string> ||
+                std::is_same_v<T, Json>) {
     return Json(value);
   } else if constexpr (std::is_enum_v<T>) {
     return name_of(value);
@@ -188,6 +205,8 @@ std::optional<T> read(const Json& json) {
     return whole_number<T>(json);
   } else if constexpr (std::is_floating_point_v<T>) {
     return json.is_number() ? std::optional(json.get<T>()) : std::nullopt;
+  } else if constexpr (std::is_same_v<T, Amount>) {
+    return json.is_number() && json.get<double>() >= 0.0 ? std::optional(Amount(json.get<double>())) : std::nullopt;
   } else if constexpr (std::is_same_v<T, std::string>) {
     return json.is_string() ? std::optional(json.get<std::string>()) : std::nullopt;
   } else if constexpr (std::is_same_v<T, Json>) {

@@ -69,6 +69,14 @@ TEST(JsonFields, ReadsBackWhatItWrites) {
   }
 }
 
+TEST(JsonFields, AnAmountIsNeverNegative) {
+  EXPECT_EQ(json_detail::read<Amount>(parse_json("1.5")).value_or(0.0), 1.5);
+  for (const char* wrong : {"-1e-9", "-31.03", "\"1\"", "null"}) {
+    EXPECT_FALSE(json_detail::read<Amount>(parse_json(wrong))) << wrong;
+  }
+  EXPECT_EQ(json_of(Amount(2.5)), Json(2.5));
+}
+
 TEST(JsonFields, KeysStandInTheOrderOfTheList) {
   Whole whole = some();
   whole.absent.reset();

@@ -15,7 +15,7 @@
 namespace skein {
 
 using Count = std::optional<std::uint64_t>;
-using Number = std::optional<double>;
+using Number = std::optional<Amount>;  // none of them can be negative
 using Text = std::optional<std::string>;
 using Texts = std::vector<std::string>;
 

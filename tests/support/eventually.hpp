@@ -1,5 +1,6 @@
-// Waiting for a fact. Tests that wait use this and no clock of their own (tests/layers holds them to it): a limit only
-// ends a test that has failed, so it is far longer than anything takes, on a busy machine too.
+// Waiting for a fact. Tests that wait use this and no clock of their own (tests/layers holds them to it). A limit only
+// ends a test that has failed: it is far longer than anything takes, and where more programs want to run than there are
+// cores, it grows with their number.
 #pragma once
 
 #include <chrono>
@@ -7,7 +8,7 @@
 
 namespace skein {
 
-/// Longer than any single step takes beside other test suites and builds.
+/// Longer than any single step takes on an idle machine.
 inline constexpr std::chrono::seconds kPatience{120};
 
 /// Polls: for what is not announced. @returns whether `condition` came true in time.

@@ -1,5 +1,5 @@
-// Where a test finds the source tree and what was built of it. Only places.cpp is compiled with these paths: the objects
-// of all other tests are the same in every clone, so that ccache shares them.
+// Where a test finds the source tree and what was built of it. Only places.cpp is compiled with these paths: the
+// objects of all other tests are the same in every clone, so that ccache shares them.
 #pragma once
 
 #include <string>

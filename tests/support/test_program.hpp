@@ -1,5 +1,5 @@
-// What all test programs do. A program holds the tests of a folder; CTest has an entry for each file of it, or for a few
-// files that belong together:
+// What all test programs do. A program holds the tests of a folder; CTest has an entry for each file of it, or for a
+// few files that belong together:
 //   core_tests --entry core_text_test --file core/text_test.cpp [--file ...]
 // runs the tests of these files, and names its report after the entry. Without these options it is GoogleTest's own.
 #pragma once
