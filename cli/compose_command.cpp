@@ -126,7 +126,7 @@ std::vector<ProgramSpec> followers(const ComposeProject& project, const ComposeL
 }
 
 void check_before_flight(FleetPlan plan, const ComposeLayout& layout, const Console& console) {
-  std::vector<std::string> images = {layout.image, layout.agent_image};
+  std::vector<std::string> images = {layout.image.value(), layout.agent_image.value()};
   for (const auto& [member, image] : layout.images) images.push_back(image);
   check_engine(images);
   // Of a user's image nothing is known here.
