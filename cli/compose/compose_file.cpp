@@ -280,7 +280,9 @@ class ComposeText {
     yaml_.key("networks").begin_map();
     std::uint32_t next = layout_.subnet ? layout_.subnet->address : 0;
     for (const std::string& name : networks_.names()) {
-      yaml_.key(name).begin_map().key("internal").flag(true);
+      // Without an address on the bridge, the host is no neighbour of the containers.
+      yaml_.key(name).begin_map().key("internal").flag(true).key("driver_opts").begin_map();
+      yaml_.key("com.docker.network.bridge.inhibit_ipv4").own("true").end_map();
       if (layout_.subnet) {
         const in_addr address{htonl(next)};
         char text[INET_ADDRSTRLEN];
