@@ -41,8 +41,9 @@ install(FILES cli/completion/skein.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fis
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # Debian has it already
 
 # Where config/gdb/skein_printers.py looks for it.
-install(DIRECTORY bus cli comm_router core doctor mcap one_process process properties recording report sim_server station
-  uav_agent DESTINATION src/skein COMPONENT source FILES_MATCHING PATTERN "*.cpp" PATTERN "*.hpp" PATTERN testing EXCLUDE)
+install(DIRECTORY bus cli comm_router core doctor mcap one_process process properties recording report sim_server
+  station uav_agent DESTINATION src/skein COMPONENT source
+  FILES_MATCHING PATTERN "*.cpp" PATTERN "*.hpp" PATTERN testing EXCLUDE)
 
 set(libraries core process idl mcap bus lockstep recording agent agent_nodes agent_main
   sim sim_node router router_node station station_node one_process one_process_main)
