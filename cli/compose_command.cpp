@@ -105,10 +105,12 @@ void write_keys(const FleetPlan& plan, int base_domain, const fs::path& folder,
 }
 
 /// What follows a container here: hears its status lines on its standard output, keeps the rest as its log, passes a
-/// SIGTERM on and ends as it does. The signal is for the whole group, so that who listens is in another one.
+/// SIGTERM on and ends as it does, or by kEngineLost. The signal is for the whole group, so what listens is in another
+/// one.
 std::string follower(const std::string& container, bool tells_status) {
   return "trap 'docker kill --signal=TERM " + container + " >/dev/null 2>&1' TERM\n" + "setsid docker logs --follow " +
-         container + (tells_status ? " >&3" : "") + " &\nwait $!\nwait\nexit $(docker wait " + container + ")";
+         container + (tells_status ? " >&3" : "") + " &\nwait $!\nwait\ncode=$(docker wait " + container +
+         ")\n[ -n \"$code\" ] || kill -" + std::to_string(kEngineLost) + " $$\nexit \"$code\"";
 }
 
 std::vector<ProgramSpec> followers(const ComposeProject& project, const ComposeLayout& layout, const fs::path& out) {
@@ -126,7 +128,7 @@ std::vector<ProgramSpec> followers(const ComposeProject& project, const ComposeL
 }
 
 void check_before_flight(FleetPlan plan, const ComposeLayout& layout, const Console& console) {
-  std::vector<std::string> images = {layout.image, layout.agent_image};
+  std::vector<std::string> images = {layout.image.value(), layout.agent_image.value()};
   for (const auto& [member, image] : layout.images) images.push_back(image);
   check_engine(images);
   // Of a user's image nothing is known here.
@@ -163,7 +165,7 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   FleetRun run(plan, console.err, console.terminal);
   {
     ComposeProject project(out.path() / "compose.yaml", fmt::format("skein-{:08x}", run_id & 0xffffffff),
-                           out.path() / "compose.log");
+                           out.path() / "compose.log", console.err);
     run.view().message(fmt::format("{}: {} UAVs in containers, planner {}, seed {}, results in {}", plan.scenario.name,
                                    plan.scenario.fleet.size(), options.run.planner, options.run.seed, dir.string()));
     project.up();

@@ -11,6 +11,7 @@
 
 #include "cli/run/preflight.hpp"
 #include "cli/testing/fake_programs.hpp"
+#include "process/json_text.hpp"
 #include "process/program.hpp"
 #include "process/security_files.hpp"
 #include "tests/support/places.hpp"
@@ -127,6 +128,59 @@ TEST_F(ComposeCommand, WhoIsDebuggedStandsAndNobodyIsTakenForDead) {
   for (const char* wrong : {"jurong=gdb", "nobody", "jurong="}) {
     EXPECT_THROW(file_of({"--debug", wrong}), InputError) << wrong;
   }
+}
+
+/// With a client of Docker that is a script, whose engine is there until a file is.
+class ComposeUp : public testing::Test {
+ protected:
+  ComposeUp() {
+    ::setenv("PATH", (programs_.dir().string() + ":" + path_).c_str(), 1);
+    write_script(programs_.dir() / "docker", "gone=" + gone().string() + " folder=" + programs_.dir().string() + R"(
+case "$*" in
+  "compose version"|version*|"image inspect"*) ;;
+  *" down "*) if [ -e "$gone" ]; then echo "no engine"; exit 1; fi ;;
+  compose*) ;;
+  "ps --all"*) for name in sim_server comm_router station uav_agent-alpha uav_agent-beta; do echo "$name id-$name"; done ;;
+  "logs --follow id-sim_server") . "$folder/server" ;;
+  "logs --follow"*) until [ -e "$gone" ] || [ -e "$folder/over" ]; do sleep 0.01; done ;;
+  "wait id-sim_server") if [ -e "$gone" ]; then echo "no engine" >&2; exit 1; fi; echo 12 ;;
+  wait*) if [ -e "$gone" ]; then echo "no engine" >&2; exit 1; fi; echo 0 ;;
+esac
+)");
+  }
+  ~ComposeUp() override { ::setenv("PATH", path_.c_str(), 1); }
+
+  fs::path gone() const { return programs_.dir() / "gone"; }
+  int up() {
+    const Texts words = {"compose", programs_.scenario(),   "--planner", "hover", "--up",
+                         "--out",   programs_.dir() / "out"};
+    return compose_fleet(std::get<ComposeOptions>(parse_command_line(words)), {out_, err_, false});
+  }
+
+  const FakePrograms programs_;
+  const std::string path_ = ::getenv("PATH");
+  std::ostringstream out_, err_;
+};
+
+TEST_F(ComposeUp, AnEngineThatGoesAwayIsReportedOnceAndWhatMayBeLeftIsNamed) {
+  write_text(programs_.dir() / "server", "touch " + gone().string() + "\n");
+  EXPECT_EQ(up(), kExitProcessFailed) << err_.str();
+  const std::string err = err_.str(), what = "the Docker engine does not answer any more";
+  const std::size_t said = err.find(what);
+  ASSERT_NE(said, std::string::npos) << err;
+  EXPECT_EQ(err.find(what, said + 1), std::string::npos) << err;
+  EXPECT_NE(err.find("docker compose --project-name skein-"), std::string::npos) << err;
+  EXPECT_NE(err.find("compose.yaml down --volumes"), std::string::npos) << err;
+  EXPECT_EQ(read_json(programs_.dir() / "out" / "result.json")["status"], "aborted");
+}
+
+// A container may end with any number.
+TEST_F(ComposeUp, AContainerThatFailsIsNoEngineThatGoesAway) {
+  write_text(programs_.dir() / "server", "touch " + (programs_.dir() / "over").string() + "\n");
+  EXPECT_EQ(up(), kExitProcessFailed) << err_.str();
+  EXPECT_NE(err_.str().find("exit code 12"), std::string::npos) << err_.str();
+  EXPECT_EQ(err_.str().find("does not answer"), std::string::npos) << err_.str();
+  EXPECT_EQ(err_.str().find("down --volumes"), std::string::npos) << err_.str();
 }
 
 }  // namespace

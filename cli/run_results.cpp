@@ -77,7 +77,9 @@ std::optional<Json> write_results(const RunResults& run, const std::filesystem::
 
 int exit_code_of(FleetRun& run, const Json& result) {
   if (run.facts().interrupted) return kExitInterrupted;
-  return run.anything_failed() || !result["lost_members"].empty() ? kExitProcessFailed : kExitDone;
+  // A run that nothing is known to have ended is no good one, either.
+  const bool aborted = result["status"] == name_of(RunStatus::aborted);
+  return run.anything_failed() || aborted || !result["lost_members"].empty() ? kExitProcessFailed : kExitDone;
 }
 
 }  // namespace skein::cli

@@ -37,5 +37,6 @@ endfunction()
 function(skein_compile_as_skein name)
   target_compile_features(${name} PRIVATE cxx_std_20)
   set_target_properties(${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  target_compile_options(${name} PRIVATE -ffp-contract=off -Wno-psabi -g $<$<CONFIG:>:-O2>)
+  target_compile_options(${name} PRIVATE -ffp-contract=off -Wno-psabi -g $<$<CONFIG:>:-O2>
+    $<$<CXX_COMPILER_ID:GNU>:-gno-inline-points>)  # gdb stops in the planner, not in what is inlined there
 endfunction()

@@ -8,7 +8,7 @@ set(SKEIN_CONTRACT_DIR ${PROJECT_SOURCE_DIR}/uav_agent/testing)  # where the sou
 set(installed_contract_dir ${CMAKE_INSTALL_DATADIR}/skein/contract)
 
 # Components, which are Debian packages too (SkeinPackages.cmake): `runtime` is what flies fleets, `agent` the part of
-# it that flies one UAV, `dev` what planners outside of this tree are built with.
+# it that flies one UAV, `dev` what planners outside of this tree are built with, `source` the code that debuggers show.
 set(programs skein sim_server comm_router station uav_agent uav_agent_fleet skein_doctor)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/man)
 foreach(program ${programs})
@@ -39,6 +39,11 @@ install(FILES cli/completion/_skein DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/ven
 install(FILES cli/completion/skein.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
   COMPONENT runtime)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # Debian has it already
+
+# Where config/gdb/skein_printers.py looks for it.
+install(DIRECTORY bus cli comm_router core doctor mcap one_process process properties recording report sim_server
+  station uav_agent DESTINATION src/skein COMPONENT source
+  FILES_MATCHING PATTERN "*.cpp" PATTERN "*.hpp" PATTERN testing EXCLUDE)
 
 set(libraries core process idl mcap bus lockstep recording agent agent_nodes agent_main
   sim sim_node router router_node station station_node one_process one_process_main)

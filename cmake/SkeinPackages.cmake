@@ -1,10 +1,15 @@
-# Debian packages of the components, for Debian 12: `cpack` in the build folder writes skein, skein-agent and skein-dev.
+# Debian packages of the components, for Debian 12: `cpack` in the build folder writes skein, skein-agent and skein-dev,
+# what
+# debuggers want of the first two, skein-dbgsym and skein-agent-dbgsym, and the code that they show, skein-source.
 # What the programs need of Debian is read from them (dpkg-shlibdeps), so they have to be built on Debian 12.
 set(CPACK_GENERATOR DEB)
-set(CPACK_COMPONENTS_ALL agent runtime dev)
+set(CPACK_COMPONENTS_ALL agent runtime dev source)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_STRIP_FILES ON)
+set(CPACK_STRIP_FILES OFF)  # what has a -dbgsym is stripped when that is made; archives keep their lines
+set(CPACK_DEBIAN_AGENT_DEBUGINFO_PACKAGE ON)
+set(CPACK_DEBIAN_RUNTIME_DEBUGINFO_PACKAGE ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS binutils)  # addr2line, for the names in the backtrace of a crash
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(SKEIN_MAINTAINER "Skein maintainers <maintainers@skein.invalid>" CACHE STRING "Of the Debian packages")
@@ -51,10 +56,19 @@ ${about}
 .
 This package is for planners of your own: find_package(skein) in CMake.")
 
+set(CPACK_DEBIAN_SOURCE_PACKAGE_NAME skein-source)
+set(CPACK_DEBIAN_SOURCE_PACKAGE_SECTION debug)
+set(CPACK_DEBIAN_SOURCE_PACKAGE_ARCHITECTURE all)
+set(CPACK_COMPONENT_SOURCE_DESCRIPTION "code of Skein, for debuggers
+${about}
+.
+This package is what debuggers show of Skein with the symbols of skein-dbgsym or
+skein-agent-dbgsym. Nothing is built from it.")
+
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 configure_file(cmake/debian/changelog.in ${CMAKE_BINARY_DIR}/changelog @ONLY)
 execute_process(COMMAND gzip -9nf ${CMAKE_BINARY_DIR}/changelog)
-foreach(component agent runtime dev)
+foreach(component agent runtime dev source)
   string(TOUPPER ${component} upper)
   set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
   install(FILES cmake/debian/copyright DESTINATION ${folder} COMPONENT ${component})

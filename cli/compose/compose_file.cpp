@@ -6,17 +6,20 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cstring>
 
+#include "cli/compose/compose_yaml.hpp"
 #include "core/config_files.hpp"
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 #include "core/topics.hpp"
-#include "process/json_text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using Texts = std::vector<std::string>;
 
 constexpr const char* kConfigInImage = "/usr/share/skein/config";
 constexpr const char* kResultsInContainer = "/results";
@@ -30,45 +33,27 @@ constexpr int kLease_s = 10;
 constexpr int kDebuggedLease_s = 3600;  ///< the longest that Cyclone DDS takes: who is debugged stands for long
 /// A container that the engine has started again once the run was over ends after so long.
 constexpr int kServerTimeout_s = 60;
+constexpr int kMostProcesses = 256;  ///< in a container, threads included
 
-/// What stays the same for all programs. The health check asks whether the program still takes its turns.
-constexpr const char* kCommon = R"(
-x-program: &program
-  init: true
-  user: "{user}"
-  read_only: true
-  tmpfs:
-    - /tmp
-  cap_drop:
-    - ALL
-  security_opt:
-    - no-new-privileges:true
-  sysctls:
-    net.ipv4.ip_forward: "0"
-  dns_opt:
-    - timeout:1
-    - attempts:1
-  pids_limit: 256
-  stop_grace_period: 10s
-  healthcheck:
-    test: ["CMD-SHELL", "find /tmp/alive -newermt '-20 seconds' | grep -q ."]
-    interval: 5s
-    timeout: 5s
-    retries: 3
-    start_period: 30s
-)";
+/// What docker-compose fills in when the file is read.
+constexpr const char* kImageVariable = "${SKEIN_IMAGE:-skein}";
+constexpr const char* kAgentImageVariable = "${SKEIN_AGENT_IMAGE:-skein-agent}";
+constexpr const char* kRunVariable = "${SKEIN_RUN:-1}";
+constexpr const char* kUserVariable = "${SKEIN_USER:-1000:1000}";
 
-/// YAML reads JSON's texts; what docker-compose would take for a variable is not one.
-std::string in_quotes(const std::string& text) { return Json(text).dump(); }
-std::string literal(const Json& value) {
-  std::string text = value.dump();
-  for (std::size_t at = 0; (at = text.find('$', at)) != std::string::npos; at += 2) text.insert(at, "$");
-  return text;
+/// Written as itself, or as the variable that docker-compose fills in.
+void add(ComposeYaml& yaml, const std::optional<std::string>& text, const char* variable) {
+  if (text) {
+    yaml.literal(*text);
+  } else {
+    yaml.own(variable);
+  }
 }
+
 /// The long form of a mount, whose paths may hold colons.
-std::string mount(const fs::path& here, const fs::path& in_container, bool read_only = true) {
-  return literal(
-      {{"type", "bind"}, {"source", here.string()}, {"target", in_container.string()}, {"read_only", read_only}});
+void add_mount(ComposeYaml& yaml, const fs::path& here, const fs::path& in_container, bool read_only = true) {
+  yaml.begin_map().key("type").own("bind").key("source").literal(here.string());
+  yaml.key("target").literal(in_container.string()).key("read_only").flag(read_only).end_map();
 }
 
 /// What a program is called in the networks that it is in: "uav.jurong".
@@ -164,60 +149,78 @@ class ComposeText {
   ComposeText(const FleetPlan& plan, const ComposeLayout& layout) : plan_(plan), layout_(layout), networks_(plan) {}
 
   std::string text() {
-    text_ = fmt::format("# The fleet of '{}', a container a program (docs/containers.md), made by\n#   {}\n",
-                        plan_.scenario.name, layout_.command);
-    std::string common = kCommon;
-    common.replace(common.find("{user}"), 6, layout_.user);
-    text_ += common + "\nservices:\n";
+    yaml_.begin_map();
+    add_common();
+    yaml_.key("services").begin_map();
     for (const char* server : programs::kServers) add_service(server);
     for (const UavConfig& uav : plan_.scenario.fleet) add_service(programs::agent_program(uav.name));
     if (plan_.ground) add_service(programs::kGroundAgent);
+    yaml_.end_map();
     add_networks();
     if (!layout_.results) add_volumes();
-    return text_;
+    yaml_.end_map();
+    return fmt::format("# The fleet of '{}', a container a program (docs/containers.md), made by\n#   {}\n{}\n",
+                       in_comment(plan_.scenario.name), in_comment(layout_.command), yaml_.text());
   }
 
  private:
-  void line(int indent, const std::string& text) {
-    text_ += std::string(static_cast<std::size_t>(indent), ' ') + text + "\n";
+  /// What stays the same for all programs. The health check asks whether the program still takes its turns.
+  void add_common() {
+    yaml_.key("x-program").anchor("program").begin_map();
+    yaml_.key("init").flag(true).key("user");
+    add(yaml_, layout_.user, kUserVariable);
+    yaml_.key("read_only").flag(true).key("tmpfs").own(Texts{"/tmp"});
+    yaml_.key("cap_drop").own(Texts{"ALL"}).key("security_opt").own(Texts{"no-new-privileges:true"});
+    yaml_.key("sysctls").begin_map().key("net.ipv4.ip_forward").own("0").end_map();
+    yaml_.key("dns_opt").own(Texts{"timeout:1", "attempts:1"});
+    yaml_.key("pids_limit").number(kMostProcesses).key("stop_grace_period").own("10s");
+    yaml_.key("healthcheck").begin_map();
+    yaml_.key("test").own(Texts{"CMD-SHELL", "find /tmp/alive -newermt '-20 seconds' | grep -q ."});
+    yaml_.key("interval").own("5s").key("timeout").own("5s");
+    yaml_.key("retries").number(3).key("start_period").own("30s").end_map().end_map();
   }
 
   void add_service(const std::string& program) {
-    const bool agent = programs::is_agent(program);
+    const bool agent = programs::is_agent(program), server = program == programs::kSimServer;
     const auto own_image = layout_.images.find(programs::member_name(program));
     const bool foreign = agent && own_image != layout_.images.end();
-    line(2, program + ":");
-    line(4, "<<: *program");
-    line(4, "image: " + in_quotes(foreign ? own_image->second : agent ? layout_.agent_image : layout_.image));
-    // Who is dropped, or crashes, comes back; a run without its server cannot.
-    line(4, std::string("restart: ") + (program == programs::kSimServer ? "\"no\"" : "on-failure:5"));
-    line(4, std::string("mem_limit: ") + (program == programs::kSimServer ? "4g" : "1g"));
-    if (agent) line(4, "cpus: 1");
-    line(4, "command:");
-    if (!agent) line(6, "- " + program);
-    for (const std::string& argument : arguments_of(program)) line(6, "- " + argument);
-    line(4, "environment:");
-    line(6, "SKEIN_NETWORK: " + in_quotes(networks_.text_for(program)));
-    if (foreign) add_variables(program);
-    line(4, "networks:");
-    for (const std::string& network : networks_.of(program)) {
-      line(6, in_quotes(network) + ":");  // YAML takes some words for truth values
-      line(8, "aliases:");
-      line(10, "- " + role_of(program) + "." + network);
+    yaml_.blank_line().key(program).begin_map().key("<<").alias("program").key("image");
+    if (foreign) {
+      yaml_.literal(own_image->second);
+    } else {
+      add(yaml_, agent ? layout_.agent_image : layout_.image, agent ? kAgentImageVariable : kImageVariable);
     }
-    line(4, "volumes:");
-    for (const std::string& volume : volumes_of(program)) line(6, "- " + volume);
-    text_ += "\n";
+    // A program that is dropped, or crashes, comes back; a run without its server cannot.
+    yaml_.key("restart").own(server ? "no" : "on-failure:5");
+    yaml_.key("mem_limit").own(server ? "4g" : "1g");
+    if (agent) yaml_.key("cpus").number(1);
+    yaml_.key("command").begin_list();
+    if (!agent) yaml_.own(program);
+    for (const std::string& argument : arguments_of(program)) yaml_.literal(argument);
+    if (layout_.run) {
+      yaml_.literal("--run=" + *layout_.run);
+    } else {
+      yaml_.own(std::string("--run=") + kRunVariable);
+    }
+    yaml_.end_list().key("environment").begin_map();
+    yaml_.key("SKEIN_NETWORK").literal(networks_.text_for(program));
+    if (foreign) add_variables(program);
+    yaml_.end_map().key("networks").begin_map();
+    for (const std::string& network : networks_.of(program)) {
+      yaml_.key(network).begin_map().key("aliases").own(Texts{role_of(program) + "." + network}).end_map();
+    }
+    yaml_.end_map().key("volumes").begin_list();
+    add_mounts(program);
+    yaml_.end_list().end_map();
   }
 
   bool is_debugged(const std::string& program) const {
     return std::ranges::find(plan_.debug, program, &Debuggee::program) != plan_.debug.end();
   }
 
-  /// Quoted; `run` may be a variable.
-  std::vector<std::string> arguments_of(const std::string& program) const {
-    std::vector<std::string> texts;
-    std::vector<std::string> arguments = program_arguments(plan_, program, kComposeBaseDomain);
+  Texts arguments_of(const std::string& program) const {
+    Texts texts;
+    Texts arguments = program_arguments(plan_, program, kComposeBaseDomain);
     for (const fs::path& path : {plan_.scenario.file, plan_.faults.file, plan_.options.assets.value_or("")}) {
       if (!path.empty()) std::ranges::replace(arguments, fs::absolute(path).string(), in_container(path).string());
     }
@@ -236,10 +239,9 @@ class ComposeText {
     if (layout_.status_lines) arguments.insert(arguments.end(), {"--status-fd", "1"});
     for (std::size_t i = 0; i < arguments.size(); ++i) {
       const bool has_value = i + 1 < arguments.size() && !arguments[i + 1].starts_with("--");
-      texts.push_back(literal(arguments[i] + (has_value ? "=" + arguments[i + 1] : "")));
+      texts.push_back(arguments[i] + (has_value ? "=" + arguments[i + 1] : ""));
       i += has_value ? 1 : 0;
     }
-    texts.push_back(in_quotes("--run=" + layout_.run));
     return texts;
   }
 
@@ -251,58 +253,64 @@ class ComposeText {
                                       {"SKEIN_UAV", programs::member_name(program)},
                                       {"SKEIN_DDS", dds_vendors(plan_).at(program)},
                                       {"SKEIN_OUT", kResultsInContainer}}) {
-      line(6, name + ": " + literal(value));
+      yaml_.key(name).literal(value);
     }
-    line(6, "SKEIN_RUN: " + in_quotes(layout_.run));
+    yaml_.key("SKEIN_RUN");
+    add(yaml_, layout_.run, kRunVariable);
   }
 
-  std::vector<std::string> volumes_of(const std::string& program) const {
-    std::vector<std::string> volumes = {layout_.results
-                                            ? mount(results_of(program, *layout_.results), kResultsInContainer, false)
-                                            : in_quotes(volume_of(program) + ":" + kResultsInContainer)};
-    for (const auto& [there, here] : files_of(plan_, program)) volumes.push_back(mount(here, there));
-    if (plan_.options.secure)
-      volumes.push_back(in_quotes(layout_.keys + "/" + program + ":" + kKeysInContainer + ":ro"));
-    if (layout_.build && !layout_.images.contains(programs::member_name(program))) {
-      volumes.push_back(mount(*layout_.build / "bin", fs::path(kBuildInContainer) / "bin"));
-      volumes.push_back(mount(default_config_dir(), fs::path(kBuildInContainer) / "config"));
+  void add_mounts(const std::string& program) {
+    if (layout_.results) {
+      add_mount(yaml_, results_of(program, *layout_.results), kResultsInContainer, false);
+    } else {
+      yaml_.own(volume_of(program) + ":" + kResultsInContainer);
     }
-    return volumes;
+    for (const auto& [there, here] : files_of(plan_, program)) add_mount(yaml_, here, there);
+    if (plan_.options.secure) add_mount(yaml_, layout_.keys + "/" + program, kKeysInContainer);
+    if (layout_.build && !layout_.images.contains(programs::member_name(program))) {
+      add_mount(yaml_, *layout_.build / "bin", fs::path(kBuildInContainer) / "bin");
+      add_mount(yaml_, default_config_dir(), fs::path(kBuildInContainer) / "config");
+    }
   }
   static std::string volume_of(const std::string& program) {
     return programs::is_agent(program) ? "results-" + programs::member_name(program) : "results";
   }
 
   void add_networks() {
-    text_ += "networks:\n";
+    yaml_.key("networks").begin_map();
     std::uint32_t next = layout_.subnet ? layout_.subnet->address : 0;
     for (const std::string& name : networks_.names()) {
-      line(2, in_quotes(name) + ":");
-      line(4, "internal: true");
-      if (!layout_.subnet) continue;
-      line(4, "ipam:");
-      line(6, "config:");
-      const in_addr address{htonl(next)};
-      char text[INET_ADDRSTRLEN];
-      ::inet_ntop(AF_INET, &address, text, sizeof text);
-      line(8, "- subnet: " + std::string(text) + "/" + std::to_string(kNetworkPrefix));
-      next += std::uint32_t{1} << (32 - kNetworkPrefix);
+      // Without an address on the bridge, the host is no neighbour of the containers.
+      yaml_.key(name).begin_map().key("internal").flag(true).key("driver_opts").begin_map();
+      yaml_.key("com.docker.network.bridge.inhibit_ipv4").own("true").end_map();
+      if (layout_.subnet) {
+        const in_addr address{htonl(next)};
+        char text[INET_ADDRSTRLEN];
+        ::inet_ntop(AF_INET, &address, text, sizeof text);
+        yaml_.key("ipam").begin_map().key("config").begin_list().begin_map();
+        yaml_.key("subnet").own(std::string(text) + "/" + std::to_string(kNetworkPrefix));
+        yaml_.end_map().end_list().end_map();
+        next += std::uint32_t{1} << (32 - kNetworkPrefix);
+      }
+      yaml_.end_map();
     }
+    yaml_.end_map();
   }
 
   void add_volumes() {
-    text_ += "\nvolumes:\n";
-    std::vector<std::string> names;
+    Texts names;
     for (const auto& [program, vendor] : dds_vendors(plan_)) names.push_back(volume_of(program));
     std::ranges::sort(names);
     names.erase(std::ranges::unique(names).begin(), names.end());
-    for (const std::string& name : names) line(2, name + ": {}");
+    yaml_.key("volumes").begin_map();
+    for (const std::string& name : names) yaml_.key(name).begin_map().end_map();
+    yaml_.end_map();
   }
 
   const FleetPlan& plan_;
   const ComposeLayout& layout_;
   const Networks networks_;
-  std::string text_;
+  ComposeYaml yaml_;
 };
 
 /// A domain is named for each network, and what runs there for each alias; DNS knows no case.
@@ -320,8 +328,19 @@ void check_names(const Scenario& scenario) {
   }
 }
 
+/// @param option  that names the image, or the variable
+void check_image(const std::string& option, const std::string& image) {
+  const auto may_be = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("._-/:@", c) != nullptr; };
+  if (!image.empty() && std::isalnum(static_cast<unsigned char>(image[0])) && std::ranges::all_of(image, may_be))
+    return;
+  throw InputError(option + ": '" + printable(image) +
+                   "' is no name of an image, such as my-planner or registry.example:5000/team/planner:1.2");
+}
+
 void check(const FleetPlan& plan, const ComposeLayout& layout) {
   check_names(plan.scenario);
+  if (layout.image) check_image("SKEIN_IMAGE", *layout.image);
+  if (layout.agent_image) check_image("SKEIN_AGENT_IMAGE", *layout.agent_image);
   std::vector<UavPlanner> all = plan.planners;
   if (plan.ground) all.push_back(*plan.ground);
   for (const UavPlanner& planner : all) {
@@ -335,7 +354,10 @@ void check(const FleetPlan& plan, const ComposeLayout& layout) {
   std::vector<std::string> known;
   for (const UavPlanner& planner : all) known.push_back(planner.uav);
   for (const auto& [member, image] : layout.images) {
-    if (std::ranges::find(known, member) != known.end()) continue;
+    if (std::ranges::find(known, member) != known.end()) {
+      check_image("--image " + member, image);
+      continue;
+    }
     throw InputError("--image " + member + "=" + image + ": there is no '" + member + "' in this fleet; " +
                      suggestion(member, known));
   }

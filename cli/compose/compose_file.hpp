@@ -20,18 +20,18 @@ struct Subnet {
 /// @throws InputError for a text that is none.
 Subnet parse_subnet(const std::string& text);
 
-/// What containers need to know beside the plan. Texts in which `${...}` stands are filled in by docker-compose.
+/// What containers need to know beside the plan. What is not set here is a variable that docker-compose fills in.
 struct ComposeLayout {
   std::string command;  ///< that made the file, for its first line
-  std::string image = "${SKEIN_IMAGE:-skein}", agent_image = "${SKEIN_AGENT_IMAGE:-skein-agent}";
-  std::map<std::string, std::string> images;  ///< of users, in the place of an agent's: by UAV, or "gcs"
-  std::string run = "${SKEIN_RUN:-1}";
-  std::string user = "${SKEIN_USER:-1000:1000}";  ///< UID:GID of all programs
-  std::optional<std::filesystem::path> results;   ///< folder of this host; else volumes keep the results
-  std::string keys = "./keys";                    ///< of a secured fleet: a folder a program
-  std::optional<Subnet> subnet;                   ///< whose parts the networks get; else the engine chooses
-  std::optional<std::filesystem::path> build;     ///< folder whose bin/ flies instead of the images' programs
-  bool status_lines = false;                      ///< programs tell on stdout how the run goes (status_lines.hpp)
+  std::optional<std::string> image, agent_image;
+  std::map<std::string, std::string> images;     ///< of users, in the place of an agent's: by UAV, or "gcs"
+  std::optional<std::string> run;                ///< the run's number
+  std::optional<std::string> user;               ///< UID:GID of all programs
+  std::optional<std::filesystem::path> results;  ///< folder of this host; else volumes keep the results
+  std::string keys = "./keys";                   ///< of a secured fleet: a folder a program
+  std::optional<Subnet> subnet;                  ///< whose parts the networks get; else the engine chooses
+  std::optional<std::filesystem::path> build;    ///< folder whose bin/ flies instead of the images' programs
+  bool status_lines = false;                     ///< programs tell on stdout how the run goes (status_lines.hpp)
 };
 
 /// The base of the fleet's DDS domains: containers share them with nobody.

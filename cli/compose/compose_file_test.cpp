@@ -212,6 +212,8 @@ TEST_F(ComposeFile, EachDomainIsANetworkOfThoseWhoAreInIt) {
       if (network != "world" && services.contains("uav_agent-" + network)) members.insert("uav_agent-" + network);
       EXPECT_EQ(file.members(network), members) << network;
       EXPECT_TRUE(file.network(network)["internal"].as<bool>()) << network;
+      EXPECT_EQ(file.network(network)["driver_opts"]["com.docker.network.bridge.inhibit_ipv4"].as<std::string>(),
+                "true");
     }
   });
 }

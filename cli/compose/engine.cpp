@@ -1,6 +1,7 @@
 #include "cli/compose/engine.hpp"
 
 #include <fstream>
+#include <ostream>
 #include <sstream>
 #include <stdexcept>
 
@@ -47,20 +48,23 @@ void check_engine(const std::vector<std::string>& images) {
   }
 }
 
-ComposeProject::ComposeProject(fs::path file, std::string name, fs::path log)
-    : program_(compose_program()), file_(std::move(file)), name_(std::move(name)), log_(std::move(log)) {}
+ComposeProject::ComposeProject(fs::path file, std::string name, fs::path log, std::ostream& err)
+    : program_(compose_program()), file_(std::move(file)), name_(std::move(name)), log_(std::move(log)), err_(err) {}
 
 ComposeProject::~ComposeProject() {
   constexpr int kAttempts = 3;  // the user may press Ctrl-C meanwhile, and wants it gone all the more
+  const std::string down = command("down --volumes --remove-orphans --timeout 2");
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     try {
-      shell(command("down --volumes --remove-orphans --timeout 2"), log_);
-      return;
+      if (shell(down, log_) == 0) return;
+      break;
     } catch (const Interrupted&) {
-    } catch (const std::exception&) {  // no shell: there is nothing that we could do
-      return;
+    } catch (const std::exception&) {  // no shell
+      break;
     }
   }
+  err_ << "the containers and networks of this run could not be removed (" << log_.string()
+       << " has the reason) and may still be there; once the engine answers, remove them with\n  " << down << std::endl;
 }
 
 std::string ComposeProject::command(const std::string& what) const {

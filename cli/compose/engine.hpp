@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,9 +17,10 @@ void check_engine(const std::vector<std::string>& images);
 /// While it lives, the containers of a file exist, under a project's name that nobody else has.
 class ComposeProject {
  public:
-  /// @param file  for docker-compose. @param log  file for what it says. @throws InputError when there is none
-  ComposeProject(std::filesystem::path file, std::string name, std::filesystem::path log);
-  /// Ends the containers and removes them, their networks and volumes.
+  /// @param file  for docker-compose. @param log  file for what it says. @param err  for people; must outlive this.
+  /// @throws InputError when there is no docker-compose
+  ComposeProject(std::filesystem::path file, std::string name, std::filesystem::path log, std::ostream& err);
+  /// Ends the containers and removes them, their networks and volumes; when it cannot, it says how to do that.
   ~ComposeProject();
   ComposeProject(const ComposeProject&) = delete;
   ComposeProject& operator=(const ComposeProject&) = delete;
@@ -36,6 +38,7 @@ class ComposeProject {
   const std::filesystem::path file_;
   const std::string name_;
   const std::filesystem::path log_;
+  std::ostream& err_;
 };
 
 }  // namespace skein::cli

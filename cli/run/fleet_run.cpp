@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
-#include <utility>
 #include <variant>
 
 #include "cli/run/crash_trace.hpp"
@@ -154,6 +153,7 @@ void FleetRun::on_cut_off(const Event& event) {
 }
 
 void FleetRun::on_exit(Event event) {
+  if (in_containers_ && event.exit.signal == kEngineLost) return on_engine_lost();
   const bool of_server = event.program == programs::kSimServer;
   note_end(event);
   const DebugWatch* debugged = debug_ ? debug_->find(event.program) : nullptr;
@@ -182,6 +182,15 @@ void FleetRun::on_exit(Event event) {
     tell_lost(programs::member_name(event.program));
   }
   if (server_done_ && only_commands_run()) leave_by_ = std::min(*leave_by_, Clock::now() + scaled(kExecLeaveTime));
+}
+
+/// Without it nothing is known of any container, nor can anything be done about one.
+void FleetRun::on_engine_lost() {
+  if (failed_ && ending_) return;  // all followers notice, one after the other
+  failed_ = true;
+  facts_.warnings.push_back("the Docker engine does not answer any more: what became of the containers is not known");
+  view_.message(facts_.warnings.back() + "; the run ends here");
+  end_all();
 }
 
 /// First Ctrl-C: the server ends the run at its next step, or in a step that does not end, and all write their reports.
@@ -364,33 +373,6 @@ milliseconds FleetRun::scaled(milliseconds time) const {
 bool FleetRun::only_commands_run() const {
   const std::vector<std::string> running = host_->running();
   return std::all_of(running.begin(), running.end(), [&](const auto& program) { return is_exec(plan_, program); });
-}
-
-// ---- what the programs take of the machine ----------------------------------------------------------------------
-
-/// What the programs did before is start-up.
-void FleetRun::on_first_step() {
-  first_progress_ = Clock::now();
-  facts_.startup_s = seconds_between(started_, *first_progress_);
-  if (in_containers_) return;
-  for (const std::string& process : host_->processes()) cpu_before_s_[process] = host_->cpu_s(process);
-}
-
-/// What the programs do from here on is leaving.
-void FleetRun::note_use() {
-  over_ = true;
-  if (in_containers_) return;
-  for (const std::string& process : host_->processes()) {
-    facts_.processes[process].cpu_s += host_->cpu_s(process) - cpu_before_s_[process];
-    facts_.processes[process].memory_share_mb = host_->memory_share_mb(process);
-  }
-}
-
-void FleetRun::note_end(const Event& event) {
-  if (event.exit.shared || in_containers_) return;
-  ProcessUse& use = facts_.processes[event.program];
-  use.peak_memory_mb = std::max(use.peak_memory_mb, event.exit.peak_memory_mb);
-  if (!over_) use.cpu_s += event.exit.cpu_s - std::exchange(cpu_before_s_[event.program], 0.0);
 }
 
 }  // namespace skein::cli

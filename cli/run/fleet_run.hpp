@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -22,6 +23,10 @@
 #include "process/status_lines.hpp"
 
 namespace skein::cli {
+
+/// How what follows a container ends when the engine no longer says what became of the container: a signal, because
+/// a container may end with any exit code.
+inline constexpr int kEngineLost = SIGUSR2;
 
 class FleetRun {
  public:
@@ -57,6 +62,7 @@ class FleetRun {
   void on_cut_off(const Event& event);
   void on_exit(Event event);
   void on_interrupt();
+  void on_engine_lost();
   void on_debugged_end(const DebugWatch& watch);
   bool being_debugged() const;
   void tell_waiting();

@@ -80,10 +80,16 @@ def printers():
 
 
 def add_source_folders():
-    """Debug information names source files from the root of the tree, wherever that lies."""
-    root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-    if os.path.exists(os.path.join(root, "core", "ids.hpp")):
-        gdb.execute('directory "%s"' % root, to_string=True)
+    """Debug information names source files from the root of the tree, wherever that lies: here, or where the package
+    skein-source has it."""
+    here = os.path.abspath(__file__)
+    for levels, below in ((3, "."), (5, "src/skein")):
+        root = here
+        for _ in range(levels):
+            root = os.path.dirname(root)
+        root = os.path.normpath(os.path.join(root, below))
+        if os.path.exists(os.path.join(root, "core", "ids.hpp")):
+            gdb.execute('directory "%s"' % root, to_string=True)
 
 
 gdb.printing.register_pretty_printer(None, printers(), replace=True)

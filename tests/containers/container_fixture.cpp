@@ -1,6 +1,8 @@
 #include "container_fixture.hpp"
+#include "tests/support/places.hpp"
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -9,8 +11,6 @@
 #include <filesystem>
 #include <regex>
 #include <sstream>
-
-#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -34,6 +34,27 @@ const std::string& obstacle() {
   return kObstacle;
 }
 
+/// What the linker called a program; empty for what is none.
+std::string build_id(const std::string& file) {
+  return shell("readelf --notes " + file + " | sed -n 's/.*Build ID: //p'").text;
+}
+
+/// Whether both images have the programs of this build: those of packages made of it.
+bool images_are_of_this_build() {
+  static const bool kAre = [] {
+    for (const auto& [image, program] : {std::pair("skein", "sim_server"), {"skein-agent", "uav_agent"}}) {
+      const std::string copy = fs::temp_directory_path() / ("skein-image-" + std::to_string(::getpid()));
+      const Answer copied = shell(std::string("id=$(docker create ") + image + ") && docker cp $id:/usr/bin/" +
+                                  program + " " + copy + "; code=$?; docker rm $id; exit $code");
+      const std::string theirs = copied.code == 0 ? build_id(copy) : "";
+      fs::remove(copy);
+      if (theirs.empty() || theirs != build_id(build_path("bin/") + program)) return false;
+    }
+    return true;
+  }();
+  return kAre;
+}
+
 std::string labelled(const std::string& project) {
   return " --filter label=com.docker.compose.project=" + project + " --quiet";
 }
@@ -47,6 +68,11 @@ void remove_project(const std::string& project) {
 }
 
 }  // namespace
+
+bool engine_is_required() {
+  const char* required = std::getenv("REQUIRE_ENGINE");
+  return required != nullptr && std::string(required) == "1";
+}
 
 Answer shell(const std::string& command) {
   Answer answer;
@@ -74,8 +100,7 @@ void Containers::SetUp() {
   if (obstacle().empty()) return;
   const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
   const std::string untested = obstacle() + ": not tested is that " + test->name() + " (fleets in containers)";
-  const char* required = std::getenv("REQUIRE_ENGINE");
-  if (required != nullptr && std::string(required) == "1") FAIL() << untested;
+  if (engine_is_required()) FAIL() << untested;
   GTEST_SKIP() << untested;
 }
 
@@ -105,8 +130,15 @@ Arguments Containers::arguments(const std::string& planner, const std::string& d
   return all;
 }
 
+Arguments Containers::programs_of_this_build() {
+  return images_are_of_this_build() ? Arguments{} : Arguments{"--build-folder", build_path()};
+}
+
 SkeinRun& Containers::start_up(const std::string& name, Arguments arguments, const Environment& environment) {
-  arguments.insert(arguments.end(), {"--up", "--build-folder", build_path()});
+  const bool named = std::ranges::find(arguments, "--build-folder") != arguments.end();
+  const Arguments more = named ? Arguments{} : programs_of_this_build();
+  arguments.push_back("--up");
+  arguments.insert(arguments.end(), more.begin(), more.end());
   SkeinRun& run = start(name, arguments, environment, "compose");
   fleets_.push_back(&run);
   return run;

@@ -1,5 +1,6 @@
-// What the tests of fleets in containers share: a real engine, the images that are there, and the programs of this
-// build in them. Without an engine a test is skipped and says what it has not tested; REQUIRE_ENGINE=1 makes it fail.
+// What the tests of fleets in containers share: a real engine and the images that are there. Their own programs fly
+// where they are those of this build (.ci/containers makes such images); else those of the build folder are mounted
+// over them. Without an engine a test is skipped and says what it has not tested; REQUIRE_ENGINE=1 makes it fail.
 #pragma once
 
 #include <map>
@@ -16,6 +17,9 @@ struct Answer {
   std::string text;
 };
 Answer shell(const std::string& command);
+
+/// Whether what has not been tested is a failure.
+bool engine_is_required();
 
 /// The parts of a text between white space.
 std::vector<std::string> words(const std::string& text);
@@ -36,6 +40,8 @@ class Containers : public FleetTest {
 
   static Arguments arguments(const std::string& planner = "patrol", const std::string& duration_s = "60",
                              const Arguments& more = {});
+  /// What makes a fleet fly the programs of this build: nothing where the images have them.
+  static Arguments programs_of_this_build();
   /// `skein compose ... --up`, with the programs of this build.
   SkeinRun& start_up(const std::string& name, Arguments arguments, const Environment& environment = {});
   /// The same to its end, which must be a good one.

@@ -81,6 +81,12 @@ TEST_F(Isolation, AUavSeesItsOwnDomainAndNothingElse) {
   std::string addresses, names = "station";
   for (const std::string& address : foreign_addresses(run)) addresses += " " + address;
   EXPECT_EQ(words(addresses).size(), 2u * 6u + 2u + 4u) << "server and router, station, UAVs: " << addresses;
+  // What would be this host, in the spy's own network, too.
+  for (const std::string& network :
+       words(shell("docker network ls --quiet --filter label=com.docker.compose.project=" + project(run)).text)) {
+    addresses += " " + shell("docker network inspect --format '{{(index .IPAM.Config 0).Gateway}}' " + network).text;
+  }
+  EXPECT_EQ(words(addresses).size(), 18u + 7u) << addresses;
   for (const std::string& uav : kFleet) {
     if (uav != kSpy) names += " uav_agent-" + uav + " uav." + uav;
   }

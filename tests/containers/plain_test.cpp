@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include "container_fixture.hpp"
-#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -17,7 +16,8 @@ class PlainCompose : public Containers {};
 TEST_F(PlainCompose, FliesTheSameAndItsResultsAreMerged) {
   const std::string file = folder() / "compose.yaml", project = "skein-plain-" + std::to_string(::getpid());
   const Arguments flown = arguments();
-  Arguments wanted = {"compose", "towers", "--duration", "60", "--build-folder", build_path(), "--file", file};
+  Arguments wanted = {"compose", "towers", "--duration", "60", "--file", file};
+  for (const std::string& word : programs_of_this_build()) wanted.push_back(word);
   ASSERT_EQ(skein(wanted).wait().code, 0);
   const std::string command = compose() + " --project-name " + project + " --file " + file + " ";
   ASSERT_EQ(shell(command + "config --quiet").code, 0) << shell(command + "config").text;

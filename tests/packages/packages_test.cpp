@@ -54,7 +54,24 @@ class Packages : public FleetTest {
     return prefix;
   }
 
+  /// Of those that cpack writes here, once for all tests; empty: there is none.
+  fs::path package_that_begins_with(const std::string& name) {
+    if (debs_.empty()) {
+      debs_ = fs::temp_directory_path() / ("skein-packages-" + std::to_string(::getpid()));
+      done({"env", "-C", build_path(), "cpack", "-B", debs_});
+    }
+    for (const fs::directory_entry& file : fs::directory_iterator(debs_)) {
+      if (file.path().filename().string().starts_with(name)) return file.path();
+    }
+    return {};
+  }
+  static void TearDownTestSuite() {
+    if (!debs_.empty()) fs::remove_all(debs_);
+  }
+
  private:
+  static inline fs::path debs_;
+
   int steps_ = 0;
 };
 
@@ -106,19 +123,41 @@ TEST_F(Packages, AnInstalledFleetFliesForWhoMayNotWriteThere) {
   EXPECT_EQ(flown["digest"], run("built", {"towers", "--duration", "20"}).digest());
 }
 
+TEST_F(Packages, SymbolsThatAreInstalledNameFunctionsAndTheirCode) {
+  for (const char* tool : {"dpkg-deb", "dpkg-shlibdeps", "file", "gdb", "readelf"}) {
+    if (!has_program(tool)) GTEST_SKIP() << "there is no " << tool << " here";
+  }
+  const fs::path root = folder() / "root", symbols = root / "usr/lib/debug";
+  for (const char* name : {"skein_", "skein-dbgsym_", "skein-source_"}) {
+    const fs::path package = package_that_begins_with(name);
+    ASSERT_FALSE(package.empty()) << name;
+    done({"dpkg-deb", "-x", package, root});
+  }
+  for (const std::string& program : kAllPrograms) {
+    const std::string binary = root / "usr/bin" / program;
+    EXPECT_EQ(done({"readelf", "--section-headers", "--wide", binary}).find(".debug_info"), std::string::npos)
+        << program;
+    const std::string id = done({"/bin/sh", "-c", "readelf -n " + binary + " | sed -n 's/.*Build ID: //p'"});
+    EXPECT_TRUE(fs::exists(symbols / ".build-id" / id.substr(0, 2) / (id.substr(2, id.size() - 3) + ".debug")))
+        << program;
+  }
+  const std::string said =
+      done({"gdb", "-nx", "-batch", "-iex", "set debug-file-directory " + symbols.string(), "-ex",
+            "source " + (root / "usr/share/skein/config/gdb/skein_printers.py").string(), "-ex",
+            "info line skein::agent::PatrolPlanner::plan", "-ex", "list main", root / "usr/bin/uav_agent"});
+  EXPECT_NE(said.find("PatrolPlanner4plan"), std::string::npos) << said;
+  EXPECT_NE(said.find("int main("), std::string::npos) << "its code: " << said;
+}
+
 TEST_F(Packages, DebianPackagesAreTheComponents) {
   for (const char* tool : {"dpkg-deb", "dpkg-shlibdeps", "file"}) {
     if (!has_program(tool)) GTEST_SKIP() << "there is no " << tool << " here";
   }
   const std::map<std::string, std::string> names = {
-      {"runtime", "skein"}, {"agent", "skein-agent"}, {"dev", "skein-dev"}};
-  done({"env", "-C", build_path(), "cpack", "-B", folder() / "debs"});
+      {"runtime", "skein"}, {"agent", "skein-agent"}, {"dev", "skein-dev"}, {"source", "skein-source"}};
   std::map<std::string, std::string> depends;
   for (const auto& [component, name] : names) {
-    fs::path package;
-    for (const fs::directory_entry& file : fs::directory_iterator(folder() / "debs")) {
-      if (file.path().filename().string().starts_with(name + "_")) package = file.path();
-    }
+    const fs::path package = package_that_begins_with(name + "_");
     ASSERT_FALSE(package.empty()) << name;
     const auto field = [&](const std::string& key) { return done({"dpkg-deb", "-f", package, key}); };
     EXPECT_EQ(field("Package"), name + "\n");
