@@ -2,6 +2,7 @@
 
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
+#include "process/closed_to_agents.hpp"
 
 namespace skein::cli {
 namespace {
@@ -25,6 +26,7 @@ HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force) : file_(
   std::error_code error;
   fs::create_directories(dir, error);
   if (error) throw InputError("--out " + dir.string() + ": " + error.message());
+  close_to_agents(dir);
   const Json then = read_json(dir / kSettingsFile);
   if (!then.is_null() && then != settings && !force) {
     throw InputError(dir.string() + " holds another hunt, which differs in " + differing_keys(then, settings) +

@@ -144,7 +144,7 @@ OracleReply ask_oracle(const Scenario& scenario, const Scene& scene, const Oracl
   try {
     if (request.cache) {
       fs::create_directories(*request.cache);
-      write_file_atomically(file, file_content(key, to_json(*reply.summary)));
+      write_file_atomically(file, file_content(key, to_json(*reply.summary)), Readers::no_agents);
     }
   } catch (const std::exception& error) {
     reply.warnings.push_back("the oracle's answer is not kept: " + std::string(error.what()));
