@@ -4,7 +4,7 @@
 // over Real-Valued Signals", FORMATS 2010): of a > b it is a - b, of `and` the lesser, of `or` the greater, of `not`
 // the opposite. What is true or false by itself has an infinite margin. A margin of 0 says nothing of the truth, which
 // is therefore kept beside it.
-// A quotient by 0 is undefined, and so is what is computed of it; separations may be infinite, and the difference of two
+// A quotient by 0 is undefined, as is what is computed of it; separations may be infinite, and the difference of two
 // infinite ones is undefined, too. A comparison with an undefined number is neither true nor false: `not` of it is as
 // undefined, `and` is false where its other part is, `or` true where its other part is (S. C. Kleene's strong logic).
 // expression_parser.hpp reads them.  Pure.

@@ -13,7 +13,7 @@ namespace skein {
 /// policy give it away.
 inline constexpr gid_t kAgentsGroup = 61183;
 
-/// Closes a file or a folder, with all below it, to agents. Where its group has other rights than everybody else, or the
+/// Closes a file or a folder, with all below it, to agents. Where its group has other rights than all others, or the
 /// file system knows no groups, it is closed to all others instead.
 /// Only root's call does anything: any other user's agents are that user. Follows no link.
 /// @returns whether it was open to others before, and is closed to agents now.

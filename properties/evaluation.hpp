@@ -41,7 +41,7 @@ struct Verdict {
 Verdict evaluate(const Property& property, RunSignals& run);
 
 /// The one that counts of several: those of one property for each of its bindings. The first that fails by most; where
-/// none does, one that cannot be judged, since what it compares is undefined; else the one that came nearest to failing;
+/// none does, one that cannot be judged, since what it compares is undefined; else the one that came nearest to it;
 /// where none decided, the first.
 Verdict worst_of(const std::vector<Verdict>& verdicts);
 
