@@ -231,7 +231,7 @@ struct StudyOptions {
   std::vector<std::string> planner_lists;  ///< of --planners: lists
   std::vector<std::string> planners;       ///< of --planner: each as `skein run` takes it
   std::vector<std::string> scenarios;      ///< empty: the usual ones
-  std::string seeds = "5";                 ///< as --seeds takes them
+  std::string seeds = "0-4";                 ///< as --seeds takes them
   Rank rank = Rank::maximum;
   std::optional<std::uint64_t> scene_seed;
   std::optional<std::string> scene_seeds;       ///< each scenario with each of these, as --seeds takes them

@@ -221,8 +221,7 @@ void add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
 void add_compare(CLI::App& app, StudyOptions& study) {
   CLI::App* command = app.add_subcommand("compare", "Planners side by side over any scenes and seeds");
   add_study_options(*command, study);
-  command->add_option("--seeds", study.seeds, "How many (seeds 0 to K-1), or which: 3,5,8 or 1-5")
-      ->capture_default_str();
+  command->add_option("--seeds", study.seeds, "Which seeds: 0-4, 3,5,8 or one, such as 7")->capture_default_str();
   CLI::Option* const one = command->add_option("--scene-seed", study.scene_seed, "Which scene of a procedural family");
   one->check(CLI::Validator(check_seed, ""));
   command->add_option("--scene-seeds", study.scene_seeds, "Many scenes of a family, as --seeds has them: 0-99")

@@ -231,7 +231,7 @@ TEST(Options, ContestAndCompareReadAll) {
   EXPECT_FALSE(compare.contest);
   EXPECT_EQ(compare.seeds, "3,5");
   EXPECT_EQ(compare.scene_seed, 4u);
-  EXPECT_EQ(parse<StudyOptions>({"compare"}).seeds, "5");
+  EXPECT_EQ(parse<StudyOptions>({"compare"}).seeds, "0-4");
   for (const std::vector<std::string>& wrong :
        std::vector<std::vector<std::string>>{{"contest", "--tests", "0"},
                                              {"contest", "--rank", "mean"},

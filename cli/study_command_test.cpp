@@ -130,7 +130,7 @@ TEST_F(StudyCommand, AnAgentOfOnesOwnBuiltAnewFliesItsOwnPlannersAgainAndNoOther
   options_.agent = mine;
   options_.planner_lists = {"hover,orbit"};
   options_.planners = {"alpha=orbit,beta=hover"};
-  options_.seeds = "1";
+  options_.seeds = "0";
   ASSERT_EQ(run(), kExitDone) << err_.str();
   EXPECT_EQ(flown(), "hover 0\norbit 0\nalpha=orbit,beta=hover 0\n");
   EXPECT_EQ(agents(), "uav_agent\nmine\nmine\n");
@@ -160,7 +160,7 @@ TEST_F(StudyCommand, PlannersOfOneNameFromTwoAgentsMeet) {
   const std::string dir = programs_.dir(), a = "orbit@" + dir + "/a/agent", b = "orbit@" + dir + "/b/agent";
   options_.planner_lists = {"patrol," + a + "," + b};
   options_.planners = {"alpha=" + a + ",beta=" + b};
-  options_.seeds = "1";
+  options_.seeds = "0";
   ASSERT_EQ(run(), kExitDone) << err_.str();
   EXPECT_EQ(flown(), "patrol 0\n" + a + " 0\n" + b + " 0\nalpha=" + a + ",beta=" + b + " 0\n");
   for (const char* label : {",orbit@a/agent,", ",orbit@b/agent,", ",\"alpha=orbit@a/agent,beta=orbit@b/agent\","}) {
@@ -189,7 +189,7 @@ TEST_F(StudyCommand, AnAgentThatAPlannerNamesFliesItEvenWhatIsBuiltIn) {
   options_.agent = mine;
   options_.planner_lists = {"hover," + named};
   options_.planners = {"hover,beta=orbit@" + other.string()};
-  options_.seeds = "1";
+  options_.seeds = "0";
   ASSERT_EQ(run(), kExitDone) << err_.str();
   write_script(mine, agent_script("\"hover\"", "anew"));
   options_.force = true;
@@ -245,7 +245,7 @@ TEST_F(StudyCommand, SeveralFlightsAtOnceGiveTheSame) {
 
 TEST_F(StudyCommand, ACompareHasNoTotals) {
   options_.contest = false;
-  options_.seeds = "2";
+  options_.seeds = "0-1";
   options_.duration_s = 60.0;
   EXPECT_EQ(run(), kExitDone);
   EXPECT_EQ(flown(), "hover 0\npatrol 0\nhover 1\npatrol 1\n");

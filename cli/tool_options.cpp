@@ -99,7 +99,7 @@ void add_test(CLI::App& app, TestOptions& test) {
   command
       ->add_flag("--one-process", test.one_process, "Fly in one process, without DDS, what no repetition does over it")
       ->needs(faults);
-  command->add_option("--seeds", test.seeds, "Fly each fault test with each of these seeds: 1-20 or 3,5,8")
+  command->add_option("--seeds", test.seeds, "Fly each fault test with each of these seeds: 1-20, 3,5,8 or 7")
       ->needs(faults);
   command->add_option("--jobs", test.jobs, "Flights at once; results do not depend on it")
       ->needs(faults)

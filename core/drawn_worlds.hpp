@@ -11,7 +11,7 @@
 
 namespace skein {
 
-inline constexpr const char* kBlindWorld = "wild_blind";  ///< nobody has a LiDAR, and nothing stands outside the boxes
+inline constexpr const char* kBlindWorld = "wild_blind";  ///< nobody has a LiDAR: no clutter, walls or canopies
 inline constexpr std::array<const char*, 2> kDrawnWorlds = {"wild", kBlindWorld};
 
 /// To be raised with every change of what is drawn: worlds that were kept are drawn again.

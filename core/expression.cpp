@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace skein {
 namespace {
@@ -12,19 +13,27 @@ Instant at_anchor(const Instant& instant) { return {instant.anchor, instant.anch
 Instant one_earlier(const Instant& instant) { return {instant.before, instant.before, instant.anchor}; }
 
 /// @param distance  above 0 on the side where it holds.
-Margin compared(bool holds, double distance) { return std::isnan(distance) ? certain(holds) : Margin{holds, distance}; }
+Margin compared(bool holds, double distance) { return std::isnan(distance) ? kUndefined : Margin{holds, distance}; }
+
+double quotient(double a, double b) { return b == 0.0 ? std::numeric_limits<double>::quiet_NaN() : a / b; }
+
+/// @param choose  std::min or std::max, which lose an undefined number.
+template <class Choose>
+double chosen(double a, double b, const Choose& choose) {
+  return std::isnan(a) || std::isnan(b) ? a + b : choose(a, b);
+}
 
 /// Numbers that are equal, infinite ones too, are no way apart.
 double difference(double a, double b) { return a == b ? 0.0 : a - b; }
 
-bool rises_at(const Expression& part, const Instant& instant) {
-  if (!part.is_condition) return number_at(part, instant) > number_at(part, one_earlier(instant));
-  return margin_at(part, instant).holds && !margin_at(part, one_earlier(instant)).holds;
-}
+/// Whether it is true by itself, or undefined.
+Margin truth(const Margin& margin) { return margin.is_defined ? certain(margin.holds) : kUndefined; }
 
-bool falls_at(const Expression& part, const Instant& instant) {
-  if (!part.is_condition) return number_at(part, instant) < number_at(part, one_earlier(instant));
-  return !margin_at(part, instant).holds && margin_at(part, one_earlier(instant)).holds;
+/// Whether a number is more than another, or a condition true where it was not.
+Margin rises_between(const Expression& part, const Instant& from, const Instant& to) {
+  if (part.is_condition) return truth(both(opposite(truth(margin_at(part, from))), truth(margin_at(part, to))));
+  const double before = number_at(part, from), now = number_at(part, to);
+  return std::isnan(before) || std::isnan(now) ? kUndefined : certain(now > before);
 }
 
 }  // namespace
@@ -45,17 +54,20 @@ double number_at(const Expression& expression, const Instant& instant) {
     case Op::multiply:
       return part(0) * part(1);
     case Op::divide:
-      return part(0) / part(1);
+      return quotient(part(0), part(1));
     case Op::least:
-      return std::min(part(0), part(1));
+      return chosen(part(0), part(1), [](double a, double b) { return std::min(a, b); });
     case Op::greatest:
-      return std::max(part(0), part(1));
+      return chosen(part(0), part(1), [](double a, double b) { return std::max(a, b); });
     case Op::absolute:
       return std::abs(part(0));
     case Op::gain:
       return difference(part(0), number_at(expression.parts[0], at_anchor(instant)));
-    default:
-      return margin_at(expression, instant).holds ? 1.0 : 0.0;
+    default: {
+      const Margin margin = margin_at(expression, instant);
+      if (!margin.is_defined) return std::numeric_limits<double>::quiet_NaN();
+      return margin.holds ? 1.0 : 0.0;
+    }
   }
 }
 
@@ -68,9 +80,9 @@ Margin margin_at(const Expression& expression, const Instant& instant) {
     case Op::signal:
       return certain(instant.now[expression.signal] >= 0.5);
     case Op::rises:
-      return certain(rises_at(parts[0], instant));
+      return rises_between(parts[0], one_earlier(instant), instant);
     case Op::falls:
-      return certain(falls_at(parts[0], instant));
+      return rises_between(parts[0], instant, one_earlier(instant));
     case Op::less:
       return numbers([](double a, double b) { return compared(a < b, difference(b, a)); });
     case Op::at_most:
@@ -89,8 +101,10 @@ Margin margin_at(const Expression& expression, const Instant& instant) {
       return both(margin_at(parts[0], instant), margin_at(parts[1], instant));
     case Op::disjunction:
       return either(margin_at(parts[0], instant), margin_at(parts[1], instant));
-    default:
-      return certain(number_at(expression, instant) != 0.0);
+    default: {
+      const double number = number_at(expression, instant);
+      return std::isnan(number) ? kUndefined : certain(number != 0.0);
+    }
   }
 }
 

@@ -4,6 +4,9 @@
 // over Real-Valued Signals", FORMATS 2010): of a > b it is a - b, of `and` the lesser, of `or` the greater, of `not`
 // the opposite. What is true or false by itself has an infinite margin. A margin of 0 says nothing of the truth, which
 // is therefore kept beside it.
+// A quotient by 0 is undefined, as is what is computed of it; separations may be infinite, and the difference of two
+// infinite ones is undefined, too. A comparison with an undefined number is neither true nor false: `not` of it is as
+// undefined, `and` is false where its other part is, `or` true where its other part is (S. C. Kleene's strong logic).
 // expression_parser.hpp reads them.  Pure.
 #pragma once
 
@@ -62,20 +65,28 @@ struct Instant {
 struct Margin {
   bool holds = false;
   double margin = 0.0;
+  bool is_defined = true;  ///< else it neither holds nor fails: `holds` is false, and the margin 0
 };
 
-inline Margin both(const Margin& a, const Margin& b) { return {a.holds && b.holds, std::min(a.margin, b.margin)}; }
-inline Margin either(const Margin& a, const Margin& b) { return {a.holds || b.holds, std::max(a.margin, b.margin)}; }
-inline Margin opposite(const Margin& a) { return {!a.holds, -a.margin}; }
+inline constexpr Margin kUndefined = {false, 0.0, false};
+
+/// Of an undefined one and another, what the other alone decides, if it does.
+inline Margin both(const Margin& a, const Margin& b) {
+  if (!a.is_defined) return b.is_defined && !b.holds ? b : kUndefined;
+  if (!b.is_defined) return a.holds ? kUndefined : a;
+  return {a.holds && b.holds, std::min(a.margin, b.margin)};
+}
+inline Margin opposite(const Margin& a) { return a.is_defined ? Margin{!a.holds, -a.margin} : kUndefined; }
+inline Margin either(const Margin& a, const Margin& b) { return opposite(both(opposite(a), opposite(b))); }
 /// Of what is true or false by itself.
 inline Margin certain(bool holds) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return {holds, holds ? kInfinity : -kInfinity};
 }
 
-/// @param expression  a number.
+/// @param expression  a number. @returns NaN where it is undefined.
 double number_at(const Expression& expression, const Instant& instant);
-/// @param expression  a condition. What compares no numbers (0 / 0) does not hold.
+/// @param expression  a condition.
 Margin margin_at(const Expression& expression, const Instant& instant);
 
 }  // namespace skein

@@ -18,6 +18,10 @@ std::string of_unit(const Unit& unit) {
   return unit == kPlainNumber ? std::string("a plain number") : "in " + unit_text(unit);
 }
 
+bool is_constant(const Expression& part) {
+  return part.op != Op::signal && std::ranges::all_of(part.parts, is_constant);
+}
+
 void expect_number(const Expression& part, const std::string& where) {
   if (part.is_condition) ExpressionParser::fail(part.at, where + " must be a number, and this is a condition");
 }
@@ -162,6 +166,7 @@ Expression ExpressionParser::product() {
     expect_number(left, "what is multiplied");
     Expression right = signed_number();
     expect_number(right, "what is multiplied");
+    if (!times && is_constant(right) && number_at(right, {}) == 0.0) fail(right.at, "nothing can be divided by 0");
     const Unit unit = times ? left.unit * right.unit : left.unit / right.unit;
     left = combined(times ? Op::multiply : Op::divide, std::move(left), std::move(right));
     left.unit = unit;
@@ -296,10 +301,9 @@ std::string ExpressionParser::known(const std::string& name, std::size_t at, con
 
 double ExpressionParser::constant(const Unit& unit, const std::string& what) {
   const std::size_t begin = at();
-  const std::size_t signals_before = signals_.size();
   const Expression expression = sum();
   expect_number(expression, what);
-  if (signals_.size() != signals_before) fail(begin, what + " must be a number, not a signal");
+  if (!is_constant(expression)) fail(begin, what + " must be a number, not a signal");
   if (expression.unit != unit) {
     fail(begin, what + " must be " + of_unit(unit) + ", and this is " + of_unit(expression.unit));
   }

@@ -133,6 +133,34 @@ TEST_F(Expressions, GainsCountFromTheAnchorAndRisesFromTheExchangeBefore) {
   EXPECT_TRUE(margin_at(parse("falls(held(changi) >= 2)"), {one, two, one}).holds);
 }
 
+/// What is defined decides where it can, and what is undefined neither holds nor fails.
+TEST_F(Expressions, AQuotientByZeroIsUndefinedAndSoIsItsOpposite) {
+  for (const char* mark : {"<", "<=", ">", ">=", "==", "!="}) {
+    for (const char* zero : {"1 / held", "held / held", "-1 / held", "min(1, 1 / held)", "max(held / held, 1)",
+                             "abs(1 / held) + 1", "gain(1 / held)", "2 * (0 - 1 / held)"}) {
+      const std::string undefined = std::string(zero) + " " + mark + " 1";
+      EXPECT_FALSE(margin(undefined, 0.0).is_defined) << undefined;
+      EXPECT_FALSE(margin(undefined, 0.0).holds) << undefined;
+      EXPECT_FALSE(margin("not (" + undefined + ")", 0.0).holds) << undefined;
+      EXPECT_FALSE(margin("not (" + undefined + ")", 0.0).is_defined) << undefined;
+      EXPECT_FALSE(margin("rises(" + undefined + ") or not rises(" + undefined + ")", 0.0).is_defined) << undefined;
+      EXPECT_TRUE(margin("held == 0 or " + undefined, 0.0).holds) << undefined;
+      EXPECT_TRUE(margin("not (held == 1 and " + undefined + ")", 0.0).holds) << undefined;
+      EXPECT_FALSE(margin("held == 0 and " + undefined, 0.0).is_defined) << undefined;
+      EXPECT_FALSE(margin("held == 1 or " + undefined, 0.0).is_defined) << undefined;
+      EXPECT_TRUE(margin(undefined, 2.0).is_defined) << undefined;
+    }
+  }
+  EXPECT_TRUE(margin("separation > 5 m and separation == separation(jurong)", INFINITY).holds);
+  EXPECT_FALSE(margin("separation - separation(jurong) < 5 m", INFINITY).is_defined);
+}
+
+TEST_F(Expressions, WhatIsDividedByAWrittenZeroIsRefused) {
+  for (const char* text : {"0/0 > 1", "held/0 > 1"}) refused(text, std::string(text).find('/') + 1, "divided by 0");
+  refused("1 m / 0 m > 1", 6, "divided by 0");
+  refused("held > 1 / (2 - 2)", 12, "divided by 0");
+}
+
 TEST_F(Expressions, EachSignalHasOneSlot) {
   parse("held(changi) > 1 and held(jurong) > held(changi) and held > 2");
   ASSERT_EQ(signals_.size(), 3U);

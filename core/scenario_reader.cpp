@@ -36,6 +36,16 @@ bool is_ros_word(const std::string& text) {
          std::all_of(text.begin(), text.end(), allowed);
 }
 
+/// Collects the switches that describe() lists.
+struct SwitchList {
+  static constexpr bool kReads = false;
+  void field(const std::string&, const std::string&) {}  // the preset's name
+  void field(const std::string& key, bool value) { all.emplace_back(key, value); }
+  void field(const std::string& key, double value, const Bounds& = {}) { all.emplace_back(key, value); }
+
+  std::vector<RuleSwitch> all;
+};
+
 /// What `reject` throws as an InputError, or nothing.
 template <class Reject>
 std::string complaint(const Reject& reject) {
@@ -360,6 +370,18 @@ RulesConfig rules_preset(const std::string& preset) {
     names.push_back(rules.preset);
   }
   throw InputError("there is no rules preset '" + preset + "'; " + suggestion(preset, names));
+}
+
+std::vector<RuleSwitch> own_switches(const RulesConfig& rules) {
+  RulesConfig own = rules, preset = rules_preset(rules.preset);
+  SwitchList switches, usual;
+  describe(switches, own);
+  describe(usual, preset);
+  std::vector<RuleSwitch> differing;
+  for (std::size_t i = 0; i < switches.all.size(); ++i) {
+    if (switches.all[i] != usual.all[i]) differing.push_back(switches.all[i]);
+  }
+  return differing;
 }
 
 std::string to_yaml(const Scenario& scenario) {

@@ -8,6 +8,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "core/config_files.hpp"
 #include "core/scenario.hpp"
@@ -37,6 +40,11 @@ VehicleConfig load_vehicle(const std::string& name_or_path, const std::filesyste
 std::span<const RulesConfig> rules_presets();
 /// A preset's switches by its name.  @throws InputError for a name that there is not.
 RulesConfig rules_preset(const std::string& preset);
+
+/// A switch of rules and what it is set to.
+using RuleSwitch = std::pair<std::string, std::variant<bool, double>>;
+/// Those that differ from their preset's, by their keys in a scenario file, in its order.  @throws as rules_preset().
+std::vector<RuleSwitch> own_switches(const RulesConfig& rules);
 
 /// The scenario with every key that it resolved to, vehicles in place; load_scenario() reads it back to the same.
 std::string to_yaml(const Scenario& scenario);

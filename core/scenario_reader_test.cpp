@@ -132,6 +132,17 @@ TEST_F(ScenarioReader, AnOptionReplacesTheRulesOfTheFile) {
   }
 }
 
+TEST_F(ScenarioReader, OwnSwitchesAreThoseThatDifferFromThePreset) {
+  for (const RulesConfig& preset : rules_presets()) EXPECT_TRUE(own_switches(preset).empty()) << preset.preset;
+  const RulesConfig rules =
+      load_scenario(scenario("{family: towers}",
+                             "rules: {preset: paper, min_point_score: 0.3, limit_search_radius: false, "
+                             "collision_voids_score: false}\n"),
+                    options_)
+          .rules;
+  EXPECT_EQ(own_switches(rules), (std::vector<RuleSwitch>{{"collision_voids_score", false}, {"min_point_score", 0.3}}));
+}
+
 TEST_F(ScenarioReader, EveryRuleHasItsSwitch) {
   const Scenario read = load_scenario(
       scenario("{family: towers}",

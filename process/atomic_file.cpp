@@ -8,6 +8,8 @@
 #include <string>
 #include <system_error>
 
+#include "process/closed_to_agents.hpp"
+
 namespace skein {
 namespace {
 
@@ -38,7 +40,7 @@ class File {
 
 }  // namespace
 
-void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+void write_file_atomically(const std::filesystem::path& path, std::string_view content, Readers readers) {
   // The process id keeps two programs that write the same path from sharing a temporary file.
   const std::string temporary = path.string() + ".tmp" + std::to_string(::getpid());
   const auto fail = [&](const char* step) {
@@ -48,6 +50,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   };
   {
     const File file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+    if (readers == Readers::no_agents) close_to_agents(temporary);
     if (!file.is_open() || !file.write(content) || !file.sync()) fail("write");
   }
   if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("put in place");

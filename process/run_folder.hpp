@@ -33,6 +33,8 @@ std::string program_of(const std::string& member);
 
 namespace run_folder {
 
+/// Where the files of a scene are, below the folder of its scenario, as `skein scene` writes it.
+inline constexpr const char* kSceneFiles = "models";
 // The launcher's.
 inline constexpr const char* kResult = "result.json";
 inline constexpr const char* kScore = "score.csv";

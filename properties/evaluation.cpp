@@ -72,6 +72,7 @@ class Evaluation {
     if (!whole)
       return vacuous("the run ended at " + number_text(end_s()) + " s, before " + number_text(begin_s()) + " s");
     const std::vector<std::size_t> starts = property_.whenever ? triggers(*whole) : std::vector{whole->first};
+    if (starts.empty() && unclear_s_) return unclear("'whenever'");
     if (starts.empty()) return vacuous("what it waits for with 'whenever' never came");
     Verdict worst;
     bool decided = false;
@@ -84,6 +85,9 @@ class Evaluation {
         worst = *one;
       }
       decided = true;
+    }
+    if (unclear_s_ && worst.outcome != Outcome::fails) {
+      return unclear("it");
     }
     if (!decided) return vacuous("the run ended before it could be decided");
     if (property_.kind == Kind::sometimes && worst.outcome == Outcome::fails) return vacuous("it was never reached");
@@ -133,20 +137,29 @@ class Evaluation {
   }
 
   /// When `whenever` becomes true.
-  std::vector<std::size_t> triggers(const Stretch& whole) const {
+  std::vector<std::size_t> triggers(const Stretch& whole) {
     std::vector<std::size_t> starts;
     bool before = false;
     for (std::size_t k = whole.first; k <= whole.last; ++k) {
-      const bool now = margin_at(*property_.whenever, rows_.at(k, whole.first)).holds;
+      const Margin trigger = margin_at(*property_.whenever, rows_.at(k, whole.first));
+      if (!trigger.is_defined) note_unclear(k);
+      const bool now = trigger.holds;
       if (now && !before) starts.push_back(k);
       before = now;
     }
     return starts;
   }
 
-  /// @returns nullopt when the run ended before it was decided.
-  std::optional<Verdict> judge(const Stretch& part) const {
+  /// That it is undefined in this exchange, where nothing else decides it.
+  void note_unclear(std::size_t k) { unclear_s_ = std::min(unclear_s_.value_or(time_of(k)), time_of(k)); }
+
+  /// @returns nullopt when the run ended before it was decided, or it is undefined.
+  std::optional<Verdict> judge(const Stretch& part) {
     const Decision decision = decided(part);
+    if (!decision.margin.is_defined) {
+      note_unclear(decision.at);
+      return std::nullopt;
+    }
     const bool holds = decision.margin.holds;
     const bool may_come = property_.kind == Kind::eventually || property_.kind == Kind::until;
     if (may_come && !holds && !part.is_whole) return std::nullopt;
@@ -206,15 +219,26 @@ class Evaluation {
     return property_.kind == Kind::never ? opposite(margin) : margin;
   }
 
-  /// What does not hold is worse than what does, whatever a margin of 0 says.
-  static bool worse(const Margin& a, const Margin& b) { return a.holds != b.holds ? !a.holds : a.margin < b.margin; }
+  /// What does not hold is worse than what does, whatever a margin of 0 says. What is undefined is between the two, so
+  /// that it decides only where nothing else does.
+  static bool worse(const Margin& a, const Margin& b) {
+    const auto rank = [](const Margin& margin) { return !margin.is_defined ? 1 : margin.holds ? 2 : 0; };
+    return rank(a) != rank(b) ? rank(a) < rank(b) : a.margin < b.margin;
+  }
 
+  Verdict unclear(const std::string& what) const {
+    Verdict verdict = vacuous("it cannot be judged, since " + what + " is undefined at " + number_text(*unclear_s_) +
+                              " s: something is divided by 0 there, or two infinite numbers are compared");
+    verdict.is_unclear = true;
+    return verdict;
+  }
   Verdict vacuous(const std::string& reason) const { return {.bound = property_.bound, .reason = reason}; }
 
   const Property& property_;
   RunSignals& run_;
   const Rows rows_;
   const double period_s_;
+  std::optional<double> unclear_s_;  ///< the first time at which nothing decided, since something was undefined
 };
 
 }  // namespace
@@ -223,11 +247,14 @@ Verdict evaluate(const Property& property, RunSignals& run) { return Evaluation(
 
 Verdict worst_of(const std::vector<Verdict>& verdicts) {
   const auto rank = [](const Verdict& verdict) {
-    const int kind = verdict.outcome == Outcome::fails ? 0 : verdict.outcome == Outcome::holds ? 1 : 2;
+    const int kind = verdict.outcome == Outcome::fails   ? 0
+                     : verdict.is_unclear                ? 1
+                     : verdict.outcome == Outcome::holds ? 2
+                                                         : 3;
     return std::pair(kind, verdict.margin);
   };
   Verdict worst = *std::ranges::min_element(verdicts, {}, rank);
-  if (worst.outcome == Outcome::vacuous && verdicts.size() > 1) worst.bound.clear();  // so are all
+  if (worst.outcome == Outcome::vacuous && !worst.is_unclear && verdicts.size() > 1) worst.bound.clear();  // so are all
   return worst;
 }
 

@@ -35,12 +35,14 @@ struct Verdict {
   Unit unit = {};          ///< of the margin
   double at_s = 0.0;  ///< when it was decided: where an `always` came nearest to failing, an `eventually` to holding
   std::string reason = {};  ///< why it is vacuous, or how it failed, for people
+  bool is_unclear = false;  ///< vacuous, since what it compares is undefined (core/expression.hpp)
 };
 
 Verdict evaluate(const Property& property, RunSignals& run);
 
 /// The one that counts of several: those of one property for each of its bindings. The first that fails by most; where
-/// none does, the one that came nearest to it; where none decided, the first.
+/// none does, one that cannot be judged, since what it compares is undefined; else the one that came nearest to it;
+/// where none decided, the first.
 Verdict worst_of(const std::vector<Verdict>& verdicts);
 
 /// The margin of the property's condition in each exchange, for drawings.

@@ -174,6 +174,34 @@ TEST(Evaluation, WhatTheRunDoesNotDecideIsVacuousAndSaysWhy) {
   EXPECT_EQ(judged("eventually held >= 2 within 5 s", {{"held", rising}}).outcome, Outcome::holds) << "it came in time";
 }
 
+TEST(Evaluation, WhatIsUndefinedNeitherHoldsNorFails) {
+  const std::vector<double> from_zero = {0, 1, 2}, to_zero = {2, 1, 0}, never_zero = {3, 2, 1};
+  const std::map<std::string, std::vector<double>> run = {
+      {"held(a)", from_zero}, {"held(b)", to_zero}, {"captures(a)", never_zero}};
+  const auto unclear = [&](const std::string& text, double at_s) {
+    const Verdict verdict = judged(text, run);
+    EXPECT_EQ(verdict.outcome, Outcome::vacuous) << text;
+    EXPECT_TRUE(verdict.is_unclear) << text;
+    EXPECT_NE(verdict.reason.find("is undefined at " + std::to_string(static_cast<int>(at_s)) + " s"),
+              std::string::npos)
+        << text << ": " << verdict.reason;
+  };
+  unclear("always 1 / held(a) > 0.1", 0.0);
+  unclear("never 1 / held(a) > 5", 0.0);
+  unclear("always not (1 / held(b) > 5)", 2.0);
+  unclear("eventually 1 / held(a) > 5 from 0 s to 2 s", 0.0);
+  unclear("sometimes 1 / held(b) > 5", 2.0);
+  unclear("whenever 1 / held(a) > 5, always held(b) < 9", 0.0);
+  unclear("1 / held(a) > 5 until held(b) < 2", 1.0);
+  unclear("for u in uavs, always 1 / held(u) > 0.1", 0.0);
+  // What the other exchanges decide by themselves stays decided.
+  EXPECT_EQ(judged("always 1 / held(a) > 0.9", run).outcome, Outcome::fails);
+  EXPECT_EQ(judged("never 1 / held(a) > 0.1", run).outcome, Outcome::fails);
+  EXPECT_EQ(judged("eventually 1 / held(a) > 0.9", run).outcome, Outcome::holds);
+  EXPECT_EQ(judged("always 1 / held(a) > 0.1 from 1 s to 2 s", run).outcome, Outcome::holds);
+  EXPECT_EQ(judged("always 1 / captures(a) > 0.1", run).outcome, Outcome::holds);
+}
+
 TEST(Evaluation, TheWorstCaseCounts) {
   const std::vector<double> low = {0, 1, 2}, high = {3, 4, 5}, still = {1, 1, 1};
   const Verdict failing = judged("for u in uavs, always held(u) < 4", {{"held(a)", low}, {"held(b)", high}});

@@ -88,7 +88,10 @@ std::string facts(const Json& result) {
   fact("Planner", planners_of(result));
   fact("Seed", cell_of(result, "seed", 0));
   fact("Scene seed", cell_of(result, "scene_seed", 0));
-  fact("Rules", rules.is_string() ? rules.get<std::string>() : rules.is_null() ? "" : rules.dump());
+  std::string rules_text = rules.is_string() ? rules.get<std::string>() : rules.is_null() ? "" : rules.dump();
+  const Json switches = value_or(result, "rule_switches", Json::object());
+  for (const auto& [name, setting] : switches.items()) rules_text += ", " + name + " " + setting.dump();
+  fact("Rules", rules_text);
   fact("Clock", text_in(result, "clock"));
   fact("DDS", joined(std::vector<std::string>(vendors.begin(), vendors.end())));
   fact("Skein", text_in(result, "skein_version") + (text_in(result, "math") == "native" ? ", native mathematics" : ""));
@@ -167,7 +170,9 @@ std::string command_of(const Json& result) {
   if (text_in(result, "status") == "completed")
     command += " --duration " + number_text(number_in(result, "mission_time_s"));
   const Json rules = value_or(result, "rules", nullptr);
-  if (rules.is_string()) command += " --rules " + shell_word(rules.get<std::string>());
+  // A preset on the command line would take the place of the scenario's switches.
+  const bool has_switches = !value_or(result, "rule_switches", Json::object()).empty();
+  if (rules.is_string() && !has_switches) command += " --rules " + shell_word(rules.get<std::string>());
   const Json dds = value_or(result, "dds", Json::object());
   if (text_in(dds, "sim_server") == "inproc") command += " --one-process";
   if (!text_in(result, "agent").empty()) command += " --agent " + shell_word(text_in(result, "agent"));

@@ -2,6 +2,7 @@
 
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
+#include "process/closed_to_agents.hpp"
 
 namespace skein::cli {
 namespace {
@@ -10,6 +11,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSettingsFile = "hunt.json";
 constexpr const char* kLogFile = "log.jsonl";
+constexpr std::size_t kMostCases = 10'000'000;
 
 std::string differing_keys(const Json& then, const Json& now) {
   std::string keys;
@@ -25,14 +27,19 @@ HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force) : file_(
   std::error_code error;
   fs::create_directories(dir, error);
   if (error) throw InputError("--out " + dir.string() + ": " + error.message());
+  close_to_agents(dir);
   const Json then = read_json(dir / kSettingsFile);
+  if (then.is_null() && fs::exists(dir / kSettingsFile) && !force) {
+    throw InputError((dir / kSettingsFile).string() +
+                     ": damaged: no JSON; choose another --out, or begin anew with --force");
+  }
   if (!then.is_null() && then != settings && !force) {
     throw InputError(dir.string() + " holds another hunt, which differs in " + differing_keys(then, settings) +
                      "; choose another --out, or begin anew there with --force");
   }
   const std::initializer_list<const char*> parts = {kLogFile, "finds", "flights"};
   for (const char* part : parts) {
-    if (then.is_null() && fs::exists(dir / part)) {
+    if (then.is_null() && !fs::exists(dir / kSettingsFile) && fs::exists(dir / part)) {
       throw InputError("--out " + dir.string() + ": '" + part + "' is there, and is of no hunt; choose another --out");
     }
   }
@@ -40,19 +47,32 @@ HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force) : file_(
     for (const char* part : parts) fs::remove_all(dir / part);
     write_file_atomically(dir / kSettingsFile, settings.dump(2) + "\n");
   }
-  std::ifstream in(file_);
-  for (std::string line; std::getline(in, line);) {  // the last one may be cut off
+  read_lines();
+  lines_.open(file_, std::ios::app);
+  if (!lines_) throw InputError("--out " + dir.string() + ": " + kLogFile + " cannot be written");
+}
+
+void HuntLog::read_lines() {
+  std::ifstream in(file_, std::ios::binary);
+  std::string line;
+  std::uintmax_t whole = 0;
+  for (std::size_t number = 1; std::getline(in, line) && !in.eof(); ++number) {
+    whole += line.size() + 1;
+    if (line.empty()) continue;
     const Json json = parse_json(line);
     const Json index = value_or(json, "case", nullptr), flown = value_or(json, "flown", nullptr);
-    if (!index.is_number_unsigned() || !flown.is_string()) continue;
-    if (auto outcome = TrialOutcome::from_json(value_or(json, "outcome", nullptr))) {
-      keep(index.get<std::size_t>(), flown.get<std::string>(), std::move(*outcome));
+    auto outcome = TrialOutcome::from_json(value_or(json, "outcome", nullptr));
+    if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= kMostCases || !flown.is_string() || !outcome) {
+      throw InputError(file_.string() + ":" + std::to_string(number) +
+                       ": damaged: no case of this hunt is to be read there; take the line out, and its case is flown "
+                       "again, or begin anew with --force");
     }
+    keep(index.get<std::size_t>(), flown.get<std::string>(), std::move(*outcome));
   }
   in.close();
-  lines_.open(file_, std::ios::app);
-  lines_ << std::endl;  // behind one that was cut off
-  if (!lines_) throw InputError("--out " + dir.string() + ": " + kLogFile + " cannot be written");
+  // The end of what was being written when the launcher was killed.
+  std::error_code error;
+  if (fs::exists(file_, error) && fs::file_size(file_, error) > whole) fs::resize_file(file_, whole, error);
 }
 
 void HuntLog::check(std::size_t index, const std::string& flown) const {
@@ -69,8 +89,6 @@ void HuntLog::add(std::size_t index, const std::string& flown, TrialOutcome outc
 }
 
 void HuntLog::keep(std::size_t index, const std::string& flown, TrialOutcome outcome) {
-  constexpr std::size_t kMost = 10'000'000;
-  if (index >= kMost) return;
   if (index >= outcomes_.size()) {
     outcomes_.resize(index + 1);
     flown_.resize(index + 1);

@@ -15,7 +15,8 @@ class HuntLog {
  public:
   /// Goes on in a folder where the same search has been, else begins there.
   /// @param settings  what the search depends on. @param force  whatever is there goes.
-  /// @throws InputError when the folder is of another search.
+  /// @throws InputError when the folder is of another search, or a line of its log is damaged. One that was cut off at
+  ///   the end, as by a kill, goes.
   HuntLog(const std::filesystem::path& dir, const Json& settings, bool force);
 
   /// What came of the cases that were flown, by number.
@@ -25,6 +26,7 @@ class HuntLog {
   void add(std::size_t index, const std::string& flown, TrialOutcome outcome);
 
  private:
+  void read_lines();
   void keep(std::size_t index, const std::string& flown, TrialOutcome outcome);
 
   const std::filesystem::path file_;

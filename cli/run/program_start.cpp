@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "cli/run/minder.hpp"
+#include "process/closed_to_agents.hpp"
 
 extern "C" {  // glibc 2.36's header forgets it
 #include <sys/pidfd.h>
@@ -64,7 +65,7 @@ struct ChildSetup {
     if (foreground) give_terminal_to(::getpid());
     tell(::getpid());
     bool ready =
-        user == nullptr || (::setgroups(0, nullptr) == 0 && ::setgid(user->gid) == 0 && ::setuid(user->uid) == 0);
+        user == nullptr || (::setgroups(1, &kAgentsGroup) == 0 && ::setgid(user->gid) == 0 && ::setuid(user->uid) == 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);       // after setuid, which would undo it
     if (::getppid() != parent) ::_exit(127);  // it died before prctl could tell
     sigset_t none;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "core/scenario_reader.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
 #include "process/run_folder.hpp"
@@ -228,6 +229,10 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   const RouterReport router = reports.comm_router.value_or(RouterReport{});
   Json result = description(facts, scenario);
   result["rules"] = sim.rules.value_or(scenario.rules.preset);
+  result["rule_switches"] = Json::object();
+  for (const auto& [name, value] : own_switches(scenario.rules)) {
+    std::visit([&](const auto setting) { result["rule_switches"][name] = setting; }, value);
+  }
   result["status"] = name_of(status_of(facts, sim));
   result["deterministic"] = sim.deterministic.value_or(false);
   result["digest"] = or_null(sim.digest);

@@ -134,6 +134,16 @@ TEST_F(RunResult, AllReportsMakeACompleteResult) {
   EXPECT_EQ(result["warnings"], Json::array({"windy"}));
 }
 
+TEST_F(RunResult, SwitchesBesideThePresetAreTold) {
+  write_all_reports();
+  EXPECT_EQ(merged()["rule_switches"], Json::object());
+  scenario_.rules.min_point_score = 0.25;
+  scenario_.rules.own_body_hides = false;
+  const Json result = merged();
+  EXPECT_EQ(result["rule_switches"], (Json{{"own_body_hides", false}, {"min_point_score", 0.25}}));
+  EXPECT_EQ(schema_errors(result), std::vector<std::string>{});
+}
+
 TEST_F(RunResult, MemoryIsTheSumOfTheProcesses) {
   facts_.processes = {{"sim_server", {2.5, 100.0}}, {"station", {0.25, 50.0}}};
   const Json result = merged();

@@ -9,6 +9,7 @@
 #include "cli/planner_spec.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
+#include "process/closed_to_agents.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {
@@ -66,6 +67,7 @@ ResultsDir::ResultsDir(const std::filesystem::path& dir, bool force) : path_(std
     ::close(lock_);
     throw InputError(dir.string() + ": another run is writing there; choose another --out");
   }
+  close_to_agents(path_);
   try {
     remove_stale(path_);
     keep_room();

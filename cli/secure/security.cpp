@@ -12,11 +12,13 @@
 #include <fstream>
 #include <system_error>
 
+#include "cli/secure/earlier_truth.hpp"
 #include "cli/secure/keys.hpp"
 #include "cli/secure/rules.hpp"
 #include "core/config_files.hpp"
 #include "core/topics.hpp"
 #include "core/types.hpp"
+#include "process/closed_to_agents.hpp"
 #include "process/run_folder.hpp"
 #include "process/security_files.hpp"
 
@@ -40,7 +42,7 @@ class AsUser {
  public:
   explicit AsUser(UserId user) : groups_(static_cast<std::size_t>(::getgroups(0, nullptr))) {
     ::getgroups(static_cast<int>(groups_.size()), groups_.data());
-    ::setgroups(0, nullptr);
+    ::setgroups(1, &kAgentsGroup);
     gid_ = static_cast<gid_t>(::setfsgid(user.gid));
     uid_ = static_cast<uid_t>(::setfsuid(user.uid));
   }
@@ -188,6 +190,7 @@ SecureRun::SecureRun(const FleetPlan& plan, int base_domain, fs::path out)
     // Agents pass through this folder to their own.
     fs::permissions(scratch_.path(), fs::perms::others_exec | fs::perms::group_exec, fs::perm_options::add);
     fs::permissions(out_, fs::perms::owner_all);
+    close_earlier_truth(out_);
   }
   make_folders(plan, base_domain);
 }

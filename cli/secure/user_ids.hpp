@@ -11,8 +11,8 @@
 namespace skein::cli {
 
 /// systemd's table of ids has none of these in use, nor has Debian's policy; they exist in a container with 65536 ids
-/// too.
-inline constexpr uid_t kFirstAgentUser = 60706, kLastAgentUser = 61183;
+/// too. The id after them is the group of all agents (process/closed_to_agents.hpp).
+inline constexpr uid_t kFirstAgentUser = 60706, kLastAgentUser = 61182;
 
 /// Ends all processes that run as this user, and those that they start meanwhile.
 /// @returns false when some are left: the kernel does not let go of them, or they are not ours to end.

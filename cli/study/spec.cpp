@@ -24,7 +24,7 @@ std::uint64_t whole_number(const std::string& digits, const std::string& text) {
       !digits.empty() && digits.size() <= kMostDigits && digits.find_first_not_of("0123456789") == std::string::npos;
   if (!fits) {
     throw InputError(text + ": '" + digits +
-                     "' is no seed; write how many (5 for 0 to 4), a list (3,5,8) or a range (1-5)");
+                     "' is no seed; write one (5), a list (3,5,8) or a range (0-4 for five of them)");
   }
   return std::stoull(digits);
 }
@@ -71,14 +71,7 @@ std::vector<std::string> split_planners(const std::string& list) {
 
 std::vector<std::uint64_t> parse_seeds(const std::string& text, const std::string& option) {
   const std::string said = option + " " + text;
-  const bool is_count = text.find_first_of(",-") == std::string::npos;
   std::vector<std::uint64_t> seeds;
-  if (is_count) {
-    const std::uint64_t count = whole_number(text, said);
-    if (count == 0) throw InputError(option + " 0: there must be one at least; 1 is seed 0, the nominal run");
-    append_range(0, count - 1, said, seeds);
-    return seeds;
-  }
   for (const std::string& item : split(text)) {
     const std::size_t dash = item.find('-');
     const std::uint64_t first = whole_number(item.substr(0, dash), said);

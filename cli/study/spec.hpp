@@ -1,4 +1,4 @@
-// What the user wrote after --planners and --seeds of `skein contest` and `skein compare`, taken apart. Pure.
+// What the user wrote after --planners and --seeds, taken apart: of `skein compare` and `skein test`. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@ namespace skein::cli {
 /// @throws InputError for an empty item, or one with '=' that continues nothing.
 std::vector<std::string> split_planners(const std::string& list);
 
-/// `K`: the seeds 0..K-1. `3,5,8` and `1-5`, also mixed (`0,4-6`): these.
+/// A list: `3` is the seed 3, `3,5,8` are three, `1-5` are five, `0,4-6` are four. The one meaning of every option that
+/// takes seeds.
 /// @throws InputError for anything else, a seed named twice, or more than 1000 of them.
 /// @param option  that they were written behind, for messages.
 std::vector<std::uint64_t> parse_seeds(const std::string& text, const std::string& option = "--seeds");

@@ -120,6 +120,7 @@ std::string oracle_key(const Scenario& scenario, const Scene& scene, const Oracl
   const RulesConfig& rules = scenario.rules;
   hash.add(scenario.desired_mm_per_pixel).add(rules.unnormalised_displacement).add(rules.limit_search_radius);
   hash.add(rules.min_point_score).add(rules.own_body_hides).add(rules.camera_blind_in_structure);
+  hash.add(rules.ray_ends_at_point);
   hash.add(config.clearance_m).add(config.outside_berth_m).add(config.directions).add(config.berth == Berth::body);
   return hash.hex();
 }
@@ -144,7 +145,7 @@ OracleReply ask_oracle(const Scenario& scenario, const Scene& scene, const Oracl
   try {
     if (request.cache) {
       fs::create_directories(*request.cache);
-      write_file_atomically(file, file_content(key, to_json(*reply.summary)));
+      write_file_atomically(file, file_content(key, to_json(*reply.summary)), Readers::no_agents);
     }
   } catch (const std::exception& error) {
     reply.warnings.push_back("the oracle's answer is not kept: " + std::string(error.what()));

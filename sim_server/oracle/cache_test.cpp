@@ -114,6 +114,7 @@ TEST_F(OracleCache, WhateverChangesTheAnswerChangesTheKey) {
       [this] { scenario_.rules.min_point_score = 0.3; },
       [this] { scenario_.rules.own_body_hides = false; },
       [this] { scenario_.rules.camera_blind_in_structure = false; },
+      [this] { scenario_.rules.ray_ends_at_point = true; },
       [this] { scenario_.fleet[0].vehicle.rotor_radius_m = 0.1; },
       [this] { scenario_.fleet[0].vehicle.camera.p_BC.z() = -0.2; },
       [this] { scenario_.fleet[0].vehicle.gimbal.yaw_limit_deg = 45.0; },

@@ -119,7 +119,7 @@ class FlyablePoints {
   void search(const CameraKind& kind, double needed, double space) {
     if (open_.empty()) return;
     const std::vector<Viewer> alone = {viewer_of(kind, scenario_, needed, {spaces_.with(space)})};
-    const ViewSearch search(world_, alone, Berth::body, scenario_.rules.camera_blind_in_structure);
+    const ViewSearch search(world_, alone, Berth::body, scenario_.rules);
     share_out(open_.size(), config_.threads, [&](std::size_t n) {
       const auto found = search.find(scene_.points[open_[n]], config_.directions, {}, std::max(least_, kFaintest));
       flyable_[open_[n]] = counts(found.fine, least_) ? 1 : 0;
@@ -162,9 +162,8 @@ OracleReport consult_oracle(const Scenario& scenario, const Scene& scene, const 
   Spaces spaces(world, scene.mesh, scenario, config.threads);
   const auto everywhere = viewers(scenario, config, 0.0, spaces);
   const auto in_the_open = viewers(scenario, config, config.outside_berth_m, spaces);
-  const bool blind = scenario.rules.camera_blind_in_structure;
-  const ViewSearch from_reachable(world, everywhere, config.berth, blind);
-  const ViewSearch from_outside(world, in_the_open, config.berth, blind);
+  const ViewSearch from_reachable(world, everywhere, config.berth, scenario.rules);
+  const ViewSearch from_outside(world, in_the_open, config.berth, scenario.rules);
 
   const double least = scenario.rules.min_point_score;
   const std::size_t count = scene.points.size();

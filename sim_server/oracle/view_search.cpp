@@ -95,8 +95,12 @@ struct ViewSearch::Look {
   Vector3d place(double d) const { return p_W + d * direction; }
 };
 
-ViewSearch::ViewSearch(const RayScene& world, const std::vector<Viewer>& viewers, Berth berth, bool blind_in_structure)
-    : world_(world), viewers_(viewers), berth_(berth), blind_in_structure_(blind_in_structure) {
+ViewSearch::ViewSearch(const RayScene& world, const std::vector<Viewer>& viewers, Berth berth, const RulesConfig& rules)
+    : world_(world),
+      viewers_(viewers),
+      berth_(berth),
+      blind_in_structure_(rules.camera_blind_in_structure),
+      sees_(sight_test(rules)) {
   for (const Viewer& viewer : viewers) reach_ = std::max(reach_, viewer.aim.reach());
 }
 
@@ -238,7 +242,7 @@ ViewSearch::Trial ViewSearch::try_direction(const InterestPoint& point, const Ve
     // Where the body does not matter all kinds of camera stand in the same place.
     if (before == nullptr || heading_matters(viewer)) {
       d = nearest_place(look, trial.openness);
-      visible = d < kNowhere && in_sight(look.place(d), p_W, kNobody, world_);
+      visible = d < kNowhere && sees_(look.place(d), p_W, kNobody, world_);
       aim.reset();
     }
     if (aim && before->optics != viewer.optics) aim.reset();

@@ -9,6 +9,7 @@
 #include "sim_server/oracle/open_space.hpp"
 #include "sim_server/oracle/oracle.hpp"
 #include "sim_server/rays/ray_scene.hpp"
+#include "sim_server/sensors/camera.hpp"
 #include "sim_server/sensors/camera_mount.hpp"
 
 namespace skein::sim {
@@ -32,9 +33,9 @@ class ViewSearch {
  public:
   /// @param world, viewers  must outlive this. With Berth::camera all viewers have the same clearance and
   ///                              spaces.
-  /// @param blind_in_structure    a camera that reaches through the structure sees nothing
-  ///                              (`rules.camera_blind_in_structure`).
-  ViewSearch(const RayScene& world, const std::vector<Viewer>& viewers, Berth berth, bool blind_in_structure);
+  /// @param rules  what a camera sees: whether one that reaches through the structure is blind, and how a ray meets a
+  ///               point.
+  ViewSearch(const RayScene& world, const std::vector<Viewer>& viewers, Berth berth, const RulesConfig& rules);
 
   struct Found {
     PointView coarse, fine;  ///< with `directions` and with twice as many; fine.q >= coarse.q
@@ -63,6 +64,7 @@ class ViewSearch {
   const std::vector<Viewer>& viewers_;
   Berth berth_;
   bool blind_in_structure_;
+  SightTest sees_;
   double reach_ = 0.0;
 };
 

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
+#include "core/scenario_reader.hpp"
 #include "sim_server/testing/test_scenes.hpp"
 
 namespace skein::sim {
@@ -42,7 +44,7 @@ TEST(ViewSearch, FindsASmallHole) {
     }
     const RayScene world(mesh);
     const std::vector<Viewer> cameras = a_camera(0.6);
-    const ViewSearch search(world, cameras, Berth::camera, true);
+    const ViewSearch search(world, cameras, Berth::camera, RulesConfig{});
     int found = 0;
     for (const double y : {-0.6, -0.3, 0.0, 0.3, 0.6}) {
       const InterestPoint point{{5.0F, static_cast<float>(y), 30.0F}, {-1.0F, 0.0F, 0.0F}};
@@ -66,7 +68,7 @@ TEST(ViewSearch, WhatIsEnoughEndsTheSearch) {
   const RayScene world(mesh);
   // So far away that little is perfect, and with normals along which it is farther still.
   const std::vector<Viewer> cameras = a_camera(6.0, 1.0);
-  const ViewSearch search(world, cameras, Berth::camera, true);
+  const ViewSearch search(world, cameras, Berth::camera, RulesConfig{});
   double best = 0.0, enough = 0.0;
   for (const float tilt : {0.2F, 0.4F, 0.6F, 0.8F}) {
     const InterestPoint point{{5.0F, 0.0F, 10.0F}, {-std::cos(tilt), std::sin(tilt), 0.0F}};
@@ -78,10 +80,42 @@ TEST(ViewSearch, WhatIsEnoughEndsTheSearch) {
   EXPECT_LT(enough, best);
 }
 
+/// An estimate of pictures that the referee would refuse is none.
+TEST(ViewSearch, FindsOnlyWhatTheRefereeSeesByTheRulesOfTheRun) {
+  std::mt19937_64 random(7);
+  const auto drawn = [&](float least, float most) {
+    return least + (most - least) * static_cast<float>(random() % 1000) / 1000.0F;
+  };
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    test::add_box(mesh, {drawn(-20.0F, 20.0F), drawn(-20.0F, 20.0F), drawn(2.0F, 15.0F)},
+                  {drawn(1.0F, 4.0F), drawn(1.0F, 4.0F), drawn(1.0F, 4.0F)});
+  }
+  const RayScene world(mesh);
+  const std::vector<Viewer> cameras = a_camera(0.5);
+  for (const RulesConfig& rules : rules_presets()) {
+    const ViewSearch search(world, cameras, Berth::camera, rules);
+    int found = 0, asked = 0;
+    for (std::size_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
+      const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[triangle][k])]; };
+      const float a = drawn(0.1F, 0.5F), b = drawn(0.1F, 0.4F);
+      const Eigen::Vector3f u = corner(1) - corner(0), v = corner(2) - corner(0);
+      const InterestPoint point{corner(0) + a * u + b * v, u.cross(v).normalized()};
+      const PointView best = search.find(point, 64, {}).fine;
+      ++asked;
+      if (best.q <= 0.0) continue;
+      ++found;
+      EXPECT_TRUE(sight_test(rules)(best.p_WC, point.p_W.cast<double>(), kNobody, world))
+          << rules.preset << ", triangle " << triangle;
+    }
+    EXPECT_GT(found, asked / 3) << rules.preset;
+  }
+}
+
 TEST(ViewSearch, WhatIsKnownIsNotLost) {
   const RayScene world(TriangleMesh{});
   const std::vector<Viewer> cameras = a_camera(0.5);
-  const ViewSearch search(world, cameras, Berth::camera, true);
+  const ViewSearch search(world, cameras, Berth::camera, RulesConfig{});
   const InterestPoint in_the_air{{0.0F, 0.0F, 10.0F}, {1.0F, 0.0F, 0.0F}};  // on no surface: never seen
   EXPECT_EQ(search.find(in_the_air, 16, {}).fine.q, 0.0);
   const ViewSearch::Found known{{{1.0, 2.0, 3.0}, 0.1, 0.2, 0.5, 0.0, 0}, {{1.0, 2.0, 4.0}, 0.1, 0.2, 0.6, 0.0, 0}};

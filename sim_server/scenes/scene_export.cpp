@@ -6,6 +6,8 @@
 #include "core/drawn_worlds.hpp"
 #include "core/scenario_reader.hpp"
 #include "process/atomic_file.hpp"
+#include "process/closed_to_agents.hpp"
+#include "process/run_folder.hpp"
 #include "sim_server/scene_files/box_file.hpp"
 #include "sim_server/scene_files/mesh_file.hpp"
 #include "sim_server/scene_files/point_file.hpp"
@@ -47,7 +49,7 @@ std::string scenario_text(Scenario scenario, const fs::path& mesh, const fs::pat
 
 std::vector<ExportedFile> scene_export(const Scenario& scenario, const Scene& scene) {
   const std::string name = file_name(scenario.name);
-  const fs::path model = fs::path("models") / name, boxes = model / "bounding_boxes";
+  const fs::path model = fs::path(run_folder::kSceneFiles) / name, boxes = model / "bounding_boxes";
   std::vector<ExportedFile> files;
   files.push_back({model / (name + ".stl"), counted(scene.mesh.triangles.size(), "triangle"), to_stl(scene.mesh)});
   files.push_back(
@@ -77,9 +79,11 @@ void write_export(const std::vector<ExportedFile>& files, const fs::path& folder
   }
   for (const ExportedFile& file : files) {
     const fs::path path = folder / file.path;
+    const bool is_scenario = file.path.extension() == ".yaml" && !file.path.has_parent_path();
     fs::create_directories(path.parent_path(), error);
+    close_to_agents(folder / run_folder::kSceneFiles);
     try {
-      write_file_atomically(path, file.content);
+      write_file_atomically(path, file.content, is_scenario ? Readers::all : Readers::no_agents);
     } catch (const std::exception& reason) {
       throw InputError("--out " + folder.string() + ": cannot be written to: " + reason.what());
     }

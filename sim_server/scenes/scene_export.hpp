@@ -29,7 +29,7 @@ std::vector<ExportedFile> scene_export(const Scenario& scenario, const Scene& sc
 /// A drawing of the scene (scene_picture.hpp): <name>.svg. Pure.
 ExportedFile scene_picture_file(const Scenario& scenario, const Scene& scene);
 
-/// Writes them, each whole or not at all.
+/// Writes them, each whole or not at all. All but the scenario are closed to agents (process/closed_to_agents.hpp).
 /// @param overwrite  replace files of an earlier export.
 /// @throws InputError when one of the files exists and `overwrite` is false, before anything is written; or when the
 ///   folder cannot be written.

@@ -57,7 +57,7 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
   ++captures_;
   last_ = tick;
   if (rules_.camera_blind_in_structure && is_through_structure(body.p_WB, p_WC, world)) return capture;
-  const auto sees = rules_.ray_ends_at_point ? in_sight_of_reference : in_sight;
+  const SightTest sees = sight_test(rules_);
   const UavIndex sees_through = rules_.own_body_hides ? kNobody : uav_;
   for (std::uint32_t i = 0; i < points_.size(); ++i) {
     if ((points_[i].p_W - centre).squaredNorm() > reach * reach) {

@@ -20,6 +20,12 @@ bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const
 /// single-precision arithmetic. Of free views of points on their triangles only some 45 % see them, by rounding alone.
 bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world);
 
+using SightTest = bool (*)(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world);
+/// Which of the two is the referee's.
+inline SightTest sight_test(const RulesConfig& rules) {
+  return rules.ray_ends_at_point ? in_sight_of_reference : in_sight;
+}
+
 /// One interest point in one capture.
 struct Detection {
   std::uint32_t point = 0;  ///< index of the interest point

@@ -107,7 +107,7 @@ TEST_F(ContestTest, TwoAtOnceFlyTheSameAndSecuredOnesToo) {
 
 TEST_F(ContestTest, CtrlCEndsTheFlightInTheAirAndNothingIsLeft) {
   ChildProcess& study = start_program(
-      "study", {program("skein"), "compare", "--planners", "patrol", "--seeds", "99", "--out", folder() / "out"});
+      "study", {program("skein"), "compare", "--planners", "patrol", "--seeds", "0-98", "--out", folder() / "out"});
   ASSERT_TRUE(eventually([&] { return is_flying(folder() / "out/flights/towers/patrol/seed-0"); })) << study.err();
   study.signal(SIGINT);
   EXPECT_EQ(study.wait().code, 130);

@@ -12,6 +12,7 @@
 #include "cli/secure/security.hpp"
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
+#include "process/closed_to_agents.hpp"
 #include "process/run_folder.hpp"
 #include "process/security_files.hpp"
 #include "small_scene.hpp"
@@ -196,7 +197,68 @@ TEST_F(Secure, AgentsCannotLookAtWhatIsNotTheirs) {
   for (const Json& warning : probed.result()["warnings"]) {
     EXPECT_EQ(warning.get<std::string>().find("points.pcd"), std::string::npos) << warning;
   }
-  EXPECT_EQ(fs::status(probed.dir()).permissions(), fs::perms(0755)) << "open again";
+  EXPECT_EQ(fs::status(probed.dir()).permissions(), fs::perms(0705)) << "open again, but to agents";
+}
+
+TEST_F(Secure, AgentsReadNoGroundTruthThatIsThereAlready) {
+  if (!is_root()) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
+  // An open run of this launcher; one as an ordinary user, or an older version, left it; a world in a cache that agents
+  // can enter, drawn now; one drawn before, left open; the estimate of that world.
+  const fs::path cache = folder() / "open_cache", worlds = cache / "skein/worlds";
+  const Environment open_cache = {{"XDG_CACHE_HOME", cache}};
+  run("earlier", {scenario_, "--duration", "5", "--planner", "hover"});
+  run("older", {"wild", "--scene-seed", "4", "--duration", "5", "--planner", "hover"}, open_cache);
+  const auto open_up = [](const fs::path& path) {
+    ASSERT_EQ(::chown(path.c_str(), 1000, 1000), 0);
+    fs::permissions(path, fs::perms(fs::is_directory(path) ? 0755 : 0644));
+  };
+  std::vector<fs::path> secret = {folder() / "earlier/scene.json", folder() / "older/scene.json"};
+  open_up(folder() / "older");
+  for (const auto& entry : fs::recursive_directory_iterator(cache)) {
+    if (entry.path().filename() == run_folder::kSceneFiles) {
+      for (const auto& file : fs::recursive_directory_iterator(entry)) {
+        if (file.is_regular_file()) secret.push_back(file.path());
+      }
+      open_up(entry.path());
+    }
+    if (entry.path().filename().string().starts_with("oracle-")) {
+      secret.push_back(entry.path());
+      open_up(entry.path());
+    }
+  }
+  ASSERT_GE(secret.size(), 5u) << "mesh, points and an estimate, too";
+  std::string files;
+  for (const fs::path& file : secret) files += " " + file.string();
+  const fs::path script = write("look.sh", "for file in" + files + " $(find " + worlds.string() +
+                                               " -name '*.pcd' -o -name '*.stl'); do\n"
+                                               "  cat $file > /dev/null 2>&1 && echo can read $file\n"
+                                               "done > $SKEIN_OUT/looked\n"
+                                               "cat " +
+                                               worlds.string() +
+                                               "/*/*/*.yaml > /dev/null && id -G >> $SKEIN_OUT/looked\n"
+                                               "exec " SKEIN_MINIMAL_CLIENT "\n");
+  const auto looked = [&](const std::string& name, const std::string& scene_seed) {
+    const std::string spy = Json::parse(text_of(folder() / "older/result.json"))["uavs"][0]["name"];
+    SkeinRun& flown = run(name,
+                          {"wild", "--scene-seed", scene_seed, "--secure", "--duration", "5", "--planner",
+                           "hover," + spy + "=exec:exec /bin/sh " + script.string()},
+                          open_cache);
+    return text_of(flown.dir() / ("uav_agent-" + spy + ".looked"));
+  };
+  for (const char* scene_seed : {"4", "5"}) {
+    const std::string said = looked("spy-" + std::string(scene_seed), scene_seed);
+    EXPECT_EQ(said.find("can read"), std::string::npos) << said;
+    EXPECT_NE(said.find(std::to_string(kAgentsGroup)), std::string::npos)
+        << "it read the scenarios, and no more: " << said;
+  }
+  // Everybody else reads on.
+  const auto reader = [&](const fs::path& file) {
+    ChildProcess& cat =
+        start_program("cat" + std::to_string(std::hash<std::string>{}(file)),
+                      {"/usr/bin/setpriv", "--reuid", "12345", "--regid", "12345", "--clear-groups", "/bin/cat", file});
+    return cat.wait().code;
+  };
+  for (const fs::path& file : secret) EXPECT_EQ(reader(file), 0) << file;
 }
 
 TEST_F(Secure, NobodyIsLeftUnderTheUserIdsOfARun) {
