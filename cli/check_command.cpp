@@ -50,6 +50,7 @@ void check_with_programs(const CheckOptions& options, const std::string& scenari
   run.scenario = scenario;
   run.planner = planner;
   run.assets = options.assets;
+  run.agent = options.agent;
   check_with_programs(plan_fleet(run, program_dir()), console);
 }
 
@@ -65,7 +66,7 @@ std::string checked_with(const CheckOptions& options, const Check& check) {
 }
 
 std::string check_fault_test(const CheckOptions& options, const std::filesystem::path& file, const Console& console) {
-  const FaultTest test = load_fault_test(file, options.assets);
+  const FaultTest test = load_fault_test(file, options.assets, options.agent);
   check_with_programs(test.plan, console);
   return test.plan.scenario.name;
 }

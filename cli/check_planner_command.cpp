@@ -190,7 +190,7 @@ class PlannerCheck {
                      << " s): " << joined(difference->fields) << '\n';
       }
     }
-    run.replay = ReplayOf{first / run_folder::kRecording, std::nullopt, {}};
+    run.replay = ReplayOf{first / run_folder::kRecording, std::nullopt, {}, {}};
     run.faults.reset();
     run.out = run.out->string() + "-replayed";
     for (const Json& text : value_or(fly(run), "differences", Json::array())) {

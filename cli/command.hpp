@@ -16,8 +16,9 @@ namespace skein::cli {
 /// A recorded run that is flown again (recording/replay.hpp).
 struct ReplayOf {
   std::filesystem::path recording;
-  std::optional<double> until_s;  ///< from then on what programs say counts
-  std::vector<std::string> only;  ///< UAVs whose programs take part, or "gcs"; empty: all
+  std::optional<double> until_s;   ///< from then on what programs say counts
+  std::vector<std::string> only;   ///< UAVs whose programs take part, or "gcs"; empty: all
+  std::vector<std::string> other;  ///< the same, that run other software than then: what they say is not compared
 };
 
 /// What --break-on knows.
@@ -112,7 +113,8 @@ struct CheckOptions {
   std::vector<std::string> files;
   std::vector<std::string> golden;  ///< CSV files of reference vectors
   std::optional<std::filesystem::path> assets;
-  std::string scenario = "towers";  ///< that fault files are for, unless they name one themselves
+  std::optional<std::filesystem::path> agent;  ///< as in RunOptions
+  std::string scenario = "towers";             ///< that fault files are for, unless they name one themselves
 };
 
 struct SceneOptions {

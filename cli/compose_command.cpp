@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_file.hpp"
 #include "cli/compose/engine.hpp"
 #include "cli/run/preflight.hpp"
@@ -64,25 +65,12 @@ class ContainerFolders {
     }
   }
   void make(const FleetPlan& plan) const {
-    fs::remove_all(out_ / "agents");
+    fs::remove_all(out_ / kAgentsFolder);
     give(out_);
     for (const auto& [program, vendor] : dds_vendors(plan)) {
       fs::create_directories(results_of(program, out_));
       give(results_of(program, out_));
     }
-  }
-  /// What agents wrote, to the results of all.
-  void gather(const FleetPlan& plan) const {
-    for (const auto& [program, vendor] : dds_vendors(plan)) {
-      if (!programs::is_agent(program)) continue;
-      for (const auto& entry : fs::directory_iterator(results_of(program, out_))) {
-        const std::string name = entry.path().filename();
-        if (entry.is_regular_file() && !entry.is_symlink() && name.starts_with(program + ".")) {
-          fs::rename(entry.path(), out_ / name);
-        }
-      }
-    }
-    fs::remove_all(out_ / "agents");
   }
 
  private:
@@ -140,8 +128,8 @@ void check_before_flight(FleetPlan plan, const ComposeLayout& layout, const Cons
 }
 
 int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layout, const Console& console) {
-  const fs::path dir =
-      options.run.out.value_or(default_results_dir(plan.scenario.name, options.run.planner, options.run.seed));
+  const fs::path usual = default_results_dir(plan.scenario.name, options.run.planner, options.run.seed);
+  const fs::path dir = options.run.out.value_or(options.run.force ? usual : free_results_dir(usual));
   layout.image = variable_or("SKEIN_IMAGE", kImage);
   layout.agent_image = variable_or("SKEIN_AGENT_IMAGE", kAgentImage);
   compose_file(plan, layout);  // whether it can be
@@ -171,7 +159,7 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
     project.up();
     run.fly_in_containers(followers(project, layout, out.path()), out.path());
   }
-  folders.gather(plan);
+  gather_agents(out.path());
   const Reports reports = read_reports(out.path(), plan.scenario, run.reports());
   const RunResults results{options.run, run.facts(), plan.scenario,
                            reports,     out.path(),  [&](const std::string& text) { return out.write_result(text); }};

@@ -12,6 +12,7 @@
 #include "cli/check_planner_command.hpp"
 #include "cli/completion.hpp"
 #include "cli/compose_command.hpp"
+#include "cli/diff_command.hpp"
 #include "cli/doctor_command.hpp"
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/hunt_command.hpp"
@@ -21,7 +22,6 @@
 #include "cli/report_command.hpp"
 #include "cli/rerun_command.hpp"
 #include "cli/run/agent_file.hpp"
-#include "cli/run/diff.hpp"
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
@@ -38,17 +38,6 @@
 
 namespace skein::cli {
 namespace {
-
-int diff_runs(const DiffOptions& options, const Console& console) {
-  const std::optional<RunDifference> difference = first_difference(options.run_a, options.run_b);
-  if (!difference) {
-    console.out << "the runs are the same" << std::endl;
-    return kExitDone;
-  }
-  console.out << "first difference at step " << difference->step << " (" << difference->time_s << " s):\n";
-  for (const std::string& field : difference->fields) console.out << "  " << field << '\n';
-  return kExitCheckFailed;
-}
 
 /// The agent program that flies by default.
 std::filesystem::path default_agent() { return own_agent({}).value_or(program_dir() / programs::kAgent); }

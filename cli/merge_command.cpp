@@ -1,11 +1,16 @@
 #include "cli/merge_command.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
+#include "cli/compose/agents_folder.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
+#include "cli/run/recording.hpp"
 #include "cli/run_results.hpp"
 #include "core/scenario_reader.hpp"
+#include "core/text.hpp"
+#include "mcap/reader.hpp"
 #include "process/atomic_file.hpp"
 #include "process/environment.hpp"
 #include "process/run_folder.hpp"
@@ -100,15 +105,45 @@ RunFacts facts_of(const RunOptions& run, const Scenario& scenario, const Reports
   return facts;
 }
 
+std::string no_server(const MergeOptions& options) {
+  return options.dir.string() + ": there is no " + run_folder::report_file(programs::kSimServer) +
+         " in it: the run is not over, or its server died";
+}
+
+/// Of a run whose server left no report there is no result, but what its programs recorded can be had together.
+/// @throws InputError when there is nothing of it.
+int merge_without_server(const MergeOptions& options, const fs::path& dir, const Console& console) {
+  const std::vector<fs::path> parts = recording_parts(dir);
+  if (parts.empty()) throw InputError(no_server(options));
+  const std::string trouble = join_parts(dir, Json::object());
+  if (trouble.empty()) {
+    std::uint64_t end_ns = 0;
+    mcap::Reader(dir / run_folder::kRecording).messages([&](const mcap::Channel&, const mcap::Message& message) {
+      end_ns = std::max(end_ns, message.log_time);
+    });
+    console.out << (options.dir / run_folder::kRecording).string() << ": up to "
+                << fixed(1e-9 * static_cast<double>(end_ns), 2) << " s, joined from";
+    for (const fs::path& part : parts) console.out << ' ' << part.filename().string();
+    console.out << std::endl;
+  } else {
+    console.err << trouble << std::endl;
+  }
+  for (const char* program : programs::kServers) {
+    const bool recorded = std::ranges::any_of(
+        parts, [&](const fs::path& part) { return part.filename().string().starts_with(std::string(program) + "."); });
+    if (!recorded) console.err << "missing: what " << program << " recorded" << std::endl;
+  }
+  console.err << "missing: " << run_folder::kResult << "; " << no_server(options) << std::endl;
+  return kExitProcessFailed;
+}
+
 }  // namespace
 
 int merge_reports(const MergeOptions& options, const Console& console) {
   const fs::path dir = fs::absolute(options.dir);
   const Json server = read_json(dir / run_folder::report_file(programs::kSimServer));
-  if (!server.is_object()) {
-    throw InputError(options.dir.string() + ": there is no " + run_folder::report_file(programs::kSimServer) +
-                     " in it: the run is not over, or its server died");
-  }
+  if (!server.is_object()) return merge_without_server(options, dir, console);
+  gather_agents(dir);
   const auto sim = struct_of<SimServerReport>(server);
   const RunOptions run = options_of(sim.flight, options, sim.rules);
   const Scenario scenario = scenario_of(run);
@@ -119,8 +154,12 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   const RunResults results{
       run,     facts, scenario,
       reports, dir,   [&](const std::string& text) { return write_if_possible(dir / run_folder::kResult, text); }};
+  // What a recording lacks is no fault of the result's, but it must not go unnoticed.
+  const std::vector<std::string> damage = recording_damage(dir);
   const auto result = write_results(
-      results, options.dir, [] { return std::vector<std::string>(); }, console);
+      results, options.dir, [&] { return fs::exists(dir / run_folder::kRecording) ? damage : Texts(); }, console);
+  for (const std::string& one : damage) console.err << one << std::endl;
+  if (result && !damage.empty() && (*result)["lost_members"].empty()) return kExitCheckFailed;
   return result && (*result)["lost_members"].empty() ? kExitDone : kExitProcessFailed;
 }
 

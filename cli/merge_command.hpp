@@ -6,8 +6,9 @@
 
 namespace skein::cli {
 
-/// @returns as `skein run` would: 3 when members were lost. @throws InputError when there is no server's report, or its
-///   scenario is not known here.
+/// Of a run without a server's report it joins the recording's parts, and says what is missing.
+/// @returns as `skein run` would: 3 when members were lost or there is no result; 1 when the recording is damaged.
+/// @throws InputError when there is neither a server's report nor a part, or its scenario is not known here.
 int merge_reports(const MergeOptions& options, const Console& console);
 
 }  // namespace skein::cli

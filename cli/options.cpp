@@ -72,7 +72,8 @@ void add_record(CLI::App& command, std::string& record) {
 
 /// What becomes of its results; of run and compose.
 void add_result_options(CLI::App* command, RunOptions& run) {
-  command->add_option("--out", run.out, "Results folder (default runs/<scenario>-<planner>-<seed>)");
+  command->add_option("--out", run.out,
+                      "Results folder (default runs/<scenario>-<planner>-<seed>, or with -2, -3... if that is taken)");
   command->add_flag("--force", run.force, "Overwrite an existing result");
   add_record(*command, run.record);
   command->add_flag("--no-oracle{false}", run.attainable, "Do not ask after the run what could have been had");
@@ -299,7 +300,8 @@ OptionParser::OptionParser()
   add_doctor(app, doctor);
   app.add_subcommand("ps", "List the fleets that fly, with their processes");
   add_attach(app, attach);
-  CLI::App* diff_command = app.add_subcommand("diff", "First step, entity and field in which two runs differ");
+  CLI::App* diff_command = app.add_subcommand(
+      "diff", "First step, entity and field in which two runs differ, and what else differs in what they left");
   diff_command->add_option("RUN_A", diff.run_a, "A results folder")->required();
   diff_command->add_option("RUN_B", diff.run_b, "Another one")->required();
   diff_command->footer("Example:\n  skein diff runs/towers-kios-0 runs/again");

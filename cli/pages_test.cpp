@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 
 #include "cli/options.hpp"
 #include "core/text.hpp"
@@ -51,6 +52,44 @@ TEST(Pages, ShowCommandsThatThereAre) {
     }
   }
   EXPECT_GT(read, 80u);
+}
+
+/// The sources of a planner of ours; empty: it is none.
+std::string source_of_planner(const std::string& name) {
+  const fs::path planners = source_path("uav_agent/planners");
+  std::string text;
+  for (const fs::path& folder : {planners / name, planners / "basic"}) {
+    const bool is_its_own = folder.filename() == name;
+    if (!fs::is_directory(folder)) continue;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (!is_its_own && !entry.path().filename().string().starts_with(name + ".")) continue;
+      std::ifstream in(entry.path());
+      text.append(std::istreambuf_iterator<char>(in), {});
+    }
+  }
+  return text;
+}
+
+// A parameter of a planner that a page shows has a key in that planner's sources.
+TEST(Pages, ShowParametersThatThereAre) {
+  static const std::regex kPlanner(R"(\b([a-z]+):((?:[a-z_]+=[0-9a-z.]+,?)+))"), kKey(R"(([a-z_]+)=)");
+  static const std::set<std::string> kUavs = {"jurong", "raffles", "sentosa", "changi", "nanyang"};
+  std::size_t read = 0;
+  for (const fs::path& page : pages()) {
+    std::ifstream in(page);
+    for (std::string line; std::getline(in, line);) {
+      for (std::sregex_iterator it(line.begin(), line.end(), kPlanner), end; it != end; ++it) {
+        const std::string source = source_of_planner(it->str(1)), given = it->str(2);
+        if (source.empty()) continue;  // of a planner that the page writes
+        for (std::sregex_iterator key(given.begin(), given.end(), kKey); key != end; ++key) {
+          if (kUavs.contains(key->str(1))) break;  // what follows is another UAV's planner
+          EXPECT_NE(source.find('"' + key->str(1) + '"'), std::string::npos) << page << ": " << it->str(0);
+          ++read;
+        }
+      }
+    }
+  }
+  EXPECT_GT(read, 10u);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "cli/report_command.hpp"
 
+#include "cli/run/recording.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 #include "report/run_report.hpp"
@@ -7,11 +8,17 @@
 namespace skein::cli {
 
 int make_reports(const ReportOptions& options, const Console& console) {
+  int code = kExitDone;
   for (const std::filesystem::path& run : options.runs) {
     report::write_run_report(run);
     console.out << (run / run_folder::kPage).string() << std::endl;
+    // The page is made from the tables. Whoever keeps the run should know all the same.
+    for (const std::string& damage : recording_damage(run)) {
+      console.err << damage << std::endl;
+      code = kExitCheckFailed;
+    }
   }
-  return kExitDone;
+  return code;
 }
 
 }  // namespace skein::cli

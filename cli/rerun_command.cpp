@@ -4,23 +4,19 @@
 
 #include "cli/options.hpp"
 #include "cli/run/fleet_plan.hpp"
+#include "cli/run/results_dir.hpp"
 #include "cli/run_command.hpp"
 #include "core/text.hpp"
 #include "mcap/reader.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"
+#include "process/result_file.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-Json result_of(const fs::path& run) {
-  Json result = read_json(run / run_folder::kResult);
-  if (!result.is_object()) throw InputError(run.string() + ": there is no " + run_folder::kResult + " in it");
-  return result;
-}
 
 /// As the user gave them then. What belongs to that run alone, where it went and who debugged, is left out.
 RunOptions options_of(const fs::path& run, const Json& result) {
@@ -54,7 +50,7 @@ ReplayOf replay_of(const fs::path& run) {
     throw InputError(run.string() + ": there is no " + run_folder::kRecording + " in it (`skein run` leaves one)");
   }
   mcap::Reader::whole(recording);
-  return {recording, std::nullopt, {}};
+  return {recording, std::nullopt, {}, {}};
 }
 
 /// In one process where that can be: it is sooner there, and the result is the same.
@@ -62,10 +58,30 @@ void choose_processes(const Reflight& reflight, RunOptions& options) {
   options.dds = reflight.dds.value_or(options.dds);
   options.debug = reflight.debug;
   options.agent = reflight.agent ? reflight.agent : options.agent;
-  options.out = reflight.out;
   options.force = reflight.force;
   if (reflight.dds || !reflight.debug.empty()) return;
   options.one_process = !needs_processes(plan_fleet(options, program_dir())).has_value();
+}
+
+/// Where what is flown again goes: where the user says, else to a folder of its own in the run's.
+fs::path folder_of(const Reflight& reflight, const std::string& name) {
+  if (reflight.out) return *reflight.out;
+  return reflight.force ? reflight.run / name : free_results_dir(reflight.run / name);
+}
+
+/// Members whose planner is another one than then. @param then, now  options of the two runs.
+std::vector<std::string> with_other_planner(const RunOptions& then, const RunOptions& now) {
+  const FleetPlan before = plan_fleet(then, program_dir()), after = plan_fleet(now, program_dir());
+  std::vector<std::string> members;
+  for (const UavPlanner& planner : after.planners) {
+    const bool is_same = std::ranges::any_of(before.planners, [&](const UavPlanner& other) {
+      return other.uav == planner.uav && written(other) == written(planner);
+    });
+    if (!is_same) members.push_back(planner.uav);
+  }
+  const auto ground = [](const FleetPlan& plan) { return plan.ground ? written(*plan.ground) : std::string(); };
+  if (after.ground && ground(before) != ground(after)) members.push_back("gcs");
+  return members;
 }
 
 /// The digest of then, or what became of it, for people.
@@ -73,6 +89,14 @@ void tell_digest(const Json& then, const Json& now, const Console& console) {
   if (!then["digest"].is_string() || !now["digest"].is_string() || then["digest"] == now["digest"]) return;
   console.out << "the world itself is another one: its digest was " << then["digest"].get<std::string>() << ", and is "
               << now["digest"].get<std::string>() << "; another version, build or scenario file?\n";
+}
+
+/// A fork changes what comes after a time, so there must be something after it.
+void require_within(double at_s, const Json& then) {
+  const double end_s = value_or(then, "sim_time_s", 0.0).get<double>();
+  if (at_s < end_s) return;
+  throw InputError("--at " + shortest(at_s) + ": the run ended at " + shortest(end_s) +
+                   " s, so nothing would change; give an earlier time");
 }
 
 std::vector<std::string> differences_of(const Json& result) {
@@ -85,20 +109,20 @@ std::vector<std::string> differences_of(const Json& result) {
 
 }  // namespace
 
-RunOptions options_of_run(const fs::path& run) { return options_of(run, result_of(run)); }
+RunOptions options_of_run(const fs::path& run) { return options_of(run, read_result_file(run)); }
 
 int rerun(const RerunOptions& options, const Console& console) {
-  const Json then = result_of(options.reflight.run);
+  const Json then = read_result_file(options.reflight.run);
   RunOptions run = options_of(options.reflight.run, then);
   run.replay = replay_of(options.reflight.run);
   run.replay->only = {options.uav};
   if (options.planner) run.planner += "," + options.uav + "=" + *options.planner;
   run.attainable = run.report = false;
   choose_processes(options.reflight, run);
-  if (!run.out) run.out = options.reflight.run / ("rerun-" + options.uav);
+  run.out = folder_of(options.reflight, "rerun-" + options.uav);
   const int code = run_fleet(run, console);
   if (code != kExitDone) return code;
-  const Json now = result_of(*run.out);
+  const Json now = read_result_file(*run.out);
   tell_digest(then, now, console);
   const std::vector<std::string> differences = differences_of(now);
   for (const std::string& difference : differences) console.out << difference << '\n';
@@ -108,20 +132,27 @@ int rerun(const RerunOptions& options, const Console& console) {
 }
 
 int fork_run(const ForkOptions& options, const Console& console) {
-  const Json then = result_of(options.reflight.run);
+  const Json then = read_result_file(options.reflight.run);
+  require_within(options.at_s, then);
   RunOptions run = options_of(options.reflight.run, then);
-  run.replay = replay_of(options.reflight.run);
-  run.replay->until_s = options.at_s;
+  const RunOptions as_it_was = run;
+  ReplayOf replay = replay_of(options.reflight.run);
+  replay.until_s = options.at_s;
   if (options.planner) run.planner += "," + *options.planner;
+  run.agent = options.reflight.agent ? options.reflight.agent : run.agent;
+  if (options.planner) replay.other = with_other_planner(as_it_was, run);
+  run.replay = std::move(replay);
   choose_processes(options.reflight, run);
-  if (!run.out) run.out = options.reflight.run / "fork";
+  run.out = folder_of(options.reflight, "fork");
   const int code = run_fleet(run, console);
   const Json now = read_json(*run.out / run_folder::kResult);
   if (!now.is_object()) return code;
   for (const std::string& difference : differences_of(now)) console.out << difference << '\n';
   const auto score = [](const Json& result) { return value_or(result, "score", 0.0).get<double>(); };
   console.out << "score " << score(now) << ", " << score(then) << " in the run that it was\n";
-  if (then["digest"] == now["digest"] && then["digest"].is_string()) console.out << "nothing came out otherwise\n";
+  if (then["digest"] == now["digest"] && then["digest"].is_string()) {
+    console.out << "the fork is the same run: its digest did not change\n";
+  }
   console.out << std::flush;
   return code;
 }

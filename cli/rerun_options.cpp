@@ -15,7 +15,7 @@ void add_reflight(CLI::App& command, Reflight& reflight) {
                   "Fly processes over this DDS vendor: cyclonedds, fastdds or mixed (default: one process where it can "
                   "be; the result is the same)")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}));
-  command.add_option("--out", reflight.out, "Results folder (default: one in RUN)");
+  command.add_option("--out", reflight.out, "Results folder (default: a new one in RUN)");
   command.add_flag("--force", reflight.force, "Overwrite an existing result");
 }
 

@@ -92,13 +92,16 @@ int run_fleet(const RunOptions& given, const Console& console) {
   RunOptions options = with_debugger(given, console);
   find_break(options, console);
   const FleetPlan plan = plan_fleet(options, program_dir());
-  const std::filesystem::path dir =
-      options.out.value_or(default_results_dir(plan.scenario.name, options.planner, options.seed));
-  ResultsDir::check(dir, options.force);
+  const auto folder = [&] {
+    const auto usual = default_results_dir(plan.scenario.name, options.planner, options.seed);
+    return options.out.value_or(options.force ? usual : free_results_dir(usual));
+  };
+  ResultsDir::check(folder(), options.force);
   if (options.check) check_before_flight(plan, console);
   std::optional<DomainBlock> domains;
   if (!options.one_process) domains.emplace(options.domain, domain_count(plan));
   const int base_domain = domains ? domains->base() : kFirstDomain;
+  const std::filesystem::path dir = folder();  // another run may have taken one meanwhile
   const ResultsDir out(dir, options.force);
 
   if (options.cores) allow_cores();

@@ -7,6 +7,7 @@
 #include "cli/run/progress_view.hpp"
 #include "cli/run/recording.hpp"
 #include "core/run_state.hpp"
+#include "process/result_file.hpp"
 #include "report/run_report.hpp"
 
 namespace skein::cli {
@@ -20,12 +21,10 @@ Json losses_of(const std::filesystem::path& dir, const Json& answer, const Repor
   return nullptr;
 }
 
-std::string text_of(const Json& result) { return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
 /// @returns false when the disk refuses; then the result is printed, so that it is not lost.
 bool write_result(const RunResults& run, const Json& result, std::ostream& err) {
-  const std::string trouble = run.write(text_of(result));
-  if (!trouble.empty()) err << trouble << "; this is what it would have held:\n" << text_of(result) << std::flush;
+  const std::string trouble = run.write(result_text(result));
+  if (!trouble.empty()) err << trouble << "; this is what it would have held:\n" << result_text(result) << std::flush;
   return trouble.empty();
 }
 
@@ -69,8 +68,8 @@ std::optional<Json> write_results(const RunResults& run, const std::filesystem::
   if (!trouble.empty()) result["warnings"].push_back(trouble);
   const bool news = !result["losses"].is_null() || result["attainable"]["score"].is_number() ||
                     result["warnings"].size() > warnings_written;
-  if (written && news) run.write(text_of(result));  // the one before stands if the disk is full by now
-  if (written && run.options.report && !make_report(run.dir, result["warnings"])) run.write(text_of(result));
+  if (written && news) run.write(result_text(result));  // the one before stands if the disk is full by now
+  if (written && run.options.report && !make_report(run.dir, result["warnings"])) run.write(result_text(result));
   print_summary(console.out, result, shown);
   return written ? std::optional(std::move(result)) : std::nullopt;
 }

@@ -122,6 +122,8 @@ void add_check(CLI::App& app, CheckOptions& check) {
   command->add_option("FILE", check.files, "YAML files of any of these kinds");
   command->add_option("--golden", check.golden, "Run reference vectors (CSV) through the production code");
   command->add_option("--assets", check.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--agent", check.agent,
+                      "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
   command->add_option("--scenario", check.scenario, "What fault files are for that name no scenario themselves")
       ->capture_default_str();
   command->footer(

@@ -30,7 +30,9 @@ skein_install_programs(runtime ${programs})
 skein_install_programs(agent uav_agent)
 install(TARGETS skein_other_clock LIBRARY DESTINATION lib/skein COMPONENT runtime)  # of skein check-planner
 
-# What makes reports interactive, where ./skein, or npm in web/, has built it.
+# What makes reports interactive. The script builds it or refuses; it is optional only where SKEIN_WITHOUT_WEB says so.
+install(CODE "set(SKEIN_ROOT \"${PROJECT_SOURCE_DIR}\")" COMPONENT runtime)
+install(SCRIPT cmake/SkeinWebBundle.cmake COMPONENT runtime)
 install(FILES ${PROJECT_SOURCE_DIR}/build/web/report.js DESTINATION ${CMAKE_INSTALL_DATADIR}/skein/web
   COMPONENT runtime OPTIONAL)
 install(FILES cli/completion/skein.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions

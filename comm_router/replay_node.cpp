@@ -53,7 +53,7 @@ void ReplayNode::replace(StepBatch& batch) {
   }
   for (const auto& [topic, route] : by_topic_) {
     const std::string node = scenario_.node_name(routes_[route].source);
-    if (!options_.takes_part(node)) continue;
+    if (!options_.compares(node)) continue;
     differences_.compare(node, topic, routes_[route].type, tick, recorded[route], now[route]);
   }
 }

@@ -81,10 +81,13 @@ std::string join(const std::vector<std::filesystem::path>& parts, const std::fil
   for (const std::filesystem::path& part : parts) {
     try {
       readers.push_back(std::make_unique<Reader>(part));
+      for (const std::string& damage : readers.back()->damage()) {
+        trouble += (trouble.empty() ? "" : "; ") + part.filename().string() + ": " + damage;
+      }
       learn_names(*readers.back(), summary);
       std::ranges::move(packed_of(*readers.back()), std::back_inserter(chunks));
     } catch (const InputError& error) {
-      trouble = error.what();
+      trouble += (trouble.empty() ? "" : "; ") + std::string(error.what());
     }
   }
   std::ranges::stable_sort(chunks, {}, [](const Packed& packed) { return packed.chunk.start_time; });

@@ -74,5 +74,21 @@ TEST_F(McapJoin, APartThatIsNoRecordingIsToldAndLeftOut) {
   EXPECT_EQ(read_all(folder_ / "whole"), a);
 }
 
+TEST_F(McapJoin, APartThatIsDamagedIsReportedByNameAndChunk) {
+  const auto a = write_part("a", 1, 2), b = write_part("b", 1000, 4);
+  std::string bytes = read_file_bytes(folder_ / "b", 1 << 20);
+  std::uint64_t last_chunk = 0;
+  Reader(folder_ / "b").records([&](const RawRecord& record, std::uint64_t offset) {
+    if (record.opcode == Opcode::chunk) last_chunk = offset + kRecordHead + record.content.size() - 1;
+  });
+  bytes[last_chunk] = static_cast<char>(bytes[last_chunk] ^ 1);
+  for (const std::size_t size : {bytes.size(), static_cast<std::size_t>(last_chunk + 1)}) {  // whole, and cut off
+    std::ofstream(folder_ / "b", std::ios::binary) << bytes.substr(0, size);
+    const std::string trouble = join({folder_ / "a", folder_ / "b"}, folder_ / "whole", {});
+    EXPECT_NE(trouble.find("b: chunk "), std::string::npos) << trouble;
+    EXPECT_NE(trouble.find("messages are missing"), std::string::npos) << trouble;
+  }
+}
+
 }  // namespace
 }  // namespace skein::mcap

@@ -1,5 +1,5 @@
 // Reads an MCAP file from its beginning, whole or cut off: as far as its records are whole, and no further than to a
-// chunk whose checksum is wrong. Needs no summary. Not thread-safe.
+// chunk whose checksum is wrong. Needs no summary. damage() finds what a checksum can tell. Not thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mcap/records.hpp"
 
@@ -22,8 +23,12 @@ class Reader {
  public:
   /// @throws InputError when it cannot be read or is no MCAP file.
   explicit Reader(const std::filesystem::path& file);
-  /// @throws InputError when it is cut off, too.
+  /// @throws InputError when it is cut off or damaged, too.
   static Reader whole(const std::filesystem::path& file);
+
+  /// What is damaged, a sentence each: which chunk, where it begins, and the times whose messages are missing.
+  /// Empty: nothing. A file that is cut off is not damaged. Unpacks every chunk.
+  std::vector<std::string> damage() const;
 
   /// Calls `on_record` for each record of the data section, in order, chunks packed as they are.
   /// @param on_record  gets the record and where it stands in the file.
@@ -41,8 +46,11 @@ class Reader {
 
  private:
   std::optional<Footer> footer() const;
+  bool data_is_sound(std::uint64_t end) const;
+  bool summary_is_sound() const;
   void take(const RawRecord& record, const std::function<void(const Channel&, const Message&)>& on_message);
 
+  std::filesystem::path file_;
   std::string bytes_;
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/file_bytes.hpp"
+#include "core/text.hpp"
 #include "core/types.hpp"
 #include "mcap/testing.hpp"
 
@@ -145,6 +146,69 @@ TEST_F(McapWriter, WhatIsNoMcapFileIsRefusedByName) {
   std::ofstream(folder_ / "text") << "no recording at all";
   EXPECT_THROW(Reader(folder_ / "text"), InputError);
   EXPECT_THROW(Reader(folder_ / "missing"), InputError);
+}
+
+// ---- damage -----------------------------------------------------------------------------------------------------
+
+std::string refusal_of(const std::filesystem::path& file) try {
+  Reader::whole(file);
+  return "";
+} catch (const InputError& error) {
+  return error.what();
+}
+
+void write_with_flipped_bit(const std::filesystem::path& file, std::string bytes, std::uint64_t bit) {
+  bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+TEST_F(McapWriter, AFlippedBitIsFoundWhereverItIs) {
+  const auto seed = static_cast<std::uint64_t>(::getpid());
+  std::mt19937_64 random(seed);
+  {
+    Writer writer(folder_ / "sound", small_chunks());
+    write_all(writer, random_messages(seed, "/t", 120));
+    writer.write_metadata({"run", {{"seed", "1"}}});
+  }
+  ASSERT_EQ(refusal_of(folder_ / "sound"), "");
+  const std::string bytes = read_file_bytes(folder_ / "sound", 1 << 20);
+  for (int draw = 0; draw < 2000; ++draw) {
+    const std::uint64_t bit = random() % (8 * bytes.size());
+    write_with_flipped_bit(folder_ / "bad", bytes, bit);
+    const std::string refusal = refusal_of(folder_ / "bad");
+    ASSERT_NE(refusal.find((folder_ / "bad").string()), std::string::npos) << "seed " << seed << " bit " << bit;
+    ASSERT_NE(refusal.find("damaged"), std::string::npos) << refusal;
+  }
+}
+
+TEST_F(McapWriter, DamageNamesTheChunkAndWhatIsMissing) {
+  {
+    Writer writer(folder_ / "sound", small_chunks());
+    write_all(writer, random_messages(7, "/t", 300));
+  }
+  struct Place {
+    std::uint64_t offset, length;
+    Chunk chunk;
+  };
+  const Reader sound(folder_ / "sound");
+  std::vector<Place> places;
+  sound.records([&](const RawRecord& record, std::uint64_t offset) {
+    if (record.opcode == Opcode::chunk) places.push_back({offset, record.content.size(), *parse_chunk(record.content)});
+  });
+  ASSERT_GT(places.size(), 5U);
+  const std::string bytes = read_file_bytes(folder_ / "sound", 1 << 20);
+  std::mt19937_64 random(11);
+  for (int draw = 0; draw < 40; ++draw) {
+    const std::size_t number = random() % places.size();
+    const Place& place = places[number];
+    const std::uint64_t records = place.offset + kRecordHead + place.length - place.chunk.records.size();
+    write_with_flipped_bit(folder_ / "bad", bytes, 8 * records + random() % (8 * place.chunk.records.size()));
+    const std::string refusal = refusal_of(folder_ / "bad");
+    const std::string chunk = "chunk " + std::to_string(number + 1) + ", at byte " + std::to_string(place.offset);
+    EXPECT_NE(refusal.find(chunk), std::string::npos) << refusal;
+    const double start_s = 1e-9 * static_cast<double>(place.chunk.start_time);
+    EXPECT_NE(refusal.find("of " + fixed(start_s, 2) + " s to "), std::string::npos) << refusal;
+  }
 }
 
 }  // namespace

@@ -21,11 +21,18 @@ bool ReplayOptions::takes_part(const std::string& member) const {
   return only.empty() || std::ranges::find(only, member) != only.end();
 }
 
+bool ReplayOptions::compares(const std::string& member) const {
+  return takes_part(member) && std::ranges::find(other, member) == other.end();
+}
+
 void add_replay_options(CLI::App& app, ReplayOptions& options) {
   app.add_option("--replay", options.file, "recording.mcap of a run that is flown again")->group("Launcher");
   app.add_option("--replay-until", options.until_s, "From this simulated time on, what programs say counts [s]")
       ->group("Launcher");
   app.add_option("--replay-only", options.only, "UAVs whose programs take part (default: all)")
+      ->delimiter(',')
+      ->group("Launcher");
+  app.add_option("--replay-other", options.other, "UAVs that run other software than then: not compared")
       ->delimiter(',')
       ->group("Launcher");
 }
@@ -67,7 +74,7 @@ void Replay::end_step() {
     found->second.handler({said.payload, 0});
   }
   for (auto& [name, taken] : topics_) {
-    if (options_.takes_part(taken.node)) {
+    if (options_.compares(taken.node)) {
       differences_.compare(taken.node, name, taken.wire_type, tick_, recorded[name], taken.now);
     }
     taken.now.clear();

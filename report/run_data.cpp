@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/file_bytes.hpp"
+#include "process/result_file.hpp"
 #include "process/run_folder.hpp"
 #include "process/run_tables.hpp"
 #include "report/causes.hpp"
@@ -56,10 +57,7 @@ void read_rows(const fs::path& dir, const char* file, RunData& data, const Row& 
 
 RunData read_result(const fs::path& dir) {
   RunData data;
-  data.result = read_json(dir / run_folder::kResult);
-  if (!data.result.is_object()) {
-    throw InputError(dir.string() + ": there is no " + run_folder::kResult + " in it, or it is damaged");
-  }
+  data.result = read_result_file(dir);
   for (const Json& uav : value_or(data.result, "uavs", Json::array())) {
     data.uavs.push_back(text_in(uav, "name"));
     data.explorer.push_back(text_in(uav, "role") == "explorer");

@@ -21,10 +21,9 @@ std::string footer(const RunData& run, const std::optional<std::string>& bundle)
   std::string html = "<footer class=\"soft\">";
   if (!bundle) {
     html +=
-        "<p id=\"static\">These drawings stand still. With Node.js 18 or newer and npm, <code>npm ci &amp;&amp; npm "
-        "run build</code> "
-        "in Skein's folder <code>web/</code>, then <code>skein report</code> with this folder, make them "
-        "interactive.</p>";
+        "<p id=\"static\">The drawings of this page are not interactive, because the script report.js was missing when "
+        "it was made. Packages of Skein contain it; a build from source makes it with npm (docs/report.md). "
+        "<code>skein report</code> with this folder makes the page again.</p>";
   }
   return html + "<p>Skein " + escaped(text_in(run.result, "skein_version")) +
          ". All figures are from the tables beside this page: result.json, losses.csv, captures.csv, events.csv, "

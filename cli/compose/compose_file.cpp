@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_yaml.hpp"
 #include "core/config_files.hpp"
 #include "core/suggestion.hpp"
@@ -389,7 +390,7 @@ Subnet parse_subnet(const std::string& text) {
 }
 
 fs::path results_of(const std::string& program, const fs::path& results) {
-  return programs::is_agent(program) ? results / "agents" / programs::member_name(program) : results;
+  return programs::is_agent(program) ? results / kAgentsFolder / programs::member_name(program) : results;
 }
 
 std::string compose_file(const FleetPlan& plan, const ComposeLayout& layout) {

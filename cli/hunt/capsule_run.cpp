@@ -8,8 +8,10 @@
 #include "cli/properties/run_signals.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/record.hpp"
+#include "cli/run/results_dir.hpp"
 #include "cli/run_command.hpp"
 #include "core/config_node.hpp"
+#include "core/text.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 
@@ -27,14 +29,22 @@ std::string digest_in(const fs::path& dir) {
   return digest.is_string() ? digest.get<std::string>() : "";
 }
 
+std::optional<double> result_score(const fs::path& dir) {
+  const Json score = value_or(read_json(dir / run_folder::kResult), "score", nullptr);
+  return score.is_number() ? std::optional(score.get<double>()) : std::nullopt;
+}
+
 /// The same run in another way, of which nothing is kept but what `look` takes.
+/// @param how  the user sees the lines of two runs: which of them the second is.
 template <class Look>
-void fly_aside(RunOptions run, const Console& console, const Look& look) {
+void fly_aside(RunOptions run, const std::string& how, const Console& console, const Look& look) {
   const ScratchDir scratch;
   run.out = scratch.path() / "run";
   run.check = run.report = false;
   std::ostringstream unseen;
+  console.err << "second run, " << how << ", only to compare with; its score is not the find's" << std::endl;
   if (run_fleet(run, {unseen, console.err, false}) == kExitInterrupted) throw Interrupted{};
+  console.err << "the second run is over and not kept" << std::endl;
   look(*run.out);
 }
 
@@ -49,7 +59,7 @@ Replayed judge_property(const FaultTest& test, const fs::path& dir, const Consol
   if (needs_undisturbed(test.property_set)) {
     RunOptions undisturbed = test.plan.options;
     undisturbed.faults.reset();
-    fly_aside(undisturbed, console, [&](const fs::path& aside) { without = read_run(aside); });
+    fly_aside(undisturbed, "without the faults", console, [&](const fs::path& aside) { without = read_run(aside); });
   }
   FolderSignals signals(run, test.plan.scenario, without ? &*without : nullptr);
   Replayed verdict{false, "nothing is asked"};
@@ -65,7 +75,7 @@ Replayed judge_digest(const FaultTest& test, const fs::path& dir, const Console&
   RunOptions other = test.plan.options;
   other.one_process = !other.one_process;
   const std::string digest = digest_in(dir);
-  fly_aside(other, console, [&](const fs::path& aside) {
+  fly_aside(other, other.one_process ? "in one process" : "over DDS", console, [&](const fs::path& aside) {
     const std::string there = digest_in(aside);
     verdict.fails = digest.empty() || there != digest;
     verdict.text = "digest " + digest + ", and " + there + (other.one_process ? " in one process" : " over DDS");
@@ -85,10 +95,12 @@ int run_capsule(const RunOptions& options, const Console& console) {
   FaultTest test = load_fault_test(options.scenario, options.assets, options.agent, options.one_process);
   RunOptions& run = test.plan.options;
   run.dds = options.dds;
-  run.out = options.out.value_or(fs::path("runs") / test.name);
+  run.out = options.out.value_or(free_results_dir(fs::path("runs") / test.name));
   run.record = options.record == "none" ? "run" : options.record;  // properties may be about messages
   run.report = options.report;
+  run.force = options.force;
   run.command = options.command;
+  console.err << "first run, the find itself, with its faults" << std::endl;
   const int code = run_fleet(run, console);
   if (code == kExitInterrupted) throw Interrupted{};
   const CapsuleMark& mark = *test.capsule;
@@ -97,6 +109,10 @@ int run_capsule(const RunOptions& options, const Console& console) {
     verdict = judge_digest(test, *run.out, console);
   } else if (mark.property != kCompletes) {
     verdict = judge_property(test, *run.out, console);
+  }
+  if (result_score(*run.out)) {
+    console.out << "this run, with its faults: score " << fixed(*result_score(*run.out), 3) << ", results in "
+                << run.out->string() << '\n';
   }
   console.out << mark.property << (verdict.fails ? " fails: " : " holds: ") << verdict.text << '\n';
   const std::string digest = digest_in(*run.out);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/types.hpp"
+#include "process/result_file.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {
@@ -43,9 +44,8 @@ std::optional<double> event_time_s(const Json& result, const std::string& member
 }
 
 Json result_of_same_flight(const std::filesystem::path& run, const FleetPlan& plan) {
-  const Json result = read_json(run / run_folder::kResult);
+  const Json result = read_result_file(run);
   const std::string why = "--break-from " + run.string() + ": ";
-  if (!result.is_object()) throw InputError(why + "there is no " + run_folder::kResult);
   const auto require = [&](bool same, const std::string& what) {
     if (!same) throw InputError(why + "it was flown with another " + what);
   };

@@ -101,6 +101,7 @@ Arguments replay_arguments(const ReplayOf& replay) {
   Arguments arguments = {"--replay", replay.recording};
   if (replay.until_s) append(arguments, {"--replay-until", shortest(*replay.until_s)});
   if (!replay.only.empty()) append(arguments, {"--replay-only", joined(replay.only, ",")});
+  if (!replay.other.empty()) append(arguments, {"--replay-other", joined(replay.other, ",")});
   return arguments;
 }
 

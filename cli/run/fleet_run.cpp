@@ -11,6 +11,7 @@
 #include "cli/run/shared_process.hpp"
 #include "cli/run/supervisor.hpp"
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {
@@ -39,6 +40,10 @@ FleetRun::FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal)
     : plan_(plan), console_(out), terminal_(terminal), view_(out, terminal) {
   plan_.run = draw_run_id();
   facts_.command = plan.options.command;
+  // SKEIN_AGENT named it: the command must repeat the run where that is not set.
+  if (!facts_.command.empty() && plan.agent && !plan.options.agent) {
+    facts_.command += " --agent " + shell_word(plan.agent->string());
+  }
   facts_.scenario = plan.options.scenario;
   facts_.seed = plan.options.seed;
   for (const UavPlanner& planner : plan.planners) {

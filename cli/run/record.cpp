@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "process/result_file.hpp"
 #include "process/run_folder.hpp"
 #include "report/csv_table.hpp"
 
@@ -23,9 +24,11 @@ std::vector<CaptureRow> read_captures(const std::filesystem::path& dir) {
 RunRecord read_run(const std::filesystem::path& dir) {
   RunRecord record;
   record.dir = dir;
-  record.result = read_json(dir / run_folder::kResult);
-  if (!record.result.is_object())
-    throw std::runtime_error((dir / run_folder::kResult).string() + ": is missing or damaged");
+  try {
+    record.result = read_result_file(dir);
+  } catch (const InputError& error) {
+    throw std::runtime_error(error.what());
+  }
   record.captures = read_captures(dir);
   for (CsvTable table(dir / run_folder::kEvents); table.next();) {
     record.events.push_back({table.count("step"), table.text("event"), table.text("subject"), table.text("object")});

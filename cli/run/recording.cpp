@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "cli/run/viewer_layout.hpp"
+#include "core/types.hpp"
 #include "mcap/join.hpp"
+#include "mcap/reader.hpp"
 #include "process/atomic_file.hpp"
 #include "process/run_folder.hpp"
 
@@ -12,18 +14,6 @@ namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<fs::path> parts_in(const fs::path& dir) {
-  std::vector<fs::path> parts;
-  for (const char* program : programs::kServers) {
-    for (int life = 0;; ++life) {
-      const fs::path part = dir / run_folder::recording_part(program, life);
-      if (!fs::exists(part)) break;
-      parts.push_back(part);
-    }
-  }
-  return parts;
-}
 
 /// What does not change when the same run is flown again, so that the recording does not either.
 mcap::Metadata metadata_of(const Json& result) {
@@ -38,9 +28,37 @@ mcap::Metadata metadata_of(const Json& result) {
 
 }  // namespace
 
-std::string join_recording(const fs::path& dir, const Scenario& scenario, const Json& result) try {
-  const std::vector<fs::path> parts = parts_in(dir);
-  if (parts.empty()) return "";
+std::vector<fs::path> recording_parts(const fs::path& dir) {
+  std::vector<fs::path> parts;
+  for (const char* program : programs::kServers) {
+    for (int life = 0;; ++life) {
+      const fs::path part = dir / run_folder::recording_part(program, life);
+      if (!fs::exists(part)) break;
+      if (!fs::is_empty(part)) parts.push_back(part);  // killed before its first word
+    }
+  }
+  return parts;
+}
+
+std::vector<std::string> recording_damage(const fs::path& dir) {
+  std::vector<std::string> damage;
+  try {
+    if (fs::exists(dir / run_folder::kRecording)) mcap::Reader::whole(dir / run_folder::kRecording);
+  } catch (const InputError& error) {
+    damage.push_back(error.what());
+  }
+  for (const fs::path& part : recording_parts(dir)) {  // which may be cut off
+    try {
+      for (const std::string& one : mcap::Reader(part).damage()) damage.push_back(part.string() + ": " + one);
+    } catch (const InputError& error) {
+      damage.push_back(error.what());
+    }
+  }
+  return damage;
+}
+
+std::string join_parts(const fs::path& dir, const Json& result) try {
+  const std::vector<fs::path> parts = recording_parts(dir);
   const fs::path recording = dir / run_folder::kRecording;
   const std::string trouble = mcap::join(parts, recording, {metadata_of(result)});
   if (!trouble.empty()) {
@@ -48,9 +66,16 @@ std::string join_recording(const fs::path& dir, const Scenario& scenario, const 
     return "no recording.mcap, but its parts: " + trouble;
   }
   for (const fs::path& part : parts) fs::remove(part);
-  return write_if_possible(dir / run_folder::kRecordingLayout, viewer_layout(scenario).dump(1) + "\n");
+  return "";
 } catch (const std::system_error& error) {
   return std::string("no recording.mcap, but its parts: ") + error.what();
+}
+
+std::string join_recording(const fs::path& dir, const Scenario& scenario, const Json& result) {
+  if (recording_parts(dir).empty()) return "";
+  const std::string trouble = join_parts(dir, result);
+  if (!trouble.empty()) return trouble;
+  return write_if_possible(dir / run_folder::kRecordingLayout, viewer_layout(scenario).dump(1) + "\n");
 }
 
 }  // namespace skein::cli

@@ -40,6 +40,18 @@ std::filesystem::path default_results_dir(const std::string& scenario, const std
   return std::filesystem::path("runs") / (scenario + "-" + label + "-" + std::to_string(seed));
 }
 
+std::filesystem::path free_results_dir(const std::filesystem::path& base) {
+  const auto is_free = [](const std::filesystem::path& dir) {
+    std::error_code error;  // of what cannot be looked at: ResultsDir will say so
+    const auto kind = std::filesystem::symlink_status(dir, error).type();
+    if (kind == std::filesystem::file_type::none || kind == std::filesystem::file_type::not_found) return true;
+    return kind == std::filesystem::file_type::directory && std::filesystem::is_empty(dir, error) && !error;
+  };
+  std::filesystem::path dir = base;
+  for (int number = 2; !is_free(dir); ++number) dir = base.string() + "-" + std::to_string(number);
+  return dir;
+}
+
 void ResultsDir::check(const std::filesystem::path& dir, bool force) {
   std::error_code error;  // of a name that is too long, or of links in a circle
   const auto kind = std::filesystem::status(dir, error).type();

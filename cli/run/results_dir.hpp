@@ -11,6 +11,10 @@ namespace skein::cli {
 /// Where a run goes when the user names no folder: runs/<scenario>-<planner>-<seed> below the current folder.
 std::filesystem::path default_results_dir(const std::string& scenario, const std::string& planner, std::uint64_t seed);
 
+/// The first of `base`, `base`-2, `base`-3, ... that is not there yet, or is an empty folder: where a run goes if the
+/// user names no folder, so that a command can be repeated. Creates nothing.
+std::filesystem::path free_results_dir(const std::filesystem::path& base);
+
 /// Holds a results folder for one run: two launchers never write to the same one.
 class ResultsDir {
  public:

@@ -33,6 +33,22 @@ TEST(ResultsDir, DefaultNameTellsTheRun) {
   EXPECT_EQ(default_results_dir("towers", "a=b:c/d", 0), "runs/towers-a_b_c_d-0");
 }
 
+TEST(ResultsDir, TheFirstFreeNameIsNumbered) {
+  const OutDir scratch;
+  const fs::path base = scratch.path() / "runs" / "towers-kios-0";
+  EXPECT_EQ(free_results_dir(base), base);
+  fs::create_directories(base);
+  EXPECT_EQ(free_results_dir(base), base) << "an empty folder is as good as none";
+  write_text(base / "sim_server.mcap", "of a launcher that was killed");
+  EXPECT_EQ(free_results_dir(base), base.string() + "-2");
+  fs::create_directories(base.string() + "-2");
+  write_text(base.string() + "-2/result.json", "{}");
+  write_text(base.string() + "-3", "a file");
+  fs::create_directory_symlink(base, base.string() + "-4");
+  EXPECT_EQ(free_results_dir(base), base.string() + "-5");
+  EXPECT_FALSE(fs::exists(base.string() + "-5")) << "it only looks";
+}
+
 TEST(ResultsDir, IsCreatedWithItsParents) {
   const OutDir scratch;
   const ResultsDir dir(scratch.path() / "a/b", false);

@@ -189,9 +189,16 @@ Json flight_command(const FleetPlan& plan, const std::string& programs, const st
           {"dds", medium_of(plan)}};
 }
 
+/// How this very program is called: by the script of the source tree that it was built in, or as installed.
+std::string own_command() {
+  std::error_code error;
+  const bool in_its_tree = fs::is_regular_file(program_dir() / "../../../skein", error);
+  return in_its_tree ? "./skein" : "skein";
+}
+
 std::string command_line(const StudyPlan& plan) {
   const StudyOptions& options = plan.options;
-  std::string line = options.contest ? "./skein contest" : "./skein compare";
+  std::string line = own_command() + (options.contest ? " contest" : " compare");
   const auto add = [&](const std::string& option, const std::string& value) {
     line += " " + option + " " + shell_word(value);
   };
@@ -210,7 +217,7 @@ std::string command_line(const StudyPlan& plan) {
   if (options.duration_s) add("--duration", shortest(*options.duration_s));
   if (options.rules) add("--rules", *options.rules);
   if (options.dds) add("--dds", *options.dds);
-  if (options.agent) add("--agent", *options.agent);
+  if (const auto agent = own_agent(options.agent)) add("--agent", options.agent.value_or(*agent));
   if (options.faults) add("--faults", *options.faults);
   if (options.secure) line += " --secure";
   for (const std::string& requirement : options.requirements) add("--require", requirement);
@@ -335,7 +342,7 @@ std::vector<std::string> differing_settings(const Json& then, const Json& now) {
 
 std::string repeating_command(const StudyPlan& plan, const StudyFlight& flight) {
   const StudyScene& scene = plan.scenes[flight.scenario];
-  std::string line = "./skein run " + shell_word(scene.scenario);
+  std::string line = own_command() + " run " + shell_word(scene.scenario);
   const auto add = [&](const std::string& option, const std::string& value) {
     line += " " + option + " " + shell_word(value);
   };
@@ -345,6 +352,11 @@ std::string repeating_command(const StudyPlan& plan, const StudyFlight& flight) 
   if (plan.options.duration_s) add("--duration", shortest(*plan.options.duration_s));
   if (plan.options.rules) add("--rules", *plan.options.rules);
   if (plan.options.assets) add("--assets", *plan.options.assets);
+  if (flight.agent) {
+    add("--agent", *flight.agent);
+  } else if (const auto agent = own_agent({})) {
+    add("--agent", *agent);
+  }
   if (plan.options.faults) add("--faults", *plan.options.faults);
   if (plan.options.secure) line += " --secure";
   if (flight.one_process) line += " --one-process";

@@ -23,7 +23,8 @@ const std::vector<std::string> kMeasuredOfUavs = {"planner_cpu_s", "planner_cpu_
 
 /// A result without what differs from flight to flight, or from merge to launcher.
 Json comparable(Json result) {
-  result.erase("command");  // nobody typed one for what ran without the launcher
+  result.erase("checksum");  // over what is measured, too
+  result.erase("command");   // nobody typed one for what ran without the launcher
   for (const auto* keys : {&kOnlyTheLaunchers, &kMeasured}) {
     for (const std::string& key : *keys) result.erase(key);
   }
@@ -146,6 +147,47 @@ TEST_F(Merge, WithoutAServersReportThereIsNothingToMerge) {
   expect_refused();
   fs::remove_all(dir_);
   expect_refused();
+}
+
+// As a launcher leaves it that was killed with all its programs.
+TEST_F(Merge, WithoutAServersReportTheRecordingsPartsAreJoined) {
+  fly();
+  fs::remove(report("sim_server"));
+  ASSERT_TRUE(fs::exists(dir_ / run_folder::recording_part("sim_server", 0)));
+  fs::remove(dir_ / run_folder::recording_part("station", 0));
+  ChildProcess& process = merge();
+  EXPECT_EQ(process.wait().code, 3) << process.err();
+  EXPECT_TRUE(fs::exists(dir_ / run_folder::kRecording));
+  EXPECT_NE(process.out().find("joined from sim_server.mcap comm_router.mcap"), std::string::npos) << process.out();
+  EXPECT_NE(process.err().find("missing: what station recorded"), std::string::npos) << process.err();
+  EXPECT_NE(process.err().find("missing: result.json"), std::string::npos) << process.err();
+  EXPECT_FALSE(fs::exists(dir_ / run_folder::kResult));
+}
+
+TEST_F(Merge, WhatAgentsInContainersWroteIsTakenFromTheirFolders) {
+  fly();
+  const Json whole = merged();
+  const fs::path folder = dir_ / "agents" / "sentosa";
+  fs::create_directories(folder);
+  fs::rename(report("uav_agent-sentosa"), folder / report("uav_agent-sentosa").filename());
+  std::ofstream(folder / report("sim_server").filename()) << "forged";
+  EXPECT_EQ(comparable(merged()), comparable(whole));
+  EXPECT_TRUE(fs::exists(report("uav_agent-sentosa")));
+  EXPECT_FALSE(fs::exists(dir_ / "agents"));
+}
+
+TEST_F(Merge, ADamagedPartIsReportedAndNoRecordingMadeOfIt) {
+  fly();
+  const fs::path part = dir_ / run_folder::recording_part("sim_server", 0);
+  std::string bytes = text_of(part);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+  std::ofstream(part, std::ios::binary) << bytes;
+  ChildProcess& process = merge();
+  EXPECT_EQ(process.wait().code, 1) << process.err();
+  EXPECT_NE(process.err().find("sim_server.mcap: "), std::string::npos) << process.err();
+  EXPECT_NE(result()["warnings"].dump().find("no recording.mcap, but its parts: sim_server.mcap: "), std::string::npos);
+  EXPECT_FALSE(fs::exists(dir_ / run_folder::kRecording));
+  EXPECT_TRUE(fs::exists(part));
 }
 
 TEST_F(Merge, AScenarioMayHaveMovedSinceItWasFlown) {

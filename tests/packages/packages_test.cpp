@@ -2,6 +2,8 @@
 // a prefix that its user may not write to.
 #include <unistd.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <set>
 
 #include "fleet_fixture.hpp"
@@ -37,6 +39,10 @@ Paths files_of(const fs::path& folder) {
 
 class Packages : public FleetTest {
  protected:
+  /// What is asked here needs no script for pages, and no network to build it.
+  Packages() { ::setenv("SKEIN_WITHOUT_WEB", "1", 1); }
+  ~Packages() override { ::unsetenv("SKEIN_WITHOUT_WEB"); }
+
   /// Runs a program to its end, which must be a good one. @returns what it wrote, messages and all.
   std::string done(const Arguments& argv) {
     const std::string name = "step" + std::to_string(steps_++);
@@ -179,6 +185,24 @@ TEST_F(Packages, DebianPackagesAreTheComponents) {
   EXPECT_TRUE(needs("runtime", "libembree3"));
   EXPECT_FALSE(needs("agent", "libembree3"));
   EXPECT_TRUE(needs("dev", "skein (= ") && needs("dev", "libeigen3-dev"));
+}
+
+TEST_F(Packages, WithoutTheScriptOfPagesNothingIsInstalledUnlessTheUserSaysSo) {
+  fs::create_directories(folder() / "tree" / "web" / "src");
+  const Arguments look = {"cmake", "-DSKEIN_ROOT=" + (folder() / "tree").string(), "-P",
+                          source_path("cmake/SkeinWebBundle.cmake")};
+  const auto expect = [&](const std::string& variable, int code, const std::string& text) {
+    Arguments all = {"/bin/sh", "-c", "exec \"$@\" 2>&1", "sh", "/usr/bin/env", "PATH=/nowhere", variable};
+    all.insert(all.end(), look.begin(), look.end());
+    ChildProcess& process = start_program("look" + variable + std::to_string(code), all);
+    EXPECT_EQ(process.wait().code, code) << process.out();
+    EXPECT_NE(process.out().find(text), std::string::npos) << process.out();
+  };
+  expect("SKEIN_WITHOUT_WEB=", 1, "report.js");
+  expect("SKEIN_WITHOUT_WEB=1", 0, "report.js");
+  fs::create_directories(folder() / "tree" / "build" / "web");
+  std::ofstream(folder() / "tree" / "build" / "web" / "report.js") << "// built";
+  expect("SKEIN_WITHOUT_WEB=", 0, "");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // skein rerun and skein fork: recorded runs flown again, with drawn scenes, planners and faults.
+#include <fstream>
 #include <random>
 
 #include "fleet_fixture.hpp"
@@ -93,7 +94,7 @@ TEST_F(Rerun, AForkWithoutAChangeIsTheRun) {
   SkeinRun& run = this->run("run", drawn_flight());
   ChildProcess& process = again("fork", run, "fork", {"--at", std::to_string(3 + draw_() % 35)});
   EXPECT_EQ(process.wait().code, 0) << process.out() << process.err();
-  EXPECT_NE(process.out().find("nothing came out otherwise"), std::string::npos) << process.out();
+  EXPECT_NE(process.out().find("the fork is the same run"), std::string::npos) << process.out();
   EXPECT_EQ(result_in("fork")["digest"], run.digest());
   EXPECT_TRUE(text_of(folder() / "fork" / run_folder::kRecording) == text_of(run.dir() / run_folder::kRecording))
       << "the recordings differ";
@@ -108,6 +109,8 @@ TEST_F(Rerun, AForkPartsFromTheRunWhereItIsToldTo) {
   while (same < std::min(then.size(), now.size()) && then[same] == now[same]) ++same;
   EXPECT_GE(same, 600U) << "30 s of 0.05 s";
   EXPECT_LT(same, 640U);
+  EXPECT_EQ(result_in("fork")["differences"], Json::array())
+      << "what hover thought before it took over is no difference, and the others hear what they heard";
 }
 
 TEST_F(Rerun, WhatCannotBeFlownAgainIsSaid) {
@@ -123,8 +126,96 @@ TEST_F(Rerun, WhatCannotBeFlownAgainIsSaid) {
   SkeinRun& whole = this->run("whole", {"towers", "--planner", "hover", "--duration", "2"});
   refused("rerun", whole, {"--uav", "nobody"}, "nobody");
   refused("fork", whole, {"--at", "1", "--planner", "jurong=nothing"}, "nothing");
+  refused("fork", whole, {"--at", "500"}, "the run ended at ");
   fs::resize_file(whole.dir() / run_folder::kRecording, fs::file_size(whole.dir() / run_folder::kRecording) / 2);
   refused("rerun", whole, {"--uav", "jurong"}, "cut off");
+}
+
+TEST_F(Rerun, ASecondTimeGoesToAFolderOfItsOwn) {
+  SkeinRun& run = this->run("run", {"towers", "--planner", "hover", "--duration", "2", "--one-process"});
+  for (const char* folder : {"rerun-jurong", "rerun-jurong-2"}) {
+    ChildProcess& process = skein({"rerun", run.dir(), "--uav", "jurong"});
+    EXPECT_EQ(process.wait().code, 0) << process.err();
+    EXPECT_TRUE(fs::exists(run.dir() / folder / run_folder::kResult)) << folder;
+  }
+  for (const char* folder : {"fork", "fork-2"}) {
+    ChildProcess& process = skein({"fork", run.dir(), "--at", "1"});
+    EXPECT_EQ(process.wait().code, 0) << process.err();
+    EXPECT_TRUE(fs::exists(run.dir() / folder / run_folder::kResult)) << folder;
+  }
+}
+
+/// Commands that read a run, with one bit of a file of it flipped.
+class DamagedRun : public Rerun {
+ protected:
+  void flip(const fs::path& file, const std::string& bytes) {
+    std::string bad = bytes;
+    const std::size_t bit = std::uniform_int_distribution<std::size_t>(0, 8 * bytes.size() - 1)(draw_);
+    bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << (bit % 8)));
+    std::ofstream(file, std::ios::binary) << bad;
+    what_ = file.filename().string() + ", bit " + std::to_string(bit);
+  }
+  void expect_reported(const Arguments& command, int code, const std::string& file) {
+    ChildProcess& process = skein(command);
+    EXPECT_EQ(process.wait().code, code) << what_ << ": " << joined(command) << process.out() << process.err();
+    EXPECT_NE(process.err().find(file), std::string::npos) << what_ << ": " << joined(command) << process.err();
+    EXPECT_NE(process.err().find("damaged"), std::string::npos) << what_ << ": " << joined(command) << process.err();
+  }
+
+  std::string what_;
+};
+
+TEST_F(DamagedRun, ABitOfTheRecordingIsReportedByAllWhoReadIt) {
+  SkeinRun& run = this->run("run", {"towers", "--planner", "patrol", "--duration", "15", "--one-process"});
+  fs::copy(run.dir(), folder() / "sound", fs::copy_options::recursive);
+  const fs::path file = run.dir() / run_folder::kRecording;
+  const std::string bytes = text_of(file);
+  for (int draw = 0; draw < 8 && !HasFailure(); ++draw) {
+    flip(file, bytes);
+    expect_reported({"fork", run.dir(), "--at", "5", "--out", folder() / "no"}, 2, run_folder::kRecording);
+    expect_reported({"rerun", run.dir(), "--uav", "jurong", "--out", folder() / "no"}, 2, run_folder::kRecording);
+    EXPECT_FALSE(fs::exists(folder() / "no" / run_folder::kResult));
+    expect_reported({"report", run.dir()}, 1, run_folder::kRecording);
+    expect_reported({"diff", run.dir(), folder() / "sound"}, 2, run_folder::kRecording);
+  }
+}
+
+TEST_F(DamagedRun, ABitOfTheResultIsReportedByAllWhoReadIt) {
+  SkeinRun& run = this->run("run", {"towers", "--planner", "patrol", "--duration", "15", "--one-process"});
+  fs::copy(run.dir(), folder() / "sound", fs::copy_options::recursive);
+  const fs::path file = run.dir() / run_folder::kResult;
+  Json result = Json::parse(text_of(file));
+  const std::string bytes = text_of(file).substr(0, text_of(file).find("\"checksum\""));
+  const std::string rest = text_of(file).substr(bytes.size());
+  for (int draw = 0; draw < 12 && !HasFailure(); ++draw) {
+    flip(file, bytes);
+    std::ofstream(file, std::ios::binary | std::ios::app) << rest;
+    if (Json::parse(text_of(file), nullptr, false) == result) continue;  // the letter of an exponent
+    expect_reported({"diff", run.dir(), folder() / "sound"}, 2, run_folder::kResult);
+    expect_reported({"fork", run.dir(), "--at", "5", "--out", folder() / "no"}, 2, run_folder::kResult);
+    expect_reported({"report", run.dir()}, 2, run_folder::kResult);
+  }
+  // A result that was edited, checksum and all.
+  result["score"] = 1234.5;
+  result.erase("checksum");
+  std::ofstream(file) << result.dump();
+  ChildProcess& diff = skein({"diff", run.dir(), folder() / "sound"});
+  EXPECT_EQ(diff.wait().code, 1);
+  EXPECT_NE(diff.out().find("score 1234.5"), std::string::npos) << diff.out();
+}
+
+TEST_F(DamagedRun, DiffNamesWhatWasSaidDifferently) {
+  SkeinRun& one = this->run("one", {"towers", "--planner", "patrol", "--duration", "20", "--one-process"});
+  SkeinRun& other =
+      this->run("other", {"towers", "--planner", "patrol,jurong=hover", "--duration", "20", "--one-process"});
+  SkeinRun& same = this->run("same", {"towers", "--planner", "patrol", "--duration", "20", "--dds=mixed"});
+  ChildProcess& differs = skein({"diff", one.dir(), other.dir()});
+  EXPECT_EQ(differs.wait().code, 1) << differs.err();
+  EXPECT_NE(differs.out().find("recording.mcap, at "), std::string::npos) << differs.out();
+  EXPECT_NE(differs.out().find("/jurong/"), std::string::npos) << differs.out();
+  ChildProcess& equal = skein({"diff", one.dir(), same.dir()});
+  EXPECT_EQ(equal.wait().code, 0) << equal.out() << equal.err();
+  EXPECT_EQ(equal.out(), "the runs are the same\n");
 }
 
 }  // namespace

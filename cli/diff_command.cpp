@@ -1,0 +1,154 @@
+#include "cli/diff_command.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <optional>
+
+#include "cli/run/diff.hpp"
+#include "core/file_bytes.hpp"
+#include "core/text.hpp"
+#include "mcap/reader.hpp"
+#include "process/program.hpp"
+#include "process/result_file.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of a result, what is the same in runs with the same digest: no measured time, nothing of the machine, the DDS, or
+/// of how it was started.
+constexpr std::array kSettled = {
+    "seed",         "scene_seed",   "exchange_period_s", "rules",          "status",          "deterministic",
+    "digest",       "sim_time_s",   "points_total",      "mission_time_s", "points_detected", "score",
+    "score_earned", "score_by_uav", "collisions",        "faults"};
+constexpr std::array kSettledOfUavs = {"name",     "role",   "alive",    "distance_m",       "max_speed_mps",
+                                       "captures", "idle_s", "frozen_s", "commands_rejected"};
+constexpr std::array kTables = {run_folder::kCaptures, run_folder::kEvents, run_folder::kScore,
+                                run_folder::kScoreTimeline, run_folder::kTrajectories};
+
+std::string shown(const Json& value) {
+  constexpr std::size_t kLongest = 80;
+  const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+void compare(const Json& a, const Json& b, const char* key, const std::string& of, std::vector<std::string>& found) {
+  const Json one = value_or(a, key, nullptr), other = value_or(b, key, nullptr);
+  if (one != other) found.push_back("result.json: " + of + key + " " + shown(one) + ", and " + shown(other));
+}
+
+/// nullopt: the run has none, its launcher was killed.
+std::optional<Json> result_of(const fs::path& run) {
+  if (!fs::exists(run / run_folder::kResult)) return std::nullopt;
+  return read_result_file(run);
+}
+
+void compare_results(const DiffOptions& options, std::vector<std::string>& found) {
+  const auto a = result_of(options.run_a), b = result_of(options.run_b);
+  if (!a || !b) {
+    if (a.has_value() != b.has_value()) {
+      found.push_back(std::string("result.json: only in the ") + (a ? "first" : "second") + " run");
+    }
+    return;
+  }
+  for (const char* key : kSettled) compare(*a, *b, key, "", found);
+  const Json uavs_a = value_or(*a, "uavs", Json::array()), uavs_b = value_or(*b, "uavs", Json::array());
+  if (uavs_a.size() != uavs_b.size()) {
+    found.push_back("result.json: " + std::to_string(uavs_a.size()) + " UAVs, and " + std::to_string(uavs_b.size()));
+    return;
+  }
+  for (std::size_t i = 0; i < uavs_a.size(); ++i) {
+    const std::string of = value_or(uavs_a[i], "name", "").get<std::string>() + " ";
+    for (const char* key : kSettledOfUavs) compare(uavs_a[i], uavs_b[i], key, of, found);
+  }
+}
+
+/// The first line in which a table of two runs differs.
+void compare_tables(const DiffOptions& options, const char* table, std::vector<std::string>& found) {
+  std::ifstream a = open_text(options.run_a / table), b = open_text(options.run_b / table);
+  if (!a || !b) return;  // what a program that died left out
+  std::string one, other;
+  for (int line = 1;; ++line) {
+    const bool more_a = static_cast<bool>(next_line(a, one, options.run_a / table));
+    const bool more_b = static_cast<bool>(next_line(b, other, options.run_b / table));
+    if (!more_a && !more_b) return;
+    if (more_a && more_b && one == other) continue;
+    const std::string end = "the end";
+    found.push_back(std::string(table) + ", line " + std::to_string(line) + ": " + (more_a ? one : end) + " | " +
+                    (more_b ? other : end));
+    return;
+  }
+}
+
+/// Messages by time, then topic.
+using Messages = std::map<std::uint64_t, std::map<std::string, std::vector<mcap::Bytes>>>;
+
+/// What programs said in a run: commands and messages by radio. Skein's own views of it are left out.
+std::optional<Messages> messages_of(const fs::path& run) {
+  const fs::path file = run / run_folder::kRecording;
+  if (!fs::exists(file)) return std::nullopt;
+  Messages messages;
+  mcap::Reader::whole(file).messages([&](const mcap::Channel& channel, const mcap::Message& message) {
+    const std::string& topic = channel.topic;
+    if (topic.starts_with("/tf") || topic.starts_with("/viz/") || topic.starts_with("/skein/")) return;
+    messages[message.log_time][topic].emplace_back(message.data.begin(), message.data.end());
+  });
+  return messages;
+}
+
+std::string number_of(std::size_t count) { return std::to_string(count) + (count == 1 ? " message" : " messages"); }
+
+/// Of the first time at which they differ.
+void compare_recordings(const DiffOptions& options, std::vector<std::string>& found) {
+  const auto a = messages_of(options.run_a), b = messages_of(options.run_b);
+  if (!a || !b) return;
+  static const std::map<std::string, std::vector<mcap::Bytes>> kNothing;
+  auto one = a->begin(), other = b->begin();
+  while (one != a->end() && other != b->end() && *one == *other) ++one, ++other;
+  if (one == a->end() && other == b->end()) return;
+  const bool has_one = one != a->end() && (other == b->end() || one->first <= other->first);
+  const bool has_other = other != b->end() && (one == a->end() || other->first <= one->first);
+  const auto& said_a = has_one ? one->second : kNothing;
+  const auto& said_b = has_other ? other->second : kNothing;
+  const std::string at =
+      "recording.mcap, at " + fixed(1e-9 * static_cast<double>(has_one ? one->first : other->first), 2) + " s: ";
+  std::map<std::string, std::pair<std::vector<mcap::Bytes>, std::vector<mcap::Bytes>>> topics;
+  for (const auto& [topic, messages] : said_a) topics[topic].first = messages;
+  for (const auto& [topic, messages] : said_b) topics[topic].second = messages;
+  for (const auto& [topic, both] : topics) {
+    const auto& [then, now] = both;
+    if (then == now) continue;
+    found.push_back(at + topic + ": " +
+                    (then.size() == now.size() ? number_of(then.size()) + " of other content"
+                                               : number_of(then.size()) + ", and " + number_of(now.size())));
+  }
+}
+
+}  // namespace
+
+int diff_runs(const DiffOptions& options, const Console& console) {
+  const std::optional<RunDifference> difference = first_difference(options.run_a, options.run_b);
+  std::vector<std::string> found;
+  compare_results(options, found);
+  for (const char* table : kTables) compare_tables(options, table, found);
+  if (difference) {
+    console.out << "first difference at step " << difference->step << " (" << difference->time_s << " s):\n";
+    for (const std::string& field : difference->fields) console.out << "  " << field << '\n';
+  }
+  // Options decide how much is recorded, so that recordings of the same run may differ.
+  std::vector<std::string> said;
+  compare_recordings(options, said);
+  if (difference) found.insert(found.begin(), said.begin(), said.end());
+  if (difference && !found.empty()) console.out << "besides:\n";
+  if (!difference && !found.empty()) console.out << "the digests are the same, but not what else the runs left:\n";
+  for (const std::string& one : found) console.out << "  " << one << '\n';
+  if (!difference && found.empty()) console.out << "the runs are the same\n";
+  console.out << std::flush;
+  return difference || !found.empty() ? kExitCheckFailed : kExitDone;
+}
+
+}  // namespace skein::cli
