@@ -71,7 +71,8 @@ void check_times(const Scenario& scenario, ConfigErrors& errors) {
 
 void check_names(const ScenarioFile& file, ConfigErrors& errors) {
   // Names of nodes and topics; and of members of the lock-step, which is by name.
-  static const std::set<std::string> reserved = {"all", "clock", "comm_router", "gcs", "sim", "skein", "station"};
+  static const std::set<std::string> reserved = {"all", "clock",      "comm_router", "gcs",     "one_process",
+                                                 "sim", "sim_server", "skein",       "station", "uav_agent"};
   const std::string& scenario = file.scenario.name;
   const bool names_a_folder = scenario.size() <= kLongestName && scenario != "." && scenario != ".." &&
                               scenario.find_first_of("/\\") == std::string::npos &&

@@ -2,6 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 #include <iostream>
@@ -59,9 +62,11 @@ struct Crew::Turn {
     place.notice.enter();
     if (place.counts_cpu) begin_thread_cpu_share(place.cpu_s);
     ++crew.turns_;
+    if (crew.page_ != nullptr) crew.page_->enter(place.name);
   }
   ~Turn() {
     ++crew_.turns_;
+    if (crew_.page_ != nullptr) crew_.page_->leave();
     if (place_.counts_cpu) place_.cpu_s = thread_cpu_s();
     DeathNotice::stand_down();
   }
@@ -70,7 +75,10 @@ struct Crew::Turn {
   Place& place_;
 };
 
-Crew::Crew(StatusPipe& pipe, MakeProgram make_program) : pipe_(pipe), make_program_(std::move(make_program)) {
+Crew::Crew(StatusPipe& pipe, MakeProgram make_program, TurnPage* page, int status_fd)
+    : pipe_(pipe), make_program_(std::move(make_program)), page_(page), status_fd_(status_fd) {
+  struct stat status {};
+  if (status_fd_ >= 0 && ::fstat(status_fd_, &status) == 0) pipe_inode_ = status.st_ino;
   bus::set_self_signals({.kill = [] { throw Killed{}; }, .stop = [] { throw Paused{}; }});
 }
 
@@ -165,9 +173,19 @@ void Crew::in_turn(Place& place, const std::function<std::optional<int>()>& work
       code = kExitProcessFailed;
     }
     if (code) place.member.reset();  // says goodbye
+    check_pipe(place);
   }
   if (killed) return kill(place);
   if (code) end(place, signal == 0 ? *code : 0, signal);
+}
+
+void Crew::check_pipe(const Place& place) const {
+  struct stat status {};
+  if (status_fd_ < 0 || (::fstat(status_fd_, &status) == 0 && status.st_ino == pipe_inode_)) return;
+  const std::string reason = "closed file descriptors that are not its own, which ends the whole fleet here";
+  std::cerr << place.name << ": " << reason << std::endl;
+  if (page_ != nullptr) page_->give_reason(reason);
+  ::_exit(kExitProcessFailed);
 }
 
 void Crew::end(Place& place, int code, int signal) {

@@ -16,6 +16,7 @@
 #include "bus/lockstep/fleet_program.hpp"
 #include "process/shared_lines.hpp"
 #include "process/status_pipe.hpp"
+#include "process/turn_page.hpp"
 
 namespace skein::one_process {
 
@@ -25,7 +26,9 @@ class Crew {
   using MakeProgram = std::function<std::unique_ptr<bus::FleetProgram>(const std::string& name)>;
 
   /// @param pipe  for what the programs say and what becomes of them; must outlive this.
-  Crew(StatusPipe& pipe, MakeProgram make_program);
+  /// @param page  where the launcher reads whose turn it is; null: nowhere. @param status_fd  of the pipe: the process
+  ///               ends when a program closes it; -1: none.
+  Crew(StatusPipe& pipe, MakeProgram make_program, TurnPage* page = nullptr, int status_fd = -1);
   ~Crew();
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
@@ -51,10 +54,15 @@ class Crew {
   std::optional<int> go_on(Place& place);
   void end(Place& place, int code, int signal);
   void kill(Place& place);
+  /// Without its pipe the process cannot say anything: whose turn it is has closed it.
+  void check_pipe(const Place& place) const;
   Place* find(const std::string& program);
 
   StatusPipe& pipe_;
   const MakeProgram make_program_;
+  TurnPage* const page_;
+  const int status_fd_;
+  ino_t pipe_inode_ = 0;
   std::vector<std::unique_ptr<Place>> places_;
   std::atomic<std::uint64_t> turns_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 
 #include "comm_router/router_program.hpp"
 #include "one_process/crew.hpp"
@@ -66,10 +67,12 @@ int main(int argc, char** argv) {
   skein::take_fleet_environment(argv);
   using namespace skein;
   double patience_s = 60.0;
+  std::string turn_page;
   const auto add_options = [&](CLI::App& app) {
     app.description("Skein: home of a whole fleet in one process");
     app.add_option("--agent-timeout", patience_s, "wall time that a program may take for one turn [s], 0: for ever")
         ->check(CLI::NonNegativeNumber);
+    app.add_option("--turn-page", turn_page, "File of the launcher that takes whose turn it is")->group("Launcher");
   };
   const int code =
       run_program(programs::kOneProcess, argc, argv, add_options, [&](const ProgramOptions& options, StopSignal& stop) {
@@ -79,7 +82,11 @@ int main(int argc, char** argv) {
         const ControlPipe control(
             options.control_fd, [&](const std::string& line) { orders.add(line); }, [&] { orders.end(); });
         const auto frames = std::make_shared<agent::ReadyFrames>(one_process::kFramesRemembered);
-        one_process::Crew crew(pipe, [&](const std::string& name) { return one_process::make_program(name, frames); });
+        std::optional<TurnPage> page;
+        if (!turn_page.empty()) page.emplace(turn_page);
+        one_process::Crew crew(
+            pipe, [&](const std::string& name) { return one_process::make_program(name, frames); },
+            page ? &*page : nullptr, options.status_fd);
         const one_process::Watchdog watchdog(crew, patience_s);
         one_process::fly(crew, orders, stop);
         return kExitDone;

@@ -4,10 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <set>
 
 #include "bus/lockstep/names.hpp"
 #include "bus/program_bus.hpp"
 #include "core/scenario_reader.hpp"
+#include "core/topics.hpp"
 #include "process/atomic_file.hpp"
 #include "process/log_time.hpp"
 #include "process/program_report.hpp"
@@ -23,6 +25,23 @@ int list_strategies() {
   const StrategyList list{planner_names(), ground_program_names()};
   std::cout << json_of(list).dump() << std::endl;
   return kExitDone;
+}
+
+/// The server reads no more of one UAV (sim_server/uav_node.cpp).
+constexpr std::size_t kMostDebugNames = 64;
+
+/// @throws InputError when the server would not read what the planner names: the fleet would wait for it in vain.
+void check_debug_names(const std::vector<std::string>& names, const std::string& planner, const std::string& uav) {
+  for (const std::string& name : names) {
+    if (topics::debug_name(topics::debug(uav, name).name, uav).empty()) {
+      throw InputError(uav + "'s planner " + planner + ": debug name '" + name +
+                       "' is not part of a topic's name: letters, digits and _, a letter first");
+    }
+  }
+  if (std::set<std::string>(names.begin(), names.end()).size() > kMostDebugNames) {
+    throw InputError(uav + "'s planner " + planner + ": " + std::to_string(names.size()) + " debug names, from '" +
+                     names.front() + "' on; at most " + std::to_string(kMostDebugNames) + " are read");
+  }
 }
 
 class AgentMember final : public bus::FleetMember {
@@ -100,6 +119,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
     ground = make_ground_program(planner_, ground_config(*scenario));
   } else {
     planner = make_planner(planner_, agent_config(*scenario, uav));
+    check_debug_names(planner->debug_names(), planner_, scenario->fleet[uav].name);
   }
   auto bus = bus::make_bus(options, *scenario);
   if (options.check_only) return kExitDone;

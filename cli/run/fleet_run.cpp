@@ -25,6 +25,7 @@ constexpr milliseconds kLeaveTime{10000};
 constexpr milliseconds kExecLeaveTime{2000};
 /// From SIGTERM to SIGKILL.
 constexpr milliseconds kGrace{3000};
+constexpr double kUsualPatience_s = 60.0;  // of the programs, for one turn
 /// After Ctrl-C: for sim_server to end the run, and for the programs to leave when it could not end its last step.
 constexpr milliseconds kStopTime{8000};
 constexpr milliseconds kStalledLeaveTime{1000};
@@ -59,7 +60,8 @@ FleetRun::FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal)
 void FleetRun::fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure) {
   if (plan_.options.one_process) {
     programs_[programs::kOneProcess] = shared_process(plan_, out);
-    host_ = std::make_unique<SharedProcess>(programs_[programs::kOneProcess]);
+    host_ = std::make_unique<SharedProcess>(programs_[programs::kOneProcess],
+                                            plan_.options.agent_timeout_s.value_or(kUsualPatience_s));
   } else {
     host_ = std::make_unique<Supervisor>();
   }

@@ -1,26 +1,66 @@
 #include "cli/run/shared_process.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
+#include <csignal>
+#include <fstream>
 #include <iterator>
 #include <utility>
 #include <variant>
 
+#include "cli/run/proc_table.hpp"
 #include "process/shared_lines.hpp"
 
 namespace skein::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// How often the launcher looks whose turn it is.
+constexpr std::chrono::milliseconds kLook{200};
+/// The process watches over turns itself, and knows more of them: it is given so much more time.
+constexpr double kTimesPatience = 1.5;
+
+}  // namespace
+
+SharedProcess::SharedProcess(ProgramSpec process, double patience_s)
+    : process_(std::move(process)), patience_(patience_s), turn_since_(Clock::now()) {
+  process_.argv.insert(process_.argv.end(), {"--turn-page", page_.path()});
+}
 
 void SharedProcess::start(const ProgramSpec& spec) {
   if (!supervisor_.running(process_.name)) {
+    page_.clear();
     supervisor_.start(process_);
     process_.append_log = true;
     explained_ = false;
   }
   running_.insert(spec.name);
+  logs_[spec.name] = spec.log;
   supervisor_.send(process_.name,
                    shared_lines::text_of(shared_lines::Start{spec.name, spec.argv, spec.log, spec.append_log}));
 }
 
-std::vector<Event> SharedProcess::wait(std::chrono::milliseconds limit) { return translated(supervisor_.wait(limit)); }
+std::vector<Event> SharedProcess::wait(std::chrono::milliseconds limit) {
+  look_after_turns();
+  const bool timed = patience_.count() > 0.0 && (limit.count() < 0 || limit > kLook);
+  return translated(supervisor_.wait(timed ? kLook : limit));
+}
+
+void SharedProcess::look_after_turns() {
+  const std::uint64_t now = page_.turns();
+  const bool watched = patience_.count() > 0.0 && now % 2 == 1 && !page_.holder().empty();
+  if (now != turn_ || !watched || tracer_of(page_.process()) != 0) {  // a debugger takes its time
+    turn_ = now;
+    turn_since_ = Clock::now();
+  } else if (Clock::now() - turn_since_ >= kTimesPatience * patience_) {
+    page_.give_reason(fmt::format("this program did not end its turn for {} s, and its process {}", patience_.count(),
+                                  cli::has_stopped(page_.process()) ? "is stopped (SIGSTOP)" : "does not say why"));
+    supervisor_.signal(process_.name, SIGKILL);
+    turn_since_ = Clock::now();
+  }
+}
 
 void SharedProcess::send(const std::string& program, const std::string& line) {
   if (running(program)) supervisor_.send(process_.name, shared_lines::text_of(shared_lines::Tell{program, line}));
@@ -31,7 +71,6 @@ void SharedProcess::signal(const std::string& program, int signal) {
 }
 
 std::vector<Event> SharedProcess::end_all(std::chrono::milliseconds grace) {
-  using Clock = std::chrono::steady_clock;
   std::vector<Event> all;
   const auto add = [&all](std::vector<Event> events) { std::ranges::move(events, std::back_inserter(all)); };
   supervisor_.hang_up(process_.name);
@@ -74,13 +113,33 @@ void SharedProcess::hear(const std::string& text, std::vector<Event>& events) {
   }
 }
 
+std::string SharedProcess::blame(const ExitStatus& exit) {
+  const std::string holder = page_.holder();
+  if (!running(holder)) return {};
+  std::string reason = page_.reason();
+  if (reason.empty()) {
+    reason = exit.signal != 0 ? "the process ended in this program's turn: " + exit.text()
+                              : "the process ended in this program's turn with " + exit.text() +
+                                    ": the program called _exit() or quick_exit(), or became another one (exec)";
+  }
+  std::ofstream(logs_[holder], std::ios::app) << "[skein] " << reason << '\n';
+  return holder;
+}
+
 /// All that still ran has ended with the process.
 void SharedProcess::on_death(const Event& event, std::vector<Event>& events) {
-  events.push_back(event);
-  events.back().exit.dragged = explained_;
+  const std::string guilty = explained_ ? std::string() : blame(event.exit);
   ExitStatus with_it = event.exit;
-  if (with_it.ok()) with_it.code = 1;
-  with_it.shared = with_it.dragged = true;
+  if (with_it.ok() && !running_.empty()) with_it.code = 1;
+  events.push_back(event);
+  events.back().exit.code = with_it.code;
+  events.back().exit.dragged = explained_ || !guilty.empty();
+  with_it.shared = true;
+  if (!guilty.empty()) {
+    running_.erase(guilty);
+    events.push_back({Event::Kind::exited, guilty, {}, with_it});
+  }
+  with_it.dragged = true;
   for (const std::string& program : std::exchange(running_, {})) {
     events.push_back({Event::Kind::exited, program, {}, with_it});
   }

@@ -1,19 +1,24 @@
 // All programs of a fleet in one process (one_process/). What becomes of each of them is told as if it were a process.
 #pragma once
 
+#include <chrono>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "cli/run/supervisor.hpp"
+#include "process/turn_page.hpp"
 
 namespace skein::cli {
 
 class SharedProcess final : public ProgramHost {
  public:
-  /// @param process  that is home to them; starts with the first program.
-  explicit SharedProcess(ProgramSpec process) : process_(std::move(process)) {}
+  /// @param process  that is home to them; starts with the first program. It is told --turn-page.
+  /// @param patience_s  wall time after which a turn that does not end is the end of the process, should that not see
+  ///                    so itself: it may be stopped; 0: for ever.
+  explicit SharedProcess(ProgramSpec process, double patience_s = 0.0);
 
   void start(const ProgramSpec& spec) override;
   std::vector<Event> wait(std::chrono::milliseconds limit) override;
@@ -31,10 +36,19 @@ class SharedProcess final : public ProgramHost {
   std::vector<Event> translated(const std::vector<Event>& events);
   void hear(const std::string& text, std::vector<Event>& events);
   void on_death(const Event& event, std::vector<Event>& events);
+  /// Ends the process when a turn takes too long.
+  void look_after_turns();
+  /// Whose turn it was, and how that ended: into its log. @returns its name; empty: nobody of those that ran.
+  std::string blame(const ExitStatus& exit);
 
   ProgramSpec process_;
   Supervisor supervisor_;
+  TurnPage page_;
+  const std::chrono::duration<double> patience_;
+  std::uint64_t turn_ = 0;
+  std::chrono::steady_clock::time_point turn_since_;
   std::set<std::string> running_, stopped_;
+  std::map<std::string, std::filesystem::path> logs_;
   bool explained_ = false;  ///< of a program that died badly, the process said so
 };
 

@@ -100,6 +100,32 @@ TEST_F(OneProcess, WhoTakesTheProcessAlongIsNamed) {
   }
 }
 
+TEST_F(OneProcess, WhoEndsOrStopsTheProcessWithoutAWordIsNamed) {
+  const std::vector<std::pair<std::string, std::string>> deaths = {{"stops", "is stopped (SIGSTOP)"},
+                                                                   {"closes", "closed file descriptors"},
+                                                                   {"exits_now", "called _exit()"},
+                                                                   {"exits_quickly", "quick_exit()"},
+                                                                   {"becomes", "became another one"}};
+  for (const auto& [how, reason] : deaths) {
+    SCOPED_TRACE(how);
+    SkeinRun& run = this->run(how, nasty(how, {"--agent-timeout", "2"}), {}, 3);
+    EXPECT_TRUE(says(run.err(), "uav_agent-jurong failed: ")) << run.err();
+    EXPECT_FALSE(says(run.err(), "changi failed")) << run.err();
+    EXPECT_FALSE(says(run.err(), "one_process failed")) << run.err();
+    EXPECT_TRUE(says(run.err(), reason)) << run.err();
+    EXPECT_NE(run.result()["status"], "completed");
+    expect_nothing_left();
+  }
+}
+
+TEST_F(OneProcess, DebugNamesThatNobodyReadsAreRefusedAtOnce) {
+  for (const auto& [how, reason] : {std::pair("names_badly", "'not fine'"), {"names_many", "at most 64"}}) {
+    SkeinRun& run = this->run(how, nasty(how), {}, 2);
+    EXPECT_TRUE(says(run.err(), reason)) << run.err();
+    EXPECT_TRUE(says(run.err(), "jurong")) << run.err();
+  }
+}
+
 TEST_F(OneProcess, WhoIsKilledHasNoLastWords) {
   const auto faults = write("faults.yaml", "faults:\n  - {at_s: 2, kill: jurong}\n");
   const auto last_words = [&](const std::string& name, const Arguments& more) {

@@ -1,5 +1,6 @@
 // A planner that does at a given time what no planner should. For tests of what becomes of the others.
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <array>
 #include <csignal>
@@ -14,8 +15,24 @@
 
 namespace skein::agent {
 
-enum class Nastiness { none, throws, throws_number, segfaults, aborts, exits, overflows, hangs };
-constexpr std::array<EnumName<Nastiness>, 8> enum_names(Nastiness) {
+enum class Nastiness {
+  none,
+  throws,
+  throws_number,
+  segfaults,
+  aborts,
+  exits,
+  overflows,
+  hangs,
+  stops,
+  closes,
+  exits_now,
+  exits_quickly,
+  becomes,
+  names_badly,
+  names_many
+};
+constexpr std::array<EnumName<Nastiness>, 15> enum_names(Nastiness) {
   return {{{"none", Nastiness::none},
            {"throws", Nastiness::throws},
            {"throws_number", Nastiness::throws_number},
@@ -23,7 +40,14 @@ constexpr std::array<EnumName<Nastiness>, 8> enum_names(Nastiness) {
            {"aborts", Nastiness::aborts},
            {"exits", Nastiness::exits},
            {"overflows", Nastiness::overflows},
-           {"hangs", Nastiness::hangs}}};
+           {"hangs", Nastiness::hangs},
+           {"stops", Nastiness::stops},
+           {"closes", Nastiness::closes},
+           {"exits_now", Nastiness::exits_now},
+           {"exits_quickly", Nastiness::exits_quickly},
+           {"becomes", Nastiness::becomes},
+           {"names_badly", Nastiness::names_badly},
+           {"names_many", Nastiness::names_many}}};
 }
 
 namespace {
@@ -62,6 +86,15 @@ class NastyPlanner final : public Planner {
   /// What a process that is killed cannot do any more.
   ~NastyPlanner() override { std::ofstream(last_will(), std::ios::app) << "I have lived\n"; }
 
+  std::vector<std::string> debug_names() const override {
+    if (config_.how == Nastiness::names_badly) return {"fine", "not fine"};
+    std::vector<std::string> names;
+    if (config_.how == Nastiness::names_many) {
+      for (int i = 0; i < 65; ++i) names.push_back("n" + std::to_string(i));
+    }
+    return names;
+  }
+
   PlannerOutput plan(const PlannerInput& in) override {
     if (!std::exchange(warned_, true)) std::cerr << "nasty plans\n";
     if (seconds(in.tick) >= config_.at_s && !std::exchange(done_, true)) misbehave();
@@ -73,6 +106,8 @@ class NastyPlanner final : public Planner {
     spdlog::info("nasty {}", name_of(config_.how));
     switch (config_.how) {
       case Nastiness::none:
+      case Nastiness::names_badly:
+      case Nastiness::names_many:
         return;
       case Nastiness::throws:
         throw std::runtime_error("I do not like it here");
@@ -90,6 +125,19 @@ class NastyPlanner final : public Planner {
         return;
       case Nastiness::hangs:
         while (true) asm volatile("");
+      case Nastiness::stops:
+        std::raise(SIGSTOP);
+        return;
+      case Nastiness::closes:
+        ::closefrom(0);
+        return;
+      case Nastiness::exits_now:
+        ::_exit(0);
+      case Nastiness::exits_quickly:
+        std::quick_exit(0);
+      case Nastiness::becomes:
+        ::execl("/bin/true", "true", nullptr);
+        return;
     }
   }
 
