@@ -117,6 +117,8 @@ std::string SharedProcess::blame(const ExitStatus& exit) {
   const std::string holder = page_.holder();
   if (!running(holder)) return {};
   std::string reason = page_.reason();
+  // These come from outside: from a user, the system that is out of memory, or the launcher at the end of a run.
+  if (reason.empty() && (exit.signal == SIGKILL || exit.signal == SIGTERM || exit.signal == SIGINT)) return {};
   if (reason.empty()) {
     reason = exit.signal != 0 ? "the process ended in this program's turn: " + exit.text()
                               : "the process ended in this program's turn with " + exit.text() +
