@@ -15,7 +15,7 @@ using Kind = Property::Kind;
 /// The signals of a property side by side, exchange by exchange.
 class Rows {
  public:
-  Rows(const Property& property, RunSignals& run) : width_(property.signals.size()), size_(run.exchanges()) {
+  Rows(const Property& property, RunSignals& run) : width_(property.signals.size()), size_(run.exchanges()), run_(run) {
     values_.resize(width_ * size_);
     for (std::size_t slot = 0; slot < width_; ++slot) {
       const std::vector<double>& signal = run.values(property.signals[slot]);
@@ -37,12 +37,22 @@ class Rows {
       for (std::size_t k = first + 1; k <= last; ++k) {
         if (row(k)[slot] != row(first)[slot]) return true;
       }
+      if (signal.is("alive") && flew(signal.argument(0), first, last)) return true;
     }
     return !can_move;
   }
 
  private:
+  /// `alive` moves in a collision only: a UAV that flies exercises it as well as one that collides.
+  bool flew(const std::string& uav, std::size_t first, std::size_t last) const {
+    const auto& table = signal_table();
+    const auto distance = std::ranges::find(table, std::string_view("distance"), &SignalInfo::name);
+    const std::vector<double>& way = run_.values({&*distance, {uav}});
+    return way[last] > way[first];
+  }
+
   const std::size_t width_, size_;
+  RunSignals& run_;
   std::vector<double> values_;
 };
 
@@ -85,6 +95,7 @@ class Evaluation {
       }
       decided = true;
     }
+    if (!decided && excused_) return vacuous("it was not exercised: what stands behind 'unless' came first");
     if (!decided) return vacuous("the run ended before it could be decided");
     if (property_.kind == Kind::sometimes && worst.outcome == Outcome::fails) return vacuous("it was never reached");
     if (worst.outcome == Outcome::holds && !rows_.any_moved(property_, whole->first, whole->last)) {
@@ -144,8 +155,22 @@ class Evaluation {
     return starts;
   }
 
-  /// @returns nullopt when the run ended before it was decided.
-  std::optional<Verdict> judge(const Stretch& part) const {
+  /// The first exchange in which what stands behind `unless` is true.
+  std::optional<std::size_t> excuse(const Stretch& part) const {
+    if (!property_.unless) return std::nullopt;
+    for (std::size_t k = part.first; k <= part.last; ++k) {
+      if (margin_at(*property_.unless, rows_.at(k, part.first)).holds) return k;
+    }
+    return std::nullopt;
+  }
+
+  /// @returns nullopt when the run ended, or `unless` came, before it was decided.
+  std::optional<Verdict> judge(Stretch part) {
+    if (const std::optional<std::size_t> at = excuse(part)) {
+      excused_ = true;
+      if (*at == part.first) return std::nullopt;
+      part = {part.first, *at - 1, false};
+    }
     const Decision decision = decided(part);
     const bool holds = decision.margin.holds;
     const bool may_come = property_.kind == Kind::eventually || property_.kind == Kind::until;
@@ -215,6 +240,7 @@ class Evaluation {
   RunSignals& run_;
   const Rows rows_;
   const double period_s_;
+  bool excused_ = false;  ///< by `unless`, at least once
 };
 
 }  // namespace
