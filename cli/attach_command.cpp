@@ -62,6 +62,15 @@ std::string patience_text(const RunningFleet& fleet, const std::string& member) 
                      timed ? "--agent-timeout 3600" : "--debug");
 }
 
+/// What to do where a debugger stops: hardly ever in code of the user's.
+std::string first_steps_text(const std::string& member) {
+  const std::string where = member + " stops in a system call, where it waits for the next exchange";
+  const bool has_planner =
+      member != programs::kSimServer && member != programs::kStation && member != programs::kCommRouter;
+  return where + (has_planner ? ": set a breakpoint in your planner (`break YourPlanner::plan`), then `continue`"
+                              : ": set a breakpoint, then `continue`");
+}
+
 /// The tool's command line, the process at its end.
 std::vector<std::string> tool_words(const std::string& how, pid_t pid, const std::string& why) {
   const std::string process = std::to_string(pid);
@@ -106,7 +115,7 @@ int attach_to(const AttachOptions& options, const Console& console) {
   const std::string why = "attach " + options.what;
   if (tracer_of(pid) != 0) throw InputError(why + ": it is already " + state_text(pid));
   std::vector<std::string> words = tool_words(how, pid, why);
-  console.err << patience_text(fleet, member) << std::endl;
+  console.err << patience_text(fleet, member) << '\n' << first_steps_text(member) << std::endl;
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);

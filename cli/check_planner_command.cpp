@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -14,6 +15,7 @@
 #include "cli/run/preflight.hpp"
 #include "cli/run/program_start.hpp"
 #include "cli/run_command.hpp"
+#include "cli/study/flights.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
 #include "process/json_text.hpp"
@@ -37,6 +39,8 @@ struct Surroundings {
 
 /// Three hundred days ago: whoever waits for a time of the wall clock need not wait then.
 constexpr const char* kOtherTime = "-25920000";
+
+constexpr std::size_t kMissions = 2;  ///< one without faults, one with a restart
 
 /// Beside the programs, or where it is installed.
 fs::path other_clock(const fs::path& bin_dir) {
@@ -127,6 +131,10 @@ class PlannerCheck {
     const ScratchDir scratch;
     out_ = options_.out ? fs::absolute(*options_.out) : scratch.path();
     fs::create_directories(out_);
+    for (const Surroundings& one : all_surroundings(program_dir())) {
+      if (!is_as_first(one)) surroundings_.push_back(one);
+    }
+    planned_ = kMissions * (1 + surroundings_.size());
     check("a mission", "plain", {});
     check("a mission with a restart", "restart", restart_file());
     console_.out << (differences_ == 0 ? "repeatable: all runs are the same" : "not repeatable") << std::endl;
@@ -152,15 +160,16 @@ class PlannerCheck {
     if (digest.empty()) {
       ++differences_;
       console_.out << "  it came to no end of its own, so nothing can be compared\n";
+      planned_ -= surroundings_.size();
       return;
     }
     run.check = false;
-    for (const Surroundings& surroundings : all_surroundings(program_dir())) {
-      if (surroundings.dds && !base_.one_process && surroundings.dds == base_.dds && surroundings.variables.empty()) {
-        continue;  // that is how all are flown
-      }
-      compare(run, digest, folder, surroundings);
-    }
+    for (const Surroundings& surroundings : surroundings_) compare(run, digest, folder, surroundings);
+  }
+
+  /// Whether all are flown like this.
+  bool is_as_first(const Surroundings& one) const {
+    return one.dds && !base_.one_process && one.dds == base_.dds && one.variables.empty();
   }
 
   void compare(RunOptions run, const std::string& digest, const std::string& folder, const Surroundings& surroundings) {
@@ -193,6 +202,7 @@ class PlannerCheck {
     run.replay = ReplayOf{first / run_folder::kRecording, std::nullopt, {}, {}};
     run.faults.reset();
     run.out = run.out->string() + "-replayed";
+    ++planned_;
     for (const Json& text : value_or(fly(run), "differences", Json::array())) {
       if (text.is_string()) console_.out << "    " << text.get<std::string>() << '\n';
     }
@@ -200,9 +210,22 @@ class PlannerCheck {
   }
 
   Json fly(const RunOptions& run) {
+    tell_progress();
+    ++begun_;
     std::ostringstream unseen;
     if (run_fleet(run, {unseen, unseen, false}) == kExitInterrupted) throw Interrupted{};
     return read_json(*run.out / run_folder::kResult);
+  }
+
+  /// Which flight begins, of how many, and how long all of them take at the pace so far.
+  void tell_progress() const {
+    const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    console_.err << "flight " << begun_ + 1 << " of " << planned_;
+    if (begun_ > 0) {
+      const auto left = static_cast<double>(planned_ - begun_);
+      console_.err << ", about " << duration_text(left * wall_s / static_cast<double>(begun_)) << " left";
+    }
+    console_.err << std::endl;
   }
 
   static std::string digest_of(const Json& result) {
@@ -217,6 +240,9 @@ class PlannerCheck {
   std::string first_uav_;
   fs::path out_;
   int differences_ = 0;
+  std::vector<Surroundings> surroundings_;  ///< in which each mission is flown again
+  std::size_t planned_ = 0, begun_ = 0;     ///< flights
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace

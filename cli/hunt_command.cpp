@@ -43,6 +43,9 @@ class Hunt {
 
   int run() {
     bool interrupted = false;
+    for (const fs::path& capsule : log_.kept()) {
+      console_.err << "a find of the earlier hunt is kept: " << capsule.string() << std::endl;
+    }
     try {
       search();
       for (const Failure& failure : failures_of(log_.outcomes(), flown())) {

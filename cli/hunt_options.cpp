@@ -51,7 +51,7 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
                    "Flights at once; finds do not depend on it (default: as many as cores, over DDS one)")
       ->check(CLI::Range(1, 16));
   command->add_option("--out", hunt.out, "Folder of the search and its finds (default runs/hunt-<scenario>-<planner>)");
-  command->add_flag("--force", hunt.force, "Begin anew where another hunt was");
+  command->add_flag("--force", hunt.force, "Begin anew where another hunt was; its finds move into earlier/");
   command->add_option("--junit", hunt.junit, "Report for CI servers (JUnit XML)");
   command->footer(
       "Examples:\n"
@@ -81,7 +81,7 @@ void add_blame(CLI::App& app, BlameOptions& blame) {
   command->footer(
       "Examples:\n"
       "  skein blame runs/towers-kios-0\n"
-      "  skein blame runs/hunt-towers-patrol/finds/flies_on-17.yaml --messages 12 14\n\n"
+      "  skein blame runs/hunt-towers-patrol/finds/all_fly_on-17.yaml --messages 12 14\n\n"
       "docs/how-to-hunt.md has more.");
 }
 

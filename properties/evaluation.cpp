@@ -15,7 +15,7 @@ using Kind = Property::Kind;
 /// The signals of a property side by side, exchange by exchange.
 class Rows {
  public:
-  Rows(const Property& property, RunSignals& run) : width_(property.signals.size()), size_(run.exchanges()) {
+  Rows(const Property& property, RunSignals& run) : width_(property.signals.size()), size_(run.exchanges()), run_(run) {
     values_.resize(width_ * size_);
     for (std::size_t slot = 0; slot < width_; ++slot) {
       const std::vector<double>& signal = run.values(property.signals[slot]);
@@ -37,12 +37,22 @@ class Rows {
       for (std::size_t k = first + 1; k <= last; ++k) {
         if (row(k)[slot] != row(first)[slot]) return true;
       }
+      if (signal.is("alive") && flew(signal.argument(0), first, last)) return true;
     }
     return !can_move;
   }
 
  private:
+  /// `alive` moves in a collision only: a UAV that flies exercises it as well as one that collides.
+  bool flew(const std::string& uav, std::size_t first, std::size_t last) const {
+    const auto& table = signal_table();
+    const auto distance = std::ranges::find(table, std::string_view("distance"), &SignalInfo::name);
+    const std::vector<double>& way = run_.values({&*distance, {uav}});
+    return way[last] > way[first];
+  }
+
   const std::size_t width_, size_;
+  RunSignals& run_;
   std::vector<double> values_;
 };
 
@@ -89,6 +99,7 @@ class Evaluation {
     if (unclear_s_ && worst.outcome != Outcome::fails) {
       return unclear("it");
     }
+    if (!decided && excused_) return vacuous("it was not exercised: what stands behind 'unless' came first");
     if (!decided) return vacuous("the run ended before it could be decided");
     if (property_.kind == Kind::sometimes && worst.outcome == Outcome::fails) return vacuous("it was never reached");
     if (worst.outcome == Outcome::holds && !rows_.any_moved(property_, whole->first, whole->last)) {
@@ -153,8 +164,22 @@ class Evaluation {
   /// That it is undefined in this exchange, where nothing else decides it.
   void note_unclear(std::size_t k) { unclear_s_ = std::min(unclear_s_.value_or(time_of(k)), time_of(k)); }
 
-  /// @returns nullopt when the run ended before it was decided, or it is undefined.
-  std::optional<Verdict> judge(const Stretch& part) {
+  /// The first exchange in which what stands behind `unless` is true.
+  std::optional<std::size_t> excuse(const Stretch& part) const {
+    if (!property_.unless) return std::nullopt;
+    for (std::size_t k = part.first; k <= part.last; ++k) {
+      if (margin_at(*property_.unless, rows_.at(k, part.first)).holds) return k;
+    }
+    return std::nullopt;
+  }
+
+  /// @returns nullopt when the run ended, or `unless` came, before it was decided, or it is undefined.
+  std::optional<Verdict> judge(Stretch part) {
+    if (const std::optional<std::size_t> at = excuse(part)) {
+      excused_ = true;
+      if (*at == part.first) return std::nullopt;
+      part = {part.first, *at - 1, false};
+    }
     const Decision decision = decided(part);
     if (!decision.margin.is_defined) {
       note_unclear(decision.at);
@@ -239,6 +264,7 @@ class Evaluation {
   const Rows rows_;
   const double period_s_;
   std::optional<double> unclear_s_;  ///< the first time at which nothing decided, since something was undefined
+  bool excused_ = false;  ///< by `unless`, at least once
 };
 
 }  // namespace

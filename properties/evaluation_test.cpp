@@ -230,5 +230,33 @@ TEST(Evaluation, MarginsOverTimeAreThoseOfTheCondition) {
             (std::vector<double>{-2, -1, 0}));
 }
 
+// `alive` moves in a collision only; a run in which UAVs fly and none collides is no vacuous one.
+TEST(Evaluation, AFlightWithoutCollisionExercisesAlive) {
+  const auto flown = [](const std::vector<double>& way, const std::vector<double>& alive) {
+    return judged("for u in uavs, always alive(u)",
+                  {{"alive(a)", alive}, {"distance(a)", way}, {"alive(b)", {1, 1, 1}}, {"distance(b)", {0, 0, 0}}})
+        .outcome;
+  };
+  EXPECT_EQ(flown({0, 1, 2}, {1, 1, 1}), Outcome::holds);
+  EXPECT_EQ(flown({0, 0, 0}, {1, 1, 1}), Outcome::vacuous) << "whatever stands on the ground";
+  EXPECT_EQ(flown({0, 1, 1}, {1, 1, 0}), Outcome::fails);
+}
+
+TEST(Evaluation, WhatComesUnderUnlessIsNoSuccess) {
+  const auto outcome = [](const std::string& text, const std::vector<double>& held, const std::vector<double>& back) {
+    return judged(text, {{"held", held}, {"member(a)", back}}).outcome;
+  };
+  const std::string eventually = "eventually held >= 2 unless member(a) within 3 s";
+  EXPECT_EQ(outcome(eventually, {0, 1, 2, 2, 2}, {0, 0, 0, 1, 1}), Outcome::holds) << "it came first";
+  EXPECT_EQ(outcome(eventually, {0, 1, 1, 2, 2}, {0, 0, 1, 1, 1}), Outcome::vacuous) << "the excuse came first";
+  EXPECT_EQ(outcome(eventually, {0, 1, 1, 1, 2}, {0, 0, 0, 0, 1}), Outcome::fails) << "neither came in time";
+  EXPECT_EQ(outcome(eventually, {2, 2, 2, 2, 2}, {1, 1, 1, 1, 1}), Outcome::vacuous) << "it was never asked";
+  const std::string always = "always held < 2 unless member(a)";
+  EXPECT_EQ(outcome(always, {0, 1, 2, 0, 0}, {0, 0, 0, 1, 1}), Outcome::fails);
+  EXPECT_EQ(outcome(always, {0, 1, 0, 2, 2}, {0, 0, 0, 1, 1}), Outcome::holds) << "as far as it was asked";
+  const Verdict excused = judged(eventually, {{"held", {0, 1, 1}}, {"member(a)", {0, 0, 1}}});
+  EXPECT_NE(excused.reason.find("not exercised"), std::string::npos) << excused.reason;
+}
+
 }  // namespace
 }  // namespace skein::properties

@@ -33,7 +33,8 @@ struct Property {
   Kind kind = Kind::always;
   std::optional<Expression> whenever = {};  ///< each time that this becomes true, the rest must hold from then on
   Expression condition = {};
-  Expression goal = {};  ///< of `until`
+  Expression goal = {};                   ///< of `until`
+  std::optional<Expression> unless = {};  ///< from where this is true on, nothing is asked until the window's end
   Window window = {};
   std::vector<SignalUse> signals = {};  ///< by slot
   std::size_t window_at = 0;            ///< where its window stands in its text

@@ -76,6 +76,7 @@ class Reader {
     } else {
       property_.condition = parser_.condition();
     }
+    if (parser_.accept("unless")) property_.unless = parser_.condition();
     read_window();
     parser_.expect_end();
   }

@@ -22,8 +22,9 @@ inline constexpr const char* kSameDigest = "same_digest";
 /// What a capsule, which `skein hunt` made, says of its find.
 struct CapsuleMark {
   std::string property;  ///< that failed
-  std::string digest;    ///< of the run in which it did; empty: it has none
+  std::string digest;    ///< of the run in which it did, for ever; empty: it had none, or it is not known any more
   std::string skein;     ///< version
+  std::string build;     ///< that flew it: of its programs, or a commit; empty: not known
   std::string command;   ///< of the hunt
 
   template <class R>
@@ -31,6 +32,7 @@ struct CapsuleMark {
     r.required("property", property);
     r.field("digest", digest);
     r.field("skein", skein);
+    r.field("build", build);
     r.field("command", command);
   }
 };

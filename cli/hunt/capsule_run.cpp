@@ -91,6 +91,21 @@ bool is_capsule(const RunOptions& options) {
   return read_config_document(file).root.find("capsule") != nullptr;
 }
 
+std::string comparison_text(const CapsuleMark& mark, const std::string& digest) {
+  const std::string found = "found with skein " + mark.skein + (mark.build.empty() ? "" : ", build " + mark.build);
+  const std::string here = "this build (skein " SKEIN_VERSION ") ";
+  const std::string now = digest.empty() ? "without a digest" : "digest " + digest;
+  if (mark.digest.empty() && mark.property == kCompletes) {
+    return found + ", a run that came to no digest; this one is " + now;
+  }
+  if (mark.digest.empty()) {
+    return found + "; the digest of that run is not known, so whether " + here +
+           "flies it as it was found cannot be said: " + now;
+  }
+  if (digest == mark.digest) return "this is the run that was found, bit for bit (" + found + ")";
+  return found + "; " + here + "flies it otherwise: " + now + ", then " + mark.digest;
+}
+
 int run_capsule(const RunOptions& options, const Console& console) {
   FaultTest test = load_fault_test(options.scenario, options.assets, options.agent, options.one_process);
   RunOptions& run = test.plan.options;
@@ -115,14 +130,7 @@ int run_capsule(const RunOptions& options, const Console& console) {
                 << run.out->string() << '\n';
   }
   console.out << mark.property << (verdict.fails ? " fails: " : " holds: ") << verdict.text << '\n';
-  const std::string digest = digest_in(*run.out);
-  if (digest == mark.digest) {
-    console.out << "this is the run that was found, bit for bit\n";
-  } else {
-    console.out << "this is another run: digest " << (digest.empty() ? "none" : digest) << ", then " << mark.digest
-                << "; found by skein " << mark.skein << ", this is skein " << SKEIN_VERSION << '\n';
-  }
-  console.out << std::flush;
+  console.out << comparison_text(mark, digest_in(*run.out)) << std::endl;
   return verdict.fails ? kExitCheckFailed : kExitDone;
 }
 

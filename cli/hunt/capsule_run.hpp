@@ -3,11 +3,16 @@
 
 #include "cli/command.hpp"
 #include "cli/console.hpp"
+#include "cli/fault_tests/fault_test.hpp"
 
 namespace skein::cli {
 
 /// Whether `skein run` was given a capsule in the place of a scenario.
 bool is_capsule(const RunOptions& options);
+
+/// Whether a run is the one that a capsule was made of, for people: it says so only of the digest that was found.
+/// @param digest  of the run; empty: it has none.
+std::string comparison_text(const CapsuleMark& mark, const std::string& digest);
 
 /// Of the options, those count that do not say what is flown: agent, DDS or one process, folder, recording, report.
 /// @returns 0 when what failed then holds, 1 when it fails. @throws InputError, Interrupted.

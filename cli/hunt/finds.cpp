@@ -153,7 +153,7 @@ void Finds::confirm(Find& find, const TrialOutcome& outcome) {
 
 /// The notes last: without them a find is not there.
 void Finds::write(const Find& find, const std::string& of) const {
-  const CapsuleMark mark{find.property, find.digest, SKEIN_VERSION, plan_.options.run.command};
+  const CapsuleMark mark{find.property, find.digest, SKEIN_VERSION, build_of(plan_), plan_.options.run.command};
   fs::create_directories(find.capsule.parent_path());
   write_file_atomically(find.capsule,
                         capsule_text(find.name, find.trial, mark, find.property + ": " + find.told, plan_.entries));

@@ -1,5 +1,7 @@
 #include "cli/hunt/log.hpp"
 
+#include <algorithm>
+
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
 #include "process/closed_to_agents.hpp"
@@ -12,6 +14,7 @@ namespace fs = std::filesystem;
 constexpr const char* kSettingsFile = "hunt.json";
 constexpr const char* kLogFile = "log.jsonl";
 constexpr std::size_t kMostCases = 10'000'000;
+constexpr const char* kFindsFolder = "finds";
 
 std::string differing_keys(const Json& then, const Json& now) {
   std::string keys;
@@ -21,7 +24,31 @@ std::string differing_keys(const Json& then, const Json& now) {
   return keys;
 }
 
+/// Where what an earlier hunt left is kept: the first number that is free.
+fs::path kept_folder(const fs::path& dir) {
+  const fs::path all = dir / HuntLog::kEarlier;
+  for (std::size_t number = 1;; ++number) {
+    fs::path one = all / std::to_string(number);
+    if (!fs::exists(one)) return one;
+  }
+}
+
 }  // namespace
+
+std::vector<fs::path> HuntLog::keep_finds(const fs::path& dir) {
+  std::vector<fs::path> capsules;
+  if (!fs::exists(dir / kFindsFolder) || fs::is_empty(dir / kFindsFolder)) return capsules;
+  const fs::path kept = kept_folder(dir);
+  fs::create_directories(kept);
+  fs::rename(dir / kFindsFolder, kept / kFindsFolder);
+  fs::rename(dir / kSettingsFile, kept / kSettingsFile);
+  if (fs::exists(dir / kLogFile)) fs::rename(dir / kLogFile, kept / kLogFile);
+  for (const auto& entry : fs::directory_iterator(kept / kFindsFolder)) {
+    if (entry.path().extension() == ".yaml") capsules.push_back(entry.path());
+  }
+  std::ranges::sort(capsules);
+  return capsules;
+}
 
 HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force) : file_(dir / kLogFile) {
   std::error_code error;
@@ -37,13 +64,14 @@ HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force) : file_(
     throw InputError(dir.string() + " holds another hunt, which differs in " + differing_keys(then, settings) +
                      "; choose another --out, or begin anew there with --force");
   }
-  const std::initializer_list<const char*> parts = {kLogFile, "finds", "flights"};
+  const std::initializer_list<const char*> parts = {kLogFile, kFindsFolder, "flights"};
   for (const char* part : parts) {
     if (then.is_null() && !fs::exists(dir / kSettingsFile) && fs::exists(dir / part)) {
       throw InputError("--out " + dir.string() + ": '" + part + "' is there, and is of no hunt; choose another --out");
     }
   }
   if (then.is_null() || force) {
+    if (!then.is_null()) kept_ = keep_finds(dir);
     for (const char* part : parts) fs::remove_all(dir / part);
     write_file_atomically(dir / kSettingsFile, settings.dump(2) + "\n");
   }

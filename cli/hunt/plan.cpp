@@ -30,6 +30,7 @@ using properties::PropertyEntry;
 constexpr double kAfterDeadline_s = 40.0;
 constexpr double kLeastForFaults_s = 5.0;
 constexpr double kPatience_s = 300.0;  ///< of wall time: many flights at once make each slow, and none of them wrong
+constexpr std::size_t kBuildLetters = 12;
 constexpr std::uintmax_t kLargestAgent = 2'000'000'000;
 
 /// The ready ones that a hunt asks, and that fit this fleet.
@@ -71,18 +72,6 @@ std::vector<std::string> kinds_of(const HuntOptions& options) {
   return options.faults.empty() ? fault_kinds() : options.faults;
 }
 
-/// Digest of all that flies: another program is another search.
-std::string programs_digest(const FleetPlan& fleet) {
-  Sha256 hash;
-  std::vector<fs::path> files = {fleet.bin_dir / programs::kSimServer, fleet.bin_dir / programs::kCommRouter,
-                                 fleet.bin_dir / programs::kStation};
-  if (fleet.options.one_process) files = {fleet_file(fleet)};
-  const std::vector<fs::path> agents = agent_files(fleet);
-  files.insert(files.end(), agents.begin(), agents.end());
-  for (const fs::path& file : files) hash.add(read_file_bytes(file, kLargestAgent));
-  return hash.hex();
-}
-
 Json settings_of(const HuntPlan& plan) {
   const RunOptions& run = plan.fleet.options;
   Json settings{{"skein_version", SKEIN_VERSION},  {"scenario", to_yaml(plan.fleet.scenario)},
@@ -106,6 +95,21 @@ RunOptions run_options_of(const HuntOptions& options) {
 }
 
 }  // namespace
+
+std::string programs_digest(const FleetPlan& fleet) {
+  Sha256 hash;
+  std::vector<fs::path> files = {fleet.bin_dir / programs::kSimServer, fleet.bin_dir / programs::kCommRouter,
+                                 fleet.bin_dir / programs::kStation};
+  if (fleet.options.one_process) files = {fleet_file(fleet)};
+  const std::vector<fs::path> agents = agent_files(fleet);
+  files.insert(files.end(), agents.begin(), agents.end());
+  for (const fs::path& file : files) hash.add(read_file_bytes(file, kLargestAgent));
+  return hash.hex();
+}
+
+std::string build_of(const HuntPlan& plan) {
+  return plan.settings.at("programs").get<std::string>().substr(0, kBuildLetters);
+}
 
 properties::PropertySet properties_of(const PropertyEntries& entries, const Scenario& scenario) {
   const ConfigDocument document{"properties", ConfigNode::make_map()};

@@ -28,6 +28,12 @@ struct HuntPlan {
 /// @throws InputError for whatever is wrong in what the user gave.
 HuntPlan plan_hunt(const HuntOptions& options);
 
+/// Digest of all programs that fly: other programs are another search.
+std::string programs_digest(const FleetPlan& fleet);
+
+/// Its first letters, as capsules name the build that they were found with.
+std::string build_of(const HuntPlan& plan);
+
 /// What is asked of a fleet.
 properties::PropertySet properties_of(const properties::PropertyEntries& entries, const Scenario& scenario);
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cli/hunt/capsule_run.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/fault_writer.hpp"
 
@@ -41,7 +42,8 @@ TEST_F(HuntPlans, ACapsuleIsAFaultTestThatReadsBack) {
     trial.run.seed = number;
     if (number % 2 == 0) trial.run.uavs = 2;
     if (number % 3 == 0) trial.run.scene_seed = number;
-    const CapsuleMark mark{plan.entries[number % plan.entries.size()].first, "12ab", "1.2.3", "skein hunt 'x: y'"};
+    const CapsuleMark mark{plan.entries[number % plan.entries.size()].first, "12ab", "1.2.3", "cd34",
+                           "skein hunt 'x: y'"};
     const std::filesystem::path file = programs_.dir() / "capsule.yaml";
     write_text(file, capsule_text("capsule", trial, mark, "it did not hold at 3 s: 'x'", plan.entries));
     const FaultTest test = load_fault_test(file);
@@ -49,6 +51,7 @@ TEST_F(HuntPlans, ACapsuleIsAFaultTestThatReadsBack) {
     EXPECT_EQ(test.capsule->property, mark.property);
     EXPECT_EQ(test.capsule->digest, mark.digest);
     EXPECT_EQ(test.capsule->command, mark.command);
+    EXPECT_EQ(test.capsule->build, mark.build);
     EXPECT_EQ(test.plan.options.seed, trial.run.seed);
     EXPECT_EQ(test.plan.options.uavs, trial.run.uavs);
     EXPECT_EQ(test.plan.options.scene_seed, trial.run.scene_seed);
@@ -66,7 +69,7 @@ TEST_F(HuntPlans, UsersTextsAndParametersStayInACapsule) {
   Trial trial{options().run, {}};
   for (const auto& [name, text] : entries) {
     const std::filesystem::path file = programs_.dir() / "capsule.yaml";
-    write_text(file, capsule_text("c", trial, {name, "", "1", ""}, "told", entries));
+    write_text(file, capsule_text("c", trial, {name, "", "1", "", ""}, "told", entries));
     const FaultTest test = load_fault_test(file);
     ASSERT_EQ(test.property_set.size(), 1U);
     EXPECT_EQ(test.property_set[0].text, std::get<std::string>(text));
@@ -114,6 +117,29 @@ TEST_F(HuntPlans, FaultsSilenceWhatSaysNothingWithThem) {
   EXPECT_FALSE(asked({{1.0, 2.0, lost}, {1.0, 2.0, twice}}, "delivered_once"));
   EXPECT_FALSE(asked({{1.0, 2.0, OdometryFreeze{"alpha"}}}, "separation"));
   EXPECT_TRUE(asked({{1.0, 2.0, OdometryFreeze{"alpha"}}}, "custody_kept"));
+}
+
+// Another run than the one that was found is never called by its name.
+TEST(CapsuleRuns, OnlyTheDigestThatWasFoundIsTheRunThatWasFound) {
+  const CapsuleMark mark{"separation", "12ab", "0.0.9", "commit 77", "skein hunt"};
+  EXPECT_EQ(comparison_text(mark, "12ab"),
+            "this is the run that was found, bit for bit (found with skein 0.0.9, build commit 77)");
+  for (const std::string digest : {"12ac", ""}) {
+    const std::string text = comparison_text(mark, digest);
+    EXPECT_EQ(text.find("bit for bit"), std::string::npos) << text;
+    EXPECT_NE(text.find("found with skein 0.0.9, build commit 77; this build"), std::string::npos) << text;
+    EXPECT_NE(text.find("flies it otherwise"), std::string::npos) << text;
+    EXPECT_NE(text.find("then 12ab"), std::string::npos) << text;
+  }
+  CapsuleMark unknown = mark;
+  unknown.digest.clear();
+  for (const std::string digest : {"12ab", ""}) {
+    const std::string text = comparison_text(unknown, digest);
+    EXPECT_EQ(text.find("bit for bit"), std::string::npos) << text;
+    EXPECT_NE(text.find("not known"), std::string::npos) << text;
+  }
+  unknown.property = kCompletes;
+  EXPECT_NE(comparison_text(unknown, "").find("this one is without a digest"), std::string::npos);
 }
 
 }  // namespace

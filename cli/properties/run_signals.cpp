@@ -17,6 +17,14 @@ std::size_t exchanges_of(const RunRecord& run, const Scenario& scenario) {
   return static_cast<std::size_t>(std::llround(end_s / scenario.exchange_period_s)) + 1;
 }
 
+/// Of a UAV's program: without the station or the router, what must hold after faults cannot.
+bool is_death_for_good(const Json& fault, const Scenario& scenario) {
+  if (value_or(fault, "kind", "") != "kill" || value_or(fault, "until_s", nullptr).is_number()) return false;
+  const Json target = value_or(fault, "target", nullptr);
+  const std::vector<std::string> uavs = scenario.uav_names();
+  return std::ranges::any_of(uavs, [&](const std::string& uav) { return target == uav; });
+}
+
 }  // namespace
 
 FolderSignals::FolderSignals(const RunRecord& run, const Scenario& scenario, const RunRecord* undisturbed)
@@ -26,7 +34,9 @@ std::optional<double> FolderSignals::healed_s() const {
   double healed_s = 0.0;
   for (const Json& fault : value_or(run_.result, "faults", Json::array())) {
     if (!value_or(fault, "began_step", nullptr).is_number()) continue;
-    const Json ended = value_or(fault, "ended_step", nullptr);
+    Json ended = value_or(fault, "ended_step", nullptr);
+    // After the death of a program for good nothing changes any more: what the others do then can be asked.
+    if (!ended.is_number() && is_death_for_good(fault, scenario_)) ended = fault["began_step"];
     if (!ended.is_number()) return std::nullopt;
     healed_s = std::max(healed_s, ended.get<double>() * period_s());
   }

@@ -126,6 +126,25 @@ TEST_F(RunSignalsTest, MembersLinksAndFaultsFollowEventsAndResult) {
   EXPECT_EQ(healed(), std::nullopt);
 }
 
+TEST_F(RunSignalsTest, AProgramThatDiesForGoodSilencesNothingThatComesAfterIt) {
+  const auto healed = [&] { return FolderSignals(run_, scenario_).healed_s(); };
+  const Json died{{"kind", "kill"}, {"target", "a"}, {"began_step", 12}, {"ended_step", nullptr}, {"until_s", nullptr}};
+  run_.result["faults"] = Json::array({{{"kind", "link"}, {"began_step", 4}, {"ended_step", 8}}, died});
+  EXPECT_EQ(healed(), 0.6);
+  run_.result["faults"].push_back({{"kind", "pause"}, {"began_step", 4}, {"ended_step", 20}});
+  EXPECT_EQ(healed(), 1.0) << "other faults end later";
+  Json away = died;
+  away["until_s"] = 5.0;
+  run_.result["faults"].push_back(away);
+  EXPECT_EQ(healed(), std::nullopt) << "a program that would have come back after the run's end";
+  run_.result["faults"].back() = died;
+  run_.result["faults"].back()["target"] = "station";
+  EXPECT_EQ(healed(), std::nullopt) << "nobody delivers without a station";
+  run_.result["faults"].back() = died;
+  run_.result["faults"].back()["kind"] = "blackout";
+  EXPECT_EQ(healed(), std::nullopt) << "other faults stay in force to the end";
+}
+
 TEST_F(RunSignalsTest, NumbersOfTheResultAreCalledByTheirKeys) {
   EXPECT_EQ(number("result(score)")[3], 7.5);
   EXPECT_EQ(number("result(radio.sent)")[40], 12.0);

@@ -1,6 +1,7 @@
 // The shipped fault tests and what the pages say about faults: every file loads, every table is complete.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
@@ -66,6 +67,36 @@ TEST_F(FaultFiles, EveryShippedOneIsAFaultTestNamedAfterItsFile) {
     EXPECT_LE(*test.plan.options.duration_s, 180.0) << name;
   }
   EXPECT_LE(total_s, 80.0 * static_cast<double>(shipped().size())) << "the suite should stay short";
+}
+
+// Work is taken over from a program that does not come back: elsewhere the property says nothing.
+TEST_F(FaultFiles, ThoseThatAskForWorkToBeTakenOverKillForGood) {
+  std::size_t asked = 0;
+  for (const std::string& name : shipped()) {
+    const FaultTest test = load_fault_test(kRoot / "config" / "faults" / (name + ".yaml"));
+    if (std::ranges::find(test.property_set, "taken_over", &properties::NamedProperty::name) ==
+        test.property_set.end()) {
+      continue;
+    }
+    ++asked;
+    EXPECT_TRUE(std::ranges::any_of(test.plan.faults.faults, [](const Fault& fault) {
+      return fault_kind(fault) == "kill" && !fault.until_s && !fault.for_s;
+    })) << name;
+  }
+  EXPECT_GE(asked, 1u);
+}
+
+TEST_F(FaultFiles, FindsNameTheBuildThatTheirDigestIsOf) {
+  std::size_t finds = 0;
+  for (const char* folder : {"found", "found/open"}) {
+    for (const std::string& name : config_names(kRoot / "config" / "faults" / folder)) {
+      const FaultTest test = load_fault_test(kRoot / "config" / "faults" / folder / (name + ".yaml"));
+      ASSERT_TRUE(test.capsule) << name;
+      EXPECT_EQ(test.capsule->digest.empty(), test.capsule->build.empty()) << name;
+      ++finds;
+    }
+  }
+  EXPECT_GE(finds, 6u);
 }
 
 TEST_F(FaultFiles, TheShippedOnesShowEveryKindOfFault) {

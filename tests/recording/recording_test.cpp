@@ -179,6 +179,14 @@ TEST_F(Recording, IsReadByOthers) {
     EXPECT_DOUBLE_EQ(found["tally"]["score"], flown.result()["score"]);
     EXPECT_EQ(found["metadata"]["skein"]["digest"], flown.digest());
     EXPECT_EQ(found["types"]["/jurong/cloud_inW"], "sensor_msgs/msg/PointCloud2");
+    EXPECT_EQ(found["ordered"], true) << "by log time";
+    if (mode == "stream") {
+      EXPECT_EQ(found.value("dataEnd", false), true) << "a whole file has its DataEnd";
+      EXPECT_EQ(found.value("complete", false), true);
+    } else {
+      EXPECT_EQ(found["statistics"], found["messages"]) << "the Statistics record counts what is there";
+      EXPECT_GT(found["chunks"], 0);
+    }
   }
 }
 
@@ -196,6 +204,7 @@ TEST_F(Recording, OfARunThatWasKilledIsReadAsFarAsItGoes) {
   const Recorded recorded(left);
   EXPECT_GT(recorded.last_s, 5.0);
   const Json found = read_by_others(left, "stream");
+  EXPECT_FALSE(found.contains("dataEnd")) << "the file breaks off";
   EXPECT_EQ(found["topics"].get<decltype(recorded.topics)>(), recorded.topics);
 }
 
