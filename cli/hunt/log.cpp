@@ -71,7 +71,7 @@ HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force) : file_(
     }
   }
   if (then.is_null() || force) {
-    if (!then.is_null()) kept_ = keep_finds(dir);
+    if (fs::exists(dir / kSettingsFile)) kept_ = keep_finds(dir);
     for (const char* part : parts) fs::remove_all(dir / part);
     write_file_atomically(dir / kSettingsFile, settings.dump(2) + "\n");
   }
