@@ -113,8 +113,8 @@ struct CheckOptions {
   std::vector<std::string> files;
   std::vector<std::string> golden;  ///< CSV files of reference vectors
   std::optional<std::filesystem::path> assets;
-  std::optional<std::filesystem::path> agent;  ///< as in RunOptions
-  std::string scenario = "towers";             ///< that fault files are for, unless they name one themselves
+  std::optional<std::filesystem::path> agent = {};  ///< as in RunOptions
+  std::string scenario = "towers";                  ///< that fault files are for, unless they name one themselves
 };
 
 struct SceneOptions {
@@ -233,7 +233,7 @@ struct StudyOptions {
   std::vector<std::string> planner_lists;  ///< of --planners: lists
   std::vector<std::string> planners;       ///< of --planner: each as `skein run` takes it
   std::vector<std::string> scenarios;      ///< empty: the usual ones
-  std::string seeds = "0-4";                 ///< as --seeds takes them
+  std::string seeds = "0-4";               ///< as --seeds takes them
   Rank rank = Rank::maximum;
   std::optional<std::uint64_t> scene_seed;
   std::optional<std::string> scene_seeds;       ///< each scenario with each of these, as --seeds takes them

@@ -126,8 +126,8 @@ endfunction()
 
 # skein_add_test(NAME SOURCES ... LIBS ... [LABELS ...] [TIMEOUT s] [SERIAL] [PROGRAMS target...])
 # A CTest entry: the tests that stand in the sources *_test.cpp. The tests of a CMake folder are one program,
-# `core_tests` say, which runs those of one entry at a time (tests/support/main.cpp). PROGRAMS are what its tests start. Assets come
-# from SKEIN_ASSETS and SKEIN_GOLDEN in the environment.
+# `core_tests` say, which runs those of one entry at a time (tests/support/test_program.hpp). PROGRAMS are what its
+# tests start. Assets come from SKEIN_ASSETS and SKEIN_GOLDEN in the environment.
 function(skein_add_test name)
   cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "SOURCES;LIBS;LABELS;PROGRAMS" ${ARGN})
   if(NOT BUILD_TESTING OR (SKEIN_SANITIZE STREQUAL thread AND NOT name IN_LIST SKEIN_THREAD_TESTS) OR

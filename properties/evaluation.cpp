@@ -264,7 +264,7 @@ class Evaluation {
   const Rows rows_;
   const double period_s_;
   std::optional<double> unclear_s_;  ///< the first time at which nothing decided, since something was undefined
-  bool excused_ = false;  ///< by `unless`, at least once
+  bool excused_ = false;             ///< by `unless`, at least once
 };
 
 }  // namespace

@@ -21,10 +21,10 @@ class App;
 namespace skein::recording {
 
 struct ReplayOptions {
-  std::filesystem::path file;      ///< --replay: recording.mcap; empty: nothing is replayed
-  std::optional<double> until_s;   ///< --replay-until: from then on what programs say counts
-  std::vector<std::string> only;   ///< --replay-only: who takes part, by name of the UAV; empty: everybody
-  std::vector<std::string> other;  ///< --replay-other: who runs other software than then, and so is not compared
+  std::filesystem::path file;           ///< --replay: recording.mcap; empty: nothing is replayed
+  std::optional<double> until_s;        ///< --replay-until: from then on what programs say counts
+  std::vector<std::string> only;        ///< --replay-only: who takes part, by name of the UAV; empty: everybody
+  std::vector<std::string> other = {};  ///< --replay-other: who runs other software than then, and so is not compared
 
   bool active() const { return !file.empty(); }
   bool takes_part(const std::string& member) const;

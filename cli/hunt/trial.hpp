@@ -38,11 +38,11 @@ struct TrialFinding {
 };
 
 struct TrialOutcome {
-  std::string digest;                          ///< empty: none
-  double score = 0.0, end_s = 0.0;             ///< delivered; simulated time of the run
-  std::vector<TrialFinding> findings;          ///< kCompletes, then the properties in their order
-  std::vector<std::optional<double>> began_s;  ///< by fault: when it began
-  std::vector<std::uint64_t> states;           ///< what the fleet was in, see states_of(); ascending
+  std::string digest = {};                          ///< empty: none
+  double score = 0.0, end_s = 0.0;                  ///< delivered; simulated time of the run
+  std::vector<TrialFinding> findings = {};          ///< kCompletes, then the properties in their order
+  std::vector<std::optional<double>> began_s = {};  ///< by fault: when it began
+  std::vector<std::uint64_t> states = {};           ///< what the fleet was in, see states_of(); ascending
 
   const TrialFinding* find(const std::string& property) const;
   bool fails(const std::string& property) const;

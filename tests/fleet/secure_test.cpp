@@ -236,7 +236,8 @@ TEST_F(Secure, AgentsReadNoGroundTruthThatIsThereAlready) {
                                                "cat " +
                                                worlds.string() +
                                                "/*/*/*.yaml > /dev/null && id -G >> $SKEIN_OUT/looked\n"
-                                               "exec " helper_program("minimal_client") "\n");
+                                               "exec " +
+                                               helper_program("minimal_client") + "\n");
   const auto looked = [&](const std::string& name, const std::string& scene_seed) {
     const std::string spy = Json::parse(text_of(folder() / "older/result.json"))["uavs"][0]["name"];
     SkeinRun& flown = run(name,
