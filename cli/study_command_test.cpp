@@ -250,7 +250,7 @@ TEST_F(StudyCommand, ACompareHasNoTotals) {
   EXPECT_EQ(run(), kExitDone);
   EXPECT_EQ(flown(), "hover 0\npatrol 0\nhover 1\npatrol 1\n");
   EXPECT_FALSE(std::filesystem::exists(*options_.out / "totals.csv"));
-  EXPECT_NE(file("report.html").find("./skein compare --planners hover,patrol"), std::string::npos);
+  EXPECT_NE(file("report.html").find("skein compare --planners hover,patrol"), std::string::npos);
   EXPECT_NE(file("report.html").find("missions of 60 s"), std::string::npos);
 }
 

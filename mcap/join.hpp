@@ -13,7 +13,8 @@ namespace skein::mcap {
 /// @param parts  their schemas and channels have different ids (WriterOptions::first_id).
 /// @param metadata  of the whole.
 /// @returns what went wrong, for people; empty: `file` is whole. A part that is no MCAP file is left out and reported,
-/// and so is what is damaged of a part (Reader::damage): `file` is then no recording to go by. @throws std::system_error when `file` cannot be opened.
+/// and so is what is damaged of a part (Reader::damage): `file` is then no recording to go by.
+/// @throws std::system_error when `file` cannot be opened.
 std::string join(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& file,
                  const std::vector<Metadata>& metadata);
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cstring>
 
 #include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_yaml.hpp"
@@ -29,8 +28,7 @@ constexpr const char* kBuildInContainer = "/opt/skein";
 constexpr const char* kParametersInContainer = "/planner.yaml";
 /// A network's members (at most four), the engine's own address, the first and the last.
 constexpr int kNetworkPrefix = 28;
-/// Without a launcher this tells who died; whoever is stopped for longer has to join anew.
-constexpr int kLease_s = 10;
+constexpr int kLease_s = 10;            ///< of silence: without a launcher this tells which program died
 constexpr int kDebuggedLease_s = 3600;  ///< the longest that Cyclone DDS takes: who is debugged stands for long
 /// A container that the engine has started again once the run was over ends after so long.
 constexpr int kServerTimeout_s = 60;
@@ -331,7 +329,8 @@ void check_names(const Scenario& scenario) {
 
 /// @param option  that names the image, or the variable
 void check_image(const std::string& option, const std::string& image) {
-  const auto may_be = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("._-/:@", c) != nullptr; };
+  const std::string_view marks = "._-/:@";
+  const auto may_be = [&](unsigned char c) { return std::isalnum(c) != 0 || marks.find(char(c)) != marks.npos; };
   if (!image.empty() && std::isalnum(static_cast<unsigned char>(image[0])) && std::ranges::all_of(image, may_be))
     return;
   throw InputError(option + ": '" + printable(image) +
