@@ -58,6 +58,7 @@ void SharedProcess::look_after_turns() {
     page_.give_reason(fmt::format("this program did not end its turn for {} s, and its process {}", patience_.count(),
                                   cli::has_stopped(page_.process()) ? "is stopped (SIGSTOP)" : "does not say why"));
     supervisor_.signal(process_.name, SIGKILL);
+    supervisor_.signal(process_.name, SIGCONT);  // a minder has stopped with it, and has to see its end
     turn_since_ = Clock::now();
   }
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <set>
 
+#include "core/command_file.hpp"
 #include "fleet_fixture.hpp"
 #include "tests/support/places.hpp"
 
@@ -189,7 +190,7 @@ TEST_F(Packages, DebianPackagesAreTheComponents) {
 
 TEST_F(Packages, WithoutTheScriptOfPagesNothingIsInstalledUnlessTheUserSaysSo) {
   fs::create_directories(folder() / "tree" / "web" / "src");
-  const Arguments look = {"cmake", "-DSKEIN_ROOT=" + (folder() / "tree").string(), "-P",
+  const Arguments look = {command_file("cmake"), "-DSKEIN_ROOT=" + (folder() / "tree").string(), "-P",
                           source_path("cmake/SkeinWebBundle.cmake")};
   const auto expect = [&](const std::string& variable, int code, const std::string& text) {
     Arguments all = {"/bin/sh", "-c", "exec \"$@\" 2>&1", "sh", "/usr/bin/env", "PATH=/nowhere", variable};
