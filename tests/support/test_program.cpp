@@ -40,11 +40,18 @@ std::string filter_of(const std::string& file) {
 }  // namespace
 
 int run_test_program(int argc, char** argv) {
-  ::testing::InitGoogleMock(&argc, argv);
   std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::vector<std::string> entries = take(arguments, "--entry"), files = take(arguments, "--file");
-  if (!arguments.empty()) {
-    std::fprintf(stderr, "%s: unknown argument '%s'\n", argv[0], arguments.front().c_str());
+  // GoogleTest names its report, by GTEST_OUTPUT a folder's, when it is initialised.
+  const std::string output = GTEST_FLAG_GET(output);
+  if (!entries.empty() && output.ends_with("/")) GTEST_FLAG_SET(output, output + entries.front() + ".json");
+  std::vector<char*> rest = {argv[0]};
+  for (std::string& argument : arguments) rest.push_back(argument.data());
+  int count = static_cast<int>(rest.size());
+  rest.push_back(nullptr);
+  ::testing::InitGoogleMock(&count, rest.data());
+  if (count > 1) {
+    std::fprintf(stderr, "%s: unknown argument '%s'\n", argv[0], rest[1]);
     return 2;
   }
   std::string filter;
@@ -57,8 +64,6 @@ int run_test_program(int argc, char** argv) {
     filter += tests;
   }
   if (!files.empty() && GTEST_FLAG_GET(filter) == "*") GTEST_FLAG_SET(filter, filter);
-  const std::string output = GTEST_FLAG_GET(output);
-  if (!entries.empty() && output.ends_with("/")) GTEST_FLAG_SET(output, output + entries.front() + ".json");
   return RUN_ALL_TESTS();
 }
 
