@@ -1,6 +1,5 @@
 # Debian packages of the components, for Debian 12: `cpack` in the build folder writes skein, skein-agent and skein-dev,
-# what
-# debuggers want of the first two, skein-dbgsym and skein-agent-dbgsym, and the code that they show, skein-source.
+# what debuggers want of the first two, skein-dbgsym and skein-agent-dbgsym, and the code that they show, skein-source.
 # What the programs need of Debian is read from them (dpkg-shlibdeps), so they have to be built on Debian 12.
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL agent runtime dev source)

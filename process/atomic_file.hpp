@@ -7,7 +7,7 @@
 
 namespace skein {
 
-/// Who is to read a file that root writes (closed_to_agents.hpp).
+/// Which users may read a file that root writes (closed_to_agents.hpp).
 enum class Readers { all, no_agents };
 
 /// Writes a temporary file beside `path`, brings it to the disk and renames it: a reader sees the old content or the

@@ -9,6 +9,8 @@
 namespace skein::test {
 namespace {
 
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
 class OneProcess : public FleetTest {
  protected:
   Arguments flight(Arguments more, const std::string& duration_s = "8") const {
@@ -20,11 +22,17 @@ class OneProcess : public FleetTest {
     more.insert(more.end(), {"--agent", helper_program("nasty_agent"), "--planner", "hover,jurong=nasty:how=" + how});
     return flight(more);
   }
+  /// Jurong brings the whole process to its end. It alone is blamed.
+  SkeinRun& end_with_jurong(const std::string& how) {
+    SkeinRun& flown = run(how, nasty(how, {"--agent-timeout", "2"}), {}, 3);
+    EXPECT_TRUE(says(flown.err(), "uav_agent-jurong failed: ")) << flown.err();
+    EXPECT_FALSE(says(flown.err(), "changi failed")) << flown.err();
+    EXPECT_FALSE(says(flown.err(), "one_process failed")) << flown.err();
+    return flown;
+  }
 
   const std::string scene_ = write_small_scene(folder());  ///< two UAVs: jurong and changi
 };
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_F(OneProcess, TellsWhatNeedsProcesses) {
   const std::vector<std::pair<Arguments, std::string>> refused = {
@@ -84,10 +92,7 @@ TEST_F(OneProcess, WhoTakesTheProcessAlongIsNamed) {
                                                                    {"hangs", "did not end its turn for 2 s"}};
   for (const auto& [how, reason] : deaths) {
     SCOPED_TRACE(how);
-    SkeinRun& run = this->run(how, nasty(how, {"--agent-timeout", "2"}), {}, 3);
-    EXPECT_TRUE(says(run.err(), "uav_agent-jurong failed: ")) << run.err();
-    EXPECT_FALSE(says(run.err(), "changi failed")) << run.err();
-    EXPECT_FALSE(says(run.err(), "one_process failed")) << run.err();
+    SkeinRun& run = end_with_jurong(how);
     if (sanitizer().empty()) {  // a sanitizer takes such deaths for its own, and has the end of the log
       EXPECT_TRUE(says(run.err(), "nasty " + how)) << "what it said last";
       EXPECT_TRUE(says(run.err(), reason)) << run.err();
@@ -109,10 +114,7 @@ TEST_F(OneProcess, WhoEndsOrStopsTheProcessWithoutAWordIsNamed) {
                                                                    {"becomes", "became another one"}};
   for (const auto& [how, reason] : deaths) {
     SCOPED_TRACE(how);
-    SkeinRun& run = this->run(how, nasty(how, {"--agent-timeout", "2"}), {}, 3);
-    EXPECT_TRUE(says(run.err(), "uav_agent-jurong failed: ")) << run.err();
-    EXPECT_FALSE(says(run.err(), "changi failed")) << run.err();
-    EXPECT_FALSE(says(run.err(), "one_process failed")) << run.err();
+    SkeinRun& run = end_with_jurong(how);
     EXPECT_TRUE(says(run.err(), reason)) << run.err();
     EXPECT_NE(run.result()["status"], "completed");
     expect_nothing_left();
