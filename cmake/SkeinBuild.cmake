@@ -124,17 +124,22 @@ function(skein_add_helper name)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} skein_test_places)
 endfunction()
 
-# skein_add_test(NAME SOURCES ... LIBS ... [LABELS ...] [TIMEOUT s] [SERIAL] [PROGRAMS target...])
+# skein_add_test(NAME SOURCES ... LIBS ... [LABELS ...] [TIMEOUT s] [SERIAL] [ALONE] [PROGRAMS target...])
 # A CTest entry: the tests that stand in the sources *_test.cpp. The tests of a CMake folder are one program,
 # `core_tests` say, which runs those of one entry at a time (tests/support/test_program.hpp). PROGRAMS are what its
-# tests start. Assets come from SKEIN_ASSETS and SKEIN_GOLDEN in the environment.
+# tests start. ALONE: they are a program of their own, for what changes a whole program (operator new). Assets come
+# from SKEIN_ASSETS and SKEIN_GOLDEN in the environment.
 function(skein_add_test name)
-  cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "SOURCES;LIBS;LABELS;PROGRAMS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;ALONE" "TIMEOUT" "SOURCES;LIBS;LABELS;PROGRAMS" ${ARGN})
   if(NOT BUILD_TESTING OR (SKEIN_SANITIZE STREQUAL thread AND NOT name IN_LIST SKEIN_THREAD_TESTS) OR
      (SKEIN_SANITIZE AND name IN_LIST SKEIN_LONG_TESTS))
     return()
   endif()
-  skein_test_program(program)
+  skein_folder_program(program)
+  if(ARG_ALONE)
+    set(program ${name}_alone)
+  endif()
+  skein_test_program(${program})
   skein_add_test_sources(${program} ${ARG_SOURCES})
   target_link_libraries(${program} PRIVATE ${ARG_LIBS})
   if(ARG_PROGRAMS)
@@ -167,14 +172,18 @@ function(skein_set_timeout name seconds)
   set_tests_properties(${name} PROPERTIES TIMEOUT ${seconds})
 endfunction()
 
-# The program with the tests of the present folder, made at the first call: core_tests, bus_lockstep_tests, tests_fleet.
-function(skein_test_program out)
+# The name of the program with the tests of the present folder: core_tests, bus_lockstep_tests, tests_fleet.
+function(skein_folder_program out)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   string(REPLACE "/" "_" program ${folder})
   if(NOT folder MATCHES "^tests/")
     string(APPEND program _tests)
   endif()
   set(${out} ${program} PARENT_SCOPE)
+endfunction()
+
+# A program of tests, made at the first call.
+function(skein_test_program program)
   if(TARGET ${program})
     return()
   endif()

@@ -1,7 +1,6 @@
 // A seeded corpus of damaged scene files. Whatever stands in a file, its reader returns sane data or throws an
 // InputError that names the file: no other exception, no crash, no hang, no memory beyond a bound.
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <array>
@@ -10,7 +9,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
-#include <new>
 #include <vector>
 
 #include "core/random_stream.hpp"
@@ -19,30 +17,7 @@
 #include "sim_server/scene_files/mesh_file.hpp"
 #include "sim_server/scene_files/point_file.hpp"
 #include "sim_server/scene_files/scratch_files.hpp"
-
-namespace {
-
-/// What `new` has handed out in this program, and the most of it at one time.
-std::size_t memory_in_use = 0, memory_peak = 0;
-
-}  // namespace
-
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  void* memory = std::malloc(size);
-  memory_in_use += malloc_usable_size(memory);
-  memory_peak = std::max(memory_peak, memory_in_use);
-  return memory;
-}
-void* operator new(std::size_t size) {
-  void* memory = operator new(size, std::nothrow);
-  if (!memory) throw std::bad_alloc();
-  return memory;
-}
-void operator delete(void* memory) noexcept {
-  memory_in_use -= malloc_usable_size(memory);
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
+#include "tests/support/counted_memory.hpp"
 
 namespace skein::sim {
 namespace {
@@ -231,8 +206,7 @@ class LoaderFuzz : public ScratchFiles {
   /// Loads one file. @returns whether it was accepted.
   bool survives(const Kind& kind, const std::string& bytes) {
     const auto file = write("damaged", bytes);
-    const std::size_t before = memory_in_use;
-    memory_peak = memory_in_use;
+    const test::CountedMemory memory;
     bool accepted = true;
     try {
       kind.load(file);
@@ -242,7 +216,7 @@ class LoaderFuzz : public ScratchFiles {
     } catch (const std::exception& error) {
       ADD_FAILURE() << error.what();
     }
-    EXPECT_LT(memory_peak - before, kMostMemory);
+    EXPECT_LT(memory.peak(), kMostMemory);
     std::filesystem::remove(file);  // some file systems wait for the disk when a file is overwritten
     return accepted;
   }

@@ -7,32 +7,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 
 #include "bus/typed.hpp"
 #include "core/random_stream.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
 #include "idl/filled_message.hpp"
-
-namespace {
-
-/// Bytes asked for while a decoder runs; the tests run in one thread.
-struct {
-  bool counting = false;
-  std::size_t bytes = 0;
-} memory;
-
-}  // namespace
-
-// Not inlined, or the compiler takes them for a mix of two families.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  if (memory.counting) memory.bytes += size;
-  if (void* block = std::malloc(size > 0 ? size : 1)) return block;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* block) noexcept { std::free(block); }
-[[gnu::noinline]] void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+#include "tests/support/counted_memory.hpp"
 
 namespace skein::test {
 namespace {
@@ -105,10 +86,9 @@ class Damage {
 /// Decodes with a book kept over memory. @returns whether it was a message.
 template <class T>
 bool decode_measured(const Bytes& payload, T& message) {
-  memory = {.counting = true, .bytes = 0};
+  const CountedMemory memory;
   const bool good = decode(payload, message);
-  memory.counting = false;
-  EXPECT_LE(memory.bytes, kMemoryBase + kMemoryPerByte * payload.size()) << type_name<T>();
+  EXPECT_LE(memory.allocated(), kMemoryBase + kMemoryPerByte * payload.size()) << type_name<T>();
   return good;
 }
 
