@@ -6,8 +6,11 @@
 #include <new>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#include <sanitizer/allocator_interface.h>
 #define SKEIN_SANITIZER_COUNTS 1
+// Of the sanitizers' allocator_interface.h, which Debian's GCC does without.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*after_new)(const volatile void*, std::size_t),
+                                                         void (*before_delete)(const volatile void*));
+extern "C" std::size_t __sanitizer_get_allocated_size(const volatile void* block);
 #else
 #include <malloc.h>
 #endif
