@@ -26,8 +26,11 @@ set(SKEIN_SANITIZE OFF CACHE STRING "Build with sanitizers: address (and undefin
 set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test process_status_pipe_test
   one_process_crew_test one_process_flights_test one_process_digests_test bus_contract_test radio_contract_test)
 
-# What takes minutes with AddressSanitizer, for it computes much; shorter tests and whole fleets reach that code.
-set(SKEIN_LONG_TESTS sim_oracle_oracle_test sim_scenes_scene_families_test agent_planner_contract_test)
+# What takes minutes with sanitizers, for it computes much: a quarter of it runs at each commit, with
+# ThreadSanitizer an eighth.
+set(SKEIN_SLOW_SANITIZED_TESTS sim_oracle_oracle_test sim_scenes_scene_families_test agent_planner_contract_test
+  sim_wild_world_test sim_whole_simulation_test sim_flight_dynamics_test sim_rays_ray_fan_test sim_exchange_period_test
+  sim_flight_fleet_start_test agent_planners_patrol_patrol_test one_process_digests_test)
 
 # -ffp-contract=off: no fused multiply-add, so that a result does not depend on the optimiser's mood.
 # Never -march=native: one binary gives the same bits on every x86-64 machine.
@@ -124,15 +127,16 @@ function(skein_add_helper name)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} skein_test_places)
 endfunction()
 
-# skein_add_test(NAME SOURCES ... LIBS ... [LABELS ...] [TIMEOUT s] [SERIAL] [ALONE] [PROGRAMS target...])
+# skein_add_test(NAME SOURCES ... LIBS ... [LABELS ...] [TIMEOUT s] [SERIAL] [ALONE] [TURNS k]
+#   [PROGRAMS target...])
 # A CTest entry: the tests that stand in the sources *_test.cpp. The tests of a CMake folder are one program,
 # `core_tests` say, which runs those of one entry at a time (tests/support/test_program.hpp). PROGRAMS are what its
 # tests start. ALONE: they are a program of their own, for what changes a whole program (operator new). Assets come
-# from SKEIN_ASSETS and SKEIN_GOLDEN in the environment.
+# from SKEIN_ASSETS and SKEIN_GOLDEN in the environment. TURNS: every k-th of its tests runs, another share at each
+# commit (SKEIN_TURN; without it all run).
 function(skein_add_test name)
-  cmake_parse_arguments(ARG "SERIAL;ALONE" "TIMEOUT" "SOURCES;LIBS;LABELS;PROGRAMS" ${ARGN})
-  if(NOT BUILD_TESTING OR (SKEIN_SANITIZE STREQUAL thread AND NOT name IN_LIST SKEIN_THREAD_TESTS) OR
-     (SKEIN_SANITIZE AND name IN_LIST SKEIN_LONG_TESTS))
+  cmake_parse_arguments(ARG "SERIAL;ALONE" "TIMEOUT;TURNS" "SOURCES;LIBS;LABELS;PROGRAMS" ${ARGN})
+  if(NOT BUILD_TESTING OR (SKEIN_SANITIZE STREQUAL thread AND NOT name IN_LIST SKEIN_THREAD_TESTS))
     return()
   endif()
   skein_folder_program(program)
@@ -150,7 +154,17 @@ function(skein_add_test name)
   set(files ${ARG_SOURCES})
   list(FILTER files INCLUDE REGEX "_test\\.cpp$")
   list(TRANSFORM files PREPEND "--file;${folder}/")
-  add_test(NAME ${name} COMMAND ${program} --entry ${name} ${files})
+  set(turns ${ARG_TURNS})
+  if(SKEIN_SANITIZE AND name IN_LIST SKEIN_SLOW_SANITIZED_TESTS)
+    set(turns 4)
+    if(SKEIN_SANITIZE STREQUAL thread)
+      set(turns 8)
+    endif()
+  endif()
+  if(turns)
+    set(turns --turns ${turns})
+  endif()
+  add_test(NAME ${name} COMMAND ${program} --entry ${name} ${turns} ${files})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,26 +24,46 @@ std::vector<std::string> take(std::vector<std::string>& arguments, const std::st
   return values;
 }
 
-/// GoogleTest's filter for the tests that stand in a file. Empty if there is none.
-std::string filter_of(const std::string& file) {
+/// The tests that stand in a file, in its order.
+std::vector<std::string> tests_of(const std::string& file) {
   const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
-  std::string filter;
+  std::vector<std::string> tests;
   for (int i = 0; i < all.total_test_suite_count(); ++i) {
     const ::testing::TestSuite& suite = *all.GetTestSuite(i);
     for (int k = 0; k < suite.total_test_count(); ++k) {
       const ::testing::TestInfo& test = *suite.GetTestInfo(k);
       if (!("/" + std::string(test.file())).ends_with("/" + file)) continue;
-      filter += std::string(suite.name()) + "." + test.name() + ":";
+      tests.push_back(std::string(suite.name()) + "." + test.name());
     }
   }
-  return filter;
+  return tests;
+}
+
+std::optional<std::size_t> turn_asked_for() {
+  const char* const turn = std::getenv("SKEIN_TURN");
+  if (!turn) return std::nullopt;
+  return std::stoul(turn);
 }
 
 }  // namespace
 
+bool has_turn(std::size_t number, std::size_t turns) {
+  const std::optional<std::size_t> turn = turn_asked_for();
+  return !turn || (number + *turn) % turns == 0;
+}
+
+std::vector<std::string> tests_in_turn(const std::vector<std::string>& tests, std::size_t turn, std::size_t turns) {
+  std::vector<std::string> chosen;
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    if ((i + i / turns + turn) % turns == 0) chosen.push_back(tests[i]);
+  }
+  return chosen;
+}
+
 int run_test_program(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
-  const std::vector<std::string> entries = take(arguments, "--entry"), files = take(arguments, "--file");
+  const std::vector<std::string> entries = take(arguments, "--entry"), files = take(arguments, "--file"),
+                                 turns = take(arguments, "--turns");
   // GoogleTest names its report, by GTEST_OUTPUT a folder's, when it is initialised.
   const std::string output = GTEST_FLAG_GET(output);
   if (!entries.empty() && output.ends_with("/")) GTEST_FLAG_SET(output, output + entries.front() + ".json");
@@ -54,15 +76,22 @@ int run_test_program(int argc, char** argv) {
     std::fprintf(stderr, "%s: unknown argument '%s'\n", argv[0], rest[1]);
     return 2;
   }
-  std::string filter;
+  std::vector<std::string> tests;
   for (const std::string& file : files) {
-    const std::string tests = filter_of(file);
-    if (tests.empty()) {
+    const std::vector<std::string> more = tests_of(file);
+    if (more.empty()) {
       std::fprintf(stderr, "%s: no test of '%s' is in here\n", argv[0], file.c_str());
       return 2;
     }
-    filter += tests;
+    tests.insert(tests.end(), more.begin(), more.end());
   }
+  if (const std::optional<std::size_t> turn = turn_asked_for(); turn && !turns.empty()) {
+    const std::size_t all = tests.size();
+    tests = tests_in_turn(tests, *turn, std::stoul(turns.front()));
+    std::printf("turn %zu: %zu of %zu tests\n", *turn, tests.size(), all);
+  }
+  std::string filter;
+  for (const std::string& test : tests) filter += test + ":";
   if (!files.empty() && GTEST_FLAG_GET(filter) == "*") GTEST_FLAG_SET(filter, filter);
   return RUN_ALL_TESTS();
 }
