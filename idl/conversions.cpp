@@ -1,5 +1,7 @@
 #include "idl/conversions.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -9,6 +11,14 @@ namespace {
 
 constexpr std::int64_t kNsPerTick = 2'500'000;
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+
+std::uint32_t sum_of(const std::string& uav, const std::vector<std::uint64_t>& captures) {
+  std::vector<std::uint8_t> bytes(uav.begin(), uav.end());
+  for (const std::uint64_t capture : captures) {
+    for (int shift = 0; shift < 64; shift += 8) bytes.push_back(static_cast<std::uint8_t>(capture >> shift));
+  }
+  return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size()));
+}
 
 template <class Message>
 void set_xyz(Message& message, const Vector3d& v) {
@@ -335,6 +345,19 @@ msg::InterestPoint to_message(const InterestPoint& point) {
 
 InterestPoint from_message(const msg::InterestPoint& message) {
   return {{message.x(), message.y(), message.z()}, {message.normal_x(), message.normal_y(), message.normal_z()}};
+}
+
+msg::CaptureAck to_capture_ack(const std::string& uav, std::vector<std::uint64_t> captures) {
+  msg::CaptureAck ack;
+  ack.uav(uav);
+  ack.sum(sum_of(uav, captures));
+  ack.captures(std::move(captures));
+  return ack;
+}
+
+std::vector<std::uint64_t> from_capture_ack(const msg::CaptureAck& ack, const std::string& uav) {
+  if (ack.uav() != uav || ack.sum() != sum_of(uav, ack.captures())) return {};
+  return ack.captures();
 }
 
 msg::CaptureReport to_message(const CaptureReport& report, std::span<const std::string> fleet) {

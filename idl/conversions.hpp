@@ -104,6 +104,12 @@ InterestPoint from_message(const msg::InterestPoint& point);
 msg::CaptureReport to_message(const CaptureReport& report, std::span<const std::string> fleet);
 /// nullopt when the UAV is not of the fleet.
 std::optional<CaptureReport> from_message(const msg::CaptureReport& report, std::span<const std::string> fleet);
+/// What the station has of one UAV, with the sum by which its receiver knows that it is whole.
+msg::CaptureAck to_capture_ack(const std::string& uav, std::vector<std::uint64_t> captures);
+/// Empty when the sum is not that of the content, or the message is for another UAV: radio links may flip bits, and a
+/// wrong number would erase another capture.
+std::vector<std::uint64_t> from_capture_ack(const msg::CaptureAck& ack, const std::string& uav);
+
 msg::LedgerEntry to_message(const LedgerEntry& entry, std::span<const std::string> fleet);
 std::optional<LedgerEntry> from_message(const msg::LedgerEntry& entry, std::span<const std::string> fleet);
 

@@ -168,5 +168,29 @@ TEST(Conversions, LedgerEntriesComeBackByName) {
   EXPECT_FALSE(from_message(to_message(entry, fleet), std::vector<std::string>{"jurong"}));
 }
 
+TEST(Conversions, AcknowledgementThatWasHitAcknowledgesNothing) {
+  RandomStream random(1, "acks", 0);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<std::uint64_t> captures(1 + random.bits() % 6);
+    for (std::uint64_t& capture : captures) capture = random.bits() % 1000;
+    const std::vector<std::uint8_t> whole = encode(to_capture_ack("changi", captures));
+    msg::CaptureAck ack;
+    ASSERT_TRUE(decode(whole, ack));
+    EXPECT_EQ(from_capture_ack(ack, "changi"), captures);
+    EXPECT_TRUE(from_capture_ack(ack, "jurong").empty()) << "of another UAV";
+    int read = 0;
+    for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+      std::vector<std::uint8_t> hit = whole;
+      hit[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+      msg::CaptureAck damaged;
+      if (!decode(hit, damaged)) continue;
+      ++read;
+      const std::vector<std::uint64_t> taken = from_capture_ack(damaged, "changi");
+      EXPECT_TRUE(taken.empty() || taken == captures) << "bit " << bit;  // those of the padding say nothing
+    }
+    EXPECT_GT(read, 64) << "what cannot be read is no test of the sum";
+  }
+}
+
 }  // namespace
 }  // namespace skein

@@ -92,7 +92,7 @@ UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation,
     });
   }
   server.read<msg::CaptureAck>(domain, bus::spec(topics::capture_stored()), [this](const msg::CaptureAck& ack) {
-    for (const std::uint64_t capture : ack.captures()) {
+    for (const std::uint64_t capture : from_capture_ack(ack, id_)) {
       if (card_.erase(capture) > 0) released_.push_back(capture);
     }
   });

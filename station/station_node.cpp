@@ -159,10 +159,7 @@ void StationNode::show_to_viewers(Tick tick) {
 void StationNode::acknowledge(const StepOutcome& outcome) {
   for (std::size_t i = 0; i < outcome.acks.size(); ++i) {
     if (outcome.acks[i].empty()) continue;
-    msg::CaptureAck ack;
-    ack.uav(uavs_[i]);
-    ack.captures(outcome.acks[i]);
-    client_.write(topics::captures_ack(uavs_[i]).name, ack);
+    client_.write(topics::captures_ack(uavs_[i]).name, to_capture_ack(uavs_[i], outcome.acks[i]));
   }
 }
 

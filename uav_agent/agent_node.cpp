@@ -103,7 +103,8 @@ void AgentNode::read_captures(LockstepClient& client) {
   });
   client.read<msg::CaptureAck>(
       bus::spec(topics::captures_ack_at_uav(member())), Counterpart::router, [this](const auto& m) {
-        input_.capture_acks.insert(input_.capture_acks.end(), m.captures().begin(), m.captures().end());
+        const std::vector<std::uint64_t> captures = from_capture_ack(m, member());
+        input_.capture_acks.insert(input_.capture_acks.end(), captures.begin(), captures.end());
       });
 }
 
@@ -162,10 +163,7 @@ void AgentNode::write(LockstepClient& client) const {
     client.write(topics::debug(member(), debug.name).name, value);
   }
   if (!released_.empty()) {
-    msg::CaptureAck ack;
-    ack.uav(member());
-    ack.captures(released_);
-    client.write(topics::capture_stored().name, ack);
+    client.write(topics::capture_stored().name, to_capture_ack(member(), released_));
   }
   if (!output_.captures.empty()) {
     msg::CaptureReports reports;

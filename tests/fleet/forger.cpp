@@ -4,10 +4,12 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <numeric>
 
 #include "bus/lockstep/client_node.hpp"
 #include "bus/lockstep/names.hpp"
 #include "core/radio_routes.hpp"
+#include "idl/conversions.hpp"
 
 namespace {
 
@@ -31,10 +33,9 @@ class Forger final : public skein::bus::ClientNode {
   skein::bus::LockstepClient& client() override { return client_; }
   void think() override {
     for (const std::string& uav : uavs_) {
-      skein::msg::CaptureAck ack;
-      ack.uav(uav);
-      for (std::uint64_t capture = 0; capture < 1000; ++capture) ack.captures().push_back(capture);
-      client_.write(skein::topics::captures_ack(uav).name, ack);
+      std::vector<std::uint64_t> captures(1000);
+      std::iota(captures.begin(), captures.end(), 0U);
+      client_.write(skein::topics::captures_ack(uav).name, skein::to_capture_ack(uav, captures));
     }
     client_.done();
     last_ = client_.step().final_step();

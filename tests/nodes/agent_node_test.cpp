@@ -199,10 +199,13 @@ TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
   station.client().declare_writer(bus::spec(topics::captures_ack("a")), bus::LockstepClient::Counterpart::router);
   station.on_step = [&](const msg::Step&) {
     if (to_acknowledge.empty()) return;
-    msg::CaptureAck ack;
-    ack.uav("a");
-    ack.captures(std::exchange(to_acknowledge, {}));
-    station.client().write(topics::captures_ack("a").name, ack);
+    // Before each good one, damaged ones: another capture's number, which came by once only and must be kept.
+    msg::CaptureAck damaged = to_capture_ack("a", to_acknowledge);
+    damaged.captures().front() ^= 1;
+    station.client().write(topics::captures_ack("a").name, damaged);
+    damaged = to_capture_ack("b", {9});
+    station.client().write(topics::captures_ack("a").name, damaged);
+    station.client().write(topics::captures_ack("a").name, to_capture_ack("a", std::exchange(to_acknowledge, {})));
   };
   agent::AgentNode agent(scenario, uav, std::make_unique<Parrot>(), 0, *bus);
   router::RouterNode router(scenario, 0, 0, *bus);
