@@ -27,8 +27,6 @@ std::string shown(const std::filesystem::path& dir) {
 
 RunningFleet chosen_fleet(const std::optional<std::filesystem::path>& dir) {
   std::vector<RunningFleet> fleets = running_fleets(::geteuid());
-  std::vector<std::string> names;
-  for (const RunningFleet& fleet : fleets) names.push_back(shown(fleet.dir));
   if (dir) {
     std::erase_if(fleets, [&](const RunningFleet& fleet) {
       std::error_code gone;
@@ -37,6 +35,11 @@ RunningFleet chosen_fleet(const std::optional<std::filesystem::path>& dir) {
     if (fleets.empty()) throw InputError("--run " + dir->string() + ": no fleet writes there; `skein ps` lists them");
   }
   if (fleets.empty()) throw InputError("attach: no fleet of yours is flying");
+  // Those of other networks only when they are asked for, or alone.
+  const auto elsewhere = [](const RunningFleet& fleet) { return fleet.elsewhere; };
+  if (!std::ranges::all_of(fleets, elsewhere)) std::erase_if(fleets, elsewhere);
+  std::vector<std::string> names;
+  for (const RunningFleet& fleet : fleets) names.push_back(shown(fleet.dir));
   if (fleets.size() > 1)
     throw InputError("attach: say which fleet, --run " + fmt::format("{}", fmt::join(names, " or ")));
   return fleets.front();
@@ -97,7 +100,8 @@ int list_fleets(const Console& console) {
     const auto time_s = simulated_s(fleet);
     console.out << shown(fleet.dir) << ": " << std::filesystem::path(fleet.scenario).stem().string()
                 << (time_s ? fmt::format(", simulated {:.0f} s", *time_s) : ", starts") << ", DDS domains from "
-                << fleet.base_domain << (fleet.launcher ? fmt::format(", launcher {}", *fleet.launcher) : "") << '\n';
+                << fleet.base_domain << (fleet.launcher ? fmt::format(", launcher {}", *fleet.launcher) : "")
+                << (fleet.elsewhere ? ", in another network namespace" : "") << '\n';
     for (const auto& [program, pid] : fleet.programs) {
       console.out << fmt::format("  {:<24} {:>8}  {}\n", program, pid, state_text(pid));
     }

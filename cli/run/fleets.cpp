@@ -41,12 +41,13 @@ bool has_variables(pid_t pid, const std::string& uav, const std::string& out) {
   return variable(environment, "SKEIN_UAV") == uav && variable(environment, "SKEIN_OUT") == out;
 }
 
-void read_server(const Words& words, RunningFleet& fleet) {
+void read_server(pid_t pid, const Words& words, RunningFleet& fleet) {
   fleet.scenario = value_after(words, "--scenario");
   fleet.base_domain = static_cast<int>(number_or(value_after(words, "--domain"), 0.0));
   fleet.agent_timeout_s = number_or(value_after(words, "--agent-timeout"), fleet.agent_timeout_s);
   fleet.lease_s = number_or(value_after(words, "--lease"), fleet.lease_s);
-  fleet.launcher = HostLock::holder(domain_lock_name(fleet.base_domain));
+  fleet.elsewhere = !shares_network(pid);
+  if (!fleet.elsewhere) fleet.launcher = HostLock::holder(domain_lock_name(fleet.base_domain));
 }
 
 }  // namespace
@@ -59,7 +60,7 @@ std::vector<RunningFleet> running_fleets(uid_t user) {
     if (const std::string program = program_in(words); !program.empty()) {
       RunningFleet& fleet = fleets[value_after(words, "--out")];
       fleet.programs[program] = pid;
-      if (program == programs::kSimServer) read_server(words, fleet);
+      if (program == programs::kSimServer) read_server(pid, words, fleet);
       continue;
     }
     // A user's command is the first process with its variables; the others are its children.

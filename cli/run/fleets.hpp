@@ -18,6 +18,7 @@ struct RunningFleet {
   int base_domain = 0;                    ///< its first DDS domain
   double agent_timeout_s = 60.0;          ///< after which it goes on without who does not answer; 0: never
   double lease_s = 0.0;                   ///< after which who gives no sign of life is gone for the others
+  bool elsewhere = false;                 ///< in another network namespace, whose locks cannot be asked from here
   std::optional<pid_t> launcher;          ///< unless it is out of sight
   std::map<std::string, pid_t> programs;  ///< "uav_agent-jurong"
 };

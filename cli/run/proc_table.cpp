@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -63,6 +64,14 @@ std::vector<uid_t> users_of(pid_t pid) {
 bool belongs_to(pid_t pid, uid_t user) {
   const std::vector<uid_t> users = users_of(pid);
   return std::find(users.begin(), users.end(), user) != users.end();
+}
+
+bool shares_network(pid_t pid) {
+  const auto network = [](const std::string& process) {
+    std::error_code closed;
+    return std::filesystem::read_symlink("/proc/" + process + "/ns/net", closed).string();
+  };
+  return network(std::to_string(pid)) == network("self");
 }
 
 }  // namespace skein::cli

@@ -22,5 +22,7 @@ std::vector<std::string> words_of(pid_t pid, const std::string& what);
 /// Its user ids: real, effective, saved; none of what is dead and only waits for its parent.
 std::vector<uid_t> users_of(pid_t pid);
 bool belongs_to(pid_t pid, uid_t user);
+/// Whether it has the network of this process, not that of a container or of `ip netns`.
+bool shares_network(pid_t pid);
 
 }  // namespace skein::cli

@@ -44,6 +44,36 @@ TEST_F(Attach, GdbLooksIntoAFlyingProgramAndLeavesItFlying) {
   end(fleet);
 }
 
+// It has the same domains, which are others there.
+TEST_F(Attach, AFleetInAnotherNetworkIsToldFromTheOneHere) {
+  if (std::system("unshare --net true 2>/dev/null") != 0) GTEST_SKIP() << "no network namespaces here: not root";
+  SkeinRun& fleet = flying_fleet();
+  const std::string there = dir("there");
+  ChildProcess& other = start_program(
+      "there", {"/usr/bin/env", "unshare", "--net", "/bin/sh", "-c", "ip link set lo up && exec \"$0\" \"$@\"",
+                program("skein"), "run", scenario_, "--planner", "patrol", "--duration", "600", "--no-oracle", "--domain",
+                std::to_string(fleet.domains().first), "--out", there});
+  ASSERT_TRUE(eventually([&] { return is_flying(there); })) << other.err();
+  const std::string text = skein({"ps"}).out();
+  const std::string launcher = "launcher " + std::to_string(fleet.skein().pid());
+  const std::size_t first = text.find(launcher);
+  ASSERT_NE(first, std::string::npos) << text;
+  EXPECT_EQ(text.find(launcher, first + 1), std::string::npos) << text;
+  expect_part(text, ", in another network namespace\n");
+  const auto attached = [&](const Arguments& more) {
+    Arguments words = {"attach", "changi=echo"};
+    words.insert(words.end(), more.begin(), more.end());
+    ChildProcess& echo = skein(words);
+    EXPECT_EQ(echo.wait().code, 0) << echo.err();
+    return std::stoi(echo.out());
+  };
+  EXPECT_EQ(attached({}), processes_of(fleet.dir()).at("uav_agent-changi")) << "the one here, without a question";
+  EXPECT_EQ(attached({"--run", there}), processes_of(there).at("uav_agent-changi"));
+  other.signal(SIGINT);
+  EXPECT_EQ(other.wait().code, 130) << other.err();
+  end(fleet);
+}
+
 TEST_F(Attach, WhoIsNotThereIsBadInput) {
   EXPECT_EQ(skein({"attach", "changi", "--run", folder()}).wait().code, 2);
   SkeinRun& fleet = flying_fleet();
