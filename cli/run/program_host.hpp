@@ -29,6 +29,7 @@ struct ProgramSpec {
   std::filesystem::path log;                   ///< takes stdout and stderr; empty: they go where the launcher's go
   bool append_log = false;                     ///< or overwritten
   std::uint64_t most_status_bytes = 64 << 20;  ///< on the status pipe in all; who writes more is cut off
+  std::uint64_t most_log_bytes = 64 << 20;     ///< beyond it the log keeps its first half and its newest lines
   std::optional<UserId> user{};                ///< as whom it runs, in no other group; only root can choose
   bool here = false;                           ///< it has the launcher's terminal, or whatever is in its place
   bool minded = false;                         ///< it may have children, which end with it wherever they went

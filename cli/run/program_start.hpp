@@ -40,6 +40,7 @@ struct StartedProgram {
   bool foreground = false;  ///< of the terminal, which was ours
   Fd pidfd;                 ///< of `pid`
   Fd status, control;       ///< our ends of the pipes, which never block
+  Fd log;                   ///< where the program appends; none when it has our own output
 };
 
 /// Whether what is typed comes to us.

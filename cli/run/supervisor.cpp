@@ -1,9 +1,9 @@
 #include "cli/run/supervisor.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -29,6 +29,8 @@ constexpr std::size_t kStatusLook = 64 << 10;
 constexpr std::size_t kLongestStatusLine = 16 << 20;
 /// A program that does not read what it is told is not told it.
 constexpr int kSendPatience_ms = 2000;
+/// Between two looks at the sizes of logs.
+constexpr std::chrono::milliseconds kLogLook{200};
 constexpr std::size_t kLogTail = 64 << 10, kLongestLogLine = 1000;
 
 /// Whoever starts us with nohup wants us to live on without the terminal.
@@ -53,12 +55,31 @@ double seconds(const timeval& time) {
 
 struct Supervisor::Child : StartedProgram {
   explicit Child(const ProgramSpec& spec)
-      : StartedProgram(start_program(spec)), name(spec.name), most_status_bytes(spec.most_status_bytes) {}
+      : StartedProgram(start_program(spec)), name(spec.name), most_status_bytes(spec.most_status_bytes),
+        most_log_bytes(spec.most_log_bytes) {}
 
   const std::string name;
-  const std::uint64_t most_status_bytes;
+  const std::uint64_t most_status_bytes, most_log_bytes;
   std::uint64_t status_bytes = 0;
   std::string partial_line;
+
+  /// A program that writes without end must not fill the disk: of its log stay the first half and the newest lines. It
+  /// appends, so it goes on where we have cut; what it writes meanwhile may be lost.
+  void trim_log() const {
+    struct stat file {};
+    if (log.get() < 0 || ::fstat(log.get(), &file) != 0 || static_cast<std::uint64_t>(file.st_size) <= most_log_bytes) {
+      return;
+    }
+    std::string end = "\n[skein] what stood here is left out: the log has more than " +
+                      std::to_string(most_log_bytes >> 20) + " MiB\n";
+    const std::size_t note = end.size();
+    end.resize(note + kLogTail);
+    const ssize_t tail = ::pread(log.get(), end.data() + note, kLogTail, file.st_size - static_cast<off_t>(kLogTail));
+    end.resize(note + static_cast<std::size_t>(std::max<ssize_t>(tail, 0)));
+    if (::ftruncate(log.get(), static_cast<off_t>(most_log_bytes / 2)) == 0) {
+      [[maybe_unused]] const ssize_t written = ::write(log.get(), end.data(), end.size());
+    }
+  }
 
   /// Takes in what the program wrote; closes the pipe when it was too much.
   void hear(std::string_view text, std::vector<Event>& events) {
@@ -115,7 +136,7 @@ std::vector<Event> Supervisor::wait(std::chrono::milliseconds limit) {
     polled.push_back({child->pidfd.get(), POLLIN, 0});
   }
   std::vector<Event> events;
-  if (::poll(polled.data(), polled.size(), static_cast<int>(limit.count())) <= 0) return events;
+  if (poll_and_trim(polled, limit) <= 0) return events;
   signalfd_siginfo info;
   while (::read(signal_fd_, &info, sizeof info) == sizeof info) events.push_back({Event::Kind::interrupt, {}, {}, {}});
   const auto ended = [&](std::size_t i) { return polled[2 + 2 * i].revents != 0; };
@@ -129,6 +150,16 @@ std::vector<Event> Supervisor::wait(std::chrono::milliseconds limit) {
     if (ended(i)) reap(*order[i], events);
   }
   return events;
+}
+
+int Supervisor::poll_and_trim(std::vector<pollfd>& polled, std::chrono::milliseconds limit) const {
+  while (true) {
+    const bool last = limit.count() >= 0 && limit <= kLogLook;
+    const int ready = ::poll(polled.data(), polled.size(), static_cast<int>((last ? limit : kLogLook).count()));
+    for (const auto& [name, child] : children_) child->trim_log();
+    if (ready != 0 || last) return ready;
+    if (limit.count() >= 0) limit -= kLogLook;
+  }
 }
 
 void Supervisor::read_status(Child& child, std::size_t most, std::vector<Event>& events) {
@@ -150,6 +181,7 @@ void Supervisor::reap(Child& child, std::vector<Event>& events) {
   // All that it can have left: a process that got away from the group may still write.
   const int left = child.status.get() < 0 ? 0 : ::fcntl(child.status.get(), F_GETPIPE_SZ);
   read_status(child, static_cast<std::size_t>(std::max(left, 0)), events);
+  child.trim_log();
   int status = 0;
   rusage usage{};
   if (::wait4(child.pid, &status, 0, &usage) != child.pid) throw_errno("wait4");

@@ -4,6 +4,8 @@
 // Threads: everything from one thread, which must live as long as the programs (PR_SET_PDEATHSIG goes by thread).
 #pragma once
 
+#include <poll.h>
+
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -46,6 +48,8 @@ class Supervisor final : public ProgramHost {
   struct Child;
   /// At most `most` bytes: a program that writes without end must not keep the launcher from all else.
   void read_status(Child& child, std::size_t most, std::vector<Event>& events);
+  /// poll(), in which logs are kept within their limits.
+  int poll_and_trim(std::vector<pollfd>& polled, std::chrono::milliseconds limit) const;
   void reap(Child& child, std::vector<Event>& events);
   static void signal_child(const Child& child, int signal);
   static void take_terminal_back(const Child& child);

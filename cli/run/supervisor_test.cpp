@@ -271,6 +271,25 @@ TEST_F(SupervisorTest, ALongReportIsNoLineWithoutAnEnd) {
   EXPECT_EQ(events[0].line.size(), 15000000U);
 }
 
+TEST_F(SupervisorTest, ALogWithoutEndKeepsItsBeginningAndItsEnd) {
+  ProgramSpec spec = shell("a", "echo first; head -c 30000000 /dev/zero | tr '\\0' x; echo >&3; read line <&4; echo last");
+  spec.most_log_bytes = 2 << 20;
+  supervisor_.start(spec);
+  EXPECT_EQ(supervisor_.wait(kNoLimit).at(0).kind, Event::Kind::status_line);
+  supervisor_.wait(std::chrono::milliseconds(0));
+  EXPECT_LE(std::filesystem::file_size(spec.log), std::uintmax_t{2 << 20}) << "also while it runs";
+  supervisor_.send("a", "go");
+  run_out();
+  std::ifstream in(spec.log);
+  std::string first;
+  std::getline(in, first);
+  EXPECT_EQ(first, "first");
+  EXPECT_EQ(last_lines(spec.log, 1), std::vector<std::string>{"last"});
+  EXPECT_LE(std::filesystem::file_size(spec.log), std::uintmax_t{2 << 20});
+  EXPECT_NE(read_text(spec.log).find("\n[skein] what stood here is left out: the log has more than 2 MiB\n"),
+            std::string::npos);
+}
+
 TEST_F(SupervisorTest, TheEndOfAHugeLogIsShort) {
   const auto log = scratch_.path() / "huge.log";
   std::ofstream(log) << std::string(300000, 'x');
