@@ -1,7 +1,7 @@
 #include "process/debugger_wait.hpp"
 
-#include <poll.h>
 #include <spdlog/spdlog.h>
+#include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -38,10 +38,16 @@ void wait_for_debugger(const std::function<bool()>& stop) {
   action.sa_handler = on_continue;
   ::sigaction(SIGCONT, &action, &former);
   spdlog::info("process {} stands until a debugger is attached, or SIGCONT comes", ::getpid());
-  constexpr int kLook_ms = 50;  // that somebody attaches is no event that one could wait for
-  pollfd continued{continued_fd, POLLIN, 0};
-  while (!stop() && !is_debugged() && ::poll(&continued, 1, kLook_ms) <= 0) {
-  }
+  const int waiting = ::epoll_create1(EPOLL_CLOEXEC);
+  epoll_event event{};
+  event.events = EPOLLIN;
+  ::epoll_ctl(waiting, EPOLL_CTL_ADD, continued_fd, &event);
+  // A debugger that attaches stops us, and epoll_wait, unlike poll, fails with EINTR when we go on: so we know of one
+  // that has left again. One that came between two waits is seen here while it stays.
+  constexpr int kLook_ms = 50;
+  int ready = 0;
+  while (!stop() && !is_debugged() && ready == 0) ready = ::epoll_wait(waiting, &event, 1, kLook_ms);
+  ::close(waiting);
   ::sigaction(SIGCONT, &former, nullptr);
   ::close(continued_fd.exchange(-1));
 }

@@ -54,5 +54,21 @@ TEST_F(Tools, WhoWaitsIsToldAndGoesOn) {
   }
 }
 
+TEST_F(Tools, WhoWaitsGoesOnWhenItsDebuggerHasOnlyLooked) {
+  SKEIN_NEEDS_GDB();
+  ChildProcess& skein = fly("looked", {"--debug", "changi=wait"});
+  const auto log = dir("looked") / "uav_agent-changi.log";
+  const std::string words = "kill -CONT ";
+  ASSERT_TRUE(eventually([&] {
+    return skein.err().find(words) != std::string::npos && text_of(log).find("stands until") != std::string::npos;
+  })) << skein.err();
+  const std::string text = skein.err();
+  const std::string pid = std::to_string(std::stoi(text.substr(text.find(words) + words.size())));
+  ChildProcess& gdb = start_program("gdb", {"/usr/bin/env", "gdb", "-nx", "-batch", "-p", pid});
+  EXPECT_EQ(gdb.wait().code, 0) << gdb.err();
+  EXPECT_EQ(skein.wait().code, 0) << skein.err();
+  EXPECT_EQ(result("looked")["digest"], plain_digest());
+}
+
 }  // namespace
 }  // namespace skein::test
