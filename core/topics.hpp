@@ -335,6 +335,8 @@ inline WireTopic command_rejected(std::string_view id) { return wire(kCommandRej
 inline WireTopic trajectory_command(std::string_view id) { return wire(kTrajectoryCommand, id); }
 inline WireTopic gimbal_command(std::string_view id) { return wire(kGimbalCommand, id); }
 inline WireTopic camera_trigger(std::string_view id) { return wire(kCameraTrigger, id); }
+/// Debug values of one UAV; the server reads no more.
+inline constexpr std::size_t kMostDebugNames = 64;
 /// What a program tells of itself under a name of its own, for faults and properties (docs/properties.md). The server
 /// reads those that the program names when it says hello.
 inline WireTopic debug(std::string_view id, std::string_view name) {

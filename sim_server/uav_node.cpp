@@ -9,9 +9,6 @@
 namespace skein::sim {
 namespace {
 
-/// A program that names more is not heard of them.
-constexpr std::size_t kMostDebugNames = 64;
-
 // Building a large message only for nobody to read it would be the most expensive thing the server does.
 template <class Make>
 void send(bus::CountedWriter& writer, Make&& make) {
@@ -101,7 +98,7 @@ UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation,
 void UavNode::read_debug(const std::vector<std::string>& writes) {
   for (const std::string& topic : writes) {
     const std::string name(topics::debug_name(topic, id_));
-    if (name.empty() || debug_names_.size() == kMostDebugNames || !debug_names_.insert(name).second) continue;
+    if (name.empty() || debug_names_.size() == topics::kMostDebugNames || !debug_names_.insert(name).second) continue;
     server_.read<msg::Float64>(domain_, bus::spec(topics::debug(id_, name)),
                                [this, name](const msg::Float64& value) { debug_.emplace_back(name, value.data()); });
   }

@@ -27,9 +27,6 @@ int list_strategies() {
   return kExitDone;
 }
 
-/// The server reads no more of one UAV (sim_server/uav_node.cpp).
-constexpr std::size_t kMostDebugNames = 64;
-
 /// @throws InputError when the server would not read what the planner names: the fleet would wait for it in vain.
 void check_debug_names(const std::vector<std::string>& names, const std::string& planner, const std::string& uav) {
   for (const std::string& name : names) {
@@ -38,9 +35,9 @@ void check_debug_names(const std::vector<std::string>& names, const std::string&
                        "' is not part of a topic's name: letters, digits and _, a letter first");
     }
   }
-  if (std::set<std::string>(names.begin(), names.end()).size() > kMostDebugNames) {
+  if (std::set<std::string>(names.begin(), names.end()).size() > topics::kMostDebugNames) {
     throw InputError(uav + "'s planner " + planner + ": " + std::to_string(names.size()) + " debug names, from '" +
-                     names.front() + "' on; at most " + std::to_string(kMostDebugNames) + " are read");
+                     names.front() + "' on; at most " + std::to_string(topics::kMostDebugNames) + " are read");
   }
 }
 
