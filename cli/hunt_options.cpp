@@ -3,6 +3,7 @@
 
 #include "cli/option_checks.hpp"
 #include "cli/tool_options.hpp"
+#include "core/number_checks.hpp"
 
 namespace skein::cli {
 namespace {
@@ -21,7 +22,7 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
   command->add_option("--planner", run.planner, "As for `skein run`")->capture_default_str();
   command->add_option("--agent", run.agent, "Agent program with planners of your own, as for `skein run`");
   command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
-  command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")->check(CLI::PositiveNumber);
+  command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")->check(CLI::Validator(check_positive, "POSITIVE"));
   command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
   command
@@ -37,7 +38,7 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
   CLI::Option* runs =
       command->add_option("--runs", hunt.runs, "So many runs (default 200)")->check(CLI::Range(1, 1'000'000));
   command->add_option("--minutes", hunt.minutes, "Search for so long, instead of a number of runs")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Validator(check_positive, "POSITIVE"))
       ->excludes(runs);
   command->add_flag("--first", hunt.first, "End the search with the first find");
   command->add_option("--shrink", hunt.shrink, "Flights that it may take to make a find small")
@@ -98,7 +99,7 @@ void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
       ->capture_default_str();
   command->add_option("--agent", run.agent, "Agent program with planners of your own, as for `skein run`");
   command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
-  command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")->check(CLI::PositiveNumber);
+  command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")->check(CLI::Validator(check_positive, "POSITIVE"));
   command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
   command->add_option("--seed", run.seed, "As for `skein run`")->check(seed)->capture_default_str();
   command->add_option("--out", check.out, "Folder for the flights (default: they are not kept)");

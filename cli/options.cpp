@@ -6,6 +6,7 @@
 
 #include "cli/option_checks.hpp"
 #include "cli/tool_options.hpp"
+#include "core/number_checks.hpp"
 #include "core/text.hpp"
 #include "core/types.hpp"
 #include "process/manual.hpp"
@@ -41,7 +42,7 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
   command->add_option("--seed", run.seed, "What chance draws; 0 draws nothing")->check(seed)->capture_default_str();
   command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
   command->add_option("--uavs", run.uavs, "Fleet size: the scenario's first UAVs, or more of the same in its places")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Validator(check_positive, "POSITIVE"));
   command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
   command->add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");

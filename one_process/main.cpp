@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "comm_router/router_program.hpp"
+#include "core/number_checks.hpp"
 #include "one_process/crew.hpp"
 #include "one_process/death_notice.hpp"
 #include "one_process/order_queue.hpp"
@@ -71,7 +72,7 @@ int main(int argc, char** argv) {
   const auto add_options = [&](CLI::App& app) {
     app.description("Skein: home of a whole fleet in one process");
     app.add_option("--agent-timeout", patience_s, "wall time that a program may take for one turn [s], 0: for ever")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
     app.add_option("--turn-page", turn_page, "File of the launcher that takes whose turn it is")->group("Launcher");
   };
   const int code =

@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/number_checks.hpp"
 #include "core/suggestion.hpp"
 #include "process/crash_notes.hpp"
 #include "process/keeper.hpp"
@@ -91,10 +92,10 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--out", options.out, "Folder for what the program writes")->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of all random draws; 0 draws nothing")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
   app.add_option("--scene-seed", options.scene_seed, "Seed of a procedural scene, instead of the scenario's")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--uavs", options.uavs, "Fleet size, instead of the scenario's")->check(CLI::PositiveNumber);
+      ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
+  app.add_option("--uavs", options.uavs, "Fleet size, instead of the scenario's")->check(CLI::Validator(check_positive, "POSITIVE"));
   app.add_option("--duration", options.duration_s, "Mission time [s], instead of the scenario's");
   app.add_option("--rules", options.rules, "Preset of rules, instead of what the scenario says of them");
   app.add_option("--record", options.record, "What goes into recording.mcap: none, messages, run, all or clouds")
@@ -110,7 +111,7 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
          "--server-timeout", options.server_timeout_s,
          "Wall time to wait for sim_server to appear [s], 0: for ever; one that was started again waits 8 s at most")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
   app.add_option("--health", options.health, "File that is touched as long as the program takes its turns");
   app.add_option("--break-at", options.break_at_s, "Stop the debugger in the exchange before this simulated time [s]");
   app.add_flag("--wait-for-debugger", options.wait_for_debugger,

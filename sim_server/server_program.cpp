@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bus/program_bus.hpp"
+#include "core/number_checks.hpp"
 #include "core/scenario_reader.hpp"
 #include "process/json_text.hpp"
 #include "process/program_report.hpp"
@@ -104,14 +105,14 @@ class ServerMember final : public bus::FleetMember {
 void ServerProgram::add_options(CLI::App& app) {
   app.description("Skein: the world of a fleet (physics, sensors, radio links, referee, clock)");
   app.add_option("--clock", clock_, "lockstep, realtime or realtime:FACTOR");
-  app.add_option("--stop-at", stop_at_s_, "end at this simulated time [s]")->check(CLI::PositiveNumber);
+  app.add_option("--stop-at", stop_at_s_, "end at this simulated time [s]")->check(CLI::Validator(check_positive, "POSITIVE"));
   app.add_option("--agent-timeout", agent_timeout_s_, "wall time to wait for a member [s], 0: for ever")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
   app.add_option(
          "--startup-timeout", startup_timeout_s_,
          "wall time to wait for all to join [s], 0: for ever (default: 20 and 2 for each UAV, or --agent-timeout "
          "if that is more)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
   app.add_flag("--ground-program", ground_program_, "wait for a program at the ground station before the start");
   recording::add_replay_options(app, replay_);
   tasks_.add_options(app);
