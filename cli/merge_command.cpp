@@ -159,8 +159,8 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   const auto result = write_results(
       results, options.dir, [&] { return fs::exists(dir / run_folder::kRecording) ? damage : Texts(); }, console);
   for (const std::string& one : damage) console.err << one << std::endl;
-  if (result && !damage.empty() && (*result)["lost_members"].empty()) return kExitCheckFailed;
-  return result && (*result)["lost_members"].empty() ? kExitDone : kExitProcessFailed;
+  if (!result || anyone_lost(*result)) return kExitProcessFailed;
+  return damage.empty() ? kExitDone : kExitCheckFailed;
 }
 
 }  // namespace skein::cli

@@ -78,7 +78,7 @@ int exit_code_of(FleetRun& run, const Json& result) {
   if (run.facts().interrupted) return kExitInterrupted;
   // A run that nothing is known to have ended is no good one, either.
   const bool aborted = result["status"] == name_of(RunStatus::aborted);
-  return run.anything_failed() || aborted || !result["lost_members"].empty() ? kExitProcessFailed : kExitDone;
+  return run.anything_failed() || aborted || anyone_lost(result) ? kExitProcessFailed : kExitDone;
 }
 
 }  // namespace skein::cli

@@ -58,9 +58,11 @@ struct LostMember {
   Count step = {};
   Number time_s = {};
   Text reason = {};
+  Number back_at_s = {};  ///< when it took part again; none: it did not
 };
 template <class Fields>
 void describe(Fields& f, LostMember& lost) {
+  f.nullable("back_at_s", lost.back_at_s);
   f.field("member", lost.member);
   f.field("reason", lost.reason);
   f.field("step", lost.step);

@@ -115,7 +115,10 @@ std::string notes(const RunPage& page) {
   }
   for (const Json& member : value_or(page.run.result, "lost_members", Json::array())) {
     lost.push_back(text_in(member, "member") + " at " + cell_of(member, "time_s", 1) +
-                   " s: " + text_in(member, "reason"));
+                   " s: " + text_in(member, "reason") +
+                   (value_or(member, "back_at_s", Json()).is_number()
+                        ? "; it took part again from " + cell_of(member, "back_at_s", 1) + " s on"
+                        : ""));
   }
   return list_of("lost", "Lost in the run", lost) + list_of("warnings", "Warnings", warnings) +
          list_of("missing", "What this page lacks", page.run.missing);

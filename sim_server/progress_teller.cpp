@@ -25,7 +25,9 @@ void ProgressTeller::tell_now(const Simulation& simulation, const std::vector<Lo
     if (in_contact) progress.in_contact.push_back(scenario_.fleet[i].name);
     progress.alive += simulation.uav(i).alive;
   }
-  for (const LostProcess& process : lost) progress.lost.push_back(process.name);
+  for (const LostProcess& process : lost) {
+    if (!process.back) progress.lost.push_back(process.name);
+  }
   status_.send(status::line_json(progress));
 }
 

@@ -228,6 +228,9 @@ bool SimNode::let_in_members() {
   for (const std::string& name : server_.take_rejoined()) {
     spdlog::info("{} joined again at step {}", name, simulation_.step() + 1);
     status_.send_surely(status::line_json(status::Rejoined{name}));
+    for (LostProcess& lost : summary_.lost) {
+      if (lost.name == name && !lost.back) lost.back = simulation_.tick();
+    }
     const auto uav = std::find(uav_names_.begin(), uav_names_.end(), name);
     if (uav != uav_names_.end()) uavs_[static_cast<std::size_t>(uav - uav_names_.begin())]->resend_captures();
   }

@@ -193,7 +193,7 @@ void FleetRun::on_exit(Event event) {
 
 /// Without it nothing is known of any container, nor can anything be done about one.
 void FleetRun::on_engine_lost() {
-  if (failed_ && ending_) return;  // all followers notice, one after the other
+  if (anything_failed() && ending_) return;  // all followers notice, one after the other
   failed_ = true;
   facts_.warnings.push_back("the Docker engine does not answer any more: what became of the containers is not known");
   view_.message(facts_.warnings.back() + "; the run ends here");
@@ -245,6 +245,13 @@ void FleetRun::tell_waiting() {
 }
 
 // ---- what sim_server and the station say ------------------------------------------------------------------------
+
+void FleetRun::hear(const status::Rejoined& rejoined) {
+  orders_->returned(program_of(rejoined.member));
+  if (failed_programs_.erase(program_of(rejoined.member)) > 0) {
+    view_.message(rejoined.member + " was started again by somebody else, and takes part again");
+  }
+}
 
 void FleetRun::hear(const status::Progress& progress) {
   facts_.sim_time_s = progress.time_s;
@@ -352,7 +359,7 @@ std::string FleetRun::crash_text(const std::string& program, const ExitStatus& e
 
 /// Names a program that failed, with the end of its log.
 void FleetRun::complain(const std::string& program, const std::string& how) {
-  failed_ = true;
+  failed_programs_.insert(program);
   const std::filesystem::path& log = programs_.at(program).log;
   facts_.warnings.push_back(failure_text(program, how));
   view_.message(facts_.warnings.back() + "; the end of " + log.string() + ":" + end_of_log(log, kLogLines));

@@ -45,7 +45,7 @@ class FleetRun {
   ProgressView& view() { return view_; }
   /// What came through the status pipes, by program.
   const std::map<std::string, Json>& reports() const { return reports_; }
-  bool anything_failed() const { return failed_; }
+  bool anything_failed() const { return failed_ || !failed_programs_.empty(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -73,7 +73,7 @@ class FleetRun {
   void hear(const status::WaitingFor& wait);
   void hear(const status::Order& order);
   void hear(const status::Warning& warning) { view_.message("warning: " + warning.text); }
-  void hear(const status::Rejoined& rejoined) { orders_->returned(program_of(rejoined.member)); }
+  void hear(const status::Rejoined& rejoined);
   void hear(const status::Ended& ended);
   void hear(const status::Report&) {}
 
@@ -119,6 +119,7 @@ class FleetRun {
   bool over_ = false;         ///< the last step is done
   bool ending_ = false;       ///< the launcher itself ends the programs
   bool failed_ = false;
+  std::set<std::string> failed_programs_;  ///< and have not come back
 };
 
 }  // namespace skein::cli

@@ -35,8 +35,9 @@ Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Rep
     }
     const auto found = reports.agents.find(uav.name);
     const AgentReport agent = found == reports.agents.end() ? AgentReport{} : found->second.value_or(AgentReport{});
-    const bool lost = std::any_of(sim.lost_members.begin(), sim.lost_members.end(),
-                                  [&](const LostMember& member) { return member.member == uav.name; });
+    const bool lost = std::any_of(sim.lost_members.begin(), sim.lost_members.end(), [&](const LostMember& member) {
+      return member.member == uav.name && !member.back_at_s;
+    });
     entries.push_back({{"name", uav.name},
                        {"role", name_of(uav.vehicle.role)},
                        {"alive", or_null(flown.alive)},
@@ -265,6 +266,11 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   }
   result["warnings"] = warnings_of(facts, sim, router, reports);
   return result;
+}
+
+bool anyone_lost(const Json& result) {
+  const Json lost = value_or(result, "lost_members", Json::array());
+  return std::ranges::any_of(lost, [](const Json& one) { return !value_or(one, "back_at_s", Json()).is_number(); });
 }
 
 bool write_score_csv(const std::filesystem::path& dir, const std::optional<StationReport>& station) {

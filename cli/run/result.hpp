@@ -65,6 +65,9 @@ bool is_failure(const std::string& warning);
 /// Never throws for what a report contains or lacks: a wrong type counts as missing.
 Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports& reports);
 
+/// Whether a result names a process that died or hung and did not take part again.
+bool anyone_lost(const Json& result);
+
 /// score.csv (x,y,z,nx,ny,nz,score,index) from scene.json and the station's report.
 /// @returns false when there is no scene.json.
 bool write_score_csv(const std::filesystem::path& dir, const std::optional<StationReport>& station);

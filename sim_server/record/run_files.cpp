@@ -162,6 +162,7 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
   for (const LostProcess& lost : summary.lost) {
     report.lost_members.push_back(
         {.member = lost.name, .step = lost.step, .time_s = seconds(lost.tick), .reason = lost.reason});
+    if (lost.back) report.lost_members.back().back_at_s = seconds(*lost.back);
   }
   return report;
 }

@@ -23,6 +23,7 @@ struct LostProcess {
   std::uint64_t step = 0;
   Tick tick = 0;
   std::string reason;
+  std::optional<Tick> back = {};  ///< when it took part again
 };
 
 /// How a run went, beyond what the simulation itself knows.

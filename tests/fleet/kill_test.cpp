@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <random>
+#include <sstream>
 
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
@@ -75,6 +76,47 @@ TEST_F(Interruption, TwoKilledPrograms) {
   expect_complete_result(run);
   EXPECT_EQ(run.result()["status"], "completed");
   EXPECT_EQ(run.result()["lost_members"].size(), 2u);
+}
+
+/// The command line of a program of a fleet, without the launcher's pipes.
+Arguments without_launcher(pid_t pid) {
+  const std::string text = text_of("/proc/" + std::to_string(pid) + "/cmdline");
+  Arguments words;
+  std::istringstream in(text);
+  for (std::string word; std::getline(in, word, '\0');) {
+    if (word == "--status-fd" || word == "--control-fd") {
+      std::getline(in, word, '\0');
+    } else {
+      words.push_back(word);
+    }
+  }
+  return words;
+}
+
+// As a user would who has mended it meanwhile.
+TEST_F(Interruption, WhoIsStartedAgainByHandIsLostNoLonger) {
+  SkeinRun& run = flying({"towers", "--planner", "patrol", "--duration", "300"});
+  const pid_t pid = processes_of(run.dir()).at("uav_agent-changi");
+  const Arguments words = without_launcher(pid);
+  ::kill(pid, SIGKILL);
+  ASSERT_TRUE(
+      eventually([&] { return text_of(run.dir() / "sim_server.log").find("changi is lost") != std::string::npos; }));
+  ChildProcess& again = start_program("again", words);
+  EXPECT_EQ(run.exit_code(), 0) << run.err();
+  EXPECT_EQ(again.wait().code, 0) << again.err();
+  EXPECT_NE(run.err().find("changi was started again by somebody else, and takes part again"), std::string::npos);
+  const Json result = run.result();
+  ASSERT_EQ(result["lost_members"].size(), 1u) << result["lost_members"];
+  const Json lost = result["lost_members"][0];
+  ASSERT_TRUE(lost["back_at_s"].is_number()) << lost;
+  for (const Json& uav : result["uavs"]) EXPECT_FALSE(uav["program_lost"]) << uav["name"];
+  int delivered = 0;
+  for (const auto& row : read_csv(run.dir() / "captures.csv")) {
+    const bool since =
+        !row.at("delivered_at_s").empty() && std::stod(row.at("delivered_at_s")) > lost["back_at_s"].get<double>();
+    delivered += row.at("uav") == "changi" && since;
+  }
+  EXPECT_GT(delivered, 0) << "it works again";
 }
 
 class StopSignalled : public Interruption, public testing::WithParamInterface<int> {};
