@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/types.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim {
 namespace {
@@ -29,6 +30,20 @@ TEST_P(GoldenTables, AllRowsAgree) {
 
 INSTANTIATE_TEST_SUITE_P(Tables, GoldenTables,
                          testing::Values("scoring", "gimbal", "position_control", "attitude_control", "los_antenna"),
+                         [](const auto& table) { return std::string(table.param); });
+
+/// Those that every user has: our own, of a second implementation.
+class ShippedVectors : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedVectors, AllRowsAgree) {
+  const GoldenReport report =
+      check_golden(source_path("config/reference_vectors/" + std::string(GetParam()) + ".csv"));
+  EXPECT_EQ(report.table, GetParam());
+  EXPECT_GE(report.rows, 300u);
+  for (const auto& message : report.messages) ADD_FAILURE() << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, ShippedVectors, testing::Values("scoring", "gimbal"),
                          [](const auto& table) { return std::string(table.param); });
 
 class GoldenFile : public testing::Test {
