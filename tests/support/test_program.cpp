@@ -52,10 +52,21 @@ bool has_turn(std::size_t number, std::size_t turns) {
   return !turn || (number + *turn) % turns == 0;
 }
 
-std::vector<std::string> tests_in_turn(const std::vector<std::string>& tests, std::size_t turn, std::size_t turns) {
-  std::vector<std::string> chosen;
-  for (std::size_t i = 0; i < tests.size(); ++i) {
-    if ((i + i / turns + turn) % turns == 0) chosen.push_back(tests[i]);
+std::vector<std::string> tests_in_turn(const std::vector<std::string>& tests, std::size_t turn, std::size_t turns,
+                                       bool aligned) {
+  std::vector<std::string> names, parameters, chosen;
+  const auto number = [](std::vector<std::string>& known, const std::string& one) {
+    const auto found = std::find(known.begin(), known.end(), one);
+    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+    known.push_back(one);
+    return known.size() - 1;
+  };
+  for (const std::string& test : tests) {
+    const std::size_t slash = test.find('/', test.find('.') + 1);
+    const bool has_parameter = slash != std::string::npos;
+    std::size_t place = has_parameter ? number(parameters, test.substr(slash)) : 0;
+    if (!aligned || !has_parameter) place += number(names, test.substr(0, slash));
+    if ((place + turn) % turns == 0) chosen.push_back(test);
   }
   return chosen;
 }
@@ -64,6 +75,7 @@ int run_test_program(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::vector<std::string> entries = take(arguments, "--entry"), files = take(arguments, "--file"),
                                  turns = take(arguments, "--turns");
+  const bool aligned = std::erase(arguments, "--aligned") > 0;
   // GoogleTest names its report, by GTEST_OUTPUT a folder's, when it is initialised.
   const std::string output = GTEST_FLAG_GET(output);
   if (!entries.empty() && output.ends_with("/")) GTEST_FLAG_SET(output, output + entries.front() + ".json");
@@ -87,7 +99,7 @@ int run_test_program(int argc, char** argv) {
   }
   if (const std::optional<std::size_t> turn = turn_asked_for(); turn && !turns.empty()) {
     const std::size_t all = tests.size();
-    tests = tests_in_turn(tests, *turn, std::stoul(turns.front()));
+    tests = tests_in_turn(tests, *turn, std::stoul(turns.front()), aligned);
     std::printf("turn %zu: %zu of %zu tests\n", *turn, tests.size(), all);
   }
   std::string filter;
