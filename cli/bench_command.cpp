@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "cli/bench/planners.hpp"
 #include "cli/bench/report.hpp"
 #include "cli/bench/scenario.hpp"
 #include "cli/bench/table.hpp"
@@ -253,6 +254,7 @@ class Bench {
 }  // namespace
 
 int run_bench(const BenchOptions& options, const Console& console) {
+  if (options.planners) return bench_planners(options, console);
   for (const char* program :
        {"bench_floor_cyclonedds", "bench_floor_fastdds", "bench_lidar", "bench_relay", "bench_chatter"}) {
     if (!std::filesystem::exists(program_dir() / program)) {

@@ -256,6 +256,11 @@ TEST(Options, BenchReadsAll) {
   EXPECT_EQ(bench.duration_s, 30.0);
   EXPECT_EQ(bench.json, "b.json");
   for (const char* size : {"0", "129", "x"}) EXPECT_THROW(parse_command_line({"bench", "--sizes", size}), InputError);
+  const auto planners = parse<BenchOptions>({"bench", "--planners", "--against", "old.csv", "--write", "new.csv"});
+  EXPECT_TRUE(planners.planners);
+  EXPECT_EQ(planners.against, "old.csv");
+  EXPECT_EQ(planners.write, "new.csv");
+  EXPECT_THROW(parse_command_line({"bench", "--write", "new.csv"}), InputError);
 }
 
 TEST(Options, TheLargestSeedAndTheLimitsAreTaken) {

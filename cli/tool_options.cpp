@@ -171,7 +171,11 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
   command->add_option("--duration", bench.duration_s, "Mission time of the speed runs [s], instead of the scenario's")
       ->check(CLI::Validator(check_seconds, ""));
   command->add_option("--json", bench.json, "File for all figures");
-  command->footer("Example:\n  skein bench --quick --json bench.json");
+  CLI::Option* planners = command->add_flag("--planners", bench.planners,
+                                            "Scores of all planners in a fixed set of scenes beside those of a table");
+  command->add_option("--against", bench.against, "Another table than config/planner_scores.csv")->needs(planners);
+  command->add_option("--write", bench.write, "File for the new table")->needs(planners);
+  command->footer("Examples:\n  skein bench --quick --json bench.json\n  skein bench --planners --write scores.csv");
 }
 
 void add_oracle(CLI::App& app, OracleOptions& oracle) {

@@ -1,0 +1,123 @@
+#include "cli/bench/planner_scores.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "core/text.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr const char* kHeader = "scene,planner,score,points,collisions,frozen_uavs";
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+/// "wild" of "wild 3".
+std::string kind_of(const std::string& scene) { return scene.substr(0, scene.find(' ')); }
+
+/// What the scenes of one kind give a planner together.
+struct Sum {
+  int scenes = 0, only_one = 0;  ///< in both tables, in one alone
+  double before = 0.0, now = 0.0;
+  int collisions_before = 0, collisions = 0, frozen_before = 0, frozen = 0;
+};
+
+std::string change_text(const Sum& sum) {
+  return sum.before > 0.0 ? fmt::format("{:+.1f} %", 100.0 * (sum.now / sum.before - 1.0)) : "-";
+}
+
+}  // namespace
+
+std::vector<PlannerScore> planner_scores(const Study& study) {
+  std::vector<PlannerScore> scores;
+  for (const FlightEntry& flight : study.flights) {
+    if (!flight.figures) continue;
+    scores.push_back({study.scenarios[flight.scenario], study.planners[flight.planner], flight.figures->score,
+                      flight.figures->points_detected, flight.figures->collisions,
+                      flight.figures->frozen_uavs.value_or(0)});
+  }
+  return scores;
+}
+
+std::string planner_scores_csv(const std::vector<PlannerScore>& scores) {
+  std::string csv = std::string(kHeader) + "\n";
+  for (const PlannerScore& s : scores) {
+    csv += fmt::format("{},{},{:.3f},{},{},{}\n", s.scene, s.planner, s.score, s.points, s.collisions, s.frozen_uavs);
+  }
+  return csv;
+}
+
+std::vector<PlannerScore> read_planner_scores(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw InputError(file.string() + ": cannot be read");
+  std::vector<PlannerScore> scores;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    const auto refuse = [&](const std::string& why) {
+      throw InputError(fmt::format("{}: line {}: {}", file.string(), number, why));
+    };
+    if (number == 1) {
+      if (line != kHeader) refuse("must be '" + std::string(kHeader) + "'");
+      continue;
+    }
+    const std::vector<std::string> cells = cells_of(line);
+    std::vector<double> numbers;
+    for (std::size_t i = 2; i < cells.size(); ++i) {
+      const auto value = parse_number(cells[i]);
+      if (value && *value >= 0.0) numbers.push_back(*value);
+    }
+    if (cells.size() != 6 || numbers.size() != 4) refuse("must be a scene, a planner and four numbers of at least 0");
+    scores.push_back({cells[0], cells[1], numbers[0], static_cast<int>(numbers[1]), static_cast<int>(numbers[2]),
+                      static_cast<int>(numbers[3])});
+  }
+  if (line.empty() && scores.empty()) throw InputError(file.string() + ": holds no scores");
+  return scores;
+}
+
+void print_planner_scores(std::ostream& out, const std::vector<PlannerScore>& before,
+                          const std::vector<PlannerScore>& now) {
+  std::map<std::pair<std::string, std::string>, Sum> sums;
+  for (const PlannerScore& score : now) {
+    Sum& sum = sums[{kind_of(score.scene), score.planner}];
+    const auto then = std::ranges::find_if(before, [&](const PlannerScore& other) {
+      return other.scene == score.scene && other.planner == score.planner;
+    });
+    if (then == before.end()) {
+      ++sum.only_one;
+      continue;
+    }
+    ++sum.scenes;
+    sum.before += then->score;
+    sum.now += score.score;
+    sum.collisions_before += then->collisions;
+    sum.collisions += score.collisions;
+    sum.frozen_before += then->frozen_uavs;
+    sum.frozen += score.frozen_uavs;
+  }
+  out << fmt::format("{:<12}{:<14}{:>8}{:>12}{:>12}{:>10}{:>13}{:>11}\n", "scenes", "planner", "flights", "before",
+                     "now", "change", "collisions", "frozen");
+  for (const auto& [key, sum] : sums) {
+    if (sum.scenes > 0) {
+      out << fmt::format("{:<12}{:<14}{:>8}{:>12.1f}{:>12.1f}{:>10}{:>13}{:>11}\n", key.first, key.second, sum.scenes,
+                         sum.before, sum.now, change_text(sum),
+                         fmt::format("{} -> {}", sum.collisions_before, sum.collisions),
+                         fmt::format("{} -> {}", sum.frozen_before, sum.frozen));
+    }
+    if (sum.only_one > 0) {
+      out << fmt::format("{:<12}{:<14}{:>8}   not in the table before\n", key.first, key.second, sum.only_one);
+    }
+  }
+  out << "sums of scores; frozen: UAVs that stayed within 3 m of a place for 30 s and photographed nothing better\n";
+}
+
+}  // namespace skein::cli

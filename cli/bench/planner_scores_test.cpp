@@ -1,0 +1,70 @@
+#include "cli/bench/planner_scores.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "cli/testing/fake_programs.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+const std::vector<PlannerScore> kBefore = {
+    {"towers", "kios", 100.0, 120, 0, 0}, {"wild 3", "kios", 10.0, 20, 1, 2}, {"wild 4", "kios", 30.0, 40, 0, 1}};
+const std::vector<PlannerScore> kNow = {{"towers", "kios", 90.0, 110, 0, 0},
+                                        {"wild 3", "kios", 20.0, 25, 0, 0},
+                                        {"wild 4", "kios", 28.0, 39, 0, 1},
+                                        {"wild 5", "kios", 5.0, 9, 0, 0}};
+
+TEST(PlannerScores, AreReadAsTheyAreWritten) {
+  const ScratchDir folder;
+  const auto file = folder.path() / "scores.csv";
+  std::ofstream(file) << planner_scores_csv(kBefore);
+  const auto read = read_planner_scores(file);
+  ASSERT_EQ(read.size(), kBefore.size());
+  EXPECT_EQ(planner_scores_csv(read), planner_scores_csv(kBefore));
+}
+
+TEST(PlannerScores, DamagedTablesAreNamedByLine) {
+  const ScratchDir folder;
+  const auto file = folder.path() / "scores.csv";
+  const std::string header = "scene,planner,score,points,collisions,frozen_uavs\n";
+  const std::map<std::string, std::string> tables = {{"", "no scores"},
+                                                     {"scene,score\n", "line 1"},
+                                                     {header + "towers,kios,1,2,3,4\ntowers,kios,1,2,3\n", "line 3"},
+                                                     {header + "towers,kios,x,2,3,4\n", "line 2"},
+                                                     {header + "towers,kios,-1,2,3,4\n", "line 2"}};
+  for (const auto& [text, part] : tables) {
+    std::ofstream(file) << text;
+    try {
+      read_planner_scores(file);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(PlannerScores, KindsOfScenesAreSummedOverWhatBothHave) {
+  std::ostringstream out;
+  print_planner_scores(out, kBefore, kNow);
+  std::map<std::string, std::vector<std::string>> lines;  // by the first word
+  std::istringstream in(out.str());
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::vector<std::string> cells;
+    for (std::string word; words >> word;) cells.push_back(word);
+    if (!lines.contains(cells.at(0))) lines[cells.at(0)] = cells;
+  }
+  using Cells = std::vector<std::string>;
+  EXPECT_EQ(lines.at("towers"),
+            (Cells{"towers", "kios", "1", "100.0", "90.0", "-10.0", "%", "0", "->", "0", "0", "->", "0"}));
+  EXPECT_EQ(lines.at("wild"),
+            (Cells{"wild", "kios", "2", "40.0", "48.0", "+20.0", "%", "1", "->", "0", "3", "->", "1"}));
+  EXPECT_NE(out.str().find("1   not in the table before"), std::string::npos) << out.str();
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,56 @@
+#include "cli/bench/planners.hpp"
+
+#include "cli/bench/planner_scores.hpp"
+#include "cli/study_command.hpp"
+#include "core/config_files.hpp"
+#include "process/atomic_file.hpp"
+
+namespace skein::cli {
+namespace {
+
+constexpr const char* kPlanners = "patrol,kios,xxh,star";
+constexpr const char* kWorlds = "0-19";
+constexpr const char* kFewWorlds = "0-4";
+constexpr const char* kOut = "runs/bench-planners";
+
+/// The families as they are nominally, and worlds in which no planner was tuned.
+std::vector<StudyOptions> studies(const BenchOptions& options) {
+  StudyOptions families;
+  families.planner_lists = {kPlanners};
+  families.seeds = "0";
+  families.force = true;  // after a change: what fits is kept
+  StudyOptions worlds = families;
+  families.scenarios = options.quick ? std::vector<std::string>{"towers"}
+                                     : std::vector<std::string>{"towers", "hangar", "cranes", "spire", "sail"};
+  if (options.assets) families.scenarios.insert(families.scenarios.end(), {"mbs", "crane"});
+  families.assets = options.assets;
+  families.out = std::filesystem::path(kOut) / "families";
+  worlds.scenarios = {"wild"};
+  worlds.scene_seeds = options.quick ? kFewWorlds : kWorlds;
+  worlds.out = std::filesystem::path(kOut) / "worlds";
+  return {families, worlds};
+}
+
+}  // namespace
+
+int bench_planners(const BenchOptions& options, const Console& console) {
+  const std::filesystem::path table = options.against.value_or(default_config_dir() / "planner_scores.csv");
+  const std::vector<PlannerScore> before = read_planner_scores(table);
+  std::vector<PlannerScore> now;
+  bool failed = false;
+  for (const StudyOptions& study_options : studies(options)) {
+    const StudyPlan plan = plan_study(study_options);
+    console.err << plan.flights.size() << " flights, results in " << plan.out.string() << std::endl;
+    const StudyOutcomes outcomes = fly_study(plan, console);
+    if (outcomes.interrupted) return kExitInterrupted;
+    const Study study = study_of(plan, outcomes);
+    failed = failed || study.any_problem();
+    for (PlannerScore& score : planner_scores(study)) now.push_back(std::move(score));
+  }
+  console.out << "\nbefore: " << table.string() << "\n\n";
+  print_planner_scores(console.out, before, now);
+  if (options.write) write_file_atomically(*options.write, planner_scores_csv(now));
+  return failed ? kExitProcessFailed : kExitDone;
+}
+
+}  // namespace skein::cli
