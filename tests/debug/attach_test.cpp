@@ -11,6 +11,10 @@ class Attach : public DebugTest {
     EXPECT_TRUE(fleet.wait_until_flying()) << fleet.err();
     return fleet;
   }
+  static Arguments joined_words(Arguments words, const Arguments& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
   static void end(SkeinRun& fleet) {
     fleet.skein().signal(SIGINT);
     EXPECT_EQ(fleet.exit_code(), 130) << fleet.err();
@@ -44,6 +48,19 @@ TEST_F(Attach, GdbLooksIntoAFlyingProgramAndLeavesItFlying) {
   end(fleet);
 }
 
+TEST_F(Attach, WhoeverLooksInAndGoesOnChangesNothing) {
+  SKEIN_NEEDS_GDB();
+  const Arguments flight = {scenario_, "--planner", "patrol", "--duration", "400", "--no-oracle"};
+  SkeinRun& fleet = start("fleet", flight);
+  ASSERT_TRUE(fleet.wait_until_flying()) << fleet.err();
+  ChildProcess& gdb = typed("gdb", {"skein", "attach", "changi", "--run", fleet.dir()},
+                            "break skein::agent::PatrolPlanner::plan\ncontinue\nprint in.tick\ndelete\ndetach\nquit\n");
+  EXPECT_EQ(gdb.wait().code, 0) << gdb.out() << gdb.err();
+  expect_part(gdb.out(), "$1 = ");
+  EXPECT_EQ(fleet.exit_code(), 0) << fleet.err();
+  EXPECT_EQ(fleet.digest(), run("plain", joined_words(flight, {"--one-process"})).digest());
+}
+
 // It has the same domains, which are others there.
 TEST_F(Attach, AFleetInAnotherNetworkIsToldFromTheOneHere) {
   if (std::system("unshare --net true 2>/dev/null") != 0) GTEST_SKIP() << "no network namespaces here: not root";
@@ -51,8 +68,8 @@ TEST_F(Attach, AFleetInAnotherNetworkIsToldFromTheOneHere) {
   const std::string there = dir("there");
   ChildProcess& other = start_program(
       "there", {"/usr/bin/env", "unshare", "--net", "/bin/sh", "-c", "ip link set lo up && exec \"$0\" \"$@\"",
-                program("skein"), "run", scenario_, "--planner", "patrol", "--duration", "600", "--no-oracle", "--domain",
-                std::to_string(fleet.domains().first), "--out", there});
+                program("skein"), "run", scenario_, "--planner", "patrol", "--duration", "600", "--no-oracle",
+                "--domain", std::to_string(fleet.domains().first), "--out", there});
   ASSERT_TRUE(eventually([&] { return is_flying(there); })) << other.err();
   const std::string text = skein({"ps"}).out();
   const std::string launcher = "launcher " + std::to_string(fleet.skein().pid());
