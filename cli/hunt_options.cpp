@@ -22,7 +22,8 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
   command->add_option("--planner", run.planner, "As for `skein run`")->capture_default_str();
   command->add_option("--agent", run.agent, "Agent program with planners of your own, as for `skein run`");
   command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
-  command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")->check(CLI::Validator(check_positive, "POSITIVE"));
+  command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")
+      ->check(CLI::Validator(check_positive, "POSITIVE"));
   command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
   command
@@ -99,7 +100,8 @@ void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
       ->capture_default_str();
   command->add_option("--agent", run.agent, "Agent program with planners of your own, as for `skein run`");
   command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
-  command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")->check(CLI::Validator(check_positive, "POSITIVE"));
+  command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")
+      ->check(CLI::Validator(check_positive, "POSITIVE"));
   command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
   command->add_option("--seed", run.seed, "As for `skein run`")->check(seed)->capture_default_str();
   command->add_option("--out", check.out, "Folder for the flights (default: they are not kept)");

@@ -1,5 +1,5 @@
-// What a number on a command line must be, for programs without the launcher's own checks (cli/option_checks.hpp). Each is
-// a validator for CLI11, whose own names the largest double, 309 digits, as the limit.   Pure.
+// What a number on a command line must be, for programs without the launcher's own checks (cli/option_checks.hpp).
+// Each is a validator for CLI11, whose own names the largest double, 309 digits, as the limit.   Pure.
 #pragma once
 
 #include <string>

@@ -95,7 +95,8 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
       ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
   app.add_option("--scene-seed", options.scene_seed, "Seed of a procedural scene, instead of the scenario's")
       ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
-  app.add_option("--uavs", options.uavs, "Fleet size, instead of the scenario's")->check(CLI::Validator(check_positive, "POSITIVE"));
+  app.add_option("--uavs", options.uavs, "Fleet size, instead of the scenario's")
+      ->check(CLI::Validator(check_positive, "POSITIVE"));
   app.add_option("--duration", options.duration_s, "Mission time [s], instead of the scenario's");
   app.add_option("--rules", options.rules, "Preset of rules, instead of what the scenario says of them");
   app.add_option("--record", options.record, "What goes into recording.mcap: none, messages, run, all or clouds")

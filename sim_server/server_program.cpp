@@ -105,7 +105,8 @@ class ServerMember final : public bus::FleetMember {
 void ServerProgram::add_options(CLI::App& app) {
   app.description("Skein: the world of a fleet (physics, sensors, radio links, referee, clock)");
   app.add_option("--clock", clock_, "lockstep, realtime or realtime:FACTOR");
-  app.add_option("--stop-at", stop_at_s_, "end at this simulated time [s]")->check(CLI::Validator(check_positive, "POSITIVE"));
+  app.add_option("--stop-at", stop_at_s_, "end at this simulated time [s]")
+      ->check(CLI::Validator(check_positive, "POSITIVE"));
   app.add_option("--agent-timeout", agent_timeout_s_, "wall time to wait for a member [s], 0: for ever")
       ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
   app.add_option(

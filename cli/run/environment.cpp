@@ -17,8 +17,8 @@ namespace {
 
 /// For the user to set. The last five are the test suite's, and ours.
 const std::vector<std::string> kUserNames = {
-    "SKEIN_AGENT", "SKEIN_ASSETS", "SKEIN_BIN_DIR", "SKEIN_CHAOS", "SKEIN_CONFIG_DIR", "SKEIN_LOG",    "SKEIN_NETWORK",
-    "SKEIN_WEB",   "SKEIN_GOLDEN", "SKEIN_ROS2",    "SKEIN_LONG",  "SKEIN_SANITIZE",   "SKEIN_TURN",   kPinnedVariable};
+    "SKEIN_AGENT", "SKEIN_ASSETS", "SKEIN_BIN_DIR", "SKEIN_CHAOS", "SKEIN_CONFIG_DIR", "SKEIN_LOG",  "SKEIN_NETWORK",
+    "SKEIN_WEB",   "SKEIN_GOLDEN", "SKEIN_ROS2",    "SKEIN_LONG",  "SKEIN_SANITIZE",   "SKEIN_TURN", kPinnedVariable};
 
 }  // namespace
 

@@ -133,8 +133,8 @@ void throw_errno(const std::string& what) { throw std::system_error(errno, std::
 
 StartedProgram start_program(const ProgramSpec& spec) {
   Fd log = spec.log.empty() || spec.here
-                     ? Fd()
-                     : open_high(spec.log, O_RDWR | O_CREAT | O_APPEND | (spec.append_log ? 0 : O_TRUNC));
+               ? Fd()
+               : open_high(spec.log, O_RDWR | O_CREAT | O_APPEND | (spec.append_log ? 0 : O_TRUNC));
   const Fd input = spec.here ? Fd() : open_high("/dev/null", O_RDONLY);
   Pipe status = make_pipe(), control = make_pipe(), news = make_pipe();
   const std::vector<char*> argv = pointers(spec.argv), env = pointers(spec.env);
@@ -159,7 +159,7 @@ StartedProgram start_program(const ProgramSpec& spec) {
     throw std::system_error(error.value_or(ECHILD), std::generic_category(), "cannot start " + spec.argv[0]);
   }
   StartedProgram started{
-      pid, program, setup.foreground, watch(pid, program), std::move(status.read), std::move(control.write),
+      pid,           program, setup.foreground, watch(pid, program), std::move(status.read), std::move(control.write),
       std::move(log)};
   ::fcntl(started.status.get(), F_SETFL, O_NONBLOCK);
   ::fcntl(started.control.get(), F_SETFL, O_NONBLOCK);

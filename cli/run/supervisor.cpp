@@ -55,7 +55,9 @@ double seconds(const timeval& time) {
 
 struct Supervisor::Child : StartedProgram {
   explicit Child(const ProgramSpec& spec)
-      : StartedProgram(start_program(spec)), name(spec.name), most_status_bytes(spec.most_status_bytes),
+      : StartedProgram(start_program(spec)),
+        name(spec.name),
+        most_status_bytes(spec.most_status_bytes),
         most_log_bytes(spec.most_log_bytes) {}
 
   const std::string name;

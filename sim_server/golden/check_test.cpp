@@ -36,8 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Tables, GoldenTables,
 class ShippedVectors : public testing::TestWithParam<const char*> {};
 
 TEST_P(ShippedVectors, AllRowsAgree) {
-  const GoldenReport report =
-      check_golden(source_path("config/reference_vectors/" + std::string(GetParam()) + ".csv"));
+  const GoldenReport report = check_golden(source_path("config/reference_vectors/" + std::string(GetParam()) + ".csv"));
   EXPECT_EQ(report.table, GetParam());
   EXPECT_GE(report.rows, 300u);
   for (const auto& message : report.messages) ADD_FAILURE() << message;

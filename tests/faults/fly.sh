@@ -1,7 +1,7 @@
 #!/bin/sh
 # Flies one fault test in one process: SKEIN FILE NUMBER REPEATS OUT. It is flown again in the ways of REPEATS when its
-# number has its turn (SKEIN_TURN; without it always), or it is flown then alone, where REPEATS is `only`. The long suite
-# repeats it in every way.
+# number has its turn (SKEIN_TURN; without it always), or it is flown then alone, where REPEATS is `only`. The long
+# suite repeats it in every way.
 set -eu
 turn=true
 [ -z "${SKEIN_TURN:-}" ] || [ $((($3 + SKEIN_TURN) % 3)) -eq 0 ] || turn=false

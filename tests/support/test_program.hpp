@@ -2,7 +2,8 @@
 // few files that belong together:
 //   core_tests --entry core_text_test --file core/text_test.cpp [--file ...]
 // runs the tests of these files, and names its report after the entry. With --turns K and SKEIN_TURN=N in the
-// environment it runs every K-th of them, another share for each N (--aligned: with the same parameters). Without these options it is GoogleTest's own.
+// environment it runs every K-th of them, another share for each N (--aligned: with the same parameters). Without these
+// options it is GoogleTest's own.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +20,8 @@ bool has_turn(std::size_t number, std::size_t turns);
 
 /// The share of the tests that has its turn: each test has one of every `turns` successive turns. One test and the next
 /// run with different parameters, so that each turn sees all vendors, say.
-/// @param tests  "Suite.Name" or "Suite.Name/parameter". @param aligned  all run with the same parameters, for these are
-/// dear: worlds that are drawn.
+/// @param tests  "Suite.Name" or "Suite.Name/parameter". @param aligned  all run with the same parameters, for these
+/// are dear: worlds that are drawn.
 std::vector<std::string> tests_in_turn(const std::vector<std::string>& tests, std::size_t turn, std::size_t turns,
                                        bool aligned = false);
 
