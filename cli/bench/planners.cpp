@@ -4,6 +4,7 @@
 #include "cli/study_command.hpp"
 #include "core/config_files.hpp"
 #include "process/atomic_file.hpp"
+#include "process/program.hpp"
 
 namespace skein::cli {
 namespace {
