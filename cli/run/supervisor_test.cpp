@@ -273,7 +273,7 @@ TEST_F(SupervisorTest, ALongReportIsNoLineWithoutAnEnd) {
 
 TEST_F(SupervisorTest, ALogWithoutEndKeepsItsBeginningAndItsEnd) {
   ProgramSpec spec =
-      shell("a", "echo first; head -c 30000000 /dev/zero | tr '\\0' x; echo >&3; read line <&4; echo last");
+      shell("a", "echo first; head -c 30000000 /dev/zero | tr '\\0' x; echo >&3; read line <&4; echo; echo last");
   spec.most_log_bytes = 2 << 20;
   supervisor_.start(spec);
   EXPECT_EQ(supervisor_.wait(kNoLimit).at(0).kind, Event::Kind::status_line);
