@@ -47,6 +47,8 @@ std::optional<std::size_t> turn_asked_for() {
 
 }  // namespace
 
+std::size_t turn_number() { return turn_asked_for().value_or(0); }
+
 bool has_turn(std::size_t number, std::size_t turns) {
   const std::optional<std::size_t> turn = turn_asked_for();
   return !turn || (number + *turn) % turns == 0;

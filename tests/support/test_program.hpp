@@ -15,6 +15,9 @@ namespace skein {
 /// Takes its own options and GoogleTest's, and runs the tests. @returns the exit code: 2 for a wrong command line.
 int run_test_program(int argc, char** argv);
 
+/// SKEIN_TURN, 0 without it: for tests that draw another case at each commit.
+std::size_t turn_number();
+
 /// Whether one of many, by its number, has its turn: always, without SKEIN_TURN.
 bool has_turn(std::size_t number, std::size_t turns);
 
