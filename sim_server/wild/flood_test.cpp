@@ -111,8 +111,8 @@ class Flood {
 };
 
 Vector3d above(const Vector2d& start) { return {start.x(), start.y(), 1.5}; }
-/// A takeoff that is clear may pass closer to a surface than kBerth; at most so far away it has room again. Less than the
-/// thickness of the walls below with the berth on both sides.
+/// A takeoff that is clear may pass closer to a surface than kBerth; at most so far away it has room again. Less than
+/// the thickness of the walls below with the berth on both sides.
 constexpr double kFromStart = 1.3;
 
 class FloodedWorld : public testing::TestWithParam<std::string> {
