@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -33,7 +34,9 @@ struct Sum {
 };
 
 std::string change_text(const Sum& sum) {
-  return sum.before > 0.0 ? fmt::format("{:+.1f} %", 100.0 * (sum.now / sum.before - 1.0)) : "-";
+  if (sum.before <= 0.0) return "-";
+  const double percent = 100.0 * (sum.now / sum.before - 1.0);
+  return std::abs(percent) < 0.05 ? "0.0 %" : fmt::format("{:+.1f} %", percent);  // tables hold rounded scores
 }
 
 }  // namespace

@@ -18,9 +18,9 @@ namespace skein::sim {
 namespace {
 
 constexpr double kCell = 0.3, kMargin = 8.0;
-/// Of a cell's middle from a sample of the surface. What the proof asks, 1.4 m of a path that need not go through
-/// middles, leaves this much; and with this much a body of 0.63 m still fits.
-constexpr double kBerth = 0.88;
+/// Of a cell's middle from a sample of the surface. The proof asks for 1.4 m along lines 1 m apart: half way from one
+/// to the next are 0.9 m left, and 0.26 m less at the middle of the cell there. A body of 0.63 m still fits.
+constexpr double kBerth = 0.64;
 
 class Flood {
  public:
@@ -40,8 +40,9 @@ class Flood {
     fill(size_ - Eigen::Vector3i::Ones());  // a corner of the sky
   }
 
-  /// Whether a cell whose middle is that near has been reached from the sky.
+  /// Whether a cell whose middle is that near has been reached from the sky. All around the structures is sky.
   bool reaches(const Vector3d& p, double distance) const {
+    if (!box_.contains(p)) return p.z() > 0.0;
     const Eigen::Vector3i low = cell_of(p - Vector3d::Constant(distance)),
                           high = cell_of(p + Vector3d::Constant(distance));
     for (int x = low.x(); x <= high.x(); ++x) {
