@@ -245,6 +245,7 @@ struct StudyOptions {
   bool secure = false;                          ///< as in RunOptions
   std::optional<std::filesystem::path> assets;
   std::optional<double> duration_s;            ///< mission time, instead of the scenarios'
+  std::optional<double> agent_timeout_s;       ///< as in RunOptions
   std::optional<std::string> rules;            ///< a preset, instead of the scenarios'
   std::optional<std::string> dds;              ///< a vendor or "mixed"; else fleets fly in one process where they can
   std::optional<std::filesystem::path> agent;  ///< as in RunOptions

@@ -115,6 +115,7 @@ std::string no_server(const MergeOptions& options) {
 int merge_without_server(const MergeOptions& options, const fs::path& dir, const Console& console) {
   const std::vector<fs::path> parts = recording_parts(dir);
   if (parts.empty()) throw InputError(no_server(options));
+  gather_agents(dir);
   const std::string trouble = join_parts(dir, Json::object());
   if (trouble.empty()) {
     std::uint64_t end_ns = 0;

@@ -181,6 +181,10 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
       ->allow_extra_args(false);
   command.add_option("--assets", study.assets, "Folder with models/ for scenarios that read files");
   command.add_option("--duration", study.duration_s, "Mission time [s], instead of the scenarios'")->check(seconds);
+  command
+      .add_option("--agent-timeout", study.agent_timeout_s,
+                  "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
+      ->check(seconds);
   command.add_option("--rules", study.rules, "Preset of rules, instead of the scenarios': contest, paper or reference");
   command
       .add_option("--dds", study.dds,

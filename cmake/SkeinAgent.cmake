@@ -1,13 +1,17 @@
 # Agent programs with planners of one's own. Used by this build's tests and, installed, by find_package(skein).
 
-# skein_add_agent(NAME SOURCES ... [LIBS ...])
+# skein_add_agent(NAME SOURCES ... [LIBS ...] [DEBUG])
 # A program like uav_agent: with all planners of Skein, and those that the sources register. Beside it NAME_fleet, in
-# which whole fleets of such agents fly as one process.
+# which whole fleets of such agents fly as one process. DEBUG: the sources are compiled for a debugger (-Og), and fly
+# the same.
 function(skein_add_agent name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "DEBUG" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE skein::agent_main skein::agent skein::agent_nodes ${ARG_LIBS})
   skein_compile_as_skein(${name})
+  if(ARG_DEBUG)
+    target_compile_options(${name} PRIVATE -Og)  # behind what the build type says of it
+  endif()
   add_executable(${name}_fleet $<TARGET_OBJECTS:${name}>)
   target_link_libraries(${name}_fleet PRIVATE
     skein::one_process_main skein::one_process skein::sim_node skein::router_node skein::station_node

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 8> kVendorNames = {"ROS_DISCOVERY_SERVER"
                                                           "ROS_STATIC_PEERS",      "ROS_AUTOMATIC_DISCOVERY_RANGE",
                                                           "SKIP_DEFAULT_XML_FILE", "SKIP_DEFAULT_XML"};
 /// Told to each program by its launcher; inherited, they are those of another fleet.
-constexpr std::array<std::string_view, 7> kToldNames = {"SKEIN_DDS",      "SKEIN_DOMAIN",   "SKEIN_OUT", "SKEIN_RUN",
+constexpr std::array<std::string_view, 7> kToldNames = {"SKEIN_DDS",      "SKEIN_DOMAIN",   "SKEIN_OUT", kRunVariable,
                                                         "SKEIN_SCENARIO", "SKEIN_SECURITY", "SKEIN_UAV"};
 
 template <class Names>
@@ -83,7 +83,10 @@ std::vector<std::string> ignored_variables() {
 
 void take_fleet_environment(char** argv) {
   if (std::getenv(kPinnedVariable) != nullptr) return;
-  std::vector<std::string> variables = fleet_environment(false);
+  // No launcher started it, so whoever did may have told it the run, which belongs to no other fleet then.
+  std::map<std::string, std::string> told;
+  if (const char* run = std::getenv(kRunVariable)) told[kRunVariable] = run;
+  std::vector<std::string> variables = fleet_environment(false, told);
   std::vector<char*> environment;
   for (std::string& variable : variables) environment.push_back(variable.data());
   environment.push_back(nullptr);

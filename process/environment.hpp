@@ -22,6 +22,9 @@ std::vector<std::string> fleet_environment(bool native, const std::map<std::stri
 /// Whoever has this variable was started with all that.
 inline constexpr const char* kPinnedVariable = "SKEIN_PINNED";
 
+/// The number of the run, for programs that are started without --run.
+inline constexpr const char* kRunVariable = "SKEIN_RUN";
+
 /// NAME of NAME=VALUE.
 std::string_view variable_in(std::string_view entry);
 
@@ -34,7 +37,7 @@ std::vector<std::string> ignored_variables();
 bool is_ignored_variable(std::string_view name);
 
 /// First thing in main(): libm chooses its code by the environment that a process starts with, so a program that was
-/// not given that of a fleet runs itself again with it.
+/// not given that of a fleet runs itself again with it. SKEIN_RUN is handed on.
 void take_fleet_environment(char** argv);
 
 }  // namespace skein

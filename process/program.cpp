@@ -132,7 +132,7 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option_function<std::uint64_t>(
          "--run", [&options](std::uint64_t run) { options.run = RunId{run}; },
          "Number of the run: programs of other runs are not listened to")
-      ->envname("SKEIN_RUN")
+      ->envname(kRunVariable)
       ->group("Launcher");
 }
 

@@ -9,10 +9,17 @@ namespace skein::bus {
 
 namespace {
 
-std::string describe(const CountedQueues::Surplus& surplus) {
-  return "sent more than it announced: " + std::to_string(surplus.arrived) + " samples on " + surplus.topic + ", " +
-         std::to_string(surplus.announced) + " announced by its done (docs/lockstep.md, \"Rules for a client\")";
+std::string describe(const CountedQueues::Surplus& surplus, bool was_cut_off) {
+  const std::string counts = std::to_string(surplus.arrived) + " samples on " + surplus.topic + ", " +
+                             std::to_string(surplus.announced) + " announced by its done";
+  if (was_cut_off) return "what it had said came twice: " + counts;
+  return "sent more than it announced: " + counts + " (docs/lockstep.md, \"Rules for a client\")";
 }
+
+/// DDS takes who comes back for somebody new: it hears nothing of what was said meanwhile, and is heard again with all
+/// that its writers keep.
+constexpr const char* kCutOff =
+    "; the network was cut for longer than its lease, and it is back since (docs/lockstep.md, \"Waiting\")";
 
 }  // namespace
 
@@ -257,13 +264,20 @@ bool LockstepServer::answered() {
   in_step_ = false;
   for (Place& place : places_) {
     if (!place.member) continue;
-    if (const auto surplus = domains_[place.domain]->commands.surplus(place.source)) leave(place, describe(*surplus));
+    if (const auto surplus = domains_[place.domain]->commands.surplus(place.source)) {
+      leave(place, describe(*surplus, place.unheard));
+    }
   }
   for (const auto& domain : domains_) domain->commands.release();
   return true;
 }
 
+bool LockstepServer::is_heard(const Place& place) const {
+  return contains(door_of(place).ready->matched(), place.source);
+}
+
 void LockstepServer::ask_again() {
+  for (Place& place : places_) place.unheard = place.unheard || (in_step_ && place.member && !is_heard(place));
   for (std::size_t i = 0; in_step_ && i < domains_.size(); ++i) {
     Domain& domain = *domains_[i];
     const bool silent = std::any_of(places_.begin(), places_.end(),
@@ -282,7 +296,7 @@ std::size_t LockstepServer::rings() const {
 // ---- leaving ----------------------------------------------------------------------------------------------------
 
 void LockstepServer::vacate(Place& place) {
-  place.member = place.invited = place.declared = place.answered = false;
+  place.member = place.invited = place.declared = place.answered = place.unheard = false;
   place.source = 0;
   place.sent.clear();
 }
@@ -299,7 +313,8 @@ void LockstepServer::leave(Place& place, const std::string& reason) {
     drop_->begin_step();
     drop_->write(drop);
   }
-  lost_.push_back({place.name, k_, reason});
+  const bool was_cut_off = place.unheard && is_heard(place);
+  lost_.push_back({place.name, k_, was_cut_off ? reason + kCutOff : reason});
   if (place.source != 0) gone_.insert(place.source);
   place.awaited = false;
   place.order.reset();
@@ -348,7 +363,7 @@ void LockstepServer::lost(const std::string& member, const std::string& reason) 
 
 void LockstepServer::drop_vanished() {
   for (Place& place : places_) {
-    if (place.member && !contains(door_of(place).ready->matched(), place.source)) {
+    if (place.member && !is_heard(place)) {
       leave(place, "it has left, or gives no sign of life");
     }
   }

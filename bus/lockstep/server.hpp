@@ -77,7 +77,8 @@ class LockstepServer {
   /// For Inbox::dispatch(), while answered() is false: each answer that is missing rings once at least.
   std::size_t rings() const;
   /// While answered() is false and nothing happens: tells the step once more where an answer is missing. Either may
-  /// have been lost with a lease that was over, and whoever has answered answers the same again.
+  /// have been lost with a lease that was over, and whoever has answered answers the same again. Notes whose lease is
+  /// over: what it has said may be lost then, or come twice, and the reason of its loss says so.
   void ask_again();
 
   /// At a boundary, before publish(): a fault takes this member out, and the steps to come tell it what to do to
@@ -137,6 +138,7 @@ class LockstepServer {
     bool invited = false, declared = false;
     std::vector<std::string> reads, writes;
     bool answered = false;
+    bool unheard = false;  ///< for a while within a step: its lease was over, and it may be back since
     std::vector<CountedQueues::Expected> sent;                 ///< by its last Done
     std::optional<std::pair<ParticipantId, msg::Ready>> next;  ///< knocked while the place was taken
   };
@@ -161,6 +163,7 @@ class LockstepServer {
   std::vector<msg::TopicCount> all_counts(const Domain& domain) const;
   std::vector<msg::TopicCount> take_new_counts(Domain& domain);
   void leave(Place& place, const std::string& reason);
+  bool is_heard(const Place& place) const;
   static void vacate(Place& place);
   void forget_deliveries();
   void amend_step();

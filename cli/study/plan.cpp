@@ -89,6 +89,7 @@ RunOptions run_options(const StudyOptions& options, const StudyScene& scene, con
   run.secure = options.secure;
   run.assets = options.assets;
   run.duration_s = options.duration_s;
+  run.agent_timeout_s = options.agent_timeout_s;
   run.rules = options.rules;
   run.dds = options.dds.value_or(run.dds);
   run.agent = options.agent;
@@ -215,6 +216,7 @@ std::string command_line(const StudyPlan& plan) {
   if (options.scene_seeds) add("--scene-seeds", *options.scene_seeds);
   if (options.assets) add("--assets", *options.assets);
   if (options.duration_s) add("--duration", shortest(*options.duration_s));
+  if (options.agent_timeout_s) add("--agent-timeout", shortest(*options.agent_timeout_s));
   if (options.rules) add("--rules", *options.rules);
   if (options.dds) add("--dds", *options.dds);
   if (const auto agent = own_agent(options.agent)) add("--agent", options.agent.value_or(*agent));
@@ -301,6 +303,7 @@ StudyPlan plan_study(const StudyOptions& options) {
                    {"faults", options.faults ? Json(options.faults->string()) : Json()},
                    {"secure", options.secure},
                    {"duration_s", options.duration_s ? Json(*options.duration_s) : Json()},
+                   {"agent_timeout_s", options.agent_timeout_s ? Json(*options.agent_timeout_s) : Json()},
                    {"rules", options.rules ? Json(*options.rules) : Json()},
                    {"dds", plan.medium},
                    {"programs", programs},
@@ -350,6 +353,7 @@ std::string repeating_command(const StudyPlan& plan, const StudyFlight& flight) 
   add("--planner", plan.planners[flight.planner]);
   if (flight.seed != 0) add("--seed", std::to_string(flight.seed));
   if (plan.options.duration_s) add("--duration", shortest(*plan.options.duration_s));
+  if (plan.options.agent_timeout_s) add("--agent-timeout", shortest(*plan.options.agent_timeout_s));
   if (plan.options.rules) add("--rules", *plan.options.rules);
   if (plan.options.assets) add("--assets", *plan.options.assets);
   if (flight.agent) {

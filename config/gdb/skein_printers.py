@@ -32,10 +32,10 @@ class Dense:
         self.cols = int(storage["m_cols"]) if "m_cols" in members else sizes[1]
         data = storage["m_data"]
         pointer = data.type.strip_typedefs().code == gdb.TYPE_CODE_PTR
-        self.data = data if pointer else data["array"].address.cast(self.scalar.pointer())
+        self.data = data if pointer else data["array"]  # no pointer to it: what a function returned has no address
 
     def at(self, row, col):
-        return number((self.data + (row * self.cols + col if self.row_major else col * self.rows + row)).dereference())
+        return number(self.data[row * self.cols + col if self.row_major else col * self.rows + row])
 
     def to_string(self):
         if self.rows * self.cols > MOST_NUMBERS:

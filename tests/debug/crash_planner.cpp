@@ -1,4 +1,4 @@
-// A planner of a test: hovers until a simulated time, when it crashes or flies faster than it may.
+// A planner of a test: hovers until a simulated time, when it crashes, flies faster than it may, or into a block.
 #include <spdlog/spdlog.h>
 
 #include "uav_agent/api/planner.hpp"
@@ -9,12 +9,14 @@ class CrashPlanner final : public Planner {
  public:
   struct Config {
     double at_s = 2.0;
-    bool reckless = false;  ///< it does not crash
+    bool reckless = false;  ///< it does not crash: it asks for more speed than there is
+    bool rams = false;      ///< neither: it flies into the block of the small scene
 
     template <class R>
     void describe(R& r) {
       r.field("at_s", at_s, within(0.0, 100.0));
       r.field("reckless", reckless);
+      r.field("rams", rams);
     }
   };
 
@@ -23,8 +25,12 @@ class CrashPlanner final : public Planner {
   PlannerOutput plan(const PlannerInput& in) override {
     spdlog::debug("step {}", in.k);
     if (seconds(in.tick) < config_.at_s) return {};
-    if (!config_.reckless) *nothing_ = 1;  // HERE
     PlannerOutput out;
+    if (config_.rams) {
+      out.motion = TrajectoryCommand{.p_WB = {30.0, 0.0, 5.0}};
+      return out;
+    }
+    if (!config_.reckless) *nothing_ = 1;  // HERE
     out.motion = TrajectoryCommand{.v_WB = {0.0, 0.0, 1000.0}};
     return out;
   }

@@ -40,6 +40,17 @@ TEST_F(Crash, ItsBacktraceNamesTheLine) {
   expect_part(lost[0]["reason"], "backtrace in uav_agent-changi.log");
 }
 
+TEST_F(Crash, AnAgentForDebuggersIsCompiledForThem) {
+  SKEIN_NEEDS_GDB();
+  ChildProcess& gdb = start_program("gdb", {command_file("gdb"), "-nx", "-batch", "-ex", "list CrashPlanner::plan",
+                                            "-ex", "info source", helper_program("crash_agent")});
+  gdb.wait();
+  std::smatch producer;
+  const std::string said = gdb.out();
+  ASSERT_TRUE(std::regex_search(said, producer, std::regex("Producer is .*( -O[^ ]*)"))) << said << gdb.err();
+  EXPECT_EQ(producer[1], " -Og") << "the last one counts";
+}
+
 TEST_F(Crash, ItsCoreIsKeptOnRequest) {
   SKEIN_NEEDS_GDB();
   if (text_of("/proc/sys/kernel/core_pattern").starts_with('|')) GTEST_SKIP() << "another program gets the cores here";

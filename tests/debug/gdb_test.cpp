@@ -1,7 +1,9 @@
 // `skein run --debug UAV=gdb`: what is typed there is heard, what is debugged flies as ever, and who leaves is lost.
+#include <map>
 #include <regex>
 
 #include "debug_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -59,6 +61,35 @@ TEST_F(Gdb, StopsInTheExchangeBeforeATime) {
   expect_part(skein.out(), "received signal SIGTRAP");
   expect_part(skein.out(), "$1 = 1200\n");  // 3.00 s
   EXPECT_EQ(result("gdb")["digest"], plain_digest());
+}
+
+// In a folder from which the names of sources, which are relative to the tree, lead nowhere.
+TEST_F(Gdb, EveryPlannerIsFoundInItsOwnSource) {
+  SKEIN_NEEDS_GDB();
+  std::string commands = "cd /\n";
+  const std::map<std::string, std::string> planners = {
+      {"KiosPlanner", "kios/kios"}, {"PatrolPlanner", "patrol/patrol"}, {"StarPlanner", "star/star"},
+      {"XxhPlanner", "xxh/xxh"},    {"HoverPlanner", "basic/hover"},    {"WaypointsPlanner", "basic/waypoints"}};
+  for (const auto& [planner, file] : planners) commands += "break " + planner + "::plan\nlist " + planner + "::plan\n";
+  ChildProcess& gdb = typed(
+      "gdb", {"gdb", "-nx", "-q", "-x", source_path("config/gdb/skein_printers.py"), program("uav_agent")}, commands);
+  EXPECT_EQ(gdb.wait().code, 0) << gdb.err();
+  for (const auto& [planner, file] : planners) {
+    expect_part(gdb.out(), "file ./uav_agent/planners/" + file + ".cpp, line ");
+    const std::string text = text_of(source_path("uav_agent/planners/" + file + ".cpp"));
+    std::smatch head;
+    ASSERT_TRUE(std::regex_search(text, head, std::regex("\n(.*\\bplan\\(const PlannerInput& .*\\{)\n"))) << file;
+    expect_part(gdb.out(), "\t" + head[1].str());
+  }
+}
+
+TEST_F(Gdb, WhatAPlannerReturnsIsShownInALine) {
+  SKEIN_NEEDS_GDB();
+  ChildProcess& skein = fly("gdb", {"--debug", "changi=gdb"}, kBreak + "finish\nkill\nquit\n", "1");
+  skein.wait();
+  expect_part(skein.out(), "Value returned is $1 = ");
+  expect_part(skein.out(), "p_WB = (");
+  EXPECT_EQ(skein.out().find("PlainObjectBase"), std::string::npos) << "Eigen's own members";
 }
 
 }  // namespace

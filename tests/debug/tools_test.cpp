@@ -1,5 +1,9 @@
 // --debug with other tools than gdb, with none that is installed, and without any.
+#include <regex>
+
+#include "core/command_file.hpp"
 #include "debug_fixture.hpp"
+#include "tests/free_port.hpp"
 
 namespace skein::test {
 namespace {
@@ -34,6 +38,29 @@ TEST_F(Tools, WhatIsMissingOrWrongStartsNothing) {
     EXPECT_FALSE(std::filesystem::exists(dir("wrong"))) << value;
   }
   EXPECT_EQ(fly("wrong", {"--debug", "changi=wait", "--one-process"}).wait().code, 2);
+}
+
+TEST_F(Tools, GdbserverHandsTheProgramToAGdbElsewhere) {
+  SKEIN_NEEDS_GDB();
+  if (command_file("gdbserver").empty()) GTEST_SKIP() << "there is no gdbserver here";
+  const FreePort port;
+  ChildProcess& skein = fly("server", {"--debug", "changi=gdbserver:" + port.text()});
+  ASSERT_TRUE(eventually([&] { return skein.err().find("target remote") != std::string::npos || skein.ended(); }));
+  std::smatch command;
+  const std::string text = skein.err();
+  ASSERT_TRUE(std::regex_search(text, command, std::regex("changi stands in gdbserver.*:\n\n  (.*)\n"))) << text;
+  const std::string commands = write("elsewhere.gdb",
+                                     "break skein::agent::PatrolPlanner::plan\ncontinue\nprint in.k\n"
+                                     "print in.state.p_WB\ndelete\ncontinue\nquit\n");
+  ChildProcess& gdb =
+      start_program("elsewhere", {"/bin/sh", "-c", "exec " + command[1].str() + " <" + shell_word(commands)});
+  EXPECT_EQ(gdb.wait().code, 0) << gdb.out() << gdb.err();
+  ASSERT_NE(gdb.out().find("exited normally"), std::string::npos) << gdb.out() << gdb.err();
+  expect_part(gdb.out(), "hit Breakpoint 1, skein::agent::PatrolPlanner::plan");
+  expect_part(gdb.out(), "$2 = (");
+  EXPECT_EQ(skein.wait().code, 0) << skein.err();
+  EXPECT_EQ(result("server")["digest"], plain_digest());
+  EXPECT_FALSE(text_of(dir("server") / "uav_agent-changi.report.json").empty());
 }
 
 TEST_F(Tools, WhoWaitsIsToldAndGoesOn) {

@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "fleet_fixture.hpp"
+#include "mcap/reader.hpp"
+#include "process/run_folder.hpp"
 #include "small_scene.hpp"
 
 namespace skein::test {
@@ -181,6 +183,41 @@ TEST_F(Interruption, ProgramsDieWithTheLauncher) {
   EXPECT_EQ(run.skein().wait().signal, SIGKILL);
   EXPECT_TRUE(eventually([&] { return processes_of(run.dir()).empty(); }, std::chrono::seconds(20)));
 }
+
+class KilledLauncher : public Interruption, public testing::WithParamInterface<std::string> {};
+
+TEST_P(KilledLauncher, LeavesAFolderThatMergeJoins) {
+  SkeinRun& run = start(
+      "run", {write_small_scene(folder()), "--planner", "patrol", "--duration", "2000", "--no-oracle", GetParam()});
+  ASSERT_TRUE(run.wait_until_flying()) << run.err();
+  EXPECT_FALSE(processes_of(run.dir()).empty());
+  run.skein().signal(SIGKILL);
+  EXPECT_EQ(run.skein().wait().signal, SIGKILL);
+  ASSERT_TRUE(eventually([&] { return processes_of(run.dir()).empty(); }, std::chrono::seconds(20)));
+  // As the agents of containers leave it.
+  const auto agents = run.dir() / "agents" / "jurong";
+  std::filesystem::create_directories(agents);
+  std::filesystem::rename(run.dir() / "uav_agent-jurong.log", agents / "uav_agent-jurong.log");
+
+  ChildProcess& merge = skein({"merge", run.dir()});
+  EXPECT_EQ(merge.wait().code, 3) << merge.err();
+  EXPECT_NE(merge.err().find("missing: result.json"), std::string::npos) << merge.err();
+  EXPECT_NE(merge.out().find("joined from sim_server.mcap comm_router.mcap station.mcap"), std::string::npos)
+      << merge.out();
+  EXPECT_TRUE(std::filesystem::exists(run.dir() / "uav_agent-jurong.log"));
+  EXPECT_FALSE(std::filesystem::exists(run.dir() / "agents"));
+  const auto recording = run.dir() / run_folder::kRecording;
+  EXPECT_NO_THROW(mcap::Reader::whole(recording));
+  std::uint64_t end_ns = 0;
+  mcap::Reader(recording).messages(
+      [&](const mcap::Channel&, const mcap::Message& message) { end_ns = std::max(end_ns, message.log_time); });
+  EXPECT_GT(end_ns, 3'000'000'000U) << "it has flown for some seconds";
+}
+
+INSTANTIATE_TEST_SUITE_P(Media, KilledLauncher, testing::Values("--dds=mixed", "--one-process"),
+                         [](const auto& medium) {
+                           return std::string(medium.param == "--one-process" ? "OneProcess" : "Processes");
+                         });
 
 TEST_F(Interruption, WhatAKilledLauncherLeavesTheNextOneRemoves) {
   const std::filesystem::path tmp = folder() / "tmp";

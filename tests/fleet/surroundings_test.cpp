@@ -3,9 +3,10 @@
 
 #include <random>
 
-#include "fleet_fixture.hpp"
+#include "by_hand_fixture.hpp"
 #include "small_scene.hpp"
 #include "tests/free_domain.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -150,6 +151,29 @@ TEST_P(HostileSurroundings, DoNotChangeTheFlight) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, HostileSurroundings, testing::Range(0u, 4u));
+
+class ByHandSurroundings : public ByHand {};
+
+// The client in the place of changi is heard by who has the same number alone.
+TEST_F(ByHandSurroundings, AllProgramsTakeTheNumberOfTheRun) {
+  const Options options{.all = {"--duration", "3"}, .server = {"--agent-timeout", "10"}};
+  for (const std::string& name : kPrograms) {
+    Environment environment = {{"SKEIN_RUN", "7"}};
+    if (member(name) == "changi") {
+      environment["SKEIN_DOMAIN"] = std::to_string(uav_domain(domains_.base(), index(name)));
+      environment["SKEIN_UAV"] = "changi";
+      environment["SKEIN_DDS"] = "cyclonedds";
+    }
+    const bool client = environment.contains("SKEIN_UAV");
+    fleet_[name] = &start_program(name, client ? Arguments{helper_program("minimal_client")} : command(name, options),
+                                  environment);
+  }
+  for (const auto& [name, process] : fleet_) EXPECT_EQ(process->wait().code, 0) << name << ": " << process->err();
+  const Json report = server_report();
+  EXPECT_EQ(report["flight"]["run"], 7);
+  EXPECT_EQ(report["status"], "completed");
+  EXPECT_TRUE(report["lost_members"].empty()) << report["lost_members"];
+}
 
 }  // namespace
 }  // namespace skein::test
