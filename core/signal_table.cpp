@@ -70,7 +70,7 @@ std::vector<SignalInfo> make_table() {
       number(
           "missed", {uav}, 1, kPlainNumber, kAfterwards,
           "points that a UAV whose program was away should have photographed since: it has photographed nothing "
-          "since it came back and the last fault was over; in as much time from its start, less 20 s, it photographs "
+          "since it came back and the last fault was over; in as much time from its start, less 40 s, it photographs "
           "these in the same run without faults; and nobody photographs them in this one, to its end"),
       number("debug", {uav, word}, 2, kPlainNumber, kLive,
              "what the UAV's program published last as `/<id>/debug/<name>`; 0 before"),

@@ -11,8 +11,8 @@
 namespace skein::cli {
 namespace {
 
-/// From where a UAV is when its program comes back to where it began.
-constexpr double kWayBack_s = 20.0;
+/// From where a UAV is when its program comes back to where it began, and from there to another place than at first.
+constexpr double kWayToWork_s = 40.0;
 
 /// A capture that its UAV was told is with the station.
 struct Acknowledged {
@@ -213,7 +213,7 @@ FolderSignals::Values FolderSignals::missed(const std::string& uav, const RunRec
     if (restarts[k] > restarts[from] || members[k] < 0.5) from = k;
     if (restarts[k] < 1.0) continue;
     if (captures[k] > captures[from]) break;
-    const double back_s = static_cast<double>(k - from) * period_s() - kWayBack_s;
+    const double back_s = static_cast<double>(k - from) * period_s() - kWayToWork_s;
     values[k] = static_cast<double>(std::ranges::upper_bound(undone_s, back_s + 1e-6) - undone_s.begin());
   }
   return values;

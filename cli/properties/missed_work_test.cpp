@@ -14,7 +14,7 @@ namespace {
 class MissedWork : public RunSignalsTest {
  protected:
   MissedWork() {
-    run_.result["sim_time_s"] = 60.0;
+    run_.result["sim_time_s"] = 80.0;
     undisturbed_ = run_;
     undisturbed_.captures = {capture("a", 0, 5.0, {}, 1), capture("a", 1, 15.0, {}, 2), capture("a", 2, 16.0, {}, 3),
                              capture("a", 3, 17.0, {}, 3), capture("b", 0, 5.0, {}, 4)};
@@ -34,51 +34,59 @@ class MissedWork : public RunSignalsTest {
 
 TEST_F(MissedWork, IsThatOfAsMuchTimeFromTheStartLessTheWayBack) {
   EXPECT_EQ(missed_at(12.0), 0.0);
-  EXPECT_EQ(missed_at(12.0 + 20.0 + 4.9), 0.0);
-  EXPECT_EQ(missed_at(12.0 + 20.0 + 5.0), 1.0);
-  EXPECT_EQ(missed_at(12.0 + 20.0 + 15.0), 2.0);
-  EXPECT_EQ(missed_at(12.0 + 20.0 + 16.0), 3.0);
-  EXPECT_EQ(missed_at(60.0), 3.0) << "each point once";
-  EXPECT_EQ(missed_at(60.0, "b"), 0.0) << "its program was never away";
+  EXPECT_EQ(missed_at(12.0 + 40.0 + 4.9), 0.0);
+  EXPECT_EQ(missed_at(12.0 + 40.0 + 5.0), 1.0);
+  EXPECT_EQ(missed_at(12.0 + 40.0 + 15.0), 2.0);
+  EXPECT_EQ(missed_at(12.0 + 40.0 + 16.0), 3.0);
+  EXPECT_EQ(missed_at(80.0), 3.0) << "each point once";
+  EXPECT_EQ(missed_at(80.0, "b"), 0.0) << "its program was never away";
   EXPECT_THROW(number("missed(a)"), InputError);
 }
 
 TEST_F(MissedWork, IsNothingThatAnybodyPhotographsEver) {
   run_.captures = {capture("a", 0, 3.0, {}, 1), capture("b", 0, 59.0, {}, 2)};
-  EXPECT_EQ(missed_at(60.0), 1.0);
+  EXPECT_EQ(missed_at(80.0), 1.0);
 }
 
 TEST_F(MissedWork, IsOverWithTheFirstPhotograph) {
   run_.events.push_back({200 + 10, "captured", "a", "0"});
-  EXPECT_EQ(missed_at(60.0), 3.0) << "that was before the last fault was over";
-  run_.events.push_back({20 * 40, "captured", "a", "1"});
-  EXPECT_EQ(missed_at(39.0), 1.0);
-  EXPECT_EQ(missed_at(40.0), 0.0);
+  EXPECT_EQ(missed_at(80.0), 3.0) << "that was before the last fault was over";
+  run_.events.push_back({20 * 60, "captured", "a", "1"});
+  EXPECT_EQ(missed_at(59.0), 1.0);
   EXPECT_EQ(missed_at(60.0), 0.0);
+  EXPECT_EQ(missed_at(80.0), 0.0);
 }
 
 TEST_F(MissedWork, IsNotKnownOfWhoIsAwayOrWhileAFaultLasts) {
   run_.result["faults"].push_back(fault(300, nullptr));
-  EXPECT_EQ(missed_at(60.0), 0.0);
+  EXPECT_EQ(missed_at(80.0), 0.0);
   run_.result["faults"].erase(2);
-  run_.events.push_back({900, "left", "a", ""});
-  EXPECT_EQ(missed_at(44.0), 1.0);
-  EXPECT_EQ(missed_at(60.0), 0.0);
+  run_.events.push_back({20 * 60, "left", "a", ""});
+  EXPECT_EQ(missed_at(59.0), 1.0);
+  EXPECT_EQ(missed_at(80.0), 0.0);
   run_.result["faults"].erase(1);
   run_.events.back() = {20 * 30, "left", "a", ""};
   run_.events.push_back({20 * 31, "joined", "a", ""});
-  EXPECT_EQ(missed_at(31.0 + 20.0 + 4.9), 0.0) << "since it came back again";
-  EXPECT_EQ(missed_at(31.0 + 20.0 + 5.0), 1.0);
+  EXPECT_EQ(missed_at(31.0 + 40.0 + 4.9), 0.0) << "since it came back again";
+  EXPECT_EQ(missed_at(31.0 + 40.0 + 5.0), 1.0);
 }
 
 TEST_F(MissedWork, OfCapturesThatDoNotCountThereIsNone) {
   scenario_.rules.min_point_score = 0.2;
   undisturbed_.captures[0].q = 0.1;
   undisturbed_.captures[1].reason = run_tables::kUavCollided;
-  EXPECT_EQ(missed_at(60.0), 1.0);
+  EXPECT_EQ(missed_at(80.0), 1.0);
 }
 
 TEST_F(MissedWork, DecidesWhetherAUavPhotographsAgain) {
+  const auto flies = [&](double speed_mps) {
+    run_.positions.clear();
+    for (int tenth = 0; tenth <= 800; ++tenth) {
+      const double t = 0.1 * tenth;
+      run_.positions.push_back({t, "a", {speed_mps * t, 0, 1}, {speed_mps, 0, 0}, true, 5.0});
+    }
+  };
+  flies(2.0);
   ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
   const auto outcome = [&] {
     FolderSignals signals(run_, scenario_, &undisturbed_);
@@ -92,10 +100,12 @@ TEST_F(MissedWork, DecidesWhetherAUavPhotographsAgain) {
   EXPECT_EQ(outcome(), Outcome::holds) << "9 points are not enough";
   undisturbed_.captures.push_back(capture("a", 9, 18.0, {}, 16));
   EXPECT_EQ(outcome(), Outcome::fails);
-  run_.events.push_back({20 * 49, "captured", "a", "0"});
+  run_.events.push_back({20 * 69, "captured", "a", "0"});
   EXPECT_EQ(outcome(), Outcome::holds) << "it photographs again just in time";
-  run_.events.back().step = 20 * 51;
+  run_.events.back().step = 20 * 71;
   EXPECT_EQ(outcome(), Outcome::fails) << "too late";
+  flies(0.0);
+  EXPECT_EQ(outcome(), Outcome::holds) << "it stands and waits: other properties ask for that";
   run_.events.resize(2);  // nobody was ever away
   EXPECT_EQ(outcome(), Outcome::vacuous);
 }

@@ -219,11 +219,12 @@ TEST_F(HuntCommands, AProgramOfOnesOwnIsHuntedOverDds) {
             "--runs",   "3",         "--seed",     "5",
             "--shrink", "1",         "--out",      folder() / "hunt"});
   ASSERT_EQ(hunt.code, 0) << hunt.out << hunt.err;
-  EXPECT_FALSE(Json::parse(text_of(folder() / "hunt" / "hunt.json"))["one_process"].get<bool>());
+  ASSERT_FALSE(Json::parse(text_of(folder() / "hunt" / "hunt.json"))["one_process"].get<bool>());
   const std::vector<Json> lines = log("hunt");
   ASSERT_EQ(lines.size(), 3u);
   std::size_t with_faults = 0;
   for (const Json& line : lines) {
+    ASSERT_FALSE(line["outcome"]["findings"].empty()) << line;
     const Json& completes = line["outcome"]["findings"][0];
     EXPECT_EQ(completes["property"], "completes");
     EXPECT_EQ(completes["outcome"], "holds") << completes;
