@@ -10,6 +10,8 @@
 namespace skein::cli {
 namespace {
 
+using Outcome = properties::Verdict::Outcome;
+
 // `a` comes back at 10 s, and the last fault is over at 12 s.
 class MissedWork : public RunSignalsTest {
  protected:
@@ -27,6 +29,21 @@ class MissedWork : public RunSignalsTest {
   /// At a time.
   double missed_at(double time_s, const std::string& uav = "a") {
     return number("missed(" + uav + ")", &undisturbed_).at(static_cast<std::size_t>(std::llround(time_s / 0.05)));
+  }
+
+  /// What becomes of a ready property.
+  Outcome outcome(const std::string& property) {
+    ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
+    FolderSignals signals(run_, scenario_, &undisturbed_);
+    const properties::PropertyEntries entries = {{property, properties::PropertyEntry("ready")}};
+    return judge_properties(properties_of(entries, scenario_), signals).at(0).verdict.outcome;
+  }
+  void fly(double speed_mps) {
+    run_.positions.clear();
+    for (int tenth = 0; tenth <= 800; ++tenth) {
+      const double t = 0.1 * tenth;
+      run_.positions.push_back({t, "a", {speed_mps * t, 0, 1}, {speed_mps, 0, 0}, true, 5.0});
+    }
   }
 
   RunRecord undisturbed_;
@@ -79,35 +96,31 @@ TEST_F(MissedWork, OfCapturesThatDoNotCountThereIsNone) {
 }
 
 TEST_F(MissedWork, DecidesWhetherAUavPhotographsAgain) {
-  const auto flies = [&](double speed_mps) {
-    run_.positions.clear();
-    for (int tenth = 0; tenth <= 800; ++tenth) {
-      const double t = 0.1 * tenth;
-      run_.positions.push_back({t, "a", {speed_mps * t, 0, 1}, {speed_mps, 0, 0}, true, 5.0});
-    }
-  };
-  flies(2.0);
-  ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
-  const auto outcome = [&] {
-    FolderSignals signals(run_, scenario_, &undisturbed_);
-    const properties::PropertyEntries entries = {{"photographs_again", properties::PropertyEntry("ready")}};
-    const properties::PropertySet set = properties_of(entries, scenario_);
-    EXPECT_TRUE(needs_undisturbed(set));
-    return judge_properties(set, signals).at(0).verdict.outcome;
-  };
-  using Outcome = properties::Verdict::Outcome;
+  fly(2.0);
   for (int point = 10; point < 16; ++point) undisturbed_.captures.push_back(capture("a", 9, 18.0, {}, point));
-  EXPECT_EQ(outcome(), Outcome::holds) << "9 points are not enough";
+  EXPECT_EQ(outcome("photographs_again"), Outcome::holds) << "9 points are not enough";
   undisturbed_.captures.push_back(capture("a", 9, 18.0, {}, 16));
-  EXPECT_EQ(outcome(), Outcome::fails);
+  EXPECT_EQ(outcome("photographs_again"), Outcome::fails);
   run_.events.push_back({20 * 69, "captured", "a", "0"});
-  EXPECT_EQ(outcome(), Outcome::holds) << "it photographs again just in time";
+  EXPECT_EQ(outcome("photographs_again"), Outcome::holds) << "it photographs again just in time";
   run_.events.back().step = 20 * 71;
-  EXPECT_EQ(outcome(), Outcome::fails) << "too late";
-  flies(0.0);
-  EXPECT_EQ(outcome(), Outcome::holds) << "it stands and waits: other properties ask for that";
+  EXPECT_EQ(outcome("photographs_again"), Outcome::fails) << "too late";
+  fly(0.0);
+  EXPECT_EQ(outcome("photographs_again"), Outcome::holds) << "it stands and waits: other properties ask for that";
   run_.events.resize(2);  // nobody was ever away
-  EXPECT_EQ(outcome(), Outcome::vacuous);
+  EXPECT_EQ(outcome("photographs_again"), Outcome::vacuous);
+}
+
+// The same run, asked for a photograph within a deadline.
+TEST_F(MissedWork, WorksAgainSaysNothingWhereNobodyWasAway) {
+  fly(2.0);
+  EXPECT_EQ(outcome("works_again"), Outcome::fails);
+  run_.events.push_back({20 * 50, "captured", "a", "0"});
+  EXPECT_EQ(outcome("works_again"), Outcome::holds);
+  std::erase_if(run_.events, [](const EventRow& row) { return row.step == 200; });
+  EXPECT_EQ(outcome("works_again"), Outcome::vacuous) << "it did not come back";
+  std::erase_if(run_.events, [](const EventRow& row) { return row.step == 100; });
+  EXPECT_EQ(outcome("works_again"), Outcome::vacuous) << "nobody was away";
 }
 
 }  // namespace
