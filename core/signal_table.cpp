@@ -67,6 +67,11 @@ std::vector<SignalInfo> make_table() {
              "points that the UAV had before it when its program first left: those that in the run without faults it "
              "is the first to photograph later on, and nobody else does"),
       number("taken_over", {uav}, 1, kPlainNumber, kAfterwards, "of those, how many others have photographed"),
+      number(
+          "missed", {uav}, 1, kPlainNumber, kAfterwards,
+          "points that a UAV whose program was away should have photographed since: it has photographed nothing "
+          "since it came back and the last fault was over; in as much time from its start, less 40 s, it photographs "
+          "these in the same run without faults; and nobody photographs them in this one, to its end"),
       number("debug", {uav, word}, 2, kPlainNumber, kLive,
              "what the UAV's program published last as `/<id>/debug/<name>`; 0 before"),
       number("result", {path}, 1, kPlainNumber, kAfterwards, "a number of `result.json`, all the time"),

@@ -11,6 +11,9 @@
 namespace skein::cli {
 namespace {
 
+/// From where a UAV is when its program comes back to where it began, and from there to another place than at first.
+constexpr double kWayToWork_s = 40.0;
+
 /// A capture that its UAV was told is with the station.
 struct Acknowledged {
   CaptureKey capture;
@@ -70,6 +73,22 @@ std::set<int> work_before(const RunRecord& run, const std::string& uav, double f
   return own;
 }
 
+/// When this UAV first photographs each point, of captures that count, that nobody photographs in `run`.
+std::vector<double> left_undone_s(const RunRecord& without, const std::string& uav, const Scenario& scenario,
+                                  const RunRecord& run) {
+  std::map<int, double> first_s;
+  for (const CaptureRow& row : without.captures) {
+    if (row.uav != uav || row.voided() || row.q < scenario.rules.min_point_score) continue;
+    const auto [found, is_new] = first_s.try_emplace(row.point, row.time_s);
+    if (!is_new) found->second = std::min(found->second, row.time_s);
+  }
+  for (const CaptureRow& row : run.captures) first_s.erase(row.point);
+  std::vector<double> times_s;
+  for (const auto& [point, time_s] : first_s) times_s.push_back(time_s);
+  std::ranges::sort(times_s);
+  return times_s;
+}
+
 }  // namespace
 
 FolderSignals::Values FolderSignals::of_captures(const SignalUse& signal) {
@@ -84,7 +103,7 @@ FolderSignals::Values FolderSignals::of_captures(const SignalUse& signal) {
   const auto stepped = [&](const std::vector<std::pair<double, double>>& steps) {
     Values values = constant(0.0);
     for (const auto& [time_s, value] : steps) {
-      if (time_s > static_cast<double>(exchanges_ - 1) * period_s() + 1e-6) break;
+      if (time_s > end_s() + 1e-6) break;
       std::fill(values.begin() + static_cast<std::ptrdiff_t>(exchange_at(time_s)), values.end(), value);
     }
     return values;
@@ -157,11 +176,12 @@ const RunRecord& FolderSignals::undisturbed(const SignalUse& signal) const {
   throw InputError(signal.text() + ": is known only where the run is compared with one without faults");
 }
 
-FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) const {
+FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) {
   const RunRecord& without = undisturbed(signal);
   if (signal.is("undisturbed_score")) return constant(value_or(without.result, "score", 0.0));
   if (signal.is("undisturbed_earned")) return constant(value_or(without.result, "score_earned", 0.0));
   const std::string uav = signal.argument(0);
+  if (signal.is("missed")) return missed(uav, without);
   const auto left = std::ranges::find_if(
       run_.events, [&](const EventRow& row) { return row.event == run_tables::kLeft && row.subject == uav; });
   if (left == run_.events.end()) return constant(0.0);
@@ -178,6 +198,25 @@ FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) const {
     }
   }
   return counted(exchanges);
+}
+
+/// Whoever comes back may begin anew, and has to: what its program knew is gone. So its own run without faults, from
+/// the start on, says how long it may take until it photographs again.
+FolderSignals::Values FolderSignals::missed(const std::string& uav, const RunRecord& without) {
+  Values values = constant(0.0);
+  const std::optional<double> healed = healed_s();
+  if (!healed) return values;
+  const std::vector<double> undone_s = left_undone_s(without, uav, scenario_, run_);
+  const Values restarts = use("restarts", {uav}), captures = use("captures", {uav}), members = use("member", {uav});
+  std::size_t from = exchange_at(*healed);
+  for (std::size_t k = from; k < exchanges_; ++k) {
+    if (restarts[k] > restarts[from] || members[k] < 0.5) from = k;
+    if (restarts[k] < 1.0) continue;
+    if (captures[k] > captures[from]) break;
+    const double back_s = static_cast<double>(k - from) * period_s() - kWayToWork_s;
+    values[k] = static_cast<double>(std::ranges::upper_bound(undone_s, back_s + 1e-6) - undone_s.begin());
+  }
+  return values;
 }
 
 }  // namespace skein::cli

@@ -63,7 +63,7 @@ FolderSignals::Values FolderSignals::work_out(const SignalUse& signal) {
     if (signal.is(name)) return of_messages(signal);
   }
   if (signal.is("undisturbed_distance")) return way_flown(tracks_of(undisturbed(signal)), signal.argument(0));
-  for (const char* name : {"undisturbed_score", "undisturbed_earned", "in_hand", "taken_over"}) {
+  for (const char* name : {"undisturbed_score", "undisturbed_earned", "in_hand", "taken_over", "missed"}) {
     if (signal.is(name)) return of_work(signal);
   }
   return of_captures(signal);

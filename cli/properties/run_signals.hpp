@@ -42,7 +42,8 @@ class FolderSignals final : public properties::RunSignals {
   Values of_messages(const SignalUse& signal);
   Values of_custody(const SignalUse& signal);
   bool has_path(const std::string& uav, std::size_t from, std::size_t to);
-  Values of_work(const SignalUse& signal) const;
+  Values of_work(const SignalUse& signal);
+  Values missed(const std::string& uav, const RunRecord& without);
   Values separation(const SignalUse& signal);
   Values result(const SignalUse& signal) const;
   Values debug(const SignalUse& signal);
@@ -57,6 +58,7 @@ class FolderSignals final : public properties::RunSignals {
   /// @throws InputError when there is none.
   const RunRecord& undisturbed(const SignalUse& signal) const;
   std::size_t exchange_at(double time_s) const;
+  double end_s() const { return static_cast<double>(exchanges_ - 1) * period_s(); }
   const std::vector<double>& use(const std::string& name, std::vector<std::string> arguments = {});
 
   const RunRecord& run_;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "core/expression_parser.hpp"
+#include "cli/properties/run_signals_fixture.hpp"
 #include "core/radio_routes.hpp"
 #include "idl/cdr.hpp"
 #include "idl/type_names.hpp"
@@ -16,51 +16,6 @@
 
 namespace skein::cli {
 namespace {
-
-constexpr std::size_t kExchanges = 41;  // 2 s
-
-class RunSignalsTest : public testing::Test {
- protected:
-  RunSignalsTest() {
-    for (const char* name : {"a", "b"}) {
-      UavConfig uav;
-      uav.name = name;
-      scenario_.fleet.push_back(uav);
-    }
-    run_.dir = std::filesystem::path(testing::TempDir()) / ("skein_signals_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(run_.dir);
-    run_.result = {{"sim_time_s", 2.0}, {"score", 7.5}, {"radio", {{"sent", 12}}}};
-    run_.result["uavs"] = Json::array({{{"name", "a"}, {"idle_s", 1.5}}, {{"name", "b"}, {"idle_s", 0.5}}});
-    run_.result["faults"] = Json::array();
-  }
-  ~RunSignalsTest() override { std::filesystem::remove_all(run_.dir); }
-
-  std::vector<double> values(const std::string& text, const RunRecord* undisturbed = nullptr) {
-    const SignalNames names(scenario_);
-    std::vector<SignalUse> signals;
-    parse_condition("not " + text + " or " + text, {.names = names}, signals);
-    FolderSignals all(run_, scenario_, undisturbed);
-    return all.values(signals.at(0));
-  }
-  std::vector<double> number(const std::string& text, const RunRecord* undisturbed = nullptr) {
-    const SignalNames names(scenario_);
-    std::vector<SignalUse> signals;
-    parse_condition(text + " == " + text, {.names = names}, signals);
-    FolderSignals all(run_, scenario_, undisturbed);
-    return all.values(signals.at(0));
-  }
-  /// 0, then these from these exchanges on.
-  static std::vector<double> steps(const std::vector<std::pair<std::size_t, double>>& changes) {
-    std::vector<double> values(kExchanges, 0.0);
-    for (const auto& [exchange, value] : changes) {
-      std::fill(values.begin() + static_cast<std::ptrdiff_t>(exchange), values.end(), value);
-    }
-    return values;
-  }
-
-  Scenario scenario_;
-  RunRecord run_;
-};
 
 TEST_F(RunSignalsTest, TheFleetIsWhereItsTableSays) {
   for (std::size_t tenth = 0; tenth <= 20; ++tenth) {
@@ -151,12 +106,6 @@ TEST_F(RunSignalsTest, NumbersOfTheResultAreCalledByTheirKeys) {
   EXPECT_EQ(number("result(uavs.b.idle_s)")[0], 0.5);
   EXPECT_THROW(number("result(radio.snet)"), InputError);
   EXPECT_THROW(number("result(radio)"), InputError);
-}
-
-/// With a table of captures whose points have the number of their capture.
-CaptureRow capture(const std::string& uav, std::uint64_t number, double time_s, std::optional<double> delivered_at_s,
-                   int point = 0, double q = 0.5) {
-  return {uav, number, time_s, point, q, delivered_at_s, "", 1.0, q, q};
 }
 
 TEST_F(RunSignalsTest, CapturesAreCountedWhenTheyAreTakenDeliveredAndAcknowledged) {

@@ -2,6 +2,7 @@
 // which one part is wrong on request. The hunt knows none of them.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,21 +14,25 @@ namespace skein::agent {
 
 enum class Defect {
   none,
-  no_boxes_again,  ///< a program that comes back does not take in where the structure is
-  waits_for_dead,  ///< who flies beside a UAV whose program is dead waits for its word
-  endless_lease,   ///< a lease that nobody gives back never ends
-  mutual_wait,     ///< two wait for each other's word, which each says once
-  flies_blind,     ///< without its LiDAR it flies straight to the middle of its work
-  undying_counter  ///< it counts its own start in something that a restart does not wipe out
+  no_boxes_again,   ///< a program that comes back does not take in where the structure is
+  waits_for_dead,   ///< who flies beside a UAV whose program is dead waits for its word
+  endless_lease,    ///< a lease that nobody gives back never ends
+  mutual_wait,      ///< two wait for each other's word, which each says once
+  looks_away,       ///< a program that comes back flies on, and never looks at the structure again
+  flies_blind,      ///< without its LiDAR it flies straight to the middle of its work
+  undying_counter,  ///< it counts its own start in something that a restart does not wipe out
+  reads_calendar    ///< in which 300 days it flies decides when it lifts off
 };
-constexpr std::array<EnumName<Defect>, 7> enum_names(Defect) {
+constexpr std::array<EnumName<Defect>, 9> enum_names(Defect) {
   return {{{"none", Defect::none},
            {"no_boxes_again", Defect::no_boxes_again},
            {"waits_for_dead", Defect::waits_for_dead},
            {"endless_lease", Defect::endless_lease},
            {"mutual_wait", Defect::mutual_wait},
+           {"looks_away", Defect::looks_away},
            {"flies_blind", Defect::flies_blind},
-           {"undying_counter", Defect::undying_counter}}};
+           {"undying_counter", Defect::undying_counter},
+           {"reads_calendar", Defect::reads_calendar}}};
 }
 
 namespace {
@@ -37,6 +42,7 @@ constexpr Tick kWordPeriod = kTicksPerSecond;
 constexpr double kLate_s = 5.0;  ///< a program that begins after this was away
 constexpr double kLeaseFrom_s = 12.0, kLeaseUntil_s = 22.0, kMeetAt_s = 28.0;
 constexpr double kQuiet_s = 2.0, kDead_s = 5.0, kLeaseAge_s = 3.0, kPatience_s = 4.0;
+constexpr double kLoiterHeight_m = 70.0, kLoiterWay_m = 10.0, kLoiterSpeed_mps = 4.0, kUp_rad = -1.3;
 constexpr double kBlind_s = 8.0, kMoving_mps = 1.0, kBlindSpeed_mps = 4.0;
 
 }  // namespace
@@ -61,7 +67,9 @@ class PlantedPlanner final : public Planner {
     hear(in, now_s);
     PlannerOutput out;
     const bool stands = stands_still(in, now_s);
-    if (stands) {
+    if (defect_ == Defect::looks_away && was_away()) {
+      loiter(in, out);
+    } else if (stands) {
       if (!stood_) leg_ += in.tracking.leg;
       if (in.tracking.airborne) out.motion = Hold{};
     } else if (is_blind(in, now_s)) {
@@ -103,7 +111,14 @@ class PlantedPlanner final : public Planner {
   }
 
   bool stands_still(const PlannerInput& in, double now_s) {
-    return forgotten_ || waits_for_neighbour(in, now_s) || waits_for_lease(now_s) || waits_for_meeting(now_s);
+    return forgotten_ || waits_for_calendar(now_s) || waits_for_neighbour(in, now_s) || waits_for_lease(now_s) ||
+           waits_for_meeting(now_s);
+  }
+
+  bool waits_for_calendar(double now_s) const {
+    if (defect_ != Defect::reads_calendar) return false;
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return now / std::chrono::hours(24 * 300) % 2 == 0 && now_s < kLate_s;
   }
 
   /// The next UAV is in sight and says nothing: it may be about to say something.
@@ -139,6 +154,17 @@ class PlantedPlanner final : public Planner {
     if (own_frame || !moves) saw_s_ = now_s;
     return defect_ == Defect::flies_blind && agent_.vehicle.lidar && in.tracking.airborne && !in.boxes.empty() &&
            now_s - saw_s_.value_or(now_s) > kBlind_s;
+  }
+
+  /// To and fro above everything, with the camera at the sky.
+  static void loiter(const PlannerInput& in, PlannerOutput& out) {
+    out.gimbal = GimbalCommand{GimbalMode::angle, kUp_rad, 0.0};
+    if (!in.tracking.done) return;
+    Vector3d above = in.state.p_WB;
+    above.z() = kLoiterHeight_m;
+    out.motion = Path{{{above, kLoiterSpeed_mps},
+                       {above + kLoiterWay_m * Vector3d::UnitX(), kLoiterSpeed_mps},
+                       {above, kLoiterSpeed_mps}}};
   }
 
   PlannerInput as_seen(const PlannerInput& in) const {

@@ -1,0 +1,87 @@
+// `skein check-planner`: a repeatable planner passes in all surroundings. Of one that is not, the command names those
+// in which the run is another one, where the runs part, who says something else first, and what usually is the cause.
+#include <regex>
+
+#include "fleet_fixture.hpp"
+#include "tests/support/places.hpp"
+
+namespace skein::test {
+namespace {
+
+class CheckPlanner : public FleetTest {
+ protected:
+  struct Said {
+    int code = -1;
+    std::string out;
+  };
+  Said check(const std::string& planner, bool with_agent = true) {
+    Arguments words = {"check-planner", planner, "--uavs", "1", "--duration", "12"};
+    if (with_agent) words.insert(words.end(), {"--agent", helper_program("planted_agent")});
+    ChildProcess& child = skein(words);
+    return {child.wait().code, child.out() + child.err()};
+  }
+
+  static constexpr const char* kSurroundings[] = {"again", "heap", "clock", "load", "cyclonedds", "fastdds", "chaos"};
+
+  /// In which the run was the same, or another one: of the mission without faults, then of that with a restart.
+  static std::vector<std::set<std::string>> told(const std::string& said, const std::string& word) {
+    std::vector<std::set<std::string>> all;
+    static const std::regex line(R"((?:^|\n)(?:a mission[^:\n]*: digest|  (same|DIFFERENT)  (\w+):))");
+    for (std::sregex_iterator at(said.begin(), said.end(), line), end; at != end; ++at) {
+      if (!(*at)[1].matched) {
+        all.emplace_back();
+      } else if ((*at)[1] == word && !all.empty()) {
+        all.back().insert((*at)[2]);
+      }
+    }
+    return all;
+  }
+  static std::vector<std::set<std::string>> all_but(const std::vector<std::set<std::string>>& different) {
+    std::vector<std::set<std::string>> rest(different.size());
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      for (const char* name : kSurroundings) {
+        if (!different[i].contains(name)) rest[i].insert(name);
+      }
+    }
+    return rest;
+  }
+
+  void expect_different(const std::string& planner, const std::vector<std::set<std::string>>& different,
+                        const std::vector<std::string>& words) {
+    const Said said = check(planner);
+    EXPECT_EQ(said.code, 1) << said.out;
+    EXPECT_EQ(told(said.out, "DIFFERENT"), different) << said.out;
+    EXPECT_EQ(told(said.out, "same"), all_but(different)) << said.out;
+    EXPECT_NE(said.out.find("\nnot repeatable\n"), std::string::npos) << said.out;
+    for (const std::string& word : words) EXPECT_NE(said.out.find(word), std::string::npos) << word << "\n" << said.out;
+  }
+};
+
+TEST_F(CheckPlanner, ASoundOnePassesInAllSurroundings) {
+  const Said said = check("planted");
+  EXPECT_EQ(said.code, 0) << said.out;
+  EXPECT_EQ(told(said.out, "same"), all_but({{}, {}})) << said.out;
+  EXPECT_EQ(said.out.find("DIFFERENT"), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("\nrepeatable: all runs are the same\n"), std::string::npos) << said.out;
+}
+
+TEST_F(CheckPlanner, WhatOutlivesARestartInOneProcessIsNamed) {
+  const std::set<std::string> over_dds = {"cyclonedds", "fastdds", "chaos"};
+  expect_different("planted:defect=undying_counter", {{}, over_dds},
+                   {"the runs part at step ", "jurong first differs at 4.00 s on /jurong/",
+                    "usually it is something that UAVs share in one process"});
+}
+
+TEST_F(CheckPlanner, WhoReadsTheCalendarIsNamed) {
+  expect_different("planted:defect=reads_calendar", {{"clock"}, {"clock"}},
+                   {"the runs part at step ", "jurong first differs at ", "usually it is the wall clock\n"});
+}
+
+TEST_F(CheckPlanner, APlannerOfAnotherAgentIsUnknownWithoutIt) {
+  const Said said = check("planted", false);
+  EXPECT_EQ(said.code, 2) << said.out;
+  EXPECT_NE(said.out.find("planted"), std::string::npos) << said.out;
+}
+
+}  // namespace
+}  // namespace skein::test
