@@ -27,9 +27,13 @@ struct PageBlock {
 
   bool is_file() const { return !name.empty(); }
   bool is_typed() const { return !is_file() && (language == "sh" || language == "console"); }
+  bool is_run() const { return is_typed() && note("not run").empty(); }
   /// Of the first note of that kind; empty: there is none.
   std::string note(const std::string& kind) const;
 };
+
+/// README.md and all of docs/, below the root.
+std::vector<std::string> all_pages();
 
 /// @throws std::runtime_error when a note has no block, or says what no test knows.
 std::vector<PageBlock> blocks_of(const std::filesystem::path& page);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -49,6 +50,15 @@ std::string PageBlock::note(const std::string& kind) const {
     if (known == kind) return text;
   }
   return "";
+}
+
+std::vector<std::string> all_pages() {
+  std::vector<std::string> pages = {"README.md"};
+  for (const auto& entry : fs::directory_iterator(source_path("docs"))) {
+    if (entry.path().extension() == ".md") pages.push_back("docs/" + entry.path().filename().string());
+  }
+  std::ranges::sort(pages);
+  return pages;
 }
 
 std::vector<PageBlock> blocks_of(const fs::path& page) {
@@ -166,7 +176,7 @@ bool PageTest::follow(const PageBlock& block) {
     std::ofstream(checkout_ / block.name) << block.text;
     return true;
   }
-  if (!block.is_typed() || !block.note("not run").empty() || !give(block)) return false;
+  if (!block.is_run() || !give(block)) return false;
   if (block.language == "console") {
     follow_console(block, [](int) { return true; });
     return true;

@@ -12,18 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// README.md and all of docs/.
-std::vector<std::string> all_pages() {
-  std::vector<std::string> pages = {"README.md"};
-  for (const auto& entry : fs::directory_iterator(source_path("docs"))) {
-    if (entry.path().extension() == ".md") pages.push_back("docs/" + entry.path().filename().string());
-  }
-  std::ranges::sort(pages);
-  return pages;
-}
-
-bool is_run(const PageBlock& block) { return block.is_typed() && block.note("not run").empty(); }
-
 /// What stands for itself in a page, or all of it.
 struct Chapter {
   std::string page = {}, name = {};
@@ -40,7 +28,7 @@ std::vector<Chapter> chapters_of(const std::string& page, const std::string& ste
     if (!block.note("chapter").empty()) all.push_back({page, stem + "_" + std::to_string(all.size() + 1), {}, {}});
     all.back().blocks.push_back(std::move(block));
   }
-  std::erase_if(all, [](const Chapter& chapter) { return std::ranges::none_of(chapter.blocks, is_run); });
+  std::erase_if(all, [](const Chapter& chapter) { return std::ranges::none_of(chapter.blocks, &PageBlock::is_run); });
   return all;
 } catch (const std::runtime_error& error) {
   return {{page, stem, {}, error.what()}};
@@ -76,33 +64,6 @@ TEST_P(Pages, AreTypedTwice) {
 
 INSTANTIATE_TEST_SUITE_P(All, Pages, testing::ValuesIn(all_chapters()),
                          [](const auto& info) { return info.param.name; });
-
-// What is only to be read is little, and says why. Commands stand in blocks that are typed.
-TEST(PageBlocks, SayWhatIsTyped) {
-  static const std::regex kCommand(R"((^|\n)\s*(\$ )?(\./)?skein [a-z])");
-  constexpr int kMostUntyped = 41;
-  int typed = 0, untyped = 0;
-  for (const std::string& page : all_pages()) {
-    for (const PageBlock& block : blocks_of(source_path(page))) {
-      if (block.is_typed()) ++(is_run(block) ? typed : untyped);
-      if (block.is_typed() || block.is_file()) continue;
-      EXPECT_FALSE(std::regex_search(block.text, kCommand))
-          << page << ":" << block.line << ": write ```sh, or ```console";
-    }
-  }
-  EXPECT_GT(typed, 40);
-  EXPECT_LE(untyped, kMostUntyped);
-}
-
-TEST(PageBlocks, AreComparedUpToTheirGaps) {
-  EXPECT_TRUE(matches("a\nb\n", "a\nb\n"));
-  EXPECT_FALSE(matches("a\nb\n", "a\nc\n"));
-  EXPECT_FALSE(matches("a\n", "a\nb\n"));
-  EXPECT_FALSE(matches("a\nb\n", "a\n"));
-  EXPECT_TRUE(matches("x: .../y\nz\n", "x: /p/q/y\nz\n"));
-  EXPECT_FALSE(matches("x: .../y\n", "x: /p/q/z\n"));
-  EXPECT_TRUE(matches("a\n...\n", "a\nb\nc\n"));
-}
 
 }  // namespace
 }  // namespace skein::test

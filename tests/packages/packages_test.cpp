@@ -100,6 +100,7 @@ TEST_F(Packages, EachComponentHasWhatItIsFor) {
   EXPECT_TRUE(runtime.contains("share/bash-completion/completions/skein"));
   EXPECT_TRUE(dev.contains("include/skein/uav_agent/api/planner.hpp"));
   EXPECT_TRUE(dev.contains("lib/cmake/skein/skeinConfig.cmake"));
+  EXPECT_EQ(runtime.contains("share/skein/web/report.js"), fs::exists(source_path("build/web/report.js")));
 }
 
 TEST_F(Packages, ManualPagesAreReadWithoutWarnings) {
@@ -127,6 +128,8 @@ TEST_F(Packages, AnInstalledFleetFliesForWhoMayNotWriteThere) {
   if (::geteuid() != 0) done({"chmod", "-R", "u+w", prefix});
   const Json flown = Json::parse(text_of(home / "runs" / "towers-patrol-0" / "result.json"));
   EXPECT_EQ(flown["status"], "completed");
+  const std::string page = text_of(home / "runs" / "towers-patrol-0" / "report.html");
+  EXPECT_EQ(page.find("are not interactive") == std::string::npos, fs::exists(source_path("build/web/report.js")));
   EXPECT_EQ(flown["digest"], run("built", {"towers", "--duration", "20"}).digest());
 }
 
