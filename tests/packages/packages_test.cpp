@@ -128,8 +128,6 @@ TEST_F(Packages, AnInstalledFleetFliesForWhoMayNotWriteThere) {
   if (::geteuid() != 0) done({"chmod", "-R", "u+w", prefix});
   const Json flown = Json::parse(text_of(home / "runs" / "towers-patrol-0" / "result.json"));
   EXPECT_EQ(flown["status"], "completed");
-  const std::string page = text_of(home / "runs" / "towers-patrol-0" / "report.html");
-  EXPECT_EQ(page.find("are not interactive") == std::string::npos, fs::exists(source_path("build/web/report.js")));
   EXPECT_EQ(flown["digest"], run("built", {"towers", "--duration", "20"}).digest());
 }
 
