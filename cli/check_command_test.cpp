@@ -49,6 +49,21 @@ TEST_F(CheckCommand, FaultTestsNameTheirScenario) {
   EXPECT_THROW(check({{file("w.yaml", faults + "expect: {scor: 1}")}, {}, {}}), InputError);
 }
 
+TEST_F(CheckCommand, AnAgentIsAskedForTheWordOfItsPlanners) {
+  write_script(programs_.dir() / "uav_agent", "case \"$*\" in *orbit*) echo 'no planner orbit' >&2; exit 2;; esac\n");
+  const std::string mine = file("mine", "");
+  write_script(mine, "[ \"$1\" != --list-planners ] || echo '{\"planners\":[\"orbit\"],\"ground_programs\":[]}'\n");
+  const std::string test = file("t.yaml",
+                                "run: {scenario: ./small.yaml, planner: orbit}\n"
+                                "faults: [{at_s: 10, blackout: alpha}]\nexpect: {}\n");
+  CheckOptions options{{test}, {}, {}};
+  EXPECT_THROW(check(options), InputError) << "uav_agent does not know orbit";
+  options.agent = mine;
+  EXPECT_EQ(check(options), kExitDone) << err_.str();
+  options.agent = programs_.dir() / "missing";
+  EXPECT_THROW(check(options), InputError);
+}
+
 TEST_F(CheckCommand, WrongFilesAreRefused) {
   EXPECT_THROW(check({{"/does/not/exist.yaml"}, {}, {}}), InputError);
   EXPECT_THROW(check({{file("a.yaml", "{colour: red}")}, {}, {}}), InputError);

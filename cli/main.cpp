@@ -96,7 +96,7 @@ struct Execute {
 };
 
 int execute(const std::vector<std::string>& arguments, const Console& console) try {
-  return std::visit(Execute{console}, parse_command_line(arguments));
+  return std::visit(Execute{console}, parse_command_line(with_duration_of_environment(arguments)));
 } catch (const InputError& error) {
   console.err << error.what() << std::endl;
   return kExitBadInput;

@@ -62,6 +62,27 @@ TEST_F(RunCommand, AnAgentOfOnesOwnFliesInThePlaceOfUavAgent) {
   EXPECT_NE(read_text(*options_.out / "uav_agent-beta.log").find("config " + source_path("config")), std::string::npos);
 }
 
+TEST_F(RunCommand, TheCommandThatRepeatsItNamesTheAgentOfTheEnvironment) {
+  const std::string mine = programs_.dir() / "mine";
+  write_script(
+      mine, "[ \"$1\" != --list-planners ] || { echo '{\"planners\":[\"hover\"],\"ground_programs\":[]}'; exit; }\n" +
+                std::string(kReadOptions) + kMember);
+  options_.command = "skein run small.yaml";
+  ::setenv("SKEIN_AGENT", mine.c_str(), 1);
+  const int code = run();
+  ::unsetenv("SKEIN_AGENT");
+  ASSERT_EQ(code, kExitDone) << err_.str();
+  EXPECT_EQ(result()["command"], "skein run small.yaml --agent " + mine);
+  EXPECT_NE(read_text(*options_.out / "report.html").find("skein run small.yaml --agent " + mine), std::string::npos);
+
+  // Whoever typed it gets what was typed.
+  options_.command = "skein run small.yaml --agent mine";
+  options_.agent = mine;
+  options_.force = true;
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(result()["command"], options_.command);
+}
+
 TEST_F(RunCommand, WhatIsNoAgentIsRefusedBeforeTheStart) {
   write_text(programs_.dir() / "text", "no program");
   write_script(programs_.dir() / "other", "exit 0\n");

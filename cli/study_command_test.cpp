@@ -179,6 +179,33 @@ TEST_F(StudyCommand, PlannersOfOneNameFromTwoAgentsMeet) {
   EXPECT_NE(refusal().find("'" + a + "' is named twice"), std::string::npos) << refusal();
 }
 
+TEST_F(StudyCommand, TheCommandThatRepeatsItIsTheOneOfThisSkeinWithItsAgent) {
+  const std::string agent = programs_.dir() / "mine";
+  write_script(agent, agent_script("\"hover\", \"patrol\"", "mine"));
+  ::setenv("SKEIN_AGENT", agent.c_str(), 1);
+  const int installed = run();
+  const std::string page = file("report.html");
+  // The same programs where a build of the tree has them, below its script.
+  const std::filesystem::path tree = programs_.dir() / "tree", bin = tree / "build/release/bin";
+  std::filesystem::create_directories(bin);
+  for (const char* name : {"skein", "sim_server", "comm_router", "station", "uav_agent"}) {
+    std::filesystem::copy_file(programs_.dir() / name, bin / name);
+  }
+  write_text(tree / "skein", "");
+  ::setenv("SKEIN_BIN_DIR", bin.c_str(), 1);
+  options_.force = true;
+  const int built = run();
+  ::unsetenv("SKEIN_AGENT");
+  ASSERT_EQ(installed, kExitDone) << err_.str();
+  ASSERT_EQ(built, kExitDone) << err_.str();
+  const std::string command = "skein contest --planners hover,patrol", with_agent = " --agent " + agent;
+  EXPECT_NE(page.find(command), std::string::npos);
+  EXPECT_EQ(page.find("./" + command), std::string::npos);
+  EXPECT_NE(page.find(with_agent), std::string::npos);
+  EXPECT_NE(file("report.html").find("./" + command), std::string::npos);
+  EXPECT_NE(file("report.html").find(with_agent), std::string::npos);
+}
+
 TEST_F(StudyCommand, AnAgentThatAPlannerNamesFliesItEvenWhatIsBuiltIn) {
   const auto mine = programs_.dir() / "mine";
   write_script(programs_.dir() / "uav_agent", agent_script("\"hover\", \"patrol\"", "stock"));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <set>
 
 #include "cli/option_checks.hpp"
 #include "core/suggestion.hpp"
@@ -16,9 +17,13 @@ namespace skein::cli {
 namespace {
 
 /// For the user to set. The last five are the test suite's, and ours.
-const std::vector<std::string> kUserNames = {
-    "SKEIN_AGENT", "SKEIN_ASSETS", "SKEIN_BIN_DIR", "SKEIN_CHAOS", "SKEIN_CONFIG_DIR", "SKEIN_LOG",  "SKEIN_NETWORK",
-    "SKEIN_WEB",   "SKEIN_GOLDEN", "SKEIN_ROS2",    "SKEIN_LONG",  "SKEIN_SANITIZE",   "SKEIN_TURN", kPinnedVariable};
+const std::vector<std::string> kUserNames = {"SKEIN_AGENT",      "SKEIN_ASSETS",    "SKEIN_BIN_DIR", "SKEIN_CHAOS",
+                                             "SKEIN_CONFIG_DIR", kDurationVariable, "SKEIN_LOG",     "SKEIN_NETWORK",
+                                             "SKEIN_WEB",        "SKEIN_GOLDEN",    "SKEIN_ROS2",    "SKEIN_LONG",
+                                             "SKEIN_SANITIZE",   "SKEIN_TURN",      kPinnedVariable};
+
+/// What flies missions of which the length may be chosen, and need not be.
+const std::set<std::string> kFlyingCommands = {"run", "compose", "compare", "contest"};
 
 }  // namespace
 
@@ -44,6 +49,18 @@ void check_environment() {
   if (chaos != nullptr && !check_seed(chaos).empty()) {
     throw InputError(std::string("SKEIN_CHAOS=") + chaos + ": must be a whole number, or not set");
   }
+}
+
+std::vector<std::string> with_duration_of_environment(std::vector<std::string> arguments) {
+  const char* const duration = std::getenv(kDurationVariable);
+  if (duration == nullptr || arguments.empty() || !kFlyingCommands.contains(arguments.front())) return arguments;
+  const auto is_told = [](const std::string& word) { return word == "--duration" || word.starts_with("--duration="); };
+  if (std::ranges::any_of(arguments, is_told)) return arguments;
+  if (const std::string problem = check_seconds(duration); !problem.empty()) {
+    throw InputError(std::string(kDurationVariable) + ": " + problem + ", or not set");
+  }
+  arguments.insert(arguments.end(), {"--duration", duration});
+  return arguments;
 }
 
 std::string fleet_environment_prefix(bool native) {

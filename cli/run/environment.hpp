@@ -14,6 +14,14 @@ std::vector<std::string> environment_warnings();
 /// @throws InputError when a variable that the programs read means nothing: SKEIN_CHAOS that is no whole number.
 void check_environment();
 
+/// Length of the missions of commands that name none.
+inline constexpr const char* kDurationVariable = "SKEIN_DURATION";
+
+/// A command line as its user would have typed it without that variable: with `--duration` where the command flies and
+/// has none, so that a run is repeated by what it says of itself.
+/// @throws InputError when the variable is no time.
+std::vector<std::string> with_duration_of_environment(std::vector<std::string> arguments);
+
 /// The part of it that differs from what a shell would give, as words to put before a command: `NAME=VALUE `, after
 /// `env -u NAME ` for what is to be ignored.
 std::string fleet_environment_prefix(bool native);

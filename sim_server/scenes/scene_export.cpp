@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "core/drawn_worlds.hpp"
+#include "core/file_bytes.hpp"
 #include "core/scenario_reader.hpp"
 #include "process/atomic_file.hpp"
 #include "process/closed_to_agents.hpp"
@@ -45,6 +46,14 @@ std::string scenario_text(Scenario scenario, const fs::path& mesh, const fs::pat
   return comment + to_yaml(scenario);
 }
 
+/// Whether a file of an earlier export would be lost: not one that is the same.
+bool is_in_the_way(const fs::path& path, const std::string& content) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return false;
+  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) != content.size()) return true;
+  return read_file_bytes(path, content.size()) != content;
+}
+
 }  // namespace
 
 std::vector<ExportedFile> scene_export(const Scenario& scenario, const Scene& scene) {
@@ -72,9 +81,9 @@ ExportedFile scene_picture_file(const Scenario& scenario, const Scene& scene) {
 void write_export(const std::vector<ExportedFile>& files, const fs::path& folder, bool overwrite) {
   std::error_code error;
   for (const ExportedFile& file : files) {
-    if (!overwrite && fs::exists(folder / file.path, error)) {
+    if (!overwrite && is_in_the_way(folder / file.path, file.content)) {
       throw InputError((folder / file.path).string() +
-                       " exists already; overwrite it with --force, or choose another --out");
+                       " exists already, and is another one; overwrite it with --force, or choose another --out");
     }
   }
   for (const ExportedFile& file : files) {

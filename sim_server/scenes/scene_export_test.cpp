@@ -118,6 +118,9 @@ TEST_F(SceneExport, AnEarlierExportStaysUnlessToldOtherwise) {
   write_export(files, folder_, true);
   EXPECT_TRUE(fs::exists(folder_ / "x" / "a"));
   EXPECT_EQ(fs::file_size(folder_ / "b"), 3u);
+  EXPECT_NO_THROW(write_export(files, folder_, false)) << "the same command again loses nothing";
+  write("b", "own");
+  EXPECT_THROW(write_export(files, folder_, false), InputError) << "another one of the same size";
   EXPECT_THROW(write_export({{"b/c", "", "below a file"}}, folder_, false), InputError);
 }
 

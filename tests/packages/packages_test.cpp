@@ -100,6 +100,7 @@ TEST_F(Packages, EachComponentHasWhatItIsFor) {
   EXPECT_TRUE(runtime.contains("share/bash-completion/completions/skein"));
   EXPECT_TRUE(dev.contains("include/skein/uav_agent/api/planner.hpp"));
   EXPECT_TRUE(dev.contains("lib/cmake/skein/skeinConfig.cmake"));
+  EXPECT_EQ(runtime.contains("share/skein/web/report.js"), fs::exists(source_path("build/web/report.js")));
 }
 
 TEST_F(Packages, ManualPagesAreReadWithoutWarnings) {

@@ -1,0 +1,69 @@
+// A new user's hour: the commands of every page, typed in its order in an empty folder, and then all of them again in
+// the same folder. How pages mark what is not typed: page_test.hpp.
+#include <algorithm>
+#include <iterator>
+#include <regex>
+
+#include "page_test.hpp"
+#include "tests/support/places.hpp"
+
+namespace skein::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What stands for itself in a page, or all of it.
+struct Chapter {
+  std::string page = {}, name = {};
+  std::vector<PageBlock> blocks = {};
+  std::string problem = {};  ///< why the page cannot be read
+
+  friend std::ostream& operator<<(std::ostream& out, const Chapter& chapter) { return out << chapter.page; }
+};
+
+/// Of a page, whose name without what a test's name may not have is `stem`.
+std::vector<Chapter> chapters_of(const std::string& page, const std::string& stem) try {
+  std::vector<Chapter> all = {{page, stem, {}, {}}};
+  for (PageBlock& block : blocks_of(source_path(page))) {
+    if (!block.note("chapter").empty()) all.push_back({page, stem + "_" + std::to_string(all.size() + 1), {}, {}});
+    all.back().blocks.push_back(std::move(block));
+  }
+  std::erase_if(all, [](const Chapter& chapter) { return std::ranges::none_of(chapter.blocks, &PageBlock::is_run); });
+  return all;
+} catch (const std::runtime_error& error) {
+  return {{page, stem, {}, error.what()}};
+}
+
+/// Those with something to run.
+std::vector<Chapter> all_chapters() {
+  std::vector<Chapter> all;
+  for (const std::string& page : all_pages()) {
+    const std::string stem = std::regex_replace(fs::path(page).stem().string(), std::regex("[^A-Za-z0-9]"), "_");
+    std::ranges::move(chapters_of(page, stem), std::back_inserter(all));
+  }
+  return all;
+}
+
+/// fault_page_test.cpp follows that page's consoles, and compares what they print.
+bool is_typed_elsewhere(const std::string& page, const PageBlock& block) {
+  return page == "docs/how-to-test-faults.md" && block.language == "console";
+}
+
+class Pages : public PageTest, public testing::WithParamInterface<Chapter> {};
+
+TEST_P(Pages, AreTypedTwice) {
+  const auto& [page, name, blocks, problem] = GetParam();
+  ASSERT_EQ(problem, "");
+  for (const char* round : {"the first time", "again"}) {
+    for (const PageBlock& block : blocks) {
+      SCOPED_TRACE(page + ":" + std::to_string(block.line) + ", " + round);
+      if (!is_typed_elsewhere(page, block)) follow(block);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Pages, testing::ValuesIn(all_chapters()),
+                         [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace skein::test

@@ -1,0 +1,49 @@
+// `skein run CAPSULE.yaml` tells of the find, also where it flies a second run to compare with.
+#include "fleet_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+using Capsule = FleetTest;
+
+/// Nine tenths of what is scored without faults: which is asked of a second run, without the outage.
+constexpr const char* kShare = R"(# fault test
+name: share
+run: {scenario: towers, planner: patrol, seed: 0, uavs: 2, duration_s: 40}
+faults:
+  - {at_s: 10, station_outage: true}
+properties:
+  most: eventually score >= 90 % * undisturbed_score after 15 s
+expect: {custody: none, collisions: {at_least: 0}}
+capsule: {property: most, skein: '0.1.0', command: skein hunt towers}
+)";
+
+TEST_F(Capsule, EndsWithTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
+  ChildProcess& run = skein({"run", write("share.yaml", kShare), "--one-process", "--out", folder() / "find"});
+  EXPECT_EQ(run.wait().code, 1) << run.out() << run.err();
+  const Json find = Json::parse(text_of(folder() / "find" / "result.json"));
+  EXPECT_FALSE(find["faults"].empty());
+  char score[32];
+  std::snprintf(score, sizeof score, "%.3f", find["score"].get<double>());
+  const std::string out = run.out(), told = "this run, with its faults: score " + std::string(score) + ", results in " +
+                                            (folder() / "find").string() + "\nmost fails: ";
+  EXPECT_NE(out.find(told), std::string::npos) << out;
+  // There is one table, that of the find, and nothing of a score behind those words.
+  const auto count = [](const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  EXPECT_EQ(count(out, "digest    "), 1u) << out;
+  EXPECT_EQ(out.find("score ", out.find(told) + told.size()), std::string::npos) << out;
+  // What is told of the second run while it flies is between two lines that say so.
+  const std::string err = run.err();
+  const std::size_t first = err.find("first run, the find itself, with its faults"),
+                    second = err.find("second run, without the faults"), over = err.find("the second run is over");
+  EXPECT_LT(first, second) << err;
+  EXPECT_LT(second, over) << err;
+  EXPECT_EQ(err.find("score", over), std::string::npos) << err;
+}
+
+}  // namespace
+}  // namespace skein::test
