@@ -97,9 +97,9 @@ TEST_F(MissedWork, OfCapturesThatDoNotCountThereIsNone) {
 
 TEST_F(MissedWork, DecidesWhetherAUavPhotographsAgain) {
   fly(2.0);
-  for (int point = 10; point < 16; ++point) undisturbed_.captures.push_back(capture("a", 9, 18.0, {}, point));
-  EXPECT_EQ(outcome("photographs_again"), Outcome::holds) << "9 points are not enough";
-  undisturbed_.captures.push_back(capture("a", 9, 18.0, {}, 16));
+  for (int point = 10; point < 21; ++point) undisturbed_.captures.push_back(capture("a", 9, 18.0, {}, point));
+  EXPECT_EQ(outcome("photographs_again"), Outcome::holds) << "14 points are not enough";
+  undisturbed_.captures.push_back(capture("a", 9, 18.0, {}, 21));
   EXPECT_EQ(outcome("photographs_again"), Outcome::fails);
   run_.events.push_back({20 * 69, "captured", "a", "0"});
   EXPECT_EQ(outcome("photographs_again"), Outcome::holds) << "it photographs again just in time";
