@@ -11,10 +11,6 @@ class Attach : public DebugTest {
     EXPECT_TRUE(fleet.wait_until_flying()) << fleet.err();
     return fleet;
   }
-  static Arguments joined_words(Arguments words, const Arguments& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  }
   static void end(SkeinRun& fleet) {
     fleet.skein().signal(SIGINT);
     EXPECT_EQ(fleet.exit_code(), 130) << fleet.err();
@@ -58,37 +54,41 @@ TEST_F(Attach, WhoeverLooksInAndGoesOnChangesNothing) {
   EXPECT_EQ(gdb.wait().code, 0) << gdb.out() << gdb.err();
   expect_part(gdb.out(), "$1 = ");
   EXPECT_EQ(fleet.exit_code(), 0) << fleet.err();
-  EXPECT_EQ(fleet.digest(), run("plain", joined_words(flight, {"--one-process"})).digest());
+  EXPECT_EQ(fleet.digest(), run("plain", joined(flight, {"--one-process"})).digest());
 }
 
-// It has the same domains, which are others there.
+// Both fleets have the same domains, in networks of their own: other tests' fleets are in none of them.
 TEST_F(Attach, AFleetInAnotherNetworkIsToldFromTheOneHere) {
   if (std::system("unshare --net true 2>/dev/null") != 0) GTEST_SKIP() << "no network namespaces here: not root";
-  SkeinRun& fleet = flying_fleet();
-  const std::string there = dir("there");
-  ChildProcess& other = start_program(
-      "there", {"/usr/bin/env", "unshare", "--net", "/bin/sh", "-c", "ip link set lo up && exec \"$0\" \"$@\"",
-                program("skein"), "run", scenario_, "--planner", "patrol", "--duration", "600", "--no-oracle",
-                "--domain", std::to_string(fleet.domains().first), "--out", there});
-  ASSERT_TRUE(eventually([&] { return is_flying(there); })) << other.err();
-  const std::string text = skein({"ps"}).out();
-  const std::string launcher = "launcher " + std::to_string(fleet.skein().pid());
+  const auto start_apart = [&](const std::string& name) -> ChildProcess& {
+    return start_program(
+        name, {"/usr/bin/env", "unshare", "--net", "/bin/sh", "-c", "ip link set lo up && exec \"$0\" \"$@\"",
+               program("skein"), "run", scenario_, "--planner", "patrol", "--duration", "600", "--no-oracle",
+               "--domain", "40", "--out", dir(name)});
+  };
+  ChildProcess &here = start_apart("here"), &there = start_apart("there");
+  ASSERT_TRUE(eventually([&] { return is_flying(dir("here")) && is_flying(dir("there")); }))
+      << here.err() << there.err();
+  const auto typed_here = [&](const Arguments& words) {
+    const std::string network = "--net=/proc/" + std::to_string(here.pid()) + "/ns/net";
+    ChildProcess& typed = start_program("typed", joined({"/usr/bin/nsenter", network, program("skein")}, words));
+    EXPECT_EQ(typed.wait().code, 0) << typed.err();
+    return typed.out();
+  };
+  const std::string text = typed_here({"ps"});
+  const std::string launcher = "launcher " + std::to_string(here.pid());
   const std::size_t first = text.find(launcher);
   ASSERT_NE(first, std::string::npos) << text;
   EXPECT_EQ(text.find(launcher, first + 1), std::string::npos) << text;
   expect_part(text, ", in another network namespace\n");
-  const auto attached = [&](const Arguments& more) {
-    Arguments words = {"attach", "changi=echo"};
-    words.insert(words.end(), more.begin(), more.end());
-    ChildProcess& echo = skein(words);
-    EXPECT_EQ(echo.wait().code, 0) << echo.err();
-    return std::stoi(echo.out());
-  };
-  EXPECT_EQ(attached({}), processes_of(fleet.dir()).at("uav_agent-changi")) << "the one here, without a question";
-  EXPECT_EQ(attached({"--run", there}), processes_of(there).at("uav_agent-changi"));
-  other.signal(SIGINT);
-  EXPECT_EQ(other.wait().code, 130) << other.err();
-  end(fleet);
+  EXPECT_EQ(std::stoi(typed_here({"attach", "changi=echo"})), processes_of(dir("here")).at("uav_agent-changi"))
+      << "the one here, without a question";
+  EXPECT_EQ(std::stoi(typed_here({"attach", "changi=echo", "--run", dir("there")})),
+            processes_of(dir("there")).at("uav_agent-changi"));
+  for (ChildProcess* const fleet : {&here, &there}) {
+    fleet->signal(SIGINT);
+    EXPECT_EQ(fleet->wait().code, 130) << fleet->err();
+  }
 }
 
 TEST_F(Attach, WhoIsNotThereIsBadInput) {

@@ -22,9 +22,7 @@ class Break : public DebugTest {
   /// Flies in gdb, which must stop once, in the last exchange before `time_s`, and have the digest of `plain`.
   void expect_stop(const std::string& name, const Arguments& flight, const std::string& planner, double time_s,
                    const SkeinRun& plain) {
-    Arguments words = {"skein", "run"};
-    words.insert(words.end(), flight.begin(), flight.end());
-    words.insert(words.end(), {"--debug", "changi=gdb", "--out", dir(name)});
+    const Arguments words = joined({"skein", "run", "--debug", "changi=gdb", "--out", dir(name)}, flight);
     ChildProcess& skein = typed(name, words, look_once(planner));
     EXPECT_EQ(skein.wait().code, 0) << skein.out() << skein.err();
     const std::string said = skein.out();
@@ -34,10 +32,6 @@ class Break : public DebugTest {
     expect_part(said, "exited normally");
     EXPECT_EQ(result(name)["digest"], plain.digest());
     EXPECT_TRUE(result(name)["deterministic"]);
-  }
-  static Arguments with(Arguments words, const Arguments& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
   }
 };
 
@@ -51,11 +45,11 @@ TEST_F(Break, OnACollisionItStopsInTheExchangeBeforeIt) {
                             "--duration",
                             "8",
                             "--no-oracle"};
-  SkeinRun& plain = run("plain", with(flight, {"--one-process"}));
+  SkeinRun& plain = run("plain", joined(flight, {"--one-process"}));
   const Json collisions = plain.result()["collisions"];
   ASSERT_EQ(collisions.size(), 1u) << collisions;
   ASSERT_EQ(collisions[0]["uav"], "changi");
-  expect_stop("stopped", with(flight, {"--break-on", "collision"}), "CrashPlanner",
+  expect_stop("stopped", joined(flight, {"--break-on", "collision"}), "CrashPlanner",
               collisions[0]["time_s"].get<double>(), plain);
 }
 
@@ -66,13 +60,13 @@ TEST_F(Break, OnAFaultOfItsOwnItStopsInTheExchangeBeforeIt) {
                                    "  - {at_s: 1.5, until_s: 2.5, lidar_failure: jurong}\n"
                                    "  - {at_s: 3.3, until_s: 4, camera_failure: changi}\n");
   const Arguments flight = {scenario_, "--planner", "patrol", "--faults", faults, "--duration", "5", "--no-oracle"};
-  SkeinRun& plain = run("plain", with(flight, {"--one-process"}));
-  expect_stop("stopped", with(flight, {"--break-on", "fault", "--break-from", plain.dir()}), "PatrolPlanner", 3.3,
+  SkeinRun& plain = run("plain", joined(flight, {"--one-process"}));
+  expect_stop("stopped", joined(flight, {"--break-on", "fault", "--break-from", plain.dir()}), "PatrolPlanner", 3.3,
               plain);
   ChildProcess& never = typed("never",
-                              with({"skein", "run", "--debug", "changi=gdb", "--break-on", "rejected", "--break-from",
-                                    plain.dir(), "--out", dir("never")},
-                                   flight),
+                              joined({"skein", "run", "--debug", "changi=gdb", "--break-on", "rejected", "--break-from",
+                                      plain.dir(), "--out", dir("never")},
+                                     flight),
                               "quit\n");
   EXPECT_EQ(never.wait().code, 2);
   expect_part(never.err(), "--break-on rejected: it never happened to changi");

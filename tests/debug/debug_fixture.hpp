@@ -34,10 +34,9 @@ class DebugTest : public FleetTest {
   /// A debugged flight of `duration` seconds. Its results are in `name`.dir.
   ChildProcess& fly(const std::string& name, const Arguments& more, const std::string& commands = {},
                     const std::string& duration = "5") {
-    Arguments words = {"skein",      "run",    scenario_,     "--planner", "patrol",
-                       "--duration", duration, "--no-oracle", "--out",     dir(name)};
-    words.insert(words.end(), more.begin(), more.end());
-    return typed(name, words, commands);
+    const Arguments words = {"skein",      "run",    scenario_,     "--planner", "patrol",
+                             "--duration", duration, "--no-oracle", "--out",     dir(name)};
+    return typed(name, joined(words, more), commands);
   }
   std::filesystem::path dir(const std::string& name) const { return folder() / (name + ".dir"); }
   Json result(const std::string& name) const { return Json::parse(text_of(dir(name) / "result.json")); }

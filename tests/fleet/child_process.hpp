@@ -16,6 +16,10 @@
 namespace skein::test {
 
 using Arguments = std::vector<std::string>;
+inline Arguments joined(Arguments words, const Arguments& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
 /// Set on top of the test's own environment.
 using Environment = std::map<std::string, std::string>;
 

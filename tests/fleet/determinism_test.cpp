@@ -8,11 +8,6 @@ namespace {
 const Arguments kTowers = {"towers", "--planner", "patrol", "--duration", "75"};
 const Arguments kOneProcess = {"--one-process"};
 
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 /// A process that keeps one core busy.
 class BusyCore {
  public:
@@ -45,16 +40,16 @@ class Determinism : public FleetTest {
 
 TEST_F(Determinism, VendorsOrderOfArrivalAndLoadDoNotShowInTheDigest) {
   const std::string reference = digest("cyclonedds", kTowers);
-  EXPECT_EQ(digest("fastdds", kTowers + Arguments{"--dds", "fastdds"}), reference);
-  EXPECT_EQ(digest("mixed", kTowers + Arguments{"--dds", "mixed"}), reference);
+  EXPECT_EQ(digest("fastdds", joined(kTowers, {"--dds", "fastdds"})), reference);
+  EXPECT_EQ(digest("mixed", joined(kTowers, {"--dds", "mixed"})), reference);
   for (int chaos = 1; chaos <= (long_tests() ? 5 : 3); ++chaos) {
     const std::string number = std::to_string(chaos);
-    EXPECT_EQ(digest("chaos" + number, kTowers + Arguments{"--dds", chaos % 2 == 0 ? "mixed" : "cyclonedds"},
+    EXPECT_EQ(digest("chaos" + number, joined(kTowers, {"--dds", chaos % 2 == 0 ? "mixed" : "cyclonedds"}),
                      {{"SKEIN_CHAOS", number}}),
               reference)
         << "SKEIN_CHAOS=" << number;
   }
-  EXPECT_EQ(digest("one_process", kTowers + kOneProcess), reference);
+  EXPECT_EQ(digest("one_process", joined(kTowers, kOneProcess)), reference);
   const BusyCore busy(folder());
   EXPECT_EQ(digest("busy", kTowers), reference);
   std::string text;
@@ -63,12 +58,12 @@ TEST_F(Determinism, VendorsOrderOfArrivalAndLoadDoNotShowInTheDigest) {
 }
 
 TEST_F(Determinism, EverySeedIsAnotherRunAndRepeats) {
-  const Arguments one = kTowers + Arguments{"--seed", "1"}, two = kTowers + Arguments{"--seed", "2"};
-  const std::string digest_of_one = digest("seed1", one + kOneProcess),
-                    digest_of_two = digest("seed2", two + kOneProcess);
+  const Arguments one = joined(kTowers, {"--seed", "1"}), two = joined(kTowers, {"--seed", "2"});
+  const std::string digest_of_one = digest("seed1", joined(one, kOneProcess)),
+                    digest_of_two = digest("seed2", joined(two, kOneProcess));
   EXPECT_NE(digest_of_one, digest_of_two);
-  EXPECT_EQ(digest("again", two + Arguments{"--dds", "mixed"}), digest_of_two);
-  EXPECT_EQ(digest("again", one + Arguments{"--force"}), digest_of_one) << "of the former result nothing is taken up";
+  EXPECT_EQ(digest("again", joined(two, {"--dds", "mixed"})), digest_of_two);
+  EXPECT_EQ(digest("again", joined(one, {"--force"})), digest_of_one) << "of the former result nothing is taken up";
   std::string text;
   EXPECT_EQ(diff("seed1", "seed2", text), 1);
   EXPECT_NE(text.find("first difference at step 0 (0 s):\n"), std::string::npos) << text;
@@ -77,7 +72,7 @@ TEST_F(Determinism, EverySeedIsAnotherRunAndRepeats) {
 
 TEST_F(Determinism, TwoFleetsAtOnceKeepApart) {
   SkeinRun& one = start("one", kTowers);
-  SkeinRun& two = start("two", kTowers + Arguments{"--dds", "mixed"});
+  SkeinRun& two = start("two", joined(kTowers, {"--dds", "mixed"}));
   EXPECT_EQ(one.exit_code(), 0) << one.err();
   EXPECT_EQ(two.exit_code(), 0) << two.err();
   EXPECT_EQ(one.digest().size(), 64u);
@@ -89,7 +84,7 @@ TEST_F(Determinism, TwoFleetsAtOnceKeepApart) {
 TEST_F(Determinism, OnlyWhatMattersEntersTheDigest) {
   const Arguments brief = {"towers", "--planner", "hover", "--duration", "5"};
   const auto quick = [&](const std::string& name, const Arguments& more) {
-    return run(name, brief + more + kOneProcess).digest();
+    return run(name, joined(joined(brief, more), kOneProcess)).digest();
   };
   const std::string reference = quick("default", {});
   EXPECT_EQ(quick("zero", {"--scene-seed", "0"}), reference);
@@ -102,16 +97,16 @@ TEST_F(Determinism, AnExportedSceneIsTheSameScene) {
   ChildProcess& scene = skein({"scene", "spire", "--scene-seed", "2", "--out", folder});
   ASSERT_EQ(scene.wait().code, 0) << scene.err();
   const Arguments brief = {"--planner", "patrol", "--duration", "15"};
-  const std::string loaded = run("loaded", Arguments{folder + "/spire.yaml"} + brief + kOneProcess).digest();
+  const std::string loaded = run("loaded", joined(joined({folder + "/spire.yaml"}, brief), kOneProcess)).digest();
   EXPECT_EQ(loaded.size(), 64u);
-  EXPECT_EQ(loaded, run("made", Arguments{"spire", "--scene-seed", "2"} + brief + kOneProcess).digest());
+  EXPECT_EQ(loaded, run("made", joined(joined({"spire", "--scene-seed", "2"}, brief), kOneProcess)).digest());
 }
 
 TEST_F(Determinism, OfficialScene) {
   if (std::getenv("SKEIN_ASSETS") == nullptr) GTEST_SKIP() << "SKEIN_ASSETS is not set";
   const Arguments mbs = {"mbs", "--planner", "patrol", "--duration", "75"};
-  EXPECT_EQ(digest("mixed", mbs + Arguments{"--dds", "mixed"}, {{"SKEIN_CHAOS", "1"}}),
-            digest("one_process", mbs + kOneProcess));
+  EXPECT_EQ(digest("mixed", joined(mbs, {"--dds", "mixed"}), {{"SKEIN_CHAOS", "1"}}),
+            digest("one_process", joined(mbs, kOneProcess)));
 }
 
 }  // namespace

@@ -193,9 +193,8 @@ ChildProcess& FleetTest::start_program(const std::string& name, const Arguments&
 }
 
 ChildProcess& FleetTest::skein(const Arguments& arguments) {
-  Arguments argv = {program("skein")};
-  argv.insert(argv.end(), arguments.begin(), arguments.end());
-  ChildProcess& process = start_program("skein-" + std::to_string(programs_.size()), argv);
+  const std::string name = "skein-" + std::to_string(programs_.size());
+  ChildProcess& process = start_program(name, joined({program("skein")}, arguments));
   process.wait();
   return process;
 }

@@ -1,5 +1,5 @@
 // Commands around a hunt, driven as a user would: what it writes, Ctrl-C, programs of one's own (`exec:`), the capsule
-// flown again, `skein blame` and `skein check-planner`.
+// flown again, and `skein blame`.
 #include <csignal>
 #include <fstream>
 #include <pugixml.hpp>
@@ -24,10 +24,6 @@ class HuntCommands : public FleetTest {
   Said call(const Arguments& words) {
     ChildProcess& child = skein(words);
     return {child.wait().code, child.out(), child.err()};
-  }
-  static Arguments joined(Arguments words, const Arguments& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
   }
   static Arguments planted(const std::string& defect) {
     return {"--planner", defect.empty() ? "planted" : "planted:defect=" + defect, "--agent",

@@ -55,11 +55,6 @@ class Hunts : public FleetTest {
     return child.ended()->code;
   }
 
-  static Arguments joined(Arguments words, const Arguments& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  }
-
   std::vector<fs::path> capsules(const std::string& out) const {
     std::vector<fs::path> files;
     if (!fs::exists(folder() / out / "finds")) return files;

@@ -8,11 +8,6 @@
 
 namespace skein::test {
 
-inline Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 class Ros2Test : public FleetTest {
  protected:
   void SetUp() override {

@@ -67,7 +67,7 @@ class Ros2 : public Ros2Test, public testing::WithParamInterface<std::string> {
 };
 
 TEST_P(Ros2, NodesWithDefaultSettingsHearAUavAndAreToldWhenTheyAreNotHeard) {
-  SkeinRun& fleet = start("fleet", kFlight + Arguments{"--dds", GetParam(), "--debug", kUav});
+  SkeinRun& fleet = start("fleet", joined(kFlight, {"--dds", GetParam(), "--debug", kUav}));
   ASSERT_TRUE(fleet.wait_for("gdb --args")) << fleet.err();
   const int domain = fleet.domains().first + 2;
   const std::vector<std::string> listeners = {"cyclonedds", "fastrtps", "cyclonedds_localhost", "fastrtps_localhost"};

@@ -100,7 +100,7 @@ void Ros2Viewer::expect_all_seen(const SkeinRun& run, const std::string& viewer)
 }
 
 TEST_P(Ros2Viewer, SeesWhatRvizShows) {
-  SkeinRun& fleet = start("fleet", kWatched + Arguments{"--dds", GetParam(), "--debug", "changi"});
+  SkeinRun& fleet = start("fleet", joined(kWatched, {"--dds", GetParam(), "--debug", "changi"}));
   ASSERT_TRUE(fleet.wait_for("gdb --args")) << fleet.err();
   const int world = world_domain(fleet.domains().first);
   const std::vector<std::string> viewers = {"cyclonedds", "fastrtps"};
