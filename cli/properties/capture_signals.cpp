@@ -200,8 +200,8 @@ FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) {
   return counted(exchanges);
 }
 
-/// Whoever comes back may begin anew, and has to: what its program knew is gone. So its own run without faults, from
-/// the start on, says how long it may take until it photographs again.
+/// A restarted program has lost what it knew, and begins anew. So the same UAV's run without faults, from its start on,
+/// says how long it may take until it photographs again.
 FolderSignals::Values FolderSignals::missed(const std::string& uav, const RunRecord& without) {
   Values values = constant(0.0);
   const std::optional<double> healed = healed_s();

@@ -34,13 +34,9 @@ std::vector<PropertyFinding> judge_properties(const properties::PropertySet& set
 }
 
 bool needs_undisturbed(const properties::PropertySet& set) {
-  const auto compares = [](const SignalUse& signal) {
-    return signal.info->name.starts_with("undisturbed_") || signal.is("in_hand") || signal.is("taken_over") ||
-           signal.is("missed");
-  };
   return std::ranges::any_of(set, [&](const NamedProperty& property) {
     return std::ranges::any_of(property.cases,
-                               [&](const Property& one) { return std::ranges::any_of(one.signals, compares); });
+                               [&](const Property& one) { return std::ranges::any_of(one.signals, is_comparison); });
   });
 }
 

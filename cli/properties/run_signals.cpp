@@ -49,6 +49,11 @@ const std::vector<double>& FolderSignals::values(const SignalUse& signal) {
   return found != known_.end() ? found->second : known_.emplace(name, work_out(signal)).first->second;
 }
 
+bool is_comparison(const SignalUse& signal) {
+  return signal.info->name.starts_with("undisturbed_") || signal.is("in_hand") || signal.is("taken_over") ||
+         signal.is("missed");
+}
+
 FolderSignals::Values FolderSignals::work_out(const SignalUse& signal) {
   if (signal.is("result")) return result(signal);
   if (signal.is("debug")) return debug(signal);
@@ -63,9 +68,7 @@ FolderSignals::Values FolderSignals::work_out(const SignalUse& signal) {
     if (signal.is(name)) return of_messages(signal);
   }
   if (signal.is("undisturbed_distance")) return way_flown(tracks_of(undisturbed(signal)), signal.argument(0));
-  for (const char* name : {"undisturbed_score", "undisturbed_earned", "in_hand", "taken_over", "missed"}) {
-    if (signal.is(name)) return of_work(signal);
-  }
+  if (is_comparison(signal)) return of_work(signal);
   return of_captures(signal);
 }
 

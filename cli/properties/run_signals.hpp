@@ -16,6 +16,9 @@
 
 namespace skein::cli {
 
+/// Whether a signal compares the run with the same one without faults.
+bool is_comparison(const SignalUse& signal);
+
 class FolderSignals final : public properties::RunSignals {
  public:
   using Values = std::vector<double>;  ///< one for each exchange
