@@ -43,16 +43,9 @@ class Flood {
   /// Whether a cell whose middle is that near has been reached from the sky. All around the structures is sky.
   bool reaches(const Vector3d& p, double distance) const {
     if (!box_.contains(p)) return p.z() > 0.0;
-    const Eigen::Vector3i low = cell_of(p - Vector3d::Constant(distance)),
-                          high = cell_of(p + Vector3d::Constant(distance));
-    for (int x = low.x(); x <= high.x(); ++x) {
-      for (int y = low.y(); y <= high.y(); ++y) {
-        for (int z = low.z(); z <= high.z(); ++z) {
-          if (at({x, y, z}) == Cell::reached && (middle({x, y, z}) - p).norm() <= distance) return true;
-        }
-      }
-    }
-    return false;
+    bool reached = false;
+    visit_near(p, distance, [&](const Eigen::Vector3i& cell) { reached = reached || at(cell) == Cell::reached; });
+    return reached;
   }
 
  private:
@@ -81,11 +74,17 @@ class Flood {
     }
   }
   void block_around(const Vector3d& p) {
-    const Eigen::Vector3i low = cell_of(p - Vector3d::Constant(kBerth)), high = cell_of(p + Vector3d::Constant(kBerth));
+    visit_near(p, kBerth, [this](const Eigen::Vector3i& cell) { at(cell) = Cell::blocked; });
+  }
+  /// The cells whose middles are at most that far away.
+  void visit_near(const Vector3d& p, double distance, const auto& visit) const {
+    const Eigen::Vector3i low = cell_of(p - Vector3d::Constant(distance)),
+                          high = cell_of(p + Vector3d::Constant(distance));
     for (int x = low.x(); x <= high.x(); ++x) {
       for (int y = low.y(); y <= high.y(); ++y) {
         for (int z = low.z(); z <= high.z(); ++z) {
-          if ((middle({x, y, z}) - p).squaredNorm() < kBerth * kBerth) at({x, y, z}) = Cell::blocked;
+          const Eigen::Vector3i cell(x, y, z);
+          if ((middle(cell) - p).squaredNorm() <= distance * distance) visit(cell);
         }
       }
     }
