@@ -18,8 +18,9 @@ class FaultPage : public PageTest {
 };
 
 TEST_F(FaultPage, DoesWhatItSays) {
+  const std::vector<PageBlock> blocks = blocks_of(source_path("docs/how-to-test-faults.md"));
   int followed = 0;
-  for (const PageBlock& block : blocks_of(source_path("docs/how-to-test-faults.md"))) {
+  for (const PageBlock& block : blocks) {
     if (block.language == "sh" && !block.is_file()) continue;  // pages_test.cpp types it
     followed += static_cast<int>(follow(block) && block.language == "console");
   }
@@ -34,7 +35,7 @@ TEST_F(FaultPage, DoesWhatItSays) {
 
   // The same folder once more: as for a reader who comes back. The files are as the page leaves them.
   int number = 0;
-  for (const PageBlock& block : blocks_of(source_path("docs/how-to-test-faults.md"))) {
+  for (const PageBlock& block : blocks) {
     if (block.is_file()) follow(block);
     if (block.language != "console") continue;
     follow_console(block, [&](int) { return has_turn(static_cast<std::size_t>(number++), 3); });
@@ -49,7 +50,7 @@ TEST_F(FaultPage, NothingIsSaidOfAFolderThatCannotBeTested) {
            {"--faults " + source_path("config/faults/dead_camera.yaml --seeds 5-1"), "seed"},
            {"--faults " + source_path("config/faults/dead_camera.yaml --junit none/faults.xml"), "--junit"},
            {"--faults " + source_path("config/faults/dead_camera.yaml --agent none"), "--agent"}}) {
-    typed("./skein test " + arguments, 2);
+    EXPECT_EQ(typed("./skein test " + arguments, 2), "") << arguments;
     EXPECT_NE(errors().find(words), std::string::npos) << arguments << "\n" << errors();
   }
 }

@@ -30,6 +30,8 @@ struct PageBlock {
   bool is_run() const { return is_typed() && note("not run").empty(); }
   /// Of the first note of that kind; empty: there is none.
   std::string note(const std::string& kind) const;
+  /// Of the block, or of a console's last command.
+  int exit_code() const;
 };
 
 /// README.md and all of docs/, below the root.

@@ -52,6 +52,11 @@ std::string PageBlock::note(const std::string& kind) const {
   return "";
 }
 
+int PageBlock::exit_code() const {
+  const std::string stated = note("exits with");
+  return stated.empty() ? 0 : std::stoi(stated);
+}
+
 std::vector<std::string> all_pages() {
   std::vector<std::string> pages = {"README.md"};
   for (const auto& entry : fs::directory_iterator(source_path("docs"))) {
@@ -185,7 +190,7 @@ bool PageTest::follow(const PageBlock& block) {
   for (const auto& [kind, text] : block.notes) {
     if (kind == "with") environment[text.substr(0, text.find('='))] = text.substr(text.find('=') + 1);
   }
-  typed(block.text, std::stoi("0" + block.note("exits with")), environment);
+  typed(block.text, block.exit_code(), environment);
   return true;
 }
 
@@ -195,7 +200,7 @@ void PageTest::follow_console(const PageBlock& block, const std::function<bool(i
     if (!chosen(static_cast<int>(i))) continue;
     const auto& [command, shown] = commands[i];
     const bool is_last = i + 1 == commands.size();
-    const std::string printed = typed(command, is_last ? std::stoi("0" + block.note("exits with")) : 0);
+    const std::string printed = typed(command, is_last ? block.exit_code() : 0);
     EXPECT_TRUE(matches(shown, printed)) << "$ " << command << "\nthe page shows:\n"
                                          << shown << "it prints:\n"
                                          << printed << errors_;
