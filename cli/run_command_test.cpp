@@ -75,7 +75,7 @@ TEST_F(RunCommand, TheCommandThatRepeatsItNamesTheAgentOfTheEnvironment) {
   EXPECT_EQ(result()["command"], "skein run small.yaml --agent " + mine);
   EXPECT_NE(read_text(*options_.out / "report.html").find("skein run small.yaml --agent " + mine), std::string::npos);
 
-  // Whoever typed it gets what was typed.
+  // A user who typed the option gets the command as typed.
   options_.command = "skein run small.yaml --agent mine";
   options_.agent = mine;
   options_.force = true;

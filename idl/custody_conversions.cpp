@@ -103,4 +103,5 @@ std::optional<LedgerEntry> from_message(const msg::LedgerEntry& message, std::sp
   }
   return entry;
 }
+
 }  // namespace skein

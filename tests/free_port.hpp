@@ -14,7 +14,7 @@
 
 namespace skein::test {
 
-/// Nobody listens there when it is made, and no other test takes it as long as it lives.
+/// No program listens on the port when it is made, and no other test takes the port as long as it lives.
 class FreePort {
  public:
   FreePort() {

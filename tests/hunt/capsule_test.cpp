@@ -36,7 +36,7 @@ TEST_F(Capsule, EndsWithTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
   };
   EXPECT_EQ(count(out, "digest    "), 1u) << out;
   EXPECT_EQ(out.find("score ", out.find(told) + told.size()), std::string::npos) << out;
-  // What is told of the second run while it flies is between two lines that say so.
+  // The launcher announces the second run before its messages, and its end after them.
   const std::string err = run.err();
   const std::size_t first = err.find("first run, the find itself, with its faults"),
                     second = err.find("second run, without the faults"), over = err.find("the second run is over");
