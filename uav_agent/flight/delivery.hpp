@@ -34,7 +34,7 @@ class Delivery {
 
   /// Once per exchange in the air: takes note of links and of what has been delivered. @param top_m  of all structure.
   void update(const PlannerInput& in, double top_m);
-  /// Whether it is time to leave.
+  /// Whether it is time to leave: by the clock, unless captures are delivered from where it works.
   bool due(const PlannerInput& in) const;
   /// Sets out.  @param lowest_m  see delivery_places().
   void begin(const PlannerInput& in, const FreeSpace::Config& space, double lowest_m, PlannerOutput& out);
@@ -49,6 +49,7 @@ class Delivery {
   Vector3d home() const;
   void note_link(const PlannerInput& in);
   double way_home_s(const PlannerInput& in) const;
+  bool delivers_here(const PlannerInput& in) const;
   bool approach(const Vector3d& p_W, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
   void next_place() { place_ = (place_ + 1) % (places_.size() + 1); }
 
@@ -57,6 +58,7 @@ class Delivery {
   Pilot& pilot_;
   double top_m_ = 0.0;
   std::optional<Tick> delivered_at_;  ///< when nothing was undelivered
+  std::optional<Tick> linked_at_;     ///< when it last had a link
   std::vector<Vector3d> places_;
   std::size_t place_ = 0;  ///< places_.size() stands for high above everything
   bool heading_home_ = false;

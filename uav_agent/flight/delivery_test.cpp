@@ -123,6 +123,30 @@ TEST_F(FarOut, LeavesInTimeForThePlaceWhereItLastHadALink) {
   EXPECT_TRUE(delivery_.due(input({98.0, 20.0, 20.0}, false, 15.0)));
 }
 
+TEST_F(FarOut, WorksOnToTheEndWhereEverythingIsDeliveredAtOnce) {
+  const Vector3d p(100.0, 0.0, 20.0);
+  const auto update = [&](bool linked, double left_s, std::size_t undelivered) {
+    const PlannerInput in = input(p, linked, left_s, undelivered);
+    delivery_.update(in, 40.0);
+    return delivery_.due(in);
+  };
+  // Each capture is under way for some exchanges.
+  for (double left_s = 60.0; left_s > 0.0; left_s -= 0.05) {
+    const auto undelivered = static_cast<std::size_t>(left_s / 0.05) % 10 < 4 ? 2U : 0U;
+    ASSERT_FALSE(update(true, left_s, undelivered)) << left_s;
+  }
+  // A moment without a link is none, unless something waits for it.
+  for (double left_s = 8.0; left_s > 7.3; left_s -= 0.05) ASSERT_FALSE(update(false, left_s, 0)) << left_s;
+  EXPECT_TRUE(update(false, 7.2, 1));
+  for (double left_s = 7.2; left_s > 6.5; left_s -= 0.05) update(false, left_s, 0);
+  EXPECT_TRUE(update(false, 6.5, 0)) << "nothing more can be delivered from here";
+  // A link over which nothing gets through is none.
+  update(true, 9.0, 0);
+  for (double t = 0.0; t < 4.8; t += 0.05) ASSERT_FALSE(update(true, 9.0, 1)) << t;
+  for (double t = 0.0; t < 0.4; t += 0.05) update(true, 9.0, 1);
+  EXPECT_TRUE(update(true, 9.0, 1));
+}
+
 TEST_F(FarOut, LeavesSoonerIfItHasNeverHadALink) {
   for (const double away_m : {40.0, 75.0, 110.0}) {
     const Vector3d here_W(-1.0 - away_m, 0.0, 20.0);
