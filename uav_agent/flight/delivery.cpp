@@ -21,7 +21,7 @@ constexpr double kAboveAllM = 6.0;      ///< where no place is known
 constexpr double kRetryS = 1.0;         ///< after no way was found
 constexpr double kLinkPatienceS = 4.0;  ///< at a place without a link
 constexpr double kLinkAgeS = 1.0;       ///< between two sightings: a link that lasts
-constexpr double kStuckS = 5.0;         ///< undelivered all the while, with a link: not from here
+constexpr double kStuckS = 5.0;         ///< with a link, and nothing arrives: not from here
 constexpr int kFailuresToRetreat = 3;
 constexpr double kNearerM = 3.0;       ///< nearer to a place that cannot be reached
 constexpr int kFailuresToAskLess = 4;  ///< proof of free space: what is not delivered is worth nothing
@@ -69,6 +69,9 @@ Vector3d Delivery::home() const {
 void Delivery::update(const PlannerInput& in, double top_m) {
   top_m_ = top_m;
   if (!delivered_at_ || in.undelivered_captures == 0) delivered_at_ = in.tick;
+  const bool arrived = in.undelivered_captures == 0 || in.undelivered_captures < undelivered_;
+  if (!arrived_at_ || arrived) arrived_at_ = in.tick;
+  undelivered_ = in.undelivered_captures;
   if (in.station_linked) linked_at_ = in.tick;
   note_link(in);
 }
@@ -89,9 +92,10 @@ double Delivery::way_home_s(const PlannerInput& in) const {
   return std::min(way_s, time_home_s(in.state.p_WB, *linked_at_W_, config_.speed_mps));
 }
 
-/// What is taken here is home at once. A link that has just gone may be back, where nothing waits for it.
+/// What is taken here arrives, one by one on a poor link. A link that has just gone may be back, where nothing waits
+/// for it.
 bool Delivery::delivers_here(const PlannerInput& in) const {
-  if (in.station_linked) return in.undelivered_captures == 0 || seconds(in.tick - *delivered_at_) < kStuckS;
+  if (in.station_linked) return arrived_at_ && seconds(in.tick - *arrived_at_) < kStuckS;
   return in.undelivered_captures == 0 && linked_at_ && seconds(in.tick - *linked_at_) < kLinkAgeS;
 }
 

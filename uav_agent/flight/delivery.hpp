@@ -58,7 +58,9 @@ class Delivery {
   Pilot& pilot_;
   double top_m_ = 0.0;
   std::optional<Tick> delivered_at_;  ///< when nothing was undelivered
+  std::optional<Tick> arrived_at_;    ///< when a capture last was delivered, or none was to be
   std::optional<Tick> linked_at_;     ///< when it last had a link
+  std::size_t undelivered_ = 0;       ///< in the last exchange
   std::vector<Vector3d> places_;
   std::size_t place_ = 0;  ///< places_.size() stands for high above everything
   bool heading_home_ = false;

@@ -140,6 +140,11 @@ TEST_F(FarOut, WorksOnToTheEndWhereEverythingIsDeliveredAtOnce) {
   EXPECT_TRUE(update(false, 7.2, 1));
   for (double left_s = 7.2; left_s > 6.5; left_s -= 0.05) update(false, left_s, 0);
   EXPECT_TRUE(update(false, 6.5, 0)) << "nothing more can be delivered from here";
+  // On a poor link captures wait, and still arrive.
+  for (double left_s = 60.0; left_s > 0.0; left_s -= 0.05) {
+    const auto waiting = static_cast<std::size_t>(40.0 - left_s / 2.0) + static_cast<std::size_t>(left_s * 2.0) % 2;
+    ASSERT_FALSE(update(true, left_s, waiting)) << left_s;
+  }
   // A link over which nothing gets through is none.
   update(true, 9.0, 0);
   for (double t = 0.0; t < 4.8; t += 0.05) ASSERT_FALSE(update(true, 9.0, 1)) << t;
