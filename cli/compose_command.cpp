@@ -9,6 +9,7 @@
 #include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_file.hpp"
 #include "cli/compose/engine.hpp"
+#include "cli/compose/followers.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/run_results.hpp"
@@ -92,39 +93,35 @@ void write_keys(const FleetPlan& plan, int base_domain, const fs::path& folder,
   }
 }
 
-/// What follows a container here: hears its status lines on its standard output, keeps the rest as its log, passes a
-/// SIGTERM on and ends as it does, or by kEngineLost. The signal is for the whole group, so what listens is in another
-/// one.
-std::string follower(const std::string& container, bool tells_status) {
-  return "trap 'docker kill --signal=TERM " + container + " >/dev/null 2>&1' TERM\n" + "setsid docker logs --follow " +
-         container + (tells_status ? " >&3" : "") + " &\nwait $!\nwait\ncode=$(docker wait " + container +
-         ")\n[ -n \"$code\" ] || kill -" + std::to_string(kEngineLost) + " $$\nexit \"$code\"";
-}
-
-std::vector<ProgramSpec> followers(const ComposeProject& project, const ComposeLayout& layout, const fs::path& out) {
-  std::vector<ProgramSpec> programs;
-  for (const auto& [program, id] : project.containers()) {
-    const bool ours = !layout.images.contains(programs::member_name(program));
-    programs.push_back(
-        {program, {"/bin/sh", "-c", follower(id, ours)}, environment_with({}), out / run_folder::log_file(program)});
-    if (ours) programs.back().most_status_bytes = std::numeric_limits<std::uint64_t>::max();
-  }
-  // As under the launcher: those that every fleet has one of come first.
-  const auto rank = [](const ProgramSpec& program) { return std::ranges::find(programs::kServers, program.name); };
-  std::ranges::stable_sort(programs, {}, rank);
-  return programs;
-}
-
 void check_before_flight(FleetPlan plan, const ComposeLayout& layout, const Console& console) {
   std::vector<std::string> images = {layout.image.value(), layout.agent_image.value()};
   for (const auto& [member, image] : layout.images) images.push_back(image);
   check_engine(images);
+  for (const Debuggee& one : plan.debug) {
+    if (!one.here) continue;
+    const auto own = layout.images.find(one.member);
+    const bool agents = programs::is_agent(one.program);
+    check_gdb(own != layout.images.end() ? own->second : (agents ? layout.agent_image : layout.image).value(),
+              one.member);
+  }
   // Of a user's image nothing is known here.
   std::erase_if(plan.planners, [&](const UavPlanner& planner) { return layout.images.contains(planner.uav); });
   if (plan.ground && layout.images.contains("gcs")) plan.ground.reset();
   const ScratchDir scratch;
   run_checks(check_programs(plan, scratch.path()),
              [&](const std::string& waiting) { console.err << waiting << std::endl; });
+}
+
+/// Whom a debugger is to be attached to, and how.
+void tell_who_waits(const FleetPlan& plan, const std::map<std::string, std::string>& containers, const fs::path& out,
+                    ProgressView& view) {
+  for (const Debuggee& one : plan.debug) {
+    if (one.here || !containers.contains(one.program)) continue;
+    view.message(
+        fmt::format("{} stands before its first step until you attach to the process that {} names:\n\n  "
+                    "docker exec --interactive --tty {} gdb -q -p PROCESS\n",
+                    one.member, (out / run_folder::log_file(one.program)).string(), containers.at(one.program)));
+  }
 }
 
 int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layout, const Console& console) {
@@ -157,7 +154,8 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
     run.view().message(fmt::format("{}: {} UAVs in containers, planner {}, seed {}, results in {}", plan.scenario.name,
                                    plan.scenario.fleet.size(), options.run.planner, options.run.seed, dir.string()));
     project.up();
-    run.fly_in_containers(followers(project, layout, out.path()), out.path());
+    tell_who_waits(plan, project.containers(), out.path(), run.view());
+    run.fly_in_containers(followers(project.containers(), plan, layout, out.path()), out.path());
   }
   gather_agents(out.path());
   const Reports reports = read_reports(out.path(), plan.scenario, run.reports());
@@ -168,27 +166,47 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   return result ? exit_code_of(run, *result) : kExitProcessFailed;
 }
 
-/// Containers do not inherit SKEIN_ASSETS; only scenes from files need what it names. And they have no terminal: a
-/// debugger comes to the program.
-FleetPlan plan_in_containers(RunOptions options) {
-  for (std::string& debugged : options.debug) {
-    const std::size_t equals = debugged.find('=');
-    if (equals != std::string::npos && debugged.substr(equals) != "=wait") {
-      throw InputError("--debug " + debugged + ": a container waits until a debugger is attached; say only the name, " +
-                       debugged.substr(0, equals));
+/// Takes =gdb off the one value of --debug that has it, or may have it: who has a terminal debugs there.
+/// @returns the UAV or server; empty: none
+std::string take_gdb(std::vector<std::string>& values, bool has_terminal) {
+  std::string member;
+  for (std::string& value : values) {
+    const std::size_t equals = value.find('=');
+    const std::string name = value.substr(0, equals), how = equals == std::string::npos ? "" : value.substr(equals);
+    if (!how.empty() && how != "=wait" && how != "=gdb") {
+      throw InputError("--debug " + value + ": a program in a container is debugged by gdb there (" + name +
+                       "=gdb), or waits until a debugger is attached (" + name + "=wait)");
     }
-    if (equals == std::string::npos) debugged += "=wait";
+    if (how == "=gdb" && !member.empty()) throw InputError("--debug " + value + ": one gdb can have this terminal");
+    if (how == "=gdb" || (how.empty() && has_terminal && member.empty())) member = name;
+    value = name + "=wait";
+  }
+  return member;
+}
+
+/// Containers do not inherit SKEIN_ASSETS; only scenes from files need what it names.
+FleetPlan plan_in_containers(const ComposeOptions& compose, const Console& console) {
+  RunOptions options = compose.run;
+  const std::string in_gdb = take_gdb(options.debug, compose.up && console.keyboard);
+  if (!in_gdb.empty() && !compose.up) {
+    throw InputError("--debug " + in_gdb +
+                     "=gdb: gdb comes with --up; in a file a program waits for its debugger: " + in_gdb + "=wait");
   }
   if (!options.assets) options.assets = variable_or("SKEIN_ASSETS", "");
   FleetPlan plan = plan_fleet(options, program_dir());
   if (!plan.scenario.scene.family.empty() || plan.options.assets->empty()) plan.options.assets.reset();
+  for (Debuggee& one : plan.debug) {
+    if (one.member != in_gdb) continue;
+    one.how = Debuggee::How::inside;
+    one.here = true;
+  }
   return plan;
 }
 
 }  // namespace
 
 int compose_fleet(const ComposeOptions& options, const Console& console) {
-  const FleetPlan plan = plan_in_containers(options.run);
+  const FleetPlan plan = plan_in_containers(options, console);
   const ComposeLayout layout = layout_of(options);
   if (options.up) return fly(options, plan, layout, console);
   const std::string text = compose_file(plan, layout);

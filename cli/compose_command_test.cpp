@@ -125,7 +125,7 @@ TEST_F(ComposeCommand, WhoIsDebuggedStandsAndNobodyIsTakenForDead) {
   EXPECT_EQ(count(debugged, "--wait-for-debugger"), 2);
   EXPECT_EQ(count(debugged, "--lease=3600"), count(usual, "--lease=10"));
   EXPECT_EQ(count(debugged, "--agent-timeout=0"), 1);
-  for (const char* wrong : {"jurong=gdb", "nobody", "jurong="}) {
+  for (const char* wrong : {"jurong=gdb", "jurong=strace", "nobody", "jurong="}) {
     EXPECT_THROW(file_of({"--debug", wrong}), InputError) << wrong;
   }
 }

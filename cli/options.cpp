@@ -146,8 +146,10 @@ void add_compose(CLI::App& app, ComposeOptions& compose) {
                       "IPv4 network to divide, as 172.30.0.0/20 (default: the engine's address pools)");
   command
       ->add_option("--debug", compose.run.debug,
-                   "This program stands until a debugger is attached, the fleet waits (UAV, gcs or a server)")
-      ->type_name("UAV")
+                   "This program (UAV, gcs or a server) stands before its first step, the fleet waits: with =gdb for "
+                   "gdb in this terminal and its container (with --up), with =wait until a debugger is attached "
+                   "(default: gdb with --up in a terminal)")
+      ->type_name("UAV[=gdb|wait]")
       ->allow_extra_args(false)
       ->excludes("--agent-timeout");
   command->add_option("--build-folder", compose.build, "Fly the programs of this build instead of the images'");

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "cli/run/supervisor.hpp"
+#include "cli/testing/compose_programs.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/network_config.hpp"
 #include "process/environment.hpp"
@@ -371,14 +372,17 @@ TEST_F(ComposeFile, WhatIsWrongIsToldWithWhatWouldBeRight) {
 }
 
 TEST_F(ComposeFile, DockerComposeTakesIt) {
-  if (!fs::exists("/usr/bin/docker-compose")) GTEST_SKIP() << "there is no docker-compose here";
+  const std::vector<Texts> programs = compose_programs();
+  if (programs.empty()) GTEST_SKIP() << "there is no docker-compose here";
   for (unsigned seed = 0; seed < 6; ++seed) {
     const Fleet fleet = draw(seed);
     const fs::path file = programs_.dir() / "compose.yaml", log = programs_.dir() / "compose.log";
     write_text(file, compose_file(fleet.plan, fleet.layout));
-    const ExitStatus exit = run_to_end(
-        {"docker-compose", {"/usr/bin/docker-compose", "-f", file, "config", "-q"}, environment_with({}), log});
-    EXPECT_EQ(exit.code, 0) << "fleet " << seed << ": " << read_text(log);
+    for (Texts words : programs) {
+      words.insert(words.end(), {"-f", file, "config", "-q"});
+      const ExitStatus exit = run_to_end({"docker-compose", words, environment_with({}), log});
+      EXPECT_EQ(exit.code, 0) << "fleet " << seed << ", " << words[2] << ": " << read_text(log);
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "cli/compose/compose_file.hpp"
 #include "cli/run/supervisor.hpp"
+#include "cli/testing/compose_programs.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/text.hpp"
 #include "core/types.hpp"
@@ -194,9 +195,10 @@ TEST_F(HostileTexts, CommandsOfCommentsAreOfTheSameWords) {
   }
 }
 
-// The reader of docker-compose 1.29, where there is one, agrees with the library that writes.
+// The readers of docker-compose that are here agree with the library that writes.
 TEST_F(HostileTexts, AreTheSameToDockerCompose) {
-  if (!fs::exists("/usr/bin/docker-compose")) GTEST_SKIP() << "there is no docker-compose here";
+  const auto programs = compose_programs();
+  if (programs.empty()) GTEST_SKIP() << "there is no docker-compose here";
   const FleetPlan usual = plan();
   for (int i = 0; i < 4;) {
     FleetPlan drawn = usual;
@@ -210,17 +212,18 @@ TEST_F(HostileTexts, AreTheSameToDockerCompose) {
     ++i;
     const fs::path path = programs_.dir() / "compose.yaml", log = programs_.dir() / "compose.log";
     write_text(path, *file);
-    const ExitStatus exit =
-        run_to_end({"docker-compose", {"/usr/bin/docker-compose", "-f", path, "config"}, environment_with({}), log});
-    ASSERT_EQ(exit.code, 0) << read_text(log) << text;
-    const YAML::Node read = YAML::Load(read_text(log));
-    bool found = false;
-    for (const YAML::Node& argument : read["services"]["uav_agent-" + usual.planners[0].uav]["command"]) {
-      const std::string written = argument.as<std::string>();
-      found =
-          found || (written.starts_with("--planner") && without_doubling(written) == "--planner=hover:note=" + text);
+    for (std::vector<std::string> words : programs) {
+      words.insert(words.end(), {"-f", path, "config"});
+      ASSERT_EQ(run_to_end({"docker-compose", words, environment_with({}), log}).code, 0) << read_text(log) << text;
+      const YAML::Node read = YAML::Load(read_text(log));
+      bool found = false;
+      for (const YAML::Node& argument : read["services"]["uav_agent-" + usual.planners[0].uav]["command"]) {
+        const std::string written = argument.as<std::string>();
+        found =
+            found || (written.starts_with("--planner") && without_doubling(written) == "--planner=hover:note=" + text);
+      }
+      EXPECT_TRUE(found) << words[2] << ": " << text << read_text(log);
     }
-    EXPECT_TRUE(found) << text << read_text(log);
   }
 }
 

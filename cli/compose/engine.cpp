@@ -48,6 +48,13 @@ void check_engine(const std::vector<std::string>& images) {
   }
 }
 
+void check_gdb(const std::string& image, const std::string& member) {
+  if (shell("docker run --rm --network none --entrypoint gdb " + shell_word(image) + " --version") == 0) return;
+  throw InputError("--debug " + member + ": the image '" + image +
+                   "' has no gdb; skein-agent-debug of docker/Dockerfile has it (SKEIN_AGENT_IMAGE names it), or say " +
+                   member + "=wait");
+}
+
 ComposeProject::ComposeProject(fs::path file, std::string name, fs::path log, std::ostream& err)
     : program_(compose_program()), file_(std::move(file)), name_(std::move(name)), log_(std::move(log)), err_(err) {}
 

@@ -14,6 +14,9 @@ namespace skein::cli {
 ///   helps.
 void check_engine(const std::vector<std::string>& images);
 
+/// @param member  whose program --debug wants to look into. @throws InputError when the image has no gdb
+void check_gdb(const std::string& image, const std::string& member);
+
 /// While it lives, the containers of a file exist, under a project's name that nobody else has.
 class ComposeProject {
  public:

@@ -15,6 +15,7 @@ struct Debuggee {
   enum class How {
     by_hand,    ///< the user starts it himself, with a command that is printed
     gdb,        ///< in this terminal
+    inside,     ///< gdb in this terminal, in the container of a program that waits for it
     gdbserver,  ///< at `port` of this host
     wait,       ///< it stands before its first step until a debugger is attached, or SIGCONT
     command     ///< any tool, with the program's command line behind its own

@@ -73,6 +73,9 @@ void FleetRun::fly(int base_domain, const std::filesystem::path& out, const Secu
 void FleetRun::fly_in_containers(const std::vector<ProgramSpec>& containers, const std::filesystem::path& out) {
   in_containers_ = true;
   host_ = std::make_unique<Supervisor>();
+  if (std::ranges::any_of(plan_.debug, &Debuggee::here)) {
+    debug_.emplace(plan_, kFirstDomain, out, SecureFolders{}, view_, console_, terminal_);
+  }
   start(containers);
   finish(out);
 }

@@ -28,6 +28,8 @@ TEST_F(ComposeErrors, TellWhatHelps) {
                  arguments("patrol", "60", {"--image", "jurong=agent-of-nobody"}));
   expect_refusal("the fleet needs 7 networks of 16 addresses; a /25 would do",
                  arguments("patrol", "60", {"--subnet", "10.99.0.0/26"}));
+  expect_refusal("--debug jurong: the image 'skein-agent' has no gdb; skein-agent-debug of docker/Dockerfile has it",
+                 arguments("patrol", "60", {"--debug", "jurong=gdb"}));
   expect_refusal("--image jurong=IMAGE names an image that has it", arguments("patrol,jurong=exec:./mine"));
 }
 

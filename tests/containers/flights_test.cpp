@@ -10,6 +10,7 @@
 
 #include "cli/bench/scenario.hpp"
 #include "container_fixture.hpp"
+#include "core/text.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::test {
@@ -128,6 +129,34 @@ TEST_F(FlightInContainers, TheFleetWaitsForWhoIsDebugged) {
   EXPECT_EQ(run.exit_code(), 0) << run.err();
   expect_whole(run);
   EXPECT_EQ(flight_of(run), alone(flown));
+}
+
+// As docs/how-to-debug.md has it, with commands from a pipe.
+TEST_F(FlightInContainers, GdbOpensInTheContainerOfWhoIsDebugged) {
+  const std::string image = "skein-agent-debug";
+  if (shell("docker image inspect " + image).code != 0) {
+    const std::string untested = "the engine has no image '" + image + "': not tested is gdb in a container";
+    if (engine_is_required()) FAIL() << untested;
+    GTEST_SKIP() << untested;
+  }
+  const Arguments flown = arguments("kios", "20");
+  const fs::path dir = folder() / "debugged";
+  Arguments words = joined(Arguments{program("skein"), "compose"}, flown);
+  words = joined(words, Arguments{"--debug", "jurong=gdb", "--up", "--out", dir});
+  words = joined(words, programs_of_this_build());
+  const std::string commands =
+      write("commands", "tbreak skein::agent::KiosPlanner::plan\ncontinue\nprint in.state.p_WB\ncontinue\n");
+  ChildProcess& skein = start_program(
+      "skein", {"/bin/sh", "-c", "SKEIN_AGENT_IMAGE=" + image + " exec " + shell_line(words) + " <" + commands});
+  EXPECT_EQ(skein.wait().code, 0) << skein.err();
+  const std::string shown = skein.out();
+  EXPECT_NE(skein.err().find("jurong is in gdb here, in its container"), std::string::npos) << skein.err();
+  EXPECT_NE(shown.find("Temporary breakpoint 1, skein::agent::KiosPlanner::plan"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("$1 = ("), std::string::npos) << shown;
+  EXPECT_NE(shown.find("exited normally"), std::string::npos) << shown;
+  const Json result = Json::parse(text_of(dir / "result.json"));
+  EXPECT_TRUE(result["lost_members"].empty()) << result["lost_members"];
+  EXPECT_EQ((Flight{result["digest"], result["score"]}), alone(flown));
 }
 
 class TwentyUavs : public FlightInContainers, public testing::WithParamInterface<std::string> {};

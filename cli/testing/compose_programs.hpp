@@ -1,0 +1,23 @@
+// Every docker-compose that is here: version 1, a program of its own, and version 2, a part of Docker's client.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/run/preflight.hpp"
+#include "process/environment.hpp"
+
+namespace skein::cli {
+
+/// The first words of its commands.
+inline std::vector<std::vector<std::string>> compose_programs() {
+  std::vector<std::vector<std::string>> programs;
+  for (const std::string program : {"docker-compose", "docker compose"}) {
+    const std::string asked = program + " version >/dev/null 2>&1";
+    if (run_to_end({"docker", {"/bin/sh", "-c", asked}, environment_with({}), {}}).code != 0) continue;
+    programs.push_back({"/bin/sh", "-c", "exec " + program + " \"$@\"", "sh"});
+  }
+  return programs;
+}
+
+}  // namespace skein::cli
