@@ -1,5 +1,7 @@
 #include "cli/compose/followers.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -15,11 +17,15 @@ namespace fs = std::filesystem;
 
 /// gdb in a container, once its program has written to its log that it stands; none for one that has ended.
 std::string gdb_inside(const std::string& container, const fs::path& log) {
-  return "while [ \"$(docker inspect --format '{{.State.Running}}' " + container + " 2>&1)\" = true ]; do\n" +
-         "  process=$(sed -n 's/.*process \\([0-9]*\\) stands until a debugger.*/\\1/p' " + shell_word(log) +
-         " 2>/dev/null | tail -n 1)\n  [ -z \"$process\" ] || break\n  sleep 0.1\ndone\n[ ! -t 0 ] || "
-         "terminal=--tty\n" +
-         "[ -z \"$process\" ] || docker exec --interactive $terminal " + container + " gdb -q -p \"$process\"\n";
+  return fmt::format(R"sh(while [ "$(docker inspect --format '{{{{.State.Running}}}}' {0} 2>&1)" = true ]; do
+  process=$(sed -n 's/.*process \([0-9]*\) stands until a debugger.*/\1/p' {1} 2>/dev/null | tail -n 1)
+  [ -z "$process" ] || break
+  sleep 0.1
+done
+[ ! -t 0 ] || terminal=--tty
+[ -z "$process" ] || docker exec --interactive $terminal {0} gdb -q -p "$process"
+)sh",
+                     container, shell_word(log));
 }
 
 /// Passes a SIGTERM on and ends as the container does, or by kEngineLost. The signal is for the whole group, so what

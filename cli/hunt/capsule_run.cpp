@@ -1,11 +1,15 @@
 #include "cli/hunt/capsule_run.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+#include <set>
 #include <sstream>
 
 #include "cli/fault_tests/fault_test.hpp"
 #include "cli/hunt/trial.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
+#include "cli/run/environment.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/record.hpp"
 #include "cli/run/results_dir.hpp"
@@ -83,6 +87,24 @@ Replayed judge_digest(const FaultTest& test, const fs::path& dir, const Console&
   return verdict;
 }
 
+/// What is flown is in the capsule. @throws InputError for an option that would say it otherwise
+void check_options(const RunOptions& options) {
+  static const std::set<std::string> kTaken = {"--dds",    "--one-process", "--agent",   "--assets",
+                                               "--out",    "--force",       "--record",  "--no-report",
+                                               "--domain", "--no-oracle",   "--no-check"};
+  RunOptions plain;
+  plain.scenario = options.scenario;
+  plain.one_process = options.one_process;
+  const std::vector<std::string> usual = arguments_of(plain);
+  for (const std::string& argument : arguments_of(options)) {
+    const std::string name = argument.substr(0, argument.find('='));
+    if (kTaken.contains(name) || std::ranges::find(usual, argument) != usual.end()) continue;
+    if (name == "--duration" && std::getenv(kDurationVariable) != nullptr) continue;  // for missions that name none
+    throw InputError(name + " does not go with a capsule, which has all that is flown: change it in a copy of " +
+                     options.scenario);
+  }
+}
+
 }  // namespace
 
 bool is_capsule(const RunOptions& options) {
@@ -107,12 +129,16 @@ std::string comparison_text(const CapsuleMark& mark, const std::string& digest) 
 }
 
 int run_capsule(const RunOptions& options, const Console& console) {
+  check_options(options);
   FaultTest test = load_fault_test(options.scenario, options.assets, options.agent, options.one_process);
   RunOptions& run = test.plan.options;
   run.dds = options.dds;
   run.out = options.out.value_or(free_results_dir(fs::path("runs") / test.name));
   run.record = options.record == "none" ? "run" : options.record;  // properties may be about messages
   run.report = options.report;
+  run.check = options.check;
+  run.domain = options.domain;
+  run.attainable = run.attainable && options.attainable;
   run.force = options.force;
   run.command = options.command;
   console.err << "first run, the find itself, with its faults" << std::endl;

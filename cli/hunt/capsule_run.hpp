@@ -14,8 +14,8 @@ bool is_capsule(const RunOptions& options);
 /// @param digest  of the run; empty: it has none.
 std::string comparison_text(const CapsuleMark& mark, const std::string& digest);
 
-/// Of the options, those count that do not say what is flown: agent, DDS or one process, folder, recording, report.
-/// @returns 0 when what failed then holds, 1 when it fails. @throws InputError, Interrupted.
+/// Of the options, those are taken that do not say what is flown: agent, DDS or one process, folder, recording, report.
+/// @returns 0 when what failed then holds, 1 when it fails. @throws InputError, also for other options; Interrupted.
 int run_capsule(const RunOptions& options, const Console& console);
 
 }  // namespace skein::cli

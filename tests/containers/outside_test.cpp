@@ -27,6 +27,10 @@ class FromOutside : public Containers {
              !capture.at("delivered_at_s").empty();
     });
   }
+  /// All that were lost take part again.
+  static bool all_are_back(const Json& result) {
+    return std::ranges::all_of(result["lost_members"], [](const Json& lost) { return lost["back_at_s"].is_number(); });
+  }
   /// The run is as without a disturbance, or says what it has lost.
   void expect_same_or_named_loss(SkeinRun& run, const Arguments& flown) {
     const int code = run.exit_code();
@@ -36,7 +40,7 @@ class FromOutside : public Containers {
       EXPECT_EQ(code, 0) << run.err();
       EXPECT_EQ(flight_of(run), alone(flown));
     } else {
-      EXPECT_EQ(code, 3) << run.err();
+      EXPECT_EQ(code, all_are_back(result) ? 0 : 3) << run.err();
       EXPECT_TRUE(result["digest"].is_null());
       EXPECT_NE(log_of(run, "sim_server").find(" is lost at step"), std::string::npos);
     }
@@ -59,17 +63,18 @@ TEST_F(FromOutside, WhoIsKilledAndStartedAgainWorksAgain) {
     EXPECT_TRUE(eventually([&] { return (returned[member] = returned_at(run, member)) > 0 || run.skein().ended(); }));
     EXPECT_GT(returned[member], 0) << victim << ": " << log_of(run, "sim_server");
   }
-  EXPECT_EQ(run.exit_code(), 3) << run.err();
+  EXPECT_EQ(run.exit_code(), 0) << run.err();
   const Json result = run.result();
   EXPECT_EQ(result["status"], "completed");
   EXPECT_EQ(result["lost_members"].size(), victims.size()) << result["lost_members"];
+  EXPECT_TRUE(all_are_back(result)) << result["lost_members"];
   expect_complete_result(run);
   EXPECT_TRUE(delivers_after(run, "changi", returned["changi"]));
   for (const char* uav : {"sentosa", "nanyang"}) {
     EXPECT_TRUE(delivers_after(run, uav, std::ranges::max(returned["station"], returned["comm_router"]))) << uav;
   }
-  // Nothing that the station had was lost with it.
-  EXPECT_EQ(result["score"], result["score_earned"]) << result["losses"];
+  // Nothing that the station had was lost with it; what was taken in the last moment is still under way.
+  EXPECT_GE(result["score"].get<double>(), 0.99 * result["score_earned"].get<double>()) << result["losses"];
 }
 
 TEST_F(FromOutside, WhoStandsStillForAMomentIsMissedByNobody) {
@@ -87,11 +92,12 @@ TEST_F(FromOutside, WhoStandsStillForLongComesBack) {
   SkeinRun& run = start_up("up", arguments("patrol", "300"));
   const std::string id = flying(run, "uav_agent-changi");
   EXPECT_EQ(shell("docker pause " + id + " && sleep 13 && docker unpause " + id).code, 0);
-  EXPECT_EQ(run.exit_code(), 3) << run.err();
+  EXPECT_EQ(run.exit_code(), 0) << run.err();
   const Json result = run.result();
   EXPECT_EQ(result["status"], "completed");
   ASSERT_EQ(result["lost_members"].size(), 1u) << result["lost_members"];
   EXPECT_EQ(result["lost_members"][0]["member"], "changi");
+  EXPECT_TRUE(all_are_back(result)) << result["lost_members"];
   expect_complete_result(run);
   EXPECT_GT(returned_at(run, "changi"), 0) << log_of(run, "sim_server");
   EXPECT_TRUE(delivers_after(run, "changi", returned_at(run, "changi")));

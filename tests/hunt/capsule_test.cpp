@@ -45,5 +45,20 @@ TEST_F(Capsule, EndsWithTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
   EXPECT_EQ(err.find("score", over), std::string::npos) << err;
 }
 
+// What is flown is in the capsule: nothing that says it otherwise is passed over in silence.
+TEST_F(Capsule, OptionsThatSayWhatIsFlownAreRefused) {
+  const std::string capsule = write("share.yaml", kShare);
+  const std::vector<Arguments> refused = {{"--duration", "20"}, {"--planner", "kios"},       {"--seed", "3"},
+                                          {"--uavs", "4"},      {"--clock", "realtime"},     {"--secure"},
+                                          {"--rules", "paper"}, {"--agent-timeout", "5"},    {"--debug", "jurong=wait"},
+                                          {"--stop-at", "10"},  {"--faults", "nobody.yaml"}, {"--scene-seed", "2"}};
+  for (const Arguments& more : refused) {
+    ChildProcess& run = skein(joined({"run", capsule, "--out", folder() / "none"}, more));
+    EXPECT_EQ(run.wait().code, 2) << more[0] << run.out() << run.err();
+    EXPECT_NE(run.err().find(more[0] + " does not go with a capsule"), std::string::npos) << run.err();
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder() / "none"));
+}
+
 }  // namespace
 }  // namespace skein::test
