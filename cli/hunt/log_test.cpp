@@ -71,6 +71,16 @@ TEST_F(HuntLogFile, WhatAKillCutOffAtTheEndGoesAndTheRestStays) {
   EXPECT_EQ(cases(), kCases);
 }
 
+// A build that draws other cases must not take the outcomes of these for theirs.
+TEST_F(HuntLogFile, ACaseThatIsAnotherOneNowIsRefused) {
+  const HuntLog log(dir_, kHuntSettings, false);
+  for (std::size_t i = 0; i < kCases; ++i) {
+    EXPECT_NO_THROW(log.check(i, "flight " + std::to_string(i)));
+    EXPECT_THROW(log.check(i, "flight " + std::to_string(i + 1)), InputError);
+  }
+  EXPECT_NO_THROW(log.check(kCases, "a flight that has not been flown"));
+}
+
 TEST_F(HuntLogFile, ADamagedLineIsRefusedAndNamed) {
   std::mt19937_64 random(1);
   for (std::size_t line = 1; line <= kCases; ++line) {
