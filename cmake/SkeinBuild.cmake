@@ -48,9 +48,10 @@ if(SKEIN_SANITIZE)
   add_compile_options(-fsanitize=${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1
     -Wno-maybe-uninitialized)
   # AddressSanitizer itself ends a program at a null pointer and beyond the end of an object; without UBSan's checks of
-  # that, and of each virtual call, the compiler takes a seventh less.
+  # that, and of each virtual call, the compiler takes a seventh less. Without that of alignment it takes another third
+  # less: skein_check_alignment() asks it of what reads bytes of others.
   if(SKEIN_SANITIZE STREQUAL address)
-    add_compile_options(-fno-sanitize=null,object-size,vptr)
+    add_compile_options(-fno-sanitize=null,object-size,vptr,alignment)
   endif()
   # Programs of 110 MB each without the rest of this line; with it, of less than half.
   add_link_options(-fsanitize=${sanitizers} -no-pie -Wl,--compress-debug-sections=zlib)
@@ -100,6 +101,14 @@ endfunction()
 # For what does no work in the steps of a run: the compiler takes two thirds of the time, results are the same.
 function(skein_compile_quickly target)
   target_compile_options(${target} PRIVATE $<IF:$<BOOL:${SKEIN_SANITIZE}>,-O0,-O1>)
+endfunction()
+
+# skein_check_alignment(TARGET)
+# For what takes bytes of messages and files apart: sanitizer builds look for pointers that are not aligned.
+function(skein_check_alignment target)
+  if(SKEIN_SANITIZE STREQUAL address)
+    target_compile_options(${target} PRIVATE -fsanitize=alignment)
+  endif()
 endfunction()
 
 # skein_forward_header(OLD NEW...)

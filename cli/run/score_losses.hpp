@@ -56,7 +56,7 @@ struct PointLoss {
 };
 
 /// What one point lost, and to what. It is one cause for all of the loss: a better picture that was lost comes first,
-/// unless the point scored all the same and that picture would have brought less than half of what was to be had.
+/// unless the point scored all the same and that picture would have brought less than half of what was possible.
 PointLoss loss_of(const PointRecord& point);
 
 /// Points with a cause, and the sum of their losses.

@@ -75,7 +75,7 @@ void print_worlds(std::ostream& out, const Study& study) {
                        tenth_percentile(shares), spread.min, frozen, waiting, collisions);
   }
   out << "frozen: flights in which a UAV stayed within 3 m of a place for 30 s and photographed nothing better\n"
-         "waiting: the same, but that it waited for another UAV, as its strategy has it\n\n"
+         "waiting: the same, while its planner reported that it waited for another UAV\n\n"
          "the worst flights, and how to repeat them\n";
   for (const FlightEntry* flight : worst_flights(study, kWorst)) out << text_of(study, *flight);
 }

@@ -70,7 +70,7 @@ struct PlannerOutput {
   std::vector<std::string> heard_maps = {};
   /// Why it found no way in this exchange, if it looked for one: counted by reason, and told in log and report.
   std::string no_way = {};
-  /// A UAV of the fleet for which it waits in this exchange, as its strategy has it: told in the report.
+  /// A UAV of the fleet for which its strategy lets it wait in this exchange: the report says so.
   std::optional<std::size_t> waits_for = {};
   std::vector<DebugValue> debug = {};  ///< of Planner::debug_names()
 };

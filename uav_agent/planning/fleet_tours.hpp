@@ -3,7 +3,7 @@
 // lengthens its tour least (cheapest insertion); then every tour is shortened on its own, and tasks move from longer
 // tours to shorter ones or change places with theirs, as long as that helps.
 // Pure and deterministic: ties go to the lower number; effort is bounded by a count of evaluated moves.
-// Source: reconstructs the distributed mTSP of KIOS, whose paper was not to be had; STAR's task assignment.
+// Source: reconstructs the distributed mTSP of KIOS, whose paper was not available; STAR's task assignment.
 #pragma once
 
 #include <cstddef>
