@@ -52,7 +52,8 @@ class Sortie {
   /// @param space  where this UAV may fly as of now.
   Turn step(const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
 
-  /// To be called in each exchange in which its strategy lets this UAV wait for another one: the sortie then does not move it.
+  /// To be called in each exchange in which its strategy lets this UAV wait for another one: the sortie leaves it where
+  /// it is.
   void waits_for(std::size_t uav, const PlannerInput& in, PlannerOutput& out);
 
   /// Whether it turns on the spot to see more: whoever turns the body has to leave that alone.
