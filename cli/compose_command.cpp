@@ -154,8 +154,9 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
     run.view().message(fmt::format("{}: {} UAVs in containers, planner {}, seed {}, results in {}", plan.scenario.name,
                                    plan.scenario.fleet.size(), options.run.planner, options.run.seed, dir.string()));
     project.up();
-    tell_who_waits(plan, project.containers(), out.path(), run.view());
-    run.fly_in_containers(followers(project.containers(), plan, layout, out.path()), out.path());
+    const std::map<std::string, std::string> containers = project.containers();
+    tell_who_waits(plan, containers, out.path(), run.view());
+    run.fly_in_containers(followers(containers, plan, layout, out.path()), out.path());
   }
   gather_agents(out.path());
   const Reports reports = read_reports(out.path(), plan.scenario, run.reports());

@@ -30,7 +30,7 @@ done
 
 /// Passes a SIGTERM on and ends as the container does, or by kEngineLost. The signal is for the whole group, so what
 /// listens is in another one. @param streams  where the container's go. @param meanwhile  what is done while it runs
-std::string follower(const std::string& container, const std::string& streams, const std::string& meanwhile = {}) {
+std::string follower(const std::string& container, const std::string& streams, const std::string& meanwhile) {
   return "trap 'docker kill --signal=TERM " + container + " >/dev/null 2>&1' TERM\n" + "setsid docker logs --follow " +
          container + streams + " &\n" + meanwhile + "wait $!\nwait\ncode=$(docker wait " + container +
          ")\n[ -n \"$code\" ] || kill -" + std::to_string(kEngineLost) + " $$\nexit \"$code\"";
@@ -47,10 +47,12 @@ std::vector<ProgramSpec> followers(const std::map<std::string, std::string>& con
     if (ours) program.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
     const auto debuggee = std::ranges::find(plan.debug, name, &Debuggee::program);
     program.here = debuggee != plan.debug.end() && debuggee->here;
-    // gdb has the terminal, so what would go there goes to the log by its name.
-    const std::string log = program.here ? " 2>" + shell_word(program.log) : "";
-    const std::string streams = ours ? log + " >&3" : log + (log.empty() ? "" : " >&2");
-    program.argv = {"/bin/sh", "-c", follower(id, streams, program.here ? gdb_inside(id, program.log) : "")};
+    std::string streams = ours ? " >&3" : " >&2", meanwhile;
+    if (program.here) {  // its own standard error is the terminal, and gdb's
+      streams.insert(0, " 2>" + shell_word(program.log));
+      meanwhile = gdb_inside(id, program.log);
+    }
+    program.argv = {"/bin/sh", "-c", follower(id, streams, meanwhile)};
     programs.push_back(std::move(program));
   }
   // As under the launcher: those that every fleet has one of come first.

@@ -94,7 +94,6 @@ void check_options(const RunOptions& options) {
                                                "--domain", "--no-oracle",   "--no-check"};
   RunOptions plain;
   plain.scenario = options.scenario;
-  plain.one_process = options.one_process;
   const std::vector<std::string> usual = arguments_of(plain);
   for (const std::string& argument : arguments_of(options)) {
     const std::string name = argument.substr(0, argument.find('='));

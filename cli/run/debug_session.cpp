@@ -49,7 +49,6 @@ std::string DebugSession::introduction(const FleetPlan& plan, const Debuggee& de
              (debuggee.how == How::gdb ? "; `run` starts it, and the fleet waits for it" : "") +
              "; the fleet's progress goes to " + log_file_.string();
     case How::inside:
-      if (!debuggee.here) return {};
       return member +
              " is in gdb here, in its container; `continue` starts it, and the fleet waits for it; the fleet's " +
              "progress goes to " + log_file_.string();

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <random>
 #include <regex>
-#include <thread>
 
 #include "cli/bench/scenario.hpp"
 #include "container_fixture.hpp"
@@ -123,7 +122,13 @@ TEST_F(FlightInContainers, TheFleetWaitsForWhoIsDebugged) {
     return true;
   };
   ASSERT_TRUE(eventually(told)) << run.err();
-  std::this_thread::sleep_for(std::chrono::seconds(12));  // longer than a lease
+  const auto waits_for_longer_than_a_lease = [&] {
+    const std::string err = run.err();
+    const std::regex notice("waiting for [^\n]*\\((\\d+) s\\)");
+    return std::any_of(std::sregex_iterator(err.begin(), err.end(), notice), std::sregex_iterator(),
+                       [](const std::smatch& match) { return std::stoi(match[1]) > 10; });
+  };
+  ASSERT_TRUE(eventually(waits_for_longer_than_a_lease)) << run.err();
   EXPECT_FALSE(run.skein().ended()) << run.err();
   EXPECT_EQ(shell("docker exec " + container(run, agent) + " bash -c 'kill -CONT " + process + "'").text, "");
   EXPECT_EQ(run.exit_code(), 0) << run.err();
