@@ -3,8 +3,10 @@
 # number has its turn (SKEIN_TURN; without it always), or it is flown then alone, where REPEATS is `only`. The long
 # suite repeats it in every way.
 set -eu
+turns=3
+[ "$4" != only ] || turns=6
 turn=true
-[ -z "${SKEIN_TURN:-}" ] || [ $((($3 + SKEIN_TURN) % 3)) -eq 0 ] || turn=false
+[ -z "${SKEIN_TURN:-}" ] || [ $((($3 + SKEIN_TURN) % turns)) -eq 0 ] || turn=false
 how=
 if [ "$4" = only ]; then
   "$turn" || { echo "not its turn"; exit 77; }
