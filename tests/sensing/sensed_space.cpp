@@ -1,0 +1,164 @@
+#include "tests/sensing/sensed_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/euler.hpp"
+#include "sim_server/sensors/lidar.hpp"
+
+namespace skein::sensing {
+namespace {
+
+using std::numbers::pi;
+
+Isometry3d at(double x, double y, double z, double yaw = 0.0, double pitch = 0.0) {
+  return Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(pitch, Vector3d::UnitY());
+}
+
+/// Of a segment and a point.
+double distance(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
+  const Vector3d ab = b - a;
+  const double part = ab.squaredNorm() > 0.0 ? std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0) : 0.0;
+  return (a + part * ab - p).norm();
+}
+
+}  // namespace
+
+std::vector<Flight> flights() {
+  return {
+      {"Still", 8.0, [](double) { return at(0, 0, 0); }},
+      {"HoveringInWind", 60.0,
+       [](double t) {
+         return at(0.04 * std::sin(0.7 * t), 0.04 * std::sin(1.1 * t), 0.03 * std::sin(0.9 * t),
+                   0.01 * std::sin(0.3 * t), 0.006 * std::sin(2.1 * t));
+       }},
+      {"Turning", 24.0, [](double t) { return at(0, 0, 0, 0.2 * t); }},
+      {"Creeping", 60.0, [](double t) { return at(0.1 * t, 0, 0); }},
+      {"AlongALine", 20.0, [](double t) { return at(2.0 * t, 0, 0, 0, 0.03 * std::sin(t)); }},
+      {"InACircle", 40.0,
+       [](double t) {
+         const double a = 2.0 * t / 15.0;
+         return at(15.0 * std::cos(a), 15.0 * std::sin(a), 5.0 * std::sin(0.7 * a), a, 0.05 * std::sin(3.0 * t));
+       }},
+  };
+}
+
+SensedSpace::SensedSpace(const Flight& flight, double servo_phase_s, int every, double range_m)
+    : map_([&] {
+        agent::WorldMap::Config config;
+        config.evidence_range_m = range_m;
+        return config;
+      }()) {
+  const double half_fov = 0.5 * lidar_.vertical_fov_deg * kRadPerDeg;
+  for (int ring = 0; ring < lidar_.rings; ++ring) {
+    const double elevation = half_fov * (2.0 * ring / (lidar_.rings - 1) - 1.0);
+    for (int column = 0; column < lidar_.columns; ++column) {
+      const double azimuth = pi * (2.0 * column / lidar_.columns - 1.0);
+      beams_L_.emplace_back(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                            std::sin(elevation));
+    }
+  }
+  agent::RepeatedScans repeated_scans(agent::FreeCriterion().member_width_m);
+  std::vector<agent::Beam> beams;
+  const double period_s = 1.0 / lidar_.rate_hz;
+  for (int number = 0; number * period_s < flight.duration_s; number += every) {
+    const double t = number * period_s;
+    const Isometry3d X_WL = flight.X_WB(t) * Eigen::Translation3d(sim::kLidarServo_p_BS) *
+                            Eigen::AngleAxisd(sim::servo_angle(lidar_, t + servo_phase_s), Vector3d::UnitX());
+    scans_.push_back(X_WL);
+    inverse_.push_back(X_WL.inverse());
+    const agent::RepeatedScans::Repeated repeated = repeated_scans.ask(X_WL);
+    beams.clear();
+    for (const Vector3d& beam_L : beams_L_) {
+      const Eigen::Vector3f direction_W = (X_WL.linear() * beam_L).cast<float>();
+      if (repeated(direction_W)) continue;
+      beams.push_back({X_WL.translation(), direction_W, static_cast<float>(lidar_.range_max_m), false});
+    }
+    map_.insert(beams);
+  }
+}
+
+double SensedSpace::distance_to_route_m(const Vector3d& p_W) const {
+  double nearest = std::numeric_limits<double>::max();
+  for (const Isometry3d& X_WL : scans_) nearest = std::min(nearest, (X_WL.translation() - p_W).norm());
+  return nearest;
+}
+
+/// Goes along the member in steps of a quarter of a beam's spacing, and asks the beams about it.
+bool SensedSpace::meets(std::size_t scan, const Vector3d& from_W, const Vector3d& to_W, double width_m) const {
+  const Vector3d a = inverse_[scan] * from_W, b = inverse_[scan] * to_W;
+  const double length = (b - a).norm();
+  const Vector3d u = (b - a) / length;
+  const double half_fov = 0.5 * lidar_.vertical_fov_deg * kRadPerDeg;
+  for (double s = 0.0; s <= length;) {
+    const Vector3d p = a + s * u;
+    const double r = p.norm(), elevation = std::asin(p.z() / r), above = std::abs(elevation) - half_fov;
+    if (above > width_m / r) {  // no ring comes here; none does for as long as this
+      s += std::max(0.01, 0.9 * r * above);
+      continue;
+    }
+    const int ring = std::clamp(static_cast<int>(std::lround(0.5 * (lidar_.rings - 1) * (elevation / half_fov + 1.0))),
+                                0, lidar_.rings - 1);
+    const auto nearest = static_cast<int>(std::lround(0.5 * lidar_.columns * (std::atan2(p.y(), p.x()) / pi + 1.0)));
+    for (const int step : {0, -1, 1}) {
+      const int column = (nearest + step + lidar_.columns) % lidar_.columns;
+      const Vector3d& beam = beams_L_[static_cast<std::size_t>(ring * lidar_.columns + column)];
+      // Where member and beam are nearest to each other.
+      const double along = beam.dot(u), apart = 1.0 - along * along;
+      const double on_member = apart < 1e-12 ? 0.0 : std::clamp((along * a.dot(beam) - a.dot(u)) / apart, 0.0, length);
+      const Vector3d q = a + on_member * u;
+      const double on_beam = std::clamp(q.dot(beam), 0.0, lidar_.range_max_m);
+      if ((on_beam * beam - q).norm() < 0.5 * width_m) return true;
+    }
+    s += std::max(0.01, 0.0035 * r);
+  }
+  return false;
+}
+
+bool SensedSpace::saw(const Member& member, const Vector3d& a_W, const Vector3d& b_W, double reach_m) const {
+  double low = member.length_m, high = -member.length_m;
+  constexpr int kParts = 80;
+  for (int part = 0; part <= kParts; ++part) {
+    const double s = (static_cast<double>(part) / kParts - 0.5) * member.length_m;
+    if (distance(a_W, b_W, member.p_W + s * member.direction_W) > reach_m) continue;
+    low = std::min(low, s);
+    high = std::max(high, s);
+  }
+  if (high <= low) return false;
+  const Vector3d from_W = member.p_W + low * member.direction_W, to_W = member.p_W + high * member.direction_W;
+  // In an order in which one scan is far from the next: most members are seen by one of the first that are asked.
+  const std::size_t count = scans_.size(), stride = 37;
+  for (std::size_t i = 0, scan = 0; i < count; ++i, scan += stride) {
+    const std::size_t one = count % stride == 0 ? i : scan % count;
+    if ((scans_[one].translation() - member.p_W).norm() > lidar_.range_max_m + member.length_m) continue;
+    if (meets(one, from_W, to_W, member.width_m)) return true;
+  }
+  return false;
+}
+
+Vector3d drawn_direction(RandomStream& random) {
+  for (;;) {
+    const Vector3d v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    if (const double norm = v.norm(); norm > 0.01 && norm <= 1.0) return v / norm;
+  }
+}
+
+Member drawn_member(RandomStream& random, const Vector3d& a_W, const Vector3d& b_W) {
+  Member member;
+  const double reach = 0.5 * member.length_m + kBodyRadiusM;
+  const Vector3d low = a_W.cwiseMin(b_W) - Vector3d::Constant(reach),
+                 high = a_W.cwiseMax(b_W) + Vector3d::Constant(reach);
+  for (;;) {
+    member.direction_W = drawn_direction(random);
+    for (int axis = 0; axis < 3; ++axis) member.p_W[axis] = random.uniform(low[axis], high[axis]);
+    constexpr int kParts = 40;
+    for (int part = 0; part <= kParts; ++part) {
+      const double s = (static_cast<double>(part) / kParts - 0.5) * member.length_m;
+      if (distance(a_W, b_W, member.p_W + s * member.direction_W) < kBodyRadiusM) return member;
+    }
+  }
+}
+
+}  // namespace skein::sensing

@@ -1,0 +1,75 @@
+// When a place may be called free: the one criterion, derived and not tuned.
+//
+// The question. A member (a wire, a lattice bar, a branch, the edge of a slot) of thickness w, at a place and an angle
+// that are drawn evenly, crosses the tube that a UAV's body is about to sweep. The LiDAR has seen it if a beam met it
+// within kHaloM of that tube. With which probability P has it not?
+//
+// Beams along the unit vector b, rho of them through each square metre across b, meet a member along the unit vector u
+// in w rho |sin(b, u)| places a metre: the area of its silhouette times their density. If beams are strewn evenly, all
+// of them miss m metres of it with probability exp(-sum K_i |sin(b_i, u)|), K_i = w m rho_i. P is its mean over all u.
+// Two bounds hold whatever the directions are:
+//
+//   P <= G(K), K = sum K_i, with G(K) = integral over [0, pi/2] of exp(-K sin a) sin a da, about 1 / K^2.
+//        What beams of a single direction leave unseen; for exp is convex, and their mean is below its mean (Jensen).
+//
+//   P <= exp(-a) D(b - a), with D(c) = integral over [0, 1] of exp(-c (1 - x^2)) dx, about 1 / 2c.
+//        For |sin| >= sin^2, and sum K_i sin^2(b_i, u) = u' (K I - M) u with M = sum K_i b_i b_i'. a <= b are the two
+//        least eigenvalues of K I - M; the third counts as b.
+//
+// The first is what a UAV that hovers has: 375 beams a square metre, all of a sweep of the servo at 7 m.
+// The second is what it has that has looked from several places: 120 are enough if they come from all sides.
+//
+// Both take beams as strewn at random. Those of one place stand in a lattice (rings are 2 degrees apart, columns 0.8),
+// which leaves less: where K sin a < 1, a share of 1 - K sin a in the place of exp(-K sin a), so that G is 1 / 6 K^2.
+// Lattices of many places come near to what is random. That members are seen, those along lines of a lattice among them,
+// is asked of drawn ones, by distance (tests/sensing). Beams that repeat each other count once (repeated_scans.hpp).
+// Units: metres.   Pure; threads: any.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/types.hpp"
+
+namespace skein::agent {
+
+inline constexpr double kHaloM = 1.0;  ///< about a body's tube, all must be free
+
+/// What must not stand unseen in a place that is called free.
+struct FreeCriterion {
+  double member_width_m = 0.05;
+  /// Of a member of 2 m that touches a body's tube (of radius 0.63 m), so much lies within kHaloM of it: the m of which
+  /// 1 / m^2 is the mean over drawn ones.
+  double member_in_halo_m = 1.69;
+  double unseen_p = 1e-3;  ///< with which probability it may have been missed
+};
+
+/// Beams that have passed a window across an axis of W: K and M of above, as whole numbers, so that their order does
+/// not matter. One fits into a processor's vector.
+class alignas(16) BeamEvidence {
+ public:
+  static constexpr int kMostBeams = 250;  ///< more are not counted: they would not fit
+
+  BeamEvidence() = default;
+  /// A beam. @param direction  a unit vector; its sign does not matter.   @param across  axis of the window: 0, 1 or 2.
+  BeamEvidence(const Eigen::Vector3f& direction, int across);
+
+  void add(const BeamEvidence& other) {
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] = static_cast<std::int16_t>(sums_[i] + other.sums_[i]);
+  }
+  int beams() const { return sums_[6]; }
+
+  /// P of above, its lower bound.
+  /// @param window_m2  area of the window.
+  double unseen_probability(double window_m2, const FreeCriterion& criterion) const;
+
+ private:
+  /// xx, yy, zz, xy, xz, yz of the beams' sum of rho b b', in 1/kUnit; their number; and nothing.
+  std::array<std::int16_t, 8> sums_ = {};
+};
+
+/// G and D of above, from above. @param k, c  >= 0.
+double unseen_along_one_direction(double k);
+double unseen_about_an_axis(double c);
+
+}  // namespace skein::agent

@@ -1,0 +1,97 @@
+#include "uav_agent/maps/free_evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/random_stream.hpp"
+
+namespace skein::agent {
+namespace {
+
+Vector3d drawn_line(RandomStream& random) {
+  return Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+}
+
+int nearest_axis(const Vector3d& direction) {
+  int axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
+TEST(UnseenMembers, TablesAreAboveTheIntegralsAndNearToThem) {
+  for (double k = 0.0; k < 300.0; k = k * 1.13 + 0.07) {
+    double g = 0.0, d = 0.0;
+    constexpr int kParts = 200'000;
+    for (int part = 0; part < kParts; ++part) {
+      const double x = (part + 0.5) / kParts, sine = std::sin(0.5 * std::numbers::pi * x);
+      g += 0.5 * std::numbers::pi * std::exp(-k * sine) * sine / kParts;
+      d += std::exp(-k * (1.0 - x * x)) / kParts;
+    }
+    EXPECT_GE(unseen_along_one_direction(k), g * (1.0 - 1e-6)) << k;
+    EXPECT_LE(unseen_along_one_direction(k), 1.01 * g) << k;
+    EXPECT_GE(unseen_about_an_axis(k), d * (1.0 - 1e-6)) << k;
+    EXPECT_LE(unseen_about_an_axis(k), 1.01 * d) << k;
+  }
+}
+
+/// Beams from one place, from two, from along a line and from everywhere: what the formula of the header says of members
+/// of drawn directions is never more than the bound.
+TEST(UnseenMembers, TheBoundHoldsWhereverBeamsComeFrom) {
+  const FreeCriterion criterion;
+  constexpr double kWindowM2 = 0.25;
+  for (std::uint64_t world = 0; world < 60; ++world) {
+    RandomStream random(world, "unseen", 0);
+    const std::vector<Vector3d> places = {drawn_line(random), drawn_line(random), drawn_line(random)};
+    const int beams = static_cast<int>(random.uniform(5.0, 120.0));
+    BeamEvidence evidence;
+    std::vector<std::pair<Vector3d, double>> all;  // direction, density
+    for (int beam = 0; beam < beams; ++beam) {
+      const double part = random.uniform();
+      const std::vector<Vector3d> kinds = {places[0], part < 0.5 ? places[0] : places[1],
+                                           (places[0] + 4.0 * part * places[1]).normalized(), drawn_line(random)};
+      const Vector3d direction = kinds[world % 4];
+      const int axis = nearest_axis(direction);
+      evidence.add(BeamEvidence((part < 0.3 ? -direction : direction).cast<float>(), axis));
+      all.emplace_back(direction, 1.0 / (kWindowM2 * std::abs(direction[axis])));
+    }
+    ASSERT_EQ(evidence.beams(), beams);
+    double unseen = 0.0, unseen2 = 0.0;
+    constexpr int kMembers = 4000;
+    for (int member = 0; member < kMembers; ++member) {
+      const Vector3d u = drawn_line(random);
+      double met = 0.0;
+      for (const auto& [direction, density] : all) met += density * direction.cross(u).norm();
+      const double p = std::exp(-met * criterion.member_width_m * criterion.member_in_halo_m);
+      unseen += p / kMembers;
+      unseen2 += p * p / kMembers;
+    }
+    const double error = std::sqrt(unseen2 / kMembers);
+    EXPECT_GE(evidence.unseen_probability(kWindowM2, criterion), 0.97 * unseen - 4.0 * error) << world;
+  }
+}
+
+TEST(UnseenMembers, BeamsOfAllSidesProveWithFewerThanBeamsOfOne) {
+  const auto beams_needed = [](bool all_sides) {
+    RandomStream random(1, "needed", 0);
+    BeamEvidence evidence;
+    const FreeCriterion criterion;
+    while (evidence.unseen_probability(0.25, criterion) > criterion.unseen_p) {
+      const Vector3d direction = all_sides ? drawn_line(random) : Vector3d::UnitX();
+      evidence.add(BeamEvidence(direction.cast<float>(), nearest_axis(direction)));
+    }
+    return evidence.beams();
+  };
+  // 375 a square metre of one direction, in a window of a quarter of one; oblique beams count for more.
+  EXPECT_NEAR(beams_needed(false), 94, 2);
+  EXPECT_LT(beams_needed(true), 40);
+}
+
+TEST(UnseenMembers, WithoutBeamsEverythingIs) {
+  EXPECT_NEAR(BeamEvidence().unseen_probability(0.25, FreeCriterion()), 1.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace skein::agent
