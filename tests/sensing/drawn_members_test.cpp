@@ -77,8 +77,8 @@ TEST_P(DrawnMembers, AreSeenWhereATubeIsFree) {
 INSTANTIATE_TEST_SUITE_P(Flights, DrawnMembers, testing::Range<std::size_t>(0, flights().size()),
                          [](const auto& flight) { return flights()[flight.param].name; });
 
-/// The worst that can be drawn: a wire along a line of beams, between it and the next. Lines are half a degree apart, so
-/// that up to 5.7 m no wire of 5 cm fits between two.
+/// The worst that can be drawn: a wire along a line of beams, between it and the next. Lines are half a degree apart:
+/// up to 5.7 m no wire of 5 cm fits between two.
 TEST(WiresAlongALineOfBeams, AreSeenUpToFiveMetres) {
   const SensedSpace space(flights().front(), kServoPhaseS, 1, 40.0);
   RandomStream random(3, "wires", 0);
@@ -100,8 +100,8 @@ TEST(WiresAlongALineOfBeams, AreSeenUpToFiveMetres) {
   EXPECT_GT(drawn, 5000u);
 }
 
-/// A UAV that hovers for a sweep, and the tubes of ten metres straight away from it. Half of their space is called free;
-/// of their length, where all across it must be free, a little less: 0.45.
+/// A UAV that hovers for a sweep, and the tubes of ten metres straight away from it. Half of their space is free to the
+/// map; of their length, where all across it must be free, a little less: 0.45.
 TEST(OneSweep, ProvesHalfOfTenMetres) {
   for (const double phase_s : {3.0, 0.5, 5.0}) {  // either way of the servo
     const SensedSpace space(flights().front(), phase_s, 1, 40.0);

@@ -21,8 +21,8 @@
 //
 // Both take beams as strewn at random. Those of one place stand in a lattice (rings are 2 degrees apart, columns 0.8),
 // which leaves less: where K sin a < 1, a share of 1 - K sin a in the place of exp(-K sin a), so that G is 1 / 6 K^2.
-// Lattices of many places come near to what is random. That members are seen, those along lines of a lattice among them,
-// is asked of drawn ones, by distance (tests/sensing). Beams that repeat each other count once (repeated_scans.hpp).
+// Lattices of many places come near to what is random. tests/sensing draws members, and asks by distance how many are
+// not seen, those along lines of a lattice apart. Beams that repeat each other count once (repeated_scans.hpp).
 // Units: metres.   Pure; threads: any.
 #pragma once
 
