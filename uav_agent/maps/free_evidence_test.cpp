@@ -37,8 +37,8 @@ TEST(UnseenMembers, TablesAreAboveTheIntegralsAndNearToThem) {
   }
 }
 
-/// Beams from one place, from two, from along a line and from everywhere: of members of drawn directions, the formula of
-/// the header never leaves more than the bound.
+/// Beams from one place, from two, from along a line and from everywhere: of members of drawn directions, the formula
+/// of the header never leaves more than the bound.
 TEST(UnseenMembers, TheBoundHoldsWhereverBeamsComeFrom) {
   const FreeCriterion criterion;
   constexpr double kWindowM2 = 0.25;
