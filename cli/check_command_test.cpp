@@ -40,6 +40,13 @@ TEST_F(CheckCommand, FaultFilesAreCheckedWithAScenario) {
   EXPECT_EQ(check(options), kExitDone);
 }
 
+TEST_F(CheckCommand, FaultFilesNeedNoFilesOfTheScene) {
+  CheckOptions options{{file("f.yaml", "faults: [{at_s: 10, blackout: changi}]")}, {}, {}};
+  options.scenario = "mbs";
+  options.assets = programs_.dir() / "nothing here";
+  EXPECT_EQ(check(options), kExitDone) << "only its fleet and its times matter";
+}
+
 TEST_F(CheckCommand, FaultTestsNameTheirScenario) {
   const std::string faults = "run: {scenario: ./small.yaml}\nfaults: [{at_s: 10, blackout: alpha}]\n";
   const std::string test = file("t.yaml", faults + "expect: {score: {at_least: 1}}");

@@ -113,15 +113,15 @@ TEST_F(RunSignalsTest, CapturesAreCountedWhenTheyAreTakenDeliveredAndAcknowledge
       {2, "captured", "a", "0"}, {4, "captured", "a", "1"}, {6, "captured", "b", "0"}, {12, "released", "a", "0"}};
   run_.captures = {capture("a", 0, 0.09, 0.5, 1), capture("a", 0, 0.09, 0.5, 2),
                    capture("a", 1, 0.2, std::nullopt, 1, 0.8), capture("b", 0, 0.3, 0.6, 1, 0.3)};
-  run_.scores = {{0.0, 0.0, 0.0}, {0.5, 1.0, 2.0}};
+  run_.scores = {{0.0, 0.0, 0.0}, {0.5, 1.0, 2.0}, {2.0, 1.5, 3.0}, {2.1, 9.0, 9.0}};  // the last is beyond the end
   EXPECT_EQ(number("captures"), steps({{2, 1}, {4, 2}, {6, 3}}));
   EXPECT_EQ(number("captures(b)"), steps({{6, 1}}));
   EXPECT_EQ(number("held(a)"), steps({{2, 1}, {4, 2}, {12, 1}}));
   EXPECT_EQ(number("delivered"), steps({{10, 1}, {12, 2}}));
   EXPECT_EQ(number("acknowledged"), steps({{12, 1}}));
   EXPECT_EQ(number("acknowledged_kept"), steps({{12, 1}}));
-  EXPECT_EQ(number("score"), steps({{10, 1}}));
-  EXPECT_EQ(number("points"), steps({{10, 2}}));
+  EXPECT_EQ(number("score"), steps({{10, 1}, {40, 1.5}}));
+  EXPECT_EQ(number("points"), steps({{10, 2}, {40, 3}}));
   EXPECT_EQ(number("earned"), steps({{2, 1}, {4, 1.3}}));
   run_.captures[0].delivered_at_s = run_.captures[1].delivered_at_s = 0.65;
   EXPECT_EQ(number("acknowledged_kept"), steps({})) << "acknowledged before it was there";

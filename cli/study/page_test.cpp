@@ -177,6 +177,48 @@ TEST(StudyPage, TablesSayWhatTheFlightsSay) {
   }
 }
 
+/// In each scene's table all planners with the best median, and nobody else; the first UAV of a planner begins a group.
+TEST(StudyPage, TheBestIsMarkedAndPlannersAreApart) {
+  std::mt19937 random(7);
+  std::size_t marked = 0, groups = 0;
+  for (int trial = 0; trial < 16; ++trial) {
+    const Study study = odd_study(random, false);
+    const std::string page = page_of(study, false);
+    pugi::xml_document document;
+    document.load_buffer(page.data(), page.size());
+    const auto tables = document.select_nodes("//table[@data-table='scene']/tbody");
+    ASSERT_EQ(tables.size(), study.scenarios.size());
+    for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
+      std::vector<double> medians;
+      for (std::size_t p = 0; p < study.planners.size(); ++p) {
+        std::vector<double> scores;
+        for (const FlightEntry* flight : study.cell(p, s)) scores.push_back(flight->figures->score);
+        medians.push_back(scores.empty() ? -1.0 : spread_of(scores).median);
+      }
+      const double best = *std::ranges::max_element(medians);
+      std::size_t p = 0;
+      for (const pugi::xml_node& row : tables[s].node().children("tr")) {
+        const bool is_best = best > 0.0 && medians.at(p++) == best;
+        EXPECT_EQ(row.select_nodes("td[@class='best']").size(), is_best ? 1u : 0u) << p;
+        marked += is_best ? 1 : 0;
+      }
+    }
+    for (const auto& table : document.select_nodes("//table[@data-table='uavs']/tbody")) {
+      std::string former;
+      for (const pugi::xml_node& row : table.node().children("tr")) {
+        std::string planner;
+        for (const auto& text : row.child("td").select_nodes(".//text()")) planner += text.node().value();
+        const bool begins = !former.empty() && planner != former;
+        EXPECT_EQ(std::string(row.attribute("class").value()), begins ? "group" : "") << planner;
+        groups += begins ? 1 : 0;
+        former = planner;
+      }
+    }
+  }
+  EXPECT_GT(marked, 0u);
+  EXPECT_GT(groups, 0u);
+}
+
 TEST(StudyPage, RowsOfUavsAndPairsSayWhatTheFlightsSay) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 16; ++trial) {
