@@ -1,7 +1,6 @@
 // Fewer datagrams: what one thread writes in a row to one destination leaves as one RTPS message.
 // Cyclone DDS 0.10 packs the samples of one writer only, and in lock-step each writer has one sample a step; sending,
-// receiving and waking the receiver's thread for each of them is what a step costs most. RTPS lets any submessages of
-// one participant share a message, so every vendor can read the result.
+// receiving and waking the receiver's thread for each of them is what a step costs most. Every vendor can read the result.
 #pragma once
 
 // Before all other headers of Cyclone, see there.
@@ -12,7 +11,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
+
+#include "bus/cyclonedds/packed_messages.hpp"
 
 namespace skein::bus::cyclonedds {
 
@@ -20,7 +22,7 @@ namespace skein::bus::cyclonedds {
 class Packing {
  public:
   /// @param largest  datagram, in bytes
-  explicit Packing(std::size_t largest) : largest_(largest) {}
+  explicit Packing(std::size_t largest) : messages_(largest) {}
   ~Packing() { release(); }
   Packing(const Packing&) = delete;
   Packing& operator=(const Packing&) = delete;
@@ -34,22 +36,22 @@ class Packing {
   void release();
 
  private:
-  struct Datagram {
-    ddsi_tran_conn* connection;
-    ddsi_locator_t destination;
-    std::vector<std::uint8_t> bytes;
+  struct Target {
+    ddsi_tran_conn* connection = nullptr;
+    ddsi_locator_t locator = {};
+
+    bool operator==(const Target& other) const {
+      return connection == other.connection && std::memcmp(&locator, &other.locator, sizeof locator) == 0;
+    }
   };
 
   static ssize_t write(ddsi_tran_conn_t connection, const ddsi_locator_t* destination, std::size_t parts,
                        const ddsrt_iovec_t* vectors, std::uint32_t flags);
-  void add(ddsi_tran_conn_t connection, const ddsi_locator_t& destination, std::size_t parts,
-           const ddsrt_iovec_t* vectors, std::size_t size);
-  static void send(Datagram& datagram);
+  static void send(const Target& target, std::vector<std::uint8_t>& bytes);
 
-  const std::size_t largest_;
   const ddsi_domaingv* domain_ = nullptr;
   bool holding_ = false;
-  std::vector<Datagram> datagrams_;  ///< emptied, not erased: destinations are few and stay
+  PackedMessages<Target> messages_;
 };
 
 }  // namespace skein::bus::cyclonedds

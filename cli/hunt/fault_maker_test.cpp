@@ -92,6 +92,23 @@ TEST_F(FaultMakers, AllIsOverInTimeButSomeDeaths) {
   EXPECT_LT(3 * deaths, kills);
 }
 
+/// A program that is killed for good has no end; what becomes of it when it is varied has one, unless it is such a death.
+TEST_F(FaultMakers, VariationsOfADeathForGoodEndInTime) {
+  const FaultMaker maker(towers_, space_);
+  const std::vector<Fault> death = {{.at_s = 20.0, .until_s = std::nullopt, .action = Kill{towers_.uav_names()[0]}}};
+  int others = 0;
+  for (std::uint64_t i = 0; i < kSchedules; ++i) {
+    RandomStream draw(8, "test", i);
+    for (const Fault& fault : maker.varied(death, {}, draw)) {
+      if (!fault.until_s) continue;
+      ++others;
+      EXPECT_GE(*fault.until_s - fault.at_s, 0.1 - 1e-9) << fault_line(fault);
+      EXPECT_LE(*fault.until_s, space_.heal_by_s + 1e-9) << fault_line(fault);
+    }
+  }
+  EXPECT_GT(others, 50);
+}
+
 TEST_F(FaultMakers, EveryKindIsDrawnOrOnlyThoseThatAreWanted) {
   std::set<std::string> seen;
   each([&](const std::vector<Fault>& faults) {

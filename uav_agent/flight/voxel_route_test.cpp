@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/random_stream.hpp"
+
 namespace skein::agent {
 namespace {
 
@@ -62,6 +64,36 @@ TEST_F(VoxelRoute, ClaimedCubesAreNotEntered) {
   EXPECT_FALSE(find_voxel_route(grid_, space(), here_, there_, claimed)) << "the goal itself";
   claimed = {*grid_.at(here_)};
   EXPECT_TRUE(find_voxel_route(grid_, space(), here_, there_, claimed)) << "where it is already";
+}
+
+/// Cubes that the grid alone says are occupied: others told of them. Only the goal's may be entered, to be near it.
+TEST_F(VoxelRoute, OccupiedCubesAreNotEnteredButTheGoals) {
+  int found = 0;
+  for (std::uint64_t world = 0; world < 60; ++world) {
+    RandomStream random(world, "voxel_route", 0);
+    VoxelGrid grid = grid_;
+    const Id from = *grid.at(here_), to = *grid.at(there_);
+    for (Id id = 0; id < grid.count(); ++id) {
+      if (random.uniform() < 0.15 && id != from && id != to) grid.raise(id, VoxelState::occupied);
+    }
+    if (world % 2 == 0) grid.raise(to, VoxelState::occupied);
+    const auto route = find_voxel_route(grid, space(), here_, there_);
+    if (!route) continue;
+    ++found;
+    EXPECT_EQ(route->back(), there_);
+    Vector3d at = here_;
+    for (const Vector3d& corner : *route) {
+      grid.along(at, corner, [&](Id id) {
+        EXPECT_TRUE(id == from || id == to || grid.state(id) != VoxelState::occupied) << world;
+        return true;
+      });
+      at = corner;
+    }
+  }
+  EXPECT_GT(found, 20);
+  VoxelGrid grid = grid_;
+  grid.raise(*grid.at(there_), VoxelState::occupied);
+  EXPECT_TRUE(find_voxel_route(grid, space(), here_, there_));
 }
 
 }  // namespace
