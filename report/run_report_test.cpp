@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include <regex>
 
 #include "core/types.hpp"
@@ -56,6 +59,39 @@ TEST_P(OddRuns, GiveASoundPage) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Drawn, OddRuns, testing::Range(1U, 9U));
+
+/// What the script colours a point by: who delivered its best picture, the first of equals.
+TEST(PageData, NamesWhoDeliveredTheBestPictureOfEachPoint) {
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 40; ++trial) {
+    RunData run;
+    run.uavs = {"a", "b", "c"};
+    run.explorer = {true, false, false};
+    run.points.resize(6);
+    run.tracks.resize(run.uavs.size());
+    run.maps.resize(run.uavs.size());
+    for (std::uint64_t i = 0; i < 30; ++i) {
+      RunCapture capture{random() % 3, i, 0.5 * static_cast<double>(random() % 40),
+                         kDetected * (0.5 + 0.5 * static_cast<double>(random() % 4)), random() % 7};
+      if (random() % 4 != 0) capture.delivered_at_s = capture.time_s + 1.0;
+      capture.voided = random() % 8 == 0;
+      run.captures.push_back(capture);
+    }
+    const Json best = page_data(RunPage(run)).at("best");
+    ASSERT_EQ(best.size(), 2 * run.points.size());
+    for (std::size_t point = 0; point < run.points.size(); ++point) {
+      std::vector<RunCapture> all;
+      for (const RunCapture& capture : run.captures) {
+        const bool counts = capture.delivered_at_s && !capture.voided && capture.q >= kDetected;
+        if (capture.point == point && counts) all.push_back(capture);
+      }
+      std::ranges::stable_sort(
+          all, [](const RunCapture& a, const RunCapture& b) { return a.q != b.q ? a.q > b.q : a.time_s < b.time_s; });
+      EXPECT_EQ(best[2 * point], all.empty() ? -1 : static_cast<int>(all.front().uav));
+      EXPECT_EQ(best[2 * point + 1], all.empty() ? 0L : std::lround(1e3 * all.front().time_s));
+    }
+  }
+}
 
 TEST(RunReport, AFolderWithoutAResultIsTheUsersMistake) {
   const Scratch scratch;

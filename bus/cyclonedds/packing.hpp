@@ -1,7 +1,7 @@
 // Fewer datagrams: what one thread writes in a row to one destination leaves as one RTPS message.
 // Cyclone DDS 0.10 packs the samples of one writer only, and in lock-step each writer has one sample a step; sending,
-// receiving and waking the receiver's thread for each of them is what a step costs most. Every vendor can read the result.
-#pragma once
+// receiving and waking the receiver's thread for each of them is what a step costs most. Every vendor can read the
+// result.
 
 // Before all other headers of Cyclone, see there.
 #include "bus/cyclonedds/raw_sertype.hpp"

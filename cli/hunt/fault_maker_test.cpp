@@ -92,7 +92,7 @@ TEST_F(FaultMakers, AllIsOverInTimeButSomeDeaths) {
   EXPECT_LT(3 * deaths, kills);
 }
 
-/// A program that is killed for good has no end; what becomes of it when it is varied has one, unless it is such a death.
+/// A program that is killed for good has no end. What becomes of it when it is varied has one, or is such a death.
 TEST_F(FaultMakers, VariationsOfADeathForGoodEndInTime) {
   const FaultMaker maker(towers_, space_);
   const std::vector<Fault> death = {{.at_s = 20.0, .until_s = std::nullopt, .action = Kill{towers_.uav_names()[0]}}};
