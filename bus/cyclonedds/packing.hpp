@@ -2,6 +2,7 @@
 // Cyclone DDS 0.10 packs the samples of one writer only, and in lock-step each writer has one sample a step; sending,
 // receiving and waking the receiver's thread for each of them is what a step costs most. Every vendor can read the
 // result.
+#pragma once
 
 // Before all other headers of Cyclone, see there.
 #include "bus/cyclonedds/raw_sertype.hpp"
