@@ -54,7 +54,9 @@ class alignas(16) BeamEvidence {
   /// A beam. @param direction  a unit vector; its sign does not matter.   @param across  axis of the window: 0, 1 or 2.
   BeamEvidence(const Eigen::Vector3f& direction, int across);
 
+  /// Nothing once there are kMostBeams.
   void add(const BeamEvidence& other) {
+    if (beams() >= kMostBeams) return;
     for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] = static_cast<std::int16_t>(sums_[i] + other.sums_[i]);
   }
   int beams() const { return sums_[6]; }

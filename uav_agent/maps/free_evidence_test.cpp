@@ -89,6 +89,22 @@ TEST(UnseenMembers, BeamsOfAllSidesProveWithFewerThanBeamsOfOne) {
   EXPECT_LT(beams_needed(true), 40);
 }
 
+TEST(UnseenMembers, NoNumberOfBeamsIsTooMany) {
+  const FreeCriterion criterion{.member_width_m = 0.005, .member_in_halo_m = 1.0, .unseen_p = 1e-3};  // a thin wire
+  RandomStream random(2, "many", 0);
+  BeamEvidence evidence;
+  double before = 1.0 + 1e-9;
+  for (int beam = 0; beam < 2000; ++beam) {
+    const Vector3d direction = drawn_line(random);
+    evidence.add(BeamEvidence(direction.cast<float>(), nearest_axis(direction)));
+    const double now = evidence.unseen_probability(0.25, criterion);
+    ASSERT_GT(now, 0.0) << beam;
+    ASSERT_LE(now, before + 0.01) << beam;
+    before = now;
+  }
+  EXPECT_EQ(evidence.beams(), BeamEvidence::kMostBeams);
+}
+
 TEST(UnseenMembers, WithoutBeamsEverythingIs) {
   EXPECT_NEAR(BeamEvidence().unseen_probability(0.25, FreeCriterion()), 1.0, 1e-9);
 }
