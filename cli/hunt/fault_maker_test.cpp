@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <set>
 
 #include "cli/hunt/trial.hpp"
@@ -18,6 +19,16 @@ namespace skein::cli {
 namespace {
 
 constexpr std::uint64_t kSchedules = 400;
+
+/// How long it is in force, or would be once its condition holds.
+double length_s(const Fault& fault) { return fault.waits ? fault.for_s.value() : fault.until_s.value() - fault.at_s; }
+
+/// A vehicle that falls, or is lied to about where it is, is no matter of its planner for long.
+double longest_s(const Fault& fault) {
+  const std::string kind = fault_kind(fault);
+  if (kind == "motor_failure") return 2.0;
+  return kind.starts_with("odometry_") ? 12.0 : 40.0;
+}
 
 class FaultMakers : public testing::Test {
  protected:
@@ -107,6 +118,53 @@ TEST_F(FaultMakers, VariationsOfADeathForGoodEndInTime) {
     }
   }
   EXPECT_GT(others, 50);
+}
+
+TEST_F(FaultMakers, NoneLastsLongerThanItsKindMay) {
+  std::map<std::string, double> most_s;
+  each([&](const std::vector<Fault>& faults) {
+    for (const Fault& fault : faults) {
+      if (!fault.until_s) continue;
+      EXPECT_LE(length_s(fault), longest_s(fault) + 1e-9) << fault_line(fault);
+      double& most = most_s[fault_kind(fault)];
+      most = std::max(most, length_s(fault) / longest_s(fault));
+    }
+  });
+  for (const std::string& kind : fault_kinds()) EXPECT_GT(most_s[kind], 0.5) << kind << " is never long";
+}
+
+/// A search goes on from any length to shorter and to longer ones, up to the limits: it is stuck with none.
+TEST_F(FaultMakers, AVariationMayLastShorterOrLonger) {
+  const FaultMaker maker(towers_, space_);
+  const std::string uav = towers_.uav_names()[0];
+  const std::vector<FaultAction> actions = {Pause{uav}, MotorFailure{uav, 1, 0.8}, OdometryFreeze{uav}};
+  // No other fault is drawn to begin then, so one that begins there is the same with another length.
+  constexpr double kBegin_s = 0.5;
+  for (const FaultAction& action : actions) {
+    for (const bool waits : {false, true}) {
+      for (const double before_s : {0.1, 0.5, 2.0, 12.0, 40.0}) {
+        Fault fault{.at_s = kBegin_s, .until_s = kBegin_s + before_s, .action = action, .waits = waits};
+        if (before_s > longest_s(fault)) continue;
+        if (waits) {
+          fault.when = FaultCondition{"captures >= 1"};
+          fault.for_s = before_s;
+        }
+        double least_s = before_s, most_s = before_s;
+        for (std::uint64_t i = 0; i < kSchedules; ++i) {
+          RandomStream draw(9, "test", i);
+          const Fault varied = maker.varied({fault}, {}, draw).at(0);
+          if (varied.at_s != kBegin_s) continue;
+          least_s = std::min(least_s, length_s(varied));
+          most_s = std::max(most_s, length_s(varied));
+        }
+        const std::string what = fault_line(fault) + ", " + std::to_string(before_s) + " s";
+        EXPECT_GE(least_s, 0.1 - 1e-9) << what;
+        EXPECT_LE(most_s, longest_s(fault) + 1e-9) << what;
+        EXPECT_TRUE(before_s <= 0.1 || least_s < before_s - 0.05) << what << ": never shorter";
+        EXPECT_TRUE(before_s >= longest_s(fault) || most_s > before_s + 0.05) << what << ": never longer";
+      }
+    }
+  }
 }
 
 TEST_F(FaultMakers, EveryKindIsDrawnOrOnlyThoseThatAreWanted) {
