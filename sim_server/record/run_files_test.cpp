@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <sstream>
 
 #include "core/random_stream.hpp"
 #include "core/scenario_reader.hpp"
@@ -102,8 +104,10 @@ TEST_F(RunFilesTest, TheSceneHasItsBoxesAndPointsAsTheyStand) {
     scene.boxes.push_back(box);
     scene.points.push_back({.p_W = (3.0 * axis).cast<float>(), .n_W = axis.cast<float>()});
   }
+  scenario_.scene.meshes = {"/some/where/crane.stl", "hall.stl"};
   RunFiles(folder_, scenario_, RunDigest(scenario_.uav_names())).write_scene(scene);
   const auto json = nlohmann::json::parse(std::ifstream(folder_ / "scene.json"));
+  EXPECT_EQ(json["mesh"]["files"], nlohmann::json({"crane.stl", "hall.stl"})) << "no folder of this machine";
   ASSERT_EQ(json["boxes"].size(), scene.boxes.size());
   ASSERT_EQ(json["points"].size(), scene.points.size());
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
@@ -118,6 +122,72 @@ TEST_F(RunFilesTest, TheSceneHasItsBoxesAndPointsAsTheyStand) {
       for (int column = 0; column < 3; ++column) {
         EXPECT_EQ(json["boxes"][i]["rotation"][row][column], box.R_WO(row, column));
       }
+    }
+  }
+}
+
+TEST_F(RunFilesTest, TheReportNamesWhoWasLostWhatWasSeenAndWhatIsMissing) {
+  Scene scene;
+  scene.points.resize(3);
+  const Simulation simulation(scenario_, scene, 0);
+  RunSummary summary;
+  summary.lost = {{.name = "jurong", .step = 3, .tick = 400, .reason = "it ended"},
+                  {.name = "changi", .step = 5, .tick = 800, .reason = "killed", .back = Tick{1200}}};
+  StatusPipe nobody(-1);
+  RunFiles files(folder_, scenario_, RunDigest(scenario_.uav_names()));
+  std::filesystem::create_directory(folder_ / "scene.json");  // nothing can be written there
+  files.write_scene(scene);
+  files.note_unwritten("");
+  files.note_unwritten("the disk is full");
+  files.write_report(simulation, summary, nobody);
+  const auto report = nlohmann::json::parse(std::ifstream(folder_ / "sim_server.report.json"));
+  EXPECT_EQ(report["lost_members"], nlohmann::json::parse(R"([
+      {"member": "jurong", "step": 3, "time_s": 1.0, "reason": "it ended", "back_at_s": null},
+      {"member": "changi", "step": 5, "time_s": 2.0, "reason": "killed", "back_at_s": 3.0}])"));
+  EXPECT_EQ(report["points_total"], 3);
+  EXPECT_EQ(report["points_seen"], "000") << "nobody took a picture";
+  ASSERT_EQ(report["unwritten"].size(), 2u) << report["unwritten"];
+  EXPECT_NE(report["unwritten"][0].get<std::string>().find("scene.json"), std::string::npos) << report["unwritten"];
+  EXPECT_EQ(report["unwritten"][1], "the disk is full");
+}
+
+TEST_F(RunFilesTest, APoseHasAValueForEachColumn) {
+  const Simulation simulation(scenario_, {}, 0);
+  RunFiles files(folder_, scenario_, RunDigest(scenario_.uav_names()));
+  files.add_step(simulation, {.k = 0, .running = "r", .fields = {}});
+  StatusPipe nobody(-1);
+  files.write_report(simulation, {}, nobody);
+  std::ifstream in(folder_ / "trajectories.csv");
+  const auto fields_of = [&in] {
+    std::string line, field;
+    std::getline(in, line);
+    std::vector<std::string> fields;
+    for (std::istringstream rest(line); std::getline(rest, field, ',');) fields.push_back(field);
+    return fields;
+  };
+  const std::vector<std::string> columns = fields_of();
+  for (const UavIndex i : FirstUavs(simulation.size())) {
+    const std::vector<std::string> fields = fields_of();
+    ASSERT_EQ(fields.size(), columns.size());
+    const auto& [p, q, v, w] = simulation.uav(i).state;
+    const std::map<std::string, double> expected = {{"x", p.x()},
+                                                    {"y", p.y()},
+                                                    {"z", p.z()},
+                                                    {"qw", q.w()},
+                                                    {"qx", q.x()},
+                                                    {"qy", q.y()},
+                                                    {"qz", q.z()},
+                                                    {"vx", v.x()},
+                                                    {"vy", v.y()},
+                                                    {"vz", v.z()},
+                                                    {"alive", 1},
+                                                    {"time_s", 0},
+                                                    {"gimbal_pitch", simulation.uav(i).gimbal.pitch},
+                                                    {"gimbal_yaw", simulation.uav(i).gimbal.yaw}};
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto found = expected.find(columns[c]);
+      if (found == expected.end()) continue;  // its name, and how far away what it could hit is
+      EXPECT_NEAR(std::stod(fields[c]), found->second, 1e-4) << columns[c];
     }
   }
 }
