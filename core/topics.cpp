@@ -85,6 +85,7 @@ std::span<const TopicInfo> uav_topics() {
   static constexpr std::array kAll{kOdometry,
                                    kGimbal,
                                    kCloud,
+                                   kLidarServo,
                                    kSelfKeyframe,
                                    kNeighbourKeyframe,
                                    kNeighbourOdometry,

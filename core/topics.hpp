@@ -130,6 +130,9 @@ inline constexpr TopicInfo kGimbal{"/{id}/gimbal", "geometry_msgs/msg/TwistStamp
 inline constexpr TopicInfo kCloud{
     "/{id}/cloud_inW", "sensor_msgs/msg/PointCloud2", Direction::to_agent, kCloudDepth, "10 Hz", false, true,
     &kScanLayout};
+/// At the instant of each scan, whether anybody reads the scan or not.
+inline constexpr TopicInfo kLidarServo{
+    "/{id}/lidar_servo", "sensor_msgs/msg/JointState", Direction::to_agent, kStateDepth, "10 Hz", false, true};
 inline constexpr TopicInfo kSelfKeyframe{
     "/{id}/slf_kf_cloud", "sensor_msgs/msg/PointCloud2", Direction::to_agent, kCloudDepth, "on keyframe", false, true,
     &kScanLayout};
@@ -323,6 +326,7 @@ std::span<const TopicInfo> lockstep_topics();
 inline WireTopic odometry(std::string_view id) { return wire(kOdometry, id); }
 inline WireTopic gimbal(std::string_view id) { return wire(kGimbal, id); }
 inline WireTopic cloud(std::string_view id) { return wire(kCloud, id); }
+inline WireTopic lidar_servo(std::string_view id) { return wire(kLidarServo, id); }
 inline WireTopic self_keyframe(std::string_view id) { return wire(kSelfKeyframe, id); }
 inline WireTopic neighbour_keyframe(std::string_view id) { return wire(kNeighbourKeyframe, id); }
 inline WireTopic neighbour_odometry(std::string_view id) { return wire(kNeighbourOdometry, id); }

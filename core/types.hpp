@@ -73,6 +73,13 @@ struct GimbalState {
   double pitch_rate = 0.0, yaw_rate = 0.0;  ///< [rad/s]
 };
 
+/// Where the servo stands that turns an explorer's LiDAR about body x, at the instant of a scan.
+struct LidarServo {
+  Tick tick = 0;
+  double angle = 0.0;  ///< [rad]
+  double rate = 0.0;   ///< [rad/s]; 0 at a stop
+};
+
 /// One set-point of a trajectory, as CARIC's controller takes it. Position, velocity and acceleration in W.
 /// |p| < 0.01 means "no position", see docs/rules.md.
 struct TrajectoryCommand {

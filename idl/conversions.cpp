@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::int64_t kNsPerTick = 2'500'000;
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+constexpr const char* kLidarServoJoint = "lidar_servo";
 
 template <class Message>
 void set_xyz(Message& message, const Vector3d& v) {
@@ -159,6 +160,24 @@ msg::TwistStamped to_gimbal(Tick tick, const std::string& id, const GimbalState&
 GimbalState from_gimbal(const msg::TwistStamped& twist) {
   return {twist.twist().linear().y(), twist.twist().linear().z(), twist.twist().angular().y(),
           twist.twist().angular().z()};
+}
+
+msg::JointState to_lidar_servo(const LidarServo& servo) {
+  msg::JointState joints;
+  joints.header(to_header(servo.tick, ""));  // an angle is of no frame
+  joints.name().emplace_back(kLidarServoJoint);
+  joints.position().push_back(servo.angle);
+  joints.velocity().push_back(servo.rate);
+  return joints;
+}
+
+std::optional<LidarServo> from_lidar_servo(const msg::JointState& joints) {
+  const auto& names = joints.name();
+  const auto joint = static_cast<std::size_t>(std::ranges::find(names, kLidarServoJoint) - names.begin());
+  if (joint >= names.size() || joint >= joints.position().size() || joint >= joints.velocity().size()) return {};
+  const LidarServo servo{from_time(joints.header().stamp()), joints.position()[joint], joints.velocity()[joint]};
+  if (!std::isfinite(servo.angle) || !std::isfinite(servo.rate)) return {};
+  return servo;
 }
 
 msg::MultiDOFJointTrajectory to_trajectory(Tick tick, const TrajectoryCommand& command) {

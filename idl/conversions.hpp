@@ -35,6 +35,11 @@ RigidBodyState from_odometry(const msg::Odometry& odometry);
 msg::TwistStamped to_gimbal(Tick tick, const std::string& id, const GimbalState& gimbal);
 GimbalState from_gimbal(const msg::TwistStamped& twist);
 
+/// One joint, "lidar_servo", with position and velocity.
+msg::JointState to_lidar_servo(const LidarServo& servo);
+/// nullopt without a joint of that name, or where its position or velocity is missing or no finite number.
+std::optional<LidarServo> from_lidar_servo(const msg::JointState& joints);
+
 msg::MultiDOFJointTrajectory to_trajectory(Tick tick, const TrajectoryCommand& command);
 /// Only points[0] counts; missing parts are zero. @returns nullopt without a point that has a transform.
 std::optional<TrajectoryCommand> from_trajectory(const msg::MultiDOFJointTrajectory& trajectory);

@@ -63,6 +63,30 @@ TEST(Conversions, TrajectoryCommandComesBack) {
   EXPECT_FALSE(from_trajectory(msg::MultiDOFJointTrajectory{}));
 }
 
+TEST(Conversions, TheServosJointComesBackAndNoOther) {
+  const msg::JointState joints = travelled(to_lidar_servo({1240, -0.7, 0.785}));
+  EXPECT_EQ(joints.name(), std::vector<std::string>{"lidar_servo"});
+  EXPECT_TRUE(joints.effort().empty());
+  const auto servo = from_lidar_servo(joints);
+  ASSERT_TRUE(servo);
+  EXPECT_EQ(servo->tick, 1240);
+  EXPECT_EQ(servo->angle, -0.7);
+  EXPECT_EQ(servo->rate, 0.785);
+
+  msg::JointState two = joints;
+  two.name({"rotor", "lidar_servo"});
+  EXPECT_FALSE(from_lidar_servo(two)) << "the second has no position";
+  two.position({9.0, 0.5});
+  two.velocity({8.0, 0.25});
+  EXPECT_EQ(from_lidar_servo(two)->angle, 0.5);
+  EXPECT_EQ(from_lidar_servo(two)->rate, 0.25);
+  two.velocity({8.0});
+  EXPECT_FALSE(from_lidar_servo(two));
+  two.velocity({8.0, std::numeric_limits<double>::quiet_NaN()});
+  EXPECT_FALSE(from_lidar_servo(two));
+  EXPECT_FALSE(from_lidar_servo({}));
+}
+
 TEST(Conversions, GimbalModesAreSignsOfLinearX) {
   for (const GimbalMode mode : {GimbalMode::angle, GimbalMode::rate}) {
     const GimbalCommand back = from_gimbal_command(travelled(to_gimbal_command({mode, 0.3, -0.7})));

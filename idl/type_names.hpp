@@ -58,6 +58,7 @@ std::string type_name() {
   X(sensor_msgs, PointField)                       \
   X(sensor_msgs, PointCloud2)                      \
   X(sensor_msgs, CompressedImage)                  \
+  X(sensor_msgs, JointState)                       \
   X(sensor_msgs, ChannelFloat32)                   \
   X(sensor_msgs, PointCloud)                       \
   X(tf2_msgs, TFMessage)                           \

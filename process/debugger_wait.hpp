@@ -9,8 +9,8 @@ namespace skein {
 bool is_debugged();
 
 /// Returns when a debugger is attached to this process, or has been and has left again, or SIGCONT has come, or `stop`
-/// is true. Any process of this
-/// user may attach from here on, whatever the kernel's rules for others (Yama). Call it from one thread.
+/// is true. Any process of this user may attach from here on, whatever the kernel's rules for others (Yama). Call it
+/// from one thread.
 void wait_for_debugger(const std::function<bool()>& stop);
 
 }  // namespace skein

@@ -45,7 +45,8 @@ std::optional<Choice> choice_of(Scope scope, std::string_view node, std::string_
   if (is(kBoundingBoxes, node, topic)) return node == "gcs" ? std::optional(Choice{0, true}) : std::nullopt;
   if (scope == Scope::run) return std::nullopt;
   if (is(kScore, node, topic)) return Choice{0, true};  // nobody in a fleet reads it
-  const bool cloud = is_one_of({kCloud, kSelfKeyframe, kNeighbourKeyframe}, node, topic);
+  // A cloud is no scan without the angle of its servo.
+  const bool cloud = is_one_of({kCloud, kLidarServo, kSelfKeyframe, kNeighbourKeyframe}, node, topic);
   return Choice{0, cloud && scope == Scope::clouds};
 }
 

@@ -36,7 +36,7 @@ TEST(RecordingChoice, CommandsAreAlwaysWholeAndCloudsOnlyOnRequest) {
     if (info.direction == topics::Direction::from_agent) {
       EXPECT_EQ(choice_of(Scope::run, "jurong", topic)->period, 0) << topic;
     }
-    if (info.cloud == &topics::kScanLayout) {
+    if (info.cloud == &topics::kScanLayout || info.pattern == topics::kLidarServo.pattern) {
       EXPECT_FALSE(choice_of(Scope::run, "jurong", topic)) << topic;
       EXPECT_FALSE(choice_of(Scope::all, "jurong", topic)->also_unread) << topic;
       EXPECT_TRUE(choice_of(Scope::clouds, "jurong", topic)->also_unread) << topic;

@@ -243,6 +243,7 @@ void Simulation::Impl::take_scans() {
     if (!uav.lidar || !mission.alive(i)) continue;
     uav.lidar->move(tick, world.state(i).X_WB());
     if (!uav.condition.lidar_works || !uav.lidar->due(tick)) continue;
+    events.servos.push_back({i, uav.lidar->servo(tick)});
     const Isometry3d X_WB = world.state(i).X_WB();
     if (!uav.scans_wanted && !uav.keyframes.wants(tick, X_WB)) continue;
     refresh_rays();

@@ -54,6 +54,12 @@ struct LidarEvent {
   LidarScan scan;
 };
 
+/// Where a LiDAR's servo stood when a scan was due, computed or not.
+struct ServoEvent {
+  UavIndex uav = {};
+  LidarServo servo;
+};
+
 /// A scan that became a key frame. It goes to its own UAV, and once to the UAVs linked to it at this step.
 struct KeyFrameEvent {
   UavIndex uav = {};
@@ -87,6 +93,7 @@ struct Stray {
 /// What happened since the step before.
 struct StepEvents {
   std::vector<LidarEvent> scans;
+  std::vector<ServoEvent> servos;
   std::vector<KeyFrameEvent> key_frames;
   std::vector<CaptureEvent> captures;
   std::vector<Collision> collisions;

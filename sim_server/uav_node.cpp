@@ -73,6 +73,7 @@ UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation,
       capture_(server.writer(domain, bus::spec(topics::capture()))) {
   if (scenario.fleet[uav].vehicle.lidar) {
     cloud_ = &server.writer(domain, bus::spec(topics::cloud(id_)));
+    servo_ = &server.writer(domain, bus::spec(topics::lidar_servo(id_)));
     self_keyframe_ = &server.writer(domain, bus::spec(topics::self_keyframe(id_)));
   }
   server.read<msg::MultiDOFJointTrajectory>(domain, bus::spec(topics::trajectory_command(id_)),
@@ -137,6 +138,9 @@ void UavNode::publish_clouds() {
   simulation_.want_scans(uav_, cloud_ && cloud_->is_wanted());
   for (const LidarEvent& scan : simulation_.events().scans) {
     if (scan.uav == uav_ && cloud_) send(*cloud_, [&] { return to_cloud(scan.scan.tick, scan.scan.points_W); });
+  }
+  for (const ServoEvent& event : simulation_.events().servos) {
+    if (event.uav == uav_ && servo_) send(*servo_, [&] { return to_lidar_servo(event.servo); });
   }
   const std::vector<KeyFrameEvent>& frames = simulation_.events().key_frames;
   for (std::size_t i = 0; i < frames.size(); ++i) {

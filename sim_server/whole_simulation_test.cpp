@@ -111,6 +111,14 @@ TEST(WholeSimulation, ScansThatNobodyReadsChangeNothingElse) {
         sim->command_trajectory(UavIndex(i), surveyor.at(UavIndex(i), seconds(sim->tick())));
       sim->advance();
     }
+    ASSERT_EQ(all.events().servos.size(), all.events().scans.size());
+    ASSERT_EQ(lazy.events().servos.size(), all.events().scans.size()) << "told at each scan, computed or not";
+    for (std::size_t i = 0; i < all.events().scans.size(); ++i) {
+      const LidarServo &servo = all.events().servos[i].servo, &lazy_servo = lazy.events().servos[i].servo;
+      ASSERT_EQ(servo.tick, all.events().scans[i].scan.tick);
+      ASSERT_EQ(servo.angle, all.events().scans[i].scan.servo_angle);
+      ASSERT_EQ(lazy_servo.angle, servo.angle);
+    }
     scans += all.events().scans.size();
     lazy_scans += lazy.events().scans.size();
     key_frames += all.events().key_frames.size();

@@ -80,7 +80,12 @@ void AgentNode::read_sensors(LockstepClient& client) {
   };
   if (scenario_.fleet[uav_].vehicle.lidar) read_key_frames(topics::self_keyframe(member()), node_of_uav(uav_));
   read_key_frames(topics::neighbour_keyframe(member()), std::nullopt);
-  if (scenario_.fleet[uav_].vehicle.lidar && agent_.wants_scans()) {
+  if (agent_.wants_beams()) {
+    client.read<msg::JointState>(bus::spec(topics::lidar_servo(member())), Counterpart::server, [this](const auto& m) {
+      if (const auto servo = from_lidar_servo(m)) input_.servos.push_back(*servo);
+    });
+  }
+  if (scenario_.fleet[uav_].vehicle.lidar && (agent_.wants_scans() || agent_.wants_beams())) {
     client.read<msg::PointCloud2>(bus::spec(topics::cloud(member())), Counterpart::server, [this](const auto& m) {
       Scan scan{.tick = from_time(m.header().stamp())};
       for (const ScanPoint& p : from_cloud<ScanPoint>(m)) scan.points_W.emplace_back(p.x, p.y, p.z);
@@ -131,6 +136,7 @@ void AgentNode::send(LockstepClient& client) {
   input_.boxes.clear();
   input_.key_frames.clear();
   input_.scans.clear();
+  input_.servos.clear();
   input_.detected.clear();
   input_.capture_reports.clear();
   input_.capture_acks.clear();

@@ -2,26 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/euler.hpp"
+#include "core/lidar_geometry.hpp"
 #include "core/random_stream.hpp"
 
 namespace skein::sim {
 namespace {
 
-/// Unit vectors of all beams in L: ring by ring upwards, in each by azimuth from -pi (backwards), evenly round.
+/// Unit vectors of all beams in L, in the order of the cloud.
 Eigen::Matrix3Xf beam_directions(const LidarConfig& config) {
   Eigen::Matrix3Xf directions(3, config.rings * config.columns);
-  const double half_fov = 0.5 * config.vertical_fov_deg * kRadPerDeg;
   for (int ring = 0; ring < config.rings; ++ring) {
-    const double elevation = config.rings > 1 ? half_fov * (2.0 * ring / (config.rings - 1) - 1.0) : 0.0;
     for (int column = 0; column < config.columns; ++column) {
-      const double azimuth = std::numbers::pi * (2.0 * column / config.columns - 1.0);
-      directions.col(ring * config.columns + column) =
-          Vector3d(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                   std::sin(elevation))
-              .cast<float>();
+      directions.col(ring * config.columns + column) = lidar_direction_L(config, ring, column).cast<float>();
     }
   }
   return directions;
@@ -44,16 +38,29 @@ double servo_angle(const LidarConfig& config, double t_s) {
   return std::max(top - rate * (cycle_s - half_s), -limit);
 }
 
+double servo_rate(const LidarConfig& config, double t_s) {
+  const double cycle_s = t_s - config.servo_period_s * std::floor(t_s / config.servo_period_s);
+  const bool upwards = cycle_s < 0.5 * config.servo_period_s;
+  const double angle = servo_angle(config, t_s), limit = config.servo_limit_deg * kRadPerDeg;
+  if (upwards ? angle >= limit : angle <= -limit) return 0.0;
+  return (upwards ? 1.0 : -1.0) * config.servo_rate_deg_s * kRadPerDeg;
+}
+
 Lidar::Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed)
     : config_(config),
       uav_(uav),
       seed_(seed),
-      period_(std::max<Tick>(1, ticks(1.0 / config.rate_hz))),
+      period_(lidar_period(config)),
       directions_L_(beam_directions(config)),
       ranges_(static_cast<std::size_t>(directions_L_.cols())) {
   if (seed != 0) {
     phase_ = ticks(config.servo_period_s * RandomStream(seed, "lidar_phase", uav, 0).uniform());
   }
+}
+
+LidarServo Lidar::servo(Tick tick) const {
+  const double t_s = seconds(tick + phase_);
+  return {tick, servo_angle(config_, t_s), servo_rate(config_, t_s)};
 }
 
 void Lidar::move(Tick tick, const Isometry3d& X_WB) {
@@ -63,8 +70,7 @@ void Lidar::move(Tick tick, const Isometry3d& X_WB) {
 }
 
 Isometry3d Lidar::pose(Tick tick, const Isometry3d& X_WB) const {
-  const Eigen::AngleAxisd R_BS(servo_angle(config_, seconds(tick + phase_)), Vector3d::UnitX());
-  return X_WB * Eigen::Translation3d(kLidarServo_p_BS) * R_BS * Eigen::Translation3d(0.0, 0.0, kLidarCentreAboveServo);
+  return lidar_pose(X_WB, servo_angle(config_, seconds(tick + phase_)));
 }
 
 /// Fires some neighbouring columns from one pose.
@@ -94,14 +100,13 @@ LidarScan Lidar::scan(Tick tick, const Isometry3d& X_WB, const RayScene& world) 
   scan.number = static_cast<std::uint64_t>(tick / period_);
   scan.servo_angle = servo_angle(config_, seconds(tick + phase_));
   scan.X_WL = pose(tick, X_WB);
-  const bool instant = !config_.motion_distortion || tick < period_;
+  const bool instant = fired_at_once(config_, tick);
   if (instant) {
     trace(scan.X_WL, 0, config_.columns, world);
   } else {
-    const auto period = static_cast<int>(period_);
-    for (int part = 0; part < period; ++part) {
-      const int first = part * config_.columns / period, end = (part + 1) * config_.columns / period;
-      const Tick fired = tick - period_ + 1 + part;
+    for (Tick part = 0; part < period_; ++part) {
+      const int first = first_column(config_, part), end = first_column(config_, part + 1);
+      const Tick fired = fired_at(config_, tick, part);
       const Isometry3d& X_WB_then = past_.empty() ? X_WB : past_[static_cast<std::size_t>(fired % period_)];
       if (first < end) trace(pose(fired, X_WB_then), first, end - first, world);
     }

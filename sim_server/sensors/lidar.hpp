@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/scenario.hpp"
@@ -11,14 +12,12 @@
 
 namespace skein::sim {
 
-/// Servo in the body, and the optical centre above the servo's axis (sensor base -0.03585, centre 0.0377 above it).
-inline const Vector3d kLidarServo_p_BS{0.0, 0.0, 0.2};
-inline constexpr double kLidarCentreAboveServo = -0.03585 + 0.0377;
-
 /// Angle of the servo at a time since it was switched on at angle 0 [rad]: it turns at +rate for half a period, then at
 /// -rate, and stands at its stop while driven against it. Closed form, so that no error builds up.
 /// @param t_s  >= 0.
 double servo_angle(const LidarConfig& config, double t_s);
+/// How fast it turns from then on [rad/s]; 0 at a stop.
+double servo_rate(const LidarConfig& config, double t_s);
 
 struct LidarScan {
   Tick tick = 0;
@@ -38,6 +37,9 @@ class Lidar {
   /// Whether a scan falls on this tick: tick 0 and every period after it.
   bool due(Tick tick) const { return tick % period_ == 0; }
 
+  /// Where the servo stands at a tick >= 0.
+  LidarServo servo(Tick tick) const;
+
   /// Tells where the body was at a tick, before scan() of that tick. Needed with `motion_distortion` only, at every
   /// tick; without it this does nothing.
   void move(Tick tick, const Isometry3d& X_WB);
@@ -50,6 +52,8 @@ class Lidar {
   /// stand where they are at the end.
   /// @param world  with the poses of all UAVs at this tick.
   LidarScan scan(Tick tick, const Isometry3d& X_WB, const RayScene& world);
+  /// What the beams of the last scan met, without noise and however near, ring by ring; infinite: nothing.
+  std::span<const double> ranges() const { return ranges_; }
 
  private:
   Isometry3d pose(Tick tick, const Isometry3d& X_WB) const;

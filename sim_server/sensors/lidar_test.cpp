@@ -8,6 +8,7 @@
 #include <ctime>
 #include <iostream>
 #include <numbers>
+#include <set>
 
 #include "core/euler.hpp"
 #include "sim_server/testing/test_scenes.hpp"
@@ -57,6 +58,22 @@ TEST(ServoAngle, LikeSteppedLaw) {
                            limit_deg * kDeg);
       }
     }
+  }
+}
+
+/// The rate is the slope of the angle from there on.
+TEST(ServoAngle, HasTheRateThatItIsTold) {
+  for (const double limit_deg : {30.0, 60.0, 90.0, 120.0}) {
+    LidarConfig config;
+    config.servo_limit_deg = limit_deg;
+    std::set<double> rates;
+    for (Tick tick = 0; tick < 20 * kTicksPerSecond; ++tick) {
+      const double t = seconds(tick), onwards = servo_angle(config, t + 1e-6) - servo_angle(config, t);
+      const double rate = servo_rate(config, t);
+      ASSERT_NEAR(onwards, 1e-6 * rate, 1e-12) << limit_deg << " " << tick;
+      rates.insert(rate);
+    }
+    EXPECT_EQ(rates.size(), 3U) << "up, down, and at a stop";
   }
 }
 

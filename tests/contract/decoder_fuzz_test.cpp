@@ -151,6 +151,7 @@ msg::PointCloud2 cloud_of(std::size_t size) {
 TEST(DamagedMessages, AreConvertedOrRefused) {
   fuzz(to_odometry(7, "jurong", {}), rounds(5000), [](const auto& m) { from_odometry(m); });
   fuzz(to_gimbal(7, "jurong", {}), rounds(5000), [](const auto& m) { from_gimbal(m); });
+  fuzz(to_lidar_servo({}), rounds(5000), [](const auto& m) { from_lidar_servo(m); });
   fuzz(to_gimbal_command({}), rounds(5000), [](const auto& m) { from_gimbal_command(m); });
   fuzz(to_duration(600.0), rounds(5000), [](const auto& m) { from_duration(m); });
   fuzz(to_trajectory(7, {}), rounds(5000), [](const auto& m) { from_trajectory(m); });

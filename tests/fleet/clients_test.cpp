@@ -72,6 +72,7 @@ std::vector<WireTopic> private_topics(const std::string& uav) {
   return {topics::odometry(uav),
           topics::gimbal(uav),
           topics::cloud(uav),
+          topics::lidar_servo(uav),
           topics::self_keyframe(uav),
           topics::neighbour_odometry(uav),
           topics::detected_points(uav),

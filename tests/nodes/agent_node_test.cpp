@@ -7,6 +7,7 @@
 #include <set>
 
 #include "comm_router/router_node.hpp"
+#include "core/lidar_geometry.hpp"
 #include "core/octree_bytes.hpp"
 #include "core/radio_routes.hpp"
 #include "core/random_stream.hpp"
@@ -149,6 +150,66 @@ TEST(AgentNode, ShowsItsMapWhereSomebodyLooksOn) {
       EXPECT_TRUE(std::ranges::any_of(hits, [&](const Eigen::Vector3f& hit) {
         return (hit.cast<double>() - cube.middle_W()).cwiseAbs().maxCoeff() <= 0.5 * cube.edge_m + 0.25;
       })) << cube.middle_W().transpose();
+    }
+  }
+}
+
+TEST(AgentNode, RebuildsBeamsForThePlannerThatAsksAndReadsNoScansForAnother) {
+  class Looker final : public agent::Planner {
+   public:
+    explicit Looker(std::vector<agent::BeamScan>& seen) : seen_(seen) {}
+    agent::PlannerOutput plan(const agent::PlannerInput& input) override {
+      seen_.insert(seen_.end(), input.beam_scans.begin(), input.beam_scans.end());
+      return {};
+    }
+    bool wants_beams() const override { return true; }
+
+   private:
+    std::vector<agent::BeamScan>& seen_;
+  };
+  constexpr std::uint64_t kSteps = 20;
+  Scenario scenario = toy_scenario(1);
+  scenario.fleet[0].vehicle.lidar.emplace();
+  const UavIndex uav{0};
+  const RigidBodyState state{.p_WB = {3.0, -2.0, 9.0}};
+  const LidarConfig lidar;
+  for (const bool asks : {true, false}) {
+    const auto bus = bus::make_bus({.vendor = "inproc"});
+    ToyServer server(*bus, scenario, kSteps);
+    server.expect_uavs(scenario);
+    server.expect_router();
+    server.open_topics(ToyServer::domain_of(uav), topics::uav_topics(), "a");
+    bus::CountedWriter& odometry = server.writer(ToyServer::domain_of(uav), topics::odometry("a"));
+    bus::CountedWriter& cloud = server.writer(ToyServer::domain_of(uav), topics::cloud("a"));
+    bus::CountedWriter& servo = server.writer(ToyServer::domain_of(uav), topics::lidar_servo("a"));
+    server.before_step = [&](std::uint64_t k) {
+      const Tick tick = static_cast<Tick>(20 * k);
+      EXPECT_EQ(cloud.is_wanted(), asks);
+      EXPECT_EQ(servo.is_wanted(), asks);
+      odometry.write(to_odometry(tick, "a", state));
+      if (k % 2 != 0 || !asks) return;
+      const double angle = 0.01 * static_cast<double>(k);
+      const Vector3d hit_W = lidar_pose(state.X_WB(), angle) * Vector3d(20.0 * lidar_direction_L(lidar, 3, 77));
+      cloud.write(to_cloud(tick, std::vector<Eigen::Vector3f>{hit_W.cast<float>()}));
+      servo.write(to_lidar_servo({tick, angle, 0.08}));
+    };
+    std::vector<agent::BeamScan> seen;
+    std::unique_ptr<agent::Planner> planner = std::make_unique<Parrot>();
+    if (asks) planner = std::make_unique<Looker>(seen);
+    agent::AgentNode agent(scenario, uav, std::move(planner), 0, *bus);
+    router::RouterNode router(scenario, 0, 0, *bus);
+    agent.start();
+    router.start();
+    ASSERT_TRUE(take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }}, [&] {
+      return server.over();
+    })) << agent.waiting_for();
+    ASSERT_EQ(seen.size(), asks ? kSteps / 2 : 0U);
+    for (const agent::BeamScan& beams : seen) {
+      EXPECT_EQ(beams.doubt, agent::ScanDoubt::none);
+      EXPECT_EQ(beams.points, 1U);
+      EXPECT_EQ(beams.beam(3, 77).state, agent::BeamState::range);
+      EXPECT_NEAR(beams.beam(3, 77).range_m, 20.0, 1e-4);
+      EXPECT_EQ(beams.beam(3, 78).state, agent::BeamState::none);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/euler.hpp"
+#include "core/lidar_geometry.hpp"
 #include "sim_server/sensors/lidar.hpp"
 
 namespace skein::sensing {
@@ -65,7 +66,7 @@ SensedSpace::SensedSpace(const Flight& flight, double servo_phase_s, int every, 
   const double period_s = 1.0 / lidar_.rate_hz;
   for (int number = 0; number * period_s < flight.duration_s; number += every) {
     const double t = number * period_s;
-    const Isometry3d X_WL = flight.X_WB(t) * Eigen::Translation3d(sim::kLidarServo_p_BS) *
+    const Isometry3d X_WL = flight.X_WB(t) * Eigen::Translation3d(kLidarServo_p_BS) *
                             Eigen::AngleAxisd(sim::servo_angle(lidar_, t + servo_phase_s), Vector3d::UnitX());
     scans_.push_back(X_WL);
     inverse_.push_back(X_WL.inverse());

@@ -15,6 +15,7 @@
 
 #include "core/config_reader.hpp"
 #include "uav_agent/api/agent_config.hpp"
+#include "uav_agent/api/beam_scan.hpp"
 #include "uav_agent/api/messages.hpp"
 #include "uav_agent/api/motion.hpp"
 #include "uav_agent/api/peers.hpp"
@@ -51,6 +52,7 @@ struct PlannerInput {
   std::span<const RadioMessage> radio;        ///< received at this step
   std::span<const KeyFrame> key_frames = {};  ///< that came at this step, as the LiDARs saw them: own, then neighbours'
   std::span<const Scan> scans = {};           ///< own, since the step before; only if wants_scans()
+  std::span<const BeamScan> beam_scans = {};  ///< own, since the step before; only if wants_beams()
 };
 
 /// What a planner tells of itself, as /<id>/debug/<name>: faults may wait for it and properties be about it
@@ -84,6 +86,9 @@ class Planner {
   /// has what key frames show without them. A scan that nobody reads is not even computed, and that is most of a run's
   /// cost (docs/decisions/0006-scans-on-demand.md).
   virtual bool wants_scans() const { return false; }
+  /// Whether it looks at the beams of the scans, those without a return among them; asked as wants_scans() is, and at
+  /// the same price. Only explorers have any.
+  virtual bool wants_beams() const { return false; }
   /// Names of the values that it publishes; asked before the first exchange, and the answer must stay the same.
   virtual std::vector<std::string> debug_names() const { return {}; }
 };

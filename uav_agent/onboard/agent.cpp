@@ -6,6 +6,7 @@
 #include "core/euler.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
+#include "uav_agent/onboard/beam_reader.hpp"
 #include "uav_agent/onboard/key_frame_filter.hpp"
 #include "uav_agent/onboard/ready_frames.hpp"
 #include "uav_agent/onboard/tracker.hpp"
@@ -27,6 +28,10 @@ Tracker::Config tracker_config(const VehicleConfig& vehicle) {
   return config;
 }
 
+KnownBody known_body(const Vector3d& p_W, const Vector3d& v_W, double radius_m) {
+  return {p_W, radius_m + kBodyMarginM + kScanAgeS * v_W.norm()};
+}
+
 }  // namespace
 
 struct Agent::Impl {
@@ -35,9 +40,13 @@ struct Agent::Impl {
         planner(std::move(p)),
         frames(f ? std::move(f) : std::make_shared<ReadyFrames>()),
         peers(c),
-        tracker(tracker_config(c.vehicle)) {}
+        tracker(tracker_config(c.vehicle)) {
+    if (config.vehicle.lidar && planner->wants_beams()) beam_reader.emplace(*config.vehicle.lidar);
+  }
 
+  void read_beams(const AgentInput& input);
   void perceive(const AgentInput& input);
+  std::vector<KnownBody> other_bodies() const;
   std::vector<KnownBody> known_bodies(const AgentInput& input) const;
   std::optional<Vector3d> sensor_position(const KeyFrame& frame, const AgentInput& input) const;
   PlannerInput planner_input(const AgentInput& input) const;
@@ -49,6 +58,8 @@ struct Agent::Impl {
   const std::shared_ptr<ReadyFrames> frames;
   Peers peers;
   OccupancyMap map;
+  std::optional<BeamReader> beam_reader;  ///< if the planner wants beams and there is a LiDAR
+  std::vector<BeamScan> beam_scans;       ///< of this exchange
   Uplink uplink;
   Tracker tracker;
   std::vector<OrientedBox> boxes;
@@ -58,22 +69,36 @@ struct Agent::Impl {
   std::string no_way;
 };
 
-std::vector<KnownBody> Agent::Impl::known_bodies(const AgentInput& input) const {
-  const auto body = [](const Vector3d& p_W, const Vector3d& v_W, double radius) {
-    return KnownBody{p_W, radius + kBodyMarginM + kScanAgeS * v_W.norm()};
-  };
-  std::vector<KnownBody> bodies = {body(input.state.p_WB, input.state.v_WB, config.me().body_radius_m)};
+std::vector<KnownBody> Agent::Impl::other_bodies() const {
+  std::vector<KnownBody> bodies;
   for (const Peer& peer : peers.all()) {
     // One that was never seen still stands where it was put.
     if (!peer.visible && peer.seen) continue;
-    bodies.push_back(body(peer.p_W, peer.v_W, config.fleet[peer.uav].body_radius_m));
+    bodies.push_back(known_body(peer.p_W, peer.v_W, config.fleet[peer.uav].body_radius_m));
   }
   return bodies;
+}
+
+std::vector<KnownBody> Agent::Impl::known_bodies(const AgentInput& input) const {
+  std::vector<KnownBody> bodies = other_bodies();
+  bodies.insert(bodies.begin(), known_body(input.state.p_WB, input.state.v_WB, config.me().body_radius_m));
+  return bodies;
+}
+
+void Agent::Impl::read_beams(const AgentInput& input) {
+  beam_scans.clear();
+  if (!beam_reader) return;
+  beam_reader->hear(input.tick, input.state);
+  for (const LidarServo& servo : input.servos) beam_reader->hear(servo);
+  if (input.scans.empty()) return;
+  const std::vector<KnownBody> others = other_bodies();
+  for (const Scan& scan : input.scans) beam_scans.push_back(beam_reader->read(scan, others));
 }
 
 void Agent::Impl::perceive(const AgentInput& input) {
   if (tracker.stands_by()) tracker.stand_by(input.state);
   peers.update(input.tick, input.neighbours);
+  read_beams(input);
   if (!input.boxes.empty()) boxes = input.boxes;
   if (!input.key_frames.empty()) {
     const KnownBodies bodies(known_bodies(input));
@@ -119,7 +144,8 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
                       .detected = input.detected,
                       .radio = input.radio,
                       .key_frames = input.key_frames,
-                      .scans = input.scans};
+                      .scans = planner->wants_scans() ? std::span(input.scans) : std::span<const Scan>(),
+                      .beam_scans = beam_scans};
 }
 
 std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision, const RigidBodyState& state) {
@@ -149,6 +175,10 @@ Agent::Agent(Agent&&) noexcept = default;
 Agent& Agent::operator=(Agent&&) noexcept = default;
 
 bool Agent::wants_scans() const { return impl_->planner->wants_scans(); }
+bool Agent::wants_beams() const { return impl_->beam_reader.has_value(); }
+std::uint64_t Agent::beam_scans(ScanDoubt doubt) const {
+  return impl_->beam_reader ? impl_->beam_reader->scans(doubt) : 0;
+}
 std::vector<std::string> Agent::debug_names() const { return impl_->planner->debug_names(); }
 
 AgentOutput Agent::step(const AgentInput& input) {

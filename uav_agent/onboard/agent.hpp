@@ -27,7 +27,8 @@ struct AgentInput {
   std::vector<OrientedBox> boxes;             ///< when they arrived at this step; else empty
   std::vector<Neighbour> neighbours;          ///< in line of sight now
   std::vector<KeyFrame> key_frames;           ///< in order: own first, then neighbours'
-  std::vector<Scan> scans;                    ///< own; only if wants_scans()
+  std::vector<Scan> scans;                    ///< own; only if wants_scans() or wants_beams()
+  std::vector<LidarServo> servos;             ///< own, in their order; only if wants_beams()
   std::vector<DetectedPoint> detected;
   std::vector<HandedOut> capture_reports;   ///< from the camera; it may repeat unacknowledged ones
   std::vector<std::uint64_t> capture_acks;  ///< capture numbers that the station has journalled
@@ -55,10 +56,14 @@ class Agent {
 
   /// Whether the planner looks at scans: nobody needs to compute them or send them otherwise.
   bool wants_scans() const;
+  /// Whether it looks at their beams, for which scans and the servo's angles are needed.
+  bool wants_beams() const;
   /// Names of what the planner tells of itself.
   std::vector<std::string> debug_names() const;
   /// One exchange. Inputs must come in order of k.
   AgentOutput step(const AgentInput& input);
+  /// Scans whose beams were asked for, by what was wrong with them.
+  std::uint64_t beam_scans(ScanDoubt doubt) const;
   /// Whether that capture's report may yet have to be sent.
   bool holds_capture(std::uint64_t capture) const;
   const OccupancyMap& map() const;

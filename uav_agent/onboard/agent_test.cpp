@@ -185,6 +185,44 @@ TEST_F(AgentTest, ScansAreForThosePlannersThatAskForThem) {
   EXPECT_TRUE(looker.step(input_).trigger);
 }
 
+TEST_F(AgentTest, BeamsAreForThosePlannersThatAskForThem) {
+  class Looker final : public Planner {
+   public:
+    PlannerOutput plan(const PlannerInput& in) override {
+      scans += in.scans.size();
+      beam_scans.assign(in.beam_scans.begin(), in.beam_scans.end());
+      return {};
+    }
+    bool wants_beams() const override { return true; }
+    std::size_t scans = 0;
+    std::vector<BeamScan> beam_scans;
+  };
+  EXPECT_FALSE(agent_.wants_beams());
+  auto planner = std::make_unique<Looker>();
+  const Looker& looker = *planner;
+  AgentConfig config = fleet_of_three();
+  config.vehicle.lidar.emplace();
+  Agent agent(config, std::move(planner));
+  EXPECT_TRUE(agent.wants_beams());
+  EXPECT_FALSE(agent.wants_scans());
+  input_.tick = 40;
+  input_.scans = {{.tick = 40}};
+  input_.servos = {{40, 0.5, 0.7}};
+  agent.step(input_);
+  ASSERT_EQ(looker.beam_scans.size(), 1U);
+  EXPECT_EQ(looker.beam_scans[0].doubt, ScanDoubt::none);
+  EXPECT_EQ(looker.beam_scans[0].tick, 40);
+  input_.tick = 60;
+  input_.servos.clear();
+  agent.step(input_);
+  EXPECT_EQ(agent.beam_scans(ScanDoubt::none), 2U) << "a scan may come an exchange later";
+  input_.scans.clear();
+  agent.step(input_);
+  EXPECT_TRUE(looker.beam_scans.empty()) << "in the exchange in which they came, and no other";
+  EXPECT_EQ(looker.scans, 0U) << "it asked for beams alone";
+  EXPECT_EQ(agent.beam_scans(ScanDoubt::misfit) + agent.beam_scans(ScanDoubt::no_servo), 0U);
+}
+
 // The flight controller tells modes apart by what is zero, so nothing may be filled in, rounded or limited.
 TEST_F(AgentTest, ACommandOfItsPlannersOwnGoesOutAsItIs) {
   for (const TrajectoryCommand& own : {TrajectoryCommand{.v_WB = {9.0, -20.0, 0.5}, .yaw = 3.0, .yaw_rate = 0.4},

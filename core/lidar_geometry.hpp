@@ -1,0 +1,57 @@
+// Where the beams of an explorer's LiDAR point and where it is mounted: what its data sheet says, to who simulates it
+// and to who flies with it.
+// Frames: W world, B body, S servo (turned about body x, at p_BS), L optical centre of the LiDAR, axes as S.
+// Units: SI, radians.   Pure; safe from any thread.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/euler.hpp"
+#include "core/scenario.hpp"
+
+namespace skein {
+
+/// Servo in the body, and the optical centre above the servo's axis (sensor base -0.03585, centre 0.0377 above it).
+inline const Vector3d kLidarServo_p_BS{0.0, 0.0, 0.2};
+inline constexpr double kLidarCentreAboveServo = -0.03585 + 0.0377;
+
+/// X_WL of a LiDAR whose servo stands at an angle.
+inline Isometry3d lidar_pose(const Isometry3d& X_WB, double servo_angle) {
+  const Eigen::AngleAxisd R_BS(servo_angle, Vector3d::UnitX());
+  return X_WB * Eigen::Translation3d(kLidarServo_p_BS) * R_BS * Eigen::Translation3d(0.0, 0.0, kLidarCentreAboveServo);
+}
+
+/// Elevation of a ring above the scan plane: rings are evenly spaced upwards.
+inline double ring_elevation(const LidarConfig& config, int ring) {
+  const double half_fov = 0.5 * config.vertical_fov_deg * kRadPerDeg;
+  return config.rings > 1 ? half_fov * (2.0 * ring / (config.rings - 1) - 1.0) : 0.0;
+}
+
+/// Azimuth of a column: from -pi (backwards), evenly round.
+inline double column_azimuth(const LidarConfig& config, int column) {
+  return std::numbers::pi * (2.0 * column / config.columns - 1.0);
+}
+
+/// Ticks from one scan to the next.
+inline Tick lidar_period(const LidarConfig& config) { return std::max<Tick>(1, ticks(1.0 / config.rate_hz)); }
+
+/// With `motion_distortion` a scan takes the period up to its tick, and in each tick of it, number 0 first, some
+/// columns are fired: from first_column(part) on, up to first_column(part + 1).
+inline int first_column(const LidarConfig& config, Tick part) {
+  return static_cast<int>(part * config.columns / lidar_period(config));
+}
+/// When they are fired. The first scan of all is fired at once.
+inline Tick fired_at(const LidarConfig& config, Tick scan, Tick part) { return scan - lidar_period(config) + 1 + part; }
+inline bool fired_at_once(const LidarConfig& config, Tick scan) {
+  return !config.motion_distortion || scan < lidar_period(config);
+}
+
+/// Unit vector of a beam.
+inline Vector3d lidar_direction_L(const LidarConfig& config, int ring, int column) {
+  const double elevation = ring_elevation(config, ring), azimuth = column_azimuth(config, column);
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+}
+
+}  // namespace skein

@@ -1,0 +1,172 @@
+#include "uav_agent/onboard/beam_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/lidar_geometry.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// A point may be that far from its beam's line: single precision of directions, and of coordinates.
+constexpr double kRoundingRad = 1e-4;
+constexpr double kRoundingOfCoordinates = 4.0 * std::numeric_limits<float>::epsilon();
+/// Noise moves a point along its beam, beyond the LiDAR's range, too; it is drawn from a normal distribution.
+constexpr double kSigmas = 7.0;
+constexpr Tick kLongestGap = kTicksPerSecond / 10;
+constexpr Tick kMemory = kTicksPerSecond;  ///< the longest exchange period
+constexpr double kServoRounding = 1e-6;    ///< [rad]
+
+bool meets(const Vector3d& from_W, const Vector3d& direction_W, double reach_m, const KnownBody& body) {
+  const Vector3d to_body = body.p_W - from_W;
+  const double along = std::clamp(to_body.dot(direction_W), 0.0, reach_m);
+  return (to_body - along * direction_W).squaredNorm() < body.radius_m * body.radius_m;
+}
+
+}  // namespace
+
+BeamReader::BeamReader(const LidarConfig& config)
+    : config_(config),
+      period_(lidar_period(config)),
+      column_step_(2.0 * kPi / config.columns),
+      ring_step_(config.rings > 1 ? config.vertical_fov_deg * kRadPerDeg / (config.rings - 1) : 0.0),
+      track_(kMemory + 2 * period_, kLongestGap) {
+  for (int ring = 0; ring < config.rings; ++ring) {
+    for (int column = 0; column < config.columns; ++column) {
+      directions_L_.push_back(lidar_direction_L(config, ring, column));
+    }
+  }
+  // Columns lie closest in the outermost rings.
+  const double closest = column_step_ * std::cos(ring_elevation(config, 0));
+  most_off_ = 0.25 * (ring_step_ > 0.0 ? std::min(closest, ring_step_) : closest);
+}
+
+void BeamReader::hear(const LidarServo& servo) {
+  servos_.push_back(servo);
+  while (servos_.front().tick < servo.tick - kMemory - 2 * period_) servos_.pop_front();
+}
+
+const LidarServo* BeamReader::servo_at(Tick tick) const {
+  const auto found = std::ranges::find(servos_, tick, &LidarServo::tick);
+  return found == servos_.end() ? nullptr : &*found;
+}
+
+/// From the angles and rates at this scan and at the one before: the servo turns at constant rate, stops, and turns
+/// back, no more than once between two scans.
+std::optional<double> BeamReader::servo_angle(Tick scan, Tick tick) const {
+  const LidarServo* now = servo_at(scan);
+  if (now == nullptr) return std::nullopt;
+  if (tick == scan) return now->angle;
+  const LidarServo* then = servo_at(scan - period_);
+  if (then == nullptr || ticks(0.5 * config_.servo_period_s) < period_) return std::nullopt;
+  const double limit = config_.servo_limit_deg * kRadPerDeg;
+  const auto angle = [&](Tick t) {
+    const double onwards = then->angle + then->rate * seconds(t - then->tick);
+    const double backwards = now->angle - now->rate * seconds(now->tick - t);
+    if (then->rate > now->rate) return std::min({onwards, backwards, limit});
+    if (then->rate < now->rate) return std::max({onwards, backwards, -limit});
+    return then->angle +
+           (now->angle - then->angle) * static_cast<double>(t - then->tick) / static_cast<double>(period_);
+  };
+  const bool fits = std::abs(angle(then->tick) - then->angle) < kServoRounding &&
+                    std::abs(angle(now->tick) - now->angle) < kServoRounding;
+  return fits ? std::optional(angle(tick)) : std::nullopt;
+}
+
+/// Whence the columns were fired, and the body at the end.
+ScanDoubt BeamReader::place(BeamScan& scan, BodyTrack::Pose& end) const {
+  const auto fire = [&](int first, Tick tick) {
+    const std::optional<double> angle = servo_angle(scan.tick, tick);
+    if (!angle) return ScanDoubt::no_servo;
+    const std::optional<BodyTrack::Pose> body = track_.at(tick);
+    if (!body) return ScanDoubt::no_pose;
+    end = *body;
+    end.X_WB = lidar_pose(body->X_WB, *angle);
+    scan.fired.push_back({first, tick, end.X_WB, body->error_m, body->error_rad});
+    return ScanDoubt::none;
+  };
+  if (fired_at_once(config_, scan.tick)) return fire(0, scan.tick);
+  for (Tick part = 0; part < period_; ++part) {
+    const int first = first_column(config_, part);
+    if (first == first_column(config_, part + 1)) continue;
+    if (const ScanDoubt doubt = fire(first, fired_at(config_, scan.tick, part)); doubt != ScanDoubt::none) return doubt;
+  }
+  return ScanDoubt::none;
+}
+
+std::optional<std::size_t> BeamReader::beam_of(const Vector3d& direction_L) const {
+  const double elevation = std::asin(std::clamp(direction_L.z(), -1.0, 1.0));
+  const double ring = ring_step_ > 0.0 ? std::round((elevation - ring_elevation(config_, 0)) / ring_step_) : 0.0;
+  const double column = std::round((std::atan2(direction_L.y(), direction_L.x()) + kPi) / column_step_);
+  if (!(ring >= 0.0 && ring < config_.rings) || !(column >= 0.0)) return std::nullopt;
+  return static_cast<std::size_t>(ring) * static_cast<std::size_t>(config_.columns) +
+         static_cast<std::size_t>(column) % static_cast<std::size_t>(config_.columns);
+}
+
+/// Gives each point to its beam. @returns false where one has none, or is out of order.
+bool BeamReader::assign(const Scan& scan, const BodyTrack::Pose& end, BeamScan& beams) const {
+  const Isometry3d X_LW = end.X_WB.inverse();
+  const double slack = kSigmas * config_.sigma_m + end.error_m;
+  std::size_t next = 0;
+  for (const Eigen::Vector3f& p_W : scan.points_W) {
+    const Vector3d p_L = X_LW * p_W.cast<double>();
+    const double range = p_L.norm(), rounding = kRoundingOfCoordinates * p_W.cwiseAbs().maxCoeff();
+    if (!(range > 0.0 && range >= config_.range_min_m - slack - rounding)) return false;
+    if (!(range <= config_.range_max_m + slack + rounding)) return false;
+    const std::optional<std::size_t> beam = beam_of(p_L / range);
+    if (!beam || *beam < next) return false;
+    const double off = (p_L / range - directions_L_[*beam]).norm();
+    const double allowed = kRoundingRad + (rounding + end.error_m) / range + end.error_rad;
+    if (!(off <= std::min(allowed, most_off_))) return false;
+    beams.beams[*beam] = {BeamState::range, static_cast<float>(range)};
+    next = *beam + 1;
+  }
+  beams.points = scan.points_W.size();
+  return true;
+}
+
+/// Tells what other UAVs' bodies have to do with it.
+void BeamReader::mark(std::span<const KnownBody> others, BeamScan& beams) const {
+  for (std::size_t f = 0; f < beams.fired.size(); ++f) {
+    const Isometry3d& X_WL = beams.fired[f].X_WL;
+    const int end = f + 1 < beams.fired.size() ? beams.fired[f + 1].first_column : config_.columns;
+    for (const KnownBody& body : others) {
+      if ((body.p_W - X_WL.translation()).norm() > config_.range_max_m + body.radius_m) continue;
+      for (int ring = 0; ring < config_.rings; ++ring) {
+        for (int column = beams.fired[f].first_column; column < end; ++column) {
+          const auto i = static_cast<std::size_t>(ring * config_.columns + column);
+          BeamScan::Beam& beam = beams.beams[i];
+          const Vector3d direction_W = X_WL.linear() * directions_L_[i];
+          const Vector3d p_W = X_WL.translation() + beam.range_m * direction_W;
+          if (beam.state == BeamState::range && (p_W - body.p_W).norm() < body.radius_m) beam.state = BeamState::uav;
+          if (beam.state == BeamState::none && meets(X_WL.translation(), direction_W, config_.range_max_m, body)) {
+            beam.state = BeamState::unknown;
+          }
+        }
+      }
+    }
+  }
+}
+
+BeamScan BeamReader::read(const Scan& scan, std::span<const KnownBody> others) {
+  BeamScan beams;
+  beams.tick = scan.tick;
+  beams.columns = config_.columns;
+  beams.beams.assign(directions_L_.size(), {BeamState::none, 0.0F});
+  BodyTrack::Pose end;
+  beams.doubt = place(beams, end);
+  if (beams.doubt == ScanDoubt::none && !assign(scan, end, beams)) beams.doubt = ScanDoubt::misfit;
+  ++scans_[static_cast<std::size_t>(beams.doubt)];
+  if (beams.doubt == ScanDoubt::none) {
+    mark(others, beams);
+  } else {
+    beams.fired.clear();
+    beams.beams.assign(directions_L_.size(), {});
+  }
+  return beams;
+}
+
+}  // namespace skein::agent
