@@ -9,7 +9,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
@@ -39,7 +38,10 @@ class AttachWatch {
  public:
   /// Once this returns, no debugger is missed. \p noticed_fd: an eventfd, written to when one has come and gone on.
   explicit AttachWatch(int noticed_fd) : noticed_fd_(noticed_fd), thread_([this] { watch(); }) {
-    while (thread_id_ == 0 || !sleeps(thread_id_)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    constexpr int kLook_ms = 1;
+    pollfd noticed{.fd = noticed_fd_, .events = POLLIN, .revents = 0};  // one that came at once has ended the thread
+    while ((thread_id_ == 0 || !sleeps(thread_id_)) && ::poll(&noticed, 1, kLook_ms) <= 0) {
+    }
   }
   ~AttachWatch() {
     ::eventfd_write(end_fd_, 1);

@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <random>
@@ -18,28 +17,37 @@ namespace {
 
 constexpr int kWentOn = 0;
 constexpr int kForgotten = 1;  ///< It would have waited for ever.
+constexpr int kLooksTold = 3;
 
 /// A process that waits for a debugger.
 class Waiting {
  public:
   /// Returns when it waits.
   Waiting() {
-    int ready[2];
-    EXPECT_EQ(::pipe(ready), 0);
+    int looked[2];
+    EXPECT_EQ(::pipe(looked), 0);
     process_ = ::fork();
     if (process_ == 0) {
       constexpr int kManyLooks = 2000;
       int looks = 0;
       wait_for_debugger([&] {
-        if (looks == 0 && ::write(ready[1], "r", 1) != 1) ::_exit(2);
+        if (looks < kLooksTold && ::write(looked[1], "l", 1) != 1) ::_exit(2);
         return ++looks > kManyLooks;
       });
       ::_exit(looks > kManyLooks ? kForgotten : kWentOn);
     }
+    ::close(looked[1]);
+    looks_ = looked[0];
+    see_a_look();
+  }
+  ~Waiting() { ::close(looks_); }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+  /// Returns when it has looked for a debugger once more; kLooksTold times in all.
+  void see_a_look() const {
     char letter = 0;
-    EXPECT_EQ(::read(ready[0], &letter, 1), 1);
-    ::close(ready[0]);
-    ::close(ready[1]);
+    EXPECT_EQ(::read(looks_, &letter, 1), 1);
   }
   pid_t process() const { return process_; }
   int end() const {
@@ -50,6 +58,7 @@ class Waiting {
 
  private:
   pid_t process_ = 0;
+  int looks_ = -1;
 };
 
 /// Attaches to all threads, as gdb does, and leaves again. False where the kernel does not allow it.
@@ -67,17 +76,18 @@ bool look_at(pid_t process) {
 
 TEST(DebuggerWait, GoesOnWhenADebuggerHasComeAndGoneAtAnyInstant) {
   std::mt19937 random(std::random_device{}());
-  std::uniform_int_distribution<int> microseconds(0, 120'000);
+  std::uniform_int_distribution<int> looks(0, 2), yields(0, 20'000);
   for (int i = 0; i < 25; ++i) {
     const Waiting waiting;
-    const int delay = i == 0 ? 0 : microseconds(random);
-    std::this_thread::sleep_for(std::chrono::microseconds(delay));
+    const int looked = i == 0 ? 0 : looks(random), yielded = i == 0 ? 0 : yields(random);
+    for (int look = 0; look < looked; ++look) waiting.see_a_look();
+    for (int n = 0; n < yielded; ++n) std::this_thread::yield();
     if (!look_at(waiting.process())) {
       ::kill(waiting.process(), SIGCONT);
       waiting.end();
       GTEST_SKIP() << "this process may not attach to another";
     }
-    EXPECT_EQ(waiting.end(), kWentOn) << "attached " << delay << " us after the wait had begun";
+    EXPECT_EQ(waiting.end(), kWentOn) << "attached after " << looked << " looks and " << yielded << " yields";
   }
 }
 

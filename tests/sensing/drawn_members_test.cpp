@@ -43,7 +43,7 @@ class DrawnMembers : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(DrawnMembers, AreSeenWhereATubeIsFree) {
   const Flight flight = flights()[GetParam()];
-  const SensedSpace space(flight, kServoPhaseS, 1, 40.0);
+  const SensedSpace space(flight, kServoPhaseS, {});
   RandomStream random(GetParam() + 1, "drawn_members", 0);
   constexpr std::size_t kDraws = 170'000, kAPlace = 20, kMostPlaces = 4'000'000;
   std::vector<Tally> by_distance(20);
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Flights, DrawnMembers, testing::Range<std::size_t>(0, f
 /// The worst that can be drawn: a wire along a line of beams, between it and the next. Lines are half a degree apart:
 /// up to 5.7 m no wire of 5 cm fits between two.
 TEST(WiresAlongALineOfBeams, AreSeenUpToFiveMetres) {
-  const SensedSpace space(flights().front(), kServoPhaseS, 1, 40.0);
+  const SensedSpace space(flights().front(), kServoPhaseS, exact_map());
   RandomStream random(3, "wires", 0);
   std::size_t drawn = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -104,7 +104,7 @@ TEST(WiresAlongALineOfBeams, AreSeenUpToFiveMetres) {
 /// map; of their length, where all across it must be free, a little less: 0.45.
 TEST(OneSweep, ProvesHalfOfTenMetres) {
   for (const double phase_s : {3.0, 0.5, 5.0}) {  // either way of the servo
-    const SensedSpace space(flights().front(), phase_s, 1, 40.0);
+    const SensedSpace space(flights().front(), phase_s, exact_map());
     RandomStream random(5, "ways", 0);
     std::size_t free_steps = 0, steps = 0, free_places = 0, places = 0;
     for (int way = 0; way < 300; ++way) {

@@ -46,38 +46,31 @@ std::vector<Flight> flights() {
   };
 }
 
-SensedSpace::SensedSpace(const Flight& flight, double servo_phase_s, int every, double range_m)
-    : map_([&] {
-        agent::WorldMap::Config config;
-        config.evidence_range_m = range_m;
-        return config;
-      }()) {
-  const double half_fov = 0.5 * lidar_.vertical_fov_deg * kRadPerDeg;
+agent::WorldMapper::Config exact_map() {
+  agent::WorldMapper::Config config;
+  config.map.to_m = {50.0};
+  config.every = 1;
+  config.bundle_rad = 0.0;
+  return config;
+}
+
+SensedSpace::SensedSpace(const Flight& flight, double servo_phase_s, const agent::WorldMapper::Config& config)
+    : mapper_(lidar_, config) {
   for (int ring = 0; ring < lidar_.rings; ++ring) {
-    const double elevation = half_fov * (2.0 * ring / (lidar_.rings - 1) - 1.0);
     for (int column = 0; column < lidar_.columns; ++column) {
-      const double azimuth = pi * (2.0 * column / lidar_.columns - 1.0);
-      beams_L_.emplace_back(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                            std::sin(elevation));
+      beams_L_.push_back(lidar_direction_L(lidar_, ring, column));
     }
   }
-  agent::RepeatedScans repeated_scans(agent::FreeCriterion().member_width_m);
-  std::vector<agent::Beam> beams;
-  const double period_s = 1.0 / lidar_.rate_hz;
-  for (int number = 0; number * period_s < flight.duration_s; number += every) {
-    const double t = number * period_s;
-    const Isometry3d X_WL = flight.X_WB(t) * Eigen::Translation3d(kLidarServo_p_BS) *
-                            Eigen::AngleAxisd(sim::servo_angle(lidar_, t + servo_phase_s), Vector3d::UnitX());
+  agent::BeamScan scan{.columns = lidar_.columns};
+  scan.beams.assign(beams_L_.size(), {agent::BeamState::none, 0.0F});
+  for (Tick tick = 0; seconds(tick) < flight.duration_s; tick += lidar_period(lidar_)) {
+    const double t = seconds(tick);
+    const Isometry3d X_WL = lidar_pose(flight.X_WB(t), sim::servo_angle(lidar_, t + servo_phase_s));
     scans_.push_back(X_WL);
     inverse_.push_back(X_WL.inverse());
-    const agent::RepeatedScans::Repeated repeated = repeated_scans.ask(X_WL);
-    beams.clear();
-    for (const Vector3d& beam_L : beams_L_) {
-      const Eigen::Vector3f direction_W = (X_WL.linear() * beam_L).cast<float>();
-      if (repeated(direction_W)) continue;
-      beams.push_back({X_WL.translation(), direction_W, static_cast<float>(lidar_.range_max_m), false});
-    }
-    map_.insert(beams);
+    scan.tick = tick;
+    scan.fired = {{.first_column = 0, .tick = tick, .X_WL = X_WL}};
+    mapper_.insert(scan);
   }
 }
 

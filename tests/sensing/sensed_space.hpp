@@ -9,8 +9,7 @@
 
 #include "core/random_stream.hpp"
 #include "core/scenario.hpp"
-#include "uav_agent/maps/repeated_scans.hpp"
-#include "uav_agent/maps/world_map.hpp"
+#include "uav_agent/maps/world_mapper.hpp"
 
 namespace skein::sensing {
 
@@ -33,14 +32,15 @@ struct Member {
   double length_m = 2.0, width_m = 0.05;
 };
 
+/// All beams, each for itself, and cubes of half a metre everywhere: what flies is never to call more free.
+agent::WorldMapper::Config exact_map();
+
 class SensedSpace {
  public:
-  /// Flies, and inserts each k-th scan.
-  /// @param range_m  up to which beams are taken as evidence.
-  SensedSpace(const Flight& flight, double servo_phase_s, int every, double range_m);
+  SensedSpace(const Flight& flight, double servo_phase_s, const agent::WorldMapper::Config& config);
 
-  const agent::WorldMap& map() const { return map_; }
-  /// Where the LiDAR was at its scans.
+  const agent::WorldMap& map() const { return mapper_.map(); }
+  /// Where the LiDAR was at all of its scans.
   const std::vector<Isometry3d>& scans() const { return scans_; }
   double distance_to_route_m(const Vector3d& p_W) const;
   /// Whether a beam met the part of the member that lies within `reach_m` of the segment.
@@ -50,7 +50,7 @@ class SensedSpace {
   LidarConfig lidar_;
   std::vector<Isometry3d> scans_, inverse_;
   std::vector<Vector3d> beams_L_;  ///< ring by ring
-  agent::WorldMap map_;
+  agent::WorldMapper mapper_;
 
   bool meets(std::size_t scan, const Vector3d& from_W, const Vector3d& to_W, double width_m) const;
 };

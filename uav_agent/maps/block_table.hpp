@@ -4,6 +4,7 @@
 // Threads: one.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,13 @@
 #include <vector>
 
 namespace skein::agent {
+
+/// Of a cell or block that is less than 2^20 from the origin along each axis.
+inline std::uint64_t grid_key(const Eigen::Vector3i& at) {
+  constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;
+  const auto along = [&](int axis) { return static_cast<std::uint64_t>(at[axis]) & kMask; };
+  return along(0) | along(1) << 21 | along(2) << 42;
+}
 
 template <class Block>
 class BlockTable {

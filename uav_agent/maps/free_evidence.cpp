@@ -8,8 +8,6 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kUnit = 64.0;  ///< a beam straight through a window; the most oblique one is 1.73 times as much
-
 /// A convex function that falls at last as its argument to the power of -Power or faster: between places of the table
 /// its chord lies above it, and beyond the table the power does.
 template <int Power>
@@ -54,16 +52,16 @@ double unseen_about_an_axis(double c) {
   return kTable(c);
 }
 
-BeamEvidence::BeamEvidence(const Eigen::Vector3f& direction, int across) {
-  const auto rounded = [&](float value) {
-    return static_cast<std::int16_t>(std::lround(kUnit * value / std::abs(direction[across])));
-  };
+BeamEvidence::BeamEvidence(const Eigen::Vector3f& direction, int across, float per_m2) {
+  const float straight = static_cast<float>(kUnit) * per_m2, units = straight / std::abs(direction[across]);
+  const auto rounded = [](float value) { return static_cast<std::int16_t>(value + (value < 0.0F ? -0.5F : 0.5F)); };
   const float x = direction.x(), y = direction.y(), z = direction.z();
-  sums_ = {rounded(x * x), rounded(y * y), rounded(z * z), rounded(x * y), rounded(x * z), rounded(y * z), 1, 0};
+  sums_ = {rounded(units * x * x), rounded(units * y * y), rounded(units * z * z), rounded(units * x * y),
+           rounded(units * x * z), rounded(units * y * z), rounded(straight),      0};
 }
 
-double BeamEvidence::unseen_probability(double window_m2, const FreeCriterion& criterion) const {
-  const double k_of_one = criterion.member_width_m * criterion.member_in_halo_m / window_m2 / kUnit;
+double BeamEvidence::unseen_probability(const FreeCriterion& criterion) const {
+  const double k_of_one = criterion.member_width_m * criterion.member_in_halo_m / kUnit;
   const double k = k_of_one * (sums_[0] + sums_[1] + sums_[2]);
   const double by_number = unseen_along_one_direction(k);
   if (by_number <= criterion.unseen_p || std::exp(-k) > criterion.unseen_p) return by_number;  // most are clear

@@ -26,7 +26,9 @@
 // Units: metres.   Pure; threads: any.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/types.hpp"
@@ -48,25 +50,35 @@ struct FreeCriterion {
 /// not matter. One fits into a processor's vector.
 class alignas(16) BeamEvidence {
  public:
-  static constexpr int kMostBeams = 250;  ///< more are not counted: they would not fit
+  static constexpr int kMostPerM2 = 1000;  ///< of a window; more are not counted: they would not fit
 
   BeamEvidence() = default;
-  /// A beam. @param direction  a unit vector; its sign does not matter.   @param across  axis of the window: 0, 1 or 2.
-  BeamEvidence(const Eigen::Vector3f& direction, int across);
+  /// @param direction  of the beams, a unit vector; its sign does not matter.   @param across  axis of the window: 0, 1
+  /// or 2.   @param per_m2  beams over the window's area: 64 at most.
+  BeamEvidence(const Eigen::Vector3f& direction, int across, float per_m2);
 
-  /// Nothing once there are kMostBeams.
+  /// Nothing once there are kMostPerM2.   @param other  just made from beams.
   void add(const BeamEvidence& other) {
-    if (beams() >= kMostBeams) return;
+    if (full()) return;
     for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] = static_cast<std::int16_t>(sums_[i] + other.sums_[i]);
   }
-  int beams() const { return sums_[6]; }
+  double per_m2() const { return static_cast<double>(sums_[6]) / kUnit; }
+  bool full() const { return sums_[6] >= kUnit * kMostPerM2; }
+
+  /// A reminder for who gathers, kept here to be in the processor's cache with the rest: whether there are as many
+  /// beams as it asked to be told of. At first any number is.
+  bool due() const { return sums_[6] >= sums_[7]; }
+  void remind_at(double per_m2) { sums_[7] = static_cast<std::int16_t>(std::min(kUnit * per_m2, 32767.0)); }
+  void never_remind() { sums_[7] = 32767; }
 
   /// P of above, its lower bound.
-  /// @param window_m2  area of the window.
-  double unseen_probability(double window_m2, const FreeCriterion& criterion) const;
+  double unseen_probability(const FreeCriterion& criterion) const;
 
  private:
-  /// xx, yy, zz, xy, xz, yz of the beams' sum of rho b b', in 1/kUnit; their number; and nothing.
+  static constexpr int kUnit =
+      16;  ///< one beam a square metre, straight through; the most oblique is 1.73 times as much
+
+  /// xx, yy, zz, xy, xz, yz of the beams' sum of rho b b', in 1/kUnit; that of their number; and when due.
   std::array<std::int16_t, 8> sums_ = {};
 };
 

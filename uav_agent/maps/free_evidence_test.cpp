@@ -11,6 +11,8 @@
 namespace skein::agent {
 namespace {
 
+constexpr float kPerM2 = 4.0F;  ///< of one beam: a window of a quarter of a square metre
+
 Vector3d drawn_line(RandomStream& random) {
   return Vector3d(random.normal(), random.normal(), random.normal()).normalized();
 }
@@ -41,7 +43,6 @@ TEST(UnseenMembers, TablesAreAboveTheIntegralsAndNearToThem) {
 /// of the header never leaves more than the bound.
 TEST(UnseenMembers, TheBoundHoldsWhereverBeamsComeFrom) {
   const FreeCriterion criterion;
-  constexpr double kWindowM2 = 0.25;
   for (std::uint64_t world = 0; world < 60; ++world) {
     RandomStream random(world, "unseen", 0);
     const std::vector<Vector3d> places = {drawn_line(random), drawn_line(random), drawn_line(random)};
@@ -54,10 +55,10 @@ TEST(UnseenMembers, TheBoundHoldsWhereverBeamsComeFrom) {
                                            (places[0] + 4.0 * part * places[1]).normalized(), drawn_line(random)};
       const Vector3d direction = kinds[world % 4];
       const int axis = nearest_axis(direction);
-      evidence.add(BeamEvidence((part < 0.3 ? -direction : direction).cast<float>(), axis));
-      all.emplace_back(direction, 1.0 / (kWindowM2 * std::abs(direction[axis])));
+      evidence.add(BeamEvidence((part < 0.3 ? -direction : direction).cast<float>(), axis, kPerM2));
+      all.emplace_back(direction, kPerM2 / std::abs(direction[axis]));
     }
-    ASSERT_EQ(evidence.beams(), beams);
+    ASSERT_EQ(evidence.per_m2(), beams * kPerM2);
     double unseen = 0.0, unseen2 = 0.0;
     constexpr int kMembers = 4000;
     for (int member = 0; member < kMembers; ++member) {
@@ -69,7 +70,7 @@ TEST(UnseenMembers, TheBoundHoldsWhereverBeamsComeFrom) {
       unseen2 += p * p / kMembers;
     }
     const double error = std::sqrt(unseen2 / kMembers);
-    EXPECT_GE(evidence.unseen_probability(kWindowM2, criterion), 0.97 * unseen - 4.0 * error) << world;
+    EXPECT_GE(evidence.unseen_probability(criterion), 0.97 * unseen - 4.0 * error) << world;
   }
 }
 
@@ -78,15 +79,14 @@ TEST(UnseenMembers, BeamsOfAllSidesProveWithFewerThanBeamsOfOne) {
     RandomStream random(1, "needed", 0);
     BeamEvidence evidence;
     const FreeCriterion criterion;
-    while (evidence.unseen_probability(0.25, criterion) > criterion.unseen_p) {
+    while (evidence.unseen_probability(criterion) > criterion.unseen_p) {
       const Vector3d direction = all_sides ? drawn_line(random) : Vector3d::UnitX();
-      evidence.add(BeamEvidence(direction.cast<float>(), nearest_axis(direction)));
+      evidence.add(BeamEvidence(direction.cast<float>(), nearest_axis(direction), kPerM2));
     }
-    return evidence.beams();
+    return evidence.per_m2();
   };
-  // 375 a square metre of one direction, in a window of a quarter of one; oblique beams count for more.
-  EXPECT_NEAR(beams_needed(false), 94, 2);
-  EXPECT_LT(beams_needed(true), 40);
+  EXPECT_NEAR(beams_needed(false), 375, 8);
+  EXPECT_LT(beams_needed(true), 160);  // oblique ones count for more
 }
 
 TEST(UnseenMembers, NoNumberOfBeamsIsTooMany) {
@@ -96,17 +96,31 @@ TEST(UnseenMembers, NoNumberOfBeamsIsTooMany) {
   double before = 1.0 + 1e-9;
   for (int beam = 0; beam < 2000; ++beam) {
     const Vector3d direction = drawn_line(random);
-    evidence.add(BeamEvidence(direction.cast<float>(), nearest_axis(direction)));
-    const double now = evidence.unseen_probability(0.25, criterion);
+    evidence.add(BeamEvidence(direction.cast<float>(), nearest_axis(direction), kPerM2));
+    const double now = evidence.unseen_probability(criterion);
     ASSERT_GT(now, 0.0) << beam;
     ASSERT_LE(now, before + 0.01) << beam;
     before = now;
   }
-  EXPECT_EQ(evidence.beams(), BeamEvidence::kMostBeams);
+  EXPECT_EQ(evidence.per_m2(), BeamEvidence::kMostPerM2);
+  EXPECT_TRUE(evidence.full());
+}
+
+TEST(BeamEvidence, RemindsOnceThereAreSoMany) {
+  BeamEvidence evidence;
+  EXPECT_TRUE(evidence.due());
+  evidence.remind_at(10.0);
+  for (const bool due : {false, false, true}) {
+    evidence.add(BeamEvidence(Eigen::Vector3f::UnitX(), 0, kPerM2));
+    EXPECT_EQ(evidence.due(), due) << evidence.per_m2();
+  }
+  evidence.never_remind();
+  for (int i = 0; i < 1000; ++i) evidence.add(BeamEvidence(Eigen::Vector3f::UnitX(), 0, kPerM2));
+  EXPECT_FALSE(evidence.due());
 }
 
 TEST(UnseenMembers, WithoutBeamsEverythingIs) {
-  EXPECT_NEAR(BeamEvidence().unseen_probability(0.25, FreeCriterion()), 1.0, 1e-9);
+  EXPECT_NEAR(BeamEvidence().unseen_probability(FreeCriterion()), 1.0, 1e-9);
 }
 
 }  // namespace

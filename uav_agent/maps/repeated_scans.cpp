@@ -23,9 +23,8 @@ RepeatedScans::Repeated RepeatedScans::ask(const Isometry3d& X_WL) {
       repeated.all = true;
       return repeated;
     }
-    const double sine = member_width_m_ / nearest_m;
     repeated.about_W = (nearest->second - X_WL.translation()) / nearest_m;
-    repeated.cosine = std::sqrt(1.0 - sine * sine);
+    repeated.cosine = std::cos(std::asin(member_width_m_ / nearest_m) + half_rad_);
   }
   scans_.emplace_back(R_WL, X_WL.translation());
   return repeated;

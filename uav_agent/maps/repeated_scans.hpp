@@ -22,7 +22,9 @@ class RepeatedScans {
   static constexpr double kNearM = 0.25;    ///< what is nearer than this to one that is alike says nothing new
 
   /// @param member_width_m  beams this near to each other are one.
-  explicit RepeatedScans(double member_width_m) : member_width_m_(member_width_m) {}
+  /// @param half_rad        who asks about bundles: from the middle of one to its farthest beam.
+  explicit RepeatedScans(double member_width_m, double half_rad = 0.0)
+      : member_width_m_(member_width_m), half_rad_(half_rad) {}
 
   /// Which beams of a scan were fired before.
   struct Repeated {
@@ -38,7 +40,7 @@ class RepeatedScans {
   Repeated ask(const Isometry3d& X_WL);
 
  private:
-  double member_width_m_;
+  double member_width_m_, half_rad_;
   std::vector<std::pair<Quaterniond, Vector3d>> scans_;  ///< all that said something new
 };
 

@@ -1,98 +1,92 @@
-// What a UAV knows of the space around it, from all beams of its LiDAR: cubes that are free, occupied or unknown.
+// What a UAV knows of the space around it, from all beams of its LiDAR and from what others tell: cubes that are free,
+// occupied or unknown.
 //
 // A cube is occupied when a beam ended in it, for good: thin members must not be carved away by beams that pass them.
 // It is free when so many beams have passed it that a member would have been seen (free_evidence.hpp); till then it is
-// unknown, and evidence is gathered. A beam counts in each layer of cubes across the axis of W that it is nearest to,
-// for the cube whose window in the middle of that layer it passes.
+// unknown, and evidence is gathered. A place far away is seen by few beams, so there cubes are larger: 0.5 m up to 8 m
+// from the LiDAR, 1 m up to 16 m, 2 m beyond. In larger ones only beams count that pass all of the cube, and so do those
+// around them: it is not free where half of it lies behind something. A cube that comes nearer begins with the evidence
+// of the larger one about it.
 // Frame W.   Units: metres.   Threads: one.   Deterministic: no answer depends on an order in memory.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "uav_agent/maps/block_table.hpp"
-#include "uav_agent/maps/free_evidence.hpp"
+#include "uav_agent/maps/map_level.hpp"
 
 namespace skein::agent {
-
-/// A beam of the LiDAR.
-struct Beam {
-  Vector3d from_W = Vector3d::Zero();
-  Eigen::Vector3f direction_W = Eigen::Vector3f::UnitX();  ///< unit vector
-  float free_m = 0.0F;                                     ///< from `from_W` on, it met nothing so far
-  bool returned = false;                                   ///< there it met something
-};
-
-enum class Space : std::uint8_t { unknown, free, occupied };
 
 class WorldMap {
  public:
   struct Config {
-    double cell_m = 0.5;
-    double evidence_range_m = 50.0;  ///< of a beam; beyond it only where the beam ended counts
-    double forget_m = 70.0;          ///< from the sensor: blocks of cubes that are all unknown, evidence and all
+    double cell_m = 0.5;  ///< of the smallest cubes
+    /// Up to there beams are evidence for cubes of cell_m, for those twice as large, and so on: one to four. Beyond the
+    /// last, only what beams met counts.
+    std::vector<double> to_m = {8.0, 16.0, 32.0};
     FreeCriterion criterion = {};
   };
+  /// Edge of what changed_at() is asked of, and of a block of the smallest cubes.
+  static constexpr int kChunk = MapLevel::kBlock;
 
-  explicit WorldMap(const Config& config) : config_(config) {}
+  explicit WorldMap(const Config& config);
 
-  /// The beams of a scan, those that repeat others left out.
-  void insert(std::span<const Beam> beams);
+  /// A scan, without beams that repeat others.
+  /// @param hits_W  where beams ended.
+  void insert(std::span<const BeamBundle> bundles, std::span<const Eigen::Vector3f> hits_W);
   /// Makes the cubes with a point within `radius_m` free, unless they are occupied: where the UAV itself stands.
   void set_free(const Vector3d& p_W, double radius_m);
+  /// Makes occupied cubes with a point within `radius_m` unknown: a UAV was seen there that has moved on.
+  void vacate(const Vector3d& p_W, double radius_m);
+  /// What somebody told of a cube of (1 << level) smallest ones along each edge. Occupied ones are of level 0. Less than
+  /// what is known already is not taken.
+  /// @param cube  in cubes of that size.   @param level  0 up to levels() - 1.
+  void hear(const Eigen::Vector3i& cube, int level, Space space, Teller teller);
 
-  Space at(const Vector3d& p_W) const;
+  Space at(const Vector3d& p_W) const { return known(cube_of(p_W)).space; }
+  /// @param cube  a smallest one.
+  MapLevel::Known known(const Eigen::Vector3i& cube) const;
+  Eigen::Vector3i cube_of(const Vector3d& p_W) const { return levels_.front()->cell_of(p_W); }
   /// Whether all cubes with a point within `radius_m` of the segment are free. For the tube of a body, that is its
   /// radius and kHaloM.
   bool tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius_m) const;
 
+  using Chunk = std::array<MapLevel::Known, MapLevel::kCells>;  ///< of its smallest cubes, x first
+  /// All of a chunk at once.
+  void read(const Eigen::Vector3i& chunk, Chunk& known) const;
+  /// When something of a chunk, or of a region of 4^3 chunks, became known last: 1, 2, ...; 0: nothing is known.
+  std::uint64_t changed_at(const Eigen::Vector3i& chunk) const;
+  std::uint64_t region_changed_at(const Eigen::Vector3i& region) const;
+  /// All regions of which something is known, in the order in which they became so.
+  const std::vector<Eigen::Vector3i>& regions() const { return regions_; }
+
+  const Config& config() const { return config_; }
+  int levels() const { return static_cast<int>(levels_.size()); }
+
   struct Counts {
-    std::size_t free = 0, occupied = 0;  ///< cubes
-    std::size_t blocks = 0;              ///< that are neither free all over nor forgotten
-    std::size_t bytes = 0;               ///< of memory
-    std::uint64_t windows = 0;           ///< that beams have passed, those of cubes that were known among them
+    std::vector<std::size_t> free;  ///< cubes, by level
+    std::size_t occupied = 0;
+    std::size_t blocks = 0;     ///< that are neither free all over nor forgotten
+    std::size_t bytes = 0;      ///< of memory
+    std::uint64_t windows = 0;  ///< that beams have passed, those of cubes that were known among them
   };
   Counts counts() const;
 
  private:
-  static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits, kCubes = kBlock * kBlock * kBlock;
   using Cube = Eigen::Vector3i;
 
-  struct Block {
-    Cube at = Cube::Zero();  ///< its number
-    int known = 0, free = 0;
-    std::array<BeamEvidence, kCubes> evidence = {};
-    std::array<Space, kCubes> space = {};
-    std::array<std::uint8_t, kCubes> ask_at = {};  ///< so many beams: when the criterion is asked next
-  };
-
-  static std::uint64_t key_of(const Cube& block);
-  static Cube block_of(const Cube& cube) {
-    return {cube.x() >> kBlockBits, cube.y() >> kBlockBits, cube.z() >> kBlockBits};
-  }
-  static std::size_t place_of(const Cube& cube);
-  Cube cube_of(const Vector3d& p_W) const;
-  /// Made if there is none. nullptr where all of it is free.
-  Block* block(const Cube& at);
-  void set(Block& block, std::size_t place, Space space);
-  void pass(const Beam& beam);
-  void gather(Block& block, std::size_t place, const BeamEvidence& beam);
-  /// Takes blocks back that are free all over, or far away and unknown.
-  void tidy(const Vector3d& p_WS);
-  Space space_of(const Cube& cube) const;
+  void note_changes();
   template <class Visit>
   bool all_near(const Vector3d& a_W, const Vector3d& b_W, double radius_m, const Visit& visit) const;
 
   Config config_;
-  BlockTable<std::uint32_t> numbers_;  ///< of blocks: kNone, kAllFree or 2 and more
-  static constexpr std::uint32_t kNone = 0, kAllFree = 1, kFirst = 2;
-  std::vector<Block> blocks_;
-  std::vector<std::uint32_t> spare_;  ///< in blocks_
-  std::uint64_t scans_ = 0;
-  Counts counts_;
+  std::vector<std::unique_ptr<MapLevel>> levels_;  ///< the smallest cubes first
+  BlockTable<std::uint64_t> chunks_, in_regions_;  ///< changed_at()
+  std::vector<Eigen::Vector3i> regions_;
+  std::uint64_t changes_ = 0, scans_ = 0;
 };
 
 }  // namespace skein::agent

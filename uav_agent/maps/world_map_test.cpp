@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -22,23 +23,24 @@ class SlowMap {
  public:
   using Cube = std::tuple<int, int, int>;
 
-  explicit SlowMap(const WorldMap::Config& config) : config_(config) {}
+  explicit SlowMap(const WorldMap::Config& config) : config_(config), levels_(config.to_m.size()) {}
 
   /// nullopt: it passes so near to an edge that rounding decides; the maps need not agree.
-  std::optional<std::vector<Cube>> windows(const Beam& beam) const {
+  std::optional<std::vector<Cube>> windows(const BeamBundle& bundle, std::size_t level) const {
+    const double cell_m = cell(level), from_m = level == 0 ? 0.0 : config_.to_m[level - 1];
+    const double free_m = level == 0 ? bundle.free_m : bundle.around_free_m - cell_m;
+    const double end_m = std::min(free_m, config_.to_m[level]);
     int axis = 0;
-    beam.direction_W.cwiseAbs().maxCoeff(&axis);
-    const Vector3d direction = beam.direction_W.cast<double>();
-    const double end_m = std::min<double>(beam.free_m, config_.evidence_range_m);
-    const double first = beam.from_W[axis], last = first + end_m * direction[axis];
+    bundle.direction_W.cwiseAbs().maxCoeff(&axis);
+    const Vector3d direction = bundle.direction_W.cast<double>();
+    const double first = bundle.from_W[axis], last = first + config_.to_m[level] * direction[axis];
     std::vector<Cube> cubes;
-    for (double layer = std::floor(std::min(first, last) / config_.cell_m) - 1;
-         layer * config_.cell_m < std::max(first, last); ++layer) {
-      const double middle = (layer + 0.5) * config_.cell_m;
-      const double way = (middle - first) / direction[axis];
-      if (std::abs(way) < 1e-3 || std::abs(way - end_m) < 1e-3) return std::nullopt;
-      if (way < 0.0 || way > end_m) continue;
-      Vector3d at = (beam.from_W + way * direction) / config_.cell_m;
+    for (double layer = std::floor(std::min(first, last) / cell_m) - 1; layer * cell_m < std::max(first, last);
+         ++layer) {
+      const double way = ((layer + 0.5) * cell_m - first) / direction[axis];
+      if (std::abs(way - from_m) < 1e-3 || std::abs(way - end_m) < 1e-3) return std::nullopt;
+      if (way < from_m || way > end_m) continue;
+      Vector3d at = (bundle.from_W + way * direction) / cell_m;
       for (int side = 1; side < 3; ++side) {
         const double place = at[(axis + side) % 3];
         if (std::abs(place - std::round(place)) < 1e-3) return std::nullopt;
@@ -48,158 +50,258 @@ class SlowMap {
     return cubes;
   }
 
-  void insert(const std::vector<Beam>& beams) {
-    for (const Beam& beam : beams) {
-      if (!beam.returned) continue;
-      const Vector3d hit =
-          (beam.from_W + static_cast<double>(beam.free_m) * beam.direction_W.cast<double>()) / config_.cell_m;
-      spaces_[{std::floor(hit.x()), std::floor(hit.y()), std::floor(hit.z())}] = Space::occupied;
-    }
-    for (const Beam& beam : beams) {
+  void insert(const std::vector<BeamBundle>& bundles, const std::vector<Eigen::Vector3f>& hits_W) {
+    for (const Eigen::Vector3f& hit_W : hits_W) hits_.insert(cube_of(hit_W.cast<double>(), 0));
+    for (const BeamBundle& bundle : bundles) {
       int axis = 0;
-      beam.direction_W.cwiseAbs().maxCoeff(&axis);
-      const std::optional<std::vector<Cube>> passed = windows(beam);
-      for (const Cube& cube : passed.value_or(std::vector<Cube>())) {
-        if (spaces_.contains(cube)) continue;
-        evidence_[cube].add(BeamEvidence(beam.direction_W, axis));
-        const double window_m2 = config_.cell_m * config_.cell_m;
-        if (evidence_[cube].unseen_probability(window_m2, config_.criterion) <= config_.criterion.unseen_p)
-          enough_.insert({cube, evidence_[cube].beams()});
+      bundle.direction_W.cwiseAbs().maxCoeff(&axis);
+      for (std::size_t level = 0; level < levels_.size(); ++level) {
+        const auto per_m2 = static_cast<float>(bundle.beams / (cell(level) * cell(level)));
+        for (const Cube& cube : windows(bundle, level).value()) {
+          Gathered& gathered = levels_[level][cube];
+          gathered.evidence.add(BeamEvidence(bundle.direction_W, axis, per_m2));
+          const bool enough = gathered.evidence.unseen_probability(config_.criterion) <= config_.criterion.unseen_p;
+          if (enough && !gathered.proved_with) gathered.proved_with = gathered.evidence.per_m2();
+        }
       }
     }
   }
 
-  bool occupied(const Cube& cube) const { return spaces_.contains(cube); }
-  /// With how many beams it was proved first, if it was.
-  std::optional<int> proved_with(const Cube& cube) const {
-    const auto found = enough_.find(cube);
-    return found == enough_.end() ? std::nullopt : std::optional<int>(found->second);
-  }
-  int beams(const Cube& cube) const {
-    const auto found = evidence_.find(cube);
-    return found == evidence_.end() ? 0 : found->second.beams();
+  bool occupied(const Vector3d& p_W) const { return hits_.contains(cube_of(p_W, 0)); }
+  struct Gathered {
+    BeamEvidence evidence = {};
+    std::optional<double> proved_with = {};  ///< with how many beams it was proved first
+  };
+  Gathered gathered(const Vector3d& p_W, std::size_t level) const {
+    const auto found = levels_[level].find(cube_of(p_W, level));
+    return found == levels_[level].end() ? Gathered() : found->second;
   }
 
  private:
+  double cell(std::size_t level) const { return config_.cell_m * (1 << level); }
+  Cube cube_of(const Vector3d& p_W, std::size_t level) const {
+    const Vector3d at = p_W / cell(level);
+    return {std::floor(at.x()), std::floor(at.y()), std::floor(at.z())};
+  }
   WorldMap::Config config_;
-  std::map<Cube, Space> spaces_;
-  std::map<Cube, BeamEvidence> evidence_;
-  std::map<Cube, int> enough_;
+  std::set<Cube> hits_;
+  std::vector<std::map<Cube, Gathered>> levels_;
+};
+
+struct DrawnScan {
+  std::vector<BeamBundle> bundles;
+  std::vector<Eigen::Vector3f> hits_W;
 };
 
 /// Beams from some places about the origin, into all directions; some end in a wall, or anywhere.
-std::vector<std::vector<Beam>> drawn_scans(std::uint64_t world, const SlowMap& slow) {
+std::vector<DrawnScan> drawn_scans(std::uint64_t world, const SlowMap& slow, std::size_t levels) {
   RandomStream random(world, "world_map", 0);
-  std::vector<std::vector<Beam>> scans(12);
-  for (std::vector<Beam>& scan : scans) {
+  std::vector<DrawnScan> scans(12);
+  for (DrawnScan& scan : scans) {
     const Vector3d from_W = random.uniform(0.0, 4.0) * drawn_unit(random);
-    while (scan.size() < 4000) {
-      Beam beam{from_W, drawn_unit(random).cast<float>(), static_cast<float>(random.uniform(4.0, 12.0)), false};
-      if (beam.direction_W.x() > 0.2F) {
-        beam.free_m = static_cast<float>((7.3 - from_W.x()) / beam.direction_W.x());
-        beam.returned = true;
-      }
-      if (beam.free_m > 0.0F && slow.windows(beam)) scan.push_back(beam);
+    while (scan.bundles.size() < 1000) {
+      const auto free_m = static_cast<float>(random.uniform(4.0, 24.0));
+      BeamBundle bundle{from_W, drawn_unit(random).cast<float>(), free_m, 0.0F, random.uniform() < 0.5 ? 8 : 1};
+      const bool returned = bundle.direction_W.x() > 0.2F;
+      if (returned) bundle.free_m = static_cast<float>((7.3 - from_W.x()) / bundle.direction_W.x());
+      bundle.around_free_m = static_cast<float>(random.uniform(0.7, 1.0)) * bundle.free_m;
+      bool sure = bundle.free_m > 0.0F;
+      for (std::size_t level = 0; level < levels; ++level) sure = sure && slow.windows(bundle, level);
+      if (!sure) continue;
+      scan.bundles.push_back(bundle);
+      if (returned) scan.hits_W.push_back(from_W.cast<float>() + bundle.free_m * bundle.direction_W);
     }
   }
   return scans;
 }
 
 TEST(WorldMap, SaysWhatTheCriterionSaysOfEachCube) {
-  std::size_t free = 0;
-  for (std::uint64_t world = 1; world <= 2; ++world) {
-    WorldMap::Config config;
-    config.evidence_range_m = 9.0;
-    WorldMap map(config);
-    SlowMap slow(config);
-    for (const std::vector<Beam>& scan : drawn_scans(world, slow)) {
-      map.insert(scan);
-      slow.insert(scan);
-    }
-    for (int x = -30; x < 30; ++x) {
-      for (int y = -30; y < 30; ++y) {
-        for (int z = -30; z < 30; ++z) {
-          const SlowMap::Cube cube{x, y, z};
-          const Space space = map.at((Vector3d(x, y, z) + Vector3d::Constant(0.5)) * config.cell_m);
-          ASSERT_EQ(space == Space::occupied, slow.occupied(cube)) << world << ": " << x << " " << y << " " << z;
-          if (space == Space::occupied) continue;
-          const std::optional<int> proved = slow.proved_with(cube);
-          // The map does not ask after each beam, but soon enough.
-          if (space == Space::free) {
-            ++free;
-            ASSERT_TRUE(proved) << world << ": " << x << " " << y << " " << z;
-          } else if (proved) {
-            ASSERT_LT(slow.beams(cube), *proved + *proved / 4 + 14) << world << ": " << x << " " << y << " " << z;
-          }
+  for (const std::vector<double>& to_m : {std::vector<double>{9.0}, {5.0, 14.0}}) {
+    std::vector<std::size_t> free(to_m.size());
+    for (std::uint64_t world = 1; world <= 2; ++world) {
+      WorldMap::Config config;
+      config.to_m = to_m;
+      config.criterion.unseen_p = 3e-3;
+      WorldMap map(config);
+      SlowMap slow(config);
+      for (const DrawnScan& scan : drawn_scans(world, slow, to_m.size())) {
+        map.insert(scan.bundles, scan.hits_W);
+        slow.insert(scan.bundles, scan.hits_W);
+      }
+      for (int i = 0; i < 60 * 60 * 60; ++i) {
+        const Eigen::Vector3i cube = Eigen::Vector3i(i % 60, i / 60 % 60, i / 3600) - Eigen::Vector3i::Constant(30);
+        const Vector3d p_W = (cube.cast<double>() + Vector3d::Constant(0.5)) * config.cell_m;
+        SCOPED_TRACE(testing::Message() << world << ": " << cube.transpose());
+        const Space space = map.at(p_W);
+        ASSERT_EQ(space == Space::occupied, slow.occupied(p_W));
+        if (space == Space::occupied) continue;
+        bool provable = false, proved = false;  // the map does not ask after each beam, but soon enough
+        for (std::size_t level = 0; level < to_m.size(); ++level) {
+          const SlowMap::Gathered gathered = slow.gathered(p_W, level);
+          if (!gathered.proved_with) continue;
+          if (space == Space::free) ++free[level];
+          provable = true;
+          proved = proved || gathered.evidence.per_m2() > 1.2 * *gathered.proved_with + 40.0;
         }
+        // A smaller cube may also be free by what it inherited and has gathered since.
+        if (to_m.size() == 1) {
+          ASSERT_TRUE(provable || space != Space::free);
+        }
+        ASSERT_TRUE(!proved || space == Space::free);
       }
     }
+    for (const std::size_t cubes : free) EXPECT_GT(cubes, 500U);
   }
-  EXPECT_GT(free, 2000u);
 }
 
 /// A cube of beams about the origin, dense enough to prove all of it.
-std::vector<Beam> flood(double half_m) {
-  std::vector<Beam> beams;
+std::vector<BeamBundle> flood(double half_m) {
+  std::vector<BeamBundle> beams;
   for (double u = -half_m + 0.02; u < half_m; u += 0.04) {
     for (double v = -half_m + 0.02; v < half_m; v += 0.04) {
       const auto length = static_cast<float>(2.0 * half_m);
-      beams.push_back({{u, v, -half_m}, Eigen::Vector3f::UnitZ(), length, false});
-      beams.push_back({{-half_m, u, v}, Eigen::Vector3f::UnitX(), length, false});
+      beams.push_back({{u, v, -half_m}, Eigen::Vector3f::UnitZ(), length});
+      beams.push_back({{-half_m, u, v}, Eigen::Vector3f::UnitX(), length});
     }
   }
   return beams;
 }
 
 TEST(WorldMap, AHitIsKeptWhateverPassesAndOpensWhatWasFree) {
-  WorldMap map({});
-  const std::vector<Beam> all = flood(4.0);
-  for (int i = 0; i < 60; ++i) map.insert(all);  // long enough for blocks that are free all over to be taken back
-  const std::size_t free = map.counts().free, bytes = map.counts().bytes;
+  WorldMap map(WorldMap::Config{});
+  const std::vector<BeamBundle> all = flood(4.0);
+  for (int i = 0; i < 60; ++i) map.insert(all, {});  // long enough for blocks that are free all over to be taken back
+  const std::size_t free = map.counts().free[0], bytes = map.counts().bytes;
   EXPECT_EQ(free, 16u * 16u * 16u);
   const Vector3d thing_W(1.1, 1.1, 1.1);
-  const Beam hit{{1.1, 1.1, 5.0}, -Eigen::Vector3f::UnitZ(), 3.9F, true};
-  map.insert(std::vector<Beam>{hit});
+  map.insert({}, std::vector<Eigen::Vector3f>{thing_W.cast<float>()});
   EXPECT_EQ(map.at(thing_W), Space::occupied);
-  EXPECT_EQ(map.counts().free, free - 1);
+  EXPECT_EQ(map.counts().free[0], free - 1);
   EXPECT_EQ(map.at(thing_W + Vector3d(0.5, 0.0, 0.0)), Space::free) << "its neighbour in the same block";
   EXPECT_FALSE(map.tube_free({1.1, 1.1, -3.0}, {1.1, 1.1, 3.0}, 0.6));
   EXPECT_TRUE(map.tube_free({-2.1, 1.1, -3.0}, {-2.1, 1.1, 3.0}, 0.6));
-  for (int i = 0; i < 60; ++i) map.insert(all);
+  for (int i = 0; i < 60; ++i) map.insert(all, {});
   EXPECT_EQ(map.at(thing_W), Space::occupied);
-  EXPECT_EQ(map.counts().free, free - 1);
+  EXPECT_EQ(map.counts().free[0], free - 1);
   EXPECT_LE(map.counts().bytes, bytes) << "what is free all over costs nothing";
 }
 
 TEST(WorldMap, AUavMakesItsOwnPlaceFreeButNothingThatWasHit) {
-  WorldMap map({});
-  map.insert(std::vector<Beam>{{{0.0, 0.0, 3.0}, -Eigen::Vector3f::UnitZ(), 2.9F, true}});
+  WorldMap map(WorldMap::Config{});
+  map.insert({}, std::vector<Eigen::Vector3f>{{0.0F, 0.0F, 0.1F}});
   map.set_free({0.2, 0.2, 0.6}, 0.8);
   EXPECT_EQ(map.at({0.1, 0.1, 0.6}), Space::free);
   EXPECT_EQ(map.at({0.1, 0.1, 0.1}), Space::occupied);
   EXPECT_EQ(map.at({0.2, 0.2, 1.9}), Space::unknown);
 }
 
+TEST(WorldMap, AUavThatHasMovedOnLeavesItsPlaceUnknown) {
+  WorldMap map(WorldMap::Config{});
+  const std::vector<Eigen::Vector3f> hits_W = {{3.1F, 0.1F, 0.1F}, {3.6F, 0.1F, 0.1F}, {6.1F, 0.1F, 0.1F}};
+  map.insert({}, hits_W);
+  map.vacate({3.3, 0.1, 0.1}, 0.8);
+  EXPECT_EQ(map.at({3.1, 0.1, 0.1}), Space::unknown);
+  EXPECT_EQ(map.at({3.6, 0.1, 0.1}), Space::unknown);
+  EXPECT_EQ(map.at({6.1, 0.1, 0.1}), Space::occupied);
+  EXPECT_EQ(map.counts().occupied, 1U);
+  for (int i = 0; i < 20; ++i) map.insert(flood(4.0), {});
+  EXPECT_EQ(map.at({3.1, 0.1, 0.1}), Space::free) << "beams may prove it again";
+  map.insert({}, hits_W);
+  EXPECT_EQ(map.at({3.1, 0.1, 0.1}), Space::occupied);
+}
+
 /// Whoever flies on keeps what it knows, but no evidence of all that it ever passed.
 TEST(WorldMap, WhatIsFarAndUnknownIsForgotten) {
-  WorldMap::Config near, far;
-  near.forget_m = 20.0;
-  far.forget_m = 1e6;
-  WorldMap forgets(near), remembers(far);
-  const std::vector<Beam> here = flood(1.0);
+  WorldMap::Config config;
+  config.to_m = {10.0};
+  WorldMap map(config);
+  const std::vector<BeamBundle> here = flood(1.0);
   RandomStream random(1, "forget", 0);
+  std::size_t most = 0;
   for (double x = 0.0; x < 240.0; x += 30.0) {
-    std::vector<Beam> beams = here;
-    for (Beam& beam : beams) beam.from_W.x() += x;
-    for (int i = 0; i < 300; ++i) beams.push_back({{x, 0.0, 0.0}, drawn_unit(random).cast<float>(), 15.0F, false});
-    for (int i = 0; i < 50; ++i) {
-      forgets.insert(beams);
-      remembers.insert(beams);
+    std::vector<BeamBundle> beams = here;
+    for (BeamBundle& beam : beams) beam.from_W.x() += x;
+    for (int i = 0; i < 300; ++i) beams.push_back({{x, 0.0, 0.0}, drawn_unit(random).cast<float>(), 10.0F});
+    for (int i = 0; i < 50; ++i) map.insert(beams, {});
+    if (x < 30.0) most = map.counts().blocks;
+  }
+  for (double x = 0.0; x < 240.0; x += 30.0) EXPECT_EQ(map.at({x, 0.1, 0.1}), Space::free) << x;
+  EXPECT_LT(map.counts().blocks, 3 * most);
+}
+
+/// A cube that comes nearer is not asked anew: the smaller ones have its evidence, and what is free stays so.
+TEST(WorldMap, SmallerCubesBeginWithWhatTheLargerOnesKnow) {
+  const auto beams_until_free = [](double beams_from_afar) {
+    WorldMap map(WorldMap::Config{});
+    std::vector<BeamBundle> beams;  // along x and y through the origin, 12 m away, and then 4 m
+    const auto all = [&](double distance_m) {
+      beams.clear();
+      for (double u = -2.9; u < 3.0; u += 0.2) {
+        for (double v = -2.9; v < 3.0; v += 0.2) {
+          beams.push_back({{-distance_m, u, v}, Eigen::Vector3f::UnitX(), 40.0F, 40.0F, 2});
+          beams.push_back({{u, -distance_m, v}, Eigen::Vector3f::UnitY(), 40.0F, 40.0F, 2});
+        }
+      }
+      return beams;
+    };
+    for (int i = 0; i < beams_from_afar; ++i) map.insert(all(12.0), {});
+    int more = 0;
+    for (; map.at({0.2, 0.2, 0.2}) != Space::free && more < 100; ++more) map.insert(all(4.0), {});
+    return more;
+  };
+  const int alone = beams_until_free(0);
+  EXPECT_GT(alone, 3);
+  EXPECT_LT(alone, 20);
+  EXPECT_LT(beams_until_free(alone / 2), alone);
+  EXPECT_EQ(beams_until_free(2 * alone), 0);
+}
+
+/// What is told counts as far as it is news, and is remembered as told.
+TEST(WorldMap, RemembersWhoToldIt) {
+  WorldMap map(WorldMap::Config{});
+  const Eigen::Vector3i near(1, 1, 1);
+  map.set_free({0.7, 0.7, 0.7}, 0.1);
+  map.hear(near, 0, Space::free, 3);
+  EXPECT_EQ(map.known(near).teller, kOwn);
+  map.hear({10, 10, 10}, 2, Space::free, 3);
+  EXPECT_EQ(map.known({40, 41, 43}).space, Space::free);
+  EXPECT_EQ(map.known({40, 41, 43}).teller, 3);
+  EXPECT_EQ(map.known({39, 41, 43}).space, Space::unknown);
+  map.hear({41, 41, 41}, 0, Space::occupied, 2);
+  EXPECT_EQ(map.known({41, 41, 41}).space, Space::occupied);
+  EXPECT_EQ(map.known({41, 41, 41}).teller, 2);
+  map.hear({41, 41, 41}, 0, Space::free, 3);
+  map.hear({10, 10, 10}, 2, Space::free, 3);
+  EXPECT_EQ(map.known({41, 41, 41}).space, Space::occupied);
+  map.hear({42, 41, 41}, 0, Space::free, 4);
+  EXPECT_EQ(map.known({42, 41, 41}).teller, 3) << "the first who told";
+  WorldMap::Chunk chunk;
+  for (const Eigen::Vector3i& at : {Eigen::Vector3i(0, 0, 0), Eigen::Vector3i(5, 5, 5), Eigen::Vector3i(4, 5, 5)}) {
+    map.read(at, chunk);
+    for (int i = 0; i < MapLevel::kCells; ++i) {
+      const Eigen::Vector3i cube = 8 * at + Eigen::Vector3i(i % 8, i / 8 % 8, i / 64);
+      EXPECT_EQ(chunk[static_cast<std::size_t>(i)].space, map.known(cube).space) << cube.transpose();
+      EXPECT_EQ(chunk[static_cast<std::size_t>(i)].teller, map.known(cube).teller) << cube.transpose();
     }
   }
-  for (double x = 0.0; x < 240.0; x += 30.0) EXPECT_EQ(forgets.at({x, 0.1, 0.1}), Space::free) << x;
-  EXPECT_EQ(forgets.counts().free, remembers.counts().free);
-  EXPECT_LT(3 * forgets.counts().blocks, 2 * remembers.counts().blocks);
+}
+
+TEST(WorldMap, TellsWhereSomethingChanged) {
+  WorldMap map(WorldMap::Config{});
+  EXPECT_EQ(map.changed_at({0, 0, 0}), 0U);
+  map.set_free({1.0, 1.0, 1.0}, 0.3);
+  const std::uint64_t first = map.changed_at({0, 0, 0});
+  EXPECT_GT(first, 0U);
+  EXPECT_EQ(map.region_changed_at({0, 0, 0}), first);
+  map.hear({-3, 0, 0}, 2, Space::free, 1);  // 6 m to the west: of the chunk that ends 4 m there
+  EXPECT_EQ(map.changed_at({0, 0, 0}), first);
+  EXPECT_GT(map.changed_at({-2, 0, 0}), first);
+  EXPECT_GT(map.region_changed_at({-1, 0, 0}), first);
+  EXPECT_EQ(map.regions(), (std::vector<Eigen::Vector3i>{{0, 0, 0}, {-1, 0, 0}}));
+  const std::uint64_t last = map.region_changed_at({-1, 0, 0});
+  map.hear({-3, 0, 0}, 2, Space::free, 1);
+  EXPECT_EQ(map.region_changed_at({-1, 0, 0}), last) << "nothing new";
+  EXPECT_EQ(map.regions().size(), 2U);
 }
 
 }  // namespace

@@ -1,0 +1,116 @@
+// What a UAV knows of the space around it at one size of cells: which are free, occupied or unknown, and the evidence
+// that was gathered about those that are unknown. Cells lie in blocks of 8^3; a block that is free all over takes no
+// memory.
+// Frame W.   Units: metres.   Threads: one.   Deterministic: no answer depends on an order in memory.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "uav_agent/maps/block_table.hpp"
+#include "uav_agent/maps/free_evidence.hpp"
+
+namespace skein::agent {
+
+enum class Space : std::uint8_t { unknown, free, occupied };
+
+/// Beams of the LiDAR that leave beside each other, taken as one; or one alone.
+struct BeamBundle {
+  Vector3d from_W = Vector3d::Zero();
+  Eigen::Vector3f direction_W = Eigen::Vector3f::UnitX();  ///< unit vector: their middle
+  float free_m = 0.0F;                                     ///< from `from_W` on, none of them met anything so far
+  float around_free_m = 0.0F;                              ///< nor did those around them; at most free_m
+  int beams = 1;
+};
+
+/// By whom a cell became what it is: by this UAV's own LiDAR, or by one of the fleet (its index + 1), who told it.
+using Teller = std::uint8_t;
+inline constexpr Teller kOwn = 0;
+
+class MapLevel {
+ public:
+  using Cell = Eigen::Vector3i;
+  static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits, kCells = kBlock * kBlock * kBlock;
+
+  struct Known {
+    Space space = Space::unknown;
+    Teller teller = kOwn;
+  };
+
+  /// @param coarser  of cells twice as large: a new block begins with what that knows. It outlives this. Or nullptr.
+  MapLevel(double cell_m, const FreeCriterion& criterion, const MapLevel* coarser);
+
+  double cell_m() const { return cell_m_; }
+  Cell cell_of(const Vector3d& p_W) const;
+
+  /// Counts beams in each layer across the axis of W that they are nearest to, for the cell whose window in the middle
+  /// of that layer they pass, from one distance to another.
+  void pass(const BeamBundle& bundle, double from_m, double to_m);
+  /// Occupied is for good: it overwrites all else, and nothing overwrites it but vacate().
+  void set(const Cell& cell, Space space, Teller teller);
+  /// Makes an occupied cell unknown again.
+  void vacate(const Cell& cell);
+
+  /// Of this level alone.
+  Known known(const Cell& cell) const;
+  /// Of all cells of a block, x first.
+  void read(const Cell& block, std::array<Known, kCells>& known) const;
+  bool all_free(const Cell& block) const;
+
+  /// Takes memory back: of blocks that are free all over, and of those of which nothing is known, farther than
+  /// `forget_m` from a place, evidence and all.
+  void tidy(const Vector3d& p_W, double forget_m);
+  /// Cells of which something new was said since it was asked last.
+  std::vector<Cell> take_changes() { return std::exchange(changes_, {}); }
+
+  std::size_t free_cells() const { return free_; }
+  std::size_t occupied_cells() const { return occupied_; }
+  std::size_t blocks() const { return blocks_.size() - spare_.size(); }
+  std::size_t bytes() const { return blocks_.capacity() * sizeof(Block); }
+  std::uint64_t windows() const { return windows_; }
+
+  static Cell block_of(const Cell& cell) {
+    return {cell.x() >> kBlockBits, cell.y() >> kBlockBits, cell.z() >> kBlockBits};
+  }
+
+ private:
+  struct Block {
+    Cell at = Cell::Zero();  ///< its number
+    int free = 0, occupied = 0;
+    std::array<BeamEvidence, kCells> evidence = {};
+    std::array<Space, kCells> space = {};
+    std::array<Teller, kCells> teller = {};
+  };
+  /// Where a block is, or what all of it is.
+  struct Slot {
+    std::uint32_t number = kNone;  ///< kNone, kAllFree or kFirst and more: in blocks_
+    Teller teller = kOwn;          ///< of kAllFree
+  };
+  static constexpr std::uint32_t kNone = 0, kAllFree = 1, kFirst = 2;
+
+  static std::size_t place_of(const Cell& cell);
+  /// Made if there is none. nullptr where all of it is free.
+  Block* block(const Cell& at);
+  /// Made even if all of it is free.
+  Block& opened_block(const Cell& at);
+  Block& new_block(const Cell& at, Slot& slot);
+  /// What is known of a cell, its evidence too, here or at a coarser level.
+  std::pair<Known, BeamEvidence> inherited(const Cell& cell) const;
+  void change(Block& block, std::size_t place, Space space, Teller teller);
+  void gather(Block& block, std::size_t place, const BeamEvidence& beams);
+
+  double cell_m_;
+  FreeCriterion criterion_;
+  const MapLevel* coarser_;
+  double first_ask_per_m2_ = 0.0;  ///< fewer beams are never enough
+  BlockTable<Slot> slots_;
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> spare_;  ///< in blocks_
+  std::vector<Cell> changes_;
+  std::size_t free_ = 0, occupied_ = 0;
+  std::uint64_t windows_ = 0;
+};
+
+}  // namespace skein::agent

@@ -1,0 +1,26 @@
+#include "uav_agent/maps/world_mapper.hpp"
+
+#include "core/lidar_geometry.hpp"
+
+namespace skein::agent {
+
+WorldMapper::WorldMapper(const LidarConfig& lidar, const Config& config)
+    : config_(config),
+      period_(lidar_period(lidar) * config.every),
+      map_(config.map),
+      bundler_(lidar, config.bundle_rad),
+      repeated_(config.map.criterion.member_width_m, bundler_.half_rad()) {}
+
+void WorldMapper::insert(const BeamScan& scan) {
+  if (scan.doubt != ScanDoubt::none || scan.tick % period_ != 0) return;
+  const Isometry3d& X_WL = scan.fired.back().X_WL;
+  if (!started_) map_.set_free(X_WL.translation(), config_.start_clear_m);
+  started_ = true;
+  const RepeatedScans::Repeated repeated = repeated_.ask(X_WL);
+  const ScanBundler::Bundles& bundles = bundler_.bundle(
+      scan, repeated,
+      [&](const Vector3d& a_W, const Vector3d& b_W, double radius_m) { return map_.tube_free(a_W, b_W, radius_m); });
+  map_.insert(bundles.bundles, bundles.hits_W);
+}
+
+}  // namespace skein::agent
