@@ -14,9 +14,12 @@ namespace {
 using std::numbers::pi;
 
 Isometry3d at(double x, double y, double z, double yaw = 0.0, double pitch = 0.0) {
-  return Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) *
+  return Eigen::Translation3d(x, y, kHeightM + z) * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) *
          Eigen::AngleAxisd(pitch, Vector3d::UnitY());
 }
+
+/// A UAV looks around for a sweep of its servo before it leaves its start.
+double moving_s(double t) { return std::max(0.0, t - 8.0); }
 
 /// Of a segment and a point.
 double distance(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
@@ -37,11 +40,12 @@ std::vector<Flight> flights() {
        }},
       {"Turning", 24.0, [](double t) { return at(0, 0, 0, 0.2 * t); }},
       {"Creeping", 60.0, [](double t) { return at(0.1 * t, 0, 0); }},
-      {"AlongALine", 20.0, [](double t) { return at(2.0 * t, 0, 0, 0, 0.03 * std::sin(t)); }},
-      {"InACircle", 40.0,
+      {"AlongALine", 28.0, [](double t) { return at(2.0 * moving_s(t), 0, 0, 0, 0.03 * std::sin(t)); }},
+      {"InACircle", 48.0,
        [](double t) {
-         const double a = 2.0 * t / 15.0;
-         return at(15.0 * std::cos(a), 15.0 * std::sin(a), 5.0 * std::sin(0.7 * a), a, 0.05 * std::sin(3.0 * t));
+         const double a = 2.0 * moving_s(t) / 15.0;
+         return at(15.0 * std::cos(a), 15.0 * std::sin(a), 5.0 * std::sin(0.7 * a), a + 0.5 * pi,
+                   0.05 * std::sin(3.0 * t));
        }},
   };
 }

@@ -15,6 +15,8 @@ namespace skein::sensing {
 
 inline constexpr double kBodyRadiusM = 0.63;  ///< arm and rotor
 
+inline constexpr double kHeightM = 60.0;  ///< of the flights, above the ground
+
 /// How a UAV moves, by time.
 struct Flight {
   std::string name;

@@ -24,6 +24,7 @@
 namespace skein::agent {
 
 class OccupancyMap;  // maps/occupancy_map.hpp
+class WorldMap;      // maps/world_map.hpp
 
 /// Where the camera looks: monostate: carry on; a point in W to keep in the image's centre; or a command as it is.
 using GimbalAim = std::variant<std::monostate, Vector3d, GimbalCommand>;
@@ -53,6 +54,7 @@ struct PlannerInput {
   std::span<const KeyFrame> key_frames = {};  ///< that came at this step, as the LiDARs saw them: own, then neighbours'
   std::span<const Scan> scans = {};           ///< own, since the step before; only if wants_scans()
   std::span<const BeamScan> beam_scans = {};  ///< own, since the step before; only if wants_beams()
+  const WorldMap* world_map = nullptr;        ///< what beams have proved to be free; only if wants_world_map()
 };
 
 /// What a planner tells of itself, as /<id>/debug/<name>: faults may wait for it and properties be about it
@@ -89,6 +91,9 @@ class Planner {
   /// Whether it looks at the beams of the scans, those without a return among them; asked as wants_scans() is, and at
   /// the same price. Only explorers have any.
   virtual bool wants_beams() const { return false; }
+  /// Whether it looks at the map of what is free, occupied and unknown by all beams; asked as wants_scans() is, and at
+  /// the same price where there is a LiDAR. Without one, nothing is known to it so far.
+  virtual bool wants_world_map() const { return false; }
   /// Names of the values that it publishes; asked before the first exchange, and the answer must stay the same.
   virtual std::vector<std::string> debug_names() const { return {}; }
 };

@@ -36,6 +36,9 @@ class BlockTable {
     return blocks_.emplace_back();
   }
 
+  /// Of memory.
+  std::size_t bytes() const { return slots_.capacity() * sizeof(Slot) + blocks_.capacity() * sizeof(Block); }
+
   /// Whether both hold the same blocks.
   bool operator==(const BlockTable& other) const {
     return blocks_.size() == other.blocks_.size() && std::ranges::all_of(slots_, [&](const Slot& slot) {

@@ -75,4 +75,45 @@ double BeamEvidence::unseen_probability(const FreeCriterion& criterion) const {
   return std::min(by_number, std::exp(-a) * unseen_about_an_axis(b - a));
 }
 
+/// Where a decreasing function falls to `value`, from below.
+template <class Function>
+double falls_to(const Function& function, double value, double low, double high) {
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    (function(middle) > value ? low : high) = middle;
+  }
+  return low;
+}
+
+// Of a <= b <= c, the eigenvalues of K I - M, a + b + c = 2 K and c <= K, so b <= K - a / 2, and the second bound is at
+// least exp(-a) D(K - 3 a / 2). That falls as a grows, up to a = 2 K / 3, where all are alike. The largest eigenvalue of
+// M is at least |M|^2 / K, with the sum of its squared elements, so a <= K - |M|^2 / K.
+FreeJudge::FreeJudge(const FreeCriterion& criterion)
+    : criterion_(criterion),
+      k_of_one_(criterion.member_width_m * criterion.member_in_halo_m / BeamEvidence::kUnit),
+      least_k_(-1.5 * std::log(criterion.unseen_p)),
+      enough_k_(falls_to(unseen_along_one_direction, criterion.unseen_p, 0.0, 1e4) * (1.0 + 1e-12)),
+      fewest_per_m2_(least_k_ / (k_of_one_ * BeamEvidence::kUnit) / std::sqrt(3.0)) {
+  for (std::size_t i = 0; i < least_a_.size(); ++i) {
+    const double part = static_cast<double>(i + 1) / static_cast<double>(least_a_.size());
+    const double k = least_k_ + part * (enough_k_ - least_k_);  // the next one's: with more beams a lesser a is enough
+    const auto unseen = [&](double a) { return std::exp(-a) * unseen_about_an_axis(std::max(0.0, k - 1.5 * a)); };
+    least_a_[i] = falls_to(unseen, criterion.unseen_p, 0.0, k) * (1.0 - 1e-9);
+  }
+}
+
+bool FreeJudge::proved(const BeamEvidence& evidence) const {
+  const auto& sums = evidence.sums_;
+  const double k = k_of_one_ * (sums[0] + sums[1] + sums[2]);
+  if (k < least_k_) return false;
+  if (k < enough_k_) {
+    const auto square = [&](std::size_t i) { return static_cast<double>(sums[i]) * sums[i]; };
+    const double squares = square(0) + square(1) + square(2) + 2.0 * (square(3) + square(4) + square(5));
+    const double most_a = k - k_of_one_ * k_of_one_ * squares / k;
+    const auto place = static_cast<std::size_t>((k - least_k_) / (enough_k_ - least_k_) * least_a_.size());
+    if (most_a < least_a_[std::min(place, least_a_.size() - 1)]) return false;
+  }
+  return evidence.unseen_probability(criterion_) <= criterion_.unseen_p;
+}
+
 }  // namespace skein::agent

@@ -62,24 +62,52 @@ class alignas(16) BeamEvidence {
     if (full()) return;
     for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] = static_cast<std::int16_t>(sums_[i] + other.sums_[i]);
   }
+  /// Beams that were gathered elsewhere, besides. Where both do not fit, it becomes the one with more of them.
+  void join(const BeamEvidence& other) {
+    if (per_m2() + other.per_m2() < kMostPerM2) {
+      for (std::size_t i = 0; i < kWhenDue; ++i) sums_[i] = static_cast<std::int16_t>(sums_[i] + other.sums_[i]);
+    } else if (other.per_m2() > per_m2()) {
+      std::copy_n(other.sums_.begin(), kWhenDue, sums_.begin());
+    }
+  }
   double per_m2() const { return static_cast<double>(sums_[6]) / kUnit; }
   bool full() const { return sums_[6] >= kUnit * kMostPerM2; }
 
   /// A reminder for who gathers, kept here to be in the processor's cache with the rest: whether there are as many
   /// beams as it asked to be told of. At first any number is.
-  bool due() const { return sums_[6] >= sums_[7]; }
-  void remind_at(double per_m2) { sums_[7] = static_cast<std::int16_t>(std::min(kUnit * per_m2, 32767.0)); }
-  void never_remind() { sums_[7] = 32767; }
+  bool due() const { return sums_[6] >= sums_[kWhenDue]; }
+  void remind_at(double per_m2) { sums_[kWhenDue] = static_cast<std::int16_t>(std::min(kUnit * per_m2, 32767.0)); }
+  void never_remind() { sums_[kWhenDue] = 32767; }
 
   /// P of above, its lower bound.
   double unseen_probability(const FreeCriterion& criterion) const;
 
  private:
-  static constexpr int kUnit =
-      16;  ///< one beam a square metre, straight through; the most oblique is 1.73 times as much
+  friend class FreeJudge;
+  static constexpr std::size_t kWhenDue = 7;
+  /// One beam a square metre, straight through; the most oblique counts for 1.73 times as much.
+  static constexpr int kUnit = 16;
 
   /// xx, yy, zz, xy, xz, yz of the beams' sum of rho b b', in 1/kUnit; that of their number; and when due.
   std::array<std::int16_t, 8> sums_ = {};
+};
+
+/// Tells whether P is below the criterion, as unseen_probability() does, but most of what is not is told by few products:
+/// a map asks for each window that a beam passes.
+class FreeJudge {
+ public:
+  explicit FreeJudge(const FreeCriterion& criterion);
+
+  bool proved(const BeamEvidence& evidence) const;
+  /// With fewer beams, nothing is ever proved.
+  double fewest_per_m2() const { return fewest_per_m2_; }
+
+ private:
+  FreeCriterion criterion_;
+  double k_of_one_ = 0.0;                  ///< K of a beam a square metre, in units of the evidence
+  double least_k_ = 0.0, enough_k_ = 0.0;  ///< below the one nothing is proved, from the other on everything
+  double fewest_per_m2_ = 0.0;
+  std::array<double, 32> least_a_ = {};  ///< by K from least_k_ to enough_k_: below that a, nothing is proved
 };
 
 /// G and D of above, from above. @param k, c  >= 0.

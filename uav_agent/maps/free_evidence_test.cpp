@@ -119,6 +119,32 @@ TEST(BeamEvidence, RemindsOnceThereAreSoMany) {
   EXPECT_FALSE(evidence.due());
 }
 
+/// From beams of one place to beams of everywhere, one more at a time, about the number at which it changes its mind.
+TEST(FreeJudge, SaysWhatTheProbabilitySays) {
+  std::size_t asked = 0, proved = 0;
+  for (const double unseen_p : {1e-2, 1e-3, 1e-4}) {
+    const FreeCriterion criterion{.unseen_p = unseen_p};
+    const FreeJudge judge(criterion);
+    for (std::uint64_t world = 0; world < 300; ++world) {
+      RandomStream random(world, "judge", 0);
+      const Vector3d about = drawn_line(random);
+      const double spread = random.uniform() < 0.2 ? 0.0 : random.uniform(0.0, 3.0);
+      BeamEvidence evidence;
+      for (int more = 0; evidence.unseen_probability(criterion) > 0.3 * unseen_p && !evidence.full(); ++more) {
+        const Eigen::Vector3f direction = (about + spread * drawn_line(random)).normalized().cast<float>();
+        evidence.add(BeamEvidence(direction, nearest_axis(direction.cast<double>()), kPerM2));
+        const bool is_proved = evidence.unseen_probability(criterion) <= criterion.unseen_p;
+        ASSERT_EQ(judge.proved(evidence), is_proved) << unseen_p << ", world " << world << ", " << more;
+        ASSERT_TRUE(!is_proved || evidence.per_m2() >= judge.fewest_per_m2());
+        ++asked;
+        proved += is_proved;
+      }
+    }
+  }
+  EXPECT_GT(proved, 1000U);
+  EXPECT_GT(asked, 10 * proved / 5);
+}
+
 TEST(UnseenMembers, WithoutBeamsEverythingIs) {
   EXPECT_NEAR(BeamEvidence().unseen_probability(FreeCriterion()), 1.0, 1e-9);
 }

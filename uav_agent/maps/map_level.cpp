@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace skein::agent {
 namespace {
+
+constexpr double kAskAgain = 0.15;  ///< with so many more beams, as a share of those before
 
 /// Rounded down by hand: floor() is a call on the processors that we build for.
 int down(double value) {
@@ -13,22 +14,13 @@ int down(double value) {
   return whole - static_cast<int>(whole > value);
 }
 
-/// How many layers of cells a beam passes in a block, from a place in it on, for who moves `slope` cells a layer.
-int layers_within(float place, float slope, int low, int high) {
-  constexpr float kNever = 1000.0F;
-  if (slope == 0.0F) return static_cast<int>(kNever);
-  const float left = slope > 0.0F ? static_cast<float>(high) - place : static_cast<float>(low) - place;
-  return static_cast<int>(std::min(left / slope, kNever));
-}
+/// The cell about it that is twice as large.
+MapLevel::Cell halved(const MapLevel::Cell& cell) { return {cell.x() >> 1, cell.y() >> 1, cell.z() >> 1}; }
 
 }  // namespace
 
 MapLevel::MapLevel(double cell_m, const FreeCriterion& criterion, const MapLevel* coarser)
-    : cell_m_(cell_m), criterion_(criterion), coarser_(coarser) {
-  // From all sides alike they leave the fewest members unseen: exp(-2 K / 3), and count for sqrt(3) at most.
-  const double least_k = -1.5 * std::log(criterion.unseen_p);
-  first_ask_per_m2_ = least_k / (criterion.member_width_m * criterion.member_in_halo_m) / std::sqrt(3.0);
-}
+    : cell_m_(cell_m), judge_(criterion), coarser_(coarser) {}
 
 std::size_t MapLevel::place_of(const Cell& cell) {
   const auto along = [&](int axis) { return static_cast<std::size_t>(cell[axis] & (kBlock - 1)); };
@@ -39,16 +31,22 @@ MapLevel::Cell MapLevel::cell_of(const Vector3d& p_W) const {
   return {down(p_W.x() / cell_m_), down(p_W.y() / cell_m_), down(p_W.z() / cell_m_)};
 }
 
-std::pair<MapLevel::Known, BeamEvidence> MapLevel::inherited(const Cell& cell) const {
+MapLevel::Cell MapLevel::cell_at(const Block& block, std::size_t place) {
+  const auto at = static_cast<int>(place);
+  return block.at * kBlock + Cell(at & (kBlock - 1), at >> kBlockBits & (kBlock - 1), at >> 2 * kBlockBits);
+}
+
+MapLevel::Known MapLevel::known_at_all(const Cell& cell) const {
+  const Known here = known(cell);
+  return here.space != Space::unknown || coarser_ == nullptr ? here : coarser_->known_at_all(halved(cell));
+}
+
+BeamEvidence MapLevel::all_evidence(const Cell& cell) const {
+  BeamEvidence evidence;
   const Slot* const slot = slots_.find(grid_key(block_of(cell)));
-  if (slot != nullptr && slot->number == kAllFree) return {{Space::free, slot->teller}, {}};
-  if (slot != nullptr && slot->number != kNone) {
-    const Block& block = blocks_[slot->number - kFirst];
-    const std::size_t place = place_of(cell);
-    return {{block.space[place], block.teller[place]}, block.evidence[place]};
-  }
-  if (coarser_ == nullptr) return {};
-  return coarser_->inherited({cell.x() >> 1, cell.y() >> 1, cell.z() >> 1});
+  if (slot != nullptr && slot->number >= kFirst) evidence = blocks_[slot->number - kFirst].evidence[place_of(cell)];
+  if (coarser_ != nullptr) evidence.join(coarser_->all_evidence(halved(cell)));
+  return evidence;
 }
 
 MapLevel::Block& MapLevel::new_block(const Cell& at, Slot& slot) {
@@ -75,12 +73,11 @@ MapLevel::Block* MapLevel::block(const Cell& at) {
     const Cell in_block(i & (kBlock - 1), i >> kBlockBits & (kBlock - 1), i >> 2 * kBlockBits);
     if (((in_block.x() | in_block.y() | in_block.z()) & 1) != 0) continue;
     const Cell cell = at * kBlock + in_block;
-    auto [known, evidence] = coarser_->inherited({cell.x() >> 1, cell.y() >> 1, cell.z() >> 1});
-    if (known.space == Space::free) evidence.never_remind();
+    const Known known = coarser_->known_at_all(halved(cell));
+    if (known.space != Space::free) continue;
     for (int corner = 0; corner < 8; ++corner) {
       const std::size_t place = place_of(cell + Cell(corner & 1, corner >> 1 & 1, corner >> 2));
-      block.evidence[place] = evidence;
-      if (known.space != Space::free) continue;
+      block.evidence[place].never_remind();
       block.space[place] = Space::free;
       block.teller[place] = known.teller;
       ++block.free;
@@ -117,9 +114,7 @@ void MapLevel::change(Block& block, std::size_t place, Space space, Teller telle
   block.space[place] = space;
   block.teller[place] = teller;
   block.evidence[place].never_remind();
-  const auto at = static_cast<int>(place);
-  changes_.push_back(block.at * kBlock +
-                     Cell(at & (kBlock - 1), at >> kBlockBits & (kBlock - 1), at >> 2 * kBlockBits));
+  changes_.push_back(cell_at(block, place));
 }
 
 void MapLevel::set(const Cell& cell, Space space, Teller teller) {
@@ -135,69 +130,102 @@ void MapLevel::vacate(const Cell& cell) {
   block.evidence[place_of(cell)] = {};
 }
 
-void MapLevel::gather(Block& block, std::size_t place, const BeamEvidence& beams) {
+void MapLevel::ask(Block& block, std::size_t place) {
   BeamEvidence& evidence = block.evidence[place];
-  evidence.add(beams);
-  if (!evidence.due()) return;
-  if (evidence.per_m2() >= first_ask_per_m2_ && evidence.unseen_probability(criterion_) <= criterion_.unseen_p) {
-    return change(block, place, Space::free, kOwn);
-  }
+  const double here = evidence.per_m2();
+  BeamEvidence all = evidence;
+  if (coarser_ != nullptr) all.join(coarser_->all_evidence(halved(cell_at(block, place))));
+  if (judge_.proved(all)) return change(block, place, Space::free, kOwn);
   if (evidence.full()) return evidence.never_remind();
-  evidence.remind_at(std::max(first_ask_per_m2_, 1.15 * evidence.per_m2()));
+  const double lacking = judge_.fewest_per_m2() - all.per_m2();
+  evidence.remind_at(here + std::max(lacking, kAskAgain * all.per_m2()));
 }
 
-/// From layer to layer, from window to window.
-void MapLevel::pass(const BeamBundle& bundle, double from_m, double to_m) {
-  int axis = 0;
-  bundle.direction_W.cwiseAbs().maxCoeff(&axis);
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const auto per_m2 = static_cast<float>(bundle.beams / (cell_m_ * cell_m_));
-  const BeamEvidence evidence(bundle.direction_W, axis, per_m2);
-  const float along = bundle.direction_W[axis];
-  const double layer_m = cell_m_ / std::abs(along);
-  const float slope_u = bundle.direction_W[u] / std::abs(along), slope_v = bundle.direction_W[v] / std::abs(along);
-  const int sense = along > 0.0F ? 1 : -1;
-  const Vector3d from = bundle.from_W / cell_m_;
-  Cell cell = Cell::Zero();
-  // The first layer whose middle lies ahead, then the first beyond from_m, and how many there are up to the end.
-  cell[axis] = sense > 0 ? down(from[axis] + 0.5) : -down(0.5 - from[axis]) - 1;
-  double first_layers = (cell[axis] + 0.5 - from[axis]) * sense;
-  const int before = std::max(0, -down(first_layers - from_m / layer_m));
-  cell[axis] += sense * before;
-  first_layers += before;
-  int left = -down(first_layers - to_m / layer_m);
-  // From the corner of the first block on: there a float is exact to a hundredth of a millimetre.
-  const Cell corner = {down(from.x()) & ~(kBlock - 1), down(from.y()) & ~(kBlock - 1), down(from.z()) & ~(kBlock - 1)};
-  const auto start = [&](int side, float slope) {
-    return static_cast<float>(from[side] - corner[side] + first_layers * slope);
-  };
-  float at_u = start(u, slope_u), at_v = start(v, slope_v);
-  Cell block_at = Cell::Constant(std::numeric_limits<int>::max());
-  Block* here = nullptr;
-  while (left > 0) {
-    cell[u] = corner[u] + down(at_u);
-    cell[v] = corner[v] + down(at_v);
-    if (const Cell at = block_of(cell); at != block_at) {
-      block_at = at;
-      here = block(at);
-    }
-    int layers = 1;
-    if (here == nullptr) {  // all of this block is free: on to the next
-      const auto rest = [&](int side, float place, float slope) {
-        const int low = block_at[side] * kBlock - corner[side];
-        return layers_within(place, slope, low, low + kBlock);
-      };
-      const int low = block_at[axis] * kBlock;
-      layers = sense > 0 ? low + kBlock - cell[axis] : cell[axis] - low + 1;
-      layers = std::max(1, std::min({layers, rest(u, at_u, slope_u), rest(v, at_v, slope_v)}));
-    } else {
-      gather(*here, place_of(cell), evidence);
-      ++windows_;
-    }
+/// A beam on its way through cells: it crosses a layer of them after the other, across the axis that it is nearest to,
+/// and is told by where it passes the middle of each. Cells are counted from a corner that lies below all of its way, so
+/// that what it has in them is never negative.
+struct MapLevel::Walk {
+  int axis = 0, u = 1, v = 2;
+  int sense = 1;                         ///< up or down the axis
+  int layer = 0, left = 0;               ///< the layer that it is in, and how many there are from there on
+  float at_u = 0.0F, at_v = 0.0F;        ///< in the middle of that layer
+  float slope_u = 0.0F, slope_v = 0.0F;  ///< cells a layer
+  Cell corner = Cell::Zero();            ///< of a block
+
+  Walk(const BeamBundle& bundle, double cell_m, double from_m, double to_m) {
+    bundle.direction_W.cwiseAbs().maxCoeff(&axis);
+    u = (axis + 1) % 3;
+    v = (axis + 2) % 3;
+    const float along = bundle.direction_W[axis], steep = std::abs(along);
+    const double layer_m = cell_m / steep;
+    slope_u = bundle.direction_W[u] / steep;
+    slope_v = bundle.direction_W[v] / steep;
+    sense = along > 0.0F ? 1 : -1;
+    const Vector3d from = bundle.from_W / cell_m;
+    // The first layer whose middle lies ahead, then the first beyond from_m, and how many there are up to the end.
+    layer = sense > 0 ? down(from[axis] + 0.5) : -down(0.5 - from[axis]) - 1;
+    double first_layers = (layer + 0.5 - from[axis]) * sense;
+    const int before = std::max(0, -down(first_layers - from_m / layer_m));
+    layer += sense * before;
+    first_layers += before;
+    left = -down(first_layers - to_m / layer_m);
+    // There a float is exact to a hundredth of a millimetre.
+    for (int i = 0; i < 3; ++i) corner[i] = (down(from[i]) & ~(kBlock - 1)) - kMostCells;
+    layer -= corner[axis];
+    at_u = static_cast<float>(from[u] - corner[u] + first_layers * slope_u);
+    at_v = static_cast<float>(from[v] - corner[v] + first_layers * slope_v);
+  }
+
+  Cell block() const {
+    Cell block = Cell::Zero();
+    block[axis] = (layer + corner[axis]) >> kBlockBits;
+    block[u] = (static_cast<int>(at_u) + corner[u]) >> kBlockBits;
+    block[v] = (static_cast<int>(at_v) + corner[v]) >> kBlockBits;
+    return block;
+  }
+  void advance(int layers) {
     left -= layers;
-    cell[axis] += sense * layers;
+    layer += sense * layers;
     at_u += slope_u * static_cast<float>(layers);
     at_v += slope_v * static_cast<float>(layers);
+  }
+  /// How many layers there are up to the end of its block, or one less where rounding says so; at least one.
+  int layers_in_block() const {
+    const auto within = [](float at, float slope) {
+      const int low = static_cast<int>(at) & ~(kBlock - 1);
+      const float rest = slope > 0.0F ? static_cast<float>(low + kBlock) - at : at - static_cast<float>(low);
+      return slope == 0.0F ? kBlock : static_cast<int>(std::min(rest / std::abs(slope), static_cast<float>(kBlock)));
+    };
+    const int in_block = layer & (kBlock - 1);
+    const int along = sense > 0 ? kBlock - in_block : in_block + 1;
+    return std::max(1, std::min({along, within(at_u, slope_u), within(at_v, slope_v)}));
+  }
+};
+
+void MapLevel::pass(const BeamBundle& bundle, double from_m, double to_m) {
+  Walk walk(bundle, cell_m_, from_m, to_m);
+  if (walk.left <= 0) return;
+  const BeamEvidence evidence(bundle.direction_W, walk.axis, static_cast<float>(bundle.beams / (cell_m_ * cell_m_)));
+  const int bits_u = kBlockBits * walk.u, bits_v = kBlockBits * walk.v, bits_layer = kBlockBits * walk.axis;
+  while (walk.left > 0) {
+    Block* const here = block(walk.block());
+    if (here == nullptr || here->free == kCells) {  // all of this block is free: on to the next
+      walk.advance(walk.layers_in_block());
+      continue;
+    }
+    int u = static_cast<int>(walk.at_u), v = static_cast<int>(walk.at_v);
+    const int block_u = u >> kBlockBits, block_v = v >> kBlockBits, block_layer = walk.layer >> kBlockBits;
+    constexpr int kIn = kBlock - 1;
+    do {
+      gather(*here,
+             static_cast<std::size_t>((u & kIn) << bits_u | (v & kIn) << bits_v | (walk.layer & kIn) << bits_layer),
+             evidence);
+      ++windows_;
+      walk.advance(1);
+      u = static_cast<int>(walk.at_u);
+      v = static_cast<int>(walk.at_v);
+    } while (walk.left > 0 && u >> kBlockBits == block_u && v >> kBlockBits == block_v &&
+             walk.layer >> kBlockBits == block_layer);
   }
 }
 

@@ -33,13 +33,15 @@ class MapLevel {
  public:
   using Cell = Eigen::Vector3i;
   static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits, kCells = kBlock * kBlock * kBlock;
+  static constexpr int kMostCells = 256;  ///< that a beam passes along an axis are fewer
 
   struct Known {
     Space space = Space::unknown;
     Teller teller = kOwn;
   };
 
-  /// @param coarser  of cells twice as large: a new block begins with what that knows. It outlives this. Or nullptr.
+  /// @param coarser  of cells twice as large, for beams from farther off: what is free there is free here, and its
+  ///                 evidence counts here, too. It outlives this. Or nullptr.
   MapLevel(double cell_m, const FreeCriterion& criterion, const MapLevel* coarser);
 
   double cell_m() const { return cell_m_; }
@@ -68,7 +70,7 @@ class MapLevel {
   std::size_t free_cells() const { return free_; }
   std::size_t occupied_cells() const { return occupied_; }
   std::size_t blocks() const { return blocks_.size() - spare_.size(); }
-  std::size_t bytes() const { return blocks_.capacity() * sizeof(Block); }
+  std::size_t bytes() const { return blocks_.capacity() * sizeof(Block) + slots_.bytes(); }
   std::uint64_t windows() const { return windows_; }
 
   static Cell block_of(const Cell& cell) {
@@ -88,23 +90,32 @@ class MapLevel {
     std::uint32_t number = kNone;  ///< kNone, kAllFree or kFirst and more: in blocks_
     Teller teller = kOwn;          ///< of kAllFree
   };
+  struct Walk;
   static constexpr std::uint32_t kNone = 0, kAllFree = 1, kFirst = 2;
 
   static std::size_t place_of(const Cell& cell);
+  static Cell cell_at(const Block& block, std::size_t place);
   /// Made if there is none. nullptr where all of it is free.
   Block* block(const Cell& at);
   /// Made even if all of it is free.
   Block& opened_block(const Cell& at);
   Block& new_block(const Cell& at, Slot& slot);
-  /// What is known of a cell, its evidence too, here or at a coarser level.
-  std::pair<Known, BeamEvidence> inherited(const Cell& cell) const;
+  /// Of this level, or of the coarser one about it.
+  Known known_at_all(const Cell& cell) const;
+  /// Of this level and of all coarser ones.
+  BeamEvidence all_evidence(const Cell& cell) const;
   void change(Block& block, std::size_t place, Space space, Teller teller);
-  void gather(Block& block, std::size_t place, const BeamEvidence& beams);
+  void gather(Block& block, std::size_t place, const BeamEvidence& beams) {
+    BeamEvidence& evidence = block.evidence[place];
+    evidence.add(beams);
+    if (evidence.due()) ask(block, place);
+  }
+  /// Whether it is free by now.
+  void ask(Block& block, std::size_t place);
 
   double cell_m_;
-  FreeCriterion criterion_;
+  FreeJudge judge_;
   const MapLevel* coarser_;
-  double first_ask_per_m2_ = 0.0;  ///< fewer beams are never enough
   BlockTable<Slot> slots_;
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> spare_;  ///< in blocks_

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/lidar_geometry.hpp"
 #include "core/random_stream.hpp"
@@ -90,7 +91,7 @@ TEST(ScanBundler, SaysOfABundleWhatAllOfItsBeamsSay) {
         int within = 0;
         for (int i = 0; i < lidar.rings * lidar.columns; ++i) {
           const Vector3d beam_L = lidar_direction_L(lidar, i / lidar.columns, i % lidar.columns);
-          if (std::acos(std::min(1.0, beam_L.dot(middle_L))) > bundler.half_rad() + 1e-6) continue;
+          if (2.0 * std::asin(0.5 * (beam_L - middle_L).norm()) > bundler.half_rad() + 1e-5) continue;
           const BeamScan::Beam& beam = scan.beams[static_cast<std::size_t>(i)];
           if (beam.state != BeamState::none) least = std::min(least, beam.range_m);
           ++within;

@@ -16,15 +16,19 @@ Eigen::Vector3i shifted(const Eigen::Vector3i& cell, int bits) {
 
 }  // namespace
 
-WorldMap::WorldMap(const Config& config) : config_(config) {
+WorldMap::WorldMap(const Config& config) : config_(config), distances_(config.cell_m, config.distance_reach_m) {
   const std::size_t count = config.to_m.size();
   if (count < 1 || count > 4 || !std::ranges::is_sorted(config.to_m)) {
     throw std::invalid_argument("WorldMap: to_m has one to four distances, the nearest first");
   }
   levels_.resize(count);
   for (std::size_t i = count; i-- > 0;) {
+    const double cell_m = config.cell_m * (1 << i);
+    if (config.to_m[i] > (MapLevel::kMostCells - MapLevel::kBlock) * cell_m) {
+      throw std::invalid_argument("WorldMap: beams pass too many cubes");
+    }
     const MapLevel* const coarser = i + 1 < count ? levels_[i + 1].get() : nullptr;
-    levels_[i] = std::make_unique<MapLevel>(config.cell_m * (1 << i), config.criterion, coarser);
+    levels_[i] = std::make_unique<MapLevel>(cell_m, config.criterion, coarser);
   }
 }
 
@@ -54,6 +58,7 @@ void WorldMap::insert(std::span<const BeamBundle> bundles, std::span<const Eigen
 void WorldMap::note_changes() {
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     for (const MapLevel::Cell& cell : levels_[i]->take_changes()) {
+      if (i == 0 && levels_[i]->known(cell).space == Space::occupied) distances_.add(cell);
       const Cube chunk = shifted(cell, MapLevel::kBlockBits - static_cast<int>(i));
       const Cube region = shifted(chunk, kRegionBits);
       chunks_[grid_key(chunk)] = ++changes_;
@@ -95,18 +100,31 @@ bool WorldMap::all_near(const Vector3d& a_W, const Vector3d& b_W, double radius_
 
 void WorldMap::set_free(const Vector3d& p_W, double radius_m) {
   all_near(p_W, p_W, radius_m, [&](const Cube& cube) {
-    if (known(cube).space == Space::unknown) levels_.front()->set(cube, Space::free, kOwn);
+    const bool underground = cube.z() < 0;
+    if (!underground && known(cube).space == Space::unknown) levels_.front()->set(cube, Space::free, kOwn);
     return true;
   });
   note_changes();
 }
 
 void WorldMap::vacate(const Vector3d& p_W, double radius_m) {
+  std::vector<Cube> vacated;
   all_near(p_W, p_W, radius_m, [&](const Cube& cube) {
+    if (levels_.front()->known(cube).space == Space::occupied) vacated.push_back(cube);
     levels_.front()->vacate(cube);
     return true;
   });
   note_changes();
+  distances_.remove(vacated, [this](const Cube& block) {
+    std::vector<Cube> occupied;
+    Chunk known;
+    levels_.front()->read(block, known);
+    for (int at = 0; at < MapLevel::kCells; ++at) {
+      if (known[static_cast<std::size_t>(at)].space != Space::occupied) continue;
+      occupied.push_back(block * kChunk + Cube(at % kChunk, at / kChunk % kChunk, at / (kChunk * kChunk)));
+    }
+    return occupied;
+  });
 }
 
 void WorldMap::hear(const Cube& cube, int level, Space space, Teller teller) {
@@ -156,6 +174,7 @@ WorldMap::Counts WorldMap::counts() const {
     counts.bytes += level->bytes();
     counts.windows += level->windows();
   }
+  counts.bytes += distances_.bytes() + chunks_.bytes() + in_regions_.bytes();
   counts.occupied = levels_.front()->occupied_cells();
   return counts;
 }

@@ -5,8 +5,8 @@
 // It is free when so many beams have passed it that a member would have been seen (free_evidence.hpp); till then it is
 // unknown, and evidence is gathered. A place far away is seen by few beams, so there cubes are larger: 0.5 m up to 8 m
 // from the LiDAR, 1 m up to 16 m, 2 m beyond. In larger ones only beams count that pass all of the cube, and so do those
-// around them: it is not free where half of it lies behind something. A cube that comes nearer begins with the evidence
-// of the larger one about it.
+// around them: it is not free where half of it lies behind something. The evidence of a cube is its own and that of the
+// larger ones about it, which have what was seen from farther off.
 // Frame W.   Units: metres.   Threads: one.   Deterministic: no answer depends on an order in memory.
 #pragma once
 
@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "uav_agent/maps/distance_field.hpp"
 #include "uav_agent/maps/map_level.hpp"
 
 namespace skein::agent {
@@ -26,8 +27,9 @@ class WorldMap {
     double cell_m = 0.5;  ///< of the smallest cubes
     /// Up to there beams are evidence for cubes of cell_m, for those twice as large, and so on: one to four. Beyond the
     /// last, only what beams met counts.
-    std::vector<double> to_m = {8.0, 16.0, 32.0};
+    std::vector<double> to_m = {8.0, 16.0, 48.0};
     FreeCriterion criterion = {};
+    double distance_reach_m = 4.0;  ///< structure_distance_m() looks so far
   };
   /// Edge of what changed_at() is asked of, and of a block of the smallest cubes.
   static constexpr int kChunk = MapLevel::kBlock;
@@ -37,7 +39,8 @@ class WorldMap {
   /// A scan, without beams that repeat others.
   /// @param hits_W  where beams ended.
   void insert(std::span<const BeamBundle> bundles, std::span<const Eigen::Vector3f> hits_W);
-  /// Makes the cubes with a point within `radius_m` free, unless they are occupied: where the UAV itself stands.
+  /// Makes the cubes with a point within `radius_m` free, unless they are occupied or below the ground (z = 0): where
+  /// the UAV itself stands.
   void set_free(const Vector3d& p_W, double radius_m);
   /// Makes occupied cubes with a point within `radius_m` unknown: a UAV was seen there that has moved on.
   void vacate(const Vector3d& p_W, double radius_m);
@@ -50,6 +53,9 @@ class WorldMap {
   /// @param cube  a smallest one.
   MapLevel::Known known(const Eigen::Vector3i& cube) const;
   Eigen::Vector3i cube_of(const Vector3d& p_W) const { return levels_.front()->cell_of(p_W); }
+  /// From the smallest cube about a place to the nearest occupied one, from surface to surface, so never more than it is
+  /// from the place itself; distance_reach_m where none is nearer.
+  double structure_distance_m(const Vector3d& p_W) const { return distances_.distance_m(cube_of(p_W)); }
   /// Whether all cubes with a point within `radius_m` of the segment are free. For the tube of a body, that is its
   /// radius and kHaloM.
   bool tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius_m) const;
@@ -84,6 +90,7 @@ class WorldMap {
 
   Config config_;
   std::vector<std::unique_ptr<MapLevel>> levels_;  ///< the smallest cubes first
+  DistanceField distances_;                        ///< of occupied cubes
   BlockTable<std::uint64_t> chunks_, in_regions_;  ///< changed_at()
   std::vector<Eigen::Vector3i> regions_;
   std::uint64_t changes_ = 0, scans_ = 0;

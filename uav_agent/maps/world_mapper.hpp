@@ -11,9 +11,8 @@ class WorldMapper {
  public:
   struct Config {
     WorldMap::Config map = {};
-    /// Each so many scans one is taken in. Its period should not divide the servo's: in 0.3 s the servo of CARIC goes
-    /// round its 8 s in another 80 places each time, three rounds long; with 0.4 s it repeats the same 20.
-    int every = 3;
+    /// Each so many scans one is taken in. All are affordable, and what they prove goes with their number.
+    int every = 1;
     double bundle_rad = ScanBundler::kBundleRad;
     /// Where it was put down, so much about its LiDAR is clear: more than the LiDAR is blind (decision 25).
     double start_clear_m = 1.2;

@@ -30,7 +30,9 @@ TEST(WorldMapper, WhatIsTooNearToBeSeenIsNotTakenForSky) {
 
 TEST(WorldMapper, TakesInEachSoManyScansAndNoneOfWhichItDoubts) {
   const LidarConfig lidar;
-  WorldMapper mapper(lidar, {});
+  WorldMapper::Config config;
+  config.every = 3;
+  WorldMapper mapper(lidar, config);
   std::uint64_t windows = 0;
   for (int scan = 0; scan < 30; ++scan) {
     BeamScan one = scan_of_nothing(lidar, scan * lidar_period(lidar), 0.05 * scan);

@@ -6,6 +6,7 @@
 #include "core/euler.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
+#include "uav_agent/maps/world_mapper.hpp"
 #include "uav_agent/onboard/beam_reader.hpp"
 #include "uav_agent/onboard/key_frame_filter.hpp"
 #include "uav_agent/onboard/ready_frames.hpp"
@@ -41,7 +42,13 @@ struct Agent::Impl {
         frames(f ? std::move(f) : std::make_shared<ReadyFrames>()),
         peers(c),
         tracker(tracker_config(c.vehicle)) {
-    if (config.vehicle.lidar && planner->wants_beams()) beam_reader.emplace(*config.vehicle.lidar);
+    const bool maps_world = planner->wants_world_map();
+    if (!config.vehicle.lidar) {
+      if (maps_world) world_map = std::make_unique<WorldMap>(WorldMap::Config());
+      return;
+    }
+    if (planner->wants_beams() || maps_world) beam_reader.emplace(*config.vehicle.lidar);
+    if (maps_world) world_mapper = std::make_unique<WorldMapper>(*config.vehicle.lidar, WorldMapper::Config());
   }
 
   void read_beams(const AgentInput& input);
@@ -58,8 +65,10 @@ struct Agent::Impl {
   const std::shared_ptr<ReadyFrames> frames;
   Peers peers;
   OccupancyMap map;
-  std::optional<BeamReader> beam_reader;  ///< if the planner wants beams and there is a LiDAR
-  std::vector<BeamScan> beam_scans;       ///< of this exchange
+  std::optional<BeamReader> beam_reader;      ///< if the planner wants beams and there is a LiDAR
+  std::vector<BeamScan> beam_scans;           ///< of this exchange
+  std::unique_ptr<WorldMapper> world_mapper;  ///< if the planner wants the map and there is a LiDAR
+  std::unique_ptr<WorldMap> world_map;        ///< if it wants the map and there is none
   Uplink uplink;
   Tracker tracker;
   std::vector<OrientedBox> boxes;
@@ -92,7 +101,10 @@ void Agent::Impl::read_beams(const AgentInput& input) {
   for (const LidarServo& servo : input.servos) beam_reader->hear(servo);
   if (input.scans.empty()) return;
   const std::vector<KnownBody> others = other_bodies();
-  for (const Scan& scan : input.scans) beam_scans.push_back(beam_reader->read(scan, others));
+  for (const Scan& scan : input.scans) {
+    beam_scans.push_back(beam_reader->read(scan, others));
+    if (world_mapper) world_mapper->insert(beam_scans.back());
+  }
 }
 
 void Agent::Impl::perceive(const AgentInput& input) {
@@ -145,7 +157,8 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
                       .radio = input.radio,
                       .key_frames = input.key_frames,
                       .scans = planner->wants_scans() ? std::span(input.scans) : std::span<const Scan>(),
-                      .beam_scans = beam_scans};
+                      .beam_scans = planner->wants_beams() ? std::span(beam_scans) : std::span<BeamScan>(),
+                      .world_map = world_mapper ? &world_mapper->map() : world_map.get()};
 }
 
 std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision, const RigidBodyState& state) {

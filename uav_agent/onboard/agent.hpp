@@ -56,7 +56,7 @@ class Agent {
 
   /// Whether the planner looks at scans: nobody needs to compute them or send them otherwise.
   bool wants_scans() const;
-  /// Whether it looks at their beams, for which scans and the servo's angles are needed.
+  /// Whether it looks at their beams, or at the map of them, for which scans and the servo's angles are needed.
   bool wants_beams() const;
   /// Names of what the planner tells of itself.
   std::vector<std::string> debug_names() const;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "uav_agent/maps/occupancy_map.hpp"
+#include "uav_agent/maps/world_map.hpp"
 
 namespace skein::agent {
 namespace {
@@ -183,6 +184,41 @@ TEST_F(AgentTest, ScansAreForThosePlannersThatAskForThem) {
   EXPECT_FALSE(looker.step(input_).trigger);
   input_.scans = {{.tick = 40, .points_W = {{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}}}};
   EXPECT_TRUE(looker.step(input_).trigger);
+}
+
+TEST_F(AgentTest, AMapOfAllBeamsIsForThosePlannersThatAskForIt) {
+  struct Looker final : Planner {
+    PlannerOutput plan(const PlannerInput& in) override {
+      map = in.world_map;
+      beam_scans = in.beam_scans.size();
+      if (map != nullptr) above = map->at({0.0, 0.0, 14.0});
+      return {};
+    }
+    bool wants_world_map() const override { return true; }
+    const WorldMap* map = nullptr;
+    std::size_t beam_scans = 0;
+    Space above = Space::unknown;
+  };
+  for (const bool has_lidar : {true, false}) {
+    auto planner = std::make_unique<Looker>();
+    const Looker& looker = *planner;
+    AgentConfig config = fleet_of_three();
+    config.vehicle.lidar.reset();
+    if (has_lidar) config.vehicle.lidar.emplace();
+    Agent agent(config, std::move(planner));
+    EXPECT_EQ(agent.wants_beams(), has_lidar);
+    EXPECT_FALSE(agent.wants_scans());
+    input_.state.p_WB = {0.0, 0.0, 10.0};
+    for (int scan = 0; scan < 40; ++scan) {  // a servo that turns from side to side, and nothing to be seen
+      input_.tick = 40 * scan;
+      input_.scans = {{.tick = input_.tick}};
+      input_.servos = {{input_.tick, 0.08 * (scan - 20), 0.8}};
+      agent.step(input_);
+    }
+    ASSERT_NE(looker.map, nullptr);
+    EXPECT_EQ(looker.beam_scans, 0U);
+    EXPECT_EQ(looker.above, has_lidar ? Space::free : Space::unknown);
+  }
 }
 
 TEST_F(AgentTest, BeamsAreForThosePlannersThatAskForThem) {

@@ -116,35 +116,69 @@ bool BeamReader::assign(const Scan& scan, const BodyTrack::Pose& end, BeamScan& 
     const double range = p_L.norm(), rounding = kRoundingOfCoordinates * p_W.cwiseAbs().maxCoeff();
     if (!(range > 0.0 && range >= config_.range_min_m - slack - rounding)) return false;
     if (!(range <= config_.range_max_m + slack + rounding)) return false;
-    const std::optional<std::size_t> beam = beam_of(p_L / range);
-    if (!beam || *beam < next) return false;
-    const double off = (p_L / range - directions_L_[*beam]).norm();
+    const Vector3d direction_L = p_L / range;
     const double allowed = kRoundingRad + (rounding + end.error_m) / range + end.error_rad;
-    if (!(off <= std::min(allowed, most_off_))) return false;
-    beams.beams[*beam] = {BeamState::range, static_cast<float>(range)};
-    next = *beam + 1;
+    const double most_off = std::min(allowed, most_off_);
+    const auto lies_on = [&](std::size_t beam) { return (direction_L - directions_L_[beam]).norm() <= most_off; };
+    // Mostly its neighbour has returned, too. A beam that it lies on is the one that it is nearest to.
+    std::size_t beam = next;
+    if (beam >= directions_L_.size() || !lies_on(beam)) {
+      const std::optional<std::size_t> nearest = beam_of(direction_L);
+      if (!nearest || *nearest < next || !lies_on(*nearest)) return false;
+      beam = *nearest;
+    }
+    beams.beams[beam] = {BeamState::range, static_cast<float>(range)};
+    next = beam + 1;
   }
   beams.points = scan.points_W.size();
   return true;
 }
 
-/// Tells what other UAVs' bodies have to do with it.
+/// Which beams may meet a ball, or nearly do: rings, and columns to both sides of one.
+BeamReader::Window BeamReader::window_about(const Vector3d& p_L, double radius_m) const {
+  constexpr double kMarginRad = 1e-3;
+  const Window all{0, config_.rings - 1, 0, config_.columns / 2};
+  const double distance = p_L.norm();
+  if (distance <= radius_m) return all;
+  const double half = std::asin(radius_m / distance) + kMarginRad, elevation = std::asin(p_L.z() / distance);
+  Window window = all;
+  if (ring_step_ > 0.0) {
+    const double lowest = ring_elevation(config_, 0);
+    window.first_ring = std::max(0, static_cast<int>(std::ceil((elevation - half - lowest) / ring_step_)));
+    window.last_ring = std::min(all.last_ring, static_cast<int>(std::floor((elevation + half - lowest) / ring_step_)));
+  }
+  if (std::abs(elevation) + half >= 0.5 * kPi - kMarginRad) return window;
+  const double half_azimuth = std::asin(std::min(1.0, std::sin(half) / std::cos(elevation)));
+  window.column = static_cast<int>(std::round((std::atan2(p_L.y(), p_L.x()) + kPi) / column_step_));
+  window.columns_aside = std::min(all.columns_aside, static_cast<int>(half_azimuth / column_step_) + 1);
+  return window;
+}
+
+/// Tells what another UAV's body has to do with a beam.
+void BeamReader::mark(std::size_t i, const Isometry3d& X_WL, const KnownBody& body, BeamScan::Beam& beam) const {
+  const Vector3d direction_W = X_WL.linear() * directions_L_[i];
+  const Vector3d p_W = X_WL.translation() + beam.range_m * direction_W;
+  if (beam.state == BeamState::range && (p_W - body.p_W).norm() < body.radius_m) beam.state = BeamState::uav;
+  if (beam.state == BeamState::none && meets(X_WL.translation(), direction_W, config_.range_max_m, body)) {
+    beam.state = BeamState::unknown;
+  }
+}
+
 void BeamReader::mark(std::span<const KnownBody> others, BeamScan& beams) const {
   for (std::size_t f = 0; f < beams.fired.size(); ++f) {
     const Isometry3d& X_WL = beams.fired[f].X_WL;
+    const int first = beams.fired[f].first_column;
     const int end = f + 1 < beams.fired.size() ? beams.fired[f + 1].first_column : config_.columns;
     for (const KnownBody& body : others) {
-      if ((body.p_W - X_WL.translation()).norm() > config_.range_max_m + body.radius_m) continue;
-      for (int ring = 0; ring < config_.rings; ++ring) {
-        for (int column = beams.fired[f].first_column; column < end; ++column) {
+      const Vector3d p_L = X_WL.inverse() * body.p_W;
+      if (p_L.norm() > config_.range_max_m + body.radius_m) continue;
+      const Window window = window_about(p_L, body.radius_m);
+      for (int aside = -window.columns_aside; aside <= window.columns_aside; ++aside) {
+        const int column = (window.column + aside + config_.columns) % config_.columns;
+        if (column < first || column >= end) continue;
+        for (int ring = window.first_ring; ring <= window.last_ring; ++ring) {
           const auto i = static_cast<std::size_t>(ring * config_.columns + column);
-          BeamScan::Beam& beam = beams.beams[i];
-          const Vector3d direction_W = X_WL.linear() * directions_L_[i];
-          const Vector3d p_W = X_WL.translation() + beam.range_m * direction_W;
-          if (beam.state == BeamState::range && (p_W - body.p_W).norm() < body.radius_m) beam.state = BeamState::uav;
-          if (beam.state == BeamState::none && meets(X_WL.translation(), direction_W, config_.range_max_m, body)) {
-            beam.state = BeamState::unknown;
-          }
+          mark(i, X_WL, body, beams.beams[i]);
         }
       }
     }

@@ -43,6 +43,12 @@ class BeamReader {
   ScanDoubt place(BeamScan& scan, BodyTrack::Pose& end) const;
   bool assign(const Scan& scan, const BodyTrack::Pose& end, BeamScan& beams) const;
   std::optional<std::size_t> beam_of(const Vector3d& direction_L) const;
+  struct Window {
+    int first_ring = 0, last_ring = 0;
+    int column = 0, columns_aside = 0;
+  };
+  Window window_about(const Vector3d& p_L, double radius_m) const;
+  void mark(std::size_t beam, const Isometry3d& X_WL, const KnownBody& body, BeamScan::Beam& marked) const;
   void mark(std::span<const KnownBody> others, BeamScan& beams) const;
 
   LidarConfig config_;

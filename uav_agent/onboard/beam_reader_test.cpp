@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/lidar_geometry.hpp"
 #include "core/random_stream.hpp"
 
@@ -177,6 +179,42 @@ TEST_F(BeamReaderTest, OtherUavsAreNoStructureAndHideIt) {
   EXPECT_GT(uavs, 1U);
   EXPECT_GT(hidden, 10U);
   EXPECT_GT(beyond, 10U) << "what was met behind it was met";
+}
+
+/// Before, behind, above, on the axis, across the seam of the columns, near and far, and about the LiDAR itself.
+TEST_F(BeamReaderTest, MarksTheSameBeamsWhereverTheOtherUavIs) {
+  LidarConfig one_ring, wide, odd;
+  one_ring.rings = 1;
+  wide.vertical_fov_deg = 170.0;
+  odd.columns = 333;
+  std::size_t marked = 0;
+  for (const LidarConfig& config : {LidarConfig{}, one_ring, wide, odd}) {
+    const Scan scan = drawn(config, 7);
+    const Isometry3d X_WL = lidar_pose(state_.X_WB(), servo_.angle);
+    RandomStream random(8, "bodies", 0);
+    for (int draw = 0; draw < 60; ++draw) {
+      Vector3d direction_L = Vector3d(random.normal(), random.normal(), 0.3 * random.normal()).normalized();
+      if (draw % 6 == 0) direction_L = Vector3d(0.01 * random.normal(), 0.0, random.normal()).normalized();
+      if (draw % 6 == 1) direction_L = Vector3d(-1.0, 0.02 * random.normal(), 0.1 * random.normal()).normalized();
+      const double radius_m = random.uniform(0.3, 2.0), distance_m = random.uniform(0.1, draw % 3 == 0 ? 4.0 : 51.0);
+      const KnownBody body{X_WL * Vector3d(distance_m * direction_L), radius_m};
+      const BeamScan alone = reader(config).read(scan, {}), beams = reader(config).read(scan, std::vector{body});
+      for (int i = 0; i < config.rings * config.columns; ++i) {
+        const Vector3d along = X_WL.linear() * lidar_direction_L(config, i / config.columns, i % config.columns);
+        const Vector3d to_body = body.p_W - X_WL.translation();
+        const BeamScan::Beam& before = alone.beams[static_cast<std::size_t>(i)];
+        const double nearest = std::clamp(to_body.dot(along), 0.0, config.range_max_m);
+        const bool passes = (to_body - nearest * along).norm() < radius_m;
+        const bool met = (before.range_m * along - to_body).norm() < radius_m;
+        BeamState expected = before.state;
+        if (before.state == BeamState::none && passes) expected = BeamState::unknown;
+        if (before.state == BeamState::range && met) expected = BeamState::uav;
+        ASSERT_EQ(beams.beams[static_cast<std::size_t>(i)].state, expected) << draw << ", beam " << i;
+        marked += expected != before.state;
+      }
+    }
+  }
+  EXPECT_GT(marked, 10'000U);
 }
 
 }  // namespace
