@@ -137,8 +137,9 @@ struct BenchOptions {
   std::optional<double> duration_s;  ///< mission time of the speed runs
   std::optional<std::filesystem::path> json;
   bool planners = false;                         ///< scores of all planners, and nothing of the machine
+  bool sensing = false;                          ///< what an explorer knows, and nothing else
   std::optional<std::filesystem::path> against;  ///< the table of scores to compare with; none: the shipped one
-  std::optional<std::filesystem::path> write;    ///< where the new table goes
+  std::optional<std::filesystem::path> write;    ///< where the new table goes; of sensing, a folder
 };
 
 struct OracleOptions {

@@ -261,6 +261,10 @@ TEST(Options, BenchReadsAll) {
   EXPECT_EQ(planners.against, "old.csv");
   EXPECT_EQ(planners.write, "new.csv");
   EXPECT_THROW(parse_command_line({"bench", "--write", "new.csv"}), InputError);
+  const auto sensing = parse<BenchOptions>({"bench", "--write", "docs", "--sensing", "--quick"});
+  EXPECT_TRUE(sensing.sensing && sensing.quick);
+  EXPECT_EQ(sensing.write, "docs");
+  EXPECT_THROW(parse_command_line({"bench", "--sensing", "--planners"}), InputError);
 }
 
 TEST(Options, TheLargestSeedAndTheLimitsAreTaken) {

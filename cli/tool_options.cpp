@@ -174,8 +174,19 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
   CLI::Option* planners = command->add_flag("--planners", bench.planners,
                                             "Scores of all planners in a fixed set of scenes beside those of a table");
   command->add_option("--against", bench.against, "Another table than config/planner_scores.csv")->needs(planners);
-  command->add_option("--write", bench.write, "File for the new table")->needs(planners);
-  command->footer("Examples:\n  skein bench --quick --json bench.json\n  skein bench --planners --write scores.csv");
+  CLI::Option* sensing = command
+                             ->add_flag("--sensing", bench.sensing,
+                                        "What an explorer knows of the space around it: the tables of docs/sensing.md")
+                             ->excludes(planners);
+  command
+      ->add_option("--write", bench.write,
+                   "File for the new table of --planners; folder for pictures and page of --sensing")
+      ->each([planners, sensing](const std::string&) {
+        if (planners->empty() && sensing->empty()) throw CLI::RequiresError("--write", "--planners or --sensing");
+      });
+  command->footer(
+      "Examples:\n  skein bench --quick --json bench.json\n  skein bench --planners --write scores.csv\n"
+      "  skein bench --sensing --write docs");
 }
 
 void add_oracle(CLI::App& app, OracleOptions& oracle) {

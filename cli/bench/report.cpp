@@ -245,6 +245,15 @@ Json scale_entry(std::size_t uavs, const std::vector<Json>& results) {
           {"work", work_of(run)}};
 }
 
+Json step_entry(const std::vector<Json>& results) {
+  std::vector<double> round_ms, cpu_ms;
+  for (const Json& result : results) {
+    round_ms.push_back(1e3 * ratio(number(result, "wall_time_s"), steps(result)));
+    cpu_ms.push_back(1e3 * ratio(all_cpu_s(result), steps(result)));
+  }
+  return {{"round_ms", median(round_ms)}, {"cpu_ms", median(cpu_ms)}};
+}
+
 Json relay_entry(const std::string& vendor, const std::vector<Json>& reports) {
   const auto median_in = [](const char* key) {
     return [key](const Json& report) { return number(value_or(report, key, Json::object()), "median"); };

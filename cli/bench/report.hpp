@@ -33,6 +33,10 @@ Json rounds_entry(const std::string& vendor, std::size_t uavs, const std::vector
 /// One size of fleet.
 Json scale_entry(std::size_t uavs, const std::vector<Json>& results);
 
+/// What an exchange of one fleet takes, in the median of its runs [ms]: `round_ms` by the clock on the wall, `cpu_ms`
+/// of all its processes.
+Json step_entry(const std::vector<Json>& results);
+
 /// One vendor's radio latency through the router and through a bare relay; `reports` are bench_relay's.
 Json relay_entry(const std::string& vendor, const std::vector<Json>& reports);
 

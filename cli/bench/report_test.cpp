@@ -92,6 +92,14 @@ TEST(BenchReport, RoundsAreComparedPairByPair) {
   EXPECT_EQ(entry["simulation_cpu_ms_per_round"]["median"], 1.0);
 }
 
+TEST(BenchReport, AStepIsOfTheMedianRun) {
+  // 2,000 steps in 2, 4 and 1 s; 10 s of CPU each.
+  const Json entry = step_entry({result(2.0), result(4.0), result(1.0)});
+  EXPECT_EQ(entry["round_ms"], 1.0);
+  EXPECT_EQ(entry["cpu_ms"], 5.0);
+  EXPECT_EQ(step_entry({Json::object()})["round_ms"], 0.0);
+}
+
 TEST(BenchReport, TheBreakdownIsOfTheMedianRun) {
   const Json entry = speed_entry({result(4.0), result(2.0), result(1.0)}, {{"mean_ms", 0.2}});
   EXPECT_EQ(entry["real_time_factor"]["median"], 50.0);

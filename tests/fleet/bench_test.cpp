@@ -63,6 +63,30 @@ TEST_F(BenchTest, TheFloorHoldsOverBothVendors) {
   }
 }
 
+TEST_F(BenchTest, WhatIsKnownIsTabledAndDrawn) {
+  const std::string kept = "[//]: # (table: space)\nold\n[//]: # (end of table)\nkept\n";
+  std::string page = kept;
+  for (const char* name : {"surface", "reach", "messages", "vendors", "cost"}) {
+    page += "[//]: # (table: " + std::string(name) + ")\n[//]: # (end of table)\n";
+  }
+  write("sensing.md", page);
+  ChildProcess& bench = skein({"bench", "--sensing", "--quick", "--write", folder()});
+  ASSERT_EQ(bench.wait().code, 0) << bench.err() << bench.out();
+  for (const char* word : {"loose box", "lattice", "5 cm", "cyclonedds", "fastdds"}) {
+    EXPECT_NE(bench.out().find(word), std::string::npos) << word << "\n" << bench.out();
+  }
+  const std::string written = text_of(folder() / "sensing.md");
+  EXPECT_EQ(written.find("old"), std::string::npos);
+  EXPECT_NE(written.find("kept\n"), std::string::npos);
+  EXPECT_NE(written.find("| cyclonedds | "), std::string::npos) << written;
+  for (const char* site : {"loose-box", "lattice"}) {
+    for (const char* slice : {"level", "upright"}) {
+      const auto file = folder() / "images" / ("sensing-" + std::string(site) + "-" + slice + ".svg");
+      EXPECT_NE(text_of(file).find("</svg>"), std::string::npos) << file;
+    }
+  }
+}
+
 TEST_F(BenchTest, NonsenseIsRefused) {
   for (const Arguments& arguments : std::vector<Arguments>{{"bench", "--sizes", "0"}, {"bench", "--dds", "mixed"}}) {
     EXPECT_EQ(skein(arguments).wait().code, 2);
