@@ -100,32 +100,5 @@ TEST(WiresAlongALineOfBeams, AreSeenUpToFiveMetres) {
   EXPECT_GT(drawn, 5000u);
 }
 
-/// A UAV that hovers for a sweep, and the tubes of ten metres straight away from it. Half of their space is free to the
-/// map; of their length, where all across it must be free, a little less: 0.45.
-TEST(OneSweep, ProvesHalfOfTenMetres) {
-  for (const double phase_s : {3.0, 0.5, 5.0}) {  // either way of the servo
-    const SensedSpace space(flights().front(), phase_s, exact_map());
-    const Vector3d start_W(0.0, 0.0, kHeightM);
-    RandomStream random(5, "ways", 0);
-    std::size_t free_steps = 0, steps = 0, free_places = 0, places = 0;
-    for (int way = 0; way < 300; ++way) {
-      const Vector3d along = drawn_direction(random), across = along.unitOrthogonal();
-      for (double from = 0.0; from < 10.0; from += 0.5) {
-        ++steps;
-        if (space.map().tube_free(start_W + from * along, start_W + (from + 0.5) * along, kTubeM)) ++free_steps;
-        for (int place = 0; place < 10; ++place, ++places) {
-          const Vector3d off = kTubeM * std::sqrt(random.uniform()) * across;
-          const Vector3d turned = Eigen::AngleAxisd(random.uniform(-3.14, 3.14), along) * off;
-          if (space.map().at(start_W + (from + 0.25) * along + turned) == agent::Space::free) ++free_places;
-        }
-      }
-    }
-    std::cout << "phase " << phase_s << " s: " << free_steps << " of " << steps << " steps, " << free_places << " of "
-              << places << " places\n";
-    EXPECT_GE(10 * free_steps, 4 * steps) << phase_s;
-    EXPECT_GE(2 * free_places, places) << phase_s;
-  }
-}
-
 }  // namespace
 }  // namespace skein::sensing

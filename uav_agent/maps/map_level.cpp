@@ -19,8 +19,10 @@ MapLevel::Cell halved(const MapLevel::Cell& cell) { return {cell.x() >> 1, cell.
 
 }  // namespace
 
-MapLevel::MapLevel(double cell_m, const FreeCriterion& criterion, const MapLevel* coarser)
-    : cell_m_(cell_m), judge_(criterion), coarser_(coarser) {}
+MapLevel::MapLevel(double cell_m, const FreeCriterion& criterion, MapLevel* coarser)
+    : cell_m_(cell_m), judge_(criterion), coarser_(coarser) {
+  if (coarser != nullptr) coarser->finer_ = this;
+}
 
 std::size_t MapLevel::place_of(const Cell& cell) {
   const auto along = [&](int axis) { return static_cast<std::size_t>(cell[axis] & (kBlock - 1)); };
@@ -131,14 +133,29 @@ void MapLevel::vacate(const Cell& cell) {
 }
 
 void MapLevel::ask(Block& block, std::size_t place) {
+  ask(block, place, coarser_ == nullptr ? BeamEvidence() : coarser_->all_evidence(halved(cell_at(block, place))));
+}
+
+void MapLevel::ask(Block& block, std::size_t place, const BeamEvidence& beyond) {
   BeamEvidence& evidence = block.evidence[place];
   const double here = evidence.per_m2();
   BeamEvidence all = evidence;
-  if (coarser_ != nullptr) all.join(coarser_->all_evidence(halved(cell_at(block, place))));
+  all.join(beyond);
   if (judge_.proved(all)) return change(block, place, Space::free, kOwn);
   if (evidence.full()) return evidence.never_remind();
   const double lacking = judge_.fewest_per_m2() - all.per_m2();
-  evidence.remind_at(here + std::max(lacking, kAskAgain * all.per_m2()));
+  evidence.remind_at(here + std::max(finer_ == nullptr ? lacking : 0.0, kAskAgain * all.per_m2()));
+  if (finer_ != nullptr) finer_->ask_within(cell_at(block, place), all);
+}
+
+void MapLevel::ask_within(const Cell& coarser_cell, const BeamEvidence& beyond) {
+  const Slot* const slot = slots_.find(grid_key(block_of(2 * coarser_cell)));
+  if (slot == nullptr || slot->number < kFirst) return;
+  Block& block = blocks_[slot->number - kFirst];
+  for (int corner = 0; corner < 8; ++corner) {
+    const std::size_t place = place_of(2 * coarser_cell + Cell(corner & 1, corner >> 1 & 1, corner >> 2));
+    if (block.space[place] == Space::unknown && block.evidence[place].per_m2() > 0.0) ask(block, place, beyond);
+  }
 }
 
 /// A beam on its way through cells: it crosses a layer of them after the other, across the axis that it is nearest to,

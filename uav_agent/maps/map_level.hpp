@@ -41,8 +41,10 @@ class MapLevel {
   };
 
   /// @param coarser  of cells twice as large, for beams from farther off: what is free there is free here, and its
-  ///                 evidence counts here, too. It outlives this. Or nullptr.
-  MapLevel(double cell_m, const FreeCriterion& criterion, const MapLevel* coarser);
+  ///                 evidence counts here, too. It outlives this, and tells this of its evidence. Or nullptr.
+  MapLevel(double cell_m, const FreeCriterion& criterion, MapLevel* coarser);
+  MapLevel(const MapLevel&) = delete;
+  MapLevel& operator=(const MapLevel&) = delete;
 
   double cell_m() const { return cell_m_; }
   Cell cell_of(const Vector3d& p_W) const;
@@ -110,12 +112,16 @@ class MapLevel {
     evidence.add(beams);
     if (evidence.due()) ask(block, place);
   }
-  /// Whether it is free by now.
   void ask(Block& block, std::size_t place);
+  /// Whether it is free by now, or some of the finer cells in it.
+  /// @param beyond  evidence of all coarser levels.
+  void ask(Block& block, std::size_t place, const BeamEvidence& beyond);
+  void ask_within(const Cell& coarser_cell, const BeamEvidence& beyond);
 
   double cell_m_;
   FreeJudge judge_;
   const MapLevel* coarser_;
+  MapLevel* finer_ = nullptr;
   BlockTable<Slot> slots_;
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> spare_;  ///< in blocks_

@@ -27,7 +27,7 @@ WorldMap::WorldMap(const Config& config) : config_(config), distances_(config.ce
     if (config.to_m[i] > (MapLevel::kMostCells - MapLevel::kBlock) * cell_m) {
       throw std::invalid_argument("WorldMap: beams pass too many cubes");
     }
-    const MapLevel* const coarser = i + 1 < count ? levels_[i + 1].get() : nullptr;
+    MapLevel* const coarser = i + 1 < count ? levels_[i + 1].get() : nullptr;
     levels_[i] = std::make_unique<MapLevel>(cell_m, config.criterion, coarser);
   }
 }

@@ -1,0 +1,84 @@
+// What the map on board knows, beside one that counts each beam for itself in cubes of half a metre everywhere.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "core/lidar_geometry.hpp"
+#include "tests/sensing/sensed_space.hpp"
+
+namespace skein::sensing {
+namespace {
+
+constexpr double kTubeM = kBodyRadiusM + agent::kHaloM;
+
+/// A UAV that hovers for a sweep, and the tubes of ten metres straight away from it: at least half of their space is
+/// free. Of their length, where all across must be free, it is 0.45 with each beam for itself, and 0.35 on board.
+TEST(OneSweep, ProvesHalfOfTenMetres) {
+  for (const bool exact : {false, true}) {
+    for (const double phase_s : {3.0, 0.5, 5.0}) {  // either way of the servo
+      const SensedSpace space(flights().front(), phase_s, exact ? exact_map() : agent::WorldMapper::Config());
+      const Vector3d start_W(0.0, 0.0, kHeightM);
+      RandomStream random(5, "ways", 0);
+      std::size_t free_steps = 0, steps = 0, free_places = 0, places = 0;
+      for (int way = 0; way < 300; ++way) {
+        const Vector3d along = drawn_direction(random), across = along.unitOrthogonal();
+        for (double from = 0.0; from < 10.0; from += 0.5) {
+          ++steps;
+          if (space.map().tube_free(start_W + from * along, start_W + (from + 0.5) * along, kTubeM)) ++free_steps;
+          for (int place = 0; place < 10; ++place, ++places) {
+            const Vector3d off = kTubeM * std::sqrt(random.uniform()) * across;
+            const Vector3d turned = Eigen::AngleAxisd(random.uniform(-3.14, 3.14), along) * off;
+            if (space.map().at(start_W + (from + 0.25) * along + turned) == agent::Space::free) ++free_places;
+          }
+        }
+      }
+      std::cout << (exact ? "each beam" : "on board") << ", phase " << phase_s << " s: " << free_steps << " of "
+                << steps << " steps, " << free_places << " of " << places << " places\n";
+      EXPECT_GE(free_steps, (exact ? 0.44 : 0.33) * static_cast<double>(steps)) << phase_s;
+      EXPECT_GE(2 * free_places, places) << phase_s;
+    }
+  }
+}
+
+class FlownMap : public testing::TestWithParam<std::size_t> {};
+
+/// Bundles put all of their beams into one window, so single cubes at the border of what is proved differ both ways;
+/// tubes hardly do. What must hold of each map by itself is the criterion (drawn_members_test.cpp).
+TEST_P(FlownMap, KnowsWhatEachBeamForItselfProves) {
+  const Flight flight = flights()[GetParam()];
+  const SensedSpace flown(flight, 3.0, {}), exact(flight, 3.0, exact_map());
+  RandomStream random(GetParam() + 1, "flown_map", 0);
+  std::size_t places = 0, flown_free = 0, exact_free = 0, tubes = 0, more = 0;
+  while (places < 3000) {
+    const auto scan = static_cast<std::size_t>(random.uniform() * static_cast<double>(flown.scans().size()));
+    const Vector3d p_W =
+        flown.scans()[scan].translation() + 16.0 * std::cbrt(random.uniform()) * drawn_direction(random);
+    ++places;
+    flown_free += flown.map().at(p_W) == agent::Space::free;
+    exact_free += exact.map().at(p_W) == agent::Space::free;
+    if (!flown.map().tube_free(p_W, p_W, kTubeM)) continue;
+    ++tubes;
+    more += !exact.map().tube_free(p_W, p_W, kTubeM);
+  }
+  std::cout << flight.name << ": " << flown_free << " of " << places << " places free, " << exact_free
+            << " with each beam; " << more << " of " << tubes << " tubes are free on board alone\n";
+  EXPECT_GE(static_cast<double>(flown_free), 0.95 * static_cast<double>(exact_free));
+  EXPECT_LE(static_cast<double>(more), 0.08 * static_cast<double>(tubes));
+}
+
+INSTANTIATE_TEST_SUITE_P(Flights, FlownMap, testing::Range<std::size_t>(0, flights().size()),
+                         [](const auto& flight) { return flights()[flight.param].name; });
+
+/// Effort is counted, and not timed: windows that beams pass, and bytes.
+TEST(FlownMap, CostsNoMoreThanItMay) {
+  for (const Flight& flight : flights()) {
+    const SensedSpace flown(flight, 3.0, {});
+    const agent::WorldMap::Counts counts = flown.map().counts();
+    EXPECT_LT(static_cast<double>(counts.windows), 300e3 * flight.duration_s) << flight.name;
+    EXPECT_LT(counts.bytes, 30e6) << flight.name;
+  }
+}
+
+}  // namespace
+}  // namespace skein::sensing
