@@ -3,11 +3,21 @@
 #include "core/lidar_geometry.hpp"
 
 namespace skein::agent {
+namespace {
+
+/// With the share of returns that this LiDAR loses.
+WorldMap::Config with_losses(WorldMap::Config config, const LidarConfig& lidar) {
+  const double share = lidar.dropped_sectors ? lidar.dropped_sectors->share : 0.0;
+  config.criterion.no_return_p = 1.0 - (1.0 - lidar.no_return_p) * (1.0 - share);
+  return config;
+}
+
+}  // namespace
 
 WorldMapper::WorldMapper(const LidarConfig& lidar, const Config& config)
     : config_(config),
       period_(lidar_period(lidar) * config.every),
-      map_(config.map),
+      map_(with_losses(config.map, lidar)),
       bundler_(lidar, config.bundle_rad),
       repeated_(config.map.criterion.member_width_m, bundler_.half_rad()) {}
 
