@@ -27,9 +27,16 @@ void WorldMapper::insert(const BeamScan& scan) {
   if (!started_) map_.set_free(X_WL.translation(), config_.start_clear_m);
   started_ = true;
   const RepeatedScans::Repeated repeated = repeated_.ask(X_WL);
-  const ScanBundler::Bundles& bundles = bundler_.bundle(
-      scan, repeated,
-      [&](const Vector3d& a_W, const Vector3d& b_W, double radius_m) { return map_.tube_free(a_W, b_W, radius_m); });
+  const TubeFree near_free = [&](const Vector3d& a_W, const Vector3d& b_W, double radius_m) {
+    return map_.tube_free(a_W, b_W, radius_m);
+  };
+  ClearWay clear_way;
+  if (map_.config().criterion.no_return_p > 0.0) {
+    clear_way = [&](const Vector3d& from_W, const Vector3d& direction_W, double reach_m) {
+      return map_.clear_way_m(from_W, direction_W, reach_m);
+    };
+  }
+  const ScanBundler::Bundles& bundles = bundler_.bundle(scan, repeated, near_free, clear_way);
   map_.insert(bundles.bundles, bundles.hits_W);
 }
 
