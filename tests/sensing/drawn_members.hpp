@@ -8,7 +8,6 @@
 
 namespace skein::sensing {
 
-inline constexpr double kTubeM = kBodyRadiusM + agent::kHaloM;
 inline constexpr double kServoPhaseS = 3.0;  ///< on its way to the stop: a whole sweep begins within a second
 
 struct Tally {

@@ -13,7 +13,8 @@
 
 namespace skein::sensing {
 
-inline constexpr double kBodyRadiusM = 0.63;  ///< arm and rotor
+inline constexpr double kBodyRadiusM = 0.63;                    ///< arm and rotor
+inline constexpr double kTubeM = kBodyRadiusM + agent::kHaloM;  ///< where all must be free
 
 inline constexpr double kHeightM = 60.0;  ///< of the flights, above the ground
 
