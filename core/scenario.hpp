@@ -27,6 +27,13 @@ struct GimbalConfig {
   double rate_limit_deg_s = 60.0;
 };
 
+/// Columns of a LiDAR whose beams return nothing for a while, as before the sun, or on dark or oblique surfaces.
+struct DroppedSectors {
+  double share = 0.0;      ///< of the columns, on average over time
+  double width_deg = 0.0;  ///< of a sector; two may stand side by side
+  double hold_s = 0.0;     ///< how long drawn sectors stay before others are drawn
+};
+
 struct LidarConfig {
   int rings = 16, columns = 440;
   double vertical_fov_deg = 30.0;  ///< symmetric about the scan plane
@@ -37,6 +44,8 @@ struct LidarConfig {
   double servo_period_s = 8.0;
   double servo_limit_deg = 90.0;
   bool motion_distortion = false;  ///< beams leave one after the other, while body and servo move
+  double no_return_p = 0.0;        ///< of a beam that meets something: to return nothing; drawn as sigma_m
+  std::optional<DroppedSectors> dropped_sectors;  ///< drawn as sigma_m
 };
 
 /// Gains of CARIC's position controller (`planners.md` D, golden position_control).

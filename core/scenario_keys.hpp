@@ -39,6 +39,13 @@ void describe(R& r, GimbalConfig& gimbal) {
 }
 
 template <class R>
+void describe(R& r, DroppedSectors& sectors) {
+  r.required("share", sectors.share, within(0.0, 0.5));
+  r.required("width_deg", sectors.width_deg, Bounds{0.0, 360.0, true});
+  r.required("hold_s", sectors.hold_s, within(kTickS, 36000.0));
+}
+
+template <class R>
 void describe(R& r, LidarConfig& lidar) {
   r.field("rings", lidar.rings, within(1, 128));
   r.field("columns", lidar.columns, within(1, 4096));
@@ -51,6 +58,8 @@ void describe(R& r, LidarConfig& lidar) {
   r.field("servo_period_s", lidar.servo_period_s, within(0.1, 600.0));
   r.field("servo_limit_deg", lidar.servo_limit_deg, within(0.0, 180.0));
   r.field("motion_distortion", lidar.motion_distortion);
+  r.field("no_return_p", lidar.no_return_p, within(0.0, 0.5));
+  r.field("dropped_sectors", lidar.dropped_sectors);
   r.check(lidar.range_min_m < lidar.range_max_m, "range_min_m", "must be less than range_max_m");
 }
 

@@ -175,6 +175,45 @@ TEST_F(ScenarioReader, ShippedVehiclesAndTimesAreTheBenchmarks) {
   }
 }
 
+TEST_F(ScenarioReader, TheLidarOfAVehicleMayLoseReturns) {
+  const auto vehicle = [&](const std::string& lidar) {
+    return write("v.yaml", "name: v\nrole: explorer\nlidar:\n" + lidar);
+  };
+  const auto refused = [&](const std::string& lidar) {
+    try {
+      load_vehicle(vehicle(lidar), options_.config_dir);
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      return text.substr(text.find("v.yaml"));
+    }
+    return std::string("accepted");
+  };
+  const LidarConfig none = *load_vehicle("explorer", options_.config_dir).lidar;
+  EXPECT_EQ(none.no_return_p, 0.0);
+  EXPECT_FALSE(none.dropped_sectors);
+  const LidarConfig some =
+      *load_vehicle(vehicle("  no_return_p: 0.3\n  dropped_sectors: {share: 0.1, width_deg: 30, hold_s: 2}\n"),
+                    options_.config_dir)
+           .lidar;
+  EXPECT_EQ(some.no_return_p, 0.3);
+  ASSERT_TRUE(some.dropped_sectors);
+  EXPECT_EQ(some.dropped_sectors->share, 0.1);
+  EXPECT_EQ(some.dropped_sectors->width_deg, 30.0);
+  EXPECT_EQ(some.dropped_sectors->hold_s, 2.0);
+  EXPECT_EQ(refused("  no_return_p: 0.6\n"),
+            "v.yaml:4: lidar.no_return_p: must be a number within [0, 0.5], not '0.6'");
+  EXPECT_EQ(refused("  no_return: 0.3\n"), "v.yaml:4: unknown key 'lidar.no_return'; did you mean 'no_return_p'?");
+  EXPECT_EQ(refused("  dropped_sectors: 0.1\n"), "v.yaml:4: lidar.dropped_sectors: must be a map of keys, not '0.1'");
+  EXPECT_EQ(refused("  dropped_sectors:\n    share: 0.51\n    width_deg: 30\n    hold_s: 2\n"),
+            "v.yaml:5: lidar.dropped_sectors.share: must be a number within [0, 0.5], not '0.51'");
+  EXPECT_EQ(refused("  dropped_sectors:\n    share: 0.1\n    width_deg: 0\n    hold_s: 2\n"),
+            "v.yaml:6: lidar.dropped_sectors.width_deg: must be a number above 0 and at most 360, not '0'");
+  EXPECT_EQ(refused("  dropped_sectors:\n    share: 0.1\n    width_deg: 30\n    hold_s: -1\n"),
+            "v.yaml:7: lidar.dropped_sectors.hold_s: must be a number within [0.0025, 36000], not '-1'");
+  EXPECT_EQ(refused("  dropped_sectors:\n    share: 0.1\n    width_deg: 30\n"),
+            "v.yaml:5: missing key 'lidar.dropped_sectors.hold_s': it is required");
+}
+
 TEST_F(ScenarioReader, FindsSceneFilesBesideItOrInTheAssets) {
   write("own.stl", "");
   fs::create_directories(folder_ / "data" / "models");

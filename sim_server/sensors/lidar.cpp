@@ -51,6 +51,7 @@ Lidar::Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed)
       uav_(uav),
       seed_(seed),
       period_(lidar_period(config)),
+      lost_(config, uav, seed),
       directions_L_(beam_directions(config)),
       ranges_(static_cast<std::size_t>(directions_L_.cols())) {
   if (seed != 0) {
@@ -115,12 +116,14 @@ LidarScan Lidar::scan(Tick tick, const Isometry3d& X_WB, const RayScene& world) 
 
   const bool noisy = seed_ != 0 && config_.sigma_m > 0.0;
   RandomStream noise(seed_, "lidar_noise", uav_, scan.number);
+  const std::vector<bool>* const lost = lost_.any() ? &lost_.of(tick) : nullptr;
   scan.points_W.reserve(ranges_.size());
   for (std::size_t i = 0; i < ranges_.size(); ++i) {
     if (ranges_[i] < config_.range_min_m || ranges_[i] > config_.range_max_m) {
       continue;
     }
     const double range = noisy ? ranges_[i] + config_.sigma_m * noise.normal() : ranges_[i];
+    if (lost != nullptr && (*lost)[i]) continue;
     const Eigen::Vector3f direction_W =
         instant ? directions_W_[i] : Eigen::Vector3f(R_WL * directions_L_.col(static_cast<Eigen::Index>(i)));
     scan.points_W.push_back((scan.X_WL.translation() + range * direction_W.cast<double>()).cast<float>());

@@ -9,6 +9,7 @@
 
 #include "core/scenario.hpp"
 #include "sim_server/rays/ray_scene.hpp"
+#include "sim_server/sensors/lost_returns.hpp"
 
 namespace skein::sim {
 
@@ -30,8 +31,9 @@ struct LidarScan {
 class Lidar {
  public:
   /// @param uav   fleet index: its own body is invisible to it, and it keys the noise.
-  /// @param seed  0: no range noise and the servo starts at 0. Otherwise the servo's phase and the noise are drawn from
-  ///              streams keyed by (seed, "lidar_phase", uav) and (seed, "lidar_noise", uav, scan number).
+  /// @param seed  0: no range noise, no lost returns, and the servo starts at 0. Otherwise the servo's phase and the
+  ///              noise are drawn from streams keyed by (seed, "lidar_phase", uav) and (seed, "lidar_noise", uav, scan
+  ///              number). A beam whose return is lost draws its noise, too: that of the others does not change.
   Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed);
 
   /// Whether a scan falls on this tick: tick 0 and every period after it.
@@ -52,7 +54,8 @@ class Lidar {
   /// stand where they are at the end.
   /// @param world  with the poses of all UAVs at this tick.
   LidarScan scan(Tick tick, const Isometry3d& X_WB, const RayScene& world);
-  /// What the beams of the last scan met, without noise and however near, ring by ring; infinite: nothing.
+  /// What the beams of the last scan met, without noise, however near, and whether or not their
+  /// returns were lost; ring by ring; infinite: nothing.
   std::span<const double> ranges() const { return ranges_; }
 
  private:
@@ -63,6 +66,7 @@ class Lidar {
   UavIndex uav_;
   std::uint64_t seed_;
   Tick period_;
+  LostReturns lost_;
   Tick phase_ = 0;                 ///< how long the servo has been running at tick 0
   Eigen::Matrix3Xf directions_L_;  ///< of all beams, in the order of the cloud
   std::vector<Isometry3d> past_;   ///< X_WB by tick modulo the period

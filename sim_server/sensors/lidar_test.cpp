@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/euler.hpp"
+#include "sim_server/sensors/key_frames.hpp"
 #include "sim_server/testing/test_scenes.hpp"
 
 namespace skein::sim {
@@ -243,6 +244,48 @@ TEST_F(LidarRoom, NoiseIsSeeded) {
   const auto n = static_cast<double>(scan.points_W.size());
   EXPECT_NEAR(sum / n, 0.0, 4.0 * 0.01 / std::sqrt(n));
   EXPECT_NEAR(std::sqrt(sum2 / n), 0.01, 0.0005);
+}
+
+/// What is lost is missing, and nothing else changes: not the noise of the others, not the truth.
+TEST_F(LidarRoom, LostReturnsAreNoPointsAndTheOthersStayTheSame) {
+  const RayScene world = room();
+  LidarConfig config;
+  for (const bool distorted : {false, true}) {
+    config.motion_distortion = distorted;
+    LidarConfig losing = config;
+    losing.no_return_p = 0.3;
+    losing.dropped_sectors = {.share = 0.2, .width_deg = 30.0, .hold_s = 0.3};
+    Lidar whole(config, UavIndex{0}, 5), lidar(losing, UavIndex{0}, 5);
+    LostReturns lost(losing, UavIndex{0}, 5);
+    for (const Tick tick : {0, 40, 80, 400, 4000}) {
+      const LidarScan scan = lidar.scan(tick, X_WB_, world), all = whole.scan(tick, X_WB_, world);
+      ASSERT_EQ(all.points_W.size(), 16U * 440U);
+      std::vector<Eigen::Vector3f> expected;
+      const std::vector<bool>& missing = lost.of(tick);
+      for (std::size_t i = 0; i < missing.size(); ++i) {
+        if (!missing[i]) expected.push_back(all.points_W[i]);
+      }
+      EXPECT_LT(expected.size(), 6000U);
+      EXPECT_GT(expected.size(), 1000U);
+      EXPECT_EQ(scan.points_W, expected);
+      EXPECT_TRUE(std::ranges::equal(lidar.ranges(), whole.ranges()));
+      const auto key_frame = KeyFrameSelector().offer(scan, X_WB_);
+      ASSERT_TRUE(key_frame);
+      EXPECT_EQ(key_frame->points_W, sample_uniformly(expected, KeyFrameSelector::kCell));
+    }
+  }
+}
+
+TEST_F(LidarRoom, LosesNothingWithSeedZeroNorWithNothingToLose) {
+  const RayScene world = room();
+  LidarConfig losing, nothing;
+  losing.no_return_p = 0.5;
+  losing.dropped_sectors = {.share = 0.5, .width_deg = 30.0, .hold_s = 1.0};
+  nothing.dropped_sectors = {.share = 0.0, .width_deg = 30.0, .hold_s = 1.0};
+  for (const auto& [config, seed] : {std::pair{losing, std::uint64_t{0}}, {nothing, std::uint64_t{5}}}) {
+    const LidarScan scan = Lidar(config, UavIndex{0}, seed).scan(40, X_WB_, world);
+    EXPECT_EQ(scan.points_W, Lidar(LidarConfig{}, UavIndex{0}, seed).scan(40, X_WB_, world).points_W);
+  }
 }
 
 /// Walls of a narrow and a wide room, just inside and just outside of 0.9 m and 50 m.

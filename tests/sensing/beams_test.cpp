@@ -1,6 +1,6 @@
 // There and back: what the production LiDAR measured, and what a UAV rebuilds of the cloud, the servo's angle and its
-// own odometry. Scenes, poses, flights and servo phases are drawn; with and without noise and motion distortion, and
-// with exchanges that do not fall on the scans.
+// own odometry. Scenes, poses, flights and servo phases are drawn; with and without noise, motion distortion and lost
+// returns, and with exchanges that do not fall on the scans.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "core/lidar_geometry.hpp"
 #include "core/random_stream.hpp"
 #include "sim_server/sensors/lidar.hpp"
+#include "sim_server/sensors/lost_returns.hpp"
 #include "sim_server/testing/test_scenes.hpp"
 #include "uav_agent/onboard/beam_reader.hpp"
 
@@ -59,6 +60,7 @@ struct Case {
   double sigma_m = 0.0;
   bool distorted = false;
   Tick exchange = 20;  ///< ticks
+  bool loses = false;  ///< returns
 };
 
 struct Outcome {
@@ -84,11 +86,26 @@ class BeamsThereAndBack : public testing::TestWithParam<Case> {
     world_->set_pose(kOther, Isometry3d(Eigen::Translation3d(other_)));
     config_.sigma_m = GetParam().sigma_m;
     config_.motion_distortion = GetParam().distorted;
+    if (GetParam().loses) {
+      config_.no_return_p = 0.3;
+      config_.dropped_sectors = {.share = 0.2, .width_deg = 30.0, .hold_s = 0.5};
+    }
     config_.servo_period_s = key % 2 == 0 ? 8.0 : 0.66;
     // Where it is fast, it reaches its stop, stands there for 22 ms and turns back, all between two scans.
     config_.servo_rate_deg_s = key % 3 == 0 ? 45.0 : 130.0;
     config_.servo_limit_deg = key % 2 == 0 ? 90.0 : 20.0;
     lidar_.emplace(config_, kSelf, key + 1);
+    lost_.emplace(config_, kSelf, key + 1);
+  }
+
+  /// What the last scan returned: infinite where nothing.
+  std::vector<double> returned(Tick tick) {
+    std::vector<double> ranges(lidar_->ranges().begin(), lidar_->ranges().end());
+    const std::vector<bool>& lost = lost_->of(tick);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      if (lost[i]) ranges[i] = std::numeric_limits<double>::infinity();
+    }
+    return ranges;
   }
 
   /// Compares beam by beam.
@@ -150,6 +167,7 @@ class BeamsThereAndBack : public testing::TestWithParam<Case> {
   std::optional<Sway> sway_;
   std::optional<sim::RayScene> world_;
   std::optional<sim::Lidar> lidar_;
+  std::optional<sim::LostReturns> lost_;
   Vector3d other_ = Vector3d::Zero();
   Outcome tally_;
 };
@@ -169,7 +187,7 @@ TEST_P(BeamsThereAndBack, EveryBeamIsWhatTheLidarMeasured) {
       lidar_->move(tick, state.X_WB());
       if (lidar_->due(tick)) {
         const sim::LidarScan scan = lidar_->scan(tick, state.X_WB(), *world_);
-        taken.push_back({{tick, scan.points_W}, {lidar_->ranges().begin(), lidar_->ranges().end()}});
+        taken.push_back({{tick, scan.points_W}, returned(tick)});
         reader.hear(lidar_->servo(tick));
       }
       if (tick % GetParam().exchange != 0) continue;
@@ -195,12 +213,13 @@ TEST_P(BeamsThereAndBack, EveryBeamIsWhatTheLidarMeasured) {
 
 std::string name_of_case(const testing::TestParamInfo<Case>& info) {
   return std::string(info.param.sigma_m > 0.0 ? "Noisy" : "Clean") + (info.param.distorted ? "Distorted" : "Instant") +
-         "Every" + std::to_string(info.param.exchange) + "Ticks";
+         "Every" + std::to_string(info.param.exchange) + "Ticks" + (info.param.loses ? "WithLostReturns" : "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Flights, BeamsThereAndBack,
                          testing::Values(Case{0.0, false, 20}, Case{0.03, false, 20}, Case{0.0, true, 20},
-                                         Case{0.03, true, 20}, Case{0.03, false, 12}, Case{0.03, true, 12}),
+                                         Case{0.03, true, 20}, Case{0.03, false, 12}, Case{0.03, true, 12},
+                                         Case{0.03, false, 20, true}, Case{0.03, true, 12, true}),
                          name_of_case);
 
 // As the faults odometry_jump and odometry_freeze have it.

@@ -6,38 +6,10 @@
 #include <iostream>
 #include <vector>
 
-#include "tests/sensing/sensed_space.hpp"
+#include "tests/sensing/drawn_members.hpp"
 
 namespace skein::sensing {
 namespace {
-
-constexpr double kTubeM = kBodyRadiusM + agent::kHaloM;
-constexpr double kServoPhaseS = 3.0;  // on its way to the stop: a whole sweep begins within a second
-
-struct Tally {
-  std::size_t drawn = 0, unseen = 0;
-
-  void add(const Tally& other) {
-    drawn += other.drawn;
-    unseen += other.unseen;
-  }
-  /// One-sided 95 % bound of the share (Wilson and Hilferty's of the Poisson distribution).
-  double upper_bound() const {
-    const double n = static_cast<double>(unseen) + 1.0;
-    return n * std::pow(1.0 - 1.0 / (9.0 * n) + 1.645 / (3.0 * std::sqrt(n)), 3) / static_cast<double>(drawn);
-  }
-};
-
-/// By distance from the route, in steps of 2 m; what is too rare for a bound goes to the next nearer one.
-std::vector<Tally> merged(std::vector<Tally> by_distance) {
-  constexpr std::size_t kFewest = 8000;
-  for (std::size_t i = by_distance.size(); i-- > 1;) {
-    if (by_distance[i].drawn >= kFewest) continue;
-    by_distance[i - 1].add(by_distance[i]);
-    by_distance[i] = {};
-  }
-  return by_distance;
-}
 
 class DrawnMembers : public testing::TestWithParam<std::size_t> {};
 
@@ -45,23 +17,9 @@ TEST_P(DrawnMembers, AreSeenWhereATubeIsFree) {
   const Flight flight = flights()[GetParam()];
   const SensedSpace space(flight, kServoPhaseS, {});
   RandomStream random(GetParam() + 1, "drawn_members", 0);
-  constexpr std::size_t kDraws = 170'000, kAPlace = 20, kMostPlaces = 4'000'000;
-  std::vector<Tally> by_distance(20);
-  Tally all;
-  for (std::size_t places = 0; all.drawn < kDraws && places < kMostPlaces; ++places) {
-    const auto scan = static_cast<std::size_t>(random.uniform() * static_cast<double>(space.scans().size()));
-    const Vector3d middle_W = space.scans()[scan].translation() + random.uniform(1.0, 30.0) * drawn_direction(random);
-    const Vector3d half_W = 0.5 * drawn_direction(random);
-    if (space.map().at(middle_W) != agent::Space::free) continue;
-    if (!space.map().tube_free(middle_W - half_W, middle_W + half_W, kTubeM)) continue;
-    Tally here;
-    for (; here.drawn < kAPlace; ++here.drawn) {
-      const Member member = drawn_member(random, middle_W - half_W, middle_W + half_W);
-      if (!space.saw(member, middle_W - half_W, middle_W + half_W, kTubeM)) ++here.unseen;
-    }
-    all.add(here);
-    by_distance[static_cast<std::size_t>(0.5 * space.distance_to_route_m(middle_W))].add(here);
-  }
+  constexpr std::size_t kDraws = 170'000;
+  const std::vector<Tally> by_distance = draw_members(space, random, kDraws);
+  const Tally all = sum(by_distance);
   constexpr double kLimit = 1e-3;
   ASSERT_GE(all.drawn, kDraws) << "free tubes are rare";
   std::cout << flight.name << ": " << all.unseen << " of " << all.drawn << " members unseen\n";

@@ -7,6 +7,7 @@
 #include "core/euler.hpp"
 #include "core/lidar_geometry.hpp"
 #include "sim_server/sensors/lidar.hpp"
+#include "sim_server/sensors/lost_returns.hpp"
 
 namespace skein::sensing {
 namespace {
@@ -58,8 +59,9 @@ agent::WorldMapper::Config exact_map() {
   return config;
 }
 
-SensedSpace::SensedSpace(const Flight& flight, double servo_phase_s, const agent::WorldMapper::Config& config)
-    : mapper_(lidar_, config) {
+SensedSpace::SensedSpace(const Flight& flight, double servo_phase_s, const agent::WorldMapper::Config& config,
+                         const LidarConfig& lidar, const LidarConfig& told)
+    : lidar_(lidar), mapper_(told, config) {
   for (int ring = 0; ring < lidar_.rings; ++ring) {
     for (int column = 0; column < lidar_.columns; ++column) {
       beams_L_.push_back(lidar_direction_L(lidar_, ring, column));
@@ -75,6 +77,15 @@ SensedSpace::SensedSpace(const Flight& flight, double servo_phase_s, const agent
     scan.tick = tick;
     scan.fired = {{.first_column = 0, .tick = tick, .X_WL = X_WL}};
     mapper_.insert(scan);
+  }
+  lose(1);
+}
+
+void SensedSpace::lose(std::uint64_t seed) {
+  sim::LostReturns lost(lidar_, UavIndex{0}, seed);
+  lost_.clear();
+  for (std::size_t scan = 0; scan < scans_.size(); ++scan) {
+    lost_.push_back(lost.of(static_cast<Tick>(scan) * lidar_period(lidar_)));
   }
 }
 
@@ -102,7 +113,9 @@ bool SensedSpace::meets(std::size_t scan, const Vector3d& from_W, const Vector3d
     const auto nearest = static_cast<int>(std::lround(0.5 * lidar_.columns * (std::atan2(p.y(), p.x()) / pi + 1.0)));
     for (const int step : {0, -1, 1}) {
       const int column = (nearest + step + lidar_.columns) % lidar_.columns;
-      const Vector3d& beam = beams_L_[static_cast<std::size_t>(ring * lidar_.columns + column)];
+      const auto number = static_cast<std::size_t>(ring * lidar_.columns + column);
+      if (lost_[scan][number]) continue;
+      const Vector3d& beam = beams_L_[number];
       // Where member and beam are nearest to each other.
       const double along = beam.dot(u), apart = 1.0 - along * along;
       const double on_member = apart < 1e-12 ? 0.0 : std::clamp((along * a.dot(beam) - a.dot(u)) / apart, 0.0, length);

@@ -13,7 +13,8 @@
 
 namespace skein::sensing {
 
-inline constexpr double kBodyRadiusM = 0.63;  ///< arm and rotor
+inline constexpr double kBodyRadiusM = 0.63;                    ///< arm and rotor
+inline constexpr double kTubeM = kBodyRadiusM + agent::kHaloM;  ///< where all must be free
 
 inline constexpr double kHeightM = 60.0;  ///< of the flights, above the ground
 
@@ -39,7 +40,13 @@ agent::WorldMapper::Config exact_map();
 
 class SensedSpace {
  public:
-  SensedSpace(const Flight& flight, double servo_phase_s, const agent::WorldMapper::Config& config);
+  /// @param lidar  flies. What it loses is drawn, by seed 1 at first, and is missing from what it saw.
+  /// @param told   what the map takes it for: in its `no_return_p` and `dropped_sectors` it may differ.
+  SensedSpace(const Flight& flight, double servo_phase_s, const agent::WorldMapper::Config& config,
+              const LidarConfig& lidar = {}, const LidarConfig& told = {});
+
+  /// Draws by another seed what it loses. The map stays what it is: a LiDAR in empty space returns nothing anyway.
+  void lose(std::uint64_t seed);
 
   const agent::WorldMap& map() const { return mapper_.map(); }
   /// Where the LiDAR was at all of its scans.
@@ -51,7 +58,8 @@ class SensedSpace {
  private:
   LidarConfig lidar_;
   std::vector<Isometry3d> scans_, inverse_;
-  std::vector<Vector3d> beams_L_;  ///< ring by ring
+  std::vector<Vector3d> beams_L_;        ///< ring by ring
+  std::vector<std::vector<bool>> lost_;  ///< of each scan: its beams without return, whatever they meet
   agent::WorldMapper mapper_;
 
   bool meets(std::size_t scan, const Vector3d& from_W, const Vector3d& to_W, double width_m) const;

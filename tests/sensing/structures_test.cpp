@@ -13,8 +13,6 @@
 namespace skein::sensing {
 namespace {
 
-constexpr double kTubeM = kBodyRadiusM + agent::kHaloM;
-
 /// Walls with slots between them, slabs, beams and wires, none of them within 3 m of the route.
 struct DrawnScene {
   TriangleMesh mesh;

@@ -61,7 +61,7 @@ BeamEvidence::BeamEvidence(const Eigen::Vector3f& direction, int across, float p
 }
 
 double BeamEvidence::unseen_probability(const FreeCriterion& criterion) const {
-  const double k_of_one = criterion.member_width_m * criterion.member_in_halo_m / kUnit;
+  const double k_of_one = criterion.k_of_one_per_m2() / kUnit;
   const double k = k_of_one * (sums_[0] + sums_[1] + sums_[2]);
   const double by_number = unseen_along_one_direction(k);
   if (by_number <= criterion.unseen_p || std::exp(-k) > criterion.unseen_p) return by_number;  // most are clear
@@ -90,7 +90,7 @@ double falls_to(const Function& function, double value, double low, double high)
 // M is at least |M|^2 / K, with the sum of its squared elements, so a <= K - |M|^2 / K.
 FreeJudge::FreeJudge(const FreeCriterion& criterion)
     : criterion_(criterion),
-      k_of_one_(criterion.member_width_m * criterion.member_in_halo_m / BeamEvidence::kUnit),
+      k_of_one_(criterion.k_of_one_per_m2() / BeamEvidence::kUnit),
       least_k_(-1.5 * std::log(criterion.unseen_p)),
       enough_k_(falls_to(unseen_along_one_direction, criterion.unseen_p, 0.0, 1e4) * (1.0 + 1e-12)),
       fewest_per_m2_(least_k_ / (k_of_one_ * BeamEvidence::kUnit) / std::sqrt(3.0)) {

@@ -23,6 +23,21 @@
 // which leaves less: where K sin a < 1, a share of 1 - K sin a in the place of exp(-K sin a), so that G is 1 / 6 K^2.
 // Lattices of many places come near to what is random. tests/sensing draws members, and asks by distance how many are
 // not seen, those along lines of a lattice apart. Beams that repeat each other count once (repeated_scans.hpp).
+//
+// A LiDAR may lose returns: each beam that meets the member returns nothing with probability q, whatever the others do.
+// Then the sightings are those of above, each kept with probability 1 - q. They are a Poisson process again, of 1 - q
+// times the density: all of them are lost with probability exp(-(1 - q) sum K_i |sin(b_i, u)|). So (1 - q) K and
+// (1 - q) M take the places of K and M in both bounds, and nothing else changes. In a lattice, n beams that meet it leave
+// q^n, which is less than exp(-(1 - q) n). K counts beams that came as far as the member: one that was lost on something
+// before it did not, and scan_bundles.hpp says which beams without return are taken for what.
+//
+// Losses of neighbouring beams may depend on each other (`dropped_sectors`: all columns of a sector, a share s of the
+// time). Let k_h of K come from one drawn set of sectors. The member is unseen in all of them with probability
+// prod (s + (1 - s) exp(-k_h)) at most. -ln(s + (1 - s) exp(-k)) is concave in k and 0 at 0. So if no k_h is above k_max, that is
+// at most exp(-c K) with c = -ln(s + (1 - s) exp(-k_max)) / k_max: less than 1 - s, and near to it only for small k_max.
+// The map does not know k_h. It takes q = s, which holds for evidence of many sets, each a small part of K. If one set
+// gave all of it, a member is unseen with probability s, whatever K is: that is the limit of this criterion.
+// tests/sensing/lost_returns_test.cpp measures both.
 // Units: metres.   Pure; threads: any.
 #pragma once
 
@@ -43,7 +58,11 @@ struct FreeCriterion {
   /// Of a member of 2 m that touches a body's tube (of radius 0.63 m), so much lies within kHaloM of it: the m of which
   /// 1 / m^2 is the mean over drawn ones.
   double member_in_halo_m = 1.69;
-  double unseen_p = 1e-3;  ///< with which probability it may have been missed
+  double unseen_p = 1e-3;    ///< with which probability it may have been missed
+  double no_return_p = 0.0;  ///< q of above, less than 1
+
+  /// K of one beam a square metre, of those that return.
+  double k_of_one_per_m2() const { return (1.0 - no_return_p) * member_width_m * member_in_halo_m; }
 };
 
 /// Beams that have passed a window across an axis of W: K and M of above, as whole numbers, so that their order does

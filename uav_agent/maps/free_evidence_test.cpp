@@ -89,6 +89,52 @@ TEST(UnseenMembers, BeamsOfAllSidesProveWithFewerThanBeamsOfOne) {
   EXPECT_LT(beams_needed(true), 160);  // oblique ones count for more
 }
 
+/// Of sightings that are lost with probability q, as of 1 - q times the beams.
+TEST(UnseenMembers, LostReturnsCountAsFewerBeams) {
+  for (const double q : {0.3, 0.5, 0.75}) {
+    FreeCriterion losing;
+    losing.no_return_p = q;
+    RandomStream random(4, "lost", 0);
+    BeamEvidence all, part;
+    for (int beam = 0; beam < 160; ++beam) {  // of two places and of all sides in turn
+      const Vector3d direction = beam % 3 == 0 ? Vector3d::UnitX() : drawn_line(random);
+      const int axis = nearest_axis(direction);
+      all.add(BeamEvidence(direction.cast<float>(), axis, kPerM2));
+      part.add(BeamEvidence(direction.cast<float>(), axis, static_cast<float>(1.0 - q) * kPerM2));
+      const double expected = part.unseen_probability(FreeCriterion());
+      ASSERT_NEAR(all.unseen_probability(losing), expected, 0.05 * expected + 1e-9) << beam << " of " << q;
+    }
+    BeamEvidence along_one_line;
+    while (along_one_line.unseen_probability(losing) > losing.unseen_p && !along_one_line.full()) {
+      along_one_line.add(BeamEvidence(Eigen::Vector3f::UnitX(), 0, kPerM2));
+    }
+    EXPECT_NEAR(along_one_line.per_m2(), std::min<double>(375.0 / (1.0 - q), BeamEvidence::kMostPerM2), 16.0) << q;
+  }
+}
+
+/// Members of which each sighting is lost by itself: the share that is unseen is below the bound.
+TEST(UnseenMembers, TheBoundHoldsOfSightingsThatAreLost) {
+  FreeCriterion criterion;
+  criterion.no_return_p = 0.3;
+  RandomStream random(6, "lost", 0);
+  BeamEvidence evidence;
+  for (int beam = 0; beam < 40; ++beam) evidence.add(BeamEvidence(Eigen::Vector3f::UnitX(), 0, kPerM2));
+  const double k = 40 * kPerM2 * criterion.member_width_m * criterion.member_in_halo_m;
+  constexpr int kMembers = 200'000, kParts = 400;  // places where a beam may meet the member, few of which do
+  int unseen = 0;
+  for (int member = 0; member < kMembers; ++member) {
+    const double met_p = k * Vector3d::UnitX().cross(drawn_line(random)).norm() / kParts;
+    bool seen = false;
+    for (int part = 0; part < kParts && !seen; ++part) {
+      seen = random.uniform() < met_p && random.uniform() >= criterion.no_return_p;
+    }
+    unseen += !seen;
+  }
+  const double share = static_cast<double>(unseen) / kMembers, error = std::sqrt(share / kMembers);
+  EXPECT_GE(evidence.unseen_probability(criterion), share - 6.0 * error);
+  EXPECT_LT(evidence.unseen_probability(FreeCriterion()), share - 6.0 * error) << "without them it would not";
+}
+
 TEST(UnseenMembers, NoNumberOfBeamsIsTooMany) {
   const FreeCriterion criterion{.member_width_m = 0.005, .member_in_halo_m = 1.0, .unseen_p = 1e-3};  // a thin wire
   RandomStream random(2, "many", 0);
@@ -122,8 +168,8 @@ TEST(BeamEvidence, RemindsOnceThereAreSoMany) {
 /// From beams of one place to beams of everywhere, one more at a time, about the number at which it changes its mind.
 TEST(FreeJudge, SaysWhatTheProbabilitySays) {
   std::size_t asked = 0, proved = 0;
-  for (const double unseen_p : {1e-2, 1e-3, 1e-4}) {
-    const FreeCriterion criterion{.unseen_p = unseen_p};
+  for (const auto& [unseen_p, no_return_p] : {std::pair{1e-2, 0.0}, {1e-3, 0.0}, {1e-3, 0.3}, {1e-4, 0.0}}) {
+    const FreeCriterion criterion{.unseen_p = unseen_p, .no_return_p = no_return_p};
     const FreeJudge judge(criterion);
     for (std::uint64_t world = 0; world < 300; ++world) {
       RandomStream random(world, "judge", 0);

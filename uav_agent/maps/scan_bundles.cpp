@@ -31,7 +31,7 @@ ScanBundler::ScanBundler(const LidarConfig& lidar, double bundle_rad) : lidar_(l
   half_rad_ = 0.5 * std::hypot((columns_ - 1) * column_rad, (rings_ - 1) * ring_rad);
 }
 
-void ScanBundler::find_free(const BeamScan& scan, const TubeFree& near_free) {
+void ScanBundler::find_free(const BeamScan& scan, const TubeFree& near_free, const ClearWay& clear_way) {
   const double near_m = lidar_.range_min_m;
   const BeamScan::Firing* asked = nullptr;
   bool all_near_free = false;
@@ -61,6 +61,10 @@ void ScanBundler::find_free(const BeamScan& scan, const TubeFree& near_free) {
       if (any_none && !all_near_free) {
         const Vector3d from_W = X_WL.translation(), to_W = X_WL * (near_m * middles_L_[number]);
         if (!near_free(from_W, to_W, near_m * half_rad_)) free_m = 0.0F;
+      }
+      if (any_none && clear_way && free_m > 0.0F) {
+        const Vector3d direction_W = X_WL.linear() * middles_L_[number];
+        free_m = static_cast<float>(clear_way(X_WL.translation(), direction_W, free_m));
       }
       free_m_[number] = free_m;
     }
@@ -94,14 +98,14 @@ void ScanBundler::look_around() {
 }
 
 const ScanBundler::Bundles& ScanBundler::bundle(const BeamScan& scan, const RepeatedScans::Repeated& repeated,
-                                                const TubeFree& near_free) {
+                                                const TubeFree& near_free, const ClearWay& clear_way) {
   bundles_.bundles.clear();
   bundles_.hits_W.clear();
   if (scan.doubt != ScanDoubt::none) return bundles_;
   free_m_.resize(middles_L_.size());
   row_.resize(middles_L_.size());
   around_m_.resize(middles_L_.size());
-  find_free(scan, near_free);
+  find_free(scan, near_free, clear_way);
   look_around();
   for (int level = 0; level < up_; ++level) {
     const int rings = std::min(rings_, lidar_.rings - level * rings_);

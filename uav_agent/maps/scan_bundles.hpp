@@ -15,6 +15,9 @@ namespace skein::agent {
 /// Whether all that lies within a radius of a segment is known to be free.
 using TubeFree = std::function<bool(const Vector3d& a_W, const Vector3d& b_W, double radius_m)>;
 
+/// How far along a unit vector there is no cube that is known to be occupied: `reach_m` at most.
+using ClearWay = std::function<double(const Vector3d& from_W, const Vector3d& direction_W, double reach_m)>;
+
 class ScanBundler {
  public:
   /// Beams of a bundle: about 4 degrees each way, which is the smallest cube 8 m away (world_map.hpp). 4 by 2 of a
@@ -39,14 +42,18 @@ class ScanBundler {
   /// The first proof: a UAV is put down where the space about it is clear, farther than its LiDAR is blind, and whoever
   /// keeps the map says so (WorldMap::set_free()). From there on each new place has been proved from the ones before.
   /// @param near_free  asked about the first `range_min_m` of beams without return.
+  /// @param clear_way  of a LiDAR that loses returns: a beam without one may have met something, so it is taken for free
+  ///                   up to the first cube that is occupied. A surface is: the other beams that meet it return. Empty:
+  ///                   no return is lost.
   /// @returns          good until the next call.
-  const Bundles& bundle(const BeamScan& scan, const RepeatedScans::Repeated& repeated, const TubeFree& near_free);
+  const Bundles& bundle(const BeamScan& scan, const RepeatedScans::Repeated& repeated, const TubeFree& near_free,
+                        const ClearWay& clear_way = {});
 
   /// From a bundle's middle to its farthest beam.
   double half_rad() const { return half_rad_; }
 
  private:
-  void find_free(const BeamScan& scan, const TubeFree& near_free);
+  void find_free(const BeamScan& scan, const TubeFree& near_free, const ClearWay& clear_way);
   void look_around();
 
   LidarConfig lidar_;

@@ -162,6 +162,29 @@ TEST(ScanBundler, WithoutReturnCountsOnlyWhereItsFirstStretchIsKnownToBeFree) {
   }
 }
 
+TEST(ScanBundler, ABeamThatMayHaveBeenLostEndsAtTheFirstOccupiedCube) {
+  const LidarConfig lidar;
+  const BeamScan scan = drawn_scan(lidar, 3);
+  ScanBundler bundler(lidar, 0.0);
+  const std::vector<BeamBundle> whole = bundler.bundle(scan, {}, everywhere).bundles;
+  std::size_t asked = 0;
+  const auto clear_way = [&](const Vector3d& from_W, const Vector3d& direction_W, double reach_m) {
+    EXPECT_EQ(from_W, scan.fired[0].X_WL.translation());
+    ++asked;
+    return direction_W.z() < 0.0 ? std::min(reach_m, 11.0) : reach_m;
+  };
+  const std::vector<BeamBundle>& bundles = bundler.bundle(scan, {}, everywhere, clear_way).bundles;
+  ASSERT_EQ(bundles.size(), whole.size());
+  std::size_t without_return = 0;
+  for (std::size_t i = 0; i < bundles.size(); ++i) {
+    const bool none = whole[i].free_m == 50.0F, ends = none && bundles[i].direction_W.z() < 0.0F;
+    EXPECT_EQ(bundles[i].free_m, ends ? 11.0F : whole[i].free_m) << "what returned proves its own";
+    EXPECT_LE(bundles[i].around_free_m, bundles[i].free_m);
+    without_return += none;
+  }
+  EXPECT_EQ(asked, without_return);
+}
+
 TEST(ScanBundler, AScanInDoubtSaysNothing) {
   const LidarConfig lidar;
   BeamScan scan = drawn_scan(lidar, 2);

@@ -149,6 +149,14 @@ bool WorldMap::tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius
   return all_near(a_W, b_W, radius_m, [&](const Cube& cube) { return known(cube).space == Space::free; });
 }
 
+double WorldMap::clear_way_m(const Vector3d& from_W, const Vector3d& direction_W, double reach_m) const {
+  const double step_m = 0.5 * config_.cell_m;
+  for (double way_m = 0.0; way_m < reach_m; way_m += step_m) {
+    if (levels_.front()->known(cube_of(from_W + way_m * direction_W)).space == Space::occupied) return way_m;
+  }
+  return reach_m;
+}
+
 void WorldMap::read(const Cube& chunk, Chunk& known) const {
   levels_.front()->read(chunk, known);
   if (std::ranges::all_of(known, [](const auto& cube) { return cube.space != Space::unknown; })) return;

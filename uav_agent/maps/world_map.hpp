@@ -59,6 +59,8 @@ class WorldMap {
   /// Whether all cubes with a point within `radius_m` of the segment are free. For the tube of a body, that is its
   /// radius and kHaloM.
   bool tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius_m) const;
+  /// How far along a unit vector no cube is occupied, asked in steps of half a cube: `reach_m` at most.
+  double clear_way_m(const Vector3d& from_W, const Vector3d& direction_W, double reach_m) const;
 
   using Chunk = std::array<MapLevel::Known, MapLevel::kCells>;  ///< of its smallest cubes, x first
   /// All of a chunk at once.

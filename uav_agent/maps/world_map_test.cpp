@@ -189,6 +189,16 @@ TEST(WorldMap, AHitIsKeptWhateverPassesAndOpensWhatWasFree) {
   EXPECT_LE(map.counts().blocks, blocks + 1) << "what is free all over costs nothing";
 }
 
+TEST(WorldMap, AWayIsClearUpToTheFirstCubeThatIsOccupied) {
+  WorldMap map({});
+  EXPECT_EQ(map.clear_way_m({0.25, 0.25, 0.25}, Vector3d::UnitX(), 20.0), 20.0);
+  map.insert({}, std::vector{Eigen::Vector3f(7.3F, 0.3F, 0.2F)});
+  EXPECT_NEAR(map.clear_way_m({0.25, 0.25, 0.25}, Vector3d::UnitX(), 20.0), 6.75, 0.25);
+  EXPECT_EQ(map.clear_way_m({0.25, 0.25, 0.25}, Vector3d::UnitX(), 5.0), 5.0);
+  EXPECT_EQ(map.clear_way_m({0.25, 0.75, 0.25}, Vector3d::UnitX(), 20.0), 20.0) << "beside it";
+  EXPECT_EQ(map.clear_way_m({7.25, 0.25, 0.25}, Vector3d::UnitX(), 20.0), 0.0) << "inside";
+}
+
 TEST(WorldMap, AUavMakesItsOwnPlaceFreeButNothingThatWasHit) {
   WorldMap map(WorldMap::Config{});
   map.insert({}, std::vector<Eigen::Vector3f>{{0.0F, 0.0F, 0.1F}});

@@ -3,11 +3,21 @@
 #include "core/lidar_geometry.hpp"
 
 namespace skein::agent {
+namespace {
+
+/// With the share of returns that this LiDAR loses.
+WorldMap::Config with_losses(WorldMap::Config config, const LidarConfig& lidar) {
+  const double share = lidar.dropped_sectors ? lidar.dropped_sectors->share : 0.0;
+  config.criterion.no_return_p = 1.0 - (1.0 - lidar.no_return_p) * (1.0 - share);
+  return config;
+}
+
+}  // namespace
 
 WorldMapper::WorldMapper(const LidarConfig& lidar, const Config& config)
     : config_(config),
       period_(lidar_period(lidar) * config.every),
-      map_(config.map),
+      map_(with_losses(config.map, lidar)),
       bundler_(lidar, config.bundle_rad),
       repeated_(config.map.criterion.member_width_m, bundler_.half_rad()) {}
 
@@ -17,9 +27,16 @@ void WorldMapper::insert(const BeamScan& scan) {
   if (!started_) map_.set_free(X_WL.translation(), config_.start_clear_m);
   started_ = true;
   const RepeatedScans::Repeated repeated = repeated_.ask(X_WL);
-  const ScanBundler::Bundles& bundles = bundler_.bundle(
-      scan, repeated,
-      [&](const Vector3d& a_W, const Vector3d& b_W, double radius_m) { return map_.tube_free(a_W, b_W, radius_m); });
+  const TubeFree near_free = [&](const Vector3d& a_W, const Vector3d& b_W, double radius_m) {
+    return map_.tube_free(a_W, b_W, radius_m);
+  };
+  ClearWay clear_way;
+  if (map_.config().criterion.no_return_p > 0.0) {
+    clear_way = [&](const Vector3d& from_W, const Vector3d& direction_W, double reach_m) {
+      return map_.clear_way_m(from_W, direction_W, reach_m);
+    };
+  }
+  const ScanBundler::Bundles& bundles = bundler_.bundle(scan, repeated, near_free, clear_way);
   map_.insert(bundles.bundles, bundles.hits_W);
 }
 

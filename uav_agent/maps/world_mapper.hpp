@@ -18,6 +18,8 @@ class WorldMapper {
     double start_clear_m = 1.2;
   };
 
+  /// @param lidar   tells how many returns are lost, which the map's criterion accounts for.
+  /// @param config  its `map.criterion.no_return_p` is not read.
   WorldMapper(const LidarConfig& lidar, const Config& config);
 
   /// All scans of the LiDAR in their order: those that are not taken in are counted. The first tells of the start.

@@ -71,6 +71,33 @@ TEST_F(BeamReaderTest, EachPointIsOfItsBeamAndTheRestReturnedNothing) {
   }
 }
 
+// Whichever are missing, single ones or all of some columns: the others are of their beams, and nothing is in doubt.
+TEST_F(BeamReaderTest, LostReturnsAreBeamsWithoutReturn) {
+  const LidarConfig config;
+  for (const double lost_p : {0.1, 0.3, 0.5, 0.99}) {
+    for (const int sector : {0, 37, 220}) {
+      const Scan scan = drawn(config, 7);
+      RandomStream random(8, "lost", static_cast<std::uint64_t>(sector));
+      Scan left{.tick = scan.tick};
+      std::size_t point = 0;
+      for (std::size_t i = 0; i < ranges_.size(); ++i) {
+        if (ranges_[i] == 0.0) continue;
+        const bool lost = random.uniform() < lost_p || static_cast<int>(i) % config.columns < sector;
+        if (lost) ranges_[i] = 0.0;
+        if (!lost) left.points_W.push_back(scan.points_W[point]);
+        ++point;
+      }
+      const BeamScan beams = reader(config).read(left, {});
+      ASSERT_EQ(beams.doubt, ScanDoubt::none);
+      EXPECT_EQ(beams.points, left.points_W.size());
+      for (std::size_t i = 0; i < ranges_.size(); ++i) {
+        ASSERT_EQ(beams.beams[i].state, ranges_[i] > 0.0 ? BeamState::range : BeamState::none) << i;
+        ASSERT_NEAR(beams.beams[i].range_m, ranges_[i], 1e-4);
+      }
+    }
+  }
+}
+
 TEST_F(BeamReaderTest, AnEmptyCloudIsAScanWithoutReturns) {
   const BeamScan beams = reader({}).read({.tick = 40}, {});
   EXPECT_EQ(beams.doubt, ScanDoubt::none);
