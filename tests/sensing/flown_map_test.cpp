@@ -10,8 +10,6 @@
 namespace skein::sensing {
 namespace {
 
-constexpr double kTubeM = kBodyRadiusM + agent::kHaloM;
-
 /// A UAV that hovers for a sweep, and the tubes of ten metres straight away from it: at least half of their space is
 /// free. Of their length, where all across must be free, it is 0.45 with each beam for itself, and 0.35 on board.
 TEST(OneSweep, ProvesHalfOfTenMetres) {
