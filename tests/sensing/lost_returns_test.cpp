@@ -1,5 +1,5 @@
-// drawn_members_test.cpp with a LiDAR that loses returns: how many members has it not seen? A UAV hovers for one sweep of
-// the servo, so that it looks at most places once. Where it looks again, hardly a member is unseen whatever is lost.
+// drawn_members_test.cpp with a LiDAR that loses returns: how many members has it not seen? A UAV hovers for one sweep
+// of the servo, so that it looks at most places once. Where it looks again, it misses hardly any, whatever is lost.
 #include <gtest/gtest.h>
 
 #include <iostream>

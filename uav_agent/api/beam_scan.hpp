@@ -5,8 +5,8 @@
 // - `none` says that nothing stands between the LiDAR's range_min_m and range_max_m. The LiDAR drops what is nearer as
 //   it drops a miss, so the first range_min_m must be known to be free from elsewhere before anything is taken for
 //   free (maps/scan_bundles.hpp). A `range` beam needs no such proof: what it met is the first that stands there.
-// - A LiDAR may lose returns (`no_return_p` and `dropped_sectors` of LidarConfig). Then a beam that met something may be
-//   `none`, too, and looks no different.
+// - A LiDAR may lose returns (`no_return_p` and `dropped_sectors` of LidarConfig). Then a beam that met something may
+//   be `none`, too, and looks no different.
 // - Beams are no independent witnesses. Rings are evenly spaced (2 degrees), and in four scans (0.4 s) the servo turns
 //   by nine spacings: sideways, where turning moves a beam across the rings, beams fall onto lines of beams before. The
 //   servo's period (8 s) is a whole number of scans, so that a LiDAR that hangs still fires along all its lines again.

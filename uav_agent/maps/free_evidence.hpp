@@ -27,16 +27,17 @@
 // A LiDAR may lose returns: each beam that meets the member returns nothing with probability q, whatever the others do.
 // Then the sightings are those of above, each kept with probability 1 - q. They are a Poisson process again, of 1 - q
 // times the density: all of them are lost with probability exp(-(1 - q) sum K_i |sin(b_i, u)|). So (1 - q) K and
-// (1 - q) M take the places of K and M in both bounds, and nothing else changes. In a lattice, n beams that meet it leave
-// q^n, which is less than exp(-(1 - q) n). K counts beams that came as far as the member: one that was lost on something
-// before it did not, and scan_bundles.hpp says which beams without return are taken for what.
+// (1 - q) M take the places of K and M in both bounds, and nothing else changes. In a lattice, n beams that meet it
+// leave q^n, which is less than exp(-(1 - q) n). K counts beams that came as far as the member. A beam that was lost on
+// something before it did not: ScanBundler takes beams without return for free up to the first occupied cube.
 //
 // Losses of neighbouring beams may depend on each other (`dropped_sectors`: all columns of a sector, a share s of the
 // time). Let k_h of K come from one drawn set of sectors. The member is unseen in all of them with probability
-// prod (s + (1 - s) exp(-k_h)) at most. -ln(s + (1 - s) exp(-k)) is concave in k and 0 at 0. So if no k_h is above k_max, that is
-// at most exp(-c K) with c = -ln(s + (1 - s) exp(-k_max)) / k_max: less than 1 - s, and near to it only for small k_max.
-// The map does not know k_h. It takes q = s, which holds for evidence of many sets, each a small part of K. If one set
-// gave all of it, a member is unseen with probability s, whatever K is: that is the limit of this criterion.
+// prod (s + (1 - s) exp(-k_h)) at most. -ln(s + (1 - s) exp(-k)) is concave in k and 0 at 0. So if no k_h is above
+// k_max, that is at most exp(-c K) with c = -ln(s + (1 - s) exp(-k_max)) / k_max: less than 1 - s, and near to it only
+// for small k_max. The map does not know k_h. It takes q = s, which is near to the truth if each of many sets gave a
+// small part of K. If one set gave all of it, a member may be unseen with probability s, whatever K is: that is the
+// limit of this criterion.
 // tests/sensing/lost_returns_test.cpp measures both.
 // Units: metres.   Pure; threads: any.
 #pragma once

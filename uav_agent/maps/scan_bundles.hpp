@@ -42,9 +42,9 @@ class ScanBundler {
   /// The first proof: a UAV is put down where the space about it is clear, farther than its LiDAR is blind, and whoever
   /// keeps the map says so (WorldMap::set_free()). From there on each new place has been proved from the ones before.
   /// @param near_free  asked about the first `range_min_m` of beams without return.
-  /// @param clear_way  of a LiDAR that loses returns: a beam without one may have met something, so it is taken for free
-  ///                   up to the first cube that is occupied. A surface is: the other beams that meet it return. Empty:
-  ///                   no return is lost.
+  /// @param clear_way  of a LiDAR that loses returns: a beam without one may have met something, so it is taken for
+  ///                   free up to the first cube that is occupied. A surface is: the other beams that meet it return.
+  ///                   Empty: no return is lost.
   /// @returns          good until the next call.
   const Bundles& bundle(const BeamScan& scan, const RepeatedScans::Repeated& repeated, const TubeFree& near_free,
                         const ClearWay& clear_way = {});
