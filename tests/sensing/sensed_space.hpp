@@ -40,6 +40,7 @@ class SensedSpace {
   SensedSpace(const Flight& flight, double servo_phase_s, const agent::WorldMapper::Config& config);
 
   const agent::WorldMap& map() const { return mapper_.map(); }
+  agent::WorldMap& map() { return mapper_.map(); }
   /// Where the LiDAR was at all of its scans.
   const std::vector<Isometry3d>& scans() const { return scans_; }
   double distance_to_route_m(const Vector3d& p_W) const;
