@@ -216,7 +216,7 @@ bool MapNews::read(std::size_t sender, Tick now, WorldMap& map, PayloadReader& r
   const auto cubes = read_subtrees(message->tree, map.levels());
   if (!cubes) return false;
   start(now);
-  for (const HeardCube& cube : *cubes) map.hear(cube.cube, cube.level, cube.space, teller_of(sender));
+  told_.hear(map, *cubes, teller_of(sender));
   receive(sender, *message, now);
   return true;
 }

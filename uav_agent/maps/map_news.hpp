@@ -6,10 +6,10 @@
 //   - for each UAV that was heard of late which of its messages arrived: the last one and 32 before. What was lost is
 //     told again, as it is then (told_chunks.hpp);
 //   - the place that the sender is going to: news of the way there come soonest.
-// What others told is passed on, except to the UAV that told it and to those that hear that one themselves. A UAV that
-// was started anew shows by another incarnation, on either side: it is told everything again.
-// What is told only adds to a listener's map, and occupied outweighs free: what a teller vacates stays occupied where it
-// was told before, which is the safe side, until the listener vacates it, too.
+// What others told is passed on, except to the UAV that told it and to those that hear that UAV themselves. A UAV that
+// was started anew shows it by another incarnation, on either side: it is told everything again.
+// What is told only adds to a listener's map, and occupied outweighs free. A cube that a teller vacates stays occupied
+// where it was told before, until the listener vacates it, too: that is the safe side.
 // Frame W.   Units: SI, bytes.   Threads: one.   Deterministic: no clock but `now`.
 // Bounded: bytes_per_s in any second, and memory by the size of the map (told_chunks.hpp).
 #pragma once

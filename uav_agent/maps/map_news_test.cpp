@@ -85,8 +85,26 @@ TEST(MapNews, ATellerThatStartsAnewHearsOfItsOwnMapFromThoseThatItTold) {
   }
 }
 
-/// Ranks of the chunks of a map by when the listener, 0, hears of them: of those within `near_m` of `places` the median,
-/// as a share of all.
+/// 2 knows what 0 told it, and leaves it to 0 to tell 1, but for one thing: the 0 that 1 hears was started anew.
+TEST(MapNews, NothingIsLeftToATellerThatHasLostIt) {
+  NewsRadio::Config config;
+  config.uavs = 3;
+  config.news.bytes_per_s = 2'000.0;
+  NewsRadio radio(config, 9);
+  RandomStream random(9, "news_left", 0);
+  draw_space(*radio[0].map, random, Vector3d::Zero(), 20.0, 1000);
+  radio.linked = [](std::size_t i, std::size_t j) { return i != 1 && j != 1; };
+  for (int i = 0; i < 600; ++i) radio.exchange();
+  ASSERT_TRUE(radio.knows_all_of(2, 0));
+  radio.restart(0);
+  radio.linked = [](std::size_t i, std::size_t j) { return i + j == 1; };
+  for (int i = 0; i < 60; ++i) radio.exchange();
+  radio.linked = [](std::size_t i, std::size_t j) { return i == 1 || j == 1; };
+  EXPECT_LT(radio.exchanges_to_agree(400), 400);
+}
+
+/// The order in which listener 0 hears of the chunks of a map: the median rank of those within `near_m` of `places`, as
+/// a share of all.
 double median_rank(NewsRadio& radio, const std::vector<Vector3d>& places, double near_m) {
   std::vector<Eigen::Vector3i> left, order;
   visit_chunks(radio.map(1), [&](const Eigen::Vector3i& chunk) { left.push_back(chunk); });
@@ -194,6 +212,18 @@ TEST(MapNews, WhoHasNothingToTellIsNearlySilent) {
   EXPECT_EQ(bytes_sent(alone, 0), 0U) << "nobody is in sight";
 }
 
+TEST(MapNews, AChunkThatChangesAllTheTimeIsToldOnceASecond) {
+  NewsRadio radio({}, 8);
+  for (int i = 0; i < 40; ++i) radio.exchange();
+  const std::size_t before = radio[0].sent.size();
+  for (int i = 0; i < 200; ++i) {
+    radio[0].map->hear({i % 6, i / 6 % 6, i / 36}, 0, Space::free, kOwn);
+    radio.exchange();
+  }
+  EXPECT_LE(radio[0].sent.size() - before, 11U);
+  EXPECT_GE(radio[0].sent.size() - before, 9U);
+}
+
 TEST(MapNews, WhatATellerVacatesStaysOccupiedWhereItWasTold) {
   NewsRadio radio({}, 6);
   const Vector3d p_W(3.1, 0.1, 0.1);
@@ -261,6 +291,23 @@ TEST(MapNews, DamagedMessagesNeitherBreakAnythingNorStopTheTelling) {
     }
     EXPECT_LT(exchanges, 600) << seed;
   }
+}
+
+TEST(MapNews, ADamagedNumberDoesNotKeepATellerTelling) {
+  NewsRadio radio({}, 10);
+  for (int i = 0; i < 40; ++i) radio.exchange();
+  radio.damage = [&](std::size_t sender, std::vector<std::uint8_t>& bytes) {
+    if (sender == 0) bytes.at(9) ^= 0x40U;  // the highest byte of the number
+  };
+  RandomStream random(10, "news_number", 0);
+  draw_space(*radio[0].map, random, Vector3d::Zero(), 10.0, 300);
+  for (int i = 0; i < 20; ++i) radio.exchange();
+  EXPECT_TRUE(radio.knows_all_of(1, 0)) << "these were taken in";
+  radio.damage = nullptr;
+  for (int i = 0; i < 100; ++i) radio.exchange();
+  const std::size_t before = bytes_sent(radio, 0);
+  for (int i = 0; i < 200; ++i) radio.exchange();
+  EXPECT_LE(bytes_sent(radio, 0) - before, 11U * 90U);
 }
 
 }  // namespace

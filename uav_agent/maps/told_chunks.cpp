@@ -9,8 +9,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr int kRegionEdge = 4;   // chunks
-constexpr double kDetour = 0.1;  // of two places on a listener's way, the one that it comes to first
+constexpr int kRegionCubeBits = 5;  // of smallest cubes
+constexpr int kRegionEdge = 4;      // chunks
+constexpr double kDetour = 0.1;     // of two places on a listener's way, the one that it comes to first
 
 double distance_to_segment(const Vector3d& a_W, const Vector3d& b_W, const Vector3d& p_W) {
   const Vector3d ab = b_W - a_W;
@@ -29,33 +30,55 @@ ToldChunks::ToldChunks(std::size_t fleet, const Config& config) : config_(config
   if (fleet > kMostUavs) throw std::invalid_argument("ToldChunks: more UAVs than it has bits for");
 }
 
-void ToldChunks::take_changes(const WorldMap& map) {
+void ToldChunks::take_regions(const WorldMap& map) {
   for (std::size_t i = regions_.size(); i < map.regions().size(); ++i) {
     Region& region = regions_.emplace_back();
     region.at = map.regions()[i];
     region.chunks.fill(-1);
     region.settled.assign(accounts_.size(), 0);
+    region_of_[grid_key(region.at)] = static_cast<std::uint32_t>(i + 1);
   }
-  for (Region& region : regions_) {
-    const std::uint64_t revision = map.region_changed_at(region.at);
-    if (revision != region.revision) take_changes(map, region);
-    region.revision = revision;
-  }
-  for (Account& account : accounts_) account.told.resize(chunks_.size(), 0);
 }
 
-void ToldChunks::take_changes(const WorldMap& map, Region& region) {
+void ToldChunks::take_changes(const WorldMap& map, Region& region, std::optional<Teller> by) {
+  const std::uint64_t before = region.revision;
+  region.revision = map.region_changed_at(region.at);
+  if (region.revision == before) return;
   for (int i = 0; i < static_cast<int>(kRegionChunks); ++i) {
     const Eigen::Vector3i at = region.at * kRegionEdge + Eigen::Vector3i(i & 3, i >> 2 & 3, i >> 4);
     const std::uint64_t revision = map.changed_at(at);
-    if (revision <= region.revision || !within_tree(at)) continue;
-    std::int32_t& chunk = region.chunks[static_cast<std::size_t>(i)];
-    if (chunk < 0) {
-      chunk = static_cast<std::int32_t>(chunks_.size());
+    if (revision <= before || !within_tree(at)) continue;
+    std::int32_t& number = region.chunks[static_cast<std::size_t>(i)];
+    if (number < 0) {
+      number = static_cast<std::int32_t>(chunks_.size());
       chunks_.push_back({.at = at});
     }
-    chunks_[static_cast<std::size_t>(chunk)].revision = revision;
+    Chunk& chunk = chunks_[static_cast<std::size_t>(number)];
+    if (by && chunk.read_revision == chunk.revision) {
+      chunk.tellers |= only(*by);
+      chunk.read_revision = revision;
+    }
+    chunk.revision = revision;
   }
+}
+
+void ToldChunks::hear(WorldMap& map, std::span<const HeardCube> cubes, Teller teller) {
+  std::vector<Eigen::Vector3i> heard;  // regions
+  for (const HeardCube& cube : cubes) {
+    const int bits = kRegionCubeBits - cube.level;
+    const Eigen::Vector3i region(cube.cube.x() >> bits, cube.cube.y() >> bits, cube.cube.z() >> bits);
+    if (heard.empty() || heard.back() != region) heard.push_back(region);
+  }
+  const auto take_all = [&](std::optional<Teller> by) {
+    take_regions(map);
+    for (const Eigen::Vector3i& region : heard) {
+      const std::uint32_t* const number = region_of_.find(grid_key(region));
+      if (number != nullptr) take_changes(map, regions_[*number - 1], by);
+    }
+  };
+  take_all(std::nullopt);
+  for (const HeardCube& cube : cubes) map.hear(cube.cube, cube.level, cube.space, teller);
+  take_all(teller);
 }
 
 /// What others told may be left to them no longer.
@@ -142,7 +165,9 @@ std::optional<ToldChunks::News> ToldChunks::read(const WorldMap& map, std::uint3
 
 void ToldChunks::visit_due(const WorldMap& map, std::span<const Listener> listeners, Tick now,
                            const std::function<bool(News&&)>& take) {
-  take_changes(map);
+  take_regions(map);
+  for (Region& region : regions_) take_changes(map, region, std::nullopt);
+  for (Account& account : accounts_) account.told.resize(chunks_.size(), 0);
   for (const Listener& listener : listeners) note_informed(listener);
   const double chunk_m = WorldMap::kChunk * map.config().cell_m;
   const auto later = [](const Candidate& a, const Candidate& b) {

@@ -59,6 +59,8 @@ class ToldChunks {
   /// @param latest  number of the last message that a listener has got.
   /// @param before  whether it has got the one before that, the one before that one, ..., from the lowest bit on.
   void acknowledge(std::size_t uav, std::uint32_t latest, std::uint32_t before);
+  /// Takes what somebody told into the map, and notes that whatever is new now is known by that teller.
+  void hear(WorldMap& map, std::span<const HeardCube> cubes, Teller teller);
   /// It has lost all that it was told.
   void forget(std::size_t uav);
 
@@ -95,8 +97,9 @@ class ToldChunks {
     std::uint32_t index = 0;
   };
 
-  void take_changes(const WorldMap& map);
-  void take_changes(const WorldMap& map, Region& region);
+  void take_regions(const WorldMap& map);
+  /// @param by  all that has changed was told by this one; else it is to be read.
+  void take_changes(const WorldMap& map, Region& region, std::optional<Teller> by);
   void note_informed(const Listener& listener);
   Message* message(std::uint32_t number);
   /// Whether a listener lacks news of a chunk; and whether they are to be told it now.
@@ -110,7 +113,8 @@ class ToldChunks {
   std::optional<News> read(const WorldMap& map, std::uint32_t chunk, std::span<const Listener> listeners, Tick now);
 
   const Config config_;
-  std::vector<Region> regions_;  ///< as WorldMap::regions()
+  std::vector<Region> regions_;          ///< as WorldMap::regions()
+  BlockTable<std::uint32_t> region_of_;  ///< in regions_, from 1 on
   std::vector<Chunk> chunks_;
   std::vector<Account> accounts_;  ///< by UAV
   std::deque<Message> messages_;   ///< the last ones
