@@ -161,7 +161,10 @@ const std::vector<LibraryRule>& library_rules() {
   static const std::vector<LibraryRule> kRules = {
       {"Bullet", {"bt", "bullet/", "BulletCollision/", "BulletDynamics/", "LinearMath/"}, {"sim_server/"}, 2},
       {"Embree", {"embree"}, {"sim_server/"}, 2},
-      {"OctoMap", {"octomap/", "octomath/"}, {"uav_agent/", "tests/recording/map_test.cpp"}, 2},
+      {"OctoMap",
+       {"octomap/", "octomath/"},
+       {"uav_agent/maps/map_subtrees_test.cpp", "uav_agent/", "tests/recording/map_test.cpp"},
+       2},
       {"PCL",
        {"pcl/"},
        {"uav_agent/", "sim_server/sensors/key_frames.cpp", "sim_server/scene_files/point_file_pcl_test.cpp"},

@@ -49,6 +49,7 @@ class SensedSpace {
   void lose(std::uint64_t seed);
 
   const agent::WorldMap& map() const { return mapper_.map(); }
+  agent::WorldMap& map() { return mapper_.map(); }
   /// Where the LiDAR was at all of its scans.
   const std::vector<Isometry3d>& scans() const { return scans_; }
   double distance_to_route_m(const Vector3d& p_W) const;

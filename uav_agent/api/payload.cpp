@@ -85,6 +85,11 @@ std::span<const std::uint8_t> PayloadReader::bytes(std::size_t count) {
   return taken;
 }
 
+std::size_t text_bytes(std::span<const std::uint8_t> bytes) {
+  const auto escapes = std::ranges::count_if(bytes, [](std::uint8_t byte) { return byte <= 1; });
+  return bytes.size() + static_cast<std::size_t>(escapes);
+}
+
 RadioMessage send_payload(std::string_view planner, std::size_t sender, const PayloadWriter& payload) {
   if (payload.size() > kMaxPayloadBytes) throw std::logic_error("a radio payload is too long");
   PayloadWriter envelope;

@@ -67,6 +67,9 @@ class PayloadReader {
   bool ok_ = true;
 };
 
+/// How long bytes are in a message's text, in which some take two.
+std::size_t text_bytes(std::span<const std::uint8_t> bytes);
+
 /// What arrived in an envelope.
 struct Payload {
   std::size_t sender = 0;  ///< index in the fleet, as the sender says; the radio itself tells nobody

@@ -1,0 +1,224 @@
+#include "uav_agent/maps/map_news.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kMostGoingM = 32'767.0;
+constexpr std::uint32_t kWindow = 32;          // messages that a receipt tells of besides the last
+constexpr std::size_t kBytesAboveChunk = 4;    // of nodes above it, when neighbours are told with it
+constexpr std::size_t kBytesAboveChunks = 48;  // of those up to the root
+
+std::uint16_t millimetres(double cell_m) { return static_cast<std::uint16_t>(std::lround(1000.0 * cell_m)); }
+
+std::uint16_t whole_metres(double metres) {
+  return static_cast<std::uint16_t>(
+      static_cast<std::int16_t>(std::lround(std::clamp(metres, -kMostGoingM, kMostGoingM))));
+}
+
+std::size_t link_bytes(const PayloadWriter& payload) { return MapNews::kEnvelopeBytes + text_bytes(payload.data()); }
+
+std::vector<std::uint8_t> tree_of(const std::vector<ToldChunks::News>& news) {
+  std::vector<Subtree> subtrees;
+  subtrees.reserve(news.size());
+  for (const ToldChunks::News& one : news) subtrees.push_back(one.subtree);
+  return join_subtrees(subtrees);
+}
+
+}  // namespace
+
+MapNews::MapNews(UavIndex self, std::size_t fleet, const Config& config)
+    : self_(self), config_(config), told_(fleet, config.told), others_(fleet) {}
+
+void MapNews::append(const Message& message, double cell_m, PayloadWriter& writer) {
+  writer.u16(millimetres(cell_m));
+  writer.u32(message.incarnation);
+  writer.u32(message.number);
+  writer.u8(static_cast<std::uint8_t>(message.receipts.size() << 1 | (message.going_to_W ? 1U : 0U)));
+  for (const Receipt& receipt : message.receipts) {
+    writer.u8(static_cast<std::uint8_t>(receipt.uav));
+    writer.u32(receipt.incarnation);
+    writer.u32(receipt.latest);
+    writer.u32(receipt.before);
+  }
+  if (message.going_to_W) {
+    for (const double metres : *message.going_to_W) writer.u16(whole_metres(metres));
+  }
+  if (message.number == 0) return;
+  writer.u16(static_cast<std::uint16_t>(message.tree.size()));
+  writer.bytes(message.tree);
+}
+
+std::optional<MapNews::Message> MapNews::parse(PayloadReader& reader, double cell_m, std::size_t fleet) {
+  if (reader.u16() != millimetres(cell_m)) return std::nullopt;
+  Message message;
+  message.incarnation = reader.u32();
+  message.number = reader.u32();
+  const unsigned flags = reader.u8();
+  for (unsigned i = 0; i < flags >> 1; ++i) {
+    Receipt receipt;
+    receipt.uav = reader.u8();
+    receipt.incarnation = reader.u32();
+    receipt.latest = reader.u32();
+    receipt.before = reader.u32();
+    if (receipt.uav >= fleet) return std::nullopt;
+    message.receipts.push_back(receipt);
+  }
+  if ((flags & 1U) != 0) {
+    message.going_to_W.emplace();
+    for (double& metres : *message.going_to_W) metres = static_cast<std::int16_t>(reader.u16());
+  }
+  if (message.number > 0) {
+    const std::span<const std::uint8_t> tree = reader.bytes(reader.u16());
+    message.tree.assign(tree.begin(), tree.end());
+  }
+  const bool sound = reader.ok() && message.incarnation > 0 && message.tree.empty() == (message.number == 0);
+  return sound ? std::optional(std::move(message)) : std::nullopt;
+}
+
+void MapNews::start(Tick now) {
+  if (incarnation_ == 0) incarnation_ = static_cast<std::uint32_t>(now) + 1;
+}
+
+bool MapNews::listens_only(Tick now) const {
+  const bool just_started = now - (static_cast<Tick>(incarnation_) - 1) < kTicksPerSecond;
+  return just_started || (written_ && now - *written_ < ticks(config_.period_s));
+}
+
+/// What may be sent now: no more than is left of the second, nor than has come together since the last message.
+std::size_t MapNews::allowance(Tick now, std::size_t room) const {
+  double left = config_.bytes_per_s;
+  for (const auto& [tick, bytes] : sent_) {
+    if (tick > now - kTicksPerSecond) left -= static_cast<double>(bytes);
+  }
+  const double since_s = written_ ? std::min(seconds(now - *written_), 1.0) : config_.period_s;
+  left = std::max(0.0, std::min(left, config_.bytes_per_s * since_s));
+  return std::min(static_cast<std::size_t>(left), room);
+}
+
+std::vector<ToldChunks::Listener> MapNews::listeners(const Peers& peers) const {
+  std::vector<ToldChunks::Listener> listeners;
+  for (const Peer& peer : peers.all()) {
+    if (!peer.visible || peer.uav >= others_.size()) continue;
+    const Other& other = others_[peer.uav];
+    const Tellers itself = other.restarted ? 0 : only(teller_of(peer.uav));
+    listeners.push_back({peer.uav, peer.p_W, other.going_to_W.value_or(peer.p_W), itself | other.hears});
+  }
+  return listeners;
+}
+
+std::vector<MapNews::Receipt> MapNews::receipts(Tick now) const {
+  std::vector<Receipt> receipts;
+  for (std::size_t uav = 0; uav < others_.size(); ++uav) {
+    const Other& other = others_[uav];
+    if (other.incarnation == 0 || now - other.heard > ticks(config_.heard_s)) continue;
+    receipts.push_back({uav, other.incarnation, other.latest, other.before});
+  }
+  return receipts;
+}
+
+std::vector<ToldChunks::News> MapNews::choose(const WorldMap& map, const std::vector<ToldChunks::Listener>& listeners,
+                                              std::size_t bytes, Tick now) {
+  std::vector<ToldChunks::News> news;
+  if (bytes <= kBytesAboveChunks) return news;
+  std::size_t taken = kBytesAboveChunks;
+  told_.visit_due(map, listeners, now, [&](ToldChunks::News&& one) {
+    taken += kBytesAboveChunk + text_bytes(one.subtree.bytes);
+    if (taken > bytes || news.size() == kMostJoined) return false;
+    news.push_back(std::move(one));
+    return true;
+  });
+  return news;
+}
+
+bool MapNews::write(const WorldMap& map, const Peers& peers, const std::optional<Vector3d>& going_to_W, Tick now,
+                    PayloadWriter& writer) {
+  start(now);
+  if (listens_only(now)) return false;
+  const std::vector<ToldChunks::Listener> listeners = this->listeners(peers);
+  if (listeners.empty()) return false;
+  const std::size_t allowed = allowance(now, writer.room());
+  Message message{incarnation_, 0, receipts(now), going_to_W, {}};
+  PayloadWriter payload;
+  append(message, map.config().cell_m, payload);
+  const std::size_t bare = link_bytes(payload);
+  if (bare > allowed) return false;
+  std::vector<ToldChunks::News> news = choose(map, listeners, allowed - bare, now);
+  for (; !news.empty(); news.pop_back()) {
+    message.number = number_ + 1;
+    message.tree = tree_of(news);
+    payload = {};
+    append(message, map.config().cell_m, payload);
+    if (link_bytes(payload) <= allowed) break;
+  }
+  if (news.empty()) {
+    const bool idle = !owes_receipt_ && written_ && now - *written_ < ticks(config_.idle_period_s);
+    if (idle) return false;
+    message.number = 0;
+    payload = {};
+    append(message, map.config().cell_m, payload);
+  } else {
+    told_.sent(++number_, news, listeners, now);
+  }
+  writer.bytes(payload.data());
+  const std::size_t bytes = link_bytes(payload);
+  for (const ToldChunks::Listener& listener : listeners) others_[listener.uav].bytes += bytes;
+  while (!sent_.empty() && sent_.front().first <= now - kTicksPerSecond) sent_.pop_front();
+  sent_.emplace_back(now, bytes);
+  written_ = now;
+  owes_receipt_ = false;
+  return true;
+}
+
+/// The sender's messages, and what it says of those of others.
+void MapNews::receive(std::size_t sender, const Message& message, Tick now) {
+  Other& other = others_[sender];
+  if (other.incarnation != message.incarnation) {
+    other.restarted = other.incarnation != 0;
+    other.incarnation = message.incarnation;
+    other.latest = other.before = 0;
+    told_.forget(sender);
+  }
+  other.heard = now;
+  other.going_to_W = message.going_to_W;
+  other.hears = 0;
+  for (const Receipt& receipt : message.receipts) {
+    if (receipt.uav == self_) {
+      const bool of_mine = receipt.incarnation == incarnation_ && receipt.latest <= number_;
+      if (of_mine) told_.acknowledge(sender, receipt.latest, receipt.before);
+    } else if (receipt.uav != sender) {
+      const Other& third = others_[receipt.uav];
+      const bool same = third.incarnation == receipt.incarnation && !third.restarted;
+      if (same) other.hears |= only(teller_of(receipt.uav));
+    }
+  }
+  if (message.number == 0) return;
+  owes_receipt_ = true;
+  if (message.number > other.latest) {
+    const std::uint32_t ahead = message.number - other.latest;
+    other.before = ahead > kWindow ? 0 : static_cast<std::uint32_t>(std::uint64_t{other.before} << ahead);
+    if (ahead <= kWindow && other.latest > 0) other.before |= std::uint32_t{1} << (ahead - 1);
+    other.latest = message.number;
+  } else if (const std::uint32_t behind = other.latest - message.number; behind > kWindow) {
+    other.latest = message.number;  // so far behind is none: the last number was damaged
+    other.before = 0;
+  } else if (behind > 0) {
+    other.before |= std::uint32_t{1} << (behind - 1);
+  }
+}
+
+bool MapNews::read(std::size_t sender, Tick now, WorldMap& map, PayloadReader& reader) {
+  if (sender == self_ || sender >= others_.size()) return false;
+  const std::optional<Message> message = parse(reader, map.config().cell_m, others_.size());
+  if (!message) return false;
+  const auto cubes = read_subtrees(message->tree, map.levels());
+  if (!cubes) return false;
+  start(now);
+  told_.hear(map, *cubes, teller_of(sender));
+  receive(sender, *message, now);
+  return true;
+}
+
+}  // namespace skein::agent
