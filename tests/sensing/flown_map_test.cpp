@@ -11,7 +11,7 @@ namespace skein::sensing {
 namespace {
 
 /// A UAV that hovers for a sweep, and the tubes of ten metres straight away from it: at least half of their space is
-/// free. Of their length, where all across must be free, it is 0.45 with each beam for itself, and 0.35 on board.
+/// free. Of their length, where all across must be free, it is 0.45 with each beam for itself, and 0.42 on board.
 TEST(OneSweep, ProvesHalfOfTenMetres) {
   for (const bool exact : {false, true}) {
     for (const double phase_s : {3.0, 0.5, 5.0}) {  // either way of the servo
@@ -33,7 +33,7 @@ TEST(OneSweep, ProvesHalfOfTenMetres) {
       }
       std::cout << (exact ? "each beam" : "on board") << ", phase " << phase_s << " s: " << free_steps << " of "
                 << steps << " steps, " << free_places << " of " << places << " places\n";
-      EXPECT_GE(free_steps, (exact ? 0.44 : 0.33) * static_cast<double>(steps)) << phase_s;
+      EXPECT_GE(10 * free_steps, 4 * steps) << phase_s;
       EXPECT_GE(2 * free_places, places) << phase_s;
     }
   }
@@ -62,7 +62,7 @@ TEST_P(FlownMap, KnowsWhatEachBeamForItselfProves) {
   std::cout << flight.name << ": " << flown_free << " of " << places << " places free, " << exact_free
             << " with each beam; " << more << " of " << tubes << " tubes are free on board alone\n";
   EXPECT_GE(static_cast<double>(flown_free), 0.95 * static_cast<double>(exact_free));
-  EXPECT_LE(static_cast<double>(more), 0.08 * static_cast<double>(tubes));
+  EXPECT_LE(static_cast<double>(more), 0.12 * static_cast<double>(tubes));
 }
 
 INSTANTIATE_TEST_SUITE_P(Flights, FlownMap, testing::Range<std::size_t>(0, flights().size()),

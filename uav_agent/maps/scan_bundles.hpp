@@ -53,15 +53,28 @@ class ScanBundler {
   double half_rad() const { return half_rad_; }
 
  private:
-  void find_free(const BeamScan& scan, const TubeFree& near_free, const ClearWay& clear_way);
-  void look_around();
+  /// Which beams make a bundle: rectangles of columns and rings. Those at the edges may be smaller.
+  struct Grid {
+    std::vector<int> column_edges, ring_edges;  ///< where each begins, and where the last one ends
+    std::vector<Vector3d> middles_L;            ///< level by level
+
+    Grid(const LidarConfig& lidar, int columns, int rings, int column_shift, int ring_shift);
+    int across() const { return static_cast<int>(column_edges.size()) - 1; }
+    int up() const { return static_cast<int>(ring_edges.size()) - 1; }
+    std::size_t number(int level, int side) const { return static_cast<std::size_t>(level * across() + side); }
+  };
+
+  /// Each scan has another one. With the same, the middles of a LiDAR's bundles would leave along the same lines scan by
+  /// scan, and some windows would always be passed by fewer than others.
+  const Grid& grid_of(Tick tick) const;
+  void find_free(const BeamScan& scan, const Grid& grid, const TubeFree& near_free, const ClearWay& clear_way);
+  void look_around(const Grid& grid);
 
   LidarConfig lidar_;
-  int columns_ = 1, rings_ = 1;  ///< of beams, in a bundle; fewer in the last ones
-  int across_ = 1, up_ = 1;      ///< of bundles
+  int columns_ = 1, rings_ = 1;  ///< of beams, in a bundle
   double half_rad_ = 0.0;
+  std::vector<Grid> grids_;
   std::vector<Eigen::Vector3f> directions_L_;   ///< of beams, ring by ring
-  std::vector<Vector3d> middles_L_;             ///< of bundles
   std::vector<float> free_m_, around_m_, row_;  ///< by bundle
   Bundles bundles_;
 };

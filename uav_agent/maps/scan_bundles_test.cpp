@@ -78,9 +78,10 @@ TEST(ScanBundler, SaysOfABundleWhatAllOfItsBeamsSay) {
     lidar.rings = kind.rings;
     lidar.columns = kind.columns;
     lidar.vertical_fov_deg = kind.fov_deg;
-    for (std::uint64_t world = 1; world <= 3; ++world) {
+    for (std::uint64_t world = 0; world <= 4; ++world) {
       BeamScan scan = drawn_scan(lidar, world);
       ScanBundler bundler(lidar);
+      scan.tick = static_cast<Tick>(3 * world) * lidar_period(lidar);
       for (auto& beam : scan.beams) beam.state = beam.state == BeamState::unknown ? BeamState::none : beam.state;
       int beams = 0;
       for (const BeamBundle& bundle : bundler.bundle(scan, {}, everywhere).bundles) {

@@ -1,6 +1,7 @@
 #include "uav_agent/maps/world_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -39,20 +40,30 @@ void WorldMap::insert(std::span<const BeamBundle> bundles, std::span<const Eigen
     if (cube != last) levels_.front()->set(cube, Space::occupied, kOwn);
     last = cube;
   }
-  double from_m = 0.0;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     MapLevel& level = *levels_[i];
     for (const BeamBundle& bundle : bundles) {
       const double free_m = i == 0 ? bundle.free_m : bundle.around_free_m - level.cell_m();
-      const double end_m = std::min(free_m, config_.to_m[i]);
+      const double from_m = i == 0 ? 0.0 : handed_over_m(bundle, i - 1);
+      const double end_m = std::min(free_m, handed_over_m(bundle, i));
       if (end_m > from_m) level.pass(bundle, from_m, end_m);
     }
-    from_m = config_.to_m[i];
   }
   note_changes();
   if (++scans_ % kTidyEach != 0 || bundles.empty()) return;
   // What is out of a level's reach, and a turn away: it comes back with what the coarser one knows.
   for (std::size_t i = 0; i < levels_.size(); ++i) levels_[i]->tidy(bundles.front().from_W, 2.0 * config_.to_m[i]);
+}
+
+/// At the nearest plane between two layers of the larger cubes, so that each layer of both is passed at one level alone.
+double WorldMap::handed_over_m(const BeamBundle& bundle, std::size_t level) const {
+  const double to_m = config_.to_m[level];
+  if (level + 1 == levels_.size()) return to_m;
+  int axis = 0;
+  bundle.direction_W.cwiseAbs().maxCoeff(&axis);
+  const double from = bundle.from_W[axis], along = bundle.direction_W[axis], larger_m = levels_[level + 1]->cell_m();
+  const double plane = larger_m * std::round((from + to_m * along) / larger_m);
+  return std::max(0.0, (plane - from) / along);
 }
 
 void WorldMap::note_changes() {

@@ -25,7 +25,7 @@ class WorldMap {
  public:
   struct Config {
     double cell_m = 0.5;  ///< of the smallest cubes
-    /// Up to there beams are evidence for cubes of cell_m, for those twice as large, and so on: one to four. Beyond the
+    /// About up to there beams are evidence for cubes of cell_m, for those twice as large, and so on: one to four. Beyond the
     /// last, only what beams met counts.
     std::vector<double> to_m = {8.0, 16.0, 48.0};
     FreeCriterion criterion = {};
@@ -86,6 +86,8 @@ class WorldMap {
  private:
   using Cube = Eigen::Vector3i;
 
+  /// Up to where a beam is evidence for cubes of a level.
+  double handed_over_m(const BeamBundle& bundle, std::size_t level) const;
   void note_changes();
   template <class Visit>
   bool all_near(const Vector3d& a_W, const Vector3d& b_W, double radius_m, const Visit& visit) const;
