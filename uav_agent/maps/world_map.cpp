@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::uint64_t kTidyEach = 20;  // scans
 constexpr int kRegionBits = 2;           // of chunks
+/// From this level on, windows are so large that beams of a LiDAR that creeps are not spread evenly in them.
+constexpr std::size_t kUneven = 2;
 
 Eigen::Vector3i shifted(const Eigen::Vector3i& cell, int bits) {
   return {cell.x() >> bits, cell.y() >> bits, cell.z() >> bits};
@@ -29,7 +31,9 @@ WorldMap::WorldMap(const Config& config) : config_(config), distances_(config.ce
       throw std::invalid_argument("WorldMap: beams pass too many cubes");
     }
     MapLevel* const coarser = i + 1 < count ? levels_[i + 1].get() : nullptr;
-    levels_[i] = std::make_unique<MapLevel>(cell_m, config.criterion, coarser);
+    FreeCriterion criterion = config.criterion;
+    if (i >= kUneven) criterion.unseen_p *= 0.5;
+    levels_[i] = std::make_unique<MapLevel>(cell_m, criterion, coarser);
   }
 }
 
