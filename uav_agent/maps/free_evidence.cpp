@@ -85,9 +85,9 @@ double falls_to(const Function& function, double value, double low, double high)
   return low;
 }
 
-// Of a <= b <= c, the eigenvalues of K I - M, a + b + c = 2 K and c <= K, so b <= K - a / 2, and the second bound is at
-// least exp(-a) D(K - 3 a / 2). That falls as a grows, up to a = 2 K / 3, where all are alike. The largest eigenvalue of
-// M is at least |M|^2 / K, with the sum of its squared elements, so a <= K - |M|^2 / K.
+// Of a <= b <= c, the eigenvalues of K I - M, a + b + c = 2 K and c <= K, so b <= K - a / 2, and the second bound is
+// at least exp(-a) D(K - 3 a / 2). That falls as a grows, up to a = 2 K / 3, where all are alike. The largest
+// eigenvalue of M is at least |M|^2 / K, with the sum of its squared elements, so a <= K - |M|^2 / K.
 FreeJudge::FreeJudge(const FreeCriterion& criterion)
     : criterion_(criterion),
       k_of_one_(criterion.k_of_one_per_m2() / BeamEvidence::kUnit),

@@ -112,8 +112,8 @@ class alignas(16) BeamEvidence {
   std::array<std::int16_t, 8> sums_ = {};
 };
 
-/// Tells whether P is below the criterion, as unseen_probability() does, but most of what is not is told by few products:
-/// a map asks for each window that a beam passes.
+/// Tells whether P is below the criterion, as unseen_probability() does, but most of what is not is told by few
+/// products: a map asks for each window that a beam passes.
 class FreeJudge {
  public:
   explicit FreeJudge(const FreeCriterion& criterion);

@@ -158,9 +158,9 @@ void MapLevel::ask_within(const Cell& coarser_cell, const BeamEvidence& beyond) 
   }
 }
 
-/// A beam on its way through cells: it crosses a layer of them after the other, across the axis that it is nearest to,
-/// and is told by where it passes the middle of each. Cells are counted from a corner that lies below all of its way, so
-/// that what it has in them is never negative.
+/// A beam on its way through cells: it crosses a layer of them after the other, across the axis that it is nearest
+/// to, and is told by where it passes the middle of each. Cells are counted from a corner that lies below all of its
+/// way, so that what it has in them is never negative.
 struct MapLevel::Walk {
   int axis = 0, u = 1, v = 2;
   int sense = 1;                         ///< up or down the axis

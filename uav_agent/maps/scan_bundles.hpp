@@ -64,8 +64,8 @@ class ScanBundler {
     std::size_t number(int level, int side) const { return static_cast<std::size_t>(level * across() + side); }
   };
 
-  /// Each scan has another one. With the same, the middles of a LiDAR's bundles would leave along the same lines scan by
-  /// scan, and some windows would always be passed by fewer than others.
+  /// Each scan has another one. With the same, the middles of a LiDAR's bundles would leave along the same lines scan
+  /// by scan, and some windows would always be passed by fewer than others.
   const Grid& grid_of(Tick tick) const;
   void find_free(const BeamScan& scan, const Grid& grid, const TubeFree& near_free, const ClearWay& clear_way);
   void look_around(const Grid& grid);

@@ -59,7 +59,8 @@ void WorldMap::insert(std::span<const BeamBundle> bundles, std::span<const Eigen
   for (std::size_t i = 0; i < levels_.size(); ++i) levels_[i]->tidy(bundles.front().from_W, 2.0 * config_.to_m[i]);
 }
 
-/// At the nearest plane between two layers of the larger cubes, so that each layer of both is passed at one level alone.
+/// At the nearest plane between two layers of the larger cubes, so that each layer of both is passed at one level
+/// alone.
 double WorldMap::handed_over_m(const BeamBundle& bundle, std::size_t level) const {
   const double to_m = config_.to_m[level];
   if (level + 1 == levels_.size()) return to_m;

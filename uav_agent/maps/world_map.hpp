@@ -2,11 +2,11 @@
 // occupied or unknown.
 //
 // A cube is occupied when a beam ended in it, for good: thin members must not be carved away by beams that pass them.
-// It is free when so many beams have passed it that a member would have been seen (free_evidence.hpp); till then it is
-// unknown, and evidence is gathered. A place far away is seen by few beams, so there cubes are larger: 0.5 m up to 8 m
-// from the LiDAR, 1 m up to 16 m, 2 m beyond. In larger ones only beams count that pass all of the cube, and so do those
-// around them: it is not free where half of it lies behind something. The evidence of a cube is its own and that of the
-// larger ones about it, which have what was seen from farther off.
+// It is free when so many beams have passed it that a member would have been seen (free_evidence.hpp); till then it
+// is unknown, and evidence is gathered. A place far away is seen by few beams, so there cubes are larger: 0.5 m up to
+// 8 m from the LiDAR, 1 m up to 16 m, 2 m beyond. In larger ones only beams count that pass all of the cube, and so
+// do those around them: it is not free where half of it lies behind something. The evidence of a cube is its own and
+// that of the larger ones about it, which have what was seen from farther off.
 // Frame W.   Units: metres.   Threads: one.   Deterministic: no answer depends on an order in memory.
 #pragma once
 
@@ -25,8 +25,8 @@ class WorldMap {
  public:
   struct Config {
     double cell_m = 0.5;  ///< of the smallest cubes
-    /// About up to there beams are evidence for cubes of cell_m, for those twice as large, and so on: one to four. Beyond the
-    /// last, only what beams met counts.
+    /// About up to there beams are evidence for cubes of cell_m, for those twice as large, and so on: one to four.
+    /// Beyond the last, only what beams met counts.
     std::vector<double> to_m = {8.0, 16.0, 48.0};
     FreeCriterion criterion = {};
     double distance_reach_m = 4.0;  ///< structure_distance_m() looks so far
@@ -44,8 +44,8 @@ class WorldMap {
   void set_free(const Vector3d& p_W, double radius_m);
   /// Makes occupied cubes with a point within `radius_m` unknown: a UAV was seen there that has moved on.
   void vacate(const Vector3d& p_W, double radius_m);
-  /// What somebody told of a cube of (1 << level) smallest ones along each edge. Occupied ones are of level 0. Less than
-  /// what is known already is not taken.
+  /// What somebody told of a cube of (1 << level) smallest ones along each edge. Occupied ones are of level 0. Less
+  /// than what is known already is not taken.
   /// @param cube  in cubes of that size.   @param level  0 up to levels() - 1.
   void hear(const Eigen::Vector3i& cube, int level, Space space, Teller teller);
 
@@ -53,8 +53,8 @@ class WorldMap {
   /// @param cube  a smallest one.
   MapLevel::Known known(const Eigen::Vector3i& cube) const;
   Eigen::Vector3i cube_of(const Vector3d& p_W) const { return levels_.front()->cell_of(p_W); }
-  /// From the smallest cube about a place to the nearest occupied one, from surface to surface, so never more than it is
-  /// from the place itself; distance_reach_m where none is nearer.
+  /// From the smallest cube about a place to the nearest occupied one, from surface to surface, so never more than it
+  /// is from the place itself; distance_reach_m where none is nearer.
   double structure_distance_m(const Vector3d& p_W) const { return distances_.distance_m(cube_of(p_W)); }
   /// Whether all cubes with a point within `radius_m` of the segment are free. For the tube of a body, that is its
   /// radius and kHaloM.
