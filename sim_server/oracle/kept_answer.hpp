@@ -1,4 +1,5 @@
-// An answer in a file of the cache, with the question's key and a hash over both: a damaged file is told from a whole one.
+// An answer in a file of the cache, with the question's key and a hash over both: a damaged file is told from a whole
+// one.
 #pragma once
 
 #include <filesystem>

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFlownLonger_s = 5.0;  ///< than the mission's time: the clock starts a moment after the first command
 /// Exchanges for which a link must stand until a report is taken as delivered: there, judged, and back.
 constexpr int kLinkedSteps = 4;
-constexpr double kBodyTurn = 45.0 * kRadPerDeg;  ///< of a body, beside its gimbal [rad/s]
+constexpr double kBodyTurn = 30.0 * kRadPerDeg;  ///< of a body, beside its gimbal [rad/s]
 
 /// Reports on their way to the station.
 class Uplinks {

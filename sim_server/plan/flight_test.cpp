@@ -25,7 +25,7 @@ TEST(PlanFlown, AtTheTowers) {
   const Scene scene = load_scene(scenario);
   PlanConfig config;
   config.rounds = 0;
-  config.most_views = 3000;
+  config.most_views = 2000;
   const Plan plan = make_plan(scenario, scene, config);
   const PlanFlight flown = fly_plan(scenario, scene, config, plan);
   EXPECT_EQ(flown.collisions, 0u);

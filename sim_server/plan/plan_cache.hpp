@@ -1,4 +1,5 @@
-// Plans, kept like the oracle's answers (oracle/cache.hpp): a file each, named by a hash of all that the plan depends on.
+// Plans, kept like the oracle's answers (oracle/cache.hpp): a file each, named by a hash of all that the plan depends
+// on.
 #pragma once
 
 #include <filesystem>

@@ -16,12 +16,12 @@ namespace skein::sim {
 struct PlanConfig {
   double margin_m = 0.5;            ///< between the structure and a sphere about the body, at views and on the way
   double speed_share = 0.75;        ///< of the greatest speed that a vehicle may be commanded
-  double acceleration_share = 0.6;  ///< likewise of its acceleration
+  double acceleration_share = 0.5;  ///< likewise of its acceleration
   double settle_s = 0.1;            ///< at rest before a picture
   std::size_t most_seeds = 900;     ///< places on the structure that views are made for
-  std::size_t most_views = 9000;    ///< that are kept, by kind of UAV
+  std::size_t most_views = 6000;    ///< that are kept, by kind of UAV
   std::size_t most_nodes = 1500;    ///< of the graph of ways around the structure
-  std::size_t rounds = 40;          ///< of taking a part of the routes apart and filling them again
+  std::size_t rounds = 60;          ///< of taking a part of the routes apart and filling them again
   std::uint64_t seed = 1;           ///< of the search; 0 is a seed like the others
   unsigned threads = 1;
 };
@@ -34,8 +34,8 @@ struct TeamKind {
   double clearance = 0.0;  ///< of the body's centre from the structure [m]
   double speed = 0.0, acceleration = 0.0;
 
-  /// From rest to rest along a straight line [s]. Up and down takes longer: a UAV whose rotors hardly pull has no hold on
-  /// its attitude. Pure.
+  /// From rest to rest along a straight line [s]. Up and down takes longer: a UAV whose rotors hardly pull has little
+  /// hold on its attitude. Pure.
   double travel_s(const Vector3d& way) const;
   /// Where a UAV is a time after it left on such a line: distance, speed, and acceleration along it. Pure.
   struct Motion {

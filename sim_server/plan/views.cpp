@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "core/camera_quality.hpp"
 #include "core/euler.hpp"
@@ -21,6 +21,7 @@ constexpr std::array<double, 2> kTilts = {30.0 * kRadPerDeg, 55.0 * kRadPerDeg};
 constexpr int kAzimuths = 4;
 constexpr double kFinestSpacing = 0.5, kCoarser = 1.2;  ///< of places that views are made for [m]
 constexpr double kLeastWorth = 0.2;
+constexpr float kEnoughShown = 2.0F;  ///< sum of qualities from which on a point counts half when views are kept
 
 /// Cell of the grid, and which way the surface faces, without its sign.
 using Patch = std::tuple<long, long, long, int>;
@@ -123,26 +124,34 @@ class Photographer {
   double full_distance_;
 };
 
-/// Keeps those that show much, or what few others show.
+/// What a view adds to those that were kept: a point counts the less the more of them show it.
+double worth_of(const View& view, const std::vector<float>& shown) {
+  double worth = 0.0;
+  for (const Sight& sight : view.sights) worth += sight.q * sight.q / (kEnoughShown + shown[sight.point]);
+  return worth;
+}
+
+/// Keeps those that show much or what few others show, lazily one after the other: worths only fall.
 std::vector<View> worthiest(std::vector<View> views, std::size_t points, std::size_t most) {
   if (views.size() <= most) return views;
   std::vector<float> shown(points, 0.0F);
-  for (const View& view : views) {
-    for (const Sight& sight : view.sights) shown[sight.point] += sight.q;
-  }
-  std::vector<double> worth;
-  for (const View& view : views) {
-    double sum = 0.0;
-    for (const Sight& sight : view.sights) sum += sight.q * sight.q / shown[sight.point];
-    worth.push_back(sum);
-  }
-  std::vector<std::size_t> order(views.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return worth[a] > worth[b]; });
-  order.resize(most);
-  std::ranges::sort(order);
+  std::vector<std::pair<double, std::size_t>> heap;
+  for (std::size_t i = 0; i < views.size(); ++i) heap.emplace_back(worth_of(views[i], shown), views.size() - i);
+  std::make_heap(heap.begin(), heap.end());
   std::vector<View> kept;
-  for (const std::size_t i : order) kept.push_back(std::move(views[i]));
+  while (kept.size() < most) {
+    std::pop_heap(heap.begin(), heap.end());
+    auto& [worth, number] = heap.back();
+    View& view = views[views.size() - number];
+    worth = worth_of(view, shown);
+    if (heap.size() > 1 && worth < heap.front().first) {
+      std::push_heap(heap.begin(), heap.end());
+      continue;
+    }
+    for (const Sight& sight : view.sights) shown[sight.point] += sight.q;
+    kept.push_back(std::move(view));
+    heap.pop_back();
+  }
   return kept;
 }
 
