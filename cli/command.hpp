@@ -150,6 +150,7 @@ struct OracleOptions {
   std::vector<double> clearances_m;  ///< instead of the oracle's own
   bool vehicle = false;              ///< the UAVs' bodies keep them, not the cameras
   bool outside_only = false;
+  bool plan = false;  ///< what full knowledge scores in the mission's time, too
   bool json = false;
 };
 

@@ -177,7 +177,8 @@ TEST(Options, OracleReadsAll) {
   EXPECT_EQ(oracle.assets, "data");
   EXPECT_EQ(oracle.clearances_m, (std::vector<double>{0.75}));
   EXPECT_TRUE(oracle.outside_only && oracle.json);
-  EXPECT_FALSE(oracle.vehicle);
+  EXPECT_FALSE(oracle.vehicle || oracle.plan);
+  EXPECT_TRUE(parse<OracleOptions>({"oracle", "towers", "--plan"}).plan);
   EXPECT_TRUE(parse<OracleOptions>({"oracle", "towers"}).clearances_m.empty());
   const auto several = parse<OracleOptions>({"oracle", "towers", "--clearance", "0.5,0.8,2.5", "--vehicle"});
   EXPECT_EQ(several.clearances_m, (std::vector<double>{0.5, 0.8, 2.5}));

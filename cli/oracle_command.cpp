@@ -31,6 +31,7 @@ struct Question {
   std::vector<double> clearances_m;  ///< empty: the oracle's own
   bool vehicle = false;
   std::optional<double> patience_s;
+  bool plan = false;
 };
 
 struct Asked {
@@ -53,6 +54,7 @@ Asked ask(const Question& question) {
     clearances += (clearances.empty() ? "" : ",") + number_text(clearance_m);
   if (!clearances.empty()) argv.insert(argv.end(), {"--clearance", clearances});
   if (question.vehicle) argv.emplace_back("--vehicle");
+  if (question.plan) argv.emplace_back("--plan");
   if (question.patience_s) argv.insert(argv.end(), {"--oracle-patience", std::to_string(*question.patience_s)});
   Asked asked;
   // As in a run: the same libm gives the same answer.
@@ -83,8 +85,38 @@ void print_one(std::ostream& out, const Json& answer, bool outside_only) {
   row("outside");
 }
 
-/// What an answer has for programs that ask for figures: not each point.
-Json without_points(Json answer) {
+/// A share of the estimate, for people.
+std::string share_of(double score, double estimate) {
+  return estimate > 0.0 ? fmt::format(" ({:.1f} % of reachable)", 100.0 * score / estimate) : std::string();
+}
+
+double figure(const Json& object, const char* key) { return value_or(object, key, 0.0).get<double>(); }
+std::size_t number_of(const Json& object, const char* key) { return value_or(object, key, 0).get<std::size_t>(); }
+
+std::string score_line(const char* name, const Json& part, double estimate) {
+  return fmt::format("{:<8}{:>9.1f}{}, {} points", name, figure(part, "score"),
+                     share_of(figure(part, "score"), estimate), number_of(part, "points"));
+}
+
+/// What full knowledge scores in the mission's time.
+void print_plan(std::ostream& out, const Json& answer) {
+  const Json plan = value_or(answer, "plan", Json::object()), flown = value_or(plan, "flown", Json::object());
+  const double estimate = figure(value_or(answer, "reachable", Json::object()), "score");
+  out << "\nWith full knowledge in the mission's time, a lower bound found by search:\n"
+      << score_line("planned", plan, estimate) << fmt::format(" from {} views\n", number_of(plan, "views"))
+      << score_line("flown", flown, estimate)
+      << fmt::format(", collisions: {}, at most {:.2f} m off the plan\n", number_of(flown, "collisions"),
+                     figure(flown, "astray_m"));
+  for (const Json& uav : value_or(plan, "uavs", Json::array())) {
+    out << fmt::format("  {:<12}{:>5} views{:>8.1f} s{:>9.1f} m\n", value_or(uav, "name", "").get<std::string>(),
+                       number_of(uav, "views"), figure(uav, "time_s"), figure(uav, "distance_m"));
+  }
+  out << std::flush;
+}
+
+/// What an answer has for programs that ask for figures: not each point, and a plan where it is asked for.
+Json for_programs(Json answer, bool plan) {
+  if (!plan) answer.erase("plan");
   answer.erase("estimate");
   answer.erase("flyable");
   return answer;
@@ -113,11 +145,16 @@ Json attainable_from(const Json& answer) {
   Json attainable = points_and_score(reachable);
   attainable["clearance_m"] = value_or(answer, "clearance_m", nullptr);
   attainable["outside"] = points_and_score(value_or(answer, "outside", nullptr));
+  if (const Json plan = value_or(answer, "plan", nullptr); plan.is_object()) {
+    attainable["plan"] = points_and_score(plan);
+    attainable["plan"]["flown_score"] = value_or(value_or(plan, "flown", Json::object()), "score", nullptr);
+  }
   return attainable;
 }
 
 AttainableAnswer attainable_of(const RunOptions& run) try {
-  const Asked asked = ask({run.scenario, run.scene_seed, run.uavs, run.assets, run.rules, {}, false, kPatienceS});
+  const Asked asked =
+      ask({run.scenario, run.scene_seed, run.uavs, run.assets, run.rules, {}, false, kPatienceS, false});
   if (!asked.exit.ok()) return {nullptr, nullptr, "the oracle failed: " + asked.exit.text() + "\n" + asked.said};
   if (asked.answers.empty()) return {};
   const Json attainable = attainable_from(asked.answers.front());
@@ -163,7 +200,8 @@ int consult_oracle(const OracleOptions& options, const Console& console) {
                            options.rules,
                            options.clearances_m,
                            options.vehicle,
-                           {}});
+                           {},
+                           options.plan});
   if (asked.exit.code == kExitBadInput) throw InputError(asked.said);
   if (!asked.exit.ok() || asked.answers.empty()) {
     throw std::runtime_error("sim_server --oracle ended with " + asked.exit.text() + "\n" + asked.said);
@@ -171,10 +209,11 @@ int consult_oracle(const OracleOptions& options, const Console& console) {
   if (!asked.said.empty()) console.err << asked.said << std::endl;
   if (!options.json) {
     print_oracle(console.out, options.scenario, asked.answers, options.outside_only);
+    if (options.plan) print_plan(console.out, asked.answers.front());
     return kExitDone;
   }
   Json rows = Json::array();
-  for (const Json& answer : asked.answers) rows.push_back(without_points(answer));
+  for (const Json& answer : asked.answers) rows.push_back(for_programs(answer, options.plan));
   console.out << (rows.size() == 1 ? rows.front() : Json{{"rows", rows}}).dump(2) << std::endl;
   return kExitDone;
 }

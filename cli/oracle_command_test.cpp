@@ -115,6 +115,49 @@ TEST_F(OracleCommand, SeveralClearancesMakeATable) {
   EXPECT_EQ(Json::parse(out_.str()), (Json{{"rows", {Json::parse(kAnswer), second}}}));
 }
 
+/// With a plan, as sim_server tells what is in its cache, too.
+std::string with_plan() {
+  Json answer = Json::parse(kAnswer);
+  answer["plan"] = {{"score", 6.0},
+                    {"points", 7},
+                    {"views", 4},
+                    {"margin_m", 0.5},
+                    {"flown", {{"score", 6.6}, {"points", 8}, {"collisions", 0}, {"astray_m", 0.25}}},
+                    {"uavs", {{{"name", "alpha"}, {"views", 4}, {"time_s", 58.25}, {"distance_m", 77.5}}}}};
+  return answer.dump();
+}
+
+TEST_F(OracleCommand, APlanIsShownToWhoAsksForIt) {
+  answer(rows({with_plan()}));
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(out_.str().find("planned"), std::string::npos) << out_.str();
+  EXPECT_EQ(arguments().find("--plan"), std::string::npos) << arguments();
+  out_.str("");
+  options_.plan = true;
+  EXPECT_EQ(run(), 0);
+  EXPECT_NE(arguments().find(" --plan"), std::string::npos) << arguments();
+  for (const char* text : {"a lower bound found by search", "planned       6.0 (80.0 % of reachable), 7 points from 4",
+                           "flown         6.6 (88.0 % of reachable), 8 points, collisions: 0, at most 0.25 m off",
+                           "  alpha           4 views    58.2 s     77.5 m"}) {
+    EXPECT_NE(out_.str().find(text), std::string::npos) << text << '\n' << out_.str();
+  }
+  out_.str("");
+  options_.json = true;
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(Json::parse(out_.str()), Json::parse(with_plan()));
+  out_.str("");
+  options_.plan = false;
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(Json::parse(out_.str()), Json::parse(kAnswer));
+}
+
+TEST_F(OracleCommand, ARunTellsAPlanThatIsKnown) {
+  answer(rows({with_plan()}));
+  EXPECT_EQ(attainable_of(run_of("mbs")).attainable["plan"],
+            Json::parse(R"({"points": 7, "score": 6.0, "flown_score": 6.6})"));
+  EXPECT_EQ(arguments().find("--plan"), std::string::npos) << arguments();
+}
+
 TEST_F(OracleCommand, FailuresAreTold) {
   write_script(programs_.dir() / "sim_server", "echo 'no such scenario' >&2; exit 2");
   EXPECT_THROW(run(), InputError);

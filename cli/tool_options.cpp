@@ -205,6 +205,9 @@ void add_oracle(CLI::App& app, OracleOptions& oracle) {
   command->add_flag("--vehicle", oracle.vehicle,
                     "A sphere about body and rotors keeps the clearance (default then 0), not the camera");
   command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");
+  command->add_flag("--plan", oracle.plan,
+                    "What full knowledge scores in the mission's time with this fleet, too: a lower bound found by "
+                    "search, flown once to show that it can be");
   command->add_flag("--json", oracle.json, "All figures, for programs");
   command->footer("Example:\n  skein oracle towers --clearance 0.5,0.8,1.2");
 }

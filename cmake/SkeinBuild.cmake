@@ -27,7 +27,8 @@ set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test proce
   one_process_crew_test one_process_flights_test one_process_digests_test bus_contract_test radio_contract_test)
 
 # What takes long with sanitizers, for it computes much: an eighth of it runs at each commit.
-set(SKEIN_SLOW_SANITIZED_TESTS sim_oracle_oracle_test sim_scenes_scene_families_test agent_planner_contract_test
+set(SKEIN_SLOW_SANITIZED_TESTS sim_oracle_oracle_test sim_plan_flight_test sim_plan_plan_test
+  sim_scenes_scene_families_test agent_planner_contract_test
   sim_wild_world_test sim_whole_simulation_test sim_flight_dynamics_test sim_rays_ray_fan_test
   sim_exchange_period_test sim_flight_fleet_start_test sim_flight_enclosure_test sim_flight_vehicle_test
   sim_flight_vehicle_faults_test sim_oracle_best_aim_test sim_oracle_open_space_test sim_rays_ray_scene_test

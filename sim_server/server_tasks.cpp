@@ -15,6 +15,7 @@
 #include "process/user_cache.hpp"
 #include "sim_server/golden/check.hpp"
 #include "sim_server/oracle/cache.hpp"
+#include "sim_server/plan/plan_cache.hpp"
 #include "sim_server/scenes/scene_export.hpp"
 #include "sim_server/scenes/scene_source.hpp"
 #include "sim_server/wild/world.hpp"
@@ -33,6 +34,7 @@ void ServerTasks::add_options(CLI::App& app) {
       ->check(CLI::Range(0.0, 100.0));
   app.add_flag("--vehicle", vehicle, "with --oracle: the UAVs' bodies keep the clearance, not their cameras");
   app.add_option("--oracle-patience", oracle_patience_s, "with --oracle: no answer that takes longer to compute [s]");
+  app.add_flag("--plan", plan, "with --oracle: search, too, for what full knowledge scores in the mission's time");
 }
 
 int ServerTasks::check_golden() const {
@@ -73,11 +75,15 @@ int ServerTasks::ask_oracle(const Scenario& scenario) const {
   if (asked_m.empty()) asked_m = {vehicle ? 0.0 : request.config.clearance_m};
   const Scene scene = load_scene(scenario);
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  const PlanReply planned = sim::ask_plan(
+      scenario, scene, {.config = {.threads = request.config.threads}, .search = plan, .cache = request.cache});
+  for (const std::string& warning : planned.warnings) spdlog::warn("{}", warning);
   for (const double clearance_m : asked_m) {
     request.config.clearance_m = clearance_m;
     const OracleReply reply = sim::ask_oracle(scenario, scene, request);
     for (const std::string& warning : reply.warnings) spdlog::warn("{}", warning);
     rows.push_back(reply.summary ? to_json(*reply.summary) : nlohmann::ordered_json{{"expected_s", reply.expected_s}});
+    if (planned.plan) rows.back()["plan"] = to_json(*planned.plan);
   }
   write_file_atomically(oracle, nlohmann::ordered_json{{"rows", rows}}.dump() + "\n");
   return kExitDone;

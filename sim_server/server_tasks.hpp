@@ -26,6 +26,7 @@ struct ServerTasks {
   std::vector<double> clearances_m;  ///< empty: the usual one
   bool vehicle = false;              ///< it is the UAVs' bodies that keep them
   std::optional<double> oracle_patience_s;
+  bool plan = false;  ///< search for what is scored in the mission's time, too; else only what is in the cache is told
 
   void add_options(CLI::App& app);
   /// Each @returns an exit code.

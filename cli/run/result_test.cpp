@@ -144,6 +144,14 @@ TEST_F(RunResult, SwitchesBesideThePresetAreTold) {
   EXPECT_EQ(schema_errors(result), std::vector<std::string>{});
 }
 
+TEST_F(RunResult, APlanMayStandBesideTheEstimate) {
+  Json result = merged();
+  result["attainable"] = {{"points", 9}, {"score", 8.5}, {"plan", {{"points", 7}, {"score", 6.0}}}};
+  EXPECT_EQ(schema_errors(result).size(), 1u) << "without its flight";
+  result["attainable"]["plan"]["flown_score"] = 6.25;
+  EXPECT_EQ(schema_errors(result), std::vector<std::string>{});
+}
+
 TEST_F(RunResult, MemoryIsTheSumOfTheProcesses) {
   facts_.processes = {{"sim_server", {2.5, 100.0}}, {"station", {0.25, 50.0}}};
   const Json result = merged();

@@ -1,10 +1,9 @@
 #include "sim_server/oracle/cache.hpp"
 
-#include <fstream>
 #include <span>
 
 #include "core/sha256.hpp"
-#include "process/atomic_file.hpp"
+#include "sim_server/oracle/kept_answer.hpp"
 #include "sim_server/sensors/camera_mount.hpp"
 
 namespace skein::sim {
@@ -36,24 +35,6 @@ Json part_to_json(const OracleSummary::Part& part) {
 OracleSummary::Part part_from_json(const Json& json) {
   return {{json.at("points").get<std::size_t>(), json.at("score").get<double>()},
           {json.at("coarse_points").get<std::size_t>(), json.at("coarse_score").get<double>()}};
-}
-
-/// A cached answer with a hash over itself, so that a damaged file is told from a whole one.
-std::string file_content(const std::string& key, const Json& answer) {
-  const Json file = {{"key", key}, {"answer", answer}, {"sha256", Sha256().add(key).add(answer.dump()).hex()}};
-  return file.dump() + "\n";
-}
-
-/// @returns nullopt when there is no such file. @throws std::exception when it is not whole.
-std::optional<OracleSummary> load(const fs::path& file, const std::string& key) {
-  std::error_code unknown;
-  if (!fs::exists(file, unknown)) return std::nullopt;
-  std::ifstream in(file, std::ios::binary);
-  const Json json = Json::parse(in);
-  if (json.at("sha256") != Sha256().add(key).add(json.at("answer").dump()).hex()) {
-    throw std::runtime_error("its check sum is wrong");
-  }
-  return summary_from_json(json.at("answer"));
 }
 
 }  // namespace
@@ -130,7 +111,8 @@ OracleReply ask_oracle(const Scenario& scenario, const Scene& scene, const Oracl
   const std::string key = oracle_key(scenario, scene, request.config);
   const fs::path file = request.cache.value_or("") / ("oracle-" + key + ".json");
   try {
-    if (request.cache) reply.summary = load(file, key);
+    const auto kept = request.cache ? kept_answer(file, key) : std::nullopt;
+    if (kept) reply.summary = summary_from_json(*kept);
   } catch (const std::exception& error) {
     reply.warnings.push_back(file.string() + " is not used: " + error.what());
   }
@@ -143,10 +125,7 @@ OracleReply ask_oracle(const Scenario& scenario, const Scene& scene, const Oracl
   reply.summary =
       summary_of(consult_oracle(scenario, scene, request.config), request.config, scenario.rules.min_point_score);
   try {
-    if (request.cache) {
-      fs::create_directories(*request.cache);
-      write_file_atomically(file, file_content(key, to_json(*reply.summary)), Readers::no_agents);
-    }
+    if (request.cache) keep_answer(file, key, to_json(*reply.summary));
   } catch (const std::exception& error) {
     reply.warnings.push_back("the oracle's answer is not kept: " + std::string(error.what()));
   }

@@ -1,0 +1,37 @@
+// Plans can be flown: in the simulation they score about what they say, and nobody collides.
+#include <gtest/gtest.h>
+
+#include "sim_server/plan/plan.hpp"
+#include "sim_server/scenes/scene_source.hpp"
+#include "sim_server/testing/plan_site.hpp"
+
+namespace skein::sim {
+namespace {
+
+TEST(PlanFlown, AtASmallSite) {
+  const test::PlanSite site(3, 60.0);
+  const Plan plan = make_plan(site.scenario, site.scene, site.config);
+  const PlanFlight flown = fly_plan(site.scenario, site.scene, site.config, plan);
+  EXPECT_EQ(flown.collisions, 0u);
+  EXPECT_GE(flown.score, 0.95 * plan.score);
+  EXPECT_LT(flown.astray_m, site.config.margin_m);
+  EXPECT_EQ(fly_plan(site.scenario, site.scene, site.config, plan), flown);
+}
+
+/// A third of the mission: less is searched, and flown.
+TEST(PlanFlown, AtTheTowers) {
+  Scenario scenario = load_scenario(source_path("config/scenarios/towers.yaml"));
+  scenario.duration_s = 200.0;
+  const Scene scene = load_scene(scenario);
+  PlanConfig config;
+  config.rounds = 0;
+  config.most_views = 2000;
+  const Plan plan = make_plan(scenario, scene, config);
+  const PlanFlight flown = fly_plan(scenario, scene, config, plan);
+  EXPECT_EQ(flown.collisions, 0u);
+  EXPECT_GE(flown.score, 0.9 * plan.score);
+  EXPECT_GT(plan.score, 0.4 * static_cast<double>(scene.points.size()));
+}
+
+}  // namespace
+}  // namespace skein::sim
