@@ -41,7 +41,7 @@ class RoutePlanner final : public agent::Planner {
     double climb_mps = 2.0;
     double hover_s = 8.0;
     Vector3d along_W = Vector3d::UnitX();  ///< unit vector, of the flight after that
-    double speed_mps = 2.0;
+    double speed_mps = 1.0;
   };
   /// What there is to see of an exchange.
   struct Seen {

@@ -14,81 +14,57 @@ int gap_squared(int from, int to) {
   return gap * gap;
 }
 
-/// The same, to the nearest cell of a block.
-int gap_squared_to_block(int cell, int first, int size) {
-  return gap_squared(cell, std::clamp(cell, first, first + size - 1));
+template <class Visit>
+void for_each_about(const DistanceField::Cell& block, const Visit& visit) {
+  for (int i = 0; i < 27; ++i) visit(block + DistanceField::Cell(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
 }
 
 }  // namespace
 
-DistanceField::DistanceField(double cell_m, double reach_m)
-    : cell_m_(cell_m), reach_m_(reach_m), reach_(static_cast<int>(std::ceil(reach_m / cell_m))) {
-  most_ = reach_ * reach_;
-  if (reach_ < 1 || most_ >= kFar) throw std::invalid_argument("DistanceField: reaches 1 to 15 cells");
-}
-
-template <class Visit>
-void DistanceField::blocks_about(const Cell& cell, int cells, const Visit& visit) {
-  const auto first = [&](int axis) { return (cell[axis] - cells) >> kBlockBits; };
-  const auto last = [&](int axis) { return (cell[axis] + cells) >> kBlockBits; };
-  for (int z = first(2); z <= last(2); ++z) {
-    for (int y = first(1); y <= last(1); ++y) {
-      for (int x = first(0); x <= last(0); ++x) visit(Cell(x, y, z));
-    }
+DistanceField::DistanceField(double cell_m, double reach_m) : cell_m_(cell_m), reach_m_(reach_m) {
+  if (!(reach_m >= cell_m && reach_m <= kBlock * cell_m)) {
+    throw std::invalid_argument("DistanceField: reaches 1 to 8 cells");
   }
 }
 
-void DistanceField::add(const Cell& cell) {
-  blocks_about(cell, reach_, [&](const Cell& at) {
-    const Cell corner = at * kBlock;
-    int nearest = 0;
-    for (int axis = 0; axis < 3; ++axis) nearest += gap_squared_to_block(cell[axis], corner[axis], kBlock);
-    if (nearest > most_) return;
+/// All that is within reach lies in the blocks about it.
+void DistanceField::make(const Cell& at, const OccupiedIn& occupied_in, Block& block) {
+  occupied_.clear();
+  for_each_about(at, [&](const Cell& near) {
+    if (changed_.find(grid_key(near)) != nullptr) occupied_in(near, occupied_);
+  });
+  block.made_at = changes_;
+  block.squares.fill(kFar);
+  const Cell corner = at * kBlock;
+  for (const Cell& cell : occupied_) {
     std::array<int, kBlock> along_x;
     for (int x = 0; x < kBlock; ++x) along_x[static_cast<std::size_t>(x)] = gap_squared(cell.x(), corner.x() + x);
-    auto row = blocks_[grid_key(at)].squares.begin();
+    auto row = block.squares.begin();
     for (int z = 0; z < kBlock; ++z) {
       const int along_z = gap_squared(cell.z(), corner.z() + z);
       for (int y = 0; y < kBlock; ++y, row += kBlock) {
         const int across = along_z + gap_squared(cell.y(), corner.y() + y);
-        if (across > most_) continue;
         for (std::size_t x = 0; x < kBlock; ++x) {
-          const int square = across + along_x[x];
-          row[x] = std::min(row[x], static_cast<std::uint8_t>(square > most_ ? int{kFar} : square));
+          row[x] = static_cast<std::uint8_t>(std::min<int>(row[x], across + along_x[x]));
         }
       }
     }
+  }
+}
+
+double DistanceField::distance_m(const Cell& cell, const OccupiedIn& occupied_in) {
+  const Cell at = block_of(cell);
+  std::uint64_t newest = 0;
+  for_each_about(at, [&](const Cell& near) {
+    if (const std::uint64_t* const changed = changed_.find(grid_key(near))) newest = std::max(newest, *changed);
   });
-}
-
-void DistanceField::remove(std::span<const Cell> cells, const OccupiedIn& occupied_in) {
-  // What was told by these is forgotten, and all who are near enough tell again.
-  for (const Cell& cell : cells) {
-    blocks_about(cell, reach_, [&](const Cell& at) {
-      if (blocks_.find(grid_key(at)) != nullptr) blocks_[grid_key(at)] = {};
-    });
-  }
-  std::vector<Cell> teller_blocks;
-  for (const Cell& cell : cells) {
-    blocks_about(cell, 2 * reach_ + kBlock, [&](const Cell& at) { teller_blocks.push_back(at); });
-  }
-  const auto before = [](const Cell& a, const Cell& b) { return grid_key(a) < grid_key(b); };
-  std::ranges::sort(teller_blocks, before);
-  const auto repeated = std::ranges::unique(teller_blocks);
-  teller_blocks.erase(repeated.begin(), repeated.end());
-  for (const Cell& at : teller_blocks) {
-    for (const Cell& cell : occupied_in(at)) add(cell);
-  }
-}
-
-double DistanceField::distance_m(const Cell& cell) const {
-  const Block* const block =
-      blocks_.find(grid_key({cell.x() >> kBlockBits, cell.y() >> kBlockBits, cell.z() >> kBlockBits}));
-  if (block == nullptr) return reach_m_;
+  if (newest == 0) return reach_m_;
+  Block& block = blocks_[grid_key(at)];
+  if (block.made_at < newest) make(at, occupied_in, block);
   constexpr int kIn = kBlock - 1;
   const int place = (cell.x() & kIn) | (cell.y() & kIn) << kBlockBits | (cell.z() & kIn) << 2 * kBlockBits;
-  const std::uint8_t square = block->squares[static_cast<std::size_t>(place)];
-  return square == kFar ? reach_m_ : std::min(reach_m_, cell_m_ * std::sqrt(static_cast<double>(square)));
+  const double square = block.squares[static_cast<std::size_t>(place)];
+  return std::min(reach_m_, cell_m_ * std::sqrt(square));
 }
 
 }  // namespace skein::agent

@@ -1,12 +1,12 @@
-// How far it is to the nearest cell that is occupied, for each cell about one: kept up to date as cells become
-// occupied. A new one is told to all cells within reach, so distances are exact and do not depend on an order.
+// How far it is to the nearest cell that is occupied. Kept up to date where it is asked for: a block of cells is worked
+// out when one of its cells is asked for, and again only if something within reach has changed since. A LiDAR sees
+// 30,000 cells of the ground, and nobody asks about most of them.
 // Units: metres; cells as in map_level.hpp.   Threads: one.   Deterministic.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "uav_agent/maps/block_table.hpp"
@@ -16,38 +16,39 @@ namespace skein::agent {
 class DistanceField {
  public:
   using Cell = Eigen::Vector3i;
+  /// Appends the cells of a block of 8^3, given by its number, that are occupied.
+  using OccupiedIn = std::function<void(const Cell& block, std::vector<Cell>& cells)>;
 
-  /// @param reach_m  farther cells are told nothing: less than 16 cells.
+  /// @param reach_m  farther cells are not looked for: 1 to 8 cells.
+  /// @throws std::invalid_argument for another reach.
   DistanceField(double cell_m, double reach_m);
 
-  /// The cell is occupied now.
-  void add(const Cell& cell);
-  /// These are occupied no more.
-  /// @param occupied_in  all cells of a block of 8^3, given by its number, that are occupied, without these.
-  using OccupiedIn = std::function<std::vector<Cell>(const Cell& block)>;
-  void remove(std::span<const Cell> cells, const OccupiedIn& occupied_in);
+  /// The cell has become occupied, or is occupied no more.
+  void changed(const Cell& cell) { changed_[grid_key(block_of(cell))] = ++changes_; }
 
-  /// Between the nearest points of the cell and of the nearest occupied one; reach_m() if that is not nearer.
-  double distance_m(const Cell& cell) const;
-  double reach_m() const { return reach_m_; }
-  std::size_t bytes() const { return blocks_.bytes(); }
+  /// Between the nearest points of the cell and of the nearest occupied one; reach_m if that is not nearer.
+  double distance_m(const Cell& cell, const OccupiedIn& occupied_in);
+
+  std::size_t bytes() const { return blocks_.bytes() + changed_.bytes(); }
 
  private:
   static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits;
   static constexpr std::uint8_t kFar = 255;
-  /// Squared distances in cells, x first.
   struct Block {
-    std::array<std::uint8_t, kBlock * kBlock * kBlock> squares;
-    Block() { squares.fill(kFar); }
+    std::uint64_t made_at = 0;                                      ///< in changes
+    std::array<std::uint8_t, kBlock* kBlock* kBlock> squares = {};  ///< of distances in cells, x first
   };
-  /// Calls for each block with a cell within `cells` of one, along each axis.
-  template <class Visit>
-  static void blocks_about(const Cell& cell, int cells, const Visit& visit);
+
+  static Cell block_of(const Cell& cell) {
+    return {cell.x() >> kBlockBits, cell.y() >> kBlockBits, cell.z() >> kBlockBits};
+  }
+  void make(const Cell& at, const OccupiedIn& occupied_in, Block& block);
 
   double cell_m_, reach_m_;
-  int reach_ = 0;  ///< cells between one and the farthest that is told of it
-  int most_ = 0;   ///< the square of that
   BlockTable<Block> blocks_;
+  BlockTable<std::uint64_t> changed_;  ///< by block: number of its last change
+  std::uint64_t changes_ = 0;
+  std::vector<Cell> occupied_;
 };
 
 }  // namespace skein::agent

@@ -33,46 +33,63 @@ double slow_distance_m(const std::vector<Cell>& occupied, const Cell& cell) {
   return least;
 }
 
-void expect_exact(const DistanceField& field, const std::vector<Cell>& occupied) {
+void expect_exact(DistanceField& field, const std::vector<Cell>& occupied) {
+  const auto occupied_in = [&](const Cell& block, std::vector<Cell>& cells) {
+    for (const Cell& cell : occupied) {
+      if (Cell(cell.x() >> 3, cell.y() >> 3, cell.z() >> 3) == block) cells.push_back(cell);
+    }
+  };
   for (int i = 0; i < 48 * 48 * 48; i += 5) {
     const Cell cell = Cell(i % 48, i / 48 % 48, i / (48 * 48)) - Cell::Constant(24);
-    ASSERT_NEAR(field.distance_m(cell), slow_distance_m(occupied, cell), 1e-12) << cell.transpose();
+    ASSERT_NEAR(field.distance_m(cell, occupied_in), slow_distance_m(occupied, cell), 1e-12) << cell.transpose();
   }
 }
 
-TEST(DistanceField, IsTheDistanceToTheNearestOfAllCells) {
+TEST(DistanceField, IsTheDistanceToTheNearestOfAllCellsAsTheyComeAndGo) {
   for (std::uint64_t world = 1; world <= 6; ++world) {
     RandomStream random(world, "distance", 0);
     DistanceField field(kCubeM, kReachM);
-    const std::vector<Cell> occupied = drawn_cells(random, world == 1 ? 1 : 12);
-    for (const Cell& cell : occupied) field.add(cell);
+    std::vector<Cell> occupied;
     expect_exact(field, occupied);
-  }
-}
-
-TEST(DistanceField, ForgetsWhatIsOccupiedNoMore) {
-  for (std::uint64_t world = 1; world <= 4; ++world) {
-    RandomStream random(world, "distance", 1);
-    DistanceField field(kCubeM, kReachM);
-    std::vector<Cell> occupied = drawn_cells(random, 25);
-    for (const Cell& cell : occupied) field.add(cell);
-    const std::vector<Cell> gone(occupied.end() - 6, occupied.end());
-    std::erase_if(occupied, [&](const Cell& cell) { return std::ranges::find(gone, cell) != gone.end(); });
-    field.remove(gone, [&](const Cell& block) {
-      std::vector<Cell> in_block;
-      for (const Cell& cell : occupied) {
-        if (Cell(cell.x() >> 3, cell.y() >> 3, cell.z() >> 3) == block) in_block.push_back(cell);
+    for (int change = 0; change < 5; ++change) {
+      if (change == 3) {
+        for (int i = 0; i < 6; ++i) {
+          field.changed(occupied.back());
+          occupied.pop_back();
+        }
       }
-      return in_block;
-    });
-    expect_exact(field, occupied);
+      for (const Cell& cell : drawn_cells(random, world == 1 ? 3 : 5)) {
+        occupied.push_back(cell);
+        field.changed(cell);
+      }
+      expect_exact(field, occupied);
+    }
   }
 }
 
-TEST(DistanceField, KnowsNothingNearWhereNothingIs) {
-  const DistanceField field(kCubeM, kReachM);
-  EXPECT_EQ(field.distance_m({0, 0, 0}), kReachM);
-  EXPECT_THROW(DistanceField(0.5, 8.0), std::invalid_argument);
+TEST(DistanceField, WorksOutABlockAgainOnlyIfSomethingNearItHasChanged) {
+  DistanceField field(kCubeM, kReachM);
+  int asked = 0;
+  const auto occupied_in = [&](const Cell& block, std::vector<Cell>& cells) {
+    ++asked;
+    if (block == Cell(0, 0, 0)) cells.emplace_back(1, 1, 1);
+  };
+  EXPECT_EQ(field.distance_m({5, 1, 1}, occupied_in), kReachM);
+  EXPECT_EQ(asked, 0) << "nothing is occupied";
+  field.changed({1, 1, 1});
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(field.distance_m({5, 1, 1}, occupied_in), 1.5);
+  EXPECT_EQ(asked, 1);
+  field.changed({100, 1, 1});
+  field.distance_m({5, 1, 1}, occupied_in);
+  EXPECT_EQ(asked, 1);
+  field.changed({8, 1, 1});
+  field.distance_m({5, 1, 1}, occupied_in);
+  EXPECT_EQ(asked, 3) << "both blocks that have changed";
+}
+
+TEST(DistanceField, ReachesNoFartherThanABlock) {
+  EXPECT_THROW(DistanceField(0.5, 4.5), std::invalid_argument);
+  EXPECT_THROW(DistanceField(0.5, 0.2), std::invalid_argument);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ double WorldMap::handed_over_m(const BeamBundle& bundle, std::size_t level) cons
 void WorldMap::note_changes() {
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     for (const MapLevel::Cell& cell : levels_[i]->take_changes()) {
-      if (i == 0 && levels_[i]->known(cell).space == Space::occupied) distances_.add(cell);
+      if (i == 0 && levels_[i]->known(cell).space == Space::occupied) distances_.changed(cell);
       const Cube chunk = shifted(cell, MapLevel::kBlockBits - static_cast<int>(i));
       const Cube region = shifted(chunk, kRegionBits);
       chunks_[grid_key(chunk)] = ++changes_;
@@ -124,22 +124,22 @@ void WorldMap::set_free(const Vector3d& p_W, double radius_m) {
 }
 
 void WorldMap::vacate(const Vector3d& p_W, double radius_m) {
-  std::vector<Cube> vacated;
   all_near(p_W, p_W, radius_m, [&](const Cube& cube) {
-    if (levels_.front()->known(cube).space == Space::occupied) vacated.push_back(cube);
+    if (levels_.front()->known(cube).space == Space::occupied) distances_.changed(cube);
     levels_.front()->vacate(cube);
     return true;
   });
   note_changes();
-  distances_.remove(vacated, [this](const Cube& block) {
-    std::vector<Cube> occupied;
+}
+
+double WorldMap::structure_distance_m(const Vector3d& p_W) const {
+  return distances_.distance_m(cube_of(p_W), [this](const Cube& block, std::vector<Cube>& occupied) {
     Chunk known;
     levels_.front()->read(block, known);
     for (int at = 0; at < MapLevel::kCells; ++at) {
       if (known[static_cast<std::size_t>(at)].space != Space::occupied) continue;
       occupied.push_back(block * kChunk + Cube(at % kChunk, at / kChunk % kChunk, at / (kChunk * kChunk)));
     }
-    return occupied;
   });
 }
 

@@ -55,7 +55,7 @@ class WorldMap {
   Eigen::Vector3i cube_of(const Vector3d& p_W) const { return levels_.front()->cell_of(p_W); }
   /// From the smallest cube about a place to the nearest occupied one, from surface to surface, so never more than it
   /// is from the place itself; distance_reach_m where none is nearer.
-  double structure_distance_m(const Vector3d& p_W) const { return distances_.distance_m(cube_of(p_W)); }
+  double structure_distance_m(const Vector3d& p_W) const;
   /// Whether all cubes with a point within `radius_m` of the segment are free. For the tube of a body, that is its
   /// radius and kHaloM.
   bool tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius_m) const;
@@ -94,7 +94,7 @@ class WorldMap {
 
   Config config_;
   std::vector<std::unique_ptr<MapLevel>> levels_;  ///< the smallest cubes first
-  DistanceField distances_;                        ///< of occupied cubes
+  mutable DistanceField distances_;                ///< of occupied cubes, worked out when they are asked for
   BlockTable<std::uint64_t> chunks_, in_regions_;  ///< changed_at()
   std::vector<Eigen::Vector3i> regions_;
   std::uint64_t changes_ = 0, scans_ = 0;
