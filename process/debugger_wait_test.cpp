@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <random>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace skein {
@@ -76,18 +75,18 @@ bool look_at(pid_t process) {
 
 TEST(DebuggerWait, GoesOnWhenADebuggerHasComeAndGoneAtAnyInstant) {
   std::mt19937 random(std::random_device{}());
-  std::uniform_int_distribution<int> looks(0, 2), yields(0, 20'000);
+  std::uniform_int_distribution<int> looks(0, 2), calls(0, 100'000);  // some milliseconds of system calls
   for (int i = 0; i < 25; ++i) {
     const Waiting waiting;
-    const int looked = i == 0 ? 0 : looks(random), yielded = i == 0 ? 0 : yields(random);
+    const int looked = i == 0 ? 0 : looks(random), called = i == 0 ? 0 : calls(random);
     for (int look = 0; look < looked; ++look) waiting.see_a_look();
-    for (int n = 0; n < yielded; ++n) std::this_thread::yield();
+    for (int n = 0; n < called; ++n) ::getppid();
     if (!look_at(waiting.process())) {
       ::kill(waiting.process(), SIGCONT);
       waiting.end();
       GTEST_SKIP() << "this process may not attach to another";
     }
-    EXPECT_EQ(waiting.end(), kWentOn) << "attached after " << looked << " looks and " << yielded << " yields";
+    EXPECT_EQ(waiting.end(), kWentOn) << "attached after " << looked << " looks and " << called << " calls";
   }
 }
 
