@@ -20,6 +20,11 @@ inline std::uint64_t grid_key(const Eigen::Vector3i& at) {
   return along(0) | along(1) << 21 | along(2) << 42;
 }
 
+/// The cell about it that is 2^bits times as large.
+inline Eigen::Vector3i shifted(const Eigen::Vector3i& cell, int bits) {
+  return {cell.x() >> bits, cell.y() >> bits, cell.z() >> bits};
+}
+
 template <class Block>
 class BlockTable {
  public:

@@ -39,9 +39,7 @@ class DistanceField {
     std::array<std::uint8_t, kBlock* kBlock* kBlock> squares = {};  ///< of distances in cells, x first
   };
 
-  static Cell block_of(const Cell& cell) {
-    return {cell.x() >> kBlockBits, cell.y() >> kBlockBits, cell.z() >> kBlockBits};
-  }
+  static Cell block_of(const Cell& cell) { return shifted(cell, kBlockBits); }
   void make(const Cell& at, const OccupiedIn& occupied_in, Block& block);
 
   double cell_m_, reach_m_;

@@ -14,9 +14,6 @@ int down(double value) {
   return whole - static_cast<int>(whole > value);
 }
 
-/// The cell about it that is twice as large.
-MapLevel::Cell halved(const MapLevel::Cell& cell) { return {cell.x() >> 1, cell.y() >> 1, cell.z() >> 1}; }
-
 }  // namespace
 
 MapLevel::MapLevel(double cell_m, const FreeCriterion& criterion, MapLevel* coarser)
@@ -33,21 +30,16 @@ MapLevel::Cell MapLevel::cell_of(const Vector3d& p_W) const {
   return {down(p_W.x() / cell_m_), down(p_W.y() / cell_m_), down(p_W.z() / cell_m_)};
 }
 
-MapLevel::Cell MapLevel::cell_at(const Block& block, std::size_t place) {
-  const auto at = static_cast<int>(place);
-  return block.at * kBlock + Cell(at & (kBlock - 1), at >> kBlockBits & (kBlock - 1), at >> 2 * kBlockBits);
-}
-
 MapLevel::Known MapLevel::known_at_all(const Cell& cell) const {
   const Known here = known(cell);
-  return here.space != Space::unknown || coarser_ == nullptr ? here : coarser_->known_at_all(halved(cell));
+  return here.space != Space::unknown || coarser_ == nullptr ? here : coarser_->known_at_all(shifted(cell, 1));
 }
 
 BeamEvidence MapLevel::all_evidence(const Cell& cell) const {
   BeamEvidence evidence;
   const Slot* const slot = slots_.find(grid_key(block_of(cell)));
   if (slot != nullptr && slot->number >= kFirst) evidence = blocks_[slot->number - kFirst].evidence[place_of(cell)];
-  if (coarser_ != nullptr) evidence.join(coarser_->all_evidence(halved(cell)));
+  if (coarser_ != nullptr) evidence.join(coarser_->all_evidence(shifted(cell, 1)));
   return evidence;
 }
 
@@ -71,11 +63,11 @@ MapLevel::Block* MapLevel::block(const Cell& at) {
   if (slot.number != kNone) return &blocks_[slot.number - kFirst];
   Block& block = new_block(at, slot);
   if (coarser_ == nullptr) return &block;
-  for (int i = 0; i < kCells; ++i) {
-    const Cell in_block(i & (kBlock - 1), i >> kBlockBits & (kBlock - 1), i >> 2 * kBlockBits);
-    if (((in_block.x() | in_block.y() | in_block.z()) & 1) != 0) continue;
-    const Cell cell = at * kBlock + in_block;
-    const Known known = coarser_->known_at_all(halved(cell));
+  for (std::size_t i = 0; i < kCells; ++i) {
+    const Cell in = in_block(i);
+    if (((in.x() | in.y() | in.z()) & 1) != 0) continue;
+    const Cell cell = at * kBlock + in;
+    const Known known = coarser_->known_at_all(shifted(cell, 1));
     if (known.space != Space::free) continue;
     for (int corner = 0; corner < 8; ++corner) {
       const std::size_t place = place_of(cell + Cell(corner & 1, corner >> 1 & 1, corner >> 2));
@@ -125,15 +117,16 @@ void MapLevel::set(const Cell& cell, Space space, Teller teller) {
   change(opened_block(block_of(cell)), place_of(cell), space, teller);
 }
 
-void MapLevel::vacate(const Cell& cell) {
-  if (known(cell).space != Space::occupied) return;
+bool MapLevel::vacate(const Cell& cell) {
+  if (known(cell).space != Space::occupied) return false;
   Block& block = opened_block(block_of(cell));
   change(block, place_of(cell), Space::unknown, kOwn);
   block.evidence[place_of(cell)] = {};
+  return true;
 }
 
 void MapLevel::ask(Block& block, std::size_t place) {
-  ask(block, place, coarser_ == nullptr ? BeamEvidence() : coarser_->all_evidence(halved(cell_at(block, place))));
+  ask(block, place, coarser_ == nullptr ? BeamEvidence() : coarser_->all_evidence(shifted(cell_at(block, place), 1)));
 }
 
 void MapLevel::ask(Block& block, std::size_t place, const BeamEvidence& beyond) {
@@ -261,12 +254,6 @@ void MapLevel::read(const Cell& block, std::array<Known, kCells>& known) const {
   if (slot->number == kAllFree) return known.fill({Space::free, slot->teller});
   const Block& read = blocks_[slot->number - kFirst];
   for (std::size_t i = 0; i < known.size(); ++i) known[i] = {read.space[i], read.teller[i]};
-}
-
-bool MapLevel::all_free(const Cell& block) const {
-  const Slot* const slot = slots_.find(grid_key(block));
-  if (slot == nullptr || slot->number == kNone) return false;
-  return slot->number == kAllFree || blocks_[slot->number - kFirst].free == kCells;
 }
 
 void MapLevel::tidy(const Vector3d& p_W, double forget_m) {

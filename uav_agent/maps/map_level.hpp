@@ -54,14 +54,13 @@ class MapLevel {
   void pass(const BeamBundle& bundle, double from_m, double to_m);
   /// Occupied is for good: it overwrites all else, and nothing overwrites it but vacate().
   void set(const Cell& cell, Space space, Teller teller);
-  /// Makes an occupied cell unknown again.
-  void vacate(const Cell& cell);
+  /// Makes an occupied cell unknown again. @returns whether it was occupied.
+  bool vacate(const Cell& cell);
 
   /// Of this level alone.
   Known known(const Cell& cell) const;
   /// Of all cells of a block, x first.
   void read(const Cell& block, std::array<Known, kCells>& known) const;
-  bool all_free(const Cell& block) const;
 
   /// Takes memory back: of blocks that are free all over, and of those of which nothing is known, farther than
   /// `forget_m` from a place, evidence and all.
@@ -75,8 +74,11 @@ class MapLevel {
   std::size_t bytes() const { return blocks_.capacity() * sizeof(Block) + slots_.bytes(); }
   std::uint64_t windows() const { return windows_; }
 
-  static Cell block_of(const Cell& cell) {
-    return {cell.x() >> kBlockBits, cell.y() >> kBlockBits, cell.z() >> kBlockBits};
+  static Cell block_of(const Cell& cell) { return shifted(cell, kBlockBits); }
+  /// Of the cell at a place of a block, x first: where it is in the block.
+  static Cell in_block(std::size_t place) {
+    const auto at = static_cast<int>(place);
+    return {at & (kBlock - 1), at >> kBlockBits & (kBlock - 1), at >> 2 * kBlockBits};
   }
 
  private:
@@ -96,7 +98,7 @@ class MapLevel {
   static constexpr std::uint32_t kNone = 0, kAllFree = 1, kFirst = 2;
 
   static std::size_t place_of(const Cell& cell);
-  static Cell cell_at(const Block& block, std::size_t place);
+  static Cell cell_at(const Block& block, std::size_t place) { return block.at * kBlock + in_block(place); }
   /// Made if there is none. nullptr where all of it is free.
   Block* block(const Cell& at);
   /// Made even if all of it is free.

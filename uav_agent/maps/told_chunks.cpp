@@ -65,8 +65,7 @@ void ToldChunks::take_changes(const WorldMap& map, Region& region, std::optional
 void ToldChunks::hear(WorldMap& map, std::span<const HeardCube> cubes, Teller teller) {
   std::vector<Eigen::Vector3i> heard;  // regions
   for (const HeardCube& cube : cubes) {
-    const int bits = kRegionCubeBits - cube.level;
-    const Eigen::Vector3i region(cube.cube.x() >> bits, cube.cube.y() >> bits, cube.cube.z() >> bits);
+    const Eigen::Vector3i region = shifted(cube.cube, kRegionCubeBits - cube.level);
     if (heard.empty() || heard.back() != region) heard.push_back(region);
   }
   const auto take_all = [&](std::optional<Teller> by) {

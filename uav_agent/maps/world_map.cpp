@@ -13,10 +13,6 @@ constexpr int kRegionBits = 2;           // of chunks
 /// From this level on, windows are so large that beams of a LiDAR that creeps are not spread evenly in them.
 constexpr std::size_t kUneven = 2;
 
-Eigen::Vector3i shifted(const Eigen::Vector3i& cell, int bits) {
-  return {cell.x() >> bits, cell.y() >> bits, cell.z() >> bits};
-}
-
 }  // namespace
 
 WorldMap::WorldMap(const Config& config) : config_(config), distances_(config.cell_m, config.distance_reach_m) {
@@ -125,8 +121,7 @@ void WorldMap::set_free(const Vector3d& p_W, double radius_m) {
 
 void WorldMap::vacate(const Vector3d& p_W, double radius_m) {
   all_near(p_W, p_W, radius_m, [&](const Cube& cube) {
-    if (levels_.front()->known(cube).space == Space::occupied) distances_.changed(cube);
-    levels_.front()->vacate(cube);
+    if (levels_.front()->vacate(cube)) distances_.changed(cube);
     return true;
   });
   note_changes();
@@ -136,9 +131,8 @@ double WorldMap::structure_distance_m(const Vector3d& p_W) const {
   return distances_.distance_m(cube_of(p_W), [this](const Cube& block, std::vector<Cube>& occupied) {
     Chunk known;
     levels_.front()->read(block, known);
-    for (int at = 0; at < MapLevel::kCells; ++at) {
-      if (known[static_cast<std::size_t>(at)].space != Space::occupied) continue;
-      occupied.push_back(block * kChunk + Cube(at % kChunk, at / kChunk % kChunk, at / (kChunk * kChunk)));
+    for (std::size_t at = 0; at < known.size(); ++at) {
+      if (known[at].space == Space::occupied) occupied.push_back(block * kChunk + MapLevel::in_block(at));
     }
   });
 }
@@ -181,10 +175,10 @@ void WorldMap::read(const Cube& chunk, Chunk& known) const {
     const int bits = static_cast<int>(i);
     levels_[i]->read(shifted(chunk, bits), larger);
     const Cube corner = (chunk - shifted(chunk, bits) * (1 << bits)) * kChunk;  // of the chunk in that block, in cubes
-    for (int at = 0; at < MapLevel::kCells; ++at) {
-      MapLevel::Known& cube = known[static_cast<std::size_t>(at)];
+    for (std::size_t at = 0; at < known.size(); ++at) {
+      MapLevel::Known& cube = known[at];
       if (cube.space != Space::unknown) continue;
-      const Cube in = shifted(corner + Cube(at % kChunk, at / kChunk % kChunk, at / (kChunk * kChunk)), bits);
+      const Cube in = shifted(corner + MapLevel::in_block(at), bits);
       cube = larger[static_cast<std::size_t>(in.x() + kChunk * (in.y() + kChunk * in.z()))];
     }
   }

@@ -56,7 +56,7 @@ class NewsRadio {
   NewsUav& operator[](std::size_t uav) { return uavs_[uav]; }
   const WorldMap& map(std::size_t uav) const { return *uavs_[uav].map; }
   Tick now() const { return now_; }
-  /// Who hears whom; everybody all unless a test says otherwise.
+  /// Which UAV hears which; all hear all unless a test says otherwise.
   std::function<bool(std::size_t, std::size_t)> linked = [](std::size_t, std::size_t) { return true; };
   /// Changes what a message that is about to arrive says.
   std::function<void(std::size_t sender, std::vector<std::uint8_t>&)> damage;
