@@ -16,6 +16,7 @@
 #include "process/reports.hpp"
 #include "uav_agent/agent_node.hpp"
 #include "uav_agent/ground_node.hpp"
+#include "uav_agent/maps/told_chunks.hpp"
 
 namespace skein::agent {
 namespace {
@@ -39,6 +40,13 @@ void check_debug_names(const std::vector<std::string>& names, const std::string&
     throw InputError(uav + "'s planner " + planner + ": " + std::to_string(names.size()) + " debug names, from '" +
                      names.front() + "' on; at most " + std::to_string(topics::kMostDebugNames) + " are read");
   }
+}
+
+/// @throws InputError when the planner wants maps that so many UAVs cannot tell each other.
+void check_fleet_size(const Planner& planner, const std::string& name, std::size_t uavs) {
+  if (!planner.wants_world_map() || uavs <= kMostUavs) return;
+  throw InputError("planner " + name + " wants the map of what is free, which up to " + std::to_string(kMostUavs) +
+                   " UAVs tell each other; this fleet has " + std::to_string(uavs));
 }
 
 class AgentMember final : public bus::FleetMember {
@@ -117,6 +125,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   } else {
     planner = make_planner(planner_, agent_config(*scenario, uav));
     check_debug_names(planner->debug_names(), planner_, scenario->fleet[uav].name);
+    check_fleet_size(*planner, planner_, scenario->fleet.size());
   }
   auto bus = bus::make_bus(options, *scenario);
   if (options.check_only) return kExitDone;

@@ -72,6 +72,9 @@ struct PlannerOutput {
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
   /// What others said of their maps (OccupancyMap::octomap_bytes()), to be taken into the one on board.
   std::vector<std::string> heard_maps = {};
+  /// Where it is about to fly: others tell its UAV soonest what they know of the way there, if it wants_world_map().
+  /// While it does not say, they take where the tracker has it fly just now.
+  std::optional<Vector3d> going_to_W = {};
   /// Why it found no way in this exchange, if it looked for one: counted by reason, and told in log and report.
   std::string no_way = {};
   /// A UAV of the fleet for which its strategy lets it wait in this exchange: the report says so.
@@ -92,7 +95,9 @@ class Planner {
   /// the same price. Only explorers have any.
   virtual bool wants_beams() const { return false; }
   /// Whether it looks at the map of what is free, occupied and unknown by all beams; asked as wants_scans() is, and at
-  /// the same price where there is a LiDAR. Without one, nothing is known to it so far.
+  /// the same price where there is a LiDAR. UAVs whose planners want it tell each other what they know by radio, by up
+  /// to 20 kB/s a link on /plan, and no planner sees these messages (docs/decisions/0027-maps-told-by-radio.md). In a
+  /// fleet of more than 63 UAVs a planner that wants it is refused.
   virtual bool wants_world_map() const { return false; }
   /// Names of the values that it publishes; asked before the first exchange, and the answer must stay the same.
   virtual std::vector<std::string> debug_names() const { return {}; }

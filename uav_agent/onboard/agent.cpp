@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/euler.hpp"
 #include "uav_agent/flight/site.hpp"
@@ -9,6 +10,7 @@
 #include "uav_agent/maps/world_mapper.hpp"
 #include "uav_agent/onboard/beam_reader.hpp"
 #include "uav_agent/onboard/key_frame_filter.hpp"
+#include "uav_agent/onboard/map_radio.hpp"
 #include "uav_agent/onboard/ready_frames.hpp"
 #include "uav_agent/onboard/tracker.hpp"
 #include "uav_agent/onboard/uplink.hpp"
@@ -43,6 +45,7 @@ struct Agent::Impl {
         peers(c),
         tracker(tracker_config(c.vehicle)) {
     const bool maps_world = planner->wants_world_map();
+    if (maps_world) map_radio.emplace(config);
     if (!config.vehicle.lidar) {
       if (maps_world) world_map = std::make_unique<WorldMap>(WorldMap::Config());
       return;
@@ -51,8 +54,12 @@ struct Agent::Impl {
     if (maps_world) world_mapper = std::make_unique<WorldMapper>(*config.vehicle.lidar, WorldMapper::Config());
   }
 
+  void read_radio(const AgentInput& input);
   void read_beams(const AgentInput& input);
   void perceive(const AgentInput& input);
+  WorldMap* known_world() { return world_mapper ? &world_mapper->map() : world_map.get(); }
+  const WorldMap* known_world() const { return world_mapper ? &world_mapper->map() : world_map.get(); }
+  std::optional<RadioMessage> tell_map(const std::optional<Vector3d>& going_to_W, Tick tick);
   std::vector<KnownBody> other_bodies() const;
   std::vector<KnownBody> known_bodies(const AgentInput& input) const;
   std::optional<Vector3d> sensor_position(const KeyFrame& frame, const AgentInput& input) const;
@@ -69,6 +76,8 @@ struct Agent::Impl {
   std::vector<BeamScan> beam_scans;           ///< of this exchange
   std::unique_ptr<WorldMapper> world_mapper;  ///< if the planner wants the map and there is a LiDAR
   std::unique_ptr<WorldMap> world_map;        ///< if it wants the map and there is none
+  std::optional<MapRadio> map_radio;          ///< if it wants the map
+  std::vector<RadioMessage> planners_radio;   ///< of this exchange, without what was told of maps
   Uplink uplink;
   Tracker tracker;
   std::vector<OrientedBox> boxes;
@@ -94,6 +103,12 @@ std::vector<KnownBody> Agent::Impl::known_bodies(const AgentInput& input) const 
   return bodies;
 }
 
+void Agent::Impl::read_radio(const AgentInput& input) {
+  if (map_radio) map_radio->hear(input.radio, input.tick, *known_world());
+  planners_radio.clear();
+  std::ranges::remove_copy_if(input.radio, std::back_inserter(planners_radio), MapRadio::is_of_maps);
+}
+
 void Agent::Impl::read_beams(const AgentInput& input) {
   beam_scans.clear();
   if (!beam_reader) return;
@@ -110,6 +125,7 @@ void Agent::Impl::read_beams(const AgentInput& input) {
 void Agent::Impl::perceive(const AgentInput& input) {
   if (tracker.stands_by()) tracker.stand_by(input.state);
   peers.update(input.tick, input.neighbours);
+  read_radio(input);
   read_beams(input);
   if (!input.boxes.empty()) boxes = input.boxes;
   if (!input.key_frames.empty()) {
@@ -154,11 +170,11 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
                       .station_linked = peers.station_visible(),
                       .undelivered_captures = uplink.undelivered(),
                       .detected = input.detected,
-                      .radio = input.radio,
+                      .radio = planners_radio,
                       .key_frames = input.key_frames,
                       .scans = planner->wants_scans() ? std::span(input.scans) : std::span<const Scan>(),
                       .beam_scans = planner->wants_beams() ? std::span(beam_scans) : std::span<BeamScan>(),
-                      .world_map = world_mapper ? &world_mapper->map() : world_map.get()};
+                      .world_map = known_world()};
 }
 
 std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision, const RigidBodyState& state) {
@@ -171,6 +187,13 @@ std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision
   if (const auto* setpoint = std::get_if<Setpoint>(&decision.motion)) tracker.fly_to(*setpoint);
   if (std::holds_alternative<Hold>(decision.motion)) tracker.hold();
   return tracker.step(state, config.exchange_period_s);
+}
+
+std::optional<RadioMessage> Agent::Impl::tell_map(const std::optional<Vector3d>& going_to_W, Tick tick) {
+  if (!map_radio) return std::nullopt;
+  const TrackingState tracking = tracker.tracking();
+  const std::optional<Vector3d> setpoint_W = tracking.airborne ? std::optional(tracking.setpoint.p_WB) : std::nullopt;
+  return map_radio->tell(*known_world(), peers, going_to_W ? going_to_W : setpoint_W, tick);
 }
 
 std::optional<GimbalCommand> Agent::Impl::point_camera(const GimbalAim& new_aim, const RigidBodyState& state) {
@@ -206,6 +229,7 @@ AgentOutput Agent::step(const AgentInput& input) {
   output.gimbal = impl_->point_camera(decision.gimbal, input.state);
   output.trigger = decision.trigger;
   output.radio = std::move(decision.radio);
+  if (auto told = impl_->tell_map(decision.going_to_W, input.tick)) output.radio.push_back(std::move(*told));
   output.debug = std::move(decision.debug);
   output.captures = impl_->uplink.send(input.k, impl_->peers.station_visible());
   return output;

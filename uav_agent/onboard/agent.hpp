@@ -32,7 +32,7 @@ struct AgentInput {
   std::vector<DetectedPoint> detected;
   std::vector<HandedOut> capture_reports;   ///< from the camera; it may repeat unacknowledged ones
   std::vector<std::uint64_t> capture_acks;  ///< capture numbers that the station has journalled
-  std::vector<RadioMessage> radio;          ///< from other planners
+  std::vector<RadioMessage> radio;          ///< of other UAVs: of their planners, and what they tell of their maps
 };
 
 struct AgentOutput {
@@ -49,6 +49,7 @@ class Agent {
  public:
   /// @param planner decides; see make_planner().
   /// @param frames  shared by the agents of this process; nullptr: this one works them out for itself.
+  /// @throws std::invalid_argument when the planner wants the world map in a fleet of more than kMostUavs.
   Agent(const AgentConfig& config, std::unique_ptr<Planner> planner, std::shared_ptr<ReadyFrames> frames = nullptr);
   ~Agent();
   Agent(Agent&&) noexcept;

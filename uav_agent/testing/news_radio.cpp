@@ -61,18 +61,6 @@ void NewsRadio::exchange() {
   }
 }
 
-bool NewsRadio::knows_all_of(std::size_t listener, std::size_t teller) const {
-  bool all = true;
-  WorldMap::Chunk known, told;
-  visit_chunks(map(teller), [&](const Eigen::Vector3i& chunk) {
-    if (!all) return;
-    map(listener).read(chunk, known);
-    map(teller).read(chunk, told);
-    for (std::size_t i = 0; i < known.size(); ++i) all = all && known[i].space >= told[i].space;
-  });
-  return all;
-}
-
 bool NewsRadio::agree() const {
   for (std::size_t i = 0; i < uavs_.size(); ++i) {
     for (std::size_t j = 0; j < uavs_.size(); ++j) {
@@ -104,6 +92,18 @@ std::size_t NewsRadio::most_bytes_in_a_second() const {
     }
   }
   return most;
+}
+
+bool knows_all_of(const WorldMap& listener, const WorldMap& teller) {
+  bool all = true;
+  WorldMap::Chunk known, told;
+  visit_chunks(teller, [&](const Eigen::Vector3i& chunk) {
+    if (!all) return;
+    listener.read(chunk, known);
+    teller.read(chunk, told);
+    for (std::size_t i = 0; i < known.size(); ++i) all = all && known[i].space >= told[i].space;
+  });
+  return all;
 }
 
 void visit_chunks(const WorldMap& map, const std::function<void(const Eigen::Vector3i&)>& visit) {

@@ -28,6 +28,9 @@ struct NewsUav {
   std::vector<Sent> sent = {};
 };
 
+/// Whether one map knows to be free or occupied at least what the other does.
+bool knows_all_of(const WorldMap& listener, const WorldMap& teller);
+
 class NewsRadio {
  public:
   struct Config {
@@ -47,7 +50,9 @@ class NewsRadio {
   /// Whether all cubes are the same to all UAVs.
   bool agree() const;
   /// Whether `listener` knows to be free or occupied at least what `teller` does.
-  bool knows_all_of(std::size_t listener, std::size_t teller) const;
+  bool knows_all_of(std::size_t listener, std::size_t teller) const {
+    return test::knows_all_of(map(listener), map(teller));
+  }
   /// Until all agree.   @returns exchanges; `most` if they do not agree by then.
   int exchanges_to_agree(int most);
   /// The most that a UAV sent in any second.
