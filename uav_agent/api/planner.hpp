@@ -16,6 +16,7 @@
 #include "core/config_reader.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/beam_scan.hpp"
+#include "uav_agent/api/goals.hpp"
 #include "uav_agent/api/messages.hpp"
 #include "uav_agent/api/motion.hpp"
 #include "uav_agent/api/peers.hpp"
@@ -23,11 +24,10 @@
 
 namespace skein::agent {
 
+class FreeSpace;     // flight/free_space.hpp
 class OccupancyMap;  // maps/occupancy_map.hpp
 class WorldMap;      // maps/world_map.hpp
-
-/// Where the camera looks: monostate: carry on; a point in W to keep in the image's centre; or a command as it is.
-using GimbalAim = std::variant<std::monostate, Vector3d, GimbalCommand>;
+struct FlightConfig; // flight_core/flight_config.hpp
 
 /// How far the tracker has come with the last Path.
 struct TrackingState {
@@ -55,6 +55,8 @@ struct PlannerInput {
   std::span<const Scan> scans = {};           ///< own, since the step before; only if wants_scans()
   std::span<const BeamScan> beam_scans = {};  ///< own, since the step before; only if wants_beams()
   const WorldMap* world_map = nullptr;        ///< what beams have proved to be free; only if wants_world_map()
+  FlightState flight = {};                    ///< what became of its goals; only if flight() is given
+  const FreeSpace* space = nullptr;           ///< where the flight core may fly it; only if flight() is given
 };
 
 /// What a planner tells of itself, as /<id>/debug/<name>: faults may wait for it and properties be about it
@@ -70,6 +72,9 @@ struct PlannerOutput {
   GimbalAim gimbal = {};
   bool trigger = false;                  ///< ask for a capture; only where the camera is in manual mode
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
+  /// Where it wants to go, what it likes best first: the flight core flies to the first that can be reached. None: it
+  /// rests. nullopt: as before. Only if flight() is given; then `motion` and `yaw` are not looked at.
+  std::optional<std::vector<Goal>> goals = {};
   /// What others said of their maps (OccupancyMap::octomap_bytes()), to be taken into the one on board.
   std::vector<std::string> heard_maps = {};
   /// Where it is about to fly: others tell its UAV soonest what they know of the way there, if it wants_world_map().
@@ -99,6 +104,9 @@ class Planner {
   /// to 20 kB/s a link on /plan, and no planner sees these messages (docs/decisions/0027-maps-told-by-radio.md). In a
   /// fleet of more than 63 UAVs a planner that wants it is refused.
   virtual bool wants_world_map() const { return false; }
+  /// How it flies, if the flight core flies it (PlannerOutput::goals); asked before the first exchange, and it must
+  /// outlive all. A planner that is flown has the world map, too.
+  virtual const FlightConfig* flight() const { return nullptr; }
   /// Names of the values that it publishes; asked before the first exchange, and the answer must stay the same.
   virtual std::vector<std::string> debug_names() const { return {}; }
 };

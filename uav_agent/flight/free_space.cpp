@@ -50,6 +50,7 @@ Barrier FreeSpace::barrier_off_map(const Vector3d& p_W) const {
   for (const Sphere& sphere : keep_out_) {
     if ((p_W - sphere.p_W).squaredNorm() < sphere.radius_m * sphere.radius_m) return Barrier::other_uav;
   }
+  if (config_.world) return config_.blind_fleet && near_box(p_W) ? Barrier::unseen : Barrier::none;
   if (near_hearsay(p_W)) return Barrier::told;
   if (!must_be_seen(p_W)) return Barrier::none;
   if (!config_.use_map || !seen_free(p_W)) return Barrier::unseen;
@@ -68,6 +69,10 @@ Barrier FreeSpace::barrier_off_map(const Vector3d& p_W) const {
 Barrier FreeSpace::barrier(const Vector3d& p_W) const {
   const Barrier off_map = barrier_off_map(p_W);
   if (off_map != Barrier::none || !config_.use_map) return off_map;
+  if (config_.world) {
+    if (config_.proved_only && !config_.fit->fits(p_W)) return Barrier::unseen;
+    return config_.world->structure_distance_m(p_W) < config_.clearance_m ? Barrier::mapped : Barrier::none;
+  }
   return map_.any_occupied_within(p_W, config_.clearance_m) ? Barrier::mapped : Barrier::none;
 }
 
@@ -99,13 +104,18 @@ bool FreeSpace::near_hearsay(const Vector3d& p_W) const {
 
 bool FreeSpace::free(const Vector3d& p_W) const { return barrier(p_W) == Barrier::none; }
 
+double FreeSpace::cost(const Vector3d& p_W) const {
+  return config_.fit && !config_.fit->fits(p_W) ? config_.unknown_cost : 1.0;
+}
+
 bool FreeSpace::segment_free(const Vector3d& a_W, const Vector3d& b_W) const {
+  if (config_.world) return all_along(a_W, b_W, [this](const Vector3d& p) { return free(p); });
   if (!all_along(a_W, b_W, [this](const Vector3d& p) { return allowed(p); })) return false;
   return !config_.use_map || map_.segment_clear(a_W, b_W, config_.clearance_m);
 }
 
 bool FreeSpace::looked_at(const Vector3d& a_W, const Vector3d& b_W, double body_m) const {
-  return !config_.use_map || all_along(a_W, b_W, [&](const Vector3d& p) {
+  return !config_.use_map || config_.world || all_along(a_W, b_W, [&](const Vector3d& p) {
     return (p - a_W).norm() < body_m || !must_be_seen(p) || map_.known_free(p, std::min(kFewestRays, config_.rays));
   });
 }
@@ -113,7 +123,7 @@ bool FreeSpace::looked_at(const Vector3d& a_W, const Vector3d& b_W, double body_
 bool FreeSpace::sees(const Vector3d& a_W, const Vector3d& b_W, double radius) const {
   const bool past_boxes = all_along(a_W, b_W, [this](const Vector3d& p) {
     return std::none_of(boxes_.begin(), boxes_.end(), [&](const OrientedBox& box) { return box.contains(p); }) ||
-           (config_.use_map && map_.known_free(p));
+           (config_.world ? config_.world->at(p) == Space::free : config_.use_map && map_.known_free(p));
   });
   return past_boxes && (!config_.use_map || map_.segment_clear(a_W, b_W, radius));
 }

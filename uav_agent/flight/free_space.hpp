@@ -6,8 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "uav_agent/flight/body_fit.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
 #include "uav_agent/maps/voxel_grid.hpp"
+#include "uav_agent/maps/world_map.hpp"
 
 namespace skein::agent {
 
@@ -49,6 +51,14 @@ class FreeSpace {
     /// What others have told, if anything: what is occupied there is kept clear of, what is free counts as seen.
     /// Must outlive this.
     const VoxelGrid* hearsay = nullptr;
+    /// The map of all beams, for who is flown by the flight core: then space that is unknown may be planned through,
+    /// at a cost, since the safety filter proves it before anybody flies there. Must outlive this.
+    const WorldMap* world = nullptr;
+    double unknown_cost = 1.0;  ///< of a metre, in metres
+    const BodyFit* fit = nullptr;  ///< what is proved of it; must outlive this
+    /// For who proves nothing itself: unknown space may not be planned through.
+    bool proved_only = false;
+    bool blind_fleet = false;   ///< nobody has a LiDAR: boxes are kept clear of
   };
 
   /// @param boxes, map  must outlive this.
@@ -61,6 +71,8 @@ class FreeSpace {
   Barrier barrier(const Vector3d& p_W) const;
   /// Every point of the segment is free.
   bool segment_free(const Vector3d& a_W, const Vector3d& b_W) const;
+  /// What a metre costs there, in metres.
+  double cost(const Vector3d& p_W) const;
   /// Somebody has looked (kFewestRays) wherever only what was seen may be entered, farther than `body_m` from `a_W`.
   bool looked_at(const Vector3d& a_W, const Vector3d& b_W, double body_m) const;
   /// Line of sight as far as map and boxes tell: no mapped cell within `radius` of the segment, no unknown box
@@ -72,6 +84,7 @@ class FreeSpace {
 
  private:
   bool near_box(const Vector3d& p_W) const;
+
   /// In or near a box, or low: not free until a LiDAR has seen that it is.
   bool must_be_seen(const Vector3d& p_W) const;
   bool seen_free(const Vector3d& p_W) const;

@@ -130,7 +130,7 @@ class Search {
 
   /// The way out hardly comes nearer to anything mapped than the start is, and somebody has looked at it.
   bool escapes(const Vector3d& out) const {
-    if (!space_.config().use_map) return true;
+    if (!space_.config().use_map || space_.config().world) return true;  // the safety filter sees to it
     if (!space_.looked_at(from_, out, kEscapeBodyM)) return false;
     const double clearance = space_.config().clearance_m;
     const double now = space_.map().distance_to_occupied(from_, clearance).value_or(clearance);
@@ -155,7 +155,8 @@ class Search {
       const auto known = nodes_.find(key_of(next));
       if (known != nodes_.end() && known->second.closed) continue;
       if (!free_cell(next) || !passable(0.5 * (centre(cell) + centre(next)))) continue;
-      open(next, cost + config_.cell_m * std::sqrt(static_cast<double>(step.squaredNorm())), cell);
+      const double way_m = config_.cell_m * std::sqrt(static_cast<double>(step.squaredNorm()));
+      open(next, cost + way_m * space_.cost(centre(next)), cell);
     }
   }
 

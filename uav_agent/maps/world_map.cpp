@@ -36,6 +36,7 @@ WorldMap::WorldMap(const Config& config) : config_(config), distances_(config.ce
 void WorldMap::insert(std::span<const BeamBundle> bundles, std::span<const Eigen::Vector3f> hits_W) {
   Cube last = Cube::Constant(std::numeric_limits<int>::max());
   for (const Eigen::Vector3f& hit_W : hits_W) {
+    if (hit_W.z() < config_.ground_m) continue;
     const Cube cube = cube_of(hit_W.cast<double>());
     if (cube != last) levels_.front()->set(cube, Space::occupied, kOwn);
     last = cube;
@@ -102,8 +103,7 @@ bool WorldMap::all_near(const Vector3d& a_W, const Vector3d& b_W, double radius_
         const Vector3d centre = (cube.cast<double>() + Vector3d::Constant(0.5)) * config_.cell_m;
         const double length2 = ab.squaredNorm();
         const double part = length2 > 0.0 ? std::clamp((centre - a_W).dot(ab) / length2, 0.0, 1.0) : 0.0;
-        const Vector3d off = ((a_W + part * ab - centre).cwiseAbs().array() - 0.5 * config_.cell_m).max(0.0).matrix();
-        if (off.norm() <= radius_m && !visit(cube)) return false;
+        if (distance_to_m(cube, a_W + part * ab) <= radius_m && !visit(cube)) return false;
       }
     }
   }
@@ -157,6 +157,14 @@ MapLevel::Known WorldMap::known(const Cube& cube) const {
 
 bool WorldMap::tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius_m) const {
   return all_near(a_W, b_W, radius_m, [&](const Cube& cube) { return known(cube).space == Space::free; });
+}
+
+void WorldMap::not_free_near(const Vector3d& p_W, double radius_m, double lowest_m, std::vector<Cube>& cubes) const {
+  all_near(p_W, p_W, radius_m, [&](const Cube& cube) {
+    const bool asked = (cube.z() + 1) * config_.cell_m > lowest_m;
+    if (asked && known(cube).space != Space::free) cubes.push_back(cube);
+    return true;
+  });
 }
 
 double WorldMap::clear_way_m(const Vector3d& from_W, const Vector3d& direction_W, double reach_m) const {

@@ -23,6 +23,7 @@ namespace skein::agent {
 
 class WorldMap {
  public:
+  using Cube = Eigen::Vector3i;
   struct Config {
     double cell_m = 0.5;  ///< of the smallest cubes
     /// About up to there beams are evidence for cubes of cell_m, for those twice as large, and so on: one to four.
@@ -30,6 +31,8 @@ class WorldMap {
     std::vector<double> to_m = {8.0, 16.0, 48.0};
     FreeCriterion criterion = {};
     double distance_reach_m = 4.0;  ///< structure_distance_m() looks so far
+    /// What beams meet below is the ground, which is level at z = 0 and known without a map: it is not kept.
+    double ground_m = -1e6;
   };
   /// Edge of what changed_at() is asked of, and of a block of the smallest cubes.
   static constexpr int kChunk = MapLevel::kBlock;
@@ -59,6 +62,13 @@ class WorldMap {
   /// Whether all cubes with a point within `radius_m` of the segment are free. For the tube of a body, that is its
   /// radius and kHaloM.
   bool tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius_m) const;
+  /// Smallest cubes with a point within `radius_m` of a place that are not free, those apart that lie below `lowest_m`.
+  void not_free_near(const Vector3d& p_W, double radius_m, double lowest_m, std::vector<Cube>& cubes) const;
+  /// From a place to the nearest point of a smallest cube.
+  double distance_to_m(const Cube& cube, const Vector3d& p_W) const {
+    const Vector3d centre = (cube.cast<double>() + Vector3d::Constant(0.5)) * config_.cell_m;
+    return ((p_W - centre).cwiseAbs().array() - 0.5 * config_.cell_m).max(0.0).matrix().norm();
+  }
   /// How far along a unit vector no cube is occupied, asked in steps of half a cube: `reach_m` at most.
   double clear_way_m(const Vector3d& from_W, const Vector3d& direction_W, double reach_m) const;
 
@@ -84,8 +94,6 @@ class WorldMap {
   Counts counts() const;
 
  private:
-  using Cube = Eigen::Vector3i;
-
   /// Up to where a beam is evidence for cubes of a level.
   double handed_over_m(const BeamBundle& bundle, std::size_t level) const;
   void note_changes();

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/euler.hpp"
+#include "uav_agent/flight_core/flight_core.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
 #include "uav_agent/maps/world_mapper.hpp"
@@ -12,7 +13,7 @@
 #include "uav_agent/onboard/key_frame_filter.hpp"
 #include "uav_agent/onboard/map_radio.hpp"
 #include "uav_agent/onboard/ready_frames.hpp"
-#include "uav_agent/onboard/tracker.hpp"
+#include "uav_agent/flight_core/tracker.hpp"
 #include "uav_agent/onboard/uplink.hpp"
 #include "uav_agent/planning/aiming.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 
 constexpr double kAccelerationShare = 0.7;  ///< of the vehicle's limit; the controller corrects with the rest
 constexpr double kBodyMarginM = 0.3;        ///< around a known body
+constexpr double kGroundM = 0.3;            ///< what a LiDAR meets below is the ground
 constexpr double kScanAgeS = 0.1;           ///< a scan is at most this much older than the positions with it
 
 Tracker::Config tracker_config(const VehicleConfig& vehicle) {
@@ -28,6 +30,12 @@ Tracker::Config tracker_config(const VehicleConfig& vehicle) {
   config.max_speed_mps = vehicle.max_speed_mps;
   config.max_acceleration_mps2 = kAccelerationShare * vehicle.max_acceleration_mps2;
   config.max_yaw_rate = std::min(config.max_yaw_rate, vehicle.max_yaw_rate_deg_s * kRadPerDeg);
+  return config;
+}
+
+WorldMap::Config world_map_config() {
+  WorldMap::Config config;
+  config.ground_m = kGroundM;
   return config;
 }
 
@@ -44,14 +52,15 @@ struct Agent::Impl {
         frames(f ? std::move(f) : std::make_shared<ReadyFrames>()),
         peers(c),
         tracker(tracker_config(c.vehicle)) {
-    const bool maps_world = planner->wants_world_map();
+    if (planner->flight()) core = std::make_unique<FlightCore>(*planner->flight(), config);
+    const bool maps_world = core || planner->wants_world_map();
     if (maps_world) map_radio.emplace(config);
     if (!config.vehicle.lidar) {
-      if (maps_world) world_map = std::make_unique<WorldMap>(WorldMap::Config());
+      if (maps_world) world_map = std::make_unique<WorldMap>(world_map_config());
       return;
     }
     if (planner->wants_beams() || maps_world) beam_reader.emplace(*config.vehicle.lidar);
-    if (maps_world) world_mapper = std::make_unique<WorldMapper>(*config.vehicle.lidar, WorldMapper::Config());
+    if (maps_world) world_mapper = std::make_unique<WorldMapper>(*config.vehicle.lidar, WorldMapper::Config{.map = world_map_config()});
   }
 
   void read_radio(const AgentInput& input);
@@ -64,7 +73,8 @@ struct Agent::Impl {
   std::vector<KnownBody> known_bodies(const AgentInput& input) const;
   std::optional<Vector3d> sensor_position(const KeyFrame& frame, const AgentInput& input) const;
   PlannerInput planner_input(const AgentInput& input) const;
-  std::optional<TrajectoryCommand> move(const PlannerOutput& decision, const RigidBodyState& state);
+  void fly(const PlannerInput& in, PlannerOutput& decision);
+  std::optional<TrajectoryCommand> move(const PlannerOutput& decision, const AgentInput& input);
   std::optional<GimbalCommand> point_camera(const GimbalAim& new_aim, const RigidBodyState& state);
 
   const AgentConfig config;
@@ -80,6 +90,7 @@ struct Agent::Impl {
   std::vector<RadioMessage> planners_radio;   ///< of this exchange, without what was told of maps
   Uplink uplink;
   Tracker tracker;
+  std::unique_ptr<FlightCore> core;  ///< if it flies the planner
   std::vector<OrientedBox> boxes;
   GimbalAim aim;
   double waited_s = 0.0;
@@ -125,6 +136,9 @@ void Agent::Impl::read_beams(const AgentInput& input) {
 void Agent::Impl::perceive(const AgentInput& input) {
   if (tracker.stands_by()) tracker.stand_by(input.state);
   peers.update(input.tick, input.neighbours);
+  if (world_map && world_map->regions().empty()) {
+    world_map->set_free(input.state.p_WB, WorldMapper::Config().start_clear_m);
+  }
   read_radio(input);
   read_beams(input);
   if (!input.boxes.empty()) boxes = input.boxes;
@@ -177,7 +191,18 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
                       .world_map = known_world()};
 }
 
-std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision, const RigidBodyState& state) {
+/// The flight core does what the planner wants.
+void Agent::Impl::fly(const PlannerInput& in, PlannerOutput& decision) {
+  Steering steering = core->step(in, std::move(decision.goals));
+  decision.motion = std::move(steering.motion);
+  decision.yaw = steering.yaw;
+  if (!std::holds_alternative<std::monostate>(steering.gimbal)) decision.gimbal = steering.gimbal;
+  if (!decision.waits_for) decision.waits_for = core->waits_for();
+  decision.going_to_W = core->going_to_W();
+}
+
+std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision, const AgentInput& input) {
+  const RigidBodyState& state = input.state;
   if (const auto* command = std::get_if<TrajectoryCommand>(&decision.motion)) {
     tracker.stand_by(state);
     return *command;
@@ -186,7 +211,20 @@ std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision
   if (const auto* path = std::get_if<Path>(&decision.motion)) tracker.follow(*path);
   if (const auto* setpoint = std::get_if<Setpoint>(&decision.motion)) tracker.fly_to(*setpoint);
   if (std::holds_alternative<Hold>(decision.motion)) tracker.hold();
-  return tracker.step(state, config.exchange_period_s);
+  if (!core) return tracker.step(state, config.exchange_period_s);
+  if (getenv("FTRACE") && input.k % 20 == 0) {  // TRACE
+    const auto& h = core->filter().held();
+    const auto fs = core->trace();
+    fprintf(stderr, "%s t=%.0f p=(%.1f %.1f %.1f) v=%.1f held=%d at=(%.1f %.1f %.1f) %s\n", config.me().name.c_str(), seconds(input.tick), state.p_WB.x(), state.p_WB.y(), state.p_WB.z(), state.v_WB.norm(), int(h.by), h.at_W.x(), h.at_W.y(), h.at_W.z(), fs.c_str());
+  }
+  if (getenv("FTRACE") && input.k % 400 == 0) {  // TRACE
+    std::vector<Eigen::Vector3i> c;
+    known_world()->not_free_near(state.p_WB, core->filter().tube_m(0), 1.0, c);
+    fprintf(stderr, "MAP free %zu occ %zu bytes %zu not free %zu:", known_world()->counts().free[0], known_world()->counts().occupied, known_world()->counts().bytes, c.size());
+    for (auto& q : c) fprintf(stderr, " (%.1f %.1f %.1f)%d", q.x() * .5 + .25 - state.p_WB.x(), q.y() * .5 + .25 - state.p_WB.y(), q.z() * .5 + .25, int(known_world()->known(q).space));
+    fprintf(stderr, "\n");
+  }
+  return core->move(tracker, {.tick = input.tick, .state = state, .map = *known_world(), .boxes = boxes, .peers = peers});
 }
 
 std::optional<RadioMessage> Agent::Impl::tell_map(const std::optional<Vector3d>& going_to_W, Tick tick) {
@@ -219,13 +257,21 @@ std::vector<std::string> Agent::debug_names() const { return impl_->planner->deb
 
 AgentOutput Agent::step(const AgentInput& input) {
   impl_->perceive(input);
-  PlannerOutput decision = impl_->planner->plan(impl_->planner_input(input));
+  PlannerInput in = impl_->planner_input(input);
+  std::optional<FreeSpace> space;
+  if (impl_->core) {
+    impl_->core->update(in);
+    in.flight = impl_->core->state();
+    in.space = &space.emplace(impl_->core->space(in));
+  }
+  PlannerOutput decision = impl_->planner->plan(in);
+  if (impl_->core) impl_->fly(in, decision);
   for (const std::string& bytes : decision.heard_maps) impl_->map.hear(bytes);
   if (!decision.no_way.empty()) ++impl_->no_ways[decision.no_way];
   impl_->no_way = std::move(decision.no_way);
   if (decision.waits_for) impl_->waited_s += impl_->config.exchange_period_s;
   AgentOutput output;
-  output.trajectory = impl_->move(decision, input.state);
+  output.trajectory = impl_->move(decision, input);
   output.gimbal = impl_->point_camera(decision.gimbal, input.state);
   output.trigger = decision.trigger;
   output.radio = std::move(decision.radio);

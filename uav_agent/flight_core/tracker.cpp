@@ -1,4 +1,4 @@
-#include "uav_agent/onboard/tracker.hpp"
+#include "uav_agent/flight_core/tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +18,7 @@ constexpr double kBendM = 8.0;          ///< corners farther apart are turns of 
 constexpr double kMinLegM = 1e-3;       ///< shorter legs are no legs
 constexpr double kSlowestPace = 0.1;    ///< of a set-point that waits for its UAV
 constexpr double kLongestStepS = 0.05;  ///< of the point mass; a longer exchange takes several
+constexpr std::size_t kMostStoppingSteps = 400;  ///< nobody takes 20 s
 constexpr double kNoPositionM = 0.02;   ///< the controller takes |p| < 0.01 for "no position"
 
 Vector3d shortened(const Vector3d& v, double length) {
@@ -248,7 +249,7 @@ void Tracker::advance_along_path(double pace, double dt_s) {
   }
   const Vector3d target = point_at(std::min(look, end.s));
   const Vector3d ahead = target - mass_.p_WB;
-  const double speed = std::min(pace * speed_limit(dt_s), ahead.norm() / dt_s);
+  const double speed = std::min({pace * speed_limit(dt_s), ahead.norm() / dt_s, speed_limit_mps_});
   accelerate(ahead.norm() < 1e-9 ? Vector3d::Zero().eval() : Vector3d(ahead.normalized() * speed), dt_s);
 }
 
@@ -287,6 +288,23 @@ std::optional<TrajectoryCommand> Tracker::step(const RigidBodyState& state, doub
   TrajectoryCommand command{ref_.p_WB, ref_.v_WB, ref_.a_WB, ref_.yaw};
   if (command.p_WB.norm() < kNoPositionM) command.p_WB = Vector3d(0.0, 0.0, kNoPositionM);
   return command;
+}
+
+std::vector<Vector3d> Tracker::stopping_places(double dt_s) const {
+  std::vector<Vector3d> places = {ref_.p_WB};
+  if (!moves() || track_.empty()) return places;
+  Tracker stops = *this;
+  stops.hold();
+  const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestStepS - 1e-9)));
+  while (!stops.ref_.v_WB.isZero(1e-9) || stops.ref_.p_WB != stops.mass_.p_WB) {
+    for (int i = 0; i < steps; ++i) {
+      stops.accelerate(Vector3d::Zero(), dt_s / steps);
+      stops.smooth();
+    }
+    places.push_back(stops.ref_.p_WB);
+    if (places.size() > kMostStoppingSteps) break;
+  }
+  return places;
 }
 
 TrackingState Tracker::tracking() const {

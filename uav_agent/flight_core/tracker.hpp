@@ -12,6 +12,8 @@
 #pragma once
 
 #include <deque>
+#include <limits>
+#include <vector>
 
 #include "uav_agent/api/planner.hpp"
 
@@ -40,12 +42,21 @@ class Tracker {
   /// called again in each exchange, with the new state, as long as stands_by().
   void stand_by(const RigidBodyState& state);
   bool stands_by() const { return mode_ == Mode::stand_by; }
+  /// From now on no faster than that along a path; 0: it brakes, and stays where it comes to rest.
+  void limit_speed(double speed_mps) { speed_limit_mps_ = speed_mps; }
 
   /// Advances by one exchange.
   /// @returns nullopt as long as no motion was asked for, and while it stands by.
   std::optional<TrajectoryCommand> step(const RigidBodyState& state, double dt_s);
 
   TrackingState tracking() const;
+
+  /// What it commanded last.
+  const Setpoint& commanded() const { return ref_; }
+  bool moves() const { return mode_ == Mode::hold || mode_ == Mode::path; }
+  /// Where it would be commanded from now on, exchange by exchange, if it were told to hold: up to rest, and at least
+  /// the present place. As hold() and step() do it, as long as the UAV follows.
+  std::vector<Vector3d> stopping_places(double dt_s) const;
 
  private:
   enum class Mode { off, hold, path, setpoint, stand_by };
@@ -78,7 +89,7 @@ class Tracker {
     bool sharp = false;      ///< must be touched before the next leg begins
   };
 
-  const Config config_;
+  Config config_;
   Mode mode_ = Mode::off;
   bool started_ = false;
   Setpoint ref_;                ///< what was commanded last
@@ -88,6 +99,7 @@ class Tracker {
   std::vector<Waypoint> waypoints_;  ///< as asked for
   std::vector<Corner> corners_;      ///< laid out at the first step with a new path
   double progress_ = 0.0;            ///< arc length reached
+  double speed_limit_mps_ = std::numeric_limits<double>::infinity();
   bool done_ = true;                 ///< the point mass is
 };
 

@@ -1,4 +1,4 @@
-#include "uav_agent/onboard/tracker.hpp"
+#include "uav_agent/flight_core/tracker.hpp"
 
 #include <gtest/gtest.h>
 

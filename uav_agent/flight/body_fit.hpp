@@ -1,0 +1,35 @@
+// Where a UAV's body may be as far as its map proves, for the many questions of a search for ways. Answers are kept for
+// a while; the safety filter asks anew before anybody flies.
+// Frame W.   Units: metres.   Threads: one.   Deterministic.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+
+#include "uav_agent/maps/world_map.hpp"
+
+namespace skein::agent {
+
+class BodyFit {
+ public:
+  /// @param radius_m  about the body's centre, all must be free.   @param ground_m  below, nothing is asked.
+  BodyFit(double radius_m, double ground_m) : radius_m_(radius_m), ground_m_(ground_m) {}
+
+  /// Once per exchange.
+  void update(const WorldMap& map, Tick now);
+  /// At the middle of the map's cube about a place.
+  bool fits(const Vector3d& p_W) const;
+
+ private:
+  struct Answer {
+    Tick at = 0;
+    bool fits = false;
+  };
+  double radius_m_, ground_m_;
+  const WorldMap* map_ = nullptr;
+  Tick now_ = 0;
+  mutable std::unordered_map<std::uint64_t, Answer> answers_;  // looked up only
+  mutable std::vector<WorldMap::Cube> cubes_;
+};
+
+}  // namespace skein::agent

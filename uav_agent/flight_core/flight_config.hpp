@@ -1,0 +1,56 @@
+// How a UAV flies, whatever its strategy: all values of the flight core that are choices. Strategies take them beside
+// their own parameters (--planner patrol:approach_mps=3), so `skein compare` can sweep them.
+// Units: SI and radians unless the name says otherwise.
+#pragma once
+
+#include "core/config_reader.hpp"
+
+namespace skein::agent {
+
+struct FlightConfig {
+  // Safety. What must be free about a body is its radius, kHaloM (maps/free_evidence.hpp) and the tracking error.
+  double error_m = 0.12;         ///< tracking error at rest; docs/flight-safety.md has the measurement
+  double error_per_mps_s = 0.05; ///< and so much more a metre a second
+  double ground_m = 1.0;         ///< below, nothing is asked of the map: the ground is level, at z = 0
+  double floor_m = 2.0;          ///< nobody flies lower, except at takeoff
+  double peer_margin_m = 0.6;    ///< between two bodies when both have braked
+  double peer_memory_s = 20.0;   ///< a UAV that went out of sight is taken to be where it came to rest for so long
+
+  // Motion.
+  double approach_mps = 5.0;  ///< from here to there; the map decides how much of it can be had
+  double climb_mps = 3.0;
+  double sweep_s = 4.0;       ///< the LiDAR sees all directions in so long: no faster than through what is proved in it
+  double unknown_cost = 1.5;  ///< of a metre through space that is not known, in metres
+
+  // When something comes to nothing.
+  double stall_s = 4.0;       ///< no way is gained for so long: the goal is given up, or the UAV looks around
+  double look_s = 8.0;        ///< the LiDAR has looked in all directions: a period of its servo
+  double refused_s = 40.0;    ///< a place that could not be proved is left out of ways for so long
+  double yield_s = 5.0;       ///< a UAV waits for one of lower number for so long
+
+  // Bringing captures home.
+  double deliver_every_s = 240.0;
+  double return_margin_s = 12.0;
+
+  template <class R>
+  void describe(R& r) {
+    r.field("error_m", error_m, within(0.0, 2.0));
+    r.field("error_per_mps_s", error_per_mps_s, within(0.0, 1.0));
+    r.field("ground_m", ground_m, within(0.0, 5.0));
+    r.field("floor_m", floor_m, within(1.0, 20.0));
+    r.field("peer_margin_m", peer_margin_m, within(0.1, 10.0));
+    r.field("peer_memory_s", peer_memory_s, within(0.0, 600.0));
+    r.field("approach_mps", approach_mps, within(0.5, 20.0));
+    r.field("climb_mps", climb_mps, within(0.2, 10.0));
+    r.field("sweep_s", sweep_s, within(0.1, 60.0));
+    r.field("unknown_cost", unknown_cost, within(1.0, 10.0));
+    r.field("stall_s", stall_s, within(1.0, 60.0));
+    r.field("look_s", look_s, within(1.0, 60.0));
+    r.field("refused_s", refused_s, within(1.0, 600.0));
+    r.field("yield_s", yield_s, within(0.0, 60.0));
+    r.field("deliver_every_s", deliver_every_s, within(10.0, 1e6));
+    r.field("return_margin_s", return_margin_s, within(0.0, 600.0));
+  }
+};
+
+}  // namespace skein::agent

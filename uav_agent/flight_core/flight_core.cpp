@@ -1,0 +1,227 @@
+#include "uav_agent/flight_core/flight_core.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kAirborneM = 2.0;       ///< a UAV that begins at such a height was restarted in flight
+constexpr double kLowestTopM = 4.0;      ///< of a climb
+constexpr double kClimbLayerM = 2.0;          ///< between the heights to which two UAVs climb
+constexpr double kCrowdM = 6.0;          ///< starts nearer than this wait for each other
+constexpr double kClearM = 3.0;          ///< the one before is this far up, or gone: the next may start
+constexpr double kStartPatienceS = 6.0;  ///< for each one before; after that it is taken to be broken
+constexpr double kRisenM = 1.2;          ///< so high above its start, a UAV may begin to work
+constexpr double kClimbGainM = 0.3;
+constexpr double kNoLinkS = 4.0;         ///< at a place from which the station should be seen
+constexpr double kIdleS = 4.0;           ///< without a goal that can be flown to
+constexpr std::int64_t kHome = -2;
+constexpr double kShowCheckS = 5.0;
+constexpr std::uint64_t kShowLook = 10;  ///< exchanges
+
+}  // namespace
+
+FlightCore::FlightCore(const FlightConfig& config, const AgentConfig& agent)
+    : config_(config),
+      agent_(agent),
+      filter_(config, agent),
+      navigator_(config, agent, filter_),
+      homing_(config, agent),
+      recovery_(config, agent, navigator_),
+      showing_(agent, filter_) {}
+
+FlightState FlightCore::state() {
+  FlightState state{.working = mode_ == Mode::working, .outcomes = std::exchange(outcomes_, {})};
+  if (state.working && navigator_.current()) {
+    state.goal = navigator_.current()->id;
+    state.on_way = navigator_.on_way();
+    state.leg = navigator_.leg();
+  }
+  return state;
+}
+
+std::string FlightCore::trace() const {  // TRACE
+  const char* m[] = {"ground", "takeoff", "working", "homing", "showing", "recovering"};
+  std::string s = m[static_cast<int>(mode_)];
+  if (navigator_.current()) s += " goal " + std::to_string(navigator_.current()->id) + (navigator_.on_way() ? " way " : " app ") + std::to_string(navigator_.leg());
+  if (navigator_.idle()) s += " idle";
+  for (const auto& o : outcomes_) s += " [" + std::to_string(o.id) + " " + std::to_string(int(o.kind)) + " " + o.reason + "]";
+  return s;
+}
+
+std::optional<Vector3d> FlightCore::going_to_W() const {
+  return mode_ == Mode::takeoff || mode_ == Mode::ground ? top_W_ : navigator_.going_to_W();
+}
+
+void FlightCore::enter(Mode mode, const PlannerInput& in) {
+  mode_ = mode;
+  since_ = in.tick;
+}
+
+Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal>> goals) {
+  Steering steering;
+  waits_for_.reset();
+  if (goals) wanted_ = std::move(*goals);
+  const bool asked = goals.has_value();
+  if (mode_ != Mode::ground) homing_.update(in);
+  const bool works = mode_ == Mode::working || mode_ == Mode::recovering || mode_ == Mode::showing;
+  if (works && homing_.due(in)) {
+    navigator_.stop(steering);
+    next_place_ = 0;
+    at_place_since_.reset();
+    enter(Mode::homing, in);
+  }
+  switch (mode_) {
+    case Mode::ground:
+      leave_ground(in, steering);
+      break;
+    case Mode::takeoff:
+      take_off(in, steering);
+      break;
+    case Mode::working:
+      if (begin_showing(in)) break;
+      if (asked) navigator_.want(wanted_);
+      work(in, steering);
+      break;
+    case Mode::showing:
+      show(in, steering);
+      break;
+    case Mode::homing:
+      go_home(in, steering);
+      break;
+    case Mode::recovering:
+      if (recovery_.step(in, filter_.held(), steering)) enter(Mode::working, in);
+      break;
+  }
+  return steering;
+}
+
+void FlightCore::leave_ground(const PlannerInput& in, Steering& steering) {
+  const Vector3d p_W = in.state.p_WB;
+  if (in.boxes.empty()) return;
+  if (p_W.z() > kAirborneM) {
+    steering.motion = Hold{};
+    enter(Mode::working, in);
+    return;
+  }
+  waits_for_ = lifts_off_after(in);
+  if (waits_for_) return;
+  const double layer_m = kClimbLayerM * static_cast<double>(agent_.fleet.size() - 1 - agent_.self);
+  top_W_ = Vector3d(p_W.x(), p_W.y(), p_W.z() + kLowestTopM + layer_m);
+  steering.motion = Path{{{*top_W_, config_.climb_mps}}};
+  steering.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
+  climbed_m_ = p_W.z();
+  climbed_at_ = in.tick;
+  enter(Mode::takeoff, in);
+}
+
+/// Explorers first, then by number.
+std::optional<std::size_t> FlightCore::lifts_off_after(const PlannerInput& in) {
+  if (!ready_since_) ready_since_ = in.tick;
+  const auto rank = [this](std::size_t uav) {
+    return std::pair(agent_.fleet[uav].role == Role::explorer ? 0 : 1, uav);
+  };
+  int before = 0;
+  std::optional<std::size_t> stands;
+  for (const Peer& peer : in.peers.all()) {
+    const Vector3d start_W = agent_.fleet[peer.uav].p_WB_start;
+    if (rank(peer.uav) > rank(agent_.self) || (start_W - agent_.me().p_WB_start).norm() > kCrowdM) continue;
+    ++before;
+    if ((peer.p_W - start_W).norm() < kClearM) stands = peer.uav;
+  }
+  return seconds(in.tick - *ready_since_) > kStartPatienceS * before ? std::nullopt : stands;
+}
+
+/// As high as is proved. A UAV that sees begins to work where the climb ends; one that does not waits on the ground.
+void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
+  const double height_m = in.tracking.setpoint.p_WB.z();
+  if (height_m > climbed_m_ + kClimbGainM) {
+    climbed_m_ = height_m;
+    climbed_at_ = in.tick;
+  }
+  const bool risen = in.state.p_WB.z() > agent_.me().p_WB_start.z() + kRisenM;
+  const bool stalled = seconds(in.tick - climbed_at_) > config_.stall_s + config_.look_s;
+  if (in.tracking.done || (stalled && risen)) {
+    steering.motion = Hold{};
+    outcomes_.clear();
+    navigator_.want(wanted_);
+    enter(Mode::working, in);
+    return;
+  }
+  if (stalled && agent_.me().role != Role::explorer) waits_for_ = agent_.first_explorer();
+}
+
+void FlightCore::work(const PlannerInput& in, Steering& steering) {
+  navigator_.step(in, filter_.held(), steering);
+  for (Outcome& outcome : navigator_.take_outcomes()) {
+    if (outcome.kind != Outcome::Kind::no_way) recovery_.progress();
+    outcomes_.push_back(std::move(outcome));
+  }
+  if (!navigator_.idle()) {
+    since_ = in.tick;
+    if (filter_.held().by == Held::By::peer) waits_for_ = filter_.held().peer;
+  } else if (seconds(in.tick - since_) > kIdleS) {
+    recovery_.begin(in);
+    enter(Mode::recovering, in);
+  }
+}
+
+/// @returns whether it sets out to show a mate its way up.
+bool FlightCore::begin_showing(const PlannerInput& in) {
+  if (in.tick < show_at_ || navigator_.on_way()) return false;
+  show_at_ = in.tick + ticks(kShowCheckS);
+  auto goal = showing_.next(in, navigator_.space(in));
+  if (!goal) return false;
+  navigator_.want({std::move(*goal)});
+  enter(Mode::showing, in);
+  return true;
+}
+
+void FlightCore::show(const PlannerInput& in, Steering& steering) {
+  if (!navigator_.idle()) {
+    navigator_.step(in, filter_.held(), steering);
+    since_ = in.tick;
+    const std::vector<Outcome> outcomes = navigator_.take_outcomes();
+    const bool failed = !outcomes.empty() && outcomes.back().kind != Outcome::Kind::reached;
+    if (!failed && !(in.k % kShowLook == 0 && showing_.shown(in))) return;
+  } else if (seconds(in.tick - since_) < config_.look_s && !(in.k % kShowLook == 0 && showing_.shown(in))) {
+    return;
+  }
+  navigator_.stop(steering);
+  show_at_ = in.tick;  // the next one at once
+  navigator_.want(wanted_);
+  enter(Mode::working, in);
+}
+
+void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
+  if (homing_.done(in)) {
+    navigator_.stop(steering);
+    navigator_.take_outcomes();
+    navigator_.want(wanted_);
+    enter(Mode::working, in);
+    return;
+  }
+  if (in.station_linked && homing_.delivers_here(in)) {
+    navigator_.stop(steering);
+    at_place_since_.reset();
+    return;
+  }
+  navigator_.step(in, filter_.held(), steering);
+  for (const Outcome& outcome : navigator_.take_outcomes()) {
+    if (outcome.kind == Outcome::Kind::reached) at_place_since_ = in.tick;
+  }
+  if (!navigator_.idle()) return;
+  if (at_place_since_ && seconds(in.tick - *at_place_since_) < kNoLinkS) return;
+  at_place_since_.reset();
+  const std::vector<Vector3d> places_W = homing_.places(in, navigator_.space(in));
+  std::vector<Goal> goals;
+  for (std::size_t i = 0; i < places_W.size(); ++i) {
+    const Vector3d& p_W = places_W[(i + next_place_) % places_W.size()];
+    goals.push_back({.id = kHome, .way = {{p_W, config_.approach_mps}}});
+  }
+  ++next_place_;
+  navigator_.want(std::move(goals));
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,288 @@
+#include "uav_agent/flight_core/navigator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/euler.hpp"
+#include "uav_agent/flight/path_search.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kGainM = 0.5;             ///< less is no way
+constexpr int kSearchesPerExchange = 2;    ///< for goals
+constexpr int kMostExpansions = 4000;
+constexpr double kSearchAgainS = 0.5;      ///< after one that came to nothing
+constexpr std::uint64_t kLookEach = 4;     ///< exchanges
+constexpr double kLookAheadM = 15.0, kSlackM = 0.4;
+constexpr int kMostReplans = 3;
+constexpr double kRefusedM = 1.5;
+constexpr std::size_t kMostRefused = 64;
+constexpr double kPeersM = 15.0, kStandsMps = 0.3;
+constexpr double kTurn = 0.8, kTurnEveryS = 1.2;
+constexpr double kFaceM = 4.0;             ///< nearer than this to its goal, a UAV turns as the goal asks
+constexpr double kHereM = 0.3;
+constexpr double kFitMps = 1.0;            ///< ways are wide enough for that speed
+constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
+
+}  // namespace
+
+Navigator::Navigator(const FlightConfig& config, const AgentConfig& agent, const SafetyFilter& filter)
+    : config_(config), agent_(agent), filter_(filter), fit_(filter.tube_m(kFitMps), config.ground_m) {}
+
+FreeSpace::Config Navigator::space_config(const PlannerInput& in) const {
+  FreeSpace::Config config;
+  config.clearance_m = filter_.tube_m(kFitMps);
+  config.jut_m = 0.0;
+  config.floor_m = std::min(config_.floor_m, std::max(in.tracking.setpoint.p_WB.z(), 0.5 * config_.floor_m));
+  config.world = in.world_map;
+  config.fit = &fit_;
+  config.unknown_cost = config_.unknown_cost;
+  config.blind_fleet = !agent_.first_explorer();
+  config.proved_only = agent_.me().role != Role::explorer && !config.blind_fleet;
+  return config;
+}
+
+FreeSpace Navigator::space(const PlannerInput& in) const {
+  const Vector3d here_W = in.tracking.setpoint.p_WB;
+  std::vector<Sphere> keep_out;
+  for (const Peer& peer : in.peers.all()) {
+    const double off_m = (peer.p_W - here_W).norm();
+    if (!peer.seen || off_m > kPeersM || seconds(in.tick - *peer.seen) > config_.peer_memory_s) continue;
+    const double apart_m = agent_.me().body_radius_m + agent_.fleet[peer.uav].body_radius_m + config_.peer_margin_m;
+    keep_out.push_back({peer.p_W, std::min(apart_m + kHereM, off_m - kHereM)});
+  }
+  for (const Refused& refused : refused_) {
+    if (in.tick < refused.until) {
+      keep_out.push_back({refused.p_W, std::min(kRefusedM, (refused.p_W - here_W).norm() - kHereM)});
+    }
+  }
+  return {space_config(in), in.boxes, in.map, std::move(keep_out)};
+}
+
+std::optional<Vector3d> Navigator::going_to_W() const {
+  if (!current_) return missed_W_;
+  return on_way_ ? current_->way.back().p_WB : current_->way.front().p_WB;
+}
+
+void Navigator::want(std::vector<Goal> goals) {
+  std::erase_if(goals, [](const Goal& goal) { return goal.way.empty(); });
+  if (current_ && !goals.empty() && goals.front().id == current_->id) {
+    current_ = std::move(goals.front());
+    goals.erase(goals.begin());
+    new_way_ = true;
+  } else {
+    current_.reset();
+  }
+  goals_ = std::move(goals);
+}
+
+void Navigator::stop(Steering& steering) {
+  if (current_ || !path_.empty()) steering.motion = Hold{};
+  current_.reset();
+  goals_.clear();
+  path_.clear();
+  on_way_ = false;
+}
+
+void Navigator::step(const PlannerInput& in, const Held& held, Steering& steering) {
+  if (!current_) {
+    if (!path_.empty()) {
+      steering.motion = Hold{};
+      path_.clear();
+    }
+    choose(in, steering);
+    return;
+  }
+  if (new_way_) {
+    new_way_ = false;
+    if (on_way_) {
+      fly(current_->way, steering);
+      leg_ = 0;
+      return;
+    }
+    const bool moved = (path_.back().p_WB - current_->way.front().p_WB).norm() > kHereM;
+    if (moved && set_out(in, steering) != Search::found) end(Outcome::Kind::no_way, "no way", steering);
+    if (moved) return;
+  }
+  if (in.tracking.done && !on_way_) {
+    begin_way(in, steering);
+    return;
+  }
+  if (in.tracking.done) {
+    end(Outcome::Kind::reached, "", steering);
+    return;
+  }
+  if (on_way_) leg_ = in.tracking.leg;
+  if (in.k % kLookEach == 0 && agent_.me().role == Role::explorer) {
+    pace_mps_ = std::max(kCreepMps, proved_ahead_m(in, config_.approach_mps * config_.sweep_s) / config_.sweep_s);
+  }
+  if (in.k % kLookEach == 0 && blocked_ahead(in)) {
+    replan(in, "something was seen on the way", steering);
+    return;
+  }
+  watch(in, held, steering);
+}
+
+void Navigator::choose(const PlannerInput& in, Steering& steering) {
+  if (in.tick < search_at_) return;
+  for (int searches = 0; searches < kSearchesPerExchange && !goals_.empty(); ++searches) {
+    current_ = std::move(goals_.front());
+    goals_.erase(goals_.begin());
+    on_way_ = new_way_ = false;
+    leg_ = 0;
+    replans_ = 0;
+    gained_p_W_ = in.tracking.setpoint.p_WB;
+    gained_at_ = in.tick;
+    const Search search = set_out(in, steering);
+    if (search == Search::found) return;
+    search_at_ = in.tick + ticks(kSearchAgainS);
+    end(Outcome::Kind::no_way, search == Search::gave_up ? "the search for a way took too long" : "no way", steering);
+  }
+}
+
+/// To the first waypoint of the current goal.
+Navigator::Search Navigator::set_out(const PlannerInput& in, Steering& steering) {
+  const Vector3d from_W = in.tracking.setpoint.p_WB, to_W = current_->way.front().p_WB;
+  steering.gimbal = current_->gimbal;
+  if ((to_W - from_W).norm() < kHereM) {
+    begin_way(in, steering);
+    return Search::found;
+  }
+  bool gave_up = false;
+  const auto corners = find_path(space(in), in.boxes, from_W, to_W, {.max_expansions = kMostExpansions}, &gave_up);
+  if (!corners) return gave_up ? Search::gave_up : Search::none;
+  std::vector<Waypoint> waypoints;
+  for (const Vector3d& p_W : *corners) waypoints.push_back({p_W, config_.approach_mps});
+  on_way_ = false;
+  fly(std::move(waypoints), steering);
+  face_ahead(in, steering);
+  return Search::found;
+}
+
+void Navigator::begin_way(const PlannerInput& in, Steering& steering) {
+  on_way_ = true;
+  leg_ = 0;
+  if (current_->yaw) steering.yaw = current_->yaw;
+  fly(current_->way, steering);
+  gained_p_W_ = in.tracking.setpoint.p_WB;
+  gained_at_ = in.tick;
+}
+
+void Navigator::fly(std::vector<Waypoint> waypoints, Steering& steering) {
+  path_ = std::move(waypoints);
+  steering.motion = Path{path_};
+}
+
+void Navigator::end(Outcome::Kind kind, std::string reason, Steering& steering) {
+  if (kind == Outcome::Kind::no_way) missed_W_ = current_->way.front().p_WB;
+  if (kind == Outcome::Kind::reached) missed_W_.reset();
+  outcomes_.push_back({current_->id, kind, on_way_ ? leg_ : 0, std::move(reason)});
+  if (kind != Outcome::Kind::reached && !path_.empty()) steering.motion = Hold{};
+  path_.clear();
+  current_.reset();
+  on_way_ = false;
+}
+
+/// Somewhat ahead of there: the place itself may be where it stands.
+void Navigator::refuse(const Vector3d& p_W, const PlannerInput& in) {
+  std::erase_if(refused_, [&](const Refused& refused) { return refused.until <= in.tick; });
+  const Vector3d next_W = path_.empty() ? p_W : path_[std::min(in.tracking.leg, path_.size() - 1)].p_WB;
+  const Vector3d ahead = next_W - p_W;
+  const double off_m = ahead.norm();
+  refused_.push_back({off_m > 0.0 ? Vector3d(p_W + ahead / off_m * std::min(off_m, kRefusedM)) : p_W,
+                      in.tick + ticks(config_.refused_s)});
+  if (refused_.size() > kMostRefused) refused_.pop_front();
+}
+
+/// Structure that came to be known since the way was planned.
+bool Navigator::blocked_ahead(const PlannerInput& in) const {
+  const double least_m = filter_.tube_m(0.0) - kSlackM;
+  Vector3d at_W = in.tracking.setpoint.p_WB;
+  double length_m = 0.0;
+  for (std::size_t i = in.tracking.leg; i < path_.size() && length_m < kLookAheadM; ++i) {
+    const Vector3d leg = path_[i].p_WB - at_W;
+    const int steps = std::max(1, static_cast<int>(std::ceil(leg.norm())));
+    for (int j = 1; j <= steps; ++j) {
+      const Vector3d p_W = at_W + leg * (static_cast<double>(j) / steps);
+      if (in.world_map->structure_distance_m(p_W) < least_m) return true;
+    }
+    length_m += leg.norm();
+    at_W = path_[i].p_WB;
+  }
+  return false;
+}
+
+/// Along the path, from where it is.
+double Navigator::proved_ahead_m(const PlannerInput& in, double most_m) const {
+  Vector3d at_W = in.tracking.setpoint.p_WB;
+  double length_m = 0.0;
+  for (std::size_t i = in.tracking.leg; i < path_.size(); ++i) {
+    const Vector3d leg = path_[i].p_WB - at_W;
+    const int steps = std::max(1, static_cast<int>(std::ceil(leg.norm() / kProvedStepM)));
+    for (int j = 1; j <= steps; ++j) {
+      if (length_m > most_m) return most_m;
+      if (!filter_.proved(at_W + leg * (static_cast<double>(j) / steps), *in.world_map, in.boxes)) return length_m;
+      length_m += leg.norm() / steps;
+    }
+    at_W = path_[i].p_WB;
+  }
+  return most_m;
+}
+
+/// Another way to the same place; along a goal's way there is none: its strategy decides.
+void Navigator::replan(const PlannerInput& in, const std::string& reason, Steering& steering) {
+  if (on_way_) {
+    end(Outcome::Kind::blocked, reason, steering);
+    return;
+  }
+  if (++replans_ > kMostReplans || set_out(in, steering) != Search::found) {
+    end(Outcome::Kind::no_way, reason, steering);
+  }
+}
+
+void Navigator::watch(const PlannerInput& in, const Held& held, Steering& steering) {
+  if (!on_way_ || !current_->yaw) face_ahead(in, steering);
+  if ((in.tracking.setpoint.p_WB - gained_p_W_).norm() > kGainM) {
+    gained_p_W_ = in.tracking.setpoint.p_WB;
+    gained_at_ = in.tick;
+  }
+  if (seconds(in.tick - gained_at_) > config_.stall_s) stalled(in, held, steering);
+}
+
+void Navigator::stalled(const PlannerInput& in, const Held& held, Steering& steering) {
+  const double since_s = seconds(in.tick - gained_at_);
+  if (held.by == Held::By::peer) {
+    // The one of lower number goes first; the other one gets out of its way if that comes to nothing.
+    if (*held.peer < agent_.self && since_s < config_.stall_s + config_.yield_s) return;
+    gained_at_ = in.tick;
+    replan(in, "another UAV stays in the way", steering);
+    return;
+  }
+  if (held.by == Held::By::unproved && since_s < config_.stall_s + config_.look_s) {
+    if (agent_.me().role == Role::explorer && in.tick >= turn_at_) {
+      steering.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
+      turn_at_ = in.tick + ticks(kTurnEveryS);
+    }
+    return;
+  }
+  if (held.by != Held::By::nothing) refuse(held.at_W, in);
+  gained_at_ = in.tick;
+  replan(in, held.by == Held::By::structure ? "too near to structure" : "not proved to be free", steering);
+}
+
+/// A LiDAR proves most along the body's x axis, about which its servo turns.
+void Navigator::face_ahead(const PlannerInput& in, Steering& steering) const {
+  const Vector3d here_W = in.tracking.setpoint.p_WB;
+  const bool near = (path_.back().p_WB - here_W).norm() < kFaceM;
+  if (near && current_->yaw) {
+    steering.yaw = current_->yaw;
+    return;
+  }
+  if (agent_.me().role != Role::explorer) return;
+  const std::size_t leg = std::min(in.tracking.leg, path_.size() - 1);
+  const Vector3d ahead = path_[leg].p_WB - here_W;
+  if (ahead.head<2>().norm() > kGainM) steering.yaw = std::atan2(ahead.y(), ahead.x());
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,94 @@
+#include "uav_agent/flight_core/recovery.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/euler.hpp"
+#include "uav_agent/flight/path_search.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr std::int64_t kGoal = -1;
+constexpr double kWorthM = 3.0;  ///< nearer to what it missed: less is not worth the way
+constexpr int kExpansions = 2000;
+constexpr double kClimbM = 5.0;
+constexpr double kElsewhereM[] = {8.0, 14.0};
+constexpr double kHeightsM[] = {3.0, 0.0, -3.0, 8.0};
+constexpr int kHeadings = 8, kHeadingStep = 3;  ///< of the first direction, from one try to the next
+constexpr double kLookTurn = 0.8, kLookEveryS = 1.2, kLongestS = 30.0;
+
+}  // namespace
+
+Recovery::Recovery(const FlightConfig& config, const AgentConfig& agent, Navigator& navigator)
+    : config_(config), agent_(agent), navigator_(navigator) {}
+
+void Recovery::begin(const PlannerInput& in) {
+  constexpr Behaviour kOrder[] = {Behaviour::look_around, Behaviour::approach, Behaviour::elsewhere, Behaviour::climb};
+  for (int i = 0; i < 4; ++i) {
+    behaviour_ = kOrder[tries_++ % 4];
+    if (behaviour_ == Behaviour::look_around) {
+      // Without a LiDAR it gives those that have one the time to look.
+      until_ = in.tick + ticks(agent_.me().role == Role::explorer ? config_.look_s : 0.5 * config_.look_s);
+      return;
+    }
+    if (set_out(in)) {
+      until_ = in.tick + ticks(kLongestS);
+      return;
+    }
+  }
+  until_ = in.tick + ticks(config_.stall_s);
+}
+
+/// @returns whether there is somewhere to go.
+bool Recovery::set_out(const PlannerInput& in) {
+  const Vector3d here_W = in.tracking.setpoint.p_WB;
+  const FreeSpace space = navigator_.space(in);
+  if (behaviour_ == Behaviour::approach) {
+    if (!navigator_.missed_W()) return false;
+    const auto corners = find_approach(space, in.boxes, here_W, *navigator_.missed_W(), kWorthM, {.max_expansions = kExpansions});
+    if (!corners) return false;
+    navigator_.want({{.id = kGoal, .way = {{corners->back(), config_.approach_mps}}}});
+    return true;
+  }
+  if (behaviour_ == Behaviour::climb) {
+    const Vector3d up_W = here_W + Vector3d(0.0, 0.0, kClimbM);
+    if (!space.segment_free(here_W, up_W)) return false;
+    navigator_.want({{.id = kGoal, .way = {{up_W, config_.climb_mps}}}});
+    return true;
+  }
+  std::vector<Goal> goals;
+  for (const double distance_m : kElsewhereM) {
+    for (int i = 0; i < kHeadings; ++i) {
+      const double heading = 2.0 * std::numbers::pi * ((i + kHeadingStep * tries_) % kHeadings) / kHeadings;
+      for (const double height_m : kHeightsM) {
+        const Vector3d p_W = here_W + Vector3d(distance_m * std::cos(heading), distance_m * std::sin(heading), height_m);
+        if (in.world_map->at(p_W) == Space::free && space.free(p_W) && space.segment_free(here_W, p_W)) {
+          goals.push_back({.id = kGoal, .way = {{p_W, config_.approach_mps}}});
+        }
+      }
+    }
+  }
+  if (goals.empty()) return false;
+  goals.resize(1);
+  navigator_.want(std::move(goals));
+  return true;
+}
+
+bool Recovery::step(const PlannerInput& in, const Held& held, Steering& steering) {
+  if (behaviour_ == Behaviour::look_around) {
+    if (agent_.me().role == Role::explorer && in.tick >= turn_at_) {
+      steering.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookTurn);
+      turn_at_ = in.tick + ticks(kLookEveryS);
+    }
+    return in.tick >= until_;
+  }
+  navigator_.step(in, held, steering);
+  const bool over = navigator_.idle() || in.tick >= until_;
+  if (over) navigator_.stop(steering);
+  navigator_.take_outcomes();
+  return over;
+}
+
+}  // namespace skein::agent

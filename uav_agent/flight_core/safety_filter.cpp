@@ -1,0 +1,139 @@
+#include "uav_agent/flight_core/safety_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kSampleM = 0.3;      ///< between two places of a way that are looked at
+constexpr double kNearerM = 1e-6;     ///< rounding, where nothing may come nearer
+constexpr double kPeerDelayS = 0.1;   ///< a UAV may fly on so long before it brakes: one exchange and a late command
+constexpr double kPeerBrakesMps2 = 2.0;
+constexpr double kPeerSmoothS = 0.4;  ///< commands are means over so long (tracker.hpp): braking begins that much softer
+constexpr double kRestsMps = 0.2;
+constexpr double kAboveStartM = 30.0, kStartM = 1.0;
+
+double distance_to_segment(const Vector3d& p_W, const Vector3d& a_W, const Vector3d& b_W) {
+  const Vector3d ab = b_W - a_W;
+  const double length2 = ab.squaredNorm();
+  const double part = length2 > 0.0 ? std::clamp((p_W - a_W).dot(ab) / length2, 0.0, 1.0) : 0.0;
+  return (a_W + part * ab - p_W).norm();
+}
+
+/// From v to rest [m].
+double stopping_m(double v_mps) {
+  return v_mps * (kPeerDelayS + 0.5 * kPeerSmoothS) + v_mps * v_mps / (2.0 * kPeerBrakesMps2);
+}
+
+std::vector<Vector3d> thinned(const std::vector<Vector3d>& way_W) {
+  std::vector<Vector3d> places = {way_W.front()};
+  for (std::size_t i = 1; i + 1 < way_W.size(); ++i) {
+    if ((way_W[i + 1] - places.back()).norm() > kSampleM) places.push_back(way_W[i]);
+  }
+  if (way_W.size() > 1) places.push_back(way_W.back());
+  return places;
+}
+
+}  // namespace
+
+SafetyFilter::SafetyFilter(const FlightConfig& config, const AgentConfig& agent)
+    : config_(config), agent_(agent), blind_fleet_(!agent.first_explorer()) {}
+
+double SafetyFilter::tube_m(double speed_mps) const {
+  return agent_.me().body_radius_m + kHaloM + config_.error_m + config_.error_per_mps_s * speed_mps;
+}
+
+std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Facts& facts, double most_mps) {
+  held_ = {};
+  now_W_ = tracker.moves() ? tracker.commanded().p_WB : facts.state.p_WB;
+  const double dt_s = agent_.exchange_period_s;
+  if (!tracker.moves()) return tracker.step(facts.state, dt_s);
+  ++counts_.exchanges;
+  const std::vector<PeerReach> peers = reach_of_peers(facts);
+  const double speed_mps = tracker.tracking().setpoint.v_WB.norm();
+  const double limits_mps[] = {most_mps, std::min(most_mps, speed_mps), 0.9 * speed_mps - 0.02};
+  for (const double limit_mps : limits_mps) {
+    if (limit_mps <= 0.0) continue;
+    Tracker tried = tracker;
+    tried.limit_speed(limit_mps);
+    auto command = tried.step(facts.state, dt_s);
+      const Held held = judge(tried.stopping_places(dt_s), tried.commanded().v_WB.norm(), facts, peers);
+    if (held.by == Held::By::nothing) {
+      tracker = std::move(tried);
+      return command;
+    }
+    if (held_.by == Held::By::nothing) held_ = held;
+  }
+  ++counts_.slowed;
+  tracker.limit_speed(0.0);
+  return tracker.step(facts.state, dt_s);
+}
+
+std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& facts) const {
+  std::vector<PeerReach> reach;
+  for (const Peer& peer : facts.peers.all()) {
+    if (!peer.seen) continue;
+    const double age_s = peer.visible ? 0.0 : seconds(facts.tick - *peer.seen);
+    if (age_s > config_.peer_memory_s) continue;
+    const double speed_mps = peer.v_W.norm();
+    Vector3d to_W = peer.p_W;
+    // One that is heard may have changed its mind since. Who rests goes nowhere before it is heard again.
+    if (speed_mps > kRestsMps) to_W += peer.v_W * (stopping_m(speed_mps) / speed_mps);
+    const double apart_m =
+        agent_.me().body_radius_m + agent_.fleet[peer.uav].body_radius_m + config_.peer_margin_m;
+    const double now_m = distance_to_segment(now_W_, peer.p_W, to_W);
+    if (now_m < 40.0) reach.push_back({peer.uav, peer.p_W, to_W, apart_m, now_m});
+  }
+  return reach;
+}
+
+/// @returns the first thing on the way that forbids it.
+Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, const Facts& facts,
+                         const std::vector<PeerReach>& peers) {
+  const std::vector<Vector3d> places_W = thinned(way_W);
+  const double radius_m = tube_m(speed_mps);
+  for (const Vector3d& p_W : places_W) {
+    for (const PeerReach& peer : peers) {
+      const double off_m = distance_to_segment(p_W, peer.from_W, peer.to_W);
+      if (off_m < peer.apart_m && off_m < peer.now_m - kNearerM) return {Held::By::peer, p_W, peer.uav};
+    }
+    Held held{.at_W = p_W};
+    if (!proved(p_W, radius_m, facts, held)) return held;
+  }
+  return {};
+}
+
+bool SafetyFilter::proved(const Vector3d& p_W, double radius_m, const Facts& facts, Held& held) {
+  if (blind_fleet_) {
+    if (assumed(p_W, radius_m, facts.boxes)) return true;
+    held.by = Held::By::unproved;
+    return false;
+  }
+  if (p_W.z() - radius_m > config_.ground_m && facts.map.tube_free(p_W, p_W, radius_m)) return true;
+  cubes_.clear();
+  facts.map.not_free_near(p_W, radius_m, config_.ground_m, cubes_);
+  for (const Cube& cube : cubes_) {
+    if (facts.map.distance_to_m(cube, p_W) >= facts.map.distance_to_m(cube, now_W_) - kNearerM) continue;
+    held.by = facts.map.known(cube).space == Space::occupied ? Held::By::structure : Held::By::unproved;
+    return false;
+  }
+  return true;
+}
+
+bool SafetyFilter::proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const {
+  if (blind_fleet_) return assumed(p_W, tube_m(0.0), boxes);
+  if (p_W.z() - tube_m(0.0) > config_.ground_m) return map.tube_free(p_W, p_W, tube_m(0.0));
+  std::vector<Cube> cubes;
+  map.not_free_near(p_W, tube_m(0.0), config_.ground_m, cubes);
+  return cubes.empty();
+}
+
+bool SafetyFilter::assumed(const Vector3d& p_W, double radius_m, const std::vector<OrientedBox>& boxes) const {
+  const bool above_start = (p_W - agent_.me().p_WB_start).head<2>().norm() < kStartM && p_W.z() < kAboveStartM;
+  return std::ranges::none_of(boxes, [&](const OrientedBox& box) {
+    return box.contains(p_W, above_start ? 0.5 * radius_m : radius_m);
+  });
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,90 @@
+// The one place where a UAV's motion is found safe or not. Everything that a UAV is told to fly goes through it.
+//
+// Invariant, in each exchange: if the UAV braked from what it is commanded next, then on the way to rest
+//   - all about its body would be proved to be free: its radius, kHaloM, and the tracking error;
+//   - it would not touch what any other UAV can sweep that brakes from the last word of it.
+// A motion is commanded only if the invariant holds after it. Else the UAV goes on slower, or brakes: braking was found
+// safe in the exchange before, so it is safe still, unless the world has changed (a new hit, a UAV out of nowhere, a
+// restart). Where the invariant is broken so, nothing that breaks it may come nearer.
+//
+// Two UAVs that both keep it never meet: either could brake at any time, and neither counts on what the other will do.
+// In a fleet that has no LiDAR nobody can prove anything: there, what is outside all boxes is taken to be free.
+// Frame W.   Units: SI.   Threads: one.   Deterministic.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "uav_agent/api/agent_config.hpp"
+#include "uav_agent/api/peers.hpp"
+#include "uav_agent/flight_core/flight_config.hpp"
+#include "uav_agent/flight_core/tracker.hpp"
+#include "uav_agent/maps/world_map.hpp"
+
+namespace skein::agent {
+
+/// Why a UAV is slower than its path asks for.
+struct Held {
+  enum class By : std::uint8_t { nothing, unproved, structure, peer };
+  By by = By::nothing;
+  Vector3d at_W = Vector3d::Zero();         ///< where on its way
+  std::optional<std::size_t> peer = {};     ///< which one
+};
+
+class SafetyFilter {
+ public:
+  struct Facts {
+    Tick tick = 0;
+    const RigidBodyState& state;
+    const WorldMap& map;
+    const std::vector<OrientedBox>& boxes;
+    const Peers& peers;
+  };
+
+  /// @param config, agent  must outlive this.
+  SafetyFilter(const FlightConfig& config, const AgentConfig& agent);
+
+  /// Lets the tracker go on by one exchange, as fast as is safe.   @param most_mps  and no faster than that.
+  std::optional<TrajectoryCommand> step(Tracker& tracker, const Facts& facts, double most_mps);
+
+  /// Of the last step.
+  const Held& held() const { return held_; }
+  /// Whether a body may be there: all about it is proved to be free.
+  bool proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const;
+  /// Radius of what must be free about a body's centre at a speed.
+  double tube_m(double speed_mps) const;
+
+  struct Counts {
+    std::uint64_t exchanges = 0, slowed = 0, broken = 0;  ///< broken: the invariant did not hold beforehand
+  };
+  const Counts& counts() const { return counts_; }
+
+ private:
+  /// What a UAV sweeps that brakes from the last word of it.
+  struct PeerReach {
+    std::size_t uav = 0;
+    Vector3d from_W, to_W;  ///< of its centre
+    double apart_m = 0.0;   ///< centres must stay so far off
+    double now_m = 0.0;     ///< how far off this UAV is
+  };
+  using Cube = WorldMap::Cube;
+
+  std::vector<PeerReach> reach_of_peers(const Facts& facts) const;
+  Held judge(const std::vector<Vector3d>& way_W, double speed_mps, const Facts& facts,
+             const std::vector<PeerReach>& peers);
+  bool proved(const Vector3d& p_W, double radius_m, const Facts& facts, Held& held);
+  bool assumed(const Vector3d& p_W, double radius_m, const std::vector<OrientedBox>& boxes) const;
+
+  const FlightConfig& config_;
+  const AgentConfig& agent_;
+  const bool blind_fleet_;
+  Held held_;
+  Counts counts_;
+  std::vector<Cube> cubes_;                       ///< scratch
+  /// Where it is commanded to be: what may not come nearer is measured from there. From the measured place, a UAV that
+  /// swings about it would creep.
+  Vector3d now_W_ = Vector3d::Zero();
+};
+
+}  // namespace skein::agent

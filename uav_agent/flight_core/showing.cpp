@@ -1,0 +1,74 @@
+#include "uav_agent/flight_core/showing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace skein::agent {
+namespace {
+
+constexpr std::int64_t kShowing = -3;
+constexpr double kUpM = 2.5;        ///< above its start, a UAV has risen
+constexpr double kColumnTopM = 6.0;
+constexpr double kAsideM = 5.0, kAboveM[] = {5.0, 8.0, 12.0};  ///< from there a LiDAR sees the column well
+constexpr int kSides = 8;
+constexpr double kShowMps = 4.0, kAgainS = 20.0;
+constexpr int kMostAttempts = 4;
+
+}  // namespace
+
+Showing::Showing(const AgentConfig& agent, const SafetyFilter& filter) : agent_(agent), filter_(filter) {
+  if (agent.me().role != Role::explorer) return;
+  for (std::size_t i = 0; i < agent.fleet.size(); ++i) {
+    if (agent.fleet[i].role == Role::explorer) continue;
+    std::optional<std::size_t> nearest;
+    const auto off_m = [&](std::size_t j) { return (agent.fleet[j].p_WB_start - agent.fleet[i].p_WB_start).norm(); };
+    for (std::size_t j = 0; j < agent.fleet.size(); ++j) {
+      if (agent.fleet[j].role == Role::explorer && (!nearest || off_m(j) < off_m(*nearest))) nearest = j;
+    }
+    if (nearest == std::size_t{agent.self}) charges_.push_back({i});
+  }
+}
+
+bool Showing::has_risen(std::size_t uav, const PlannerInput& in) const {
+  return std::ranges::any_of(in.peers.all(), [&](const Peer& peer) {
+    return peer.uav == uav && peer.seen && (peer.p_W - agent_.fleet[uav].p_WB_start).norm() > kUpM;
+  });
+}
+
+bool Showing::column_known(std::size_t uav, const WorldMap& map) const {
+  const double radius_m = filter_.tube_m(0.0) - agent_.me().body_radius_m + agent_.fleet[uav].body_radius_m;
+  Vector3d low_W = agent_.fleet[uav].p_WB_start, top_W = low_W;
+  low_W.z() += radius_m + 1.0;
+  top_W.z() += kColumnTopM;
+  return map.tube_free(low_W, top_W, radius_m);
+}
+
+std::optional<Goal> Showing::next(const PlannerInput& in, const FreeSpace& space) {
+  std::erase_if(charges_, [&](const Charge& it) { return it.attempts >= kMostAttempts || has_risen(it.uav, in); });
+  const Vector3d here_W = in.tracking.setpoint.p_WB;
+  const auto off_m = [&](const Charge& it) { return (agent_.fleet[it.uav].p_WB_start - here_W).norm(); };
+  std::ranges::stable_sort(charges_, {}, off_m);
+  for (Charge& it : charges_) {
+    if (in.tick < it.not_before || column_known(it.uav, *in.world_map)) continue;
+    const Vector3d start_W = agent_.fleet[it.uav].p_WB_start;
+    const double heading = std::atan2(here_W.y() - start_W.y(), here_W.x() - start_W.x());
+    for (const double above_m : kAboveM) {
+      for (int i = 0; i < kSides; ++i) {
+        const int side = i % 2 == 0 ? i / 2 : -(i + 1) / 2;
+        const double a = heading + 2.0 * std::numbers::pi * side / kSides;
+        const Vector3d p_W = start_W + Vector3d(kAsideM * std::cos(a), kAsideM * std::sin(a), above_m);
+        if (!space.free(p_W)) continue;
+        mate_ = it.uav;
+        ++it.attempts;
+        it.not_before = in.tick + ticks(kAgainS);
+        return Goal{.id = kShowing, .way = {{p_W, kShowMps}}};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool Showing::shown(const PlannerInput& in) const { return has_risen(mate_, in) || column_known(mate_, *in.world_map); }
+
+}  // namespace skein::agent
