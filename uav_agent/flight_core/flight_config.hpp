@@ -26,6 +26,8 @@ struct FlightConfig {
   double stall_s = 4.0;       ///< no way is gained for so long: the goal is given up, or the UAV looks around
   double look_s = 8.0;        ///< the LiDAR has looked in all directions: a period of its servo
   double refused_s = 40.0;    ///< a place that could not be proved is left out of ways for so long
+  double alone_s = 45.0;      ///< a UAV without a LiDAR that is told of no free space for so long takes boxes to be all
+  double alone_mps = 1.5;     ///< ...and flies no faster then
   double yield_s = 5.0;       ///< a UAV waits for one of lower number for so long
 
   // Bringing captures home.
@@ -47,6 +49,8 @@ struct FlightConfig {
     r.field("stall_s", stall_s, within(1.0, 60.0));
     r.field("look_s", look_s, within(1.0, 60.0));
     r.field("refused_s", refused_s, within(1.0, 600.0));
+    r.field("alone_s", alone_s, within(1.0, 1e6));
+    r.field("alone_mps", alone_mps, within(0.1, 20.0));
     r.field("yield_s", yield_s, within(0.0, 60.0));
     r.field("deliver_every_s", deliver_every_s, within(10.0, 1e6));
     r.field("return_margin_s", return_margin_s, within(0.0, 600.0));

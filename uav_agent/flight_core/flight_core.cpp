@@ -17,6 +17,7 @@ constexpr double kClimbGainM = 0.3;
 constexpr double kNoLinkS = 4.0;         ///< at a place from which the station should be seen
 constexpr double kIdleS = 4.0;           ///< without a goal that can be flown to
 constexpr std::int64_t kHome = -2;
+constexpr std::size_t kOwnRegions = 8;   ///< of the map, in which its own start lies: it was told of none
 constexpr double kShowCheckS = 5.0;
 constexpr std::uint64_t kShowLook = 10;  ///< exchanges
 
@@ -59,9 +60,20 @@ void FlightCore::enter(Mode mode, const PlannerInput& in) {
   since_ = in.tick;
 }
 
+/// A UAV without a LiDAR learns of free space by radio, or never.
+void FlightCore::listen(const PlannerInput& in) {
+  if (agent_.me().role == Role::explorer || !agent_.first_explorer()) return;
+  const std::size_t regions = in.world_map->regions().size();
+  if (regions != told_regions_ || !told_at_) told_at_ = in.tick;
+  told_regions_ = regions;
+  if (told_regions_ > kOwnRegions) return filter_.assume_boxes(false);
+  if (seconds(in.tick - *told_at_) > config_.alone_s) filter_.assume_boxes(true);
+}
+
 Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal>> goals) {
   Steering steering;
   waits_for_.reset();
+  listen(in);
   if (goals) wanted_ = std::move(*goals);
   const bool asked = goals.has_value();
   if (mode_ != Mode::ground) homing_.update(in);

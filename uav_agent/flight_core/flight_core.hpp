@@ -33,7 +33,8 @@ class FlightCore {
   Steering step(const PlannerInput& in, std::optional<std::vector<Goal>> goals);
   /// Lets the tracker go on by one exchange, as fast as is safe.
   std::optional<TrajectoryCommand> move(Tracker& tracker, const SafetyFilter::Facts& facts) {
-    return filter_.step(tracker, facts, navigator_.pace_mps());
+    const double most_mps = filter_.assumes_boxes() ? config_.alone_mps : navigator_.pace_mps();
+    return filter_.step(tracker, facts, most_mps);
   }
 
   /// Whom it waits for, in this exchange.
@@ -48,6 +49,7 @@ class FlightCore {
  private:
   enum class Mode { ground, takeoff, working, homing, showing, recovering };
 
+  void listen(const PlannerInput& in);
   void leave_ground(const PlannerInput& in, Steering& steering);
   void take_off(const PlannerInput& in, Steering& steering);
   void work(const PlannerInput& in, Steering& steering);
@@ -66,6 +68,8 @@ class FlightCore {
   Showing showing_;
   Mode mode_ = Mode::ground;
   Tick since_ = 0;                          ///< in this mode
+  std::optional<Tick> told_at_;             ///< when it last was told of space in another region
+  std::size_t told_regions_ = 0;
   std::optional<Tick> ready_since_;         ///< on the ground
   std::optional<Vector3d> top_W_;           ///< of the climb
   double climbed_m_ = 0.0;                  ///< so high, at...

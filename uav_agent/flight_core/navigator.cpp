@@ -38,8 +38,8 @@ FreeSpace::Config Navigator::space_config(const PlannerInput& in) const {
   config.world = in.world_map;
   config.fit = &fit_;
   config.unknown_cost = config_.unknown_cost;
-  config.blind_fleet = !agent_.first_explorer();
-  config.proved_only = agent_.me().role != Role::explorer && !config.blind_fleet;
+  config.blind_fleet = filter_.assumes_boxes();
+  config.proved_only = agent_.me().role != Role::explorer && !filter_.assumes_boxes();
   return config;
 }
 

@@ -38,7 +38,7 @@ std::vector<Vector3d> thinned(const std::vector<Vector3d>& way_W) {
 }  // namespace
 
 SafetyFilter::SafetyFilter(const FlightConfig& config, const AgentConfig& agent)
-    : config_(config), agent_(agent), blind_fleet_(!agent.first_explorer()) {}
+    : config_(config), agent_(agent), assumes_boxes_(!agent.first_explorer()) {}
 
 double SafetyFilter::tube_m(double speed_mps) const {
   return agent_.me().body_radius_m + kHaloM + config_.error_m + config_.error_per_mps_s * speed_mps;
@@ -105,14 +105,10 @@ Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, c
 }
 
 bool SafetyFilter::proved(const Vector3d& p_W, double radius_m, const Facts& facts, Held& held) {
-  if (blind_fleet_) {
-    if (assumed(p_W, radius_m, facts.boxes)) return true;
-    held.by = Held::By::unproved;
-    return false;
-  }
   if (p_W.z() - radius_m > config_.ground_m && facts.map.tube_free(p_W, p_W, radius_m)) return true;
   cubes_.clear();
   facts.map.not_free_near(p_W, radius_m, config_.ground_m, cubes_);
+  if (assumes_boxes_ && assumed(p_W, radius_m, facts.map, facts.boxes)) return true;
   for (const Cube& cube : cubes_) {
     if (facts.map.distance_to_m(cube, p_W) >= facts.map.distance_to_m(cube, now_W_) - kNearerM) continue;
     held.by = facts.map.known(cube).space == Space::occupied ? Held::By::structure : Held::By::unproved;
@@ -122,18 +118,19 @@ bool SafetyFilter::proved(const Vector3d& p_W, double radius_m, const Facts& fac
 }
 
 bool SafetyFilter::proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const {
-  if (blind_fleet_) return assumed(p_W, tube_m(0.0), boxes);
+  if (assumes_boxes_) return assumed(p_W, tube_m(0.0), map, boxes);
   if (p_W.z() - tube_m(0.0) > config_.ground_m) return map.tube_free(p_W, p_W, tube_m(0.0));
   std::vector<Cube> cubes;
   map.not_free_near(p_W, tube_m(0.0), config_.ground_m, cubes);
   return cubes.empty();
 }
 
-bool SafetyFilter::assumed(const Vector3d& p_W, double radius_m, const std::vector<OrientedBox>& boxes) const {
+bool SafetyFilter::assumed(const Vector3d& p_W, double radius_m, const WorldMap& map,
+                           const std::vector<OrientedBox>& boxes) const {
   const bool above_start = (p_W - agent_.me().p_WB_start).head<2>().norm() < kStartM && p_W.z() < kAboveStartM;
-  return std::ranges::none_of(boxes, [&](const OrientedBox& box) {
-    return box.contains(p_W, above_start ? 0.5 * radius_m : radius_m);
-  });
+  const double room_m = above_start ? 0.5 * radius_m : radius_m;
+  return map.structure_distance_m(p_W) >= room_m &&
+         std::ranges::none_of(boxes, [&](const OrientedBox& box) { return box.contains(p_W, room_m); });
 }
 
 }  // namespace skein::agent

@@ -8,7 +8,8 @@
 // restart). Where the invariant is broken so, nothing that breaks it may come nearer.
 //
 // Two UAVs that both keep it never meet: either could brake at any time, and neither counts on what the other will do.
-// In a fleet that has no LiDAR nobody can prove anything: there, what is outside all boxes is taken to be free.
+// In a fleet without a LiDAR nobody can prove anything, nor can a UAV that nobody tells anything: there, what is outside
+// all boxes, and off what is known to be occupied, is taken to be free (assume_boxes()).
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -48,6 +49,9 @@ class SafetyFilter {
   /// Lets the tracker go on by one exchange, as fast as is safe.   @param most_mps  and no faster than that.
   std::optional<TrajectoryCommand> step(Tracker& tracker, const Facts& facts, double most_mps);
 
+  /// From now on, what is outside all boxes is taken to be free, or not.
+  void assume_boxes(bool assume) { assumes_boxes_ = assume; }
+  bool assumes_boxes() const { return assumes_boxes_; }
   /// Of the last step.
   const Held& held() const { return held_; }
   /// Whether a body may be there: all about it is proved to be free.
@@ -74,11 +78,11 @@ class SafetyFilter {
   Held judge(const std::vector<Vector3d>& way_W, double speed_mps, const Facts& facts,
              const std::vector<PeerReach>& peers);
   bool proved(const Vector3d& p_W, double radius_m, const Facts& facts, Held& held);
-  bool assumed(const Vector3d& p_W, double radius_m, const std::vector<OrientedBox>& boxes) const;
+  bool assumed(const Vector3d& p_W, double radius_m, const WorldMap& map, const std::vector<OrientedBox>& boxes) const;
 
   const FlightConfig& config_;
   const AgentConfig& agent_;
-  const bool blind_fleet_;
+  bool assumes_boxes_;
   Held held_;
   Counts counts_;
   std::vector<Cube> cubes_;                       ///< scratch

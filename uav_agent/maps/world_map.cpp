@@ -155,7 +155,29 @@ MapLevel::Known WorldMap::known(const Cube& cube) const {
   return {};
 }
 
+/// Whether all blocks with a point between two corners are free all over, at whatever level. Most of them are, where
+/// a UAV flies.
+bool WorldMap::blocks_free(const Vector3d& low_W, const Vector3d& high_W) const {
+  const Cube low = MapLevel::block_of(cube_of(low_W)), high = MapLevel::block_of(cube_of(high_W));
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) {
+        const Cube block(x, y, z);
+        bool free = levels_.front()->all_free(block);
+        if (!free && levels_.front()->any_occupied(block)) return false;
+        for (std::size_t i = 1; i < levels_.size() && !free; ++i) {
+          free = levels_[i]->all_free(shifted(block, static_cast<int>(i)));
+        }
+        if (!free) return false;
+      }
+    }
+  }
+  return true;
+}
+
 bool WorldMap::tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius_m) const {
+  const Vector3d reach = Vector3d::Constant(radius_m);
+  if (blocks_free(a_W.cwiseMin(b_W) - reach, a_W.cwiseMax(b_W) + reach)) return true;
   return all_near(a_W, b_W, radius_m, [&](const Cube& cube) { return known(cube).space == Space::free; });
 }
 

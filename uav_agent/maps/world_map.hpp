@@ -97,6 +97,7 @@ class WorldMap {
   /// Up to where a beam is evidence for cubes of a level.
   double handed_over_m(const BeamBundle& bundle, std::size_t level) const;
   void note_changes();
+  bool blocks_free(const Vector3d& low_W, const Vector3d& high_W) const;
   template <class Visit>
   bool all_near(const Vector3d& a_W, const Vector3d& b_W, double radius_m, const Visit& visit) const;
 
