@@ -7,6 +7,7 @@
 #include "core/euler.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
+#include "uav_agent/maps/uav_traces.hpp"
 #include "uav_agent/maps/world_mapper.hpp"
 #include "uav_agent/onboard/beam_reader.hpp"
 #include "uav_agent/onboard/key_frame_filter.hpp"
@@ -45,13 +46,17 @@ struct Agent::Impl {
         peers(c),
         tracker(tracker_config(c.vehicle)) {
     const bool maps_world = planner->wants_world_map();
-    if (maps_world) map_radio.emplace(config);
-    if (!config.vehicle.lidar) {
-      if (maps_world) world_map = std::make_unique<WorldMap>(WorldMap::Config());
-      return;
+    const auto& lidar = config.vehicle.lidar;
+    if (lidar && (planner->wants_beams() || maps_world)) beam_reader.emplace(*lidar);
+    if (!maps_world) return;
+    if (lidar) {
+      world_mapper = std::make_unique<WorldMapper>(*lidar, WorldMapper::Config());
+    } else {
+      world_map = std::make_unique<WorldMap>(WorldMap::Config());
     }
-    if (planner->wants_beams() || maps_world) beam_reader.emplace(*config.vehicle.lidar);
-    if (maps_world) world_mapper = std::make_unique<WorldMapper>(*config.vehicle.lidar, WorldMapper::Config());
+    map_radio.emplace(config);
+    uav_traces.emplace(config, known_world()->config().cell_m);
+    known_world()->on_met([this](const Eigen::Vector3i& cube, bool news) { uav_traces->met(cube, news); });
   }
 
   void read_radio(const AgentInput& input);
@@ -77,6 +82,7 @@ struct Agent::Impl {
   std::unique_ptr<WorldMapper> world_mapper;  ///< if the planner wants the map and there is a LiDAR
   std::unique_ptr<WorldMap> world_map;        ///< if it wants the map and there is none
   std::optional<MapRadio> map_radio;          ///< if it wants the map
+  std::optional<UavTraces> uav_traces;        ///< if it wants the map
   std::vector<RadioMessage> planners_radio;   ///< of this exchange, without what was told of maps
   Uplink uplink;
   Tracker tracker;
@@ -125,8 +131,10 @@ void Agent::Impl::read_beams(const AgentInput& input) {
 void Agent::Impl::perceive(const AgentInput& input) {
   if (tracker.stands_by()) tracker.stand_by(input.state);
   peers.update(input.tick, input.neighbours);
+  if (uav_traces) uav_traces->update(input.tick, peers);
   read_radio(input);
   read_beams(input);
+  if (uav_traces) uav_traces->doubt(*known_world());
   if (!input.boxes.empty()) boxes = input.boxes;
   if (!input.key_frames.empty()) {
     const KnownBodies bodies(known_bodies(input));
