@@ -22,8 +22,8 @@ AgentConfig agent_config(const Scenario& scenario, UavIndex self) {
   config.self = self;
   config.vehicle = scenario.fleet.at(self).vehicle;
   for (const UavConfig& uav : scenario.fleet) {
-    config.fleet.push_back(
-        {uav.name, uav.vehicle.role, Vector3d(uav.start.x(), uav.start.y(), 0.0), body_radius_m(uav.vehicle)});
+    config.fleet.push_back({uav.name, uav.vehicle.role, Vector3d(uav.start.x(), uav.start.y(), 0.0),
+                            body_radius_m(uav.vehicle), uav.vehicle.max_speed_mps});
   }
   config.desired_mm_per_pixel = scenario.desired_mm_per_pixel;
   config.duration_s = scenario.duration_s;

@@ -19,6 +19,7 @@ struct FleetMember {
   Role role = Role::explorer;
   Vector3d p_WB_start = Vector3d::Zero();  ///< nominal place on the ground; the real one may be off by decimetres
   double body_radius_m = 0.63;             ///< sphere around the body's origin that holds the whole UAV
+  double max_speed_mps = 6.0;
 };
 
 struct AgentConfig {

@@ -97,7 +97,8 @@ class alignas(16) BeamEvidence {
   /// beams as it asked to be told of. At first any number is.
   bool due() const { return sums_[6] >= sums_[kWhenDue]; }
   void remind_at(double per_m2) { sums_[kWhenDue] = static_cast<std::int16_t>(std::min(kUnit * per_m2, 32767.0)); }
-  void never_remind() { sums_[kWhenDue] = 32767; }
+  void never_remind() { sums_[kWhenDue] = kNever; }
+  bool may_remind() const { return sums_[kWhenDue] != kNever; }
 
   /// P of above, its lower bound.
   double unseen_probability(const FreeCriterion& criterion) const;
@@ -105,6 +106,7 @@ class alignas(16) BeamEvidence {
  private:
   friend class FreeJudge;
   static constexpr std::size_t kWhenDue = 7;
+  static constexpr std::int16_t kNever = 32767;  ///< no window has so many
   /// One beam a square metre, straight through; the most oblique counts for 1.73 times as much.
   static constexpr int kUnit = 16;
 

@@ -21,11 +21,6 @@ MapLevel::MapLevel(double cell_m, const FreeCriterion& criterion, MapLevel* coar
   if (coarser != nullptr) coarser->finer_ = this;
 }
 
-std::size_t MapLevel::place_of(const Cell& cell) {
-  const auto along = [&](int axis) { return static_cast<std::size_t>(cell[axis] & (kBlock - 1)); };
-  return along(0) | along(1) << kBlockBits | along(2) << 2 * kBlockBits;
-}
-
 MapLevel::Cell MapLevel::cell_of(const Vector3d& p_W) const {
   return {down(p_W.x() / cell_m_), down(p_W.y() / cell_m_), down(p_W.z() / cell_m_)};
 }
@@ -38,7 +33,10 @@ MapLevel::Known MapLevel::known_at_all(const Cell& cell) const {
 BeamEvidence MapLevel::all_evidence(const Cell& cell) const {
   BeamEvidence evidence;
   const Slot* const slot = slots_.find(grid_key(block_of(cell)));
-  if (slot != nullptr && slot->number >= kFirst) evidence = blocks_[slot->number - kFirst].evidence[place_of(cell)];
+  if (slot != nullptr && slot->number >= kFirst) {
+    const Block& block = blocks_[slot->number - kFirst];
+    if (block.evidence) evidence = (*block.evidence)[place_of(cell)];
+  }
   if (coarser_ != nullptr) evidence.join(coarser_->all_evidence(shifted(cell, 1)));
   return evidence;
 }
@@ -71,7 +69,6 @@ MapLevel::Block* MapLevel::block(const Cell& at) {
     if (known.space != Space::free) continue;
     for (int corner = 0; corner < 8; ++corner) {
       const std::size_t place = place_of(cell + Cell(corner & 1, corner >> 1 & 1, corner >> 2));
-      block.evidence[place].never_remind();
       block.space[place] = Space::free;
       block.teller[place] = known.teller;
       ++block.free;
@@ -81,6 +78,17 @@ MapLevel::Block* MapLevel::block(const Cell& at) {
   return &block;
 }
 
+MapLevel::Evidence& MapLevel::evidence_of(Block& block) {
+  if (!block.evidence) {
+    block.evidence = std::make_unique<Evidence>();
+    ++evidences_;
+    for (std::size_t place = 0; place < kCells; ++place) {
+      if (block.space[place] != Space::unknown) (*block.evidence)[place].never_remind();
+    }
+  }
+  return *block.evidence;
+}
+
 MapLevel::Block& MapLevel::opened_block(const Cell& at) {
   Slot& slot = slots_[grid_key(at)];
   if (slot.number != kAllFree) return *block(at);
@@ -88,7 +96,6 @@ MapLevel::Block& MapLevel::opened_block(const Cell& at) {
   Block& opened = new_block(at, slot);
   opened.space.fill(Space::free);
   opened.teller.fill(teller);
-  for (BeamEvidence& evidence : opened.evidence) evidence.never_remind();
   opened.free = kCells;
   return opened;
 }
@@ -103,26 +110,55 @@ void MapLevel::change(Block& block, std::size_t place, Space space, Teller telle
       occupied_ += static_cast<std::size_t>(by);
     }
   };
+  settle(block, place);
+  if ((block.space[place] == Space::occupied) != (space == Space::occupied)) {
+    structure_changes_.push_back(cell_at(block, place));
+  }
   count(block.space[place], -1);
   count(space, 1);
   block.space[place] = space;
   block.teller[place] = teller;
-  block.evidence[place].never_remind();
   changes_.push_back(cell_at(block, place));
+}
+
+/// There is no doubt any more, and nothing to be proved.
+void MapLevel::settle(Block& block, std::size_t place) {
+  if (doubted(block, place)) --doubts_;
+  if (block.evidence) (*block.evidence)[place].never_remind();
 }
 
 void MapLevel::set(const Cell& cell, Space space, Teller teller) {
   const Known before = known(cell);
-  if (before.space >= space) return;
-  change(opened_block(block_of(cell)), place_of(cell), space, teller);
+  if (before.space < space) return change(opened_block(block_of(cell)), place_of(cell), space, teller);
+  const bool met_again = space == Space::occupied && teller == kOwn;
+  if (met_again && doubts_ > 0) settle(opened_block(block_of(cell)), place_of(cell));
 }
 
-bool MapLevel::vacate(const Cell& cell) {
-  if (known(cell).space != Space::occupied) return false;
+void MapLevel::forget(const Cell& cell) {
+  const Slot* const slot = slots_.find(grid_key(block_of(cell)));
+  if (slot == nullptr || slot->number == kNone) return;
   Block& block = opened_block(block_of(cell));
   change(block, place_of(cell), Space::unknown, kOwn);
-  block.evidence[place_of(cell)] = {};
-  return true;
+  if (block.evidence) (*block.evidence)[place_of(cell)] = {};
+}
+
+void MapLevel::doubt(const Cell& cell) {
+  if (known(cell).space != Space::occupied) return;
+  Block& block = opened_block(block_of(cell));
+  settle(block, place_of(cell));
+  evidence_of(block)[place_of(cell)] = {};
+  ++doubts_;
+}
+
+bool MapLevel::doubted(const Cell& cell) const {
+  if (doubts_ == 0) return false;
+  const Slot* const slot = slots_.find(grid_key(block_of(cell)));
+  return slot != nullptr && slot->number >= kFirst && doubted(blocks_[slot->number - kFirst], place_of(cell));
+}
+
+void MapLevel::settle_free(const Cell& cell, Teller teller) {
+  if (!doubted(cell)) return;
+  change(opened_block(block_of(cell)), place_of(cell), Space::free, teller);
 }
 
 void MapLevel::ask(Block& block, std::size_t place) {
@@ -130,12 +166,12 @@ void MapLevel::ask(Block& block, std::size_t place) {
 }
 
 void MapLevel::ask(Block& block, std::size_t place, const BeamEvidence& beyond) {
-  BeamEvidence& evidence = block.evidence[place];
+  BeamEvidence& evidence = (*block.evidence)[place];
   const double here = evidence.per_m2();
   BeamEvidence all = evidence;
   all.join(beyond);
   if (judge_.proved(all)) return change(block, place, Space::free, kOwn);
-  if (evidence.full()) return evidence.never_remind();
+  if (evidence.full()) return settle(block, place);
   const double lacking = judge_.fewest_per_m2() - all.per_m2();
   evidence.remind_at(here + std::max(finer_ == nullptr ? lacking : 0.0, kAskAgain * all.per_m2()));
   if (finer_ != nullptr) finer_->ask_within(cell_at(block, place), all);
@@ -145,9 +181,11 @@ void MapLevel::ask_within(const Cell& coarser_cell, const BeamEvidence& beyond) 
   const Slot* const slot = slots_.find(grid_key(block_of(2 * coarser_cell)));
   if (slot == nullptr || slot->number < kFirst) return;
   Block& block = blocks_[slot->number - kFirst];
+  if (!block.evidence) return;
   for (int corner = 0; corner < 8; ++corner) {
     const std::size_t place = place_of(2 * coarser_cell + Cell(corner & 1, corner >> 1 & 1, corner >> 2));
-    if (block.space[place] == Space::unknown && block.evidence[place].per_m2() > 0.0) ask(block, place, beyond);
+    const bool open = block.space[place] == Space::unknown || doubted(block, place);
+    if (open && (*block.evidence)[place].per_m2() > 0.0) ask(block, place, beyond);
   }
 }
 
@@ -226,10 +264,12 @@ void MapLevel::pass(const BeamBundle& bundle, double from_m, double to_m) {
     int u = static_cast<int>(walk.at_u), v = static_cast<int>(walk.at_v);
     const int block_u = u >> kBlockBits, block_v = v >> kBlockBits, block_layer = walk.layer >> kBlockBits;
     constexpr int kIn = kBlock - 1;
+    Evidence& gathered = evidence_of(*here);
     do {
-      gather(*here,
-             static_cast<std::size_t>((u & kIn) << bits_u | (v & kIn) << bits_v | (walk.layer & kIn) << bits_layer),
-             evidence);
+      const auto place =
+          static_cast<std::size_t>((u & kIn) << bits_u | (v & kIn) << bits_v | (walk.layer & kIn) << bits_layer);
+      gathered[place].add(evidence);
+      if (gathered[place].due()) ask(*here, place);
       ++windows_;
       walk.advance(1);
       u = static_cast<int>(walk.at_u);
@@ -259,7 +299,7 @@ void MapLevel::read(const Cell& block, std::array<Known, kCells>& known) const {
 void MapLevel::tidy(const Vector3d& p_W, double forget_m) {
   const double block_m = kBlock * cell_m_;
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    const Block& block = blocks_[i];
+    Block& block = blocks_[i];
     Slot& slot = slots_[grid_key(block.at)];
     if (slot.number != kFirst + i) continue;
     const Vector3d centre_W = (block.at.cast<double>() + Vector3d::Constant(0.5)) * block_m;
@@ -269,6 +309,8 @@ void MapLevel::tidy(const Vector3d& p_W, double forget_m) {
                           });
     const bool forgotten = block.free + block.occupied == 0 && (centre_W - p_W).norm() > forget_m;
     if (!all_free && !forgotten) continue;
+    if (block.evidence) --evidences_;
+    block.evidence.reset();
     slot = {all_free ? kAllFree : kNone, all_free ? block.teller.front() : kOwn};
     spare_.push_back(static_cast<std::uint32_t>(i));
   }

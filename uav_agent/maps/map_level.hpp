@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -38,6 +40,8 @@ class MapLevel {
   struct Known {
     Space space = Space::unknown;
     Teller teller = kOwn;
+
+    bool operator==(const Known&) const = default;
   };
 
   /// @param coarser  of cells twice as large, for beams from farther off: what is free there is free here, and its
@@ -52,10 +56,18 @@ class MapLevel {
   /// Counts beams in each layer across the axis of W that they are nearest to, for the cell whose window in the middle
   /// of that layer they pass, from one distance to another.
   void pass(const BeamBundle& bundle, double from_m, double to_m);
-  /// Occupied is for good: it overwrites all else, and nothing overwrites it but vacate().
+  /// Occupied overwrites all else, and nothing overwrites it but forget() and what doubt() says. A doubt is over when
+  /// this UAV finds the cell occupied again.
   void set(const Cell& cell, Space space, Teller teller);
-  /// Makes an occupied cell unknown again. @returns whether it was occupied.
-  bool vacate(const Cell& cell);
+  /// Makes a cell unknown, whatever it was, and what was gathered about it is gone. At coarser levels it may still be
+  /// free.
+  void forget(const Cell& cell);
+  /// From now on an occupied cell gathers evidence from nothing, and becomes free as an unknown one does.
+  void doubt(const Cell& cell);
+  bool doubted(const Cell& cell) const;
+  std::size_t doubts() const { return doubts_; }
+  /// Makes a cell free that is in doubt.
+  void settle_free(const Cell& cell, Teller teller);
 
   /// Of this level alone.
   Known known(const Cell& cell) const;
@@ -75,16 +87,27 @@ class MapLevel {
   /// Takes memory back: of blocks that are free all over, and of those of which nothing is known, farther than
   /// `forget_m` from a place, evidence and all.
   void tidy(const Vector3d& p_W, double forget_m);
+  /// Only of the former.
+  void tidy() { tidy(Vector3d::Zero(), std::numeric_limits<double>::infinity()); }
   /// Cells of which something new was said since it was asked last.
   std::vector<Cell> take_changes() { return std::exchange(changes_, {}); }
+  /// Cells that became occupied, or are so no longer, since it was asked last.
+  std::vector<Cell> take_structure_changes() { return std::exchange(structure_changes_, {}); }
 
   std::size_t free_cells() const { return free_; }
   std::size_t occupied_cells() const { return occupied_; }
   std::size_t blocks() const { return blocks_.size() - spare_.size(); }
-  std::size_t bytes() const { return blocks_.capacity() * sizeof(Block) + slots_.bytes(); }
+  std::size_t bytes() const {
+    return blocks_.capacity() * sizeof(Block) + evidences_ * sizeof(Evidence) + slots_.bytes();
+  }
   std::uint64_t windows() const { return windows_; }
 
   static Cell block_of(const Cell& cell) { return shifted(cell, kBlockBits); }
+  /// Of a cell in its block, x first.
+  static std::size_t place_of(const Cell& cell) {
+    const auto along = [&](int axis) { return static_cast<std::size_t>(cell[axis] & (kBlock - 1)); };
+    return along(0) | along(1) << kBlockBits | along(2) << 2 * kBlockBits;
+  }
   /// Of the cell at a place of a block, x first: where it is in the block.
   static Cell in_block(std::size_t place) {
     const auto at = static_cast<int>(place);
@@ -92,10 +115,11 @@ class MapLevel {
   }
 
  private:
+  using Evidence = std::array<BeamEvidence, kCells>;
   struct Block {
     Cell at = Cell::Zero();  ///< its number
     int free = 0, occupied = 0;
-    std::array<BeamEvidence, kCells> evidence = {};
+    std::unique_ptr<Evidence> evidence = {};  ///< none before a beam passes: a map that is only told of has none at all
     std::array<Space, kCells> space = {};
     std::array<Teller, kCells> teller = {};
   };
@@ -107,7 +131,6 @@ class MapLevel {
   struct Walk;
   static constexpr std::uint32_t kNone = 0, kAllFree = 1, kFirst = 2;
 
-  static std::size_t place_of(const Cell& cell);
   static Cell cell_at(const Block& block, std::size_t place) { return block.at * kBlock + in_block(place); }
   /// Made if there is none. nullptr where all of it is free.
   Block* block(const Cell& at);
@@ -119,11 +142,12 @@ class MapLevel {
   /// Of this level and of all coarser ones.
   BeamEvidence all_evidence(const Cell& cell) const;
   void change(Block& block, std::size_t place, Space space, Teller teller);
-  void gather(Block& block, std::size_t place, const BeamEvidence& beams) {
-    BeamEvidence& evidence = block.evidence[place];
-    evidence.add(beams);
-    if (evidence.due()) ask(block, place);
+  static bool doubted(const Block& block, std::size_t place) {
+    return block.space[place] == Space::occupied && block.evidence && (*block.evidence)[place].may_remind();
   }
+  void settle(Block& block, std::size_t place);
+  /// Made if there is none.
+  Evidence& evidence_of(Block& block);
   void ask(Block& block, std::size_t place);
   /// Whether it is free by now, or some of the finer cells in it.
   /// @param beyond  evidence of all coarser levels.
@@ -137,8 +161,8 @@ class MapLevel {
   BlockTable<Slot> slots_;
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> spare_;  ///< in blocks_
-  std::vector<Cell> changes_;
-  std::size_t free_ = 0, occupied_ = 0;
+  std::vector<Cell> changes_, structure_changes_;
+  std::size_t free_ = 0, occupied_ = 0, doubts_ = 0, evidences_ = 0;
   std::uint64_t windows_ = 0;
 };
 

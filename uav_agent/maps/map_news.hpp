@@ -9,7 +9,8 @@
 // What others told is passed on, except to the UAV that told it and to those that hear that UAV themselves. A UAV that
 // was started anew shows it by another incarnation, on either side: it is told everything again.
 // What is told only adds to a listener's map, and occupied outweighs free. A cube that a teller vacates stays occupied
-// where it was told before, until the listener vacates it, too: that is the safe side.
+// where it was told before, until the listener vacates it, too: that is the safe side. Only a cube that the listener
+// doubts (WorldMap::doubt()) becomes free by what its teller says.
 // Frame W.   Units: SI, bytes.   Threads: one.   Deterministic: no clock but `now`.
 // Bounded: bytes_per_s in any second, and memory by the size of the map (told_chunks.hpp).
 #pragma once

@@ -38,15 +38,6 @@ Subtree subtree_of(const Eigen::Vector3i& chunk, const WorldMap::Chunk& known);
 /// @returns the tree; empty if there are none.
 std::vector<std::uint8_t> join_subtrees(std::span<const Subtree> subtrees);
 
-/// As WorldMap::hear() takes it.
-struct HeardCube {
-  Eigen::Vector3i cube = Eigen::Vector3i::Zero();  ///< in cubes of its level
-  int level = 0;
-  Space space = Space::unknown;
-
-  bool operator==(const HeardCube&) const = default;
-};
-
 /// What a tree says, in cubes of the largest levels that a map has.
 /// @param levels  of the map that is to take it in.
 /// @returns nullopt when it is no tree, or one that join_subtrees() does not write: with larger leaves, or more cubes.

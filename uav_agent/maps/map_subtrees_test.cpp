@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/random_stream.hpp"
+#include "uav_agent/testing/news_radio.hpp"
 
 namespace skein::agent {
 namespace {
@@ -198,6 +199,55 @@ TEST(MapSubtrees, DamagedTreesAreRefusedOrWithinBounds) {
   }
   EXPECT_GT(read, 100U);
   EXPECT_GT(refused, 1000U);
+}
+
+/// What is free all over takes no memory, and nothing that was told is lost by it.
+TEST(HeardMap, StaysSmallAndKnowsAllThatItWasTold) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    RandomStream random(seed, "heard_map", 0);
+    WorldMap map(WorldMap::Config{});
+    constexpr int kEdge = 16, kMixedEach = 20;
+    std::size_t mixed = 0;
+    for (int i = 0; i < kEdge * kEdge * kEdge; ++i) {
+      const Eigen::Vector3i chunk =
+          Eigen::Vector3i(i % kEdge, i / kEdge % kEdge, i / (kEdge * kEdge)) - Eigen::Vector3i::Constant(kEdge / 2);
+      const bool whole = random.uniform() * kMixedEach > 1.0;
+      mixed += !whole;
+      std::vector<HeardCube> cubes;
+      for (std::size_t at = 0; at < MapLevel::kCells; ++at) {
+        const Eigen::Vector3i cube = chunk * WorldMap::kChunk + MapLevel::in_block(at);
+        const Space space = whole || random.uniform() < 0.5 ? Space::free : Space::occupied;
+        if (whole || random.uniform() < 0.8) cubes.push_back({cube, 0, space});
+      }
+      map.hear(cubes, 1);
+      for (const HeardCube& cube : cubes) ASSERT_EQ(map.known(cube.cube), (MapLevel::Known{cube.space, 1}));
+      WorldMap::Chunk known;
+      map.read(chunk, known);
+      for (std::size_t at = 0; at < MapLevel::kCells; ++at) {
+        ASSERT_EQ(known[at], map.known(chunk * WorldMap::kChunk + MapLevel::in_block(at)));
+      }
+    }
+    EXPECT_LE(map.counts().blocks, mixed + mixed / 4 + 257);
+    EXPECT_LT(map.counts().bytes, 4'000'000U) << "5 % of the chunks, a byte or two a cube";
+  }
+}
+
+TEST(HeardMap, AChunkIsReadAsItsCubesAreKnown) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RandomStream random(seed, "read_chunks", 0);
+    WorldMap::Config config;
+    if (seed % 2 == 0) config.to_m = {2.0, 4.0, 8.0, 16.0};
+    WorldMap map(config);
+    test::draw_space(map, random, Vector3d::Zero(), 12.0, 300);
+    WorldMap::Chunk known;
+    for (int i = 0; i < 8 * 8 * 8; ++i) {
+      const Eigen::Vector3i chunk(i % 8 - 4, i / 8 % 8 - 4, i / 64 - 4);
+      map.read(chunk, known);
+      for (std::size_t at = 0; at < MapLevel::kCells; ++at) {
+        ASSERT_EQ(known[at], map.known(chunk * WorldMap::kChunk + MapLevel::in_block(at)));
+      }
+    }
+  }
 }
 
 }  // namespace

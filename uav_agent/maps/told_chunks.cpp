@@ -76,7 +76,7 @@ void ToldChunks::hear(WorldMap& map, std::span<const HeardCube> cubes, Teller te
     }
   };
   take_all(std::nullopt);
-  for (const HeardCube& cube : cubes) map.hear(cube.cube, cube.level, cube.space, teller);
+  map.hear(cubes, teller);
   take_all(teller);
 }
 

@@ -8,10 +8,23 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::uint64_t kTidyEach = 20;  // scans
-constexpr int kRegionBits = 2;           // of chunks
+constexpr std::uint64_t kTidyEach = 20;        // scans
+constexpr std::size_t kTidyAfterBlocks = 256;  // more than after the last time, where it was told of
+constexpr int kRegionBits = 2;                 // of chunks
 /// From this level on, windows are so large that beams of a LiDAR that creeps are not spread evenly in them.
 constexpr std::size_t kUneven = 2;
+
+/// In a cube of a chunk.   @param lowest  of its smallest ones.   @param edge  in smallest ones.
+void fill_unknown(WorldMap::Chunk& known, const Eigen::Vector3i& lowest, int edge, const MapLevel::Known& about) {
+  for (int z = 0; z < edge; ++z) {
+    for (int y = 0; y < edge; ++y) {
+      const std::size_t first = MapLevel::place_of(lowest + Eigen::Vector3i(0, y, z));
+      for (std::size_t place = first; place < first + static_cast<std::size_t>(edge); ++place) {
+        if (known[place].space == Space::unknown) known[place] = about;
+      }
+    }
+  }
+}
 
 }  // namespace
 
@@ -33,12 +46,19 @@ WorldMap::WorldMap(const Config& config) : config_(config), distances_(config.ce
   }
 }
 
+void WorldMap::meet(const Cube& cube, Teller teller) {
+  MapLevel& level = *levels_.front();
+  const bool news = on_met_ && level.known(cube).space != Space::occupied;
+  level.set(cube, Space::occupied, teller);
+  if (on_met_ && (news || teller == kOwn)) on_met_(cube, news);
+}
+
 void WorldMap::insert(std::span<const BeamBundle> bundles, std::span<const Eigen::Vector3f> hits_W) {
   Cube last = Cube::Constant(std::numeric_limits<int>::max());
   for (const Eigen::Vector3f& hit_W : hits_W) {
     if (hit_W.z() < config_.ground_m) continue;
     const Cube cube = cube_of(hit_W.cast<double>());
-    if (cube != last) levels_.front()->set(cube, Space::occupied, kOwn);
+    if (cube != last) meet(cube, kOwn);
     last = cube;
   }
   for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -68,11 +88,16 @@ double WorldMap::handed_over_m(const BeamBundle& bundle, std::size_t level) cons
   return std::max(0.0, (plane - from) / along);
 }
 
+/// The largest cubes first: what is proved there may settle doubts in smaller ones.
 void WorldMap::note_changes() {
-  for (std::size_t i = 0; i < levels_.size(); ++i) {
-    for (const MapLevel::Cell& cell : levels_[i]->take_changes()) {
-      if (i == 0 && levels_[i]->known(cell).space == Space::occupied) distances_.changed(cell);
-      const Cube chunk = shifted(cell, MapLevel::kBlockBits - static_cast<int>(i));
+  for (int i = levels() - 1; i >= 0; --i) {
+    MapLevel& level = *levels_[static_cast<std::size_t>(i)];
+    for (const Cube& cube : level.take_changes()) {
+      if (i > 0 && levels_.front()->doubts() > 0) {
+        const bool proved = level.known(cube) == MapLevel::Known{Space::free, kOwn};
+        if (proved) settle_free(cube, i, kOwn);
+      }
+      const Cube chunk = shifted(cube, MapLevel::kBlockBits - i);
       const Cube region = shifted(chunk, kRegionBits);
       chunks_[grid_key(chunk)] = ++changes_;
       std::uint64_t& changed_at = in_regions_[grid_key(region)];
@@ -80,6 +105,7 @@ void WorldMap::note_changes() {
       changed_at = changes_;
     }
   }
+  for (const Cube& cube : levels_.front()->take_structure_changes()) distances_.changed(cube);
 }
 
 std::uint64_t WorldMap::changed_at(const Cube& chunk) const {
@@ -121,10 +147,36 @@ void WorldMap::set_free(const Vector3d& p_W, double radius_m) {
 
 void WorldMap::vacate(const Vector3d& p_W, double radius_m) {
   all_near(p_W, p_W, radius_m, [&](const Cube& cube) {
-    if (levels_.front()->vacate(cube)) distances_.changed(cube);
+    if (levels_.front()->known(cube).space != Space::occupied) return true;
+    unprove_around(cube);
+    levels_.front()->forget(cube);
     return true;
   });
   note_changes();
+}
+
+void WorldMap::doubt(const Cube& cube) {
+  if (levels_.front()->known(cube).space != Space::occupied) return;
+  unprove_around(cube);
+  levels_.front()->doubt(cube);
+  note_changes();
+}
+
+/// The cubes about this one, the largest first, are known no more; what one of them proved of the smaller ones in it
+/// stays, but for the one that has the cube.
+void WorldMap::unprove_around(const Cube& cube) {
+  MapLevel::Known about;
+  for (int i = levels() - 1; i > 0; --i) {
+    const Cube larger = shifted(cube, i), next = shifted(cube, i - 1);
+    MapLevel& level = *levels_[static_cast<std::size_t>(i)];
+    if (const MapLevel::Known known = level.known(larger); known.space == Space::free) about = known;
+    level.forget(larger);
+    if (about.space != Space::free) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Cube smaller = 2 * larger + Cube(corner & 1, corner >> 1 & 1, corner >> 2);
+      if (smaller != next) levels_[static_cast<std::size_t>(i - 1)]->set(smaller, Space::free, about.teller);
+    }
+  }
 }
 
 double WorldMap::structure_distance_m(const Vector3d& p_W) const {
@@ -138,13 +190,47 @@ double WorldMap::structure_distance_m(const Vector3d& p_W) const {
 }
 
 void WorldMap::hear(const Cube& cube, int level, Space space, Teller teller) {
-  if (space == Space::free) {
-    for (int i = level; i < levels(); ++i) {
-      if (levels_[static_cast<std::size_t>(i)]->known(shifted(cube, i - level)).space != Space::unknown) return;
-    }
-  }
-  levels_.at(static_cast<std::size_t>(level))->set(cube, space, teller);
+  const HeardCube heard = {cube, level, space};
+  hear(std::span(&heard, 1), teller);
+}
+
+void WorldMap::hear(std::span<const HeardCube> cubes, Teller teller) {
+  for (const HeardCube& heard : cubes) take(heard, teller);
   note_changes();
+  tidy_if_grown();
+}
+
+/// By so much at least that looking through all blocks costs no more than making them has.
+void WorldMap::tidy_if_grown() {
+  const auto blocks = [&] {
+    std::size_t count = 0;
+    for (const auto& level : levels_) count += level->blocks();
+    return count;
+  };
+  if (blocks() <= tidied_blocks_ + tidied_blocks_ / 4 + kTidyAfterBlocks) return;
+  for (const auto& level : levels_) level->tidy();
+  tidied_blocks_ = blocks();
+}
+
+void WorldMap::take(const HeardCube& heard, Teller teller) {
+  if (heard.space == Space::occupied) return meet(heard.cube, teller);
+  settle_free(heard.cube, heard.level, teller);
+  for (int i = heard.level; i < levels(); ++i) {
+    if (levels_.at(static_cast<std::size_t>(i))->known(shifted(heard.cube, i - heard.level)).space != Space::unknown)
+      return;
+  }
+  levels_.at(static_cast<std::size_t>(heard.level))->set(heard.cube, Space::free, teller);
+}
+
+/// Doubts within a cube that is free now: own beams have proved it since, or whoever said that they were occupied says
+/// now that they are free.
+void WorldMap::settle_free(const Cube& cube, int level, Teller teller) {
+  MapLevel& smallest = *levels_.front();
+  const int edge = 1 << level;
+  for (int i = 0; smallest.doubts() > 0 && i < edge * edge * edge; ++i) {
+    const Cube in = cube * edge + Cube(i % edge, i / edge % edge, i / edge / edge);
+    if (teller == kOwn || smallest.known(in).teller == teller) smallest.settle_free(in, teller);
+  }
 }
 
 MapLevel::Known WorldMap::known(const Cube& cube) const {
@@ -192,24 +278,26 @@ void WorldMap::not_free_near(const Vector3d& p_W, double radius_m, double lowest
 double WorldMap::clear_way_m(const Vector3d& from_W, const Vector3d& direction_W, double reach_m) const {
   const double step_m = 0.5 * config_.cell_m;
   for (double way_m = 0.0; way_m < reach_m; way_m += step_m) {
-    if (levels_.front()->known(cube_of(from_W + way_m * direction_W)).space == Space::occupied) return way_m;
+    const Cube cube = cube_of(from_W + way_m * direction_W);
+    const bool met = levels_.front()->known(cube).space == Space::occupied;
+    if (met && !levels_.front()->doubted(cube)) return way_m;
   }
   return reach_m;
 }
 
 void WorldMap::read(const Cube& chunk, Chunk& known) const {
   levels_.front()->read(chunk, known);
-  if (std::ranges::all_of(known, [](const auto& cube) { return cube.space != Space::unknown; })) return;
   Chunk larger;
-  for (std::size_t i = 1; i < levels_.size(); ++i) {
-    const int bits = static_cast<int>(i);
-    levels_[i]->read(shifted(chunk, bits), larger);
-    const Cube corner = (chunk - shifted(chunk, bits) * (1 << bits)) * kChunk;  // of the chunk in that block, in cubes
-    for (std::size_t at = 0; at < known.size(); ++at) {
-      MapLevel::Known& cube = known[at];
-      if (cube.space != Space::unknown) continue;
-      const Cube in = shifted(corner + MapLevel::in_block(at), bits);
-      cube = larger[static_cast<std::size_t>(in.x() + kChunk * (in.y() + kChunk * in.z()))];
+  for (int i = 1; i < levels(); ++i) {
+    if (std::ranges::all_of(known, [](const auto& cube) { return cube.space != Space::unknown; })) return;
+    const Cube block = shifted(chunk, i);
+    levels_[static_cast<std::size_t>(i)]->read(block, larger);
+    const int count = kChunk >> i;                           // of its cells along an edge of the chunk
+    const Cube corner = (chunk - block * (1 << i)) * count;  // of the chunk in that block, in its cells
+    for (int at = 0; at < count * count * count; ++at) {
+      const Cube cell(at % count, at / count % count, at / (count * count));
+      const MapLevel::Known& about = larger[MapLevel::place_of(corner + cell)];
+      if (about.space != Space::unknown) fill_unknown(known, cell * (1 << i), 1 << i, about);
     }
   }
 }

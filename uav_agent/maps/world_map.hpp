@@ -2,6 +2,7 @@
 // occupied or unknown.
 //
 // A cube is occupied when a beam ended in it, for good: thin members must not be carved away by beams that pass them.
+// Only what may have been a UAV can be taken back: doubt().
 // It is free when so many beams have passed it that a member would have been seen (free_evidence.hpp); till then it
 // is unknown, and evidence is gathered. A place far away is seen by few beams, so there cubes are larger: 0.5 m up to
 // 8 m from the LiDAR, 1 m up to 16 m, 2 m beyond. In larger ones only beams count that pass all of the cube, and so
@@ -12,14 +13,25 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "uav_agent/maps/distance_field.hpp"
 #include "uav_agent/maps/map_level.hpp"
 
 namespace skein::agent {
+
+/// What somebody tells of a cube of (1 << level) smallest ones along each edge.
+struct HeardCube {
+  Eigen::Vector3i cube = Eigen::Vector3i::Zero();  ///< in cubes of its level
+  int level = 0;                                   ///< 0 up to WorldMap::levels() - 1
+  Space space = Space::unknown;                    ///< free, or occupied at level 0
+
+  bool operator==(const HeardCube&) const = default;
+};
 
 class WorldMap {
  public:
@@ -45,11 +57,17 @@ class WorldMap {
   /// Makes the cubes with a point within `radius_m` free, unless they are occupied or below the ground (z = 0): where
   /// the UAV itself stands.
   void set_free(const Vector3d& p_W, double radius_m);
-  /// Makes occupied cubes with a point within `radius_m` unknown: a UAV was seen there that has moved on.
+  /// Makes occupied cubes with a point within `radius_m` unknown: a UAV was seen there that has moved on. Whatever was
+  /// gathered about them, and about the larger cubes around them, counts no more.
   void vacate(const Vector3d& p_W, double radius_m);
-  /// What somebody told of a cube of (1 << level) smallest ones along each edge. Occupied ones are of level 0. Less
-  /// than what is known already is not taken.
-  /// @param cube  in cubes of that size.   @param level  0 up to levels() - 1.
+  /// An occupied cube that may have been a UAV. It stays occupied until beams from now on prove it to be free, as they
+  /// do of an unknown one, or until who told of it tells that it is free. When a beam ends in it again, it is occupied
+  /// for good. What was gathered before counts no more, as with vacate().
+  /// @param cube  a smallest one.
+  void doubt(const Eigen::Vector3i& cube);
+  bool doubted(const Eigen::Vector3i& cube) const { return levels_.front()->doubted(cube); }
+  /// What somebody told. Less than what is known already is not taken.
+  void hear(std::span<const HeardCube> cubes, Teller teller);
   void hear(const Eigen::Vector3i& cube, int level, Space space, Teller teller);
 
   Space at(const Vector3d& p_W) const { return known(cube_of(p_W)).space; }
@@ -69,7 +87,8 @@ class WorldMap {
     const Vector3d centre = (cube.cast<double>() + Vector3d::Constant(0.5)) * config_.cell_m;
     return ((p_W - centre).cwiseAbs().array() - 0.5 * config_.cell_m).max(0.0).matrix().norm();
   }
-  /// How far along a unit vector no cube is occupied, asked in steps of half a cube: `reach_m` at most.
+  /// How far along a unit vector no cube is occupied, but for those in doubt; asked in steps of half a cube: `reach_m`
+  /// at most.
   double clear_way_m(const Vector3d& from_W, const Vector3d& direction_W, double reach_m) const;
 
   using Chunk = std::array<MapLevel::Known, MapLevel::kCells>;  ///< of its smallest cubes, x first
@@ -82,6 +101,11 @@ class WorldMap {
   const std::vector<Eigen::Vector3i>& regions() const { return regions_; }
 
   const Config& config() const { return config_; }
+  /// Is called with each smallest cube in which beams of this UAV end, and with those that others newly tell to be
+  /// occupied; and whether that is news.
+  using OnMet = std::function<void(const Eigen::Vector3i& cube, bool news)>;
+  void on_met(OnMet on_met) { on_met_ = std::move(on_met); }
+
   int levels() const { return static_cast<int>(levels_.size()); }
 
   struct Counts {
@@ -96,6 +120,11 @@ class WorldMap {
  private:
   /// Up to where a beam is evidence for cubes of a level.
   double handed_over_m(const BeamBundle& bundle, std::size_t level) const;
+  void meet(const Cube& cube, Teller teller);
+  void tidy_if_grown();
+  void take(const HeardCube& heard, Teller teller);
+  void settle_free(const Cube& cube, int level, Teller teller);
+  void unprove_around(const Cube& cube);
   void note_changes();
   bool blocks_free(const Vector3d& low_W, const Vector3d& high_W) const;
   template <class Visit>
@@ -107,6 +136,8 @@ class WorldMap {
   BlockTable<std::uint64_t> chunks_, in_regions_;  ///< changed_at()
   std::vector<Eigen::Vector3i> regions_;
   std::uint64_t changes_ = 0, scans_ = 0;
+  std::size_t tidied_blocks_ = 0;  ///< that there were after the last time
+  OnMet on_met_;
 };
 
 }  // namespace skein::agent

@@ -237,6 +237,47 @@ TEST(WorldMap, AUavThatHasMovedOnLeavesItsPlaceUnknown) {
   EXPECT_EQ(map.at({3.1, 0.1, 0.1}), Space::occupied);
 }
 
+/// A doubt is no proof, at no level: after it as many beams are needed as of a map that never saw any.
+TEST(WorldMap, WhatIsDoubtedIsProvedFromNothingAndNothingElseIsForgotten) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    RandomStream random(seed, "doubt", 0);
+    WorldMap::Config config;
+    if (seed % 3 != 0) config.to_m = {1.0, seed % 3 == 1 ? 2.0 : 16.0, 16.0};
+    WorldMap map(config), fresh(config);
+    std::vector<BeamBundle> some;
+    for (const BeamBundle& beam : flood(4.0)) {
+      if (random.uniform() < 0.15) some.push_back(beam);
+    }
+    for (BeamBundle& beam : some) beam.around_free_m = beam.free_m;
+    const Vector3d thing_W(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2));
+    const Eigen::Vector3i cube = map.cube_of(thing_W);
+    for (int before = static_cast<int>(random.uniform() * 30.0); before >= 0; --before) map.insert(some, {});
+    map.insert({}, std::vector<Eigen::Vector3f>{thing_W.cast<float>()});
+    std::vector<Space> known;
+    const auto all = [&](const auto& visit) {
+      for (int i = 0; i < 20 * 20 * 20; ++i) visit(Eigen::Vector3i(i % 20 - 10, i / 20 % 20 - 10, i / 400 - 10));
+    };
+    all([&](const Eigen::Vector3i& at) { known.push_back(map.known(at).space); });
+    map.doubt(cube);
+    std::size_t next = 0;
+    all([&](const Eigen::Vector3i& at) { EXPECT_EQ(map.known(at).space, known[next++]) << at.transpose(); });
+    int needed = 0;
+    while (fresh.known(cube).space != Space::free && ++needed < 200) {
+      fresh.insert(some, {});
+      EXPECT_EQ(map.known(cube).space, Space::occupied) << seed << " after " << needed;
+      map.insert(some, {});
+    }
+    ASSERT_LT(needed, 200) << seed;
+    EXPECT_EQ(map.known(cube).space, Space::free) << seed;
+    EXPECT_EQ(map.structure_distance_m(thing_W), 4.0);
+    map.insert({}, std::vector<Eigen::Vector3f>{thing_W.cast<float>()});
+    map.doubt(cube);
+    map.insert({}, std::vector<Eigen::Vector3f>{thing_W.cast<float>()});
+    for (int i = 0; i < needed; ++i) map.insert(some, {});
+    EXPECT_EQ(map.known(cube).space, Space::occupied) << "it was met again";
+  }
+}
+
 /// Whoever flies on keeps what it knows, but no evidence of all that it ever passed.
 TEST(WorldMap, WhatIsFarAndUnknownIsForgotten) {
   WorldMap::Config config;

@@ -8,6 +8,7 @@
 #include "uav_agent/flight_core/flight_core.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
+#include "uav_agent/maps/uav_traces.hpp"
 #include "uav_agent/maps/world_mapper.hpp"
 #include "uav_agent/onboard/beam_reader.hpp"
 #include "uav_agent/onboard/key_frame_filter.hpp"
@@ -54,13 +55,17 @@ struct Agent::Impl {
         tracker(tracker_config(c.vehicle)) {
     if (planner->flight()) core = std::make_unique<FlightCore>(*planner->flight(), config);
     const bool maps_world = core || planner->wants_world_map();
-    if (maps_world) map_radio.emplace(config);
-    if (!config.vehicle.lidar) {
-      if (maps_world) world_map = std::make_unique<WorldMap>(world_map_config());
-      return;
+    const auto& lidar = config.vehicle.lidar;
+    if (lidar && (planner->wants_beams() || maps_world)) beam_reader.emplace(*lidar);
+    if (!maps_world) return;
+    if (lidar) {
+      world_mapper = std::make_unique<WorldMapper>(*lidar, WorldMapper::Config{.map = world_map_config()});
+    } else {
+      world_map = std::make_unique<WorldMap>(world_map_config());
     }
-    if (planner->wants_beams() || maps_world) beam_reader.emplace(*config.vehicle.lidar);
-    if (maps_world) world_mapper = std::make_unique<WorldMapper>(*config.vehicle.lidar, WorldMapper::Config{.map = world_map_config()});
+    map_radio.emplace(config);
+    uav_traces.emplace(config, known_world()->config().cell_m);
+    known_world()->on_met([this](const Eigen::Vector3i& cube, bool news) { uav_traces->met(cube, news); });
   }
 
   void read_radio(const AgentInput& input);
@@ -87,6 +92,7 @@ struct Agent::Impl {
   std::unique_ptr<WorldMapper> world_mapper;  ///< if the planner wants the map and there is a LiDAR
   std::unique_ptr<WorldMap> world_map;        ///< if it wants the map and there is none
   std::optional<MapRadio> map_radio;          ///< if it wants the map
+  std::optional<UavTraces> uav_traces;        ///< if it wants the map
   std::vector<RadioMessage> planners_radio;   ///< of this exchange, without what was told of maps
   Uplink uplink;
   Tracker tracker;
@@ -139,8 +145,10 @@ void Agent::Impl::perceive(const AgentInput& input) {
   if (world_map && world_map->regions().empty()) {
     world_map->set_free(input.state.p_WB, WorldMapper::Config().start_clear_m);
   }
+  if (uav_traces) uav_traces->update(input.tick, peers);
   read_radio(input);
   read_beams(input);
+  if (uav_traces) uav_traces->doubt(*known_world());
   if (!input.boxes.empty()) boxes = input.boxes;
   if (!input.key_frames.empty()) {
     const KnownBodies bodies(known_bodies(input));

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
+#include "core/lidar_geometry.hpp"
 #include "uav_agent/onboard/agent.hpp"
 #include "uav_agent/testing/news_radio.hpp"
 
@@ -59,7 +62,7 @@ class Talkers {
       for (const RadioMessage& message : uavs_[uav].sent) {
         if (MapRadio::is_of_maps(message)) ++uavs_[uav].told;
         for (std::size_t other = 0; other < uavs_.size(); ++other) {
-          if (other != uav && random_.uniform() >= loss_) arriving[other].push_back(message);
+          if (linked(uav, other) && random_.uniform() >= loss_) arriving[other].push_back(message);
         }
       }
     }
@@ -68,13 +71,13 @@ class Talkers {
       input.tick = tick_;
       input.state.p_WB = place_W(uav);
       for (std::size_t other = 0; other < uavs_.size(); ++other) {
-        if (other != uav) input.neighbours.push_back({node_of_uav(UavIndex(other)), place_W(other)});
+        if (linked(uav, other)) input.neighbours.push_back({node_of_uav(UavIndex(other)), place_W(other)});
       }
       input.radio = arriving[uav];
       if (uav == 0 && scans && tick_ % (2 * kExchangeTicks) == 0) {
-        input.scans = {{.tick = tick_}};
         const double way = static_cast<double>(tick_ / 40 % 80);  // from side to side, without an end
         input.servos = {{tick_, 0.08 * (std::min(way, 80.0 - way) - 20.0), way < 40.0 ? 0.8 : -0.8}};
+        input.scans = {{.tick = tick_, .points_W = met(lidar_pose(input.state.X_WB(), input.servos[0].angle))}};
       }
       uavs_[uav].sent = uavs_[uav].agent->step(input).radio;
     }
@@ -89,11 +92,41 @@ class Talkers {
     return most;
   }
 
+  /// From now on nobody hears this UAV, and it hears nobody.
+  void hide(std::size_t uav) { hidden_ = uav; }
+  void show() { hidden_.reset(); }
+  /// A thing of half a metre, which the LiDAR sees.
+  void place(const std::optional<Vector3d>& thing_W) { thing_W_ = thing_W; }
+  std::size_t doubts(std::size_t uav) const {
+    std::size_t doubts = 0;
+    test::visit_chunks(map(uav), [&](const Eigen::Vector3i& chunk) {
+      for (std::size_t at = 0; at < MapLevel::kCells; ++at) {
+        doubts += map(uav).doubted(chunk * WorldMap::kChunk + MapLevel::in_block(at));
+      }
+    });
+    return doubts;
+  }
+
   const WorldMap& map(std::size_t uav) const { return *uavs_[uav].planner->map; }
   MapLooker& planner(std::size_t uav) { return *uavs_[uav].planner; }
   int told(std::size_t uav) const { return uavs_[uav].told; }
 
  private:
+  bool linked(std::size_t uav, std::size_t other) const { return uav != other && hidden_ != uav && hidden_ != other; }
+  std::vector<Eigen::Vector3f> met(const Isometry3d& X_WL) const {
+    std::vector<Eigen::Vector3f> points_W;
+    if (!thing_W_) return points_W;
+    const LidarConfig lidar;
+    const Vector3d p_L = X_WL.inverse() * *thing_W_;
+    for (int beam = 0; beam < lidar.rings * lidar.columns; ++beam) {
+      const Vector3d direction_L = lidar_direction_L(lidar, beam / lidar.columns, beam % lidar.columns);
+      const Vector3d point_L = p_L.dot(direction_L) * direction_L;
+      if (p_L.dot(direction_L) > 0.0 && (point_L - p_L).norm() < 0.25) {
+        points_W.push_back((X_WL * point_L).cast<float>());
+      }
+    }
+    return points_W;
+  }
   static Vector3d place_W(std::size_t uav) { return {0.0, 8.0 * static_cast<double>(uav), 10.0}; }
 
   struct Uav {
@@ -104,6 +137,8 @@ class Talkers {
   };
   RandomStream random_;
   const double loss_;
+  std::optional<std::size_t> hidden_;
+  std::optional<Vector3d> thing_W_;
   std::vector<Uav> uavs_;
   Tick tick_ = 0;
 };
@@ -158,6 +193,26 @@ TEST(MapRadio, OnlyMessagesOfMapsAreKeptFromPlanners) {
   }
   EXPECT_TRUE(MapRadio::is_of_maps({.topic = "/plan", .text = "map/1 x", .source = {}}));
   EXPECT_FALSE(MapRadio::is_of_maps({.topic = "/broadcast", .text = "map/1 x", .source = {}}));
+}
+
+/// A thing is met while UAV 2 is out of sight, and never again.
+TEST(MapRadio, WhatMayHaveBeenAUavOutOfSightIsDoubtedByAllWhenItIsHeardAgain) {
+  Talkers talkers(3, 1, 0.0);
+  const Vector3d thing_W(5.0, 12.0, 10.0);
+  for (int i = 0; i < 120; ++i) talkers.exchange(true);
+  talkers.hide(2);
+  for (int i = 0; i < 40; ++i) talkers.exchange(true);
+  talkers.place(thing_W);
+  for (int i = 0; i < 200; ++i) talkers.exchange(true);
+  talkers.place(std::nullopt);
+  for (int i = 0; i < 40; ++i) talkers.exchange(true);
+  for (const std::size_t uav : {0U, 1U}) {
+    EXPECT_GT(talkers.map(uav).counts().occupied, 0U) << uav;
+    EXPECT_EQ(talkers.doubts(uav), 0U) << uav;
+  }
+  talkers.show();
+  for (int i = 0; i < 80; ++i) talkers.exchange(false);
+  for (const std::size_t uav : {0U, 1U}) EXPECT_EQ(talkers.doubts(uav), talkers.map(uav).counts().occupied) << uav;
 }
 
 TEST(MapRadio, AFleetTooLargeForItIsRefused) {
