@@ -15,8 +15,9 @@ namespace skein::cli {
 /// |error| <= c0 + c1 |v| + c2 |a|, with v and a of the set-point [m, m/s, m/s^2].
 struct TrackingBound {
   double c0_m = 0.0, c1_s = 0.0, c2_s2 = 0.0;
-  double covered = 0.0;  ///< share of all samples that keep it
-  double mean_m = 0.0;   ///< of the bound, over the samples
+  double covered = 0.0;   ///< share of all samples that keep it
+  double mean_m = 0.0;    ///< of the bound, over the samples
+  double beyond_m = 0.0;  ///< by how much a sample is above it at most
 
   double at(double speed_mps, double acceleration_mps2) const {
     return c0_m + c1_s * speed_mps + c2_s2 * acceleration_mps2;

@@ -135,6 +135,29 @@ TEST(FlightCheck, WaysMeetWhereBodiesDoNot) {
   EXPECT_NEAR(found.least_braking_separation_m, found.least_separation_m, 1e-9);
 }
 
+TEST(FlightCheck, WhoCatchesUpAfterTakeOffDoesNotTrackYet) {
+  const Scenario scenario = fleet_of({"explorer"});
+  const RayScene nothing{TriangleMesh{}};
+  FlightCheck check(scenario);
+  CheckedUav uav = flying({0, 0, 5}, {0, 0, 1});
+  uav.setpoint = TrajectoryCommand{.p_WB = {0, 0, 5.5}, .v_WB = {0, 0, 1}};
+  CheckedUav rests = uav;
+  rests.flies = false;
+  const auto seen = [&] { return check.findings().tracking.quantiles().samples; };
+  check.add(400, nothing, std::vector{rests});
+  check.add(400 + ticks(FlightCheck::kCatchUpS), nothing, std::vector{uav});
+  EXPECT_EQ(seen(), 0U);
+  check.add(401 + ticks(FlightCheck::kCatchUpS), nothing, std::vector{uav});
+  ASSERT_EQ(seen(), 1U);
+  EXPECT_NEAR(check.findings().tracking.quantiles().max, 0.5, TrackingTable::kErrorStepM + 1e-9);
+  uav.setpoint->p_WB = {0, 0, 0};  // none is given
+  check.add(8000, nothing, std::vector{uav});
+  uav.setpoint.reset();
+  check.add(8020, nothing, std::vector{uav});
+  EXPECT_EQ(seen(), 1U);
+  EXPECT_EQ(check.findings().exchanges, 4U);
+}
+
 TEST(FlightCheck, WhoIsOutOrStandsOnTheGroundIsNoPilot) {
   const Scenario scenario = fleet_of({"explorer", "explorer"});
   const RayScene wall = wall_from_x_0();
@@ -212,6 +235,11 @@ TEST(FlightCheck, FindsWhoFliesFastAtAWallAndStopsLate) {
   EXPECT_EQ(late.first[0].with, "structure");
   EXPECT_GT(*late.first[0].time_s, 8.0);
   EXPECT_GT((*late.first[0].position)[0], 28.0);
+
+  // Whoever hits it could not have stopped before.
+  const auto hit = flown(scenario, wall, {line_flight(start, {1, 0, 0}, 40.0, 4.0, 2.0)}, 24.0, collided);
+  ASSERT_TRUE(collided);
+  EXPECT_GT(*hit.braking_hits, 0U);
 
   const auto honest = flown(scenario, wall, {line_flight(start, {1, 0, 0}, 28.5, 5.0, 2.0)}, 24.0, collided);
   ASSERT_FALSE(collided);
