@@ -1,5 +1,5 @@
 // How far UAVs were from where their set-points wanted them: counts by vehicle, speed and acceleration of the
-// set-point. sim_server fills such a table, tracking.csv holds it, and `skein bench --tracking` joins those of many runs.
+// set-point. sim_server fills such a table, tracking.csv holds it, `skein bench --tracking` joins those of many runs.
 // Units: SI.   Threads: one.
 #pragma once
 
