@@ -134,10 +134,11 @@ struct BenchOptions {
   std::string dds = "cyclonedds";
   std::vector<std::size_t> sizes;  ///< of fleets; empty: the usual ones
   std::optional<int> repeats;
-  std::optional<double> duration_s;  ///< mission time of the speed runs
+  std::optional<double> duration_s;  ///< mission time of the speed runs, or of those of `tracking`
   std::optional<std::filesystem::path> json;
   bool planners = false;                         ///< scores of all planners, and nothing of the machine
   bool sensing = false;                          ///< what an explorer knows, and nothing else
+  bool tracking = false;                         ///< how far UAVs are from their set-points, and nothing else
   std::optional<std::filesystem::path> against;  ///< the table of scores to compare with; none: the shipped one
   std::optional<std::filesystem::path> write;    ///< where the new table goes; of sensing, a folder
 };

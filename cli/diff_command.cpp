@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr std::array kSettled = {
     "seed",         "scene_seed",   "exchange_period_s", "rules",          "status",          "deterministic",
     "digest",       "sim_time_s",   "points_total",      "mission_time_s", "points_detected", "score",
-    "score_earned", "score_by_uav", "collisions",        "faults"};
+    "score_earned", "score_by_uav", "collisions",        "faults",         "flight_check"};
 constexpr std::array kSettledOfUavs = {"name",     "role",   "alive",    "distance_m",       "max_speed_mps",
                                        "captures", "idle_s", "frozen_s", "commands_rejected"};
 constexpr std::array kTables = {run_folder::kCaptures, run_folder::kEvents, run_folder::kScore,

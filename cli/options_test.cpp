@@ -266,6 +266,11 @@ TEST(Options, BenchReadsAll) {
   EXPECT_TRUE(sensing.sensing && sensing.quick);
   EXPECT_EQ(sensing.write, "docs");
   EXPECT_THROW(parse_command_line({"bench", "--sensing", "--planners"}), InputError);
+  const auto tracking = parse<BenchOptions>({"bench", "--tracking", "--quick", "--duration", "60"});
+  EXPECT_TRUE(tracking.tracking && tracking.quick);
+  EXPECT_EQ(tracking.duration_s, 60.0);
+  EXPECT_THROW(parse_command_line({"bench", "--sensing", "--tracking"}), InputError);
+  EXPECT_THROW(parse_command_line({"bench", "--tracking", "--write", "docs"}), InputError);
 }
 
 TEST(Options, TheLargestSeedAndTheLimitsAreTaken) {

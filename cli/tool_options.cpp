@@ -168,7 +168,9 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
       ->capture_default_str();
   command->add_option("--sizes", bench.sizes, "Sizes of fleet, as 1,5,20")->delimiter(',')->check(CLI::Range(1, 128));
   command->add_option("--repeat", bench.repeats, "Runs of each kind; medians are reported")->check(CLI::Range(1, 100));
-  command->add_option("--duration", bench.duration_s, "Mission time of the speed runs [s], instead of the scenario's")
+  command
+      ->add_option("--duration", bench.duration_s,
+                   "Mission time of the speed runs, or of --tracking [s], instead of the scenario's")
       ->check(CLI::Validator(check_seconds, ""));
   command->add_option("--json", bench.json, "File for all figures");
   CLI::Option* planners = command->add_flag("--planners", bench.planners,
@@ -179,6 +181,11 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
                                         "What an explorer knows of the space around it: the tables of docs/sensing.md")
                              ->excludes(planners);
   command
+      ->add_flag("--tracking", bench.tracking,
+                 "How far UAVs are from their set-points by speed and acceleration: the table of docs/flight-safety.md")
+      ->excludes(planners)
+      ->excludes(sensing);
+  command
       ->add_option("--write", bench.write,
                    "File for the new table of --planners; folder for pictures and page of --sensing")
       ->each([planners, sensing](const std::string&) {
@@ -186,7 +193,7 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
       });
   command->footer(
       "Examples:\n  skein bench --quick --json bench.json\n  skein bench --planners --write scores.csv\n"
-      "  skein bench --sensing --write docs");
+      "  skein bench --sensing --write docs\n  skein bench --tracking --quick");
 }
 
 void add_oracle(CLI::App& app, OracleOptions& oracle) {

@@ -45,6 +45,7 @@ inline constexpr const char* kFleetLog = "fleet.log";  ///< progress, while a de
 // sim_server's.
 inline constexpr const char* kScene = "scene.json";
 inline constexpr const char* kTrajectories = "trajectories.csv";
+inline constexpr const char* kTracking = "tracking.csv";
 inline constexpr const char* kDigests = "digests.csv";
 inline constexpr const char* kEvents = "events.csv";
 // The station's. The journal is what it takes up when it starts again.

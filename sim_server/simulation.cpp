@@ -271,7 +271,9 @@ void Simulation::Impl::finish_exchange() {
     view.airborne = mission.airborne(i);
     view.idle_s = seconds(uavs[i].idle_ticks);
     view.frozen_s = seconds(uavs[i].frozen_ticks);
+    view.command_latency = uavs[i].link.latency(conditions[i].command_delay);
     now.push_back(view);
+    view.setpoint.reset();
   }
   views = std::move(now);
   for (KeyFrameEvent& event : events.key_frames) {
@@ -321,7 +323,7 @@ bool Simulation::command_trajectory(UavIndex uav, const TrajectoryCommand& comma
     impl_->reject(uav, RejectionEvent::Command::trajectory, std::move(*reason));
     return false;
   }
-  impl_->uavs[uav].link.outbox().trajectory = command;
+  impl_->uavs[uav].link.outbox().trajectory = impl_->uavs[uav].view.setpoint = command;
   return true;
 }
 
@@ -370,6 +372,7 @@ const FaultPlan& Simulation::faults() const { return impl_->faults; }
 const StepEvents& Simulation::events() const { return impl_->events; }
 const Referee& Simulation::referee() const { return impl_->referee; }
 const Scene& Simulation::scene() const { return impl_->scene; }
+const RayScene& Simulation::rays() const { return impl_->rays; }
 
 std::vector<bool> Simulation::points_seen() const {
   std::vector<bool> seen(impl_->scene.points.size(), false);

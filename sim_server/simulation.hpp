@@ -45,7 +45,9 @@ struct UavView {
   double idle_s = 0.0;         ///< slow, and no capture raised a score for 5 s; see simulation.cpp
   std::uint64_t captures = 0;  ///< exposures that saw at least one point
   std::uint64_t commands_rejected = 0;
-  std::optional<Tick> first_rejected;  ///< when the first of them was given
+  std::optional<Tick> first_rejected;         ///< when the first of them was given
+  std::optional<TrajectoryCommand> setpoint;  ///< accepted for the exchange that ends here
+  int command_latency = 0;                    ///< exchanges by which what is commanded now takes effect late
 };
 
 /// A scan; all its points are of the instant `scan.tick`.
@@ -102,6 +104,8 @@ struct StepEvents {
   std::uint64_t ledger_begin = 0, ledger_end = 0;  ///< new entries of the referee: [begin, end)
 };
 
+class RayScene;
+
 class Simulation {
  public:
   /// The fleet at rest on the ground at tick 0, links traced, first scans in events().
@@ -153,6 +157,7 @@ class Simulation {
   /// By interest point: whether it was ever in a picture and in sight, whatever its quality.
   std::vector<bool> points_seen() const;
   const Scene& scene() const;
+  const RayScene& rays() const;  ///< of the scene
   /// Distance from a body's centre to the structure, kFarClearance_m at most.
   double clearance(UavIndex uav) const;
   /// Those that wait for a condition begin by set_off().

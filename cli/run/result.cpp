@@ -247,6 +247,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["losses"] = nullptr;
   result["score_by_uav"] = score_by_uav(scenario, station);
   result["collisions"] = json_of(sim.collisions);
+  result["flight_check"] = sim.flight_check ? json_of(*sim.flight_check) : Json();
   result["uavs"] = uav_entries(scenario, sim, reports);
   result["radio"] = radio_counts(router);
   const SampleCounts samples = sample_counts(reports);

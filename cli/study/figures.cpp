@@ -75,6 +75,12 @@ FlightFigures figures_of(const Json& result) {
     figures.uavs.push_back({name, report::text_in(uav, "role"), number(scores, name.c_str()), number(uav, "distance_m"),
                             report::number_if_any(uav, "idle_s"), report::number_if_any(uav, "captures")});
   }
+  const Json check = value_or(result, "flight_check", Json::object());
+  figures.braking_hits = report::number_if_any(check, "braking_hits");
+  figures.braking_meets = report::number_if_any(check, "braking_meets");
+  figures.ways_meet = report::number_if_any(check, "ways_meet");
+  figures.least_clearance_m = report::number_if_any(check, "least_clearance_m");
+  figures.least_separation_m = report::number_if_any(check, "least_separation_m");
   figures.memory_mb = report::number_if_any(result, "memory_mb");
   figures.processors = report::processors_of(result);
   figures.idle_explorers_s = explorers.value();

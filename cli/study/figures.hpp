@@ -36,6 +36,8 @@ struct FlightFigures {
   std::string status, digest;                             ///< digest: empty where it would not repeat
   std::vector<UavFigures> uavs = {};                      ///< fleet order
   std::optional<double> memory_mb = {}, processors = {};  ///< of all its programs; how many of them were busy
+  std::optional<double> braking_hits = {}, braking_meets = {}, ways_meet = {};  ///< of the flight check
+  std::optional<double> least_clearance_m = {}, least_separation_m = {};        ///< between surfaces
 };
 
 FlightFigures figures_of(const Json& result);

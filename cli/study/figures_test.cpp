@@ -13,7 +13,9 @@ namespace {
 Json a_result() {
   return Json::parse(R"({"score": 600, "points_detected": 800, "points_total": 2000, "status": "completed",
     "digest": "ab", "attainable": {"points": 1500, "score": 1200}, "collisions": [{}, {}], "real_time_factor": 12.5,
-    "sim_time_s": 200, "mission_time_s": 190, "uavs": [
+    "sim_time_s": 200, "mission_time_s": 190,
+    "flight_check": {"braking_hits": 3, "braking_meets": 0, "ways_meet": 4, "least_clearance_m": -0.25,
+                     "least_separation_m": 1.5}, "uavs": [
       {"role": "explorer", "idle_s": 10, "distance_m": 100, "planner_cpu_s": 4},
       {"role": "photographer", "idle_s": 20, "distance_m": 200, "planner_cpu_s": 8},
       {"role": "photographer", "idle_s": 50, "distance_m": null, "planner_cpu_s": null}]})");
@@ -29,13 +31,19 @@ TEST(StudyFigures, OfAResult) {
   EXPECT_EQ(figures.idle_photographers_s, 35.0);
   EXPECT_EQ(figures.distance_m, 300.0);
   EXPECT_NEAR(*figures.planner_cpu_ms, 30.0, 1e-9) << "6 s a UAV in 200 s";
+  EXPECT_EQ(figures.braking_hits, 3.0);
+  EXPECT_EQ(figures.braking_meets, 0.0);
+  EXPECT_EQ(figures.ways_meet, 4.0);
+  EXPECT_EQ(figures.least_clearance_m, -0.25);
+  EXPECT_EQ(figures.least_separation_m, 1.5);
 }
 
 TEST(StudyFigures, WhatNobodyToldIsNoNumber) {
   const FlightFigures figures =
       figures_of(Json::parse(R"({"score": 0, "attainable": {"points": null, "score": null}})"));
   EXPECT_FALSE(figures.attainable_percent || figures.mean_quality || figures.idle_explorers_s ||
-               figures.idle_photographers_s || figures.planner_cpu_ms);
+               figures.idle_photographers_s || figures.planner_cpu_ms || figures.braking_hits ||
+               figures.least_clearance_m);
   EXPECT_NO_THROW(figures_of(Json()));
 }
 

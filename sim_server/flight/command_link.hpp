@@ -25,6 +25,9 @@ class CommandLink {
  public:
   explicit CommandLink(const UavStart& start) : motor_delay_(start.motor_delay), late_(start.late_commands) {}
 
+  /// Exchanges after the next one until what is sent now takes effect. @param delay  as for exchange().
+  int latency(int delay = 0) const { return delay + (late_ ? 1 : 0); }
+
   /// Where commands are put at a step boundary.
   Commands& outbox() { return sent_; }
 
@@ -34,7 +37,7 @@ class CommandLink {
   /// @returns what arrives with it, the newest of each kind; its trajectory is for take_trajectory() alone.
   Commands exchange(Tick tick, int delay = 0) {
     in_flight_.push_back(std::exchange(sent_, {}));
-    const std::size_t age = static_cast<std::size_t>(delay) + (late_ ? 1 : 0);
+    const auto age = static_cast<std::size_t>(latency(delay));
     Commands arrived;
     for (; in_flight_.size() > age; in_flight_.pop_front()) {
       const Commands& next = in_flight_.front();

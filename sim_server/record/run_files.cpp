@@ -53,7 +53,8 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario
       scenario_(scenario),
       trajectories_(folder / run_folder::kTrajectories),
       digests_(folder / run_folder::kDigests),
-      events_(folder, scenario) {
+      events_(folder, scenario),
+      review_(scenario) {
   trajectories_ << run_tables::kPoseColumns << "vx,vy,vz,gimbal_pitch,gimbal_yaw,alive,clearance\n";
   digests_ << "k,digest";
   for (const std::string& column : digest.columns()) digests_ << "," << column;
@@ -95,6 +96,7 @@ void RunFiles::add_step(const Simulation& simulation, const StepDigest& digest) 
   digests_ << std::to_string(digest.k) << "," << digest.running;
   for (const std::string& field : digest.fields) digests_ << "," << field;
   digests_ << "\n";
+  review_.add_step(simulation);
   if (simulation.tick() % kTrajectoryPeriod != 0) return;
   fmt::memory_buffer line;
   for (const UavIndex i : FirstUavs(simulation.size())) {
@@ -144,6 +146,7 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
                          .faults = summary.faults,
                          .timing = summary.timing,
                          .flight = flight_,
+                         .flight_check = review_.report(),
                          .warnings = summary.warnings,
                          .malformed = summary.malformed,
                          .unsent = summary.unsent,
@@ -172,6 +175,7 @@ void RunFiles::write_report(const Simulation& simulation, const RunSummary& summ
     file->flush();
     if (!file->trouble().empty()) unwritten_.push_back(file->trouble());
   }
+  note_unwritten(write_if_possible(folder_ / run_folder::kTracking, review_.tracking_csv()));
   hand_in_report(json_of(report(simulation, summary)), folder_ / run_folder::report_file(programs::kSimServer), status);
 }
 

@@ -1,5 +1,6 @@
-// What the server leaves behind: trajectories.csv, digests.csv, events.csv, scene.json and sim_server.report.json, from
-// which the launcher makes its part of result.json. Times in seconds of simulated time, lengths in metres.
+// What the server leaves behind: trajectories.csv, tracking.csv, digests.csv, events.csv, scene.json and
+// sim_server.report.json, from which the launcher makes its part of result.json. Times in seconds of simulated time,
+// lengths in metres.
 #pragma once
 
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "process/status_pipe.hpp"
 #include "process/stream_file.hpp"
 #include "sim_server/record/event_log.hpp"
+#include "sim_server/record/flight_review.hpp"
 #include "sim_server/run_digest.hpp"
 #include "sim_server/simulation.hpp"
 
@@ -56,7 +58,7 @@ class RunFiles {
 
   void write_scene(const Scene& scene);
   EventLog& events() { return events_; }
-  /// One exchange: a line of digests.csv, and every 100 ms a line per UAV of trajectories.csv.
+  /// One exchange: a line of digests.csv, every 100 ms a line per UAV of trajectories.csv, and the flight check.
   void add_step(const Simulation& simulation, const StepDigest& digest);
   /// Another file that the disk refused, a sentence.
   void note_unwritten(std::string trouble);
@@ -71,6 +73,7 @@ class RunFiles {
   const Scenario& scenario_;
   StreamFile trajectories_, digests_;
   EventLog events_;
+  FlightReview review_;
   std::vector<std::string> unwritten_;  ///< files that the disk refused as a whole, one sentence each
 };
 
