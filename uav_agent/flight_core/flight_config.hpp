@@ -9,8 +9,9 @@ namespace skein::agent {
 
 struct FlightConfig {
   // Safety. What must be free about a body is its radius, kHaloM (maps/free_evidence.hpp) and the tracking error.
-  double error_m = 0.12;         ///< tracking error at rest; docs/flight-safety.md has the measurement
-  double error_per_mps_s = 0.05; ///< and so much more a metre a second
+  double error_m = 0.33;          ///< tracking error at rest, with a LiDAR; docs/flight-safety.md has the measurement
+  double light_error_m = 0.23;    ///< the same without one
+  double error_per_mps_s = 0.03;  ///< and so much more a metre a second
   double ground_m = 1.0;         ///< below, nothing is asked of the map: the ground is level, at z = 0
   double floor_m = 2.0;          ///< nobody flies lower, except at takeoff
   double peer_margin_m = 0.6;    ///< between two bodies when both have braked
@@ -37,6 +38,7 @@ struct FlightConfig {
   template <class R>
   void describe(R& r) {
     r.field("error_m", error_m, within(0.0, 2.0));
+    r.field("light_error_m", light_error_m, within(0.0, 2.0));
     r.field("error_per_mps_s", error_per_mps_s, within(0.0, 1.0));
     r.field("ground_m", ground_m, within(0.0, 5.0));
     r.field("floor_m", floor_m, within(1.0, 20.0));

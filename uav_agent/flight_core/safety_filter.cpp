@@ -41,7 +41,8 @@ SafetyFilter::SafetyFilter(const FlightConfig& config, const AgentConfig& agent)
     : config_(config), agent_(agent), assumes_boxes_(!agent.first_explorer()) {}
 
 double SafetyFilter::tube_m(double speed_mps) const {
-  return agent_.me().body_radius_m + kHaloM + config_.error_m + config_.error_per_mps_s * speed_mps;
+  const double at_rest_m = agent_.me().role == Role::explorer ? config_.error_m : config_.light_error_m;
+  return agent_.me().body_radius_m + kHaloM + at_rest_m + config_.error_per_mps_s * speed_mps;
 }
 
 std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Facts& facts, double most_mps) {
