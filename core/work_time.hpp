@@ -21,7 +21,8 @@ inline constexpr std::size_t kMostExcused_s = 45;
 /// What the referee wrote down of one UAV: a letter and a number for each whole second since the start of the run.
 struct WorkTrack {
   static constexpr char kOpen = '1', kNothingOpen = '0';
-  static constexpr char kAway = '-';  ///< it is out, its program is away, or the mission is not on: all begins anew then
+  /// It is out, its program is away, or the mission is not on: all begins anew then.
+  static constexpr char kAway = '-';
 
   std::string open;
   std::vector<double> done;  ///< in least amounts; as long as `open`
@@ -34,8 +35,8 @@ struct WaitSpan {
 };
 
 struct WorkSecond {
-  bool excused = false;         ///< open, and it waited for a mate that worked
-  bool frozen = false;          ///< one of 60 open seconds without the least amount of work
+  bool excused = false;          ///< open, and it waited for a mate that worked
+  bool frozen = false;           ///< one of 60 open seconds without the least amount of work
   std::size_t without_work = 0;  ///< open seconds since when it has not done a least amount of work
   std::optional<std::size_t> waits_for;
 };

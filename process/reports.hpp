@@ -92,7 +92,7 @@ void describe(Fields& f, TimingReport& timing) {
 
 /// The referee's record of a UAV's work, second by second (core/work_time.hpp).
 struct WorkReport {
-  std::string open = {};            ///< a letter a second, as WorkTrack has it
+  std::string open = {};          ///< a letter a second, as WorkTrack has it
   std::vector<Amount> done = {};  ///< in least amounts
 };
 template <class Fields>

@@ -20,7 +20,10 @@ class WorkTimes : public testing::Test {
     reports_.sim_server = SimServerReport{};
   }
   void tell(const std::string& uav, const std::string& open, double done) {
-    reports_.sim_server->uavs.push_back({.name = uav, .work = WorkReport{open, std::vector<Amount>(open.size(), done)}});
+    UavReport report;
+    report.name = uav;
+    report.work = WorkReport{open, std::vector<Amount>(open.size(), done)};
+    reports_.sim_server->uavs.push_back(report);
   }
 
   Scenario scenario_;

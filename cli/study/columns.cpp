@@ -17,7 +17,7 @@ const std::vector<StudyColumn>& study_columns() {
       {"mean_quality", "Mean quality", "score by detected point", 3, true, [](const F& f) { return f.mean_quality; }},
       {"collisions", "Collisions", "with the structure, the ground or another UAV", 0, true,
        [](const F& f) { return f.collisions; }},
-      {"frozen_uavs", "Frozen UAVs", "did less than the least amount of work in a minute in which some was open", 0, true,
+      {"frozen_uavs", "Frozen UAVs", "did less than the least amount of work in a minute with some open", 0, true,
        [](const F& f) { return f.frozen_uavs; }},
       {"frozen_s", "Idle [s]", "without work while some was open, less excused waiting; of the whole fleet", 0, true,
        [](const F& f) { return f.frozen_s; }},

@@ -76,8 +76,8 @@ void print_worlds(std::ostream& out, const Study& study) {
                        report::shortened(study.planners[p], kLongestPlanner), flights, spread.median,
                        tenth_percentile(shares), spread.min, frozen, idle_s, waiting_s, collisions);
   }
-  out << "frozen: flights in which a UAV did less than the least amount of work in a minute in which some was open\n"
-         "idle: time of all UAVs without work, less excused waiting; waiting: for another UAV, as planners report it\n\n"
+  out << "frozen: flights in which a UAV did less than the least amount of work in a minute with some open\n"
+         "idle: time of all UAVs without work, less excused waiting; waiting: for others, as planners report it\n\n"
          "the worst flights, and how to repeat them\n";
   for (const FlightEntry* flight : worst_flights(study, kWorst)) out << text_of(study, *flight);
 }

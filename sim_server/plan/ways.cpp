@@ -14,7 +14,7 @@ namespace skein::sim {
 namespace {
 
 constexpr double kFinestLattice = 2.0, kCoarserLattice = 1.15;  ///< of the lattice
-constexpr double kNearStructure = 2.5;  ///< spacings; nodes farther away lead nowhere
+constexpr double kNearStructure = 2.5;                          ///< spacings; nodes farther away lead nowhere
 constexpr std::size_t kMostAnchors = 4, kMostAsked = 24;
 constexpr float kHop = 2.0F;  ///< [m] that a corner costs: the UAV stops there
 constexpr float kNoWay = std::numeric_limits<float>::infinity();

@@ -41,7 +41,7 @@ struct RunSummary {
   std::uint64_t unsent = 0;                     ///< samples that could not be sent
   TimingReport timing;
   std::vector<FaultReport> faults;
-  std::vector<WorkTrack> work;  ///< by UAV
+  std::vector<WorkTrack> work;                          ///< by UAV
   std::optional<std::vector<std::string>> differences;  ///< from a run that is flown again
 };
 

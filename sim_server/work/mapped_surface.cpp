@@ -3,9 +3,7 @@
 namespace skein::sim {
 namespace {
 
-Eigen::Vector3i cell_at(const Eigen::Vector3f& p_W) {
-  return (p_W / MappedSurface::kNear).array().floor().cast<int>();
-}
+Eigen::Vector3i cell_at(const Eigen::Vector3f& p_W) { return (p_W / MappedSurface::kNear).array().floor().cast<int>(); }
 
 }  // namespace
 

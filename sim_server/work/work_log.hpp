@@ -87,7 +87,7 @@ class WorkLog {
   const MappedSurface surface_;
   std::vector<Uav> uavs_;
   ScoreTable earned_, delivered_;
-  std::vector<float> best_earned_, best_delivered_;  ///< by point, of the fleet
+  std::vector<float> best_earned_, best_delivered_;                          ///< by point, of the fleet
   std::map<std::pair<std::size_t, std::uint64_t>, CaptureReport> captures_;  ///< that were not delivered yet
   std::vector<WorkTrack> tracks_;
 };

@@ -80,9 +80,7 @@ TEST_F(WorkLogTest, WhoFliesToAndFroWithoutAPictureIsFrozen) {
     RandomStream random(1, "work_log", draw);
     const double x = random.uniform(-30.0, -10.0), way = random.uniform(5.0, 25.0), pace = random.uniform(0.1, 0.3);
     start();
-    fly(150.0, [&](double t) {
-      return std::vector{hover(x, way * std::sin(pace * t), 8.0, std::numbers::pi)};
-    });
+    fly(150.0, [&](double t) { return std::vector{hover(x, way * std::sin(pace * t), 8.0, std::numbers::pi)}; });
     EXPECT_GT(simulation_->uav(UavIndex{0}).distance_m, 50.0);
     EXPECT_GE(judged()[0].frozen_s, 100u) << "of 150, less the way to the wall";
     EXPECT_EQ(done(0), 0.0);
@@ -108,13 +106,29 @@ TEST_F(WorkLogTest, WhoPhotographsKnownPointsWorseIsFrozen) {
   }
 }
 
+TEST_F(WorkLogTest, WhoPhotographsWhatAMateHasIsFrozen) {
+  add("photographer", 0, -3);
+  add("photographer", 0, 3);
+  add_patch(0, 8, 1);
+  add_patch(0, 8, 3, false);
+  start();
+  const double turned = std::numbers::pi;
+  fly(40.0, [&](double) { return std::vector{hover(9.0, 0, 8), hover(-8, 3, 8, turned)}; });
+  fly(120.0, [&](double t) {
+    const double to_post_s = std::min(t, 6.0);  // the mate makes room first
+    return std::vector{hover(9.0 - 17.0 / 6.0 * to_post_s, -8, 8, turned), hover(t < 10.0 ? -8.0 : 8.5, 1, 8)};
+  });
+  EXPECT_GT(done(0), 1.0);
+  EXPECT_LT(done(1), 1.0) << "all that it takes is known, and no worse";
+  EXPECT_GT(simulation_->uav(UavIndex{1}).captures, 200u);
+  EXPECT_GE(judged()[1].frozen_s, 90u);
+}
+
 TEST_F(WorkLogTest, WhoPhotographsMoreAndMoreIsNotFrozen) {
   add("photographer", 0, 0);
   add_patch(0, 10, 8);
   start();
-  fly(150.0, [](double t) {
-    return std::vector{hover(8.0, 8.0 * std::sin(0.15 * t), 3.0 + 0.09 * t)};
-  });
+  fly(150.0, [](double t) { return std::vector{hover(8.0, 8.0 * std::sin(0.15 * t), 3.0 + 0.09 * t)}; });
   EXPECT_EQ(judged()[0].frozen_s, 0u);
   EXPECT_GT(open(0), 60);
   EXPECT_GT(done(0), 5.0);

@@ -22,8 +22,7 @@ constexpr double kAscent = 0.5;  ///< of ways out aside: so much up for each met
 
 class Search {
  public:
-  Search(const Scenario& scenario, const Scene& scene)
-      : world_(scene.mesh), station_(scenario.station_position) {
+  Search(const Scenario& scenario, const Scene& scene) : world_(scene.mesh), station_(scenario.station_position) {
     for (const auto& vertex : scene.mesh.vertices) extent_.extend(vertex.cast<double>());
     for (int i = 0; i < kWaysAside; ++i) {
       const double azimuth = 2.0 * std::numbers::pi * i / kWaysAside;

@@ -83,7 +83,8 @@ struct Agent::Impl {
 
 void Agent::Impl::wait_for(std::size_t mate, double now_s) {
   waited_s += config.exchange_period_s;
-  const bool goes_on = !waits.empty() && waits.back().mate == mate && now_s <= waits.back().until_s + kWaitBreak_s;
+  const bool goes_on =
+      !waits.empty() && waits.back().mate == mate && now_s < waits.back().until_s + kWaitBreak_s + 1e-6;
   if (!goes_on) waits.push_back({now_s, now_s, mate});
   waits.back().until_s = now_s + config.exchange_period_s;
 }
