@@ -6,6 +6,7 @@
 #include "cli/run/losses.hpp"
 #include "cli/run/progress_view.hpp"
 #include "cli/run/recording.hpp"
+#include "cli/run/work.hpp"
 #include "core/run_state.hpp"
 #include "process/result_file.hpp"
 #include "report/run_report.hpp"
@@ -28,14 +29,19 @@ bool write_result(const RunResults& run, const Json& result, std::ostream& err) 
   return trouble.empty();
 }
 
-/// What the result can do without: score.csv, and how the score compares with what could be had.
-void add_score_tables(const RunOptions& options, const std::filesystem::path& dir, const Reports& reports,
-                      Json& result) {
+/// What the result can do without: score.csv, work.csv, and how the score compares with what could be had.
+void add_tables(const RunOptions& options, const std::filesystem::path& dir, const Scenario& scenario,
+                const Reports& reports, Json& result) {
   Json& warnings = result["warnings"];
   try {
     if (!write_score_csv(dir, reports.station)) warnings.push_back("no scene.json: no score.csv");
   } catch (const std::exception& error) {
     warnings.push_back(std::string("no score.csv: ") + error.what());
+  }
+  try {
+    write_work_csv(dir, scenario, reports);
+  } catch (const std::exception& error) {
+    warnings.push_back(std::string("no work.csv: ") + error.what());
   }
   if (!options.attainable || result["status"] != name_of(RunStatus::completed)) return;
   const AttainableAnswer answer = attainable_of(options);
@@ -63,7 +69,7 @@ std::optional<Json> write_results(const RunResults& run, const std::filesystem::
   const bool written = write_result(run, result, console.err);
   const std::size_t warnings_written = result["warnings"].size();
   for (std::string& warning : collect()) result["warnings"].push_back(std::move(warning));
-  add_score_tables(run.options, run.dir, run.reports, result);
+  add_tables(run.options, run.dir, run.scenario, run.reports, result);
   const std::string trouble = join_recording(run.dir, run.scenario, result);
   if (!trouble.empty()) result["warnings"].push_back(trouble);
   const bool news = !result["losses"].is_null() || result["attainable"]["score"].is_number() ||

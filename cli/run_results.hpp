@@ -1,4 +1,4 @@
-// What is made of a run when it is over: result.json, score.csv, losses.csv and the summary.
+// What is made of a run when it is over: result.json, score.csv, work.csv, losses.csv and the summary.
 #pragma once
 
 #include <filesystem>

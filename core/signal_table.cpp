@@ -72,6 +72,9 @@ std::vector<SignalInfo> make_table() {
           "points that a UAV whose program was away should have photographed since: it has photographed nothing "
           "since it came back and the last fault was over; in as much time from its start, less 40 s, it photographs "
           "these in the same run without faults; and nobody photographs them in this one, to its end"),
+      number("without_work", {uav}, 1, kSeconds, kAfterwards,
+             "open time since the UAV last did a least amount of work, less excused waiting, by the referee's truth; 0 "
+             "while it is out or its program is away"),
       number("debug", {uav, word}, 2, kPlainNumber, kLive,
              "what the UAV's program published last as `/<id>/debug/<name>`; 0 before"),
       number("result", {path}, 1, kPlainNumber, kAfterwards, "a number of `result.json`, all the time"),

@@ -90,16 +90,28 @@ void describe(Fields& f, TimingReport& timing) {
   f.field("steps", timing.steps);
 }
 
+/// The referee's record of a UAV's work, second by second (core/work_time.hpp).
+struct WorkReport {
+  std::string open = {};          ///< a letter a second, as WorkTrack has it
+  std::vector<Amount> done = {};  ///< in least amounts
+};
+template <class Fields>
+void describe(Fields& f, WorkReport& work) {
+  f.field("done", work.done);
+  f.field("open", work.open);
+}
+
 struct UavReport {
   Text name = {};
   std::optional<Role> role = {};
   std::optional<bool> alive = {};
   Number distance_m = {}, max_speed_mps = {};
   Count captures = {};
-  Number idle_s = {}, frozen_s = {};
+  Number idle_s = {};
   Count commands_rejected = {};
   Number first_rejected_s = {};
   Count commands_unheard = {};
+  std::optional<WorkReport> work = {};
 };
 template <class Fields>
 void describe(Fields& f, UavReport& uav) {
@@ -109,11 +121,11 @@ void describe(Fields& f, UavReport& uav) {
   f.field("commands_unheard", uav.commands_unheard);
   f.field("distance_m", uav.distance_m);
   f.field("first_rejected_s", uav.first_rejected_s);
-  f.field("frozen_s", uav.frozen_s);
   f.field("idle_s", uav.idle_s);
   f.field("max_speed_mps", uav.max_speed_mps);
   f.field("name", uav.name);
   f.field("role", uav.role);
+  f.field("work", uav.work);
 }
 
 /// Distances of UAVs from their set-points, in quantiles; empty of no samples.
@@ -345,10 +357,23 @@ void describe(Fields& f, RouterReport& report) {
 
 // ---- agents -----------------------------------------------------------------------------------------------------
 
+/// Simulated time in which its planner said that it waited for another UAV.
+struct WaitReport {
+  Number from_s = {}, until_s = {};
+  Text uav = {};
+};
+template <class Fields>
+void describe(Fields& f, WaitReport& wait) {
+  f.field("from_s", wait.from_s);
+  f.field("uav", wait.uav);
+  f.field("until_s", wait.until_s);
+}
+
 struct AgentReport {
   Number planner_cpu_s = {}, planner_cpu_p99_ms = {}, planner_cpu_max_ms = {};
   Count planner_exchanges_over_50ms = {};
   Number waited_s = {};
+  std::optional<std::vector<WaitReport>> waits = {};  ///< by time
   std::optional<Texts> no_way = {};
   Count malformed = {}, unsent = {};
   Text planner = {};  ///< as it was told
@@ -368,6 +393,7 @@ void describe(Fields& f, AgentReport& report) {
   f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
   f.field("waited_s", report.waited_s);
+  f.field("waits", report.waits);
 }
 
 /// What an agent program prints of itself (--list-planners).

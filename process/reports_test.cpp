@@ -25,7 +25,8 @@ const char* const kSimServer = R"({
   "timing": {"camera_s": 0.1, "cpu_s": 1.0, "exposures": 3, "lidar_ms_per_scan": 0.25, "lidar_s": 0.2, "links_s": 0.3,
              "physics_s": 0.4, "recording_s": 0.5, "scans": 4, "steps": 5},
   "uavs": [{"alive": false, "captures": 7, "commands_rejected": 1, "commands_unheard": 2, "distance_m": 10.5,
-            "first_rejected_s": 3.25, "frozen_s": 1.5, "idle_s": 2.0, "max_speed_mps": 4.0, "name": "alpha", "role": "explorer"}],
+            "first_rejected_s": 3.25, "idle_s": 2.0, "max_speed_mps": 4.0, "name": "alpha", "role": "explorer",
+            "work": {"done": [0.0, 0.25], "open": "-1"}}],
   "unsent": 0, "unwritten": ["x: full"], "wall_time_s": 13.0, "warnings": ["windy"]})";
 
 const char* const kStation = R"({
@@ -43,7 +44,8 @@ const char* const kRouter = R"({
 
 const char* const kAgent = R"({
   "dds": "cyclonedds", "malformed": 0, "no_way": ["3 times: walled in"], "planner": "kios:voxel=4", "planner_cpu_max_ms": 60.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_s": 0.25,
-  "planner_exchanges_over_50ms": 3, "unsent": 0, "waited_s": 12.5})";
+  "planner_exchanges_over_50ms": 3, "unsent": 0, "waited_s": 12.5,
+  "waits": [{"from_s": 1.5, "uav": "alpha", "until_s": 3.0}]})";
 
 /// Calls `check` with the place of each value below this one.
 template <class Check>

@@ -38,9 +38,9 @@ std::string recording_part(const std::string& program, int life) {
 }
 
 bool is_of_a_run(const std::string& name) {
-  constexpr std::array<std::string_view, 15> kTables = {
-      kFleetLog,     kResult,        kScore, kCaptures, kDigests,   kLosses,          kEvents,  kCaptureMessages,
-      kTrajectories, kScoreTimeline, kScene, kPage,     kRecording, kRecordingLayout, kTracking};
+  constexpr std::array<std::string_view, 16> kTables = {
+      kFleetLog,     kResult,        kScore, kCaptures, kDigests,   kLosses,          kEvents,   kCaptureMessages,
+      kTrajectories, kScoreTimeline, kScene, kPage,     kRecording, kRecordingLayout, kTracking, kWork};
   // Reports, logs and books: a book of another run would be taken up as if this run's program had been killed.
   const bool of_a_program = programs::is_agent(name) ||
                             std::any_of(programs::kServers.begin(), programs::kServers.end(), [&](const char* program) {

@@ -39,6 +39,7 @@ inline constexpr const char* kSceneFiles = "models";
 inline constexpr const char* kResult = "result.json";
 inline constexpr const char* kScore = "score.csv";
 inline constexpr const char* kLosses = "losses.csv";
+inline constexpr const char* kWork = "work.csv";
 inline constexpr const char* kRecording = "recording.mcap";
 inline constexpr const char* kRecordingLayout = "recording.layout.json";
 inline constexpr const char* kFleetLog = "fleet.log";  ///< progress, while a debugger has the terminal

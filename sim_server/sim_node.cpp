@@ -52,6 +52,7 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       inbox_(bus.run()),
       server_(inbox_, recording_.tap()),
       faults_(scenario, simulation_, server_, status, options_.replay),
+      work_(scenario, simulation_),
       progress_(scenario, status) {
   participants_.push_back(bus.join(world_domain(options.base_domain)));
   for (const Node node : scenario.nodes()) {
@@ -271,6 +272,7 @@ void SimNode::end_run(bool joined) {
   summary_.malformed = inbox_.malformed();
   summary_.unsent = participants_.front()->unsent().count();
   summary_.faults = faults_.report();
+  summary_.work = work_.tracks();
   summary_.differences = recording_.differences();
   summary_.status = end_status();
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
@@ -369,9 +371,11 @@ void SimNode::finish_step() {
     for (const std::uint64_t capture : uavs_[i]->take_released()) {
       files_.events().add_release(simulation_, uav_names_[i], capture);
       faults_.signals().add_release(i);
+      work_.add_release(i, capture);
     }
     for (const auto& [name, value] : uavs_[i]->take_debug()) faults_.signals().set_debug(i, name, value);
   }
+  work_.end_step([this](const std::string& member) { return server_.is_member(member); });
   faults_.end_step();
   progress_.tell(simulation_, summary_.lost);
 }

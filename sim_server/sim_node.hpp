@@ -27,6 +27,7 @@
 #include "sim_server/uav_node.hpp"
 #include "sim_server/viz_node.hpp"
 #include "sim_server/wait_teller.hpp"
+#include "sim_server/work/work_log.hpp"
 
 namespace skein::sim {
 
@@ -110,6 +111,7 @@ class SimNode final : public bus::LockstepNode {
   std::unique_ptr<GcsNode> gcs_;
   std::unique_ptr<VizNode> viz_;
   FaultNode faults_;
+  WorkLog work_;
   ProgressTeller progress_;
   State state_ = State::joining;
   std::optional<WaitTeller> wait_;  ///< for whom this state waits

@@ -21,9 +21,6 @@ namespace {
 /// A UAV idles while it is slower than this and no capture has raised one of its scores for this long.
 constexpr double kIdleSpeed = 0.1;
 constexpr Tick kIdleAge = 5 * kTicksPerSecond;
-/// It is frozen while it has stayed within this of a place for this long, and no capture has raised one of its scores.
-constexpr double kFrozenM = 3.0;
-constexpr Tick kFrozenAge = 30 * kTicksPerSecond;
 
 /// Everything that belongs to one UAV.
 struct Uav {
@@ -38,8 +35,6 @@ struct Uav {
   bool manual_trigger = false, triggered = false;
   bool scans_wanted = true;
   Tick last_raise = 0, idle_ticks = 0;  ///< when a capture last raised a score; how long it has idled
-  Vector3d stays_at_W = Vector3d::Zero();
-  Tick stays_since = 0, frozen_ticks = 0;
 };
 
 std::vector<BodyShape> body_shapes(const Scenario& scenario) {
@@ -190,7 +185,7 @@ void Simulation::Impl::judge_mission() {
     events.collisions.push_back(collision);
   }
   if (was_waiting && mission.phase() == Phase::flying) {
-    for (Uav& uav : uavs) uav.last_raise = uav.stays_since = tick;
+    for (Uav& uav : uavs) uav.last_raise = tick;
   }
   if (mission.end_tick() == tick) {
     for (Uav& uav : uavs) uav.vehicle.stop();
@@ -209,12 +204,6 @@ void Simulation::Impl::measure(const std::vector<RigidBodyState>& before) {
       uav.view.max_speed_mps = std::max(uav.view.max_speed_mps, speed);
     }
     if (speed < kIdleSpeed && tick - uav.last_raise > kIdleAge) ++uav.idle_ticks;
-    if (uav.last_raise > uav.stays_since || (state.p_WB - uav.stays_at_W).norm() > kFrozenM) {
-      uav.stays_at_W = state.p_WB;
-      uav.stays_since = tick;
-    } else if (tick - uav.stays_since > kFrozenAge) {
-      ++uav.frozen_ticks;
-    }
   }
 }
 
@@ -270,7 +259,6 @@ void Simulation::Impl::finish_exchange() {
     view.alive = mission.alive(i);
     view.airborne = mission.airborne(i);
     view.idle_s = seconds(uavs[i].idle_ticks);
-    view.frozen_s = seconds(uavs[i].frozen_ticks);
     view.command_latency = uavs[i].link.latency(conditions[i].command_delay);
     now.push_back(view);
     view.setpoint.reset();

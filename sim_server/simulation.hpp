@@ -41,7 +41,6 @@ struct UavView {
   bool airborne = false;
   double distance_m = 0.0;  ///< flown
   double max_speed_mps = 0.0;
-  double frozen_s = 0.0;       ///< within 3 m of a place for 30 s and no capture raised a score: the time from then on
   double idle_s = 0.0;         ///< slow, and no capture raised a score for 5 s; see simulation.cpp
   std::uint64_t captures = 0;  ///< exposures that saw at least one point
   std::uint64_t commands_rejected = 0;

@@ -269,21 +269,6 @@ TEST_F(Field, CountsDistanceSpeedAndIdleness) {
   EXPECT_GT(sim.uav(UavIndex{0}).idle_s, 12.0);
 }
 
-TEST_F(Field, IsFrozenAfterHalfAMinuteAtOnePlaceUntilItLeaves) {
-  add("photographer", 0, -30);  // nothing to see there
-  Simulation& sim = start();
-  const auto frozen_s = [&] { return sim.uav(UavIndex{0}).frozen_s; };
-  fly(4.0, {to(0.5, -30, 5)});
-  fly(20.0, {to(1.5, -30, 5)});  // a little way is none
-  EXPECT_EQ(frozen_s(), 0.0);
-  fly(30.0, {to(0.5, -30, 5)});
-  const double stood_s = frozen_s();
-  EXPECT_GT(stood_s, 15.0);
-  EXPECT_LT(stood_s, 25.0);
-  fly(25.0, {to(0.5, -15, 5)});
-  EXPECT_LT(frozen_s() - stood_s, 3.0) << "on its way, and not long enough there";
-}
-
 TEST_F(Field, DelayedMotorsStartWithTheNewestCommand) {
   add("photographer", 0, 0);
   add("photographer", 0, 5);

@@ -130,6 +130,15 @@ std::vector<std::string> AgentNode::no_ways() const {
   return sentences;
 }
 
+std::optional<std::vector<WaitReport>> AgentNode::waits() const {
+  std::vector<WaitReport> reports;
+  for (const WaitSpan& wait : agent_.waits()) {
+    const bool known = wait.mate < scenario_.fleet.size();
+    reports.push_back({wait.from_s, wait.until_s, known ? Text(scenario_.fleet[UavIndex{wait.mate}].name) : Text()});
+  }
+  return reports;
+}
+
 void AgentNode::send(LockstepClient& client) {
   write(client);
   // State stays until the next sample replaces it; events are over.

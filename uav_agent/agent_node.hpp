@@ -24,6 +24,7 @@ class AgentNode final : public MemberNode {
   std::optional<std::string> octomap_file() const override { return agent_.map().octomap_file(); }
   std::vector<std::string> no_ways() const override;
   std::optional<double> waited_s() const override { return agent_.waited_s(); }
+  std::optional<std::vector<WaitReport>> waits() const override;
 
  private:
   void declare(bus::LockstepClient& client) override;

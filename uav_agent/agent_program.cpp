@@ -80,6 +80,7 @@ class AgentMember final : public bus::FleetMember {
                        .planner_cpu_max_ms = 1e3 * cpu.max_s(),
                        .planner_exchanges_over_50ms = cpu.over_field_exchange(),
                        .waited_s = node_->waited_s(),
+                       .waits = node_->waits(),
                        .no_way = node_->no_ways(),
                        .malformed = node_->malformed(),
                        .unsent = node_->unsent(),

@@ -5,10 +5,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "bus/lockstep/client_node.hpp"
+#include "process/reports.hpp"
 #include "uav_agent/onboard/cpu_histogram.hpp"
 
 namespace skein::agent {
@@ -33,6 +35,8 @@ class MemberNode : public bus::ClientNode {
   virtual std::vector<std::string> no_ways() const { return {}; }
   /// How long its strategy has waited for other UAVs [s]; nullopt: it flies none.
   virtual std::optional<double> waited_s() const { return std::nullopt; }
+  /// When, and for whom.
+  virtual std::optional<std::vector<WaitReport>> waits() const { return std::nullopt; }
 
  protected:
   /// @param member  name in the lock-step: a UAV's, or "gcs".

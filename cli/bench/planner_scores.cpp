@@ -120,7 +120,7 @@ void print_planner_scores(std::ostream& out, const std::vector<PlannerScore>& be
       out << fmt::format("{:<12}{:<14}{:>8}   not in the table before\n", key.first, key.second, sum.only_one);
     }
   }
-  out << "sums of scores; frozen: UAVs that stayed within 3 m of a place for 30 s and photographed nothing better\n";
+  out << "sums of scores; frozen: UAVs that did less than the least amount of work in a minute with some open\n";
 }
 
 }  // namespace skein::cli

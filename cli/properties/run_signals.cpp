@@ -58,6 +58,7 @@ FolderSignals::Values FolderSignals::work_out(const SignalUse& signal) {
   if (signal.is("result")) return result(signal);
   if (signal.is("debug")) return debug(signal);
   if (signal.is("separation")) return separation(signal);
+  if (signal.is("without_work")) return without_work(signal.argument(0));
   for (const char* name : {"member", "restarts", "link", "faults", "time"}) {
     if (signal.is(name)) return of_members(signal);
   }
@@ -267,6 +268,15 @@ FolderSignals::Values FolderSignals::debug(const SignalUse& signal) {
   for (const DebugValue& one : found->second) {
     std::fill(values.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(one.step, exchanges_)), values.end(),
               one.value);
+  }
+  return values;
+}
+
+FolderSignals::Values FolderSignals::without_work(const std::string& uav) const {
+  Values values = constant(0.0);
+  for (const WorkRow& row : run_.work) {
+    if (row.uav != uav || row.time_s > end_s()) continue;
+    std::fill(values.begin() + static_cast<std::ptrdiff_t>(exchange_at(row.time_s)), values.end(), row.without_work_s);
   }
   return values;
 }

@@ -50,6 +50,7 @@ class FolderSignals final : public properties::RunSignals {
   Values separation(const SignalUse& signal);
   Values result(const SignalUse& signal) const;
   Values debug(const SignalUse& signal);
+  Values without_work(const std::string& uav) const;
   Values on_off(const std::string& on, const std::string& off, const std::string& subject,
                 const std::string& object) const;
   Values counted(const std::vector<std::size_t>& exchanges) const;

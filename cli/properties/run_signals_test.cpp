@@ -108,6 +108,14 @@ TEST_F(RunSignalsTest, NumbersOfTheResultAreCalledByTheirKeys) {
   EXPECT_THROW(number("result(radio)"), InputError);
 }
 
+TEST_F(RunSignalsTest, TimeWithoutWorkIsThatOfTheTable) {
+  run_.work = {{1.0, "a", 7.0}, {1.0, "b", 3.0}, {2.0, "a", 8.0}, {2.0, "b", 0.0}, {3.0, "a", 9.0}};  // beyond the end
+  EXPECT_EQ(number("without_work(a)"), steps({{20, 7}, {40, 8}}));
+  EXPECT_EQ(number("without_work(b)"), steps({{20, 3}, {40, 0}}));
+  run_.work.clear();
+  EXPECT_EQ(number("without_work(b)"), steps({})) << "nobody knows";
+}
+
 TEST_F(RunSignalsTest, CapturesAreCountedWhenTheyAreTakenDeliveredAndAcknowledged) {
   run_.events = {
       {2, "captured", "a", "0"}, {4, "captured", "a", "1"}, {6, "captured", "b", "0"}, {12, "released", "a", "0"}};

@@ -47,6 +47,9 @@ RunRecord read_run(const std::filesystem::path& dir) {
   for (CsvTable table(dir / run_folder::kScoreTimeline); table.next();) {
     record.scores.push_back({table.number("time_s"), table.number("score"), table.number("points")});
   }
+  for (CsvTable table(dir / run_folder::kWork); table.next();) {
+    record.work.push_back({table.number("time_s"), table.text("uav"), table.number("without_work_s")});
+  }
   return record;
 }
 

@@ -57,6 +57,13 @@ struct ScoreRow {
   double time_s = 0.0, score = 0.0, points = 0.0;
 };
 
+/// How long a UAV had been without work, at the end of a second (work.csv).
+struct WorkRow {
+  double time_s = 0.0;
+  std::string uav;
+  double without_work_s = 0.0;
+};
+
 struct RunRecord {
   std::filesystem::path dir;
   Json result;
@@ -65,6 +72,7 @@ struct RunRecord {
   std::vector<MessageRow> messages;    ///< by step
   std::vector<PositionRow> positions;  ///< by time
   std::vector<ScoreRow> scores;        ///< by time
+  std::vector<WorkRow> work;           ///< by time
 };
 
 /// captures.csv of a run. @throws std::runtime_error when a row makes no sense.

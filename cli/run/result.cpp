@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "cli/run/work.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
@@ -28,7 +29,9 @@ Json or_null(const std::optional<T>& value) {
 /// One entry a UAV, in fleet order, whatever the reports hold.
 Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Reports& reports) {
   Json entries = Json::array();
-  for (const UavConfig& uav : scenario.fleet) {
+  const std::vector<std::optional<WorkTime>> works = work_times(scenario, reports);
+  for (const UavIndex i : scenario.uavs()) {
+    const UavConfig& uav = scenario.fleet[i];
     UavReport flown;
     for (const UavReport& report : sim.uavs) {
       if (report.name == uav.name) flown = report;
@@ -45,7 +48,9 @@ Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Rep
                        {"max_speed_mps", or_null(flown.max_speed_mps)},
                        {"captures", or_null(flown.captures)},
                        {"idle_s", or_null(flown.idle_s)},
-                       {"frozen_s", or_null(flown.frozen_s)},
+                       {"frozen_s", works[i] ? Json(works[i]->frozen_s) : Json()},
+                       {"excused_s", works[i] ? Json(works[i]->excused_s) : Json()},
+                       {"without_work_s", works[i] ? Json(works[i]->longest_s) : Json()},
                        {"commands_rejected", or_null(flown.commands_rejected)},
                        {"first_rejected_s", or_null(flown.first_rejected_s)},
                        {"commands_unheard", or_null(flown.commands_unheard)},
@@ -58,6 +63,16 @@ Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Rep
                        {"planner_exchanges_over_50ms", or_null(agent.planner_exchanges_over_50ms)}});
   }
   return entries;
+}
+
+/// Of all UAVs that anything is known of.
+Json frozen_in_all(const Json& uavs) {
+  Json sum;
+  for (const Json& uav : uavs) {
+    const Json& frozen_s = uav["frozen_s"];
+    if (frozen_s.is_number()) sum = sum.is_null() ? frozen_s : Json(sum.get<double>() + frozen_s.get<double>());
+  }
+  return sum;
 }
 
 Json score_by_uav(const Scenario& scenario, const StationReport& station) {
@@ -249,6 +264,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["collisions"] = json_of(sim.collisions);
   result["flight_check"] = sim.flight_check ? json_of(*sim.flight_check) : Json();
   result["uavs"] = uav_entries(scenario, sim, reports);
+  result["frozen_s"] = frozen_in_all(result["uavs"]);
   result["radio"] = radio_counts(router);
   const SampleCounts samples = sample_counts(reports);
   result["radio"]["malformed"] = samples.malformed;

@@ -20,6 +20,21 @@ struct Mean {
   std::optional<double> value() const { return count > 0 ? std::optional(sum / count) : std::nullopt; }
 };
 
+void add_work(const Json& uav, FlightFigures& figures) {
+  const auto figure = [&](const char* key) { return report::number_if_any(uav, key); };
+  if (const auto frozen_s = figure("frozen_s")) {
+    figures.frozen_uavs = figures.frozen_uavs.value_or(0) + (*frozen_s > 0.0 ? 1 : 0);
+    figures.frozen_s = figures.frozen_s.value_or(0.0) + *frozen_s;
+  }
+  if (const auto excused_s = figure("excused_s")) {
+    figures.waiting_uavs = figures.waiting_uavs.value_or(0) + (*excused_s > 0.0 ? 1 : 0);
+  }
+  if (const auto waited_s = figure("waited_s")) figures.waited_s = figures.waited_s.value_or(0.0) + *waited_s;
+  if (const auto longest_s = figure("without_work_s")) {
+    figures.without_work_s = std::max(figures.without_work_s.value_or(0.0), *longest_s);
+  }
+}
+
 /// @param sorted  not empty. @param share  [0, 1]
 double quantile(const std::vector<double>& sorted, double share) {
   const double at = share * static_cast<double>(sorted.size() - 1);
@@ -64,11 +79,7 @@ FlightFigures figures_of(const Json& result) {
   const Json scores = value_or(result, "score_by_uav", Json::object());
   for (const Json& uav : value_or(result, "uavs", Json::array())) {
     (value_or(uav, "role", "") == "explorer" ? explorers : photographers).add(value_or(uav, "idle_s", nullptr));
-    if (const auto frozen_s = report::number_if_any(uav, "frozen_s")) {
-      const bool waited = *frozen_s <= report::number_if_any(uav, "waited_s").value_or(0.0);
-      figures.frozen_uavs = figures.frozen_uavs.value_or(0) + (*frozen_s > 0.0 && !waited ? 1 : 0);
-      figures.waiting_uavs = figures.waiting_uavs.value_or(0) + (*frozen_s > 0.0 && waited ? 1 : 0);
-    }
+    add_work(uav, figures);
     figures.distance_m += number(uav, "distance_m");
     cpu.add(value_or(uav, "planner_cpu_s", nullptr));
     const std::string name = report::text_in(uav, "name");

@@ -28,7 +28,8 @@ struct FlightFigures {
   std::optional<double> attainable;          ///< that score
   std::optional<double> mean_quality;        ///< score by detected point
   int collisions = 0;
-  std::optional<int> frozen_uavs, waiting_uavs;                  ///< that stood still; who waited no longer than that
+  std::optional<int> frozen_uavs, waiting_uavs;                  ///< without work; excused since they waited
+  std::optional<double> frozen_s, waited_s, without_work_s;      ///< of all; of all; the longest of any
   std::optional<double> idle_explorers_s, idle_photographers_s;  ///< a UAV of that role on average
   double distance_m = 0.0;                                       ///< of all UAVs
   std::optional<double> planner_cpu_ms;                          ///< a simulated second and UAV; of UAVs that tell

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <random>
+#include <tuple>
 
 #include "cli/study/csv.hpp"
 
@@ -36,6 +37,23 @@ TEST(StudyFigures, OfAResult) {
   EXPECT_EQ(figures.ways_meet, 4.0);
   EXPECT_EQ(figures.least_clearance_m, -0.25);
   EXPECT_EQ(figures.least_separation_m, 1.5);
+}
+
+TEST(StudyFigures, WorkAndWaitingAreSummedUp) {
+  Json result = a_result();
+  for (const auto& [uav, frozen_s, excused_s, longest_s] :
+       {std::tuple(0, 0.0, 5.0, 40.0), std::tuple(1, 70.0, 45.0, 70.0), std::tuple(2, 130.0, 0.0, 65.0)}) {
+    result["uavs"][uav].update({{"frozen_s", frozen_s}, {"excused_s", excused_s}, {"without_work_s", longest_s}});
+  }
+  result["uavs"][0]["waited_s"] = 12.5;
+  result["uavs"][1]["waited_s"] = nullptr;
+  const FlightFigures figures = figures_of(result);
+  EXPECT_EQ(figures.frozen_uavs, 2) << "waiting, whenever it was, excuses no frozen time";
+  EXPECT_EQ(figures.frozen_s, 200.0);
+  EXPECT_EQ(figures.waiting_uavs, 2);
+  EXPECT_EQ(figures.waited_s, 12.5);
+  EXPECT_EQ(figures.without_work_s, 70.0);
+  EXPECT_FALSE(figures_of(a_result()).frozen_s);
 }
 
 TEST(StudyFigures, WhatNobodyToldIsNoNumber) {

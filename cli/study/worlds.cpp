@@ -56,26 +56,28 @@ std::vector<const FlightEntry*> worst_flights(const Study& study, std::size_t mo
 }
 
 void print_worlds(std::ostream& out, const Study& study) {
-  out << fmt::format("\n{:<26}{:>8}{:>10}{:>10}{:>10}{:>10}{:>10}{:>12}\n", "share of the estimate [%]", "flights",
-                     "median", "10th pct", "least", "frozen", "waiting", "collisions");
+  out << fmt::format("\n{:<26}{:>8}{:>10}{:>10}{:>10}{:>10}{:>10}{:>13}{:>12}\n", "share of the estimate [%]",
+                     "flights", "median", "10th pct", "least", "frozen", "idle [s]", "waiting [s]", "collisions");
   for (std::size_t p = 0; p < study.planners.size(); ++p) {
     std::vector<double> shares;
-    int flights = 0, frozen = 0, waiting = 0, collisions = 0;
+    int flights = 0, frozen = 0, collisions = 0;
+    double idle_s = 0.0, waiting_s = 0.0;
     for (const FlightEntry& flight : study.flights) {
       if (flight.planner != p || !flight.figures) continue;
       ++flights;
       frozen += flight.figures->frozen_uavs.value_or(0) > 0;
-      waiting += flight.figures->waiting_uavs.value_or(0) > 0;
+      idle_s += flight.figures->frozen_s.value_or(0.0);
+      waiting_s += flight.figures->waited_s.value_or(0.0);
       collisions += flight.figures->collisions;
       if (flight.figures->attainable_percent) shares.push_back(*flight.figures->attainable_percent);
     }
     const Spread spread = spread_of(shares);
-    out << fmt::format("  {:<24}{:>8}{:>10.1f}{:>10.1f}{:>10.1f}{:>10}{:>10}{:>12}\n",
+    out << fmt::format("  {:<24}{:>8}{:>10.1f}{:>10.1f}{:>10.1f}{:>10}{:>10.0f}{:>13.0f}{:>12}\n",
                        report::shortened(study.planners[p], kLongestPlanner), flights, spread.median,
-                       tenth_percentile(shares), spread.min, frozen, waiting, collisions);
+                       tenth_percentile(shares), spread.min, frozen, idle_s, waiting_s, collisions);
   }
-  out << "frozen: flights in which a UAV stayed within 3 m of a place for 30 s and photographed nothing better\n"
-         "waiting: the same, while its planner reported that it waited for another UAV\n\n"
+  out << "frozen: flights in which a UAV did less than the least amount of work in a minute with some open\n"
+         "idle: time of all UAVs without work, less excused waiting; waiting: for others, as planners report it\n\n"
          "the worst flights, and how to repeat them\n";
   for (const FlightEntry* flight : worst_flights(study, kWorst)) out << text_of(study, *flight);
 }

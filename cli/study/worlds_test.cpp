@@ -75,6 +75,16 @@ TEST_F(Worlds, PlannersHaveTheirMedianAndTenthPercentile) {
       << printed();
 }
 
+TEST_F(Worlds, PlannersHaveTheirIdleAndWaitingTimes) {
+  add(1, 50.0, 0, 1).figures->frozen_s = 100.0;
+  add(1, 50.0, 0, 2).figures->frozen_s = 70.4;
+  study_.flights.back().figures->waited_s = 31.0;
+  EXPECT_NE(printed().find("       2       170           31           0\n"), std::string::npos) << printed();
+  std::ostringstream out;
+  EXPECT_FALSE(print_requirements(out, study_, {parse_requirement("frozen_s<=80"), parse_requirement("waited_s<40")}));
+  EXPECT_NE(out.str().find("frozen_s<=80: 100 in wild 0"), std::string::npos) << out.str();
+}
+
 TEST_F(Worlds, RequirementsNameTheFlightsThatBreakThem) {
   add(0, 80.0);
   add(1, 60.0, 1);

@@ -8,14 +8,13 @@
 #include <utility>
 
 #include "sim_server/plan/team.hpp"
+#include "sim_server/rays/clear_line.hpp"
 
 namespace skein::sim {
 namespace {
 
 constexpr double kFinestLattice = 2.0, kCoarserLattice = 1.15;  ///< of the lattice
-constexpr double kFarQuery =
-    1.5;  ///< beyond the clearance: a query costs more the farther it looks, and a step is so long
-constexpr double kNearStructure = 2.5;  ///< spacings; nodes farther away lead nowhere
+constexpr double kNearStructure = 2.5;                          ///< spacings; nodes farther away lead nowhere
 constexpr std::size_t kMostAnchors = 4, kMostAsked = 24;
 constexpr float kHop = 2.0F;  ///< [m] that a corner costs: the UAV stops there
 constexpr float kNoWay = std::numeric_limits<float>::infinity();
@@ -67,17 +66,7 @@ void Ways::join(const std::vector<Eigen::Vector3i>& cells) {
 }
 
 bool Ways::clear(const Vector3d& a_W, const Vector3d& b_W) const {
-  const Vector3d step = b_W - a_W;
-  const double length = step.norm();
-  if (length > 0.0 && world_.first_hit_distance(a_W, b_W, {.ground = false})) return false;  // cheap, and often enough
-  for (double s = 0.0;;) {
-    const Vector3d p_W = length > 0.0 ? Vector3d(a_W + s / length * step) : a_W;
-    const double room = std::min(world_.clearance(p_W, clearance_ + kFarQuery), clearance_ + kFarQuery) - clearance_;
-    // Hardly less room is room enough, so that a line may begin and end where a UAV just fits.
-    if (room < -0.5 * kSlack) return false;
-    if (s >= length) return true;
-    s = std::min(length, s + std::max(room, 0.5 * kSlack));
-  }
+  return is_clear_line(world_, a_W, b_W, clearance_, 0.5 * kSlack);
 }
 
 std::vector<std::size_t> Ways::anchors(const Vector3d& p_W) const {

@@ -123,10 +123,13 @@ std::vector<UavReport> RunFiles::uav_reports(const Simulation& simulation, const
                        .max_speed_mps = uav.max_speed_mps,
                        .captures = uav.captures,
                        .idle_s = uav.idle_s,
-                       .frozen_s = uav.frozen_s,
                        .commands_rejected = uav.commands_rejected,
                        .first_rejected_s = uav.first_rejected ? Number(seconds(*uav.first_rejected)) : Number(),
                        .commands_unheard = i < summary.commands_unheard.size() ? summary.commands_unheard[i] : 0});
+    if (i < summary.work.size()) {
+      const WorkTrack& work = summary.work[i];
+      reports.back().work = WorkReport{work.open, std::vector<Amount>(work.done.begin(), work.done.end())};
+    }
   }
   return reports;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "core/work_time.hpp"
 #include "process/reports.hpp"
 #include "process/status_pipe.hpp"
 #include "process/stream_file.hpp"
@@ -42,6 +43,7 @@ struct RunSummary {
   std::uint64_t unsent = 0;                     ///< samples that could not be sent
   TimingReport timing;
   std::vector<FaultReport> faults;
+  std::vector<WorkTrack> work;                          ///< by UAV
   std::optional<std::vector<std::string>> differences;  ///< from a run that is flown again
 };
 

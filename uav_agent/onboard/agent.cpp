@@ -25,6 +25,7 @@ constexpr double kAccelerationShare = 0.7;  ///< of the vehicle's limit; the con
 constexpr double kBodyMarginM = 0.3;        ///< around a known body
 constexpr double kGroundM = 0.3;            ///< what a LiDAR meets below is the ground
 constexpr double kScanAgeS = 0.1;           ///< a scan is at most this much older than the positions with it
+constexpr double kWaitBreak_s = 0.5;
 
 Tracker::Config tracker_config(const VehicleConfig& vehicle) {
   Tracker::Config config;
@@ -81,6 +82,7 @@ struct Agent::Impl {
   void fly(const PlannerInput& in, PlannerOutput& decision);
   std::optional<TrajectoryCommand> move(const PlannerOutput& decision, const AgentInput& input);
   std::optional<GimbalCommand> point_camera(const GimbalAim& new_aim, const RigidBodyState& state);
+  void wait_for(std::size_t mate, double now_s);
 
   const AgentConfig config;
   const std::unique_ptr<Planner> planner;
@@ -100,9 +102,18 @@ struct Agent::Impl {
   std::vector<OrientedBox> boxes;
   GimbalAim aim;
   double waited_s = 0.0;
+  std::vector<WaitSpan> waits;
   std::map<std::string, std::uint64_t> no_ways;
   std::string no_way;
 };
+
+void Agent::Impl::wait_for(std::size_t mate, double now_s) {
+  waited_s += config.exchange_period_s;
+  const bool goes_on =
+      !waits.empty() && waits.back().mate == mate && now_s < waits.back().until_s + kWaitBreak_s + 1e-6;
+  if (!goes_on) waits.push_back({now_s, now_s, mate});
+  waits.back().until_s = now_s + config.exchange_period_s;
+}
 
 std::vector<KnownBody> Agent::Impl::other_bodies() const {
   std::vector<KnownBody> bodies;
@@ -277,7 +288,7 @@ AgentOutput Agent::step(const AgentInput& input) {
   for (const std::string& bytes : decision.heard_maps) impl_->map.hear(bytes);
   if (!decision.no_way.empty()) ++impl_->no_ways[decision.no_way];
   impl_->no_way = std::move(decision.no_way);
-  if (decision.waits_for) impl_->waited_s += impl_->config.exchange_period_s;
+  if (decision.waits_for) impl_->wait_for(*decision.waits_for, seconds(input.tick));
   AgentOutput output;
   output.trajectory = impl_->move(decision, input);
   output.gimbal = impl_->point_camera(decision.gimbal, input.state);
@@ -298,5 +309,7 @@ const std::map<std::string, std::uint64_t>& Agent::no_ways() const { return impl
 const std::string& Agent::no_way() const { return impl_->no_way; }
 
 double Agent::waited_s() const { return impl_->waited_s; }
+
+const std::vector<WaitSpan>& Agent::waits() const { return impl_->waits; }
 
 }  // namespace skein::agent

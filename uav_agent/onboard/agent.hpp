@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/work_time.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
 #include "uav_agent/api/planner.hpp"
@@ -74,6 +75,8 @@ class Agent {
   const std::string& no_way() const;
   /// How long its planner has waited for other UAVs (PlannerOutput::waits_for) [s].
   double waited_s() const;
+  /// When it did, and for whom, as index in the fleet; breaks of half a second or less are none.
+  const std::vector<WaitSpan>& waits() const;
 
  private:
   struct Impl;

@@ -102,6 +102,27 @@ TEST_F(AgentTest, RemembersBoxesAndRepeatsCommands) {
   EXPECT_NEAR(input_.state.p_WB.z(), 20.0, 1e-6);
 }
 
+TEST_F(AgentTest, TellsForWhomItsPlannerWaitedAndWhen) {
+  const auto wait = [&](std::optional<std::size_t> mate, int exchanges) {
+    tape_.answer.waits_for = mate;
+    for (int i = 0; i < exchanges; ++i) step();
+  };
+  wait(1, 20);
+  wait({}, 10);
+  wait(1, 10);  // a break of half a second is none
+  wait(2, 20);
+  wait({}, 40);
+  wait(2, 20);
+  EXPECT_NEAR(agent_.waited_s(), 3.5, 1e-9);
+  ASSERT_EQ(agent_.waits().size(), 3U);
+  const std::vector<WaitSpan> expected = {{0.0, 2.0, 1}, {2.0, 3.0, 2}, {5.0, 6.0, 2}};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(agent_.waits()[i].from_s, expected[i].from_s, 1e-9);
+    EXPECT_NEAR(agent_.waits()[i].until_s, expected[i].until_s, 1e-9);
+    EXPECT_EQ(agent_.waits()[i].mate, expected[i].mate);
+  }
+}
+
 TEST_F(AgentTest, KeepsThePointOfAimInTheImage) {
   tape_.answer.gimbal = Vector3d(10.0, 10.0, 0.0);
   input_.state.q_WB = Eigen::AngleAxisd(0.5, Vector3d::UnitZ());
