@@ -1,5 +1,5 @@
-// Where the beams of an explorer's LiDAR point and where it is mounted: what its data sheet says, to who simulates it
-// and to who flies with it.
+// Where the beams of an explorer's LiDAR point, where it is mounted and how its servo turns: what its data sheet says,
+// to who simulates it and to who flies with it.
 // Frames: W world, B body, S servo (turned about body x, at p_BS), L optical centre of the LiDAR, axes as S.
 // Units: SI, radians.   Pure; safe from any thread.
 #pragma once
@@ -21,6 +21,32 @@ inline constexpr double kLidarCentreAboveServo = -0.03585 + 0.0377;
 inline Isometry3d lidar_pose(const Isometry3d& X_WB, double servo_angle) {
   const Eigen::AngleAxisd R_BS(servo_angle, Vector3d::UnitX());
   return X_WB * Eigen::Translation3d(kLidarServo_p_BS) * R_BS * Eigen::Translation3d(0.0, 0.0, kLidarCentreAboveServo);
+}
+
+/// Angle of the servo at a time since it was switched on at angle 0 [rad]: it turns at +rate for half a period, then at
+/// -rate, and stands at its stop while driven against it. Closed form, so that no error builds up.
+/// @param t_s  >= 0.
+inline double servo_angle(const LidarConfig& config, double t_s) {
+  const double rate = config.servo_rate_deg_s * kRadPerDeg;
+  const double limit = config.servo_limit_deg * kRadPerDeg;
+  const double half_s = 0.5 * config.servo_period_s;
+  const double cycle_s = t_s - config.servo_period_s * std::floor(t_s / config.servo_period_s);
+  // After the first half period, and whenever it has turned upwards since then, it stands at `top`.
+  const double top = std::min(rate * half_s, limit);
+  const double bottom = std::max(top - rate * half_s, -limit);
+  if (cycle_s < half_s) {
+    const double start = t_s < config.servo_period_s ? 0.0 : bottom;
+    return std::min(start + rate * cycle_s, limit);
+  }
+  return std::max(top - rate * (cycle_s - half_s), -limit);
+}
+/// How fast it turns from then on [rad/s]; 0 at a stop.
+inline double servo_rate(const LidarConfig& config, double t_s) {
+  const double cycle_s = t_s - config.servo_period_s * std::floor(t_s / config.servo_period_s);
+  const bool upwards = cycle_s < 0.5 * config.servo_period_s;
+  const double angle = servo_angle(config, t_s), limit = config.servo_limit_deg * kRadPerDeg;
+  if (upwards ? angle >= limit : angle <= -limit) return 0.0;
+  return (upwards ? 1.0 : -1.0) * config.servo_rate_deg_s * kRadPerDeg;
 }
 
 /// Elevation of a ring above the scan plane: rings are evenly spaced upwards.

@@ -23,29 +23,6 @@ Eigen::Matrix3Xf beam_directions(const LidarConfig& config) {
 
 }  // namespace
 
-double servo_angle(const LidarConfig& config, double t_s) {
-  const double rate = config.servo_rate_deg_s * kRadPerDeg;
-  const double limit = config.servo_limit_deg * kRadPerDeg;
-  const double half_s = 0.5 * config.servo_period_s;
-  const double cycle_s = t_s - config.servo_period_s * std::floor(t_s / config.servo_period_s);
-  // After the first half period, and whenever it has turned upwards since then, it stands at `top`.
-  const double top = std::min(rate * half_s, limit);
-  const double bottom = std::max(top - rate * half_s, -limit);
-  if (cycle_s < half_s) {
-    const double start = t_s < config.servo_period_s ? 0.0 : bottom;
-    return std::min(start + rate * cycle_s, limit);
-  }
-  return std::max(top - rate * (cycle_s - half_s), -limit);
-}
-
-double servo_rate(const LidarConfig& config, double t_s) {
-  const double cycle_s = t_s - config.servo_period_s * std::floor(t_s / config.servo_period_s);
-  const bool upwards = cycle_s < 0.5 * config.servo_period_s;
-  const double angle = servo_angle(config, t_s), limit = config.servo_limit_deg * kRadPerDeg;
-  if (upwards ? angle >= limit : angle <= -limit) return 0.0;
-  return (upwards ? 1.0 : -1.0) * config.servo_rate_deg_s * kRadPerDeg;
-}
-
 Lidar::Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed)
     : config_(config),
       uav_(uav),

@@ -13,13 +13,6 @@
 
 namespace skein::sim {
 
-/// Angle of the servo at a time since it was switched on at angle 0 [rad]: it turns at +rate for half a period, then at
-/// -rate, and stands at its stop while driven against it. Closed form, so that no error builds up.
-/// @param t_s  >= 0.
-double servo_angle(const LidarConfig& config, double t_s);
-/// How fast it turns from then on [rad/s]; 0 at a stop.
-double servo_rate(const LidarConfig& config, double t_s);
-
 struct LidarScan {
   Tick tick = 0;
   std::uint64_t number = 0;  ///< 0, 1, ... for this LiDAR

@@ -71,7 +71,7 @@ SensedSpace::SensedSpace(const Flight& flight, double servo_phase_s, const agent
   scan.beams.assign(beams_L_.size(), {agent::BeamState::none, 0.0F});
   for (Tick tick = 0; seconds(tick) < flight.duration_s; tick += lidar_period(lidar_)) {
     const double t = seconds(tick);
-    const Isometry3d X_WL = lidar_pose(flight.X_WB(t), sim::servo_angle(lidar_, t + servo_phase_s));
+    const Isometry3d X_WL = lidar_pose(flight.X_WB(t), servo_angle(lidar_, t + servo_phase_s));
     scans_.push_back(X_WL);
     inverse_.push_back(X_WL.inverse());
     scan.tick = tick;

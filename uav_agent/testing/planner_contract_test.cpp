@@ -37,6 +37,7 @@ class EveryPlanner : public testing::TestWithParam<std::string> {
   }
   static void expect_sound(const TestWorld& world) {
     EXPECT_EQ(world.bad_commands(), 0U);
+    EXPECT_EQ(world.doubtful_scans(), 0U);
     EXPECT_GT(world.clearance(), kTouchM);
     EXPECT_GT(world.separation(), kSmallestSeparationM);
     EXPECT_LE(world.longest_message(), 2 * kMaxPayloadBytes);

@@ -7,6 +7,7 @@
 #include "core/euler.hpp"
 #include "uav_agent/onboard/agent.hpp"
 #include "uav_agent/planning/strips.hpp"
+#include "uav_agent/testing/test_lidar.hpp"
 
 namespace skein::agent {
 namespace {
@@ -71,11 +72,13 @@ std::vector<SurfacePoint> sample_surface(const std::vector<OrientedBox>& solids)
 struct Uav {
   Uav(const AgentConfig& c, const std::string& p) : planner(p), agent(c, make_planner(p, c)), config(c) {
     state.p_WB = c.me().p_WB_start + Vector3d(0.0, 0.0, 0.16);
+    if (agent.wants_beams()) lidar.emplace(*c.vehicle.lidar);
   }
 
   std::string planner;
   Agent agent;
   AgentConfig config;
+  std::optional<TestLidar> lidar;  ///< if the agent asks for beams
   RigidBodyState state;
   GimbalState gimbal;
   double highest_m = 0.0;
@@ -191,6 +194,10 @@ AgentInput TestWorld::Impl::sense(std::size_t i, const std::vector<std::vector<E
     if (neighbour.node == kStationNode || scans[neighbour.node - 1].empty()) continue;
     input.key_frames.push_back({.points_W = scans[neighbour.node - 1], .source = neighbour.node});
   }
+  if (uav.lidar && uav.lidar->due(input.tick)) {
+    input.servos.push_back(uav.lidar->servo(input.tick));
+    input.scans.push_back(uav.lidar->scan(input.tick, uav.state.X_WB(), scene.solids));
+  }
   if (k % 40 == 0) input.capture_reports.push_back({.capture = uav.captures, .bytes = 200});
   input.capture_acks = uav.acks;
   input.radio = uav.mail;
@@ -275,6 +282,9 @@ TestWorld::TestWorld(TestScene scene, const std::vector<TestUav>& fleet, const s
   }
   for (const UavIndex self : FirstUavs(fleet.size())) {
     config.self = self;
+    config.vehicle.role = config.me().role;
+    config.vehicle.lidar.reset();
+    if (config.me().role == Role::explorer) config.vehicle.lidar.emplace();
     impl_->uavs.emplace_back(config, planner);
   }
 }
@@ -284,6 +294,16 @@ TestWorld::~TestWorld() = default;
 void TestWorld::run(double seconds_to_run) {
   const auto steps = static_cast<std::uint64_t>(seconds_to_run / kDtS);
   for (std::uint64_t i = 0; i < steps; ++i) impl_->step();
+}
+
+std::uint64_t TestWorld::doubtful_scans() const {
+  std::uint64_t count = 0;
+  for (const Uav& uav : impl_->uavs) {
+    for (const ScanDoubt doubt : {ScanDoubt::no_servo, ScanDoubt::no_pose, ScanDoubt::misfit}) {
+      count += uav.agent.beam_scans(doubt);
+    }
+  }
+  return count;
 }
 
 void TestWorld::restart(std::size_t uav) {

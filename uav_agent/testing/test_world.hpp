@@ -1,6 +1,6 @@
 // A small world for tests of planners: solid boxes, UAVs that are exactly where they were told to be, and a
-// LiDAR that sees all surface points in line of sight. No physics, no noise: what goes wrong here is the
-// planner's fault.
+// LiDAR that sees all surface points in line of sight. Who asks for beams gets those of a LiDAR on its servo, too
+// (test_lidar.hpp). No physics, no noise: what goes wrong here is the planner's fault.
 // Frame W.   Units: SI and radians.
 #pragma once
 
@@ -54,6 +54,8 @@ class TestWorld {
   std::size_t undelivered() const;
   /// Commands that were not finite, or beyond the vehicle's limits of speed and acceleration.
   std::size_t bad_commands() const;
+  /// Scans whose beams an agent asked for and could not tell.
+  std::uint64_t doubtful_scans() const;
   /// The longest text that a planner sent.
   std::size_t longest_message() const;
   double highest_m(std::size_t uav) const;
