@@ -19,10 +19,10 @@ using GimbalAim = std::variant<std::monostate, Vector3d, GimbalCommand>;
 
 /// Something that a strategy wants: to be at a place, or to fly along a line from there.
 struct Goal {
-  std::int64_t id = 0;                ///< its strategy's name for it
-  std::vector<Waypoint> way = {};     ///< at least one: the core finds a way to the first, and flies on along the others
-  std::optional<double> yaw = {};     ///< of the body, from the first waypoint on
-  GimbalAim gimbal = {};              ///< from when it is taken up
+  std::int64_t id = 0;             ///< its strategy's name for it
+  std::vector<Waypoint> way = {};  ///< at least one: the core finds a way to the first, and flies on along the others
+  std::optional<double> yaw = {};  ///< of the body, from the first waypoint on
+  GimbalAim gimbal = {};           ///< from when it is taken up
 };
 
 /// What became of a goal.
@@ -34,17 +34,17 @@ struct Outcome {
   };
   std::int64_t id = 0;
   Kind kind = Kind::reached;
-  std::size_t leg = 0;       ///< waypoint of its way that it did not reach
-  std::string reason = {};   ///< for a log
+  std::size_t leg = 0;      ///< waypoint of its way that it did not reach
+  std::string reason = {};  ///< for a log
 };
 
 /// What the flight core is about, for a strategy.
 struct FlightState {
-  bool working = false;                    ///< in the air, and free to fly to goals; else they wait
-  std::optional<std::int64_t> goal = {};   ///< the one it flies to or along
-  bool on_way = false;                     ///< along its way: past the first waypoint
-  std::size_t leg = 0;                     ///< waypoint of its way that it flies to
-  std::vector<Outcome> outcomes = {};      ///< since the exchange before, in their order
+  bool working = false;                   ///< in the air, and free to fly to goals; else they wait
+  std::optional<std::int64_t> goal = {};  ///< the one it flies to or along
+  bool on_way = false;                    ///< along its way: past the first waypoint
+  std::size_t leg = 0;                    ///< waypoint of its way that it flies to
+  std::vector<Outcome> outcomes = {};     ///< since the exchange before, in their order
 };
 
 }  // namespace skein::agent

@@ -24,10 +24,10 @@
 
 namespace skein::agent {
 
-class FreeSpace;     // flight/free_space.hpp
-class OccupancyMap;  // maps/occupancy_map.hpp
-class WorldMap;      // maps/world_map.hpp
-struct FlightConfig; // flight_core/flight_config.hpp
+class FreeSpace;      // flight/free_space.hpp
+class OccupancyMap;   // maps/occupancy_map.hpp
+class WorldMap;       // maps/world_map.hpp
+struct FlightConfig;  // flight_core/flight_config.hpp
 
 /// How far the tracker has come with the last Path.
 struct TrackingState {

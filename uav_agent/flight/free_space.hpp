@@ -54,11 +54,11 @@ class FreeSpace {
     /// The map of all beams, for who is flown by the flight core: then space that is unknown may be planned through,
     /// at a cost, since the safety filter proves it before anybody flies there. Must outlive this.
     const WorldMap* world = nullptr;
-    double unknown_cost = 1.0;  ///< of a metre, in metres
+    double unknown_cost = 1.0;     ///< of a metre, in metres
     const BodyFit* fit = nullptr;  ///< what is proved of it; must outlive this
     /// For who proves nothing itself: unknown space may not be planned through.
     bool proved_only = false;
-    bool blind_fleet = false;   ///< nobody has a LiDAR: boxes are kept clear of
+    bool blind_fleet = false;  ///< nobody has a LiDAR: boxes are kept clear of
   };
 
   /// @param boxes, map  must outlive this.

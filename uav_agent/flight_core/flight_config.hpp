@@ -12,10 +12,10 @@ struct FlightConfig {
   double error_m = 0.33;          ///< tracking error at rest, with a LiDAR; docs/flight-safety.md has the measurement
   double light_error_m = 0.23;    ///< the same without one
   double error_per_mps_s = 0.03;  ///< and so much more a metre a second
-  double ground_m = 1.0;         ///< below, nothing is asked of the map: the ground is level, at z = 0
-  double floor_m = 2.0;          ///< nobody flies lower, except at takeoff
-  double peer_margin_m = 0.6;    ///< between two bodies when both have braked
-  double peer_memory_s = 20.0;   ///< a UAV that went out of sight is taken to be where it came to rest for so long
+  double ground_m = 1.0;          ///< below, nothing is asked of the map: the ground is level, at z = 0
+  double floor_m = 2.0;           ///< nobody flies lower, except at takeoff
+  double peer_margin_m = 0.6;     ///< between two bodies when both have braked
+  double peer_memory_s = 20.0;    ///< a UAV that went out of sight is taken to be where it came to rest for so long
 
   // Motion.
   double approach_mps = 5.0;  ///< from here to there; the map decides how much of it can be had
@@ -24,12 +24,12 @@ struct FlightConfig {
   double unknown_cost = 1.5;  ///< of a metre through space that is not known, in metres
 
   // When something comes to nothing.
-  double stall_s = 4.0;       ///< no way is gained for so long: the goal is given up, or the UAV looks around
-  double look_s = 8.0;        ///< the LiDAR has looked in all directions: a period of its servo
-  double refused_s = 40.0;    ///< a place that could not be proved is left out of ways for so long
-  double alone_s = 45.0;      ///< a UAV without a LiDAR that is told of no free space for so long takes boxes to be all
-  double alone_mps = 1.5;     ///< ...and flies no faster then
-  double yield_s = 5.0;       ///< a UAV waits for one of lower number for so long
+  double stall_s = 4.0;     ///< no way is gained for so long: the goal is given up, or the UAV looks around
+  double look_s = 8.0;      ///< the LiDAR has looked in all directions: a period of its servo
+  double refused_s = 40.0;  ///< a place that could not be proved is left out of ways for so long
+  double alone_s = 45.0;    ///< a UAV without a LiDAR that is told of no free space for so long takes boxes to be all
+  double alone_mps = 1.5;   ///< ...and flies no faster then
+  double yield_s = 5.0;     ///< a UAV waits for one of lower number for so long
 
   // Bringing captures home.
   double deliver_every_s = 240.0;

@@ -8,16 +8,16 @@ namespace {
 
 constexpr double kAirborneM = 2.0;       ///< a UAV that begins at such a height was restarted in flight
 constexpr double kLowestTopM = 4.0;      ///< of a climb
-constexpr double kClimbLayerM = 2.0;          ///< between the heights to which two UAVs climb
+constexpr double kClimbLayerM = 2.0;     ///< between the heights to which two UAVs climb
 constexpr double kCrowdM = 6.0;          ///< starts nearer than this wait for each other
 constexpr double kClearM = 3.0;          ///< the one before is this far up, or gone: the next may start
 constexpr double kStartPatienceS = 6.0;  ///< for each one before; after that it is taken to be broken
 constexpr double kRisenM = 1.2;          ///< so high above its start, a UAV may begin to work
 constexpr double kClimbGainM = 0.3;
-constexpr double kNoLinkS = 4.0;         ///< at a place from which the station should be seen
-constexpr double kIdleS = 4.0;           ///< without a goal that can be flown to
+constexpr double kNoLinkS = 4.0;  ///< at a place from which the station should be seen
+constexpr double kIdleS = 4.0;    ///< without a goal that can be flown to
 constexpr std::int64_t kHome = -2;
-constexpr std::size_t kOwnRegions = 8;   ///< of the map, in which its own start lies: it was told of none
+constexpr std::size_t kOwnRegions = 8;  ///< of the map, in which its own start lies: it was told of none
 constexpr double kShowCheckS = 5.0;
 constexpr std::uint64_t kShowLook = 10;  ///< exchanges
 
@@ -42,15 +42,6 @@ FlightState FlightCore::state() {
   return state;
 }
 
-std::string FlightCore::trace() const {  // TRACE
-  const char* m[] = {"ground", "takeoff", "working", "homing", "showing", "recovering"};
-  std::string s = m[static_cast<int>(mode_)];
-  if (navigator_.current()) s += " goal " + std::to_string(navigator_.current()->id) + (navigator_.on_way() ? " way " : " app ") + std::to_string(navigator_.leg());
-  if (navigator_.idle()) s += " idle";
-  for (const auto& o : outcomes_) s += " [" + std::to_string(o.id) + " " + std::to_string(int(o.kind)) + " " + o.reason + "]";
-  return s;
-}
-
 std::optional<Vector3d> FlightCore::going_to_W() const {
   return mode_ == Mode::takeoff || mode_ == Mode::ground ? top_W_ : navigator_.going_to_W();
 }
@@ -73,6 +64,7 @@ void FlightCore::listen(const PlannerInput& in) {
 Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal>> goals) {
   Steering steering;
   waits_for_.reset();
+  no_way_.clear();
   listen(in);
   if (goals) wanted_ = std::move(*goals);
   const bool asked = goals.has_value();
@@ -164,9 +156,18 @@ void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
   if (stalled && agent_.me().role != Role::explorer) waits_for_ = agent_.first_explorer();
 }
 
+/// Of the navigator, since it was last asked.
+std::vector<Outcome> FlightCore::outcomes() {
+  std::vector<Outcome> outcomes = navigator_.take_outcomes();
+  for (const Outcome& outcome : outcomes) {
+    if (outcome.kind != Outcome::Kind::reached) no_way_ = outcome.reason;
+  }
+  return outcomes;
+}
+
 void FlightCore::work(const PlannerInput& in, Steering& steering) {
   navigator_.step(in, filter_.held(), steering);
-  for (Outcome& outcome : navigator_.take_outcomes()) {
+  for (Outcome& outcome : outcomes()) {
     if (outcome.kind != Outcome::Kind::no_way) recovery_.progress();
     outcomes_.push_back(std::move(outcome));
   }
@@ -194,8 +195,8 @@ void FlightCore::show(const PlannerInput& in, Steering& steering) {
   if (!navigator_.idle()) {
     navigator_.step(in, filter_.held(), steering);
     since_ = in.tick;
-    const std::vector<Outcome> outcomes = navigator_.take_outcomes();
-    const bool failed = !outcomes.empty() && outcomes.back().kind != Outcome::Kind::reached;
+    const std::vector<Outcome> ended = outcomes();
+    const bool failed = !ended.empty() && ended.back().kind != Outcome::Kind::reached;
     if (!failed && !(in.k % kShowLook == 0 && showing_.shown(in))) return;
   } else if (seconds(in.tick - since_) < config_.look_s && !(in.k % kShowLook == 0 && showing_.shown(in))) {
     return;
@@ -209,7 +210,7 @@ void FlightCore::show(const PlannerInput& in, Steering& steering) {
 void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   if (homing_.done(in)) {
     navigator_.stop(steering);
-    navigator_.take_outcomes();
+    outcomes();
     navigator_.want(wanted_);
     enter(Mode::working, in);
     return;
@@ -220,7 +221,7 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
     return;
   }
   navigator_.step(in, filter_.held(), steering);
-  for (const Outcome& outcome : navigator_.take_outcomes()) {
+  for (const Outcome& outcome : outcomes()) {
     if (outcome.kind == Outcome::Kind::reached) at_place_since_ = in.tick;
   }
   if (!navigator_.idle()) return;

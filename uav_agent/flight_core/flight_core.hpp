@@ -9,6 +9,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "uav_agent/flight_core/homing.hpp"
@@ -39,11 +40,12 @@ class FlightCore {
 
   /// Whom it waits for, in this exchange.
   const std::optional<std::size_t>& waits_for() const { return waits_for_; }
+  /// Why there was no way to a goal, in this exchange; empty: there was none to look for, or one.
+  const std::string& no_way() const { return no_way_; }
   /// Where it is about to fly: what others should tell it of first.
   std::optional<Vector3d> going_to_W() const;
   /// Where its strategy may choose to work, as of now.
   FreeSpace space(const PlannerInput& in) const { return navigator_.open_space(in); }
-  std::string trace() const;  // TRACE
   const SafetyFilter& filter() const { return filter_; }
 
  private:
@@ -52,6 +54,7 @@ class FlightCore {
   void listen(const PlannerInput& in);
   void leave_ground(const PlannerInput& in, Steering& steering);
   void take_off(const PlannerInput& in, Steering& steering);
+  std::vector<Outcome> outcomes();
   void work(const PlannerInput& in, Steering& steering);
   bool begin_showing(const PlannerInput& in);
   void show(const PlannerInput& in, Steering& steering);
@@ -67,19 +70,20 @@ class FlightCore {
   Recovery recovery_;
   Showing showing_;
   Mode mode_ = Mode::ground;
-  Tick since_ = 0;                          ///< in this mode
-  std::optional<Tick> told_at_;             ///< when it last was told of space in another region
+  Tick since_ = 0;               ///< in this mode
+  std::optional<Tick> told_at_;  ///< when it last was told of space in another region
   std::size_t told_regions_ = 0;
-  std::optional<Tick> ready_since_;         ///< on the ground
-  std::optional<Vector3d> top_W_;           ///< of the climb
-  double climbed_m_ = 0.0;                  ///< so high, at...
+  std::optional<Tick> ready_since_;  ///< on the ground
+  std::optional<Vector3d> top_W_;    ///< of the climb
+  double climbed_m_ = 0.0;           ///< so high, at...
   Tick climbed_at_ = 0;
-  Tick show_at_ = 0;                        ///< not before
-  std::optional<Tick> at_place_since_;      ///< of homing, without a link
+  Tick show_at_ = 0;                    ///< not before
+  std::optional<Tick> at_place_since_;  ///< of homing, without a link
   std::size_t next_place_ = 0;
-  std::vector<Outcome> outcomes_;           ///< for the strategy
-  std::vector<Goal> wanted_;                ///< by the strategy, to be taken up when it works again
+  std::vector<Outcome> outcomes_;  ///< for the strategy
+  std::vector<Goal> wanted_;       ///< by the strategy, to be taken up when it works again
   std::optional<std::size_t> waits_for_;
+  std::string no_way_;
 };
 
 }  // namespace skein::agent

@@ -9,11 +9,11 @@ namespace skein::agent {
 namespace {
 
 constexpr double kNeverLinked = 1.7;  ///< times as long: it has yet to find from where the station is seen
-constexpr double kPlaceLayerM = 3.0;       ///< between the heights of two UAVs
+constexpr double kPlaceLayerM = 3.0;  ///< between the heights of two UAVs
 constexpr double kAboveAllM = 6.0;
-constexpr double kLowestM = 6.0;      ///< of a place
-constexpr double kLinkAgeS = 1.0;     ///< between two sightings: a link that lasts
-constexpr double kStuckS = 5.0;       ///< with a link, and nothing arrives: not from here
+constexpr double kLowestM = 6.0;   ///< of a place
+constexpr double kLinkAgeS = 1.0;  ///< between two sightings: a link that lasts
+constexpr double kStuckS = 5.0;    ///< with a link, and nothing arrives: not from here
 constexpr std::size_t kMostPlaces = 8;
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "uav_agent/api/planner.hpp"
-#include "uav_agent/flight_core/flight_config.hpp"
 #include "uav_agent/flight/free_space.hpp"
+#include "uav_agent/flight_core/flight_config.hpp"
 
 namespace skein::agent {
 
@@ -38,11 +38,11 @@ class Homing {
   };
   const FlightConfig& config_;
   const AgentConfig& agent_;
-  std::optional<Tick> delivered_at_;  ///< when nothing was undelivered
-  std::optional<Tick> arrived_at_;    ///< when a capture last was delivered, or none was to be
-  std::optional<Tick> linked_at_;     ///< when it last had a link
-  std::size_t undelivered_ = 0;       ///< in the last exchange
-  std::optional<Sighting> sighting_;  ///< of the station, in the present link
+  std::optional<Tick> delivered_at_;     ///< when nothing was undelivered
+  std::optional<Tick> arrived_at_;       ///< when a capture last was delivered, or none was to be
+  std::optional<Tick> linked_at_;        ///< when it last had a link
+  std::size_t undelivered_ = 0;          ///< in the last exchange
+  std::optional<Sighting> sighting_;     ///< of the station, in the present link
   std::optional<Vector3d> linked_at_W_;  ///< where it last had a link for a while, and somewhat before that ended
 };
 

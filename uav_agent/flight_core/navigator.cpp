@@ -9,20 +9,20 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kGainM = 0.5;             ///< less is no way
-constexpr int kSearchesPerExchange = 2;    ///< for goals
+constexpr double kGainM = 0.5;           ///< less is no way
+constexpr int kSearchesPerExchange = 2;  ///< for goals
 constexpr int kMostExpansions = 4000;
-constexpr double kSearchAgainS = 0.5;      ///< after one that came to nothing
-constexpr std::uint64_t kLookEach = 4;     ///< exchanges
+constexpr double kSearchAgainS = 0.5;   ///< after one that came to nothing
+constexpr std::uint64_t kLookEach = 4;  ///< exchanges
 constexpr double kLookAheadM = 15.0, kSlackM = 0.4;
 constexpr int kMostReplans = 3;
 constexpr double kRefusedM = 1.5;
 constexpr std::size_t kMostRefused = 64;
 constexpr double kPeersM = 15.0, kStandsMps = 0.3;
 constexpr double kTurn = 0.8, kTurnEveryS = 1.2;
-constexpr double kFaceM = 4.0;             ///< nearer than this to its goal, a UAV turns as the goal asks
+constexpr double kFaceM = 4.0;  ///< nearer than this to its goal, a UAV turns as the goal asks
 constexpr double kHereM = 0.3;
-constexpr double kFitMps = 1.0;            ///< ways are wide enough for that speed
+constexpr double kFitMps = 1.0;  ///< ways are wide enough for that speed
 constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "uav_agent/api/planner.hpp"
-#include "uav_agent/flight_core/flight_config.hpp"
 #include "uav_agent/flight/free_space.hpp"
+#include "uav_agent/flight_core/flight_config.hpp"
 #include "uav_agent/flight_core/safety_filter.hpp"
 
 namespace skein::agent {

@@ -47,7 +47,8 @@ bool Recovery::set_out(const PlannerInput& in) {
   const FreeSpace space = navigator_.space(in);
   if (behaviour_ == Behaviour::approach) {
     if (!navigator_.missed_W()) return false;
-    const auto corners = find_approach(space, in.boxes, here_W, *navigator_.missed_W(), kWorthM, {.max_expansions = kExpansions});
+    const auto corners =
+        find_approach(space, in.boxes, here_W, *navigator_.missed_W(), kWorthM, {.max_expansions = kExpansions});
     if (!corners) return false;
     navigator_.want({{.id = kGoal, .way = {{corners->back(), config_.approach_mps}}}});
     return true;
@@ -63,7 +64,8 @@ bool Recovery::set_out(const PlannerInput& in) {
     for (int i = 0; i < kHeadings; ++i) {
       const double heading = 2.0 * std::numbers::pi * ((i + kHeadingStep * tries_) % kHeadings) / kHeadings;
       for (const double height_m : kHeightsM) {
-        const Vector3d p_W = here_W + Vector3d(distance_m * std::cos(heading), distance_m * std::sin(heading), height_m);
+        const Vector3d p_W =
+            here_W + Vector3d(distance_m * std::cos(heading), distance_m * std::sin(heading), height_m);
         if (in.world_map->at(p_W) == Space::free && space.free(p_W) && space.segment_free(here_W, p_W)) {
           goals.push_back({.id = kGoal, .way = {{p_W, config_.approach_mps}}});
         }

@@ -6,11 +6,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSampleM = 0.3;      ///< between two places of a way that are looked at
-constexpr double kNearerM = 1e-6;     ///< rounding, where nothing may come nearer
-constexpr double kPeerDelayS = 0.1;   ///< a UAV may fly on so long before it brakes: one exchange and a late command
+constexpr double kSampleM = 0.3;     ///< between two places of a way that are looked at
+constexpr double kNearerM = 1e-6;    ///< rounding, where nothing may come nearer
+constexpr double kPeerDelayS = 0.1;  ///< a UAV may fly on so long before it brakes: one exchange and a late command
 constexpr double kPeerBrakesMps2 = 2.0;
-constexpr double kPeerSmoothS = 0.4;  ///< commands are means over so long (tracker.hpp): braking begins that much softer
+constexpr double kPeerSmoothS =
+    0.4;  ///< commands are means over so long (tracker.hpp): braking begins that much softer
 constexpr double kRestsMps = 0.2;
 /// One that went out of sight in a turn, or while it set out, comes to rest beside what its last word foretold: the
 /// velocity that it tells lags behind by half of kPeerSmoothS. Measured over drawn flights: 0.48 m at most.
@@ -86,9 +87,8 @@ std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& f
     Vector3d to_W = peer.p_W;
     // One that is heard may have changed its mind since. Who rests goes nowhere before it is heard again.
     if (speed_mps > kRestsMps) to_W += peer.v_W * (stopping_m(speed_mps) / speed_mps);
-    const double apart_m =
-        agent_.me().body_radius_m + agent_.fleet[peer.uav].body_radius_m + config_.peer_margin_m +
-        (peer.visible ? 0.0 : kUnheardM);
+    const double apart_m = agent_.me().body_radius_m + agent_.fleet[peer.uav].body_radius_m + config_.peer_margin_m +
+                           (peer.visible ? 0.0 : kUnheardM);
     const double now_m = distance_to_segment(now_W_, peer.p_W, to_W);
     if (now_m < 40.0) reach.push_back({peer.uav, peer.p_W, to_W, apart_m, now_m});
   }

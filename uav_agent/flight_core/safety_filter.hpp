@@ -29,8 +29,8 @@ namespace skein::agent {
 struct Held {
   enum class By : std::uint8_t { nothing, unproved, structure, peer };
   By by = By::nothing;
-  Vector3d at_W = Vector3d::Zero();         ///< where on its way
-  std::optional<std::size_t> peer = {};     ///< which one
+  Vector3d at_W = Vector3d::Zero();      ///< where on its way
+  std::optional<std::size_t> peer = {};  ///< which one
 };
 
 class SafetyFilter {
@@ -85,7 +85,7 @@ class SafetyFilter {
   bool assumes_boxes_;
   Held held_;
   Counts counts_;
-  std::vector<Cube> cubes_;                       ///< scratch
+  std::vector<Cube> cubes_;  ///< scratch
   /// Where it is commanded to be: what may not come nearer is measured from there. From the measured place, a UAV that
   /// swings about it would creep.
   Vector3d now_W_ = Vector3d::Zero();

@@ -8,7 +8,7 @@ namespace skein::agent {
 namespace {
 
 constexpr std::int64_t kShowing = -3;
-constexpr double kUpM = 2.5;        ///< above its start, a UAV has risen
+constexpr double kUpM = 2.5;  ///< above its start, a UAV has risen
 constexpr double kColumnTopM = 6.0;
 constexpr double kAsideM = 5.0, kAboveM[] = {5.0, 8.0, 12.0};  ///< from there a LiDAR sees the column well
 constexpr int kSides = 8;

@@ -13,13 +13,13 @@ constexpr double kLookAheadS = 0.3;    ///< how far ahead on the path the point 
 constexpr double kMinLookAheadM = 0.15;
 constexpr double kTouchM = 0.1;  ///< a sharp corner counts as reached this close
 constexpr double kSharpSpeedMps = 0.3;
-constexpr double kSharpCosine = 0.5;    ///< turns of more than 60 degrees are sharp
-constexpr double kBendM = 8.0;          ///< corners farther apart are turns of their own
-constexpr double kMinLegM = 1e-3;       ///< shorter legs are no legs
-constexpr double kSlowestPace = 0.1;    ///< of a set-point that waits for its UAV
-constexpr double kLongestStepS = 0.05;  ///< of the point mass; a longer exchange takes several
+constexpr double kSharpCosine = 0.5;             ///< turns of more than 60 degrees are sharp
+constexpr double kBendM = 8.0;                   ///< corners farther apart are turns of their own
+constexpr double kMinLegM = 1e-3;                ///< shorter legs are no legs
+constexpr double kSlowestPace = 0.1;             ///< of a set-point that waits for its UAV
+constexpr double kLongestStepS = 0.05;           ///< of the point mass; a longer exchange takes several
 constexpr std::size_t kMostStoppingSteps = 400;  ///< nobody takes 20 s
-constexpr double kNoPositionM = 0.02;   ///< the controller takes |p| < 0.01 for "no position"
+constexpr double kNoPositionM = 0.02;            ///< the controller takes |p| < 0.01 for "no position"
 
 Vector3d shortened(const Vector3d& v, double length) {
   const double norm = v.norm();

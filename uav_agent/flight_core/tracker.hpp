@@ -100,7 +100,7 @@ class Tracker {
   std::vector<Corner> corners_;      ///< laid out at the first step with a new path
   double progress_ = 0.0;            ///< arc length reached
   double speed_limit_mps_ = std::numeric_limits<double>::infinity();
-  bool done_ = true;                 ///< the point mass is
+  bool done_ = true;  ///< the point mass is
 };
 
 }  // namespace skein::agent

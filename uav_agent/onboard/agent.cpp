@@ -5,8 +5,9 @@
 #include <iterator>
 
 #include "core/euler.hpp"
-#include "uav_agent/flight_core/flight_core.hpp"
 #include "uav_agent/flight/site.hpp"
+#include "uav_agent/flight_core/flight_core.hpp"
+#include "uav_agent/flight_core/tracker.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
 #include "uav_agent/maps/uav_traces.hpp"
 #include "uav_agent/maps/world_mapper.hpp"
@@ -14,7 +15,6 @@
 #include "uav_agent/onboard/key_frame_filter.hpp"
 #include "uav_agent/onboard/map_radio.hpp"
 #include "uav_agent/onboard/ready_frames.hpp"
-#include "uav_agent/flight_core/tracker.hpp"
 #include "uav_agent/onboard/uplink.hpp"
 #include "uav_agent/planning/aiming.hpp"
 
@@ -218,6 +218,7 @@ void Agent::Impl::fly(const PlannerInput& in, PlannerOutput& decision) {
   if (!std::holds_alternative<std::monostate>(steering.gimbal)) decision.gimbal = steering.gimbal;
   if (!decision.waits_for) decision.waits_for = core->waits_for();
   decision.going_to_W = core->going_to_W();
+  if (decision.no_way.empty()) decision.no_way = core->no_way();
 }
 
 std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision, const AgentInput& input) {
@@ -231,19 +232,8 @@ std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision
   if (const auto* setpoint = std::get_if<Setpoint>(&decision.motion)) tracker.fly_to(*setpoint);
   if (std::holds_alternative<Hold>(decision.motion)) tracker.hold();
   if (!core) return tracker.step(state, config.exchange_period_s);
-  if (getenv("FTRACE") && input.k % 20 == 0) {  // TRACE
-    const auto& h = core->filter().held();
-    const auto fs = core->trace();
-    fprintf(stderr, "%s t=%.0f p=(%.1f %.1f %.1f) v=%.1f held=%d at=(%.1f %.1f %.1f) %s\n", config.me().name.c_str(), seconds(input.tick), state.p_WB.x(), state.p_WB.y(), state.p_WB.z(), state.v_WB.norm(), int(h.by), h.at_W.x(), h.at_W.y(), h.at_W.z(), fs.c_str());
-  }
-  if (getenv("FTRACE") && input.k % 400 == 0) {  // TRACE
-    std::vector<Eigen::Vector3i> c;
-    known_world()->not_free_near(state.p_WB, core->filter().tube_m(0), 1.0, c);
-    fprintf(stderr, "MAP free %zu occ %zu bytes %zu not free %zu:", known_world()->counts().free[0], known_world()->counts().occupied, known_world()->counts().bytes, c.size());
-    for (auto& q : c) fprintf(stderr, " (%.1f %.1f %.1f)%d", q.x() * .5 + .25 - state.p_WB.x(), q.y() * .5 + .25 - state.p_WB.y(), q.z() * .5 + .25, int(known_world()->known(q).space));
-    fprintf(stderr, "\n");
-  }
-  return core->move(tracker, {.tick = input.tick, .state = state, .map = *known_world(), .boxes = boxes, .peers = peers});
+  return core->move(tracker,
+                    {.tick = input.tick, .state = state, .map = *known_world(), .boxes = boxes, .peers = peers});
 }
 
 std::optional<RadioMessage> Agent::Impl::tell_map(const std::optional<Vector3d>& going_to_W, Tick tick) {

@@ -15,7 +15,7 @@ struct PatrolCoreConfig {
   double standoff_ratio = 0.92;  ///< distance to the surface in units of d*
   double blind_ratio = 0.55;     ///< distance to a box's face where no surface is mapped
   double overlap = 0.2;
-  double speed_gain = 1.0;           ///< 1: no blur
+  double speed_gain = 1.0;  ///< 1: no blur
   FlightConfig flight = {};
 
   template <class R>

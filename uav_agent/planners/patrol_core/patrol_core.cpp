@@ -1,6 +1,6 @@
-// Patrol on the new flight core, beside `patrol` until all strategies fly on it: flies along every face of every box in strips, at the distance where the camera is sharp. It knows
-// the boxes and its own map, talks to nobody, and is meant as an honest baseline: simple, safe, the same on
-// every UAV.
+// `patrol` on the new flight core, beside it until all strategies fly on that (docs/decisions/0029-flight-core.md): flies
+// along every face of every box in strips, at the distance where the camera is sharp. It knows the boxes and its own map,
+// talks to nobody, and is meant as an honest baseline: simple, safe, the same on every UAV.
 //
 // In turn: explorers fly once around everything; then each UAV flies its share of the strips (strips.hpp), closing in on
 // the real surface as the map fills (standoff.hpp), and begins its share again with the camera turned a little. In a box
@@ -13,8 +13,8 @@
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/flight/site.hpp"
-#include "uav_agent/planners/patrol_core/config.hpp"
 #include "uav_agent/planners/patrol/rounds.hpp"
+#include "uav_agent/planners/patrol_core/config.hpp"
 #include "uav_agent/planning/block_work.hpp"
 #include "uav_agent/planning/standoff.hpp"
 #include "uav_agent/planning/survey.hpp"
@@ -28,6 +28,12 @@ constexpr double kRestS = 3.0;                       ///< after a round in which
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the side, by round [rad]
 constexpr int kMaxFailures = 3;                      ///< of a strip, in a round
 constexpr double kAboveGroundM = 4.0;                ///< at least, of the survey's ring
+
+std::vector<Waypoint> along(const std::vector<Vector3d>& places_W, double speed_mps) {
+  std::vector<Waypoint> waypoints;
+  for (const Vector3d& p_W : places_W) waypoints.push_back({p_W, speed_mps});
+  return waypoints;
+}
 
 }  // namespace
 
@@ -45,11 +51,12 @@ class PatrolCorePlanner final : public Planner {
   StandoffConfig standoff_config() const;
   void share_work(const PlannerInput& in);
   void take_note(const Outcome& outcome);
-  std::optional<Goal> next_goal(const PlannerInput& in);
-  std::optional<Goal> survey_goal();
+  std::vector<Goal> next_goals(const PlannerInput& in);
   bool take_strip(const PlannerInput& in);
   bool take_block(const PlannerInput& in);
-  std::optional<Goal> strip_goal(const PlannerInput& in, const std::optional<Vector3d>& p_W_now);
+  std::vector<Goal> strip_goals(const PlannerInput& in, const std::optional<Vector3d>& p_W_now);
+  std::vector<Goal> refitted(const PlannerInput& in);
+  void strip_is_flown();
   void face_strip(Goal& goal) const;
   void give_strip_up();
   /// Where on the strip the waypoint `leg` of the present run is.
@@ -59,20 +66,20 @@ class PatrolCorePlanner final : public Planner {
   const AgentConfig agent_;
   const CameraReach reach_;
 
-  bool shared_ = false;              ///< the boxes have come
-  std::vector<Vector3d> ring_;       ///< of the survey, what is left of it
+  bool shared_ = false;         ///< the boxes have come
+  std::vector<Vector3d> ring_;  ///< of the survey, what is left of it
   PatrolRounds rounds_;
-  bool flown_any_ = true;            ///< in this round
+  bool flown_any_ = true;  ///< in this round
   std::optional<BlockWork> blocks_;
   std::optional<BlockWork::Task> task_;  ///< of blocks_; else the current strip is of the rounds
   bool task_flown_ = false;
-  std::optional<Strip> strip_;       ///< the current one; none: the survey, or nothing
-  bool reversed_ = false;            ///< its direction
-  double strip_s_ = 0.0;             ///< where on the strip the present run begins
-  std::size_t run_length_ = 0;       ///< waypoints of it
-  int failures_ = 0;                 ///< of this strip
-  std::int64_t id_ = 0;              ///< of the current goal
-  bool flying_ = false;              ///< to it, or along it
+  std::optional<Strip> strip_;  ///< the current one; none: the survey, or nothing
+  bool reversed_ = false;       ///< its direction
+  double strip_s_ = 0.0;        ///< where on the strip the present run begins
+  std::size_t run_length_ = 0;  ///< waypoints of it
+  int failures_ = 0;            ///< of this strip
+  std::int64_t id_ = 0;         ///< of the current goal
+  bool flying_ = false;         ///< to it, or along it
   Tick refit_at_ = 0, rest_until_ = 0;
 };
 
@@ -84,33 +91,34 @@ PlannerOutput PatrolCorePlanner::plan(const PlannerInput& in) {
     if (outcome.id == id_) take_note(outcome);
   }
   if (!flying_ && in.tick >= rest_until_) {
-    out.goals.emplace();
-    if (auto goal = next_goal(in)) {
-      goal->id = ++id_;
-      flying_ = true;
-      out.goals->push_back(std::move(*goal));
-    }
+    out.goals = next_goals(in);
+    flying_ = !out.goals->empty();
+    ++id_;
   } else if (flying_ && strip_ && in.flight.on_way && in.tick >= refit_at_) {
-    // The map may have grown: fits what is left of the strip again.
     refit_at_ = in.tick + ticks(kRefitS);
-    const double s = run_s(in.flight.leg), before_s = strip_s_;
-    const std::size_t before_length = run_length_;
-    if (!flown_any_ || (task_ && !task_flown_)) {
-      flown_any_ = true;
-      if (task_) blocks_->flown(*task_);
-      task_flown_ = true;
-    }
-    strip_s_ = s;
-    auto goal = s < strip_->length() ? strip_goal(in, in.tracking.setpoint.p_WB) : std::nullopt;
-    if (goal && strip_s_ <= s) {
-      goal->id = id_;
-      out.goals = {std::move(*goal)};
-    } else {
-      strip_s_ = before_s;
-      run_length_ = before_length;
-    }
+    strip_is_flown();
+    if (auto goals = refitted(in); !goals.empty()) out.goals = std::move(goals);
   }
+  if (out.goals && flying_) out.goals->front().id = id_;
   return out;
+}
+
+/// The map may have grown: fits what is left of the strip again. Empty: as it was.
+std::vector<Goal> PatrolCorePlanner::refitted(const PlannerInput& in) {
+  const double s = run_s(in.flight.leg), before_s = strip_s_;
+  const std::size_t before_length = run_length_;
+  strip_s_ = s;
+  std::vector<Goal> goals = strip_goals(in, in.tracking.setpoint.p_WB);
+  if (!goals.empty() && strip_s_ <= s) return goals;
+  strip_s_ = before_s;
+  run_length_ = before_length;
+  return {};
+}
+
+void PatrolCorePlanner::strip_is_flown() {
+  flown_any_ = true;
+  if (task_ && !task_flown_) blocks_->flown(*task_);
+  task_flown_ = true;
 }
 
 StandoffConfig PatrolCorePlanner::standoff_config() const {
@@ -155,9 +163,7 @@ void PatrolCorePlanner::take_note(const Outcome& outcome) {
   }
   if (outcome.kind == Outcome::Kind::reached) {
     strip_s_ = run_s(run_length_);
-    flown_any_ = true;
-    if (task_ && !task_flown_) blocks_->flown(*task_);
-    task_flown_ = true;
+    strip_is_flown();
     return;
   }
   if (outcome.kind == Outcome::Kind::blocked) strip_s_ = run_s(outcome.leg);
@@ -170,24 +176,19 @@ void PatrolCorePlanner::give_strip_up() {
   failures_ = 0;
 }
 
-std::optional<Goal> PatrolCorePlanner::next_goal(const PlannerInput& in) {
-  if (!ring_.empty()) return survey_goal();
+/// At most one.
+std::vector<Goal> PatrolCorePlanner::next_goals(const PlannerInput& in) {
+  if (!ring_.empty()) return {Goal{.way = along(ring_, config_.survey_mps)}};
   for (int tries = 0; tries < kMaxFailures; ++tries) {
     if (!strip_ && !take_strip(in)) {
       rest_until_ = std::max(rest_until_, in.tick + ticks(kRestS));
-      return std::nullopt;
+      return {};
     }
-    if (auto goal = strip_goal(in, std::nullopt)) return goal;
+    if (auto goals = strip_goals(in, std::nullopt); !goals.empty()) return goals;
     if (task_ && !task_flown_) blocks_->failed(*task_, in.tick);
     give_strip_up();
   }
-  return std::nullopt;
-}
-
-std::optional<Goal> PatrolCorePlanner::survey_goal() {
-  Goal goal;
-  for (const Vector3d& p_W : ring_) goal.way.push_back({p_W, config_.survey_mps});
-  return goal;
+  return {};
 }
 
 /// What to fly next. @returns false if there is nothing.
@@ -224,17 +225,18 @@ bool PatrolCorePlanner::take_block(const PlannerInput& in) {
   return true;
 }
 
-/// The first stretch of what is left of the current strip, from strip_s_ on.
-std::optional<Goal> PatrolCorePlanner::strip_goal(const PlannerInput& in, const std::optional<Vector3d>& p_W_now) {
-  if (strip_s_ >= strip_->length()) return std::nullopt;
+/// The first stretch of what is left of the current strip, from strip_s_ on: a goal, or none.
+std::vector<Goal> PatrolCorePlanner::strip_goals(const PlannerInput& in, const std::optional<Vector3d>& p_W_now) {
+  std::vector<Goal> goals;
+  if (strip_s_ >= strip_->length()) return goals;
   auto runs = fit_strip(*strip_, reversed_, strip_s_, p_W_now, *in.space, reach_, standoff_config());
-  if (runs.empty()) return std::nullopt;
+  if (runs.empty()) return goals;
   strip_s_ = runs.front().first_s;
   run_length_ = runs.front().waypoints.size();
   if (!p_W_now) refit_at_ = 0;
-  Goal goal{.way = std::move(runs.front().waypoints)};
-  face_strip(goal);
-  return goal;
+  goals.emplace_back().way = std::move(runs.front().waypoints);
+  face_strip(goals.back());
+  return goals;
 }
 
 void PatrolCorePlanner::face_strip(Goal& goal) const {
