@@ -12,10 +12,12 @@ struct FlightConfig {
   double error_m = 0.33;          ///< tracking error at rest, with a LiDAR; docs/flight-safety.md has the measurement
   double light_error_m = 0.23;    ///< the same without one
   double error_per_mps_s = 0.03;  ///< and so much more a metre a second
-  double ground_m = 1.0;          ///< below, nothing is asked of the map: the ground is level, at z = 0
-  double floor_m = 2.0;           ///< nobody flies lower, except at takeoff
-  double peer_margin_m = 0.6;     ///< between two bodies when both have braked
-  double peer_memory_s = 20.0;    ///< a UAV that went out of sight is taken to be where it came to rest for so long
+  double tight_halo_m = 0.35;   ///< about the body, in place of kHaloM, for a UAV that has less room than that already
+  double tight_mps = 0.8;       ///< no faster then
+  double ground_m = 1.0;        ///< below, nothing is asked of the map: the ground is level, at z = 0
+  double floor_m = 2.0;         ///< nobody flies lower, except at takeoff
+  double peer_margin_m = 0.6;   ///< between two bodies when both have braked
+  double peer_memory_s = 20.0;  ///< a UAV that went out of sight is taken to be where it came to rest for so long
 
   // Motion.
   double approach_mps = 5.0;  ///< from here to there; the map decides how much of it can be had
@@ -40,6 +42,8 @@ struct FlightConfig {
     r.field("error_m", error_m, within(0.0, 2.0));
     r.field("light_error_m", light_error_m, within(0.0, 2.0));
     r.field("error_per_mps_s", error_per_mps_s, within(0.0, 1.0));
+    r.field("tight_halo_m", tight_halo_m, within(0.1, 1.0));
+    r.field("tight_mps", tight_mps, within(0.1, 5.0));
     r.field("ground_m", ground_m, within(0.0, 5.0));
     r.field("floor_m", floor_m, within(1.0, 20.0));
     r.field("peer_margin_m", peer_margin_m, within(0.1, 10.0));

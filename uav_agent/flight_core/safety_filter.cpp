@@ -44,9 +44,9 @@ std::vector<Vector3d> thinned(const std::vector<Vector3d>& way_W) {
 SafetyFilter::SafetyFilter(const FlightConfig& config, const AgentConfig& agent)
     : config_(config), agent_(agent), assumes_boxes_(!agent.first_explorer()) {}
 
-double SafetyFilter::tube_m(double speed_mps) const {
+double SafetyFilter::tube_m(double speed_mps, double halo_m) const {
   const double at_rest_m = agent_.me().role == Role::explorer ? config_.error_m : config_.light_error_m;
-  return agent_.me().body_radius_m + kHaloM + at_rest_m + config_.error_per_mps_s * speed_mps;
+  return agent_.me().body_radius_m + halo_m + at_rest_m + config_.error_per_mps_s * speed_mps;
 }
 
 std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Facts& facts, double most_mps) {
@@ -55,6 +55,12 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
   const double dt_s = agent_.exchange_period_s;
   if (!tracker.moves()) return tracker.step(facts.state, dt_s);
   ++counts_.exchanges;
+  const bool room = has_room(facts);
+  halo_m_ = room ? kHaloM : config_.tight_halo_m;
+  if (!room) {
+    ++counts_.broken;
+    most_mps = std::min(most_mps, config_.tight_mps);
+  }
   const std::vector<PeerReach> peers = reach_of_peers(facts);
   const double speed_mps = tracker.tracking().setpoint.v_WB.norm();
   const double limits_mps[] = {most_mps, std::min(most_mps, speed_mps), 0.9 * speed_mps - 0.02};
@@ -75,6 +81,16 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
   ++counts_.slowed;
   tracker.limit_speed(0.0);
   return tracker.step(facts.state, dt_s);
+}
+
+/// As much as is asked for, about where it is commanded to be.
+bool SafetyFilter::has_room(const Facts& facts) {
+  if (assumes_boxes_) return true;
+  const double radius_m = tube_m(0.0);
+  if (now_W_.z() - radius_m > config_.ground_m && facts.map.tube_free(now_W_, now_W_, radius_m)) return true;
+  cubes_.clear();
+  facts.map.not_free_near(now_W_, radius_m, config_.ground_m, cubes_);
+  return cubes_.empty();
 }
 
 std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& facts) const {
@@ -99,7 +115,7 @@ std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& f
 Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, const Facts& facts,
                          const std::vector<PeerReach>& peers) {
   const std::vector<Vector3d> places_W = thinned(way_W);
-  const double radius_m = tube_m(speed_mps);
+  const double radius_m = tube_m(speed_mps, halo_m_);
   for (const Vector3d& p_W : places_W) {
     for (const PeerReach& peer : peers) {
       const double off_m = distance_to_segment(p_W, peer.from_W, peer.to_W);
@@ -136,8 +152,11 @@ bool SafetyFilter::assumed(const Vector3d& p_W, double radius_m, const WorldMap&
                            const std::vector<OrientedBox>& boxes) const {
   const bool above_start = (p_W - agent_.me().p_WB_start).head<2>().norm() < kStartM && p_W.z() < kAboveStartM;
   const double room_m = above_start ? 0.5 * radius_m : radius_m;
-  return map.structure_distance_m(p_W) >= room_m &&
-         std::ranges::none_of(boxes, [&](const OrientedBox& box) { return box.contains(p_W, room_m); });
+  return map.structure_distance_m(p_W) >= room_m && std::ranges::none_of(boxes, [&](const OrientedBox& box) {
+           // Where it was put down in a box, or below one, there is nothing but that way out.
+           const bool about_start = above_start && box.contains(agent_.me().p_WB_start, radius_m);
+           return !about_start && box.contains(p_W, room_m);
+         });
 }
 
 }  // namespace skein::agent

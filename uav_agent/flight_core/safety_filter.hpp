@@ -5,7 +5,8 @@
 //   - it would not touch what any other UAV can sweep that brakes from the last word of it.
 // A motion is commanded only if the invariant holds after it. Else the UAV goes on slower, or brakes: braking was found
 // safe in the exchange before, so it is safe still, unless the world has changed (a new hit, a UAV out of nowhere, a
-// restart). Where the invariant is broken so, nothing that breaks it may come nearer.
+// restart). Where it is broken so, nothing that breaks it may come nearer; but a UAV that has less room than kHaloM where it
+// rests, beside a wall perhaps, may fly on slowly with less (FlightConfig::tight_halo_m), all of it proved.
 //
 // Two UAVs that both keep it never meet: either could brake at any time, and neither counts on what the other will do.
 // In a fleet without a LiDAR nobody can prove anything, nor can a UAV that nobody tells anything: there, what is outside
@@ -57,7 +58,7 @@ class SafetyFilter {
   /// Whether a body may be there: all about it is proved to be free.
   bool proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const;
   /// Radius of what must be free about a body's centre at a speed.
-  double tube_m(double speed_mps) const;
+  double tube_m(double speed_mps) const { return tube_m(speed_mps, kHaloM); }
 
   struct Counts {
     std::uint64_t exchanges = 0, slowed = 0, broken = 0;  ///< broken: the invariant did not hold beforehand
@@ -74,6 +75,8 @@ class SafetyFilter {
   };
   using Cube = WorldMap::Cube;
 
+  double tube_m(double speed_mps, double halo_m) const;
+  bool has_room(const Facts& facts);
   std::vector<PeerReach> reach_of_peers(const Facts& facts) const;
   Held judge(const std::vector<Vector3d>& way_W, double speed_mps, const Facts& facts,
              const std::vector<PeerReach>& peers);
@@ -89,6 +92,7 @@ class SafetyFilter {
   /// Where it is commanded to be: what may not come nearer is measured from there. From the measured place, a UAV that
   /// swings about it would creep.
   Vector3d now_W_ = Vector3d::Zero();
+  double halo_m_ = kHaloM;  ///< in this exchange
 };
 
 }  // namespace skein::agent
