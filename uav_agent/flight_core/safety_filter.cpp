@@ -24,6 +24,11 @@ double distance_to_segment(const Vector3d& p_W, const Vector3d& a_W, const Vecto
   return (a_W + part * ab - p_W).norm();
 }
 
+/// How far a place lies off a box: what has to be added to its sides to hold it.
+double off_box_m(const OrientedBox& box, const Vector3d& p_W) {
+  return ((box.R_WO.transpose() * (p_W - box.center)).cwiseAbs() - 0.5 * box.size).maxCoeff();
+}
+
 /// From v to rest [m].
 double stopping_m(double v_mps) {
   return v_mps * (kPeerDelayS + 0.5 * kPeerSmoothS) + v_mps * v_mps / (2.0 * kPeerBrakesMps2);
@@ -113,6 +118,11 @@ Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, c
 bool SafetyFilter::proved(const Vector3d& p_W, double radius_m, const Facts& facts, Held& held) {
   if (blind_fleet_) {
     if (assumed(p_W, radius_m, facts.boxes)) return true;
+    const bool nearer = std::ranges::any_of(facts.boxes, [&](const OrientedBox& box) {
+      const double off_m = off_box_m(box, p_W);
+      return off_m <= radius_m && off_m < off_box_m(box, now_W_) - kNearerM;
+    });
+    if (!nearer) return true;
     held.by = Held::By::unproved;
     return false;
   }
