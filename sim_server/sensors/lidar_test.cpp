@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/euler.hpp"
+#include "core/lidar_geometry.hpp"
 #include "sim_server/sensors/key_frames.hpp"
 #include "sim_server/testing/test_scenes.hpp"
 

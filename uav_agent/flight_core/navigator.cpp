@@ -43,8 +43,8 @@ FreeSpace::Config Navigator::space_config(const PlannerInput& in) const {
   return config;
 }
 
-FreeSpace Navigator::space(const PlannerInput& in) const {
-  const Vector3d here_W = in.tracking.setpoint.p_WB;
+/// @param here_W  where a way begins: it is kept out of nothing that it stands in.
+FreeSpace Navigator::space(const PlannerInput& in, const Vector3d& here_W) const {
   std::vector<Sphere> keep_out;
   for (const Peer& peer : in.peers.all()) {
     const double off_m = (peer.p_W - here_W).norm();
@@ -58,6 +58,19 @@ FreeSpace Navigator::space(const PlannerInput& in) const {
     }
   }
   return {space_config(in), in.boxes, in.map, std::move(keep_out)};
+}
+
+/// Here; or a step back from a UAV that is so near that the safety filter lets nobody fly about it from here.
+Vector3d Navigator::way_begins_W(const PlannerInput& in) const {
+  const Vector3d here_W = in.tracking.setpoint.p_WB;
+  Vector3d from_W = here_W;
+  for (const Peer& peer : in.peers.all()) {
+    const double apart_m = agent_.me().body_radius_m + agent_.fleet[peer.uav].body_radius_m + config_.peer_margin_m;
+    const double off_m = (here_W - peer.p_W).norm(), back_m = apart_m + 2.0 * kHereM - off_m;
+    if (!peer.visible || back_m <= 0.0 || off_m <= 0.0) continue;
+    from_W += (here_W - peer.p_W) / off_m * back_m;
+  }
+  return from_W != here_W && space(in).segment_free(here_W, from_W) ? from_W : here_W;
 }
 
 std::optional<Vector3d> Navigator::going_to_W() const {
@@ -150,9 +163,12 @@ Navigator::Search Navigator::set_out(const PlannerInput& in, Steering& steering)
     return Search::found;
   }
   bool gave_up = false;
-  const auto corners = find_path(space(in), in.boxes, from_W, to_W, {.max_expansions = kMostExpansions}, &gave_up);
+  const Vector3d begin_W = way_begins_W(in);
+  const auto corners =
+      find_path(space(in, begin_W), in.boxes, begin_W, to_W, {.max_expansions = kMostExpansions}, &gave_up);
   if (!corners) return gave_up ? Search::gave_up : Search::none;
   std::vector<Waypoint> waypoints;
+  if (begin_W != from_W) waypoints.push_back({begin_W, config_.approach_mps});
   for (const Vector3d& p_W : *corners) waypoints.push_back({p_W, config_.approach_mps});
   on_way_ = false;
   fly(std::move(waypoints), steering);

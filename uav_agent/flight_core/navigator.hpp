@@ -54,7 +54,7 @@ class Navigator {
   std::optional<Vector3d> going_to_W() const;
 
   /// Where this UAV may plan to fly as of now, other UAVs and refused places left out.
-  FreeSpace space(const PlannerInput& in) const;
+  FreeSpace space(const PlannerInput& in) const { return space(in, in.tracking.setpoint.p_WB); }
   /// The same with them: for strategies, which choose where to work.
   FreeSpace open_space(const PlannerInput& in) const { return {space_config(in), in.boxes, in.map}; }
 
@@ -62,6 +62,8 @@ class Navigator {
   enum class Search { found, none, gave_up };
 
   FreeSpace::Config space_config(const PlannerInput& in) const;
+  FreeSpace space(const PlannerInput& in, const Vector3d& from_W) const;
+  Vector3d way_begins_W(const PlannerInput& in) const;
   void choose(const PlannerInput& in, Steering& steering);
   Search set_out(const PlannerInput& in, Steering& steering);
   void begin_way(const PlannerInput& in, Steering& steering);

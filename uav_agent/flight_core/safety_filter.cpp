@@ -25,6 +25,11 @@ double distance_to_segment(const Vector3d& p_W, const Vector3d& a_W, const Vecto
   return (a_W + part * ab - p_W).norm();
 }
 
+/// How far a place lies off a box: what has to be added to its sides to hold it.
+double off_box_m(const OrientedBox& box, const Vector3d& p_W) {
+  return ((box.R_WO.transpose() * (p_W - box.center)).cwiseAbs() - 0.5 * box.size).maxCoeff();
+}
+
 /// From v to rest [m].
 double stopping_m(double v_mps) {
   return v_mps * (kPeerDelayS + 0.5 * kPeerSmoothS) + v_mps * v_mps / (2.0 * kPeerBrakesMps2);
@@ -155,7 +160,8 @@ bool SafetyFilter::assumed(const Vector3d& p_W, double radius_m, const WorldMap&
   return map.structure_distance_m(p_W) >= room_m && std::ranges::none_of(boxes, [&](const OrientedBox& box) {
            // Where it was put down in a box, or below one, there is nothing but that way out.
            const bool about_start = above_start && box.contains(agent_.me().p_WB_start, radius_m);
-           return !about_start && box.contains(p_W, room_m);
+           return !about_start && off_box_m(box, p_W) <= room_m &&
+                  off_box_m(box, p_W) < off_box_m(box, now_W_) - kNearerM;
          });
 }
 

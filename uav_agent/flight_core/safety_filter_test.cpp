@@ -109,7 +109,7 @@ void carve(RandomStream& random, int balls, int cubes, WorldMap& map, Vector3d a
 
 std::vector<Waypoint> drawn_way(RandomStream& random, const Vector3d& about_W) {
   std::vector<Waypoint> way;
-  for (std::uint64_t i = 0; i < 1 + random.bits() % 4; ++i) {
+  for (std::uint64_t i = random.bits() % 4 + 1; i > 0; --i) {
     Vector3d p_W = about_W + drawn_within(random, 12.0);
     p_W.z() = std::max(0.5, p_W.z());
     way.push_back({p_W, random.uniform(0.5, 6.0)});
@@ -312,6 +312,25 @@ TEST(SafetyFilter, ABlindFleetKeepsOutOfBoxes) {
     flown_m += (uav.state.p_WB - start_W).norm();
   }
   EXPECT_GT(flown_m, 300.0);
+}
+
+// Nearer to a box than it may be, by a hair or by much: it comes no nearer, and it is not bound to stay there for ever.
+TEST(SafetyFilter, ABlindUavMayLeaveABoxThatItIsTooNearTo) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream random(seed, "leaves", 0);
+    GuardedUav uav({0.0, 0.0, 10.0}, fleet_of(1, Role::photographer, 0));
+    OrientedBox box;
+    box.size = {4.0, 4.0, 20.0};
+    const double off_m = uav.filter.tube_m(0.0) - (seed % 2 == 0 ? 1e-3 : random.uniform(0.01, 0.8));
+    box.center = {2.0 + off_m, 0.0, 10.0};
+    uav.boxes = {box};
+    uav.fly({{{6.0, random.uniform(-1.0, 1.0), 10.0}, 3.0}});
+    for (int k = 0; k < 100; ++k) uav.step();
+    ASSERT_LT(uav.tracker.commanded().p_WB.x(), 1e-3) << "seed " << seed;
+    uav.fly({{{-6.0, random.uniform(-3.0, 3.0), 10.0}, 3.0}});
+    for (int k = 0; k < 200; ++k) uav.step();
+    ASSERT_LT(uav.state.p_WB.x(), -5.9) << "seed " << seed;
+  }
 }
 
 }  // namespace

@@ -13,9 +13,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kTouchM = 0.63 + 0.3;             ///< to structure: the larger body, and a little
-constexpr double kSmallestSeparationM = 2 * 0.63;  ///< between two of them
-constexpr double kUnmeasuredM = 1e3;               ///< a distance that nobody flew in
+constexpr double kTouchM = 0.63 + 0.3;  ///< to structure: the larger body, and a little
+constexpr double kSmallestGapM = 0.3;   ///< between two bodies
+constexpr double kUnmeasuredM = 1e3;    ///< a distance that nobody flew in
 
 /// What to say to make a planner; those that need a file get one, with a place above its start for every UAV.
 std::string spec_of(const std::string& name, const std::vector<TestUav>& fleet) {
@@ -39,7 +39,7 @@ class EveryPlanner : public testing::TestWithParam<std::string> {
     EXPECT_EQ(world.bad_commands(), 0U);
     EXPECT_EQ(world.doubtful_scans(), 0U);
     EXPECT_GT(world.clearance(), kTouchM);
-    EXPECT_GT(world.separation(), kSmallestSeparationM);
+    EXPECT_GT(world.gap(), kSmallestGapM);
     EXPECT_LE(world.longest_message(), 2 * kMaxPayloadBytes);
   }
   /// Without that, keeping clear of everything is no merit.

@@ -168,7 +168,7 @@ struct TestWorld::Impl {
   double duration_s;
   std::vector<Uav> uavs;
   std::uint64_t k = 0, fingerprint = 14695981039346656037ULL;
-  double clearance = 1e9, separation = 1e9;
+  double clearance = 1e9, separation = 1e9, gap = 1e9;
   std::size_t bad_commands = 0, longest_message = 0;
 };
 
@@ -265,7 +265,10 @@ void TestWorld::Impl::step() {
     if (p.z() < 0.5) continue;
     for (const OrientedBox& solid : scene.solids) clearance = std::min(clearance, distance_to(solid, p));
     for (std::size_t j = 0; j < i; ++j) {
-      if (uavs[j].state.p_WB.z() > 0.5) separation = std::min(separation, (p - uavs[j].state.p_WB).norm());
+      if (uavs[j].state.p_WB.z() <= 0.5) continue;
+      const double apart = (p - uavs[j].state.p_WB).norm();
+      separation = std::min(separation, apart);
+      gap = std::min(gap, apart - uavs[i].config.me().body_radius_m - uavs[j].config.me().body_radius_m);
     }
     if (k % kCameraSteps == 0) photograph(uavs[i]);
   }
@@ -316,6 +319,7 @@ std::size_t TestWorld::longest_message() const { return impl_->longest_message; 
 std::uint64_t TestWorld::fingerprint() const { return impl_->fingerprint; }
 double TestWorld::clearance() const { return impl_->clearance; }
 double TestWorld::separation() const { return impl_->separation; }
+double TestWorld::gap() const { return impl_->gap; }
 double TestWorld::highest_m(std::size_t uav) const { return impl_->uavs.at(uav).highest_m; }
 Vector3d TestWorld::position(std::size_t uav) const { return impl_->uavs.at(uav).state.p_WB; }
 

@@ -48,6 +48,8 @@ class TestWorld {
   double clearance() const;
   /// Smallest distance between two UAVs' centres, both off the ground.
   double separation() const;
+  /// The same between their bodies (FleetMember::body_radius_m).
+  double gap() const;
   /// Share of the solids' surface points outside the ground and other solids that a camera saw from a sharp
   /// distance.
   double coverage() const;

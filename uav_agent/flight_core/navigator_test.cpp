@@ -1,0 +1,145 @@
+// What becomes of goals, over drawn places: each gets one outcome, and it is the right one.
+#include "uav_agent/flight_core/navigator.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/random_stream.hpp"
+#include "uav_agent/testing/flown_uav.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr int kTwoMinutes = 2400;  ///< in exchanges
+
+AgentConfig two_explorers() {
+  AgentConfig agent;
+  agent.fleet = {{.name = "a"}, {.name = "b", .p_WB_start = {0.0, 60.0, 0.0}}};
+  return agent;
+}
+
+struct InAClearing : FlownUav {
+  explicit InAClearing(const Vector3d& at_W = {0.0, 0.0, 10.0}) : FlownUav(two_explorers(), at_W) {
+    clear({-24.0, -24.0, 0.0}, {24.0, 24.0, 24.0});
+  }
+};
+
+Vector3d drawn_place(RandomStream& random) {
+  return {random.uniform(-18.0, 18.0), random.uniform(-18.0, 18.0), random.uniform(4.0, 18.0)};
+}
+
+TEST(Navigator, FliesToAGoalAndAlongItsWay) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    RandomStream random(seed, "goals", 0);
+    InAClearing uav;
+    Goal goal{.id = 7};
+    for (std::uint64_t i = random.bits() % 3 + 1; i > 0; --i) {
+      goal.way.push_back({drawn_place(random), random.uniform(1.0, 5.0)});
+    }
+    uav.navigator.want({goal});
+    const auto outcomes = uav.navigate(kTwoMinutes);
+    ASSERT_EQ(outcomes.size(), 1U) << "seed " << seed;
+    EXPECT_EQ(outcomes[0].kind, Outcome::Kind::reached) << "seed " << seed;
+    EXPECT_EQ(outcomes[0].id, 7);
+    EXPECT_LT((uav.state.p_WB - goal.way.back().p_WB).norm(), 0.1);
+    EXPECT_LT(uav.state.v_WB.norm(), 0.01) << "at rest";
+    EXPECT_TRUE(uav.navigator.idle());
+  }
+}
+
+// The first place is in the midst of structure: it says so at once, and takes the next.
+TEST(Navigator, TakesTheFirstGoalToWhichThereIsAWay) {
+  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+    RandomStream random(seed, "ranked", 0);
+    InAClearing uav({-20.0, -20.0, 10.0});
+    const Vector3d inside_W(random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0), random.uniform(3.0, 9.0));
+    uav.build(inside_W - Vector3d::Constant(2.0), inside_W + Vector3d::Constant(2.0));
+    const Vector3d behind_W(18.0, 18.0, random.uniform(5.0, 15.0));
+    uav.navigator.want({{.id = 1, .way = {{inside_W, 3.0}}},
+                        {.id = 2, .way = {{behind_W, 3.0}}},
+                        {.id = 3, .way = {{inside_W, 3.0}}}});
+    const auto outcomes = uav.navigate(kTwoMinutes);
+    ASSERT_EQ(outcomes.size(), 3U) << "seed " << seed;
+    for (const std::size_t i : {0U, 1U, 2U}) EXPECT_EQ(outcomes[i].id, static_cast<std::int64_t>(i + 1));
+    EXPECT_EQ(outcomes[0].kind, Outcome::Kind::no_way);
+    EXPECT_EQ(outcomes[1].kind, Outcome::Kind::reached);
+    EXPECT_EQ(outcomes[2].kind, Outcome::Kind::no_way);
+    EXPECT_EQ(uav.navigator.missed_W(), inside_W);
+  }
+}
+
+// Nobody proves what is there, and it cannot wait for ever.
+TEST(Navigator, GivesUpWhatIsNeverProved) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    RandomStream random(seed, "never", 0);
+    InAClearing uav;
+    const double heading = random.uniform(-3.1, 3.1);
+    const Vector3d out_W(45.0 * std::cos(heading), 45.0 * std::sin(heading), random.uniform(6.0, 18.0));
+    uav.navigator.want({{.id = 5, .way = {{out_W, 5.0}}}});
+    const auto outcomes = uav.navigate(2 * kTwoMinutes);
+    ASSERT_EQ(outcomes.size(), 1U) << "seed " << seed;
+    EXPECT_EQ(outcomes[0].kind, Outcome::Kind::no_way);
+    EXPECT_EQ(uav.navigator.missed_W(), out_W);
+    EXPECT_TRUE(uav.filter.proved(uav.state.p_WB, uav.map, {})) << "it stays in the clearing";
+  }
+}
+
+TEST(Navigator, SaysWhichLegIsBlocked) {
+  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+    RandomStream random(seed, "blocked", 0);
+    InAClearing uav({-18.0, 0.0, 10.0});
+    Goal goal{.id = 3, .way = {{{-16.0, 0.0, 10.0}, 2.0}, {{-6.0, 0.0, 10.0}, 2.0}, {{16.0, 0.0, 10.0}, 2.0}}};
+    uav.navigator.want({goal});
+    while (!uav.navigator.on_way()) uav.navigate();
+    for (std::uint64_t i = random.bits() % 160; i > 0; --i) uav.navigate();
+    const double wall_m = random.uniform(4.0, 10.0);
+    uav.build({wall_m, -20.0, 0.0}, {wall_m + 1.0, 20.0, 20.0});
+    const auto outcomes = uav.navigate(kTwoMinutes);
+    ASSERT_EQ(outcomes.size(), 1U) << "seed " << seed;
+    EXPECT_EQ(outcomes[0].kind, Outcome::Kind::blocked) << "seed " << seed;
+    const double x_m = uav.tracker.tracking().setpoint.p_WB.x();
+    if (std::abs(x_m + 6.0) < 1.0) continue;  // about the second waypoint, either will do
+    EXPECT_EQ(outcomes[0].leg, x_m < -6.0 ? 1U : 2U) << "seed " << seed;
+    EXPECT_LT(uav.state.p_WB.x(), wall_m - 1.7);
+  }
+}
+
+// What its strategy says of the same goal is heard at any time.
+TEST(Navigator, AWayMayChangeWhileItIsFlown) {
+  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+    RandomStream random(seed, "changes", 0);
+    InAClearing uav;
+    Goal goal{.id = 9, .way = {{drawn_place(random), 3.0}, {drawn_place(random), 3.0}}};
+    uav.navigator.want({goal});
+    for (std::uint64_t i = random.bits() % 200; i > 0; --i) uav.navigate();
+    if (uav.navigator.idle()) continue;
+    uav.navigator.take_outcomes();
+    goal.way = {{drawn_place(random), 3.0}, {drawn_place(random), 3.0}};
+    uav.navigator.want({goal});
+    const auto outcomes = uav.navigate(kTwoMinutes);
+    ASSERT_EQ(outcomes.size(), 1U) << "seed " << seed;
+    EXPECT_EQ(outcomes[0].kind, Outcome::Kind::reached) << "seed " << seed;
+    EXPECT_LT((uav.state.p_WB - goal.way.back().p_WB).norm(), 0.1) << "seed " << seed;
+  }
+}
+
+// Another UAV hovers right on the straight line: there is room to fly about it.
+TEST(Navigator, FindsAWayAboutAUavThatStays) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    RandomStream random(seed, "stays", 0);
+    InAClearing uav({-18.0, 0.0, 10.0});
+    const Vector3d stays_W(random.uniform(-8.0, 8.0), random.uniform(-1.0, 1.0), random.uniform(9.0, 11.0));
+    const Vector3d to_W(18.0, 0.0, 10.0);
+    uav.navigator.want({{.id = 1, .way = {{to_W, 4.0}}}});
+    double nearest_m = 1e9;
+    for (int i = 0; i < kTwoMinutes && !uav.navigator.idle(); ++i) {
+      uav.peers.update(uav.input().tick, {{node_of_uav(UavIndex(1)), stays_W, Vector3d(Vector3d::Zero())}});
+      uav.navigate();
+      nearest_m = std::min(nearest_m, (uav.state.p_WB - stays_W).norm());
+    }
+    EXPECT_LT((uav.state.p_WB - to_W).norm(), 0.1) << "seed " << seed;
+    EXPECT_GT(nearest_m, 2 * 0.63 + 0.5) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace skein::agent

@@ -1,0 +1,124 @@
+// What a UAV does, and in which order, when its goals come to nothing.
+#include "uav_agent/flight_core/recovery.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/random_stream.hpp"
+#include "uav_agent/testing/flown_uav.hpp"
+
+namespace skein::agent {
+namespace {
+
+AgentConfig one_of(Role role) {
+  AgentConfig agent;
+  agent.fleet = {{.name = "a", .role = Role::explorer}};
+  if (role == Role::photographer) {
+    agent.fleet.push_back({.name = "b", .role = role, .p_WB_start = {50.0, 0.0, 0.0}, .body_radius_m = 0.32});
+    agent.self = UavIndex(1);
+  }
+  return agent;
+}
+
+struct Recovers : FlownUav {
+  explicit Recovers(Role role = Role::explorer) : FlownUav(one_of(role), {0.0, 0.0, 10.0}) {
+    clear({-24.0, -24.0, 0.0}, {24.0, 24.0, 24.0});
+  }
+  struct Try {
+    double took_s = 0.0, moved_m = 0.0;
+    int turns = 0;
+  };
+  /// One behaviour, up to its end.
+  Try recover() {
+    const std::uint64_t from = k;
+    const Vector3d from_W = state.p_WB;
+    Try result;
+    navigator.update(input());
+    recovery.begin(input());
+    for (bool over = false; !over && k < from + 4000;) {
+      const PlannerInput in = input();
+      navigator.update(in);
+      Steering steering;
+      over = recovery.step(in, filter.held(), steering);
+      result.turns += steering.yaw.has_value();
+      result.moved_m = std::max(result.moved_m, (state.p_WB - from_W).norm());
+      fly(steering);
+    }
+    result.took_s = static_cast<double>(k - from) * agent.exchange_period_s;
+    return result;
+  }
+  Recovery recovery{config, agent, navigator};
+};
+
+TEST(Recovery, LooksAroundFirst) {
+  Recovers explorer, photographer(Role::photographer);
+  const auto looks = explorer.recover();
+  EXPECT_NEAR(looks.took_s, explorer.config.look_s, 0.2);
+  EXPECT_GE(looks.turns, 4) << "about its own axis";
+  EXPECT_LT(looks.moved_m, 0.1);
+  const auto waits = photographer.recover();
+  EXPECT_EQ(waits.turns, 0) << "it sees nothing anyway";
+  EXPECT_LT(waits.moved_m, 0.1);
+  EXPECT_LT(waits.took_s, looks.took_s);
+}
+
+TEST(Recovery, ThenGoesElsewhereAndUp) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    RandomStream random(seed, "elsewhere", 0);
+    const Vector3d missed_W(random.uniform(-10.0, 10.0), random.uniform(-10.0, 10.0), 60.0);
+    Recovers uav;
+    if (seed % 2 == 0) uav.navigator.want({{.id = 1, .way = {{missed_W, 3.0}}}});
+    uav.navigate(20);
+    Steering stop;
+    uav.navigator.stop(stop);
+    uav.navigator.take_outcomes();
+    for (int i = 0; i < 60; ++i) uav.fly(stop);
+    uav.recover();
+    double moved_m = 0.0;
+    for (int i = 0; i < 2; ++i) {
+      const auto tried = uav.recover();
+      moved_m = std::max(moved_m, tried.moved_m);
+      EXPECT_LT(tried.took_s, 40.0) << "nothing of it is for ever";
+    }
+    EXPECT_GT(moved_m, 4.0);
+    uav.recovery.progress();
+    EXPECT_LT(uav.recover().moved_m, 0.5) << "the list begins anew";
+  }
+}
+
+// Walled in, there is nowhere to go: each try ends all the same, and it stays where it is proved to be free.
+TEST(Recovery, EndsWhereThereIsNowhereToGo) {
+  for (const Role role : {Role::explorer, Role::photographer}) {
+    Recovers uav(role);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double sign : {-1.0, 1.0}) {
+        Vector3d low = Vector3d(-6.0, -6.0, 4.0), high = Vector3d(6.0, 6.0, 16.0);
+        (sign > 0 ? low : high)[axis] = (sign > 0 ? high : low)[axis];
+        uav.build(low, high);
+      }
+    }
+    for (int i = 0; i < 8; ++i) {
+      const auto tried = uav.recover();
+      EXPECT_LT(tried.took_s, 40.0);
+      EXPECT_TRUE(uav.filter.proved(uav.state.p_WB, uav.map, {}));
+      EXPECT_LT((uav.state.p_WB - Vector3d(0.0, 0.0, 10.0)).cwiseAbs().maxCoeff(), 4.5);
+    }
+  }
+}
+
+TEST(Recovery, ComesNearerToWhatItMissed) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    RandomStream random(seed, "approach", 0);
+    Recovers uav;
+    const Vector3d inside_W(15.0, random.uniform(-12.0, 12.0), random.uniform(5.0, 12.0));
+    uav.build(inside_W - Vector3d::Constant(2.0), inside_W + Vector3d::Constant(2.0));
+    uav.navigator.want({{.id = 1, .way = {{inside_W, 3.0}}}});
+    uav.navigate(600);
+    const double before_m = (uav.state.p_WB - inside_W).norm();
+    uav.recover();
+    uav.recover();
+    EXPECT_LT((uav.state.p_WB - inside_W).norm(), before_m - 3.0) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace skein::agent

@@ -1,0 +1,100 @@
+// Which explorer shows which photographer its way up, from where, and how often.
+#include "uav_agent/flight_core/showing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/random_stream.hpp"
+#include "uav_agent/testing/flown_uav.hpp"
+
+namespace skein::agent {
+namespace {
+
+AgentConfig drawn_fleet(RandomStream& random, std::size_t uavs) {
+  AgentConfig agent;
+  for (std::size_t i = 0; i < uavs; ++i) {
+    const bool explorer = i == 0 || random.uniform() < 0.5;
+    agent.fleet.push_back({.name = "uav" + std::to_string(i),
+                           .role = explorer ? Role::explorer : Role::photographer,
+                           .p_WB_start = {random.uniform(-15.0, 15.0), random.uniform(-15.0, 15.0), 0.0},
+                           .body_radius_m = explorer ? 0.63 : 0.32});
+  }
+  return agent;
+}
+
+struct Shows : FlownUav {
+  Shows(AgentConfig of_agent, std::size_t self) : FlownUav(as(std::move(of_agent), self), Vector3d(0.0, 0.0, 12.0)) {}
+  static AgentConfig as(AgentConfig of_agent, std::size_t self) {
+    of_agent.self = UavIndex(self);
+    return of_agent;
+  }
+  std::optional<Goal> next() { return showing.next(input(), navigator.space(input())); }
+  double to_start_m(std::size_t uav) const { return (agent.fleet[uav].p_WB_start - agent.me().p_WB_start).norm(); }
+  Showing showing{agent, filter};
+};
+
+// Everybody who cannot see is shown a way, by the one that starts nearest and no other, and not for ever.
+TEST(Showing, EachPhotographerIsShownItsWayByTheNearestExplorer) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream random(seed, "fleet", 0);
+    const AgentConfig fleet = drawn_fleet(random, 2 + random.bits() % 6);
+    std::map<std::size_t, std::size_t> shown_by;
+    for (std::size_t self = 0; self < fleet.fleet.size(); ++self) {
+      Shows uav(fleet, self);
+      std::map<std::size_t, int> attempts;
+      for (int i = 0; i < 400; ++i, uav.k += 40) {  // 800 s
+        const auto goal = uav.next();
+        if (!goal) continue;
+        const std::size_t mate = uav.showing.mate();
+        ++attempts[mate];
+        ASSERT_EQ(uav.agent.me().role, Role::explorer);
+        ASSERT_EQ(fleet.fleet[mate].role, Role::photographer);
+        ASSERT_TRUE(!shown_by.contains(mate) || shown_by[mate] == self) << "two show uav" << mate;
+        shown_by[mate] = self;
+        EXPECT_TRUE(uav.navigator.space(uav.input()).free(goal->way.front().p_WB));
+        EXPECT_GT((goal->way.front().p_WB - fleet.fleet[mate].p_WB_start).head<2>().norm(), 2.0) << "not above it";
+        for (std::size_t other = 0; other < fleet.fleet.size(); ++other) {
+          if (fleet.fleet[other].role != Role::explorer) continue;
+          EXPECT_LE(uav.to_start_m(mate), (fleet.fleet[other].p_WB_start - fleet.fleet[mate].p_WB_start).norm() + 1e-9);
+        }
+      }
+      for (const auto& [mate, count] : attempts) EXPECT_LE(count, 4) << "uav" << mate;
+    }
+    for (std::size_t i = 0; i < fleet.fleet.size(); ++i) {
+      EXPECT_EQ(shown_by.contains(i), fleet.fleet[i].role == Role::photographer) << "seed " << seed << " uav" << i;
+    }
+  }
+}
+
+AgentConfig explorer_and_photographer() {
+  AgentConfig agent;
+  agent.fleet = {{.name = "a"},
+                 {.name = "b", .role = Role::photographer, .p_WB_start = {6.0, 0.0, 0.0}, .body_radius_m = 0.32}};
+  return agent;
+}
+
+TEST(Showing, EndsWhereTheColumnIsKnown) {
+  Shows uav(explorer_and_photographer(), 0);
+  ASSERT_TRUE(uav.next());
+  EXPECT_FALSE(uav.showing.shown(uav.input()));
+  uav.clear({2.0, -4.0, 0.0}, {10.0, 4.0, 3.0});
+  EXPECT_FALSE(uav.showing.shown(uav.input())) << "half of it";
+  uav.clear({2.0, -4.0, 0.0}, {10.0, 4.0, 10.0});
+  EXPECT_TRUE(uav.showing.shown(uav.input()));
+  uav.k += 10000;
+  EXPECT_FALSE(uav.next());
+}
+
+TEST(Showing, NobodyThatHasRisenIsShownAnything) {
+  Shows uav(explorer_and_photographer(), 0);
+  uav.peers.update(0, {{node_of_uav(UavIndex(1)), Vector3d(6.0, 0.0, 0.2), std::nullopt}});
+  ASSERT_TRUE(uav.next());
+  uav.peers.update(ticks(0.1), {{node_of_uav(UavIndex(1)), Vector3d(6.0, 0.0, 5.0), std::nullopt}});
+  EXPECT_TRUE(uav.showing.shown(uav.input()));
+  uav.k += 10000;
+  EXPECT_FALSE(uav.next());
+}
+
+}  // namespace
+}  // namespace skein::agent
