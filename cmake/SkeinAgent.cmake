@@ -27,7 +27,8 @@ function(skein_add_planner_test name)
   cmake_parse_arguments(ARG "" "" "PLANNERS;SOURCES;LIBS" ${ARGN})
   find_package(GTest REQUIRED)
   add_executable(${name} ${ARG_SOURCES}
-    ${SKEIN_CONTRACT_DIR}/planner_contract_test.cpp ${SKEIN_CONTRACT_DIR}/test_world.cpp)
+    ${SKEIN_CONTRACT_DIR}/planner_contract_test.cpp ${SKEIN_CONTRACT_DIR}/test_lidar.cpp
+    ${SKEIN_CONTRACT_DIR}/test_world.cpp)
   target_include_directories(${name} PRIVATE ${SKEIN_CONTRACT_DIR}/include)
   target_link_libraries(${name} PRIVATE skein::agent GTest::gtest GTest::gtest_main ${ARG_LIBS})
   skein_compile_as_skein(${name})

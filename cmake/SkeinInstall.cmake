@@ -60,12 +60,12 @@ endforeach()
 # Headers of what a planner may use, where SkeinBuild.cmake has them, and under their former names. The rest is
 # internal: the contract's sources get the agent's headers for themselves.
 install(DIRECTORY core DESTINATION include/skein COMPONENT dev FILES_MATCHING PATTERN "*.hpp")
-foreach(folder api maps flight planning)
+foreach(folder api maps flight flight_core planning)
   install(DIRECTORY uav_agent/${folder} DESTINATION include/skein/uav_agent COMPONENT dev
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 install(DIRECTORY ${SKEIN_FORWARD_DIR}/ DESTINATION include/skein COMPONENT dev)
-install(FILES uav_agent/testing/planner_contract_test.cpp uav_agent/testing/test_world.cpp
+install(FILES uav_agent/testing/planner_contract_test.cpp uav_agent/testing/test_lidar.cpp uav_agent/testing/test_world.cpp
   DESTINATION ${installed_contract_dir} COMPONENT dev)
 foreach(folder onboard testing)
   install(DIRECTORY uav_agent/${folder} DESTINATION ${installed_contract_dir}/include/uav_agent COMPONENT dev
