@@ -1,5 +1,5 @@
-// How a strategy says where it wants to go, and what it hears of it. The flight core (flight_core/flight_core.hpp) does the
-// flying: it finds ways, keeps clear, takes off, brings captures home, and gets on where something is in the way.
+// How a strategy says where it wants to go, and what it hears of it. The flight core (flight_core/flight_core.hpp) does
+// the flying: it finds ways, keeps clear, takes off, brings captures home, and gets on where something is in the way.
 // Frame W.   Units: SI and radians unless the name says otherwise.
 #pragma once
 

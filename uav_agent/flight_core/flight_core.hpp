@@ -3,8 +3,8 @@
 //   ground -> takeoff -> working <-> homing
 //                          \-> showing, recovering -> working
 //
-// A strategy hands over ranked goals (api/goals.hpp) and hears what became of them; it needs to call nothing else. Where
-// a UAV may fly is not decided here but by the safety filter (safety_filter.hpp).
+// A strategy hands over ranked goals (api/goals.hpp) and hears what became of them; it needs to call nothing else.
+// Where a UAV may fly is not decided here but by the safety filter (safety_filter.hpp).
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 

@@ -1,6 +1,7 @@
 // Flies to goals: the first of a ranked list to which there is a way. It plans through what is known to be free and, at
-// a cost, through what is unknown; the safety filter (safety_filter.hpp) lets the UAV go only as far as is proved. A way
-// that gains nothing for a while is given up, and the place that could not be proved is left out of ways for a time.
+// a cost, through what is unknown; the safety filter (safety_filter.hpp) lets the UAV go only as far as is proved. A
+// way that gains nothing for a while is given up, and the place that could not be proved is left out of ways for a
+// time.
 // Frame W.   Units: SI.   Threads: one.   Deterministic: effort is bounded by counts.
 #pragma once
 

@@ -10,8 +10,8 @@ constexpr double kSampleM = 0.3;     ///< between two places of a way that are l
 constexpr double kNearerM = 1e-6;    ///< rounding, where nothing may come nearer
 constexpr double kPeerDelayS = 0.1;  ///< a UAV may fly on so long before it brakes: one exchange and a late command
 constexpr double kPeerBrakesMps2 = 2.0;
-constexpr double kPeerSmoothS =
-    0.4;  ///< commands are means over so long (tracker.hpp): braking begins that much softer
+/// Commands are means over so long (tracker.hpp): braking begins that much softer.
+constexpr double kPeerSmoothS = 0.4;
 constexpr double kRestsMps = 0.2;
 /// One that went out of sight in a turn, or while it set out, comes to rest beside what its last word foretold: the
 /// velocity that it tells lags behind by half of kPeerSmoothS. Measured over drawn flights: 0.48 m at most.
@@ -56,7 +56,7 @@ double SafetyFilter::tube_m(double speed_mps, double halo_m) const {
 
 std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Facts& facts, double most_mps) {
   held_ = {};
-  now_W_ = tracker.moves() ? tracker.commanded().p_WB : facts.state.p_WB;
+  now_W_ = tracker.moves() && tracker.tracking().airborne ? tracker.commanded().p_WB : facts.state.p_WB;
   const double dt_s = agent_.exchange_period_s;
   if (!tracker.moves()) return tracker.step(facts.state, dt_s);
   ++counts_.exchanges;

@@ -5,12 +5,12 @@
 //   - it would not touch what any other UAV can sweep that brakes from the last word of it.
 // A motion is commanded only if the invariant holds after it. Else the UAV goes on slower, or brakes: braking was found
 // safe in the exchange before, so it is safe still, unless the world has changed (a new hit, a UAV out of nowhere, a
-// restart). Where it is broken so, nothing that breaks it may come nearer; but a UAV that has less room than kHaloM where it
-// rests, beside a wall perhaps, may fly on slowly with less (FlightConfig::tight_halo_m), all of it proved.
+// restart). Where it is broken so, nothing that breaks it may come nearer; but a UAV that has less room than kHaloM
+// where it rests, beside a wall perhaps, may fly on slowly with less (FlightConfig::tight_halo_m), all of it proved.
 //
 // Two UAVs that both keep it never meet: either could brake at any time, and neither counts on what the other will do.
-// In a fleet without a LiDAR nobody can prove anything, nor can a UAV that nobody tells anything: there, what is outside
-// all boxes, and off what is known to be occupied, is taken to be free (assume_boxes()).
+// In a fleet without a LiDAR nobody can prove anything, nor can a UAV that nobody tells anything: there, what is
+// outside all boxes, and off what is known to be occupied, is taken to be free (assume_boxes()).
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 

@@ -1,11 +1,11 @@
-// `patrol` on the new flight core, beside it until all strategies fly on that (docs/decisions/0029-flight-core.md): flies
-// along every face of every box in strips, at the distance where the camera is sharp. It knows the boxes and its own map,
-// talks to nobody, and is meant as an honest baseline: simple, safe, the same on every UAV.
+// `patrol` on the new flight core, beside it until all strategies fly on that (docs/decisions/0029-flight-core.md):
+// flies along every face of every box in strips, at the distance where the camera is sharp. It knows the boxes and its
+// own map, talks to nobody, and is meant as an honest baseline: simple, safe, the same on every UAV.
 //
-// In turn: explorers fly once around everything; then each UAV flies its share of the strips (strips.hpp), closing in on
-// the real surface as the map fills (standoff.hpp), and begins its share again with the camera turned a little. In a box
-// that is too large to say where the structure is, the strips come from the map (block_work.hpp). The flight core does
-// the flying (flight_core/flight_core.hpp).
+// In turn: explorers fly once around everything; then each UAV flies its share of the strips (strips.hpp), closing in
+// on the real surface as the map fills (standoff.hpp), and begins its share again with the camera turned a little. In a
+// box that is too large to say where the structure is, the strips come from the map (block_work.hpp). The flight core
+// does the flying (flight_core/flight_core.hpp).
 #include <algorithm>
 #include <cmath>
 
