@@ -65,7 +65,8 @@ foreach(folder api maps flight flight_core planning)
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 install(DIRECTORY ${SKEIN_FORWARD_DIR}/ DESTINATION include/skein COMPONENT dev)
-install(FILES uav_agent/testing/planner_contract_test.cpp uav_agent/testing/test_lidar.cpp uav_agent/testing/test_world.cpp
+install(FILES uav_agent/testing/planner_contract_test.cpp uav_agent/testing/test_lidar.cpp
+  uav_agent/testing/test_world.cpp
   DESTINATION ${installed_contract_dir} COMPONENT dev)
 foreach(folder onboard testing)
   install(DIRECTORY uav_agent/${folder} DESTINATION ${installed_contract_dir}/include/uav_agent COMPONENT dev

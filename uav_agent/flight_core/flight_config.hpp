@@ -12,12 +12,12 @@ struct FlightConfig {
   double error_m = 0.33;          ///< tracking error at rest, with a LiDAR; docs/flight-safety.md has the measurement
   double light_error_m = 0.23;    ///< the same without one
   double error_per_mps_s = 0.03;  ///< and so much more a metre a second
-  double tight_halo_m = 0.35;   ///< about the body, in place of kHaloM, for a UAV that has less room than that already
-  double tight_mps = 0.8;       ///< no faster then
-  double ground_m = 1.0;        ///< below, nothing is asked of the map: the ground is level, at z = 0
-  double floor_m = 2.0;         ///< nobody flies lower, except at takeoff
-  double peer_margin_m = 0.6;   ///< between two bodies when both have braked
-  double peer_memory_s = 20.0;  ///< a UAV that went out of sight is taken to be where it came to rest for so long
+  double tight_halo_m = 0.35;     ///< about the body, in place of kHaloM, where a UAV was put down with less room
+  double tight_mps = 0.8;         ///< no faster then
+  double ground_m = 1.0;          ///< below, nothing is asked of the map: the ground is level, at z = 0
+  double floor_m = 2.0;           ///< nobody flies lower, except at takeoff
+  double peer_margin_m = 0.6;     ///< between two bodies when both have braked
+  double peer_memory_s = 20.0;    ///< a UAV that went out of sight is taken to be where it came to rest for so long
 
   // Motion.
   double approach_mps = 5.0;  ///< from here to there; the map decides how much of it can be had

@@ -49,7 +49,7 @@ FreeSpace Navigator::space(const PlannerInput& in, const Vector3d& here_W) const
   for (const Peer& peer : in.peers.all()) {
     const double off_m = (peer.p_W - here_W).norm();
     if (!peer.seen || off_m > kPeersM || seconds(in.tick - *peer.seen) > config_.peer_memory_s) continue;
-    const double apart_m = agent_.me().body_radius_m + agent_.fleet[peer.uav].body_radius_m + config_.peer_margin_m;
+    const double apart_m = filter_.apart_m(peer.uav, kFitMps);
     keep_out.push_back({peer.p_W, std::min(apart_m + kHereM, off_m - kHereM)});
   }
   for (const Refused& refused : refused_) {
@@ -65,7 +65,7 @@ Vector3d Navigator::way_begins_W(const PlannerInput& in) const {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   Vector3d from_W = here_W;
   for (const Peer& peer : in.peers.all()) {
-    const double apart_m = agent_.me().body_radius_m + agent_.fleet[peer.uav].body_radius_m + config_.peer_margin_m;
+    const double apart_m = filter_.apart_m(peer.uav, kFitMps);
     const double off_m = (here_W - peer.p_W).norm(), back_m = apart_m + 2.0 * kHereM - off_m;
     if (!peer.visible || back_m <= 0.0 || off_m <= 0.0) continue;
     from_W += (here_W - peer.p_W) / off_m * back_m;

@@ -49,9 +49,18 @@ std::vector<Vector3d> thinned(const std::vector<Vector3d>& way_W) {
 SafetyFilter::SafetyFilter(const FlightConfig& config, const AgentConfig& agent)
     : config_(config), agent_(agent), assumes_boxes_(!agent.first_explorer()) {}
 
+double SafetyFilter::error_m(Role role, double speed_mps) const {
+  return (role == Role::explorer ? config_.error_m : config_.light_error_m) + config_.error_per_mps_s * speed_mps;
+}
+
 double SafetyFilter::tube_m(double speed_mps, double halo_m) const {
-  const double at_rest_m = agent_.me().role == Role::explorer ? config_.error_m : config_.light_error_m;
-  return agent_.me().body_radius_m + halo_m + at_rest_m + config_.error_per_mps_s * speed_mps;
+  return agent_.me().body_radius_m + halo_m + error_m(agent_.me().role, speed_mps);
+}
+
+double SafetyFilter::apart_m(std::size_t uav, double speed_mps) const {
+  const FleetMember& other = agent_.fleet[uav];
+  return agent_.me().body_radius_m + other.body_radius_m + error_m(agent_.me().role, speed_mps) +
+         error_m(other.role, 0.0) + config_.peer_margin_m;
 }
 
 std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Facts& facts, double most_mps) {
@@ -61,11 +70,10 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
   if (!tracker.moves()) return tracker.step(facts.state, dt_s);
   ++counts_.exchanges;
   const bool room = has_room(facts);
-  halo_m_ = room ? kHaloM : config_.tight_halo_m;
-  if (!room) {
-    ++counts_.broken;
-    most_mps = std::min(most_mps, config_.tight_mps);
-  }
+  if (!room) ++counts_.broken;
+  had_room_ = had_room_ || room;
+  halo_m_ = had_room_ ? kHaloM : config_.tight_halo_m;
+  if (!had_room_) most_mps = std::min(most_mps, config_.tight_mps);
   const std::vector<PeerReach> peers = reach_of_peers(facts);
   const double speed_mps = tracker.tracking().setpoint.v_WB.norm();
   const double limits_mps[] = {most_mps, std::min(most_mps, speed_mps), 0.9 * speed_mps - 0.02};
@@ -108,10 +116,9 @@ std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& f
     Vector3d to_W = peer.p_W;
     // One that is heard may have changed its mind since. Who rests goes nowhere before it is heard again.
     if (speed_mps > kRestsMps) to_W += peer.v_W * (stopping_m(speed_mps) / speed_mps);
-    const double apart_m = agent_.me().body_radius_m + agent_.fleet[peer.uav].body_radius_m + config_.peer_margin_m +
-                           (peer.visible ? 0.0 : kUnheardM);
+    const double off_m = apart_m(peer.uav, facts.state.v_WB.norm()) + (peer.visible ? 0.0 : kUnheardM);
     const double now_m = distance_to_segment(now_W_, peer.p_W, to_W);
-    if (now_m < 40.0) reach.push_back({peer.uav, peer.p_W, to_W, apart_m, now_m});
+    if (now_m < 40.0) reach.push_back({peer.uav, peer.p_W, to_W, off_m, now_m});
   }
   return reach;
 }

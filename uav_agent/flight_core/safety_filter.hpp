@@ -5,8 +5,9 @@
 //   - it would not touch what any other UAV can sweep that brakes from the last word of it.
 // A motion is commanded only if the invariant holds after it. Else the UAV goes on slower, or brakes: braking was found
 // safe in the exchange before, so it is safe still, unless the world has changed (a new hit, a UAV out of nowhere, a
-// restart). Where it is broken so, nothing that breaks it may come nearer; but a UAV that has less room than kHaloM
-// where it rests, beside a wall perhaps, may fly on slowly with less (FlightConfig::tight_halo_m), all of it proved.
+// restart). Where it is broken so, nothing that breaks it may come nearer; but a UAV that was put down where there
+// is less room than kHaloM, beside a wall perhaps, may leave slowly with less (FlightConfig::tight_halo_m), all of it
+// proved, until it has had room once.
 //
 // Two UAVs that both keep it never meet: either could brake at any time, and neither counts on what the other will do.
 // In a fleet without a LiDAR nobody can prove anything, nor can a UAV that nobody tells anything: there, what is
@@ -60,6 +61,9 @@ class SafetyFilter {
   /// Radius of what must be free about a body's centre at a speed.
   double tube_m(double speed_mps) const { return tube_m(speed_mps, kHaloM); }
 
+  /// How far this UAV's centre is kept off another one's: bodies, both tracking errors, and a margin.
+  double apart_m(std::size_t uav, double speed_mps) const;
+
   struct Counts {
     std::uint64_t exchanges = 0, slowed = 0, broken = 0;  ///< broken: the invariant did not hold beforehand
   };
@@ -76,6 +80,7 @@ class SafetyFilter {
   using Cube = WorldMap::Cube;
 
   double tube_m(double speed_mps, double halo_m) const;
+  double error_m(Role role, double speed_mps) const;
   bool has_room(const Facts& facts);
   std::vector<PeerReach> reach_of_peers(const Facts& facts) const;
   Held judge(const std::vector<Vector3d>& way_W, double speed_mps, const Facts& facts,
@@ -93,6 +98,7 @@ class SafetyFilter {
   /// swings about it would creep.
   Vector3d now_W_ = Vector3d::Zero();
   double halo_m_ = kHaloM;  ///< in this exchange
+  bool had_room_ = false;   ///< once since it was put down, or its program began
 };
 
 }  // namespace skein::agent

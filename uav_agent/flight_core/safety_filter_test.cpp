@@ -154,6 +154,7 @@ TEST(SafetyFilter, WhatAppearsAheadIsNotApproachedAnyFurther) {
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
     RandomStream random(seed, "appears", 0);
     GuardedUav uav({0.0, 0.0, 10.0});
+    uav.config.tight_halo_m = kHaloM;
     uav.map.set_free({0.0, 0.0, 10.0}, 12.0);
     uav.fly({{drawn_within(random, 30.0) + Vector3d(0.0, 0.0, 30.0), random.uniform(1.0, 6.0)}});
     const int until = 5 + static_cast<int>(random.bits() % 40);
@@ -191,6 +192,7 @@ TEST(SafetyFilter, DoesNotCreepIntoTheUnknown) {
     const Vector3d ahead_W = drawn_within(random, 1.0).normalized();
     const double free_m = seed % 2 == 0 ? random.uniform(0.8, 1.6) : 8.0;  // little all about it, or ahead alone
     GuardedUav uav(Vector3d(0.0, 0.0, 20.0) + (free_m > 2.0 ? free_m - 1.2 : 0.0) * ahead_W);
+    uav.config.tight_halo_m = kHaloM;  // as for one that has had room before
     uav.map.set_free({0.0, 0.0, 20.0}, free_m);
     const Vector3d goal_W = uav.state.p_WB + 20.0 * ahead_W;
     uav.fly({{goal_W, 5.0}});
@@ -207,6 +209,38 @@ TEST(SafetyFilter, DoesNotCreepIntoTheUnknown) {
             << "seed " << seed << " k " << k;
       }
     }
+  }
+}
+
+// Put down beside what leaves it less room than the halo, it leaves, slowly and with less; once it has had room, the
+// halo is kept again.
+TEST(SafetyFilter, LeavesAPlaceWithLittleRoomSlowly) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    RandomStream random(seed, "tight", 0);
+    GuardedUav uav({0.0, 0.0, 10.0});
+    uav.map.set_free({0.0, 0.0, 10.0}, 14.0);
+    const double angle = random.uniform(-3.0, 3.0), off_m = random.uniform(1.55, 1.8);
+    std::vector<WorldMap::Cube> pole;
+    for (double z = 6.0; z < 30.0; z += 0.5) {
+      pole.push_back(uav.map.cube_of({off_m * std::cos(angle), off_m * std::sin(angle), z}));
+      uav.map.hear(pole.back(), 0, Space::occupied, kOwn);
+    }
+    const double tight_m = std::min(uav.off_m(pole[8], {uav.state.p_WB}), kBodyM + uav.config.error_m);
+    const Vector3d away_W(-std::cos(angle), -std::sin(angle), 0.0);
+    uav.fly({{Vector3d(0.0, 0.0, 11.0) + 6.0 * away_W, 3.0}, {{0.0, 0.0, 14.0}, 3.0}});
+    bool had_room = false;
+    for (int k = 0; k < 600; ++k) {
+      uav.step();
+      const Vector3d here_W = uav.tracker.commanded().p_WB;
+      double nearest_m = 1e9;
+      for (const auto& cube : pole) nearest_m = std::min(nearest_m, uav.off_m(cube, {here_W}));
+      had_room = had_room || nearest_m > uav.filter.tube_m(0.0);
+      ASSERT_GT(nearest_m, had_room ? uav.filter.tube_m(0.0) - kFliesAwayM : tight_m - kBetweenStepsM) << seed;
+      if (!had_room) {
+        ASSERT_LT(uav.tracker.commanded().v_WB.norm(), uav.config.tight_mps + 0.05);
+      }
+    }
+    EXPECT_TRUE(had_room) << "seed " << seed;
   }
 }
 

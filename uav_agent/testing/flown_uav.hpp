@@ -1,5 +1,5 @@
-// One UAV that parts of the flight core fly, without a strategy and without physics: it is where it was commanded to be.
-// What is free, who is near and how its links are is up to the test.
+// One UAV that parts of the flight core fly, without a strategy and without physics: it is where it was commanded to
+// be. What is free, who is near and how its links are is up to the test.
 // Frame W.   Units: SI.
 #pragma once
 
