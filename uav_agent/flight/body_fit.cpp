@@ -25,13 +25,7 @@ bool BodyFit::fits(const Vector3d& p_W) const {
   const Vector3d middle_W = (cube.cast<double>() + Vector3d::Constant(0.5)) * map_->config().cell_m;
   const double radius_m = radius_m_ + kOffMiddleM;
   answer.at = now_;
-  if (middle_W.z() - radius_m > ground_m_) {
-    answer.fits = map_->at(middle_W) == Space::free && map_->tube_free(middle_W, middle_W, radius_m);
-  } else {
-    cubes_.clear();
-    map_->not_free_near(middle_W, radius_m, ground_m_, cubes_);
-    answer.fits = cubes_.empty();
-  }
+  answer.fits = map_->ball_free(middle_W, radius_m, ground_m_);
   return answer.fits;
 }
 

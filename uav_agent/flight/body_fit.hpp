@@ -29,7 +29,6 @@ class BodyFit {
   const WorldMap* map_ = nullptr;
   Tick now_ = 0;
   mutable std::unordered_map<std::uint64_t, Answer> answers_;  // looked up only
-  mutable std::vector<WorldMap::Cube> cubes_;
 };
 
 }  // namespace skein::agent

@@ -84,7 +84,6 @@ class FreeSpace {
 
  private:
   bool near_box(const Vector3d& p_W) const;
-
   /// In or near a box, or low: not free until a LiDAR has seen that it is.
   bool must_be_seen(const Vector3d& p_W) const;
   bool seen_free(const Vector3d& p_W) const;

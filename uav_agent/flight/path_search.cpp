@@ -227,6 +227,12 @@ std::optional<std::vector<Vector3d>> find_approach(const FreeSpace& space, const
   return Search(space, structure, from_W, to_W, config).run_near(worth_m);
 }
 
+Path path_through(const std::vector<Vector3d>& places_W, double speed_mps) {
+  Path path;
+  for (const Vector3d& p_W : places_W) path.waypoints.push_back({p_W, speed_mps});
+  return path;
+}
+
 double path_length(const Vector3d& from_W, const std::vector<Vector3d>& corners_W) {
   double length = 0.0;
   Vector3d at = from_W;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "uav_agent/api/motion.hpp"
 #include "uav_agent/flight/free_space.hpp"
 
 namespace skein::agent {
@@ -29,6 +30,9 @@ std::optional<std::vector<Vector3d>> find_path(const FreeSpace& space, const std
 std::optional<std::vector<Vector3d>> find_approach(const FreeSpace& space, const std::vector<OrientedBox>& structure,
                                                    const Vector3d& from_W, const Vector3d& to_W, double worth_m,
                                                    const PathSearchConfig& config = {});
+
+/// Through all of these places, at one speed.
+Path path_through(const std::vector<Vector3d>& places_W, double speed_mps);
 
 /// Length of the polyline from `from_W` through all corners [m].
 double path_length(const Vector3d& from_W, const std::vector<Vector3d>& corners_W);

@@ -27,12 +27,6 @@ constexpr std::size_t kTrailCount = 100;
 
 }  // namespace
 
-Path path_through(const std::vector<Vector3d>& places_W, double speed_mps) {
-  Path path;
-  for (const Vector3d& p_W : places_W) path.waypoints.push_back({p_W, speed_mps});
-  return path;
-}
-
 FreeSpace Pilot::way_space(const PlannerInput& in, const FreeSpace::Config& space, const Vector3d& goal) const {
   FreeSpace::Config config = space;
   const Vector3d here = in.tracking.setpoint.p_WB;

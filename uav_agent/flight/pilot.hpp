@@ -11,6 +11,7 @@
 
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
+#include "uav_agent/flight/path_search.hpp"
 #include "uav_agent/flight/separation.hpp"
 
 namespace skein::agent {
@@ -35,9 +36,6 @@ struct Way {
   /// For a log: "no way was found to a place that is free".
   std::string why() const;
 };
-
-/// Through all of these places, at one speed.
-Path path_through(const std::vector<Vector3d>& places_W, double speed_mps);
 
 class Pilot {
  public:

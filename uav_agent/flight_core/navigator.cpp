@@ -167,9 +167,8 @@ Navigator::Search Navigator::set_out(const PlannerInput& in, Steering& steering)
   const auto corners =
       find_path(space(in, begin_W), in.boxes, begin_W, to_W, {.max_expansions = kMostExpansions}, &gave_up);
   if (!corners) return gave_up ? Search::gave_up : Search::none;
-  std::vector<Waypoint> waypoints;
-  if (begin_W != from_W) waypoints.push_back({begin_W, config_.approach_mps});
-  for (const Vector3d& p_W : *corners) waypoints.push_back({p_W, config_.approach_mps});
+  std::vector<Waypoint> waypoints = path_through(*corners, config_.approach_mps).waypoints;
+  if (begin_W != from_W) waypoints.insert(waypoints.begin(), {begin_W, config_.approach_mps});
   on_way_ = false;
   fly(std::move(waypoints), steering);
   face_ahead(in, steering);
@@ -266,6 +265,12 @@ void Navigator::watch(const PlannerInput& in, const Held& held, Steering& steeri
   if (seconds(in.tick - gained_at_) > config_.stall_s) stalled(in, held, steering);
 }
 
+void Navigator::look_around(const PlannerInput& in, Steering& steering) {
+  if (agent_.me().role != Role::explorer || in.tick < turn_at_) return;
+  steering.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
+  turn_at_ = in.tick + ticks(kTurnEveryS);
+}
+
 void Navigator::stalled(const PlannerInput& in, const Held& held, Steering& steering) {
   const double since_s = seconds(in.tick - gained_at_);
   if (held.by == Held::By::peer) {
@@ -276,10 +281,7 @@ void Navigator::stalled(const PlannerInput& in, const Held& held, Steering& stee
     return;
   }
   if (held.by == Held::By::unproved && since_s < config_.stall_s + config_.look_s) {
-    if (agent_.me().role == Role::explorer && in.tick >= turn_at_) {
-      steering.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
-      turn_at_ = in.tick + ticks(kTurnEveryS);
-    }
+    look_around(in, steering);
     return;
   }
   if (held.by != Held::By::nothing) refuse(held.at_W, in);

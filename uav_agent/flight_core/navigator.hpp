@@ -40,6 +40,8 @@ class Navigator {
   /// One exchange, with what the filter said of the last one.
   void step(const PlannerInput& in, const Held& held, Steering& steering);
 
+  /// Turns the body of a UAV with a LiDAR step by step, so that the LiDAR sees more.
+  void look_around(const PlannerInput& in, Steering& steering);
   /// How fast it may fly now, so that what is ahead is proved by the time that it gets there.
   double pace_mps() const { return pace_mps_; }
   /// No goal is being flown, and none is left to try.

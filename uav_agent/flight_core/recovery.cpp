@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/euler.hpp"
 #include "uav_agent/flight/path_search.hpp"
 
 namespace skein::agent {
@@ -17,7 +16,7 @@ constexpr double kClimbM = 5.0;
 constexpr double kElsewhereM[] = {8.0, 14.0};
 constexpr double kHeightsM[] = {3.0, 0.0, -3.0, 8.0};
 constexpr int kHeadings = 8, kHeadingStep = 3;  ///< of the first direction, from one try to the next
-constexpr double kLookTurn = 0.8, kLookEveryS = 1.2, kLongestS = 30.0;
+constexpr double kLongestS = 30.0;
 
 }  // namespace
 
@@ -59,7 +58,6 @@ bool Recovery::set_out(const PlannerInput& in) {
     navigator_.want({{.id = kGoal, .way = {{up_W, config_.climb_mps}}}});
     return true;
   }
-  std::vector<Goal> goals;
   for (const double distance_m : kElsewhereM) {
     for (int i = 0; i < kHeadings; ++i) {
       const double heading = 2.0 * std::numbers::pi * ((i + kHeadingStep * tries_) % kHeadings) / kHeadings;
@@ -67,23 +65,18 @@ bool Recovery::set_out(const PlannerInput& in) {
         const Vector3d p_W =
             here_W + Vector3d(distance_m * std::cos(heading), distance_m * std::sin(heading), height_m);
         if (in.world_map->at(p_W) == Space::free && space.free(p_W) && space.segment_free(here_W, p_W)) {
-          goals.push_back({.id = kGoal, .way = {{p_W, config_.approach_mps}}});
+          navigator_.want({{.id = kGoal, .way = {{p_W, config_.approach_mps}}}});
+          return true;
         }
       }
     }
   }
-  if (goals.empty()) return false;
-  goals.resize(1);
-  navigator_.want(std::move(goals));
-  return true;
+  return false;
 }
 
 bool Recovery::step(const PlannerInput& in, const Held& held, Steering& steering) {
   if (behaviour_ == Behaviour::look_around) {
-    if (agent_.me().role == Role::explorer && in.tick >= turn_at_) {
-      steering.yaw = wrap_angle(in.tracking.setpoint.yaw + kLookTurn);
-      turn_at_ = in.tick + ticks(kLookEveryS);
-    }
+    navigator_.look_around(in, steering);
     return in.tick >= until_;
   }
   navigator_.step(in, held, steering);

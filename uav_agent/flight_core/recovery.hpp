@@ -32,7 +32,7 @@ class Recovery {
   Navigator& navigator_;
   int tries_ = 0;  ///< since the strategy last got on
   Behaviour behaviour_ = Behaviour::look_around;
-  Tick until_ = 0, turn_at_ = 0;
+  Tick until_ = 0;
 };
 
 }  // namespace skein::agent

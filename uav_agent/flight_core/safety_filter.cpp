@@ -97,13 +97,9 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
 }
 
 /// As much as is asked for, about where it is commanded to be.
-bool SafetyFilter::has_room(const Facts& facts) {
+bool SafetyFilter::has_room(const Facts& facts) const {
   if (assumes_boxes_) return true;
-  const double radius_m = tube_m(0.0);
-  if (now_W_.z() - radius_m > config_.ground_m && facts.map.tube_free(now_W_, now_W_, radius_m)) return true;
-  cubes_.clear();
-  facts.map.not_free_near(now_W_, radius_m, config_.ground_m, cubes_);
-  return cubes_.empty();
+  return facts.map.ball_free(now_W_, tube_m(0.0), config_.ground_m);
 }
 
 std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& facts) const {
@@ -140,7 +136,7 @@ Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, c
 }
 
 bool SafetyFilter::proved(const Vector3d& p_W, double radius_m, const Facts& facts, Held& held) {
-  if (p_W.z() - radius_m > config_.ground_m && facts.map.tube_free(p_W, p_W, radius_m)) return true;
+  if (facts.map.ball_free(p_W, radius_m, config_.ground_m)) return true;
   cubes_.clear();
   facts.map.not_free_near(p_W, radius_m, config_.ground_m, cubes_);
   if (assumes_boxes_ && assumed(p_W, radius_m, facts.map, facts.boxes)) return true;
@@ -154,10 +150,7 @@ bool SafetyFilter::proved(const Vector3d& p_W, double radius_m, const Facts& fac
 
 bool SafetyFilter::proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const {
   if (assumes_boxes_) return assumed(p_W, tube_m(0.0), map, boxes);
-  if (p_W.z() - tube_m(0.0) > config_.ground_m) return map.tube_free(p_W, p_W, tube_m(0.0));
-  std::vector<Cube> cubes;
-  map.not_free_near(p_W, tube_m(0.0), config_.ground_m, cubes);
-  return cubes.empty();
+  return map.ball_free(p_W, tube_m(0.0), config_.ground_m);
 }
 
 bool SafetyFilter::assumed(const Vector3d& p_W, double radius_m, const WorldMap& map,

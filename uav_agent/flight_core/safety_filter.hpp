@@ -81,7 +81,7 @@ class SafetyFilter {
 
   double tube_m(double speed_mps, double halo_m) const;
   double error_m(Role role, double speed_mps) const;
-  bool has_room(const Facts& facts);
+  bool has_room(const Facts& facts) const;
   std::vector<PeerReach> reach_of_peers(const Facts& facts) const;
   Held judge(const std::vector<Vector3d>& way_W, double speed_mps, const Facts& facts,
              const std::vector<PeerReach>& peers);

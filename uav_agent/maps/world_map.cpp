@@ -267,6 +267,13 @@ bool WorldMap::tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius
   return all_near(a_W, b_W, radius_m, [&](const Cube& cube) { return known(cube).space == Space::free; });
 }
 
+bool WorldMap::ball_free(const Vector3d& p_W, double radius_m, double lowest_m) const {
+  if (p_W.z() - radius_m > lowest_m) return tube_free(p_W, p_W, radius_m);
+  return all_near(p_W, p_W, radius_m, [&](const Cube& cube) {
+    return (cube.z() + 1) * config_.cell_m <= lowest_m || known(cube).space == Space::free;
+  });
+}
+
 void WorldMap::not_free_near(const Vector3d& p_W, double radius_m, double lowest_m, std::vector<Cube>& cubes) const {
   all_near(p_W, p_W, radius_m, [&](const Cube& cube) {
     const bool asked = (cube.z() + 1) * config_.cell_m > lowest_m;

@@ -80,6 +80,8 @@ class WorldMap {
   /// Whether all cubes with a point within `radius_m` of the segment are free. For the tube of a body, that is its
   /// radius and kHaloM.
   bool tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius_m) const;
+  /// Whether all cubes with a point within `radius_m` of a place are free, those apart that lie below `lowest_m`.
+  bool ball_free(const Vector3d& p_W, double radius_m, double lowest_m) const;
   /// Smallest cubes with a point within `radius_m` of a place that are not free, those apart that lie below `lowest_m`.
   void not_free_near(const Vector3d& p_W, double radius_m, double lowest_m, std::vector<Cube>& cubes) const;
   /// From a place to the nearest point of a smallest cube.

@@ -12,6 +12,7 @@
 #include "core/euler.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
+#include "uav_agent/flight/path_search.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/planners/patrol/rounds.hpp"
 #include "uav_agent/planners/patrol_core/config.hpp"
@@ -28,12 +29,6 @@ constexpr double kRestS = 3.0;                       ///< after a round in which
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the side, by round [rad]
 constexpr int kMaxFailures = 3;                      ///< of a strip, in a round
 constexpr double kAboveGroundM = 4.0;                ///< at least, of the survey's ring
-
-std::vector<Waypoint> along(const std::vector<Vector3d>& places_W, double speed_mps) {
-  std::vector<Waypoint> waypoints;
-  for (const Vector3d& p_W : places_W) waypoints.push_back({p_W, speed_mps});
-  return waypoints;
-}
 
 }  // namespace
 
@@ -178,7 +173,7 @@ void PatrolCorePlanner::give_strip_up() {
 
 /// At most one.
 std::vector<Goal> PatrolCorePlanner::next_goals(const PlannerInput& in) {
-  if (!ring_.empty()) return {Goal{.way = along(ring_, config_.survey_mps)}};
+  if (!ring_.empty()) return {Goal{.way = path_through(ring_, config_.survey_mps).waypoints}};
   for (int tries = 0; tries < kMaxFailures; ++tries) {
     if (!strip_ && !take_strip(in)) {
       rest_until_ = std::max(rest_until_, in.tick + ticks(kRestS));
