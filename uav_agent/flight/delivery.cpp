@@ -20,8 +20,6 @@ constexpr int kDirections = 12;
 constexpr double kAboveAllM = 6.0;      ///< where no place is known
 constexpr double kRetryS = 1.0;         ///< after no way was found
 constexpr double kLinkPatienceS = 4.0;  ///< at a place without a link
-constexpr double kLinkAgeS = 1.0;       ///< between two sightings: a link that lasts
-constexpr double kStuckS = 5.0;         ///< with a link, and nothing arrives: not from here
 constexpr int kFailuresToRetreat = 3;
 constexpr double kNearerM = 3.0;       ///< nearer to a place that cannot be reached
 constexpr int kFailuresToAskLess = 4;  ///< proof of free space: what is not delivered is worth nothing
@@ -68,49 +66,27 @@ Vector3d Delivery::home() const {
 
 void Delivery::update(const PlannerInput& in, double top_m) {
   top_m_ = top_m;
-  if (!delivered_at_ || in.undelivered_captures == 0) delivered_at_ = in.tick;
-  const bool arrived = in.undelivered_captures == 0 || in.undelivered_captures < undelivered_;
-  if (!arrived_at_ || arrived) arrived_at_ = in.tick;
-  undelivered_ = in.undelivered_captures;
-  if (in.station_linked) linked_at_ = in.tick;
-  note_link(in);
-}
-
-/// The place that is kept lies at least kLinkAgeS before the end of the link: not where it just broke.
-void Delivery::note_link(const PlannerInput& in) {
-  if (!in.station_linked) {
-    sighting_.reset();
-  } else if (!sighting_ || seconds(in.tick - sighting_->tick) >= kLinkAgeS) {
-    if (sighting_) linked_at_W_ = sighting_->p_WB;
-    sighting_ = {in.tick, in.tracking.setpoint.p_WB};
-  }
+  link_.update(in);
 }
 
 double Delivery::way_home_s(const PlannerInput& in) const {
   const double way_s = time_home_s(in.state.p_WB, home(), config_.speed_mps);
-  if (!linked_at_W_) return kNeverLinked * way_s;
-  return std::min(way_s, time_home_s(in.state.p_WB, *linked_at_W_, config_.speed_mps));
-}
-
-/// What is taken here arrives, one by one on a poor link. A link that has just gone may be back, where nothing waits
-/// for it.
-bool Delivery::delivers_here(const PlannerInput& in) const {
-  if (in.station_linked) return arrived_at_ && seconds(in.tick - *arrived_at_) < kStuckS;
-  return in.undelivered_captures == 0 && linked_at_ && seconds(in.tick - *linked_at_) < kLinkAgeS;
+  if (!link_.linked_at_W()) return kNeverLinked * way_s;
+  return std::min(way_s, time_home_s(in.state.p_WB, *link_.linked_at_W(), config_.speed_mps));
 }
 
 bool Delivery::due(const PlannerInput& in) const {
-  if (!in.mission_remaining_s || !delivered_at_) return false;
-  if (*in.mission_remaining_s < way_home_s(in) + config_.margin_s && !delivers_here(in)) return true;
-  return in.undelivered_captures > 0 && seconds(in.tick - *delivered_at_) > config_.every_s;
+  if (!in.mission_remaining_s || !link_.begun()) return false;
+  if (*in.mission_remaining_s < way_home_s(in) + config_.margin_s && !link_.delivers_here(in)) return true;
+  return link_.waits_for_longer_than(config_.every_s, in);
 }
 
 void Delivery::begin(const PlannerInput& in, const FreeSpace::Config& space, double lowest_m, PlannerOutput& out) {
   places_ = delivery_places(agent_, FreeSpace(space, in.boxes, in.map), lowest_m);
   place_ = 0;
-  if (linked_at_W_) {
+  if (link_.linked_at_W()) {
     const double way_s = time_home_s(in.state.p_WB, home(), config_.speed_mps);
-    if (way_home_s(in) < way_s) places_.insert(places_.begin(), *linked_at_W_);
+    if (way_home_s(in) < way_s) places_.insert(places_.begin(), *link_.linked_at_W());
   }
   failures_ = 0;
   unlinked_since_.reset();

@@ -8,6 +8,7 @@
 
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/flight/free_space.hpp"
+#include "uav_agent/flight/link_watch.hpp"
 #include "uav_agent/flight/pilot.hpp"
 
 namespace skein::agent {
@@ -47,9 +48,7 @@ class Delivery {
 
  private:
   Vector3d home() const;
-  void note_link(const PlannerInput& in);
   double way_home_s(const PlannerInput& in) const;
-  bool delivers_here(const PlannerInput& in) const;
   bool approach(const Vector3d& p_W, const PlannerInput& in, const FreeSpace::Config& space, PlannerOutput& out);
   void next_place() { place_ = (place_ + 1) % (places_.size() + 1); }
 
@@ -57,22 +56,13 @@ class Delivery {
   const AgentConfig& agent_;
   Pilot& pilot_;
   double top_m_ = 0.0;
-  std::optional<Tick> delivered_at_;  ///< when nothing was undelivered
-  std::optional<Tick> arrived_at_;    ///< when a capture last was delivered, or none was to be
-  std::optional<Tick> linked_at_;     ///< when it last had a link
-  std::size_t undelivered_ = 0;       ///< in the last exchange
+  LinkWatch link_;
   std::vector<Vector3d> places_;
   std::size_t place_ = 0;  ///< places_.size() stands for high above everything
   bool heading_home_ = false;
   Tick next_try_ = 0;
   int failures_ = 0;
   std::optional<Tick> unlinked_since_;  ///< at the place
-  struct Sighting {
-    Tick tick = 0;
-    Vector3d p_WB = Vector3d::Zero();
-  };
-  std::optional<Sighting> sighting_;     ///< of the station, in the present link
-  std::optional<Vector3d> linked_at_W_;  ///< where it last had a link for a while, and somewhat before that ended
 };
 
 }  // namespace skein::agent

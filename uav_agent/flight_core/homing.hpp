@@ -8,6 +8,7 @@
 
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
+#include "uav_agent/flight/link_watch.hpp"
 #include "uav_agent/flight_core/flight_config.hpp"
 
 namespace skein::agent {
@@ -18,32 +19,22 @@ class Homing {
   Homing(const FlightConfig& config, const AgentConfig& agent) : config_(config), agent_(agent) {}
 
   /// Once per exchange: takes note of links and of what has been delivered.
-  void update(const PlannerInput& in);
+  void update(const PlannerInput& in) { link_.update(in); }
   /// Whether it is time to leave: by the clock, unless captures are delivered from where it is.
   bool due(const PlannerInput& in) const;
   /// All is delivered, and there is time to work on.
   bool done(const PlannerInput& in) const;
   /// It is linked, and what it has arrives: it may stay where it is.
-  bool delivers_here(const PlannerInput& in) const;
+  bool delivers_here(const PlannerInput& in) const { return link_.delivers_here(in); }
   /// Where to go, best first: places from which the station is in sight as far as is known, then above all structure.
   std::vector<Vector3d> places(const PlannerInput& in, const FreeSpace& space) const;
 
  private:
   double way_home_s(const PlannerInput& in) const;
-  void note_link(const PlannerInput& in);
 
-  struct Sighting {
-    Tick tick = 0;
-    Vector3d p_WB = Vector3d::Zero();
-  };
   const FlightConfig& config_;
   const AgentConfig& agent_;
-  std::optional<Tick> delivered_at_;     ///< when nothing was undelivered
-  std::optional<Tick> arrived_at_;       ///< when a capture last was delivered, or none was to be
-  std::optional<Tick> linked_at_;        ///< when it last had a link
-  std::size_t undelivered_ = 0;          ///< in the last exchange
-  std::optional<Sighting> sighting_;     ///< of the station, in the present link
-  std::optional<Vector3d> linked_at_W_;  ///< where it last had a link for a while, and somewhat before that ended
+  LinkWatch link_;
 };
 
 }  // namespace skein::agent
