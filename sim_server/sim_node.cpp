@@ -250,6 +250,7 @@ bool SimNode::keep_pace() {
     end_run(true);
     return false;
   }
+  for (const auto& uav : uavs_) uav->choose_scans();
   simulation_.advance();
   begin_step();
   return true;

@@ -105,6 +105,8 @@ void UavNode::read_debug(const std::vector<std::string>& writes) {
   }
 }
 
+void UavNode::choose_scans() { simulation_.want_scans(uav_, cloud_ && cloud_->is_wanted()); }
+
 void UavNode::publish() {
   publish_state();
   publish_neighbours();
@@ -135,7 +137,6 @@ void UavNode::publish_neighbours() {
 }
 
 void UavNode::publish_clouds() {
-  simulation_.want_scans(uav_, cloud_ && cloud_->is_wanted());
   for (const LidarEvent& scan : simulation_.events().scans) {
     if (scan.uav == uav_ && cloud_) send(*cloud_, [&] { return to_cloud(scan.scan.tick, scan.scan.points_W); });
   }

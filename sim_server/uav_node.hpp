@@ -37,6 +37,10 @@ class UavNode {
   UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation, HeardKeyFrames& heard,
           bus::LockstepServer& server, bus::LockstepServer::DomainIndex domain);
 
+  /// Has the simulation compute the next step's scan if somebody reads it. To be called once those who take part in
+  /// that step are known, and before it is simulated: the program that was let in just now gets its first scan, whether
+  /// DDS still counts its dead predecessor as a reader or not.
+  void choose_scans();
   /// Publishes the samples of the present step.
   void publish();
   /// Commands on this topic come from outside the lock-step: says so with the next publish().

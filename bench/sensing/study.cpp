@@ -13,7 +13,6 @@
 #include "process/thread_cpu.hpp"
 #include "sim_server/rays/ray_scene.hpp"
 #include "sim_server/scenes/surface_sampling.hpp"
-#include "uav_agent/flight/proof.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/maps/world_mapper.hpp"
 
@@ -22,6 +21,7 @@ namespace {
 
 using agent::Space;
 
+constexpr int kRoomyRays = 16;          // where a box holds so much that it says little
 constexpr double kEdgeM = 0.5;          // of a picture's squares
 constexpr double kOffM = 0.5;           // truly free is what is so far off
 constexpr std::size_t kDraws = 60'000;  // of places, all bands together
@@ -38,7 +38,8 @@ class Study {
         explorer_(lone_explorer(site.start), site.scene, seed, planner()) {
     result_.name = site.name;
     result_.stem = site.stem;
-    result_.rays = agent::Proof::rays(std::ranges::any_of(site.scene.boxes, agent::is_roomy));
+    const bool roomy = std::ranges::any_of(site.scene.boxes, agent::is_roomy);
+    result_.rays = roomy ? kRoomyRays : agent::kProofRays;
   }
 
   SiteStudy fly(const std::vector<double>& times_s) {

@@ -11,6 +11,7 @@
 #include "sim_server/rays/ray_shapes.hpp"
 #include "sim_server/sensors/camera.hpp"
 #include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::sim {
 namespace {
@@ -355,7 +356,21 @@ TEST(Oracle, TheAnswerDependsOnNothingButTheQuestion) {
 
 /// What was found in these scenes by other means, with coarser sets of viewpoints: the oracle should find a little
 /// more.
+/// Sanitizers look for mistakes in memory, which a share of the points brings to light as well; all of them take more
+/// than ten minutes there.
+std::vector<InterestPoint> points_asked(const std::vector<InterestPoint>& points) {
+  if (sanitizer().empty()) return points;
+  constexpr std::size_t kShare = 20;
+  std::vector<InterestPoint> some;
+  for (std::size_t i = 0; i < points.size(); i += kShare) some.push_back(points[i]);
+  return some;
+}
+
 void expect_near(const Attainable& found, double points, double score) {
+  if (!sanitizer().empty()) {
+    EXPECT_GT(found.points, 0U);
+    return;
+  }
   EXPECT_GE(static_cast<double>(found.points), points);
   EXPECT_LE(static_cast<double>(found.points), 1.05 * points);
   EXPECT_GE(found.score, score);
@@ -365,13 +380,13 @@ void expect_near(const Attainable& found, double points, double score) {
 TEST(Oracle, OfficialScenesComeNearTheFiguresFoundElsewhere) {
   const auto mbs = test::official_mesh("mbs/mbs.stl");
   if (!mbs) GTEST_SKIP() << "SKEIN_ASSETS is not set";
-  const auto mbs_points = test::official_points("mbs/mbs_interest_points.pcd");
-  const OracleReport report = consult_oracle(photographer(2.0), {*mbs, *mbs_points, {}}, {0.5, 2.5, 64, 2});
+  const auto mbs_points = points_asked(*test::official_points("mbs/mbs_interest_points.pcd"));
+  const OracleReport report = consult_oracle(photographer(2.0), {*mbs, mbs_points, {}}, {0.5, 2.5, 64, 2});
   expect_near(report.reachable.attainable, 3325, 3250);
   expect_near(report.outside.attainable, 2103, 1925);
 
   Scene crane{*test::official_mesh("crane/construction_crane_1.stl"),
-              *test::official_points("crane/crane_interest_points_on_meshes.pcd"),
+              points_asked(*test::official_points("crane/crane_interest_points_on_meshes.pcd")),
               {}};
   const TriangleMesh second = *test::official_mesh("crane/construction_crane_2.stl");
   const auto offset = static_cast<std::uint32_t>(crane.mesh.vertices.size());

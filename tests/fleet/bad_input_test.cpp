@@ -72,8 +72,8 @@ TEST_F(BadInput, ScenarioIsNamedWithTheKeyAndWhatWouldBeRight) {
 
 TEST_F(BadInput, PlannerIsNamedWithThoseThatExist) {
   expect_refused({"towers", "--planner", "partol"}, {"partol", "patrol"});
-  expect_refused({"towers", "--planner", "patrol:clearence_m=2"}, {"clearence_m", "clearance_m"});
-  expect_refused({"towers", "--planner", "patrol:clearance_m=near"}, {"clearance_m", "near"});
+  expect_refused({"towers", "--planner", "patrol:aproach_mps=2"}, {"aproach_mps", "approach_mps"});
+  expect_refused({"towers", "--planner", "patrol:approach_mps=fast"}, {"approach_mps", "fast"});
   expect_refused({"towers", "--planner", "patrol,jurnog=hover"}, {"jurnog", "jurong"});
 }
 

@@ -89,7 +89,10 @@ std::vector<WireTopic> private_topics(const std::string& uav) {
 }
 
 TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
-  SkeinRun& run = waiting_for("run", "nanyang", {"towers", "--planner", "patrol", "--duration", "90"});
+  // What UAVs tell each other of their maps is lost: the counts of links are those of captures then.
+  const auto faults = write("no_plans.yaml", "faults:\n  - {at_s: 0, link: {loss: 1, topics: [/plan]}}\n");
+  SkeinRun& run =
+      waiting_for("run", "nanyang", {"towers", "--planner", "patrol", "--duration", "90", "--faults", faults.string()});
   const int base = run.domains().first;
   const WireTopic acks = topics::captures_ack_at_uav("nanyang"), own = topics::odometry("nanyang");
   const auto forbidden = private_topics("raffles");

@@ -36,7 +36,7 @@ Json comparable(Json result) {
 
 class Merge : public ByHand {
  protected:
-  static constexpr const char* kDuration_s = "45";
+  static constexpr const char* kDuration_s = "60";
 
   void fly(Arguments more = {}, const std::string& scenario = "towers") {
     more.insert(more.end(), {"--duration", kDuration_s});
@@ -96,7 +96,7 @@ TEST_F(Merge, WhoLeftNoReportIsToldOf) {
 }
 
 TEST_F(Merge, AStationThatAFaultKilledForGoodIsSettled) {
-  const Arguments options = {"--faults", write("faults.yaml", "faults:\n  - {at_s: 32, kill: station}\n")};
+  const Arguments options = {"--faults", write("faults.yaml", "faults:\n  - {at_s: 47, kill: station}\n")};
   const Json launched = launch(options).result();
   fly({options[0], options[1], "--keep"});
   EXPECT_FALSE(fs::exists(report("station"))) << "it came back too late, and leaves it to its books";

@@ -37,7 +37,7 @@ TEST_F(PlannerPage, ItsPlannerFliesTheSameInTheTreeAndOutOfIt) {
   ASSERT_TRUE(eventually([&] { return outside.ended().has_value(); }, kCompilersPatience));
   ASSERT_EQ(outside.ended()->code, 0) << outside.out() << outside.err();
   SkeinRun& inside =
-      run("inside", {"towers", "--agent", helper_program("howto_agent"), "--planner", "orbit", "--duration", "20"});
+      run("inside", {"towers", "--agent", helper_program("howto_agent"), "--planner", "orbit", "--duration", "45"});
 
   const Json there = Json::parse(text_of(folder() / "runs" / "towers-orbit-0" / "result.json"));
   EXPECT_EQ(there["status"], "completed");

@@ -1,14 +1,17 @@
-// Defects for `skein hunt` to find: patrol, with some talk between UAVs around it that stands up to every fault, and of
-// which one part is wrong on request. The hunt knows none of them.
+// Defects for `skein hunt` to find: rounds about the structure, with some talk between UAVs that stands up to every
+// fault, and of which one part is wrong on request. The hunt knows none of them. No flight core keeps these UAVs safe.
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "uav_agent/api/planner.hpp"
+#include "uav_agent/maps/voxel_grid.hpp"
 
 namespace skein::agent {
 
@@ -45,6 +48,45 @@ constexpr double kQuiet_s = 2.0, kDead_s = 5.0, kLeaseAge_s = 3.0, kPatience_s =
 constexpr double kLoiterHeight_m = 70.0, kLoiterWay_m = 10.0, kLoiterSpeed_mps = 4.0, kUp_rad = -1.3;
 constexpr double kBlind_s = 8.0, kMoving_mps = 1.0, kBlindSpeed_mps = 4.0;
 
+constexpr double kOffM = 4.0, kLowestM = 10.0, kUpM = 4.0, kApartM = 2.0, kRoundMps = 3.0;
+
+/// Around all boxes, from below to the top and down again, every other UAV the other way round, with the camera on what
+/// is nearest of them.
+class Rounds {
+ public:
+  explicit Rounds(std::size_t self) : self_(self) {}
+
+  PlannerOutput plan(const PlannerInput& in) {
+    PlannerOutput out;
+    if (in.boxes.empty()) return out;
+    const Eigen::AlignedBox3d extent = extent_of(in.boxes);
+    const Vector3d p_W = in.tracking.setpoint.p_WB, middle_W = extent.center();
+    const Vector3d nearest_W = p_W.cwiseMax(extent.min()).cwiseMin(extent.max());
+    out.gimbal = Vector3d(nearest_W.x(), nearest_W.y(), std::max(2.0, nearest_W.z() - 1.0));
+    out.yaw = std::atan2(middle_W.y() - p_W.y(), middle_W.x() - p_W.x());
+    if (!in.tracking.done) return out;
+    const double span_m = std::max(1.0, extent.max().z() - kLowestM);
+    const double z = kLowestM + kApartM * static_cast<double>(self_) + std::fmod(kUpM * round_++, span_m);
+    std::vector<Vector3d> corners;
+    for (const auto& [x, y] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
+      const Vector3d half = 0.5 * extent.sizes() + Vector3d::Constant(kOffM);
+      corners.emplace_back(middle_W.x() + x * half.x(), middle_W.y() + y * half.y(), z);
+    }
+    const auto off_m = [&](const Vector3d& corner) { return (corner - p_W).norm(); };
+    if (self_ % 2 == 1) std::ranges::reverse(corners);
+    std::ranges::rotate(corners, std::ranges::min_element(corners, {}, off_m));
+    Path path{{{Vector3d(p_W.x(), p_W.y(), z), kRoundMps}}};
+    for (const Vector3d& corner : corners) path.waypoints.push_back({corner, kRoundMps});
+    path.waypoints.push_back({corners.front(), kRoundMps});
+    out.motion = std::move(path);
+    return out;
+  }
+
+ private:
+  const std::size_t self_;
+  int round_ = 0;
+};
+
 }  // namespace
 
 class PlantedPlanner final : public Planner {
@@ -59,7 +101,7 @@ class PlantedPlanner final : public Planner {
   };
 
   PlantedPlanner(const Config& config, const AgentConfig& agent)
-      : defect_(config.defect), agent_(agent), inner_(make_planner("patrol", agent)) {}
+      : defect_(config.defect), agent_(agent), inner_(agent.self) {}
 
   PlannerOutput plan(const PlannerInput& in) override {
     const double now_s = seconds(in.tick);
@@ -77,7 +119,7 @@ class PlantedPlanner final : public Planner {
     } else if (stood_ && leg_ < path_.waypoints.size()) {
       out.motion = Path{{path_.waypoints.begin() + static_cast<std::ptrdiff_t>(leg_), path_.waypoints.end()}};
     } else {
-      out = inner_->plan(as_seen(in));
+      out = inner_.plan(as_seen(in));
       if (!std::holds_alternative<std::monostate>(out.motion)) {
         const Path* path = std::get_if<Path>(&out.motion);
         path_ = path != nullptr ? *path : Path{};
@@ -205,10 +247,10 @@ class PlantedPlanner final : public Planner {
 
   const Defect defect_;
   const AgentConfig agent_;
-  const std::unique_ptr<Planner> inner_;
+  Rounds inner_;
   std::map<std::string, double> heard_s_;  ///< when each word was last heard
   std::optional<double> began_s_, saw_s_;
-  /// What patrol flies, to be taken up again after standing still: else it believes that it has arrived.
+  /// What it flies, to be taken up again after standing still: else it believes that it has arrived.
   Path path_;
   std::size_t leg_ = 0;  ///< of it, where the path begins that is being flown
   bool stood_ = false;

@@ -28,5 +28,17 @@ TEST_F(Wild, AllPlannersFlyInTenWorlds) {
   EXPECT_EQ(flown, std::set<std::string>(planners.begin(), planners.end()));
 }
 
+/// Each of these worlds once brought a mistake to light: a start below a roof or beside a wall, photographers alone,
+/// thin braces, canopies, stations on roofs, UAVs that meet behind a corner (docs/decisions/0029-flight-core.md).
+TEST_F(Wild, WorldsOfFormerMistakesStaySafe) {
+  if (!long_tests()) GTEST_SKIP() << "takes minutes: SKEIN_LONG=1";
+  ChildProcess& study = skein({"compare", "--planners", "kios,patrol,star,xxh", "--scenarios", "wild", "--scene-seeds",
+                               "3,5,18,32,43,48,54,60,77,82,102,119,125,140,143,151,152,166,169,181,188,189,201,203",
+                               "--seeds", "1", "--record=none", "--require", "collisions==0", "--require",
+                               "braking_hits==0", "--out", folder() / "study"});
+  ASSERT_EQ(study.wait().code, 0) << study.err() << study.out();
+  EXPECT_EQ(read_csv(folder() / "study" / "flights.csv").size(), 24U * 4U);
+}
+
 }  // namespace
 }  // namespace skein::test

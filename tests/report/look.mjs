@@ -87,7 +87,7 @@ async function checkLive(page, run) {
   const places = () => page.$$eval('.scene .tag', (tags) => tags.map((tag) => tag.style.transform).join());
   const then = await places();
   await page.$eval('#moment', (slider) => {
-    slider.value = String(Number(slider.max) / 2);
+    slider.value = String(Number(slider.max) * 0.97);  // there are captures by then
     slider.dispatchEvent(new Event('input'));
   });
   expect((await places()) !== then, 'the slider does not move the fleet');

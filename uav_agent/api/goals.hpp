@@ -41,6 +41,7 @@ struct Outcome {
 /// What the flight core is about, for a strategy.
 struct FlightState {
   bool working = false;                   ///< in the air, and free to fly to goals; else they wait
+  bool idle = false;                      ///< working, and no goal is left
   std::optional<std::int64_t> goal = {};  ///< the one it flies to or along
   bool on_way = false;                    ///< along its way: past the first waypoint
   std::size_t leg = 0;                    ///< waypoint of its way that it flies to

@@ -34,6 +34,7 @@ void Peers::update(Tick tick, const std::vector<Neighbour>& neighbours) {
     if (found == peers_.end() || found->uav != uav) continue;
     Peer& peer = *found;
     const double gap_s = peer.seen ? seconds(tick - *peer.seen) : kMaxGapS + 1.0;
+    const Vector3d v_before_W = peer.v_W;
     if (neighbour.v_W) {
       peer.v_W = *neighbour.v_W;
     } else if (gap_s > kMaxGapS) {
@@ -42,6 +43,8 @@ void Peers::update(Tick tick, const std::vector<Neighbour>& neighbours) {
       const Vector3d v_new = (neighbour.p_W - peer.p_W) / gap_s;
       peer.v_W += kVelocityGain * (v_new - peer.v_W);
     }
+    const bool goes_on = gap_s > 0.0 && gap_s <= kMaxGapS;
+    peer.a_W = goes_on ? Vector3d((peer.v_W - v_before_W) / gap_s) : Vector3d::Zero();
     peer.p_W = neighbour.p_W;
     peer.seen = tick;
     peer.visible = true;

@@ -14,6 +14,7 @@ struct Peer {
   UavIndex uav = {};
   Vector3d p_W = Vector3d::Zero();  ///< when last seen; the nominal start before
   Vector3d v_W = Vector3d::Zero();  ///< as told, or from sightings at most 0.25 s apart; else zero
+  Vector3d a_W = Vector3d::Zero();  ///< how v_W changed between sightings at most 0.25 s apart; else zero
   std::optional<Tick> seen;         ///< nullopt: never
   bool visible = false;             ///< in line of sight at this step
 };

@@ -73,7 +73,9 @@ struct PlannerOutput {
   bool trigger = false;                  ///< ask for a capture; only where the camera is in manual mode
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
   /// Where it wants to go, what it likes best first: the flight core flies to the first that can be reached. None: it
-  /// rests. nullopt: as before. Only if flight() is given; then `motion` and `yaw` are not looked at.
+  /// rests, and after some seconds is taken to where more may be seen; to wait at a place, want that place. nullopt: as
+  /// before. Only if flight() is given; then `motion` is not looked at, and `yaw` only while the
+  /// core does not turn the UAV itself: it turns one with a LiDAR, but not along a goal's way that has a yaw.
   std::optional<std::vector<Goal>> goals = {};
   /// What others said of their maps (OccupancyMap::octomap_bytes()), to be taken into the one on board.
   std::vector<std::string> heard_maps = {};

@@ -51,8 +51,8 @@ TEST(Planner, AWrongNameOrKeySaysWhatWouldBeRight) {
 }
 
 TEST(Planner, ReadsParametersFromAFile) {
-  EXPECT_EQ(message_of("patrol:" + write_file("patrol.yaml", "use_map: false\noverlap: 0.3\n").string()), "no error");
-  EXPECT_NE(message_of("patrol:" + write_file("bad.yaml", "use_mop: false\n").string()).find("use_map"),
+  EXPECT_EQ(message_of("patrol:" + write_file("patrol.yaml", "bottom: false\noverlap: 0.3\n").string()), "no error");
+  EXPECT_NE(message_of("patrol:" + write_file("bad.yaml", "bottum: false\n").string()).find("bottom"),
             std::string::npos);
   EXPECT_NE(message_of("patrol:missing.yaml").find("missing.yaml"), std::string::npos);
 }

@@ -1,12 +1,14 @@
 #include "uav_agent/flight/body_fit.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "uav_agent/maps/block_table.hpp"
 
 namespace skein::agent {
 namespace {
 
 constexpr double kFreeForS = 4.0, kUnknownForS = 1.0;  ///< an answer is kept
-constexpr double kOffMiddleM = 0.2;                    ///< a place is off the middle of its cube, by so much or so
 constexpr std::size_t kMostAnswers = 200'000;
 
 }  // namespace
@@ -21,12 +23,20 @@ bool BodyFit::fits(const Vector3d& p_W) const {
   const WorldMap::Cube cube = map_->cube_of(p_W);
   const auto [it, is_new] = answers_.try_emplace(grid_key(cube));
   Answer& answer = it->second;
-  if (!is_new && seconds(now_ - answer.at) < (answer.fits ? kFreeForS : kUnknownForS)) return answer.fits;
-  const Vector3d middle_W = (cube.cast<double>() + Vector3d::Constant(0.5)) * map_->config().cell_m;
-  const double radius_m = radius_m_ + kOffMiddleM;
-  answer.at = now_;
-  answer.fits = map_->ball_free(middle_W, radius_m, ground_m_);
-  return answer.fits;
+  if (is_new || seconds(now_ - answer.at) >= (answer.fits == Fits::everywhere ? kFreeForS : kUnknownForS)) {
+    answer = {now_, fits_in(cube)};
+  }
+  if (answer.fits == Fits::somewhere) return map_->ball_free(p_W, radius_m_, ground_m_);
+  return answer.fits == Fits::everywhere;
+}
+
+/// By two questions about the middle of a cube.
+BodyFit::Fits BodyFit::fits_in(const WorldMap::Cube& cube) const {
+  const double to_corner_m = 0.5 * std::sqrt(3.0) * map_->config().cell_m;
+  const Vector3d middle_W = map_->middle_W(cube);
+  if (map_->ball_free(middle_W, radius_m_ + to_corner_m, ground_m_)) return Fits::everywhere;
+  const bool nowhere = !map_->ball_free(middle_W, std::max(0.0, radius_m_ - to_corner_m), ground_m_);
+  return nowhere ? Fits::nowhere : Fits::somewhere;
 }
 
 }  // namespace skein::agent

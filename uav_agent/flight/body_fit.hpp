@@ -17,14 +17,18 @@ class BodyFit {
 
   /// Once per exchange.
   void update(const WorldMap& map, Tick now);
-  /// At the middle of the map's cube about a place.
+  /// At this very place, as the safety filter asks it of a UAV at rest.
   bool fits(const Vector3d& p_W) const;
 
  private:
+  /// The body, with its middle in a cube of the map.
+  enum class Fits : std::uint8_t { nowhere, somewhere, everywhere };
   struct Answer {
     Tick at = 0;
-    bool fits = false;
+    Fits fits = Fits::nowhere;
   };
+  Fits fits_in(const WorldMap::Cube& cube) const;
+
   double radius_m_, ground_m_;
   const WorldMap* map_ = nullptr;
   Tick now_ = 0;

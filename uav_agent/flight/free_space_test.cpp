@@ -53,15 +53,56 @@ TEST(FreeSpace, WhatRaysHavePassedMayBeEnteredUpToTheClearance) {
   EXPECT_FALSE(space.free({0.0, 0.0, 15.5})) << "behind it";
 }
 
-TEST(FreeSpace, WhoTriesToGetOutAgainAndAgainComesNoNearer) {
-  for (std::uint64_t i = 0; i < 100; ++i) {
-    RandomStream random(i, "way out", 0);
-    const double clearance = random.uniform(1.0, 2.5), slack = random.uniform(0.05, 0.4);
-    const double begin = random.uniform(0.1, clearance);
-    double now = begin;
-    for (int attempt = 0; attempt < 50; ++attempt) now = least_on_way_out_m(now, clearance, slack);
-    EXPECT_GE(now, std::min(begin, 0.5 * clearance)) << "case " << i;
-    EXPECT_LE(now, begin);
+/// A wall in the plane x = 0, as somebody told of it.
+WorldMap wall() {
+  WorldMap map({.ground_m = 0.3});
+  for (int y = -20; y < 20; ++y) {
+    for (int z = 4; z < 60; ++z) map.hear({0, y, z}, 0, Space::occupied, kOwn + 1);
+  }
+  return map;
+}
+
+TEST(FreeSpace, AWayOutComesNoNearerToStructure) {
+  const WorldMap world = wall();
+  const OccupancyMap nothing;
+  const std::vector<OrientedBox> boxes;
+  const FreeSpace space({.clearance_m = 2.0, .world = &world}, boxes, nothing);
+  RandomStream random(5, "way out", 0);
+  int out = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d from_W(random.uniform(0.8, 2.3), random.uniform(-5.0, 5.0), random.uniform(8.0, 20.0));
+    const Vector3d to_W = from_W + Vector3d(random.uniform(-6.0, 6.0), random.uniform(-3, 3), random.uniform(-3, 3));
+    const bool leads_out = space.leads_out(from_W, to_W);
+    const double nearer_m = from_W.x() - to_W.x();
+    if (nearer_m < -0.1) {
+      EXPECT_TRUE(leads_out) << "away from the wall";
+    }
+    if (nearer_m > 1.0) {
+      EXPECT_FALSE(leads_out) << "towards it, or through it";
+    }
+    out += leads_out ? 1 : 0;
+  }
+  EXPECT_GT(out, 100);
+}
+
+TEST(FreeSpace, ByTheMapOfAllBeamsTheUnknownMayBePlannedThroughUnlessProofIsAsked) {
+  WorldMap world = wall();
+  world.set_free({10.0, 0.0, 10.0}, 4.0);
+  const OccupancyMap nothing;
+  const std::vector<OrientedBox> boxes = {unit_box()};
+  BodyFit fit(1.5, 1.0);
+  fit.update(world, 0);
+  FreeSpace::Config config{.clearance_m = 2.0, .world = &world, .unknown_cost = 1.5, .fit = &fit};
+  const Vector3d proved_W(10.0, 0.0, 10.0), unknown_W(10.0, 15.0, 10.0), near_W(1.5, 0.0, 10.0);
+  for (const bool proved_only : {false, true}) {
+    config.proved_only = proved_only;
+    const FreeSpace space(config, boxes, nothing);
+    EXPECT_TRUE(space.free(proved_W));
+    EXPECT_EQ(space.free(unknown_W), !proved_only);
+    EXPECT_FALSE(space.free(near_W)) << "too near to the wall";
+    EXPECT_EQ(space.free({4.0, 0.0, 20.0}), !proved_only) << "boxes are nothing to keep off";
+    EXPECT_EQ(space.cost(proved_W), 1.0);
+    EXPECT_EQ(space.cost(unknown_W), 1.5);
   }
 }
 

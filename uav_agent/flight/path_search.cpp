@@ -13,10 +13,7 @@ namespace {
 
 using Cell = Eigen::Vector3i;
 
-constexpr double kHeuristicWeight = 1.2;  ///< a path at most this much longer than the best is good enough
-constexpr int kEscapeCells = 3;           ///< how far to look for a free cell around a start that is not free
-constexpr double kEscapeBodyM = 0.6;      ///< so far nothing has to be looked at
-constexpr double kEscapeSlackM = 0.3;     ///< nearer to what is too near already
+constexpr int kEscapeCells = 3;  ///< how far to look for a free cell around a start that is not free
 
 std::uint64_t key_of(const Cell& c) {
   constexpr std::uint64_t kMask = (1U << 21) - 1;
@@ -119,22 +116,13 @@ class Search {
           if (best && distance >= best_distance) continue;
           if (!passable(centre(c))) continue;
           if (start_is_free && !space_.segment_free(from_, centre(c))) continue;
-          if (!start_is_free && !escapes(centre(c))) continue;
+          if (!start_is_free && !space_.leads_out(from_, centre(c))) continue;
           best = c;
           best_distance = distance;
         }
       }
     }
     return best;
-  }
-
-  /// The way out hardly comes nearer to anything mapped than the start is, and somebody has looked at it.
-  bool escapes(const Vector3d& out) const {
-    if (!space_.config().use_map || space_.config().world) return true;  // the safety filter sees to it
-    if (!space_.looked_at(from_, out, kEscapeBodyM)) return false;
-    const double clearance = space_.config().clearance_m;
-    const double now = space_.map().distance_to_occupied(from_, clearance).value_or(clearance);
-    return space_.map().segment_clear(from_, out, least_on_way_out_m(now, clearance, kEscapeSlackM));
   }
 
   void open(const Cell& cell, double cost, const Cell& parent) {
@@ -144,7 +132,7 @@ class Search {
       it->second.cost = cost;
       it->second.parent = parent;
     }
-    queue_.emplace(cost + kHeuristicWeight * (to_ - centre(cell)).norm(), sequence_++, cell);
+    queue_.emplace(cost + config_.heuristic * (to_ - centre(cell)).norm(), sequence_++, cell);
   }
 
   void expand(const Cell& cell, double cost) {

@@ -13,6 +13,7 @@ namespace skein::agent {
 struct PathSearchConfig {
   double cell_m = 2.0;
   int max_expansions = 6000;
+  double heuristic = 1.2;  ///< a path at most this much longer than the best is good enough
   double margin_m = 25.0;  ///< the search stays in the box around start, goal and all structure, widened by this
 };
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "core/random_stream.hpp"
-#include "uav_agent/testing/look_around.hpp"
 
 namespace skein::agent {
 namespace {
@@ -131,23 +130,6 @@ TEST(PathSearch, IsRepeatableAndBounded) {
   ASSERT_TRUE(once);
   EXPECT_EQ(*once, *again);
   EXPECT_FALSE(find_path(space, boxes, from, to, {.cell_m = 2.0, .max_expansions = 3}));
-}
-
-TEST(PathSearch, NobodyLeavesAPlaceThatIsNotFreeThroughWhatNobodyHasLookedAt) {
-  for (std::uint64_t world = 0; world < 20; ++world) {
-    RandomStream random(world, "unseen", 0);
-    OrientedBox box;
-    box.center = {random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), 10.0};
-    box.size = {30.0, 30.0, 20.0};
-    const Vector3d from = box.center + Vector3d(14.0, random.uniform(-8.0, 8.0), random.uniform(-6.0, 6.0));
-    const Vector3d to(30.0, from.y(), from.z());
-    OccupancyMap map;
-    const std::vector<OrientedBox> boxes = {box};
-    const FreeSpace space({.clearance_m = 1.2, .jut_m = 1.2}, boxes, map);
-    EXPECT_FALSE(find_path(space, {}, from, to).has_value()) << world;
-    look_around(map, from, 60);
-    EXPECT_TRUE(find_path(space, {}, from, to).has_value()) << world;
-  }
 }
 
 }  // namespace

@@ -2,14 +2,10 @@
 
 #include <algorithm>
 
-#include "uav_agent/flight/lift_off.hpp"
-
 namespace skein::agent {
 namespace {
 
-constexpr double kMinClearanceM = 1.8;
 constexpr double kRoomyM = 45.0, kRoomyHeightM = 20.0;  ///< at least, of a box that says little
-constexpr double kBlindFloorRatio = 0.25;               ///< of the highest box
 
 }  // namespace
 
@@ -23,23 +19,6 @@ double top_of(const std::vector<OrientedBox>& boxes) {
     top = std::max(top, box.center.z() + (box.R_WO.cwiseAbs() * (0.5 * box.size)).z());
   }
   return top;
-}
-
-Site site_of(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, double blind_height_ratio) {
-  Site site;
-  site.top_m = top_of(boxes);
-  site.roomy = std::ranges::any_of(boxes, is_roomy);
-  site.blind_fleet = !agent.first_explorer();
-  if (site.blind_fleet) {
-    site.lowest_m = kBlindFloorRatio * site.top_m;
-  } else {
-    site.blind_height_m = blind_height_m(boxes, blind_height_ratio);
-  }
-  return site;
-}
-
-double centre_clearance_m(const AgentConfig& agent, double clearance_m) {
-  return std::max(kMinClearanceM, agent.me().body_radius_m + clearance_m);
 }
 
 }  // namespace skein::agent

@@ -2,49 +2,38 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
+
+#include "uav_agent/api/agent_config.hpp"
 
 namespace skein::agent {
 namespace {
 
-AgentConfig site_fleet(Role first) {
-  AgentConfig agent;
-  agent.fleet = {{.name = "a", .role = first, .body_radius_m = 0.4}, {.name = "b", .role = Role::photographer}};
-  return agent;
+TEST(Site, TopIsThatOfTheHighestCornerHoweverABoxIsTurned) {
+  OrientedBox low, tilted;
+  low.size = {10.0, 10.0, 4.0};
+  tilted.center = {0.0, 0.0, 20.0};
+  tilted.size = {6.0, 2.0, 8.0};
+  tilted.R_WO = Eigen::AngleAxisd(0.5, Vector3d::UnitY()).toRotationMatrix();
+  EXPECT_DOUBLE_EQ(top_of({}), 0.0);
+  EXPECT_DOUBLE_EQ(top_of({low}), 2.0);
+  EXPECT_NEAR(top_of({low, tilted}), 20.0 + 3.0 * std::sin(0.5) + 4.0 * std::cos(0.5), 1e-9);
 }
 
-OrientedBox box_of_height(double height) {
+TEST(Site, ARoomyBoxIsWideBothWaysAndHigh) {
   OrientedBox box;
-  box.center = {0.0, 0.0, 0.5 * height};
-  box.size = {10.0, 10.0, height};
-  return box;
-}
-
-TEST(Site, LowSpaceIsBlindWhereALidarCouldSeeIt) {
-  const Site site = site_of(site_fleet(Role::explorer), {box_of_height(20.0), box_of_height(80.0)}, 0.45);
-  EXPECT_DOUBLE_EQ(site.top_m, 80.0);
-  EXPECT_DOUBLE_EQ(site.blind_height_m, 36.0);
-  EXPECT_DOUBLE_EQ(site.lowest_m, 0.0);
-  EXPECT_DOUBLE_EQ(site.safe_height_m(), 36.0);
-  EXPECT_FALSE(site.blind_fleet);
-}
-
-TEST(Site, AFleetWithoutALidarStaysHigh) {
-  const Site site = site_of(site_fleet(Role::photographer), {box_of_height(80.0)}, 0.45);
-  EXPECT_TRUE(site.blind_fleet);
-  EXPECT_DOUBLE_EQ(site.blind_height_m, 0.0);
-  EXPECT_DOUBLE_EQ(site.lowest_m, 20.0);
-  EXPECT_DOUBLE_EQ(site.safe_height_m(), 20.0);
-}
-
-TEST(CentreClearance, HoldsTheBodyAndIsNeverFinerThanTheMap) {
-  const AgentConfig agent = site_fleet(Role::explorer);
-  EXPECT_DOUBLE_EQ(centre_clearance_m(agent, 2.0), 2.4);
-  EXPECT_DOUBLE_EQ(centre_clearance_m(agent, 0.3), 1.8);
+  box.size = {50.0, 60.0, 30.0};
+  EXPECT_TRUE(is_roomy(box));
+  for (int axis = 0; axis < 3; ++axis) {
+    OrientedBox narrow = box;
+    narrow.size[axis] = 15.0;
+    EXPECT_FALSE(is_roomy(narrow)) << axis;
+  }
 }
 
 TEST(Due, OncePerPeriodAndInAnotherExchangeWithAnotherOffset) {
-  const AgentConfig agent = site_fleet(Role::explorer);
+  const AgentConfig agent;
   std::set<std::uint64_t> first, second;
   for (std::uint64_t k = 0; k < 100; ++k) {
     if (agent.due(k, 0.5, 0)) first.insert(k % 10);

@@ -34,6 +34,7 @@ FlightCore::FlightCore(const FlightConfig& config, const AgentConfig& agent)
 
 FlightState FlightCore::state() {
   FlightState state{.working = mode_ == Mode::working, .outcomes = std::exchange(outcomes_, {})};
+  state.idle = state.working && navigator_.idle();
   if (state.working && navigator_.current()) {
     state.goal = navigator_.current()->id;
     state.on_way = navigator_.on_way();
@@ -111,13 +112,22 @@ void FlightCore::leave_ground(const PlannerInput& in, Steering& steering) {
   }
   waits_for_ = lifts_off_after(in);
   if (waits_for_) return;
-  const double layer_m = kClimbLayerM * static_cast<double>(agent_.fleet.size() - 1 - agent_.self);
+  const double layer_m = kClimbLayerM * neighbours_after();
   top_W_ = Vector3d(p_W.x(), p_W.y(), p_W.z() + kLowestTopM + layer_m);
   steering.motion = Path{{{*top_W_, config_.climb_mps}}};
   steering.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
   climbed_m_ = p_W.z();
   climbed_at_ = in.tick;
   enter(Mode::takeoff, in);
+}
+
+/// Of higher number, that start near by: each climbs to a height of its own.
+int FlightCore::neighbours_after() const {
+  int count = 0;
+  for (std::size_t uav = agent_.self + 1; uav < agent_.fleet.size(); ++uav) {
+    if ((agent_.fleet[uav].p_WB_start - agent_.me().p_WB_start).norm() <= kCrowdM) ++count;
+  }
+  return count;
 }
 
 /// Explorers first, then by number.
@@ -171,7 +181,7 @@ void FlightCore::work(const PlannerInput& in, Steering& steering) {
     if (outcome.kind != Outcome::Kind::no_way) recovery_.progress();
     outcomes_.push_back(std::move(outcome));
   }
-  if (!navigator_.idle()) {
+  if (navigator_.current()) {
     since_ = in.tick;
     if (filter_.held().by == Held::By::peer) waits_for_ = filter_.held().peer;
   } else if (seconds(in.tick - since_) > kIdleS) {

@@ -59,6 +59,7 @@ class FlightCore {
   bool begin_showing(const PlannerInput& in);
   void show(const PlannerInput& in, Steering& steering);
   void go_home(const PlannerInput& in, Steering& steering);
+  int neighbours_after() const;
   std::optional<std::size_t> lifts_off_after(const PlannerInput& in);
   void enter(Mode mode, const PlannerInput& in);
 

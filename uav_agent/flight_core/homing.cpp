@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "uav_agent/flight/delivery.hpp"
+#include "uav_agent/flight/delivery_places.hpp"
 #include "uav_agent/flight/site.hpp"
 
 namespace skein::agent {

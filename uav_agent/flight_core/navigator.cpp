@@ -12,8 +12,9 @@ namespace {
 constexpr double kGainM = 0.5;           ///< less is no way
 constexpr int kSearchesPerExchange = 2;  ///< for goals
 constexpr int kMostExpansions = 4000;
-constexpr double kSearchAgainS = 0.5;   ///< after one that came to nothing
-constexpr std::uint64_t kLookEach = 4;  ///< exchanges
+constexpr double kGreedyHeuristic = 3.0;  ///< of a second search: a long way is better than none
+constexpr double kSearchAgainS = 0.5;     ///< after one that came to nothing
+constexpr std::uint64_t kLookEach = 4;    ///< exchanges
 constexpr double kLookAheadM = 15.0, kSlackM = 0.4;
 constexpr int kMostReplans = 3;
 constexpr double kRefusedM = 1.5;
@@ -164,8 +165,13 @@ Navigator::Search Navigator::set_out(const PlannerInput& in, Steering& steering)
   }
   bool gave_up = false;
   const Vector3d begin_W = way_begins_W(in);
-  const auto corners =
-      find_path(space(in, begin_W), in.boxes, begin_W, to_W, {.max_expansions = kMostExpansions}, &gave_up);
+  const FreeSpace space = this->space(in, begin_W);
+  PathSearchConfig search{.max_expansions = kMostExpansions};
+  auto corners = find_path(space, in.boxes, begin_W, to_W, search, &gave_up);
+  if (gave_up) {
+    search.heuristic = kGreedyHeuristic;
+    corners = find_path(space, in.boxes, begin_W, to_W, search, &gave_up);
+  }
   if (!corners) return gave_up ? Search::gave_up : Search::none;
   std::vector<Waypoint> waypoints = path_through(*corners, config_.approach_mps).waypoints;
   if (begin_W != from_W) waypoints.insert(waypoints.begin(), {begin_W, config_.approach_mps});
@@ -212,8 +218,9 @@ void Navigator::refuse(const Vector3d& p_W, const PlannerInput& in) {
 
 /// Structure that came to be known since the way was planned.
 bool Navigator::blocked_ahead(const PlannerInput& in) const {
-  const double least_m = filter_.tube_m(0.0) - kSlackM;
   Vector3d at_W = in.tracking.setpoint.p_WB;
+  // A UAV that is nearer to structure already may fly on, as long as its way comes no nearer.
+  const double least_m = std::min(filter_.tube_m(0.0) - kSlackM, in.world_map->structure_distance_m(at_W));
   double length_m = 0.0;
   for (std::size_t i = in.tracking.leg; i < path_.size() && length_m < kLookAheadM; ++i) {
     const Vector3d leg = path_[i].p_WB - at_W;
@@ -257,12 +264,15 @@ void Navigator::replan(const PlannerInput& in, const std::string& reason, Steeri
 }
 
 void Navigator::watch(const PlannerInput& in, const Held& held, Steering& steering) {
-  if (!on_way_ || !current_->yaw) face_ahead(in, steering);
   if ((in.tracking.setpoint.p_WB - gained_p_W_).norm() > kGainM) {
     gained_p_W_ = in.tracking.setpoint.p_WB;
     gained_at_ = in.tick;
   }
-  if (seconds(in.tick - gained_at_) > config_.stall_s) stalled(in, held, steering);
+  if (seconds(in.tick - gained_at_) > config_.stall_s) {
+    stalled(in, held, steering);
+  } else if (!on_way_ || !current_->yaw) {
+    face_ahead(in, steering);
+  }
 }
 
 void Navigator::look_around(const PlannerInput& in, Steering& steering) {

@@ -12,6 +12,8 @@ constexpr double kPeerDelayS = 0.1;  ///< a UAV may fly on so long before it bra
 constexpr double kPeerBrakesMps2 = 2.0;
 /// Commands are means over so long (tracker.hpp): braking begins that much softer.
 constexpr double kPeerSmoothS = 0.4;
+/// So long a UAV goes on to get faster when it is told to brake: what it is commanded lags, and it lags behind that.
+constexpr double kPeerLagS = kPeerDelayS + 0.5 * kPeerSmoothS;
 constexpr double kRestsMps = 0.2;
 /// One that went out of sight in a turn, or while it set out, comes to rest beside what its last word foretold: the
 /// velocity that it tells lags behind by half of kPeerSmoothS. Measured over drawn flights: 0.48 m at most.
@@ -71,7 +73,10 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
   ++counts_.exchanges;
   const bool room = has_room(facts);
   if (!room) ++counts_.broken;
-  had_room_ = had_room_ || room;
+  // The space in which it was put down is free, but for what stands close beside it: that is no room to climb from.
+  const bool leaves_start =
+      now_W_.z() < config_.floor_m && (now_W_ - agent_.me().p_WB_start).head<2>().norm() < kStartM;
+  had_room_ = had_room_ || (room && !leaves_start);
   halo_m_ = had_room_ ? kHaloM : config_.tight_halo_m;
   if (!had_room_) most_mps = std::min(most_mps, config_.tight_mps);
   const std::vector<PeerReach> peers = reach_of_peers(facts);
@@ -108,13 +113,16 @@ std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& f
     if (!peer.seen) continue;
     const double age_s = peer.visible ? 0.0 : seconds(facts.tick - *peer.seen);
     if (age_s > config_.peer_memory_s) continue;
-    const double speed_mps = peer.v_W.norm();
+    Vector3d v_W = peer.v_W;
+    const Vector3d soon_W = peer.v_W + kPeerLagS * peer.a_W;
+    if (peer.visible && soon_W.norm() > v_W.norm()) v_W = soon_W;
+    const double speed_mps = v_W.norm();
     Vector3d to_W = peer.p_W;
     // One that is heard may have changed its mind since. Who rests goes nowhere before it is heard again.
-    if (speed_mps > kRestsMps) to_W += peer.v_W * (stopping_m(speed_mps) / speed_mps);
+    if (speed_mps > kRestsMps) to_W += v_W * (stopping_m(speed_mps) / speed_mps);
     const double off_m = apart_m(peer.uav, facts.state.v_WB.norm()) + (peer.visible ? 0.0 : kUnheardM);
     const double now_m = distance_to_segment(now_W_, peer.p_W, to_W);
-    if (now_m < 40.0) reach.push_back({peer.uav, peer.p_W, to_W, off_m, now_m});
+    if (now_m < 40.0) reach.push_back({peer.uav, peer.p_W, to_W, off_m, now_m, (now_W_ - peer.p_W).norm()});
   }
   return reach;
 }
@@ -127,7 +135,10 @@ Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, c
   for (const Vector3d& p_W : places_W) {
     for (const PeerReach& peer : peers) {
       const double off_m = distance_to_segment(p_W, peer.from_W, peer.to_W);
-      if (off_m < peer.apart_m && off_m < peer.now_m - kNearerM) return {Held::By::peer, p_W, peer.uav};
+      if (off_m >= peer.apart_m) continue;
+      // What the peer sweeps may reach this UAV: then no place is nearer to it. So the peer's own place counts, too.
+      const bool nearer = off_m < peer.now_m - kNearerM || (p_W - peer.from_W).norm() < peer.from_m - kNearerM;
+      if (nearer) return {Held::By::peer, p_W, peer.uav};
     }
     Held held{.at_W = p_W};
     if (!proved(p_W, radius_m, facts, held)) return held;

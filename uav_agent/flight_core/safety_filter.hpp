@@ -75,7 +75,8 @@ class SafetyFilter {
     std::size_t uav = 0;
     Vector3d from_W, to_W;  ///< of its centre
     double apart_m = 0.0;   ///< centres must stay so far off
-    double now_m = 0.0;     ///< how far off this UAV is
+    double now_m = 0.0;     ///< from this UAV to all that the peer sweeps
+    double from_m = 0.0;    ///< from this UAV to from_W
   };
   using Cube = WorldMap::Cube;
 

@@ -1,6 +1,7 @@
 #include "uav_agent/maps/distance_field.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
@@ -8,10 +9,33 @@
 namespace skein::agent {
 namespace {
 
+constexpr int kSide = 3 * DistanceField::kBlock;  ///< of a block and those about it
+using Row = std::array<std::uint16_t, DistanceField::kBlock>;
+
 /// Of the cells between two along an axis.
 int gap_squared(int from, int to) {
   const int gap = std::max(0, std::abs(to - from) - 1);
   return gap * gap;
+}
+
+/// Of each cell of the block in the middle to the nearest one of a row of them: one bit each.
+Row squares_in_row(std::uint32_t occupied, std::uint16_t far) {
+  Row squares;
+  for (int x = 0; x < DistanceField::kBlock; ++x) {
+    const int at = DistanceField::kBlock + x;
+    const std::uint32_t up = occupied >> at, down = occupied & ((std::uint32_t{1} << at) - 1);
+    int square = far;
+    if (up != 0) square = std::min(square, gap_squared(0, std::countr_zero(up)));
+    if (down != 0) square = std::min(square, gap_squared(0, at + 1 - std::bit_width(down)));
+    squares[static_cast<std::size_t>(x)] = static_cast<std::uint16_t>(square);
+  }
+  return squares;
+}
+
+void lower(Row& squares, const Row& others, int by) {
+  for (std::size_t x = 0; x < squares.size(); ++x) {
+    squares[x] = std::min(squares[x], static_cast<std::uint16_t>(others[x] + by));
+  }
 }
 
 template <class Visit>
@@ -34,20 +58,40 @@ void DistanceField::make(const Cell& at, const OccupiedIn& occupied_in, Block& b
     if (changed_.find(grid_key(near)) != nullptr) occupied_in(near, occupied_);
   });
   block.made_at = changes_;
-  block.squares.fill(kFar);
-  const Cell corner = at * kBlock;
+  // Axis by axis: squares along x for each row of cells, then the least of them along y, then along z.
+  std::array<std::array<std::uint32_t, kSide>, kSide> rows = {};  // [z][y]
+  const Cell low = (at - Cell::Ones()) * kBlock;
   for (const Cell& cell : occupied_) {
-    std::array<int, kBlock> along_x;
-    for (int x = 0; x < kBlock; ++x) along_x[static_cast<std::size_t>(x)] = gap_squared(cell.x(), corner.x() + x);
-    auto row = block.squares.begin();
-    for (int z = 0; z < kBlock; ++z) {
-      const int along_z = gap_squared(cell.z(), corner.z() + z);
-      for (int y = 0; y < kBlock; ++y, row += kBlock) {
-        const int across = along_z + gap_squared(cell.y(), corner.y() + y);
-        for (std::size_t x = 0; x < kBlock; ++x) {
-          row[x] = static_cast<std::uint8_t>(std::min<int>(row[x], across + along_x[x]));
-        }
+    const Cell in = cell - low;
+    rows[static_cast<std::size_t>(in.z())][static_cast<std::size_t>(in.y())] |= std::uint32_t{1} << in.x();
+  }
+  Row far;
+  far.fill(kFar);
+  std::array<std::array<Row, kBlock>, kBlock> squares;
+  for (auto& layer : squares) layer.fill(far);
+  for (int from_z = 0; from_z < kSide; ++from_z) {
+    std::array<Row, kBlock> layer;
+    layer.fill(far);
+    bool any = false;
+    for (int from_y = 0; from_y < kSide; ++from_y) {
+      const std::uint32_t row = rows[static_cast<std::size_t>(from_z)][static_cast<std::size_t>(from_y)];
+      if (row == 0) continue;
+      any = true;
+      const Row along_x = squares_in_row(row, kFar);
+      for (int y = 0; y < kBlock; ++y) {
+        lower(layer[static_cast<std::size_t>(y)], along_x, gap_squared(from_y, kBlock + y));
       }
+    }
+    if (!any) continue;
+    for (int z = 0; z < kBlock; ++z) {
+      const int along_z = gap_squared(from_z, kBlock + z);
+      for (std::size_t y = 0; y < kBlock; ++y) lower(squares[static_cast<std::size_t>(z)][y], layer[y], along_z);
+    }
+  }
+  auto out = block.squares.begin();
+  for (const auto& layer : squares) {
+    for (const Row& row : layer) {
+      for (const std::uint16_t square : row) *out++ = static_cast<std::uint8_t>(square);
     }
   }
 }

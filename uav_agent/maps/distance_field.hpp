@@ -16,6 +16,7 @@ namespace skein::agent {
 class DistanceField {
  public:
   using Cell = Eigen::Vector3i;
+  static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits;  ///< cells along an edge of a block
   /// Appends the cells of a block of 8^3, given by its number, that are occupied.
   using OccupiedIn = std::function<void(const Cell& block, std::vector<Cell>& cells)>;
 
@@ -32,7 +33,6 @@ class DistanceField {
   std::size_t bytes() const { return blocks_.bytes() + changed_.bytes(); }
 
  private:
-  static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits;
   static constexpr std::uint8_t kFar = 255;
   struct Block {
     std::uint64_t made_at = 0;                                      ///< in changes

@@ -250,14 +250,11 @@ PassedCells KnownSpace::passed_by_rays(const Vector3d& from_W, const std::vector
   return passed;
 }
 
-void KnownSpace::add_rays(const PassedCells& passed) { add(passed, rays_); }
-void KnownSpace::add_looks(const PassedCells& passed) { add(passed, looks_); }
-
-void KnownSpace::add(const PassedCells& passed, RayBlocks& counts) {
+void KnownSpace::add_rays(const PassedCells& passed) {
   octomap::OcTree& tree = trees_->free;
   octomap::OcTreeNode* its_node = nullptr;
   std::uint64_t its_key = 0;
-  counts.add(passed, [&](const RayBlocks::Cell& cell, int rays) {
+  rays_.add(passed, [&](const RayBlocks::Cell& cell, int rays) {
     const octomap::OcTreeKey key(cell[0], cell[1], cell[2]);
     if (const std::uint64_t block = RayBlocks::block_of(cell); its_node == nullptr || block != its_key) {
       its_node = block_node(tree, key);
@@ -290,11 +287,11 @@ void KnownSpace::raise_rays(const Vector3d& p_W, int rays) {
   add_rays(passed);
 }
 
-int KnownSpace::rays_at(const Vector3d& p_W, Evidence evidence) const {
+int KnownSpace::rays_at(const Vector3d& p_W) const {
   octomap::OcTreeKey key;
   if (!trees_->free.coordToKeyChecked(octomap_point(p_W), key)) return 0;
   const RayBlocks::Cell cell = {key[0], key[1], key[2]};
-  return evidence == Evidence::rays ? rays_.at(cell) : RayBlocks::counted(rays_.at(cell) + looks_.at(cell));
+  return rays_.at(cell);
 }
 
 void KnownSpace::visit_hits(const Vector3d& lowest_W, const Vector3d& highest_W,

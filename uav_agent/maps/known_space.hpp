@@ -31,16 +31,14 @@ class KnownSpace {
   /// Which coarse cells the rays from one place pass; asks for nothing that is known.
   PassedCells passed_by_rays(const Vector3d& from_W, const std::vector<Vector3d>& to_W) const;
   void add_rays(const PassedCells& passed);
-  /// What was looked at and not hit, as so many rays.
-  void add_looks(const PassedCells& passed);
 
   /// Occupied cubes are hits; in free ones so many rays passed, if not more. @returns whether any hit is news.
   bool hear(const std::vector<KnownCube>& cubes, int rays);
 
   const HitBlocks& hits() const { return hits_; }
   const RayBlocks& rays() const { return rays_; }
-  /// That passed the coarse cell of p, looks among them if asked for; at most kCountedRays.
-  int rays_at(const Vector3d& p_W, Evidence evidence = Evidence::all) const;
+  /// That passed the coarse cell of p; at most kCountedRays.
+  int rays_at(const Vector3d& p_W) const;
 
   /// The tree's occupied cells in the box along W's axes, by their centres.
   void visit_hits(const Vector3d& lowest_W, const Vector3d& highest_W,
@@ -55,14 +53,12 @@ class KnownSpace {
   std::string octomap_file(int rays) const;
 
  private:
-  void add(const PassedCells& passed, RayBlocks& counts);
-
   void raise_rays(const Vector3d& p_W, int rays);
 
   struct Trees;
   std::unique_ptr<Trees> trees_;
   HitBlocks hits_;
-  RayBlocks rays_, looks_;
+  RayBlocks rays_;
 };
 
 }  // namespace skein::agent

@@ -71,16 +71,6 @@ class MapLevel {
 
   /// Of this level alone.
   Known known(const Cell& cell) const;
-  /// Whether all of a block is free, and takes no memory.
-  bool all_free(const Cell& block) const {
-    const Slot* const slot = slots_.find(grid_key(block));
-    return slot != nullptr && slot->number == kAllFree;
-  }
-  /// Whether a cell of a block is occupied.
-  bool any_occupied(const Cell& block) const {
-    const Slot* const slot = slots_.find(grid_key(block));
-    return slot != nullptr && slot->number >= kFirst && blocks_[slot->number - kFirst].occupied > 0;
-  }
   /// Of all cells of a block, x first.
   void read(const Cell& block, std::array<Known, kCells>& known) const;
 

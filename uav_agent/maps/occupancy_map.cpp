@@ -7,33 +7,12 @@
 
 #include "core/octree_bytes.hpp"
 #include "uav_agent/maps/known_space.hpp"
-#include "uav_agent/maps/scan_plane.hpp"
 
 namespace skein::agent {
 namespace {
 
 constexpr int kFineSteps = 8;            ///< of cast(), for each coarse one; even
 constexpr double kMostHeardCells = 1e6;  ///< eight million cubic metres of free space
-constexpr int kLookDirections = 640;     ///< evenly over the sphere
-constexpr double kRounding = 1e-9;
-constexpr double kLookTubeM = 0.6;  ///< around the line of a look, where nothing may be mapped
-
-/// Evenly over the sphere, but only those that a frame which looked near this plane has surely looked in. Those of one
-/// look lie between those of others.
-std::vector<Vector3d> look_directions(std::uint64_t look, const Vector3d& normal_W) {
-  const double golden_ratio = 0.5 * (std::sqrt(5.0) - 1.0), golden_angle = 2.0 * std::numbers::pi * golden_ratio;
-  const double shift = std::fmod(golden_ratio * static_cast<double>(look), 1.0);
-  const double tilt = normal_W.head<2>().norm();
-  std::vector<Vector3d> all;
-  for (int i = 0; i < kLookDirections; ++i) {
-    const double z = 1.0 - 2.0 * (i + shift) / kLookDirections, r = std::sqrt(std::max(0.0, 1.0 - z * z));
-    if (std::abs(z * normal_W.z()) - r * tilt > kSurelyLookedSine + kRounding) continue;  // whatever its heading
-    const double heading = golden_angle * (i + shift);
-    const Vector3d direction(r * std::cos(heading), r * std::sin(heading), z);
-    if (std::abs(direction.dot(normal_W)) <= kSurelyLookedSine) all.push_back(direction);
-  }
-  return all;
-}
 
 }  // namespace
 
@@ -42,7 +21,7 @@ struct OccupancyMap::Impl {
 
   const Config config;
   KnownSpace known;
-  std::uint64_t revision = 0, key_frames = 0, looks = 0;
+  std::uint64_t revision = 0, key_frames = 0;
 };
 
 OccupancyMap::OccupancyMap() : OccupancyMap(Config()) {}
@@ -78,21 +57,6 @@ void OccupancyMap::insert(const FrameCells& frame) {
   ++impl_->key_frames;
 }
 
-void OccupancyMap::look_from(const Vector3d& p_WS, const Vector3d& normal_W) {
-  const Config& config = impl_->config;
-  std::vector<Vector3d> ends_W;
-  for (const Vector3d& direction : look_directions(impl_->looks++, normal_W)) {
-    const auto met = cast(p_WS, direction, config.look_range_m, kLookTubeM);
-    const double length = met ? *met - config.free_resolution_m : config.look_range_m;
-    if (length > 0.0) ends_W.push_back(p_WS + length * direction);
-  }
-  PassedCells passed = impl_->known.passed_by_rays(p_WS, ends_W);
-  for (auto& [block, counts] : passed.blocks) {
-    for (std::uint8_t& count : counts) count = count > 0 ? config.rays_a_look : 0;
-  }
-  impl_->known.add_looks(passed);
-}
-
 bool OccupancyMap::empty() const { return impl_->known.hits().count() == 0; }
 std::size_t OccupancyMap::occupied_cells() const { return impl_->known.hits().count(); }
 std::uint64_t OccupancyMap::revision() const { return impl_->revision; }
@@ -101,8 +65,8 @@ const OccupancyMap::Config& OccupancyMap::config() const { return impl_->config;
 
 bool OccupancyMap::occupied(const Vector3d& p_W) const { return impl_->known.hits().test(p_W); }
 
-bool OccupancyMap::known_free(const Vector3d& p_W, int rays, Evidence evidence) const {
-  const int passed = impl_->known.rays_at(p_W, evidence);
+bool OccupancyMap::known_free(const Vector3d& p_W, int rays) const {
+  const int passed = impl_->known.rays_at(p_W);
   return passed > 0 && passed >= std::min(rays, kCountedRays) && !occupied(p_W);
 }
 

@@ -40,13 +40,8 @@ struct FrameCells {
 };
 
 /// So many rays must have passed a place before it is believed to be free where something may well be: in and beside
-/// boxes. Measured, see docs/decisions/. Who cannot get anywhere may do with less (flight/proof.hpp).
+/// boxes.
 inline constexpr int kProofRays = 12;
-inline constexpr int kFewestRays = 4;  ///< where fewer have passed, nobody has looked
-
-/// Of free space: rays that ended in a hit beyond; or those and looks (look_from()), which is enough to fly there. Who
-/// maps surfaces counts rays: nothing was seen where a look met nothing.
-enum class Evidence { rays, all };
 
 class OccupancyMap {
  public:
@@ -56,8 +51,6 @@ class OccupancyMap {
     double ground_m = 0.3;           ///< hits below end a ray, but are no obstacle
     double free_range_m = 30.0;      ///< and only this far from the sensor
     int max_free_rays = 400;         ///< a key frame; evenly picked
-    double look_range_m = 12.0;      ///< of what a look that hit nothing says of free space
-    std::uint8_t rays_a_look = 4;    ///< so many rays at least pass each cell of them that a frame looks at
   };
 
   OccupancyMap();
@@ -73,11 +66,6 @@ class OccupancyMap {
   void insert(const FrameCells& frame);
   FrameCells trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const;
 
-  /// A key frame was taken there, and its hits are on the map. What it looked at near by and did not hit is free, in
-  /// empty space, too, where no ray ever ends.
-  /// @param normal_W  of the plane near which it looked: see scan_plane().
-  void look_from(const Vector3d& p_WS, const Vector3d& normal_W);
-
   const Config& config() const;
   bool empty() const;
   std::size_t occupied_cells() const;
@@ -89,7 +77,7 @@ class OccupancyMap {
   /// True when the cell of p holds a hit.
   bool occupied(const Vector3d& p_W) const;
   /// True when at least so many rays (20 at most) passed the coarse cell of p, and nothing was hit at p.
-  bool known_free(const Vector3d& p_W, int rays = 3, Evidence evidence = Evidence::all) const;
+  bool known_free(const Vector3d& p_W, int rays = 3) const;
   /// True when the centre of an occupied cell lies within `radius` of p.
   bool any_occupied_within(const Vector3d& p_W, double radius) const;
   /// Distance from p to the nearest centre of an occupied cell, or nullopt if there is none within `max_distance`.

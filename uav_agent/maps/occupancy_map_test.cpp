@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/random_stream.hpp"
-#include "uav_agent/testing/look_around.hpp"
 
 namespace skein::agent {
 namespace {
@@ -63,38 +62,6 @@ TEST_F(OccupancyMapTest, HoldsEveryHitOnce) {
   map_.insert(hits_, std::nullopt);
   EXPECT_EQ(map_.occupied_cells(), cells_.size());
   EXPECT_EQ(map_.revision(), revision) << "nothing changed";
-}
-
-TEST_F(OccupancyMapTest, LooksProveWhatIsInPlainViewAndNothingBehindIt) {
-  OccupancyMap map;
-  std::vector<Eigen::Vector3f> wall;
-  for (double y = -15.0; y <= 15.0; y += 0.4) {
-    for (double z = 5.0; z <= 35.0; z += 0.4) wall.push_back(Vector3d(5.0, y, z).cast<float>());
-  }
-  map.insert(wall, std::nullopt);
-  const Vector3d here(0, 0, 20);
-  look_around(map, here, 1);
-  EXPECT_FALSE(map.known_free({-6, 0, 20}, 8)) << "one is not enough";
-  look_around(map, here, 60);
-  RandomStream random(7, "looks", 0);
-  for (int i = 0; i < 300; ++i) {
-    const Vector3d p = here + random_point(random, 9.0);
-    if (p.x() > 7.5) {
-      EXPECT_FALSE(map.known_free(p, 1)) << "behind the wall: " << p.transpose();
-    } else if (p.x() < 0.0 && (p - here).norm() < 8.0) {
-      EXPECT_TRUE(map.known_free(p, 8)) << p.transpose();
-    }
-  }
-  EXPECT_FALSE(map.known_free(here + Vector3d(-20, 0, 0), 1)) << "too far";
-}
-
-TEST_F(OccupancyMapTest, AFrameProvesNothingAsideOfItsPlane) {
-  OccupancyMap map;
-  for (int again = 0; again < 10; ++again) look_around(map, {0, 0, 20}, 1);  // all of the plane of x and y
-  EXPECT_TRUE(map.known_free({5, 0, 20}, 20));
-  EXPECT_TRUE(map.known_free({0, -5, 20}, 20));
-  EXPECT_FALSE(map.known_free({0, 0, 26}, 1));
-  EXPECT_FALSE(map.known_free({0, 4, 26}, 1));
 }
 
 TEST_F(OccupancyMapTest, DistancesAgreeWithBruteForce) {

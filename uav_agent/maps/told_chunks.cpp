@@ -10,7 +10,6 @@ namespace skein::agent {
 namespace {
 
 constexpr int kRegionCubeBits = 5;  // of smallest cubes
-constexpr int kRegionEdge = 4;      // chunks
 constexpr double kDetour = 0.1;     // of two places on a listener's way, the one that it comes to first
 
 double distance_to_segment(const Vector3d& a_W, const Vector3d& b_W, const Vector3d& p_W) {
@@ -44,8 +43,8 @@ void ToldChunks::take_changes(const WorldMap& map, Region& region, std::optional
   const std::uint64_t before = region.revision;
   region.revision = map.region_changed_at(region.at);
   if (region.revision == before) return;
-  for (int i = 0; i < static_cast<int>(kRegionChunks); ++i) {
-    const Eigen::Vector3i at = region.at * kRegionEdge + Eigen::Vector3i(i & 3, i >> 2 & 3, i >> 4);
+  for (int i = 0; i < WorldMap::kRegionChunks; ++i) {
+    const Eigen::Vector3i at = WorldMap::chunk_of(region.at, i);
     const std::uint64_t revision = map.changed_at(at);
     if (revision <= before || !within_tree(at)) continue;
     std::int32_t& number = region.chunks[static_cast<std::size_t>(i)];
@@ -116,7 +115,7 @@ double ToldChunks::key_m(const Listener& listener, const Vector3d& p_W) const {
 
 std::optional<double> ToldChunks::key_m(const Region& region, std::span<const Listener> listeners,
                                         double chunk_m) const {
-  const double edge_m = kRegionEdge * chunk_m, half_diagonal_m = 0.5 * std::sqrt(3.0) * edge_m;
+  const double edge_m = WorldMap::kRegion * chunk_m, half_diagonal_m = 0.5 * std::sqrt(3.0) * edge_m;
   std::optional<double> least;
   for (const Listener& listener : listeners) {
     if (region.settled[listener.uav] == region.revision) continue;

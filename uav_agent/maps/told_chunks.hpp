@@ -65,8 +65,6 @@ class ToldChunks {
   void forget(std::size_t uav);
 
  private:
-  static constexpr std::size_t kRegionChunks = 64;
-
   struct Chunk {
     Eigen::Vector3i at = Eigen::Vector3i::Zero();
     std::uint64_t revision = 0;       ///< WorldMap::changed_at()
@@ -78,8 +76,8 @@ class ToldChunks {
   struct Region {
     Eigen::Vector3i at = Eigen::Vector3i::Zero();
     std::uint64_t revision = 0;
-    std::array<std::int32_t, kRegionChunks> chunks;  ///< in chunks_; -1: nothing is known
-    std::vector<std::uint64_t> settled;              ///< by listener: at this revision it knew all of it
+    std::array<std::int32_t, WorldMap::kRegionChunks> chunks;  ///< in chunks_; -1: nothing is known
+    std::vector<std::uint64_t> settled;                        ///< by listener: at this revision it knew all of it
   };
   struct Message {
     Tick tick = 0;

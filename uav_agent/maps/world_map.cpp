@@ -99,7 +99,7 @@ void WorldMap::note_changes() {
       }
       const Cube chunk = shifted(cube, MapLevel::kBlockBits - i);
       const Cube region = shifted(chunk, kRegionBits);
-      chunks_[grid_key(chunk)] = ++changes_;
+      chunks_[grid_key(chunk)].changed_at = ++changes_;
       std::uint64_t& changed_at = in_regions_[grid_key(region)];
       if (changed_at == 0) regions_.push_back(region);
       changed_at = changes_;
@@ -109,8 +109,8 @@ void WorldMap::note_changes() {
 }
 
 std::uint64_t WorldMap::changed_at(const Cube& chunk) const {
-  const std::uint64_t* const found = chunks_.find(grid_key(chunk));
-  return found == nullptr ? 0 : *found;
+  const ChunkNote* const found = chunks_.find(grid_key(chunk));
+  return found == nullptr ? 0 : found->changed_at;
 }
 
 std::uint64_t WorldMap::region_changed_at(const Cube& region) const {
@@ -119,14 +119,14 @@ std::uint64_t WorldMap::region_changed_at(const Cube& region) const {
 }
 
 template <class Visit>
-bool WorldMap::all_near(const Vector3d& a_W, const Vector3d& b_W, double radius_m, const Visit& visit) const {
+bool WorldMap::all_near(const Vector3d& a_W, const Vector3d& b_W, double radius_m, Visit&& visit) const {
   const Vector3d reach = Vector3d::Constant(radius_m), ab = b_W - a_W;
   const Cube low = cube_of(a_W.cwiseMin(b_W) - reach), high = cube_of(a_W.cwiseMax(b_W) + reach);
   for (int z = low.z(); z <= high.z(); ++z) {
     for (int y = low.y(); y <= high.y(); ++y) {
       for (int x = low.x(); x <= high.x(); ++x) {
         const Cube cube(x, y, z);
-        const Vector3d centre = (cube.cast<double>() + Vector3d::Constant(0.5)) * config_.cell_m;
+        const Vector3d centre = middle_W(cube);
         const double length2 = ab.squaredNorm();
         const double part = length2 > 0.0 ? std::clamp((centre - a_W).dot(ab) / length2, 0.0, 1.0) : 0.0;
         if (distance_to_m(cube, a_W + part * ab) <= radius_m && !visit(cube)) return false;
@@ -241,20 +241,33 @@ MapLevel::Known WorldMap::known(const Cube& cube) const {
   return {};
 }
 
-/// Whether all blocks with a point between two corners are free all over, at whatever level. Most of them are, where
-/// a UAV flies.
-bool WorldMap::blocks_free(const Vector3d& low_W, const Vector3d& high_W) const {
+/// Asked for many cubes near each other.
+class WorldMap::FreeCubes {
+ public:
+  explicit FreeCubes(const WorldMap& map) : map_(map) {}
+
+  bool operator()(const Cube& cube) {
+    const Cube chunk = MapLevel::block_of(cube);
+    if (chunk != chunk_) note_ = map_.free_rows(chunk);
+    chunk_ = chunk;
+    const std::size_t place = MapLevel::place_of(cube);
+    return note_ != nullptr && (note_->free_rows[place / kChunk] >> place % kChunk & 1) != 0;
+  }
+
+ private:
+  const WorldMap& map_;
+  Cube chunk_ = Cube::Constant(std::numeric_limits<int>::max());  ///< that was asked for last; at first none
+  const ChunkNote* note_ = nullptr;
+};
+
+/// Calls `test` with the chunks that have a point between two corners, until it returns false.
+template <class Test>
+bool WorldMap::all_chunks(const Vector3d& low_W, const Vector3d& high_W, const Test& test) const {
   const Cube low = MapLevel::block_of(cube_of(low_W)), high = MapLevel::block_of(cube_of(high_W));
   for (int z = low.z(); z <= high.z(); ++z) {
     for (int y = low.y(); y <= high.y(); ++y) {
       for (int x = low.x(); x <= high.x(); ++x) {
-        const Cube block(x, y, z);
-        bool free = levels_.front()->all_free(block);
-        if (!free && levels_.front()->any_occupied(block)) return false;
-        for (std::size_t i = 1; i < levels_.size() && !free; ++i) {
-          free = levels_[i]->all_free(shifted(block, static_cast<int>(i)));
-        }
-        if (!free) return false;
+        if (!test(Cube(x, y, z))) return false;
       }
     }
   }
@@ -263,21 +276,70 @@ bool WorldMap::blocks_free(const Vector3d& low_W, const Vector3d& high_W) const 
 
 bool WorldMap::tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius_m) const {
   const Vector3d reach = Vector3d::Constant(radius_m);
-  if (blocks_free(a_W.cwiseMin(b_W) - reach, a_W.cwiseMax(b_W) + reach)) return true;
-  return all_near(a_W, b_W, radius_m, [&](const Cube& cube) { return known(cube).space == Space::free; });
+  // Most chunks are free all over, where a UAV flies.
+  const bool chunks_free = all_chunks(a_W.cwiseMin(b_W) - reach, a_W.cwiseMax(b_W) + reach, [&](const Cube& chunk) {
+    const ChunkNote* const note = free_rows(chunk);
+    return note != nullptr && std::ranges::all_of(note->free_rows, [](auto row) { return row == 0xFF; });
+  });
+  if (chunks_free) return true;
+  return all_near(a_W, b_W, radius_m, FreeCubes(*this));
+}
+
+const WorldMap::ChunkNote* WorldMap::free_rows(const Cube& chunk) const {
+  const ChunkNote* const note = chunks_.find(grid_key(chunk));
+  if (note == nullptr || note->read_at == note->changed_at) return note;
+  Chunk known;
+  read(chunk, known);
+  for (std::size_t row = 0; row < note->free_rows.size(); ++row) {
+    std::uint8_t free = 0;
+    for (std::size_t x = 0; x < kChunk; ++x) {
+      if (known[row * kChunk + x].space == Space::free) free |= static_cast<std::uint8_t>(1U << x);
+    }
+    note->free_rows[row] = free;
+  }
+  note->read_at = note->changed_at;
+  return note;
+}
+
+/// Row by row: those of its cubes that the ball touches lie beside each other.
+bool WorldMap::ball_free_in(const Cube& chunk, const Vector3d& p_W, double radius_m, double lowest_m) const {
+  const ChunkNote* note = nullptr;
+  const double cell_m = config_.cell_m;
+  const Cube first = chunk * kChunk;
+  std::array<std::array<double, kChunk>, 3> gap2 = {};  // along each axis, from the place to the cubes
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < kChunk; ++i) {
+      const double low_m = (first[axis] + i) * cell_m;
+      const double gap_m = std::max({0.0, low_m - p_W[axis], p_W[axis] - low_m - cell_m});
+      gap2[static_cast<std::size_t>(axis)][static_cast<std::size_t>(i)] = gap_m * gap_m;
+    }
+  }
+  const double radius2 = radius_m * radius_m;
+  for (std::size_t z = 0; z < kChunk; ++z) {
+    if (gap2[2][z] > radius2 || (first.z() + static_cast<int>(z) + 1) * cell_m <= lowest_m) continue;
+    for (std::size_t y = 0; y < kChunk; ++y) {
+      const double left2 = radius2 - gap2[2][z] - gap2[1][y];
+      unsigned touched = 0;
+      for (std::size_t x = 0; x < kChunk; ++x) touched |= static_cast<unsigned>(gap2[0][x] <= left2) << x;
+      if (touched == 0) continue;
+      if (note == nullptr) note = free_rows(chunk);
+      if (note == nullptr || (touched & ~note->free_rows[z * kChunk + y]) != 0) return false;
+    }
+  }
+  return true;
 }
 
 bool WorldMap::ball_free(const Vector3d& p_W, double radius_m, double lowest_m) const {
-  if (p_W.z() - radius_m > lowest_m) return tube_free(p_W, p_W, radius_m);
-  return all_near(p_W, p_W, radius_m, [&](const Cube& cube) {
-    return (cube.z() + 1) * config_.cell_m <= lowest_m || known(cube).space == Space::free;
-  });
+  const Vector3d reach = Vector3d::Constant(radius_m);
+  return all_chunks(p_W - reach, p_W + reach,
+                    [&](const Cube& chunk) { return ball_free_in(chunk, p_W, radius_m, lowest_m); });
 }
 
 void WorldMap::not_free_near(const Vector3d& p_W, double radius_m, double lowest_m, std::vector<Cube>& cubes) const {
+  FreeCubes is_free(*this);
   all_near(p_W, p_W, radius_m, [&](const Cube& cube) {
     const bool asked = (cube.z() + 1) * config_.cell_m > lowest_m;
-    if (asked && known(cube).space != Space::free) cubes.push_back(cube);
+    if (asked && !is_free(cube)) cubes.push_back(cube);
     return true;
   });
 }

@@ -48,6 +48,12 @@ class WorldMap {
   };
   /// Edge of what changed_at() is asked of, and of a block of the smallest cubes.
   static constexpr int kChunk = MapLevel::kBlock;
+  static constexpr int kRegion = 4;  ///< chunks along an edge of a region
+  static constexpr int kRegionChunks = kRegion * kRegion * kRegion;
+  /// The i-th chunk of a region, x first.
+  static Cube chunk_of(const Cube& region, int i) {
+    return kRegion * region + Cube(i % kRegion, i / kRegion % kRegion, i / (kRegion * kRegion));
+  }
 
   explicit WorldMap(const Config& config);
 
@@ -74,6 +80,8 @@ class WorldMap {
   /// @param cube  a smallest one.
   MapLevel::Known known(const Eigen::Vector3i& cube) const;
   Eigen::Vector3i cube_of(const Vector3d& p_W) const { return levels_.front()->cell_of(p_W); }
+  /// Of a smallest cube.
+  Vector3d middle_W(const Cube& cube) const { return (cube.cast<double>() + Vector3d::Constant(0.5)) * config_.cell_m; }
   /// From the smallest cube about a place to the nearest occupied one, from surface to surface, so never more than it
   /// is from the place itself; distance_reach_m where none is nearer.
   double structure_distance_m(const Vector3d& p_W) const;
@@ -86,8 +94,7 @@ class WorldMap {
   void not_free_near(const Vector3d& p_W, double radius_m, double lowest_m, std::vector<Cube>& cubes) const;
   /// From a place to the nearest point of a smallest cube.
   double distance_to_m(const Cube& cube, const Vector3d& p_W) const {
-    const Vector3d centre = (cube.cast<double>() + Vector3d::Constant(0.5)) * config_.cell_m;
-    return ((p_W - centre).cwiseAbs().array() - 0.5 * config_.cell_m).max(0.0).matrix().norm();
+    return ((p_W - middle_W(cube)).cwiseAbs().array() - 0.5 * config_.cell_m).max(0.0).matrix().norm();
   }
   /// How far along a unit vector no cube is occupied, but for those in doubt; asked in steps of half a cube: `reach_m`
   /// at most.
@@ -120,6 +127,15 @@ class WorldMap {
   Counts counts() const;
 
  private:
+  /// Of a chunk: changed_at(), and which of its smallest cubes are free, worked out anew when that is asked for.
+  struct ChunkNote {
+    std::uint64_t changed_at = 0;
+    mutable std::uint64_t read_at = 0;                                ///< free_rows are of that change
+    mutable std::array<std::uint8_t, kChunk* kChunk> free_rows = {};  ///< a bit for each x; y first
+  };
+
+  class FreeCubes;
+
   /// Up to where a beam is evidence for cubes of a level.
   double handed_over_m(const BeamBundle& bundle, std::size_t level) const;
   void meet(const Cube& cube, Teller teller);
@@ -128,14 +144,19 @@ class WorldMap {
   void settle_free(const Cube& cube, int level, Teller teller);
   void unprove_around(const Cube& cube);
   void note_changes();
-  bool blocks_free(const Vector3d& low_W, const Vector3d& high_W) const;
+  /// nullptr: nothing is known of it.
+  const ChunkNote* free_rows(const Cube& chunk) const;
+  template <class Test>
+  bool all_chunks(const Vector3d& low_W, const Vector3d& high_W, const Test& test) const;
+  bool ball_free_in(const Cube& chunk, const Vector3d& p_W, double radius_m, double lowest_m) const;
   template <class Visit>
-  bool all_near(const Vector3d& a_W, const Vector3d& b_W, double radius_m, const Visit& visit) const;
+  bool all_near(const Vector3d& a_W, const Vector3d& b_W, double radius_m, Visit&& visit) const;
 
   Config config_;
   std::vector<std::unique_ptr<MapLevel>> levels_;  ///< the smallest cubes first
   mutable DistanceField distances_;                ///< of occupied cubes, worked out when they are asked for
-  BlockTable<std::uint64_t> chunks_, in_regions_;  ///< changed_at()
+  BlockTable<ChunkNote> chunks_;
+  BlockTable<std::uint64_t> in_regions_;  ///< changed_at()
   std::vector<Eigen::Vector3i> regions_;
   std::uint64_t changes_ = 0, scans_ = 0;
   std::size_t tidied_blocks_ = 0;  ///< that there were after the last time

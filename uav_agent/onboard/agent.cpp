@@ -71,6 +71,7 @@ struct Agent::Impl {
 
   void read_radio(const AgentInput& input);
   void read_beams(const AgentInput& input);
+  void clear_own_place(const Vector3d& p_W);
   void perceive(const AgentInput& input);
   WorldMap* known_world() { return world_mapper ? &world_mapper->map() : world_map.get(); }
   const WorldMap* known_world() const { return world_mapper ? &world_mapper->map() : world_map.get(); }
@@ -150,6 +151,15 @@ void Agent::Impl::read_beams(const AgentInput& input) {
   }
 }
 
+/// Another UAV that did not hear this one may have taken its body for structure, and told so. This UAV knows that its
+/// own place is free; otherwise it could never leave it.
+void Agent::Impl::clear_own_place(const Vector3d& p_W) {
+  WorldMap& world = *known_world();
+  if (world.structure_distance_m(p_W) > config.me().body_radius_m) return;
+  world.vacate(p_W, config.me().body_radius_m);
+  world.set_free(p_W, config.me().body_radius_m);
+}
+
 void Agent::Impl::perceive(const AgentInput& input) {
   if (tracker.stands_by()) tracker.stand_by(input.state);
   peers.update(input.tick, input.neighbours);
@@ -160,6 +170,7 @@ void Agent::Impl::perceive(const AgentInput& input) {
   read_radio(input);
   read_beams(input);
   if (uav_traces) uav_traces->doubt(*known_world());
+  if (known_world()) clear_own_place(input.state.p_WB);
   if (!input.boxes.empty()) boxes = input.boxes;
   if (!input.key_frames.empty()) {
     const KnownBodies bodies(known_bodies(input));
@@ -169,9 +180,7 @@ void Agent::Impl::perceive(const AgentInput& input) {
     for (const KeyFrame& frame : input.key_frames) {
       auto sound_W = frames->filter(keep_lone).sound(frame.points_W, bodies);
       const std::optional<Vector3d> p_WS = sensor_position(frame, input);
-      const ReadyFrames::Frame& ready = frames->ready(std::move(sound_W), p_WS, keep_lone);
-      map.insert(ready.cells);
-      if (ready.plane_W) map.look_from(*p_WS, *ready.plane_W);
+      map.insert(frames->ready(std::move(sound_W), p_WS, keep_lone));
     }
   }
   uplink.take(input.capture_reports);
@@ -214,7 +223,7 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
 void Agent::Impl::fly(const PlannerInput& in, PlannerOutput& decision) {
   Steering steering = core->step(in, std::move(decision.goals));
   decision.motion = std::move(steering.motion);
-  decision.yaw = steering.yaw;
+  if (steering.yaw) decision.yaw = steering.yaw;
   if (!std::holds_alternative<std::monostate>(steering.gimbal)) decision.gimbal = steering.gimbal;
   if (!decision.waits_for) decision.waits_for = core->waits_for();
   decision.going_to_W = core->going_to_W();

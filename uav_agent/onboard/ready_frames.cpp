@@ -23,15 +23,15 @@ KeyFrameFilter::Config keeping_lone() {
 
 ReadyFrames::ReadyFrames(std::size_t most) : most_(most), keeping_lone_(keeping_lone()) {}
 
-const ReadyFrames::Frame& ReadyFrames::ready(std::vector<Eigen::Vector3f> sound_W, const std::optional<Vector3d>& p_WS,
-                                             bool keep_lone) {
+const FrameCells& ReadyFrames::ready(std::vector<Eigen::Vector3f> sound_W, const std::optional<Vector3d>& p_WS,
+                                     bool keep_lone) {
   Question question{std::move(sound_W), p_WS, keep_lone};
   const bool remembers = most_ > 0;
   const std::size_t hash = remembers ? hash_of(question.sound_W) : 0;
   if (remembers) {
-    if (const Frame* const frame = find(question, hash)) return *frame;
+    if (const FrameCells* const frame = find(question, hash)) return *frame;
   }
-  Frame frame = work_out(question);
+  FrameCells frame = work_out(question);
   if (!remembers) question = {};
   if (known_.size() < std::max<std::size_t>(1, most_)) {
     hashes_.push_back(hash);
@@ -43,13 +43,11 @@ const ReadyFrames::Frame& ReadyFrames::ready(std::vector<Eigen::Vector3f> sound_
   return known_[place].frame;
 }
 
-ReadyFrames::Frame ReadyFrames::work_out(const Question& question) const {
-  Frame frame{rays_.trace(filter(question.keep_lone).thinned(question.sound_W), question.p_WS), {}};
-  if (question.p_WS) frame.plane_W = scan_plane(*question.p_WS, question.sound_W);
-  return frame;
+FrameCells ReadyFrames::work_out(const Question& question) const {
+  return rays_.trace(filter(question.keep_lone).thinned(question.sound_W), question.p_WS);
 }
 
-const ReadyFrames::Frame* ReadyFrames::find(const Question& question, std::size_t hash) {
+const FrameCells* ReadyFrames::find(const Question& question, std::size_t hash) {
   for (std::size_t n = 0; n < known_.size(); ++n) {
     const std::size_t place = (expected_ + n) % known_.size();
     if (hashes_[place] != hash || known_[place].question != question) continue;

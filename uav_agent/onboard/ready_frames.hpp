@@ -8,18 +8,12 @@
 #include <vector>
 
 #include "uav_agent/maps/occupancy_map.hpp"
-#include "uav_agent/maps/scan_plane.hpp"
 #include "uav_agent/onboard/key_frame_filter.hpp"
 
 namespace skein::agent {
 
 class ReadyFrames {
  public:
-  struct Frame {
-    FrameCells cells;
-    std::optional<Vector3d> plane_W;  ///< normal, if it is known: see scan_plane()
-  };
-
   /// @param most  frames that are remembered; one without memory is for an agent that is alone.
   explicit ReadyFrames(std::size_t most = 0);
 
@@ -27,7 +21,7 @@ class ReadyFrames {
   /// @param p_WS        where the sensor stood, if known
   /// @param keep_lone   whether hits without any other near them are kept
   /// @returns what is to be inserted into maps of the usual Config; good until the next call.
-  const Frame& ready(std::vector<Eigen::Vector3f> sound_W, const std::optional<Vector3d>& p_WS, bool keep_lone);
+  const FrameCells& ready(std::vector<Eigen::Vector3f> sound_W, const std::optional<Vector3d>& p_WS, bool keep_lone);
 
   const KeyFrameFilter& filter(bool keep_lone) const { return keep_lone ? keeping_lone_ : usual_; }
 
@@ -40,11 +34,11 @@ class ReadyFrames {
   };
   struct Known {
     Question question;
-    Frame frame;
+    FrameCells frame;
   };
 
-  Frame work_out(const Question& question) const;
-  const Frame* find(const Question& question, std::size_t hash);
+  FrameCells work_out(const Question& question) const;
+  const FrameCells* find(const Question& question, std::size_t hash);
 
   const std::size_t most_;
   const KeyFrameFilter usual_;

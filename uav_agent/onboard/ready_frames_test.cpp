@@ -29,8 +29,8 @@ Drawn question(int kind) {
   return drawn;
 }
 
-bool same(const ReadyFrames::Frame& a, const ReadyFrames::Frame& b) {
-  return a.cells.hits.blocks == b.cells.hits.blocks && a.cells.passed.blocks == b.cells.passed.blocks;
+bool same(const FrameCells& a, const FrameCells& b) {
+  return a.hits.blocks == b.hits.blocks && a.passed.blocks == b.passed.blocks;
 }
 
 TEST(ReadyFrames, AnswerAsIfNothingWereRemembered) {
@@ -40,7 +40,7 @@ TEST(ReadyFrames, AnswerAsIfNothingWereRemembered) {
     RandomStream random(most, "asked", 0);
     for (int i = 0; i < 400; ++i) {
       const Drawn drawn = question(static_cast<int>(random.bits() % kKinds));
-      const ReadyFrames::Frame& ready = frames.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone);
+      const FrameCells& ready = frames.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone);
       ReadyFrames forgetful;
       ASSERT_TRUE(same(ready, forgetful.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone))) << most << " " << i;
     }
@@ -53,8 +53,8 @@ TEST(ReadyFrames, AreWhatAMapMakesOfThem) {
   RandomStream random(1, "asked", 0);
   for (int i = 0; i < 30; ++i) {
     const Drawn drawn = question(i);
-    const ReadyFrames::Frame& ready = frames.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone);
-    by_parts.insert(ready.cells);
+    const FrameCells& ready = frames.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone);
+    by_parts.insert(ready);
     at_once.insert(frames.filter(drawn.keep_lone).thinned(drawn.sound_W), drawn.p_WS);
   }
   EXPECT_EQ(by_parts.occupied_cells(), at_once.occupied_cells());

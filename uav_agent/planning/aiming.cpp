@@ -25,6 +25,11 @@ GimbalCommand aim_at(const Vector3d& p_W, const RigidBodyState& state, const Veh
   return {GimbalMode::angle, std::clamp(pitch, -pitch_limit, pitch_limit), std::clamp(yaw, -yaw_limit, yaw_limit)};
 }
 
+std::optional<double> yaw_facing(const Vector3d& out_W) {
+  constexpr double kUpright = 0.5;  // a normal as steep as that
+  return std::abs(out_W.z()) < kUpright ? std::optional(std::atan2(-out_W.y(), -out_W.x())) : std::nullopt;
+}
+
 double aim_error(const Vector3d& p_W, const RigidBodyState& state, const GimbalState& gimbal,
                  const VehicleConfig& vehicle) {
   const GimbalCommand wanted = aim_at(p_W, state, vehicle);

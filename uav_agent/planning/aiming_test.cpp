@@ -40,5 +40,18 @@ TEST(Aiming, LimitsOfTheGimbalHold) {
   EXPECT_NEAR(behind.yaw, vehicle.gimbal.yaw_limit_deg * kRadPerDeg, 1e-9);
 }
 
+TEST(Aiming, ABodyFacesAnUprightFaceAndAnyYawDoesForOthers) {
+  for (double heading = -3.0; heading < 3.1; heading += 0.25) {
+    for (const double rise : {-0.9, -0.4, 0.0, 0.4, 0.9}) {
+      const Vector3d out_W = Vector3d(std::cos(heading), std::sin(heading), rise).normalized();
+      const auto yaw = yaw_facing(out_W);
+      ASSERT_EQ(yaw.has_value(), std::abs(rise) < 0.5) << rise;
+      if (!yaw) continue;
+      const Vector3d ahead_W(std::cos(*yaw), std::sin(*yaw), 0.0);
+      EXPECT_NEAR(ahead_W.dot(out_W), -out_W.head<2>().norm(), 1e-12);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace skein::agent

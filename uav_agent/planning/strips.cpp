@@ -162,11 +162,11 @@ void shorten(std::vector<Visit>& tour, const std::vector<Strip>& strips, const V
 }  // namespace
 
 std::vector<std::vector<Visit>> share_strips(const std::vector<Strip>& strips, const std::vector<double>& work_s,
-                                             const std::vector<Vector3d>& p_W_start,
-                                             const std::vector<double>& free_at_s, double transit_mps) {
+                                             const std::vector<Vector3d>& p_W_start, double transit_mps,
+                                             const std::vector<double>& hands) {
   std::vector<std::vector<Visit>> tours(p_W_start.size());
   std::vector<Vector3d> at = p_W_start;
-  std::vector<double> free_at = free_at_s;
+  std::vector<double> free_at(p_W_start.size(), 0.0);
   std::vector<bool> taken(strips.size(), false);
   for (std::size_t left = strips.size(); left > 0; --left) {
     const auto uav = static_cast<std::size_t>(std::min_element(free_at.begin(), free_at.end()) - free_at.begin());
@@ -184,7 +184,8 @@ std::vector<std::vector<Visit>> share_strips(const std::vector<Strip>& strips, c
     taken[next.strip] = true;
     tours[uav].push_back(next);
     at[uav] = next.reversed ? strips[next.strip].begin_W : strips[next.strip].end_W;
-    free_at[uav] += nearest / transit_mps + work_s[next.strip] + kTurnS;
+    const double taken_s = nearest / transit_mps + work_s[next.strip] + kTurnS;
+    free_at[uav] += hands.empty() ? taken_s : taken_s / hands[uav];
   }
   for (std::size_t uav = 0; uav < tours.size(); ++uav) shorten(tours[uav], strips, p_W_start[uav], transit_mps);
   return tours;

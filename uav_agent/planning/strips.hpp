@@ -57,11 +57,12 @@ struct Visit {
 
 /// Shares the strips out and orders them: whoever is done first takes the nearest strip left; then each tour is
 /// shortened by reversing parts of it (2-opt).
-/// @param free_at_s  when each UAV begins, in fleet order; p_W_start where.
+/// @param p_W_start  where each UAV begins, in fleet order.
 /// @param work_s     time that each strip takes.   @param transit_mps  speed between strips.
+/// @param hands      by how much faster than that each one does its strips; empty: 1 for all.
 /// @returns one tour for each UAV.
 std::vector<std::vector<Visit>> share_strips(const std::vector<Strip>& strips, const std::vector<double>& work_s,
-                                             const std::vector<Vector3d>& p_W_start,
-                                             const std::vector<double>& free_at_s, double transit_mps);
+                                             const std::vector<Vector3d>& p_W_start, double transit_mps,
+                                             const std::vector<double>& hands = {});
 
 }  // namespace skein::agent

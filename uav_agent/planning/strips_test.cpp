@@ -78,8 +78,7 @@ TEST_P(SharedStrips, EveryStripIsSomebodysExactlyOnceAndNobodyHasMuchMore) {
     for (const Strip& strip : strips) work.push_back(strip.length() / 1.84);
     std::vector<Vector3d> starts;
     for (std::size_t i = 0; i < uavs; ++i) starts.emplace_back(random.uniform(-60, 60), random.uniform(-60, 60), 0.0);
-    const std::vector<double> free_at(uavs, 0.0);
-    const auto tours = share_strips(strips, work, starts, free_at, 4.5);
+    const auto tours = share_strips(strips, work, starts, 4.5);
     ASSERT_EQ(tours.size(), uavs);
     std::set<std::size_t> seen;
     std::vector<double> load;
@@ -93,7 +92,7 @@ TEST_P(SharedStrips, EveryStripIsSomebodysExactlyOnceAndNobodyHasMuchMore) {
     EXPECT_EQ(seen.size(), strips.size());
     const auto [least, most] = std::minmax_element(load.begin(), load.end());
     EXPECT_LT(*most - *least, 80.0);
-    const auto again = share_strips(strips, work, starts, free_at, 4.5);
+    const auto again = share_strips(strips, work, starts, 4.5);
     for (std::size_t i = 0; i < uavs; ++i) {
       ASSERT_EQ(tours[i].size(), again[i].size());
       for (std::size_t j = 0; j < tours[i].size(); ++j) EXPECT_EQ(tours[i][j].strip, again[i][j].strip);
@@ -104,7 +103,7 @@ TEST_P(SharedStrips, EveryStripIsSomebodysExactlyOnceAndNobodyHasMuchMore) {
 INSTANTIATE_TEST_SUITE_P(Fleets, SharedStrips, testing::Values(1U, 2U, 5U, 8U, 20U));
 
 TEST(SharedStrips, NoStripsNoTours) {
-  const auto tours = share_strips({}, {}, {Vector3d::Zero(), Vector3d::UnitX()}, {0.0, 0.0}, 4.0);
+  const auto tours = share_strips({}, {}, {Vector3d::Zero(), Vector3d::UnitX()}, 4.0);
   ASSERT_EQ(tours.size(), 2U);
   EXPECT_TRUE(tours[0].empty() && tours[1].empty());
 }

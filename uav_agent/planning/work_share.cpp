@@ -1,9 +1,7 @@
 #include "uav_agent/planning/work_share.hpp"
 
 #include <algorithm>
-
-#include "uav_agent/flight/path_search.hpp"
-#include "uav_agent/planning/survey.hpp"
+#include <utility>
 
 namespace skein::agent {
 namespace {
@@ -18,33 +16,75 @@ double work_seconds(const Strip& strip, const FreeSpace& by_boxes, const CameraR
   return length / (standoff.ratio * reach.blur_speed_mps * standoff.speed_gain);
 }
 
-}  // namespace
+struct AllStrips {
+  std::vector<Strip> strips;
+  std::vector<double> work_s;  ///< of each
+};
 
-WorkShare own_share(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const CameraReach& reach,
-                    double middle_height_m, const WorkShareConfig& config) {
+/// Those that can be flown as far as the boxes tell.
+AllStrips all_strips(const std::vector<OrientedBox>& boxes, const CameraReach& reach, const WorkShareConfig& config) {
   const OccupancyMap nothing;
   const FreeSpace by_boxes({.use_map = false}, boxes, nothing);
-  WorkShare share;
-  std::vector<double> work_s;
+  AllStrips all;
   for (const Strip& strip : cut_into_strips(boxes, reach, config.strips)) {
-    const double work = work_seconds(strip, by_boxes, reach, config.standoff);
-    if (work <= 0.0) continue;
-    share.strips.push_back(strip);
-    work_s.push_back(work);
+    const double work_s = work_seconds(strip, by_boxes, reach, config.standoff);
+    if (work_s <= 0.0) continue;
+    all.strips.push_back(strip);
+    all.work_s.push_back(work_s);
   }
+  return all;
+}
 
-  std::vector<Vector3d> starts;
-  std::vector<double> free_at_s;
-  for (const UavIndex i : FirstUavs(agent.fleet.size())) {
-    AgentConfig other = agent;
-    other.self = i;
-    const auto ring = survey_ring(other, boxes, config.survey_standoff_m, 0.0);
-    const bool surveys = config.survey && !ring.empty();
-    const Vector3d start = surveys ? ring.back() : agent.fleet[i].p_WB_start;
-    starts.emplace_back(start.x(), start.y(), middle_height_m);
-    free_at_s.push_back(surveys ? path_length(ring.front(), ring) / config.survey_mps : 0.0);
+/// Each explorer and the photographers that start near it, as evenly as their number allows; without both, each UAV
+/// alone.
+std::vector<std::vector<UavIndex>> teams_of(const std::vector<FleetMember>& fleet) {
+  const auto has = [&](Role role) {
+    return std::ranges::any_of(fleet, [&](const FleetMember& member) { return member.role == role; });
+  };
+  const bool mixed = has(Role::explorer) && has(Role::photographer);
+  std::vector<std::vector<UavIndex>> teams;
+  std::vector<UavIndex> others;
+  for (const UavIndex i : FirstUavs(fleet.size())) {
+    if (mixed && fleet[i].role == Role::photographer) {
+      others.push_back(i);
+    } else {
+      teams.push_back({i});
+    }
   }
-  share.tour = share_strips(share.strips, work_s, starts, free_at_s, config.transit_mps)[agent.self];
+  for (const UavIndex i : others) {
+    const auto rank = [&](const std::vector<UavIndex>& team) {
+      return std::pair(team.size(), (fleet[team.front()].p_WB_start - fleet[i].p_WB_start).norm());
+    };
+    std::ranges::min_element(teams, {}, rank)->push_back(i);
+  }
+  return teams;
+}
+
+}  // namespace
+
+WorkShare team_share(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const CameraReach& reach,
+                     double middle_height_m, const WorkShareConfig& config) {
+  AllStrips all = all_strips(boxes, reach, config);
+  const std::vector<std::vector<UavIndex>> teams = teams_of(agent.fleet);
+  std::vector<Vector3d> starts;
+  std::vector<double> hands;
+  std::size_t own = 0, rank = 0;
+  for (std::size_t i = 0; i < teams.size(); ++i) {
+    const Vector3d start = agent.fleet[teams[i].front()].p_WB_start;
+    starts.emplace_back(start.x(), start.y(), middle_height_m);
+    hands.push_back(static_cast<double>(teams[i].size()));
+    const auto me = std::ranges::find(teams[i], agent.self);
+    if (me == teams[i].end()) continue;
+    own = i;
+    rank = static_cast<std::size_t>(me - teams[i].begin());
+  }
+  const std::vector<Visit> tour = share_strips(all.strips, all.work_s, starts, config.transit_mps, hands)[own];
+  WorkShare share{.strips = std::move(all.strips), .tour = {}};
+  // The explorer, who is the first of its team, has the second strip of each n: of three, the one in the middle.
+  const std::size_t size = teams[own].size();
+  for (std::size_t i = 0; i < tour.size(); ++i) {
+    if ((i + size - 1) % size == rank) share.tour.push_back(tour[i]);
+  }
   return share;
 }
 

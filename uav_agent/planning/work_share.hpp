@@ -15,9 +15,6 @@ struct WorkShareConfig {
   StripConfig strips;
   StandoffConfig standoff;
   double transit_mps = 4.5;
-  bool survey = true;  ///< explorers fly around everything first; see survey.hpp
-  double survey_standoff_m = 10.0;
-  double survey_mps = 4.0;
 };
 
 struct WorkShare {
@@ -25,9 +22,12 @@ struct WorkShare {
   std::vector<Visit> tour;    ///< own
 };
 
+/// For fleets whose LiDARs prove where others may fly: each explorer has a part of the site together with the
+/// photographers that start near it. In a team of n, the explorer flies every n-th strip of that part, and each
+/// photographer as many of those between. Without explorers, or without photographers, each UAV is a team.
 /// Strips that run inside another box all along are nobody's.
 /// @param middle_height_m  at which everybody is taken to begin.
-WorkShare own_share(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const CameraReach& reach,
-                    double middle_height_m, const WorkShareConfig& config);
+WorkShare team_share(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const CameraReach& reach,
+                     double middle_height_m, const WorkShareConfig& config);
 
 }  // namespace skein::agent

@@ -4,43 +4,37 @@
 #pragma once
 
 #include "core/config_reader.hpp"
+#include "uav_agent/flight_core/flight_config.hpp"
 
 namespace skein::agent {
 
 struct KiosConfig {
-  double voxel_m = 0.0;      ///< edge of a cube; 0: 0.9 d*, but 2.5 to 6 m
-  int lanes = 1;             ///< of the mapping stage, in all; at least one for each explorer
-  int min_hits = 1;          ///< mapped cells (0.5 m) that make a cube occupied
-  double clearance_m = 1.2;  ///< from the UAV's body to anything mapped
-  double map_mps = 4.5, transit_mps = 4.0, climb_mps = 3.0;
-  double standoff_ratio = 0.92;      ///< most distance to the surface, in units of d*
-  double nearest_ratio = 0.6;        ///< least distance to it where there is room, in units of d*
-  double jut_m = 3.0;                ///< so far outside a box only space that was seen free is entered, too
-  double settle_mps = 0.3;           ///< slower than this, ...
-  double aim_deg = 5.0;              ///< ... with the camera this near to its direction, ...
-  double dwell_s = 0.25;             ///< ... it stays so long: two pictures
-  double stop_s = 2.0;               ///< what a stop costs in the planned tours
-  int max_tasks = 400;               ///< waypoints that are shared out in one go
-  int effort = 60'000;               ///< moves evaluated for it
-  int reserve = 2;                   ///< cubes ahead that are claimed beside the one it is in
-  double share_s = 0.5;              ///< between two messages
-  double claim_s = 3.0;              ///< after which a claim is void
-  double blind_height_ratio = 0.45;  ///< of the highest box: below it, only space that was seen free is entered
-  double deliver_every_s = 240.0, return_margin_s = 12.0;
-  bool faithful = false;  ///< photographers wait for an explorer's word without end
+  double voxel_m = 0.0;          ///< edge of a cube; 0: 0.9 d*, but 2.5 to 6 m
+  int lanes = 1;                 ///< of the mapping stage, in all; at least one for each explorer
+  int min_hits = 4;              ///< mapped cells (0.5 m) that make a cube occupied
+  double map_mps = 3.0;          ///< along the lanes
+  double standoff_ratio = 0.92;  ///< most distance to the surface, in units of d*
+  double nearest_ratio = 0.6;    ///< least distance to it where there is room, in units of d*
+  double settle_mps = 0.3;       ///< slower than this, ...
+  double aim_deg = 5.0;          ///< ... with the camera this near to its direction, ...
+  double dwell_s = 0.25;         ///< ... it stays so long: two pictures
+  double stop_s = 2.0;           ///< what a stop costs in the planned tours
+  int max_tasks = 150;           ///< waypoints that are shared out in one go
+  int effort = 60'000;           ///< moves evaluated for it
+  int reserve = 2;               ///< cubes ahead that are claimed beside the one it is in
+  double share_s = 0.5;          ///< between two messages
+  double claim_s = 3.0;          ///< after which a claim is void
+  bool faithful = false;         ///< photographers wait for an explorer's word without end
+  FlightConfig flight = {};
 
   template <class R>
   void describe(R& r) {
     r.field("voxel_m", voxel_m, within(0.0, 20.0));
     r.field("lanes", lanes, within(1, 16));
     r.field("min_hits", min_hits, within(1, 100));
-    r.field("clearance_m", clearance_m, within(0.3, 10.0));
     r.field("map_mps", map_mps, within(0.5, 20.0));
-    r.field("transit_mps", transit_mps, within(0.5, 20.0));
-    r.field("climb_mps", climb_mps, within(0.2, 10.0));
     r.field("standoff_ratio", standoff_ratio, within(0.2, 1.5));
     r.field("nearest_ratio", nearest_ratio, within(0.0, 1.5));
-    r.field("jut_m", jut_m, within(0.0, 50.0));
     r.field("settle_mps", settle_mps, within(0.01, 5.0));
     r.field("aim_deg", aim_deg, within(0.1, 90.0));
     r.field("dwell_s", dwell_s, within(0.0, 10.0));
@@ -50,10 +44,8 @@ struct KiosConfig {
     r.field("reserve", reserve, within(0, 7));
     r.field("share_s", share_s, within(0.05, 10.0));
     r.field("claim_s", claim_s, within(0.1, 60.0));
-    r.field("blind_height_ratio", blind_height_ratio, within(0.0, 1.0));
-    r.field("deliver_every_s", deliver_every_s, within(10.0, 1e6));
-    r.field("return_margin_s", return_margin_s, within(0.0, 600.0));
     r.field("faithful", faithful);
+    flight.describe(r);
     r.check(voxel_m == 0.0 || voxel_m >= 1.0, "voxel_m", "must be 0 (by the camera) or at least 1");
   }
 };

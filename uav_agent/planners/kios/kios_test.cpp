@@ -1,9 +1,13 @@
 // The KIOS planner in a world without physics: its two stages, its sharing, its weaknesses.
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "uav_agent/api/planner.hpp"
+#include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/planners/kios/lanes.hpp"
+#include "uav_agent/planners/kios/mapping.hpp"
 #include "uav_agent/planners/kios/patience.hpp"
-#include "uav_agent/planners/kios/stops.hpp"
 #include "uav_agent/planners/kios/talk.hpp"
 #include "uav_agent/testing/test_world.hpp"
 
@@ -35,8 +39,8 @@ TEST(KiosLanes, RunStraightAlongTheLongestAxisOnOppositeSides) {
   const auto second = mapping_lanes(agent_of(1, 2, 1), long_volume(), {kMiddleBox}, 0.0, 2);
   ASSERT_EQ(first.size(), 2U);
   ASSERT_EQ(second.size(), 2U);
-  EXPECT_EQ((first[1] - first[0]).cwiseAbs(), Vector3d(55.0, 0.0, 0.0));
-  EXPECT_EQ((second[1] - second[0]).cwiseAbs(), Vector3d(55.0, 0.0, 0.0));
+  EXPECT_EQ((first[1] - first[0]).cwiseAbs(), Vector3d(20.0, 0.0, 0.0)) << "along the box, but for its ends";
+  EXPECT_EQ((second[1] - second[0]).cwiseAbs(), Vector3d(20.0, 0.0, 0.0));
   EXPECT_DOUBLE_EQ(std::abs(first[0].y() - second[0].y()), 15.0);
   const auto photographer = mapping_lanes(agent_of(2, 2, 1), long_volume(), {kMiddleBox}, 0.0, 2);
   EXPECT_TRUE(photographer.empty());
@@ -61,62 +65,98 @@ TEST(KiosLanes, ALoneExplorerFliesAllOfThemAndNoneTooLow) {
   EXPECT_NE(all[0].y(), all[2].y());
 }
 
-/// One occupied cube in known free space, inside a box.
-struct LoneCube {
-  VoxelGrid grid{Isometry3d::Identity(), {25.0, 25.0, 25.0}, 5.0};
-  OccupancyMap map;
-  VoxelMapper mapper;
-  std::vector<OrientedBox> boxes = {make_box({12.5, 12.5, 12.5}, {5.0, 5.0, 5.0})};
-  VoxelGrid::Id cube = *grid.at(Vector3d(12.5, 12.5, 12.5));
-  std::vector<OrientedBox> no_boxes;
+/// What a planner is given by the flight core, without any: outcomes are up to the test.
+struct CoreOfTest {
+  explicit CoreOfTest(AgentConfig of_agent) : agent(std::move(of_agent)) {
+    config.world = &map;
+    config.blind_fleet = !agent.first_explorer();
+  }
+  PlannerInput input(std::vector<Outcome> outcomes = {}) {
+    ++k;
+    RigidBodyState state;
+    state.p_WB = p_W;
+    TrackingState tracking;
+    tracking.setpoint.p_WB = p_W;
+    return {.k = k,
+            .tick = static_cast<Tick>(k) * ticks(0.05),
+            .state = state,
+            .gimbal = {},
+            .tracking = tracking,
+            .map = hits,
+            .boxes = boxes,
+            .peers = peers,
+            .mission_remaining_s = {},
+            .detected = {},
+            .radio = {},
+            .world_map = &map,
+            .flight = {.working = true, .outcomes = std::move(outcomes)},
+            .space = &space.emplace(config, boxes, hits)};
+  }
 
-  LoneCube() {
-    map.insert({{12.5F, 12.5F, 12.5F}}, std::nullopt);
-    mapper.update(map, grid);
-  }
-  KiosStops::Open open(const KiosStops& stops, Tick now = 0) const {
-    return stops.open_stops(grid, mapper, FreeSpace(FreeSpace::Config(), no_boxes, map), boxes, now);
-  }
+  AgentConfig agent;
+  WorldMap map{WorldMap::Config()};
+  OccupancyMap hits;
+  std::vector<OrientedBox> boxes = {kMiddleBox};
+  Peers peers{agent};
+  FreeSpace::Config config;
+  std::optional<FreeSpace> space;
+  Vector3d p_W = {0.0, 0.0, 5.0};
+  std::uint64_t k = 0;
 };
 
-TEST(KiosStops, EveryExposedFaceHasOneThatLooksAtIt) {
-  LoneCube world;
-  const KiosStops stops{KiosStops::Config()};
-  const auto open = world.open(stops);
-  ASSERT_EQ(open.stops.size(), 6U);
-  for (const KiosStop& stop : open.stops) {
-    EXPECT_EQ(stop.id / VoxelGrid::kFaces, world.cube);
-    EXPECT_NEAR((stop.p_WB - stop.surface_W).dot(stop.out_W), 5.0, 0.5) << "the middle of the next cube";
+TEST(KiosMapping, FliesLanesOneByOneAndOnToWhereItCanGet) {
+  CoreOfTest core(agent_of(0, 1, 0));
+  KiosMapping mapping(3.0);
+  const std::vector<Vector3d> corners = {Vector3d::UnitX(), 2.0 * Vector3d::UnitX(), 3.0 * Vector3d::UnitX(),
+                                         4.0 * Vector3d::UnitX()};
+  mapping.begin(corners);
+  std::int64_t id = 0;
+  const auto step = [&](std::vector<Outcome> outcomes) {
+    PlannerOutput out;
+    mapping.step(core.input(std::move(outcomes)), id, out);
+    return out.goals ? out.goals->front().way : std::vector<Waypoint>();
+  };
+  const auto later = [&] {
+    core.k += 40;
+    return step({});
+  };
+  EXPECT_EQ(step({}).size(), 2U);
+  EXPECT_TRUE(step({}).empty()) << "it is on its way";
+  EXPECT_TRUE(step({{.id = id, .kind = Outcome::Kind::blocked, .leg = 1}}).empty());
+  auto way = later();
+  ASSERT_EQ(way.size(), 1U) << "to the end of the lane, whatever stands on it";
+  EXPECT_EQ(way.front().p_WB, corners[1]);
+  way = step({{.id = id, .kind = Outcome::Kind::reached}});
+  ASSERT_EQ(way.size(), 2U);
+  EXPECT_EQ(way.front().p_WB, corners[2]);
+  for (int failure = 0; failure < 5; ++failure) {
+    EXPECT_FALSE(way.empty());
+    step({{.id = id, .kind = Outcome::Kind::no_way}});
+    way = later();
   }
+  ASSERT_EQ(way.size(), 1U) << "that corner is given up";
+  EXPECT_EQ(way.front().p_WB, corners[3]);
+  step({{.id = id, .kind = Outcome::Kind::reached}});
+  EXPECT_TRUE(mapping.done());
 }
 
-TEST(KiosStops, WhatWasPhotographedOrIsCoveredOrFailedIsNotOpen) {
-  LoneCube world;
-  KiosStops stops{KiosStops::Config()};
-  world.grid.mark(world.cube, 2);
-  world.grid.raise(*world.grid.neighbour(world.cube, 0), VoxelState::occupied);
-  stops.failed(VoxelGrid::kFaces * world.cube + 4, 0);
-  EXPECT_EQ(world.open(stops).stops.size(), 3U);
-  EXPECT_EQ(world.open(stops, ticks(60.0)).stops.size(), 4U) << "is tried again";
-}
-
-TEST(KiosStops, AllInSightShareThem) {
-  std::vector<KiosStop> stops;
-  for (int i = 0; i < 40; ++i) {
-    KiosStop stop;
-    stop.id = static_cast<std::uint32_t>(i);
-    stop.p_WB = {5.0 * i, 0.0, 10.0};
-    stops.push_back(stop);
-  }
-  const std::vector<KiosAgent> agents = {{{0.0, 0.0, 10.0}, 0.0}, {{195.0, 0.0, 10.0}, 0.0}};
-  const KiosStops share{KiosStops::Config()};
-  const auto left = share.own_tour(stops, agents, 0), right = share.own_tour(stops, agents, 1);
-  EXPECT_EQ(left.size() + right.size(), 40U);
-  EXPECT_NEAR(static_cast<double>(left.size()), 20.0, 2.0);
-  for (const std::size_t i : left) EXPECT_EQ(std::ranges::count(right, i), 0);
-  EXPECT_EQ(left.front(), 0U);
-  EXPECT_EQ(right.front(), 39U);
-  EXPECT_EQ(share.own_tour(stops, {agents[0]}, 0).size(), 40U) << "nobody in sight: all of them";
+/// Its list of goals has more than one: where it stops to look, it must not go on to the next.
+TEST(Kios, StaysAtAWaypointUntilItHasLooked) {
+  CoreOfTest core(agent_of(0, 0, 1));
+  const auto planner = make_planner("kios", core.agent);
+  std::optional<std::vector<Goal>> goals;
+  for (int i = 0; i < 10 && !(goals && !goals->empty()); ++i) goals = planner->plan(core.input()).goals;
+  ASSERT_TRUE(goals);
+  ASSERT_GT(goals->size(), 1U);
+  core.p_W = goals->front().way.back().p_WB;
+  const auto then = planner->plan(core.input({{.id = goals->front().id, .kind = Outcome::Kind::reached}})).goals;
+  ASSERT_TRUE(then);
+  EXPECT_TRUE(then->empty());
+  std::optional<std::vector<Goal>> next;
+  for (int i = 0; i < 80 && !next; ++i) next = planner->plan(core.input()).goals;
+  ASSERT_TRUE(next);
+  ASSERT_FALSE(next->empty());
+  EXPECT_NE(next->front().way.back().p_WB, core.p_W);
 }
 
 TEST(KiosTalk, ClaimsTravelAndExpire) {
@@ -175,13 +215,13 @@ TEST(Kios, PhotographsTheStructureAndBringsItHome) {
   world.run(300.0);
   EXPECT_GT(world.coverage(), 0.7);
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
-  EXPECT_GT(world.separation(), 2.0 * kExplorerRadiusM + 0.5);
+  EXPECT_GT(world.gap(), 0.3);
   EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
 }
 
 TEST(Kios, PhotographersWaitUntilTheExplorersHaveFlownTheirLanes) {
   TestWorld world(two_towers(), test_fleet(3), "kios", 120.0);
-  world.run(40.0);
+  world.run(30.0);
   const Vector3d waits = world.position(1);
   EXPECT_LT((waits.head<2>() - Vector2d(-5.0, -14.0)).norm(), 0.5) << "above its start";
   EXPECT_GT(waits.z(), 3.0);

@@ -7,17 +7,20 @@
 namespace skein::agent {
 namespace {
 
+constexpr double kInsetM = 15.0;  ///< lanes end so far before the boxes do: LiDARs see farther than that
+constexpr double kHeight = 0.3;   ///< of a level's, above its lower end: UAVs come from below
+
 /// Ends of one lane.
 struct Lane {
   Vector3d a_W, b_W;
 };
 
-/// The lane through a row of cubes, lifted to the least height.
-Lane lane_at(const VoxelGrid& volume, VoxelGrid::Cell cell, int along, double lowest_m) {
+/// The lane through a row of cubes, from the first to the last of these, lifted to the least height.
+Lane lane_at(const VoxelGrid& volume, VoxelGrid::Cell cell, int along, std::pair<int, int> ends, double lowest_m) {
   Lane lane;
-  cell[along] = 0;
+  cell[along] = ends.first;
   lane.a_W = volume.centre_W(*volume.at(cell));
-  cell[along] = volume.dims()[along] - 1;
+  cell[along] = ends.second;
   lane.b_W = volume.centre_W(*volume.at(cell));
   lane.a_W.z() = std::max(lane.a_W.z(), lowest_m);
   lane.b_W.z() = std::max(lane.b_W.z(), lowest_m);
@@ -37,18 +40,18 @@ bool leaves_boxes_alone(const Lane& lane, const VoxelGrid& volume, const std::ve
   return true;
 }
 
-/// Where the boxes are across the lanes: least and greatest row that holds any.
-std::pair<int, int> rows_of(const VoxelGrid& volume, const std::vector<OrientedBox>& boxes, int across) {
-  const double first = volume.centre_W(0)[across];
-  if (boxes.empty()) return {0, volume.dims()[across] - 1};
+/// Where the boxes are along an axis: least and greatest row that holds any.
+std::pair<int, int> rows_of(const VoxelGrid& volume, const std::vector<OrientedBox>& boxes, int axis) {
+  const double first = volume.centre_W(0)[axis];
+  if (boxes.empty()) return {0, volume.dims()[axis] - 1};
   double lo = 1e9, hi = -1e9;
   for (const OrientedBox& box : boxes) {
-    const double half = (box.R_WO.cwiseAbs() * (0.5 * box.size))[across];
-    lo = std::min(lo, box.center[across] - half);
-    hi = std::max(hi, box.center[across] + half);
+    const double half = (box.R_WO.cwiseAbs() * (0.5 * box.size))[axis];
+    lo = std::min(lo, box.center[axis] - half);
+    hi = std::max(hi, box.center[axis] + half);
   }
   const auto row = [&](double x) {
-    return std::clamp(static_cast<int>(std::lround((x - first) / volume.voxel_m())), 0, volume.dims()[across] - 1);
+    return std::clamp(static_cast<int>(std::lround((x - first) / volume.voxel_m())), 0, volume.dims()[axis] - 1);
   };
   return {row(lo), row(hi)};
 }
@@ -61,18 +64,21 @@ std::vector<Lane> all_lanes(const VoxelGrid& volume, const std::vector<OrientedB
   const int across = along == 0 ? 1 : 0, other = 3 - along - across;
   const int levels = (count + 1) / 2;
   const auto [low_row, high_row] = rows_of(volume, boxes, across);
+  std::pair<int, int> ends = rows_of(volume, boxes, along);
+  const int inset = std::min((ends.second - ends.first) / 4, static_cast<int>(kInsetM / volume.voxel_m()));
+  ends = {ends.first + inset, ends.second - inset};
   std::vector<Lane> lanes;
   for (int i = 0; i < count; ++i) {
     const int side = i % 2 == 0 ? -1 : 1;
     VoxelGrid::Cell cell;
     cell[along] = 0;
-    cell[other] = static_cast<int>(dims[other] * (i / 2 + 0.5) / levels);
+    cell[other] = static_cast<int>(dims[other] * (i / 2 + (other == 2 ? kHeight : 0.5)) / levels);
     // From halfway between the middle and the rim outwards where nothing stands at that height; else beside it.
     const int first = static_cast<int>(std::lround(0.5 * (low_row + high_row) + side * 0.25 * (high_row - low_row)));
     for (cell[across] = first; cell[across] > 0 && cell[across] + 1 < dims[across]; cell[across] += side) {
-      if (leaves_boxes_alone(lane_at(volume, cell, along, lowest_m), volume, boxes)) break;
+      if (leaves_boxes_alone(lane_at(volume, cell, along, ends, lowest_m), volume, boxes)) break;
     }
-    lanes.push_back(lane_at(volume, cell, along, lowest_m));
+    lanes.push_back(lane_at(volume, cell, along, ends, lowest_m));
   }
   return lanes;
 }

@@ -7,54 +7,77 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSpareM = 0.3;      ///< beside the clearance
-constexpr double kBoxMarginM = 0.5;  ///< surface this far outside a box still belongs to it
-constexpr double kTurnM = 4.0;       ///< another direction of the face costs this much way more: round a corner
+constexpr double kSpareM = 0.3;       ///< beside the clearance
+constexpr double kAsideRatio = 0.35;  ///< of a cube's edge: so far beside the middle of the free cube...
+constexpr int kShifts = 5;            ///< ...or not, and to the four sides
+constexpr double kBoxMarginM = 0.5;   ///< surface this far outside a box still belongs to it
+constexpr double kTurnM = 4.0;        ///< another direction of the face costs this much way more: round a corner
+constexpr double kAroundM = 12.0;     ///< as does structure in between
+
+/// Inside of structure nothing is known.
+bool seen_free(const Vector3d& p_W, const FreeSpace& space) {
+  return !space.config().world || space.config().blind_fleet || space.config().world->at(p_W) == Space::free;
+}
 
 }  // namespace
 
-KiosStops::Open KiosStops::open_stops(const VoxelGrid& grid, const VoxelMapper& mapper, const FreeSpace& space,
+KiosStops::Open KiosStops::open_stops(const VoxelGrid& grid, const WorldVoxels& voxels, const FreeSpace& space,
                                       const std::vector<OrientedBox>& boxes, Tick now) const {
   Open open;
+  const auto occupied = [&](VoxelGrid::Id id) {
+    const int hits = voxels.hits(id);  // none: others told of it
+    return grid.state(id) == VoxelState::occupied && (hits == 0 || hits >= config_.min_hits);
+  };
   for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
-    if (grid.state(id) != VoxelState::occupied) continue;
-    const Vector3d surface = mapper.surface_W(id).value_or(grid.centre_W(id));
+    if (!occupied(id)) continue;
+    const Vector3d surface = voxels.surface_W(id).value_or(grid.centre_W(id));
     const bool wanted =
         std::ranges::any_of(boxes, [&](const OrientedBox& box) { return box.contains(surface, kBoxMarginM); });
     if (!wanted) continue;
     for (int face = 0; face < VoxelGrid::kFaces; ++face) {
       const auto outside = grid.neighbour(id, face);
-      const bool exposed = outside && grid.state(*outside) != VoxelState::occupied;
+      const bool exposed = outside && !occupied(*outside);
       if (!exposed || grid.marked(id, face)) continue;
       const auto failure = failures_.find(VoxelGrid::kFaces * id + static_cast<std::uint32_t>(face));
       if (failure != failures_.end() && now < failure->second.not_before) continue;
-      const auto stop = stop_at(VoxelGrid::kFaces * id + static_cast<std::uint32_t>(face), grid.centre_W(*outside),
-                                grid.normal_W(face), surface, space);
+      const auto stop = stop_at(VoxelGrid::kFaces * id + static_cast<std::uint32_t>(face), grid, surface, space);
       stop ? open.stops.push_back(*stop) : void(++open.out_of_reach);
     }
   }
   return open;
 }
 
-std::optional<KiosStop> KiosStops::stop_at(std::uint32_t id, const Vector3d& middle_W, const Vector3d& out_W,
-                                           const Vector3d& surface_W, const FreeSpace& space) const {
-  KiosStop stop{id, middle_W, surface_W, out_W};
-  // The middle of the free cube, unless that is too near to the surface to see much or too far to see it sharply;
-  // nearer only where there is no room.
+/// The middle of the free cube, unless that is too near to the surface to see much or too far to see it sharply; nearer
+/// only where there is no room, and beside the middle where there is none there. A place that is proved to be free is
+/// liked better.
+std::optional<KiosStop> KiosStops::stop_at(std::uint32_t id, const VoxelGrid& grid, const Vector3d& surface_W,
+                                           const FreeSpace& space) const {
+  const int face = static_cast<int>(id % VoxelGrid::kFaces);
+  const Vector3d out_W = grid.normal_W(face);
+  const Vector3d middle_W = grid.centre_W(id / VoxelGrid::kFaces) + grid.voxel_m() * out_W;
   const double depth = (middle_W - surface_W).dot(out_W);
-  const double touch = config_.clearance_m + kSpareM;
+  const double touch = space.config().clearance_m + kSpareM;
   const double nearest = std::max(touch, config_.nearest_ratio * config_.sharp_m);
   const double farthest = std::max(nearest, config_.standoff_ratio * config_.sharp_m);
-  for (const double distance : {std::clamp(depth, nearest, farthest), farthest, touch}) {
-    stop.p_WB = middle_W + (distance - depth) * out_W;
-    stop.p_WB.z() = std::max(stop.p_WB.z(), space.config().floor_m + kSpareM);
-    if (space.free(stop.p_WB)) return stop;
+  const double aside = kAsideRatio * grid.voxel_m();
+  std::optional<KiosStop> unproved;
+  for (int shift = 0; shift < kShifts; ++shift) {
+    Vector3d shift_W = Vector3d::Zero();
+    if (shift > 0) shift_W = aside * grid.normal_W((face / 2 * 2 + 1 + shift) % VoxelGrid::kFaces);
+    for (const double distance : {std::clamp(depth, nearest, farthest), farthest, touch}) {
+      KiosStop stop{id, middle_W + (distance - depth) * out_W + shift_W, surface_W, out_W};
+      stop.p_WB.z() = std::max(stop.p_WB.z(), space.config().floor_m + kSpareM);
+      if (!space.free(stop.p_WB)) continue;
+      stop.proved = space.cost(stop.p_WB) <= 1.0;
+      if (stop.proved) return stop;
+      if (!unproved && seen_free(stop.p_WB, space)) unproved = stop;
+    }
   }
-  return std::nullopt;
+  return unproved;
 }
 
 std::vector<std::size_t> KiosStops::own_tour(const std::vector<KiosStop>& stops, const std::vector<KiosAgent>& agents,
-                                             std::size_t self) const {
+                                             std::size_t self, const VoxelGrid& grid) const {
   std::vector<std::size_t> chosen;
   std::vector<double> reach;
   for (std::size_t i = 0; i < stops.size(); ++i) {
@@ -76,6 +99,7 @@ std::vector<std::size_t> KiosStops::own_tour(const std::vector<KiosStop>& stops,
     const Vector3d out_to = stops[chosen[to - agents.size()]].out_W;
     for (std::size_t from = 0; from < n; ++from) {
       double way = (place(to) - place(from)).norm();
+      if (!grid.sees(place(from), place(to))) way += kAroundM;
       if (from >= agents.size()) way += kTurnM * (1.0 - out_to.dot(stops[chosen[from - agents.size()]].out_W));
       problem.costs(from, to) = way / config_.speed_mps;
     }

@@ -4,17 +4,15 @@
 #pragma once
 
 #include "core/config_reader.hpp"
+#include "uav_agent/flight_core/flight_config.hpp"
 
 namespace skein::agent {
 
 struct StarConfig {
-  double voxel_m = 0.0;                         ///< edge of a cube of the map; 0: 0.35 d*, but 2 to 3 m
-  int max_voxels = 120'000;                     ///< the cubes grow until the site has no more
-  double clearance_m = 1.2;                     ///< from the UAV's body to anything mapped
-  double volume_weight = 0.005;                 ///< of a box in the teams' tours: metres of way for a cubic metre
-  double explore_mps = 2.5, inspect_mps = 2.0;  ///< after FUEL's and Star-Searcher's 2 m/s, and SOAR's 2.5
-  double transit_mps = 4.0;                     ///< home, and from box to box
-  double climb_mps = 3.0;
+  double voxel_m = 0.0;                            ///< edge of a cube of the map; 0: 0.35 d*, but 2 to 3 m
+  int max_voxels = 120'000;                        ///< the cubes grow until the site has no more
+  double volume_weight = 0.005;                    ///< of a box in the teams' tours: metres of way for a cubic metre
+  double explore_mps = 2.5, inspect_mps = 2.0;     ///< after FUEL's and Star-Searcher's 2 m/s, and SOAR's 2.5
   double replan_s = 1.5;                           ///< FUEL
   double covered_s = 0.5;                          ///< and no sooner than this when the target is done; FUEL
   double turn_s = 1.5;                             ///< cost of a change of direction, a radian; FUEL's weight
@@ -36,21 +34,17 @@ struct StarConfig {
   int max_views = 150;           ///< viewpoints in one plan, the nearest ones
   int effort = 30'000;           ///< moves evaluated for a tour
   double share_s = 0.5;          ///< between two messages
-  double follow_s = 8.0;         ///< without any surface to inspect, before a photographer goes where its explorer is
-  double blind_height_ratio = 0.45;  ///< of the highest box: below it, only space that was seen free is entered
-  double deliver_every_s = 240.0, return_margin_s = 12.0;
-  bool faithful = false;  ///< see the head of star.cpp
+  double follow_s = 3.0;         ///< without any surface to inspect, before a photographer goes where its explorer is
+  bool faithful = false;         ///< see the head of star.cpp
+  FlightConfig flight = {};
 
   template <class R>
   void describe(R& r) {
     r.field("voxel_m", voxel_m, within(0.0, 20.0));
     r.field("max_voxels", max_voxels, within(1000, 2'000'000));
-    r.field("clearance_m", clearance_m, within(0.3, 10.0));
     r.field("volume_weight", volume_weight, within(0.0, 1.0));
     r.field("explore_mps", explore_mps, within(0.2, 20.0));
     r.field("inspect_mps", inspect_mps, within(0.2, 20.0));
-    r.field("transit_mps", transit_mps, within(0.5, 20.0));
-    r.field("climb_mps", climb_mps, within(0.2, 10.0));
     r.field("replan_s", replan_s, within(0.2, 30.0));
     r.field("covered_s", covered_s, within(0.1, 30.0));
     r.field("turn_s", turn_s, within(0.0, 30.0));
@@ -74,12 +68,10 @@ struct StarConfig {
     r.field("effort", effort, within(0, 1e7));
     r.field("share_s", share_s, within(0.05, 10.0));
     r.field("follow_s", follow_s, within(0.0, 1e6));
-    r.field("blind_height_ratio", blind_height_ratio, within(0.0, 1.0));
-    r.field("deliver_every_s", deliver_every_s, within(10.0, 1e6));
-    r.field("return_margin_s", return_margin_s, within(0.0, 600.0));
     r.field("faithful", faithful);
     r.check(voxel_m == 0.0 || voxel_m >= 1.0, "voxel_m", "must be 0 (by the camera) or at least 1");
     r.check(ring_inner_m <= ring_outer_m, "ring_outer_m", "must not be less than ring_inner_m");
+    flight.describe(r);
   }
 };
 

@@ -74,7 +74,7 @@ StarExplorer::Options StarExplorer::options_for(const VoxelGrid& grid, const Fre
   const RingConfig ring{config_.ring_inner_m, config_.ring_outer_m, kRings, kDirections, {0.0, kHeightM, -kHeightM}};
   std::vector<std::pair<std::size_t, Vector3d>> found;
   for (const Vector3d& p : ring_around(cluster.middle_W, ring)) {
-    if (!space.free(p)) continue;
+    if (!space.free(p) || space.cost(p) > 1.0) continue;  // in known space, as FUEL's
     const std::size_t seen = visible_targets(grid, p, 0.0, 0.0, targets, {.range_m = kViewRangeM}).size();
     if (seen > 0) found.emplace_back(seen, p);
   }

@@ -5,12 +5,14 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::size_t kMaxLooks = 40'000;  ///< at unknown cubes, in one look at the map
+constexpr double kFreeAroundM = 0.5;             ///< about the middle of a cube that is free
+constexpr std::size_t kExplorersLooks = 20'000;  ///< at unknown cubes, in one look at the map
+constexpr std::size_t kOthersLooks = 4'000;      ///< who explores nothing has time to find out what is free
 
-VoxelGrid first_grid(const StarConfig& config, const Site& site, const std::vector<OrientedBox>& boxes,
+VoxelGrid first_grid(const StarConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
                      double sharp_m) {
   VoxelGrid grid = star_grid(boxes, config, sharp_m);
-  if (site.blind_fleet) fill_boxes(boxes, grid);
+  if (!agent.first_explorer()) fill_boxes(boxes, grid);
   return grid;
 }
 
@@ -20,34 +22,32 @@ double sharp_distance_m(const AgentConfig& agent) {
 
 }  // namespace
 
-StarKnowledge::StarKnowledge(const StarConfig& config, const AgentConfig& agent, const Site& site,
-                             const std::vector<OrientedBox>& boxes, const std::vector<std::size_t>& own_boxes)
+StarKnowledge::StarKnowledge(const StarConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
+                             const std::vector<std::size_t>& own_boxes)
     : agent_(agent),
-      mapper_({.max_looks = kMaxLooks}),
-      grid_(first_grid(config, site, boxes, sharp_distance_m(agent))),
+      voxels_(
+          {.around_m = kFreeAroundM, .max_looks = agent.me().role == Role::explorer ? kExplorersLooks : kOthersLooks}),
+      grid_(first_grid(config, agent, boxes, sharp_distance_m(agent))),
       cubes_(cubes_of_boxes(grid_, boxes, own_boxes)),
-      surfaces_(surfaces_config(config, agent.vehicle, sharp_distance_m(agent),
-                                centre_clearance_m(agent, config.clearance_m)),
-                agent.vehicle, grid_),
+      surfaces_(surfaces_config(config, agent.vehicle, sharp_distance_m(agent)), agent.vehicle, grid_),
       explorer_(explorer_config(config), grid_) {}
 
-void StarKnowledge::look_at_map(const OccupancyMap& map, const Vector3d& p_WB) {
-  mapper_.update(map, grid_);
+void StarKnowledge::look_at_map(const WorldMap& map, const Vector3d& p_WB) {
+  voxels_.update(map, grid_);
   const std::vector<VoxelGrid::Id> changed = grid_.take_changed();
   if (agent_.me().role == Role::explorer) explorer_.look(grid_, changed, p_WB);
-  hearsay_ = mapper_.hearsay(grid_);
 }
 
 void StarKnowledge::look_at_picture(const RigidBodyState& state, const GimbalState& gimbal) {
-  surfaces_.mark_seen(state, gimbal, mapper_, grid_);
+  surfaces_.mark_seen(state, gimbal, voxels_, grid_);
 }
 
 std::vector<StarView> StarKnowledge::views(const FreeSpace& space, const Vector3d& p_W, Tick now) {
-  return surfaces_.views(grid_, cubes_, mapper_, space, p_W, now);
+  return surfaces_.views(grid_, cubes_, voxels_, space, p_W, now);
 }
 
 std::optional<Vector3d> StarKnowledge::nearest_open_W(const Vector3d& p_W) const {
-  return surfaces_.nearest_open_W(grid_, mapper_, p_W);
+  return surfaces_.nearest_open_W(grid_, voxels_, p_W);
 }
 
 }  // namespace skein::agent

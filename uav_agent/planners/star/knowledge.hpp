@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "uav_agent/api/planner.hpp"
-#include "uav_agent/flight/site.hpp"
 #include "uav_agent/planners/star/site.hpp"
 
 namespace skein::agent {
@@ -16,18 +15,16 @@ class StarKnowledge {
  public:
   /// Nothing but the boxes, which a fleet without a LiDAR takes for solid.
   /// @param own_boxes  the team's.   @param agent  must outlive this.
-  StarKnowledge(const StarConfig& config, const AgentConfig& agent, const Site& site,
-                const std::vector<OrientedBox>& boxes, const std::vector<std::size_t>& own_boxes);
+  StarKnowledge(const StarConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
+                const std::vector<std::size_t>& own_boxes);
 
   VoxelGrid& grid() { return grid_; }
   const VoxelGrid& grid() const { return grid_; }
-  /// Of the grid, what this UAV did not see itself; nullptr before the first look at a map.
-  const VoxelGrid* hearsay() const { return hearsay_ ? &*hearsay_ : nullptr; }
   StarSurfaces& surfaces() { return surfaces_; }
   StarExplorer& explorer() { return explorer_; }
 
-  /// Takes in what the LiDARs saw; an explorer also what lies in view of its own.
-  void look_at_map(const OccupancyMap& map, const Vector3d& p_WB);
+  /// Takes in what beams have proved; an explorer also what lies in view of its own.
+  void look_at_map(const WorldMap& map, const Vector3d& p_WB);
   /// Takes in what the camera sees now.
   void look_at_picture(const RigidBodyState& state, const GimbalState& gimbal);
 
@@ -38,9 +35,8 @@ class StarKnowledge {
 
  private:
   const AgentConfig& agent_;
-  VoxelMapper mapper_;
+  WorldVoxels voxels_;
   VoxelGrid grid_;
-  std::optional<VoxelGrid> hearsay_;
   std::vector<VoxelGrid::Id> cubes_;  ///< in the team's boxes
   StarSurfaces surfaces_;
   StarExplorer explorer_;

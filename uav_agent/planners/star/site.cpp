@@ -14,7 +14,7 @@ constexpr double kGrowth = 1.1;    ///< of the cubes while there are too many
 constexpr double kAroundM = 12.0;  ///< of the grid, around the boxes
 constexpr double kBesideM = 6.0;   ///< from the box
 constexpr int kWallDirections = 12;
-constexpr double kSpareM = 0.3;  ///< beside the clearance, from a viewpoint to its surface
+constexpr double kAboveFloorM = 2.0;
 
 }  // namespace
 
@@ -39,26 +39,23 @@ std::vector<VoxelGrid::Id> cubes_of_boxes(const VoxelGrid& grid, const std::vect
   return cubes;
 }
 
-std::vector<Vector3d> places_beside(const OrientedBox& box, const FreeSpace& space, const Vector3d& p_W,
-                                    double lowest_m) {
+std::vector<Vector3d> places_beside(const OrientedBox& box, const FreeSpace& space, const Vector3d& p_W) {
   const double radius = 0.5 * box.size.head<2>().norm() + kBesideM;
   std::vector<Vector3d> places;
   for (int i = 0; i < kWallDirections; ++i) {
     const double turn = 2.0 * std::numbers::pi * i / kWallDirections;
     const Vector3d p(box.center.x() + radius * std::cos(turn), box.center.y() + radius * std::sin(turn),
-                     std::max(box.center.z(), lowest_m));
+                     std::max(box.center.z(), space.config().floor_m + kAboveFloorM));
     if (space.free(p)) places.push_back(p);
   }
   std::ranges::stable_sort(places, {}, [&](const Vector3d& p) { return (p - p_W).norm(); });
   return places;
 }
 
-StarSurfaces::Config surfaces_config(const StarConfig& config, const VehicleConfig& vehicle, double sharp_m,
-                                     double clearance_m) {
+StarSurfaces::Config surfaces_config(const StarConfig& config, const VehicleConfig& vehicle, double sharp_m) {
   StarSurfaces::Config surfaces;
   surfaces.sharp_m = sharp_m;
   surfaces.standoff_ratio = config.standoff_ratio;
-  surfaces.nearest_m = clearance_m + kSpareM;
   surfaces.seen_ratio = config.seen_ratio;
   surfaces.oblique = config.oblique_deg * kRadPerDeg;
   const double half_height = 0.5 * vehicle.camera.vfov_deg * kRadPerDeg;

@@ -21,13 +21,10 @@ std::vector<VoxelGrid::Id> cubes_of_boxes(const VoxelGrid& grid, const std::vect
                                           const std::vector<std::size_t>& own_boxes);
 
 /// Places to look at a box from, beside it at half its height, the one nearest to `p_W` first.
-/// @param lowest_m  none is lower.
-std::vector<Vector3d> places_beside(const OrientedBox& box, const FreeSpace& space, const Vector3d& p_W,
-                                    double lowest_m);
+std::vector<Vector3d> places_beside(const OrientedBox& box, const FreeSpace& space, const Vector3d& p_W);
 
-/// @param sharp_m  d*.   @param clearance_m  of the UAV's centre to anything mapped.
-StarSurfaces::Config surfaces_config(const StarConfig& config, const VehicleConfig& vehicle, double sharp_m,
-                                     double clearance_m);
+/// @param sharp_m  d*.
+StarSurfaces::Config surfaces_config(const StarConfig& config, const VehicleConfig& vehicle, double sharp_m);
 StarExplorer::Config explorer_config(const StarConfig& config);
 
 }  // namespace skein::agent

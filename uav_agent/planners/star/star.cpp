@@ -13,13 +13,11 @@
 // tell or leave out: photographers without surface hover for ever where they are, out of sight as they may be; an
 // explorer that has seen everything is done, and a team without a box has nothing to do; UAVs of one team plan without
 // regard to where the others are about to work. Collisions at the start, which are published, are not brought back.
-// Not published for this contest, and so our choice: all numbers (config.hpp), the messages, and safety.
+// Not published for this contest, and so our choice: all numbers (config.hpp), the messages, and how it is flown: by
+// the flight core (flight_core/flight_core.hpp).
 #include <algorithm>
 
 #include "uav_agent/api/planner.hpp"
-#include "uav_agent/flight/proof.hpp"
-#include "uav_agent/flight/site.hpp"
-#include "uav_agent/flight/sortie.hpp"
 #include "uav_agent/planners/star/camera.hpp"
 #include "uav_agent/planners/star/knowledge.hpp"
 #include "uav_agent/planners/star/talk.hpp"
@@ -30,16 +28,13 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kLookAtMapS = 1.0;        ///< between two looks at what the LiDARs saw
+constexpr double kLookAtMapS = 1.0;        ///< between two looks at the map
 constexpr std::uint64_t kCameraSteps = 4;  ///< exchanges between two looks at what the camera saw
-constexpr double kAboveBlindM = 2.0;
-constexpr double kReachedM = 1.0;       ///< a place is reached this near to it
-constexpr double kRestS = 1.0;          ///< when there is nothing to do
-constexpr std::size_t kCandidates = 3;  ///< first places tried in one plan
-constexpr int kMaxApproaches = 4;       ///< to a box
-constexpr std::size_t kSidesApart = 3;  ///< between two of them, of twelve
-constexpr int kFruitlessToBold = 2, kFruitlessToRetreat = 9;
-constexpr double kBoldS = 40.0;  ///< for so long it does with less proof of free space
+constexpr double kReachedM = 1.0;          ///< a place is reached this near to it
+constexpr std::size_t kCandidates = 3;     ///< first places offered in one plan
+constexpr int kMaxApproaches = 4;          ///< to a box
+constexpr std::size_t kSidesApart = 3;     ///< between two of them, of twelve
+constexpr double kCarefulS = 10.0;         ///< after something was in the way, the flight core finds all ways
 
 }  // namespace
 
@@ -50,114 +45,86 @@ class StarPlanner final : public Planner {
   StarPlanner(const Config& config, const AgentConfig& agent)
       : config_(config),
         agent_(agent),
-        sortie_({.climb_mps = config.climb_mps,
-                 .transit_mps = config.transit_mps,
-                 .retreat_mps = config.transit_mps,
-                 .clearance_m = config.clearance_m,
-                 .deliver_every_s = config.deliver_every_s,
-                 .return_margin_s = config.return_margin_s},
-                agent_),
-        separation_(Separation::Config(), agent_),
-        talk_({.share_s = config.share_s}, agent_) {}
+        talk_({.share_s = config.share_s}, agent_),
+        camera_(agent.vehicle, agent.me().role != Role::explorer) {}
 
+  const FlightConfig* flight() const override { return &config_.flight; }
   PlannerOutput plan(const PlannerInput& in) override;
 
  private:
-  /// What it flies to, one after the other. Either views or goals are not empty, or none is.
+  /// What it offers to fly to, one after the other: views, or goals, or a place beside a box.
   struct Route {
-    std::vector<StarView> views;
-    std::vector<StarGoal> goals;
-    bool empty() const { return views.empty() && goals.empty(); }
+    std::int64_t id = 0;
+    std::vector<StarView> views = {};
+    std::vector<StarGoal> goals = {};
+    std::optional<Vector3d> beside_W = {};
+    std::vector<Vector3d> places_W() const;
   };
 
   bool has_lidar() const { return agent_.me().role == Role::explorer; }
-  FreeSpace::Config space_config() const;
   StarTourConfig tour_config() const;
 
   void survey_site(const PlannerInput& in);
   void look_around(const PlannerInput& in);
+  void take_note(const Outcome& outcome, const PlannerInput& in);
   void carry_on(const PlannerInput& in, PlannerOutput& out);
   bool target_done(const PlannerInput& in);
+  void put_off(const Route& route, const PlannerInput& in);
   void decide(const PlannerInput& in, PlannerOutput& out);
-  bool explore(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out);
-  bool inspect(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out);
-  bool approach(const PlannerInput& in, const FreeSpace& space, std::size_t box, PlannerOutput& out);
-  void idle(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out);
+  void explore(const PlannerInput& in, PlannerOutput& out);
+  bool inspect(const PlannerInput& in, PlannerOutput& out);
+  void approach(const PlannerInput& in, std::size_t box, PlannerOutput& out);
+  void idle(const PlannerInput& in, PlannerOutput& out);
   void begin_box(std::size_t box);
-  void nothing_to_reach(const PlannerInput& in, PlannerOutput& out);
-  bool fly_through(const std::vector<Vector3d>& places_W, double speed_mps, const FreeSpace& space,
-                   const PlannerInput& in, PlannerOutput& out);
-  void forget_target();
+  void hover(const PlannerInput& in, PlannerOutput& out);
+  void offer(std::vector<Route> routes, double speed_mps, const PlannerInput& in, PlannerOutput& out);
+  Goal goal_of(Route& route, bool is_first, double speed_mps, const PlannerInput& in);
   void point_camera(const PlannerInput& in, PlannerOutput& out);
   StarTalk::Word own_word() const;
 
   const Config config_;
   const AgentConfig agent_;
-  Sortie sortie_;
-  Separation separation_;
   StarTalk talk_;
   StarCamera camera_;
-  Proof proof_;
 
   std::optional<StarKnowledge> known_;  ///< once the boxes have come, as all that follows
   std::size_t leader_ = 0;              ///< of the team
   std::vector<std::size_t> boxes_;      ///< of the team, in the order of visit
-  Site site_;
 
   std::size_t at_box_ = 0;  ///< index into boxes_; the end: explored
   int approaches_ = 0;      ///< to this box
   bool been_there_ = false;
-  Route route_;
+  std::vector<Route> routes_;  ///< offered to the flight core, which flies the first
+  std::int64_t id_ = 0;        ///< of the last one that was offered
   std::optional<Vector3d> last_cluster_W_;
-  Tick planned_at_ = 0, not_before_ = 0;
+  Tick planned_at_ = 0, careful_until_ = 0;
   std::optional<Tick> idle_since_;
   std::size_t rounds_ = 0;  ///< after times without anything to do
-  int fruitless_ = 0;       ///< decisions in a row
 };
+
+std::vector<Vector3d> StarPlanner::Route::places_W() const {
+  std::vector<Vector3d> places;
+  for (const StarView& view : views) places.push_back(view.p_WB);
+  for (const StarGoal& goal : goals) places.push_back(goal.p_WB);
+  if (beside_W) places.push_back(*beside_W);
+  return places;
+}
 
 PlannerOutput StarPlanner::plan(const PlannerInput& in) {
   PlannerOutput out;
   if (!in.boxes.empty() && !known_) survey_site(in);
-  if (known_) {
-    talk_.listen(in, known_->grid());
-    look_around(in);
+  if (!known_) return out;
+  talk_.listen(in, known_->grid());
+  look_around(in);
+  for (const Outcome& outcome : in.flight.outcomes) take_note(outcome, in);
+  if (in.flight.working) {
+    carry_on(in, out);
+  } else {
+    routes_.clear();
   }
-  switch (sortie_.step(in, space_config(), out)) {
-    case Sortie::Turn::nothing:
-      break;
-    case Sortie::Turn::begin:
-      forget_target();
-      decide(in, out);
-      break;
-    case Sortie::Turn::work:
-    case Sortie::Turn::detour:
-      carry_on(in, out);
-      break;
-    case Sortie::Turn::blocked:
-      if (!route_.views.empty()) known_->surfaces().failed(route_.views.front(), in.tick);
-      if (!route_.goals.empty()) known_->explorer().failed(route_.goals.front(), in.tick);
-      forget_target();
-      not_before_ = in.tick + ticks(kRestS);
-      break;
-    case Sortie::Turn::leave:
-      forget_target();
-      break;
-  }
-  if (known_) {
-    point_camera(in, out);
-    talk_.speak(in, known_->grid(), own_word(), out);
-  }
+  point_camera(in, out);
+  talk_.speak(in, known_->grid(), own_word(), out);
   return out;
-}
-
-FreeSpace::Config StarPlanner::space_config() const {
-  FreeSpace::Config config;
-  config.clearance_m = centre_clearance_m(agent_, config_.clearance_m);
-  config.rays = proof_.of(Proof::rays(site_.roomy), agent_.me().role);
-  config.blind_height_m = site_.safe_height_m();
-  config.floor_m = std::max(config.floor_m, site_.lowest_m);
-  config.hearsay = known_ ? known_->hearsay() : nullptr;
-  return config;
 }
 
 StarTourConfig StarPlanner::tour_config() const {
@@ -171,157 +138,132 @@ StarTourConfig StarPlanner::tour_config() const {
 
 /// The teams, and all that follows from the boxes.
 void StarPlanner::survey_site(const PlannerInput& in) {
-  site_ = site_of(agent_, in.boxes, config_.blind_height_ratio);
-  sortie_.know_site(site_.top_m, site_.safe_height_m());
   const StarTeam team = own_team(agent_.fleet, agent_.self, in.boxes, config_.volume_weight, !config_.faithful);
   leader_ = team.uavs.front();
   boxes_ = team.boxes;
-  known_.emplace(config_, agent_, site_, in.boxes, boxes_);
+  known_.emplace(config_, agent_, in.boxes, boxes_);
   if (!has_lidar()) at_box_ = boxes_.size();
 }
 
 void StarPlanner::look_around(const PlannerInput& in) {
-  if (in.k % kCameraSteps == 0 && sortie_.working()) known_->look_at_picture(in.state, in.gimbal);
-  if (agent_.due(in.k, kLookAtMapS, agent_.self)) known_->look_at_map(in.map, in.state.p_WB);
+  if (in.k % kCameraSteps == 0 && in.tracking.airborne) known_->look_at_picture(in.state, in.gimbal);
+  if (agent_.due(in.k, kLookAtMapS, agent_.self)) known_->look_at_map(*in.world_map, in.state.p_WB);
 }
 
-void StarPlanner::forget_target() {
-  route_ = {};
-  idle_since_.reset();
+/// A route that came to nothing is put off, and so are those before it, which were tried first.
+void StarPlanner::take_note(const Outcome& outcome, const PlannerInput& in) {
+  const auto ended = std::ranges::find(routes_, outcome.id, &Route::id);
+  if (ended == routes_.end()) return;
+  if (outcome.kind == Outcome::Kind::reached) return routes_.clear();
+  put_off(*ended, in);
+  routes_.erase(routes_.begin(), ended + 1);
+  if (outcome.kind == Outcome::Kind::blocked) careful_until_ = in.tick + ticks(kCarefulS);
+}
+
+void StarPlanner::put_off(const Route& route, const PlannerInput& in) {
+  if (!route.views.empty()) known_->surfaces().failed(route.views.front(), in.tick);
+  if (!route.goals.empty()) known_->explorer().failed(route.goals.front(), in.tick);
 }
 
 /// Whether the first of what it flies to has been seen to, by whomever, or reached. What could not be seen to from
 /// there is put off: it does not stop for it.
 bool StarPlanner::target_done(const PlannerInput& in) {
-  const auto reached = [&](const Vector3d& p) { return (p - in.state.p_WB).norm() < kReachedM; };
-  if (!route_.views.empty()) {
-    const StarView view = route_.views.front();
-    const bool open = StarSurfaces::open(known_->grid(), view);
-    if (open && !reached(view.p_WB)) return false;
-    if (open) known_->surfaces().failed(view, in.tick);
-    route_.views.erase(route_.views.begin());
-    return true;
-  }
-  if (route_.goals.empty()) return false;
-  const StarGoal& goal = route_.goals.front();
-  const bool open = known_->explorer().open(goal);
-  if (open && !reached(goal.p_WB)) return false;
-  if (open) known_->explorer().failed(goal, in.tick);
+  Route& route = routes_.front();
+  if (route.beside_W) return false;
+  const bool open = route.views.empty() ? known_->explorer().open(route.goals.front())
+                                        : StarSurfaces::open(known_->grid(), route.views.front());
+  const bool reached = (route.places_W().front() - in.state.p_WB).norm() < kReachedM;
+  if (open && !reached) return false;
+  if (open) put_off(route, in);
+  if (!route.views.empty()) route.views.erase(route.views.begin());
+  if (route.views.empty() && route.goals.empty()) routes_.clear();
   return true;
 }
 
 /// Plans anew now and then, or when something is done; the way goes on without a stop.
 void StarPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
   const double since = seconds(in.tick - planned_at_);
-  const bool done = target_done(in) || in.tracking.done;
-  const bool on_approach = route_.empty() && !in.tracking.done;
+  const bool done = routes_.empty() || target_done(in);
+  const bool on_approach = !routes_.empty() && routes_.front().beside_W;
   const bool due = since >= (on_approach ? 2.0 : 1.0) * config_.replan_s || (done && since >= config_.covered_s);
-  if (due && in.tick >= not_before_) decide(in, out);
+  if (due) decide(in, out);
 }
 
 void StarPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
-  if (!known_) return;
   planned_at_ = in.tick;
-  proof_.settle(in.tick);
-  const FreeSpace space(space_config(), in.boxes, in.map,
-                        separation_.keep_out(in.tick, in.tracking.setpoint.p_WB, in.peers));
   if (at_box_ < boxes_.size()) {
-    explore(in, space, out) ? void(fruitless_ = 0) : nothing_to_reach(in, out);
+    explore(in, out);
   } else if (has_lidar() && config_.faithful) {
-    idle(in, space, out);
-  } else if (!inspect(in, space, out)) {
-    idle(in, space, out);
+    hover(in, out);
+  } else if (!inspect(in, out)) {
+    idle(in, out);
   }
 }
 
 /// On through the frontiers of this box; when there is none left, on to the next box.
-bool StarPlanner::explore(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out) {
+void StarPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
   StarStart start{in.tracking.setpoint.p_WB, in.tracking.setpoint.v_WB, {}};
   if (!config_.faithful) start.mates_W = talk_.goals_W(in.tick);
   const std::size_t box = boxes_[at_box_];
-  std::vector<StarGoal> goals = known_->explorer().tour(known_->grid(), space, in.boxes[box], start, in.tick);
+  const std::vector<StarGoal> goals = known_->explorer().tour(known_->grid(), *in.space, in.boxes[box], start, in.tick);
   if (goals.empty()) {
-    if (!been_there_) {
-      if (!route_.empty() || in.tracking.done) return approach(in, space, box, out);
-      return true;  // on its way there
-    }
-    begin_box(at_box_ + 1);
-    return true;
+    if (been_there_) return begin_box(at_box_ + 1);
+    if (routes_.empty() || !routes_.front().beside_W) approach(in, box, out);
+    return;
   }
   been_there_ = true;
+  std::vector<Route> routes;
   for (std::size_t first = 0; first < std::min(goals.size(), kCandidates); ++first) {
-    std::vector<Vector3d> places;
-    for (std::size_t i = first; i < goals.size(); ++i) places.push_back(goals[i].p_WB);
-    if (fly_through(places, config_.explore_mps, space, in, out)) {
-      goals.erase(goals.begin(), goals.begin() + static_cast<std::ptrdiff_t>(first));
-      route_ = {{}, std::move(goals)};
-      return true;
-    }
-    known_->explorer().failed(goals[first], in.tick);
+    routes.push_back({.goals = {goals.begin() + static_cast<std::ptrdiff_t>(first), goals.end()}});
   }
-  return false;
+  offer(std::move(routes), config_.explore_mps, in, out);
 }
 
 /// On through the viewpoints of surface that is left. @returns false if there is none.
-bool StarPlanner::inspect(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out) {
+bool StarPlanner::inspect(const PlannerInput& in, PlannerOutput& out) {
   const Vector3d here = in.tracking.setpoint.p_WB;
-  const std::vector<StarView> views = known_->views(space, here, in.tick);
+  const std::vector<StarView> views = known_->views(*in.space, here, in.tick);
   if (views.empty()) return false;
   std::vector<Vector3d> places;
   for (const StarView& view : views) places.push_back(view.p_WB);
   const std::vector<Vector3d> mates = config_.faithful ? std::vector<Vector3d>() : talk_.goals_W(in.tick);
   const StarTour tour =
       hierarchical_tour(known_->grid(), here, in.tracking.setpoint.v_WB, places, last_cluster_W_, mates, tour_config());
+  std::vector<Route> routes;
   for (std::size_t first = 0; first < std::min(views.size(), kCandidates); ++first) {
-    std::vector<Vector3d> on_way;
-    Route route;
-    for (std::size_t i = first; i < tour.visits.size(); ++i) {
-      on_way.push_back(views[tour.visits[i]].p_WB);
-      route.views.push_back(views[tour.visits[i]]);
-    }
-    if (fly_through(on_way, config_.inspect_mps, space, in, out)) {
-      route_ = std::move(route);
-      last_cluster_W_ = tour.first_cluster_W;
-      fruitless_ = 0;
-      idle_since_.reset();
-      return true;
-    }
-    known_->surfaces().failed(views[tour.visits[first]], in.tick);
+    Route& route = routes.emplace_back();
+    for (std::size_t i = first; i < tour.visits.size(); ++i) route.views.push_back(views[tour.visits[i]]);
   }
-  nothing_to_reach(in, out);
+  offer(std::move(routes), config_.inspect_mps, in, out);
+  last_cluster_W_ = tour.first_cluster_W;
+  idle_since_.reset();
   return true;
 }
 
 /// To a place beside a box of which nothing is known yet.
-bool StarPlanner::approach(const PlannerInput& in, const FreeSpace& space, std::size_t box, PlannerOutput& out) {
-  route_ = {};
+void StarPlanner::approach(const PlannerInput& in, std::size_t box, PlannerOutput& out) {
   if (++approaches_ > kMaxApproaches) {
     been_there_ = true;
-    return true;
+    return;
   }
-  const auto places =
-      places_beside(in.boxes[box], space, in.tracking.setpoint.p_WB, site_.safe_height_m() + kAboveBlindM);
+  const auto places = places_beside(in.boxes[box], *in.space, in.tracking.setpoint.p_WB);
   // From another side each time.
-  const std::size_t first = kSidesApart * static_cast<std::size_t>(approaches_ - 1) + rounds_;
+  const std::size_t first_side = kSidesApart * static_cast<std::size_t>(approaches_ - 1) + rounds_;
+  std::vector<Route> routes;
   for (std::size_t i = 0; i < std::min(places.size(), kCandidates); ++i) {
-    const Vector3d& place = places[(first + i) % places.size()];
-    if (fly_through({place}, config_.transit_mps, space, in, out)) return true;
+    routes.push_back({.beside_W = places[(first_side + i) % places.size()]});
   }
-  return false;
+  offer(std::move(routes), config_.flight.approach_mps, in, out);
 }
 
-/// Hovers until new surface comes. Where none comes for a while, photographers go where their explorer is, explorers
-/// look at their boxes from other sides, and both are content with less proof of free space.
-void StarPlanner::idle(const PlannerInput& in, const FreeSpace& space, PlannerOutput& out) {
-  if (!idle_since_) {
-    idle_since_ = in.tick;
-    route_ = {};
-    sortie_.pilot().stop(out);
-  }
-  const bool waits = !in.tracking.done || seconds(in.tick - *idle_since_) < config_.follow_s;
-  if (config_.faithful || boxes_.empty() || waits) return;
+/// Hovers until new surface comes. Where none comes for a while, photographers go where their explorer is, and
+/// explorers look at their boxes from other sides.
+void StarPlanner::idle(const PlannerInput& in, PlannerOutput& out) {
+  if (!routes_.empty() && routes_.front().beside_W) return;
+  if (!idle_since_) idle_since_ = in.tick;
+  const bool waits = seconds(in.tick - *idle_since_) < config_.follow_s;
+  if (config_.faithful || boxes_.empty() || waits) return hover(in, out);
   idle_since_ = in.tick;
-  proof_.ask_less(in.tick + ticks(kBoldS));
   if (has_lidar()) {
     begin_box(rounds_ % boxes_.size());
     ++rounds_;
@@ -332,47 +274,61 @@ void StarPlanner::idle(const PlannerInput& in, const FreeSpace& space, PlannerOu
   const std::size_t box = to_leader ? word->box : boxes_[rounds_ / 2 % boxes_.size()];
   ++rounds_;
   approaches_ = 0;
-  approach(in, space, box, out);
+  approach(in, box, out);
 }
 
 void StarPlanner::begin_box(std::size_t box) {
   at_box_ = box;
   approaches_ = 0;
   been_there_ = false;
-  route_ = {};
+  routes_.clear();
 }
 
-void StarPlanner::nothing_to_reach(const PlannerInput& in, PlannerOutput& out) {
-  forget_target();
-  sortie_.pilot().stop(out);
-  not_before_ = in.tick + ticks(kRestS);
-  ++fruitless_;
-  if (fruitless_ % kFruitlessToBold == 0) proof_.ask_less(in.tick + ticks(kBoldS));
-  if (fruitless_ % kFruitlessToRetreat == 0) sortie_.pilot().retreat(in, out);
+/// It is here that it wants to be: without any goal, the flight core would look for a way out.
+void StarPlanner::hover(const PlannerInput& in, PlannerOutput& out) {
+  routes_.clear();
+  out.goals = std::vector<Goal>{{.id = ++id_, .way = {{in.tracking.setpoint.p_WB, config_.inspect_mps}}}};
 }
 
-/// Sets out through places one after the other; false if there is no way to the first.
-bool StarPlanner::fly_through(const std::vector<Vector3d>& places_W, double speed_mps, const FreeSpace& space,
-                              const PlannerInput& in, PlannerOutput& out) {
-  auto path = star_way(known_->grid(), space, in.boxes, in.tracking.setpoint.p_WB, places_W, speed_mps,
-                       {config_.round_m, config_.horizon_m, config_.transit_mps});
-  if (!path) {
-    sortie_.pilot().no_way(places_W.front(), space, out);
-    return false;
+/// Hands routes over to the flight core, what it likes best first.
+void StarPlanner::offer(std::vector<Route> routes, double speed_mps, const PlannerInput& in, PlannerOutput& out) {
+  std::vector<Goal> goals;
+  for (Route& route : routes) goals.push_back(goal_of(route, goals.empty(), speed_mps, in));
+  routes_ = std::move(routes);
+  out.goals = std::move(goals);
+}
+
+/// Straight through its places, as far as that goes; where it does not, the flight core finds a way to the first.
+Goal StarPlanner::goal_of(Route& route, bool is_first, double speed_mps, const PlannerInput& in) {
+  const StarWayConfig config{.round_m = config_.round_m,
+                             .horizon_m = config_.horizon_m,
+                             .speed_mps = speed_mps,
+                             .transit_mps = config_.flight.approach_mps};
+  const Vector3d here = in.tracking.setpoint.p_WB;
+  const std::vector<Vector3d> places = route.places_W();
+  Goal goal;
+  if (in.tick >= careful_until_) goal.way = star_way(*in.space, here, places, config);
+  const bool is_straight = !goal.way.empty();
+  if (!is_straight) {
+    goal.way = star_way(*in.space, places.front(), {places.begin() + 1, places.end()}, config);
+    goal.way.insert(goal.way.begin(), {places.front(), config_.flight.approach_mps});
   }
-  sortie_.pilot().follow(std::move(*path), in, out);
-  return true;
+  // The flight core goes on along a way that it flies already, without a stop, and begins any other one here.
+  const bool goes_on = is_first && in.flight.goal && (is_straight || !in.flight.on_way);
+  if (is_straight && !(goes_on && in.flight.on_way)) goal.way.insert(goal.way.begin(), {here, speed_mps});
+  goal.id = route.id = goes_on ? *in.flight.goal : ++id_;
+  return goal;
 }
 
 /// Explorers photograph what they pass, photographers what they fly to.
 void StarPlanner::point_camera(const PlannerInput& in, PlannerOutput& out) {
-  if (!sortie_.working() || sortie_.looks_around(in.tick)) return;
-  if (!route_.views.empty()) {
-    const StarView& view = route_.views.front();
+  if (!in.tracking.airborne) return;
+  if (!routes_.empty() && !routes_.front().views.empty()) {
+    const StarView& view = routes_.front().views.front();
     camera_.sweep(in.state, in.gimbal, view.p_WB, view.surface_W, out);
   } else if (in.k % kCameraSteps == 0) {
     auto passed = known_->nearest_open_W(in.state.p_WB);
-    if (!passed && !route_.goals.empty()) passed = route_.goals.front().middle_W;
+    if (!passed && !routes_.empty() && !routes_.front().goals.empty()) passed = routes_.front().goals.front().middle_W;
     if (passed) camera_.look_at(in.state, *passed, out);
   }
 }
@@ -381,8 +337,10 @@ StarTalk::Word StarPlanner::own_word() const {
   StarTalk::Word word;
   word.explored = at_box_ >= boxes_.size();
   word.box = boxes_.empty() ? 0 : boxes_[std::min(at_box_, boxes_.size() - 1)];
-  if (!route_.views.empty() && last_cluster_W_) word.goal_W = last_cluster_W_;
-  if (!route_.goals.empty()) word.goal_W = route_.goals.front().middle_W;
+  if (routes_.empty()) return word;
+  const Route& route = routes_.front();
+  if (!route.views.empty()) word.goal_W = last_cluster_W_;
+  if (!route.goals.empty()) word.goal_W = route.goals.front().middle_W;
   return word;
 }
 

@@ -17,6 +17,8 @@ constexpr double kTilt = 0.8;          ///< slope by which a candidate leaves th
 constexpr double kEnoughShare = 0.85;  ///< of a patch in sight: no better viewpoint is looked for
 constexpr double kImageShare = 0.95;   ///< of the image's half angles that counts
 constexpr double kNearShare = 0.75;    ///< of the stand-off: the other distance that is tried
+constexpr double kSpareM = 0.3;        ///< beside the clearance, from a viewpoint to its surface
+constexpr std::size_t kMostTried = 4;  ///< patches, for each viewpoint that a plan may have
 constexpr int kMostFailures = 12;
 
 /// Its outer side is not covered by known surface.
@@ -25,13 +27,13 @@ bool exposed(const VoxelGrid& grid, Id id, int face) {
   return outside && grid.state(*outside) != VoxelState::occupied;
 }
 
-Vector3d surface_of(const VoxelGrid& grid, const VoxelMapper& mapper, Id id) {
-  return mapper.surface_W(id).value_or(grid.centre_W(id));
+Vector3d surface_of(const VoxelGrid& grid, const WorldVoxels& voxels, Id id) {
+  return voxels.surface_W(id).value_or(grid.centre_W(id));
 }
 
 }  // namespace
 
-void StarSurfaces::mark_seen(const RigidBodyState& state, const GimbalState& gimbal, const VoxelMapper& mapper,
+void StarSurfaces::mark_seen(const RigidBodyState& state, const GimbalState& gimbal, const WorldVoxels& voxels,
                              VoxelGrid& grid) const {
   const Vector3d p_WC = state.X_WB() * vehicle_.camera.p_BC;
   const double yaw = roll_pitch_yaw(state.q_WB.toRotationMatrix()).yaw + gimbal.yaw;
@@ -43,7 +45,7 @@ void StarSurfaces::mark_seen(const RigidBodyState& state, const GimbalState& gim
   if (!here) return;
   grid.around(*here, static_cast<int>(std::ceil(range / grid.voxel_m())), [&](Id id) {
     if (grid.state(id) != VoxelState::occupied) return;
-    const Vector3d to_surface = surface_of(grid, mapper, id) - p_WC;
+    const Vector3d to_surface = surface_of(grid, voxels, id) - p_WC;
     const double distance = to_surface.norm();
     const Vector3d p_C = R_CW * to_surface;
     const bool in_image = p_C.x() > 0.0 && std::abs(std::atan2(p_C.y(), p_C.x())) < half_width &&
@@ -57,7 +59,7 @@ void StarSurfaces::mark_seen(const RigidBodyState& state, const GimbalState& gim
 }
 
 std::vector<StarSurfaces::Patch> StarSurfaces::patches(const VoxelGrid& grid, const std::vector<Id>& cubes,
-                                                       const VoxelMapper& mapper, const Vector3d& p_W, Tick now) const {
+                                                       const WorldVoxels& voxels, const Vector3d& p_W, Tick now) const {
   std::vector<Patch> result;
   for (int face = 0; face < VoxelGrid::kFaces; ++face) {
     std::set<Id> open;
@@ -70,7 +72,7 @@ std::vector<StarSurfaces::Patch> StarSurfaces::patches(const VoxelGrid& grid, co
       patch.face = face;
       for (const Id id : cluster.cubes) {
         patch.faces.push_back(VoxelGrid::kFaces * id + static_cast<Id>(face));
-        patch.surface_W.push_back(surface_of(grid, mapper, id));
+        patch.surface_W.push_back(surface_of(grid, voxels, id));
         patch.middle_W += patch.surface_W.back() / static_cast<double>(cluster.cubes.size());
       }
       patch.distance = (patch.middle_W - p_W).norm();
@@ -78,7 +80,6 @@ std::vector<StarSurfaces::Patch> StarSurfaces::patches(const VoxelGrid& grid, co
     }
   }
   std::ranges::stable_sort(result, {}, &Patch::distance);
-  if (result.size() > config_.max_views) result.resize(config_.max_views);
   return result;
 }
 
@@ -88,8 +89,9 @@ std::optional<StarView> StarSurfaces::best_view(const VoxelGrid& grid, const Pat
   const Vector3d out = grid.normal_W(patch.face);
   const Vector3d aside = grid.normal_W((patch.face + 2) % VoxelGrid::kFaces);
   const Vector3d above = grid.normal_W((patch.face + 4) % VoxelGrid::kFaces);
-  const double far = std::max(config_.nearest_m, config_.standoff_ratio * config_.sharp_m);
-  const double near = std::max(config_.nearest_m, kNearShare * far);
+  const double nearest = space.config().clearance_m + kSpareM;
+  const double far = std::max(nearest, config_.standoff_ratio * config_.sharp_m);
+  const double near = std::max(nearest, kNearShare * far);
   const ViewLimits limits{.range_m = std::max(config_.sharp_m, 1.5 * far),
                           .half_width = 0.5 * vehicle_.camera.hfov_deg * kRadPerDeg,
                           .half_height = 0.5 * vehicle_.camera.vfov_deg * kRadPerDeg};
@@ -113,14 +115,16 @@ std::optional<StarView> StarSurfaces::best_view(const VoxelGrid& grid, const Pat
 }
 
 std::vector<StarView> StarSurfaces::views(const VoxelGrid& grid, const std::vector<Id>& cubes,
-                                          const VoxelMapper& mapper, const FreeSpace& space, const Vector3d& p_W,
+                                          const WorldVoxels& voxels, const FreeSpace& space, const Vector3d& p_W,
                                           Tick now) {
   std::vector<StarView> result;
-  for (const Patch& patch : patches(grid, cubes, mapper, p_W, now)) {
+  std::size_t tried = 0;
+  for (const Patch& patch : patches(grid, cubes, voxels, p_W, now)) {
+    if (result.size() == config_.max_views || tried++ == kMostTried * config_.max_views) break;
     if (auto view = best_view(grid, patch, space)) {
       result.push_back(std::move(*view));
     } else {
-      for (const std::uint32_t face : patch.faces) put_off(face, now);
+      for (const std::uint32_t face : patch.faces) failures_[face].not_before = now + ticks(config_.no_view_s);
     }
   }
   return result;
@@ -133,7 +137,7 @@ bool StarSurfaces::open(const VoxelGrid& grid, const StarView& view) {
   return 2 * static_cast<std::size_t>(left) > view.faces.size();
 }
 
-std::optional<Vector3d> StarSurfaces::nearest_open_W(const VoxelGrid& grid, const VoxelMapper& mapper,
+std::optional<Vector3d> StarSurfaces::nearest_open_W(const VoxelGrid& grid, const WorldVoxels& voxels,
                                                      const Vector3d& p_W) const {
   const auto here = grid.at(p_W);
   if (!here) return std::nullopt;
@@ -141,7 +145,7 @@ std::optional<Vector3d> StarSurfaces::nearest_open_W(const VoxelGrid& grid, cons
   double least = config_.seen_ratio * config_.sharp_m;
   grid.around(*here, static_cast<int>(std::ceil(least / grid.voxel_m())), [&](Id id) {
     if (grid.state(id) != VoxelState::occupied) return;
-    const Vector3d surface = surface_of(grid, mapper, id);
+    const Vector3d surface = surface_of(grid, voxels, id);
     const double distance = (surface - p_W).norm();
     if (distance >= least) return;
     for (int face = 0; face < VoxelGrid::kFaces; ++face) {
@@ -156,14 +160,12 @@ std::optional<Vector3d> StarSurfaces::nearest_open_W(const VoxelGrid& grid, cons
   return nearest;
 }
 
-void StarSurfaces::put_off(std::uint32_t face, Tick now) {
-  Failure& failure = failures_[face];
-  if (failure.count < kMostFailures) ++failure.count;
-  failure.not_before = now + failure.count * ticks(config_.retry_s);
-}
-
 void StarSurfaces::failed(const StarView& view, Tick now) {
-  for (const std::uint32_t face : view.faces) put_off(face, now);
+  for (const std::uint32_t face : view.faces) {
+    Failure& failure = failures_[face];
+    if (failure.count < kMostFailures) ++failure.count;
+    failure.not_before = now + failure.count * ticks(config_.retry_s);
+  }
 }
 
 }  // namespace skein::agent

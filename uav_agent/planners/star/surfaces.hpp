@@ -11,7 +11,7 @@
 
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
-#include "uav_agent/maps/voxel_mapper.hpp"
+#include "uav_agent/maps/world_voxels.hpp"
 
 namespace skein::agent {
 
@@ -27,12 +27,12 @@ class StarSurfaces {
   struct Config {
     double sharp_m = 7.36;        ///< d*
     double standoff_ratio = 0.7;  ///< in units of d*
-    double nearest_m = 2.1;       ///< no viewpoint is nearer to a surface
     double seen_ratio = 1.0;      ///< seen from so near, in units of d*, ...
     double oblique = 1.2;         ///< ... and no flatter than this, it is inspected
     double patch_m = 6.0;
     std::size_t max_views = 150;
-    double retry_s = 10.0;  ///< before a face without a viewpoint, or with one out of reach, is tried again
+    double retry_s = 10.0;   ///< before a face whose viewpoint was out of reach is tried again
+    double no_view_s = 3.0;  ///< the same without a viewpoint: more space may have been proved
   };
 
   /// @param grid  for its size.
@@ -40,18 +40,18 @@ class StarSurfaces {
       : config_(config), vehicle_(vehicle), failures_(VoxelGrid::kFaces * std::size_t{grid.count()}) {}
 
   /// Marks what the camera sees now.
-  void mark_seen(const RigidBodyState& state, const GimbalState& gimbal, const VoxelMapper& mapper,
+  void mark_seen(const RigidBodyState& state, const GimbalState& gimbal, const WorldVoxels& voxels,
                  VoxelGrid& grid) const;
 
   /// Viewpoints of what is left, of the patches nearest to `p_W`.
   /// @param cubes  that are somebody's business here.
-  std::vector<StarView> views(const VoxelGrid& grid, const std::vector<VoxelGrid::Id>& cubes, const VoxelMapper& mapper,
+  std::vector<StarView> views(const VoxelGrid& grid, const std::vector<VoxelGrid::Id>& cubes, const WorldVoxels& voxels,
                               const FreeSpace& space, const Vector3d& p_W, Tick now);
 
   /// Whether more than half of a patch is still to be inspected.
   static bool open(const VoxelGrid& grid, const StarView& view);
   /// The middle of the nearest surface in sight that was not inspected; nullopt: none within range.
-  std::optional<Vector3d> nearest_open_W(const VoxelGrid& grid, const VoxelMapper& mapper, const Vector3d& p_W) const;
+  std::optional<Vector3d> nearest_open_W(const VoxelGrid& grid, const WorldVoxels& voxels, const Vector3d& p_W) const;
 
   /// It could not be reached: something else first.
   void failed(const StarView& view, Tick now);
@@ -69,10 +69,9 @@ class StarSurfaces {
     std::uint8_t count = 0;
   };
 
-  std::vector<Patch> patches(const VoxelGrid& grid, const std::vector<VoxelGrid::Id>& cubes, const VoxelMapper& mapper,
+  std::vector<Patch> patches(const VoxelGrid& grid, const std::vector<VoxelGrid::Id>& cubes, const WorldVoxels& voxels,
                              const Vector3d& p_W, Tick now) const;
   std::optional<StarView> best_view(const VoxelGrid& grid, const Patch& patch, const FreeSpace& space) const;
-  void put_off(std::uint32_t face, Tick now);
 
   const Config config_;
   const VehicleConfig vehicle_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/config_reader.hpp"
+#include "uav_agent/flight_core/flight_config.hpp"
 
 namespace skein::agent {
 
@@ -11,12 +12,11 @@ struct XxhConfig {
   // The assignment at the ground station.
   double freeze_s = 10.0;           ///< without a new reporter, after which the list of UAVs is closed
   double assign_every_s = 0.5;      ///< between two publications, as long as somebody lacks the assignment
-  double assignment_wait_s = 15.0;  ///< on the ground, after which a UAV makes the assignment itself
+  double assignment_wait_s = 15.0;  ///< after which a UAV makes the assignment itself
   double split_tolerance = 0.05;    ///< of the whole volume: a team's share may differ by so much before a box is cut
 
   // The voxel map of a region.
   double voxel_m = 2.5, margin_m = 6.0;  ///< edge of a cell; around the region
-  int min_hits = 1;                      ///< mapped cells (0.5 m) that make a cell occupied
 
   // Exploring.
   double rim_m = 4.0;   ///< from the box to the spiral around it
@@ -26,7 +26,6 @@ struct XxhConfig {
   // Inspecting.
   int layer_step = 3;           ///< every so many layers one is inspected
   double standoff_ratio = 0.6;  ///< distance to the surface, in units of d*, if clearance and cell allow it
-  double inspect_mps = 2.0;     ///< from cell to cell
   double aim_rad = 0.3;         ///< a target is reached when the camera is this near to its direction
   double settle_mps = 0.4;      ///< and the UAV slower than this
   double dwell_s = 0.3;         ///< pictures of a target once it is reached
@@ -39,13 +38,8 @@ struct XxhConfig {
   double silence_s = 45.0;  ///< nothing heard of somebody for so long: it is not waited for
   double gather_s = 60.0;   ///< the leader waits for the last ones of its team
 
-  // Flying.
-  double clearance_m = 1.2;  ///< from the UAV's body to anything mapped
-  double transit_mps = 4.0, climb_mps = 3.0;
-  int expansions = 6000;             ///< cells that one search for a way may look at
-  double blind_height_ratio = 0.45;  ///< of the highest box: below it, only space that was seen free is entered
-  double deliver_every_s = 240.0, return_margin_s = 12.0;
   bool faithful = false;  ///< with the known defects of the public code: see xxh.cpp
+  FlightConfig flight = {};
 
   template <class R>
   void describe(R& r) {
@@ -55,13 +49,11 @@ struct XxhConfig {
     r.field("split_tolerance", split_tolerance, within(0.0, 0.05));
     r.field("voxel_m", voxel_m, within(1.0, 20.0));
     r.field("margin_m", margin_m, within(1.0, 30.0));
-    r.field("min_hits", min_hits, within(1, 100));
     r.field("rim_m", rim_m, within(2.0, 30.0));
     r.field("spiral_step", spiral_step, within(1, 100));
     r.field("explore_mps", explore_mps, within(0.2, 20.0));
     r.field("layer_step", layer_step, within(1, 20));
     r.field("standoff_ratio", standoff_ratio, within(0.0, 1.5));
-    r.field("inspect_mps", inspect_mps, within(0.2, 20.0));
     r.field("aim_rad", aim_rad, within(0.005, 1.5));
     r.field("settle_mps", settle_mps, within(0.01, 5.0));
     r.field("dwell_s", dwell_s, within(0.0, 10.0));
@@ -71,14 +63,8 @@ struct XxhConfig {
     r.field("claim_s", claim_s, within(0.1, 60.0));
     r.field("silence_s", silence_s, within(1.0, 1e4));
     r.field("gather_s", gather_s, within(0.0, 1e4));
-    r.field("clearance_m", clearance_m, within(0.3, 10.0));
-    r.field("transit_mps", transit_mps, within(0.5, 20.0));
-    r.field("climb_mps", climb_mps, within(0.2, 10.0));
-    r.field("expansions", expansions, within(10, 100000));
-    r.field("blind_height_ratio", blind_height_ratio, within(0.0, 1.0));
-    r.field("deliver_every_s", deliver_every_s, within(10.0, 1e6));
-    r.field("return_margin_s", return_margin_s, within(0.0, 600.0));
     r.field("faithful", faithful);
+    flight.describe(r);
   }
 };
 

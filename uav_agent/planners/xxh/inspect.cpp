@@ -20,25 +20,45 @@ void XxhInspector::begin(const XxhRegionMap::Section& section) {
   if (layers_.empty() && section.first < section.last) layers_.push_back(section.first);
   all_layers_.assign(layers_.begin(), layers_.end());
   pass_ = 0;
-  visit_.reset();
   failed_.clear();
+  leave();
 }
 
-std::vector<XxhVisit> XxhInspector::candidates(const XxhRegionMap& region, const Vector3d& here_W,
-                                               const FreeSpace& space) {
-  auto visits = region.nearest_visits(here_W, layers_.front(), space, failed_, kCandidates);
-  if (!visits.empty()) return visits;
+std::vector<Goal> XxhInspector::choices(const XxhRegionMap& region, const Vector3d& here_W, const FreeSpace& space) {
+  choices_ = region.nearest_visits(here_W, layers_.front(), space, failed_, kCandidates);
+  std::vector<Goal> goals;
+  for (const XxhVisit& visit : choices_) {
+    Goal& goal = goals.emplace_back();
+    goal.way = {{visit.p_WB, config_.flight.approach_mps}};
+    goal.yaw = yaw_facing(visit.targets.front().out_W);
+    goal.gimbal = visit.targets.front().surface_W;
+  }
+  if (!goals.empty()) return goals;
   layers_.pop_front();
   if (layers_.empty() && ++pass_ < kPasses) {
     layers_.assign(all_layers_.begin(), all_layers_.end());
     failed_.clear();
   }
-  return {};
+  return goals;
 }
 
-void XxhInspector::give_up() {
-  if (!visit_) return;
-  failed(visit_->cell);
+void XxhInspector::hear(const XxhErrand& errand) {
+  for (const std::size_t missed : errand.missed()) ++failed_[choices_[missed].cell];
+  const auto& end = errand.ended();
+  if (!end) return;
+  if (end->reached) {
+    visit_ = choices_[end->choice];
+  } else {
+    ++failed_[choices_[end->choice].cell];
+  }
+}
+
+const XxhTarget* XxhInspector::ahead(std::size_t choice, const XxhRegionMap& region) const {
+  const XxhVisit& visit = choices_[choice];
+  return region.targets(visit.cell).empty() ? nullptr : &visit.targets.front();
+}
+
+void XxhInspector::leave() {
   visit_.reset();
   at_cell_since_.reset();
   reached_since_.reset();

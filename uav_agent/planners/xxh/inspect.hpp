@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "uav_agent/api/planner.hpp"
 #include "uav_agent/planners/xxh/config.hpp"
+#include "uav_agent/planners/xxh/errand.hpp"
 #include "uav_agent/planners/xxh/region.hpp"
 
 namespace skein::agent {
@@ -25,19 +25,18 @@ class XxhInspector {
   /// A section of a region, from its first layer on.
   void begin(const XxhRegionMap::Section& section);
   bool finished() const { return layers_.empty() && !visit_; }
-  /// How often it has gone over the section's layers: later, less proof of free space will do.
-  int pass() const { return pass_; }
 
   /// Cells to choose from, the nearest first; none when this layer is done: then the next one is tried next time.
-  std::vector<XxhVisit> candidates(const XxhRegionMap& region, const Vector3d& here_W, const FreeSpace& space);
-  /// There is no way to it.
-  void failed(VoxelGrid::Id cell) { ++failed_[cell]; }
-  void set_out(const XxhVisit& visit) { visit_ = visit; }
-  const std::optional<XxhVisit>& visit() const { return visit_; }
-  void give_up();
-  /// Looked at by somebody else in the meantime.
-  bool obsolete(const XxhRegionMap& region) const { return visit_ && region.targets(visit_->cell).empty(); }
+  std::vector<Goal> choices(const XxhRegionMap& region, const Vector3d& here_W, const FreeSpace& space);
+  /// Once per exchange: hears what became of these choices.
+  void hear(const XxhErrand& errand);
+  /// Where the camera looks on the way to a choice; nullptr: somebody else has looked at all of it in the meantime.
+  const XxhTarget* ahead(std::size_t choice, const XxhRegionMap& region) const;
 
+  /// The cell that it is at.
+  const std::optional<XxhVisit>& visit() const { return visit_; }
+  /// It was called away from it.
+  void leave();
   /// Where the camera looks at the visited cell: at the first target that is left.
   const XxhTarget& target() const { return visit_->targets.front(); }
   /// Once per exchange at the cell; marks what is done. Afterwards visit() is empty when all of it is.
@@ -50,7 +49,8 @@ class XxhInspector {
   const AgentConfig& agent_;
   std::deque<int> layers_;  ///< left
   std::vector<int> all_layers_;
-  int pass_ = 0;
+  int pass_ = 0;  ///< how often it has gone over the section's layers
+  std::vector<XxhVisit> choices_;
   std::optional<XxhVisit> visit_;
   std::map<VoxelGrid::Id, int> failed_;
   std::optional<Tick> at_cell_since_, reached_since_;

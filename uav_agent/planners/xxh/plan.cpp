@@ -126,12 +126,6 @@ Vector3d far_end(const XxhRegion& region, const OrientedBox& box) {
   return part.center + (region.from_high_end ? -0.5 : 0.5) * part.size[axis] * part.R_WO.col(axis);
 }
 
-bool mapped_from_high_end(const XxhRegion& region, const OrientedBox& box) {
-  constexpr double kUpright = 0.7;  // a longest edge as steep as that
-  const Vector3d along = box.R_WO.col(longest_axis(box));
-  return std::abs(along.z()) > kUpright ? along.z() > 0.0 : region.from_high_end;
-}
-
 const XxhTeam* XxhPlan::team_of(std::size_t uav) const {
   for (const XxhTeam& team : teams) {
     if (std::ranges::count(team.members, uav) > 0) return &team;

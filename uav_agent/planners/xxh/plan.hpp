@@ -42,10 +42,6 @@ double volume_of(const OrientedBox& box);
 OrientedBox region_box(const XxhRegion& region, const OrientedBox& box);
 /// Where one leaves it: the middle of the face opposite to the one at which one enters.
 Vector3d far_end(const XxhRegion& region, const OrientedBox& box);
-/// Whether its layers begin at the high end of the longest edge. Those of upright boxes begin at the top, wherever one
-/// enters: what is low may only be entered once it was seen from above.
-bool mapped_from_high_end(const XxhRegion& region, const OrientedBox& box);
-
 struct XxhTeam {
   std::vector<std::size_t> members;  ///< its explorer first, if it has one; the others in fleet order
   std::vector<XxhRegion> regions;    ///< in the order of visit

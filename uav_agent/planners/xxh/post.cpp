@@ -2,27 +2,27 @@
 
 #include <algorithm>
 
+#include "uav_agent/flight/free_space.hpp"
+
 namespace skein::agent {
 namespace {
 
 constexpr double kPostsApartM = 4.0;  ///< between the posts of those who wait
-constexpr int kHeights = 8;
+constexpr int kHeights = 6;
+constexpr double kStaysS = 2.0;        ///< then it says again that it is to stay: who wants nothing is taken elsewhere
+constexpr double kTriesAgainS = 5.0;   ///< to the flight core, which gets a UAV on that finds no way
+constexpr std::size_t kMostPosts = 3;  ///< for which a way is looked for
 
 }  // namespace
 
-void XxhPost::leave_for_good() {
-  taken_ = false;
-  choice_ = 0;
-}
-
-/// Beside the entry, each at a distance of its own; where something is in the way, higher.
-std::vector<Vector3d> XxhPost::places(const Vector3d& entry_W, const Vector3d& centre_W, std::size_t rank) const {
+std::vector<Vector3d> XxhPost::beside(const Vector3d& entry_W, const Vector3d& centre_W, std::size_t rank,
+                                      double top_m) const {
   Vector3d out = entry_W - centre_W;
   out.z() = 0.0;
   if (out.norm() < 1.0) out = Vector3d::UnitX();
   const Vector3d place = entry_W + kPostsApartM * static_cast<double>(rank + 1) * out.normalized();
-  const double lowest = std::max(place.z(), ways_.site().safe_height_m() + kPostsApartM);
-  const double highest = std::max(lowest, ways_.site().top_m + kPostsApartM * static_cast<double>(agent_.self + 2));
+  const double lowest = std::max(place.z(), kPostsApartM);
+  const double highest = std::max(lowest, top_m + kPostsApartM * static_cast<double>(agent_.self + 2));
   std::vector<Vector3d> places;
   for (int i = 0; i < kHeights; ++i) {
     places.emplace_back(place.x(), place.y(), lowest + (highest - lowest) * i / (kHeights - 1));
@@ -30,19 +30,28 @@ std::vector<Vector3d> XxhPost::places(const Vector3d& entry_W, const Vector3d& c
   return places;
 }
 
-bool XxhPost::take_beside(const Vector3d& entry_W, const Vector3d& centre_W, std::size_t rank, const PlannerInput& in,
-                          PlannerOutput& out) {
-  const auto choices = places(entry_W, centre_W, rank);
-  taken_ = ways_.fly_to(choices[choice_], config_.transit_mps, in, out);
-  if (!taken_) choice_ = (choice_ + 1) % choices.size();
-  return taken_;
+std::vector<Vector3d> XxhPost::at_home() const {
+  const double up = kPostsApartM * static_cast<double>(agent_.self + 1);
+  return {agent_.me().p_WB_start + Vector3d(0.0, 0.0, up)};
 }
 
-bool XxhPost::take_at_home(const PlannerInput& in, PlannerOutput& out) {
-  Vector3d home = agent_.me().p_WB_start;
-  home.z() = ways_.site().safe_height_m() + kPostsApartM * static_cast<double>(agent_.self + 1);
-  taken_ = ways_.fly_to(home, config_.transit_mps, in, out);
-  return taken_;
+void XxhPost::stay(const std::vector<Vector3d>& places_W, double speed_mps, XxhErrand& errand, const PlannerInput& in,
+                   PlannerOutput& out) {
+  if (const auto& end = errand.ended(); end && end->reached && to_post_)
+    post_W_ = errand.choice(end->choice).way.back().p_WB;
+  if (errand.came_to_nothing()) {
+    post_W_.reset();
+    not_before_ = in.tick + ticks(kTriesAgainS);
+  }
+  if (errand.under_way() || in.tick < not_before_) return;
+  not_before_ = in.tick + ticks(kStaysS);
+  std::vector<Goal> choices;
+  for (const Vector3d& p_W : places_W) {
+    if (!post_W_ && choices.size() < kMostPosts && in.space->free(p_W)) choices.push_back({.way = {{p_W, speed_mps}}});
+  }
+  to_post_ = post_W_ || !choices.empty();
+  if (choices.empty()) choices.push_back({.way = {{post_W_.value_or(in.tracking.setpoint.p_WB), speed_mps}}});
+  errand.set_out(std::move(choices), out);
 }
 
 }  // namespace skein::agent

@@ -12,7 +12,7 @@ constexpr double kPlacesM = 6.0;         ///< between two places on the spiral
 constexpr double kSameM = 1.0;           ///< places nearer than this to the last one are left out
 constexpr double kBoxMarginM = 0.5;      ///< surface this far outside the box still belongs to it
 constexpr double kUnknownShare = 0.1;    ///< of a section's cells that may be unknown when it is said to be empty
-constexpr double kTilt = 0.8;            ///< of another place to look from, up and down
+constexpr double kTilt = 0.8;            ///< of another place to look from: from above, below and aside
 constexpr std::size_t kMostTries = 120;  ///< cells whose stops are tried in one search
 
 Isometry3d grid_pose(const OrientedBox& box, int axis, bool from_high_end, double margin_m, Vector3d& size_G) {
@@ -33,21 +33,15 @@ XxhRegionMap::XxhRegionMap(const Config& config, const OrientedBox& box, int axi
     : config_(config),
       box_(box),
       X_WG_(grid_pose(box, axis, from_high_end, config.margin_m, size_G_)),
-      grid_(X_WG_, size_G_, config.voxel_m),
-      hearsay_(grid_),
-      mapper_({.min_hits = config.min_hits}) {}
+      grid_(X_WG_, size_G_, config.voxel_m) {}
 
-void XxhRegionMap::update(const OccupancyMap& map) {
-  mapper_.update(map, grid_);
-  hearsay_ = mapper_.hearsay(grid_);
-  for (VoxelGrid::Id id = 0; id < grid_.count() && !anything_; ++id) {
-    anything_ = grid_.state(id) == VoxelState::occupied && box_.contains(grid_.centre_W(id));
+void XxhRegionMap::assume_solid() { fill_boxes({box_}, grid_); }
+
+bool XxhRegionMap::anything_known() const {
+  for (VoxelGrid::Id id = 0; id < grid_.count(); ++id) {
+    if (grid_.state(id) == VoxelState::occupied && box_.contains(grid_.centre_W(id))) return true;
   }
-}
-
-void XxhRegionMap::assume_solid() {
-  fill_boxes({box_}, grid_);
-  anything_ = true;
+  return false;
 }
 
 bool XxhRegionMap::is_empty(const Section& section) const {
@@ -126,7 +120,7 @@ std::vector<XxhTarget> XxhRegionMap::targets(VoxelGrid::Id cell) const {
     const auto cube = grid_.neighbour(cell, side);
     const int face = VoxelGrid::opposite(side);
     if (!cube || grid_.state(*cube) != VoxelState::occupied || grid_.marked(*cube, face)) continue;
-    const Vector3d surface = mapper_.surface_W(*cube).value_or(grid_.centre_W(*cube));
+    const Vector3d surface = voxels_.surface_W(*cube).value_or(grid_.centre_W(*cube));
     if (!box_.contains(surface, kBoxMarginM)) continue;
     found.push_back({*cube, face, surface, grid_.normal_W(face)});
   }
@@ -147,10 +141,10 @@ std::optional<Vector3d> XxhRegionMap::stop_at(VoxelGrid::Id cell, const std::vec
   out.normalize();
   const double far = std::max(config_.farthest_m, config_.nearest_m), near = config_.nearest_m;
   const Vector3d foot = centre - depth * out;
-  for (const double tilt : {0.0, kTilt, -kTilt}) {
-    const Vector3d direction = (out + tilt * Vector3d::UnitZ()).normalized();
-    for (const double distance : {far, 0.5 * (far + near), near}) {
-      Vector3d p_W = foot + distance * direction;
+  const Vector3d up = Vector3d::UnitZ(), aside = std::abs(out.z()) < 0.9 ? Vector3d(up.cross(out)) : out;
+  for (const double distance : {far, 0.5 * (far + near), near, config_.limit_m}) {
+    for (const Vector3d& tilt : {Vector3d(0.0, 0.0, 0.0), up, Vector3d(-up), aside, Vector3d(-aside)}) {
+      Vector3d p_W = foot + distance * (out + kTilt * tilt).normalized();
       p_W.z() = std::max(p_W.z(), config_.lowest_m);
       if (space.free(p_W)) return p_W;
     }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "uav_agent/flight/free_space.hpp"
-#include "uav_agent/maps/voxel_mapper.hpp"
+#include "uav_agent/maps/world_voxels.hpp"
 
 namespace skein::agent {
 
@@ -35,11 +35,11 @@ class XxhRegionMap {
  public:
   struct Config {
     double voxel_m = 2.5, margin_m = 6.0;
-    int min_hits = 1;
     double rim_m = 4.0;
     int spiral_step = 6;
     double lowest_m = 2.5;                     ///< of places on the spiral, and of stops
     double nearest_m = 2.1, farthest_m = 3.7;  ///< stops from the surface; as far as there is room
+    double limit_m = 6.0;                      ///< or, if there is none, so far
   };
   /// Layers [first, last).
   struct Section {
@@ -54,15 +54,13 @@ class XxhRegionMap {
   const OrientedBox& box() const { return box_; }
   int layer(VoxelGrid::Id id) const { return grid_.cell(id).z(); }
 
-  /// What this UAV's map shows, into the grid.
-  void update(const OccupancyMap& map);
+  /// What this UAV's map shows, into the grid.   @param map  the same at each call.
+  void update(const WorldMap& map) { voxels_.update(map, grid_); }
   /// Takes the box for solid: all that somebody can go by who has nobody with a LiDAR.
   void assume_solid();
-  bool anything_known() const { return anything_; }
+  bool anything_known() const;
   /// All of a section's cells in the box that matter are known, and nothing is there.
   bool is_empty(const Section& section) const;
-  /// What others told beyond what this UAV saw itself; see FreeSpace::Config::hearsay.
-  const VoxelGrid& hearsay() const { return hearsay_; }
 
   /// Part `index` of `count`; the margin belongs to the first and the last.
   /// @param last_share  size of the last one, in units of each other.
@@ -92,9 +90,8 @@ class XxhRegionMap {
   const OrientedBox box_;
   Isometry3d X_WG_;
   Vector3d size_G_;
-  VoxelGrid grid_, hearsay_;
-  VoxelMapper mapper_;
-  bool anything_ = false;
+  VoxelGrid grid_;
+  WorldVoxels voxels_;
 };
 
 }  // namespace skein::agent

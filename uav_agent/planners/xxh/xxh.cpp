@@ -5,52 +5,46 @@
 // it in cells (region.hpp); its photographers wait at the region's entry. 3. The layers are shared out: as soon as
 // a section is explored, the explorer orders its photographer to begin; the last one it inspects itself
 // (inspect.hpp). 4. When all are done, the team goes on to the next region. Trajectories and maps are shared
-// (talk.hpp); who has less priority, by role and name, keeps clear of what others are about to fly.
+// (talk.hpp); who has less priority, by role and name, chooses no place on what others are about to fly. The flight
+// core does the flying (flight_core/flight_core.hpp).
 //
 // Its weaknesses are the published ones: the exploration is slow, and photographers are idle meanwhile; a share by
 // volume says little about the work; nobody helps another team. What the sources leave open and we had to invent: the
 // numbers that config.hpp does not give a source for, that an assignment that never comes is made by the UAV
-// itself, that silent leaders and followers are not waited for, that every way is checked against the finer map
-// (free_space.hpp), that upright regions begin at the top (what is low may only be entered once it was seen), that the
-// leader's part of the layers is smaller (it begins last), starts and safety (pilot.hpp), the way home (delivery.hpp).
+// itself, that silent leaders and followers are not waited for, that the leader's part of the layers is smaller (it
+// begins last).
 // `faithful` brings back defects of the public code: only the first turn of the spiral in each section, what others
-// said they would fly is kept clear of for ever, searches of 1,000 cells, waiting without end. Not modelled: its
+// said they would fly is kept clear of for ever, waiting without end. Not modelled: its searches of 1,000 cells, its
 // commands at the edge of the controller's time-out (here they go out once an exchange), and the name that its code
 // does not know.
 #include <algorithm>
-#include <cmath>
 
 #include "uav_agent/api/planner.hpp"
-#include "uav_agent/flight/sortie.hpp"
+#include "uav_agent/flight/site.hpp"
 #include "uav_agent/planners/xxh/crew.hpp"
+#include "uav_agent/planners/xxh/errand.hpp"
 #include "uav_agent/planners/xxh/explore.hpp"
 #include "uav_agent/planners/xxh/inspect.hpp"
 #include "uav_agent/planners/xxh/post.hpp"
+#include "uav_agent/planning/aiming.hpp"
 #include "uav_agent/planning/strips.hpp"
 
 namespace skein::agent {
 namespace {
 
-constexpr double kSpareM = 0.3;       ///< of stops, beside the clearance
-constexpr double kLookAtMapS = 1.0;   ///< between two looks at what the LiDARs saw
-constexpr double kRestS = 1.0;        ///< when there is nothing to do
-constexpr double kShortRestS = 0.25;  ///< when another cell may be tried
-constexpr double kLowestM = 2.5;      ///< of places on the spiral and of stops
-constexpr int kTries = 3;             ///< searches for a way in one exchange
-constexpr int kFruitlessToRetreat = 40;
+constexpr double kAirborneM = 2.0;  ///< a UAV that begins at such a height was restarted in flight
+constexpr double kSpareM = 0.4;     ///< of stops, beside the clearance
+constexpr double kRoomM = 1.0;  ///< near to surfaces, little is proved: stops are this much farther, if that is sharp
+constexpr double kLimitRatio = 1.1;     ///< of stops where there is nothing better, in units of d*
+constexpr double kLookAtMapS = 1.0;     ///< between two looks at what the LiDARs saw
+constexpr double kLowestM = 2.5;        ///< of places on the spiral and of stops
+constexpr int kFruitless = 8;           ///< choices in a row to which there was no way: then the flight core...
+constexpr double kGivesWayS = 5.0;      ///< ...has so much time to get the UAV on
+constexpr double kLookAgainS = 10.0;    ///< between two times that it goes over its section again
 constexpr double kHandOverS = 25.0;     ///< to find somebody who has not heard its order
 constexpr double kExploreShare = 0.4;   ///< of the time left, for all sections together: others wait meanwhile
 constexpr std::size_t kMostRounds = 8;  ///< through all regions: early ones may have found no way
 constexpr double kFreshS = 10.0;        ///< after a start in flight: others may know how far the team is
-
-Sortie::Config sortie_config(const XxhConfig& config) {
-  return {.climb_mps = config.climb_mps,
-          .transit_mps = config.transit_mps,
-          .retreat_mps = config.transit_mps,
-          .clearance_m = config.clearance_m,
-          .deliver_every_s = config.deliver_every_s,
-          .return_margin_s = config.return_margin_s};
-}
 
 }  // namespace
 
@@ -62,14 +56,13 @@ class XxhPlanner final : public Planner {
       : config_(config),
         agent_(agent),
         reach_(camera_reach(agent.vehicle.camera, agent.desired_mm_per_pixel)),
-        sortie_(sortie_config(config), agent_),
         talk_({.share_s = config.share_s, .claim_s = config.claim_s, .forever = config.faithful}, agent_),
         crew_(config_, agent_, talk_),
-        ways_(config_, agent_, talk_, sortie_.pilot()),
-        explorer_(config_, ways_),
+        explorer_(config_),
         inspector_(config_, agent_),
-        post_(config_, agent_, ways_) {}
+        post_(agent_) {}
 
+  const FlightConfig* flight() const override { return &config_.flight; }
   PlannerOutput plan(const PlannerInput& in) override;
 
  private:
@@ -78,46 +71,44 @@ class XxhPlanner final : public Planner {
   enum class Stage { none, explore, hand_over, wait, inspect, regroup, finished };
 
   void prepare(const PlannerInput& in);
-  void fly(const PlannerInput& in, PlannerOutput& out);
   void enter_region(std::size_t index, const PlannerInput& in);
-  XxhRegionMap::Config map_config() const;
+  XxhRegionMap::Config map_config(const PlannerInput& in) const;
   void begin_section(std::size_t section, const PlannerInput& in);
   XxhRegionMap::Section section_layers(std::size_t section) const;
   void change(Stage stage, const PlannerInput& in);
   void work(const PlannerInput& in, PlannerOutput& out);
+  bool may_set_out(const PlannerInput& in);
   void explore(const PlannerInput& in, PlannerOutput& out);
-  void recover(const PlannerInput& in, PlannerOutput& out);
   void next_section(const PlannerInput& in);
   void hand_over(const PlannerInput& in, PlannerOutput& out);
   void wait(const PlannerInput& in, PlannerOutput& out);
   void inspect(const PlannerInput& in, PlannerOutput& out);
+  bool visit_cells(const PlannerInput& in, PlannerOutput& out);
   void choose_cell(const PlannerInput& in, PlannerOutput& out);
-  void look_at(const XxhTarget& target, PlannerOutput& out) const;
+  FreeSpace space_for_stops(const PlannerInput& in) const;
   void section_done(const PlannerInput& in);
   void regroup(const PlannerInput& in, PlannerOutput& out);
   void stay_at_post(const PlannerInput& in, PlannerOutput& out);
-  void go_home(const PlannerInput& in, PlannerOutput& out);
   void assume_solid();
-  bool free_for_something(const PlannerInput& in) const { return in.tracking.done && in.tick >= not_before_; }
   VoxelGrid* shared_grid() { return region_ && !solid_ ? &region_->grid() : nullptr; }
   XxhWord own_word(const PlannerInput& in) const;
 
   const Config config_;
   const AgentConfig agent_;
   const CameraReach reach_;
-  Sortie sortie_;
   XxhTalk talk_;
   XxhCrew crew_;
-  XxhWays ways_;
+  XxhErrand errand_;
   XxhExplorer explorer_;
   XxhInspector inspector_;
   XxhPost post_;
 
-  bool site_known_ = false;
+  std::optional<Vector3d> start_W_;  ///< where it stood when its program began
   Tick assigned_at_ = 0;
   bool restarted_ = false;  ///< in flight
   Stage stage_ = Stage::none;
   Tick stage_since_ = 0, not_before_ = 0;
+  int fruitless_ = 0;             ///< choices in a row to which there was no way
   std::size_t region_index_ = 0;  ///< counts on through the rounds
   std::optional<XxhRegionMap> region_;
   bool solid_ = false;  ///< goes by the box, not by a map
@@ -126,59 +117,40 @@ class XxhPlanner final : public Planner {
   std::size_t explored_ = 0;                 ///< sections
   bool exploring_ = false;                   ///< the next one
   std::vector<std::size_t> begun_;           ///< sections that this UAV inspects or has inspected
+  bool looks_again_ = false;                 ///< goes over its section again while it waits for the others
+  Tick look_again_at_ = 0;                   ///< or will do so
   bool ordered_ = false;                     ///< knows that its section is explored
 };
 
 PlannerOutput XxhPlanner::plan(const PlannerInput& in) {
   PlannerOutput out;
   prepare(in);
-  // On the ground until there is something to do; without boxes, there may never be.
-  const bool waited = restarted_ || seconds(in.tick) > config_.assignment_wait_s;
-  if (crew_.assigned() || waited) fly(in, out);
+  errand_.listen(in);
+  if (in.flight.working) {
+    work(in, out);
+  } else {
+    inspector_.leave();
+    not_before_ = in.tick;
+    fruitless_ = 0;
+  }
+  errand_.conclude(out);
   talk_.speak(in, shared_grid(), own_word(in), out);
   return out;
 }
 
-/// What is known of the site, the team and the map.
+/// What is known of the team and the map.
 void XxhPlanner::prepare(const PlannerInput& in) {
-  if (!in.boxes.empty() && !site_known_) {
-    site_known_ = true;
-    ways_.know_site(in.boxes);
-    sortie_.know_site(ways_.site().top_m, ways_.site().blind_height_m);
+  if (!start_W_) {
+    restarted_ = in.state.p_WB.z() > kAirborneM;
+    start_W_ = restarted_ ? agent_.me().p_WB_start : in.state.p_WB;
   }
   talk_.listen(in, shared_grid());
-  restarted_ |= !crew_.assigned() && in.state.p_WB.z() > Sortie::kAirborneM;
   if (crew_.seek_assignment(in, restarted_)) {
     assigned_at_ = in.tick;
     came_from_W_ = agent_.fleet[crew_.leader()].p_WB_start;
     enter_region(0, in);
   }
-  if (region_ && !solid_ && agent_.due(in.k, kLookAtMapS, agent_.self)) region_->update(in.map);
-}
-
-void XxhPlanner::fly(const PlannerInput& in, PlannerOutput& out) {
-  ways_.believe(region_ && !solid_ ? &region_->hearsay() : nullptr);
-  ways_.dare(stage_ == Stage::inspect ? inspector_.pass() : 0);
-  switch (sortie_.step(in, ways_.space(), out)) {
-    case Sortie::Turn::begin:
-      post_.leave();
-      not_before_ = in.tick;
-      return;
-    case Sortie::Turn::blocked:
-      inspector_.give_up();
-      post_.leave();
-      explorer_.give_up();
-      not_before_ = in.tick + ticks(kRestS);
-      return;
-    case Sortie::Turn::leave:
-      return inspector_.give_up();
-    case Sortie::Turn::work:
-      return work(in, out);
-    case Sortie::Turn::detour:
-      return ways_.forget_corners();
-    case Sortie::Turn::nothing:
-      return;
-  }
+  if (region_ && !solid_ && agent_.due(in.k, kLookAtMapS, agent_.self)) region_->update(*in.world_map);
 }
 
 void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
@@ -192,7 +164,6 @@ void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
   explorer_.stop();
   begun_.clear();
   region_.reset();
-  ways_.believe(nullptr);
   if (region_index_ == all) return change(Stage::finished, in);
   const XxhRegion& region = crew_.regions()[region_index_ % count];
   if (region_index_ > 0) {
@@ -200,7 +171,7 @@ void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
     came_from_W_ = far_end(last, in.boxes[last.box]);
   }
   const OrientedBox& whole = in.boxes[region.box];
-  region_.emplace(map_config(), region_box(region, whole), longest_axis(whole), mapped_from_high_end(region, whole));
+  region_.emplace(map_config(in), region_box(region, whole), longest_axis(whole), region.from_high_end);
   const auto first_turn = region_->spiral(region_->section(0, 1, 1.0), came_from_W_);
   entry_W_ = first_turn.empty() ? region_->box().center : first_turn.front();
   if (crew_.led()) return change(crew_.leads() ? Stage::explore : Stage::wait, in);
@@ -208,16 +179,17 @@ void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
   begin_section(crew_.rank(), in);
 }
 
-XxhRegionMap::Config XxhPlanner::map_config() const {
+XxhRegionMap::Config XxhPlanner::map_config(const PlannerInput& in) const {
   XxhRegionMap::Config map;
   map.voxel_m = config_.voxel_m;
   map.margin_m = config_.margin_m;
-  map.min_hits = config_.min_hits;
   map.rim_m = config_.rim_m;
   map.spiral_step = config_.spiral_step;
   map.lowest_m = kLowestM;
-  map.nearest_m = ways_.clearance_m() + kSpareM;
-  map.farthest_m = std::max(map.nearest_m, config_.standoff_ratio * reach_.sharp_distance_m);
+  map.nearest_m = in.space->config().clearance_m + kSpareM;
+  const double room_m = std::min(map.nearest_m + kRoomM, reach_.sharp_distance_m);
+  map.farthest_m = std::max({map.nearest_m, room_m, config_.standoff_ratio * reach_.sharp_distance_m});
+  map.limit_m = std::max(map.farthest_m, kLimitRatio * reach_.sharp_distance_m);
   return map;
 }
 
@@ -241,15 +213,20 @@ void XxhPlanner::change(Stage stage, const PlannerInput& in) {
   stage_ = stage;
   stage_since_ = in.tick;
   not_before_ = in.tick;
-  post_.leave_for_good();
+  fruitless_ = 0;
+  looks_again_ = false;
+  look_again_at_ = in.tick;
+  post_.leave();
+  errand_.drop();
 }
 
 void XxhPlanner::work(const PlannerInput& in, PlannerOutput& out) {
+  fruitless_ = errand_.ended() ? 0 : fruitless_ + static_cast<int>(errand_.missed().size());
   const bool fresh = restarted_ && seconds(in.tick - assigned_at_) < kFreshS;
   if (fresh && crew_.assigned() && crew_.farthest_region() > region_index_) enter_region(crew_.farthest_region(), in);
   switch (stage_) {
     case Stage::none:
-      return;
+      return post_.stay({}, config_.flight.approach_mps, errand_, in, out);
     case Stage::explore:
       return explore(in, out);
     case Stage::hand_over:
@@ -261,27 +238,30 @@ void XxhPlanner::work(const PlannerInput& in, PlannerOutput& out) {
     case Stage::regroup:
       return regroup(in, out);
     case Stage::finished:
-      return go_home(in, out);
+      return post_.stay(post_.at_home(), config_.flight.approach_mps, errand_, in, out);
   }
+}
+
+/// Whether the next choices may be made. When many came to nothing, the flight core is left to itself for a while: it
+/// looks around, and gets the UAV to where there are other ways.
+bool XxhPlanner::may_set_out(const PlannerInput& in) {
+  if (errand_.under_way()) return false;
+  if (fruitless_ >= kFruitless) {
+    fruitless_ = 0;
+    not_before_ = in.tick + ticks(kGivesWayS);
+  }
+  return in.tick >= not_before_;
 }
 
 /// Around the section, turn by turn.
 void XxhPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
-  const auto turn = out.yaw;  // if the sortie looks around
   explorer_.look_inwards(*region_, in, out);
-  if (sortie_.looks_around(in.tick)) out.yaw = turn;
-  if (!free_for_something(in)) return;
-  if (explorer_.finished(*region_, in)) return next_section(in);
-  if (!explorer_.set_out(in, out)) recover(in, out);
-}
-
-/// Nothing could be reached: a moment for the map to grow and for others to pass; after many, back the way it came,
-/// but who explores has to go on from where it is (Sortie sees to that).
-void XxhPlanner::recover(const PlannerInput& in, PlannerOutput& out) {
-  not_before_ = in.tick + ticks(stage_ == Stage::inspect ? kShortRestS : kRestS);
-  if (ways_.fruitless() < kFruitlessToRetreat) return;
-  ways_.start_anew();
-  if (stage_ != Stage::explore) sortie_.pilot().retreat(in, out);
+  explorer_.hear(errand_);
+  if (explorer_.late(in)) errand_.drop();
+  if (!may_set_out(in)) return;
+  if (explorer_.finished(*region_, in)) next_section(in);
+  if (stage_ != Stage::explore) return;
+  if (auto choices = explorer_.choices(*in.space); !choices.empty()) errand_.set_out(std::move(choices), out);
 }
 
 /// The section that was explored may be inspected from now on; on to the next one.
@@ -310,41 +290,39 @@ void XxhPlanner::wait(const PlannerInput& in, PlannerOutput& out) {
 }
 
 void XxhPlanner::inspect(const PlannerInput& in, PlannerOutput& out) {
+  if (visit_cells(in, out)) section_done(in);
+}
+
+/// @returns whether there is none left.
+bool XxhPlanner::visit_cells(const PlannerInput& in, PlannerOutput& out) {
+  inspector_.hear(errand_);
+  if (inspector_.visit()) inspector_.look(in, region_->grid());
   if (inspector_.visit()) {
-    if (sortie_.pilot().arrived(in)) {
-      inspector_.look(in, region_->grid());
-      if (inspector_.visit()) look_at(inspector_.target(), out);
-    } else if (in.tracking.done || inspector_.obsolete(*region_)) {
-      inspector_.give_up();
-      sortie_.pilot().stop(out);
-    }
-    return;
+    out.yaw = yaw_facing(inspector_.target().out_W);
+    out.gimbal = inspector_.target().surface_W;
+    return false;
   }
-  if (!free_for_something(in)) return;
-  inspector_.finished() ? section_done(in) : choose_cell(in, out);
+  const auto flies_to = errand_.flies_to(in);
+  if (flies_to && !inspector_.ahead(*flies_to, *region_)) errand_.drop();
+  if (!may_set_out(in)) return false;
+  if (inspector_.finished()) return true;
+  choose_cell(in, out);
+  return false;
 }
 
 void XxhPlanner::choose_cell(const PlannerInput& in, PlannerOutput& out) {
-  const Vector3d here = in.tracking.setpoint.p_WB;
-  int tries = 0;
-  for (const XxhVisit& visit : inspector_.candidates(*region_, here, ways_.space_for_way(in, here))) {
-    if (++tries > kTries) return;
-    if (!ways_.fly_to(visit.p_WB, config_.inspect_mps, in, out)) {
-      inspector_.failed(visit.cell);
-      continue;
-    }
-    inspector_.set_out(visit);
-    return look_at(inspector_.target(), out);
-  }
-  if (tries > 0) recover(in, out);
+  auto choices = inspector_.choices(*region_, in.tracking.setpoint.p_WB, space_for_stops(in));
+  if (!choices.empty()) errand_.set_out(std::move(choices), out);
 }
 
-void XxhPlanner::look_at(const XxhTarget& target, PlannerOutput& out) const {
-  if (std::abs(target.out_W.z()) < 0.5) out.yaw = std::atan2(-target.out_W.y(), -target.out_W.x());
-  out.gimbal = target.surface_W;
+/// Stops are where all is proved to be free, and off what others are about to fly.
+FreeSpace XxhPlanner::space_for_stops(const PlannerInput& in) const {
+  FreeSpace::Config config = in.space->config();
+  config.proved_only = !config.blind_fleet;
+  return {config, in.boxes, in.map, talk_.trajectories(in)};
 }
 
-/// On to the section of somebody who is not there any more; if there is none, done.
+/// Its own section is; but those of members that are no longer heard of may not be.
 void XxhPlanner::section_done(const PlannerInput& in) {
   for (std::size_t rank = 0; rank < crew_.size(); ++rank) {
     const std::size_t section = crew_.section_of(rank);
@@ -354,6 +332,7 @@ void XxhPlanner::section_done(const PlannerInput& in) {
   change(Stage::regroup, in);
 }
 
+/// A UAV that has to wait goes over its layers now and then: what it could not reach may have been proved to be free.
 void XxhPlanner::regroup(const PlannerInput& in, PlannerOutput& out) {
   const bool decides = crew_.leads() || !crew_.led() || crew_.silent(crew_.leader(), in.tick);
   const bool impatient = !config_.faithful && seconds(in.tick - stage_since_) > config_.gather_s;
@@ -362,32 +341,33 @@ void XxhPlanner::regroup(const PlannerInput& in, PlannerOutput& out) {
     enter_region(leader->region, in);
   } else if (decides && (impatient || crew_.all_done(region_index_, in.tick))) {
     enter_region(region_index_ + 1, in);
+  } else if (looks_again_) {
+    if (!visit_cells(in, out)) return;
+    looks_again_ = false;
+    look_again_at_ = in.tick + ticks(kLookAgainS);
+    errand_.drop();
   } else {
     stay_at_post(in, out);
+    looks_again_ = in.tick >= look_again_at_ && !errand_.under_way() && !solid_ && !config_.faithful;
+    if (looks_again_) inspector_.begin(section_layers(begun_.back()));
   }
 }
 
 void XxhPlanner::stay_at_post(const PlannerInput& in, PlannerOutput& out) {
-  if (post_.taken()) return sortie_.waits_for(crew_.awaited(in.tick), in, out);
-  if (!free_for_something(in)) return;
-  if (!post_.take_beside(entry_W_, region_->box().center, crew_.rank(), in, out)) recover(in, out);
-}
-
-void XxhPlanner::go_home(const PlannerInput& in, PlannerOutput& out) {
-  if (post_.taken() || !free_for_something(in)) return;
-  post_.take_at_home(in, out);
-  not_before_ = in.tick + ticks(kRestS);
+  out.waits_for = crew_.awaited(in.tick);
+  const auto places_W = post_.beside(entry_W_, region_->box().center, crew_.rank(), top_of(in.boxes));
+  post_.stay(places_W, config_.flight.approach_mps, errand_, in, out);
 }
 
 XxhWord XxhPlanner::own_word(const PlannerInput& in) const {
   XxhWord word;
-  word.start_W = in.state.p_WB.z() < Sortie::kAirborneM ? in.state.p_WB : agent_.me().p_WB_start;
+  word.start_W = *start_W_;
   word.has_plan = crew_.assigned();
   word.region = static_cast<std::uint16_t>(region_index_);
   word.explored = static_cast<std::uint8_t>(explored_);
   word.acknowledged = ordered_;
   word.done = stage_ == Stage::regroup || stage_ == Stage::finished;
-  word.way_W = ways_.ahead(in);
+  word.way_W = errand_.ahead(in);
   return word;
 }
 

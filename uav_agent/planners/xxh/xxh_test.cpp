@@ -1,10 +1,6 @@
-// The XXH planner: the map of a region, what its UAVs tell each other, and flights in a world without physics.
+// The XXH planner: what its UAVs tell each other, and flights in a world without physics.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <set>
-
-#include "uav_agent/planners/xxh/inspect.hpp"
 #include "uav_agent/planners/xxh/talk.hpp"
 #include "uav_agent/testing/test_world.hpp"
 
@@ -12,133 +8,6 @@ namespace skein::agent {
 namespace {
 
 constexpr double kExplorerRadiusM = 0.63, kPhotographerRadiusM = 0.32;
-
-const OrientedBox kBox = make_box({0.0, 0.0, 20.0}, {10.0, 8.0, 30.0}, 0.4);
-constexpr int kUpright = 2;
-
-XxhRegionMap region_map(bool from_high_end = false) { return {XxhRegionMap::Config(), kBox, kUpright, from_high_end}; }
-
-TEST(XxhRegion, LayersRunFromTheEndThatIsEntered) {
-  for (const bool from_high_end : {false, true}) {
-    const XxhRegionMap region = region_map(from_high_end);
-    const auto low = region.grid().at(Vector3d(0.0, 0.0, 6.0)), high = region.grid().at(Vector3d(0.0, 0.0, 34.0));
-    ASSERT_TRUE(low && high);
-    EXPECT_EQ(region.layer(*low) > region.layer(*high), from_high_end);
-  }
-}
-
-TEST(XxhRegion, SectionsCutTheLayersWithoutGap) {
-  const XxhRegionMap region = region_map();
-  for (const double last_share : {0.5, 1.0}) {
-    for (std::size_t count = 1; count <= 8; ++count) {
-      int at = 0;
-      for (std::size_t i = 0; i < count; ++i) {
-        const auto section = region.section(i, count, last_share);
-        EXPECT_EQ(section.first, at);
-        EXPECT_GE(section.last, section.first);
-        at = section.last;
-      }
-      EXPECT_EQ(at, region.grid().dims().z());
-    }
-  }
-}
-
-TEST(XxhRegion, TheSpiralGoesAroundTheBoxAtADistance) {
-  const XxhRegionMap region = region_map();
-  const Vector3d from(-30.0, -30.0, 0.0);
-  const auto places = region.spiral(region.section(0, 1, 1.0), from);
-  ASSERT_GT(places.size(), 10U);
-  std::set<double> heights;
-  for (const Vector3d& p : places) {
-    EXPECT_FALSE(kBox.contains(p, 3.9));
-    EXPECT_TRUE(kBox.contains(p, 4.1));
-    heights.insert(std::round(p.z()));
-  }
-  EXPECT_EQ(heights.size(), 2U) << "turns over 12 layers";
-  const double nearest = (places.front() - from).head<2>().norm();
-  for (const Vector3d& p : places) EXPECT_LE(nearest, (p - from).head<2>().norm() + 1e-9);
-  EXPECT_LT(region.spiral(region.section(0, 1, 1.0), from, true).size(), places.size());
-}
-
-/// One occupied cell in the middle of the box, in known free space.
-struct LoneCell {
-  XxhRegionMap region = region_map();
-  OccupancyMap map;
-  std::vector<OrientedBox> no_boxes;
-  FreeSpace space{FreeSpace::Config(), no_boxes, map};
-
-  LoneCell() {
-    map.insert({{0.1F, 0.1F, 20.1F}}, std::nullopt);
-    region.update(map);
-  }
-  VoxelGrid::Id cube() const { return *region.grid().at(Vector3d(0.1, 0.1, 20.1)); }
-  std::vector<XxhVisit> visits(int layer) const {
-    return region.nearest_visits({10.0, 0.0, 20.0}, layer, space, {}, 100);
-  }
-};
-
-TEST(XxhRegion, CellsBesideAnOccupiedOneAreVisitedAndLookAtIt) {
-  const LoneCell world;
-  std::size_t found = 0;
-  for (int layer = 0; layer < world.region.grid().dims().z(); ++layer) {
-    for (const XxhVisit& visit : world.visits(layer)) {
-      ++found;
-      EXPECT_EQ(world.region.layer(visit.cell), layer);
-      ASSERT_EQ(visit.targets.size(), 1U);
-      const XxhTarget& target = visit.targets.front();
-      EXPECT_EQ(target.cube, world.cube());
-      EXPECT_NEAR((visit.p_WB - target.surface_W).dot(target.out_W), XxhRegionMap::Config().farthest_m, 0.01);
-      EXPECT_TRUE(world.space.free(visit.p_WB));
-    }
-  }
-  EXPECT_EQ(found, 6U);
-}
-
-TEST(XxhRegion, WhatWasLookedAtIsNoTargetAnyMore) {
-  LoneCell world;
-  const int layer = world.region.layer(world.cube());
-  const auto before = world.visits(layer);
-  ASSERT_EQ(before.size(), 4U);
-  world.region.grid().mark(before.front().targets.front().cube, before.front().targets.front().face);
-  EXPECT_EQ(world.visits(layer).size(), 3U);
-}
-
-TEST(XxhRegion, SurfaceOutsideTheBoxIsNoTarget) {
-  XxhRegionMap region = region_map();
-  OccupancyMap map;
-  map.insert({{0.0F, 0.0F, 38.0F}}, std::nullopt);
-  region.update(map);
-  for (VoxelGrid::Id id = 0; id < region.grid().count(); ++id) EXPECT_TRUE(region.targets(id).empty());
-}
-
-TEST(XxhRegion, NothingKnownIsNotEmpty) {
-  XxhRegionMap region = region_map();
-  const auto all = region.section(0, 1, 1.0);
-  EXPECT_FALSE(region.is_empty(all));
-  for (VoxelGrid::Id id = 0; id < region.grid().count(); ++id) region.grid().raise(id, VoxelState::free);
-  EXPECT_TRUE(region.is_empty(all));
-  region.grid().raise(*region.grid().at(kBox.center), VoxelState::occupied);
-  EXPECT_FALSE(region.is_empty(all));
-}
-
-TEST(XxhInspector, GoesOverEveryThirdLayerOnceAndAgainForWhatWasNotReached) {
-  LoneCell world;
-  const XxhConfig config;
-  const AgentConfig agent;
-  XxhInspector inspector(config, agent);
-  inspector.begin(world.region.section(0, 1, 1.0));
-  std::set<int> layers;
-  int rounds = 0;
-  while (!inspector.finished() && rounds++ < 1000) {
-    for (const XxhVisit& visit : inspector.candidates(world.region, {10.0, 0.0, 20.0}, world.space)) {
-      layers.insert(world.region.layer(visit.cell));
-      inspector.failed(visit.cell);
-    }
-  }
-  EXPECT_TRUE(inspector.finished());
-  EXPECT_GT(inspector.pass(), 1);
-  for (const int layer : layers) EXPECT_EQ(layer % config.layer_step, config.layer_step / 2);
-}
 
 TEST(XxhTalk, WordsSurviveTheRadio) {
   XxhWord word;
@@ -196,7 +65,7 @@ TEST(Xxh, PhotographsTheStructureAndBringsItHome) {
   world.run(400.0);
   EXPECT_GT(world.coverage(), 0.4);
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
-  EXPECT_GT(world.separation(), 2.0 * kExplorerRadiusM + 0.5);
+  EXPECT_GT(world.gap(), 0.3);
   EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
 }
 
@@ -234,7 +103,7 @@ TEST(Xxh, FaithfulToThePublicCodeItStillHitsNothing) {
   world.run(200.0);
   EXPECT_GT(world.highest_m(0), 1.5);
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.3);
-  EXPECT_GT(world.separation(), 2.0 * kExplorerRadiusM);
+  EXPECT_GT(world.gap(), 0.3);
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+#include "uav_agent/flight/delivery_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kDetour = 1.5;
+constexpr double kFixedS = 6.0;         ///< to stop, turn and speed up
+constexpr double kLayerM = 3.0;         ///< between the heights of two UAVs
+constexpr double kSightRadiusM = 0.8;   ///< of the tube that must be clear of mapped cells
+constexpr double kStationM = 3.0;       ///< the station's own surroundings are mapped: they do not count
+constexpr double kAboveStationM = 3.0;  ///< what it stands on, a roof perhaps, hides it from below
+constexpr int kDirections = 12;
+constexpr double kOutwards[] = {4.0, 8.0, 14.0, 22.0, 32.0};
+
+}  // namespace
+
+std::vector<Vector3d> delivery_places(const AgentConfig& agent, const FreeSpace& space, double lowest_m) {
+  struct Candidate {
+    double cost;
+    Vector3d p_W;
+  };
+  std::vector<Candidate> candidates;
+  const double lowest_in_sight_m = std::max(lowest_m, agent.station_position.z() + kAboveStationM);
+  const double height = lowest_in_sight_m + kLayerM * static_cast<double>(agent.self);
+  const double own_direction =
+      2.0 * std::numbers::pi * static_cast<double>(agent.self) / static_cast<double>(agent.fleet.size());
+  for (const double outwards : kOutwards) {
+    for (int i = 0; i < kDirections; ++i) {
+      const double turn = 2.0 * std::numbers::pi * i / kDirections;
+      const Vector3d p(agent.station_position.x() + outwards * std::cos(own_direction + turn),
+                       agent.station_position.y() + outwards * std::sin(own_direction + turn), height);
+      const Vector3d above_station = agent.station_position + (p - agent.station_position).normalized() * kStationM;
+      if (!space.free(p) || !space.sees(p, above_station, kSightRadiusM)) continue;
+      candidates.push_back({outwards * (1.0 + std::min(i, kDirections - i)), p});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  std::vector<Vector3d> places;
+  for (const Candidate& candidate : candidates) places.push_back(candidate.p_W);
+  return places;
+}
+
+double time_home_s(const Vector3d& from_W, const Vector3d& place_W, double speed_mps) {
+  return kDetour * (place_W - from_W).norm() / speed_mps + kFixedS;
+}
+
+}  // namespace skein::agent

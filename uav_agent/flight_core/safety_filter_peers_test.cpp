@@ -1,0 +1,121 @@
+// What must hold between UAVs of whatever their safety filters let through, over drawn ways, speeds and latencies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "uav_agent/testing/guarded_uav.hpp"
+
+namespace skein::agent {
+namespace {
+
+// Both want to be where the other one is, or across its way.
+TEST(SafetyFilter, TwoUavsNeverTouch) {
+  double nearest_m = 1e9;
+  for (std::uint64_t seed = 1; seed <= 80; ++seed) {
+    RandomStream random(seed, "two_uavs", 0);
+    TwoGuardedUavs two(random, static_cast<int>(seed % 2));
+    for (int k = 0; k < 400; ++k) {
+      if (k % 80 == 0) {
+        const Vector3d meet_W = drawn_in(random, {-4.0, -4.0, 8.0}, {4.0, 4.0, 14.0});
+        for (auto& uav : two.uavs) {
+          const Vector3d beyond_W = meet_W + (meet_W - uav->state.p_WB) + drawn_within(random, 3.0);
+          uav->fly(
+              {{meet_W + drawn_within(random, 1.0), random.uniform(0.5, 6.0)}, {beyond_W, random.uniform(0.5, 6.0)}});
+        }
+      }
+      two.step(true, random);
+      nearest_m = std::min(nearest_m, two.apart_m());
+      ASSERT_GT(two.apart_m(), 2.0 * kBodyM) << "seed " << seed << " k " << k;
+    }
+  }
+  EXPECT_LT(nearest_m, 3.0) << "they never met";
+}
+
+/// How near two UAVs come that brake at once from what they show now, later and softer than they do.
+double soft_braking_least_m(const RigidBodyState& one, const RigidBodyState& other) {
+  static constexpr double kDelayS = 0.1, kBrakesMps2 = 2.0, kStepS = 0.02, kForS = 3.0;
+  const auto at_W = [](const RigidBodyState& state, double t_s) -> Vector3d {
+    const double speed_mps = state.v_WB.norm(), brakes_s = std::clamp(t_s - kDelayS, 0.0, speed_mps / kBrakesMps2);
+    if (speed_mps <= 0.0) return state.p_WB;
+    const double way_m = speed_mps * (std::min(t_s, kDelayS) + brakes_s) - 0.5 * kBrakesMps2 * brakes_s * brakes_s;
+    return state.p_WB + state.v_WB * (way_m / speed_mps);
+  };
+  double least_m = 1e9;
+  for (double t_s = 0.0; t_s < kForS; t_s += kStepS) {
+    least_m = std::min(least_m, (at_W(one, t_s) - at_W(other, t_s)).norm());
+  }
+  return least_m;
+}
+
+// Both rest, and are told in the same exchange to fly to where the other one is: each gets faster before it hears that
+// the other one does.
+TEST(SafetyFilter, TwoUavsThatSetOutAtOnceKeepTheirMargin) {
+  double nearest_m = 1e9, braking_m = 1e9;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    RandomStream random(seed, "set_out_at_once", 0);
+    TwoGuardedUavs two(random, static_cast<int>(seed % 2));
+    const Vector3d from_W = two.uavs[0]->state.p_WB;
+    const Vector3d to_W = from_W + random.uniform(3.5, 8.0) * drawn_within(random, 1.0).normalized();
+    two.uavs[1]->state.p_WB = to_W;
+    two.uavs[0]->fly({{2.0 * to_W - from_W, 5.0}});
+    two.uavs[1]->fly({{2.0 * from_W - to_W, 5.0}});
+    for (int k = 0; k < 120; ++k) {
+      two.step(true, random);
+      nearest_m = std::min(nearest_m, two.apart_m());
+      braking_m = std::min(braking_m, soft_braking_least_m(two.uavs[0]->state, two.uavs[1]->state));
+    }
+  }
+  EXPECT_GT(braking_m, 2.0 * kBodyM + 0.3);
+  EXPECT_GT(nearest_m, 2.0 * kBodyM + 0.3);
+  EXPECT_LT(nearest_m, 2.6) << "they never met";
+}
+
+// One goes out of sight, and comes to rest there: the other one keeps off, though it hears no more of it.
+TEST(SafetyFilter, KeepsOffAUavThatWentOutOfSight) {
+  double nearest_m = 1e9;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    RandomStream random(seed, "out_of_sight", 0);
+    TwoGuardedUavs two(random, static_cast<int>(seed % 2));
+    const std::size_t rests = random.bits() % 2;
+    const int lost = 10 + static_cast<int>(random.bits() % 60);
+    GuardedUav &still = *two.uavs[rests], &other = *two.uavs[1 - rests];
+    still.fly(drawn_way(random, still.state.p_WB));
+    for (int k = 0; k < lost + 300; ++k) {
+      if (k == lost) still.tracker.hold();
+      if (k % 60 == 0) other.fly({{2.0 * still.state.p_WB - other.state.p_WB, random.uniform(1.0, 6.0)}});
+      two.step(k < lost, random);
+      nearest_m = std::min(nearest_m, two.apart_m());
+      ASSERT_GT(two.apart_m(), 2.0 * kBodyM) << "seed " << seed << " k " << k;
+    }
+  }
+  EXPECT_LT(nearest_m, 3.0) << "they never met";
+}
+
+// A UAV brakes and will come to rest obliquely in front of another one, which lies beside what it may sweep if it
+// brakes as softly as the filter takes into account. The other one wants to go where the first one comes from.
+TEST(SafetyFilter, NobodyComesNearerToAUavThatBrakesInFrontOfIt) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    RandomStream random(seed, "brakes_in_front", 0);
+    GuardedUav uav({0.5, 0.5, 20.0}, fleet_of(2, Role::explorer, 0));
+    uav.map.set_free(uav.state.p_WB, 9.0);
+    const Vector3d start_W = uav.state.p_WB, from_W = drawn_within(random, 1.0).normalized();
+    const double speed_mps = random.uniform(4.0, 5.0), brakes_mps2 = 2.8;
+    const double apart_m = uav.filter.apart_m(1, 0.0), rests_m = apart_m + random.uniform(0.02, 0.3);
+    const double aside_m = random.uniform(0.8, 1.8);
+    const Vector3d rest_W =
+        start_W + std::sqrt(rests_m * rests_m - aside_m * aside_m) * from_W + aside_m * from_W.unitOrthogonal();
+    uav.fly({{start_W + 6.0 * from_W, 5.0}});
+    for (int k = 0; k < 200; ++k) {
+      const double left_s = std::max(0.0, speed_mps / brakes_mps2 - k * kPeriodS);
+      const Vector3d p_W = rest_W + 0.5 * brakes_mps2 * left_s * left_s * from_W;
+      const Vector3d v_W = -brakes_mps2 * left_s * from_W;
+      uav.peers.update(uav.tick, {Neighbour{.node = node_of_uav(UavIndex(1)), .p_W = p_W, .v_W = v_W}});
+      uav.step();
+      ASSERT_GT((uav.state.p_WB - p_W).norm(), apart_m - 0.02) << "seed " << seed << " k " << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skein::agent

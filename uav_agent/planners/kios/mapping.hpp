@@ -1,0 +1,37 @@
+// An explorer's way along its lanes in the first stage of KIOS: straight from one end of a lane to the other; and on to
+// where it can get, where something stands in the way.
+// Frame W.   Units: SI.   Threads: one.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "uav_agent/api/planner.hpp"
+
+namespace skein::agent {
+
+class KiosMapping {
+ public:
+  explicit KiosMapping(double speed_mps) : speed_mps_(speed_mps) {}
+
+  /// @param corners_W  two for each lane, in the order of flight.
+  void begin(std::vector<Vector3d> corners_W) { left_W_.assign(corners_W.begin(), corners_W.end()); }
+  bool done() const { return left_W_.empty(); }
+  const std::deque<Vector3d>& left_W() const { return left_W_; }
+
+  /// Once per exchange in which the UAV works.
+  /// @param id  of the last goal; becomes that of a new one.
+  void step(const PlannerInput& in, std::int64_t& id, PlannerOutput& out);
+
+ private:
+  void take_note(const Outcome& outcome, Tick now);
+
+  double speed_mps_;
+  std::deque<Vector3d> left_W_;  ///< corners
+  std::size_t asked_ = 0;        ///< of them, that it flies to
+  std::int64_t goal_ = 0;
+  int failures_ = 0;  ///< of the next corner
+  Tick not_before_ = 0;
+};
+
+}  // namespace skein::agent

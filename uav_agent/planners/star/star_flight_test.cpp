@@ -1,0 +1,166 @@
+// The STAR planner in flight: what it hands over to the flight core, and what comes of it in a world without physics.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/random_stream.hpp"
+#include "uav_agent/api/planner.hpp"
+#include "uav_agent/planners/star/talk.hpp"
+#include "uav_agent/testing/flown_uav.hpp"
+#include "uav_agent/testing/test_world.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kExplorerRadiusM = 0.63;
+constexpr double kRestingMps = 0.1;
+
+AgentConfig photographer_and_explorer() {
+  AgentConfig agent;
+  agent.fleet = {{.name = "eye", .role = Role::photographer, .body_radius_m = 0.32},
+                 {.name = "lidar", .p_WB_start = {0.0, -8.0, 0.0}}};
+  return agent;
+}
+
+/// A photographer that the navigator flies for STAR, in space that is known to be free.
+struct AtWork : FlownUav {
+  AtWork() : FlownUav(photographer_and_explorer(), {-10.0, 0.0, 10.0}), planner(make_planner("star", agent)) {
+    clear({-24.0, -30.0, 0.0}, {60.0, 30.0, 26.0});
+  }
+
+  PlannerInput planners_input(const FreeSpace& space) {
+    PlannerInput in = input();
+    in.gimbal = gimbal;
+    in.space = &space;
+    in.radio = radio;
+    in.flight = {.working = true, .on_way = navigator.on_way(), .leg = navigator.leg()};
+    if (navigator.current()) in.flight.goal = navigator.current()->id;
+    in.flight.outcomes = navigator.take_outcomes();
+    if (in.flight.goal && says) in.flight.outcomes.push_back({.id = *in.flight.goal, .kind = *says});
+    return in;
+  }
+  /// One exchange. @returns what STAR wants.
+  PlannerOutput work() {
+    navigator.update(input());
+    const FreeSpace space = navigator.open_space(input());
+    const PlannerInput in = planners_input(space);
+    PlannerOutput out = planner->plan(in);
+    if (out.goals) navigator.want(*out.goals);
+    Steering steering;
+    navigator.step(in, filter.held(), steering);
+    if (!steering.yaw) steering.yaw = out.yaw;
+    if (const auto* command = std::get_if<GimbalCommand>(&out.gimbal)) gimbal.pitch = command->pitch;
+    fly(steering);
+    state.q_WB = Eigen::AngleAxisd(tracker.commanded().yaw, Vector3d::UnitZ());
+    radio.clear();
+    return out;
+  }
+
+  std::unique_ptr<Planner> planner;
+  GimbalState gimbal;
+  std::vector<RadioMessage> radio;
+  std::optional<Outcome::Kind> says;  ///< beside what the navigator does: what becomes of each goal
+};
+
+/// Long walls, drawn: it flies along them, plans anew on the way, and hardly rests.
+TEST(StarFlight, GoesOnThroughItsViewpointsWithoutAStop) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    RandomStream random(seed, "wall", 0);
+    AtWork uav;
+    const double x = random.uniform(6.0, 16.0), half = random.uniform(12.0, 18.0);
+    uav.boxes = {make_box({x, 0.0, 10.0}, {8.0, 2.0 * half, 16.0})};
+    uav.build({x - 0.5, -half, 5.0}, {x + 0.5, half, 15.0});
+    int lists = 0, resting = 0;
+    double flown_m = 0.0;
+    while (uav.k < 900) {
+      const Vector3d before = uav.state.p_WB;
+      lists += uav.work().goals ? 1 : 0;
+      flown_m += (uav.state.p_WB - before).norm();
+      if (uav.k > 100 && uav.state.v_WB.norm() < kRestingMps) ++resting;
+    }
+    EXPECT_GT(lists, 20) << "seed " << seed;
+    EXPECT_GT(flown_m, 50.0) << "seed " << seed;
+    EXPECT_LT(resting, 80) << "seed " << seed << ": exchanges, of 800";
+  }
+}
+
+/// The first place of a list of goals, but for the one where the UAV is.
+Vector3d first_place(const Goal& goal, const Vector3d& here_W) {
+  const bool begins_here = (goal.way.front().p_WB - here_W).norm() < 0.3;
+  return goal.way[begins_here && goal.way.size() > 1 ? 1 : 0].p_WB;
+}
+
+TEST(StarFlight, WhatCannotBeFlownToIsPutOff) {
+  for (const auto kind : {Outcome::Kind::no_way, Outcome::Kind::blocked}) {
+    AtWork uav;
+    uav.boxes = {make_box({12.0, 0.0, 10.0}, {8.0, 36.0, 16.0})};
+    uav.build({11.5, -18.0, 5.0}, {12.5, 18.0, 15.0});
+    std::vector<Goal> first, second;
+    while (first.empty() && uav.k < 200) first = uav.work().goals.value_or(first);
+    ASSERT_FALSE(first.empty());
+    const Vector3d here_W = uav.state.p_WB;
+    uav.says = kind;
+    while (second.empty() && uav.k < 400) second = uav.work().goals.value_or(second);
+    ASSERT_FALSE(second.empty());
+    EXPECT_GT((first_place(first.front(), here_W) - first_place(second.front(), uav.state.p_WB)).norm(), 1.0);
+  }
+}
+
+/// Two boxes, of which the explorer says that it is at one: there its photographer goes when it knows of no surface.
+TEST(StarFlight, WithoutSurfaceItGoesWhereItsExplorerWorks) {
+  for (const std::size_t box : {0U, 1U}) {
+    AtWork uav;
+    uav.boxes = {make_box({30.0, -18.0, 9.0}, {6.0, 6.0, 14.0}), make_box({30.0, 18.0, 9.0}, {6.0, 6.0, 14.0})};
+    AgentConfig explorer = uav.agent;
+    explorer.self = UavIndex(1);
+    StarTalk talk({}, explorer);
+    const VoxelGrid nothing(Isometry3d::Identity(), {4.0, 4.0, 4.0}, 2.0);
+    double nearest_m = 1e9;
+    while (uav.k < 600) {
+      PlannerOutput said;
+      PlannerInput in = uav.input();
+      StarTalk::Word word;
+      word.box = box;
+      talk.speak(in, nothing, word, said);
+      uav.radio = said.radio;
+      uav.work();
+      nearest_m = std::min(nearest_m, (uav.state.p_WB - uav.boxes[box].center).norm());
+      if (nearest_m < 14.0) break;
+      ASSERT_GT((uav.state.p_WB - uav.boxes[1 - box].center).norm(), 14.0) << "the other one first";
+    }
+    EXPECT_LT(nearest_m, 14.0);
+  }
+}
+
+TEST(Star, PhotographsTheStructureAndBringsItHome) {
+  TestWorld world(two_towers(), test_fleet(3), "star", 300.0);
+  world.run(300.0);
+  EXPECT_GT(world.coverage(), 0.5);
+  EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.4);
+  EXPECT_GT(world.gap(), 0.3);
+  EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
+}
+
+TEST(Star, PhotographersBeginWhileTheExplorerExplores) {
+  TestWorld world(two_towers(), test_fleet(3), "star", 120.0);
+  world.run(45.0);
+  EXPECT_GT((world.position(1).head<2>() - Vector2d(-5.0, -14.0)).norm(), 3.0);
+}
+
+TEST(Star, FaithfulOnesFlySafelyToo) {
+  TestWorld world(two_towers(), test_fleet(4), "star:faithful=true", 150.0);
+  world.run(150.0);
+  EXPECT_EQ(world.bad_commands(), 0U);
+  EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.3);
+  EXPECT_GT(world.gap(), 0.3);
+}
+
+TEST(Star, WithoutALidarItLooksAtTheBoxes) {
+  TestWorld world(two_towers(), {{"eye", Role::photographer, {-8.0, -14.0}}}, "star", 250.0);
+  world.run(250.0);
+  EXPECT_GT(world.coverage(), 0.1);
+  EXPECT_GT(world.clearance(), 0.32 + 0.5);
+}
+
+}  // namespace
+}  // namespace skein::agent
