@@ -65,7 +65,7 @@ TEST_F(FlightInContainers, FaultsMeanTheSame) {
     faults += fmt::format("  - {{at_s: {}, until_s: {}, pause: {}}}\n", at_s + 7.0, at_s + 12.0, stopped[i]);
   }
   SCOPED_TRACE(faults);
-  const Arguments flown = arguments("patrol,gcs=listen", "120", {"--faults", write("faults.yaml", faults)});
+  const Arguments flown = arguments("patrol,gcs=listen", "240", {"--faults", write("faults.yaml", faults)});
   const SkeinRun& run = up("up", flown);
   expect_whole(run);
   EXPECT_EQ(flight_of(run), alone(flown));
