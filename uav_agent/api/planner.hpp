@@ -55,6 +55,7 @@ struct PlannerInput {
   std::span<const Scan> scans = {};           ///< own, since the step before; only if wants_scans()
   std::span<const BeamScan> beam_scans = {};  ///< own, since the step before; only if wants_beams()
   const WorldMap* world_map = nullptr;        ///< what beams have proved to be free; only if wants_world_map()
+  bool scanned = false;                       ///< the own LiDAR told something since the step before
   FlightState flight = {};                    ///< what became of its goals; only if flight() is given
   const FreeSpace* space = nullptr;           ///< where the flight core may fly it; only if flight() is given
 };

@@ -29,11 +29,12 @@ FlightCore::FlightCore(const FlightConfig& config, const AgentConfig& agent)
       filter_(config, agent),
       navigator_(config, agent, filter_),
       homing_(config, agent),
-      recovery_(config, agent, navigator_),
+      recovery_(config, navigator_),
       showing_(agent, filter_) {}
 
 FlightState FlightCore::state() {
-  FlightState state{.working = mode_ == Mode::working, .outcomes = std::exchange(outcomes_, {})};
+  FlightState state{.working = mode_ == Mode::working};
+  if (state.working) state.outcomes = std::exchange(outcomes_, {});
   state.idle = state.working && navigator_.idle();
   if (state.working && navigator_.current()) {
     state.goal = navigator_.current()->id;
@@ -52,9 +53,10 @@ void FlightCore::enter(Mode mode, const PlannerInput& in) {
   since_ = in.tick;
 }
 
-/// A UAV without a LiDAR learns of free space by radio, or never.
+/// A UAV without a LiDAR, or whose LiDAR has failed, learns of free space by radio, or never.
 void FlightCore::listen(const PlannerInput& in) {
-  if (agent_.me().role == Role::explorer || !agent_.first_explorer()) return;
+  if (!agent_.first_explorer()) return;
+  if (navigator_.sees()) return filter_.assume_boxes(false);
   const std::size_t regions = in.world_map->regions().size();
   if (regions != told_regions_ || !told_at_) told_at_ = in.tick;
   told_regions_ = regions;
@@ -107,6 +109,7 @@ void FlightCore::leave_ground(const PlannerInput& in, Steering& steering) {
   if (in.boxes.empty()) return;
   if (p_W.z() > kAirborneM) {
     steering.motion = Hold{};
+    navigator_.want(wanted_);
     enter(Mode::working, in);
     return;
   }
@@ -163,7 +166,7 @@ void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
     enter(Mode::working, in);
     return;
   }
-  if (stalled && agent_.me().role != Role::explorer) waits_for_ = agent_.first_explorer();
+  if (stalled && !navigator_.sees()) waits_for_ = agent_.first_explorer();
 }
 
 /// Of the navigator, since it was last asked.
@@ -192,7 +195,7 @@ void FlightCore::work(const PlannerInput& in, Steering& steering) {
 
 /// @returns whether it sets out to show a mate its way up.
 bool FlightCore::begin_showing(const PlannerInput& in) {
-  if (in.tick < show_at_ || navigator_.on_way()) return false;
+  if (in.tick < show_at_ || navigator_.on_way() || !navigator_.sees()) return false;
   show_at_ = in.tick + ticks(kShowCheckS);
   auto goal = showing_.next(in, navigator_.space(in));
   if (!goal) return false;

@@ -28,7 +28,8 @@ class FlightCore {
 
   /// Once per exchange, before anything else.
   void update(const PlannerInput& in) { navigator_.update(in); }
-  /// For PlannerInput: what became of the goals since this was asked last.
+  /// For PlannerInput: what became of the goals since this was asked last. Outcomes are kept until the UAV works: its
+  /// strategy hears each of them at a time when it decides.
   FlightState state();
   /// One exchange, after the strategy has decided.   @param goals  see PlannerOutput::goals.
   Steering step(const PlannerInput& in, std::optional<std::vector<Goal>> goals);

@@ -31,7 +31,9 @@ class Navigator {
   Navigator(const FlightConfig& config, const AgentConfig& agent, const SafetyFilter& filter);
 
   /// Once per exchange, before anything else.
-  void update(const PlannerInput& in) { fit_.update(*in.world_map, in.tick); }
+  void update(const PlannerInput& in);
+  /// Whether this UAV has a LiDAR that tells something: it may fly into the unknown, and proves it on the way.
+  bool sees() const { return sees_; }
   /// What to fly to from now on. A goal that is being flown goes on if it is the first one; its way may have changed.
   void want(std::vector<Goal> goals);
   /// Brakes, and wants nothing.
@@ -89,6 +91,8 @@ class Navigator {
   const AgentConfig& agent_;
   const SafetyFilter& filter_;
   BodyFit fit_;
+  bool sees_;
+  std::optional<Tick> scanned_at_;
   std::vector<Goal> goals_;  ///< that are not flown yet, what is liked best first
   std::optional<Goal> current_;
   bool on_way_ = false;

@@ -122,6 +122,38 @@ TEST(Navigator, AWayMayChangeWhileItIsFlown) {
   }
 }
 
+// Without its LiDAR nobody proves what it would fly through: it asks for ways through what is known, and says at once
+// where there is none. When the LiDAR is back, so is the old way of planning.
+TEST(Navigator, WithoutItsLidarItPlansThroughProvedSpaceAlone) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    RandomStream random(seed, "blind", 0);
+    InAClearing uav;
+    const double heading = random.uniform(-3.1, 3.1);
+    const Goal outside{.id = 1, .way = {{Vector3d(45.0 * std::cos(heading), 45.0 * std::sin(heading), 12.0), 5.0}}};
+    const Goal inside{.id = 2, .way = {{drawn_place(random), 3.0}}};
+    uav.lidar_works = false;
+    uav.navigate(100);
+    for (int i = 0; i < 100; ++i) uav.navigate();
+    EXPECT_FALSE(uav.navigator.sees());
+    const Vector3d from_W = uav.state.p_WB;
+    uav.navigator.want({outside});
+    auto outcomes = uav.navigate(kTwoMinutes);
+    ASSERT_EQ(outcomes.size(), 1U) << "seed " << seed;
+    EXPECT_EQ(outcomes[0].kind, Outcome::Kind::no_way);
+    EXPECT_LT((uav.state.p_WB - from_W).norm(), 0.1) << "it did not set out";
+    uav.navigator.want({inside});
+    outcomes = uav.navigate(kTwoMinutes);
+    ASSERT_EQ(outcomes.size(), 1U) << "seed " << seed;
+    EXPECT_EQ(outcomes[0].kind, Outcome::Kind::reached);
+    uav.lidar_works = true;
+    const Vector3d again_W = uav.state.p_WB;
+    uav.navigator.want({outside});
+    uav.navigate(kTwoMinutes);
+    EXPECT_TRUE(uav.navigator.sees());
+    EXPECT_GT((uav.state.p_WB - again_W).norm(), 3.0) << "to the end of what is free: it might prove more";
+  }
+}
+
 // Another UAV hovers right on the straight line: there is room to fly about it.
 TEST(Navigator, FindsAWayAboutAUavThatStays) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

@@ -20,8 +20,7 @@ constexpr double kLongestS = 30.0;
 
 }  // namespace
 
-Recovery::Recovery(const FlightConfig& config, const AgentConfig& agent, Navigator& navigator)
-    : config_(config), agent_(agent), navigator_(navigator) {}
+Recovery::Recovery(const FlightConfig& config, Navigator& navigator) : config_(config), navigator_(navigator) {}
 
 void Recovery::begin(const PlannerInput& in) {
   constexpr Behaviour kOrder[] = {Behaviour::look_around, Behaviour::approach, Behaviour::elsewhere, Behaviour::climb};
@@ -29,7 +28,7 @@ void Recovery::begin(const PlannerInput& in) {
     behaviour_ = kOrder[tries_++ % 4];
     if (behaviour_ == Behaviour::look_around) {
       // Without a LiDAR it gives those that have one the time to look.
-      until_ = in.tick + ticks(agent_.me().role == Role::explorer ? config_.look_s : 0.5 * config_.look_s);
+      until_ = in.tick + ticks(navigator_.sees() ? config_.look_s : 0.5 * config_.look_s);
       return;
     }
     if (set_out(in)) {

@@ -12,8 +12,8 @@ namespace skein::agent {
 
 class Recovery {
  public:
-  /// @param config, agent, navigator  must outlive this.
-  Recovery(const FlightConfig& config, const AgentConfig& agent, Navigator& navigator);
+  /// @param config, navigator  must outlive this.
+  Recovery(const FlightConfig& config, Navigator& navigator);
 
   /// The strategy got on: the list begins anew.
   void progress() { tries_ = 0; }
@@ -28,7 +28,6 @@ class Recovery {
   bool set_out(const PlannerInput& in);
 
   const FlightConfig& config_;
-  const AgentConfig& agent_;
   Navigator& navigator_;
   int tries_ = 0;  ///< since the strategy last got on
   Behaviour behaviour_ = Behaviour::look_around;

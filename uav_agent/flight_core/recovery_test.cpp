@@ -46,7 +46,7 @@ struct Recovers : FlownUav {
     result.took_s = static_cast<double>(k - from) * agent.exchange_period_s;
     return result;
   }
-  Recovery recovery{config, agent, navigator};
+  Recovery recovery{config, navigator};
 };
 
 TEST(Recovery, LooksAroundFirst) {

@@ -71,6 +71,32 @@ TEST(SafetyFilter, TwoUavsThatSetOutAtOnceKeepTheirMargin) {
   EXPECT_LT(nearest_m, 2.6) << "they never met";
 }
 
+// Each turns onto the other one's way while that one does the same: what a UAV shows before its turn foretells another
+// way than the one on which it brakes.
+TEST(SafetyFilter, TwoUavsThatTurnTowardsEachOtherKeepTheirDistance) {
+  double nearest_m = 1e9;
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    RandomStream random(seed, "turn_towards", 0);
+    TwoGuardedUavs two(random, static_cast<int>(seed % 2));
+    const Vector3d meet_W = 0.5 * (two.uavs[0]->state.p_WB + two.uavs[1]->state.p_WB);
+    const Vector3d along = drawn_within(random, 1.0).normalized();
+    for (const double side : {1.0, -1.0}) {
+      GuardedUav& uav = *two.uavs[side > 0.0 ? 0 : 1];
+      const Vector3d corner_W = meet_W + side * random.uniform(3.0, 6.0) * along;
+      const Vector3d off = (side * along + drawn_within(random, 1.5)).normalized();
+      uav.state.p_WB = corner_W + random.uniform(3.0, 7.0) * off;
+      uav.fly({{corner_W, random.uniform(3.0, 5.0)}, {corner_W - 14.0 * side * along, 5.0}});
+    }
+    if (two.apart_m() < 3.5) continue;
+    for (int k = 0; k < 120; ++k) {
+      two.step(true, random);
+      nearest_m = std::min(nearest_m, two.apart_m());
+    }
+  }
+  EXPECT_GT(nearest_m, 2.0 * kBodyM + 0.3);
+  EXPECT_LT(nearest_m, 2.6) << "they never met";
+}
+
 // One goes out of sight, and comes to rest there: the other one keeps off, though it hears no more of it.
 TEST(SafetyFilter, KeepsOffAUavThatWentOutOfSight) {
   double nearest_m = 1e9;

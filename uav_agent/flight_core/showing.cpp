@@ -10,7 +10,9 @@ namespace {
 constexpr std::int64_t kShowing = -3;
 constexpr double kUpM = 2.5;  ///< above its start, a UAV has risen
 constexpr double kColumnTopM = 6.0;
-constexpr double kAsideM = 5.0, kAboveM[] = {5.0, 8.0, 12.0};  ///< from there a LiDAR sees the column well
+constexpr double kAsideM = 5.0,
+                 kAboveM[] = {5.0, 2.5, 8.0,
+                              12.0};  ///< from there a LiDAR sees the column well, unless a roof is between
 constexpr int kSides = 8;
 constexpr double kShowMps = 4.0, kAgainS = 20.0;
 constexpr int kMostAttempts = 4;
@@ -53,7 +55,8 @@ std::optional<Goal> Showing::next(const PlannerInput& in, const FreeSpace& space
     if (in.tick < it.not_before || column_known(it.uav, *in.world_map)) continue;
     const Vector3d start_W = agent_.fleet[it.uav].p_WB_start;
     const double heading = std::atan2(here_W.y() - start_W.y(), here_W.x() - start_W.x());
-    for (const double above_m : kAboveM) {
+    for (std::size_t height = 0; height < std::size(kAboveM); ++height) {
+      const double above_m = kAboveM[(height + static_cast<std::size_t>(it.attempts)) % std::size(kAboveM)];
       for (int i = 0; i < kSides; ++i) {
         const int side = i % 2 == 0 ? i / 2 : -(i + 1) / 2;
         const double a = heading + 2.0 * std::numbers::pi * side / kSides;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 #include "core/random_stream.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
@@ -84,6 +85,18 @@ TEST(Showing, EndsWhereTheColumnIsKnown) {
   EXPECT_TRUE(uav.showing.shown(uav.input()));
   uav.k += 10000;
   EXPECT_FALSE(uav.next());
+}
+
+// One that was put down below a roof is looked at from below it, too: from above, its column cannot be seen.
+TEST(Showing, LooksFromOtherHeightsEachTime) {
+  Shows uav(explorer_and_photographer(), 0);
+  std::set<double> heights_m;
+  for (int i = 0; i < 400; ++i, uav.k += 40) {
+    if (const auto goal = uav.next()) heights_m.insert(goal->way.front().p_WB.z());
+  }
+  EXPECT_EQ(heights_m.size(), 4U);
+  EXPECT_LT(*heights_m.begin(), 3.0);
+  EXPECT_GT(*heights_m.rbegin(), 10.0);
 }
 
 TEST(Showing, NobodyThatHasRisenIsShownAnything) {

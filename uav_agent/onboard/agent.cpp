@@ -216,7 +216,8 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
                       .key_frames = input.key_frames,
                       .scans = planner->wants_scans() ? std::span(input.scans) : std::span<const Scan>(),
                       .beam_scans = planner->wants_beams() ? std::span(beam_scans) : std::span<BeamScan>(),
-                      .world_map = known_world()};
+                      .world_map = known_world(),
+                      .scanned = !beam_scans.empty()};
 }
 
 /// The flight core does what the planner wants.

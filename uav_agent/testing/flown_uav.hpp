@@ -49,7 +49,8 @@ struct FlownUav {
             .undelivered_captures = undelivered,
             .detected = {},
             .radio = {},
-            .world_map = &map};
+            .world_map = &map,
+            .scanned = lidar_works};
   }
   /// Does what a part of the core asked for in this exchange, and goes on to the next.
   void fly(const Steering& steering) {
@@ -93,7 +94,7 @@ struct FlownUav {
   RigidBodyState state;
   std::uint64_t k = 0;
   std::optional<double> remaining_s;
-  bool linked = false;
+  bool linked = false, lidar_works = true;
   std::size_t undelivered = 0;
 };
 

@@ -24,6 +24,7 @@ struct KiosConfig {
   int reserve = 2;               ///< cubes ahead that are claimed beside the one it is in
   double share_s = 0.5;          ///< between two messages
   double claim_s = 3.0;          ///< after which a claim is void
+  double wait_s = 45.0;          ///< photographers wait no longer for the explorers' map, from when they could work
   bool faithful = false;         ///< photographers wait for an explorer's word without end
   FlightConfig flight = {};
 
@@ -44,6 +45,7 @@ struct KiosConfig {
     r.field("reserve", reserve, within(0, 7));
     r.field("share_s", share_s, within(0.05, 10.0));
     r.field("claim_s", claim_s, within(0.1, 60.0));
+    r.field("wait_s", wait_s, within(0.0, 1e6));
     r.field("faithful", faithful);
     flight.describe(r);
     r.check(voxel_m == 0.0 || voxel_m >= 1.0, "voxel_m", "must be 0 (by the camera) or at least 1");

@@ -204,7 +204,7 @@ void KiosPlanner::map(const PlannerInput& in, PlannerOutput& out) {
 
 /// For the explorers' map, where it is.
 void KiosPlanner::wait(const PlannerInput& in, PlannerOutput& out) {
-  if (patience_.is_over(in, *grid_, config_)) return rest(in.tick, out);
+  if (patience_.is_over(in, config_)) return rest(in.tick, out);
   out.waits_for = agent_.first_explorer();
   if (in.tick < not_before_) return;
   not_before_ = in.tick + ticks(kStayS);

@@ -6,11 +6,10 @@ namespace skein::agent {
 namespace {
 
 constexpr double kSilenceS = 45.0, kFliesMps = 0.3;
-constexpr double kWaitFactor = 1.5, kWaitExtraS = 20.0;  ///< beside the time that lanes take
 
 }  // namespace
 
-bool KiosPatience::is_over(const PlannerInput& in, const VoxelGrid& volume, const KiosConfig& config) {
+bool KiosPatience::is_over(const PlannerInput& in, const KiosConfig& config) {
   bool anybody_maps = false, done = false, busy = false;
   for (const Peer& peer : in.peers.all()) {
     const auto word = talk_.word(peer.uav);
@@ -25,9 +24,7 @@ bool KiosPatience::is_over(const PlannerInput& in, const VoxelGrid& volume, cons
   }
   if (!anybody_maps || (done && !busy)) return true;
   if (config.faithful) return false;
-  const double lanes_s = 2.0 * volume.voxel_m() * volume.dims().cast<double>().sum() / config.map_mps;
-  return seconds(in.tick - std::max(seen_flying_, since_)) > kSilenceS ||
-         seconds(in.tick - since_) > kWaitFactor * lanes_s + kWaitExtraS;
+  return seconds(in.tick - std::max(seen_flying_, since_)) > kSilenceS || seconds(in.tick - since_) > config.wait_s;
 }
 
 }  // namespace skein::agent

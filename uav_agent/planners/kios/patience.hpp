@@ -1,5 +1,5 @@
 // How long a photographer of KIOS waits for the explorers' map: until one says that it is done and none in sight that
-// it is not; or until none was seen to fly for a while, or all of them must have come to the end of their lanes.
+// it is not; or until none was seen to fly for a while, or it has waited for wait_s: then it works with the map there is.
 // Whoever comes back may have missed that word while explorers are out of its sight: it believes photographers that
 // work.
 // Threads: one.   Source: paper (photographers idle while the explorers map); that it ends is ours.
@@ -18,8 +18,8 @@ class KiosPatience {
   void begin(Tick now) { since_ = now; }
   /// To be told when the program was away.
   void came_back() { came_back_ = true; }
-  /// Once per exchange of waiting.   @param volume  through which the lanes lead.
-  bool is_over(const PlannerInput& in, const VoxelGrid& volume, const KiosConfig& config);
+  /// Once per exchange of waiting.
+  bool is_over(const PlannerInput& in, const KiosConfig& config);
 
  private:
   const AgentConfig& agent_;

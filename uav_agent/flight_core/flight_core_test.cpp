@@ -1,0 +1,81 @@
+// What a strategy hears of its goals, whatever comes between.
+#include "uav_agent/flight_core/flight_core.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/random_stream.hpp"
+#include "uav_agent/testing/flown_uav.hpp"
+#include "uav_agent/testing/test_world.hpp"
+
+namespace skein::agent {
+namespace {
+
+AgentConfig a_lone_explorer() {
+  AgentConfig agent;
+  agent.fleet = {{.name = "a"}};
+  return agent;
+}
+
+/// A strategy that wants one place after the other: most of them inside structure, or where nobody proves anything.
+struct WantsOnePlaceAfterTheOther : FlownUav {
+  explicit WantsOnePlaceAfterTheOther(std::uint64_t seed)
+      : FlownUav(a_lone_explorer(), {0.0, 0.0, 10.0}), random(seed, "outcomes", 0) {
+    clear({-24.0, -24.0, 0.0}, {24.0, 24.0, 24.0});
+    build({10.0, 10.0, 6.0}, {14.0, 14.0, 12.0});
+    boxes = {make_box({12.0, 12.0, 9.0}, {6.0, 6.0, 8.0})};
+  }
+  Goal drawn_goal() {
+    const double which = random.uniform();
+    if (which < 0.3) return {.id = ++id, .way = {{Vector3d(12.0, 12.0, 9.0), 3.0}}};
+    if (which < 0.6) return {.id = ++id, .way = {{Vector3d(60.0, random.uniform(-30.0, 30.0), 10.0), 3.0}}};
+    return {
+        .id = ++id,
+        .way = {{Vector3d(random.uniform(-15.0, 5.0), random.uniform(-15.0, 5.0), random.uniform(4.0, 18.0)), 4.0}}};
+  }
+  void exchange() {
+    PlannerInput in = input();
+    core.update(in);
+    in.flight = core.state();
+    std::optional<std::vector<Goal>> goals;
+    for (const Outcome& outcome : in.flight.outcomes) {
+      if (in.flight.working && outcome.id == id) flying = false;
+      ++outcomes;
+    }
+    forgotten = flying && in.flight.idle ? forgotten + 1 : 0;
+    longest_forgotten = std::max(longest_forgotten, forgotten);
+    if (in.flight.working && !flying) {
+      goals = {drawn_goal()};
+      flying = true;
+    }
+    const Steering steering = core.step(in, std::move(goals));
+    if (steering.yaw) tracker.turn_to(*steering.yaw);
+    if (const auto* path = std::get_if<Path>(&steering.motion)) tracker.follow(*path);
+    if (std::holds_alternative<Hold>(steering.motion)) tracker.hold();
+    core.move(tracker, {.tick = in.tick, .state = state, .map = map, .boxes = boxes, .peers = peers});
+    state.p_WB = tracker.commanded().p_WB;
+    state.v_WB = tracker.commanded().v_WB;
+    ++k;
+  }
+  RandomStream random;
+  FlightCore core{config, agent};
+  std::int64_t id = 0;
+  bool flying = false;
+  int outcomes = 0, forgotten = 0, longest_forgotten = 0;
+};
+
+// The last goal's outcome may fall together with the begin of a recovery: above all when a program was stopped for some
+// seconds, for then nothing has got on for long.
+TEST(FlightCore, EachOutcomeIsHeardWhenTheStrategyDecides) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    WantsOnePlaceAfterTheOther uav(seed);
+    for (int i = 0; i < 6000; ++i) {
+      uav.exchange();
+      if (uav.random.uniform() < 0.005) uav.k += 20 + uav.random.bits() % 300;  // it stands still for 1 to 16 s
+    }
+    EXPECT_GT(uav.outcomes, 3) << "seed " << seed;
+    EXPECT_LE(uav.longest_forgotten, 1) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace skein::agent
