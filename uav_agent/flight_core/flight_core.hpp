@@ -27,7 +27,10 @@ class FlightCore {
   FlightCore& operator=(const FlightCore&) = delete;
 
   /// Once per exchange, before anything else.
-  void update(const PlannerInput& in) { navigator_.update(in); }
+  void update(const PlannerInput& in) {
+    navigator_.update(in);
+    recovery_.update(in);
+  }
   /// For PlannerInput: what became of the goals since this was asked last. Outcomes are kept until the UAV works: its
   /// strategy hears each of them at a time when it decides.
   FlightState state();

@@ -17,15 +17,24 @@ constexpr double kElsewhereM[] = {8.0, 14.0};
 constexpr double kHeightsM[] = {3.0, 0.0, -3.0, 8.0};
 constexpr int kHeadings = 8, kHeadingStep = 3;  ///< of the first direction, from one try to the next
 constexpr double kLongestS = 30.0;
+constexpr double kTrailStepM = 3.0, kBackM = 8.0;
+constexpr std::size_t kLongestTrail = 64;
 
 }  // namespace
 
 Recovery::Recovery(const FlightConfig& config, Navigator& navigator) : config_(config), navigator_(navigator) {}
 
+void Recovery::update(const PlannerInput& in) {
+  if (!in.tracking.airborne) return;
+  const Vector3d& here_W = in.tracking.setpoint.p_WB;
+  if (!trail_W_.empty() && (here_W - trail_W_.back()).norm() < kTrailStepM) return;
+  trail_W_.push_back(here_W);
+  if (trail_W_.size() > kLongestTrail) trail_W_.pop_front();
+}
+
 void Recovery::begin(const PlannerInput& in) {
-  constexpr Behaviour kOrder[] = {Behaviour::look_around, Behaviour::approach, Behaviour::elsewhere, Behaviour::climb};
-  for (int i = 0; i < 4; ++i) {
-    behaviour_ = kOrder[tries_++ % 4];
+  for (int i = 0; i < kBehaviours; ++i) {
+    behaviour_ = kOrder[tries_++ % kBehaviours];
     if (behaviour_ == Behaviour::look_around) {
       // Without a LiDAR it gives those that have one the time to look.
       until_ = in.tick + ticks(navigator_.sees() ? config_.look_s : 0.5 * config_.look_s);
@@ -57,6 +66,7 @@ bool Recovery::set_out(const PlannerInput& in) {
     navigator_.want({{.id = kGoal, .way = {{up_W, config_.climb_mps}}}});
     return true;
   }
+  if (behaviour_ == Behaviour::back) return go_back(here_W);
   for (const double distance_m : kElsewhereM) {
     for (int i = 0; i < kHeadings; ++i) {
       const double heading = 2.0 * std::numbers::pi * ((i + kHeadingStep * tries_) % kHeadings) / kHeadings;
@@ -71,6 +81,16 @@ bool Recovery::set_out(const PlannerInput& in) {
     }
   }
   return false;
+}
+
+/// Farther each time that the list comes to it.
+bool Recovery::go_back(const Vector3d& here_W) {
+  const double least_m = kBackM * std::ceil(static_cast<double>(tries_) / kBehaviours);
+  const auto far = [&](const Vector3d& p_W) { return (p_W - here_W).norm() >= least_m; };
+  const auto last = std::find_if(trail_W_.rbegin(), trail_W_.rend(), far);
+  if (last == trail_W_.rend()) return false;
+  navigator_.want({{.id = kGoal, .way = {{*last, config_.approach_mps}}}});
+  return true;
 }
 
 bool Recovery::step(const PlannerInput& in, const Held& held, Steering& steering) {

@@ -33,6 +33,7 @@ struct Recovers : FlownUav {
     const Vector3d from_W = state.p_WB;
     Try result;
     navigator.update(input());
+    recovery.update(input());
     recovery.begin(input());
     for (bool over = false; !over && k < from + 4000;) {
       const PlannerInput in = input();
@@ -102,6 +103,40 @@ TEST(Recovery, EndsWhereThereIsNowhereToGo) {
       EXPECT_TRUE(uav.filter.proved(uav.state.p_WB, uav.map, {}));
       EXPECT_LT((uav.state.p_WB - Vector3d(0.0, 0.0, 10.0)).cwiseAbs().maxCoeff(), 4.5);
     }
+  }
+}
+
+// At the end of a shaft, nothing else is known to be free. Each time round it goes back farther.
+TEST(Recovery, GoesBackTheWayThatItCame) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    RandomStream random(seed, "back", 0);
+    FlownUav uav(one_of(seed % 2 == 0 ? Role::explorer : Role::photographer), {0.0, 0.0, 6.0});
+    uav.lidar_works = false;
+    const double top_m = random.uniform(28.0, 50.0);
+    uav.clear({-4.0, -4.0, 0.0}, {4.0, 4.0, top_m + 4.0});
+    Recovery recovery{uav.config, uav.navigator};
+    uav.navigator.want({{.id = 1, .way = {{Vector3d(0.0, 0.0, top_m), 3.0}}}});
+    while (!uav.navigator.idle()) {
+      recovery.update(uav.input());
+      uav.navigate();
+    }
+    ASSERT_NEAR(uav.state.p_WB.z(), top_m, 0.2) << "seed " << seed;
+    double lowest_m = top_m;
+    for (int tries = 0; tries < 10; ++tries) {
+      recovery.begin(uav.input());
+      for (bool over = false; !over;) {
+        const PlannerInput in = uav.input();
+        uav.navigator.update(in);
+        recovery.update(in);
+        Steering steering;
+        over = recovery.step(in, uav.filter.held(), steering);
+        uav.fly(steering);
+      }
+      lowest_m = std::min(lowest_m, uav.state.p_WB.z());
+      if (tries == 4) EXPECT_LT(lowest_m, top_m - 7.0) << "seed " << seed;
+      EXPECT_TRUE(uav.filter.proved(uav.state.p_WB, uav.map, {}));
+    }
+    EXPECT_LT(lowest_m, top_m - 14.0) << "seed " << seed;
   }
 }
 
