@@ -45,12 +45,14 @@ std::string_view view_of(beast::string_view text) { return {text.data(), text.si
 
 /// A browser that follows the flight.
 struct Follower {
-  explicit Follower(beast::tcp_stream&& stream) : socket(std::move(stream)), news(socket.get_executor()) {
+  explicit Follower(beast::tcp_stream&& stream)
+      : socket(std::move(stream)), news(socket.get_executor()), pause(socket.get_executor()) {
     news.expires_at(asio::steady_timer::time_point::max());
   }
 
   WebSocket socket;
-  asio::steady_timer news;  ///< cancelled when there are any
+  asio::steady_timer news;   ///< cancelled when there are any
+  asio::steady_timer pause;  ///< between two messages
   FeedPlace place;
   bool closing = false;
 };
@@ -101,6 +103,13 @@ struct Server::Impl {
     }
   }
 
+  /// Tells what is left to be told, and no more.
+  static void leave(Follower& follower) {
+    follower.closing = true;
+    follower.news.cancel();
+    follower.pause.cancel();
+  }
+
   void tell_news() {
     told = false;
     for (const auto& follower : followers) follower->news.cancel();
@@ -111,10 +120,7 @@ struct Server::Impl {
     boost::system::error_code ignored;
     if (acceptor.is_open()) ::close(acceptor.release(ignored));
     closing = true;
-    for (const auto& follower : followers) {
-      follower->closing = true;
-      follower->news.cancel();
-    }
+    for (const auto& follower : followers) leave(*follower);
     if (patience == 0ms || connections == 0) return io.stop();
     last_call.expires_after(patience);
     last_call.async_wait([this](boost::system::error_code) { io.stop(); });
@@ -232,8 +238,8 @@ struct Server::Impl {
     follower->closing = closing;
     ++connections;
     asio::co_spawn(io, listen_to(follower), [this, follower](const std::exception_ptr&) {
-      follower->closing = true;
-      follower->news.cancel();
+      leave(*follower);
+      beast::get_lowest_layer(follower->socket).close();
       if (--connections == 0 && closing) io.stop();
     });
     boost::system::error_code error;
@@ -247,7 +253,6 @@ struct Server::Impl {
   }
 
   asio::awaitable<void> tell(Follower& follower, boost::system::error_code& error) {
-    asio::steady_timer pause(io);
     while (true) {
       const std::string message = feed.next(follower.place, kBatch);
       if (message.empty()) {
@@ -260,8 +265,9 @@ struct Server::Impl {
       co_await follower.socket.async_write(asio::buffer(message), asio::redirect_error(use_awaitable, error));
       if (error) co_return;
       if (follower.closing) continue;
-      pause.expires_after(kPause);
-      co_await pause.async_wait(use_awaitable);
+      boost::system::error_code woken;
+      follower.pause.expires_after(kPause);
+      co_await follower.pause.async_wait(asio::redirect_error(use_awaitable, woken));
     }
   }
 
