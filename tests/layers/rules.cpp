@@ -22,9 +22,9 @@ const std::set<std::string>& applications() {
 
 /// Lower layers have lower numbers; applications share one, and a whole fleet in one process is made of them.
 std::optional<int> layer_of(const std::string& folder) {
-  static const std::map<std::string, int> kLayers = {{"core", 0},   {"process", 1},    {"idl", 1},
-                                                     {"mcap", 1},   {"properties", 1}, {"bus", 2},
-                                                     {"report", 2}, {"recording", 3},  {"one_process", 5}};
+  static const std::map<std::string, int> kLayers = {
+      {"core", 0}, {"process", 1}, {"idl", 1},       {"mcap", 1}, {"properties", 1},
+      {"bus", 2},  {"report", 2},  {"recording", 3}, {"view", 3}, {"one_process", 5}};
   if (applications().contains(folder)) return 4;
   const auto found = kLayers.find(folder);
   return found == kLayers.end() ? std::nullopt : std::optional(found->second);

@@ -231,5 +231,5 @@ export function doing(index, time) {
   const seconds = uav.captures.slice(Math.max(0, Math.floor(time) - 3), Math.floor(time) + 1);
   if (seconds.some((count) => count > 0)) return pose.speed < 0.3 ? 'photographs' : 'photographs on its way';
   if (pose.speed >= 0.3) return 'flies';
-  return pose.z < 1 ? 'stands on the ground' : 'hovers';
+  return pose.z < 1 ? 'on the ground' : 'hovers';
 }

@@ -61,13 +61,14 @@ function showControls(live) {
 const kStates = {
   flies: ['flies', ''],
   paused: ['paused', 'held'],
-  gone: ['over: results are being written', 'gone'],
+  gone: ['not connected; asking again', 'gone'],
   replay: ['replay', 'replay'],
+  closed: ['replay, no longer served', 'gone'],
 };
 let live = false;
 
 function stateOf() {
-  if (data.mode === 'replay') return 'replay';
+  if (data.mode === 'replay') return live ? 'replay' : 'closed';
   if (!live) return 'gone';
   return data.now?.paused ? 'paused' : 'flies';
 }
@@ -109,12 +110,37 @@ function frame(order) {
   return {...places, side};
 }
 
+/** The page's address holds what it shows, to be kept or shared. */
+const address = {
+  write() {
+    const words = new URLSearchParams();
+    if (!moment.newest) words.set('t', moment.seconds.toFixed(2));
+    if (chosen.uav >= 0) words.set('uav', data.uavs[chosen.uav].name);
+    if (chosen.through) words.set('view', 'camera');
+    if (chosen.point >= 0) words.set('point', String(chosen.point));
+    const hash = words.size > 0 ? `#${words}` : '';
+    if (hash !== location.hash) history.replaceState(null, '', hash || location.pathname);
+  },
+  read() {
+    const words = new URLSearchParams(location.hash.slice(1));
+    const time = Number(words.get('t') ?? NaN);
+    const point = Number(words.get('point') ?? -1);
+    return {
+      time,
+      uav: data.uavs.findIndex(({name}) => name === words.get('uav')),
+      point: Number.isInteger(point) && point < data.points.length / 9 ? point : -1,
+      through: words.get('view') === 'camera',
+    };
+  },
+};
+
 async function show(order) {
   const places = frame(order);
   data.describe = describe;
   let scene;
   const choose = ({uav = -1, point = -1, through = false}) => {
     Object.assign(chosen, {uav, point, through});
+    address.write();
     scene?.follow(uav, through);
     showPanels();
   };
@@ -136,6 +162,7 @@ async function show(order) {
     if (moment.newest && now < due && !data.now?.paused && data.mode === 'live') return;
     due = now + kPanels;
     showPanels();
+    address.write();
   });
   scene = sceneView(places.scene);
   scoreChart(places.score);
@@ -144,6 +171,9 @@ async function show(order) {
   showPanels();
   document.addEventListener('keydown', (event) => event.key === 'Escape' && choose({}));
   growth.tell();
+  const {time, ...what} = address.read();
+  if (Number.isFinite(time) && time < data.end) moment.set(time);
+  if (what.uav >= 0 || what.point >= 0) choose(what);
 }
 
 let begun = false;
