@@ -69,6 +69,7 @@ void StationProgram::add_options(CLI::App& app) {
   app.add_option("--view-fd", view_.listener, "File descriptor of a socket to which browsers connect")
       ->group("Launcher");
   app.add_option("--view-key", view_.key, "File with the key of the page")->group("Launcher");
+  app.add_option("--view-script", view_.script, "File with the script of the page")->group("Launcher");
   app.add_option("--view-title", view_.title, "Title of the page")->group("Launcher");
 }
 

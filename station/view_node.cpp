@@ -35,7 +35,7 @@ std::string with_title(const std::string& scene, const std::string& title) {
 ReadyView::ReadyView(const ViewOptions& options)
     : listener(options.listener),
       key(view::Key::read_from(options.key)),
-      site(view::find_site(options.title)),
+      site(view::site_of(options.title, options.script)),
       title(options.title) {}
 
 ViewNode::ViewNode(const ReadyView& ready, bus::Participant& world, bus::Inbox& inbox)

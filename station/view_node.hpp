@@ -21,9 +21,10 @@
 namespace skein::station {
 
 struct ViewOptions {
-  int listener = -1;          ///< a socket that browsers connect to
-  std::filesystem::path key;  ///< file (view/key.hpp)
-  std::string title;          ///< of the run, for people: "towers by kios"
+  int listener = -1;             ///< a socket that browsers connect to
+  std::filesystem::path key;     ///< file (view/key.hpp)
+  std::filesystem::path script;  ///< of the page, a file
+  std::string title;             ///< of the run, for people: "towers by kios"
 };
 
 /// Its page, before anything flies. @throws InputError for what is wrong with the options.

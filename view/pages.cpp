@@ -1,5 +1,6 @@
 #include "view/pages.hpp"
 
+#include "core/file_bytes.hpp"
 #include "core/types.hpp"
 #include "report/html.hpp"
 #include "report/style.hpp"
@@ -15,25 +16,28 @@ std::string document(const std::string& title, const std::string& head, const st
          report::escaped(title) + "</title>\n" + head + "</head>\n" + body + "</html>\n";
 }
 
+constexpr std::uintmax_t kLargestScript = 8 << 20;
+
 std::string style_element(std::string_view more = {}) {
   return "<style>\n" + std::string(report::base_style()) + std::string(more) + "</style>\n";
 }
 
 }  // namespace
 
-Site find_site(const std::string& title) {
-  auto script = report::web_bundle(report::kLiveScript);
-  if (!script) {
-    throw InputError(
-        "the page's script live.js is missing: packages of Skein contain it, and a build from source makes it with npm "
-        "(docs/view.md)");
-  }
+std::filesystem::path find_script() {
+  if (const auto file = report::find_web_bundle(report::kLiveScript)) return *file;
+  throw InputError(
+      "the page's script live.js is missing: packages of Skein contain it, and a build from source makes it with npm "
+      "(docs/view.md)");
+}
+
+Site site_of(const std::string& title, const std::filesystem::path& script) {
   const std::string head = style_element(std::string(report::drawing_style()) + std::string(report::run_style())) +
                            "<script src=\"/live.js\" defer=\"defer\"></script>\n";
   return {document("Skein: " + title, head,
                    "<body class=\"run watch\">\n<noscript>This page needs JavaScript.</noscript>\n"
                    "<main id=\"flight\"><p class=\"soft\">Waiting for the flight to begin.</p></main>\n</body>\n"),
-          std::move(*script)};
+          read_file_bytes(script, kLargestScript)};
 }
 
 std::string door_page(bool refused) {

@@ -1,8 +1,9 @@
 // The HTML of a run's page while it is served: the page itself, which its script fills, and the door before it.
-// Pure but for find_site(); any thread.
+// Pure but for find_script() and site_of(); any thread.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "view/key.hpp"
@@ -10,8 +11,10 @@
 
 namespace skein::view {
 
-/// What is served, for a run of this name. @throws InputError when the page's script is not there.
-Site find_site(const std::string& title);
+/// The page's script. @throws InputError when it is not there.
+std::filesystem::path find_script();
+/// What is served, for a run of this name. @param script  a file. @throws InputError when it cannot be read.
+Site site_of(const std::string& title, const std::filesystem::path& script);
 
 /// For who has not shown the key. @param refused  it was a wrong one
 std::string door_page(bool refused = false);

@@ -108,8 +108,11 @@ Arguments replay_arguments(const ReplayOf& replay) {
 
 /// What the station must know to serve the page of a run.
 Arguments view_arguments(const FleetPlan& plan) {
-  return {"--view-fd",       std::to_string(kViewFd), "--view-key",
-          plan.watched->key, "--view-title",          plan.scenario.name + " by " + plan.options.planner};
+  const auto& [listener, key, script] = *plan.watched;
+  return {"--view-fd",     std::to_string(kViewFd),
+          "--view-key",    key,
+          "--view-script", script,
+          "--view-title",  plan.scenario.name + " by " + plan.options.planner};
 }
 
 /// Whose software an agent is.

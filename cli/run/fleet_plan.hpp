@@ -19,8 +19,8 @@ namespace skein::cli {
 /// All that is decided before a run starts.
 /// The page of a run that is watched.
 struct WatchedBy {
-  int listener = -1;          ///< a socket that browsers connect to
-  std::filesystem::path key;  ///< file with the page's key
+  int listener = -1;                  ///< a socket that browsers connect to
+  std::filesystem::path key, script;  ///< files: the page's key, and its script
 };
 
 struct FleetPlan {

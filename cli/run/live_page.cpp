@@ -26,13 +26,12 @@ void wait_for_interrupt() {
 
 }  // namespace
 
-LivePage::LivePage(std::uint16_t port) : listener_(port), key_(view::Key::draw()) {
-  view::find_site("");  // before anything flies
+LivePage::LivePage(std::uint16_t port) : script_(view::find_script()), listener_(port), key_(view::Key::draw()) {
   view::write_private_file(folder_.path() / kKeyFile, key_.text() + "\n");
   view::write_private_file(folder_.path() / kDoorFile, view::key_file_page(listener_.port(), key_));
 }
 
-WatchedBy LivePage::watched() const { return {listener_.fd(), folder_.path() / kKeyFile}; }
+WatchedBy LivePage::watched() const { return {listener_.fd(), folder_.path() / kKeyFile, script_}; }
 
 std::string LivePage::address() const {
   return "watch it in a browser: open " + (folder_.path() / kDoorFile).string() +
@@ -42,7 +41,7 @@ std::string LivePage::address() const {
 void LivePage::replay(const std::filesystem::path& run) const {
   view::Feed feed;
   view::tell_finished_run(run, feed);
-  const view::Server server(listener_.fd(), key_, view::find_site(view::title_of_run(run)), feed);
+  const view::Server server(listener_.fd(), key_, view::site_of(view::title_of_run(run), script_), feed);
   wait_for_interrupt();
 }
 

@@ -30,6 +30,7 @@ class LivePage {
   void replay(const std::filesystem::path& run) const;
 
  private:
+  const std::filesystem::path script_;  ///< before anything flies: it may be missing
   view::Listener listener_;
   view::Key key_;
   ScratchDir folder_;  ///< of the key
