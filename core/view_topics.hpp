@@ -7,7 +7,7 @@
 
 namespace skein::topics {
 
-/// The scene first, then lines (view/story.hpp). Latched and deep: a station that starts late or again gets all of them.
+/// The scene first, then lines (view/story.hpp). Latched and deep: a station that starts late or again gets all.
 inline constexpr TopicInfo kViewStory{"/skein/view/story",
                                       "std_msgs/msg/String",
                                       Direction::internal,

@@ -1,9 +1,9 @@
-// The station's side of a run that is watched (--view-fd): it serves the page to browsers. What sim_server tells goes to
-// them as it comes; what only the station knows, captures and what became of them, it adds. Browsers' orders for the
+// The station's side of a run that is watched (--view-fd): it serves the page to browsers. What sim_server tells goes
+// to them as it comes; what only the station knows, captures and what became of them, it adds. Browsers' orders for the
 // run's time go back to sim_server.
 //
-// What comes from sim_server is handed on by the bus's own threads and wakes nobody: the station's part in the lock-step
-// takes the same turns whether or not somebody looks on.
+// What comes from sim_server is handed on by the bus's own threads and wakes nobody: the station's part in the
+// lock-step takes the same turns whether or not somebody looks on.
 // Threads: one, but for what the bus and the server's thread call.
 #pragma once
 

@@ -1,5 +1,6 @@
-// What browsers are told of a flight: its scene, lines in their order (story.hpp), and the newest state. It is filled by
-// one side and read by another: a reader keeps its place in the lines and comes for more when it has sent what it has.
+// What browsers are told of a flight: its scene, lines in their order (story.hpp), and the newest state. It is filled
+// by one side and read by another: a reader keeps its place in the lines and comes for more when it has
+// sent what it has.
 // So a slow browser holds nothing up and nothing piles up for it: of states it gets the newest, of lines all.
 // Threads: any.
 #pragma once
@@ -27,8 +28,8 @@ class Feed {
   void add_line(std::string line);
   void set_state(std::string state);
 
-  /// The next message for who stands at `place`, which moves on: {"scene": ..., "lines": [...], "state": ...}, each only
-  /// if it is news; "more" is true while lines are left. About `most_bytes`, but at least a line.
+  /// The next message for who stands at `place`, which moves on: {"scene": ..., "lines": [...], "state": ...}, each
+  /// only if it is news; "more" is true while lines are left. About `most_bytes`, but at least a line.
   /// @returns an empty text when there is nothing new.
   std::string next(FeedPlace& place, std::size_t most_bytes) const;
   /// Who is told, from the filling thread, that there is something new; replaces the one before. After it has returned

@@ -307,6 +307,9 @@ Server::Server(int listener, Key key, Site site, Feed& feed, Obey obey)
 
 Server::~Server() = default;
 
-void Server::stop() { impl_->end(std::chrono::milliseconds(0)); }
+void Server::stop() {
+  if (impl_) impl_->end(std::chrono::milliseconds(0));
+  impl_.reset();  // and with it all connections
+}
 
 }  // namespace skein::view

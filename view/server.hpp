@@ -1,9 +1,9 @@
 // Serves the page of a run to browsers on this host: HTTP for the page, its script and the key's door, a WebSocket for
 // what there is to be told (feed.hpp) and for what is asked of the run's time.
 //
-// It has a thread of its own, so that nothing of the run ever waits for a browser. A connection is allowed little: short
-// requests in short time, few connections at once, no file of the disk under any name. A frame that is malformed or no
-// order of ours ends its connection.
+// It has a thread of its own, so that nothing of the run ever waits for a browser. A connection is allowed little:
+// short requests in short time, few connections at once, no file of the disk under any name. A frame that is malformed
+// or no order of ours ends its connection.
 //   GET  /         the page, or the door for who has not shown the key
 //   POST /enter    key=...: gives the cookie
 //   GET  /live.js  the page's script    } with the cookie

@@ -277,6 +277,13 @@ TEST_F(ServerTest, SaysGoodbyeWithWhatIsLeft) {
   EXPECT_EQ(heard.substr(heard.size() - 4, 1), "\x88") << "a frame that closes it: two bytes, and why";
 }
 
+TEST_F(ServerTest, LeavesNoConnectionWhenItIsStopped) {
+  const auto wire = follower();
+  server_->stop();
+  wire->all();  // comes to its end
+  EXPECT_EQ(orders_, 0);
+}
+
 TEST_F(ServerTest, AnotherOneTakesOverWhoWaits) {
   server_->stop();
   Wire waiting(listener_.port());

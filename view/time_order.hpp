@@ -1,5 +1,5 @@
-// What a browser may ask of a run's time: pause, go on, one step, another speed. The same text goes from the page to the
-// station and on to the server, and each reads it with the same suspicion.   Pure; any thread.
+// What a browser may ask of a run's time: pause, go on, one step, another speed. The same text goes from the page to
+// the station and on to the server, and each reads it with the same suspicion.   Pure; any thread.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The page of a run in a browser: while it flies, and when it is over. What is seen of it is in the scripts beside this.
+// The page of a run in a browser: while it flies, and when it is over. The scripts beside this look.
 #include <csignal>
 
 #include "view_fixture.hpp"
@@ -28,9 +28,9 @@ class PageOfARun : public ViewTest {
   }
 
   /// A flight that somebody watches, holds and lets go is the one that nobody watched.
-  void watch(const Arguments& flight, const Arguments& how, const Environment& environment = {}) {
+  void watch(const Arguments& flight, const Arguments& how) {
     const std::string unseen = run("unseen", joined(flight, {"--one-process"})).digest();
-    SkeinRun& seen = start("seen", joined(joined(flight, how), {"--view", "--speed", "4"}), environment);
+    SkeinRun& seen = start("seen", joined(joined(flight, how), {"--view", "--speed", "1"}));
     const std::filesystem::path door = door_of(seen);
     look("watch", door, seen.dir());
     seen.skein().signal(SIGINT);
@@ -48,10 +48,10 @@ TEST_F(PageOfARun, FollowsAFleetOverDds) { watch(kFlight, {}); }
 TEST_F(PageOfARun, FollowsAFleetInOneProcess) { watch(kFlight, {"--one-process"}); }
 
 TEST_F(PageOfARun, ComesBackWithAStationThatWasKilled) {
-  const auto faults = write("faults.yaml", "faults:\n  - {at_s: 20, until_s: 22, kill: station}\n");
+  const auto faults = write("faults.yaml", "faults:\n  - {at_s: 16, until_s: 18, kill: station}\n");
   for (const Arguments& how : {Arguments{"--one-process"}, Arguments{}}) {
     const std::string name = how.empty() ? "dds" : "one";
-    SkeinRun& seen = start(name, joined(joined(kFlight, how), {"--faults", faults, "--view", "--speed", "4"}));
+    SkeinRun& seen = start(name, joined(joined(kFlight, how), {"--faults", faults, "--view", "--speed", "0.5"}));
     look("reconnect", door_of(seen), seen.dir());
     seen.skein().signal(SIGINT);
     EXPECT_EQ(seen.exit_code(), 0) << seen.err();
@@ -59,7 +59,8 @@ TEST_F(PageOfARun, ComesBackWithAStationThatWasKilled) {
 }
 
 TEST_F(PageOfARun, ShowsAFinishedRun) {
-  const SkeinRun& done = run("done", joined(kFlight, {"--one-process", "--planner", "patrol", "--seed", "3"}));
+  const SkeinRun& done =
+      run("done", {"towers", "--planner", "kios", "--seed", "3", "--duration", "60", "--one-process"});
   ChildProcess& replay = start_program("replay", {program("skein"), "replay", done.dir()});
   ASSERT_TRUE(eventually([&] { return !door_in(replay.out()).empty(); })) << replay.err();
   look("replay", door_in(replay.out()), done.dir());
