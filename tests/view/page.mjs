@@ -5,9 +5,9 @@ import {openBrowser} from '../report/browser.mjs';
 
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
-/** @returns browser, page, complaints, and what waits for facts. */
-export async function openRun([web, chromium, door], {width = 1400, height = 950, scheme = 'light'} = {}) {
-  const browser = await openBrowser(web, chromium);
+/** @param known  a browser that is open already. @returns browser, page, complaints, and the page's host. */
+export async function openRun([web, chromium, door], {width = 1400, height = 950, scheme = 'light'} = {}, known = null) {
+  const browser = known ?? await openBrowser(web, chromium);
   const page = await browser.newPage();
   const host = /http:\/\/(127\.0\.0\.1:\d+)\/enter/.exec(readFileSync(door, 'utf8'))[1];
   const complaints = [];

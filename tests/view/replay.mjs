@@ -15,9 +15,15 @@ const rows = (name) => {
   const [head, ...lines] = readFileSync(path.join(run, name), 'utf8').trim().split('\n').map((line) => line.split(','));
   return lines.map((cells) => Object.fromEntries(head.map((key, i) => [key, cells[i]])));
 };
+/** The figures of a picture. A page draws nothing while another one is in front, as the one that is looked with. */
+const look = async (browser, page, png) => {
+  const figures = await lookAt(browser, png);
+  await page.bringToFront();
+  return figures;
+};
 const picture = async (browser, page) => {
   const png = await (await page.$('.stage')).screenshot({encoding: 'base64'});
-  return {png, ...await lookAt(browser, png)};
+  return {png, ...await look(browser, page, png)};
 };
 
 /** Where a point of the scene is on the screen, by the page's own means: the pointer tells of it. */
@@ -73,14 +79,17 @@ async function checkKeyboard(page) {
   expect(await page.$eval('#chosen', (element) => element.hidden), 'Escape does not let go');
 }
 
+let browser = null;
 for (const [width, scheme] of [[1400, 'light'], [1400, 'dark'], [800, 'light'], [390, 'dark']]) {
   where = `${width} ${scheme}`;
-  const {browser, page, complaints} = await openRun([web, chromium, door], {width, scheme});
+  const opened = await openRun([web, chromium, door], {width, scheme}, browser);
+  const {page, complaints} = opened;
+  browser = opened.browser;
   await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'the replay');
   await sleep(500);
   const {score, shown} = await stateOf(page);
   expect(score === result.score && shown === result.score.toFixed(3), `the score is ${shown}, not ${result.score}`);
-  const whole = await lookAt(browser, await page.screenshot({encoding: 'base64'}));
+  const whole = await look(browser, page, await page.screenshot({encoding: 'base64'}));
   expect(scheme === 'dark' ? whole.brightness < 0.4 : whole.brightness > 0.6, `has a brightness of ${whole.brightness}`);
   const stage = await picture(browser, page);
   expect(stage.colours > 60 && stage.largest < 0.97, `the scene is blank: ${JSON.stringify({...stage, png: ''})}`);
@@ -92,5 +101,6 @@ for (const [width, scheme] of [[1400, 'light'], [1400, 'dark'], [800, 'light'], 
     await checkPoint(page);
   }
   for (const complaint of complaints) expect(false, complaint);
-  await browser.close();
+  await page.close();
 }
+await browser.close();

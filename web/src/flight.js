@@ -220,6 +220,29 @@ export function sharesAt(time) {
   return shares;
 }
 
+/** Where the score is: of all points, how many are in which state, and what they hold. */
+export function pointsAt(time) {
+  const states = {
+    delivered: {points: 0, score: 0},
+    carried: {points: 0, score: 0},
+    poor: {points: 0, score: 0},
+    unseen: {points: 0, score: 0},
+  };
+  let [blur, resolution] = [0, 0];
+  for (let point = 0; point < byPoint.length; ++point) {
+    const {delivered, taken} = byPoint[point].length > 0 ? custody(point, time) : {delivered: null, taken: null};
+    const counts = delivered !== null && delivered.q >= kDetected;
+    const state = counts ? 'delivered' : taken === null ? 'unseen' : taken.q >= kDetected ? 'carried' : 'poor';
+    ++states[state].points;
+    states[state].score += (counts ? delivered : taken)?.q ?? 0;
+    if (!counts) continue;
+    blur += 1 - delivered.blur;
+    resolution += 1 - delivered.res;
+  }
+  const {points} = states.delivered;
+  return {states, blur: points > 0 ? blur / points : 0, resolution: points > 0 ? resolution / points : 0};
+}
+
 /** What a UAV does, in words. */
 export function doing(index, time) {
   const uav = data.uavs[index];

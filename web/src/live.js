@@ -5,7 +5,7 @@ import {connect} from './connection.js';
 import {begin, scoreAt, stand, tell} from './flight.js';
 import style from './live.css';
 import {data, element, growth, moment} from './page.js';
-import {chosenPanel, describe, eventsPanel, fleetPanel, linksPanel} from './panels.js';
+import {chosenPanel, describe, eventsPanel, fleetPanel, linksPanel, pointsPanel} from './panels.js';
 import reportStyle from './report.css';
 
 const kPanels = 400;  // ms between two drawings of the panels while time goes on
@@ -104,10 +104,11 @@ function frame(order) {
     lanes: picture('lanes', 'What each UAV did'),
   };
   const side = element('div', {class: 'column side'}, places.score);
+  const couple = element('div', {class: 'couple'});
   const missing = data.missing?.length ? [element('p', {class: 'note'}, `This recording lacks something: ${data.missing.join(' ')}`)] : [];
   main.replaceChildren(bar, ...missing, element('div', {class: 'layout'},
-      element('div', {class: 'column'}, element('div', {class: 'views'}, places.scene), places.lanes), side));
-  return {...places, side};
+      element('div', {class: 'views'}, places.scene), side, element('div', {class: 'column below'}, places.lanes, couple)));
+  return {...places, side, couple};
 }
 
 /** The page's address holds what it shows, to be kept or shared. */
@@ -148,9 +149,10 @@ async function show(order) {
   data.onPoint = (point) => choose({point});
   const [{sceneView}, {scoreChart, lanesChart}] = [await import('./scene.js'), await import('./charts.js')];
   const fleet = fleetPanel(data.onUav);
-  const panels = [chosenPanel(() => choose({uav: chosen.uav, through: !chosen.through}), () => choose({})), linksPanel(), eventsPanel()];
+  const panels = [chosenPanel(() => choose({uav: chosen.uav, through: !chosen.through}), () => choose({})), pointsPanel(), linksPanel(), eventsPanel()];
   places.side.prepend(panels[0].element, fleet.element);
-  places.side.append(panels[1].element, panels[2].element);
+  places.side.append(panels[1].element);
+  places.couple.append(panels[2].element, panels[3].element);
   const showPanels = () => {
     fleet.show(chosen.uav);
     for (const one of panels) one.show(chosen);

@@ -1,6 +1,6 @@
 // The panels beside the scene: what each UAV does, its links, what happened, and what was chosen. Each is drawn anew for
 // the moment that the page shows.
-import {custody, doing, events, kLinks, linksAt, poseAt, sharesAt} from './flight.js';
+import {custody, doing, events, kLinks, linksAt, pointsAt, poseAt, sharesAt} from './flight.js';
 import {data, element, moment, trackColour} from './page.js';
 
 const kMostEvents = 150;
@@ -45,8 +45,35 @@ export function fleetPanel(choose) {
     });
   };
   const table = element(
-      'table', {class: 'uavs'}, headRow(['UAV', 'does', 'm/s', 'to station', 'undelivered', 'score']), body);
+      'table', {class: 'uavs'}, headRow(['UAV', 'does', 'm/s', 'station', 'not delivered', 'score']), body);
   return {element: panel('Fleet', {id: 'fleet'}, element('div', {class: 'wide'}, table)), show};
+}
+
+const kPointStates = [
+  ['delivered', 'q3', 'delivered'],
+  ['carried', 'carried', 'photographed, not delivered'],
+  ['poor', 'q0', 'photographed too poorly (below 0.2)'],
+  ['unseen', 'q0', 'in no picture'],
+];
+
+/** What became of the points so far, and what keeps those that were delivered from 1. */
+export function pointsPanel() {
+  const cells = kPointStates.map(() => ['', ''].map(() => element('td')));
+  const rows = kPointStates.map(([, colour, text], i) => element(
+      'tr', {}, element('th', {scope: 'row'}, swatch(colour), text), ...cells[i]));
+  const note = element('p', {class: 'soft'}, '');
+  const show = () => {
+    const {states, blur, resolution} = pointsAt(moment.seconds);
+    kPointStates.forEach(([state], i) => {
+      cells[i][0].textContent = String(states[state].points);
+      cells[i][1].textContent = state === 'unseen' ? '–' : states[state].score.toFixed(1);
+    });
+    note.textContent = states.delivered.points === 0 ? '' :
+        `A delivered point lost ${(100 * blur).toFixed(0)} % to blur and ${(100 * resolution).toFixed(0)} % to ` +
+        'resolution (distance and tilt), on average.';
+  };
+  const table = element('table', {class: 'states'}, headRow(['points', 'number', 'score']), element('tbody', {}, ...rows));
+  return {element: panel('Where the score is', {id: 'points'}, element('div', {class: 'wide'}, table), note), show};
 }
 
 export function linksPanel() {
@@ -60,7 +87,7 @@ export function linksPanel() {
       'tr', {}, element('th', {scope: 'row'}, name),
       ...names.map((_, to) => element('td', {}, ...(from === to ? [] : [cells[from][to]])))));
   const table = element(
-      'table', {class: 'matrix'}, headRow(['from, to', ...names.map((name) => name.slice(0, 7))]),
+      'table', {class: 'matrix'}, headRow(['from, to', ...names.map((name) => name.slice(0, 6))]),
       element('tbody', {}, ...rows));
   const show = () => {
     const digits = linksAt(moment.seconds);
