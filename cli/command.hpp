@@ -24,6 +24,13 @@ struct ReplayOf {
 /// What --break-on knows.
 inline constexpr std::array kBreakEvents = {"collision", "rejected", "lost", "fault"};
 
+/// What a browser is served of a run.
+struct ViewOptions {
+  std::optional<std::uint16_t> port;  ///< 0: any that is free; none: nothing is served
+  std::optional<std::string> speed;   ///< of a flight that is watched, as view::read_speed() has it
+  bool close = false;                 ///< the page ends with the run, instead of staying as its replay
+};
+
 struct RunOptions {
   std::string scenario = "towers";  ///< a name under config/scenarios/ or a YAML file
   std::string planner = kDefaultPlanner;
@@ -54,6 +61,7 @@ struct RunOptions {
   bool force = false;
   std::string record = "run";  ///< how much goes into the recording: none, messages, run, all or clouds
   std::optional<ReplayOf> replay;
+  ViewOptions view;
   bool check = true;       ///< ask the programs first whether they can fly this
   bool attainable = true;  ///< ask the oracle after the run
   bool report = true;      ///< make report.html of the run
@@ -74,6 +82,12 @@ struct TestOptions {
   std::optional<std::filesystem::path> junit;  ///< report of fault tests for those who read XML
   int jobs = 1;                                ///< flights at once
   bool verbose = false;                        ///< tell what was seen of expectations that hold too
+};
+
+/// `skein replay`: a finished run in a browser.
+struct ReplayOptions {
+  std::filesystem::path run;
+  std::uint16_t port = 0;  ///< 0: any that is free
 };
 
 /// `skein hunt`: a search for faults that break a property.
@@ -272,7 +286,7 @@ struct CompletionOptions {
 
 using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions,
                              DiffOptions, StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions,
-                             CheckPlannerOptions, KeysOptions, MergeOptions, ReportOptions, RerunOptions, ForkOptions,
-                             PsOptions, AttachOptions, HelpText, CompletionOptions>;
+                             CheckPlannerOptions, KeysOptions, MergeOptions, ReportOptions, ReplayOptions, RerunOptions,
+                             ForkOptions, PsOptions, AttachOptions, HelpText, CompletionOptions>;
 
 }  // namespace skein::cli

@@ -20,6 +20,7 @@ Names values_of(const CLI::Option& option, const KnownNames& known) {
   if (name == "SCENARIO" || name == "--scenario" || name == "--scenarios") return known.scenarios();
   if (name == "--planner" || name == "--planners") return known.planners();
   if (name == "--clock") return {"lockstep", "realtime"};
+  if (name == "--speed") return {"1", "8", "max"};
   Names presets;
   if (name == "--rules") {
     for (const RulesConfig& rules : rules_presets()) presets.push_back(rules.preset);

@@ -19,6 +19,7 @@
 #include "cli/merge_command.hpp"
 #include "cli/options.hpp"
 #include "cli/oracle_command.hpp"
+#include "cli/replay_command.hpp"
 #include "cli/report_command.hpp"
 #include "cli/rerun_command.hpp"
 #include "cli/run/agent_file.hpp"
@@ -78,6 +79,7 @@ struct Execute {
   int operator()(const KeysOptions& options) const { return make_keys(options, console); }
   int operator()(const MergeOptions& options) const { return merge_reports(options, console); }
   int operator()(const ReportOptions& options) const { return make_reports(options, console); }
+  int operator()(const ReplayOptions& options) const { return replay_run(options, console); }
   int operator()(const RerunOptions& options) const { return rerun(options, console); }
   int operator()(const ForkOptions& options) const { return fork_run(options, console); }
   int operator()(const PsOptions&) const { return list_fleets(console); }

@@ -6,6 +6,7 @@
 
 #include "cli/option_checks.hpp"
 #include "cli/tool_options.hpp"
+#include "cli/view_options.hpp"
 #include "core/number_checks.hpp"
 #include "core/text.hpp"
 #include "core/types.hpp"
@@ -123,6 +124,7 @@ void add_run(CLI::App& app, RunOptions& run) {
   command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
   add_network(*command, run.network);
   add_result_options(command, run);
+  add_view_options(*command, run.view);
   command->footer(
       "Examples:\n"
       "  skein run towers --planner kios\n"
@@ -131,7 +133,8 @@ void add_run(CLI::App& app, RunOptions& run) {
       "  skein run towers --agent build/my_agent --planner orbit\n"
       "  skein run towers --planner orbit@team_a/agent,jurong=kios@team_b/agent\n"
       "  skein run towers --planner hover,jurong=exec:./my_program\n"
-      "  skein run towers --planner kios --debug jurong=gdb");
+      "  skein run towers --planner kios --debug jurong=gdb\n"
+      "  skein run towers --planner kios --view");
 }
 
 void add_compose(CLI::App& app, ComposeOptions& compose) {
@@ -270,6 +273,7 @@ struct OptionParser {
   KeysOptions keys;
   MergeOptions merge;
   ReportOptions report;
+  ReplayOptions replay;
   RerunOptions rerun;
   ForkOptions fork;
   HuntOptions hunt;
@@ -292,6 +296,7 @@ OptionParser::OptionParser()
   add_keys(app, keys);
   add_merge(app, merge);
   add_report(app, report);
+  add_replay(app, replay);
   add_rerun(app, rerun);
   add_fork(app, fork);
   add_test(app, test);
@@ -341,6 +346,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   const std::string command = "skein " + shell_line(arguments);
   if (is("run")) {
     check_one_process(parser.run);
+    check_view(parser.run);
     parser.run.command = command;
     return parser.run;
   }
@@ -351,6 +357,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (is("keys")) return parser.keys;
   if (is("merge")) return parser.merge;
   if (is("report")) return parser.report;
+  if (is("replay")) return parser.replay;
   if (is("rerun")) return parser.rerun;
   if (is("fork")) return parser.fork;
   if (is("ps")) return PsOptions{};

@@ -9,6 +9,7 @@
 #include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/fleet_run.hpp"
+#include "cli/run/live_page.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/run_results.hpp"
@@ -64,6 +65,7 @@ Json fly_quietly(RunOptions options) {
   options.domain.reset();
   options.one_process = options.break_on != "lost";  // who crashes takes the process along
   options.break_on.reset();
+  options.view = {};
   options.cores = false;
   options.attainable = options.report = false;
   options.record = "none";
@@ -91,12 +93,14 @@ void find_break(RunOptions& options, const Console& console) {
 int run_fleet(const RunOptions& given, const Console& console) {
   RunOptions options = with_debugger(given, console);
   find_break(options, console);
-  const FleetPlan plan = plan_fleet(options, program_dir());
+  FleetPlan plan = plan_fleet(options, program_dir());
   const auto folder = [&] {
     const auto usual = default_results_dir(plan.scenario.name, options.planner, options.seed);
     return options.out.value_or(options.force ? usual : free_results_dir(usual));
   };
   ResultsDir::check(folder(), options.force);
+  std::optional<LivePage> page;
+  if (options.view.port) plan.watched = page.emplace(*options.view.port).watched();
   if (options.check) check_before_flight(plan, console);
   std::optional<DomainBlock> domains;
   if (!options.one_process) domains.emplace(options.domain, domain_count(plan));
@@ -107,6 +111,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
   if (options.cores) allow_cores();
   FleetRun run(plan, console.err, console.terminal);
   run.view().message(start_line(plan, domains, dir));
+  if (page) run.view().message(page->address());
   warn_of_surroundings(domains, run);
   std::optional<SecureRun> secure;
   if (options.secure) {
@@ -128,7 +133,13 @@ int run_fleet(const RunOptions& given, const Console& console) {
   const RunResults results{options, run.facts(), plan.scenario,
                            reports, out.path(),  [&](const std::string& text) { return out.write_result(text); }};
   const auto result = write_results(results, dir, collect, console);
-  return result ? exit_code_of(run, *result) : kExitProcessFailed;
+  if (!result) return kExitProcessFailed;
+  // Who has interrupted the run has seen enough.
+  if (page && !options.view.close && !run.facts().interrupted) {
+    console.err << "the page shows the replay now; Ctrl-C ends it" << std::endl;
+    page->replay(out.path());
+  }
+  return exit_code_of(run, *result);
 }
 
 }  // namespace skein::cli

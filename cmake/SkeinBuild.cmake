@@ -24,7 +24,8 @@ set(SKEIN_SANITIZE OFF CACHE STRING "Build with sanitizers: address (and undefin
 # What is built and run with ThreadSanitizer: what has threads of its own, both vendors' buses, and whole fleets over
 # the inproc bus. What happens between threads of the vendors' own libraries is not looked into (tsan.supp).
 set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test process_status_pipe_test
-  one_process_crew_test one_process_flights_test one_process_digests_test bus_contract_test radio_contract_test)
+  one_process_crew_test one_process_flights_test one_process_digests_test bus_contract_test radio_contract_test
+  view_server_test)
 
 # What takes long with sanitizers, for it computes much: an eighth of it runs at each commit.
 set(SKEIN_SLOW_SANITIZED_TESTS sim_oracle_oracle_test sim_plan_flight_test sim_plan_plan_test

@@ -33,7 +33,8 @@ install(TARGETS skein_other_clock LIBRARY DESTINATION lib/skein COMPONENT runtim
 # What makes reports interactive. The script builds it or refuses; it is optional only where SKEIN_WITHOUT_WEB says so.
 install(CODE "set(SKEIN_ROOT \"${PROJECT_SOURCE_DIR}\")" COMPONENT runtime)
 install(SCRIPT cmake/SkeinWebBundle.cmake COMPONENT runtime)
-install(FILES ${PROJECT_SOURCE_DIR}/build/web/report.js DESTINATION ${CMAKE_INSTALL_DATADIR}/skein/web
+install(FILES ${PROJECT_SOURCE_DIR}/build/web/report.js ${PROJECT_SOURCE_DIR}/build/web/live.js
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/skein/web
   COMPONENT runtime OPTIONAL)
 install(FILES cli/completion/skein.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
   RENAME skein COMPONENT runtime)
@@ -44,10 +45,10 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # 
 
 # Where config/gdb/skein_printers.py looks for it.
 install(DIRECTORY bus cli comm_router core doctor mcap one_process process properties recording report sim_server
-  station uav_agent DESTINATION src/skein COMPONENT source
+  station uav_agent view DESTINATION src/skein COMPONENT source
   FILES_MATCHING PATTERN "*.cpp" PATTERN "*.hpp" PATTERN testing EXCLUDE)
 
-set(libraries core process idl mcap bus lockstep recording agent agent_nodes agent_main
+set(libraries core process report view idl mcap bus lockstep recording agent agent_nodes agent_main
   sim sim_node router router_node station station_node one_process one_process_main)
 foreach(library ${libraries})
   set_target_properties(skein_${library} PROPERTIES EXPORT_NAME ${library})

@@ -199,7 +199,7 @@ void Crew::kill(Place& place) {
   static auto& graveyard =
       *new std::vector<std::pair<std::unique_ptr<bus::FleetProgram>, std::unique_ptr<bus::FleetMember>>>;
   if (place.member) {
-    place.member->bus().vanish();
+    place.member->vanish();
     place.member->node().inbox().set_deaf(true);
   }
   graveyard.emplace_back(std::move(place.program), std::move(place.member));

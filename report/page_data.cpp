@@ -134,20 +134,28 @@ Json page_data(const RunPage& page) {
                             {"relayed", spans_json(lane.relayed)},
                             {"collided", lane.collided_s ? Json(*lane.collided_s) : Json()}});
   }
-  data["points"] = points_json(run);
   data["best"] = best_json(run);
+  data.update(scene_data(run));
+  return data;
+}
+
+Json scene_data(const RunData& run) {
+  Json data = Json::object();
+  data["points"] = points_json(run);
   data["causes"] = Json::array();
   for (const Cause& cause : kCauses) data["causes"].push_back(std::string(cause.title));
   data["causes_known"] = run.causes_known;
   data["boxes"] = Json::array();
-  for (const auto& corners : page.picture.boxes) {
-    Json box = Json::array();
-    for (const Vector3d& corner : corners) box.push_back(in_cm(corner));
-    data["boxes"].push_back(std::move(box));
+  for (const RunBox& box : run.boxes) {
+    Json corners = Json::array();
+    for (const Vector3d& corner : corners_of(box.center, box.size, box.R_WB)) corners.push_back(in_cm(corner));
+    data["boxes"].push_back(std::move(corners));
   }
   data["station"] = run.station ? in_cm(*run.station) : Json();
   data["collisions"] = Json::array();
-  for (const Vector3d& p_W : page.picture.collisions) data["collisions"].push_back(in_cm(p_W));
+  for (const RunCollision& collision : run.collisions) {
+    if (collision.p_W) data["collisions"].push_back(in_cm(*collision.p_W));
+  }
   data["faults"] = Json::array();
   for (const RunFault& fault : run.faults) {
     data["faults"].push_back(

@@ -38,25 +38,26 @@ bool fits_in_script(const std::string& script) {
 
 }  // namespace
 
-std::optional<fs::path> find_web_bundle() {
+std::optional<fs::path> find_web_bundle(std::string_view name) {
   const auto there = [](const fs::path& file) {
     std::error_code error;
     return fs::is_regular_file(file, error);
   };
   if (const char* named = std::getenv("SKEIN_WEB"); named != nullptr && *named != '\0') {
-    return there(named) ? std::optional<fs::path>(named) : std::nullopt;
+    const fs::path file = name == kReportScript ? fs::path(named) : fs::path(named).parent_path() / name;
+    return there(file) ? std::optional(file) : std::nullopt;
   }
   std::error_code error;
   const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& file : {fs::path(SKEIN_SOURCE_ROOT) / "build" / "web" / "report.js",
-                               bin.parent_path() / "share" / "skein" / "web" / "report.js"}) {
+  for (const fs::path& file :
+       {fs::path(SKEIN_SOURCE_ROOT) / "build" / "web" / name, bin.parent_path() / "share" / "skein" / "web" / name}) {
     if (there(file)) return file;
   }
   return std::nullopt;
 }
 
-std::optional<std::string> web_bundle() try {
-  const auto file = find_web_bundle();
+std::optional<std::string> web_bundle(std::string_view name) try {
+  const auto file = find_web_bundle(name);
   if (!file) return std::nullopt;
   std::string script = read_file_bytes(*file, kLargest);
   return fits_in_script(script) ? std::optional(std::move(script)) : std::nullopt;

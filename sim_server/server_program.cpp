@@ -35,6 +35,11 @@ std::optional<double> realtime_factor(const std::string& clock) {
   throw InputError("--clock " + clock + ": it must be lockstep, realtime or realtime:FACTOR with a factor above 0");
 }
 
+std::optional<WatchOptions> watch_options(const std::string& speed, const std::string& clock) {
+  if (speed.empty()) return std::nullopt;
+  return WatchOptions{view::read_speed(speed), !realtime_factor(clock)};
+}
+
 FlightReport flight_of(const ProgramOptions& options, const Scenario& scenario, const std::string& clock) {
   return {.scenario = options.scenario,
           .seed = options.seed,
@@ -115,6 +120,10 @@ void ServerProgram::add_options(CLI::App& app) {
          "if that is more)")
       ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
   app.add_flag("--ground-program", ground_program_, "wait for a program at the ground station before the start");
+  app.add_option(
+         "--watch", watch_speed_,
+         "tell the station what a page needs, and fly at this speed, SPEED or max, until the page says otherwise")
+      ->group("Launcher");
   recording::add_replay_options(app, replay_);
   tasks_.add_options(app);
 }
@@ -145,6 +154,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .replay = replay_,
                                     .notice_deaths = !options.has_launcher(),
                                     .expect_gcs_program = ground_program_,
+                                    .watch = watch_options(watch_speed_, clock_),
                                     .faults = load_fault_plan(options.faults, *scenario, options.seed)};
   Scene scene = load_scene(*scenario);
   if (!options.check_only) refuse_used_folder(options);

@@ -28,6 +28,7 @@ class ServerProgram final : public bus::FleetProgram {
   std::optional<double> stop_at_s_, startup_timeout_s_;
   double agent_timeout_s_ = 60.0;
   bool ground_program_ = false;
+  std::string watch_speed_;  ///< empty: nobody watches
   recording::ReplayOptions replay_;
   ServerTasks tasks_;
 };

@@ -68,6 +68,9 @@ void SimNode::declare_members() {
   const auto gcs = server_.add_domain(scenario_.node_name(kStationNode), *participants_[1]);
   gcs_ = std::make_unique<GcsNode>(scenario_, simulation_, server_, gcs, *participants_[0]);
   viz_ = std::make_unique<VizNode>(scenario_, simulation_, *participants_[0]);
+  if (const auto& watch = options_.watch) {
+    watch_ = std::make_unique<WatchNode>(scenario_, simulation_, files_.events(), inbox_, *participants_[0], *watch);
+  }
   for (const UavIndex i : FirstUavs(scenario_.fleet.size())) {
     const auto domain = server_.add_domain(uav_names_[i], *participants_[2 + i]);
     server_.add_place(uav_names_[i], domain, options_.replay.takes_part(uav_names_[i]));
@@ -136,7 +139,8 @@ std::optional<bus::NodeEnd> SimNode::end() const {
 bus::LockstepNode::Rest SimNode::rest() {
   if (state_ == State::in_step) return {.longest = kIdlePoll, .rings = server_.rings(), .until_rung = true};
   if (state_ != State::pacing) return {.longest = kMatchPoll, .until_rung = false};
-  const auto left = std::chrono::ceil<milliseconds>(due() - Clock::now());
+  const auto left =
+      options_.realtime_factor || !watch_ ? std::chrono::ceil<milliseconds>(due() - Clock::now()) : watch_->left();
   return {.longest = std::clamp(left, milliseconds(0), ProgressTeller::kPeriod), .until_rung = false};
 }
 
@@ -242,7 +246,8 @@ bool SimNode::let_in_members() {
 
 // Real time: the next step is due when the wall clock says so; what arrives meanwhile is taken in.
 bool SimNode::keep_pace() {
-  if (options_.realtime_factor && Clock::now() < due() && !aborted_ && !stop_requested_) {
+  const bool held = (options_.realtime_factor && Clock::now() < due()) || (watch_ && !watch_->may_go_on());
+  if (held && !aborted_ && !stop_requested_) {
     progress_.tell(simulation_, summary_.lost);
     return false;
   }
@@ -267,7 +272,7 @@ void SimNode::end_run(bool joined) {
   state_ = State::over;
   tell_of_strangers(0);
   for (const std::string& name : uav_names_) summary_.commands_unheard.push_back(strangers_.unheard(name));
-  summary_.wall_time_s = joined ? elapsed_s(started_) : 0.0;
+  summary_.wall_time_s = joined ? elapsed_s(started_) - (watch_ ? watch_->held_s() : 0.0) : 0.0;
   summary_.timing = clock_.summary();
   summary_.timing.cpu_s = joined ? thread_cpu_s() - cpu_before_s_ : 0.0;
   summary_.malformed = inbox_.malformed();
@@ -321,6 +326,7 @@ void SimNode::publish_step() {
   const std::vector<std::string> faults = faults_.begin_step();
   for (const std::string& line : faults) spdlog::info("{}", line);
   recording_.begin_step(simulation_, faults);
+  if (watch_) watch_->begin_step(faults);
   faults_.take_out_victims();
   for (std::string& warning : faults_.take_warnings()) summary_.warnings.push_back(std::move(warning));
   tell_of_strangers(kStrangerSteps);

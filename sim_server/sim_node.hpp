@@ -27,6 +27,7 @@
 #include "sim_server/uav_node.hpp"
 #include "sim_server/viz_node.hpp"
 #include "sim_server/wait_teller.hpp"
+#include "sim_server/watch_node.hpp"
 #include "sim_server/work/work_log.hpp"
 
 namespace skein::sim {
@@ -42,8 +43,9 @@ struct SimNodeOptions {
   FlightReport flight = {};               ///< for the report
   recording::Scope record = recording::Scope::none;
   recording::ReplayOptions replay = {};
-  bool notice_deaths = false;       ///< nobody tells who died (report_lost())
-  bool expect_gcs_program = false;  ///< a user's program at the ground station takes part
+  bool notice_deaths = false;              ///< nobody tells who died (report_lost())
+  bool expect_gcs_program = false;         ///< a user's program at the ground station takes part
+  std::optional<WatchOptions> watch = {};  ///< somebody looks on (--watch)
   FaultPlan faults;
 };
 
@@ -110,6 +112,7 @@ class SimNode final : public bus::LockstepNode {
   std::vector<std::unique_ptr<UavNode>> uavs_;
   std::unique_ptr<GcsNode> gcs_;
   std::unique_ptr<VizNode> viz_;
+  std::unique_ptr<WatchNode> watch_;  ///< none: nobody watches
   FaultNode faults_;
   WorkLog work_;
   ProgressTeller progress_;

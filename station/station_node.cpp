@@ -23,7 +23,7 @@ constexpr Tick kVizPeriod = kTicksPerSecond / 10;
 }  // namespace
 
 StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
-                         StatusPipe& status, recording::Recorder* recorder)
+                         StatusPipe& status, recording::Recorder* recorder, const ReadyView* view)
     : scenario_(scenario),
       out_(out),
       status_(status),
@@ -47,6 +47,7 @@ StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bu
     client_.declare_writer(bus::spec(topics::captures_ack(uavs_[i])), LockstepClient::Counterpart::router);
   }
   if (recorder_ != nullptr) client_.before_obeying([this] { recorder_->flush(); });
+  if (view != nullptr) view_ = std::make_unique<ViewNode>(*view, *world_, inbox_);
   client_.think_when([this](const msg::Step& step) {
     return scoreboard_ && points_.size() == scoreboard_->delivered().points().size() &&
            scoreboard_->has_entries(step.ledger_upto());
@@ -67,6 +68,7 @@ void StationNode::on_ledger(const msg::Ledger& ledger) {
 void StationNode::open_scoreboard(std::size_t points) {
   scoreboard_.emplace(uavs_.size(), points, scenario_.rules);
   for (const TallyRecord& record : journal_.replayed()) scoreboard_->restore(record);
+  if (view_) view_->add_records(journal_.replayed());
   if (!journal_.replayed().empty()) spdlog::info("took up {} records of the journal", journal_.replayed().size());
 }
 
@@ -97,6 +99,7 @@ void StationNode::think() {
   acknowledge(outcome);
   if (outcome.score_changed) show_score(step.tick());
   if (news) record_tally(step.tick());
+  if (view_) view_->end_step(*scoreboard_, outcome, step.ledger_upto());
   viz_stale_ |= outcome.score_changed;
   show_to_viewers(step.tick());
   client_.done(outcome.digest);
@@ -108,6 +111,10 @@ bus::CountedWriter StationNode::heard_writer(const topics::WireTopic& topic) {
   bus::TopicSpec spec = bus::spec(topic);
   bus::Ear ear = recorder_ != nullptr ? recorder_->ear(scenario_.node_name(kStationNode), spec) : bus::Ear{};
   return {*gcs_, std::move(spec), std::move(ear)};
+}
+
+void StationNode::stop_serving() {
+  if (view_) view_->stop();
 }
 
 void StationNode::note_unwritten(std::string trouble) {

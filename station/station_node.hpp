@@ -18,6 +18,7 @@
 #include "station/journal.hpp"
 #include "station/point_names.hpp"
 #include "station/scoreboard.hpp"
+#include "station/view_node.hpp"
 
 namespace skein::station {
 
@@ -25,14 +26,17 @@ class StationNode final : public bus::ClientNode {
  public:
   /// @param out  where the journal is; what it holds from an earlier life of this run is taken up again.
   /// @param recorder  records the tally, and the score as others read it; must outlive this. nullptr: nobody does.
+  /// @param view  the page that is served; nullptr: none is.
   StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
-              StatusPipe& status, recording::Recorder* recorder = nullptr);
+              StatusPipe& status, recording::Recorder* recorder = nullptr, const ReadyView* view = nullptr);
 
   bus::Inbox& inbox() override { return inbox_; }
   /// A file of another that the disk refused, a sentence; for the report.
   void note_unwritten(std::string trouble);
   /// At the end of its part: the files of a run (station_report.hpp), unless it never heard of the points.
   void write_report(const std::string& dds = {});
+  /// It ends in the middle of things: browsers are told nothing more.
+  void stop_serving();
 
  private:
   bus::LockstepClient& client() override { return client_; }
@@ -67,6 +71,7 @@ class StationNode final : public bus::ClientNode {
   bool viz_stale_ = true;  ///< what viewers were shown last is not how it stands
   Tick viz_due_ = 0;
   bus::LockstepClient client_;
+  std::unique_ptr<ViewNode> view_;  ///< none: nobody watches
   bool last_step_answered_ = false;
   std::chrono::steady_clock::time_point told_{};
 };

@@ -14,11 +14,13 @@ namespace {
 
 class StationMember final : public bus::FleetMember {
  public:
-  StationMember(Scenario scenario, const ProgramOptions& options, StatusPipe& status, std::unique_ptr<bus::Bus> bus)
+  StationMember(Scenario scenario, const ProgramOptions& options, StatusPipe& status, std::unique_ptr<bus::Bus> bus,
+                std::optional<ReadyView> view)
       : scenario_(std::move(scenario)),
         options_(options),
         status_(status),
         bus_(std::move(bus)),
+        view_(std::move(view)),
         recorder_(options_.out, programs::kStation, recording::scope_of(options_.record)) {
     withdraw_report(options_.out / run_folder::report_file(programs::kStation));
     make_node();
@@ -26,6 +28,10 @@ class StationMember final : public bus::FleetMember {
 
   bus::LockstepNode& node() override { return *node_; }
   bus::Bus& bus() override { return *bus_; }
+  void vanish() override {
+    node_->stop_serving();
+    FleetMember::vanish();
+  }
 
   // Once more after a fault that stopped us: the journal is our memory.
   std::optional<int> ended(bus::NodeEnd end) override {
@@ -42,13 +48,14 @@ class StationMember final : public bus::FleetMember {
  private:
   void make_node() {
     node_.reset();
-    node_.emplace(scenario_, options_.domain, *bus_, options_.out, status_, &recorder_);
+    node_.emplace(scenario_, options_.domain, *bus_, options_.out, status_, &recorder_, view_ ? &*view_ : nullptr);
   }
 
   const Scenario scenario_;
   const ProgramOptions options_;
   StatusPipe& status_;
   const std::unique_ptr<bus::Bus> bus_;
+  const std::optional<ReadyView> view_;
   recording::Recorder recorder_;
   std::optional<StationNode> node_;
 };
@@ -59,6 +66,11 @@ void StationProgram::add_options(CLI::App& app) {
   app.description("Skein: the ground station of a fleet, which counts what is delivered");
   app.add_flag("--settle", settle_only_, "Write the report of a station that died in this folder, then stop")
       ->group("Launcher");
+  app.add_option("--view-fd", view_.listener, "File descriptor of a socket to which browsers connect")
+      ->group("Launcher");
+  app.add_option("--view-key", view_.key, "File with the key of the page")->group("Launcher");
+  app.add_option("--view-script", view_.script, "File with the script of the page")->group("Launcher");
+  app.add_option("--view-title", view_.title, "Title of the page")->group("Launcher");
 }
 
 std::variant<int, std::unique_ptr<bus::FleetMember>> StationProgram::prepare(const ProgramOptions& options,
@@ -70,7 +82,9 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> StationProgram::prepare(con
   }
   auto bus = bus::make_bus(options, scenario);
   if (options.check_only) return kExitDone;
-  return std::make_unique<StationMember>(std::move(scenario), options, status, std::move(bus));
+  std::optional<ReadyView> view;
+  if (view_.listener >= 0) view.emplace(view_);
+  return std::make_unique<StationMember>(std::move(scenario), options, status, std::move(bus), std::move(view));
 }
 
 }  // namespace skein::station

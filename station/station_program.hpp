@@ -3,6 +3,7 @@
 
 #include "bus/lockstep/fleet_program.hpp"
 #include "process/run_folder.hpp"
+#include "station/view_node.hpp"
 
 namespace skein::station {
 
@@ -15,6 +16,7 @@ class StationProgram final : public bus::FleetProgram {
 
  private:
   bool settle_only_ = false;
+  ViewOptions view_;
 };
 
 }  // namespace skein::station

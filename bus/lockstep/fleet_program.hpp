@@ -34,6 +34,8 @@ class FleetMember {
   virtual bool stops_at_once() const { return true; }
   /// It is asked to end.
   virtual void on_stop() { node().inbox().wake(); }
+  /// It is killed, and its memory is kept: of all that others see of it nothing stays. Only one_process/ does that.
+  virtual void vanish() { bus().vanish(); }
   /// A line of the launcher's (process/status_lines.hpp).
   virtual void obey(const std::string& /*line*/) {}
 };

@@ -19,6 +19,7 @@
 #include "core/text.hpp"
 #include "core/topics.hpp"
 #include "process/run_folder.hpp"
+#include "view/time_order.hpp"
 
 namespace skein::cli {
 namespace {
@@ -103,6 +104,15 @@ Arguments replay_arguments(const ReplayOf& replay) {
   if (!replay.only.empty()) append(arguments, {"--replay-only", joined(replay.only, ",")});
   if (!replay.other.empty()) append(arguments, {"--replay-other", joined(replay.other, ",")});
   return arguments;
+}
+
+/// What the station must know to serve the page of a run.
+Arguments view_arguments(const FleetPlan& plan) {
+  const auto& [listener, key, script] = *plan.watched;
+  return {"--view-fd",     std::to_string(kViewFd),
+          "--view-key",    key,
+          "--view-script", script,
+          "--view-title",  plan.scenario.name + " by " + plan.options.planner};
 }
 
 /// Whose software an agent is.
@@ -279,6 +289,7 @@ std::vector<std::string> program_arguments(const FleetPlan& plan, const std::str
     if (!plan.debug.empty()) append(arguments, {"--agent-timeout", "0"});
     if (plan.options.agent_timeout_s) append(arguments, {"--agent-timeout", shortest(*plan.options.agent_timeout_s)});
     if (has_ground_program(plan)) arguments.push_back("--ground-program");
+    if (plan.watched) append(arguments, {"--watch", plan.options.view.speed.value_or(shortest(view::kUsualSpeed))});
   }
   return arguments;
 }
@@ -297,6 +308,7 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
     }
     Arguments arguments = run_arguments(plan, name, base_domain, out, own);
     append(arguments, {"--status-fd", std::to_string(kStatusFd), "--control-fd", std::to_string(kControlFd)});
+    if (plan.watched && name == programs::kStation) append(arguments, view_arguments(plan));
     programs.push_back({name, std::move(arguments), fleet_environment(plan.options.native, config_variable(plan, name)),
                         out / run_folder::log_file(name)});
   };
@@ -313,6 +325,7 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
   for (ProgramSpec& program : programs) {
     // Ours that tell how the run goes on write as long as it does.
     if (!programs::is_agent(program.name)) program.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
+    if (plan.watched && program.name == programs::kStation) program.listener = plan.watched->listener;
     program.user = secure_folder(secure, program.name).user;
     program.minded = is_foreign(plan, program.name) || is_exec(plan, program.name);  // not ours
     for (const Debuggee& debuggee : plan.debug) {
@@ -332,6 +345,7 @@ ProgramSpec shared_process(const FleetPlan& plan, const std::filesystem::path& o
   if (plan.options.agent_timeout_s) append(process.argv, {"--agent-timeout", shortest(*plan.options.agent_timeout_s)});
   process.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
   process.minded = is_foreign(plan, agent);
+  if (plan.watched) process.listener = plan.watched->listener;
   return process;
 }
 

@@ -17,6 +17,12 @@
 namespace skein::cli {
 
 /// All that is decided before a run starts.
+/// The page of a run that is watched.
+struct WatchedBy {
+  int listener = -1;                  ///< a socket that browsers connect to
+  std::filesystem::path key, script;  ///< files: the page's key, and its script
+};
+
 struct FleetPlan {
   RunOptions options;
   Scenario scenario;
@@ -27,6 +33,7 @@ struct FleetPlan {
   std::optional<std::filesystem::path> agent = {};  ///< flies in the place of uav_agent what names no agent of its own
   std::vector<Debuggee> debug = {};                 ///< what the user looks into
   std::map<std::string, std::string> log_levels = {};  ///< by program, of --log
+  std::optional<WatchedBy> watched = {};               ///< none: nobody watches
   std::uint64_t run = 0;  ///< what the programs of one run know each other by (draw_run_id())
 };
 

@@ -16,6 +16,8 @@ namespace skein::cli {
 /// File descriptors under which a process finds its end of the two pipes: JSON lines to us, text lines from us.
 inline constexpr int kStatusFd = 3;
 inline constexpr int kControlFd = 4;
+/// And a socket that browsers connect to, where it gets one.
+inline constexpr int kViewFd = 5;
 
 struct UserId {
   uid_t uid = 0;
@@ -32,6 +34,7 @@ struct ProgramSpec {
   std::uint64_t most_log_bytes = 64 << 20;     ///< beyond it the log keeps its first half and its newest lines
   std::optional<UserId> user{};                ///< as whom it runs, in no other group; only root can choose
   bool here = false;                           ///< it has the launcher's terminal, or whatever is in its place
+  int listener = -1;                           ///< it has this socket of the launcher's as kViewFd
   bool minded = false;                         ///< it may have children, which end with it wherever they went
 };
 

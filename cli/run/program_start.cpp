@@ -30,7 +30,7 @@ Pipe make_pipe() {
   int fds[2];
   if (::pipe2(fds, O_CLOEXEC) != 0) throw_errno("pipe");
   Fd low_read(fds[0]), low_write(fds[1]);
-  Pipe pipe{Fd(::fcntl(fds[0], F_DUPFD_CLOEXEC, kControlFd + 1)), Fd(::fcntl(fds[1], F_DUPFD_CLOEXEC, kControlFd + 1))};
+  Pipe pipe{Fd(::fcntl(fds[0], F_DUPFD_CLOEXEC, kViewFd + 1)), Fd(::fcntl(fds[1], F_DUPFD_CLOEXEC, kViewFd + 1))};
   if (pipe.read.get() < 0 || pipe.write.get() < 0) throw_errno("pipe");
   return pipe;
 }
@@ -38,7 +38,7 @@ Pipe make_pipe() {
 Fd open_high(const std::filesystem::path& file, int flags) {
   const Fd low(::open(file.c_str(), flags | O_CLOEXEC, 0644));
   if (low.get() < 0) throw_errno(file.string());
-  Fd high(::fcntl(low.get(), F_DUPFD_CLOEXEC, kControlFd + 1));
+  Fd high(::fcntl(low.get(), F_DUPFD_CLOEXEC, kViewFd + 1));
   if (high.get() < 0) throw_errno(file.string());
   return high;
 }
@@ -53,8 +53,8 @@ std::vector<char*> pointers(const std::vector<std::string>& strings) {
 /// What the child does between fork and exec: only calls that are safe there. Writes its process id to `news`, then,
 /// when it cannot go on, errno.
 struct ChildSetup {
-  pid_t parent;                           ///< the launcher, or the program's minder
-  int input, log, status, control, news;  ///< input, log: -1 keeps the launcher's
+  pid_t parent;                                 ///< the launcher, or the program's minder
+  int input, log, status, control, view, news;  ///< input, log: -1 keeps the launcher's; view: -1 is none
   char* const* argv;
   char* const* env;
   const UserId* user;  ///< null: the launcher's
@@ -72,8 +72,8 @@ struct ChildSetup {
     sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
     for (int signal = 1; signal < SIGRTMIN; ++signal) ::signal(signal, SIG_DFL);  // what our shell ignored, too
-    const std::array<std::pair<int, int>, 5> files = {
-        {{input, 0}, {log, 1}, {log, 2}, {status, kStatusFd}, {control, kControlFd}}};
+    const std::array<std::pair<int, int>, 6> files = {
+        {{input, 0}, {log, 1}, {log, 2}, {status, kStatusFd}, {control, kControlFd}, {view, kViewFd}}};
     for (const auto& [from, to] : files) ready = ready && (from < 0 || ::dup2(from, to) >= 0);
     if (ready) ::execve(argv[0], argv, env);
     tell(errno);
@@ -136,6 +136,8 @@ StartedProgram start_program(const ProgramSpec& spec) {
                ? Fd()
                : open_high(spec.log, O_RDWR | O_CREAT | O_APPEND | (spec.append_log ? 0 : O_TRUNC));
   const Fd input = spec.here ? Fd() : open_high("/dev/null", O_RDONLY);
+  const Fd view = spec.listener < 0 ? Fd() : Fd(::fcntl(spec.listener, F_DUPFD_CLOEXEC, kViewFd + 1));
+  if (spec.listener >= 0 && view.get() < 0) throw_errno("the socket of the page");
   Pipe status = make_pipe(), control = make_pipe(), news = make_pipe();
   const std::vector<char*> argv = pointers(spec.argv), env = pointers(spec.env);
   const ChildSetup setup{::getpid(),
@@ -143,6 +145,7 @@ StartedProgram start_program(const ProgramSpec& spec) {
                          log.get(),
                          status.write.get(),
                          control.read.get(),
+                         view.get(),
                          news.write.get(),
                          argv.data(),
                          env.data(),

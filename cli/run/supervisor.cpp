@@ -39,6 +39,12 @@ bool is_ignored(int signal) {
   return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
+
 sigset_t interrupt_signals() {
   sigset_t set;
   sigemptyset(&set);
@@ -46,12 +52,6 @@ sigset_t interrupt_signals() {
   if (!is_ignored(SIGHUP)) sigaddset(&set, SIGHUP);
   return set;
 }
-
-double seconds(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
-}  // namespace
 
 struct Supervisor::Child : StartedProgram {
   explicit Child(const ProgramSpec& spec)

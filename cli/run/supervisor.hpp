@@ -61,6 +61,9 @@ class Supervisor final : public ProgramHost {
   struct sigaction former_pipe_action_ {};
 };
 
+/// What ends a command: SIGINT, SIGTERM, and SIGHUP unless nohup had it ignored.
+sigset_t interrupt_signals();
+
 /// The last lines of a text file, newest last, without what is long ago in a huge one; empty when there is no such
 /// file.
 std::vector<std::string> last_lines(const std::filesystem::path& file, std::size_t count);

@@ -44,7 +44,7 @@ void EventLog::add_release(const Simulation& simulation, const std::string& uav,
 
 void EventLog::add(const Simulation& simulation, const char* event, const std::string& subject,
                    const std::string& object) {
-  if (listener_) listener_({simulation.step(), simulation.tick(), event, subject, object});
+  for (const auto& tell : listeners_) tell({simulation.step(), simulation.tick(), event, subject, object});
   out_ << fmt::format("{},{:.2f},{},{},{}\n", simulation.step(), seconds(simulation.tick()), event, subject, object);
 }
 

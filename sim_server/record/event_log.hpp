@@ -36,14 +36,14 @@ class EventLog {
   void add_release(const Simulation& simulation, const std::string& uav, std::uint64_t capture);
   StreamFile& file() { return out_; }
   /// Who is told of each event, too.
-  void tell(std::function<void(const LoggedEvent&)> listener) { listener_ = std::move(listener); }
+  void tell(std::function<void(const LoggedEvent&)> listener) { listeners_.push_back(std::move(listener)); }
 
  private:
   void add(const Simulation& simulation, const char* event, const std::string& subject, const std::string& object);
 
   const Scenario& scenario_;
   StreamFile out_;
-  std::function<void(const LoggedEvent&)> listener_;
+  std::vector<std::function<void(const LoggedEvent&)>> listeners_;
   std::vector<std::string> members_;
   std::vector<bool> present_;  ///< by members_
   Links links_;                ///< as last told

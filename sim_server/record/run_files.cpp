@@ -17,6 +17,8 @@ constexpr Tick kTrajectoryPeriod = 40;  // 100 ms
 
 nlohmann::json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+}  // namespace
+
 std::string collided_with(const Collision& collision, const Scenario& scenario) {
   switch (collision.with.kind) {
     case BodyId::Kind::ground:
@@ -28,8 +30,6 @@ std::string collided_with(const Collision& collision, const Scenario& scenario) 
   }
   return "structure";
 }
-
-}  // namespace
 
 std::string describe(const Collision& collision, const Scenario& scenario) {
   const Vector3d& p = collision.p_W;

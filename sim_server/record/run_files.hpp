@@ -48,6 +48,8 @@ struct RunSummary {
 };
 
 /// Who, with what, when and where: a line for the log.
+/// "ground", "structure" or the name of a UAV.
+std::string collided_with(const Collision& collision, const Scenario& scenario);
 std::string describe(const Collision& collision, const Scenario& scenario);
 std::string describe(const Stray& stray, const Scenario& scenario);
 

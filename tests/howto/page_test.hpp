@@ -5,7 +5,8 @@
 // that readers do not see, before a block, say what the test has to know of it:
 //   <!-- not run: needs docker -->               only to be read, and why
 //   <!-- given: build/my_agent is an agent -->   what its reader has: an agent (with `orbit`), a program (that flies a
-//                                                UAV), the data files (of CARIC; without them the block is left out)
+//                                                UAV), the data files (of CARIC; without them the block is left out),
+//                                                the script (of web/, which npm builds; likewise)
 //   <!-- with: SKEIN_DURATION=60 -->             a variable that is set for it
 //   <!-- exits with: 1 -->                       code of the block, or of a console's last command; else 0
 //   <!-- chapter: faults -->                     stands for itself: a test of its own begins here, in another folder

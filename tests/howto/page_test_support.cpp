@@ -156,7 +156,7 @@ void PageTest::give_agent(const fs::path& file) const {
 
 /// @returns false when there is something that this machine has not.
 bool PageTest::give(const PageBlock& block) {
-  static const std::regex kGiven(R"((\S+) is (an agent|a program|the data files))");
+  static const std::regex kGiven(R"((\S+) is (an agent|a program|the data files|the script))");
   for (const auto& [kind, text] : block.notes) {
     if (kind != "given") continue;
     std::smatch match;
@@ -164,6 +164,10 @@ bool PageTest::give(const PageBlock& block) {
     const fs::path file = checkout_ / match.str(1);
     const char* const assets = std::getenv("SKEIN_ASSETS");
     if (match[2] == "the data files" && assets == nullptr) return false;
+    if (match[2] == "the script") {
+      if (!fs::exists(source_path(match.str(1)))) return false;
+      continue;
+    }
     if (fs::exists(fs::symlink_status(file))) continue;
     if (match[2] == "an agent") {
       give_agent(file);

@@ -22,9 +22,9 @@ const std::set<std::string>& applications() {
 
 /// Lower layers have lower numbers; applications share one, and a whole fleet in one process is made of them.
 std::optional<int> layer_of(const std::string& folder) {
-  static const std::map<std::string, int> kLayers = {{"core", 0},   {"process", 1},    {"idl", 1},
-                                                     {"mcap", 1},   {"properties", 1}, {"bus", 2},
-                                                     {"report", 2}, {"recording", 3},  {"one_process", 5}};
+  static const std::map<std::string, int> kLayers = {
+      {"core", 0}, {"process", 1}, {"idl", 1},       {"mcap", 1}, {"properties", 1},
+      {"bus", 2},  {"report", 2},  {"recording", 3}, {"view", 3}, {"one_process", 5}};
   if (applications().contains(folder)) return 4;
   const auto found = kLayers.find(folder);
   return found == kLayers.end() ? std::nullopt : std::optional(found->second);
@@ -169,6 +169,7 @@ const std::vector<LibraryRule>& library_rules() {
        {"pcl/"},
        {"uav_agent/", "sim_server/sensors/key_frames.cpp", "sim_server/scene_files/point_file_pcl_test.cpp"},
        2},
+      {"Boost", {"boost/"}, {"view/"}, 1},
       {"Assimp", {"assimp/"}, {"sim_server/scene_files/"}, 1}};
   return kRules;
 }

@@ -1,17 +1,19 @@
 // Charts over time: the score, and a lane for each UAV. They zoom together and share a cursor.
 import uPlot from 'uplot';
 
-import {colour, data, element, indexAt, moment, onTheme, replaceDrawing, trackColour} from './page.js';
+import {colour, data, element, growth, indexAt, moment, onTheme, replaceDrawing, trackColour} from './page.js';
 
 const sync = uPlot.sync('time');
 const charts = [];
 let zooming = false;
+let zoomed = false;  // by the reader: what comes at the end of the time changes no scale then
 
 /** Whatever one chart shows of the time, the others show too. */
 function zoomAll(from) {
   if (zooming) return;
   zooming = true;
   const {min, max} = from.scales.x;
+  zoomed = min > 0 || max < data.end;
   for (const chart of charts)
     if (chart !== from) chart.setScale('x', {min, max});
   zooming = false;
@@ -25,6 +27,24 @@ const axis = (more) => ({
   ...more,
 });
 
+/** How often a chart of data that grow is drawn again, in ms. */
+const kRefresh = 500;
+
+/** Draws more data, now and then. */
+function refresh(made, columns) {
+  let due = 0;
+  growth.listen(() => {
+    const now = performance.now();
+    if (now < due && !data.over) return;
+    due = now + kRefresh;
+    zooming = true;
+    made.setData(columns(), !zoomed);
+    if (zoomed) made.redraw();
+    zooming = false;
+  });
+}
+
+/** @param columns  makes its data. */
 function chart(figure, height, options, columns) {
   const place = element('div', {class: 'live live-chart'});
   replaceDrawing(figure, place);
@@ -45,9 +65,10 @@ function chart(figure, height, options, columns) {
         },
         hooks: {setScale: [(u, key) => key === 'x' && zoomAll(u)], ...options.hooks},
       },
-      columns,
+      columns(),
       place,
   );
+  refresh(made, columns);
   place.append(hint);
   charts.push(made);
   made.over.addEventListener('click', () => {
@@ -116,8 +137,11 @@ function sampled(curve, times) {
 }
 
 export function scoreChart(figure) {
-  const all = [0, ...data.delivered.t.map((ms) => ms / 1000), ...data.earned.t.map((ms) => ms / 1000), data.end];
-  const times = [...new Set(all)].sort((a, b) => a - b);
+  const columns = () => {
+    const all = [0, ...data.delivered.t.map((ms) => ms / 1000), ...data.earned.t.map((ms) => ms / 1000), data.end];
+    const times = [...new Set(all)].sort((a, b) => a - b);
+    return [times, sampled(data.earned, times), sampled(data.delivered, times)];
+  };
   const stepped = uPlot.paths.stepped({align: 1});
   const one = (value) => (value == null ? '–' : value.toFixed(1));
   const curve = (label, name, dash) => ({
@@ -157,7 +181,7 @@ export function scoreChart(figure) {
         },
         hooks: {drawClear: [drawFaults, drawCaptures], draw: [drawMoment]},
       },
-      [times, sampled(data.earned, times), sampled(data.delivered, times)],
+      columns,
   );
 }
 
@@ -224,15 +248,18 @@ function drawLane(u, uav, index, most) {
 export function lanesChart(figure) {
   if (data.uavs.length === 0) return;
   const lane = data.uavs.length > 20 ? 20 : kLane;
-  const most = Math.max(1, ...data.uavs.map((uav) => uav.waiting.v.reduce((a, b) => Math.max(a, b), 0)));
   const draw = (u) => {
+    const most = Math.max(1, ...data.uavs.map((uav) => uav.waiting.v.reduce((a, b) => Math.max(a, b), 0)));
     u.ctx.save();
     data.uavs.forEach((uav, index) => drawLane(u, uav, index, most));
     u.ctx.restore();
     drawMoment(u);
   };
-  const times = Array.from({length: Math.floor(data.end) + 1}, (_, second) => second);
-  if (times.at(-1) < data.end) times.push(data.end);
+  const columns = () => {
+    const times = Array.from({length: Math.floor(data.end) + 1}, (_, second) => second);
+    if (times.at(-1) < data.end) times.push(data.end);
+    return [times, times.map(() => 0)];
+  };
   chart(
       figure,
       lane * data.uavs.length + 50,
@@ -257,6 +284,6 @@ export function lanesChart(figure) {
         scales: {y: {range: [0, 1]}},
         hooks: {drawClear: [drawFaults], draw: [draw]},
       },
-      [times, times.map(() => 0)],
+      columns,
   );
 }

@@ -1,6 +1,7 @@
 // What all parts of the page share: its data, its colours, and one moment in the run that they all show.
 
-export const data = JSON.parse(document.getElementById('data').textContent);
+/** Of a finished run, in the page; of one that is followed, filled while it goes on (flight.js). */
+export const data = JSON.parse(document.getElementById('data')?.textContent ?? '{"end": 0, "follows": true}');
 
 /** A colour of the style sheet, as it is in light or dark. */
 export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
@@ -17,15 +18,29 @@ export const trackColour = (uav) => `t${uav % 6}`;
 const listeners = [];
 export const moment = {
   seconds: data.end,
+  /** Whether it is the newest that there is, and moves on with it. */
+  newest: true,
   set(seconds) {
     this.seconds = Math.min(Math.max(seconds, 0), data.end);
+    this.newest = seconds >= data.end;
     for (const use of listeners) use(this.seconds);
   },
   listen: (use) => listeners.push(use),
 };
 
-/** Undoes the differences of page_data.cpp: a track in seconds and metres. */
+const growing = [];
+/** Data that grow: who shows them is told when there are more. */
+export const growth = {
+  tell() {
+    for (const use of growing) use();
+    if (moment.newest) moment.set(data.end);
+  },
+  listen: (use) => growing.push(use),
+};
+
+/** Undoes the differences of page_data.cpp: a track in seconds and metres. One that grows is in them already. */
 export function track(uav) {
+  if (uav.track.grows) return uav.track;
   const sum = (differences, scale) => {
     let last = 0;
     return Float32Array.from(differences, (d) => (last += d) * scale);

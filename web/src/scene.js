@@ -5,6 +5,7 @@ import {Line2} from 'three/addons/lines/Line2.js';
 import {LineGeometry} from 'three/addons/lines/LineGeometry.js';
 import {LineMaterial} from 'three/addons/lines/LineMaterial.js';
 
+import {makeFrusta, makeLinks} from './overlays.js';
 import {colour, data, element, indexAt, moment, onTheme, replaceDrawing, track, trackColour} from './page.js';
 
 const kPerPoint = 9;  // numbers of a point in the data
@@ -70,14 +71,39 @@ function makeBoxes() {
   return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({transparent: true, opacity: 0.7}));
 }
 
-/** Its first segments are drawn, up to where the UAV is. */
-function makeTrack(t) {
-  if (t.t.length < 2) return null;
-  const flat = [];
-  for (let i = 0; i < t.t.length; ++i) flat.push(t.x[i], t.y[i], t.z[i]);
-  const geometry = new LineGeometry();
-  geometry.setPositions(flat);
-  return new Line2(geometry, new LineMaterial({linewidth: 1.7, transparent: true, opacity: 0.6}));
+/** A track as a line, of which the first segments are drawn, up to where the UAV is. It has room to grow. */
+class Trail {
+  constructor(t) {
+    this.t = t;
+    this.line = new Line2(new LineGeometry(), new LineMaterial({linewidth: 1.7, transparent: true, opacity: 0.6}));
+    this.line.frustumCulled = false;
+    this.room = 0;
+    this.filled = 0;
+    this.grow();
+  }
+
+  grow() {
+    const segments = Math.max(this.t.t.length - 1, 0);
+    if (segments > this.room || this.room === 0) {
+      this.room = this.t.grows ? Math.max(2 * segments, 128) : Math.max(segments, 1);
+      this.line.geometry.dispose();
+      this.line.geometry = new LineGeometry();
+      this.line.geometry.setPositions(new Float32Array(3 * (this.room + 1)));
+      this.filled = 0;
+    }
+    if (segments === this.filled) return;
+    const {data: buffer} = this.line.geometry.attributes.instanceStart;
+    const {x, y, z} = this.t;
+    for (let i = this.filled; i < segments; ++i)
+      buffer.array.set([x[i], y[i], z[i], x[i + 1], y[i + 1], z[i + 1]], 6 * i);
+    buffer.needsUpdate = true;
+    this.filled = segments;
+  }
+
+  showUntil(at) {
+    this.line.visible = this.filled > 0;
+    this.line.geometry.instanceCount = Math.min(Math.max(at, 1), Math.max(this.filled, 1));
+  }
 }
 
 function bounds() {
@@ -120,9 +146,8 @@ class Scene {
     this.structure = makeStructure();
     this.boxes = makeBoxes();
     this.tracks = new THREE.Group();
-    this.lines = tracks.map(makeTrack);
-    for (const line of this.lines)
-      if (line) this.tracks.add(line);
+    this.trails = tracks.map((t) => new Trail(t));
+    for (const {line} of this.trails) this.tracks.add(line);
     this.fleet = new THREE.Group();
     this.bodies = data.uavs.map((uav) => {
       const body = new THREE.Mesh(
@@ -147,6 +172,11 @@ class Scene {
     if (data.station) mark(data.station, new THREE.ConeGeometry(1.2, 3, 20).rotateX(Math.PI / 2), 'ink');
     for (const place of data.collisions) mark(place, new THREE.IcosahedronGeometry(1.3), 'bad');
     this.scene.add(this.structure, this.boxes, this.tracks, this.fleet, this.marks);
+    // Of a flight that tells of its cameras and links.
+    this.frusta = data.poseAt ? makeFrusta() : null;
+    this.links = data.linksAt ? makeLinks(this.bodies) : null;
+    for (const overlay of [this.frusta, this.links])
+      if (overlay) this.scene.add(overlay.object);
   }
 
   lookFrom() {
@@ -171,7 +201,9 @@ class Scene {
     this.ground.material.color.set(colour('line'));
     this.ground.material.vertexColors = false;
     this.ground.material.needsUpdate = true;
-    this.lines.forEach((line, uav) => line?.material.color.set(colour(trackColour(uav))));
+    this.trails.forEach(({line}, uav) => line.material.color.set(colour(trackColour(uav))));
+    this.frusta?.paint();
+    this.links?.paint();
     this.bodies.forEach((body, uav) => body.material.color.set(colour(trackColour(uav))));
     this.tags.forEach((tag, uav) => {
       tag.style.color = colour(trackColour(uav));
@@ -180,11 +212,37 @@ class Scene {
     this.show();
   }
 
-  colourOf({score, cause, uav, taken, estimate}, seconds, over) {
+  colourOf({score, cause, uav, taken, estimate}, index, seconds, over) {
     if (this.by === 'estimate') return scoreColour(estimate);
     if (this.by === 'cause') return cause < 0 ? 'q0' : `k${cause}`;
+    if (data.custody) return this.colourOfCustody(data.custody(index, seconds));
     if (uav < 0 || (!over && taken > seconds)) return 'q0';
     return this.by === 'uav' ? trackColour(uav) : scoreColour(score);
+  }
+
+  colourOfCustody({delivered, taken}) {
+    const shown = delivered !== null && delivered.q >= kDetected ? delivered : taken;
+    if (shown === null || shown.q < kDetected) return 'q0';
+    if (this.by === 'uav') return trackColour(shown.of.uav);
+    return shown === delivered ? scoreColour(shown.q) : 'carried';
+  }
+
+  /** Where a body is: between two positions of its track, or as the flight itself tells. */
+  place(body, uav, seconds) {
+    if (data.poseAt) {
+      const pose = data.poseAt(uav, seconds, moment.newest);
+      body.visible = pose !== null;
+      if (pose !== null) body.position.set(pose.x, pose.y, pose.z);
+      return pose?.at ?? -1;
+    }
+    const t = tracks[uav];
+    const at = indexAt(t.t, seconds);
+    body.visible = at >= 0;
+    if (at < 0) return at;
+    const next = Math.min(at + 1, t.t.length - 1);
+    const share = next > at ? Math.min((seconds - t.t[at]) / (t.t[next] - t.t[at]), 1) : 0;
+    body.position.set(...['x', 'y', 'z'].map((axis) => t[axis][at] + share * (t[axis][next] - t[axis][at])));
+    return at;
   }
 
   /** As it was at the moment. */
@@ -196,19 +254,47 @@ class Scene {
       if (!known.has(name)) known.set(name, new THREE.Color(colour(name)));
       return known.get(name);
     };
-    points.forEach((p, i) => this.structure.setColorAt(i, named(this.colourOf(p, seconds, over))));
+    points.forEach((p, i) => this.structure.setColorAt(i, named(this.colourOf(p, i, seconds, over))));
     if (this.structure.instanceColor) this.structure.instanceColor.needsUpdate = true;
-    tracks.forEach((t, uav) => {
-      const at = indexAt(t.t, seconds);
-      const body = this.bodies[uav];
-      body.visible = at >= 0;
-      if (at < 0) return;
-      const next = Math.min(at + 1, t.t.length - 1);
-      const share = next > at ? Math.min((seconds - t.t[at]) / (t.t[next] - t.t[at]), 1) : 0;
-      body.position.set(...['x', 'y', 'z'].map((axis) => t[axis][at] + share * (t[axis][next] - t[axis][at])));
-      if (this.lines[uav]) this.lines[uav].geometry.instanceCount = Math.max(at, 1);
+    tracks.forEach((_, uav) => {
+      const at = this.place(this.bodies[uav], uav, seconds);
+      this.trails[uav].grow();
+      this.trails[uav].showUntil(at);
     });
+    this.frusta?.show(seconds);
+    this.links?.show(seconds);
+    this.ride(seconds);
     this.draw();
+  }
+
+  /** A UAV that the view goes with; -1: none. @param through  looks through its camera. */
+  follow(uav, through = false) {
+    if (this.through && !through) this.camera.fov = 40;
+    this.followed = uav;
+    this.through = through && uav >= 0 && data.poseAt !== undefined;
+    this.controls.enabled = !this.through;
+    if (this.through) this.camera.fov = data.uavs[uav].vfov;
+    this.last = null;
+    this.show();
+    this.controls.update();
+    this.fit();
+  }
+
+  ride(seconds) {
+    if (!(this.followed >= 0)) return;
+    const {position} = this.bodies[this.followed];
+    if (this.through) {
+      const {yaw, pitch} = data.poseAt(this.followed, seconds, moment.newest);
+      this.camera.position.copy(position);
+      this.camera.lookAt(position.clone().add(
+          new THREE.Vector3(Math.cos(pitch) * Math.cos(yaw), Math.cos(pitch) * Math.sin(yaw), -Math.sin(pitch))));
+      return;
+    }
+    // Who looks on keeps the distance and the angle.
+    this.camera.position.add(position).sub(this.last ?? this.controls.target);
+    this.controls.target.copy(position);
+    this.last = position.clone();
+    this.controls.update();
   }
 
   fit() {
@@ -226,25 +312,34 @@ class Scene {
     this.bodies.forEach((body, uav) => {
       const at = body.position.clone().project(this.camera);
       const tag = this.tags[uav];
-      const visible = this.fleet.visible && body.visible && at.z < 1;
+      const visible = this.fleet.visible && body.visible && at.z < 1 && !(this.through && this.followed === uav);
       tag.style.display = visible ? '' : 'none';
       if (visible)
         tag.style.transform = `translate(${((at.x + 1) / 2) * width + 9}px, ${((1 - at.y) / 2) * height - 18}px)`;
     });
   }
 
-  /** Tells of the point below the pointer. */
-  point(event) {
-    if (event.buttons !== 0 || count === 0) return;
+  /** @returns what is hit of some objects, first the nearest. */
+  hits(event, objects) {
     const {left, top, width, height} = this.renderer.domElement.getBoundingClientRect();
     const ray = new THREE.Raycaster();
     ray.setFromCamera(
         new THREE.Vector2(((event.clientX - left) / width) * 2 - 1, 1 - ((event.clientY - top) / height) * 2),
         this.camera);
-    const hit = this.structure.visible ? ray.intersectObject(this.structure)[0] : undefined;
+    return ray.intersectObjects(objects.filter((object) => object.visible));
+  }
+
+  /** Tells of the point below the pointer. */
+  point(event) {
+    if (event.buttons !== 0 || count === 0) return;
+    const hit = this.hits(event, [this.structure])[0];
     this.tip.hidden = hit === undefined;
     if (hit === undefined) return;
     const p = points[hit.instanceId];
+    if (data.describe) {
+      this.tip.textContent = data.describe(hit.instanceId, moment.seconds);
+      return;
+    }
     const parts = [`point ${hit.instanceId}`, `score ${p.score.toFixed(3)}`];
     if (data.causes_known)
       parts.push(
@@ -272,12 +367,13 @@ function legendOf(by) {
   }
   const steps = [[0.2, 0.4], [0.4, 0.6], [0.6, 0.8], [0.8, 1]].map(
       ([from, to], i) => entry(`q${i + 1}`, `${from.toFixed(1)} to ${to.toFixed(1)}`));
+  if (data.custody && by === 'score') return [entry('q0', 'unseen'), entry('carried', 'not delivered'), ...steps];
   return [entry('q0', by === 'estimate' ? 'not attainable' : 'not detected'), ...steps];
 }
 
 function layer(name, objects, scene) {
   const box = element('input', {type: 'checkbox'});
-  box.checked = true;
+  box.checked = objects.every((object) => object.visible);
   box.addEventListener('change', () => {
     for (const object of objects) object.visible = box.checked;
     scene.draw();
@@ -315,6 +411,7 @@ function timeTools() {
   });
   slider.addEventListener('input', () => moment.set(Number(slider.value)));
   const tell = (seconds) => {
+    slider.max = String(data.end);
     slider.value = String(seconds);
     shown.textContent = `${seconds.toFixed(1)} s`;
   };
@@ -323,6 +420,21 @@ function timeTools() {
   return element('span', {class: 'time'}, play, slider, shown);
 }
 
+/** What a click on the scene means to the page, if anything. */
+function takeClicks(scene) {
+  let from = null;
+  const {domElement: canvas} = scene.renderer;
+  canvas.addEventListener('pointerdown', (event) => (from = [event.clientX, event.clientY]));
+  canvas.addEventListener('pointerup', (event) => {
+    if (from === null || Math.hypot(event.clientX - from[0], event.clientY - from[1]) > 4) return;
+    const body = scene.hits(event, scene.bodies)[0]?.object;
+    if (body) return data.onUav(scene.bodies.indexOf(body));
+    const hit = scene.hits(event, [scene.structure])[0];
+    if (hit) data.onPoint(hit.instanceId);
+  });
+}
+
+/** @returns the scene, or undefined where there is no WebGL. */
 export function sceneView(figure) {
   if (document.createElement('canvas').getContext('webgl2') === null) return;  // the drawing stays
   const stage = element('div', {class: 'stage'});
@@ -351,8 +463,12 @@ export function sceneView(figure) {
   const tools = element(
       'div', {class: 'tools'}, element('label', {}, 'Points by', choice), layer('points', [scene.structure], scene),
       layer('tracks', [scene.tracks], scene), layer('boxes', [scene.boxes], scene), layer('UAVs', [scene.fleet], scene),
-      layer('station, collisions', [scene.marks], scene), timeTools());
+      layer('station, collisions', [scene.marks], scene),
+      ...(scene.links ? [layer('links', [scene.links.object], scene)] : []),
+      ...(scene.frusta ? [layer('cameras', [scene.frusta.object], scene)] : []), timeTools());
   live.prepend(tools);
   live.append(legend);
+  if (data.onPoint) takeClicks(scene);
   scene.fit();
+  return scene;
 }

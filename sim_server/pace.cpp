@@ -1,0 +1,51 @@
+#include "sim_server/pace.hpp"
+
+#include <algorithm>
+
+namespace skein::sim {
+namespace {
+
+/// After an exchange that took too long the next ones catch up with so much at most.
+constexpr std::chrono::milliseconds kCatchUp{250};
+/// While it is paused, until somebody looks again.
+constexpr std::chrono::milliseconds kLook{100};
+
+}  // namespace
+
+void Pace::obey(const view::TimeOrder& order) {
+  using Kind = view::TimeOrder::Kind;
+  if (order.kind == Kind::speed) {
+    speed_ = order.speed;
+    due_ = {};
+  } else if (order.kind == Kind::step) {
+    steps_ = paused_ ? steps_ + 1 : 0;  // who asks for one step wants it to stand afterwards
+    paused_ = true;
+  } else {
+    paused_ = order.kind == Kind::pause;
+    steps_ = 0;
+    due_ = {};
+  }
+}
+
+bool Pace::may_go_on(Clock::time_point now, double period_s) {
+  const bool goes = paused_ ? steps_ > 0 : !speed_ || now >= due_;
+  if (!goes) {
+    if (!since_) since_ = now;
+    return false;
+  }
+  if (since_) held_ += now - *since_;
+  since_.reset();
+  if (paused_) --steps_;
+  if (speed_) {
+    const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period_s / *speed_));
+    due_ = std::max(due_, now - kCatchUp) + period;
+  }
+  return true;
+}
+
+Pace::Clock::duration Pace::left(Clock::time_point now) const {
+  if (paused_) return steps_ > 0 ? Clock::duration(0) : kLook;
+  return std::max(due_ - now, Clock::duration(0));
+}
+
+}  // namespace skein::sim

@@ -1,0 +1,78 @@
+#include "sim_server/pace.hpp"
+
+#include <gtest/gtest.h>
+
+namespace skein::sim {
+namespace {
+
+using view::TimeOrder;
+using Kind = TimeOrder::Kind;
+using std::chrono::milliseconds;
+
+constexpr double kExchange_s = 0.05;
+
+class PaceTest : public testing::Test {
+ protected:
+  /// How many exchanges begin until so much later, looked at every millisecond.
+  int exchanges(int ms) {
+    int count = 0;
+    for (int i = 0; i < ms; ++i, now_ += milliseconds(1)) count += pace_.may_go_on(now_, kExchange_s) ? 1 : 0;
+    return count;
+  }
+
+  Pace pace_{2.0};
+  Pace::Clock::time_point now_{std::chrono::hours(1)};
+};
+
+TEST_F(PaceTest, KeepsTheSpeed) {
+  EXPECT_EQ(exchanges(1000), 40) << "2 s in a second, of 0.05 s each";
+  EXPECT_NEAR(pace_.held_s(), 1.0, 0.06) << "no exchange took any time";
+}
+
+TEST_F(PaceTest, AsFastAsTheMachineAllowsHoldsNothing) {
+  pace_.obey({Kind::speed, std::nullopt});
+  EXPECT_EQ(exchanges(100), 100);
+  EXPECT_EQ(pace_.held_s(), 0.0);
+}
+
+TEST_F(PaceTest, PauseHoldsUntilItGoesOn) {
+  EXPECT_EQ(exchanges(100), 4);
+  pace_.obey({Kind::pause});
+  EXPECT_TRUE(pace_.paused());
+  EXPECT_EQ(exchanges(60'000), 0);
+  EXPECT_GT(pace_.left(now_), Pace::Clock::duration(0));
+  pace_.obey({Kind::resume});
+  EXPECT_EQ(exchanges(1), 1) << "at once";
+  EXPECT_GT(pace_.held_s(), 60.0);
+  EXPECT_EQ(exchanges(1000), 39) << "what was held is not caught up with";
+}
+
+TEST_F(PaceTest, AStepIsOneExchange) {
+  pace_.obey({Kind::step});
+  EXPECT_EQ(exchanges(1000), 0) << "who asks for a step of a run that goes wants it to stand";
+  pace_.obey({Kind::step});
+  EXPECT_EQ(pace_.left(now_), Pace::Clock::duration(0));
+  EXPECT_EQ(exchanges(1000), 1);
+  pace_.obey({Kind::step});
+  pace_.obey({Kind::step});
+  EXPECT_EQ(exchanges(1000), 2);
+  EXPECT_TRUE(pace_.paused());
+}
+
+TEST_F(PaceTest, CatchesUpWithLittle) {
+  EXPECT_EQ(exchanges(100), 4);
+  now_ += std::chrono::seconds(10);  // an exchange that took so long
+  EXPECT_LE(exchanges(1000), 40 + 11);
+  EXPECT_EQ(exchanges(1000), 40);
+}
+
+TEST_F(PaceTest, AnotherSpeedCountsAtOnce) {
+  pace_.obey({Kind::speed, 0.1});
+  EXPECT_EQ(exchanges(1), 1);
+  EXPECT_EQ(exchanges(400), 0) << "the next is due after half a second";
+  pace_.obey({Kind::speed, 20.0});
+  EXPECT_EQ(exchanges(1000), 400);
+}
+
+}  // namespace
+}  // namespace skein::sim

@@ -1,0 +1,52 @@
+// The page of a run in a browser, opened as a user opens it, and what it complains of as it goes on.
+import {readFileSync} from 'node:fs';
+
+import {openBrowser} from '../report/browser.mjs';
+
+export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+/** @param known  a browser that is open already. @returns browser, page, complaints, and the page's host. */
+export async function openRun([web, chromium, door], {width = 1400, height = 950, scheme = 'light'} = {}, known = null) {
+  const browser = known ?? await openBrowser(web, chromium);
+  const page = await browser.newPage();
+  const host = /http:\/\/(127\.0\.0\.1:\d+)\/enter/.exec(readFileSync(door, 'utf8'))[1];
+  const complaints = [];
+  page.on('console', (message) => message.type() === 'error' && complaints.push(`console: ${message.text()}`));
+  page.on('pageerror', (error) => complaints.push(`error: ${error.message}`));
+  page.on('request', (request) => {
+    const url = request.url();
+    const own = [`file://${door}`, `http://${host}/`, `ws://${host}/`, 'data:', 'blob:'];
+    if (!own.some((begin) => url.startsWith(begin))) complaints.push(`asks for ${url}`);
+  });
+  await page.setViewport({width, height});
+  await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: scheme}]);
+  await page.goto(`file://${door}`, {waitUntil: 'load'});
+  await page.waitForSelector('#score', {timeout: 120000});
+  return {browser, page, complaints, host};
+}
+
+/** What the page says; null while it is loaded anew. */
+export async function stateOf(page) {
+  try {
+    return await page.evaluate(() => ({
+      state: document.body.dataset.state,
+      live: document.body.dataset.live,
+      tick: Number(document.getElementById('clock').dataset.tick),
+      score: Number(document.getElementById('score').dataset.exact),
+      shown: document.getElementById('score').textContent,
+      events: document.querySelectorAll('#events li').length,
+    }));
+  } catch {
+    return null;
+  }
+}
+
+/** Waits until a fact holds. @returns what the page says then. */
+export async function until(page, holds, what) {
+  for (let tries = 0; tries < 1200; ++tries) {
+    const state = await stateOf(page);
+    if (state !== null && holds(state)) return state;
+    await sleep(100);
+  }
+  throw new Error(`the page never got there: ${what}; it says ${JSON.stringify(await stateOf(page))}`);
+}

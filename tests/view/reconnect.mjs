@@ -1,0 +1,28 @@
+// Follows a run whose station is killed and comes back. Prints what is wrong, a line each; nothing: all is well.
+// usage: node reconnect.mjs WEB CHROMIUM DOOR RUN
+import {readFileSync} from 'node:fs';
+import path from 'node:path';
+
+import {openRun, stateOf, until} from './page.mjs';
+
+const [web, chromium, door, run] = process.argv.slice(2);
+const {browser, page} = await openRun([web, chromium, door]);
+const expect = (good, what) => good || console.log(what);
+const kKilled = 18 * 400;  // ticks: it is back by then
+
+let loads = 0;
+page.on('load', () => ++loads);
+await until(page, ({state, tick}) => state === 'flies' && tick < kKilled, 'it flies');
+await page.select('#speed', '4');
+await until(page, ({state, tick}) => state === 'flies' && tick > kKilled, 'it flies on after the station is back');
+await page.select('#speed', '1');
+expect(loads === 1, `the page was loaded ${loads} times`);
+const events = await page.$$eval('#events li', (all) => all.map((li) => li.textContent).join('\n'));
+for (const word of ['station takes no part any more', 'jurong takes part'])
+  expect(events.includes(word), `the events do not tell that ${word}`);
+await page.select('#speed', 'max');
+await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'its replay');
+const {score} = await stateOf(page);
+const result = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));
+expect(score === result.score, `the score is ${score}, and in result.json ${result.score}`);
+await browser.close();

@@ -1,0 +1,53 @@
+// Follows a run in a browser from its beginning to its replay: holds it, steps it, lets it go. Prints what is wrong, a
+// line each; nothing: all is well.
+// usage: node watch.mjs WEB CHROMIUM DOOR RUN
+import {readFileSync} from 'node:fs';
+import path from 'node:path';
+
+import {lookAt} from '../report/browser.mjs';
+import {openRun, sleep, stateOf, until} from './page.mjs';
+
+const [web, chromium, door, run] = process.argv.slice(2);
+const {browser, page, complaints, host} = await openRun([web, chromium, door]);
+const expect = (good, what) => good || console.log(what);
+const kStep = 20;  // ticks of an exchange
+
+await until(page, ({state, live}) => state === 'flies' && live === 'yes', 'it flies');
+await page.click('#pause');
+const held = await until(page, ({state}) => state === 'paused', 'it is paused');
+const before = await page.screenshot({encoding: 'base64'});
+await sleep(1500);
+const still = await stateOf(page);
+expect(still.tick === held.tick, `while it is paused the tick went from ${held.tick} to ${still.tick}`);
+for (let step = 1; step <= 3; ++step) {
+  await page.keyboard.press('s');
+  const after = await until(page, ({tick}) => tick !== held.tick + kStep * (step - 1), 'a step');
+  expect(after.tick === held.tick + kStep * step, `step ${step} went from ${held.tick} to ${after.tick}`);
+}
+await sleep(500);
+expect((await stateOf(page)).tick === held.tick + 3 * kStep, 'it went on after a step');
+
+// Time is told from the keyboard alone, and another speed counts.
+await page.select('#speed', 'max');
+await page.keyboard.press('Escape');
+await page.evaluate(() => document.activeElement.blur());
+await page.keyboard.press('p');
+const later = await until(page, ({tick, state}) => state !== 'paused' && tick > held.tick + 200 * kStep, 'it goes on');
+expect(later.events > 0, 'no event is told');
+const flown = await page.screenshot({encoding: 'base64'}).catch(() => null);  // the replay may have begun
+if (flown !== null) expect(flown !== before, 'the picture has not changed');
+
+await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'its replay');
+const replay = await stateOf(page);
+const result = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));
+expect(replay.score === result.score, `the score is ${replay.score}, and in result.json ${result.score}`);
+expect(replay.shown === result.score.toFixed(3), `the score shown is ${replay.shown}`);
+expect(result.score > 0, 'nothing was scored: that proves little');
+const picture = await lookAt(browser, await page.screenshot({encoding: 'base64'}));
+expect(picture.colours > 100 && picture.largest < 0.9, `the page is blank: ${JSON.stringify(picture)}`);
+// Who has not shown the key sees nothing.
+const stranger = await (await browser.createBrowserContext()).newPage();
+await stranger.goto(`http://${host}/`, {waitUntil: 'load'});
+expect(await stranger.$('#flight') === null, 'a browser without the key sees the run');
+for (const complaint of complaints) console.log(complaint);
+await browser.close();

@@ -1,0 +1,110 @@
+// A run that is watched, without a browser: its digest, its exit code, and what it leaves.
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+#include "view_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Arguments kShort = {"towers", "--planner", "kios", "--duration", "20", "--no-oracle", "--no-report"};
+
+/// Inodes of TCP sockets that listen, of this host.
+std::set<std::string> listening_inodes() {
+  std::set<std::string> inodes;
+  for (const char* table : {"/proc/net/tcp", "/proc/net/tcp6"}) {
+    std::ifstream in(table);
+    for (std::string line; std::getline(in, line);) {
+      std::istringstream words(line);
+      std::vector<std::string> cells;
+      for (std::string word; words >> word;) cells.push_back(word);
+      if (cells.size() > 9 && cells[3] == "0A") inodes.insert(cells[9]);
+    }
+  }
+  return inodes;
+}
+
+/// How many listening sockets a process has, under whatever many descriptors.
+std::size_t listeners_of(pid_t pid) {
+  const std::set<std::string> listening = listening_inodes();
+  std::set<std::string> own;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator("/proc/" + std::to_string(pid) + "/fd", error)) {
+    const std::string target = fs::read_symlink(entry.path(), error);
+    const std::string begin = "socket:[";
+    if (!target.starts_with(begin)) continue;
+    const std::string inode = target.substr(begin.size(), target.size() - begin.size() - 1);
+    if (listening.contains(inode)) own.insert(inode);
+  }
+  return own.size();
+}
+
+class WatchedRun : public ViewTest {};
+
+TEST_F(WatchedRun, HasTheDigestOfOneThatNobodyWatches) {
+  const std::string unseen = run("unseen", joined(kShort, {"--one-process"})).digest();
+  EXPECT_EQ(run("one", joined(kShort, {"--one-process", "--view", "--view-close", "--speed", "max"})).digest(), unseen);
+  EXPECT_EQ(run("one8", joined(kShort, {"--one-process", "--view", "--view-close", "--speed", "16"})).digest(), unseen);
+  EXPECT_EQ(run("dds", joined(kShort, {"--view", "--view-close", "--speed", "max"})).digest(), unseen);
+  EXPECT_EQ(run("dds8", joined(kShort, {"--view", "--view-close", "--dds", "fastdds"})).digest(), unseen);
+}
+
+TEST_F(WatchedRun, ListensAtTheStationAndForItsReplayAlone) {
+  SkeinRun& seen = start("seen", joined(kShort, {"--view"}));
+  ASSERT_TRUE(seen.wait_until_flying()) << seen.err();
+  for (const auto& [name, pid] : processes_of(seen.dir())) {
+    EXPECT_EQ(listeners_of(pid), name == "station" || name == "skein" ? 1U : 0U) << name;
+  }
+  seen.skein().signal(SIGINT);
+  EXPECT_EQ(seen.exit_code(), 130) << "who interrupts a run has seen enough: " << seen.err();
+
+  SkeinRun& unseen = start("unseen", kShort);
+  ASSERT_TRUE(unseen.wait_until_flying()) << unseen.err();
+  for (const auto& [name, pid] : processes_of(unseen.dir())) EXPECT_EQ(listeners_of(pid), 0U) << name;
+  EXPECT_EQ(unseen.exit_code(), 0);
+}
+
+TEST_F(WatchedRun, EndsWithItsOwnExitCodeWhenItsReplayDoes) {
+  SkeinRun& seen = start("seen", joined(kShort, {"--view", "--speed", "4"}));
+  ASSERT_TRUE(seen.wait_until_flying()) << seen.err();
+  ::kill(processes_of(seen.dir()).at("uav_agent-changi"), SIGKILL);
+  ASSERT_TRUE(seen.wait_for("replay")) << seen.err();
+  EXPECT_TRUE(fs::exists(seen.dir() / "result.json")) << "results are there before the page is left";
+  EXPECT_TRUE(fs::exists(door_of(seen)));
+  EXPECT_EQ(seen.skein().ended(), std::nullopt);
+  seen.skein().signal(SIGINT);
+  EXPECT_EQ(seen.exit_code(), 3);
+  EXPECT_FALSE(fs::exists(door_in(seen.err()).parent_path())) << "the key's folder stays";
+}
+
+TEST_F(WatchedRun, HeldTimeIsNoTimeOfTheRun) {
+  const Json slow =
+      run("slow", joined(kShort, {"--one-process", "--stop-at", "4", "--view", "--view-close", "--speed", "2"}))
+          .result();
+  // Two seconds at least went by; the run itself took what it takes unwatched.
+  EXPECT_GT(slow["real_time_factor"].get<double>(), 2.2);
+}
+
+TEST_F(WatchedRun, RefusesWhatCannotBe) {
+  run("clock", joined(kShort, {"--view", "--speed", "2", "--clock", "realtime"}), {}, 2);
+  run("speed", joined(kShort, {"--view", "--speed", "0.01"}), {}, 2);
+  run("unwatched", joined(kShort, {"--speed", "2"}), {}, 2);
+  run("port", joined(kShort, {"--view", "70000"}), {}, 2);
+  SkeinRun& seen = start("seen", joined(kShort, {"--view"}));
+  ASSERT_TRUE(seen.wait_for("127.0.0.1:")) << seen.err();
+  const std::string said = seen.err();
+  const std::size_t at = said.find("127.0.0.1:") + 10;
+  const std::string port = said.substr(at, said.find('/', at) - at);
+  SkeinRun& second = run("second", joined(kShort, {"--view", port}), {}, 2);
+  EXPECT_NE(second.err().find("choose another port"), std::string::npos) << second.err();
+  seen.skein().signal(SIGINT);
+  EXPECT_EQ(seen.exit_code(), 130);
+  ChildProcess& none = skein({"replay", folder().string()});
+  EXPECT_EQ(none.wait().code, 2) << none.err();
+}
+
+}  // namespace
+}  // namespace skein::test

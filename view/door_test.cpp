@@ -1,0 +1,51 @@
+#include "view/door.hpp"
+
+#include <gtest/gtest.h>
+
+namespace skein::view {
+namespace {
+
+class DoorTest : public testing::Test {
+ protected:
+  const Key key_ = Key::draw();
+  const Door door_{8080, key_};
+};
+
+TEST_F(DoorTest, KnowsTheLoopbackWithItsPort) {
+  for (const char* host : {"127.0.0.1:8080", "localhost:8080", "[::1]:8080"})
+    EXPECT_TRUE(door_.knows_host(host)) << host;
+  for (const char* host : {"", "127.0.0.1", "localhost", "127.0.0.1:8081", "127.0.0.1:80800", "example.org:8080",
+                           "127.0.0.1:8080.example.org", "127.0.0.2:8080", "localhost:8080 ", "LOCALHOST:8080@x"}) {
+    EXPECT_FALSE(door_.knows_host(host)) << host;
+  }
+}
+
+TEST_F(DoorTest, OnlyPagesOfTheSameHostAreItsOwn) {
+  EXPECT_TRUE(door_.is_own_origin("http://localhost:8080", "localhost:8080"));
+  for (const char* origin : {"", "null", "http://localhost", "https://localhost:8080", "http://127.0.0.1:8080",
+                             "http://localhost:8081", "http://localhost:8080.example.org"}) {
+    EXPECT_FALSE(door_.is_own_origin(origin, "localhost:8080")) << origin;
+  }
+}
+
+TEST_F(DoorTest, OpensForTheCookieThatItGives) {
+  const std::string pair = door_.cookie().substr(0, door_.cookie().find(';'));
+  EXPECT_TRUE(door_.opens(pair));
+  EXPECT_TRUE(door_.opens("a=b; " + pair + "; c=d"));
+  EXPECT_FALSE(door_.opens(""));
+  EXPECT_FALSE(door_.opens("skein_8080="));
+  EXPECT_FALSE(door_.opens("skein_8081=" + key_.text())) << "of a page at another port";
+  EXPECT_FALSE(door_.opens("x" + pair));
+  EXPECT_NE(door_.cookie().find("HttpOnly"), std::string::npos);
+  EXPECT_NE(door_.cookie().find("SameSite=Strict"), std::string::npos);
+}
+
+TEST(FormFields, AreFoundByTheirNames) {
+  EXPECT_EQ(form_field("a=1&key=2&b=3", "key"), "2");
+  EXPECT_EQ(form_field("key=", "key"), "");
+  EXPECT_EQ(form_field("keys=1&xkey=2", "key"), "");
+  EXPECT_EQ(form_field("", "key"), "");
+}
+
+}  // namespace
+}  // namespace skein::view

@@ -1,0 +1,68 @@
+#include "view/key.hpp"
+
+#include <fcntl.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "core/file_bytes.hpp"
+#include "core/types.hpp"
+
+namespace skein::view {
+namespace {
+
+constexpr std::size_t kBytes = 32;
+constexpr std::string_view kDigits = "0123456789abcdef";
+
+}  // namespace
+
+Key Key::draw() {
+  std::array<unsigned char, kBytes> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+    throw std::runtime_error(std::string("no random numbers: ") + std::strerror(errno));
+  }
+  std::string text;
+  for (const unsigned char byte : bytes) {
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15];
+  }
+  return Key(std::move(text));
+}
+
+Key Key::read_from(const std::filesystem::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) == 0 && (status.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
+    throw InputError(file.string() + ": others may read this key; it must be a file of mode 0600");
+  }
+  std::string text = read_file_bytes(file, 1024);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  if (text.size() != 2 * kBytes || text.find_first_not_of(kDigits) != std::string::npos) {
+    throw InputError(file.string() + ": is no key of a page");
+  }
+  return Key(std::move(text));
+}
+
+bool Key::opens(std::string_view given) const {
+  if (given.size() != text_.size()) return false;
+  volatile unsigned char differences = 0;  // read and written each time, so that no compiler leaves the loop early
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    differences = static_cast<unsigned char>(differences | (given[i] ^ text_[i]));
+  }
+  return differences == 0;
+}
+
+void write_private_file(const std::filesystem::path& file, std::string_view text) {
+  ::unlink(file.c_str());
+  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const int reason = errno;
+  if (fd >= 0) ::close(fd);
+  if (!written) throw std::runtime_error(file.string() + ": " + std::strerror(reason));
+}
+
+}  // namespace skein::view

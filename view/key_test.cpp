@@ -1,0 +1,71 @@
+#include "view/key.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "core/types.hpp"
+
+namespace skein::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+class KeyFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = fs::temp_directory_path() / "skein-key-XXXXXX";
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path folder_;
+};
+
+TEST(Keys, AreDrawnAnewAndOpenOnlyForThemselves) {
+  const Key one = Key::draw(), other = Key::draw();
+  EXPECT_EQ(one.text().size(), 64U);
+  EXPECT_TRUE(one.opens(one.text()));
+  EXPECT_FALSE(one.opens(other.text()));
+  EXPECT_FALSE(one.opens(""));
+  EXPECT_FALSE(one.opens(one.text().substr(1)));
+  EXPECT_FALSE(one.opens(one.text() + "0"));
+  std::string nearly = one.text();
+  nearly.back() = nearly.back() == '0' ? '1' : '0';
+  EXPECT_FALSE(one.opens(nearly));
+}
+
+TEST_F(KeyFile, IsReadByItsOwnerAlone) {
+  const Key key = Key::draw();
+  const fs::path file = folder_ / "view.key";
+  write_private_file(file, key.text() + "\n");
+  struct stat status {};
+  ASSERT_EQ(::stat(file.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0600U);
+  EXPECT_TRUE(Key::read_from(file).opens(key.text()));
+  ::chmod(file.c_str(), 0640);
+  EXPECT_THROW(Key::read_from(file), InputError) << "others may read it";
+}
+
+TEST_F(KeyFile, OfAnythingElseIsNone) {
+  EXPECT_THROW(Key::read_from(folder_ / "missing"), InputError);
+  for (const std::string& text : {std::string(), std::string(64, 'x'), std::string(63, '0'), std::string(65, '0')}) {
+    write_private_file(folder_ / "view.key", text);
+    EXPECT_THROW(Key::read_from(folder_ / "view.key"), InputError) << text;
+  }
+}
+
+TEST_F(KeyFile, ReplacesALinkAndDoesNotFollowIt) {
+  std::ofstream(folder_ / "mine") << "mine";
+  fs::create_symlink(folder_ / "mine", folder_ / "view.key");
+  write_private_file(folder_ / "view.key", "secret");
+  EXPECT_FALSE(fs::is_symlink(folder_ / "view.key"));
+  std::string text;
+  std::ifstream(folder_ / "mine") >> text;
+  EXPECT_EQ(text, "mine");
+}
+
+}  // namespace
+}  // namespace skein::view

@@ -1,0 +1,73 @@
+#include "view/pages.hpp"
+
+#include "core/file_bytes.hpp"
+#include "core/types.hpp"
+#include "report/html.hpp"
+#include "report/style.hpp"
+#include "report/web_bundle.hpp"
+
+namespace skein::view {
+namespace {
+
+std::string document(const std::string& title, const std::string& head, const std::string& body) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+         "<link rel=\"icon\" href=\"data:,\"/>\n<title>" +
+         report::escaped(title) + "</title>\n" + head + "</head>\n" + body + "</html>\n";
+}
+
+constexpr std::uintmax_t kLargestScript = 8 << 20;
+
+std::string style_element(std::string_view more = {}) {
+  return "<style>\n" + std::string(report::base_style()) + std::string(more) + "</style>\n";
+}
+
+}  // namespace
+
+std::filesystem::path find_script() {
+  if (const auto file = report::find_web_bundle(report::kLiveScript)) return *file;
+  throw InputError(
+      "the page's script live.js is missing: packages of Skein contain it, and a build from source makes it with npm "
+      "(docs/view.md)");
+}
+
+Site site_of(const std::string& title, const std::filesystem::path& script) {
+  const std::string head = style_element(std::string(report::drawing_style()) + std::string(report::run_style())) +
+                           "<script src=\"/live.js\" defer=\"defer\"></script>\n";
+  return {document("Skein: " + title, head,
+                   "<body class=\"run watch\">\n<noscript>This page needs JavaScript.</noscript>\n"
+                   "<main id=\"flight\"><p class=\"soft\">Waiting for the flight to begin.</p></main>\n</body>\n"),
+          read_file_bytes(script, kLargestScript)};
+}
+
+std::string door_page(bool refused) {
+  return document(
+      "Skein: the key, please", style_element(),
+      "<body>\n<main>\n<h1>The key, please</h1>\n" +
+          std::string(refused ? "<p role=\"alert\"><strong>That is not the key of this run.</strong></p>\n" : "") +
+          "<p>Whoever looks at a run, or stops its time, needs its key. Open the file <code>view.html</code> that "
+          "<code>skein</code> named when it began, or paste here what <code>view.key</code> beside it holds.</p>\n"
+          "<form method=\"post\" action=\"/enter\"><label>Key <input name=\"key\" type=\"password\" "
+          "autocomplete=\"off\" autofocus=\"autofocus\" size=\"40\"/></label> <button>Enter</button></form>\n"
+          "</main>\n</body>\n");
+}
+
+std::string entered_page() {
+  return document("Skein", "<meta http-equiv=\"refresh\" content=\"0;url=/\"/>\n" + style_element(),
+                  "<body><main><p><a href=\"/\">To the run</a></p></main></body>\n");
+}
+
+std::string key_file_page(std::uint16_t port, const Key& key) {
+  return document("Skein", style_element(),
+                  "<body>\n<main>\n<form id=\"enter\" method=\"post\" action=\"http://127.0.0.1:" +
+                      std::to_string(port) + "/enter\"><input type=\"hidden\" name=\"key\" value=\"" + key.text() +
+                      "\"/><button>Open the page of the run</button></form>\n</main>\n"
+                      "<script>document.getElementById('enter').submit();</script>\n</body>\n");
+}
+
+std::string page_policy() {
+  return "default-src 'none'; script-src 'self'; style-src 'unsafe-inline'; connect-src 'self'; img-src data: blob:; "
+         "base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
+}
+
+}  // namespace skein::view

@@ -1,0 +1,315 @@
+#include "view/server.hpp"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/asio.hpp>
+#include <boost/beast.hpp>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "view/listener.hpp"
+#include "view/pages.hpp"
+
+namespace skein::view {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::use_awaitable;
+using asio::ip::tcp;
+using Request = http::request<http::string_body>;
+using Response = http::response<http::string_body>;
+using WebSocket = websocket::stream<beast::tcp_stream>;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kMostConnections = 64;
+constexpr std::size_t kMostHeader = 8 << 10, kMostBody = 1 << 10, kMostMessage = 1 << 10;
+constexpr auto kRequestTime = 10s;
+/// A browser that takes a message for longer is let go.
+constexpr auto kSendTime = 30s;
+constexpr std::size_t kBatch = 128 << 10;
+/// Between two messages to a browser: ten pictures a second are as many as it can show.
+constexpr auto kPause = 80ms;
+constexpr auto kGoodbye = 1s;
+
+std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
+
+/// A browser that follows the flight.
+struct Follower {
+  explicit Follower(beast::tcp_stream&& stream)
+      : socket(std::move(stream)), news(socket.get_executor()), pause(socket.get_executor()) {
+    news.expires_at(asio::steady_timer::time_point::max());
+  }
+
+  WebSocket socket;
+  asio::steady_timer news;   ///< cancelled when there are any
+  asio::steady_timer pause;  ///< between two messages
+  FeedPlace place;
+  bool closing = false;
+};
+
+}  // namespace
+
+struct Server::Impl {
+  Impl(int listener, Key key, Site the_site, Feed& the_feed, Obey the_obey)
+      : door(port_of(listener), std::move(key)),
+        site(std::move(the_site)),
+        feed(the_feed),
+        obey(std::move(the_obey)),
+        acceptor(io) {
+    const int own = ::dup(listener);
+    if (own < 0) throw std::system_error(errno, std::generic_category(), "the socket of the page");
+    acceptor.assign(tcp::v4(), own);
+    asio::co_spawn(io, accept(), asio::detached);
+    // Signals are for the thread that flies or waits.
+    sigset_t all, former;
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &former);
+    thread = std::thread([this] { run(); });
+    ::pthread_sigmask(SIG_SETMASK, &former, nullptr);
+    feed.on_news([this] {
+      if (!told.exchange(true)) asio::post(io, [this] { tell_news(); });
+    });
+  }
+
+  ~Impl() { end(kGoodbye); }
+
+  /// @param patience  for browsers that are still told something.
+  void end(std::chrono::milliseconds patience) {
+    feed.on_news({});
+    if (!thread.joinable()) return;
+    asio::post(io, [this, patience] { say_goodbye(patience); });
+    thread.join();
+  }
+
+  void run() {
+    // One request that goes wrong in an unforeseen way is not to end the run that it looks at.
+    while (true) {
+      try {
+        io.run();
+        return;
+      } catch (const std::exception& error) {
+        spdlog::warn("the page: {}", error.what());
+      }
+    }
+  }
+
+  /// Tells what is left to be told, and no more.
+  static void leave(Follower& follower) {
+    follower.closing = true;
+    follower.news.cancel();
+    follower.pause.cancel();
+  }
+
+  void tell_news() {
+    told = false;
+    for (const auto& follower : followers) follower->news.cancel();
+  }
+
+  void say_goodbye(std::chrono::milliseconds patience) {
+    // Released, not closed: the duplicate must leave the poll set while the launcher keeps the socket open.
+    boost::system::error_code ignored;
+    if (acceptor.is_open()) ::close(acceptor.release(ignored));
+    closing = true;
+    for (const auto& follower : followers) leave(*follower);
+    if (patience == 0ms || connections == 0) return io.stop();
+    last_call.expires_after(patience);
+    last_call.async_wait([this](boost::system::error_code) { io.stop(); });
+  }
+
+  asio::awaitable<void> accept() {
+    while (acceptor.is_open()) {
+      boost::system::error_code error;
+      tcp::socket socket = co_await acceptor.async_accept(asio::redirect_error(use_awaitable, error));
+      if (closing || error == asio::error::operation_aborted) co_return;
+      if (error) {  // no descriptor is left, say: others may be freed
+        asio::steady_timer later(io, 100ms);
+        co_await later.async_wait(use_awaitable);
+        continue;
+      }
+      if (connections >= kMostConnections) continue;  // closes it
+      ++connections;
+      asio::co_spawn(io, serve(beast::tcp_stream(std::move(socket))), [this](const std::exception_ptr&) {
+        --connections;
+        if (closing && connections == 0) io.stop();
+      });
+    }
+  }
+
+  asio::awaitable<void> serve(beast::tcp_stream stream) {
+    beast::flat_buffer buffer(kMostHeader + kMostBody);
+    http::request_parser<http::string_body> parser;
+    parser.header_limit(kMostHeader);
+    parser.body_limit(kMostBody);
+    stream.expires_after(kRequestTime);
+    co_await http::async_read(stream, buffer, parser, use_awaitable);
+    const Request request = parser.release();
+    if (websocket::is_upgrade(request) && may_follow(request)) {
+      co_await follow(std::move(stream), request);
+      co_return;
+    }
+    Response response = answer(request);
+    co_await http::async_write(stream, response, use_awaitable);
+    boost::system::error_code ignored;
+    stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
+  }
+
+  bool may_follow(const Request& request) const {
+    return request.target() == "/flight" && knows(request) && has_key(request) && !is_foreign(request) &&
+           request.find(http::field::origin) != request.end();
+  }
+
+  bool knows(const Request& request) const {
+    return request.count(http::field::host) == 1 && door.knows_host(view_of(request[http::field::host]));
+  }
+  bool has_key(const Request& request) const { return door.opens(view_of(request[http::field::cookie])); }
+  /// Whether a page of elsewhere sends it. Who is no browser says nothing of its origin.
+  bool is_foreign(const Request& request) const {
+    const auto origin = request.find(http::field::origin);
+    return origin != request.end() &&
+           !door.is_own_origin(view_of(origin->value()), view_of(request[http::field::host]));
+  }
+
+  Response answer(const Request& request) const {
+    const auto plain = [&](http::status status, const std::string& text) {
+      return made(request, status, "text/plain; charset=utf-8", text + "\n");
+    };
+    if (!knows(request)) return plain(http::status::misdirected_request, "This is no name of this page.");
+    const beast::string_view target = request.target();
+    if (target == "/enter") return enter(request);
+    if (is_foreign(request)) return plain(http::status::forbidden, "Only a page of this server may ask for that.");
+    if (request.method() != http::verb::get) return plain(http::status::method_not_allowed, "Only GET.");
+    const bool open = has_key(request);
+    if (target == "/") return made(request, http::status::ok, kHtml, open ? site.page : door_page());
+    if (target != "/live.js" && target != "/flight") return plain(http::status::not_found, "There is no such page.");
+    if (!open) return plain(http::status::forbidden, "Show the key first.");
+    if (target == "/flight") return plain(http::status::upgrade_required, "This is a WebSocket for this page alone.");
+    return made(request, http::status::ok, "text/javascript; charset=utf-8", site.script);
+  }
+
+  /// The key comes from the file that the browser opened, or from the door's form: it speaks for itself, whatever page
+  /// sends it.
+  Response enter(const Request& request) const {
+    if (request.method() != http::verb::post || !door.key().opens(form_field(request.body(), "key"))) {
+      return made(request, http::status::forbidden, kHtml, door_page(true));
+    }
+    // No redirection: the browser would not send a strict cookie where a page of elsewhere set off the request.
+    Response response = made(request, http::status::ok, kHtml, entered_page());
+    response.set(http::field::set_cookie, door.cookie());
+    return response;
+  }
+
+  static constexpr const char* kHtml = "text/html; charset=utf-8";
+
+  static Response made(const Request& request, http::status status, const char* type, std::string body) {
+    Response response(status, request.version());
+    response.set(http::field::content_type, type);
+    response.set(http::field::cache_control, "no-store");
+    response.set("Content-Security-Policy", page_policy());
+    response.set("X-Content-Type-Options", "nosniff");
+    response.set("X-Frame-Options", "DENY");
+    response.set("Referrer-Policy", "no-referrer");
+    response.set("Cross-Origin-Opener-Policy", "same-origin");
+    response.set("Cross-Origin-Resource-Policy", "same-origin");
+    response.keep_alive(false);
+    response.body() = std::move(body);
+    response.prepare_payload();
+    return response;
+  }
+
+  asio::awaitable<void> follow(beast::tcp_stream stream, const Request& request) {
+    const auto follower = std::make_shared<Follower>(std::move(stream));
+    WebSocket& socket = follower->socket;
+    beast::get_lowest_layer(socket).expires_never();  // the WebSocket has limits of its own
+    socket.set_option(websocket::stream_base::timeout{kRequestTime, kSendTime, true});
+    socket.read_message_max(kMostMessage);
+    socket.text(true);
+    co_await socket.async_accept(request, use_awaitable);
+    followers.push_back(follower);
+    follower->closing = closing;
+    ++connections;
+    asio::co_spawn(io, listen_to(follower), [this, follower](const std::exception_ptr&) {
+      leave(*follower);
+      beast::get_lowest_layer(follower->socket).close();
+      if (--connections == 0 && closing) io.stop();
+    });
+    boost::system::error_code error;
+    co_await tell(*follower, error);
+    std::erase(followers, follower);
+    if (!error) {
+      co_await socket.async_close(websocket::close_code::going_away, asio::redirect_error(use_awaitable, error));
+    } else {
+      beast::get_lowest_layer(socket).close();
+    }
+  }
+
+  asio::awaitable<void> tell(Follower& follower, boost::system::error_code& error) {
+    while (true) {
+      const std::string message = feed.next(follower.place, kBatch);
+      if (message.empty()) {
+        if (follower.closing) co_return;
+        boost::system::error_code woken;
+        follower.news.expires_at(asio::steady_timer::time_point::max());
+        co_await follower.news.async_wait(asio::redirect_error(use_awaitable, woken));
+        continue;
+      }
+      co_await follower.socket.async_write(asio::buffer(message), asio::redirect_error(use_awaitable, error));
+      if (error) co_return;
+      if (follower.closing) continue;
+      boost::system::error_code woken;
+      follower.pause.expires_after(kPause);
+      co_await follower.pause.async_wait(asio::redirect_error(use_awaitable, woken));
+    }
+  }
+
+  asio::awaitable<void> listen_to(std::shared_ptr<Follower> follower) {
+    beast::flat_buffer buffer;
+    while (true) {
+      co_await follower->socket.async_read(buffer, use_awaitable);
+      const auto order = follower->socket.got_text()
+                             ? read_time_order(view_of(beast::string_view(
+                                   static_cast<const char*>(buffer.data().data()), buffer.data().size())))
+                             : std::nullopt;
+      buffer.consume(buffer.size());
+      if (!order) {
+        beast::get_lowest_layer(follower->socket).close();
+        co_return;
+      }
+      if (obey) obey(*order);
+    }
+  }
+
+  const Door door;
+  const Site site;
+  Feed& feed;
+  const Obey obey;
+  asio::io_context io{1};
+  tcp::acceptor acceptor;
+  asio::steady_timer last_call{io};
+  std::vector<std::shared_ptr<Follower>> followers;
+  std::size_t connections = 0;
+  bool closing = false;
+  std::atomic<bool> told = false;  ///< news are on their way to the thread
+  std::thread thread;
+};
+
+Server::Server(int listener, Key key, Site site, Feed& feed, Obey obey)
+    : impl_(std::make_unique<Impl>(listener, std::move(key), std::move(site), feed, std::move(obey))) {}
+
+Server::~Server() = default;
+
+void Server::stop() {
+  if (impl_) impl_->end(std::chrono::milliseconds(0));
+  impl_.reset();  // and with it all connections
+}
+
+}  // namespace skein::view

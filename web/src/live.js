@@ -1,0 +1,221 @@
+// The page that follows a run while it flies, and shows it again when it is over. Scene and charts are the report's.
+import uplotStyle from 'uplot/dist/uPlot.min.css';
+
+import {connect} from './connection.js';
+import {begin, scoreAt, stand, tell} from './flight.js';
+import style from './live.css';
+import {data, element, growth, moment} from './page.js';
+import {chosenPanel, describe, eventsPanel, fleetPanel, linksPanel, pointsPanel} from './panels.js';
+import reportStyle from './report.css';
+
+const kPanels = 400;  // ms between two drawings of the panels while time goes on
+const kSpeeds = ['0.1', '0.5', '1', '2', '4', '8', '16', '32', 'max'];
+const main = document.getElementById('flight');
+const chosen = {uav: -1, point: -1, through: false};
+
+document.head.append(element('style', {}, uplotStyle + reportStyle + style));
+
+function figure(name, text) {
+  const strong = element('strong', {id: name}, '–');
+  const small = element('small', {id: `${name}-more`, class: 'soft'}, '');
+  return element('div', {class: 'figure'}, element('span', {}, text), strong, small);
+}
+
+const set = (id, text) => {
+  const found = document.getElementById(id);
+  if (found.textContent !== text) found.textContent = text;
+};
+
+/** Pause, step and speed of a run that flies. */
+function controls(order) {
+  const pause = element('button', {type: 'button', id: 'pause', class: 'main', 'aria-keyshortcuts': 'p', title: 'Pause the flight (p)'}, 'Pause');
+  const step = element('button', {type: 'button', id: 'step', 'aria-keyshortcuts': 's', title: 'One exchange further (s)'}, 'Step');
+  const speed = element('select', {id: 'speed', 'aria-label': 'speed of the flight'},
+                        ...kSpeeds.map((value) => element('option', {value}, value === 'max' ? 'as fast as it goes' : `${value}x`)));
+  pause.addEventListener('click', () => order({do: data.now?.paused ? 'resume' : 'pause'}));
+  step.addEventListener('click', () => {
+    if (!data.now?.paused) order({do: 'pause'});
+    order({do: 'step'});
+  });
+  speed.addEventListener('change', () => order({do: 'speed', speed: speed.value === 'max' ? 'max' : Number(speed.value)}));
+  document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey || ['INPUT', 'SELECT', 'TEXTAREA'].includes(event.target.tagName)) return;
+    if (event.key === 'p') pause.click();
+    if (event.key === 's') step.click();
+  });
+  return element('div', {class: 'controls', role: 'group', 'aria-label': 'time of the flight'}, pause, step, speed);
+}
+
+function showControls(live) {
+  const {now} = data;
+  if (!now) return;
+  const pause = document.getElementById('pause');
+  pause.textContent = now.paused ? 'Resume' : 'Pause';
+  pause.title = `${now.paused ? 'Let the flight go on' : 'Pause the flight'} (p)`;
+  const speed = document.getElementById('speed');
+  if (![...speed.options].some(({value}) => value === now.speed)) speed.append(element('option', {value: now.speed}, `${now.speed}x`));
+  if (document.activeElement !== speed) speed.value = now.speed;
+  for (const id of ['pause', 'step', 'speed']) document.getElementById(id).disabled = !live || !data.paced;
+}
+
+const kStates = {
+  flies: ['flies', ''],
+  paused: ['paused', 'held'],
+  gone: ['not connected; asking again', 'gone'],
+  replay: ['replay', 'replay'],
+  closed: ['replay, no longer served', 'gone'],
+};
+let live = false;
+
+function stateOf() {
+  if (data.mode === 'replay') return live ? 'replay' : 'closed';
+  if (!live) return 'gone';
+  return data.now?.paused ? 'paused' : 'flies';
+}
+
+function showHead() {
+  const [text, kind] = kStates[stateOf()];
+  const state = document.getElementById('state');
+  state.className = `state ${kind}`;
+  set('state', text);
+  document.body.dataset.state = stateOf();
+  const {score, points} = scoreAt(moment.newest ? Infinity : moment.seconds);
+  set('score', score.toFixed(3));
+  set('score-more', `${points} of ${data.points.length / 9} points`);
+  document.getElementById('score').dataset.exact = String(score);
+  set('clock', `${moment.seconds.toFixed(moment.newest && data.now?.paused ? 2 : 1)} s`);
+  const mission = data.now?.mission;
+  set('clock-more', mission === undefined ? `of ${data.end.toFixed(1)} s` :
+      moment.newest ? (mission > 0 ? `mission ${mission.toFixed(1)} of ${data.duration} s` : 'before take-off') :
+                      `flown: ${data.end.toFixed(1)} s`);
+  if (data.now) document.getElementById('clock').dataset.tick = String(data.now.tick);
+  if (data.mode === 'live') showControls(live);
+}
+
+function frame(order) {
+  const by = data.planners ? ` by ${data.planners}` : '';
+  const title = element('h1', {}, `${data.title ?? data.scenario}${by}`, element('span', {id: 'state', class: 'state', role: 'status'}));
+  const bar = element('header', {class: 'bar'}, title, figure('clock', 'simulated time'), figure('score', 'delivered score'),
+                      ...(data.mode === 'live' ? [controls(order)] : []));
+  const picture = (name, caption) => element('figure', {'data-live': name}, element('figcaption', {}, caption));
+  const places = {
+    scene: picture('3d', 'In three dimensions'),
+    score: picture('score', 'Score over time'),
+    lanes: picture('lanes', 'What each UAV did'),
+  };
+  const side = element('div', {class: 'column side'}, places.score);
+  const couple = element('div', {class: 'couple'});
+  const missing = data.missing?.length ? [element('p', {class: 'note'}, `This recording lacks something: ${data.missing.join(' ')}`)] : [];
+  main.replaceChildren(bar, ...missing, element('div', {class: 'layout'},
+      element('div', {class: 'views'}, places.scene), side, element('div', {class: 'column below'}, places.lanes, couple)));
+  return {...places, side, couple};
+}
+
+/** The page's address holds what it shows, to be kept or shared. */
+const address = {
+  write() {
+    const words = new URLSearchParams();
+    if (!moment.newest) words.set('t', moment.seconds.toFixed(2));
+    if (chosen.uav >= 0) words.set('uav', data.uavs[chosen.uav].name);
+    if (chosen.through) words.set('view', 'camera');
+    if (chosen.point >= 0) words.set('point', String(chosen.point));
+    const hash = words.size > 0 ? `#${words}` : '';
+    if (hash !== location.hash) history.replaceState(null, '', hash || location.pathname);
+  },
+  read() {
+    const words = new URLSearchParams(location.hash.slice(1));
+    const time = Number(words.get('t') ?? NaN);
+    const point = Number(words.get('point') ?? -1);
+    return {
+      time,
+      uav: data.uavs.findIndex(({name}) => name === words.get('uav')),
+      point: Number.isInteger(point) && point < data.points.length / 9 ? point : -1,
+      through: words.get('view') === 'camera',
+    };
+  },
+};
+
+async function show(order) {
+  const places = frame(order);
+  data.describe = describe;
+  let scene;
+  const choose = ({uav = -1, point = -1, through = false}) => {
+    Object.assign(chosen, {uav, point, through});
+    address.write();
+    scene?.follow(uav, through);
+    showPanels();
+  };
+  data.onUav = (uav) => choose({uav: uav === chosen.uav ? -1 : uav});
+  data.onPoint = (point) => choose({point});
+  const [{sceneView}, {scoreChart, lanesChart}] = [await import('./scene.js'), await import('./charts.js')];
+  const fleet = fleetPanel(data.onUav);
+  const panels = [chosenPanel(() => choose({uav: chosen.uav, through: !chosen.through}), () => choose({})), pointsPanel(), linksPanel(), eventsPanel()];
+  places.side.prepend(panels[0].element, fleet.element);
+  places.side.append(panels[1].element);
+  places.couple.append(panels[2].element, panels[3].element);
+  const showPanels = () => {
+    fleet.show(chosen.uav);
+    for (const one of panels) one.show(chosen);
+  };
+  let due = 0;
+  moment.listen(() => {
+    showHead();
+    const now = performance.now();
+    if (moment.newest && now < due && !data.now?.paused && data.mode === 'live') return;
+    due = now + kPanels;
+    showPanels();
+    address.write();
+  });
+  scene = sceneView(places.scene);
+  scoreChart(places.score);
+  lanesChart(places.lanes);
+  showHead();
+  showPanels();
+  document.addEventListener('keydown', (event) => event.key === 'Escape' && choose({}));
+  growth.tell();
+  const {time, ...what} = address.read();
+  if (Number.isFinite(time) && time < data.end) moment.set(time);
+  if (what.uav >= 0 || what.point >= 0) choose(what);
+}
+
+let begun = false;
+let ready = Promise.resolve();
+const order = connect({
+  scene(told) {
+    // Somebody else serves the run now: its replay after its end, or a station that was started again.
+    if (begun) return location.reload();
+    begun = true;
+    live = true;
+    begin(told);
+    if (told.mode === 'replay') return;  // shown when all of it is here
+    ready = show((text) => order(text));
+  },
+  lines(lines, more) {
+    tell(lines);
+    if (more) return;
+    if (data.mode === 'replay' && !main.querySelector('.bar')) ready = show(() => {});
+    ready.then(grow);
+  },
+  state(state) {
+    stand(state);
+    ready.then(grow);
+  },
+  gone() {
+    live = false;
+    if (begun && main.querySelector('.bar')) showHead();
+  },
+});
+
+let waiting = false;
+/** Once a picture of the screen, however much came in. */
+function grow() {
+  if (waiting) return;
+  waiting = true;
+  const draw = () => {
+    if (!waiting) return;
+    waiting = false;
+    growth.tell();
+    document.body.dataset.live = 'yes';
+  };
+  requestAnimationFrame(draw);
+}
