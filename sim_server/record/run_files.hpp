@@ -47,9 +47,9 @@ struct RunSummary {
   std::optional<std::vector<std::string>> differences;  ///< from a run that is flown again
 };
 
-/// Who, with what, when and where: a line for the log.
 /// "ground", "structure" or the name of a UAV.
 std::string collided_with(const Collision& collision, const Scenario& scenario);
+/// Who, with what, when and where: a line for the log.
 std::string describe(const Collision& collision, const Scenario& scenario);
 std::string describe(const Stray& stray, const Scenario& scenario);
 
