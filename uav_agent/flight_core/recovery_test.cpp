@@ -133,7 +133,9 @@ TEST(Recovery, GoesBackTheWayThatItCame) {
         uav.fly(steering);
       }
       lowest_m = std::min(lowest_m, uav.state.p_WB.z());
-      if (tries == 4) EXPECT_LT(lowest_m, top_m - 7.0) << "seed " << seed;
+      if (tries == 4) {
+        EXPECT_LT(lowest_m, top_m - 7.0) << "seed " << seed;
+      }
       EXPECT_TRUE(uav.filter.proved(uav.state.p_WB, uav.map, {}));
     }
     EXPECT_LT(lowest_m, top_m - 14.0) << "seed " << seed;
