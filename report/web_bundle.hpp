@@ -11,8 +11,8 @@ namespace skein::report {
 /// Of report.html, and of the page that follows a run (view/).
 inline constexpr std::string_view kReportScript = "report.js", kLiveScript = "live.js";
 
-/// The file of a script: $SKEIN_WEB for the report's and beside it for others, or below build/web/ of the tree that this
-/// was built in, or what is installed beside this program.
+/// The file of a script: $SKEIN_WEB for the report's and beside it for others, or below build/web/ of the tree that
+/// this was built in, or what is installed beside this program.
 std::optional<std::filesystem::path> find_web_bundle(std::string_view name = kReportScript);
 
 /// Its text, fit for a <script> element; nullopt where there is none, or it cannot stand in one.

@@ -16,19 +16,19 @@ void Pace::obey(const view::TimeOrder& order) {
   using Kind = view::TimeOrder::Kind;
   if (order.kind == Kind::speed) {
     speed_ = order.speed;
-    due_ = {};
+    due_.reset();
   } else if (order.kind == Kind::step) {
     steps_ = paused_ ? steps_ + 1 : 0;  // who asks for one step wants it to stand afterwards
     paused_ = true;
   } else {
     paused_ = order.kind == Kind::pause;
     steps_ = 0;
-    due_ = {};
+    due_.reset();
   }
 }
 
 bool Pace::may_go_on(Clock::time_point now, double period_s) {
-  const bool goes = paused_ ? steps_ > 0 : !speed_ || now >= due_;
+  const bool goes = paused_ ? steps_ > 0 : !speed_ || !due_ || now >= *due_;
   if (!goes) {
     if (!since_) since_ = now;
     return false;
@@ -38,14 +38,14 @@ bool Pace::may_go_on(Clock::time_point now, double period_s) {
   if (paused_) --steps_;
   if (speed_) {
     const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period_s / *speed_));
-    due_ = std::max(due_, now - kCatchUp) + period;
+    due_ = std::max(due_.value_or(now), now - kCatchUp) + period;
   }
   return true;
 }
 
 Pace::Clock::duration Pace::left(Clock::time_point now) const {
   if (paused_) return steps_ > 0 ? Clock::duration(0) : kLook;
-  return std::max(due_ - now, Clock::duration(0));
+  return due_ ? std::max(*due_ - now, Clock::duration(0)) : Clock::duration(0);
 }
 
 }  // namespace skein::sim

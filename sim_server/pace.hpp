@@ -35,7 +35,7 @@ class Pace {
   bool paused_ = false;
   int steps_ = 0;                           ///< that were asked for
   std::optional<Clock::time_point> since_;  ///< it holds the run
-  Clock::time_point due_{};                 ///< of the next exchange, by the speed
+  std::optional<Clock::time_point> due_;    ///< of the next exchange, by the speed; none: at once
   Clock::duration held_{};
 };
 

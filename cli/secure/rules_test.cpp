@@ -8,6 +8,7 @@
 #include "cli/secure/keys.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/topics.hpp"
+#include "core/view_topics.hpp"
 
 namespace skein::cli {
 namespace {
@@ -73,6 +74,11 @@ TEST_F(SecurityRules, NobodyButTheServerSpeaksForTheServer) {
   EXPECT_TRUE(rights_of(plan(), "sim_server", 10).not_published.empty());
   EXPECT_FALSE(may_publish(rights_of(plan(), "comm_router", 10), topics::trajectory_command("alpha").name));
   EXPECT_FALSE(may_publish(rights_of(plan(), "station", 10), topics::routed().name));
+  for (const char* program : {"comm_router", "station"}) {  // of a run that is watched
+    EXPECT_FALSE(may_publish(rights_of(plan(), program, 10), topics::view_story().name)) << program;
+  }
+  EXPECT_TRUE(may_publish(rights_of(plan(), "station", 10), topics::view_time().name));
+  EXPECT_FALSE(may_publish(rights_of(plan(), "comm_router", 10), topics::view_time().name));
   EXPECT_EQ(rights_of(plan(), "station", 10).last_domain, 11);
   EXPECT_EQ(rights_of(plan(), "comm_router", 10).last_domain, 13);
 }

@@ -176,6 +176,17 @@ export function linksAt(time) {
   return at < 0 ? '' : links.l[at];
 }
 
+const within = (spans, time) => spans.some((begin, i) => i % 2 === 0 && begin <= time && time < spans[i + 1]);
+
+/** How a UAV is linked to the station, in a word. */
+export function linkOf(index, time) {
+  const {direct, relayed, collided} = data.uavs[index];
+  if (collided !== null && collided <= time) return '–';
+  if (within(direct, time)) return 'direct';
+  if (linksAt(time)[(index + 1) * (data.uavs.length + 1)] === '2') return 'cut';
+  return within(relayed, time) ? 'relayed' : 'none';
+}
+
 /** Of the station's tally. */
 export function scoreAt(time) {
   const at = indexAt(counted.t, time);

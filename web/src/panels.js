@@ -1,6 +1,6 @@
 // The panels beside the scene: what each UAV does, its links, what happened, and what was chosen. Each is drawn anew for
 // the moment that the page shows.
-import {custody, doing, events, kLinks, linksAt, pointsAt, poseAt, sharesAt} from './flight.js';
+import {custody, doing, events, kLinks, linkOf, linksAt, pointsAt, poseAt, sharesAt} from './flight.js';
 import {data, element, moment, trackColour} from './page.js';
 
 const kMostEvents = 150;
@@ -29,17 +29,12 @@ export function fleetPanel(choose) {
     return {row: element('tr', {'aria-selected': 'false'}, element('th', {scope: 'row'}, button), ...cells), cells};
   });
   const body = element('tbody', {}, ...rows.map(({row}) => row));
-  const link = (digits, i) => {
-    const own = digits[(i + 1) * (data.uavs.length + 1)];
-    return own === undefined ? '–' : {0: 'none', 1: 'direct', 2: 'cut', 3: '–'}[own];
-  };
   const show = (chosen) => {
     const shares = sharesAt(moment.seconds);
-    const digits = linksAt(moment.seconds);
     rows.forEach(({row, cells}, i) => {
       row.setAttribute('aria-selected', String(i === chosen));
       const pose = poseAt(i, moment.seconds, moment.newest);
-      [doing(i, moment.seconds), pose === null ? '–' : pose.speed.toFixed(1), link(digits, i),
+      [doing(i, moment.seconds), pose === null ? '–' : pose.speed.toFixed(1), linkOf(i, moment.seconds),
        String(shares[i].undelivered), shares[i].score.toFixed(2)]
           .forEach((text, k) => (cells[k].textContent = text));
     });
