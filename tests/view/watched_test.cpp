@@ -53,7 +53,7 @@ TEST_F(WatchedRun, HasTheDigestOfOneThatNobodyWatches) {
 }
 
 TEST_F(WatchedRun, ListensAtTheStationAndForItsReplayAlone) {
-  SkeinRun& seen = start("seen", joined(kShort, {"--view"}));
+  SkeinRun& seen = start("seen", joined(kShort, {"--view", "--speed", "0.5"}));  // it must not be over before the look
   ASSERT_TRUE(seen.wait_until_flying()) << seen.err();
   for (const auto& [name, pid] : processes_of(seen.dir())) {
     EXPECT_EQ(listeners_of(pid), name == "station" || name == "skein" ? 1U : 0U) << name;
@@ -68,7 +68,7 @@ TEST_F(WatchedRun, ListensAtTheStationAndForItsReplayAlone) {
 }
 
 TEST_F(WatchedRun, EndsWithItsOwnExitCodeWhenItsReplayDoes) {
-  SkeinRun& seen = start("seen", joined(kShort, {"--view", "--speed", "4"}));
+  SkeinRun& seen = start("seen", joined(kShort, {"--view", "--speed", "2"}));
   ASSERT_TRUE(seen.wait_until_flying()) << seen.err();
   ::kill(processes_of(seen.dir()).at("uav_agent-changi"), SIGKILL);
   ASSERT_TRUE(seen.wait_for("replay")) << seen.err();

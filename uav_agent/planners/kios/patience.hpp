@@ -1,5 +1,5 @@
 // How long a photographer of KIOS waits for the explorers' map: until one says that it is done and none in sight that
-// it is not; or until none was seen to fly for a while, or it has waited for wait_s: then it works with the map there is.
+// it is not; or until none was seen to fly for a while, or it has waited for wait_s: then it works with what is mapped.
 // Whoever comes back may have missed that word while explorers are out of its sight: it believes photographers that
 // work.
 // Threads: one.   Source: paper (photographers idle while the explorers map); that it ends is ours.
