@@ -71,6 +71,7 @@ struct RunOptions {
 
 struct TestOptions {
   bool long_tests = false;
+  std::vector<std::string> folders;             ///< only what stands in these, or below: "sim_server", "tests/fleet"
   std::optional<std::filesystem::path> faults;  ///< a fault test, or a folder of them, instead of the suite
   std::vector<std::string> repeat;              ///< further runs of each fault test: names of enum Repeat
   bool rotate = false;                          ///< one of `repeat` a test, in turn

@@ -135,6 +135,8 @@ TEST(Options, CommandsForContainersShowExamples) {
 
 TEST(Options, OtherCommands) {
   EXPECT_TRUE(parse<TestOptions>({"test", "--long"}).long_tests);
+  EXPECT_EQ(parse<TestOptions>({"test", "core", "bus"}).folders, (std::vector<std::string>{"core", "bus"}));
+  EXPECT_THROW(parse<TestOptions>({"test", "core", "--faults", "mine"}), InputError);
   const auto faults =
       parse<TestOptions>({"test", "--faults", "mine", "--repeat", "again,chaos", "--rotate", "--out", "o"});
   EXPECT_EQ(faults.faults, "mine");

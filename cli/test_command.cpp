@@ -1,14 +1,16 @@
 #include "cli/test_command.hpp"
 
+#include <thread>
+
 #include "cli/fault_test_command.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/test_counts.hpp"
+#include "cli/test_folders.hpp"
 #include "process/environment.hpp"
 #include "process/program.hpp"
 
 namespace skein::cli {
-
 int run_tests(const TestOptions& options, const Console& console) {
   if (options.faults) return run_fault_tests(options, console);
   const ScratchDir scratch;
@@ -18,13 +20,19 @@ int run_tests(const TestOptions& options, const Console& console) {
         "test: there are no tests beside this skein; ./skein test in the source tree builds and runs them");
   }
   const std::filesystem::path junit = scratch.path() / "ctest.xml", reports = scratch.path() / "gtest";
+  // One more than there are cores: many a test waits for its processes.
+  std::vector<std::string> words = {
+      "/usr/bin/env",        "ctest",
+      "--test-dir",          build_dir,
+      "--no-label-summary",  "-j" + std::to_string(std::thread::hardware_concurrency() + 1),
+      "--output-on-failure", "--no-tests=error",
+      "--output-junit",      junit};
+  if (!options.folders.empty()) {
+    words.insert(words.end(), {"--label-regex", labels_of_folders(options.folders, build_dir / "test_folders.txt")});
+  }
   std::map<std::string, std::string> variables = {{"GTEST_OUTPUT", "json:" + reports.string() + "/"}};
   if (options.long_tests) variables["SKEIN_LONG"] = "1";
-  const ExitStatus exit = run_to_end({"ctest",
-                                      {"/usr/bin/env", "ctest", "--test-dir", build_dir, "-j2", "--output-on-failure",
-                                       "--no-tests=error", "--output-junit", junit},
-                                      environment_with(variables),
-                                      {}});
+  const ExitStatus exit = run_to_end({"ctest", words, environment_with(variables), {}});
   TestCounts counts = count_tests(junit, reports);
   if (!exit.ok() && counts.failed == 0) counts.failed = 1;  // ctest itself failed
   console.out << parts_table(junit, 20) << summary_line(counts) << std::endl;

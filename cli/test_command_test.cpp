@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cli/test_folders.hpp"
 #include "cli/testing/fake_programs.hpp"
 
 namespace skein::cli {
@@ -61,6 +62,25 @@ TEST_F(TestCommand, TheSlowestPartsComeFirst) {
   EXPECT_NE(parts_table(junit, 20).find("      0.2 s  quick\n"), std::string::npos);
   write_text(junit, "<testsuite/>");
   EXPECT_EQ(parts_table(junit, 20), "");
+}
+
+TEST_F(TestCommand, ChoosesByFolder) {
+  const std::filesystem::path list = scratch_.path() / "folders.txt";
+  write_text(list, "core\nsim_server/rays\nsim_server\ntests/fleet\ntests\n");
+  EXPECT_EQ(labels_of_folders({"core"}, list), "^(core)(/|$)");
+  EXPECT_EQ(labels_of_folders({"sim_server/", "tests/fleet"}, list), "^(sim_server|tests/fleet)(/|$)");
+  const auto refusal = [&](const std::string& folder) {
+    try {
+      labels_of_folders({"core", folder}, list);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal("sim_sever").find("did you mean 'sim_server'?"), std::string::npos) << refusal("sim_sever");
+  EXPECT_NE(refusal("docs").find("known are: core, sim_server, tests"), std::string::npos) << refusal("docs");
+  EXPECT_NE(refusal("").find("known are"), std::string::npos);
+  EXPECT_NE(refusal("tests/flee").find("did you mean 'tests/fleet'?"), std::string::npos) << refusal("tests/flee");
 }
 
 TEST_F(TestCommand, NoReportIsAnError) {

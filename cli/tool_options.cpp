@@ -84,6 +84,8 @@ void add_test(CLI::App& app, TestOptions& test) {
                     "Include the tests that take minutes; with --faults: repeat each in every way");
   CLI::Option* faults =
       command->add_option("--faults", test.faults, "A fault test (YAML) or a folder of them, instead of the suite");
+  command->add_option("FOLDER", test.folders, "Only the tests in these folders of the source tree, and below")
+      ->excludes(faults);
   command
       ->add_option(
           "--repeat", test.repeat,
@@ -110,6 +112,7 @@ void add_test(CLI::App& app, TestOptions& test) {
   command->footer(
       "Examples:\n"
       "  skein test\n"
+      "  skein test sim_server tests/fleet\n"
       "  skein test --faults config/faults/station_outage.yaml -v\n"
       "  skein test --faults my_tests --agent build/my_agent --seeds 1-20 --jobs 2 --junit faults.xml\n\n"
       "A fault test is described in docs/how-to-test-faults.md; config/faults/ has examples.\n"

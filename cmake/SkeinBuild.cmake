@@ -27,6 +27,10 @@ set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test proce
   one_process_crew_test one_process_flights_test one_process_digests_test bus_contract_test radio_contract_test
   view_server_test)
 
+# What takes more than half a minute, for it computes much: a third of it runs at each commit.
+set(SKEIN_SLOW_TESTS agent_planner_contract_test agent_planners_kios_kios_test agent_planners_patrol_patrol_test
+  agent_planners_star_star_flight_test agent_planners_xxh_xxh_test bus_contract_test sim_oracle_oracle_test
+  sim_scenes_scene_families_test sim_wild_flood_test)
 # What takes long with sanitizers, for it computes much: an eighth of it runs at each commit.
 set(SKEIN_SLOW_SANITIZED_TESTS sim_oracle_oracle_test sim_plan_flight_test sim_plan_plan_test
   sim_scenes_scene_families_test agent_planner_contract_test
@@ -177,6 +181,9 @@ function(skein_add_test name)
   list(FILTER files INCLUDE REGEX "_test\\.cpp$")
   list(TRANSFORM files PREPEND "--file;${folder}/")
   set(turns ${ARG_TURNS})
+  if(name IN_LIST SKEIN_SLOW_TESTS)
+    set(turns 3)
+  endif()
   set(aligned)
   if(SKEIN_SANITIZE AND name IN_LIST SKEIN_SLOW_SANITIZED_TESTS)
     set(turns 8)
@@ -195,7 +202,7 @@ function(skein_add_test name)
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}")
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS};${folder}")
   if(ARG_SERIAL)
     set_tests_properties(${name} PROPERTIES RUN_SERIAL TRUE)
   endif()
@@ -225,7 +232,7 @@ function(skein_test_program program)
     return()
   endif()
   add_executable(${program})
-  add_dependencies(tests ${program})
+  skein_test_needs(${program})
   set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests
     UNITY_BUILD ${SKEIN_UNITY} UNITY_BUILD_MODE GROUP)
   target_link_libraries(${program} PRIVATE skein_test_main)
@@ -235,7 +242,27 @@ function(skein_test_program program)
   target_link_options(${program} PRIVATE $<$<CONFIG:Release>:-Wl,--strip-debug,--compress-debug-sections=none>)
 endfunction()
 
-# Sources of a test program, eight of a folder compiled as one. So a name in an unnamed namespace means one thing in the
+# skein_test_needs(TARGET...)
+# What the tests of the present folder run: built with the target `tests`, and with those of the folder and of each that
+# it is in, tests_in_tests_fleet and tests_in_tests. `./skein test tests/fleet` asks for one of them, and knows by
+# test_folders.txt which there are.
+function(skein_test_needs)
+  add_dependencies(tests ${ARGN})
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  while(folder)
+    string(REPLACE "/" "_" target tests_in_${folder})
+    if(NOT TARGET ${target})
+      add_custom_target(${target})
+      file(APPEND ${SKEIN_TEST_FOLDERS} "${folder}\n")
+    endif()
+    add_dependencies(${target} ${ARGN})
+    get_filename_component(folder "${folder}" DIRECTORY)
+  endwhile()
+endfunction()
+set(SKEIN_TEST_FOLDERS ${CMAKE_BINARY_DIR}/test_folders.txt)
+file(WRITE ${SKEIN_TEST_FOLDERS} "")
+
+# Sources of a test program, 24 of a folder compiled as one. So a name in an unnamed namespace means one thing in the
 # tests of a folder, too.
 function(skein_add_test_sources program)
   get_target_property(present ${program} SOURCES)
@@ -251,7 +278,7 @@ function(skein_add_test_sources program)
     if(NOT count)
       set(count 0)
     endif()
-    math(EXPR batch "${count} / 8")
+    math(EXPR batch "${count} / 24")
     math(EXPR count "${count} + 1")
     set_property(GLOBAL PROPERTY skein_test_sources_of_${folder} ${count})
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP tests_${folder}_${batch})

@@ -10,13 +10,13 @@ namespace {
 using Id = VoxelGrid::Id;
 using Cube = WorldMap::Cube;
 
-constexpr double kCellM = 0.5, kVoxelM = 2.5;
+constexpr double kCubeEdgeM = 0.5, kVoxelM = 2.5;
 
-WorldMap map_above_ground() { return WorldMap({.cell_m = kCellM, .ground_m = 0.3}); }
+WorldMap map_above_ground() { return WorldMap({.cell_m = kCubeEdgeM, .ground_m = 0.3}); }
 
 VoxelGrid grid_of_site() { return {Isometry3d(Eigen::Translation3d(-10.0, -10.0, 0.0)), {40.0, 20.0, 20.0}, kVoxelM}; }
 
-Vector3d middle_W(const Cube& cube) { return (cube.cast<double>() + Vector3d::Constant(0.5)) * kCellM; }
+Vector3d middle_W(const Cube& cube) { return (cube.cast<double>() + Vector3d::Constant(0.5)) * kCubeEdgeM; }
 
 void tell(WorldMap& map, const Cube& cube, Space space) { map.hear(cube, 0, space, kOwn + 1); }
 
