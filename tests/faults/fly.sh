@@ -1,18 +1,16 @@
 #!/bin/sh
-# Flies one fault test in one process: SKEIN FILE NUMBER REPEATS OUT. It is flown again in the ways of REPEATS when its
-# number has its turn (SKEIN_TURN; without it always), or it is flown then alone, where REPEATS is `only`. The long
-# suite repeats it in every way.
+# Flies one fault test in one process: SKEIN FILE NUMBER REPEATS OUT. By its number it is flown in one of two turns
+# (SKEIN_TURN; without it always), and in one of four again, in the ways of REPEATS. Where REPEATS is `only`, it is
+# flown in one of six turns, once. The long suite repeats it in every way.
 set -eu
-turns=3
+has_turn() { [ -z "${SKEIN_TURN:-}" ] || [ $((($1 + SKEIN_TURN) % $2)) -eq 0 ]; }
+turns=2
 [ "$4" != only ] || turns=6
-turn=true
-[ -z "${SKEIN_TURN:-}" ] || [ $((($3 + SKEIN_TURN) % turns)) -eq 0 ] || turn=false
+has_turn "$3" "$turns" || { echo "not its turn"; exit 77; }
 how=
-if [ "$4" = only ]; then
-  "$turn" || { echo "not its turn"; exit 77; }
-elif [ "${SKEIN_LONG:-}" = 1 ]; then
+if [ "${SKEIN_LONG:-}" = 1 ]; then
   how=--long
-elif "$turn"; then
+elif [ "$4" != only ] && has_turn "$3" 4; then
   how="--repeat $4"
 fi
 # shellcheck disable=SC2086  # two words
