@@ -11,6 +11,7 @@
 #include "process/program.hpp"
 
 namespace skein::cli {
+
 int run_tests(const TestOptions& options, const Console& console) {
   if (options.faults) return run_fault_tests(options, console);
   const ScratchDir scratch;

@@ -31,6 +31,7 @@ set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test proce
 set(SKEIN_SLOW_TESTS agent_planner_contract_test agent_planners_kios_kios_test agent_planners_patrol_patrol_test
   agent_planners_star_star_flight_test agent_planners_xxh_xxh_test bus_contract_test sim_oracle_oracle_test
   sim_scenes_scene_families_test sim_wild_flood_test)
+
 # What takes long with sanitizers, for it computes much: an eighth of it runs at each commit.
 set(SKEIN_SLOW_SANITIZED_TESTS sim_oracle_oracle_test sim_plan_flight_test sim_plan_plan_test
   sim_scenes_scene_families_test agent_planner_contract_test

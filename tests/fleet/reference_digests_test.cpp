@@ -1,7 +1,7 @@
 // The same input gives the same run from version to version, over DDS and in one process: digests of all bundled scenes
 // and planners, and of some faults, as the version before had them (reference_digests.csv): in one process all of them
-// at each commit, over DDS a fifth in turn; with sanitizers an eighth of them, of those with faults a
-// sixteenth, or none (ThreadSanitizer).
+// at each commit, over DDS a fifth in turn; with sanitizers an eighth of them, of those with faults a sixteenth, or
+// none (ThreadSanitizer).
 // A change that is meant to change them says so in the CHANGELOG and brings new ones: SKEIN_WRITE_DIGESTS=FILE writes
 // what this test sees.
 #include <cstdlib>

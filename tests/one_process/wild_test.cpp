@@ -12,10 +12,11 @@ namespace {
 class Wild : public FleetTest {};
 
 TEST_F(Wild, AllPlannersFlyInTenWorlds) {
-  // Three or four of the ten at a commit, two with sanitizers.
+  // Three or four of the ten at a commit. With sanitizers two or three: not a fifth, for these have one of five turns
+  // themselves (.ci/run), and would always draw the same.
   std::vector<std::string> worlds;
   for (std::size_t seed = 100; seed < 110; ++seed) {
-    if (has_turn(seed, sanitizer().empty() ? 3 : 5)) worlds.push_back(std::to_string(seed));
+    if (has_turn(seed, sanitizer().empty() ? 3 : 4)) worlds.push_back(std::to_string(seed));
   }
   const std::vector<std::string> planners = {"kios", "patrol", "star", "xxh"};
   ChildProcess& study = skein({"compare", "--planners", "kios,patrol,star,xxh", "--scenarios", "wild", "--scene-seeds",
