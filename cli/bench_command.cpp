@@ -13,6 +13,7 @@
 #include "cli/bench/sensing.hpp"
 #include "cli/bench/table.hpp"
 #include "cli/bench/tracking.hpp"
+#include "cli/bench/watching.hpp"
 #include "cli/machine.hpp"
 #include "cli/run/domain_block.hpp"
 #include "cli/run/fleet_plan.hpp"
@@ -259,6 +260,7 @@ int run_bench(const BenchOptions& options, const Console& console) {
   if (options.planners) return bench_planners(options, console);
   if (options.sensing) return bench_sensing(options, console);
   if (options.tracking) return bench_tracking(options, console);
+  if (options.view) return bench_watching(options, console);
   for (const char* program :
        {"bench_floor_cyclonedds", "bench_floor_fastdds", "bench_lidar", "bench_relay", "bench_chatter"}) {
     if (!std::filesystem::exists(program_dir() / program)) {

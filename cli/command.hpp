@@ -13,6 +13,15 @@
 
 namespace skein::cli {
 
+/// Of a film of a run.
+struct FilmOptions {
+  int fps = 25;
+  std::optional<double> seconds;  ///< how long it is
+  std::optional<double> speed;    ///< or: simulated seconds a second of it
+  std::string address;            ///< what the page shows, as its address has it; a time in it is where the film begins
+  int width = 1280, height = 720;
+};
+
 /// A recorded run that is flown again (recording/replay.hpp).
 struct ReplayOf {
   std::filesystem::path recording;
@@ -26,9 +35,10 @@ inline constexpr std::array kBreakEvents = {"collision", "rejected", "lost", "fa
 
 /// What a browser is served of a run.
 struct ViewOptions {
-  std::optional<std::uint16_t> port;  ///< 0: any that is free; none: nothing is served
-  std::optional<std::string> speed;   ///< of a flight that is watched, as view::read_speed() has it
-  bool close = false;                 ///< the page ends with the run, instead of staying as its replay
+  std::optional<std::string> at;     ///< where, as view::read_endpoint() has it; none: nothing is served
+  std::optional<std::string> speed;  ///< of a flight that is watched, as view::read_speed() has it
+  bool close = false;                ///< the page ends with the run, instead of staying as its replay
+  bool browser = true;               ///< it opens by itself where there is a browser
 };
 
 struct RunOptions {
@@ -85,10 +95,15 @@ struct TestOptions {
   bool verbose = false;                        ///< tell what was seen of expectations that hold too
 };
 
-/// `skein replay`: a finished run in a browser.
+/// `skein replay`: a finished run in a browser, or two on one clock; or a file that shows them.
 struct ReplayOptions {
   std::filesystem::path run;
-  std::uint16_t port = 0;  ///< 0: any that is free
+  std::optional<std::filesystem::path> other;
+  std::string at = "0";  ///< where it is served, as in ViewOptions, like the next one
+  bool browser = true;
+  std::optional<std::filesystem::path> exported;  ///< .html or .mp4, instead of a page that is served
+  bool force = false;                             ///< overwrites it
+  FilmOptions film;
 };
 
 /// `skein hunt`: a search for faults that break a property.
@@ -154,6 +169,7 @@ struct BenchOptions {
   bool planners = false;                         ///< scores of all planners, and nothing of the machine
   bool sensing = false;                          ///< what an explorer knows, and nothing else
   bool tracking = false;                         ///< how far UAVs are from their set-points, and nothing else
+  bool view = false;                             ///< what a page costs that follows a run, and nothing else
   std::optional<std::filesystem::path> against;  ///< the table of scores to compare with; none: the shipped one
   std::optional<std::filesystem::path> write;    ///< where the new table goes; of sensing, a folder
 };

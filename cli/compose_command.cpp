@@ -10,12 +10,14 @@
 #include "cli/compose/compose_file.hpp"
 #include "cli/compose/engine.hpp"
 #include "cli/compose/followers.hpp"
+#include "cli/run/live_page.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
 #include "process/environment.hpp"
 #include "process/run_folder.hpp"
+#include "view/pages.hpp"
 
 namespace skein::cli {
 namespace {
@@ -24,6 +26,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kImage = "skein";
 constexpr const char* kAgentImage = "skein-agent";
+/// Where a fleet of a file shows its page, unless the file's maker says otherwise.
+constexpr std::uint16_t kPortOfAFile = 8080;
 /// Whose containers' programs are when the launcher is root.
 constexpr UserId kOrdinaryUser{1000, 1000};
 
@@ -38,6 +42,12 @@ ComposeLayout layout_of(const ComposeOptions& options) {
     layout.images[image.substr(0, equals)] = image.substr(equals + 1);
   }
   if (options.subnet) layout.subnet = parse_subnet(*options.subnet);
+  if (options.run.view.at) {
+    ComposeView& view = layout.view.emplace();
+    view.published = view::read_endpoint(*options.run.view.at);
+    if (view.published.port == 0 && !options.up) view.published.port = kPortOfAFile;
+    if (!view.published.is_loopback()) view.names = view::names_of(view.published);
+  }
   if (options.build) {
     layout.build = fs::absolute(*options.build).lexically_normal();
     if (!fs::exists(*layout.build / "bin" / programs::kSimServer)) {
@@ -64,6 +74,10 @@ class ContainerFolders {
     if (::geteuid() == 0 && ::lchown(path.c_str(), user_.uid, user_.gid) != 0) {
       throw std::system_error(errno, std::generic_category(), path.string());
     }
+  }
+  void give_all(const fs::path& folder) const {
+    for (const auto& entry : fs::directory_iterator(folder)) give(entry.path());
+    give(folder);
   }
   void make(const FleetPlan& plan) const {
     fs::remove_all(out_ / kAgentsFolder);
@@ -132,6 +146,8 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   compose_file(plan, layout);  // whether it can be
   ResultsDir::check(dir, options.run.force);
   check_before_flight(plan, layout, console);
+  std::optional<LivePage> page;
+  if (layout.view) page.emplace(layout.view->published, true);
   const ResultsDir out(dir, options.run.force);
   const ContainerFolders folders(out.path());
   folders.make(plan);
@@ -140,6 +156,13 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   if (options.run.secure) {
     write_keys(plan, kComposeBaseDomain, keys.path(), [&](const fs::path& path) { folders.give(path); });
     layout.keys = keys.path();
+  }
+  const ScratchDir shown;
+  if (page) {
+    write_for_station(shown.path(), page->key());
+    folders.give_all(shown.path());
+    layout.view->published = page->endpoint();
+    layout.view->folder = shown.path();
   }
   layout.results = out.path();
   layout.user = folders.user();
@@ -154,6 +177,10 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
     run.view().message(fmt::format("{}: {} UAVs in containers, planner {}, seed {}, results in {}", plan.scenario.name,
                                    plan.scenario.fleet.size(), options.run.planner, options.run.seed, dir.string()));
     project.up();
+    if (page) {
+      page->announce([&](const std::string& text) { run.view().message(text); },
+                     options.run.view.browser && console.terminal);
+    }
     const std::map<std::string, std::string> containers = project.containers();
     tell_who_waits(plan, containers, out.path(), run.view());
     run.fly_in_containers(followers(containers, plan, layout, out.path()), out.path());
@@ -164,7 +191,26 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
                            reports,     out.path(),  [&](const std::string& text) { return out.write_result(text); }};
   const auto result = write_results(
       results, dir, [] { return std::vector<std::string>(); }, console);
-  return result ? exit_code_of(run, *result) : kExitProcessFailed;
+  if (!result) return kExitProcessFailed;
+  if (page && !options.run.view.close && !run.facts().interrupted) {
+    console.err << "the page shows the replay now; Ctrl-C ends it" << std::endl;
+    try {
+      page->replay(out.path());
+    } catch (const InputError& error) {  // the engine has let go of the port, and somebody has taken it
+      console.err << error.what() << std::endl;
+    }
+  }
+  return exit_code_of(run, *result);
+}
+
+/// Beside a file for docker-compose: what the page of its fleet needs, and what opens it.
+fs::path view_folder_of(const fs::path& file) { return fs::path(file).replace_extension(".view"); }
+
+void write_view_folder(const fs::path& folder, const view::Endpoint& published) {
+  const view::Key key = view::Key::draw();
+  write_for_station(folder, key);
+  view::write_private_file(folder / kViewDoor, view::key_file_page(published.from_here().text(), key, true));
+  ContainerFolders(folder).give_all(folder);
 }
 
 /// Takes =gdb off the one value of --debug that has it, or may have it: who has a terminal debugs there.
@@ -195,6 +241,7 @@ FleetPlan plan_in_containers(const ComposeOptions& compose, const Console& conso
   }
   if (!options.assets) options.assets = variable_or("SKEIN_ASSETS", "");
   FleetPlan plan = plan_fleet(options, program_dir());
+  if (options.view.at) plan.watched.emplace();  // by whom and where is told by the layout
   if (!plan.scenario.scene.family.empty() || plan.options.assets->empty()) plan.options.assets.reset();
   for (Debuggee& one : plan.debug) {
     if (one.member != in_gdb) continue;
@@ -208,8 +255,11 @@ FleetPlan plan_in_containers(const ComposeOptions& compose, const Console& conso
 
 int compose_fleet(const ComposeOptions& options, const Console& console) {
   const FleetPlan plan = plan_in_containers(options, console);
-  const ComposeLayout layout = layout_of(options);
+  ComposeLayout layout = layout_of(options);
   if (options.up) return fly(options, plan, layout, console);
+  if (layout.view && !options.file)
+    throw InputError("--view needs --up or --file: the page's key lies beside the file");
+  if (layout.view) layout.view->folder = "./" + view_folder_of(*options.file).filename().string();
   const std::string text = compose_file(plan, layout);
   if (!options.file) {
     console.out << text << std::flush;
@@ -217,6 +267,12 @@ int compose_fleet(const ComposeOptions& options, const Console& console) {
   }
   std::ofstream file(*options.file, std::ios::binary);
   if (!(file << text << std::flush)) throw InputError("--file " + options.file->string() + ": cannot be written");
+  if (layout.view) {
+    const fs::path folder = view_folder_of(*options.file);
+    write_view_folder(folder, layout.view->published);
+    console.err << "once the fleet is up, open " << (folder / kViewDoor).string() << " in a browser (http://"
+                << layout.view->published.from_here().text() << "/)" << std::endl;
+  }
   return kExitDone;
 }
 

@@ -74,6 +74,34 @@ TEST_F(ComposeCommand, AFileIsWrittenOrTheReasonTold) {
   EXPECT_THROW(compose_fleet(options, {out_, err_, false}), InputError);
 }
 
+TEST_F(ComposeCommand, ThePagesKeyLiesBesideTheFileForItsOwnerAlone) {
+  if (!fs::exists(source_path("build/web/live.js"))) GTEST_SKIP() << "web/ is not built: ./skein test does that";
+  const auto file_of = [&](const Texts& more) {
+    Texts all = {"compose", "towers"};
+    all.insert(all.end(), more.begin(), more.end());
+    return compose_fleet(std::get<ComposeOptions>(parse_command_line(all)), {out_, err_, false});
+  };
+  const fs::path file = scratch_.path() / "fleet.yaml", folder = scratch_.path() / "fleet.view";
+  EXPECT_EQ(file_of({"--view", "--file", file}), kExitDone);
+  EXPECT_EQ(names_in(folder), (std::set<std::string>{"live.js", "view.html", "view.key"}));
+  EXPECT_EQ(mode_of(folder), 0700u);
+  const std::string key = read_text(folder / "view.key").substr(0, 64), yaml = read_text(file);
+  for (const char* secret : {"view.key", "view.html"}) EXPECT_EQ(mode_of(folder / secret), 0600u) << secret;
+  EXPECT_NE(read_text(folder / "view.html").find("value=\"" + key + "\""), std::string::npos);
+  EXPECT_NE(read_text(folder / "view.html").find("http://127.0.0.1:8080/enter"), std::string::npos);
+  EXPECT_EQ(yaml.find(key), std::string::npos) << "neither on a command line nor in an environment";
+  EXPECT_NE(yaml.find("127.0.0.1:8080:8080"), std::string::npos);
+  EXPECT_NE(yaml.find("./fleet.view"), std::string::npos) << "wherever both are taken";
+  EXPECT_NE(err_.str().find((folder / "view.html").string()), std::string::npos);
+  EXPECT_EQ(file_of({"--view", "192.0.2.7:8123", "--file", file}), kExitDone);
+  EXPECT_NE(read_text(folder / "view.key").substr(0, 64), key) << "a new one each time";
+  EXPECT_NE(read_text(file).find("192.0.2.7:8123:8080"), std::string::npos);
+  EXPECT_NE(read_text(file).find("--view-name=192.0.2.7"), std::string::npos);
+  EXPECT_THROW(file_of({"--view"}), InputError) << "to where?";
+  EXPECT_THROW(file_of({"--view", "flier:8080", "--file", file}), InputError);
+  EXPECT_THROW(file_of({"--view", "--speed", "2", "--clock", "realtime", "--file", file}), InputError);
+}
+
 TEST_F(ComposeCommand, EachProgramGetsAFolderOfKeysThatOnlyItsOwnerReads) {
   for (const char* vendor : {"cyclonedds", "fastdds"}) {
     const fs::path folder = scratch_.path() / vendor;

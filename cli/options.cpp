@@ -157,9 +157,11 @@ void add_compose(CLI::App& app, ComposeOptions& compose) {
       ->excludes("--agent-timeout");
   command->add_option("--build-folder", compose.build, "Fly the programs of this build instead of the images'");
   add_result_options(command, compose.run);
+  add_view_options(*command, compose.run.view);
   command->footer(
       "Examples:\n"
       "  skein compose towers --planner kios --up\n"
+      "  skein compose towers --planner kios --view 8080 --up\n"
       "  skein compose towers --planner kios --file compose.yaml\n"
       "  skein compose towers --planner hover,jurong=orbit --image jurong=my-agent --up\n\n"
       "docs/containers.md tells how images are built, and what each part of the file is for.");
@@ -351,6 +353,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     return parser.run;
   }
   if (is("compose")) {
+    check_view(parser.compose.run);
     parser.compose.run.command = command;
     return parser.compose;
   }

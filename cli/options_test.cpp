@@ -171,6 +171,27 @@ TEST(Options, OtherCommands) {
   EXPECT_EQ(parse<HelpText>({"--version"}).text.find("skein "), 0u);
 }
 
+TEST(Options, ReplayReadsAll) {
+  const auto served = parse<ReplayOptions>({"replay", "a", "b", "--view", "8080"});
+  EXPECT_TRUE(served.run == "a" && served.other == "b" && served.at == "8080");
+  EXPECT_FALSE(served.exported || served.force);
+  const auto film = parse<ReplayOptions>({"replay", "a", "--export", "a.mp4", "--force", "--fps", "10", "--seconds",
+                                          "12.5", "--from-address", "#uav=changi"});
+  EXPECT_TRUE(film.exported == "a.mp4" && film.force && !film.other && !film.film.speed);
+  EXPECT_TRUE(film.film.fps == 10 && film.film.seconds == 12.5);
+  EXPECT_EQ(film.film.address, "#uav=changi");
+  EXPECT_EQ(parse<ReplayOptions>({"replay", "a", "--export", "a.mp4", "--speed", "8"}).film.speed, 8.0);
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"--fps", "10"}, std::vector<std::string>{"--force"},
+        std::vector<std::string>{"--export", "a.mp4", "--fps", "0"},
+        std::vector<std::string>{"--export", "a.mp4", "--seconds", "3", "--speed", "2"},
+        std::vector<std::string>{"--export", "a.html", "--view", "1"}}) {
+    std::vector<std::string> words = {"replay", "a"};
+    words.insert(words.end(), wrong.begin(), wrong.end());
+    EXPECT_THROW(parse_command_line(words), InputError) << wrong.back();
+  }
+}
+
 TEST(Options, OracleReadsAll) {
   const auto oracle = parse<OracleOptions>(
       {"oracle", "towers", "--scene-seed", "4", "--assets", "data", "--clearance", "0.75", "--outside", "--json"});
@@ -273,6 +294,8 @@ TEST(Options, BenchReadsAll) {
   EXPECT_EQ(tracking.duration_s, 60.0);
   EXPECT_THROW(parse_command_line({"bench", "--sensing", "--tracking"}), InputError);
   EXPECT_THROW(parse_command_line({"bench", "--tracking", "--write", "docs"}), InputError);
+  EXPECT_TRUE(parse<BenchOptions>({"bench", "--view", "--quick"}).view);
+  EXPECT_THROW(parse_command_line({"bench", "--view", "--tracking"}), InputError);
 }
 
 TEST(Options, TheLargestSeedAndTheLimitsAreTaken) {

@@ -1,17 +1,102 @@
 #include "cli/replay_command.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
+#include "cli/film/film.hpp"
+#include "cli/run/diff.hpp"
 #include "cli/run/live_page.hpp"
+#include "core/text.hpp"
 #include "core/types.hpp"
+#include "process/atomic_file.hpp"
 #include "process/program.hpp"
 #include "view/finished_run.hpp"
+#include "view/pages.hpp"
+#include "view/two_runs.hpp"
 
 namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+view::Parting parting_of(const fs::path& a, const fs::path& b) {
+  try {
+    if (const auto difference = first_difference(a, b)) return {difference->time_s, difference->fields, {}};
+    return {};
+  } catch (const InputError& error) {  // a run may be shown without its digests
+    return {{}, {}, error.what()};
+  }
+}
+
+std::string said_of(const view::Parting& parting) {
+  if (!parting.unknown.empty()) return "where they part is not known: " + parting.unknown;
+  if (!parting.time_s) return "the runs are the same, step by step";
+  return fmt::format("first difference at {:.2f} s: {}", *parting.time_s, joined(parting.fields, ", "));
+}
+
+/// What is shown, and what is said of it.
+struct Shown {
+  view::Feed feed;
+  std::string title;
+};
+
+void tell(const ReplayOptions& options, const Console& console, Shown& shown) {
+  shown.title = view::title_of_run(options.run);
+  if (!options.other) return view::tell_finished_run(options.run, shown.feed);
+  shown.title = "A: " + shown.title + ", B: " + view::title_of_run(*options.other);
+  const view::Parting parting = parting_of(options.run, *options.other);
+  view::tell_two_runs(options.run, *options.other, parting, shown.feed);
+  console.out << said_of(parting) << std::endl;
+}
+
+/// @returns whether the file is to be a film.
+bool check_export(const ReplayOptions& options) {
+  const fs::path& file = *options.exported;
+  const std::string ending = file.extension();
+  if (ending != ".html" && ending != ".mp4") {
+    throw InputError("--export " + file.string() + ": must end in .html (a page) or .mp4 (a film)");
+  }
+  const bool is_film = ending == ".mp4";
+  if (!is_film && (options.film.seconds || options.film.speed || !options.film.address.empty())) {
+    throw InputError("--export " + file.string() + ": --seconds, --speed and --from-address are for a film (.mp4)");
+  }
+  if (fs::is_directory(file) || (fs::exists(file) && !options.force)) {
+    throw InputError("--export " + file.string() +
+                     (fs::is_directory(file) ? ": is a folder" : ": is there already; --force overwrites it"));
+  }
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!fs::is_directory(folder))
+    throw InputError("--export " + file.string() + ": there is no folder " + folder.string());
+  return is_film;
+}
+
+int export_run(const ReplayOptions& options, const Console& console) {
+  const fs::path& file = *options.exported;
+  const bool is_film = check_export(options);
+  const auto programs = is_film ? std::optional<FilmPrograms>(std::in_place) : std::nullopt;
+  Shown shown;
+  tell(options, console, shown);
+  const std::string page = view::kept_page(shown.title, shown.feed);
+  if (is_film) {
+    write_film(*programs, page, options.film, file, console);
+  } else {
+    write_file_atomically(file, page);
+  }
+  console.out << fmt::format("{} ({:.1f} MB)\n", file.string(), 1e-6 * static_cast<double>(fs::file_size(file)))
+              << std::flush;
+  return kExitDone;
+}
+
+}  // namespace
 
 int replay_run(const ReplayOptions& options, const Console& console) {
-  const std::string title = view::title_of_run(options.run);
-  const LivePage page(options.port);
-  console.out << title << "; " << page.address() << "; Ctrl-C ends it" << std::endl;
-  page.replay(options.run);
+  if (options.exported) return export_run(options, console);
+  Shown shown;
+  tell(options, console, shown);
+  LivePage page(view::read_endpoint(options.at));
+  console.out << shown.title << "; Ctrl-C ends its page" << std::endl;
+  page.announce([&](const std::string& text) { console.out << text << std::endl; },
+                options.browser && console.terminal);
+  page.show(shown.feed, shown.title);
   return kExitDone;
 }
 

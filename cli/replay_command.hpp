@@ -1,4 +1,4 @@
-// skein replay: a finished run on the page that follows a run that flies.
+// skein replay: a finished run on the page that follows a run that flies, or two on one clock; served, or as a file.
 #pragma once
 
 #include "cli/command.hpp"
@@ -6,7 +6,9 @@
 
 namespace skein::cli {
 
-/// Serves it until the user interrupts. @throws InputError when the folder holds no result, or no page can be served.
+/// Serves the page until the user interrupts, or writes the file.
+/// @throws InputError when a folder holds no result, two runs have no scene in common, no page can be served, or the
+///   file cannot be written as it was asked for; Interrupted while a film is made.
 int replay_run(const ReplayOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/hand_flights.hpp"
 #include "cli/options.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/results_dir.hpp"
@@ -17,6 +18,14 @@ namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::vector<std::string> fleet_of(const Json& result) {
+  std::vector<std::string> names;
+  for (const Json& uav : value_or(result, "uavs", Json::array())) {
+    names.push_back(value_or(uav, "name", "").get<std::string>());
+  }
+  return names;
+}
 
 /// As the user gave them then. What belongs to that run alone, where it went and who debugged, is left out.
 RunOptions options_of(const fs::path& run, const Json& result) {
@@ -39,8 +48,15 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   options.break_from.reset();
   options.domain.reset();
   options.network.reset();
+  options.view = {};
+  if (fs::exists(run / run_folder::kByHand)) options.faults = run / run_folder::kByHand;  // wherever the run is now
   options.secure = options.force = options.one_process = options.cores = false;
   options.record = "run";
+  options.view = {};
+  // Hands are not there any more; what they wanted is.
+  options.planner = planners_repeated(options.planner, fleet_of(result), [&](const std::string& uav) {
+    return fs::absolute(run / run_folder::hand_file(uav));
+  });
   return options;
 }
 

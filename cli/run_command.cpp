@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "cli/run/break_event.hpp"
+#include "cli/run/by_hand.hpp"
 #include "cli/run/core_file.hpp"
 #include "cli/run/domain_block.hpp"
 #include "cli/run/environment.hpp"
@@ -100,18 +101,22 @@ int run_fleet(const RunOptions& given, const Console& console) {
   };
   ResultsDir::check(folder(), options.force);
   std::optional<LivePage> page;
-  if (options.view.port) plan.watched = page.emplace(*options.view.port).watched();
+  if (options.view.at) plan.watched = page.emplace(view::read_endpoint(*options.view.at)).watched();
   if (options.check) check_before_flight(plan, console);
   std::optional<DomainBlock> domains;
   if (!options.one_process) domains.emplace(options.domain, domain_count(plan));
   const int base_domain = domains ? domains->base() : kFirstDomain;
   const std::filesystem::path dir = folder();  // another run may have taken one meanwhile
+  check_outlasts(options.faults, dir);
   const ResultsDir out(dir, options.force);
 
   if (options.cores) allow_cores();
   FleetRun run(plan, console.err, console.terminal);
   run.view().message(start_line(plan, domains, dir));
-  if (page) run.view().message(page->address());
+  if (page) {
+    page->announce([&](const std::string& text) { run.view().message(text); },
+                   options.view.browser && console.terminal);
+  }
   warn_of_surroundings(domains, run);
   std::optional<SecureRun> secure;
   if (options.secure) {

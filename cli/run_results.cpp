@@ -2,13 +2,16 @@
 
 #include <utility>
 
+#include "cli/hand_flights.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/run/losses.hpp"
 #include "cli/run/progress_view.hpp"
 #include "cli/run/recording.hpp"
+#include "cli/run/repeat_command.hpp"
 #include "cli/run/work.hpp"
 #include "core/run_state.hpp"
 #include "process/result_file.hpp"
+#include "process/run_folder.hpp"
 #include "report/run_report.hpp"
 
 namespace skein::cli {
@@ -51,6 +54,18 @@ void add_tables(const RunOptions& options, const std::filesystem::path& dir, con
   result["losses"] = losses_of(dir, answer.by_point, reports, warnings);
 }
 
+/// How the same is flown without hands, from what was kept of them.
+void tell_how_to_repeat(const RunResults& run, const std::filesystem::path& shown, Json& result) {
+  if (run.facts.command.empty()) return;
+  Repeated by;
+  if (result.contains("hand")) {
+    const auto file_of = [&](const std::string& uav) { return shown / run_folder::hand_file(uav); };
+    by.planners = planners_repeated(run.options.planner, run.scenario.uav_names(), file_of);
+  }
+  if (std::filesystem::exists(run.dir / run_folder::kByHand)) by.faults = shown / run_folder::kByHand;
+  if (by.planners || by.faults) result["repeat_command"] = command_repeated(run.facts.command, by);
+}
+
 /// A page for people; a run is not worth less without.
 bool make_report(const std::filesystem::path& dir, Json& warnings) try {
   report::write_run_report(dir);
@@ -65,6 +80,7 @@ bool make_report(const std::filesystem::path& dir, Json& warnings) try {
 std::optional<Json> write_results(const RunResults& run, const std::filesystem::path& shown,
                                   const std::function<std::vector<std::string>()>& collect, const Console& console) {
   Json result = merge_result(run.facts, run.scenario, run.reports);
+  tell_how_to_repeat(run, shown, result);
   // Before all that may still go wrong, or takes room.
   const bool written = write_result(run, result, console.err);
   const std::size_t warnings_written = result["warnings"].size();

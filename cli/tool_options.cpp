@@ -173,7 +173,7 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
   command->add_option("--repeat", bench.repeats, "Runs of each kind; medians are reported")->check(CLI::Range(1, 100));
   command
       ->add_option("--duration", bench.duration_s,
-                   "Mission time of the speed runs, or of --tracking [s], instead of the scenario's")
+                   "Mission time of the speed runs, or of --tracking or --view [s], instead of the scenario's")
       ->check(CLI::Validator(check_seconds, ""));
   command->add_option("--json", bench.json, "File for all figures");
   CLI::Option* planners = command->add_flag("--planners", bench.planners,
@@ -183,11 +183,19 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
                              ->add_flag("--sensing", bench.sensing,
                                         "What an explorer knows of the space around it: the tables of docs/sensing.md")
                              ->excludes(planners);
+  CLI::Option* tracking =
+      command
+          ->add_flag(
+              "--tracking", bench.tracking,
+              "How far UAVs are from their set-points by speed and acceleration: the table of docs/flight-safety.md")
+          ->excludes(planners)
+          ->excludes(sensing);
   command
-      ->add_flag("--tracking", bench.tracking,
-                 "How far UAVs are from their set-points by speed and acceleration: the table of docs/flight-safety.md")
+      ->add_flag("--view", bench.view,
+                 "What a page costs that follows a run, and what it takes itself; needs Chromium and a source tree")
       ->excludes(planners)
-      ->excludes(sensing);
+      ->excludes(sensing)
+      ->excludes(tracking);
   command
       ->add_option("--write", bench.write,
                    "File for the new table of --planners; folder for pictures and page of --sensing")
@@ -196,7 +204,7 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
       });
   command->footer(
       "Examples:\n  skein bench --quick --json bench.json\n  skein bench --planners --write scores.csv\n"
-      "  skein bench --sensing --write docs\n  skein bench --tracking --quick");
+      "  skein bench --sensing --write docs\n  skein bench --tracking --quick\n  skein bench --view");
 }
 
 void add_oracle(CLI::App& app, OracleOptions& oracle) {

@@ -3,40 +3,88 @@
 #include <CLI/CLI.hpp>
 
 #include "core/types.hpp"
+#include "view/endpoint.hpp"
 #include "view/time_order.hpp"
 
 namespace skein::cli {
 namespace {
 
-const CLI::Range kPorts(0, 65535);
+/// What is wrong with a text that is to say where the page is served; empty: nothing.
+std::string check_endpoint(const std::string& text) {
+  try {
+    view::read_endpoint(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void add_no_browser(CLI::App& command, bool& browser) {
+  command.add_flag("--no-browser{false}", browser, "Do not open the user's browser, where there is one");
+}
+
+void add_film_options(CLI::App& command, CLI::Option& exported, FilmOptions& film) {
+  command.add_option("--fps", film.fps, "Of a film: pictures a second (default 25)")
+      ->check(CLI::Range(1, 120))
+      ->needs(&exported);
+  CLI::Option* const seconds =
+      command.add_option("--seconds", film.seconds, "Of a film: how long it is (default 30)")->needs(&exported);
+  seconds->check(CLI::Range(0.1, 36000.0))->type_name("SECONDS");
+  command.add_option("--speed", film.speed, "Of a film: simulated seconds a second, instead of its length")
+      ->check(CLI::Range(0.01, 10000.0))
+      ->type_name("SPEED")
+      ->needs(&exported)
+      ->excludes(seconds);
+  command
+      .add_option("--from-address", film.address,
+                  "Of a film: what it shows, as the address of the page has it behind its #; t is where it begins")
+      ->type_name("ADDRESS")
+      ->needs(&exported);
+}
 
 }  // namespace
 
 void add_view_options(CLI::App& command, ViewOptions& view) {
   CLI::Option* const watched =
       command
-          .add_option("--view", view.port,
-                      "Serve a page that follows the run in a browser, on this port of 127.0.0.1, and its replay "
-                      "afterwards, until Ctrl-C (default: a free port)")
-          ->type_name("[PORT]")
-          ->check(kPorts)
+          .add_option(
+              "--view", view.at,
+              "Serve a page that follows the run in a browser, and its replay afterwards, until Ctrl-C, on this "
+              "port of 127.0.0.1 (default: a free one), or of an address that others reach, too: 0.0.0.0:8080")
+          ->type_name("[[ADDRESS:]PORT]")
+          ->check(CLI::Validator(check_endpoint, ""))
           ->expected(0, 1)
           ->default_str("0");
   command
       .add_option("--speed", view.speed,
-                  "Simulated seconds a second of a run that is watched, from 0.1 to 1000, or max (default 8)")
+                  "Simulated seconds a second of a run that is watched, from 0.1 to 1000, or max (default 8; 1 where "
+                  "somebody flies by hand)")
       ->type_name("SPEED")
       ->needs(watched);
   command.add_flag("--view-close", view.close, "The page ends with the run")->needs(watched);
+  add_no_browser(command, view.browser);
 }
 
 void add_replay(CLI::App& app, ReplayOptions& replay) {
   CLI::App* command = app.add_subcommand("replay", "Show a finished run in a browser, with a slider over its time");
   command->add_option("RUN", replay.run, "A results folder")->required();
-  command->add_option("--view", replay.port, "Port of 127.0.0.1 (default: a free one)")
-      ->type_name("PORT")
-      ->check(kPorts);
-  command->footer("Example:\n  skein replay runs/towers-kios-0\n\ndocs/view.md tells what the page shows.");
+  command->add_option("OTHER", replay.other, "Another one of the same scene: both on one clock, with where they part");
+  CLI::Option* const served =
+      command->add_option("--view", replay.at, "Port of 127.0.0.1 (default: a free one), or of another address");
+  served->type_name("[ADDRESS:]PORT")->check(CLI::Validator(check_endpoint, ""));
+  add_no_browser(*command, replay.browser);
+  CLI::Option* const exported =
+      command->add_option("--export", replay.exported,
+                          "Write a file instead: FILE.html, the page with its flight, to be opened anywhere; or "
+                          "FILE.mp4, a film of it, by chromium and ffmpeg");
+  exported->type_name("FILE")->excludes(served);
+  command->add_flag("--force", replay.force, "Overwrite it")->needs(exported);
+  add_film_options(*command, *exported, replay.film);
+  command->footer(
+      "Examples:\n  skein replay runs/towers-kios-0\n  skein replay runs/towers-kios-0 runs/towers-star-0\n"
+      "  skein replay runs/towers-kios-0 --export flight.html\n"
+      "  skein replay runs/towers-kios-0 --export flight.mp4 --from-address '#uav=changi&view=camera'\n\n"
+      "docs/view.md tells what the page shows.");
 }
 
 void check_view(const RunOptions& run) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/fault_plan.hpp"
 #include "core/link_matrix.hpp"
 #include "core/radio_routes.hpp"
 #include "core/types.hpp"
@@ -49,6 +50,9 @@ class LinkModel {
   /// A fault of the fault file that waited for a condition begins with the exchange at this tick. Told before that, and
   /// as often as anybody likes.
   virtual void set_off(std::size_t /*fault*/, Tick /*tick*/) {}
+  /// Faults that somebody who watches has added, behind those of the fault file, all of them in their order: others may
+  /// follow, and each may get an end. Told before they begin or end, and as often as anybody likes.
+  virtual void set_by_hand(const std::vector<Fault>& /*faults*/) {}
 };
 
 /// Nothing is lost, nothing is late.
@@ -99,6 +103,7 @@ class LinkGate {
   GatedStep gate(std::uint64_t k, const Links& links, const std::vector<SentMessage>& messages);
 
   void set_off(std::size_t fault, Tick tick) { model_->set_off(fault, tick); }
+  void set_by_hand(const std::vector<Fault>& faults) { model_->set_by_hand(faults); }
   /// Counts of an earlier life: counting goes on from there.
   void restore(LinkMatrix<LinkCounts> counts) { counts_ = std::move(counts); }
 

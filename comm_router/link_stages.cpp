@@ -27,7 +27,11 @@ Payload with_flipped_bits(const std::vector<std::uint8_t>& bytes, RandomStream& 
 }  // namespace
 
 LinkStages::LinkStages(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed)
-    : scenario_(scenario), faults_(faults), seed_(seed), stages_(scenario.fleet.size() + 1) {
+    : scenario_(scenario),
+      faults_(faults),
+      planned_(faults.faults.size()),
+      seed_(seed),
+      stages_(scenario.fleet.size() + 1) {
   for (std::size_t i = 0; i < scenario.links.size(); ++i) {
     add_effect(scenario.links[i], "radio.links[" + std::to_string(i) + "]");
   }
@@ -64,6 +68,33 @@ void LinkStages::set_off(std::size_t fault, Tick tick) {
     for (const Node to : scenario_.nodes()) {
       for (Stage& stage : stages_.at(from, to)) {
         if (stage.fault == fault) set_times(stage);
+      }
+    }
+  }
+}
+
+void LinkStages::set_by_hand(const std::vector<Fault>& faults) {
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    const std::size_t index = planned_ + i;
+    const auto* effect = std::get_if<LinkEffect>(&faults[i].action);
+    if (index == faults_.faults.size()) {
+      faults_.faults.push_back(faults[i]);
+      if (effect != nullptr) add_effect(*effect, fault_path(index), index);
+    } else {
+      faults_.faults[index] = faults[i];
+      set_end(index);
+    }
+  }
+  cut_step_ = ~std::uint64_t{0};
+}
+
+/// Of the stages of a fault that has got one meanwhile; their state goes on.
+void LinkStages::set_end(std::size_t fault) {
+  const auto end = faults_.faults[fault].end();
+  for (const Node from : scenario_.nodes()) {
+    for (const Node to : scenario_.nodes()) {
+      for (Stage& stage : stages_.at(from, to)) {
+        if (stage.fault == fault) stage.end = end ? step_of(*end) : ~std::uint64_t{0};
       }
     }
   }

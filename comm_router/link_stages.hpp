@@ -21,6 +21,7 @@ class LinkStages final : public LinkModel {
 
   LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) override;
   void set_off(std::size_t fault, Tick tick) override;
+  void set_by_hand(const std::vector<Fault>& faults) override;
 
  private:
   /// One effect on one directed link.
@@ -45,6 +46,7 @@ class LinkStages final : public LinkModel {
   void add_effect(const LinkEffect& effect, const std::string& name, std::optional<std::size_t> fault = {});
   /// From when to when it acts, as far as that is known.
   void set_times(Stage& stage) const;
+  void set_end(std::size_t fault);
   void pass(Stage& stage, std::uint64_t k, const RadioRoute& route, const SentMessage& message, Passage& passage);
   /// Queues for the bandwidth. @returns false when the message does not fit.
   bool queue(Stage& stage, std::uint64_t k, double size_bytes, double& delay_s) const;
@@ -54,6 +56,7 @@ class LinkStages final : public LinkModel {
 
   const Scenario scenario_;
   FaultPlan faults_;
+  const std::size_t planned_;  ///< faults without those by hand
   const std::uint64_t seed_;
   LinkMatrix<std::vector<Stage>> stages_;
   std::uint64_t cut_step_ = ~0;  ///< the step to which `cut_` belongs

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
+#include <random>
 
 namespace skein::router {
 namespace {
@@ -317,6 +319,60 @@ TEST(LinkStages, StagesActOneAfterTheOther) {
   scenario.links = {latency, latency};
   LinkStages stages(scenario, plan_of(latency), kSeed);
   EXPECT_EQ(stages.fate(0, kRoute, kB, message(0)).delay_steps, 6u);
+}
+
+// What somebody adds while the run lasts acts as if the fault file had had it from the start; for a router that starts
+// in the middle, too.
+TEST(LinkStages, FaultsByHandActLikeThoseOfAFile) {
+  constexpr std::uint64_t kSteps = 400;
+  std::mt19937_64 random(3);
+  const auto below = [&](std::uint64_t n) { return random() % n; };
+  for (int round = 0; round < 30; ++round) {
+    LinkEffect own;
+    own.loss = 0.2;
+    own.burst_loss = BurstLoss{1.0, 0.5};
+    const FaultPlan planned = plan_of(own, 1.0);
+    std::vector<Fault> whole;  // as they will be in the end
+    for (int i = 0; i < 5; ++i) {
+      Fault fault{.at_s = 0.05 * static_cast<double>(1 + below(kSteps)), .until_s = {}, .action = Blackout{"a"}};
+      if (below(3) > 0) fault.until_s = fault.at_s + 0.05 * static_cast<double>(1 + below(100));
+      LinkEffect effect;
+      effect.from = {below(2) == 0 ? "a" : "all"};
+      effect.loss = 0.5;
+      effect.latency_s = below(2) == 0 ? 0.0 : 0.2;
+      effect.burst_loss = BurstLoss{0.5, 0.5};
+      if (i % 2 == 0) fault.action = effect;
+      whole.push_back(fault);
+    }
+    std::ranges::stable_sort(whole, {}, &Fault::at_s);
+    /// As the step tells them: those that have begun, with the ends that have come.
+    const auto told = [&](std::uint64_t k) {
+      const Tick tick = static_cast<Tick>(k) * two_uavs().exchange_ticks();
+      std::vector<Fault> known;
+      for (Fault fault : whole) {
+        if (fault.begin() > tick) continue;
+        if (fault.end() && *fault.end() > tick) fault.until_s.reset();
+        known.push_back(fault);
+      }
+      return known;
+    };
+    FaultPlan file = planned;
+    file.faults.insert(file.faults.end(), whole.begin(), whole.end());
+    LinkStages of_file = stages_of(file), by_hand = stages_of(planned);
+    std::optional<LinkStages> restarted;
+    const std::uint64_t restart = below(kSteps);
+    for (std::uint64_t k = 0; k < kSteps; ++k) {
+      if (k == restart) restarted.emplace(two_uavs(), planned, kSeed);
+      by_hand.set_by_hand(told(k));
+      if (restarted) restarted->set_by_hand(told(k));
+      for (std::uint64_t i = 0; i < 3; ++i) {
+        const LinkFate expected = of_file.fate(k, kRoute, kB, message(3 * k + i));
+        EXPECT_TRUE(same(by_hand.fate(k, kRoute, kB, message(3 * k + i)), expected)) << round << " step " << k;
+        if (!restarted) continue;
+        EXPECT_TRUE(same(restarted->fate(k, kRoute, kB, message(3 * k + i)), expected)) << round << " step " << k;
+      }
+    }
+  }
 }
 
 }  // namespace

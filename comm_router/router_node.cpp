@@ -8,6 +8,7 @@
 #include "bus/lockstep/names.hpp"
 #include "comm_router/link_record.hpp"
 #include "comm_router/link_stages.hpp"
+#include "core/fault_writer.hpp"
 #include "core/topics.hpp"
 #include "idl/type_names.hpp"
 
@@ -260,6 +261,10 @@ void RouterNode::begin_step() {
   }
   k_ = step.k();
   for (const msg::FaultBegin& begun : step.faults()) gate_.set_off(begun.fault(), begun.tick());
+  if (by_hand_ != step.faults_by_hand()) {
+    by_hand_ = step.faults_by_hand();
+    gate_.set_by_hand(read_faults_by_hand(by_hand_text("", by_hand_), "faults by hand", scenario_));
+  }
   tell_of_strangers(step.final_step() ? 0 : kStrangerSteps);
   sync_.on_step(step.k(), step.epoch(), std::move(members), Links(nodes_.size(), step.links()));
   if (step.final_step()) last_k_ = step.k();

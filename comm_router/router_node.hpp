@@ -125,7 +125,8 @@ class RouterNode final : public bus::ClientNode {
   std::unique_ptr<ReplayNode> replay_;
   bus::Strangers strangers_;
   std::vector<std::string> stranger_warnings_;
-  std::uint64_t k_ = 0;  ///< the step that was begun last
+  std::vector<std::string> by_hand_;  ///< faults, as the last step told them
+  std::uint64_t k_ = 0;               ///< the step that was begun last
   bus::Inbox inbox_;
   std::unique_ptr<bus::Participant> world_;
   Arrivals::Participants nodes_;

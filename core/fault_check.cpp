@@ -31,8 +31,8 @@ std::optional<std::string> held_by(const FaultAction& action) {
       action);
 }
 
-FaultChecker::FaultChecker(const Scenario& scenario, ConfigErrors& errors)
-    : scenario_(scenario), errors_(errors), uavs_(scenario.uav_names()) {
+FaultChecker::FaultChecker(const Scenario& scenario, ConfigErrors& errors, double latest_s)
+    : scenario_(scenario), errors_(errors), latest_s_(latest_s), uavs_(scenario.uav_names()) {
   nodes_ = uavs_;
   nodes_.insert(nodes_.begin(), scenario.node_name(kStationNode));
   members_ = nodes_;
@@ -60,12 +60,12 @@ void FaultChecker::check(const Fault& longest, const Fault& shortest, const std:
 
 void FaultChecker::check_times(const Fault& longest, const Fault& shortest, const std::string& path) {
   const std::string end = number_text(scenario_.duration_s);
-  errors_.check(shortest.at_s < scenario_.duration_s, path + ".at_s",
+  errors_.check(shortest.at_s < latest_s_, path + ".at_s",
                 "is after the end: the mission of '" + scenario_.name + "' lasts " + end + " s");
   if (!longest.until_s) return;
   errors_.check(shortest.until_s > shortest.at_s, path + ".until_s",
                 "must be later than at_s, " + number_text(shortest.at_s));
-  errors_.check(*longest.until_s <= scenario_.duration_s, path + ".until_s",
+  errors_.check(*longest.until_s <= latest_s_, path + ".until_s",
                 "is after the end: the mission of '" + scenario_.name + "' lasts " + end +
                     " s; leave the key out for a fault that lasts to the end");
 }

@@ -18,8 +18,8 @@ std::optional<std::string> held_by(const FaultAction& action);
 
 class FaultChecker {
  public:
-  /// @param scenario, errors  must outlive this.
-  FaultChecker(const Scenario& scenario, ConfigErrors& errors);
+  /// @param scenario, errors  must outlive this. @param latest_s  beyond which no time may be
+  FaultChecker(const Scenario& scenario, ConfigErrors& errors, double latest_s);
 
   /// Adds errors. @param longest  as long as any seed, or its condition, can make it. @param shortest  and as short
   void check(const Fault& longest, const Fault& shortest, const std::string& path);
@@ -36,6 +36,7 @@ class FaultChecker {
 
   const Scenario& scenario_;
   ConfigErrors& errors_;
+  const double latest_s_;
   std::vector<std::string> uavs_, nodes_, members_;
   /// From its begin on.
   struct Holder {

@@ -150,4 +150,8 @@ std::optional<LinkMatrix<std::uint8_t>> cut_links(const FaultPlan& plan, const S
 ///   other (the same thing failing twice at once).
 FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& scenario, std::uint64_t seed = 0);
 
+/// The faults of a file that by_hand_text() (fault_writer.hpp) wrote. Times may go on as long as a run may.
+/// @param origin  names the text in messages. @throws InputError as load_fault_plan().
+std::vector<Fault> read_faults_by_hand(const std::string& text, const std::string& origin, const Scenario& scenario);
+
 }  // namespace skein

@@ -154,6 +154,15 @@ TEST_F(FaultFile, WrongOnesAreRefusedWithLineAndKey) {
   refused("faults: {at_s: 1", "");
 }
 
+TEST_F(FaultFile, OfARunThatWasFlownTimesGoOnToItsEnd) {
+  const double end_s = 300.0 + fleet().takeoff_timeout_s;
+  const std::string late = "faults: [{at_s: 300.05, until_s: 310, blackout: changi}]";
+  EXPECT_EQ(load("by_hand: true\n" + late).faults[0].begin(), ticks(300.05));
+  refused("by_hand: false\n" + late, "is after the end");
+  refused("by_hand: true\nfaults: [{at_s: " + std::to_string(end_s) + ", blackout: changi}]", "is after the end");
+  EXPECT_TRUE(load("by_hand: true\nfaults: []").empty());
+}
+
 TEST_F(FaultFile, ALengthMayStandInPlaceOfTheEnd) {
   const std::string text = "faults: [{at_s: [8, 12], for_s: [2, 3], blackout: changi}]";
   load(text);

@@ -129,22 +129,24 @@ struct FaultEntry {
 
 struct FaultFile {
   std::string name, description;
+  bool by_hand = false;  ///< of a run that is flown: its times may go on as long as that run may
   std::variant<std::string, std::vector<FaultEntry>> faults;  ///< a text: the file that lists them
 
   template <class R>
   void describe(R& r) {
     r.field("name", name);
     r.field("description", description);
+    r.field("by_hand", by_hand);
     r.required("faults", faults);
   }
 };
 
 /// Without what only `skein test --faults` looks at (cli/fault_tests/fault_test.hpp).
-ConfigDocument read_fault_file(const std::filesystem::path& file) {
-  ConfigDocument document = read_config_document(file);
+ConfigDocument without_test(ConfigDocument document) {
   for (const char* key : {"run", "expect", "properties", "capsule"}) document.root.remove(key);
   return document;
 }
+ConfigDocument read_fault_file(const std::filesystem::path& file) { return without_test(read_config_document(file)); }
 
 /// The fault file that another one names.
 std::filesystem::path file_named(const std::string& name, const ConfigDocument& by,
@@ -171,6 +173,35 @@ FaultCondition read_condition(const std::string& text, const SignalNames& names,
   return when;
 }
 
+std::vector<Fault> read_faults(const FaultFile& content, const ConfigDocument& document, const Scenario& scenario,
+                               std::uint64_t seed) {
+  ConfigErrors errors(document);
+  const auto* entries = std::get_if<std::vector<FaultEntry>>(&content.faults);
+  errors.check(entries != nullptr, "faults", "must be a list of faults here: another file names this one");
+  errors.throw_if_any();
+  // The mission's clock begins with the first take-off, that of the run before it.
+  const double wait_s = content.by_hand ? scenario.takeoff_timeout_s : 0.0;
+  FaultChecker checker(scenario, errors, scenario.duration_s + wait_s);
+  const SignalNames names(scenario);
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < entries->size(); ++i) {
+    const FaultEntry& entry = (*entries)[i];
+    const std::string path = fault_path(i);
+    const std::vector<FaultAction> actions = entry.actions();
+    errors.check(actions.size() == 1, path,
+                 "must have exactly one of link, partition, blackout, station_outage, kill, pause, lidar_failure, "
+                 "camera_failure, motor_failure, command_delay, odometry_freeze, odometry_jump, stuck_gimbal; it has " +
+                     std::to_string(actions.size()));
+    errors.check(entry.station_outage.value_or(true), path + ".station_outage", "must be true, or be left out");
+    if (actions.size() != 1) continue;
+    Fault& fault = faults.emplace_back(entry.drawn(actions.front(), seed, i));
+    if (entry.when) fault.when = read_condition(*entry.when, names, path + ".when", errors);
+    checker.check(entry.longest(fault.action), entry.shortest(fault.action), path);
+  }
+  errors.throw_if_any();
+  return faults;
+}
+
 }  // namespace
 
 FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& scenario, std::uint64_t seed) {
@@ -186,28 +217,13 @@ FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& sce
     document = read_fault_file(plan.named);
     content = read_config<FaultFile>(document);
   }
-  ConfigErrors errors(document);
-  const auto* faults = std::get_if<std::vector<FaultEntry>>(&content.faults);
-  errors.check(faults != nullptr, "faults", "must be a list of faults here: another file names this one");
-  errors.throw_if_any();
-  FaultChecker checker(scenario, errors);
-  const SignalNames names(scenario);
-  for (std::size_t i = 0; i < faults->size(); ++i) {
-    const FaultEntry& entry = (*faults)[i];
-    const std::string path = fault_path(i);
-    const std::vector<FaultAction> actions = entry.actions();
-    errors.check(actions.size() == 1, path,
-                 "must have exactly one of link, partition, blackout, station_outage, kill, pause, lidar_failure, "
-                 "camera_failure, motor_failure, command_delay, odometry_freeze, odometry_jump, stuck_gimbal; it has " +
-                     std::to_string(actions.size()));
-    errors.check(entry.station_outage.value_or(true), path + ".station_outage", "must be true, or be left out");
-    if (actions.size() != 1) continue;
-    Fault& fault = plan.faults.emplace_back(entry.drawn(actions.front(), seed, i));
-    if (entry.when) fault.when = read_condition(*entry.when, names, path + ".when", errors);
-    checker.check(entry.longest(fault.action), entry.shortest(fault.action), path);
-  }
-  errors.throw_if_any();
+  plan.faults = read_faults(content, document, scenario, seed);
   return plan;
+}
+
+std::vector<Fault> read_faults_by_hand(const std::string& text, const std::string& origin, const Scenario& scenario) {
+  const ConfigDocument document = parse_config_document(text, origin);
+  return read_faults(read_config<FaultFile>(document), document, scenario, 0);
 }
 
 }  // namespace skein

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/config_node.hpp"
 #include "core/fault_plan.hpp"
@@ -13,6 +14,10 @@ ConfigNode to_node(const Fault& fault);
 
 /// The same on one line: "{at_s: 14, until_s: 30, station_outage: true}".
 std::string fault_line(const Fault& fault);
+
+/// A fault file of a run that is flown (`by_hand`): its own faults, and those that somebody has added meanwhile.
+/// @param lines  of fault_line(), in their order
+std::string by_hand_text(const std::string& description, const std::vector<std::string>& lines);
 
 /// A tree on one line, as YAML's flow style has it.
 std::string flow_text(const ConfigNode& node);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "core/view_topics.hpp"
 
 namespace skein {
 namespace {
@@ -95,11 +96,14 @@ std::span<const TopicInfo> uav_topics() {
                                    kClock,
                                    kBoundingBoxes,
                                    kCommandRejected,
+                                   kHand,
+                                   kActivity,
                                    kTrajectoryCommand,
                                    kGimbalCommand,
                                    kCameraTrigger,
                                    kTrigger,
                                    kOctomap,
+                                   kFlightMap,
                                    kCapture,
                                    kCaptureStored};
   return kAll;

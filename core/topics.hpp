@@ -180,6 +180,11 @@ inline constexpr TopicInfo kBoundingBoxes{
     "/gcs/bounding_box_vertices", "sensor_msgs/msg/PointCloud", Direction::to_agent, 1, "once, latched", true};
 inline constexpr TopicInfo kCommandRejected{"/{id}/command_rejected", "skein_msgs/msg/CommandRejected",
                                             Direction::to_agent, kCommandDepth, "when a command is ignored"};
+/// To a UAV that somebody flies by hand, and to no other.
+inline constexpr TopicInfo kHand{"/{id}/hand", "skein_msgs/msg/HandCommand", Direction::to_agent, kCommandDepth,
+                                 "when who flies it by hand wants something else"};
+inline constexpr TopicInfo kActivity{"/{id}/activity", "skein_msgs/msg/Activity", Direction::from_agent, kCommandDepth,
+                                     "from the agent, when it does something else, and each second"};
 inline constexpr TopicInfo kTrajectoryCommand{"/{id}/command/trajectory", "trajectory_msgs/msg/MultiDOFJointTrajectory",
                                               Direction::from_agent, kCommandDepth,
                                               "from the agent; only points[0] is used"};
@@ -336,6 +341,8 @@ inline WireTopic mission_duration_remained(std::string_view id) { return wire(kM
 inline WireTopic clock() { return wire(kClock); }
 inline WireTopic bounding_boxes() { return wire(kBoundingBoxes); }
 inline WireTopic command_rejected(std::string_view id) { return wire(kCommandRejected, id); }
+inline WireTopic hand(std::string_view id) { return wire(kHand, id); }
+inline WireTopic activity(std::string_view id) { return wire(kActivity, id); }
 inline WireTopic trajectory_command(std::string_view id) { return wire(kTrajectoryCommand, id); }
 inline WireTopic gimbal_command(std::string_view id) { return wire(kGimbalCommand, id); }
 inline WireTopic camera_trigger(std::string_view id) { return wire(kCameraTrigger, id); }

@@ -1,6 +1,6 @@
 // What sim_server and the station say to each other in the world's domain about a run that is watched (docs/view.md):
 // only then are there such topics. Nobody else reads or writes them, and they are in no count of the lock-step. Each
-// sample is a JSON object as text.   Pure; any thread.
+// sample is a JSON object as text. And what a UAV shows of its map for that, in its own domain.   Pure; any thread.
 #pragma once
 
 #include "core/topics.hpp"
@@ -16,11 +16,25 @@ inline constexpr TopicInfo kViewStory{"/skein/view/story",
                                       true};
 inline constexpr TopicInfo kViewState{"/skein/view/state", "std_msgs/msg/String", Direction::internal, 1,
                                       "server -> station: how it stands; the newest is enough"};
-inline constexpr TopicInfo kViewTime{"/skein/view/time", "std_msgs/msg/String", Direction::internal, 64,
-                                     "station -> server: pause, one step, speed"};
+inline constexpr TopicInfo kViewOrders{"/skein/view/orders", "std_msgs/msg/String", Direction::internal, 64,
+                                       "station -> server: what browsers ask of the run"};
+
+inline constexpr TopicInfo kViewCloud{
+    "/skein/view/cloud", "std_msgs/msg/String", Direction::internal, 16,
+    "server -> station: points or maps that a browser asked for; the newest is enough"};
+
+/// What a UAV flies on, as the octomap is told (kOctomap). Read for a page while somebody there looks at it.
+inline constexpr TopicInfo kFlightMap{"/{id}/flight_map",
+                                      "octomap_msgs/msg/Octomap",
+                                      Direction::shown_by_agent,
+                                      1,
+                                      "when it has grown, 1 Hz at most; latched",
+                                      true};
 
 inline WireTopic view_story() { return wire(kViewStory); }
 inline WireTopic view_state() { return wire(kViewState); }
-inline WireTopic view_time() { return wire(kViewTime); }
+inline WireTopic view_cloud() { return wire(kViewCloud); }
+inline WireTopic flight_map(std::string_view id) { return wire(kFlightMap, id); }
+inline WireTopic view_orders() { return wire(kViewOrders); }
 
 }  // namespace skein::topics

@@ -86,6 +86,8 @@ std::string type_name() {
   X(skein_msgs, RadioReply)                        \
   X(skein_msgs, BoolStamped)                       \
   X(skein_msgs, CommandRejected)                   \
+  X(skein_msgs, Activity)                          \
+  X(skein_msgs, HandCommand)                       \
   X(skein_msgs, Event)                             \
   X(skein_msgs, Tally)                             \
   X(skein_msgs, Arrival)                           \

@@ -30,17 +30,19 @@ void describe(Fields& f, CollisionReport& collision) {
   f.field("with", collision.with);
 }
 
-/// A fault of the run's fault file.
+/// A fault of the run's fault file, or one that somebody who watched it began.
 struct FaultReport {
   Text kind = {}, target = {};
   Number at_s = {}, until_s = {};          ///< without `until_s`: to the end; without `at_s`: it waited in vain
   Count began_step = {}, ended_step = {};  ///< empty: not in this run
   Text when = {};                          ///< what it waited for
+  std::optional<bool> by_hand = {};        ///< empty: of the file
 };
 template <class Fields>
 void describe(Fields& f, FaultReport& fault) {
   f.nullable("at_s", fault.at_s);
   f.nullable("began_step", fault.began_step);
+  f.field("by_hand", fault.by_hand);
   f.nullable("ended_step", fault.ended_step);
   f.field("kind", fault.kind);
   f.field("target", fault.target);
@@ -123,6 +125,19 @@ void describe(Fields& f, UavReport& uav) {
   f.field("work", uav.work);
 }
 
+/// A UAV that somebody flew by hand.
+struct HandReport {
+  Text uav = {};
+  Text file = {};       ///< in the run's folder, with what was wanted of it
+  Count commands = {};  ///< in the file
+};
+template <class Fields>
+void describe(Fields& f, HandReport& hand) {
+  f.field("commands", hand.commands);
+  f.field("file", hand.file);
+  f.field("uav", hand.uav);
+}
+
 /// What a run was: for whoever has no launcher that would know.
 struct FlightReport {
   Text scenario = {};  ///< as the server was told it
@@ -154,6 +169,7 @@ struct SimServerReport {
   std::vector<UavReport> uavs = {};
   std::vector<LostMember> lost_members = {};
   std::vector<FaultReport> faults = {};
+  std::optional<std::vector<HandReport>> hand = {};  ///< only where somebody flew
   TimingReport timing = {};
   FlightReport flight = {};
   std::optional<FlightCheckReport> flight_check = {};
@@ -171,6 +187,7 @@ void describe(Fields& f, SimServerReport& report) {
   f.field("faults", report.faults);
   f.field("flight", report.flight);
   f.field("flight_check", report.flight_check);
+  f.field("hand", report.hand);
   f.field("lost_members", report.lost_members);
   f.field("malformed", report.malformed);
   f.field("mission_time_s", report.mission_time_s);

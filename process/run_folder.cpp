@@ -31,6 +31,8 @@ std::string report_file(const std::string& program) { return program + ".report.
 
 std::string log_file(const std::string& program) { return program + ".log"; }
 
+std::string hand_file(const std::string& uav) { return "hand-" + uav + ".csv"; }
+
 std::string map_file(const std::string& uav) { return "map-" + uav + ".bt"; }
 
 std::string recording_part(const std::string& program, int life) {
@@ -38,9 +40,10 @@ std::string recording_part(const std::string& program, int life) {
 }
 
 bool is_of_a_run(const std::string& name) {
-  constexpr std::array<std::string_view, 16> kTables = {
-      kFleetLog,     kResult,        kScore, kCaptures, kDigests,   kLosses,          kEvents,   kCaptureMessages,
-      kTrajectories, kScoreTimeline, kScene, kPage,     kRecording, kRecordingLayout, kTracking, kWork};
+  constexpr std::array<std::string_view, 18> kTables = {
+      kFleetLog,  kResult,          kScore,        kCaptures,      kDigests,  kLosses,
+      kEvents,    kCaptureMessages, kTrajectories, kScoreTimeline, kScene,    kPage,
+      kRecording, kRecordingLayout, kTracking,     kWork,          kActivity, kByHand};
   // Reports, logs and books: a book of another run would be taken up as if this run's program had been killed.
   const bool of_a_program = programs::is_agent(name) ||
                             std::any_of(programs::kServers.begin(), programs::kServers.end(), [&](const char* program) {
@@ -49,7 +52,8 @@ bool is_of_a_run(const std::string& name) {
   // What was being written when its program was killed: see atomic_file.hpp.
   const std::string whole = name.substr(0, name.rfind(".tmp"));
   const bool is_map = whole.starts_with("map-") && whole.ends_with(".bt");
-  return of_a_program || is_map || std::find(kTables.begin(), kTables.end(), whole) != kTables.end();
+  const bool is_of_a_hand = whole.starts_with("hand-") && whole.ends_with(".csv");
+  return of_a_program || is_map || is_of_a_hand || std::find(kTables.begin(), kTables.end(), whole) != kTables.end();
 }
 
 }  // namespace run_folder

@@ -49,6 +49,8 @@ inline constexpr const char* kTrajectories = "trajectories.csv";
 inline constexpr const char* kTracking = "tracking.csv";
 inline constexpr const char* kDigests = "digests.csv";
 inline constexpr const char* kEvents = "events.csv";
+inline constexpr const char* kActivity = "activity.csv";  ///< what each UAV did, and why, as it says itself
+inline constexpr const char* kByHand = "by-hand.yaml";    ///< faults, those that somebody added while it flew too
 // The station's. The journal is what it takes up when it starts again.
 inline constexpr const char* kCaptures = "captures.csv";
 inline constexpr const char* kScoreTimeline = "score_timeline.csv";
@@ -64,6 +66,8 @@ inline constexpr const char* kFlightLog = "flight.log";  ///< what `skein run` s
 std::string report_file(const std::string& program);
 /// What it said meanwhile: "station.log".
 std::string log_file(const std::string& program);
+/// What somebody who flew it by hand wanted of it: "hand-jurong.csv".
+std::string hand_file(const std::string& uav);
 /// What it knew at its end of the space around it, as OctoMap writes it: "map-jurong.bt".
 std::string map_file(const std::string& uav);
 /// What it recorded, until the launcher makes one recording of it: "station.mcap"; of a program that was started again,

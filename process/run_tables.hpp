@@ -6,6 +6,9 @@ namespace skein::run_tables {
 /// The first columns of trajectories.csv.
 inline constexpr const char* kPoseColumns = "time_s,uav,x,y,z,qw,qx,qy,qz,";
 
+/// All columns of activity.csv.
+inline constexpr const char* kActivityColumns = "step,time_s,uav,mode,goal_x,goal_y,goal_z,waits_for,no_way";
+
 /// Events of events.csv.
 inline constexpr const char* kJoined = "joined";
 inline constexpr const char* kLeft = "left";

@@ -34,6 +34,14 @@ static_assert(kTickNs * kTicksPerSecond == 1'000'000'000);
 
 std::uint64_t nanoseconds(Tick tick) { return static_cast<std::uint64_t>(tick) * kTickNs; }
 
+/// Without what no run repeats: the CPU time of what a program says that it does.
+mcap::Bytes repeatable(std::span<const std::uint8_t> payload) {
+  msg::Activity activity;
+  if (!decode(payload, activity)) return {payload.begin(), payload.end()};
+  activity.cpu_s(0.0);
+  return encode(activity);
+}
+
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& folder, const std::string& program, Scope scope) : scope_(scope) {
@@ -56,6 +64,7 @@ bus::Ear Recorder::ear(const std::string& node, const bus::TopicSpec& topic) {
                      last](std::span<const std::uint8_t> payload) {
     if (*last && tick_ - **last < period && tick_ != **last) return;
     *last = tick_;
+    if (type == type_name<msg::Activity>()) return add(topic, type, repeatable(payload));
     add(topic, type, payload);
   };
   return {hear, choice->also_unread};

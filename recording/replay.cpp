@@ -10,9 +10,13 @@
 namespace skein::recording {
 namespace {
 
-/// By the server, from a UAV: commands, and that the station has a capture.
+/// Nothing depends on it, and a program may say it in other words than it did then.
+bool is_for_people(const std::string& topic) { return topic.ends_with("/activity"); }
+
+/// By the server, from a UAV: commands, that the station has a capture, and what programs tell of themselves.
 bool is_taken(const std::string& topic) {
-  return topic.find("/command/") != std::string::npos || topic.ends_with(topics::kCaptureStored.pattern);
+  return topic.find("/command/") != std::string::npos || topic.ends_with(topics::kCaptureStored.pattern) ||
+         topic.find("/debug/") != std::string::npos || is_for_people(topic);
 }
 
 }  // namespace
@@ -52,14 +56,17 @@ std::vector<std::string> Differences::texts() const {
 }
 
 Replay::Replay(const ReplayOptions& options, bus::Tap& recorder)
-    : options_(options), recorder_(recorder), run_(options.file, is_taken) {}
+    : options_(options), recorder_(recorder), run_(options.file, is_taken) {
+  run_.each([this](Tick, const Said& said) { recorded_.insert(said.topic); });
+}
 
 bus::OnSample Replay::taken(const std::string& node, const bus::TopicSpec& topic, bus::OnSample handler) {
   const std::string name = recorded_topic(node, ros_topic(topic.name));
   topics_[name] = {node, topic.type, recorder_.taken(node, topic, std::move(handler)), {}};
   return [this, name](bus::Sample&& sample) {
     Taken& taken = topics_.at(name);
-    if (!replays()) return taken.handler(std::move(sample));
+    const bool lacks = is_for_people(name) && !recorded_.contains(name);  // a recording from before there was such
+    if (!replays() || lacks) return taken.handler(std::move(sample));
     taken.now.push_back(std::move(sample.payload));
   };
 }
@@ -74,7 +81,7 @@ void Replay::end_step() {
     found->second.handler({said.payload, 0});
   }
   for (auto& [name, taken] : topics_) {
-    if (options_.compares(taken.node)) {
+    if (options_.compares(taken.node) && !is_for_people(name)) {
       differences_.compare(taken.node, name, taken.wire_type, tick_, recorded[name], taken.now);
     }
     taken.now.clear();

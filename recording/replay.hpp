@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,7 @@ class Replay final : public bus::Tap {
   const ReplayOptions options_;
   bus::Tap& recorder_;
   const RecordedRun run_;
+  std::set<std::string> recorded_;  ///< topics that it has
   Tick tick_ = 0;
   std::map<std::string, Taken> topics_;  ///< by name in the recording
   Differences differences_;

@@ -133,6 +133,73 @@ TEST_F(ReplayTest, LetsGoAtItsTime) {
   }
 }
 
+/// What a UAV's program tells of itself, step by step, and what of it is handed on.
+class TellsOfItself : public ReplayTest {
+ protected:
+  using Told = std::vector<mcap::Bytes>;
+
+  static mcap::Bytes activity(const std::string& mode, double cpu_s) {
+    msg::Activity message;
+    message.mode(mode);
+    message.cpu_s(cpu_s);
+    return encode(message);
+  }
+  static mcap::Bytes debug(double value) {
+    msg::Float64 message;
+    message.data(value);
+    return encode(message);
+  }
+  Told take(bus::Tap& tap, const topics::WireTopic& topic, const Told& said, const std::function<void(Tick)>& begin,
+            const std::function<void()>& end) {
+    Told heard;
+    const auto on_sample = tap.taken("jurong", bus::spec(topic),
+                                     [&heard](bus::Sample&& sample) { heard.push_back(std::move(sample.payload)); });
+    for (std::size_t step = 0; step < said.size(); ++step) {
+      begin(static_cast<Tick>(step) * kStep);
+      on_sample({said[step], 0});
+      end();
+    }
+    return heard;
+  }
+  /// @returns what is handed on of a run in which it says `now`; what differs is in `differences_`.
+  Told retold(const topics::WireTopic& then_on, const Told& then, const topics::WireTopic& now_on, const Told& now) {
+    const auto part = folder_ / run_folder::recording_part(programs::kSimServer, 0);
+    std::filesystem::remove(part);
+    Recorder recorder(folder_, programs::kSimServer, Scope::run);
+    take(
+        recorder, then_on, then, [&](Tick tick) { recorder.set_time(tick); }, [] {});
+    recorder.close();
+    Recorder nobody(folder_, programs::kSimServer, Scope::none);
+    Replay replay({.file = part, .until_s = {}, .only = {}}, nobody);
+    Told heard = take(
+        replay, now_on, now, [&](Tick tick) { replay.begin_step(tick); }, [&] { replay.end_step(); });
+    differences_ = replay.differences().list().size();
+    return heard;
+  }
+  std::size_t differences_ = 0;
+};
+
+TEST_F(TellsOfItself, WhatItDoesIsTakenFromThenAndIsNoDifference) {
+  const Told then = {activity("takes off", 0.1), activity("delivers", 0.2)};
+  const Told now = {activity("takes off", 0.3), activity("has no goal", 0.4)};
+  const auto topic = topics::activity("jurong");
+  const Told recorded = {activity("takes off", 0.0), activity("delivers", 0.0)};
+  EXPECT_EQ(retold(topic, then, topic, now), recorded) << "without its CPU time: no recording would be the same";
+  EXPECT_EQ(differences_, 0U) << "it is for people";
+  EXPECT_EQ(retold(topics::trigger("jurong"), {debug(1.0), debug(1.0)}, topic, now), now)
+      << "a recording from before there was such";
+  EXPECT_EQ(differences_, 0U);
+}
+
+TEST_F(TellsOfItself, ItsDebugValuesAreTakenAndComparedLikeCommands) {
+  const auto topic = topics::debug("jurong", "boxes_left");
+  const Told then = {debug(3.0), debug(2.0)};
+  EXPECT_EQ(retold(topic, then, topic, then), then);
+  EXPECT_EQ(differences_, 0U);
+  EXPECT_EQ(retold(topic, then, topic, {debug(3.0), debug(1.0)}), then);
+  EXPECT_EQ(differences_, 1U);
+}
+
 TEST_F(ReplayTest, AFileThatIsCutOffIsRefused) {
   const std::filesystem::path file = record(random_speech(1, 10));
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 9);

@@ -46,4 +46,9 @@ bool visit_octree_file(std::string_view file, const std::function<void(const Kno
   return head && visit_octree(file.substr(head->size), head->cell_m, visit) == head->nodes;
 }
 
+std::optional<OctreeFile> octree_of_file(std::string_view file) {
+  const auto head = head_of(file);
+  return head ? std::optional(OctreeFile{file.substr(head->size), head->cell_m}) : std::nullopt;
+}
+
 }  // namespace skein::report

@@ -1,7 +1,10 @@
 #include "report/page_data.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "report/recorded_links.hpp"
 
 namespace skein::report {
 namespace {
@@ -18,23 +21,30 @@ Json in_cm(const Vector3d& p_W) {
   return Json::array({centimetres(p_W.x()), centimetres(p_W.y()), centimetres(p_W.z())});
 }
 
-/// Times in hundredths of a second and positions in cm, each as the difference to the one before: short numbers.
+long milliradians(double angle) { return std::isfinite(angle) ? std::lround(1e3 * angle) : 0; }
+
+/// Times in hundredths of a second, positions in cm and the camera's angles in mrad, each as the difference to the one
+/// before: short numbers.
 Json track_json(const std::vector<RunPose>& track, double each_s) {
-  Json t = Json::array(), x = Json::array(), y = Json::array(), z = Json::array();
-  long last[4] = {0, 0, 0, 0};
+  static constexpr std::array kColumns = {"t", "x", "y", "z", "yaw", "pitch"};
+  std::array<Json, kColumns.size()> columns;
+  columns.fill(Json::array());
+  std::array<long, kColumns.size()> last{};
   double next_s = -1e9;
   for (std::size_t i = 0; i < track.size(); ++i) {
     if (track[i].time_s < next_s && i + 1 < track.size()) continue;
     next_s = track[i].time_s + each_s - 1e-6;
-    const long now[4] = {std::lround(100.0 * track[i].time_s), centimetres(track[i].p_WB.x()),
-                         centimetres(track[i].p_WB.y()), centimetres(track[i].p_WB.z())};
-    Json* const columns[4] = {&t, &x, &y, &z};
-    for (std::size_t k = 0; k < 4; ++k) {
-      columns[k]->push_back(now[k] - last[k]);
+    const std::array<long, kColumns.size()> now = {
+        std::lround(100.0 * track[i].time_s), centimetres(track[i].p_WB.x()),  centimetres(track[i].p_WB.y()),
+        centimetres(track[i].p_WB.z()),       milliradians(track[i].view.yaw), milliradians(track[i].view.pitch)};
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      columns[k].push_back(now[k] - last[k]);
       last[k] = now[k];
     }
   }
-  return {{"t", std::move(t)}, {"x", std::move(x)}, {"y", std::move(y)}, {"z", std::move(z)}};
+  Json json = Json::object();
+  for (std::size_t k = 0; k < columns.size(); ++k) json[kColumns[k]] = std::move(columns[k]);
+  return json;
 }
 
 /// Times in ms, scores in thousandths.
@@ -103,6 +113,26 @@ Json waiting_json(const std::vector<Waiting>& changes, std::size_t most) {
   return {{"t", std::move(t)}, {"v", std::move(v)}};
 }
 
+/// From each time on [ms]: digits of LinkState. Of a fleet so large that they would be most of the page: none.
+Json links_json(const RunData& run) {
+  constexpr std::size_t kMostDigits = 600'000;
+  Json t = Json::array(), l = Json::array();
+  const auto links = recorded_links(run);
+  const std::size_t nodes = run.uavs.size() + 1;
+  if (links.size() * nodes * nodes > kMostDigits) return nullptr;
+  for (const auto& [time_s, states] : links) {
+    t.push_back(std::lround(1e3 * time_s));
+    l.push_back(digits_of(states));
+  }
+  return {{"t", std::move(t)}, {"l", std::move(l)}};
+}
+
+/// What each camera sees sharp enough; null where the recording does not tell.
+Json camera_json(const std::optional<RunCamera>& camera) {
+  if (!camera) return nullptr;
+  return {{"hfov", camera->hfov_deg}, {"vfov", camera->vfov_deg}, {"range", camera->range_m}};
+}
+
 /// Captures of each second: how many improved a point.
 Json each_second(const std::vector<double>& times_s, double end_s) {
   std::vector<int> counts(static_cast<std::size_t>(std::min(std::max(end_s, 0.0), 1e5)) + 1, 0);
@@ -127,6 +157,7 @@ Json page_data(const RunPage& page) {
     data["uavs"].push_back({{"name", run.uavs[uav]},
                             {"explorer", static_cast<bool>(run.explorer[uav])},
                             {"track", track_json(run.tracks[uav], each_s)},
+                            {"camera", uav < run.cameras.size() ? camera_json(run.cameras[uav]) : Json()},
                             {"captures", each_second(lane.captures_s, run.end_s)},
                             {"waiting", waiting_json(lane.undelivered, kMostWaiting / run.uavs.size() + 1)},
                             {"still", spans_json(lane.still)},
@@ -135,6 +166,7 @@ Json page_data(const RunPage& page) {
                             {"collided", lane.collided_s ? Json(*lane.collided_s) : Json()}});
   }
   data["best"] = best_json(run);
+  data["links"] = links_json(run);
   data.update(scene_data(run));
   return data;
 }

@@ -164,7 +164,9 @@ std::string planners_of(const Json& result) {
 }
 
 std::string command_of(const Json& result) {
-  if (const std::string given = text_in(result, "command"); !given.empty()) return given;
+  for (const char* key : {"repeat_command", "command"}) {
+    if (const std::string given = text_in(result, key); !given.empty()) return given;
+  }
   std::string command = "skein run " + shell_word(text_in(result, "scenario"));
   const std::string planner = planner_option(value_or(result, "planner", Json::object()));
   if (!planner.empty()) command += " --planner " + shell_word(planner);

@@ -78,6 +78,15 @@ void read_scene(const fs::path& dir, RunData& data) {
   } catch (const std::exception&) {
     data.missing.push_back("The boxes of scene.json are damaged.");
   }
+  data.cameras.resize(data.uavs.size());
+  for (const Json& json : value_or(scene, "cameras", Json::array())) {
+    const auto uav = data.uav_of(text_in(json, "uav"));
+    const RunCamera camera{number_in(json, "hfov_deg"), number_in(json, "vfov_deg"), number_in(json, "range_m")};
+    const auto is_angle = [](double degrees) { return degrees > 0.0 && degrees < 180.0; };
+    const bool sound =
+        is_angle(camera.hfov_deg) && is_angle(camera.vfov_deg) && camera.range_m > 0.0 && camera.range_m < kFarthest;
+    if (uav && sound) data.cameras[*uav] = camera;
+  }
 }
 
 void read_points(const fs::path& dir, RunData& data) {
@@ -100,12 +109,25 @@ void read_points(const fs::path& dir, RunData& data) {
   });
 }
 
+/// Level where the table does not tell.
+ViewAngles view_of(const CsvTable& table) try {
+  GimbalState gimbal;
+  gimbal.pitch = number_of(table, "gimbal_pitch");
+  gimbal.yaw = number_of(table, "gimbal_yaw");
+  const Quaterniond q_WB(number_of(table, "qw"), number_of(table, "qx"), number_of(table, "qy"),
+                         number_of(table, "qz"));
+  return view_angles(q_WB, gimbal);
+} catch (const std::runtime_error&) {
+  return {};
+}
+
 void read_tracks(const fs::path& dir, RunData& data) {
   read_rows(dir, run_folder::kTrajectories, data, [&](const CsvTable& table) {
     const auto uav = data.uav_of(table.text("uav"));
     if (!uav) return;
     data.tracks[*uav].push_back({number_of(table, "time_s"), vector_of(table, "x", "y", "z"),
-                                 vector_of(table, "vx", "vy", "vz").norm(), table.text("alive") != "0"});
+                                 vector_of(table, "vx", "vy", "vz").norm(), table.text("alive") != "0",
+                                 view_of(table)});
   });
 }
 
@@ -172,8 +194,14 @@ void read_incidents(RunData& data) {
     const auto began = number_if_any(json, "began_step"), ended = number_if_any(json, "ended_step");
     if (!began) return;
     data.faults.push_back({text_in(json, "kind"), text_in(json, "target"), sensible(*began * step_s),
-                           ended ? sensible(*ended * step_s) : data.end_s});
+                           ended ? sensible(*ended * step_s) : data.end_s, ended.has_value()});
   });
+  // Those by hand stand behind those of the file.
+  std::size_t by_hand = 0;
+  read_entries(data, "interventions", [&](const Json& json) { by_hand += text_in(json, "what") == "begin" ? 1 : 0; });
+  for (std::size_t i = data.faults.size() - std::min(by_hand, data.faults.size()); i < data.faults.size(); ++i) {
+    data.faults[i].by_hand = true;
+  }
   try {
     data.station = vector_in(data.result.at("station").at("position"));
   } catch (const std::exception&) {  // a result of an earlier version does not tell
@@ -200,6 +228,14 @@ bool RunBox::holds(const Vector3d& p_W) const {
 std::optional<std::size_t> RunData::uav_of(const std::string& name) const {
   const auto found = std::find(uavs.begin(), uavs.end(), name);
   return found == uavs.end() ? std::nullopt : std::optional<std::size_t>(found - uavs.begin());
+}
+
+ViewAngles view_angles(const Quaterniond& q_WB, const GimbalState& gimbal) {
+  RigidBodyState body;
+  body.q_WB = q_WB;
+  // The camera looks along its x. Where it sits and what it sees do not matter for that.
+  const Vector3d axis = camera_state(body, gimbal, CameraConfig{}).X_WC.linear() * Vector3d::UnitX();
+  return {std::atan2(axis.y(), axis.x()), std::asin(std::clamp(-axis.z(), -1.0, 1.0))};
 }
 
 RunData read_run_data(const fs::path& dir) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/camera_quality.hpp"
 #include "core/types.hpp"
 #include "process/json_text.hpp"
 
@@ -44,11 +45,19 @@ struct RunEvent {
   std::string event, subject, object;
 };
 
+/// Where a camera looks, in W.
+struct ViewAngles {
+  double yaw = 0.0, pitch = 0.0;  ///< [rad]; down is positive
+};
+/// @param q_WB  of the body. Pure.
+ViewAngles view_angles(const Quaterniond& q_WB, const GimbalState& gimbal);
+
 struct RunPose {
   double time_s = 0.0;
   Vector3d p_WB = Vector3d::Zero();
   double speed = 0.0;
   bool alive = true;
+  ViewAngles view = {};
 };
 
 struct RunScore {
@@ -61,15 +70,23 @@ struct RunCollision {
   std::optional<Vector3d> p_W;
 };
 
+/// What a UAV's camera sees sharp enough.
+struct RunCamera {
+  double hfov_deg = 0.0, vfov_deg = 0.0, range_m = 0.0;
+};
+
 struct RunFault {
   std::string kind, target;
   double from_s = 0.0, until_s = 0.0;
+  bool ended = false;  ///< not only with the run
+  bool by_hand = false;
 };
 
 struct RunData {
   Json result = Json::object();
-  std::vector<std::string> uavs;  ///< fleet order
-  std::vector<bool> explorer;     ///< by UAV
+  std::vector<std::string> uavs;                  ///< fleet order
+  std::vector<bool> explorer;                     ///< by UAV
+  std::vector<std::optional<RunCamera>> cameras;  ///< by UAV; none: a recording of an earlier version
   std::vector<RunBox> boxes;
   std::vector<RunPoint> points;  ///< by index
   bool causes_known = false;     ///< there is a losses.csv

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <span>
 
+#include "core/base64.hpp"
 #include "core/file_bytes.hpp"
 #include "core/sha256.hpp"
 #include "process/run_folder.hpp"
@@ -15,19 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargest = 3 << 20;
-
-std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t j = 0; j < 3; ++j) three = three << 8 | (i + j < bytes.size() ? bytes[i + j] : 0U);
-    for (std::size_t j = 0; j < 4; ++j) {
-      text += i + j <= bytes.size() ? kDigits[three >> (18 - 6 * j) & 63U] : '=';
-    }
-  }
-  return text;
-}
 
 /// Whether a <script> element that holds this text ends where it should.
 bool fits_in_script(const std::string& script) {

@@ -1,24 +1,46 @@
 #include "sim_server/fault_node.hpp"
 
+#include <spdlog/spdlog.h>
+
+#include <variant>
+
 #include "bus/lockstep/names.hpp"
+#include "process/atomic_file.hpp"
+#include "process/run_folder.hpp"
 
 namespace skein::sim {
 
 using What = status::Order::What;
 
 FaultNode::FaultNode(const Scenario& scenario, Simulation& simulation, bus::LockstepServer& server, StatusPipe& status,
-                     const recording::ReplayOptions& replay)
+                     const recording::ReplayOptions& replay, const std::filesystem::path& folder)
     : simulation_(simulation),
       server_(server),
       status_(status),
       replay_(replay),
+      folder_(folder),
       period_(scenario.exchange_ticks()),
+      planned_(simulation.faults().faults.size()),
       signals_(scenario, simulation),
       timeline_(simulation.faults()),
-      processes_(simulation.faults()) {}
+      processes_(simulation.faults()),
+      hand_(scenario, simulation.faults()) {}
 
 std::vector<std::string> FaultNode::begin_step() {
-  return timeline_.enter_step(simulation_.step(), simulation_.tick());
+  std::vector<std::string> lines = timeline_.enter_step(simulation_.step(), simulation_.tick());
+  for (const std::string& line : lines) spdlog::info("{}", line);
+  return lines;
+}
+
+std::vector<FaultNode::Change> FaultNode::changes() const {
+  std::vector<Change> changes;
+  for (const auto& [index, begins] : timeline_.changes()) {
+    const Fault& fault = simulation_.faults().faults[index];
+    const bool by_hand = is_by_hand(index);
+    const std::uint64_t number = by_hand ? hand_.all()[index - planned_].number : index;
+    changes.push_back({{number, by_hand, fault_kind(fault), fault_target(fault)}, begins});
+  }
+  return changes;
 }
 
 void FaultNode::take_out_victims() {
@@ -58,6 +80,29 @@ void FaultNode::let_back_victims() {
   for (const auto& [member, killed, kind] : processes_.take_ending(next_tick)) {
     if (server_.let_back(member)) tell_order(member, killed ? What::start : What::resume, next_tick);
   }
+}
+
+std::string FaultNode::obey(const view::FaultOrder& order) {
+  const Tick next_tick = simulation_.tick() + period_;
+  if (order.begins) {
+    const Fault fault{.at_s = seconds(next_tick), .until_s = {}, .action = *order.begins};
+    const bool of_process = std::holds_alternative<Kill>(fault.action) || std::holds_alternative<Pause>(fault.action);
+    if (of_process && !server_.is_member(fault_target(fault)))
+      return fault_target(fault) + " takes no part in the run now";
+  }
+  if (std::string reason = hand_.obey(order, next_tick); !reason.empty()) return reason;
+  std::vector<Fault> faults;
+  for (const HandFault& one : hand_.all()) faults.push_back(one.fault);
+  simulation_.set_faults_by_hand(faults);
+  const std::string trouble = write_if_possible(folder_ / run_folder::kByHand, hand_.file_text());
+  if (!trouble.empty()) warnings_.push_back(trouble);
+  return {};
+}
+
+std::vector<FaultReport> FaultNode::report() const {
+  std::vector<FaultReport> report = timeline_.report();
+  for (std::size_t i = planned_; i < report.size(); ++i) report[i].by_hand = true;
+  return report;
 }
 
 void FaultNode::tell_order(const std::string& member, What order, Tick tick) {

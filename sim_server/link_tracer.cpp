@@ -1,11 +1,13 @@
 #include "sim_server/link_tracer.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace skein::sim {
 
 Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs) {
   Links links(uavs.size() + 1);
+  unfailed_ = links;
   const auto body_of = [](Node node) { return uav_of_node(node).value_or(kNobody); };
   const auto antenna = [&](Node node) {
     const auto uav = uav_of_node(node);
@@ -22,8 +24,11 @@ Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place
       const RayFilter filter{.except_uav = body_of(a), .except_other_uav = body_of(b), .among = about};
       const bool linked = sights_.at(a, b).linked(from, to, rays, filter);
       const double distance_m = (from.p_W - to.p_W).norm();
-      links.at(a, b) = linked && in_range(tick, a, b, distance_m);
-      links.at(b, a) = linked && in_range(tick, b, a, distance_m);
+      for (const auto& [source, target] : {std::pair(a, b), std::pair(b, a)}) {
+        const bool unfailed = linked && in_range(source, target, distance_m);
+        unfailed_.at(source, target) = unfailed;
+        links.at(source, target) = unfailed && !fails(tick, source, target, distance_m);
+      }
     }
   }
   return links;
@@ -39,17 +44,21 @@ Links LinkTracer::open(Tick tick, const Links& links) const {
   return open;
 }
 
-bool LinkTracer::in_range(Tick tick, Node from, Node to, double distance_m) const {
-  const auto ends_before = [&](const LinkEffect& effect) {
-    return effect.range_m && distance_m > *effect.range_m && names_node(effect.from, scenario_.node_name(from)) &&
-           names_node(effect.to, scenario_.node_name(to));
-  };
-  const auto fails_before = [&](const Fault& fault) {
+bool LinkTracer::ends_before(const LinkEffect& effect, Node from, Node to, double distance_m) const {
+  return effect.range_m && distance_m > *effect.range_m && names_node(effect.from, scenario_.node_name(from)) &&
+         names_node(effect.to, scenario_.node_name(to));
+}
+
+bool LinkTracer::in_range(Node from, Node to, double distance_m) const {
+  return std::none_of(scenario_.links.begin(), scenario_.links.end(),
+                      [&](const LinkEffect& effect) { return ends_before(effect, from, to, distance_m); });
+}
+
+bool LinkTracer::fails(Tick tick, Node from, Node to, double distance_m) const {
+  return std::any_of(faults_.faults.begin(), faults_.faults.end(), [&](const Fault& fault) {
     const auto* effect = std::get_if<LinkEffect>(&fault.action);
-    return effect != nullptr && fault.active(tick) && ends_before(*effect);
-  };
-  return std::none_of(scenario_.links.begin(), scenario_.links.end(), ends_before) &&
-         std::none_of(faults_.faults.begin(), faults_.faults.end(), fails_before);
+    return effect != nullptr && fault.active(tick) && ends_before(*effect, from, to, distance_m);
+  });
 }
 
 }  // namespace skein::sim

@@ -22,19 +22,28 @@ class LinkTracer {
 
   /// Both must outlive this.
   LinkTracer(const Scenario& scenario, const FaultPlan& faults)
-      : scenario_(scenario), faults_(faults), sights_(scenario.fleet.size() + 1) {}
+      : scenario_(scenario),
+        faults_(faults),
+        sights_(scenario.fleet.size() + 1),
+        unfailed_(scenario.fleet.size() + 1) {}
 
   /// @param rays  with the bodies where they are. @param uavs  in fleet order.
   Links trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs);
+  /// Those of the last trace() before faults limited their range.
+  const Links& unfailed() const { return unfailed_; }
   /// Those that blackouts, outages and partitions leave.
   Links open(Tick tick, const Links& links) const;
 
  private:
-  bool in_range(Tick tick, Node from, Node to, double distance_m) const;
+  /// Whether an effect ends the link before this distance.
+  bool ends_before(const LinkEffect& effect, Node from, Node to, double distance_m) const;
+  bool in_range(Node from, Node to, double distance_m) const;
+  bool fails(Tick tick, Node from, Node to, double distance_m) const;
 
   const Scenario& scenario_;
   const FaultPlan& faults_;
   LinkMatrix<SightMemory> sights_;  ///< of each pair of nodes, the lower one first
+  Links unfailed_;
 };
 
 }  // namespace skein::sim

@@ -17,8 +17,9 @@ class ProcessFaults {
     std::string kind;     ///< of the fault, as files spell it
   };
 
-  /// @param plan  must outlive this. Its faults that wait for a condition may be set off meanwhile.
-  explicit ProcessFaults(const FaultPlan& plan);
+  /// @param plan  must outlive this. Meanwhile its faults that wait for a condition may be set off, others may be added
+  /// at its end, and get an end.
+  explicit ProcessFaults(const FaultPlan& plan) : plan_(plan) {}
   explicit ProcessFaults(FaultPlan&&) = delete;
 
   /// Those that begin with the exchange at this tick, in the plan's order.
@@ -27,13 +28,10 @@ class ProcessFaults {
   std::vector<Victim> take_ending(Tick tick);
 
  private:
-  struct Entry {
-    const Fault& fault;
-    bool acting = false;
-  };
   std::vector<Victim> take(Tick tick, bool beginning);
 
-  std::vector<Entry> entries_;
+  const FaultPlan& plan_;
+  std::vector<bool> acting_;  ///< by fault of the plan
 };
 
 }  // namespace skein::sim

@@ -42,5 +42,23 @@ TEST(ProcessFaults, AtEachExchangeThoseActThatThePlanSays) {
   }
 }
 
+// Those by hand: they come while the run goes on, and get their ends later.
+TEST(ProcessFaults, MayBeAddedAndEnded) {
+  FaultPlan plan;
+  plan.faults.push_back({.at_s = 1.0, .until_s = 2.0, .action = Kill{"a"}});
+  ProcessFaults faults(plan);
+  EXPECT_TRUE(faults.take_beginning(ticks(0.5)).empty());
+  for (int i = 0; i < 50; ++i) plan.faults.push_back({.at_s = 1.0, .until_s = {}, .action = LidarFailure{"other"}});
+  plan.faults.push_back({.at_s = 1.0, .until_s = {}, .action = Pause{"b"}});
+  EXPECT_TRUE(faults.take_ending(ticks(1.0)).empty());
+  ASSERT_EQ(faults.take_beginning(ticks(1.0)).size(), 2U);
+  EXPECT_TRUE(faults.take_beginning(ticks(1.05)).empty());
+  plan.faults.back().until_s = 1.1;
+  const auto ending = faults.take_ending(ticks(1.1));
+  ASSERT_EQ(ending.size(), 1U);
+  EXPECT_EQ(ending[0].member, "b");
+  EXPECT_EQ(faults.take_ending(ticks(2.0)).size(), 1U);
+}
+
 }  // namespace
 }  // namespace skein::sim

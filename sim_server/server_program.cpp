@@ -40,6 +40,12 @@ std::optional<WatchOptions> watch_options(const std::string& speed, const std::s
   return WatchOptions{view::read_speed(speed), !realtime_factor(clock)};
 }
 
+std::vector<UavIndex> indices_of(const std::vector<std::string>& names, const Scenario& scenario) {
+  std::vector<UavIndex> uavs;
+  for (const std::string& name : names) uavs.push_back(scenario.uav_index(name));
+  return uavs;
+}
+
 FlightReport flight_of(const ProgramOptions& options, const Scenario& scenario, const std::string& clock) {
   return {.scenario = options.scenario,
           .seed = options.seed,
@@ -124,6 +130,10 @@ void ServerProgram::add_options(CLI::App& app) {
          "--watch", watch_speed_,
          "tell the station what a page needs, and fly at this speed, SPEED or max, until the page says otherwise")
       ->group("Launcher");
+  app.add_option("--by-hand", by_hand_, "UAVs that somebody flies from that page")
+      ->delimiter(',')
+      ->needs("--watch")
+      ->group("Launcher");
   recording::add_replay_options(app, replay_);
   tasks_.add_options(app);
 }
@@ -155,6 +165,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .notice_deaths = !options.has_launcher(),
                                     .expect_gcs_program = ground_program_,
                                     .watch = watch_options(watch_speed_, clock_),
+                                    .by_hand = indices_of(by_hand_, *scenario),
                                     .faults = load_fault_plan(options.faults, *scenario, options.seed)};
   Scene scene = load_scene(*scenario);
   if (!options.check_only) refuse_used_folder(options);

@@ -51,7 +51,8 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       recording_(options.out, options.record, scenario, files_.events(), options.replay),
       inbox_(bus.run()),
       server_(inbox_, recording_.tap()),
-      faults_(scenario, simulation_, server_, status, options_.replay),
+      hand_(scenario, simulation_, options.by_hand, options.out),
+      faults_(scenario, simulation_, server_, status, options_.replay, options.out),
       work_(scenario, simulation_),
       progress_(scenario, status) {
   participants_.push_back(bus.join(world_domain(options.base_domain)));
@@ -69,12 +70,14 @@ void SimNode::declare_members() {
   gcs_ = std::make_unique<GcsNode>(scenario_, simulation_, server_, gcs, *participants_[0]);
   viz_ = std::make_unique<VizNode>(scenario_, simulation_, *participants_[0]);
   if (const auto& watch = options_.watch) {
-    watch_ = std::make_unique<WatchNode>(scenario_, simulation_, files_.events(), inbox_, *participants_[0], *watch);
+    watch_ = std::make_unique<WatchNode>(scenario_, simulation_, files_.events(), inbox_, *participants_[0],
+                                         std::span(participants_).subspan(2), *watch, faults_, hand_);
   }
   for (const UavIndex i : FirstUavs(scenario_.fleet.size())) {
     const auto domain = server_.add_domain(uav_names_[i], *participants_[2 + i]);
     server_.add_place(uav_names_[i], domain, options_.replay.takes_part(uav_names_[i]));
     uavs_.push_back(std::make_unique<UavNode>(i, scenario_, simulation_, heard_, server_, domain));
+    hand_.declare(i, server_, domain);
   }
   server_.on_stranger([this](auto domain, const std::string& topic, bus::ParticipantId source) {
     strangers_.add(uav_names_.at(domain - kFirstUavDomain), topic, source, simulation_.step());
@@ -153,7 +156,11 @@ void SimNode::wait_for(State state, const char* what, double patience_s) {
 }
 
 bool SimNode::tell_waiting() {
-  return wait_->tell([this] { return for_people(server_.awaited()); });
+  return wait_->tell([this] {
+    std::vector<AwaitedMember> awaited = for_people(server_.awaited());
+    if (watch_) watch_->wait_for(awaited, wait_->what());
+    return awaited;
+  });
 }
 
 /// Nobody is waited for any longer who is now; whoever comes next finds the same patience.
@@ -168,10 +175,7 @@ void SimNode::give_up_awaited(const std::string& why) {
 
 bool SimNode::join_members() {
   take_losses();
-  if (aborted_ || stop_requested_) {
-    end_run(false);
-    return false;
-  }
+  if (aborted_ || stop_requested_) return end_run(false);
   if (!server_.at_boundary()) {
     tell_waiting();
     if (patience_.over()) give_up_awaited("did not join in time");
@@ -218,6 +222,10 @@ bool SimNode::take_answers(bool arrived) {
     end_run(true);
     return false;
   }
+  return let_back();
+}
+
+bool SimNode::let_back() {
   faults_.let_back_victims();
   wait_for(State::letting_in, "to join again", options_.startup_timeout_s);
   return true;
@@ -237,7 +245,10 @@ bool SimNode::let_in_members() {
       if (lost.name == name && !lost.back) lost.back = simulation_.tick();
     }
     const auto uav = std::find(uav_names_.begin(), uav_names_.end(), name);
-    if (uav != uav_names_.end()) uavs_[static_cast<std::size_t>(uav - uav_names_.begin())]->resend_captures();
+    if (uav == uav_names_.end()) continue;
+    const UavIndex i{static_cast<std::size_t>(uav - uav_names_.begin())};
+    uavs_[i]->resend_captures();
+    hand_.resend(i);
   }
   take_losses();
   state_ = State::pacing;
@@ -246,16 +257,14 @@ bool SimNode::let_in_members() {
 
 // Real time: the next step is due when the wall clock says so; what arrives meanwhile is taken in.
 bool SimNode::keep_pace() {
+  if (watch_ && watch_->obey_fault_orders()) return let_back();
   const bool held = (options_.realtime_factor && Clock::now() < due()) || (watch_ && !watch_->may_go_on());
   if (held && !aborted_ && !stop_requested_) {
     progress_.tell(simulation_, summary_.lost);
     return false;
   }
-  if (aborted_) {
-    end_run(true);
-    return false;
-  }
-  for (const auto& uav : uavs_) uav->choose_scans();
+  if (aborted_) return end_run(true);
+  for (const UavIndex i : FirstUavs(uavs_.size())) uavs_[i]->choose_scans(watch_ && watch_->wants_scan(i));
   simulation_.advance();
   begin_step();
   return true;
@@ -267,8 +276,8 @@ SimNode::Clock::time_point SimNode::due() const {
   return started_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
 }
 
-/// @param joined  there was a step.
-void SimNode::end_run(bool joined) {
+/// @param joined  there was a step. @returns that there is nothing more to do.
+bool SimNode::end_run(bool joined) {
   state_ = State::over;
   tell_of_strangers(0);
   for (const std::string& name : uav_names_) summary_.commands_unheard.push_back(strangers_.unheard(name));
@@ -284,34 +293,13 @@ void SimNode::end_run(bool joined) {
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
   if (options_.realtime_factor || summary_.status == RunStatus::interrupted || aborted_) summary_.deterministic = false;
   if (summary_.deterministic) summary_.digest = digest_.hex();
+  summary_.hand = hand_.report();
+  for (std::string& trouble : hand_.finish()) files_.note_unwritten(std::move(trouble));
   files_.note_unwritten(recording_.close());
   files_.write_report(simulation_, summary_, status_);
   if (joined) progress_.tell_now(simulation_, summary_.lost);
   status_.send_surely(status::line_json(status::Ended{summary_.status, stalled_}));
-}
-
-// ---- members and faults -----------------------------------------------------------------------------------------
-
-void SimNode::take_losses() {
-  for (const auto& lost : server_.take_lost()) {
-    spdlog::warn("{} is lost at step {}: {}; the run goes on without it", lost.name, lost.k, lost.reason);
-    summary_.lost.push_back({lost.name, lost.k, simulation_.tick(), lost.reason});
-    summary_.warnings.push_back(lost.name + " was lost: " + lost.reason);
-    summary_.deterministic = false;
-  }
-}
-
-// Commands from outside the lock-step have no effect. Their sender sees a matched subscriber, and must not wonder.
-void SimNode::tell_of_strangers(std::uint64_t patience) {
-  const auto is_stranger = [this](bus::ParticipantId source) { return server_.is_stranger(source); };
-  for (const bus::Strangers::Notice& notice : strangers_.take_notices(simulation_.step(), patience, is_stranger)) {
-    const std::string text = describe(notice);
-    spdlog::warn("{}", text);
-    status_.send_surely(status::line_json(status::Warning{text}));
-    summary_.warnings.push_back(text);
-    const auto uav = std::find(uav_names_.begin(), uav_names_.end(), notice.node);
-    uavs_[static_cast<std::size_t>(uav - uav_names_.begin())]->reject_unheard(notice.topic);
-  }
+  return false;
 }
 
 // ---- one step ---------------------------------------------------------------------------------------------------
@@ -324,8 +312,8 @@ bool SimNode::is_last_step() const {
 
 void SimNode::publish_step() {
   const std::vector<std::string> faults = faults_.begin_step();
-  for (const std::string& line : faults) spdlog::info("{}", line);
   recording_.begin_step(simulation_, faults);
+  hand_.begin_step();
   if (watch_) watch_->begin_step(faults);
   faults_.take_out_victims();
   for (std::string& warning : faults_.take_warnings()) summary_.warnings.push_back(std::move(warning));
@@ -344,13 +332,19 @@ void SimNode::publish_step() {
                    .links = simulation_.links().row_major(),
                    .ledger_upto = events.ledger_end,
                    .final_step = last_step_,
-                   .faults = faults_.begun()},
+                   .faults = faults_.begun(),
+                   .faults_by_hand = faults_.by_hand()},
                   [this](bus::LockstepServer::DomainIndex domain) { write_samples(domain); });
 }
 
 void SimNode::write_samples(bus::LockstepServer::DomainIndex domain) {
   if (domain == kGcsDomain) return gcs_->publish();
-  if (domain != kWorldDomain) return uavs_[domain - kFirstUavDomain]->publish();
+  if (domain != kWorldDomain) {
+    const UavIndex uav{domain - kFirstUavDomain};
+    uavs_[uav]->publish();
+    hand_.publish(uav);
+    return;
+  }
   gcs_->publish_ledger(inbox_.run());
   viz_->publish();
 }
@@ -380,7 +374,14 @@ void SimNode::finish_step() {
       faults_.signals().add_release(i);
       work_.add_release(i, capture);
     }
-    for (const auto& [name, value] : uavs_[i]->take_debug()) faults_.signals().set_debug(i, name, value);
+    if (const auto activity = uavs_[i]->take_activity()) {
+      const bool news = files_.activities().add(simulation_, i, *activity);
+      if (watch_) watch_->add_activity(i, *activity, news);
+    }
+    for (const auto& [name, value] : uavs_[i]->take_debug()) {
+      faults_.signals().set_debug(i, name, value);
+      hand_.hear(i, name, value);
+    }
   }
   work_.end_step([this](const std::string& member) { return server_.is_member(member); });
   faults_.end_step();

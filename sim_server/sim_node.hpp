@@ -20,6 +20,7 @@
 #include "sim_server/cpu_clock.hpp"
 #include "sim_server/fault_node.hpp"
 #include "sim_server/gcs_node.hpp"
+#include "sim_server/hand_node.hpp"
 #include "sim_server/progress_teller.hpp"
 #include "sim_server/record/run_files.hpp"
 #include "sim_server/recording_node.hpp"
@@ -46,6 +47,7 @@ struct SimNodeOptions {
   bool notice_deaths = false;              ///< nobody tells who died (report_lost())
   bool expect_gcs_program = false;         ///< a user's program at the ground station takes part
   std::optional<WatchOptions> watch = {};  ///< somebody looks on (--watch)
+  std::vector<UavIndex> by_hand = {};      ///< UAVs that somebody who looks on flies (--by-hand)
   FaultPlan faults;
 };
 
@@ -80,10 +82,11 @@ class SimNode final : public bus::LockstepNode {
   /// What is possible in each state. @returns false when there is nothing more to do in this turn.
   bool join_members();
   bool take_answers(bool arrived);
+  bool let_back();
   bool let_in_members();
   bool keep_pace();
   void begin_step();
-  void end_run(bool joined);
+  bool end_run(bool joined);
   void give_up_awaited(const std::string& why);
   void publish_step();
   void write_samples(bus::LockstepServer::DomainIndex domain);
@@ -112,6 +115,7 @@ class SimNode final : public bus::LockstepNode {
   std::vector<std::unique_ptr<UavNode>> uavs_;
   std::unique_ptr<GcsNode> gcs_;
   std::unique_ptr<VizNode> viz_;
+  HandNode hand_;
   std::unique_ptr<WatchNode> watch_;  ///< none: nobody watches
   FaultNode faults_;
   WorkLog work_;

@@ -72,6 +72,7 @@ struct Simulation::Impl {
   const Scenario scenario;
   const Scene scene;
   FaultPlan faults;
+  const std::size_t planned_faults;  ///< without those by hand
   PhysicsWorld world;
   RayScene rays;
   Mission mission;
@@ -94,6 +95,7 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
     : scenario(the_scenario),
       scene(std::move(the_scene)),
       faults(the_faults),
+      planned_faults(the_faults.faults.size()),
       world(scene.mesh),
       rays(scene.mesh, body_shapes(scenario)),
       mission(scenario, rest_heights(scenario)),
@@ -329,6 +331,11 @@ void Simulation::trigger_camera(UavIndex uav) { impl_->uavs[uav].link.outbox().t
 void Simulation::stop(UavIndex uav) { impl_->uavs[uav].link.outbox().stop = true; }
 
 void Simulation::set_off(std::size_t fault, Tick tick) { impl_->faults.faults.at(fault).set_off(tick); }
+void Simulation::set_faults_by_hand(const std::vector<Fault>& faults) {
+  std::vector<Fault>& all = impl_->faults.faults;
+  all.resize(impl_->planned_faults);
+  all.insert(all.end(), faults.begin(), faults.end());
+}
 void Simulation::want_scans(UavIndex uav, bool wanted) { impl_->uavs[uav].scans_wanted = wanted; }
 void Simulation::watch(WorkClock* clock) { impl_->clock = clock; }
 
@@ -353,6 +360,7 @@ const UavView& Simulation::uav(UavIndex i) const { return impl_->views.at(i); }
 std::span<const UavView> Simulation::uavs() const { return impl_->views; }
 const Links& Simulation::links() const { return impl_->links; }
 const Links& Simulation::open_links() const { return impl_->open_links; }
+const Links& Simulation::unfailed_links() const { return impl_->tracer.unfailed(); }
 double Simulation::clearance(UavIndex uav) const {
   return impl_->clearances.at(uav).at(impl_->rays, impl_->views.at(uav).state.p_WB);
 }

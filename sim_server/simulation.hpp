@@ -130,6 +130,9 @@ class Simulation {
 
   /// A fault that waited begins with the exchange at this tick, which is the next one.
   void set_off(std::size_t fault, Tick tick);
+  /// Somebody who watches adds faults, which stand behind those of the plan.
+  /// @param faults  all of them; what they were in exchanges that are over stays as it was.
+  void set_faults_by_hand(const std::vector<Fault>& faults);
 
   /// Whether anybody reads this UAV's scans (they do, until told otherwise). Those that nobody reads and that would
   /// not become key frames are not computed: the LiDAR is the most expensive sensor. Nothing else depends on it.
@@ -159,7 +162,9 @@ class Simulation {
   const RayScene& rays() const;  ///< of the scene
   /// Distance from a body's centre to the structure, kFarClearance_m at most.
   double clearance(UavIndex uav) const;
-  /// Those that wait for a condition begin by set_off().
+  /// What links() would be if no fault limited their range.
+  const Links& unfailed_links() const;
+  /// Those that wait for a condition begin by set_off(); those by hand stand at the end.
   const FaultPlan& faults() const;
   /// This step for the digest; radio and tally are the caller's to fill in.
   DigestInput digest_input() const;

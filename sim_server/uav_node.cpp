@@ -5,6 +5,7 @@
 
 #include "bus/lockstep/names.hpp"
 #include "bus/lockstep/strangers.hpp"
+#include "idl/activity_conversions.hpp"
 
 namespace skein::sim {
 namespace {
@@ -97,6 +98,12 @@ UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation,
 }
 
 void UavNode::read_debug(const std::vector<std::string>& writes) {
+  const bus::TopicSpec activity = bus::spec(topics::activity(id_));
+  if (!reads_activity_ && std::ranges::find(writes, activity.name) != writes.end()) {
+    reads_activity_ = true;
+    server_.read<msg::Activity>(domain_, activity,
+                                [this](const msg::Activity& message) { activity_ = from_activity(message); });
+  }
   for (const std::string& topic : writes) {
     const std::string name(topics::debug_name(topic, id_));
     if (name.empty() || debug_names_.size() == topics::kMostDebugNames || !debug_names_.insert(name).second) continue;
@@ -105,7 +112,9 @@ void UavNode::read_debug(const std::vector<std::string>& writes) {
   }
 }
 
-void UavNode::choose_scans() { simulation_.want_scans(uav_, cloud_ && cloud_->is_wanted()); }
+void UavNode::choose_scans(bool shown) {
+  simulation_.want_scans(uav_, shown || (cloud_ != nullptr && cloud_->is_wanted()));
+}
 
 void UavNode::publish() {
   publish_state();

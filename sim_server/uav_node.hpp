@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bus/lockstep/server.hpp"
+#include "core/activity.hpp"
 #include "idl/conversions.hpp"
 #include "sim_server/sensors/detection_log.hpp"
 #include "sim_server/simulation.hpp"
@@ -39,18 +40,20 @@ class UavNode {
 
   /// Has the simulation compute the next step's scan if somebody reads it. To be called once those who take part in
   /// that step are known, and before it is simulated: the program that was let in just now gets its first scan, whether
-  /// DDS still counts its dead predecessor as a reader or not.
-  void choose_scans();
+  /// DDS still counts its dead predecessor as a reader or not. @param shown  who looks on wants it, too.
+  void choose_scans(bool shown = false);
   /// Publishes the samples of the present step.
   void publish();
   /// Commands on this topic come from outside the lock-step: says so with the next publish().
   void reject_unheard(const std::string& topic) { unheard_.push_back(topic); }
   /// The agent is new: the camera hands out again whatever was never acknowledged, and all that it has shown.
   void resend_captures() { resend_ = true; }
-  /// The program says hello: reads those of its topics that are debug values.
+  /// The program says hello: reads those of its topics that tell of itself.
   void read_debug(const std::vector<std::string>& writes);
   /// What it has told of itself since the last call: name, value.
   std::vector<std::pair<std::string, double>> take_debug() { return std::exchange(debug_, {}); }
+  /// What it says that it does, since the last call; nullopt: nothing new.
+  std::optional<Activity> take_activity() { return std::exchange(activity_, std::nullopt); }
   /// Captures that the agent has released since the last call: the station has them.
   std::vector<std::uint64_t> take_released() { return std::exchange(released_, {}); }
 
@@ -78,6 +81,8 @@ class UavNode {
   std::vector<std::uint64_t> released_;
   std::set<std::string> debug_names_;  ///< that are read
   std::vector<std::pair<std::string, double>> debug_;
+  bool reads_activity_ = false;
+  std::optional<Activity> activity_;
   std::vector<std::string> unheard_;  ///< topics
   bool resend_ = false, boxes_sent_ = false;
 };

@@ -31,6 +31,8 @@ class WaitTeller {
     return true;
   }
 
+  const char* what() const { return what_; }
+
  private:
   static constexpr double kTrifle_s = 1.0;
   static constexpr std::chrono::milliseconds kPeriod{500};

@@ -68,6 +68,11 @@ void StationProgram::add_options(CLI::App& app) {
       ->group("Launcher");
   app.add_option("--view-fd", view_.listener, "File descriptor of a socket to which browsers connect")
       ->group("Launcher");
+  app.add_option("--view-listen", view_.listen, "NAME:PORT, instead of such a socket: the station listens there")
+      ->group("Launcher");
+  app.add_option("--view-name", view_.names, "Name by which browsers may ask for the page")
+      ->allow_extra_args(false)
+      ->group("Launcher");
   app.add_option("--view-key", view_.key, "File with the key of the page")->group("Launcher");
   app.add_option("--view-script", view_.script, "File with the script of the page")->group("Launcher");
   app.add_option("--view-title", view_.title, "Title of the page")->group("Launcher");
@@ -83,7 +88,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> StationProgram::prepare(con
   auto bus = bus::make_bus(options, scenario);
   if (options.check_only) return kExitDone;
   std::optional<ReadyView> view;
-  if (view_.listener >= 0) view.emplace(view_);
+  if (view_.listener >= 0 || !view_.listen.empty()) view.emplace(view_);
   return std::make_unique<StationMember>(std::move(scenario), options, status, std::move(bus), std::move(view));
 }
 

@@ -33,15 +33,18 @@ std::string with_title(const std::string& scene, const std::string& title) {
 }  // namespace
 
 ReadyView::ReadyView(const ViewOptions& options)
-    : listener(options.listener),
+    : own(options.listen.empty() ? nullptr : std::make_unique<view::Listener>(view::resolved(options.listen))),
+      listener(own ? own->fd() : options.listener),
       key(view::Key::read_from(options.key)),
       site(view::site_of(options.title, options.script)),
-      title(options.title) {}
+      title(options.title) {
+  site.names = options.names;
+}
 
 ViewNode::ViewNode(const ReadyView& ready, bus::Participant& world, bus::Inbox& inbox)
-    : orders_(world.create_writer(bus::spec(topics::view_time()))) {
-  const auto obey = [this, &inbox](const view::TimeOrder& order) {
-    inbox.post([this, order] { orders_->write(encode(message_with(text_of(order)))); });
+    : orders_(world.create_writer(bus::spec(topics::view_orders()))) {
+  const auto obey = [this, &inbox](const view::Order& order) {
+    inbox.post([this, order] { orders_->write(encode(message_with(view::text_of(order)))); });
   };
   server_.emplace(ready.listener, ready.key, ready.site, feed_, obey);
   // The first sample is the scene.
@@ -53,12 +56,21 @@ ViewNode::ViewNode(const ReadyView& ready, bus::Participant& world, bus::Inbox& 
       }));
   state_ = world.create_reader(bus::spec(topics::view_state()),
                                each_text([this](const std::string& text) { feed_.set_state(text); }));
+  clouds_ = world.create_reader(bus::spec(topics::view_cloud()), each_text([this](const std::string& text) {
+                                  const Json name = value_or(parse_json(text), "n", "");
+                                  feed_.set_cloud(name.get<std::string>(), text);
+                                }));
 }
 
 void ViewNode::add_records(const std::vector<TallyRecord>& records) {
-  for (const TallyRecord& record : records) {
-    if (record.entry.collision) continue;
-    feed_.add_line(view::delivered_line(seconds(record.tick), record.entry.uav, record.entry.capture.capture));
+  std::vector<view::ShownDelivery> deliveries;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const LedgerEntry& entry = records[i].entry;
+    if (!entry.collision) deliveries.push_back({entry.uav, entry.capture.capture});
+    const bool last_of_step = i + 1 == records.size() || records[i + 1].tick != records[i].tick;
+    if (!last_of_step || deliveries.empty()) continue;
+    feed_.add_line(view::delivered_line(seconds(records[i].tick), deliveries));
+    deliveries.clear();
   }
 }
 

@@ -3,8 +3,11 @@
 #include <spdlog/spdlog.h>
 
 #include "bus/lockstep/names.hpp"
+#include "core/view_topics.hpp"
+#include "idl/activity_conversions.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
+#include "idl/hand_conversions.hpp"
 #include "uav_agent/neighbours.hpp"
 
 namespace skein::agent {
@@ -14,32 +17,41 @@ using Counterpart = LockstepClient::Counterpart;
 
 namespace {
 
-msg::Octomap octomap_of(const OccupancyMap& map, Tick tick) {
-  const std::string bytes = map.octomap_bytes();
+/// @param bytes  of a tree, as OctoMap serialises it.
+template <class Bytes>
+msg::Octomap octomap_of(const Bytes& bytes, double resolution_m, Tick tick) {
   msg::Octomap message;
   message.header(to_header(tick));
   message.binary(true);
   message.id("OcTree");
-  message.resolution(map.config().resolution_m);
+  message.resolution(resolution_m);
   message.data().assign(bytes.begin(), bytes.end());
   return message;
+}
+
+msg::Octomap octomap_of(const OccupancyMap& map, Tick tick) {
+  return octomap_of(map.octomap_bytes(), map.config().resolution_m, tick);
 }
 
 }  // namespace
 
 AgentNode::AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain,
-                     bus::Bus& bus, std::shared_ptr<ReadyFrames> frames)
+                     bus::Bus& bus, std::shared_ptr<ReadyFrames> frames, bool by_hand)
     : MemberNode(bus, uav_domain(base_domain, uav), scenario.fleet.at(uav).name),
       scenario_(scenario),
       uav_(uav),
+      by_hand_(by_hand),
       radio_(scenario, node_of_uav(uav)),
       agent_(agent_config(scenario, uav), std::move(planner), std::move(frames)) {}
 
 void AgentNode::start() {
   octomap_.reset();  // of the participant that now goes
+  flight_map_.reset();
   MemberNode::start();
   octomap_ = participant().create_writer(bus::spec(topics::octomap(member())));
-  shown_key_frames_ = 0;
+  flight_map_ = participant().create_writer(bus::spec(topics::flight_map(member())));
+  shown_key_frames_ = shown_flight_key_frames_ = 0;
+  shown_tree_.reset();
 }
 
 void AgentNode::declare(LockstepClient& client) {
@@ -51,6 +63,7 @@ void AgentNode::declare(LockstepClient& client) {
   client.declare_writer(bus::spec(topics::gimbal_command(member())), Counterpart::server);
   client.declare_writer(bus::spec(topics::camera_trigger(member())), Counterpart::server);
   client.declare_writer(bus::spec(topics::capture_stored()), Counterpart::server);
+  client.declare_writer(bus::spec(topics::activity(member())), Counterpart::server);
   for (const std::string& name : agent_.debug_names()) {
     client.declare_writer(bus::spec(topics::debug(member(), name)), Counterpart::server);
   }
@@ -67,6 +80,11 @@ void AgentNode::read_sensors(LockstepClient& client) {
                                [this](const auto& m) { input_.boxes = from_box_vertices(m); });
   client.read<msg::PointCloud2>(bus::spec(topics::neighbour_odometry(member())), Counterpart::server,
                                 [this](const auto& m) { input_.neighbours = neighbours_of(m); });
+  if (by_hand_) {
+    client.read<msg::HandCommand>(bus::spec(topics::hand(member())), Counterpart::server, [this](const auto& m) {
+      if (const auto command = from_hand_command(m)) input_.hand = command;
+    });
+  }
   const auto read_key_frames = [this, &client](const topics::WireTopic& topic, std::optional<Node> source) {
     client.read<msg::PointCloud2>(bus::spec(topic), Counterpart::server, [this, source](const auto& m) {
       KeyFrame frame;
@@ -150,15 +168,38 @@ void AgentNode::send(LockstepClient& client) {
   input_.capture_reports.clear();
   input_.capture_acks.clear();
   input_.radio.clear();
+  input_.hand.reset();
 }
 
 void AgentNode::show() {
+  show_octomap();
+  show_flight_map();
+}
+
+void AgentNode::show_octomap() {
   if (input_.tick < octomap_due_) return;
   octomap_due_ = input_.tick + kTicksPerSecond;
   const OccupancyMap& map = agent_.map();
   if (map.key_frames() == shown_key_frames_ || !octomap_->has_readers()) return;
   shown_key_frames_ = map.key_frames();
   octomap_->write(encode(octomap_of(map, input_.tick)));
+}
+
+void AgentNode::show_flight_map() {
+  if (!flight_map_->has_readers()) {
+    flight_map_due_ = 0;  // who comes need not wait: the run may be held step by step
+    return shown_tree_.reset();
+  }
+  if (input_.tick < flight_map_due_) return;
+  flight_map_due_ = input_.tick + kTicksPerSecond;
+  if (const WorldMap* world = agent_.world_map()) {
+    if (!shown_tree_) shown_tree_.emplace();
+    if (!shown_tree_->update(*world)) return;
+    flight_map_->write(encode(octomap_of(shown_tree_->bytes(), world->config().cell_m, input_.tick)));
+  } else if (agent_.map().key_frames() != shown_flight_key_frames_) {
+    shown_flight_key_frames_ = agent_.map().key_frames();
+    flight_map_->write(encode(octomap_of(agent_.map(), input_.tick)));
+  }
 }
 
 void AgentNode::write(LockstepClient& client) const {
@@ -176,6 +217,11 @@ void AgentNode::write(LockstepClient& client) const {
     msg::Float64 value;
     value.data(debug.value);
     client.write(topics::debug(member(), debug.name).name, value);
+  }
+  if (output_.activity) {
+    Activity activity = *output_.activity;
+    activity.cpu_s = planner_cpu().total_s();
+    client.write(topics::activity(member()).name, to_activity(input_.tick, activity));
   }
   if (!released_.empty()) {
     client.write(topics::capture_stored().name, to_capture_ack(member(), released_));

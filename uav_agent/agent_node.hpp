@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "uav_agent/maps/map_tree.hpp"
 #include "uav_agent/member_node.hpp"
 #include "uav_agent/onboard/agent.hpp"
 #include "uav_agent/radio_node.hpp"
@@ -16,9 +17,9 @@ namespace skein::agent {
 
 class AgentNode final : public MemberNode {
  public:
-  /// @param frames  see Agent
+  /// @param frames  see Agent. @param by_hand  whether its planner is told what who flies it by hand wants.
   AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain, bus::Bus& bus,
-            std::shared_ptr<ReadyFrames> frames = nullptr);
+            std::shared_ptr<ReadyFrames> frames = nullptr, bool by_hand = false);
 
   void start() override;
   std::optional<std::string> octomap_file() const override { return agent_.map().octomap_file(); }
@@ -31,21 +32,27 @@ class AgentNode final : public MemberNode {
   void work(const bus::LockstepClient::Step& step) override;
   void send(bus::LockstepClient& client) override;
   void show() override;
+  void show_octomap();
+  void show_flight_map();
   void read_sensors(bus::LockstepClient& client);
   void read_captures(bus::LockstepClient& client);
   void write(bus::LockstepClient& client) const;
 
   const Scenario& scenario_;
   const UavIndex uav_;
+  const bool by_hand_;
   const RadioNode radio_;
   Agent agent_;
   AgentInput input_;  ///< being filled for the step to come
   AgentOutput output_;
   std::map<std::uint64_t, msg::CaptureReport> reports_;  ///< that may yet have to be sent, by capture
   std::vector<std::uint64_t> released_;                  ///< acknowledged captures that the camera may forget
-  std::unique_ptr<bus::Writer> octomap_;
-  Tick octomap_due_ = 0;
+  std::unique_ptr<bus::Writer> octomap_, flight_map_;
+  Tick octomap_due_ = 0, flight_map_due_ = 0;
   std::uint64_t shown_key_frames_ = 0;
+  /// As it was written to flight_map_.
+  std::optional<MapTree> shown_tree_;
+  std::uint64_t shown_flight_key_frames_ = 0;  ///< where there is no map of beams
 };
 
 }  // namespace skein::agent

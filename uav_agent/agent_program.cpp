@@ -8,6 +8,7 @@
 
 #include "bus/lockstep/names.hpp"
 #include "bus/program_bus.hpp"
+#include "core/hand_spec.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/topics.hpp"
 #include "process/atomic_file.hpp"
@@ -134,7 +135,8 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   if (ground) {
     node = std::make_unique<GroundNode>(*scenario, std::move(ground), options.domain, *bus);
   } else {
-    node = std::make_unique<AgentNode>(*scenario, uav, std::move(planner), options.domain, *bus, frames_);
+    node = std::make_unique<AgentNode>(*scenario, uav, std::move(planner), options.domain, *bus, frames_,
+                                       wants_hands(planner_));
   }
   return std::make_unique<AgentMember>(options, planner_, status, std::move(scenario), std::move(bus), std::move(node));
 }

@@ -1,12 +1,13 @@
 #include "view/door.hpp"
 
 #include <algorithm>
-#include <array>
+
+#include "view/endpoint.hpp"
 
 namespace skein::view {
 namespace {
 
-std::string cookie_name(std::uint16_t port) { return "skein_" + std::to_string(port); }
+std::string cookie_name(std::string_view host) { return "skein_" + std::to_string(read_host(host).port); }
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -27,28 +28,29 @@ bool any_part(std::string_view text, char between, const Use& use) {
 
 }  // namespace
 
-Door::Door(std::uint16_t port, Key key) : port_(port), key_(std::move(key)) {}
+Door::Door(std::vector<std::string> names, Key key) : names_(std::move(names)), key_(std::move(key)) {
+  names_.insert(names_.end(), {"127.0.0.1", "localhost", "::1"});
+}
 
 bool Door::knows_host(std::string_view host) const {
-  constexpr std::array<std::string_view, 3> kNames = {"127.0.0.1:", "localhost:", "[::1]:"};
-  return std::ranges::any_of(kNames,
-                             [&](std::string_view name) { return host == std::string(name) + std::to_string(port_); });
+  const std::string name = read_host(host).name;
+  return !name.empty() && std::ranges::find(names_, name) != names_.end();
 }
 
 bool Door::is_own_origin(std::string_view origin, std::string_view host) const {
   return origin == "http://" + std::string(host);
 }
 
-bool Door::opens(std::string_view cookie) const {
-  const std::string begin = cookie_name(port_) + "=";
+bool Door::opens(std::string_view cookie, std::string_view host) const {
+  const std::string begin = cookie_name(host) + "=";
   return any_part(cookie, ';', [&](std::string_view part) {
     part = trimmed(part);
     return part.starts_with(begin) && key_.opens(part.substr(begin.size()));
   });
 }
 
-std::string Door::cookie() const {
-  return cookie_name(port_) + "=" + key_.text() + "; Path=/; HttpOnly; SameSite=Strict";
+std::string Door::cookie(std::string_view host) const {
+  return cookie_name(host) + "=" + key_.text() + "; Path=/; HttpOnly; SameSite=Strict";
 }
 
 std::string_view form_field(std::string_view body, std::string_view name) {

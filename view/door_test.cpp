@@ -8,14 +8,18 @@ namespace {
 class DoorTest : public testing::Test {
  protected:
   const Key key_ = Key::draw();
-  const Door door_{8080, key_};
+  const Door door_{{"192.0.2.7", "flier", "2001:db8::7"}, key_};
 };
 
-TEST_F(DoorTest, KnowsTheLoopbackWithItsPort) {
-  for (const char* host : {"127.0.0.1:8080", "localhost:8080", "[::1]:8080"})
+TEST_F(DoorTest, KnowsTheLoopbackAndWhatItIsToldWithWhateverPort) {
+  for (const char* host : {"127.0.0.1:8080", "localhost:8080", "[::1]:8080", "localhost:9000", "127.0.0.1", "[::1]",
+                           "192.0.2.7:8080", "FLIER:8080", "[2001:db8::7]:80"}) {
     EXPECT_TRUE(door_.knows_host(host)) << host;
-  for (const char* host : {"", "127.0.0.1", "localhost", "127.0.0.1:8081", "127.0.0.1:80800", "example.org:8080",
-                           "127.0.0.1:8080.example.org", "127.0.0.2:8080", "localhost:8080 ", "LOCALHOST:8080@x"}) {
+  }
+  for (const char* host :
+       {"", ":8080", "[]:8080", "127.0.0.1:80800", "127.0.0.1:", "example.org:8080", "127.0.0.1:8080.example.org",
+        "127.0.0.2:8080", "localhost:8080 ", "LOCALHOST:8080@x", "::1:8080", "::1", "[127.0.0.1]:8080",
+        "localhost.:8080", "192.0.2.70", "flier.example.org", " localhost", "localhost\t:80", "2001:db8::7"}) {
     EXPECT_FALSE(door_.knows_host(host)) << host;
   }
 }
@@ -29,15 +33,16 @@ TEST_F(DoorTest, OnlyPagesOfTheSameHostAreItsOwn) {
 }
 
 TEST_F(DoorTest, OpensForTheCookieThatItGives) {
-  const std::string pair = door_.cookie().substr(0, door_.cookie().find(';'));
-  EXPECT_TRUE(door_.opens(pair));
-  EXPECT_TRUE(door_.opens("a=b; " + pair + "; c=d"));
-  EXPECT_FALSE(door_.opens(""));
-  EXPECT_FALSE(door_.opens("skein_8080="));
-  EXPECT_FALSE(door_.opens("skein_8081=" + key_.text())) << "of a page at another port";
-  EXPECT_FALSE(door_.opens("x" + pair));
-  EXPECT_NE(door_.cookie().find("HttpOnly"), std::string::npos);
-  EXPECT_NE(door_.cookie().find("SameSite=Strict"), std::string::npos);
+  const std::string host = "localhost:8080", cookie = door_.cookie(host), pair = cookie.substr(0, cookie.find(';'));
+  EXPECT_TRUE(door_.opens(pair, host));
+  EXPECT_TRUE(door_.opens("a=b; " + pair + "; c=d", host));
+  EXPECT_FALSE(door_.opens("", host));
+  EXPECT_FALSE(door_.opens("skein_8080=", host));
+  EXPECT_FALSE(door_.opens("skein_8081=" + key_.text(), host)) << "of a page at another port";
+  EXPECT_FALSE(door_.opens(pair, "localhost:8081"));
+  EXPECT_FALSE(door_.opens("x" + pair, host));
+  EXPECT_NE(cookie.find("HttpOnly"), std::string::npos);
+  EXPECT_NE(cookie.find("SameSite=Strict"), std::string::npos);
 }
 
 TEST(FormFields, AreFoundByTheirNames) {

@@ -1,8 +1,18 @@
 #include "view/feed.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace skein::view {
+
+void FeedPlace::look_at(const std::vector<std::string>& names) {
+  std::map<std::string, std::uint64_t> wanted;
+  for (const std::string& name : names) {
+    const auto before = clouds.find(name);
+    wanted[name] = before != clouds.end() ? before->second : 0;
+  }
+  clouds = std::move(wanted);
+}
 
 void Feed::set_scene(std::string scene) {
   {
@@ -29,6 +39,31 @@ void Feed::set_state(std::string state) {
   tell();
 }
 
+void Feed::set_cloud(const std::string& name, std::string cloud) {
+  {
+    const std::scoped_lock lock(mutex_);
+    clouds_[name] = {++cloud_number_, std::move(cloud)};
+  }
+  tell();
+}
+
+/// The oldest news first, so that each cloud has its turn. @returns a list; empty: there is no news, or no room.
+std::string Feed::next_clouds(FeedPlace& place, std::size_t most_bytes) const {
+  std::vector<std::pair<const Cloud*, std::uint64_t*>> news;
+  for (auto& [name, number] : place.clouds) {
+    const auto cloud = clouds_.find(name);
+    if (cloud != clouds_.end() && cloud->second.number != number) news.emplace_back(&cloud->second, &number);
+  }
+  std::ranges::sort(news, {}, [](const auto& one) { return one.first->number; });
+  std::string list;
+  for (const auto& [cloud, number] : news) {
+    if (!list.empty() && list.size() + cloud->text.size() > most_bytes) break;
+    list += (list.empty() ? "[" : ",") + cloud->text;
+    *number = cloud->number;
+  }
+  return list.empty() ? list : list + "]";
+}
+
 std::string Feed::next(FeedPlace& place, std::size_t most_bytes) const {
   const std::scoped_lock lock(mutex_);
   if (scene_.empty()) return {};
@@ -45,10 +80,14 @@ std::string Feed::next(FeedPlace& place, std::size_t most_bytes) const {
       list += (list.empty() ? "[" : ",") + lines_[place.lines++];
     }
     add("lines", list + "]");
-    if (place.lines < lines_.size()) add("more", "true");
   }
+  place.more = place.lines < lines_.size();
+  if (place.more) add("more", "true");
   if (place.state != state_number_ && !state_.empty()) add("state", state_);
   place.state = state_number_;
+  if (text.size() < most_bytes) {
+    if (const std::string clouds = next_clouds(place, most_bytes - text.size()); !clouds.empty()) add("clouds", clouds);
+  }
   return text.empty() ? text : text + "}";
 }
 

@@ -35,6 +35,7 @@ TEST(Feeds, OfStatesTheNewestOfLinesAll) {
       EXPECT_EQ(std::stoi(text.substr(at)), next_line++);
     }
     EXPECT_EQ(text.find("\"more\":true") == std::string::npos, next_line == 1000) << text;
+    EXPECT_EQ(place.more, next_line < 1000);
     if (text.find("\"n\"") == std::string::npos) continue;
     EXPECT_NE(text.find(R"("state":{"n":999})"), std::string::npos) << text;
   }
@@ -52,6 +53,64 @@ TEST(Feeds, EachReaderHasAPlaceOfItsOwn) {
   EXPECT_EQ(feed.next(late, kMuch), R"({"scene":{},"lines":[1,2]})");
 }
 
+TEST(Feeds, TellCloudsToWhoAsksForThem) {
+  Feed feed;
+  FeedPlace looks, other, blind;
+  feed.set_scene("{}");
+  for (FeedPlace* place : {&looks, &other, &blind}) feed.next(*place, kMuch);
+  feed.set_cloud("lidar a", R"({"n":1})");
+  EXPECT_EQ(feed.next(looks, kMuch), "") << "nobody has asked";
+  looks.look_at({"lidar a", "map a"});
+  other.look_at({"lidar b"});
+  EXPECT_EQ(feed.next(looks, kMuch), R"({"clouds":[{"n":1}]})") << "what is there is told at once";
+  EXPECT_EQ(feed.next(looks, kMuch), "");
+  looks.look_at({"lidar a", "map a"});
+  EXPECT_EQ(feed.next(looks, kMuch), "") << "to ask again brings nothing again";
+  feed.set_cloud("map a", R"({"n":2})");
+  feed.set_cloud("lidar a", R"({"n":3})");
+  EXPECT_EQ(feed.next(looks, kMuch), R"({"clouds":[{"n":2},{"n":3}]})");
+  looks.look_at({});
+  feed.set_cloud("lidar a", R"({"n":4})");
+  for (FeedPlace* place : {&looks, &other, &blind}) EXPECT_EQ(feed.next(*place, kMuch), "") << "who asks no more";
+}
+
+TEST(Feeds, OfEachCloudTheNewest) {
+  Feed feed;
+  FeedPlace slow;
+  feed.set_scene("{}");
+  slow.look_at({"a", "b"});
+  feed.next(slow, kMuch);
+  const std::string much(300, '1');
+  for (int i = 0; i < 1000; ++i) {
+    feed.set_cloud("a", much + std::to_string(i));
+    feed.set_cloud("b", much + std::to_string(i));
+  }
+  EXPECT_EQ(feed.next(slow, 100), "{\"clouds\":[" + much + "999]}") << "more than there is room for: one at a time";
+  EXPECT_EQ(feed.next(slow, 100), "{\"clouds\":[" + much + "999]}");
+  EXPECT_EQ(feed.next(slow, 100), "") << "nothing has piled up";
+  // One that changes all the time does not keep the other from being told.
+  feed.set_cloud("b", "2");
+  feed.set_cloud("a", much);
+  feed.next(slow, 1);
+  feed.set_cloud("a", much);
+  EXPECT_EQ(feed.next(slow, 1), "{\"clouds\":[" + much + "]}");
+  EXPECT_EQ(feed.next(slow, 1), "");
+}
+
+TEST(Feeds, LinesComeBeforeClouds) {
+  Feed feed;
+  FeedPlace place;
+  feed.set_scene("{}");
+  place.look_at({"a"});
+  for (int i = 0; i < 20; ++i) feed.add_line(std::string(50, '1'));
+  feed.set_cloud("a", "2");
+  std::string text = feed.next(place, 200);
+  EXPECT_NE(text.find("more"), std::string::npos);
+  EXPECT_EQ(text.find("clouds"), std::string::npos) << text;
+  while (text.find("more") != std::string::npos) text = feed.next(place, 200);
+  EXPECT_NE((text + feed.next(place, 200)).find(R"("clouds":[2])"), std::string::npos);
+}
+
 TEST(Feeds, SayWhenThereIsNews) {
   Feed feed;
   int news = 0;
@@ -59,10 +118,11 @@ TEST(Feeds, SayWhenThereIsNews) {
   feed.set_scene("{}");
   feed.add_line("1");
   feed.set_state("{}");
-  EXPECT_EQ(news, 3);
+  feed.set_cloud("a", "{}");
+  EXPECT_EQ(news, 4);
   feed.on_news({});
   feed.add_line("2");
-  EXPECT_EQ(news, 3);
+  EXPECT_EQ(news, 4);
 }
 
 }  // namespace

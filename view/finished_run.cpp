@@ -1,6 +1,7 @@
 #include "view/finished_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <utility>
@@ -8,8 +9,11 @@
 
 #include "process/run_folder.hpp"
 #include "process/run_tables.hpp"
+#include "report/causes.hpp"
 #include "report/csv_table.hpp"
 #include "report/page_parts.hpp"
+#include "report/recorded_links.hpp"
+#include "view/kept_clouds.hpp"
 #include "view/story.hpp"
 
 namespace skein::view {
@@ -42,17 +46,19 @@ ShownUav pose_of(const CsvTable& table) {
 class Story {
  public:
   void add(double time_s, std::string line) { lines_.emplace_back(time_s, std::move(line)); }
-  void tell(Feed& feed) {
+  std::vector<std::string> in_order() {
     std::ranges::stable_sort(lines_, {}, &std::pair<double, std::string>::first);
-    for (auto& [time_s, line] : lines_) feed.add_line(std::move(line));
+    std::vector<std::string> lines;
+    for (auto& [time_s, line] : lines_) lines.push_back(std::move(line));
+    return lines;
   }
 
  private:
   std::vector<std::pair<double, std::string>> lines_;
 };
 
-/// The table has the fleet's poses of each time in a row.
-void tell_poses(const fs::path& dir, const RunData& run, Story& story) {
+/// The table has the fleet's poses of each time in a row. @returns those of the end.
+std::vector<ShownUav> tell_poses(const fs::path& dir, const RunData& run, Story& story) {
   std::vector<ShownUav> fleet(run.uavs.size());
   std::optional<double> time_s;
   double due_s = 0.0;
@@ -70,30 +76,32 @@ void tell_poses(const fs::path& dir, const RunData& run, Story& story) {
     time_s = now_s;
   });
   tell(true);
+  return fleet;
 }
 
-/// Links and all that is no capture: these come from captures.csv, which has more of them.
+/// All that is no capture: these come from captures.csv, which has more of them.
 void tell_events(const RunData& run, Story& story) {
-  const std::size_t nodes = run.uavs.size() + 1;
-  std::vector<ShownLink> links(nodes * nodes, ShownLink::blocked);
-  const auto node_of = [&](const std::string& name) -> std::size_t {
-    const auto uav = run.uav_of(name);
-    return uav ? *uav + 1 : 0;
-  };
-  bool stale = false;
-  for (std::size_t i = 0; i < run.events.size(); ++i) {
-    const report::RunEvent& event = run.events[i];
-    const bool up = event.event == run_tables::kLinkUp;
-    if (up || event.event == run_tables::kLinkDown) {
-      links[node_of(event.subject) * nodes + node_of(event.object)] = up ? ShownLink::linked : ShownLink::blocked;
-      stale = true;
-    } else if (event.event != run_tables::kCaptured && event.event != run_tables::kReleased) {
-      story.add(event.time_s, event_line(event.time_s, event.event, event.subject, event.object));
-    }
-    const bool last_of_step = i + 1 == run.events.size() || run.events[i + 1].time_s > event.time_s;
-    if (stale && last_of_step) story.add(event.time_s, links_line(event.time_s, links));
-    stale = stale && !last_of_step;
+  static const std::array kToldOtherwise = {run_tables::kLinkUp, run_tables::kLinkDown, run_tables::kCaptured,
+                                            run_tables::kReleased};
+  for (const report::RunEvent& event : run.events) {
+    if (std::ranges::find(kToldOtherwise, event.event) != kToldOtherwise.end()) continue;
+    story.add(event.time_s, event_line(event.time_s, event.event, event.subject, event.object));
   }
+  for (const auto& [time_s, links] : report::recorded_links(run)) story.add(time_s, links_line(time_s, links));
+}
+
+/// What UAVs did, as their programs said.
+void tell_activities(const fs::path& dir, const RunData& run, Story& story) {
+  each_row(dir / run_folder::kActivity, [&](const CsvTable& table) {
+    const auto uav = run.uav_of(table.text("uav"));
+    if (!uav) return;
+    Activity activity{.mode = table.text("mode"), .waits_for = table.text("waits_for"), .no_way = table.text("no_way")};
+    if (const auto x = table.number_if_any("goal_x")) {
+      activity.goal_W = Vector3d(*x, table.number("goal_y"), table.number("goal_z"));
+    }
+    const double time_s = table.number("time_s");
+    story.add(time_s, activity_line(time_s, *uav, activity));
+  });
 }
 
 /// Whether a collision took the score of what this UAV had photographed.
@@ -103,7 +111,11 @@ bool is_void(const RunData& run, std::size_t uav) {
 }
 
 void tell_incidents(const RunData& run, Story& story) {
-  for (const report::RunFault& fault : run.faults) {
+  for (std::size_t i = 0; i < run.faults.size(); ++i) {
+    const report::RunFault& fault = run.faults[i];
+    const ToldFault told{i, fault.by_hand, fault.kind, fault.target};
+    story.add(fault.from_s, fault_line(fault.from_s, told, true));
+    if (fault.ended) story.add(fault.until_s, fault_line(fault.until_s, told, false));
     story.add(fault.from_s, event_line(fault.from_s, "fault", fault.kind, fault.target));
   }
   for (const report::RunCollision& collision : run.collisions) {
@@ -131,11 +143,12 @@ void tell_captures(const fs::path& dir, const RunData& run, Story& story) {
                               static_cast<float>(table.number("q_blur")), static_cast<float>(table.number("q_res")),
                               static_cast<float>(table.number("q")), static_cast<float>(table.number("q_distance"))});
   });
+  std::map<double, std::vector<ShownDelivery>> deliveries;
   for (const auto& [key, capture] : captures) {
     story.add(capture.time_s, capture_line(capture.time_s, key.first, key.second, capture.points));
-    if (capture.delivered_s)
-      story.add(*capture.delivered_s, delivered_line(*capture.delivered_s, key.first, key.second));
+    if (capture.delivered_s) deliveries[*capture.delivered_s].push_back({key.first, key.second});
   }
+  for (const auto& [time_s, those] : deliveries) story.add(time_s, delivered_line(time_s, those));
 }
 
 /// The last is the result's own, with all its digits.
@@ -148,11 +161,28 @@ void tell_scores(const RunData& run, Story& story) {
   if (score) story.add(run.end_s, score_line(run.end_s, static_cast<std::size_t>(points), *score));
 }
 
-Json scene_of(const RunData& run) {
-  // A results folder does not tell of cameras: this is the usual one.
-  const std::vector<CameraConfig> cameras(run.uavs.size());
-  const double range_m = resolution_distance(CameraConfig{}, Scenario{}.desired_mm_per_pixel);
-  Json scene = scene_json(run, cameras, std::vector<double>(run.uavs.size(), range_m));
+Json scene_of(const fs::path& dir, const RunData& run) {
+  std::vector<CameraConfig> cameras(run.uavs.size());
+  std::vector<double> range_m(run.uavs.size(), resolution_distance(CameraConfig{}, Scenario{}.desired_mm_per_pixel));
+  std::vector<std::string> missing = run.missing;
+  for (std::size_t i = 0; i < run.uavs.size(); ++i) {
+    if (const auto& camera = run.cameras[i]) {
+      cameras[i].hfov_deg = camera->hfov_deg;
+      cameras[i].vfov_deg = camera->vfov_deg;
+      range_m[i] = camera->range_m;
+    }
+  }
+  if (!std::ranges::all_of(run.cameras, [](const auto& camera) { return camera.has_value(); })) {
+    missing.emplace_back("It does not tell which cameras the vehicles had: the usual one is drawn.");
+  }
+  if (!fs::exists(dir / run_folder::kActivity)) {
+    missing.emplace_back("There is no activity.csv: what UAVs do is told from their motion.");
+  }
+  if (report::has_cuts(run)) {
+    missing.emplace_back(
+        "Whether a link that a fault covered would have been there otherwise is not recorded: it is shown as cut.");
+  }
+  Json scene = scene_json(run, cameras, range_m);
   scene["mode"] = "replay";
   scene["title"] = report::text_in(run.result, "scenario");
   scene["planners"] = report::planners_of(run.result);
@@ -160,8 +190,13 @@ Json scene_of(const RunData& run) {
   scene["end"] = run.end_s;
   scene["status"] = report::text_in(run.result, "status");
   scene["attainable"] = value_or(run.result, "attainable", Json::object());
+  scene["losses"] = value_or(run.result, "losses", nullptr);
+  scene["cause_keys"] = Json::array();
+  for (const report::Cause& cause : report::kCauses) scene["cause_keys"].push_back(std::string(cause.key));
+  scene["score"] = report::number_in(run.result, "score");
+  scene["detected"] = report::number_in(run.result, "points_detected");
   scene["warnings"] = value_or(run.result, "warnings", Json::array());
-  scene["missing"] = run.missing;
+  scene["missing"] = missing;
   return scene;
 }
 
@@ -172,16 +207,25 @@ std::string title_of_run(const fs::path& dir) {
   return report::text_in(result, "scenario") + " by " + report::planners_of(result);
 }
 
-void tell_finished_run(const fs::path& dir, Feed& feed) {
-  const RunData run = report::read_run_data(dir);
-  feed.set_scene(scene_of(run).dump(-1, ' ', false, Json::error_handler_t::replace));
+ToldRun told_run(const fs::path& dir, const RunData& run) {
   Story story;
-  tell_poses(dir, run, story);
+  std::vector<ShownUav> last = tell_poses(dir, run, story);
   tell_events(run, story);
+  tell_activities(dir, run, story);
   tell_captures(dir, run, story);
   tell_incidents(run, story);
   tell_scores(run, story);
-  story.tell(feed);
+  return {scene_of(dir, run), story.in_order(), std::move(last)};
+}
+
+void tell_finished_run(const fs::path& dir, Feed& feed) {
+  const RunData run = report::read_run_data(dir);
+  ToldRun told = told_run(dir, run);
+  const KeptClouds clouds(dir, run);
+  told.scene["clouds"] = {{"lidar", clouds.lidar}, {"maps", clouds.maps}, {"missing", clouds.missing}};
+  feed.set_scene(told.scene.dump(-1, ' ', false, Json::error_handler_t::replace));
+  clouds.tell(told.last, feed);
+  for (std::string& line : told.lines) feed.add_line(std::move(line));
 }
 
 }  // namespace skein::view

@@ -3,10 +3,23 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "report/run_data.hpp"
 #include "view/feed.hpp"
+#include "view/story.hpp"
 
 namespace skein::view {
+
+/// What is told of a run.
+struct ToldRun {
+  Json scene;
+  std::vector<std::string> lines;  ///< by their times
+  std::vector<ShownUav> last;      ///< the fleet at its end
+};
+
+/// @param run  what the folder `dir` holds. What it lacks is named in the scene's "missing".
+ToldRun told_run(const std::filesystem::path& dir, const report::RunData& run);
 
 /// Fills a feed with the run of a results folder. What the folder lacks is named in the scene's "missing".
 /// @throws InputError when there is no result in it.

@@ -1,10 +1,13 @@
 #include "view/pages.hpp"
 
+#include <limits>
+
 #include "core/file_bytes.hpp"
 #include "core/types.hpp"
 #include "report/html.hpp"
 #include "report/style.hpp"
 #include "report/web_bundle.hpp"
+#include "view/packed.hpp"
 
 namespace skein::view {
 namespace {
@@ -22,6 +25,11 @@ std::string style_element(std::string_view more = {}) {
   return "<style>\n" + std::string(report::base_style()) + std::string(more) + "</style>\n";
 }
 
+/// Of a page that shows a flight.
+std::string run_style_element() {
+  return style_element(std::string(report::drawing_style()) + std::string(report::run_style()));
+}
+
 }  // namespace
 
 std::filesystem::path find_script() {
@@ -32,12 +40,30 @@ std::filesystem::path find_script() {
 }
 
 Site site_of(const std::string& title, const std::filesystem::path& script) {
-  const std::string head = style_element(std::string(report::drawing_style()) + std::string(report::run_style())) +
-                           "<script src=\"/live.js\" defer=\"defer\"></script>\n";
+  const std::string head = run_style_element() + "<script src=\"/live.js\" defer=\"defer\"></script>\n";
   return {document("Skein: " + title, head,
                    "<body class=\"run watch\">\n<noscript>This page needs JavaScript.</noscript>\n"
                    "<main id=\"flight\"><p class=\"soft\">Waiting for the flight to begin.</p></main>\n</body>\n"),
           read_file_bytes(script, kLargestScript)};
+}
+
+std::string kept_page(const std::string& title, const Feed& flight) {
+  const auto script = report::web_bundle(report::kLiveScript);
+  if (!script) find_script();
+  if (!script) throw InputError("the page's script live.js is damaged: it cannot stand in a page");
+  FeedPlace place;
+  const std::string told = flight.next(place, std::numeric_limits<std::size_t>::max());
+  const std::string policy =
+      "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
+      "form-action 'none'; script-src '" +
+      report::script_hash(*script) + "'";
+  const std::string head = "<meta http-equiv=\"Content-Security-Policy\" content=\"" + report::escaped(policy) +
+                           "\"/>\n" + run_style_element();
+  return document("Skein: " + title, head,
+                  "<body class=\"run watch\">\n<noscript>This page needs JavaScript.</noscript>\n"
+                  "<main id=\"flight\"><p class=\"soft\">One moment, please.</p></main>\n"
+                  "<script type=\"text/plain\" id=\"kept\">" +
+                      packed(told) + "</script>\n<script>" + *script + "</script>\n</body>\n");
 }
 
 std::string door_page(bool refused) {
@@ -57,12 +83,17 @@ std::string entered_page() {
                   "<body><main><p><a href=\"/\">To the run</a></p></main></body>\n");
 }
 
-std::string key_file_page(std::uint16_t port, const Key& key) {
+std::string key_file_page(const std::string& host, const Key& key, bool waits) {
+  const std::string enter = "document.getElementById('enter').submit()";
+  // Of the answer this file may read nothing, but it learns that there is one.
+  const std::string when_served = "function knock() { fetch('http://" + host + "/', {mode: 'no-cors'}).then(() => " +
+                                  enter + ", () => setTimeout(knock, 500)); }\nknock();";
   return document("Skein", style_element(),
-                  "<body>\n<main>\n<form id=\"enter\" method=\"post\" action=\"http://127.0.0.1:" +
-                      std::to_string(port) + "/enter\"><input type=\"hidden\" name=\"key\" value=\"" + key.text() +
-                      "\"/><button>Open the page of the run</button></form>\n</main>\n"
-                      "<script>document.getElementById('enter').submit();</script>\n</body>\n");
+                  "<body>\n<main>\n<form id=\"enter\" method=\"post\" action=\"http://" + host +
+                      "/enter\"><input type=\"hidden\" name=\"key\" value=\"" + key.text() +
+                      "\"/><button>Open the page of the run</button></form>\n" +
+                      (waits ? "<p>This opens by itself as soon as the fleet is there.</p>\n" : "") +
+                      "</main>\n<script>" + (waits ? when_served : enter + ";") + "</script>\n</body>\n");
 }
 
 std::string page_policy() {

@@ -31,17 +31,23 @@ using Response = http::response<http::string_body>;
 using WebSocket = websocket::stream<beast::tcp_stream>;
 using namespace std::chrono_literals;
 
-constexpr std::size_t kMostConnections = 64;
 constexpr std::size_t kMostHeader = 8 << 10, kMostBody = 1 << 10, kMostMessage = 1 << 10;
-constexpr auto kRequestTime = 10s;
-/// A browser that takes a message for longer is let go.
-constexpr auto kSendTime = 30s;
 constexpr std::size_t kBatch = 128 << 10;
+/// What the system keeps for a browser that does not read: states in there are old.
+constexpr int kSendBuffer = 128 << 10;
 /// Between two messages to a browser: ten pictures a second are as many as it can show.
 constexpr auto kPause = 80ms;
 constexpr auto kGoodbye = 1s;
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
+
+/// Somebody who asks for something.
+struct Visitor {
+  explicit Visitor(tcp::socket&& socket) : stream(std::move(socket)) {}
+
+  beast::tcp_stream stream;
+  bool has_key = false;
+};
 
 /// A browser that follows the flight.
 struct Follower {
@@ -54,21 +60,23 @@ struct Follower {
   asio::steady_timer news;   ///< cancelled when there are any
   asio::steady_timer pause;  ///< between two messages
   FeedPlace place;
+  std::chrono::steady_clock::time_point looks_until{};  ///< then it has not asked again for clouds
   bool closing = false;
 };
 
 }  // namespace
 
 struct Server::Impl {
-  Impl(int listener, Key key, Site the_site, Feed& the_feed, Obey the_obey)
-      : door(port_of(listener), std::move(key)),
+  Impl(int listener, Key key, Site the_site, Feed& the_feed, Obey the_obey, const ServerLimits& the_limits)
+      : door(all_names(listener, the_site), std::move(key)),
         site(std::move(the_site)),
         feed(the_feed),
         obey(std::move(the_obey)),
+        limits(the_limits),
         acceptor(io) {
     const int own = ::dup(listener);
     if (own < 0) throw std::system_error(errno, std::generic_category(), "the socket of the page");
-    acceptor.assign(tcp::v4(), own);
+    acceptor.assign(endpoint_of(listener).address.find(':') == std::string::npos ? tcp::v4() : tcp::v6(), own);
     asio::co_spawn(io, accept(), asio::detached);
     // Signals are for the thread that flies or waits.
     sigset_t all, former;
@@ -82,6 +90,12 @@ struct Server::Impl {
   }
 
   ~Impl() { end(kGoodbye); }
+
+  static std::vector<std::string> all_names(int listener, const Site& site) {
+    std::vector<std::string> names = names_of(endpoint_of(listener));
+    names.insert(names.end(), site.names.begin(), site.names.end());
+    return names;
+  }
 
   /// @param patience  for browsers that are still told something.
   void end(std::chrono::milliseconds patience) {
@@ -121,7 +135,7 @@ struct Server::Impl {
     if (acceptor.is_open()) ::close(acceptor.release(ignored));
     closing = true;
     for (const auto& follower : followers) leave(*follower);
-    if (patience == 0ms || connections == 0) return io.stop();
+    if (patience == 0ms || at_work == 0) return io.stop();
     last_call.expires_after(patience);
     last_call.async_wait([this](boost::system::error_code) { io.stop(); });
   }
@@ -136,28 +150,51 @@ struct Server::Impl {
         co_await later.async_wait(use_awaitable);
         continue;
       }
-      if (connections >= kMostConnections) continue;  // closes it
-      ++connections;
-      asio::co_spawn(io, serve(beast::tcp_stream(std::move(socket))), [this](const std::exception_ptr&) {
-        --connections;
-        if (closing && connections == 0) io.stop();
-      });
+      if (visitors.size() >= limits.visitors && !make_room()) continue;  // closes it
+      const auto visitor = std::make_shared<Visitor>(std::move(socket));
+      visitors.push_back(visitor);
+      spawn(serve(visitor), [this, visitor] { std::erase(visitors, visitor); });
     }
   }
 
-  asio::awaitable<void> serve(beast::tcp_stream stream) {
+  /// Anybody on the host may connect and say nothing: the one of them who has been here longest goes.
+  bool make_room() {
+    const auto stranger = std::ranges::find(visitors, false, [](const auto& visitor) { return visitor->has_key; });
+    if (stranger == visitors.end()) return false;
+    (*stranger)->stream.close();
+    visitors.erase(stranger);
+    return true;
+  }
+
+  /// @param last  is called when it is over, however that comes.
+  template <class Last>
+  void spawn(asio::awaitable<void> work, const Last& last) {
+    ++at_work;
+    asio::co_spawn(io, std::move(work), [this, last](const std::exception_ptr&) {
+      last();
+      if (--at_work == 0 && closing) io.stop();
+    });
+  }
+
+  asio::awaitable<void> serve(std::shared_ptr<Visitor> visitor) {
+    beast::tcp_stream& stream = visitor->stream;
     beast::flat_buffer buffer(kMostHeader + kMostBody);
     http::request_parser<http::string_body> parser;
     parser.header_limit(kMostHeader);
     parser.body_limit(kMostBody);
-    stream.expires_after(kRequestTime);
+    stream.expires_after(limits.request);
     co_await http::async_read(stream, buffer, parser, use_awaitable);
     const Request request = parser.release();
+    visitor->has_key = knows(request) && has_key(request);
     if (websocket::is_upgrade(request) && may_follow(request)) {
-      co_await follow(std::move(stream), request);
+      const auto follower = std::make_shared<Follower>(std::move(stream));
+      std::erase(visitors, visitor);
+      followers.push_back(follower);
+      spawn(follow(follower, request), [this, follower] { std::erase(followers, follower); });
       co_return;
     }
     Response response = answer(request);
+    stream.expires_after(limits.silence);
     co_await http::async_write(stream, response, use_awaitable);
     boost::system::error_code ignored;
     stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
@@ -165,13 +202,15 @@ struct Server::Impl {
 
   bool may_follow(const Request& request) const {
     return request.target() == "/flight" && knows(request) && has_key(request) && !is_foreign(request) &&
-           request.find(http::field::origin) != request.end();
+           request.find(http::field::origin) != request.end() && followers.size() < limits.followers;
   }
 
   bool knows(const Request& request) const {
     return request.count(http::field::host) == 1 && door.knows_host(view_of(request[http::field::host]));
   }
-  bool has_key(const Request& request) const { return door.opens(view_of(request[http::field::cookie])); }
+  bool has_key(const Request& request) const {
+    return door.opens(view_of(request[http::field::cookie]), view_of(request[http::field::host]));
+  }
   /// Whether a page of elsewhere sends it. Who is no browser says nothing of its origin.
   bool is_foreign(const Request& request) const {
     const auto origin = request.find(http::field::origin);
@@ -189,11 +228,21 @@ struct Server::Impl {
     if (is_foreign(request)) return plain(http::status::forbidden, "Only a page of this server may ask for that.");
     if (request.method() != http::verb::get) return plain(http::status::method_not_allowed, "Only GET.");
     const bool open = has_key(request);
-    if (target == "/") return made(request, http::status::ok, kHtml, open ? site.page : door_page());
+    if (target == "/") return open ? made(request, http::status::ok, kHtml, site.page) : knocked(request);
     if (target != "/live.js" && target != "/flight") return plain(http::status::not_found, "There is no such page.");
     if (!open) return plain(http::status::forbidden, "Show the key first.");
+    if (target == "/flight" && followers.size() >= limits.followers) {
+      return plain(http::status::service_unavailable, "Too many browsers follow this run already.");
+    }
     if (target == "/flight") return plain(http::status::upgrade_required, "This is a WebSocket for this page alone.");
     return made(request, http::status::ok, "text/javascript; charset=utf-8", site.script);
+  }
+
+  /// The door holds no secret: the file with the key, which is a page of elsewhere, may see that there is one.
+  static Response knocked(const Request& request) {
+    Response response = made(request, http::status::ok, kHtml, door_page());
+    response.set("Cross-Origin-Resource-Policy", "cross-origin");
+    return response;
   }
 
   /// The key comes from the file that the browser opened, or from the door's form: it speaks for itself, whatever page
@@ -204,7 +253,7 @@ struct Server::Impl {
     }
     // No redirection: the browser would not send a strict cookie where a page of elsewhere set off the request.
     Response response = made(request, http::status::ok, kHtml, entered_page());
-    response.set(http::field::set_cookie, door.cookie());
+    response.set(http::field::set_cookie, door.cookie(view_of(request[http::field::host])));
     return response;
   }
 
@@ -226,25 +275,21 @@ struct Server::Impl {
     return response;
   }
 
-  asio::awaitable<void> follow(beast::tcp_stream stream, const Request& request) {
-    const auto follower = std::make_shared<Follower>(std::move(stream));
+  asio::awaitable<void> follow(std::shared_ptr<Follower> follower, Request request) {
     WebSocket& socket = follower->socket;
+    boost::system::error_code error;
+    beast::get_lowest_layer(socket).socket().set_option(tcp::socket::send_buffer_size(kSendBuffer), error);
     beast::get_lowest_layer(socket).expires_never();  // the WebSocket has limits of its own
-    socket.set_option(websocket::stream_base::timeout{kRequestTime, kSendTime, true});
+    socket.set_option(websocket::stream_base::timeout{limits.request, limits.silence, true});
     socket.read_message_max(kMostMessage);
     socket.text(true);
     co_await socket.async_accept(request, use_awaitable);
-    followers.push_back(follower);
     follower->closing = closing;
-    ++connections;
-    asio::co_spawn(io, listen_to(follower), [this, follower](const std::exception_ptr&) {
+    spawn(listen_to(follower), [follower] {
       leave(*follower);
       beast::get_lowest_layer(follower->socket).close();
-      if (--connections == 0 && closing) io.stop();
     });
-    boost::system::error_code error;
     co_await tell(*follower, error);
-    std::erase(followers, follower);
     if (!error) {
       co_await socket.async_close(websocket::close_code::going_away, asio::redirect_error(use_awaitable, error));
     } else {
@@ -254,6 +299,7 @@ struct Server::Impl {
 
   asio::awaitable<void> tell(Follower& follower, boost::system::error_code& error) {
     while (true) {
+      if (std::chrono::steady_clock::now() >= follower.looks_until) follower.place.look_at({});
       const std::string message = feed.next(follower.place, kBatch);
       if (message.empty()) {
         if (follower.closing) co_return;
@@ -264,7 +310,7 @@ struct Server::Impl {
       }
       co_await follower.socket.async_write(asio::buffer(message), asio::redirect_error(use_awaitable, error));
       if (error) co_return;
-      if (follower.closing) continue;
+      if (follower.closing || follower.place.more) continue;
       boost::system::error_code woken;
       follower.pause.expires_after(kPause);
       co_await follower.pause.async_wait(asio::redirect_error(use_awaitable, woken));
@@ -276,13 +322,18 @@ struct Server::Impl {
     while (true) {
       co_await follower->socket.async_read(buffer, use_awaitable);
       const auto order = follower->socket.got_text()
-                             ? read_time_order(view_of(beast::string_view(
-                                   static_cast<const char*>(buffer.data().data()), buffer.data().size())))
+                             ? read_order(view_of(beast::string_view(static_cast<const char*>(buffer.data().data()),
+                                                                     buffer.data().size())))
                              : std::nullopt;
       buffer.consume(buffer.size());
       if (!order) {
         beast::get_lowest_layer(follower->socket).close();
         co_return;
+      }
+      if (const auto* look = std::get_if<LookOrder>(&*order)) {
+        follower->place.look_at(clouds_of(*look));
+        follower->looks_until = std::chrono::steady_clock::now() + kLookLease;
+        follower->news.cancel();  // what is there already
       }
       if (obey) obey(*order);
     }
@@ -292,18 +343,20 @@ struct Server::Impl {
   const Site site;
   Feed& feed;
   const Obey obey;
+  const ServerLimits limits;
   asio::io_context io{1};
   tcp::acceptor acceptor;
   asio::steady_timer last_call{io};
+  std::vector<std::shared_ptr<Visitor>> visitors;  ///< in the order in which they came
   std::vector<std::shared_ptr<Follower>> followers;
-  std::size_t connections = 0;
+  std::size_t at_work = 0;  ///< coroutines
   bool closing = false;
   std::atomic<bool> told = false;  ///< news are on their way to the thread
   std::thread thread;
 };
 
-Server::Server(int listener, Key key, Site site, Feed& feed, Obey obey)
-    : impl_(std::make_unique<Impl>(listener, std::move(key), std::move(site), feed, std::move(obey))) {}
+Server::Server(int listener, Key key, Site site, Feed& feed, Obey obey, const ServerLimits& limits)
+    : impl_(std::make_unique<Impl>(listener, std::move(key), std::move(site), feed, std::move(obey), limits)) {}
 
 Server::~Server() = default;
 

@@ -1,121 +1,17 @@
 // The page's server, by hand-made requests: what it serves, and whom it refuses.
 #include "view/server.hpp"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
-#include <atomic>
-#include <memory>
 #include <random>
 
 #include "core/types.hpp"
 #include "tests/support/eventually.hpp"
-#include "view/listener.hpp"
 #include "view/pages.hpp"
+#include "view/testing/server_fixture.hpp"
 
 namespace skein::view {
 namespace {
-
-/// A connection to a server on this host, which speaks bytes.
-class Wire {
- public:
-  explicit Wire(std::uint16_t port) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(::connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-  }
-  ~Wire() { ::close(fd_); }
-  Wire(const Wire&) = delete;
-  Wire& operator=(const Wire&) = delete;
-
-  void send(const std::string& bytes) const { ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL); }
-  /// Until the server closes the connection.
-  std::string all() {
-    return until([](const std::string&) { return false; });
-  }
-  /// Until it has said enough, or closes.
-  template <class Enough>
-  std::string until(const Enough& enough) {
-    char buffer[4096];
-    while (!enough(heard_)) {
-      const ssize_t size = ::recv(fd_, buffer, sizeof buffer, 0);
-      if (size <= 0) break;
-      heard_.append(buffer, static_cast<std::size_t>(size));
-    }
-    return heard_;
-  }
-
- private:
-  int fd_;
-  std::string heard_;
-};
-
-/// A masked frame, as a browser sends it. @param first  its first byte: 0x81 is a text
-std::string frame(const std::string& payload, unsigned char first = 0x81) {
-  std::string bytes{static_cast<char>(first)};
-  if (payload.size() < 126) {
-    bytes += static_cast<char>(0x80 | payload.size());
-  } else {
-    bytes += static_cast<char>(0x80 | 126);
-    bytes += static_cast<char>(payload.size() >> 8);
-    bytes += static_cast<char>(payload.size() & 0xff);
-  }
-  return bytes + std::string(4, '\0') + payload;
-}
-
-class ServerTest : public testing::Test {
- protected:
-  ServerTest() {
-    feed_.set_scene(R"({"scene":"it"})");
-    server_ = std::make_unique<Server>(listener_.fd(), key_, Site{"<p>the page</p>", "the_script()"}, feed_,
-                                       [this](const TimeOrder& order) {
-                                         last_ = order.kind;
-                                         ++orders_;
-                                       });
-  }
-
-  std::string host() const { return "127.0.0.1:" + std::to_string(listener_.port()); }
-  std::string cookie() const {
-    const std::string text = Door(listener_.port(), key_).cookie();
-    return "Cookie: " + text.substr(0, text.find(';')) + "\r\n";
-  }
-  /// @param headers  each with its line's end
-  std::string get(const std::string& target, const std::string& headers) const {
-    return ask("GET " + target + " HTTP/1.1\r\n" + headers + "\r\n");
-  }
-  std::string ask(const std::string& request) const {
-    Wire wire(listener_.port());
-    wire.send(request);
-    return wire.all();
-  }
-  std::string own_host() const { return "Host: " + host() + "\r\n"; }
-  std::string upgrade() const {
-    return "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
-  }
-  std::string own_origin() const { return "Origin: http://" + host() + "\r\n"; }
-  /// A browser that follows, and has been told the scene.
-  std::unique_ptr<Wire> follower() const {
-    auto wire = std::make_unique<Wire>(listener_.port());
-    wire->send("GET /flight HTTP/1.1\r\n" + own_host() + own_origin() + cookie() + upgrade() + "\r\n");
-    const std::string heard =
-        wire->until([](const std::string& text) { return text.find("\"it\"") != std::string::npos; });
-    EXPECT_TRUE(heard.starts_with("HTTP/1.1 101")) << heard;
-    return wire;
-  }
-
-  const Listener listener_{0};
-  const Key key_ = Key::draw();
-  Feed feed_;
-  std::atomic<int> orders_ = 0;
-  std::atomic<TimeOrder::Kind> last_ = TimeOrder::Kind::pause;
-  std::unique_ptr<Server> server_;
-};
 
 TEST_F(ServerTest, ServesWhoHasTheKey) {
   EXPECT_NE(get("/", own_host() + cookie()).find("<p>the page</p>"), std::string::npos);
@@ -142,7 +38,7 @@ TEST_F(ServerTest, GivesTheCookieForTheKey) {
   };
   const std::string entered = enter("key=" + key_.text());
   EXPECT_TRUE(entered.starts_with("HTTP/1.1 200")) << entered;
-  EXPECT_NE(entered.find("Set-Cookie: " + Door(listener_.port(), key_).cookie()), std::string::npos) << entered;
+  EXPECT_NE(entered.find("Set-Cookie: " + Door({}, key_).cookie(host())), std::string::npos) << entered;
   for (const std::string& body : {std::string(), std::string("key="), "key=" + Key::draw().text(), key_.text()}) {
     const std::string refused = enter(body);
     EXPECT_TRUE(refused.starts_with("HTTP/1.1 403")) << body << "\n" << refused;
@@ -153,8 +49,16 @@ TEST_F(ServerTest, GivesTheCookieForTheKey) {
 }
 
 TEST_F(ServerTest, RefusesOtherNamesOfThisHost) {
-  for (const std::string& name : {std::string("example.org"), "example.org:" + std::to_string(listener_.port()),
-                                  std::string("127.0.0.1"), std::string("127.0.0.1:1")}) {
+  const std::string port = std::to_string(listener_.port());
+  const std::vector<std::string> others = {"example.org",
+                                           "example.org:" + port,
+                                           "192.0.2.7:" + port,
+                                           "127.0.0.1.example.org",
+                                           "localhost.example.org:80",
+                                           "user@localhost:80",
+                                           "127.1:80",
+                                           "0x7f000001:80"};
+  for (const std::string& name : others) {
     EXPECT_TRUE(get("/", "Host: " + name + "\r\n" + cookie()).starts_with("HTTP/1.1 421")) << name;
     EXPECT_TRUE(get("/flight", "Host: " + name + "\r\nOrigin: http://" + name + "\r\n" + cookie() + upgrade())
                     .starts_with("HTTP/1.1 421"))
@@ -165,8 +69,9 @@ TEST_F(ServerTest, RefusesOtherNamesOfThisHost) {
 }
 
 TEST_F(ServerTest, RefusesPagesOfElsewhere) {
-  for (const std::string& origin : {std::string("http://example.org"), std::string("null"), "https://" + host(),
-                                    std::string("http://127.0.0.1:1"), "http://" + host() + ".example.org"}) {
+  for (const std::string& origin :
+       {std::string("http://example.org"), std::string("null"), "https://" + host(), std::string("http://127.0.0.1:1"),
+        std::string("http://localhost"), "http://" + host() + ".example.org"}) {
     const std::string headers = own_host() + "Origin: " + origin + "\r\n" + cookie();
     for (const char* target : {"/", "/live.js"}) {
       EXPECT_TRUE(get(target, headers).starts_with("HTTP/1.1 403")) << target << " for " << origin;
@@ -223,6 +128,28 @@ TEST_F(ServerTest, TellsFollowersAndObeysThem) {
   EXPECT_TRUE(eventually([&] { return orders_ == 2; })) << "several browsers follow";
 }
 
+TEST_F(ServerTest, TellsPointsAndMapsToWhoLooks) {
+  const auto looks = follower(), other = follower();
+  looks->send(frame(R"({"do":"look","lidar":["a"],"map":"b"})"));
+  EXPECT_TRUE(eventually([&] { return orders_ == 1; })) << "whoever sends them hears of it, too";
+  const auto has = [](const char* word) {
+    return [word](const std::string& text) { return text.find(word) != std::string::npos; };
+  };
+  feed_.set_cloud("lidar a", R"({"its":"points"})");
+  EXPECT_NE(looks->until(has("points")).find(R"("clouds":[{"its":"points"}])"), std::string::npos);
+  feed_.set_cloud("lidar b", R"({"its":"others"})");
+  feed_.set_cloud("map b", R"({"its":"map"})");
+  EXPECT_EQ(looks->until(has("map")).find("others"), std::string::npos) << "nobody asked for these";
+  looks->send(frame(R"({"do":"look"})"));
+  EXPECT_TRUE(eventually([&] { return orders_ == 2; }));
+  feed_.set_cloud("map b", R"({"its":"later"})");
+  for (const auto& wire : {looks.get(), other.get()}) {
+    feed_.set_state(R"({"n":"newest"})");
+    EXPECT_EQ(wire->until(has("newest")).find("later"), std::string::npos);
+  }
+  EXPECT_EQ(other->until(has("newest")).find("clouds"), std::string::npos);
+}
+
 TEST_F(ServerTest, EndsFollowersThatSendAnythingElse) {
   std::string unmasked = frame(R"({"do":"step"})");
   unmasked[1] = static_cast<char>(unmasked[1] & 0x7f);
@@ -257,9 +184,11 @@ TEST_F(ServerTest, SurvivesNoise) {
 
 TEST_F(ServerTest, DoesNotWaitForWhoDoesNotRead) {
   const auto slow = follower();
+  slow->send(frame(R"({"do":"look","map":"a"})"));
   for (int i = 0; i < 20'000; ++i) {
     feed_.add_line("\"" + std::string(1000, 'x') + "\"");
     feed_.set_state("{\"n\":" + std::to_string(i) + "}");
+    feed_.set_cloud("map a", "\"" + std::string(50'000, 'x') + "\"");
   }
   const auto quick = follower();
   feed_.set_state(R"({"n":"newest"})");
@@ -293,18 +222,71 @@ TEST_F(ServerTest, AnotherOneTakesOverWhoWaits) {
   EXPECT_NE(waiting.all().find("the replay"), std::string::npos);
 }
 
+// ssh -L 9000:127.0.0.1:8080: the browser knows the near end of the tunnel alone.
+TEST_F(ServerTest, ServesWhoComesByATunnel) {
+  for (const std::string near : {"localhost:9000", "127.0.0.1:9000", "[::1]:9000", "localhost"}) {
+    const std::string headers = "Host: " + near + "\r\n", cookie = cookie_for(near);
+    EXPECT_NE(get("/", headers).find("The key, please"), std::string::npos) << near;
+    EXPECT_NE(get("/", headers + cookie).find("<p>the page</p>"), std::string::npos) << near;
+    Wire wire(listener_.port());
+    wire.send("GET /flight HTTP/1.1\r\n" + headers + "Origin: http://" + near + "\r\n" + cookie + upgrade() + "\r\n");
+    EXPECT_NE(wire.until([](const std::string& text) { return text.find("\"it\"") != std::string::npos; }).find("101"),
+              std::string::npos)
+        << near;
+    EXPECT_TRUE(get("/flight", headers + own_origin() + cookie + upgrade()).starts_with("HTTP/1.1 403"))
+        << "a page of another port is one of elsewhere";
+    const std::string entered =
+        ask("POST /enter HTTP/1.1\r\n" + headers + "Content-Length: 68\r\n\r\nkey=" + key_.text());
+    EXPECT_NE(entered.find("Set-Cookie: " + Door({}, key_).cookie(near)), std::string::npos) << entered;
+  }
+}
+
 TEST(Listeners, AreOnTheLoopbackAndOnFreePorts) {
   const Listener listener(0);
-  EXPECT_EQ(port_of(listener.fd()), listener.port());
+  EXPECT_EQ(listener.endpoint(), (Endpoint{"127.0.0.1", listener.port()}));
+  EXPECT_EQ(endpoint_of(listener.fd()), listener.endpoint());
   EXPECT_THROW(Listener second(listener.port()), InputError) << "taken";
-  EXPECT_THROW(port_of(0), InputError);
-  EXPECT_THROW(port_of(-1), InputError);
+  EXPECT_THROW(Listener elsewhere(Endpoint{"192.0.2.7", 0}), InputError) << "of somebody else";
+  EXPECT_THROW(endpoint_of(0), InputError);
+  EXPECT_THROW(endpoint_of(-1), InputError);
+}
+
+TEST(Listeners, AreWhereTheyAreAsked) {
+  const Listener all(Endpoint{"0.0.0.0", 0});
+  EXPECT_EQ(all.endpoint().address, "0.0.0.0");
+  EXPECT_EQ(resolved("localhost:8080").port, 8080);
+  EXPECT_TRUE(resolved("localhost:8080").is_loopback());
+  EXPECT_EQ(resolved("127.0.0.2:1"), (Endpoint{"127.0.0.2", 1}));
+  EXPECT_THROW(resolved("no.such.host.invalid:8080"), InputError);
+  EXPECT_THROW(resolved("localhost:"), InputError);
+}
+
+// The names follow from where it listens, and from what it is told.
+TEST(Servers, BeyondTheLoopbackKnowTheHostsNamesAndNoOthers) {
+  const Listener all(Endpoint{"0.0.0.0", 0});
+  Feed feed;
+  const Server server(all.fd(), Key::draw(), Site{"<p>the page</p>", "", {"fly.example.org"}}, feed);
+  const auto status_for = [&](const std::string& name) {
+    Wire wire(all.port());
+    wire.send("GET / HTTP/1.1\r\nHost: " + name + ":8080\r\n\r\n");
+    return wire.all().substr(0, 12);
+  };
+  for (const std::string& name : names_of(all.endpoint())) {
+    const bool is_v6 = name.find(':') != std::string::npos;
+    EXPECT_EQ(status_for(is_v6 ? "[" + name + "]" : name), "HTTP/1.1 200") << name;
+  }
+  EXPECT_EQ(status_for("fly.example.org"), "HTTP/1.1 200");
+  for (const char* name : {"example.org", "192.0.2.7", "0.0.0.0", "other.fly.example.org"}) {
+    EXPECT_EQ(status_for(name), "HTTP/1.1 421") << name;
+  }
 }
 
 TEST(KeyFilePages, ShowTheKeyToThePageAlone) {
   const Key key = Key::draw();
-  const std::string page = key_file_page(8080, key);
+  const std::string page = key_file_page("127.0.0.1:8080", key);
   EXPECT_NE(page.find("action=\"http://127.0.0.1:8080/enter\""), std::string::npos);
+  EXPECT_EQ(page.find("fetch"), std::string::npos) << "somebody serves it, or connections wait";
+  EXPECT_NE(key_file_page("127.0.0.1:8080", key, true).find("fetch('http://127.0.0.1:8080/'"), std::string::npos);
   EXPECT_NE(page.find("value=\"" + key.text() + "\""), std::string::npos);
 }
 

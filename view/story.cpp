@@ -15,14 +15,17 @@ namespace {
 
 /// Beyond all bounds of a scene: a body whose motion no number describes is drawn there.
 constexpr double kFarthest_m = 1e6;
+constexpr double kQualityUnits = 1e6, kPartUnits = 1000.0;
 
 long whole(double value, double by) {
   return std::isfinite(value) ? std::lround(by * std::clamp(value, -kFarthest_m, kFarthest_m)) : 0;
 }
 
-/// The axis of the camera, which looks along its x. Where the camera sits and what it sees do not matter for that.
-Vector3d view_axis(const ShownUav& uav) {
-  return camera_state(uav.body, uav.gimbal, CameraConfig{}).X_WC.linear() * Vector3d::UnitX();
+/// What is below the least quality that counts stays below it.
+long quality(float q) {
+  const long rounded = whole(q, kQualityUnits);
+  const long least = std::lround(kDetectedQuality * kQualityUnits);
+  return q < kDetectedQuality ? std::min(rounded, least - 1) : rounded;
 }
 
 std::string quoted(const std::string& text) {
@@ -48,10 +51,10 @@ std::string poses_json(std::span<const ShownUav> uavs) {
   std::string list;
   for (const ShownUav& uav : uavs) {
     const Vector3d& p_WB = uav.body.p_WB;
-    const Vector3d axis = view_axis(uav);
+    const report::ViewAngles view = report::view_angles(uav.body.q_WB, uav.gimbal);
     fmt::format_to(std::back_inserter(list), "{}[{},{},{},{},{},{}]", list.empty() ? "" : ",", whole(p_WB.x(), 100.0),
-                   whole(p_WB.y(), 100.0), whole(p_WB.z(), 100.0), whole(std::atan2(axis.y(), axis.x()), 1000.0),
-                   whole(std::asin(std::clamp(-axis.z(), -1.0, 1.0)), 1000.0), uav.alive ? 1 : 0);
+                   whole(p_WB.y(), 100.0), whole(p_WB.z(), 100.0), whole(view.yaw, 1000.0), whole(view.pitch, 1000.0),
+                   uav.alive ? 1 : 0);
   }
   return "[" + list + "]";
 }
@@ -71,18 +74,53 @@ std::string event_line(double time_s, const std::string& event, const std::strin
                      quoted(object));
 }
 
+std::string activity_line(double time_s, std::size_t uav, const Activity& activity) {
+  const auto& goal_W = activity.goal_W;
+  const std::string goal = goal_W ? fmt::format("[{},{},{}]", whole(goal_W->x(), 100.0), whole(goal_W->y(), 100.0),
+                                                whole(goal_W->z(), 100.0))
+                                  : "null";
+  return fmt::format(R"({{"k":"activity","t":{:.3f},"u":{},"m":{},"g":{},"w":{},"n":{}}})", time_s, uav,
+                     quoted(activity.mode), goal, quoted(activity.waits_for), quoted(activity.no_way));
+}
+
+std::string numbers_json(std::span<const std::optional<ShownNumbers>> uavs) {
+  std::string list;
+  for (const auto& uav : uavs) {
+    if (!list.empty()) list += ",";
+    if (!uav) {
+      list += "null";
+      continue;
+    }
+    const std::string cpu = uav->cpu_per_s ? std::to_string(whole(*uav->cpu_per_s, 1000.0)) : "null";
+    list += fmt::format("[{},{},{}]", whole(uav->speed_mps, 100.0), uav->undelivered, cpu);
+  }
+  return "[" + list + "]";
+}
+
+std::string fault_line(double time_s, const ToldFault& fault, bool begins) {
+  return fmt::format(R"({{"k":"fault","t":{:.3f},"n":{},"hand":{},"on":{},"kind":{},"of":{}}})", time_s, fault.number,
+                     fault.by_hand ? 1 : 0, begins ? 1 : 0, quoted(fault.kind), quoted(fault.target));
+}
+
 std::string capture_line(double time_s, std::size_t uav, std::uint64_t capture,
                          const std::vector<CapturePoint>& points) {
   std::string list;
+  long former = 0;
   for (const CapturePoint& point : points) {
-    fmt::format_to(std::back_inserter(list), "{}[{},{:.4f},{:.4f},{:.4f},{:.4f}]", list.empty() ? "" : ",", point.index,
-                   point.q, point.q_blur, point.q_res, point.q_distance);
+    const long index = point.index;
+    fmt::format_to(std::back_inserter(list), "{}{},{},{},{}", list.empty() ? "" : ",", index - former, quality(point.q),
+                   whole(point.q_blur, kPartUnits), whole(point.q_distance, kPartUnits));
+    former = index;
   }
   return fmt::format(R"({{"k":"capture","t":{:.3f},"u":{},"c":{},"p":[{}]}})", time_s, uav, capture, list);
 }
 
-std::string delivered_line(double time_s, std::size_t uav, std::uint64_t capture) {
-  return fmt::format(R"({{"k":"delivered","t":{:.3f},"u":{},"c":{}}})", time_s, uav, capture);
+std::string delivered_line(double time_s, std::span<const ShownDelivery> deliveries) {
+  std::string list;
+  for (const ShownDelivery& one : deliveries) {
+    fmt::format_to(std::back_inserter(list), "{}{},{}", list.empty() ? "" : ",", one.uav, one.capture);
+  }
+  return fmt::format(R"({{"k":"delivered","t":{:.3f},"d":[{}]}})", time_s, list);
 }
 
 std::string void_line(double time_s, std::size_t uav) {

@@ -4,14 +4,17 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/activity.hpp"
 #include "core/camera_quality.hpp"
 #include "core/scenario.hpp"
 #include "core/score_table.hpp"
 #include "process/json_text.hpp"
+#include "report/recorded_links.hpp"
 #include "report/run_data.hpp"
 
 namespace skein::view {
@@ -26,7 +29,14 @@ struct ShownUav {
   bool alive = true;
 };
 
-enum class ShownLink : std::uint8_t { blocked, linked, cut, dead };
+using ShownLink = report::LinkState;
+
+/// What a UAV says of itself in numbers.
+struct ShownNumbers {
+  double speed_mps = 0.0;
+  std::uint32_t undelivered = 0;
+  std::optional<double> cpu_per_s = {};  ///< CPU time for a simulated second [s]
+};
 
 /// What has no time: "uavs" with their cameras, points, boxes, station; what is known of a finished run, too.
 /// @param run  as far as it is known. @param cameras  by UAV. @param range_m  how far they see, by UAV.
@@ -40,11 +50,32 @@ std::string poses_json(std::span<const ShownUav> uavs);
 std::string links_line(double time_s, std::span<const ShownLink> row_major);
 /// k: event. "e": what, "s": of whom, "o": with whom or what.
 std::string event_line(double time_s, const std::string& event, const std::string& subject, const std::string& object);
-/// k: capture. "u": UAV, "c": its number, "p": for each point its index, q, and q_blur, q_res, q_distance.
+/// k: activity. What the UAV "u" says that it does: "m" mode, "g" its goal or null, "w" whom it waits for, "n" why it
+/// finds no way; empty texts: nobody, it does.
+std::string activity_line(double time_s, std::size_t uav, const Activity& activity);
+/// For a state. By UAV: speed [cm/s], captures not delivered, CPU time for a simulated second [ms] or null; null for a
+/// UAV that says nothing.
+std::string numbers_json(std::span<const std::optional<ShownNumbers>> uavs);
+/// k: fault. One begins ("on": 1) or ends with the step at this time. "n": its number, among those of the fault file or
+/// among those that somebody who watches has begun ("hand": 1); "kind" and "of" as fault files spell them.
+struct ToldFault {
+  std::uint64_t number = 0;
+  bool by_hand = false;
+  std::string kind, target;
+};
+std::string fault_line(double time_s, const ToldFault& fault, bool begins);
+/// k: capture. "u": UAV, "c": its number, "p": for each point four whole numbers: its index less that of the point
+/// before it, q in 1/1000000 (of two that are
+/// nearly as good one counts), q_blur and q_distance in 1/1000. A large fleet tells more of these than of all else.
 std::string capture_line(double time_s, std::size_t uav, std::uint64_t capture,
                          const std::vector<CapturePoint>& points);
-/// k: delivered. "u", "c" as before.
-std::string delivered_line(double time_s, std::size_t uav, std::uint64_t capture);
+/// A capture that came to the station.
+struct ShownDelivery {
+  std::size_t uav = 0;
+  std::uint64_t capture = 0;
+};
+/// k: delivered. "d": UAV and number of each capture that came at this time.
+std::string delivered_line(double time_s, std::span<const ShownDelivery> deliveries);
 /// k: void. The captures of "u" do not count: it collided.
 std::string void_line(double time_s, std::size_t uav);
 /// k: score. "n": points, "s": delivered, exact.

@@ -43,14 +43,31 @@ TEST(StoryLines, HaveTheScoreWithAllItsDigits) {
   EXPECT_EQ(parse_json(score_line(1.0, 33, score))["s"].get<double>(), score);
 }
 
+TEST(StoryLines, TellWhatAUavDoesAndWhy) {
+  const Activity flies{.mode = "flies to a \"goal\"", .goal_W = Vector3d(1.0, -2.0, 3.005), .waits_for = "changi"};
+  EXPECT_EQ(parse_json(activity_line(2.5, 1, flies)),
+            Json::parse(R"({"k":"activity","t":2.5,"u":1,"m":"flies to a \"goal\"","g":[100,-200,301],
+                            "w":"changi","n":""})"));
+  const Activity stands{.mode = "has no goal", .no_way = "too \xff near"};
+  EXPECT_EQ(parse_json(activity_line(2.5, 1, stands))["g"], nullptr);
+  EXPECT_EQ(parse_json(numbers_json(std::vector<std::optional<ShownNumbers>>{
+                {{1.234, 7, 0.0154}}, std::nullopt, {{0.0, 0, std::nullopt}}})),
+            Json::parse("[[123,7,15],null,[0,0,null]]"));
+}
+
 TEST(StoryLines, TellCapturesAndLinks) {
-  const Json capture = parse_json(capture_line(1.0, 2, 7, {{5, 0.5F, 0.25F, 0.125F, 0.75F}}));
+  const Json capture = parse_json(capture_line(1.0, 2, 7, {{5, 0.5F, 0.25F, 0.125F, 0.75F}, {9, 1, 1, 1, 1}}));
   EXPECT_EQ(capture["u"], 2);
   EXPECT_EQ(capture["c"], 7);
-  EXPECT_EQ(capture["p"], Json::parse("[[5,0.125,0.5,0.25,0.75]]"));
+  EXPECT_EQ(capture["p"], Json::parse("[5,125000,500,750,4,1000000,1000,1000]"));
+  const Json poor =
+      parse_json(capture_line(1.0, 0, 0, {{5, 1.0F, 1.0F, 0.1999999F, 1.0F}, {6, 1.0F, 1.0F, 0.2F, 1.0F}}));
+  EXPECT_EQ(poor["p"][1], 199999) << "it does not count, and must not look as if it did";
+  EXPECT_EQ(poor["p"][5], 200000);
   using enum ShownLink;
   EXPECT_EQ(parse_json(links_line(1.0, std::vector{blocked, linked, cut, dead}))["l"], "0123");
-  EXPECT_EQ(parse_json(delivered_line(3.5, 2, 7)), Json::parse(R"({"k":"delivered","t":3.5,"u":2,"c":7})"));
+  EXPECT_EQ(parse_json(delivered_line(3.5, std::vector<ShownDelivery>{{2, 7}, {0, 9}})),
+            Json::parse(R"({"k":"delivered","t":3.5,"d":[2,7,0,9]})"));
   EXPECT_EQ(parse_json(void_line(3.5, 2)), Json::parse(R"({"k":"void","t":3.5,"u":2})"));
 }
 

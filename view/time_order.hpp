@@ -12,6 +12,8 @@ namespace skein::view {
 inline constexpr double kLeastSpeed = 0.1, kMostSpeed = 1000.0;
 /// Of a flight that is watched, unless another one is asked for.
 inline constexpr double kUsualSpeed = 8.0;
+/// The same where somebody flies by hand.
+inline constexpr double kHandSpeed = 1.0;
 
 struct TimeOrder {
   enum class Kind { pause, resume, step, speed };

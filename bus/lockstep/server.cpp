@@ -196,6 +196,7 @@ void LockstepServer::publish(const StepInfo& info, const WriteSamples& write_sam
     step.expected(take_new_counts(domain));
     step.links(i == 0 ? info.links : std::vector<std::uint8_t>{});
     step.faults(i == 0 ? info.faults : std::vector<msg::FaultBegin>{});
+    step.faults_by_hand(i == 0 ? info.faults_by_hand : std::vector<std::string>{});
     for (auto& writer : domain.writers) writer->begin_step();
     domain.step->begin_step();
     domain.step->write(step);

@@ -24,7 +24,8 @@ class LockstepServer {
     std::vector<std::uint8_t> links;  ///< row-major radio matrix, published in the world domain only
     std::uint64_t ledger_upto = 0;
     bool final_step = false;
-    std::vector<msg::FaultBegin> faults = {};  ///< likewise
+    std::vector<msg::FaultBegin> faults = {};      ///< likewise
+    std::vector<std::string> faults_by_hand = {};  ///< likewise
   };
   struct LostMember {
     std::string name;

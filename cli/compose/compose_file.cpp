@@ -4,13 +4,12 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 
 #include "cli/compose/agents_folder.hpp"
+#include "cli/compose/compose_checks.hpp"
 #include "cli/compose/compose_yaml.hpp"
+#include "cli/run/live_page.hpp"
 #include "core/config_files.hpp"
-#include "core/suggestion.hpp"
 #include "core/text.hpp"
 #include "core/topics.hpp"
 #include "process/run_folder.hpp"
@@ -26,8 +25,10 @@ constexpr const char* kResultsInContainer = "/results";
 constexpr const char* kKeysInContainer = "/keys";
 constexpr const char* kBuildInContainer = "/opt/skein";
 constexpr const char* kParametersInContainer = "/planner.yaml";
-/// A network's members (at most four), the engine's own address, the first and the last.
-constexpr int kNetworkPrefix = 28;
+/// Of the page: a folder, what the station is called in its network, and a port there.
+constexpr const char* kViewInContainer = "/view";
+constexpr const char* kViewAlias = "page.view";
+constexpr int kViewPort = 8080;
 constexpr int kLease_s = 10;            ///< of silence: without a launcher this tells which program died
 constexpr int kDebuggedLease_s = 3600;  ///< the longest that Cyclone DDS takes: who is debugged stands for long
 /// A container that the engine has started again once the run was over ends after so long.
@@ -208,11 +209,19 @@ class ComposeText {
     for (const std::string& network : networks_.of(program)) {
       yaml_.key(network).begin_map().key("aliases").own(Texts{role_of(program) + "." + network}).end_map();
     }
-    yaml_.end_map().key("volumes").begin_list();
+    if (serves_page(program)) {
+      yaml_.key(kViewNetwork).begin_map().key("aliases").own(Texts{kViewAlias}).end_map();
+    }
+    yaml_.end_map();
+    if (serves_page(program)) {
+      yaml_.key("ports").own(Texts{layout_.view->published.text() + ":" + std::to_string(kViewPort)});
+    }
+    yaml_.key("volumes").begin_list();
     add_mounts(program);
     yaml_.end_list().end_map();
   }
 
+  bool serves_page(const std::string& program) const { return layout_.view && program == programs::kStation; }
   bool is_debugged(const std::string& program) const {
     return std::ranges::find(plan_.debug, program, &Debuggee::program) != plan_.debug.end();
   }
@@ -235,6 +244,13 @@ class ComposeText {
                       std::to_string(kServerTimeout_s), "--out", kResultsInContainer});
     if (is_debugged(program)) arguments.push_back("--wait-for-debugger");
     if (plan_.options.secure) arguments.insert(arguments.end(), {"--security", kKeysInContainer});
+    if (serves_page(program)) {
+      const fs::path folder = kViewInContainer;
+      arguments.insert(arguments.end(), {"--view-listen", kViewAlias + (":" + std::to_string(kViewPort)), "--view-key",
+                                         folder / kViewKey, "--view-script", folder / kViewScript, "--view-title",
+                                         plan_.scenario.name + " by " + plan_.options.planner});
+      for (const std::string& name : layout_.view->names) arguments.insert(arguments.end(), {"--view-name", name});
+    }
     if (layout_.status_lines) arguments.insert(arguments.end(), {"--status-fd", "1"});
     for (std::size_t i = 0; i < arguments.size(); ++i) {
       const bool has_value = i + 1 < arguments.size() && !arguments[i + 1].starts_with("--");
@@ -265,6 +281,7 @@ class ComposeText {
       yaml_.own(volume_of(program) + ":" + kResultsInContainer);
     }
     for (const auto& [there, here] : files_of(plan_, program)) add_mount(yaml_, here, there);
+    if (serves_page(program)) add_mount(yaml_, layout_.view->folder, kViewInContainer);
     if (plan_.options.secure) add_mount(yaml_, layout_.keys + "/" + program, kKeysInContainer);
     if (layout_.build && !layout_.images.contains(programs::member_name(program))) {
       add_mount(yaml_, *layout_.build / "bin", fs::path(kBuildInContainer) / "bin");
@@ -277,23 +294,34 @@ class ComposeText {
 
   void add_networks() {
     yaml_.key("networks").begin_map();
-    std::uint32_t next = layout_.subnet ? layout_.subnet->address : 0;
     for (const std::string& name : networks_.names()) {
       // Without an address on the bridge, the host is no neighbour of the containers.
-      yaml_.key(name).begin_map().key("internal").flag(true).key("driver_opts").begin_map();
-      yaml_.key("com.docker.network.bridge.inhibit_ipv4").own("true").end_map();
-      if (layout_.subnet) {
-        const in_addr address{htonl(next)};
-        char text[INET_ADDRSTRLEN];
-        ::inet_ntop(AF_INET, &address, text, sizeof text);
-        yaml_.key("ipam").begin_map().key("config").begin_list().begin_map();
-        yaml_.key("subnet").own(std::string(text) + "/" + std::to_string(kNetworkPrefix));
-        yaml_.end_map().end_list().end_map();
-        next += std::uint32_t{1} << (32 - kNetworkPrefix);
-      }
+      yaml_.key(name).begin_map().key("internal").flag(true);
+      add_driver_option("com.docker.network.bridge.inhibit_ipv4", "true");
+      add_next_subnet();
+      yaml_.end_map();
+    }
+    if (layout_.view) {  // browsers come in by it; the station does not get out
+      yaml_.key(kViewNetwork).begin_map();
+      add_driver_option("com.docker.network.bridge.enable_ip_masquerade", "false");
+      add_next_subnet();
       yaml_.end_map();
     }
     yaml_.end_map();
+  }
+
+  void add_driver_option(const char* name, const char* value) {
+    yaml_.key("driver_opts").begin_map().key(name).own(value).end_map();
+  }
+
+  void add_next_subnet() {
+    if (!layout_.subnet) return;
+    const in_addr address{htonl(layout_.subnet->address + (subnets_++ << (32 - kNetworkPrefix)))};
+    char text[INET_ADDRSTRLEN];
+    ::inet_ntop(AF_INET, &address, text, sizeof text);
+    yaml_.key("ipam").begin_map().key("config").begin_list().begin_map();
+    yaml_.key("subnet").own(std::string(text) + "/" + std::to_string(kNetworkPrefix));
+    yaml_.end_map().end_list().end_map();
   }
 
   void add_volumes() {
@@ -310,90 +338,17 @@ class ComposeText {
   const ComposeLayout& layout_;
   const Networks networks_;
   ComposeYaml yaml_;
+  std::uint32_t subnets_ = 0;  ///< that networks have got
 };
 
-/// A domain is named for each network, and what runs there for each alias; DNS knows no case.
-void check_names(const Scenario& scenario) {
-  const auto small = [](std::string name) {
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
-    return name;
-  };
-  std::map<std::string, std::string> seen = {{"world", "world"}, {"gcs", "gcs"}};
-  for (const UavConfig& uav : scenario.fleet) {
-    const auto [other, is_new] = seen.emplace(small(uav.name), uav.name);
-    if (is_new) continue;
-    throw InputError(scenario.file.string() + ": fleet: in containers '" + uav.name + "' cannot be told from '" +
-                     other->second + "', whose network has that name, whatever its case; choose another name");
-  }
-}
-
-/// @param option  that names the image, or the variable
-void check_image(const std::string& option, const std::string& image) {
-  const std::string_view marks = "._-/:@";
-  const auto may_be = [&](unsigned char c) { return std::isalnum(c) != 0 || marks.find(char(c)) != marks.npos; };
-  if (!image.empty() && std::isalnum(static_cast<unsigned char>(image[0])) && std::ranges::all_of(image, may_be))
-    return;
-  throw InputError(option + ": '" + printable(image) +
-                   "' is no name of an image, such as my-planner or registry.example:5000/team/planner:1.2");
-}
-
-void check(const FleetPlan& plan, const ComposeLayout& layout) {
-  check_names(plan.scenario);
-  if (layout.image) check_image("SKEIN_IMAGE", *layout.image);
-  if (layout.agent_image) check_image("SKEIN_AGENT_IMAGE", *layout.agent_image);
-  std::vector<UavPlanner> all = plan.planners;
-  if (plan.ground) all.push_back(*plan.ground);
-  for (const UavPlanner& planner : all) {
-    if (layout.images.contains(planner.uav)) continue;
-    if (exec_command(planner.spec) || planner.agent || plan.agent) {
-      throw InputError("--planner " + planner.uav + "=" + written(planner) +
-                       ": a program of this host is in no container; --image " + planner.uav +
-                       "=IMAGE names an image that has it");
-    }
-  }
-  std::vector<std::string> known;
-  for (const UavPlanner& planner : all) known.push_back(planner.uav);
-  for (const auto& [member, image] : layout.images) {
-    if (std::ranges::find(known, member) != known.end()) {
-      check_image("--image " + member, image);
-      continue;
-    }
-    throw InputError("--image " + member + "=" + image + ": there is no '" + member + "' in this fleet; " +
-                     suggestion(member, known));
-  }
-  if (!layout.subnet) return;
-  const auto wanted = static_cast<std::uint64_t>(domain_count(plan)) << (32 - kNetworkPrefix);
-  if ((std::uint64_t{1} << (32 - layout.subnet->prefix)) < wanted) {
-    throw InputError(fmt::format("--subnet: the fleet needs {} networks of {} addresses; a /{} would do",
-                                 domain_count(plan), 1 << (32 - kNetworkPrefix),
-                                 32 - static_cast<int>(std::bit_width(wanted - 1))));
-  }
-}
-
 }  // namespace
-
-Subnet parse_subnet(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  in_addr address{};
-  Subnet subnet;
-  const char* const end = text.data() + text.size();
-  const bool has_address =
-      slash != std::string::npos && ::inet_pton(AF_INET, text.substr(0, slash).c_str(), &address) == 1;
-  const bool whole = has_address && std::from_chars(text.data() + slash + 1, end, subnet.prefix).ptr == end;
-  if (!whole || subnet.prefix < 8 || subnet.prefix > kNetworkPrefix) {
-    throw InputError("--subnet " + text + ": must be an IPv4 network of 8 to " + std::to_string(kNetworkPrefix) +
-                     " bits, as 172.30.0.0/20");
-  }
-  subnet.address = ntohl(address.s_addr) & ~((std::uint32_t{1} << (32 - subnet.prefix)) - 1);
-  return subnet;
-}
 
 fs::path results_of(const std::string& program, const fs::path& results) {
   return programs::is_agent(program) ? results / kAgentsFolder / programs::member_name(program) : results;
 }
 
 std::string compose_file(const FleetPlan& plan, const ComposeLayout& layout) {
-  check(plan, layout);
+  check_layout(plan, layout);
   return ComposeText(plan, layout).text();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/run/fleet_plan.hpp"
+#include "view/endpoint.hpp"
 
 namespace skein::cli {
 
@@ -19,6 +20,13 @@ struct Subnet {
 };
 /// @throws InputError for a text that is none.
 Subnet parse_subnet(const std::string& text);
+
+/// The page of a run that is watched, which the station serves in its container.
+struct ComposeView {
+  view::Endpoint published;        ///< of this host
+  std::vector<std::string> names;  ///< by which browsers may ask for it, beside the loopback's
+  std::string folder = "./view";   ///< of this host: key and script (write_for_station())
+};
 
 /// What containers need to know beside the plan. What is not set here is a variable that docker-compose fills in.
 struct ComposeLayout {
@@ -31,6 +39,7 @@ struct ComposeLayout {
   std::string keys = "./keys";                   ///< of a secured fleet: a folder a program
   std::optional<Subnet> subnet;                  ///< whose parts the networks get; else the engine chooses
   std::optional<std::filesystem::path> build;    ///< folder whose bin/ flies instead of the images' programs
+  std::optional<ComposeView> view;               ///< none: nobody watches
   bool status_lines = false;                     ///< programs tell on stdout how the run goes (status_lines.hpp)
 };
 

@@ -13,6 +13,7 @@
 
 #include "cli/run/supervisor.hpp"
 #include "cli/testing/compose_programs.hpp"
+#include "cli/testing/compose_reader.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/network_config.hpp"
 #include "process/environment.hpp"
@@ -23,99 +24,12 @@ namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Texts = std::vector<std::string>;
-using Names = std::set<std::string>;
 
 const Texts kSceneFiles = {"mesh.stl", "points.pcd", "boxes.yaml"};
 /// What YAML, DNS or docker-compose might take for something else.
 const Texts kOddNames = {
     "on", "yes", "null", "true", "n", "usual", "host", "results", "uav", "router", "E5", "z__9_", std::string(64, 'a')};
 constexpr int kFleets = 40;
-
-/// What docker-compose makes of a text without any variable set: "${X:-y}" is "y", "$$" is "$".
-std::string filled_in(const std::string& text) {
-  std::string filled;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '$') {
-      filled += text[i];
-    } else if (text.compare(i, 2, "$$") == 0) {
-      filled += text[++i];
-    } else {
-      const std::size_t otherwise = text.find(":-", i), end = text.find('}', i);
-      if (text.compare(i, 2, "${") != 0 || otherwise > end) throw std::runtime_error("an odd variable: " + text);
-      filled += text.substr(otherwise + 2, end - otherwise - 2);
-      i = end;
-    }
-  }
-  return filled;
-}
-
-Texts texts_of(const YAML::Node& list) {
-  Texts texts;
-  for (const YAML::Node& text : list) texts.push_back(filled_in(text.as<std::string>()));
-  return texts;
-}
-
-Names names_of(const YAML::Node& map) {
-  Names names;
-  for (const auto& entry : map) names.insert(entry.first.as<std::string>());
-  return names;
-}
-
-/// A file that was made, read as docker-compose does.
-class Compose {
- public:
-  explicit Compose(const std::string& text) : root_(YAML::Load(text)) {}
-
-  Names services() const { return names_of(root_["services"]); }
-  Names networks() const { return names_of(root_["networks"]); }
-  YAML::Node network(const std::string& name) const { return root_["networks"][name]; }
-  Names volumes() const { return root_["volumes"] ? names_of(root_["volumes"]) : Names(); }
-  /// Its own word, or that of what all have in common.
-  YAML::Node of(const std::string& service, const std::string& key) const {
-    const YAML::Node own = root_["services"][service];
-    return own[key] ? own[key] : own["<<"][key];
-  }
-  std::string text(const std::string& service, const std::string& key) const {
-    return filled_in(of(service, key).as<std::string>());
-  }
-  Names networks_of(const std::string& service) const { return names_of(of(service, "networks")); }
-  Names members(const std::string& network) const {
-    Names members;
-    for (const std::string& service : services()) {
-      if (networks_of(service).contains(network)) members.insert(service);
-    }
-    return members;
-  }
-  Texts aliases(const std::string& service, const std::string& network) const {
-    return texts_of(of(service, "networks")[network]["aliases"]);
-  }
-  /// What is mounted: here, by the path there.
-  std::map<std::string, std::string> mounts(const std::string& service) const {
-    std::map<std::string, std::string> mounts;
-    for (const YAML::Node& volume : of(service, "volumes")) {
-      if (volume.IsMap()) {
-        EXPECT_EQ(volume["type"].as<std::string>(), "bind");
-        mounts[filled_in(volume["target"].as<std::string>())] = filled_in(volume["source"].as<std::string>());
-        continue;
-      }
-      const std::string text = filled_in(volume.as<std::string>()), here = text.substr(0, text.find(':'));
-      const std::string rest = text.substr(here.size() + 1);
-      mounts[rest.substr(0, rest.find(':'))] = here;
-    }
-    return mounts;
-  }
-  /// The value of an option of its command.
-  std::string option(const std::string& service, const std::string& name) const {
-    for (const std::string& argument : texts_of(of(service, "command"))) {
-      if (argument.starts_with(name + "=")) return argument.substr(name.size() + 1);
-    }
-    return {};
-  }
-
- private:
-  YAML::Node root_;
-};
 
 class ComposeFile : public testing::Test {
  protected:
@@ -173,6 +87,11 @@ class ComposeFile : public testing::Test {
     if (coin()) fleet.layout.images[names.back()] = "mine:latest";
     if (coin()) fleet.layout.subnet = parse_subnet("172.30.0.0/20");
     if (coin()) fleet.layout.results = dir_ / "out";
+    if (coin()) {
+      fleet.plan.watched.emplace();
+      fleet.layout.view = ComposeView{{"127.0.0.1", 8123}, {}, dir_ / "view"};
+      if (coin()) fleet.layout.view = ComposeView{{"2001:db8::7", 80}, {"2001:db8::7", "flier"}, "./view"};
+    }
     return fleet;
   }
 
@@ -206,7 +125,9 @@ TEST_F(ComposeFile, EachDomainIsANetworkOfThoseWhoAreInIt) {
       services.insert("uav_agent-" + uav.name);
     }
     EXPECT_EQ(file.services(), services);
-    ASSERT_EQ(file.networks(), networks);
+    Names all = networks;
+    if (fleet.layout.view) all.insert("view");
+    ASSERT_EQ(file.networks(), all);
     for (const std::string& network : networks) {
       Names members = {"sim_server", "comm_router"};
       if (network == "world" || network == "gcs") members.insert("station");
@@ -230,7 +151,7 @@ TEST_F(ComposeFile, EachContainerMayDoLittle) {
       for (const char* key : {"mem_limit", "healthcheck", "stop_grace_period", "restart", "image"}) {
         EXPECT_TRUE(file.of(service, key).IsDefined()) << service << ' ' << key;
       }
-      for (const char* key : {"privileged", "cap_add", "devices", "ports", "network_mode", "pid", "ipc"}) {
+      for (const char* key : {"privileged", "cap_add", "devices", "network_mode", "pid", "ipc"}) {
         EXPECT_FALSE(file.of(service, key).IsDefined()) << service << ' ' << key;
       }
       const std::string health = file.option(service, "--health");
@@ -255,6 +176,7 @@ TEST_F(ComposeFile, EachProgramIsToldItsPeersByNamesThatTheyHave) {
     for (const std::string& service : file.services()) {
       const NetworkConfig config = read_network(filled_in(file.of(service, "environment")["SKEIN_NETWORK"].Scalar()));
       for (const std::string& network : file.networks_of(service)) {
+        if (network == "view") continue;  // browsers are no peers
         Names peers, members;
         for (const std::string& peer : config.of(network).peers) peers.insert(peer);
         for (const std::string& member : file.members(network)) {
@@ -266,6 +188,32 @@ TEST_F(ComposeFile, EachProgramIsToldItsPeersByNamesThatTheyHave) {
         EXPECT_TRUE(file.networks_of(service).contains(domain)) << service << " is told of " << domain;
       }
     }
+  });
+}
+
+TEST_F(ComposeFile, TheStationAloneServesThePageInANetworkOfItsOwn) {
+  for_all([](const Fleet& fleet, const Compose& file) {
+    const auto& view = fleet.layout.view;
+    EXPECT_EQ(file.option("sim_server", "--watch").empty(), !view);
+    for (const std::string& service : file.services()) {
+      const bool serves = view && service == "station";
+      EXPECT_EQ(file.of(service, "ports").IsDefined(), serves) << service;
+      for (const char* option : {"--view-listen", "--view-key", "--view-script", "--view-title"}) {
+        EXPECT_EQ(file.option(service, option).empty(), !serves) << service << ' ' << option;
+      }
+      EXPECT_EQ(file.mounts(service).contains("/view"), serves) << service;
+    }
+    if (!view) return;
+    EXPECT_EQ(file.members("view"), Names{"station"});
+    EXPECT_FALSE(file.network("view")["internal"].IsDefined()) << "nothing is published of a network that is";
+    const std::string listens = file.option("station", "--view-listen"), alias = listens.substr(0, listens.find(':'));
+    EXPECT_EQ(file.aliases("station", "view"), Texts{alias}) << "in no other network it listens";
+    const bool local = view->published.is_loopback();
+    EXPECT_EQ(texts_of(file.of("station", "ports")),
+              Texts{(local ? "127.0.0.1:8123" : "[2001:db8::7]:80") + listens.substr(listens.find(':'))});
+    EXPECT_EQ(file.option("station", "--view-name"), local ? "" : "2001:db8::7") << "the first of them";
+    EXPECT_EQ(file.mounts("station").at("/view"), view->folder);
+    EXPECT_EQ(file.option("station", "--view-key"), "/view/view.key");
   });
 }
 
@@ -347,6 +295,10 @@ TEST_F(ComposeFile, WhatIsWrongIsToldWithWhatWouldBeRight) {
   for (const Texts& alike : {Texts{"jurong", "Jurong"}, Texts{"a", "world"}, Texts{"GCS"}}) {
     EXPECT_NE(error_of(fleet(alike)).find("choose another name"), std::string::npos) << alike.back();
   }
+  Fleet shown = fleet({"a", "View"});
+  EXPECT_EQ(error_of(shown), "none");
+  shown.layout.view.emplace();
+  EXPECT_NE(error_of(shown).find("choose another name"), std::string::npos);
   Fleet foreign = fleet({"a", "b"});
   foreign.plan.planners[0].spec = "exec:./mine";
   EXPECT_NE(error_of(foreign).find("--image a=IMAGE"), std::string::npos) << error_of(foreign);

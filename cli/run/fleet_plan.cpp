@@ -8,18 +8,19 @@
 #include <random>
 #include <set>
 
+#include "cli/hand_flights.hpp"
 #include "cli/run/agent_file.hpp"
 #include "cli/run/debug_plan.hpp"
 #include "cli/run/drawn_world.hpp"
 #include "cli/run/environment.hpp"
 #include "cli/run/ground_program.hpp"
+#include "cli/run/watch_arguments.hpp"
 #include "core/config_files.hpp"
 #include "core/network_config.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/text.hpp"
 #include "core/topics.hpp"
 #include "process/run_folder.hpp"
-#include "view/time_order.hpp"
 
 namespace skein::cli {
 namespace {
@@ -172,6 +173,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   std::vector<std::string> names;
   for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
   Planners planners = parse_planners(options.planner, names);
+  check_hands(planners.uavs, options.view.at.has_value());
   plan.agent = own_agent(options.agent);
   find_agents(planners, plan.agent);
   plan.planners = planners.uavs;
@@ -289,7 +291,7 @@ std::vector<std::string> program_arguments(const FleetPlan& plan, const std::str
     if (!plan.debug.empty()) append(arguments, {"--agent-timeout", "0"});
     if (plan.options.agent_timeout_s) append(arguments, {"--agent-timeout", shortest(*plan.options.agent_timeout_s)});
     if (has_ground_program(plan)) arguments.push_back("--ground-program");
-    if (plan.watched) append(arguments, {"--watch", plan.options.view.speed.value_or(shortest(view::kUsualSpeed))});
+    if (plan.watched) append(arguments, watch_arguments(plan));
   }
   return arguments;
 }

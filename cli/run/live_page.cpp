@@ -1,9 +1,13 @@
 #include "cli/run/live_page.hpp"
 
-#include <csignal>
+#include <unistd.h>
 
+#include <array>
+#include <csignal>
+#include <cstdlib>
+
+#include "cli/run/browser.hpp"
 #include "cli/run/supervisor.hpp"
-#include "view/feed.hpp"
 #include "view/finished_run.hpp"
 #include "view/pages.hpp"
 #include "view/server.hpp"
@@ -11,8 +15,7 @@
 namespace skein::cli {
 namespace {
 
-constexpr const char* kKeyFile = "view.key";
-constexpr const char* kDoorFile = "view.html";
+namespace fs = std::filesystem;
 
 /// Waits for a signal that ends a command. One that came while the results were written counts.
 void wait_for_interrupt() {
@@ -24,25 +27,64 @@ void wait_for_interrupt() {
   ::sigprocmask(SIG_SETMASK, &former, nullptr);
 }
 
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "HOST";
+}
+
 }  // namespace
 
-LivePage::LivePage(std::uint16_t port) : script_(view::find_script()), listener_(port), key_(view::Key::draw()) {
-  view::write_private_file(folder_.path() / kKeyFile, key_.text() + "\n");
-  view::write_private_file(folder_.path() / kDoorFile, view::key_file_page(listener_.port(), key_));
+LivePage::LivePage(const view::Endpoint& endpoint, bool in_container)
+    : script_(view::find_script()),
+      listener_(std::in_place, endpoint),
+      endpoint_(listener_->endpoint()),
+      key_(view::Key::draw()) {
+  if (in_container) listener_.reset();
+  view::write_private_file(folder_.path() / kViewKey, key_.text() + "\n");
+  view::write_private_file(folder_.path() / kViewDoor,
+                           view::key_file_page(endpoint_.from_here().text(), key_, in_container));
 }
 
-WatchedBy LivePage::watched() const { return {listener_.fd(), folder_.path() / kKeyFile, script_}; }
+WatchedBy LivePage::watched() const { return {listener_ ? listener_->fd() : -1, folder_.path() / kViewKey, script_}; }
 
-std::string LivePage::address() const {
-  return "watch it in a browser: open " + (folder_.path() / kDoorFile).string() +
-         " (http://127.0.0.1:" + std::to_string(listener_.port()) + "/)";
+void LivePage::announce(const std::function<void(const std::string&)>& say, bool in_browser) const {
+  const fs::path door = folder_.path() / kViewDoor;
+  say("watch it in a browser: open " + door.string() + " (http://" + endpoint_.from_here().text() + "/)");
+  const char* const ssh = std::getenv("SSH_CONNECTION");
+  const std::string port = std::to_string(endpoint_.port), key = (folder_.path() / kViewKey).string();
+  if (!endpoint_.is_loopback()) {
+    say("warning: the page is served at " + endpoint_.text() +
+        ", beyond this host: whoever reaches it and has the key may look and give orders, and plain HTTP hides "
+        "neither; "
+        "ssh -L is safer (docs/view.md). From elsewhere: http://" +
+        (endpoint_.is_any() ? host_name() + ":" + port : endpoint_.text()) + "/, with the key in " + key);
+  } else if (ssh != nullptr && *ssh != '\0') {
+    say("from your own machine: ssh -L " + port + ":" + endpoint_.text() + " " + host_name() +
+        ", then http://localhost:" + port + "/ there, with the key in " + key);
+  }
+  if (!in_browser) return;
+  const auto command = browser_command(door, [](const char* name) { return std::getenv(name); });
+  if (!command.empty() && !start_browser(command)) say("warning: " + command[0] + " could not be started");
 }
 
-void LivePage::replay(const std::filesystem::path& run) const {
+void LivePage::replay(const fs::path& run) {
   view::Feed feed;
   view::tell_finished_run(run, feed);
-  const view::Server server(listener_.fd(), key_, view::site_of(view::title_of_run(run), script_), feed);
+  show(feed, view::title_of_run(run));
+}
+
+void LivePage::show(view::Feed& feed, const std::string& title) {
+  if (!listener_) listener_.emplace(endpoint_);
+  const view::Server server(listener_->fd(), key_, view::site_of(title, script_), feed);
   wait_for_interrupt();
+}
+
+void write_for_station(const fs::path& folder, const view::Key& key) {
+  const fs::path script = view::find_script();
+  fs::create_directories(folder);
+  fs::permissions(folder, fs::perms::owner_all);
+  view::write_private_file(folder / kViewKey, key.text() + "\n");
+  fs::copy_file(script, folder / kViewScript, fs::copy_options::overwrite_existing);
 }
 
 }  // namespace skein::cli

@@ -137,6 +137,25 @@ Json radio_counts(const RouterReport& router) {
           {"per_link", json_of(router.per_link)}};
 }
 
+/// What somebody who watched did to the run, in the order of steps.
+Json interventions(const std::vector<FaultReport>& faults, double period_s) {
+  std::vector<Json> all;
+  const auto add = [&](const FaultReport& fault, const Count& step, const char* what) {
+    if (!fault.by_hand.value_or(false) || !step) return;
+    all.push_back({{"time_s", static_cast<double>(*step) * period_s},
+                   {"step", *step},
+                   {"what", what},
+                   {"kind", fault.kind.value_or("")},
+                   {"target", fault.target.value_or("")}});
+  };
+  for (const FaultReport& fault : faults) {
+    add(fault, fault.began_step, "begin");
+    add(fault, fault.ended_step, "end");
+  }
+  std::ranges::stable_sort(all, {}, [](const Json& one) { return one["step"].get<std::uint64_t>(); });
+  return all;
+}
+
 /// Who left no report, and what that means.
 void warn_of_missing(const RunFacts& facts, const Reports& reports, Texts& warnings) {
   const auto missing = [&](const auto& report, const std::string& program, const std::string& consequence) {
@@ -270,6 +289,9 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["radio"]["malformed"] = samples.malformed;
   result["radio"]["unsent"] = samples.unsent;
   result["faults"] = json_of(sim.faults);
+  for (Json& fault : result["faults"]) fault.erase("by_hand");  // the same when a file repeats it
+  result["interventions"] = interventions(sim.faults, scenario.exchange_period_s);
+  if (sim.hand) result["hand"] = json_of(*sim.hand);
   if (sim.differences) {
     result["differences"] = *sim.differences;
     for (const std::string& text : router.differences.value_or(Texts())) result["differences"].push_back(text);

@@ -67,7 +67,8 @@ std::vector<std::string> server_topics(const std::vector<std::string>& units) {
   add_wire_names(names, topics::uav_topics(), topics::Direction::to_agent, units);
   add_wire_names(names, topics::gcs_topics(), topics::Direction::to_agent, units);
   add_wire_names(names, topics::viewer_topics(), topics::Direction::to_viewer, units);
-  for (const auto& topic : {topics::view_story(), topics::view_state()}) names.push_back(topic.name);
+  for (const auto& topic : {topics::view_story(), topics::view_state(), topics::view_cloud()})
+    names.push_back(topic.name);
   return names;
 }
 
@@ -85,7 +86,7 @@ Rights rights_of(const FleetPlan& plan, const std::string& program, int base_dom
     add_wire_names(names, topics::uav_topics(), topics::Direction::shown_by_agent, all_units);
     add_wire_names(names, topics::score_topics(), topics::Direction::from_station, all_units);
     add_wire_names(names, topics::viewer_topics(), topics::Direction::from_station, all_units);
-    names.push_back(topics::view_time().name);
+    names.push_back(topics::view_orders().name);
     return {base_domain, last, std::move(names)};
   }
   const bool is_station = program == topics::kStationMember;

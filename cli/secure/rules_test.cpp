@@ -75,10 +75,13 @@ TEST_F(SecurityRules, NobodyButTheServerSpeaksForTheServer) {
   EXPECT_FALSE(may_publish(rights_of(plan(), "comm_router", 10), topics::trajectory_command("alpha").name));
   EXPECT_FALSE(may_publish(rights_of(plan(), "station", 10), topics::routed().name));
   for (const char* program : {"comm_router", "station"}) {  // of a run that is watched
-    EXPECT_FALSE(may_publish(rights_of(plan(), program, 10), topics::view_story().name)) << program;
+    for (const auto& topic : {topics::view_story(), topics::view_state(), topics::view_cloud()}) {
+      EXPECT_FALSE(may_publish(rights_of(plan(), program, 10), topic.name)) << program << ' ' << topic.name;
+    }
   }
-  EXPECT_TRUE(may_publish(rights_of(plan(), "station", 10), topics::view_time().name));
-  EXPECT_FALSE(may_publish(rights_of(plan(), "comm_router", 10), topics::view_time().name));
+  EXPECT_TRUE(may_publish(rights_of(plan(), "station", 10), topics::view_orders().name));
+  EXPECT_FALSE(may_publish(rights_of(plan(), "comm_router", 10), topics::view_orders().name));
+  EXPECT_FALSE(may_publish(rights_of(plan(), "comm_router", 10), topics::flight_map("alpha").name));
   EXPECT_EQ(rights_of(plan(), "station", 10).last_domain, 11);
   EXPECT_EQ(rights_of(plan(), "comm_router", 10).last_domain, 13);
 }

@@ -15,13 +15,17 @@ std::string title(const Fault& fault) {
 
 std::vector<std::string> FaultTimeline::enter_step(std::uint64_t step, Tick tick) {
   std::vector<std::string> lines;
+  changes_.clear();
+  entries_.resize(faults_.size());
   for (std::size_t i = 0; i < faults_.size(); ++i) {
     Entry& entry = entries_[i];
     if (!entry.began && faults_[i].active(tick)) {
       entry.began = step;
+      changes_.push_back({i, true});
       lines.push_back(fmt::format("fault at {:.2f} s (step {}): {}", seconds(tick), step, title(faults_[i])));
     } else if (entry.began && !entry.ended && !faults_[i].active(tick)) {
       entry.ended = step;
+      changes_.push_back({i, false});
       lines.push_back(fmt::format("end of fault at {:.2f} s (step {}): {}", seconds(tick), step, title(faults_[i])));
     }
   }
@@ -31,12 +35,13 @@ std::vector<std::string> FaultTimeline::enter_step(std::uint64_t step, Tick tick
 std::vector<FaultReport> FaultTimeline::report() const {
   std::vector<FaultReport> report;
   for (std::size_t i = 0; i < faults_.size(); ++i) {
+    const Entry entry = i < entries_.size() ? entries_[i] : Entry{};  // added since: it has not begun
     report.push_back({.kind = fault_kind(faults_[i]),
                       .target = fault_target(faults_[i]),
                       .at_s = faults_[i].waits ? std::nullopt : std::optional(faults_[i].at_s),
                       .until_s = faults_[i].until_s,
-                      .began_step = entries_[i].began,
-                      .ended_step = entries_[i].ended,
+                      .began_step = entry.began,
+                      .ended_step = entry.ended,
                       .when = faults_[i].when ? std::optional(faults_[i].when->text) : std::nullopt});
   }
   return report;

@@ -12,13 +12,23 @@ namespace skein::sim {
 
 class FaultTimeline {
  public:
-  /// @param plan  must outlive this. Its faults that wait for a condition may be set off meanwhile.
+  /// A fault of the plan, by its index there, that begins or ends.
+  struct Change {
+    std::size_t fault = 0;
+    bool begins = false;
+  };
+
+  /// @param plan  must outlive this. Meanwhile its faults that wait for a condition may be set off, others may be added
+  /// at its end, and get an end.
   explicit FaultTimeline(const FaultPlan& plan) : faults_(plan.faults), entries_(plan.faults.size()) {}
   explicit FaultTimeline(FaultPlan&&) = delete;
 
   /// Call it once an exchange, in order, as the exchange begins.
   /// @returns a line for the log for each fault that begins or ends with it, in the plan's order.
   std::vector<std::string> enter_step(std::uint64_t step, Tick tick);
+
+  /// What enter_step() told of.
+  const std::vector<Change>& changes() const { return changes_; }
 
   /// One entry a fault, in the plan's order.
   std::vector<FaultReport> report() const;
@@ -29,7 +39,8 @@ class FaultTimeline {
   };
 
   const std::vector<Fault>& faults_;
-  std::vector<Entry> entries_;
+  std::vector<Entry> entries_;  ///< by fault, those of the last step's plan
+  std::vector<Change> changes_;
 };
 
 }  // namespace skein::sim

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/camera_quality.hpp"
 #include "process/atomic_file.hpp"
 #include "process/program_report.hpp"
 #include "process/run_folder.hpp"
@@ -54,6 +55,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario
       trajectories_(folder / run_folder::kTrajectories),
       digests_(folder / run_folder::kDigests),
       events_(folder, scenario),
+      activities_(folder, scenario),
       review_(scenario) {
   trajectories_ << run_tables::kPoseColumns << "vx,vy,vz,gimbal_pitch,gimbal_yaw,alive,clearance\n";
   digests_ << "k,digest";
@@ -80,6 +82,14 @@ void RunFiles::write_scene(const Scene& scene) {
                   {"scene_seed", scenario_.scene.scene_seed},
                   {"files", meshes},
                   {"triangles", scene.mesh.triangles.size()}};
+  json["cameras"] = nlohmann::json::array();
+  for (const UavConfig& uav : scenario_.fleet) {
+    const CameraConfig& camera = uav.vehicle.camera;
+    json["cameras"].push_back({{"uav", uav.name},
+                               {"hfov_deg", camera.hfov_deg},
+                               {"vfov_deg", camera.vfov_deg},
+                               {"range_m", resolution_distance(camera, scenario_.desired_mm_per_pixel)}});
+  }
   json["points"] = nlohmann::json::array();
   for (const InterestPoint& point : scene.points) {
     json["points"].push_back(
@@ -147,6 +157,7 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
                          .points_seen = std::string(),
                          .uavs = uav_reports(simulation, summary),
                          .faults = summary.faults,
+                         .hand = summary.hand,
                          .timing = summary.timing,
                          .flight = flight_,
                          .flight_check = review_.report(),
@@ -174,7 +185,7 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
 }
 
 void RunFiles::write_report(const Simulation& simulation, const RunSummary& summary, StatusPipe& status) {
-  for (StreamFile* file : {&trajectories_, &digests_, &events_.file()}) {
+  for (StreamFile* file : {&trajectories_, &digests_, &events_.file(), &activities_.file()}) {
     file->flush();
     if (!file->trouble().empty()) unwritten_.push_back(file->trouble());
   }

@@ -1,6 +1,6 @@
-// What the server leaves behind: trajectories.csv, tracking.csv, digests.csv, events.csv, scene.json and
-// sim_server.report.json, from which the launcher makes its part of result.json. Times in seconds of simulated time,
-// lengths in metres.
+// What the server leaves behind: trajectories.csv, tracking.csv, digests.csv, events.csv, activity.csv,
+// scene.json and sim_server.report.json, from which the launcher makes its part of result.json. Times in seconds of
+// simulated time, lengths in metres.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include "process/reports.hpp"
 #include "process/status_pipe.hpp"
 #include "process/stream_file.hpp"
+#include "sim_server/record/activity_log.hpp"
 #include "sim_server/record/event_log.hpp"
 #include "sim_server/record/flight_review.hpp"
 #include "sim_server/run_digest.hpp"
@@ -43,6 +44,7 @@ struct RunSummary {
   std::uint64_t unsent = 0;                     ///< samples that could not be sent
   TimingReport timing;
   std::vector<FaultReport> faults;
+  std::optional<std::vector<HandReport>> hand;          ///< only where somebody flew
   std::vector<WorkTrack> work;                          ///< by UAV
   std::optional<std::vector<std::string>> differences;  ///< from a run that is flown again
 };
@@ -62,6 +64,7 @@ class RunFiles {
 
   void write_scene(const Scene& scene);
   EventLog& events() { return events_; }
+  ActivityLog& activities() { return activities_; }
   /// One exchange: a line of digests.csv, every 100 ms a line per UAV of trajectories.csv, and the flight check.
   void add_step(const Simulation& simulation, const StepDigest& digest);
   /// Another file that the disk refused, a sentence.
@@ -77,6 +80,7 @@ class RunFiles {
   const Scenario& scenario_;
   StreamFile trajectories_, digests_;
   EventLog events_;
+  ActivityLog activities_;
   FlightReview review_;
   std::vector<std::string> unwritten_;  ///< files that the disk refused as a whole, one sentence each
 };

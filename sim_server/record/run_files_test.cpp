@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "core/camera_quality.hpp"
 #include "core/random_stream.hpp"
 #include "core/scenario_reader.hpp"
 #include "tests/support/places.hpp"
@@ -108,6 +109,13 @@ TEST_F(RunFilesTest, TheSceneHasItsBoxesAndPointsAsTheyStand) {
   RunFiles(folder_, scenario_, RunDigest(scenario_.uav_names())).write_scene(scene);
   const auto json = nlohmann::json::parse(std::ifstream(folder_ / "scene.json"));
   EXPECT_EQ(json["mesh"]["files"], nlohmann::json({"crane.stl", "hall.stl"})) << "no folder of this machine";
+  ASSERT_EQ(json["cameras"].size(), scenario_.fleet.size());
+  const CameraConfig& camera = scenario_.fleet.back().vehicle.camera;
+  EXPECT_EQ(json["cameras"].back(),
+            (nlohmann::json{{"uav", scenario_.fleet.back().name},
+                            {"hfov_deg", camera.hfov_deg},
+                            {"vfov_deg", camera.vfov_deg},
+                            {"range_m", resolution_distance(camera, scenario_.desired_mm_per_pixel)}}));
   ASSERT_EQ(json["boxes"].size(), scene.boxes.size());
   ASSERT_EQ(json["points"].size(), scene.points.size());
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {

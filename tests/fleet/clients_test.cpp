@@ -144,7 +144,9 @@ const std::string kForeignPlanner = "hover,sentosa=exec:" + helper_program("mini
 TEST_F(Clients, ForeignClientTakesPartInTheLockStep) {
   std::set<std::string> digests;
   for (const std::string vendor : {"cyclonedds", "fastdds"}) {
-    SkeinRun& done = run(vendor, {"towers", "--duration", "20", "--dds", vendor, "--planner", kForeignPlanner});
+    const bool tells = vendor == "fastdds";
+    SkeinRun& done = run(
+        vendor, {"towers", "--duration", "20", "--dds", vendor, "--planner", kForeignPlanner + (tells ? " tell" : "")});
     const Json result = done.result();
     EXPECT_EQ(result["status"], "completed");
     EXPECT_TRUE(result["deterministic"]);
@@ -152,8 +154,13 @@ TEST_F(Clients, ForeignClientTakesPartInTheLockStep) {
     EXPECT_NEAR(result["uavs"][2]["distance_m"].get<double>(), 3.0, 0.5) << "it was heard";
     EXPECT_EQ(result["uavs"][2]["commands_rejected"], 0);
     digests.insert(done.digest());
+    const std::string activity = text_of(done.dir() / "activity.csv"), said = ",sentosa,hovers; all by itself,";
+    EXPECT_EQ(activity.find(said) != std::string::npos, tells) << activity;
+    EXPECT_EQ(activity.find(said), activity.rfind(said)) << "once: it does nothing else";
+    EXPECT_EQ(activity.find(",sentosa,") != std::string::npos, tells) << "others tell nothing for it";
+    EXPECT_NE(activity.find(",jurong,"), std::string::npos);
   }
-  EXPECT_EQ(digests.size(), 1u) << "the same run, whatever its vendor";
+  EXPECT_EQ(digests.size(), 1u) << "the same run, whatever its vendor, and whatever it says that it does";
 }
 
 TEST_F(Clients, ForeignClientIsWatchedLikeTheOthers) {

@@ -50,6 +50,9 @@ class ComposeCommands : public FleetTest {
 
 TEST_F(ComposeCommands, AreTakenByThePrograms) {
   expect_accepted({"towers", "--planner", "kios"});
+  if (fs::exists(source_path("build/web/live.js"))) {
+    expect_accepted({"towers", "--planner", "kios", "--view", "0.0.0.0:8080", "--speed", "max"});
+  }
   const fs::path parameters = write("parameters.yaml", "height_m: 4\n");
   expect_accepted({"towers",
                    "--planner",

@@ -4,7 +4,7 @@
 // The launcher sets SKEIN_RUN, SKEIN_DOMAIN, SKEIN_UAV and SKEIN_DDS. Exit code 0 after the last step, 3 when the
 // server dropped it. To see what becomes of a broken client: with an argument it lies from a certain step on; "hang"
 // answers no more; "boast" announces a command more than it sends, "smuggle" one less; "forge" tells the station of
-// captures that no camera took.
+// captures that no camera took. "tell" is no lie: it says what it does.
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
@@ -136,6 +136,7 @@ class Client {
     ready.run(run_);
     ready.member(uav_);
     ready.revision(revision);
+    if (lie_ == "tell") ready.writes().push_back(activity_name());
     if (revision > 0) {
       ready.reads().push_back(odometry_->name());
       ready.writes().push_back(command_name());
@@ -155,6 +156,9 @@ class Client {
       if (lie_ == "forge") {
         reports_ = participant_.create_writer(topic<msg::CaptureReports>("captures/" + uav_, kRadioQos));
       }
+      if (lie_ == "tell") {
+        activities_ = participant_.create_writer(topic<msg::Activity>(uav_ + "/activity", kCommandQos));
+      }
       received_ = expected_ = count_of(resync->second.base(), odometry_->name(), server_, 0);
       return;
     }
@@ -165,7 +169,7 @@ class Client {
       return Queue<msg::Step>::contains(writer.matched(), server_);
     };
     while (!odometry_->matches(server_) || !steps_.matches(server_) || !heard(*commands_) || !heard(*done_) ||
-           (reports_ && !reports_->has_readers())) {
+           (reports_ && !reports_->has_readers()) || (activities_ && !heard(*activities_))) {
       resyncs_.take();  // a pause
     }
   }
@@ -192,6 +196,7 @@ class Client {
     }
     write_command(step);
     if (reports_ && step.k() >= kFirstLie) write_forged_report(step);
+    if (activities_) write_activity();
 
     msg::Done done;
     done.run(run_);
@@ -206,6 +211,11 @@ class Client {
     if (reports_) {
       sent.topic(reports_name());
       sent.count(reports_sent_);
+      done.sent().push_back(sent);
+    }
+    if (activities_) {
+      sent.topic(activity_name());
+      sent.count(activities_sent_);
       done.sent().push_back(sent);
     }
     done_->write(skein::encode(done));
@@ -230,6 +240,17 @@ class Client {
     ++commands_sent_;
   }
 
+  /// In each step, which is more often than it need be; the server tells of changes alone.
+  void write_activity() {
+    msg::Activity activity;
+    activity.mode("hovers, all by itself");
+    activity.has_goal(true);
+    activity.goal().z(kHeightM);
+    activity.cpu_s(static_cast<double>(activities_sent_));
+    activities_->write(skein::encode(activity));
+    ++activities_sent_;
+  }
+
   void write_forged_report(const msg::Step& step) {
     msg::CapturePoint point;
     point.q_blur(1.0F);
@@ -252,6 +273,7 @@ class Client {
     return lie_ == "smuggle" ? commands_sent_ - 1 : commands_sent_;
   }
   std::string command_name() const { return "rt/" + uav_ + "/command/trajectory"; }
+  std::string activity_name() const { return "rt/" + uav_ + "/activity"; }
   std::string reports_name() const { return "rt/captures/" + uav_; }
 
   skein::bus::Participant& participant_;
@@ -259,10 +281,10 @@ class Client {
   const std::string uav_, lie_;
   Queue<msg::Resync> resyncs_;
   Queue<msg::Step> steps_;
-  std::unique_ptr<skein::bus::Writer> done_, ready_, commands_, reports_;
+  std::unique_ptr<skein::bus::Writer> done_, ready_, commands_, reports_, activities_;
   std::unique_ptr<Queue<msg::Odometry>> odometry_;
   ParticipantId server_ = 0;
-  std::uint64_t received_ = 0, expected_ = 0, commands_sent_ = 0, reports_sent_ = 0;
+  std::uint64_t received_ = 0, expected_ = 0, commands_sent_ = 0, reports_sent_ = 0, activities_sent_ = 0;
   std::optional<std::uint64_t> answered_;
   msg::Done last_done_;
   std::optional<msg::Point> goal_;
@@ -275,7 +297,7 @@ int main(int argc, char** argv) {
              *run = std::getenv("SKEIN_RUN");
   if (domain == nullptr || uav == nullptr || vendor == nullptr) {
     std::cerr << "usage: [SKEIN_RUN=N] SKEIN_DOMAIN=N SKEIN_UAV=NAME SKEIN_DDS=VENDOR minimal_client "
-                 "[hang|boast|smuggle|forge]\n";
+                 "[hang|boast|smuggle|forge|tell]\n";
     return 2;
   }
   const char* security = std::getenv("SKEIN_SECURITY");  // set with --secure

@@ -8,11 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "bus/lockstep/names.hpp"
 #include "comm_router/router_node.hpp"
 #include "core/random_stream.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/text.hpp"
+#include "core/view_topics.hpp"
 #include "process/environment.hpp"
+#include "process/json_text.hpp"
 #include "process/run_folder.hpp"
 #include "sim_server/scenes/scene_source.hpp"
 #include "sim_server/sim_node.hpp"
@@ -22,6 +25,7 @@
 #include "tests/support/test_program.hpp"
 #include "uav_agent/agent_node.hpp"
 #include "uav_agent/ground_node.hpp"
+#include "view/testing/unpacked.hpp"
 
 namespace skein::test {
 namespace {
@@ -31,6 +35,7 @@ struct Flight {
   LoadOptions load = {};
   std::uint64_t seed = 0;
   std::optional<double> stop_at_s = {};
+  std::optional<view::LookOrder> look = {};  ///< somebody watches, and looks at this all the time
 };
 
 class Fleet {
@@ -52,6 +57,7 @@ class Fleet {
                                                                .realtime_factor = {},
                                                                .stop_at_s = flight.stop_at_s,
                                                                .expect_gcs_program = has_ground_program(flight.planner),
+                                                               .watch = watch_of(flight),
                                                                .faults = {}},
                                            *bus_, status_));
     add(std::make_unique<router::RouterNode>(scenario_, flight.seed, 0, *bus_));
@@ -64,6 +70,7 @@ class Fleet {
       auto program = agent::make_ground_program(flight.planner, agent::ground_config(scenario_));
       add(std::make_unique<agent::GroundNode>(scenario_, std::move(program), 0, *bus_));
     }
+    if (flight.look) look_at(*flight.look);
     for (const auto& node : nodes_) node->start();
   }
   ~Fleet() { std::filesystem::remove_all(folder_); }
@@ -84,6 +91,8 @@ class Fleet {
     server_->report_lost(scenario_.fleet[uav].name);
   }
   sim::SimNode& server() { return *server_; }
+  /// What was shown to who looks.
+  const std::vector<Json>& shown() const { return shown_; }
   std::size_t points() const {
     const auto report =
         nlohmann::json::parse(std::ifstream(folder_ / run_folder::report_file(programs::kStation)), nullptr, false);
@@ -98,8 +107,23 @@ class Fleet {
   static bool has_ground_program(const std::string& planner) {
     return std::ranges::count(agent::ground_program_names(), planner) > 0;
   }
+  static std::optional<sim::WatchOptions> watch_of(const Flight& flight) {
+    return flight.look ? std::optional(sim::WatchOptions{.speed = std::nullopt}) : std::nullopt;
+  }
+  /// As the station does for a browser.
+  void look_at(const view::LookOrder& look) {
+    viewer_ = bus_->join(world_domain(0));
+    orders_ = viewer_->create_writer(bus::spec(topics::view_orders()));
+    clouds_ = viewer_->create_reader(bus::spec(topics::view_cloud()), [this](bus::Sample&& sample) {
+      msg::String text;
+      ASSERT_TRUE(decode(sample.payload, text));
+      shown_.push_back(parse_json(text.data()));
+    });
+    order_.data(view::text_of(look));
+  }
   /// A match or a sample arrives, or somebody gets a turn.
   void go_on() {
+    if (orders_ && turns_++ % 5000 == 0) orders_->write(encode(order_));
     if (network_ != nullptr && random_.bits() % 2 == 0) {
       const auto events = network_->events();
       if (!events.empty()) return network_->happen(events[random_.bits() % events.size()]);
@@ -123,6 +147,12 @@ class Fleet {
   std::vector<std::unique_ptr<bus::LockstepNode>> nodes_;
   sim::SimNode* server_ = nullptr;
   station::StationNode* station_ = nullptr;
+  std::unique_ptr<bus::Participant> viewer_;  ///< none: nobody looks
+  std::unique_ptr<bus::Writer> orders_;
+  std::unique_ptr<bus::Reader> clouds_;
+  msg::String order_;
+  std::uint64_t turns_ = 0;
+  std::vector<Json> shown_;
 };
 
 TEST(FleetInOneProcess, TheOrderOfTurnsIsNoMatter) {
@@ -146,6 +176,36 @@ TEST(FleetInOneProcess, TheOrderOfDiscoveryAndArrivalIsNoMatter) {
     Fleet fleet({.planner = "patrol", .stop_at_s = 2.0}, order, &network);
     ASSERT_TRUE(fleet.fly()) << network.describe();
     EXPECT_EQ(fleet.server().summary().digest, calm.server().summary().digest);
+  }
+}
+
+// Whose points and maps are shown, and how often, is decided by wall time. "hover" reads no scans: they are computed
+// for the page alone, and its map is the one of key frames.
+TEST(FleetInOneProcess, IsTheSameWhereSomebodyLooksAtPointsAndMaps) {
+  for (const std::string planner : {"patrol", "hover"}) {
+    const Flight flight{.planner = planner, .seed = 5, .stop_at_s = 15.0};
+    std::optional<Fleet> unseen(std::in_place, flight, 1);
+    ASSERT_TRUE(unseen->fly());
+    EXPECT_TRUE(unseen->shown().empty());
+    const auto digest = unseen->server().summary().digest;
+    ASSERT_TRUE(digest);
+    unseen.reset();  // two fleets of one process would hear each other
+    Flight seen_flight = flight;
+    seen_flight.look = view::LookOrder{{"jurong", "nobody", "changi"}, "raffles"};
+    Fleet seen(seen_flight, 2);
+    ASSERT_TRUE(seen.fly());
+    EXPECT_EQ(seen.server().summary().digest, digest) << planner;
+    std::size_t points = 0, cubes = 0;
+    for (const Json& cloud : seen.shown()) {
+      const auto name = cloud["n"].get<std::string>();
+      EXPECT_TRUE(name == "lidar jurong" || name == "map raffles") << name;
+      for (const Json& step : cloud["steps"]) {
+        if (step.contains("points")) points += view::unpacked_points(step["points"].get<std::string>()).size();
+        if (step.contains("runs")) cubes += view::unpacked_runs(step["runs"].get<std::string>()).size();
+      }
+    }
+    EXPECT_GT(points, 20U) << planner;
+    EXPECT_GT(cubes, 5U) << planner;
   }
 }
 

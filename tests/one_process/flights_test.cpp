@@ -63,7 +63,8 @@ TEST_F(OneProcess, LeavesWhatProcessesLeave) {
   for (const auto& entry : std::filesystem::directory_iterator(many.dir())) usual.insert(entry.path().filename());
   usual.insert("one_process.log");
   EXPECT_EQ(files, usual);
-  for (const char* table : {"captures.csv", "events.csv", "score.csv", "score_timeline.csv", "trajectories.csv"}) {
+  for (const char* table :
+       {"activity.csv", "captures.csv", "events.csv", "score.csv", "score_timeline.csv", "trajectories.csv"}) {
     EXPECT_EQ(text_of(one.dir() / table), text_of(many.dir() / table)) << table;
   }
   EXPECT_EQ(one.result()["processes"].size(), 1U);

@@ -86,15 +86,27 @@ async function checkLive(page, run) {
   expect((await lookAt(browser, before)).colours > 60, 'the 3D view is blank');
   const places = () => page.$$eval('.scene .tag', (tags) => tags.map((tag) => tag.style.transform).join());
   const then = await places();
-  await page.$eval('#moment', (slider) => {
-    slider.value = String(Number(slider.max) * 0.97);  // there are captures by then
+  const moveTo = (share) => page.$eval('#moment', (slider, part) => {
+    slider.value = String(Number(slider.max) * part);
     slider.dispatchEvent(new Event('input'));
-  });
+  }, share);
+  await moveTo(0.5);  // names stand on whole pixels, and at the end of a flight hardly anybody moves
   expect((await places()) !== then, 'the slider does not move the fleet');
+  await moveTo(0.97);  // there are captures by then
   const half = await look();
   expect(half !== before, 'the slider does not change the picture');
   await page.select('#colour-by', 'uav');
   expect((await look()) !== half || run.result.score === 0, 'the colours do not change');
+  const outside = await look();
+  await page.select('#follow', '0');
+  const followed = await look();
+  expect(followed !== outside, 'the view does not follow a UAV');
+  expect(await page.$eval('#through', (box) => box.disabled) === !run.scene.cameras, 'cameras are offered that nobody knows, or known ones are not');
+  if (run.scene.cameras) {
+    await page.click('#through');
+    expect((await look()) !== followed, 'the view is not that of the camera');
+    await page.click('#through');
+  }
   for (const box of await page.$$('.scene .tools input[type="checkbox"]')) await box.click();
   expect((await lookAt(browser, await look())).colours < (await lookAt(browser, half)).colours, 'the layers do not go');
 }

@@ -6,33 +6,15 @@
 namespace skein::test {
 namespace {
 
-class PageOfARun : public ViewTest {
+class PageOfARun : public BrowserTest {
  protected:
-  void SetUp() override {
-    ViewTest::SetUp();
-    if (IsSkipped()) return;
-    for (const char* name : {"node", "chromium"}) {
-      if (command_file(name).empty()) GTEST_SKIP() << "there is no " << name;
-    }
-    if (!std::filesystem::exists(source_path("web/node_modules/puppeteer-core"))) {
-      GTEST_SKIP() << "web/ is not built: ./skein test does that, or `npm ci && npm run build` there";
-    }
-  }
-
-  /// What a script finds wrong with a page.
-  void look(const std::string& script, const std::filesystem::path& door, const std::filesystem::path& run) {
-    ChildProcess& node = start_program(script, {command_file("node"), source_path("tests/view/" + script + ".mjs"),
-                                                source_path("web"), command_file("chromium"), door, run});
-    EXPECT_EQ(node.wait().code, 0) << node.err() << node.out();
-    EXPECT_EQ(node.out(), "");
-  }
-
   /// A flight that somebody watches, holds and lets go is the one that nobody watched.
-  void watch(const Arguments& flight, const Arguments& how) {
+  /// @param script  what somebody does with the page, up to its replay.
+  void watch(const Arguments& flight, const Arguments& how, const std::string& script = "watch") {
     const std::string unseen = run("unseen", joined(flight, {"--one-process"})).digest();
     SkeinRun& seen = start("seen", joined(joined(flight, how), {"--view", "--speed", "1"}));
     const std::filesystem::path door = door_of(seen);
-    look("watch", door, seen.dir());
+    look(script, door, seen.dir());
     seen.skein().signal(SIGINT);
     EXPECT_EQ(seen.exit_code(), 0) << seen.err();
     expect_complete_result(seen);
@@ -41,21 +23,58 @@ class PageOfARun : public ViewTest {
   }
 };
 
-const Arguments kFlight = {"towers", "--planner", "kios", "--duration", "60", "--no-oracle"};
+const Arguments kWatchedFlight = {"towers", "--planner", "kios", "--duration", "60", "--no-oracle"};
 
-TEST_F(PageOfARun, FollowsAFleetOverDds) { watch(kFlight, {}); }
+TEST_F(PageOfARun, FollowsAFleetOverDds) { watch(kWatchedFlight, {}); }
 
-TEST_F(PageOfARun, FollowsAFleetInOneProcess) { watch(kFlight, {"--one-process"}); }
+TEST_F(PageOfARun, FollowsAFleetInOneProcess) { watch(kWatchedFlight, {"--one-process"}); }
+
+TEST_F(PageOfARun, TellsWhatUavsDoAndForWhomARunWaits) {
+  const std::string unseen = run("unseen", joined(kWatchedFlight, {"--one-process"})).digest();
+  SkeinRun& seen = start("seen", joined(kWatchedFlight, {"--view", "--speed", "2"}));
+  const std::filesystem::path door = door_of(seen);
+  ASSERT_TRUE(seen.wait_until_flying()) << seen.err();
+  look("activity", door, seen.dir(), {"jurong", std::to_string(processes_of(seen.dir()).at("uav_agent-jurong"))});
+  seen.skein().signal(SIGINT);
+  EXPECT_EQ(seen.exit_code(), 0) << seen.err();
+  EXPECT_EQ(seen.digest(), unseen) << "a program that stood still for a while is none that was lost";
+}
+
+TEST_F(PageOfARun, ShowsPointsAndMapsOverDds) { watch(kWatchedFlight, {"--dds", "mixed"}, "clouds"); }
+
+TEST_F(PageOfARun, ShowsPointsAndMapsInOneProcess) { watch(kWatchedFlight, {"--one-process"}, "clouds"); }
 
 TEST_F(PageOfARun, ComesBackWithAStationThatWasKilled) {
   const auto faults = write("faults.yaml", "faults:\n  - {at_s: 16, until_s: 18, kill: station}\n");
   for (const Arguments& how : {Arguments{"--one-process"}, Arguments{}}) {
     const std::string name = how.empty() ? "dds" : "one";
-    SkeinRun& seen = start(name, joined(joined(kFlight, how), {"--faults", faults, "--view", "--speed", "0.5"}));
+    SkeinRun& seen = start(name, joined(joined(kWatchedFlight, how), {"--faults", faults, "--view", "--speed", "0.5"}));
     look("reconnect", door_of(seen), seen.dir());
     seen.skein().signal(SIGINT);
     EXPECT_EQ(seen.exit_code(), 0) << seen.err();
   }
+}
+
+// What its buttons did is repeated by the file that they left.
+TEST_F(PageOfARun, BreaksAFleetByItsButtons) {
+  for (const Arguments& how : {Arguments{"--one-process"}, Arguments{}}) {
+    const std::string name = how.empty() ? "dds" : "one";
+    SkeinRun& seen = start(name, joined(joined(kWatchedFlight, how), {"--view", "--speed", "2"}));
+    look("by_hand", door_of(seen), seen.dir());
+    seen.skein().signal(SIGINT);
+    EXPECT_EQ(seen.exit_code(), 0) << seen.err();
+    expect_complete_result(seen);
+    const Arguments again = {"--one-process", "--faults", seen.dir() / "by-hand.yaml"};
+    EXPECT_EQ(run(name + "_again", joined(kWatchedFlight, again)).digest(), seen.digest());
+  }
+}
+
+// As by `ssh -L`, from a machine that is not this one.
+TEST_F(PageOfARun, ComesThroughATunnelWithAnotherPort) {
+  SkeinRun& seen = start("seen", joined(kWatchedFlight, {"--one-process", "--view", "--speed", "2"}));
+  look("tunnel", door_of(seen), seen.dir());
+  seen.skein().signal(SIGINT);
+  EXPECT_TRUE(seen.exit_code() == 0 || seen.exit_code() == 130) << seen.err();
 }
 
 TEST_F(PageOfARun, ShowsAFinishedRun) {

@@ -5,8 +5,8 @@ import {openBrowser} from '../report/browser.mjs';
 
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
-/** @param known  a browser that is open already. @returns browser, page, complaints, and the page's host. */
-export async function openRun([web, chromium, door], {width = 1400, height = 950, scheme = 'light'} = {}, known = null) {
+/** @param known  a browser that is open already. @param webgl  false: as one that has none. @returns browser, page, complaints, and the page's host. */
+export async function openRun([web, chromium, door], {width = 1400, height = 950, scheme = 'light', webgl = true} = {}, known = null) {
   const browser = known ?? await openBrowser(web, chromium);
   const page = await browser.newPage();
   const host = /http:\/\/(127\.0\.0\.1:\d+)\/enter/.exec(readFileSync(door, 'utf8'))[1];
@@ -18,6 +18,14 @@ export async function openRun([web, chromium, door], {width = 1400, height = 950
     const own = [`file://${door}`, `http://${host}/`, `ws://${host}/`, 'data:', 'blob:'];
     if (!own.some((begin) => url.startsWith(begin))) complaints.push(`asks for ${url}`);
   });
+  if (!webgl) {
+    await page.evaluateOnNewDocument(() => {
+      const {getContext} = HTMLCanvasElement.prototype;
+      HTMLCanvasElement.prototype.getContext = function(kind, ...more) {
+        return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...more);
+      };
+    });
+  }
   await page.setViewport({width, height});
   await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: scheme}]);
   await page.goto(`file://${door}`, {waitUntil: 'load'});

@@ -3,7 +3,7 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {openRun, stateOf, until} from './page.mjs';
+import {openRun, sleep, stateOf, until} from './page.mjs';
 
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page} = await openRun([web, chromium, door]);
@@ -17,9 +17,15 @@ await page.select('#speed', '4');
 await until(page, ({state, tick}) => state === 'flies' && tick > kKilled, 'it flies on after the station is back');
 await page.select('#speed', '1');
 expect(loads === 1, `the page was loaded ${loads} times`);
-const events = await page.$$eval('#events li', (all) => all.map((li) => li.textContent).join('\n'));
-for (const word of ['station takes no part any more', 'jurong takes part'])
-  expect(events.includes(word), `the events do not tell that ${word}`);
+const told = () => page.$$eval('#events li', (all) => all.map((li) => li.textContent).join('\n'));
+for (const word of ['station takes no part any more', 'jurong takes part']) {
+  let events = await told();
+  for (let tries = 0; tries < 300 && !events.includes(word); ++tries) {  // panels follow the head after a while
+    await sleep(100);
+    events = await told();
+  }
+  expect(events.includes(word), `the events do not tell that ${word}: ${events}`);
+}
 await page.select('#speed', 'max');
 await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'its replay');
 const {score} = await stateOf(page);

@@ -79,6 +79,10 @@ async function checkKeyboard(page) {
   expect(await page.$eval('#chosen', (element) => element.hidden), 'Escape does not let go');
 }
 
+/** What counts, by UAV, as the station wrote it down. */
+const counted = {};
+for (const {uav, q, reason} of rows('captures.csv'))
+  if (reason === '' && Number(q) >= 0.2) counted[uav] = (counted[uav] ?? 0) + Number(q);
 let browser = null;
 for (const [width, scheme] of [[1400, 'light'], [1400, 'dark'], [800, 'light'], [390, 'dark']]) {
   where = `${width} ${scheme}`;
@@ -96,6 +100,9 @@ for (const [width, scheme] of [[1400, 'light'], [1400, 'dark'], [800, 'light'], 
   const tooWide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   expect(tooWide <= 0, `the page is ${tooWide} pixels too wide`);
   await checkSlider(page, browser);
+  const shares = await page.$$eval('#fleet tbody tr', (all) => all.map((row) => Number(row.lastChild.textContent)));
+  result.uavs.forEach(({name}, i) => expect(Math.abs(shares[i] - (counted[name] ?? 0)) < 0.006,
+      `of the score ${counted[name]} is ${name}'s, and the page says ${shares[i]}`));
   if (width === 1400) {
     await checkKeyboard(page);
     await checkPoint(page);
@@ -103,4 +110,13 @@ for (const [width, scheme] of [[1400, 'light'], [1400, 'dark'], [800, 'light'], 
   for (const complaint of complaints) expect(false, complaint);
   await page.close();
 }
+where = 'without WebGL';
+const {page, complaints} = await openRun([web, chromium, door], {webgl: false}, browser);
+await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'the replay');
+await page.focus('#moment');
+await page.keyboard.press('Home');
+await sleep(300);
+expect((await stateOf(page)).score === 0, 'the slider does not go to the begin');
+expect(await page.$('#fleet tbody tr') !== null, 'the fleet is missing');
+for (const complaint of complaints) expect(false, complaint);
 await browser.close();

@@ -31,4 +31,33 @@ class ViewTest : public FleetTest {
   }
 };
 
+/// What is looked at with a browser, by the scripts beside this.
+class BrowserTest : public ViewTest {
+ protected:
+  void SetUp() override {
+    ViewTest::SetUp();
+    if (IsSkipped()) return;
+    for (const char* name : {"node", "chromium"}) {
+      if (command_file(name).empty()) GTEST_SKIP() << "there is no " << name;
+    }
+    if (!std::filesystem::exists(source_path("web/node_modules/puppeteer-core"))) {
+      GTEST_SKIP() << "web/ is not built: ./skein test does that, or `npm ci && npm run build` there";
+    }
+  }
+
+  /// What a script finds wrong with a page.
+  void look(const std::string& script, const std::filesystem::path& door, const std::filesystem::path& run,
+            const Arguments& more = {}) {
+    const Arguments command = {command_file("node"),
+                               source_path("tests/view/" + script + ".mjs"),
+                               source_path("web"),
+                               command_file("chromium"),
+                               door,
+                               run};
+    ChildProcess& node = start_program(script, joined(command, more));
+    EXPECT_EQ(node.wait().code, 0) << node.err() << node.out();
+    EXPECT_EQ(node.out(), "");
+  }
+};
+
 }  // namespace skein::test

@@ -45,11 +45,20 @@ std::size_t listeners_of(pid_t pid) {
 class WatchedRun : public ViewTest {};
 
 TEST_F(WatchedRun, HasTheDigestOfOneThatNobodyWatches) {
-  const std::string unseen = run("unseen", joined(kShort, {"--one-process"})).digest();
-  EXPECT_EQ(run("one", joined(kShort, {"--one-process", "--view", "--view-close", "--speed", "max"})).digest(), unseen);
-  EXPECT_EQ(run("one8", joined(kShort, {"--one-process", "--view", "--view-close", "--speed", "16"})).digest(), unseen);
-  EXPECT_EQ(run("dds", joined(kShort, {"--view", "--view-close", "--speed", "max"})).digest(), unseen);
-  EXPECT_EQ(run("dds8", joined(kShort, {"--view", "--view-close", "--dds", "fastdds"})).digest(), unseen);
+  const SkeinRun& unseen = run("unseen", joined(kShort, {"--one-process"}));
+  const std::string activity = text_of(unseen.dir() / "activity.csv");
+  for (const std::string& uav : kFleet) EXPECT_NE(activity.find("," + uav + ",takes off,"), std::string::npos) << uav;
+  EXPECT_NE(activity.find(",changi,on the ground,,,,jurong,\n"), std::string::npos)
+      << "it starts beside it: " << activity;
+  const auto expect_same = [&](const std::string& name, const Arguments& how) {
+    const SkeinRun& seen = run(name, joined(kShort, how));
+    EXPECT_EQ(seen.digest(), unseen.digest()) << name;
+    EXPECT_EQ(text_of(seen.dir() / "activity.csv"), activity) << name;
+  };
+  expect_same("one", {"--one-process", "--view", "--view-close", "--speed", "max"});
+  expect_same("one8", {"--one-process", "--view", "--view-close", "--speed", "16"});
+  expect_same("dds", {"--view", "--view-close", "--speed", "max"});
+  expect_same("dds8", {"--view", "--view-close", "--dds", "fastdds"});
 }
 
 TEST_F(WatchedRun, ListensAtTheStationAndForItsReplayAlone) {

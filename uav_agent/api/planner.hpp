@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/config_reader.hpp"
+#include "core/hand_command.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/beam_scan.hpp"
 #include "uav_agent/api/goals.hpp"
@@ -57,6 +58,7 @@ struct PlannerInput {
   const WorldMap* world_map = nullptr;        ///< what beams have proved to be free; only if wants_world_map()
   bool scanned = false;                       ///< the own LiDAR told something since the step before
   FlightState flight = {};                    ///< what became of its goals; only if flight() is given
+  std::optional<HandCommand> hand = {};       ///< news of who flies it by hand; only for planners named "hand"
   const FreeSpace* space = nullptr;           ///< where the flight core may fly it; only if flight() is given
 };
 

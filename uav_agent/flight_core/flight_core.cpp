@@ -17,7 +17,6 @@ constexpr double kClimbGainM = 0.3;
 constexpr double kNoLinkS = 4.0;  ///< at a place from which the station should be seen
 constexpr double kIdleS = 4.0;    ///< without a goal that can be flown to
 constexpr std::int64_t kHome = -2;
-constexpr std::size_t kOwnRegions = 8;  ///< of the map, in which its own start lies: it was told of none
 constexpr double kShowCheckS = 5.0;
 constexpr std::uint64_t kShowLook = 10;  ///< exchanges
 
@@ -27,6 +26,7 @@ FlightCore::FlightCore(const FlightConfig& config, const AgentConfig& agent)
     : config_(config),
       agent_(agent),
       filter_(config, agent),
+      told_(config, agent),
       navigator_(config, agent, filter_),
       homing_(config, agent),
       recovery_(config, navigator_),
@@ -48,27 +48,56 @@ std::optional<Vector3d> FlightCore::going_to_W() const {
   return mode_ == Mode::takeoff || mode_ == Mode::ground ? top_W_ : navigator_.going_to_W();
 }
 
+Doing FlightCore::doing(const PlannerInput& in) const {
+  using enum Doing::What;
+  const bool flies = navigator_.current().has_value();
+  Doing doing;
+  if (flies) doing.goal_W = navigator_.going_to_W();
+  switch (mode_) {
+    case Mode::ground:
+      break;
+    case Mode::takeoff:
+      doing = {waits_for_ ? awaits_way_up : takeoff, top_W_, {}};
+      break;
+    case Mode::working:
+      doing.what = flies_along() ? along_goal : flies ? to_goal : navigator_.idle() ? no_goal : seeks_way;
+      break;
+    case Mode::homing:
+      doing.what = doing_home(in);
+      break;
+    case Mode::showing:
+      doing.what = shows_mate;
+      doing.mate = showing_.mate();
+      break;
+    case Mode::recovering:
+      doing.what = recovery_.doing();
+      break;
+  }
+  return doing;
+}
+
+/// A goal that is a line.
+bool FlightCore::flies_along() const {
+  return navigator_.current() && navigator_.on_way() && navigator_.current()->way.size() > 1;
+}
+
+/// What it does about its captures.
+Doing::What FlightCore::doing_home(const PlannerInput& in) const {
+  if (in.station_linked && homing_.delivers_here(in)) return Doing::What::delivers;
+  if (navigator_.current()) return Doing::What::homing;
+  return at_place_since_ ? Doing::What::awaits_link : Doing::What::seeks_way;
+}
+
 void FlightCore::enter(Mode mode, const PlannerInput& in) {
   mode_ = mode;
   since_ = in.tick;
-}
-
-/// A UAV without a LiDAR, or whose LiDAR has failed, learns of free space by radio, or never.
-void FlightCore::listen(const PlannerInput& in) {
-  if (!agent_.first_explorer()) return;
-  if (navigator_.sees()) return filter_.assume_boxes(false);
-  const std::size_t regions = in.world_map->regions().size();
-  if (regions != told_regions_ || !told_at_) told_at_ = in.tick;
-  told_regions_ = regions;
-  if (told_regions_ > kOwnRegions) return filter_.assume_boxes(false);
-  if (seconds(in.tick - *told_at_) > config_.alone_s) filter_.assume_boxes(true);
 }
 
 Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal>> goals) {
   Steering steering;
   waits_for_.reset();
   no_way_.clear();
-  listen(in);
+  told_.listen(in, navigator_.sees(), filter_);
   if (goals) wanted_ = std::move(*goals);
   const bool asked = goals.has_value();
   if (mode_ != Mode::ground) homing_.update(in);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "uav_agent/flight_core/doing.hpp"
 #include "uav_agent/flight_core/homing.hpp"
 #include "uav_agent/flight_core/navigator.hpp"
 #include "uav_agent/flight_core/recovery.hpp"
@@ -46,6 +47,8 @@ class FlightCore {
   const std::optional<std::size_t>& waits_for() const { return waits_for_; }
   /// Why there was no way to a goal, in this exchange; empty: there was none to look for, or one.
   const std::string& no_way() const { return no_way_; }
+  /// What it is about, in this exchange, for people.   @param in  as step() had it.
+  Doing doing(const PlannerInput& in) const;
   /// Where it is about to fly: what others should tell it of first.
   std::optional<Vector3d> going_to_W() const;
   /// Where its strategy may choose to work, as of now.
@@ -55,7 +58,6 @@ class FlightCore {
  private:
   enum class Mode { ground, takeoff, working, homing, showing, recovering };
 
-  void listen(const PlannerInput& in);
   void leave_ground(const PlannerInput& in, Steering& steering);
   void take_off(const PlannerInput& in, Steering& steering);
   std::vector<Outcome> outcomes();
@@ -63,6 +65,8 @@ class FlightCore {
   bool begin_showing(const PlannerInput& in);
   void show(const PlannerInput& in, Steering& steering);
   void go_home(const PlannerInput& in, Steering& steering);
+  bool flies_along() const;
+  Doing::What doing_home(const PlannerInput& in) const;
   int neighbours_after() const;
   std::optional<std::size_t> lifts_off_after(const PlannerInput& in);
   void enter(Mode mode, const PlannerInput& in);
@@ -70,14 +74,13 @@ class FlightCore {
   const FlightConfig& config_;
   const AgentConfig& agent_;
   SafetyFilter filter_;
+  ToldSpace told_;
   Navigator navigator_;
   Homing homing_;
   Recovery recovery_;
   Showing showing_;
   Mode mode_ = Mode::ground;
-  Tick since_ = 0;               ///< in this mode
-  std::optional<Tick> told_at_;  ///< when it last was told of space in another region
-  std::size_t told_regions_ = 0;
+  Tick since_ = 0;                   ///< in this mode
   std::optional<Tick> ready_since_;  ///< on the ground
   std::optional<Vector3d> top_W_;    ///< of the climb
   double climbed_m_ = 0.0;           ///< so high, at...

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "core/random_stream.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
 #include "uav_agent/testing/test_world.hpp"
@@ -48,6 +50,7 @@ struct WantsOnePlaceAfterTheOther : FlownUav {
       flying = true;
     }
     const Steering steering = core.step(in, std::move(goals));
+    note_doing(in);
     if (steering.yaw) tracker.turn_to(*steering.yaw);
     if (const auto* path = std::get_if<Path>(&steering.motion)) tracker.follow(*path);
     if (std::holds_alternative<Hold>(steering.motion)) tracker.hold();
@@ -56,6 +59,20 @@ struct WantsOnePlaceAfterTheOther : FlownUav {
     state.v_WB = tracker.commanded().v_WB;
     ++k;
   }
+  /// What it is about for people is what its strategy hears of it.
+  void note_doing(const PlannerInput& in) {
+    using enum Doing::What;
+    const Doing doing = core.doing(in);
+    const auto& known = core.going_to_W();
+    const bool to_goal_of_strategy = doing.what == to_goal || doing.what == along_goal;
+    recovers = recovers || doing.what == looks_round || doing.what == back || doing.what == climbs;
+    if (to_goal_of_strategy && (!doing.goal_W || doing.goal_W != known)) ++wrong;
+    if (doing.what == no_goal && doing.goal_W) ++wrong;
+    seen.insert(doing.what);
+  }
+  std::set<Doing::What> seen;
+  bool recovers = false;
+  int wrong = 0;
   RandomStream random;
   FlightCore core{config, agent};
   std::int64_t id = 0;
@@ -74,6 +91,9 @@ TEST(FlightCore, EachOutcomeIsHeardWhenTheStrategyDecides) {
     }
     EXPECT_GT(uav.outcomes, 2) << "seed " << seed;
     EXPECT_LE(uav.longest_forgotten, 1) << "seed " << seed;
+    EXPECT_EQ(uav.wrong, 0) << "seed " << seed;
+    EXPECT_TRUE(uav.seen.contains(Doing::What::to_goal)) << "seed " << seed;
+    EXPECT_TRUE(uav.recovers) << "seed " << seed;
   }
 }
 

@@ -25,22 +25,15 @@ constexpr double kFaceM = 4.0;  ///< nearer than this to its goal, a UAV turns a
 constexpr double kHereM = 0.3;
 constexpr double kFitMps = 1.0;  ///< ways are wide enough for that speed
 constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
-constexpr double kScanLostS = 3.0;  ///< a LiDAR that told nothing for so long has failed; it scans at 10 Hz
 
 }  // namespace
 
 Navigator::Navigator(const FlightConfig& config, const AgentConfig& agent, const SafetyFilter& filter)
-    : config_(config),
-      agent_(agent),
-      filter_(filter),
-      fit_(filter.tube_m(kFitMps), config.ground_m),
-      sees_(agent.me().role == Role::explorer) {}
+    : config_(config), agent_(agent), filter_(filter), fit_(filter.tube_m(kFitMps), config.ground_m), sight_(agent) {}
 
 void Navigator::update(const PlannerInput& in) {
   fit_.update(*in.world_map, in.tick);
-  if (agent_.me().role != Role::explorer) return;
-  if (in.scanned || !scanned_at_) scanned_at_ = in.tick;
-  sees_ = seconds(in.tick - *scanned_at_) <= kScanLostS;
+  sight_.update(in);
 }
 
 FreeSpace::Config Navigator::space_config(const PlannerInput& in) const {
@@ -52,7 +45,7 @@ FreeSpace::Config Navigator::space_config(const PlannerInput& in) const {
   config.fit = &fit_;
   config.unknown_cost = config_.unknown_cost;
   config.blind_fleet = filter_.assumes_boxes();
-  config.proved_only = !sees_ && !filter_.assumes_boxes();
+  config.proved_only = !sees() && !filter_.assumes_boxes();
   return config;
 }
 
@@ -140,8 +133,8 @@ void Navigator::step(const PlannerInput& in, const Held& held, Steering& steerin
     return;
   }
   if (on_way_) leg_ = in.tracking.leg;
-  if (!sees_) pace_mps_ = std::numeric_limits<double>::infinity();
-  if (in.k % kLookEach == 0 && sees_) {
+  if (!sees()) pace_mps_ = std::numeric_limits<double>::infinity();
+  if (in.k % kLookEach == 0 && sees()) {
     pace_mps_ = std::max(kCreepMps, proved_ahead_m(in, config_.approach_mps * config_.sweep_s) / config_.sweep_s);
   }
   if (in.k % kLookEach == 0 && blocked_ahead(in)) {
@@ -289,7 +282,7 @@ void Navigator::watch(const PlannerInput& in, const Held& held, Steering& steeri
 }
 
 void Navigator::look_around(const PlannerInput& in, Steering& steering) {
-  if (!sees_ || in.tick < turn_at_) return;
+  if (!sees() || in.tick < turn_at_) return;
   steering.yaw = wrap_angle(in.tracking.setpoint.yaw + kTurn);
   turn_at_ = in.tick + ticks(kTurnEveryS);
 }
@@ -320,7 +313,7 @@ void Navigator::face_ahead(const PlannerInput& in, Steering& steering) const {
     steering.yaw = current_->yaw;
     return;
   }
-  if (!sees_) return;
+  if (!sees()) return;
   const std::size_t leg = std::min(in.tracking.leg, path_.size() - 1);
   const Vector3d ahead = path_[leg].p_WB - here_W;
   if (ahead.head<2>().norm() > kGainM) steering.yaw = std::atan2(ahead.y(), ahead.x());

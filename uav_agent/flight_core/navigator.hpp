@@ -15,6 +15,7 @@
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/flight_core/flight_config.hpp"
 #include "uav_agent/flight_core/safety_filter.hpp"
+#include "uav_agent/flight_core/sight.hpp"
 
 namespace skein::agent {
 
@@ -33,7 +34,7 @@ class Navigator {
   /// Once per exchange, before anything else.
   void update(const PlannerInput& in);
   /// Whether this UAV has a LiDAR that tells something: it may fly into the unknown, and proves it on the way.
-  bool sees() const { return sees_; }
+  bool sees() const { return sight_.sees(); }
   /// What to fly to from now on. A goal that is being flown goes on if it is the first one; its way may have changed.
   void want(std::vector<Goal> goals);
   /// Brakes, and wants nothing.
@@ -91,8 +92,7 @@ class Navigator {
   const AgentConfig& agent_;
   const SafetyFilter& filter_;
   BodyFit fit_;
-  bool sees_;
-  std::optional<Tick> scanned_at_;
+  OwnSight sight_;
   std::vector<Goal> goals_;  ///< that are not flown yet, what is liked best first
   std::optional<Goal> current_;
   bool on_way_ = false;

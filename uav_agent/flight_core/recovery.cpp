@@ -105,4 +105,20 @@ bool Recovery::step(const PlannerInput& in, const Held& held, Steering& steering
   return over;
 }
 
+Doing::What Recovery::doing() const {
+  switch (behaviour_) {
+    case Behaviour::look_around:
+      return Doing::What::looks_round;
+    case Behaviour::approach:
+      return Doing::What::approaches;
+    case Behaviour::elsewhere:
+      return Doing::What::elsewhere;
+    case Behaviour::climb:
+      return Doing::What::climbs;
+    case Behaviour::back:
+      return Doing::What::back;
+  }
+  return Doing::What::looks_round;
+}
+
 }  // namespace skein::agent

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <optional>
 
+#include "uav_agent/flight_core/doing.hpp"
 #include "uav_agent/flight_core/navigator.hpp"
 
 namespace skein::agent {
@@ -25,6 +26,8 @@ class Recovery {
   void begin(const PlannerInput& in);
   /// One exchange of it. @returns whether it is over, and the strategy may decide anew.
   bool step(const PlannerInput& in, const Held& held, Steering& steering);
+  /// Which behaviour it is, for people.
+  Doing::What doing() const;
 
  private:
   enum class Behaviour { look_around, approach, elsewhere, climb, back };

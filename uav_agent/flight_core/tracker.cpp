@@ -20,6 +20,7 @@ constexpr double kSlowestPace = 0.1;             ///< of a set-point that waits 
 constexpr double kLongestStepS = 0.05;           ///< of the point mass; a longer exchange takes several
 constexpr std::size_t kMostStoppingSteps = 400;  ///< nobody takes 20 s
 constexpr double kNoPositionM = 0.02;            ///< the controller takes |p| < 0.01 for "no position"
+constexpr double kAccelerationShare = 0.7;       ///< of the vehicle's limit; the controller corrects with the rest
 
 Vector3d shortened(const Vector3d& v, double length) {
   const double norm = v.norm();
@@ -41,6 +42,14 @@ double corner_speed(double cosine, double cut, double acceleration, double bend_
 }
 
 }  // namespace
+
+Tracker::Config tracker_config(const VehicleConfig& vehicle) {
+  Tracker::Config config;
+  config.max_speed_mps = vehicle.max_speed_mps;
+  config.max_acceleration_mps2 = kAccelerationShare * vehicle.max_acceleration_mps2;
+  config.max_yaw_rate = std::min(config.max_yaw_rate, vehicle.max_yaw_rate_deg_s * kRadPerDeg);
+  return config;
+}
 
 void Tracker::follow(const Path& path) {
   waypoints_ = path.waypoints;

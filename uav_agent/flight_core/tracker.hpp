@@ -103,4 +103,7 @@ class Tracker {
   bool done_ = true;  ///< the point mass is
 };
 
+/// What a vehicle may be told to fly: its flight controller corrects with what is left of its limits.
+Tracker::Config tracker_config(const VehicleConfig& vehicle);
+
 }  // namespace skein::agent

@@ -134,7 +134,9 @@ Subtree subtree_of(const Eigen::Vector3i& chunk, const WorldMap::Chunk& known) {
 std::vector<std::uint8_t> join_subtrees(std::span<const Subtree> subtrees) {
   std::vector<Joining::Leaf> leaves;
   leaves.reserve(subtrees.size());
-  for (const Subtree& subtree : subtrees) leaves.push_back({order_of(subtree.chunk), &subtree});
+  for (const Subtree& subtree : subtrees) {
+    if (subtree.kind != Kind::nothing) leaves.push_back({order_of(subtree.chunk), &subtree});
+  }
   std::ranges::sort(leaves, {}, &Joining::Leaf::order);
   return Joining(leaves).take();
 }

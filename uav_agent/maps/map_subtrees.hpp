@@ -34,7 +34,7 @@ bool within_tree(const Eigen::Vector3i& chunk);
 
 Subtree subtree_of(const Eigen::Vector3i& chunk, const WorldMap::Chunk& known);
 
-/// @param subtrees  up to kMostJoined different chunks within_tree(), each of which knows something, in any order.
+/// @param subtrees  different chunks within_tree(), in any order; up to kMostJoined if read_subtrees() is to take them.
 /// @returns the tree; empty if there are none.
 std::vector<std::uint8_t> join_subtrees(std::span<const Subtree> subtrees);
 

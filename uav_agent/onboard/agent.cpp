@@ -1,6 +1,7 @@
 #include "uav_agent/onboard/agent.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -11,6 +12,7 @@
 #include "uav_agent/maps/occupancy_map.hpp"
 #include "uav_agent/maps/uav_traces.hpp"
 #include "uav_agent/maps/world_mapper.hpp"
+#include "uav_agent/onboard/activity.hpp"
 #include "uav_agent/onboard/beam_reader.hpp"
 #include "uav_agent/onboard/key_frame_filter.hpp"
 #include "uav_agent/onboard/map_radio.hpp"
@@ -21,19 +23,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAccelerationShare = 0.7;  ///< of the vehicle's limit; the controller corrects with the rest
-constexpr double kBodyMarginM = 0.3;        ///< around a known body
-constexpr double kGroundM = 0.3;            ///< what a LiDAR meets below is the ground
-constexpr double kScanAgeS = 0.1;           ///< a scan is at most this much older than the positions with it
+constexpr double kBodyMarginM = 0.3;  ///< around a known body
+constexpr double kGroundM = 0.3;      ///< what a LiDAR meets below is the ground
+constexpr double kScanAgeS = 0.1;     ///< a scan is at most this much older than the positions with it
 constexpr double kWaitBreak_s = 0.5;
-
-Tracker::Config tracker_config(const VehicleConfig& vehicle) {
-  Tracker::Config config;
-  config.max_speed_mps = vehicle.max_speed_mps;
-  config.max_acceleration_mps2 = kAccelerationShare * vehicle.max_acceleration_mps2;
-  config.max_yaw_rate = std::min(config.max_yaw_rate, vehicle.max_yaw_rate_deg_s * kRadPerDeg);
-  return config;
-}
 
 WorldMap::Config world_map_config() {
   WorldMap::Config config;
@@ -84,6 +77,8 @@ struct Agent::Impl {
   std::optional<TrajectoryCommand> move(const PlannerOutput& decision, const AgentInput& input);
   std::optional<GimbalCommand> point_camera(const GimbalAim& new_aim, const RigidBodyState& state);
   void wait_for(std::size_t mate, double now_s);
+  void note_motion(const Motion& motion);
+  ActivityFacts facts(const PlannerInput& in, const std::optional<std::size_t>& waits_for) const;
 
   const AgentConfig config;
   const std::unique_ptr<Planner> planner;
@@ -106,6 +101,8 @@ struct Agent::Impl {
   std::vector<WaitSpan> waits;
   std::map<std::string, std::uint64_t> no_ways;
   std::string no_way;
+  OwnMotion own_motion;  ///< if no core flies the planner
+  ActivityTeller activity{config.fleet};
 };
 
 void Agent::Impl::wait_for(std::size_t mate, double now_s) {
@@ -217,7 +214,8 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
                       .scans = planner->wants_scans() ? std::span(input.scans) : std::span<const Scan>(),
                       .beam_scans = planner->wants_beams() ? std::span(beam_scans) : std::span<BeamScan>(),
                       .world_map = known_world(),
-                      .scanned = !beam_scans.empty()};
+                      .scanned = !beam_scans.empty(),
+                      .hand = input.hand};
 }
 
 /// The flight core does what the planner wants.
@@ -229,6 +227,32 @@ void Agent::Impl::fly(const PlannerInput& in, PlannerOutput& decision) {
   if (!decision.waits_for) decision.waits_for = core->waits_for();
   decision.going_to_W = core->going_to_W();
   if (decision.no_way.empty()) decision.no_way = core->no_way();
+}
+
+void Agent::Impl::note_motion(const Motion& motion) {
+  using enum OwnMotion::Kind;
+  constexpr std::array kKinds = {none, setpoint, path, hold, command};  // in the order of Motion
+  if (std::holds_alternative<std::monostate>(motion)) return;
+  own_motion = {kKinds.at(motion.index()), {}};
+  const auto* way = std::get_if<Path>(&motion);
+  if (way != nullptr && !way->waypoints.empty()) own_motion.end_W = way->waypoints.back().p_WB;
+}
+
+ActivityFacts Agent::Impl::facts(const PlannerInput& in, const std::optional<std::size_t>& waits_for) const {
+  ActivityFacts facts{.tick = in.tick,
+                      .what = own_motion,
+                      .p_WB = in.state.p_WB,
+                      .speed_mps = in.state.v_WB.norm(),
+                      .undelivered = in.undelivered_captures,
+                      .waits_for = waits_for,
+                      .no_way = no_way};
+  if (core) {
+    facts.what = core->doing(in);
+    facts.held = core->filter().held();
+  } else if (tracker.tracking().done) {
+    std::get<OwnMotion>(facts.what).end_W.reset();
+  }
+  return facts;
 }
 
 std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision, const AgentInput& input) {
@@ -284,6 +308,7 @@ AgentOutput Agent::step(const AgentInput& input) {
     in.space = &space.emplace(impl_->core->space(in));
   }
   PlannerOutput decision = impl_->planner->plan(in);
+  if (!impl_->core) impl_->note_motion(decision.motion);
   if (impl_->core) impl_->fly(in, decision);
   for (const std::string& bytes : decision.heard_maps) impl_->map.hear(bytes);
   if (!decision.no_way.empty()) ++impl_->no_ways[decision.no_way];
@@ -296,6 +321,7 @@ AgentOutput Agent::step(const AgentInput& input) {
   output.radio = std::move(decision.radio);
   if (auto told = impl_->tell_map(decision.going_to_W, input.tick)) output.radio.push_back(std::move(*told));
   output.debug = std::move(decision.debug);
+  output.activity = impl_->activity.step(impl_->facts(in, decision.waits_for));
   output.captures = impl_->uplink.send(input.k, impl_->peers.station_visible());
   return output;
 }
@@ -303,6 +329,8 @@ AgentOutput Agent::step(const AgentInput& input) {
 bool Agent::holds_capture(std::uint64_t capture) const { return impl_->uplink.holds(capture); }
 
 const OccupancyMap& Agent::map() const { return impl_->map; }
+
+const WorldMap* Agent::world_map() const { return impl_->known_world(); }
 
 const std::map<std::string, std::uint64_t>& Agent::no_ways() const { return impl_->no_ways; }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/activity.hpp"
 #include "core/work_time.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
@@ -34,6 +35,7 @@ struct AgentInput {
   std::vector<HandedOut> capture_reports;   ///< from the camera; it may repeat unacknowledged ones
   std::vector<std::uint64_t> capture_acks;  ///< capture numbers that the station has journalled
   std::vector<RadioMessage> radio;          ///< of other UAVs: of their planners, and what they tell of their maps
+  std::optional<HandCommand> hand;          ///< news of who flies it by hand; the last of a step
 };
 
 struct AgentOutput {
@@ -44,6 +46,7 @@ struct AgentOutput {
   std::vector<RadioMessage> radio;
   std::vector<std::uint64_t> captures;  ///< whose reports to send to the station now
   std::vector<DebugValue> debug;        ///< of the planner
+  std::optional<Activity> activity;     ///< what it does, when that is news; without its CPU time
 };
 
 class Agent {
@@ -69,6 +72,8 @@ class Agent {
   /// Whether that capture's report may yet have to be sent.
   bool holds_capture(std::uint64_t capture) const;
   const OccupancyMap& map() const;
+  /// That of all beams, on which its planner flies; nullptr: its planner uses none.
+  const WorldMap* world_map() const;
   /// Why its planner found no ways (PlannerOutput::no_way), and how often.
   const std::map<std::string, std::uint64_t>& no_ways() const;
   /// The reason in the last exchange; empty: there was none.

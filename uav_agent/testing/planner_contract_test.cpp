@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/hand_file.hpp"
+#include "core/random_stream.hpp"
 #include "uav_agent/api/payload.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/testing/test_world.hpp"
@@ -17,8 +19,23 @@ constexpr double kTouchM = 0.63 + 0.3;  ///< to structure: the larger body, and 
 constexpr double kSmallestGapM = 0.3;   ///< between two bodies
 constexpr double kUnmeasuredM = 1e3;    ///< a distance that nobody flew in
 
+/// A file of drawn commands: up, and then anything.
+std::string hands_of_anybody() {
+  const auto file = std::filesystem::path(testing::TempDir()) / "hands_of_anybody.csv";
+  std::ofstream out(file);
+  RandomStream random(5, "hands of anybody", 0);
+  out << hand_file::head() << hand_file::line_of({20, 400, {.velocity = {0.0, 0.0, 2.0}}});
+  for (std::uint64_t k = 160; k < 3000; k += 10 + random.bits() % 100) {
+    const auto speed = [&] { return random.uniform(-4.0, 4.0); };
+    out << hand_file::line_of(
+        {k, static_cast<Tick>(20 * k), {{speed(), speed(), 0.3 * speed()}, random.uniform(-1, 1)}});
+  }
+  return file.string();
+}
+
 /// What to say to make a planner; those that need a file get one, with a place above its start for every UAV.
 std::string spec_of(const std::string& name, const std::vector<TestUav>& fleet) {
+  if (name == kHandPlanner) return name + ":" + hands_of_anybody();
   if (name != "waypoints") return name;
   const auto file = std::filesystem::path(testing::TempDir()) / ("paths_of_" + std::to_string(fleet.size()) + ".yaml");
   std::ofstream out(file);

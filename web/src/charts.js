@@ -1,7 +1,7 @@
 // Charts over time: the score, and a lane for each UAV. They zoom together and share a cursor.
 import uPlot from 'uplot';
 
-import {colour, data, element, growth, indexAt, moment, onTheme, replaceDrawing, trackColour} from './page.js';
+import {colour, data, element, growth, indexAt, moment, onTheme, replaceDrawing, shortName, trackColour} from './page.js';
 
 const sync = uPlot.sync('time');
 const charts = [];
@@ -27,20 +27,28 @@ const axis = (more) => ({
   ...more,
 });
 
-/** How often a chart of data that grow is drawn again, in ms. */
+/** How often a chart of data that grow is drawn again, in ms; and how much more time than its drawing lies between. */
 const kRefresh = 500;
+const kRest = 30;
 
-/** Draws more data, now and then. */
+/** Draws more data, now and then, and all of them in the end. */
 function refresh(made, columns) {
   let due = 0;
-  growth.listen(() => {
+  let later = 0;
+  const draw = () => {
     const now = performance.now();
-    if (now < due && !data.over) return;
-    due = now + kRefresh;
+    clearTimeout(later);
+    later = 0;
     zooming = true;
     made.setData(columns(), !zoomed);
     if (zoomed) made.redraw();
     zooming = false;
+    due = now + Math.max(kRefresh, kRest * (performance.now() - now));
+  };
+  growth.listen(() => {
+    const wait = due - performance.now();
+    if (wait <= 0) draw();
+    else if (later === 0) later = setTimeout(draw, wait);
   });
 }
 
@@ -78,7 +86,12 @@ function chart(figure, height, options, columns) {
     if (place.clientWidth > 0 && place.clientWidth !== made.width) made.setSize({width: place.clientWidth, height});
   }).observe(place);
   onTheme(() => made.redraw());
-  moment.listen(() => made.redraw(false));
+  let marked = false;  // while it shows a moment of the past; the newest one has no mark
+  moment.listen(() => {
+    const marks = moment.seconds < data.end;
+    if (marks || marked) made.redraw(false);
+    marked = marks;
+  });
   return made;
 }
 
@@ -95,8 +108,24 @@ function drawFaults(u) {
   ctx.restore();
 }
 
+/** Where two flights part. */
+function drawDifference(u) {
+  const at = u.valToPos(data.difference?.t ?? NaN, 'x', true);
+  const {ctx, bbox} = u;
+  if (!(at >= bbox.left && at <= bbox.left + bbox.width)) return;
+  ctx.save();
+  ctx.strokeStyle = colour('bad');
+  ctx.lineWidth = 2 * devicePixelRatio;
+  ctx.beginPath();
+  ctx.moveTo(at, bbox.top);
+  ctx.lineTo(at, bbox.top + bbox.height);
+  ctx.stroke();
+  ctx.restore();
+}
+
 /** Where the 3D view's time is. */
 function drawMoment(u) {
+  drawDifference(u);
   const at = u.valToPos(moment.seconds, 'x', true);
   const {ctx, bbox} = u;
   if (moment.seconds >= data.end || at < bbox.left || at > bbox.left + bbox.width) return;
@@ -115,15 +144,24 @@ const kMostRows = 12;
 const rows = data.uavs.length <= kMostRows ? data.uavs.length : 0;
 const kRow = 0.04;  // of the chart's height
 
+/** Counts by second as what there is to draw: several seconds in a pixel are one, of their largest count. */
+function eachBusy(u, counts, use) {
+  const {min, max} = u.scales.x;
+  const step = Math.max(1, Math.floor((max - min) / Math.max(u.bbox.width, 1)));
+  for (let second = 0; second < counts.length; second += step) {
+    let most = 0;
+    for (let i = second; i < Math.min(second + step, counts.length); ++i) most = Math.max(most, counts[i]);
+    if (most > 0) use(most, [second, second + step]);
+  }
+}
+
 /** Seconds in which a UAV improved a point. */
 function drawCaptures(u) {
   const {ctx, bbox} = u;
   const each = (bbox.height * kRow * rows) / (1 + kRow * rows) / Math.max(rows, 1);
   data.uavs.slice(0, rows).forEach((uav, index) => {
     const top = bbox.top + bbox.height - each * (rows - index);
-    uav.captures.forEach((count, second) => {
-      if (count > 0) drawSpans(u, [second, second + 1], trackColour(index), top + each * 0.15, each * 0.7);
-    });
+    eachBusy(u, uav.captures, (_, span) => drawSpans(u, span, trackColour(index), top + each * 0.15, each * 0.7));
   });
 }
 
@@ -137,10 +175,12 @@ function sampled(curve, times) {
 }
 
 export function scoreChart(figure) {
+  const runs = data.runs ?? [data];  // two on one clock, or one
   const columns = () => {
-    const all = [0, ...data.delivered.t.map((ms) => ms / 1000), ...data.earned.t.map((ms) => ms / 1000), data.end];
+    const curves = runs.flatMap(({earned, delivered}) => [earned, delivered]);
+    const all = [0, ...curves.flatMap(({t}) => t.map((ms) => ms / 1000)), data.end];
     const times = [...new Set(all)].sort((a, b) => a - b);
-    return [times, sampled(data.earned, times), sampled(data.delivered, times)];
+    return [times, ...curves.map((one) => sampled(one, times))];
   };
   const stepped = uPlot.paths.stepped({align: 1});
   const one = (value) => (value == null ? '–' : value.toFixed(1));
@@ -158,8 +198,11 @@ export function scoreChart(figure) {
       320,
       {
         series: [
-          {label: 'time', value: (u, v) => (v == null ? '–' : `${v.toFixed(1)} s`)}, curve('earned', 'c1', [6, 4]),
-          curve('delivered', 'c0')
+          {label: 'time', value: (u, v) => (v == null ? '–' : `${v.toFixed(1)} s`)},
+          ...runs.flatMap((_, k) => {
+            const [of, earned, delivered] = runs.length === 1 ? ['', 'c1', 'c0'] : [`${'AB'[k]} `, 'soft', k === 0 ? 'c0' : 'c1'];
+            return [curve(`${of}earned`, earned, k === 0 ? [6, 4] : [2, 4]), curve(`${of}delivered`, delivered)];
+          })
         ],
         axes: [
           axis({
@@ -186,7 +229,11 @@ export function scoreChart(figure) {
 }
 
 const kLane = 54;
+const kLowLane = 30;        // of a large fleet on the page that follows a run; its rows have no names
+const kLargeFleet = 8;
 const kRoomForNames = 700;  // of the rows of a lane, in pixels
+const laneHeight = () =>
+    data.uavs.length > 20 ? 20 : data.follows && data.uavs.length > kLargeFleet ? kLowLane : kLane;
 
 /** Filled spans of a lane; `flat` holds begin and end, one after the other. */
 function drawSpans(u, flat, name, top, height) {
@@ -212,31 +259,35 @@ function drawLane(u, uav, index, most) {
   drawSpans(u, uav.direct, 'direct', top + strip * 1.15, strip);
   drawSpans(u, uav.relayed, 'relayed', top + strip * 1.15, strip);
   const base = top + strip * 4.4;
-  const peak = Math.max(1, ...uav.captures);
-  uav.captures.forEach((count, second) => {
-    if (count === 0) return;
+  const peak = uav.captures.reduce((a, b) => Math.max(a, b), 1);
+  eachBusy(u, uav.captures, (count, span) => {
     ctx.globalAlpha = 0.25 + (0.75 * count) / peak;
-    drawSpans(u, [second, second + 1], 'soft', top + strip * 2.3, strip);
+    drawSpans(u, span, 'soft', top + strip * 2.3, strip);
   });
   ctx.globalAlpha = 0.75;
   ctx.fillStyle = colour('c1');
   const {t, v} = uav.waiting;
-  for (let i = 0; i < t.length; ++i) {
-    if (v[i] === 0) continue;
-    const left = Math.max(u.valToPos(t[i] / 1000, 'x', true), bbox.left);
-    const right =
-        Math.min(u.valToPos(i + 1 < t.length ? t[i + 1] / 1000 : data.end, 'x', true), bbox.left + bbox.width);
-    const height = Math.max((v[i] / most) * strip, 1);
-    if (right > left) ctx.fillRect(left, base - height, Math.max(right - left, 0.5), height);
+  for (let i = 0; i < t.length;) {
+    // Steps within a pixel are one, of the most that waited.
+    const from = u.valToPos(t[i] / 1000, 'x', true);
+    let [to, waited] = [from, 0];
+    for (; i < t.length && to - from < 1; ++i) {
+      waited = Math.max(waited, v[i]);
+      to = u.valToPos(i + 1 < t.length ? t[i + 1] / 1000 : data.end, 'x', true);
+    }
+    const left = Math.max(from, bbox.left);
+    const right = Math.min(to, bbox.left + bbox.width);
+    const height = Math.max((waited / most) * strip, 1);
+    if (waited > 0 && right > left) ctx.fillRect(left, base - height, Math.max(right - left, 0.5), height);
   }
   ctx.globalAlpha = 1;
   ctx.fillStyle = colour('ink');
   ctx.font = `${11 * ratio}px system-ui, sans-serif`;
   ctx.textAlign = 'right';
   ctx.textBaseline = 'middle';
-  const named = u.width >= kRoomForNames && data.uavs.length <= 20;
+  const named = u.width >= kRoomForNames && laneHeight() === kLane;
   if (named) ctx.textAlign = 'left';
-  ctx.fillText(uav.name.slice(0, 11), named ? 4 * ratio : bbox.left - 8 * ratio, top + strip * (named ? 0.6 : 2));
+  ctx.fillText(shortName(uav.name, 11), named ? 4 * ratio : bbox.left - 8 * ratio, top + strip * (named ? 0.6 : 2));
   if (!named) return;
   ctx.textAlign = 'right';
   ctx.fillStyle = colour('soft');
@@ -247,7 +298,7 @@ function drawLane(u, uav, index, most) {
 
 export function lanesChart(figure) {
   if (data.uavs.length === 0) return;
-  const lane = data.uavs.length > 20 ? 20 : kLane;
+  const lane = laneHeight();
   const draw = (u) => {
     const most = Math.max(1, ...data.uavs.map((uav) => uav.waiting.v.reduce((a, b) => Math.max(a, b), 0)));
     u.ctx.save();
@@ -275,7 +326,7 @@ export function lanesChart(figure) {
             labelFont: '11px system-ui, sans-serif'
           }),
           axis({
-            size: (u) => (u.width < kRoomForNames ? 78 : 142),
+            size: (u) => (u.width < kRoomForNames || laneHeight() === kLowLane ? 78 : 142),
             values: () => [],
             grid: {show: false},
             ticks: {show: false}

@@ -1,19 +1,30 @@
 // The page that follows a run while it flies, and shows it again when it is over. Scene and charts are the report's.
 import uplotStyle from 'uplot/dist/uPlot.min.css';
 
+import {takeClouds} from './clouds.js';
 import {connect} from './connection.js';
-import {begin, scoreAt, stand, tell} from './flight.js';
+import {addFigures} from './figures.js';
+import filmStyle from './film.css';
+import {offerFilm} from './film.js';
+import {begin, flights, isPair, kRuns, stand, tell} from './flights.js';
+import {connectHand, faultsPanel, uavFaultsPanel, useHand} from './hand_faults.js';
+import {handPanel} from './hand_flight.js';
+import {tellKept} from './kept.js';
 import style from './live.css';
+import {lossesPanel} from './losses.js';
 import {data, element, growth, moment} from './page.js';
+import pairStyle from './pair.css';
+import {completePair, pairFigures, pairNote, showPairHead} from './pair.js';
 import {chosenPanel, describe, eventsPanel, fleetPanel, linksPanel, pointsPanel} from './panels.js';
 import reportStyle from './report.css';
+import {readEye, watchEye, writeEye} from './viewpoint.js';
 
 const kPanels = 400;  // ms between two drawings of the panels while time goes on
 const kSpeeds = ['0.1', '0.5', '1', '2', '4', '8', '16', '32', 'max'];
 const main = document.getElementById('flight');
 const chosen = {uav: -1, point: -1, through: false};
 
-document.head.append(element('style', {}, uplotStyle + reportStyle + style));
+document.head.append(element('style', {}, uplotStyle + reportStyle + style + pairStyle + filmStyle));
 
 function figure(name, text) {
   const strong = element('strong', {id: name}, '–');
@@ -61,6 +72,7 @@ function showControls(live) {
 const kStates = {
   flies: ['flies', ''],
   paused: ['paused', 'held'],
+  waits: ['waits', 'held'],
   gone: ['not connected; asking again', 'gone'],
   replay: ['replay', 'replay'],
   closed: ['replay, no longer served', 'gone'],
@@ -70,16 +82,19 @@ let live = false;
 function stateOf() {
   if (data.mode === 'replay') return live ? 'replay' : 'closed';
   if (!live) return 'gone';
+  if (data.now?.waits) return 'waits';
   return data.now?.paused ? 'paused' : 'flies';
 }
 
 function showHead() {
+  connectHand(live);
   const [text, kind] = kStates[stateOf()];
   const state = document.getElementById('state');
-  state.className = `state ${kind}`;
-  set('state', text);
-  document.body.dataset.state = stateOf();
-  const {score, points} = scoreAt(moment.newest ? Infinity : moment.seconds);
+  if (state.className !== `state ${kind}`) state.className = `state ${kind}`;
+  const {waits} = data.now ?? {};
+  set('state', stateOf() === 'waits' ? `waits for ${waits.for.join(', ')} (${waits.what})` : text);
+  if (document.body.dataset.state !== stateOf()) document.body.dataset.state = stateOf();
+  const {score, points} = flights[0].scoreAt(moment.newest ? Infinity : moment.seconds);
   set('score', score.toFixed(3));
   set('score-more', `${points} of ${data.points.length / 9} points`);
   document.getElementById('score').dataset.exact = String(score);
@@ -89,13 +104,15 @@ function showHead() {
       moment.newest ? (mission > 0 ? `mission ${mission.toFixed(1)} of ${data.duration} s` : 'before take-off') :
                       `flown: ${data.end.toFixed(1)} s`);
   if (data.now) document.getElementById('clock').dataset.tick = String(data.now.tick);
+  if (isPair()) showPairHead();
   if (data.mode === 'live') showControls(live);
 }
 
 function frame(order) {
-  const by = data.planners ? ` by ${data.planners}` : '';
+  const by = isPair() ? ', two runs' : data.planners ? ` by ${data.planners}` : '';
+  const scores = isPair() ? pairFigures(figure) : [figure('score', 'delivered score')];
   const title = element('h1', {}, `${data.title ?? data.scenario}${by}`, element('span', {id: 'state', class: 'state', role: 'status'}));
-  const bar = element('header', {class: 'bar'}, title, figure('clock', 'simulated time'), figure('score', 'delivered score'),
+  const bar = element('header', {class: 'bar'}, title, figure('clock', 'simulated time'), ...scores,
                       ...(data.mode === 'live' ? [controls(order)] : []));
   const picture = (name, caption) => element('figure', {'data-live': name}, element('figcaption', {}, caption));
   const places = {
@@ -106,19 +123,22 @@ function frame(order) {
   const side = element('div', {class: 'column side'}, places.score);
   const couple = element('div', {class: 'couple'});
   const missing = data.missing?.length ? [element('p', {class: 'note'}, `This recording lacks something: ${data.missing.join(' ')}`)] : [];
-  main.replaceChildren(bar, ...missing, element('div', {class: 'layout'},
+  main.replaceChildren(bar, ...(isPair() ? [pairNote()] : []), ...missing, element('div', {class: 'layout'},
       element('div', {class: 'views'}, places.scene), side, element('div', {class: 'column below'}, places.lanes, couple)));
   return {...places, side, couple};
 }
 
 /** The page's address holds what it shows, to be kept or shared. */
 const address = {
+  shown: false,  // what it said when the page was opened; until then it stays
   write() {
+    if (!this.shown) return;
     const words = new URLSearchParams();
     if (!moment.newest) words.set('t', moment.seconds.toFixed(2));
     if (chosen.uav >= 0) words.set('uav', data.uavs[chosen.uav].name);
     if (chosen.through) words.set('view', 'camera');
     if (chosen.point >= 0) words.set('point', String(chosen.point));
+    writeEye(words);
     const hash = words.size > 0 ? `#${words}` : '';
     if (hash !== location.hash) history.replaceState(null, '', hash || location.pathname);
   },
@@ -136,6 +156,7 @@ const address = {
 };
 
 async function show(order) {
+  useHand(order);
   const places = frame(order);
   data.describe = describe;
   let scene;
@@ -149,44 +170,76 @@ async function show(order) {
   data.onPoint = (point) => choose({point});
   const [{sceneView}, {scoreChart, lanesChart}] = [await import('./scene.js'), await import('./charts.js')];
   const fleet = fleetPanel(data.onUav);
-  const panels = [chosenPanel(() => choose({uav: chosen.uav, through: !chosen.through}), () => choose({})), pointsPanel(), linksPanel(), eventsPanel()];
-  places.side.prepend(panels[0].element, fleet.element);
-  places.side.append(panels[1].element);
-  places.couple.append(panels[2].element, panels[3].element);
+  const panels = [chosenPanel(() => choose({uav: chosen.uav, through: !chosen.through}), () => choose({})), pointsPanel(data.onPoint), linksPanel(), eventsPanel(), uavFaultsPanel(), faultsPanel()];
+  const hand = handPanel(order, (uav, through) => choose({uav, through}));
+  places.side.prepend(...(hand ? [hand.element] : []), panels[0].element, panels[4].element, fleet.element);
+  const [morePoints, moreLinks] = isPair() ? [pointsPanel(null, 1), linksPanel(1)] : [];
+  if (isPair()) panels.push(morePoints, moreLinks);
+  const losses = flights.map(({data: run}, k) => lossesPanel(run, isPair() ? `Where the points went: ${kRuns[k]}` : undefined));
+  places.side.append(panels[1].element, ...(isPair() ? [morePoints.element] : []), ...losses.filter((one) => one !== null));
+  places.couple.append(panels[2].element, ...(isPair() ? [moreLinks.element] : []), panels[5].element, panels[3].element);
   const showPanels = () => {
     fleet.show(chosen.uav);
     for (const one of panels) one.show(chosen);
   };
   let due = 0;
-  moment.listen(() => {
-    showHead();
-    const now = performance.now();
-    if (moment.newest && now < due && !data.now?.paused && data.mode === 'live') return;
-    due = now + kPanels;
+  let later = 0;
+  const showPanelsDue = () => {
+    later = 0;
+    due = performance.now() + kPanels;
     showPanels();
     address.write();
+  };
+  moment.listen(() => {
+    showHead();
+    hand?.show();
+    const wait = due - performance.now();
+    if (wait <= 0) showPanelsDue();
+    else if (later === 0) later = setTimeout(showPanelsDue, wait);
   });
   scene = sceneView(places.scene);
+  addFigures(() => ({
+    end: data.end, shown: moment.seconds, points: data.points.length / 9, capturesKept: flights.reduce((sum, flight) => sum + flight.kept(), 0),
+    trailSegments: scene?.trails.reduce((sum, {ends}) => sum + ends.length, 0) ?? 0,
+  }));
   scoreChart(places.score);
   lanesChart(places.lanes);
   showHead();
   showPanels();
   document.addEventListener('keydown', (event) => event.key === 'Escape' && choose({}));
+  if (isPair()) completePair(scene, () => {
+    scene.painted = null;
+    scene.show();
+    showPanels();
+  });
   growth.tell();
-  const {time, ...what} = address.read();
-  if (Number.isFinite(time) && time < data.end) moment.set(time);
-  if (what.uav >= 0 || what.point >= 0) choose(what);
+  watchEye(scene);
+  const open = () => {
+    address.shown = true;
+    const {time, ...what} = address.read();
+    readEye();
+    if (Number.isFinite(time)) moment.set(time);
+    if (what.uav >= 0 || what.point >= 0) choose(what);
+    return {time};
+  };
+  open();
+  addEventListener('hashchange', open);
+  scene?.controls.addEventListener('end', () => address.write());
+  if (keptFlight !== null) offerFilm(open);
 }
 
 let begun = false;
 let ready = Promise.resolve();
-const order = connect({
+const keptFlight = document.getElementById('kept');
+const follow = keptFlight === null ? connect : (use) => tellKept(keptFlight, use);
+const order = follow({
   scene(told) {
     // Somebody else serves the run now: its replay after its end, or a station that was started again.
     if (begun) return location.reload();
     begun = true;
     live = true;
     begin(told);
+    data.ask = (text) => order(text);
     if (told.mode === 'replay') return;  // shown when all of it is here
     ready = show((text) => order(text));
   },
@@ -200,6 +253,7 @@ const order = connect({
     stand(state);
     ready.then(grow);
   },
+  clouds: takeClouds,
   gone() {
     live = false;
     if (begun && main.querySelector('.bar')) showHead();

@@ -7,7 +7,7 @@ import {LineSegmentsGeometry} from 'three/addons/lines/LineSegmentsGeometry.js';
 import {colour, data, moment, trackColour} from './page.js';
 
 /** Segments with a colour each, in one draw call. */
-class Segments {
+export class Segments {
   constructor(room, width, opacity) {
     this.geometry = new LineSegmentsGeometry();
     this.geometry.setPositions(new Float32Array(6 * room));

@@ -1,10 +1,13 @@
 // The panels beside the scene: what each UAV does, its links, what happened, and what was chosen. Each is drawn anew for
 // the moment that the page shows.
-import {custody, doing, events, kLinks, linkOf, linksAt, pointsAt, poseAt, sharesAt} from './flight.js';
-import {data, element, moment, trackColour} from './page.js';
+import {factsOfActivity, numbersOf, saidAt, showDoes} from './activity.js';
+import {allEvents, doing, drawn, flights, isPair, kLinks, kRuns, linkOf, poseAt, sharesAt} from './flights.js';
+import {linkButton, showLinkButton} from './hand_faults.js';
+import {data, element, moment, shortName, trackColour} from './page.js';
 
 const kMostEvents = 150;
-const kMostInMatrix = 12;  // radio nodes
+const kMostInMatrix = 33;  // radio nodes
+const kManyInMatrix = 9;   // from here on cells are small, and columns have no names
 
 function swatch(name) {
   const made = element('span', {class: 'swatch', 'aria-hidden': 'true'});
@@ -16,6 +19,9 @@ function panel(title, attributes, ...children) {
   return element('section', {class: 'panel', ...attributes}, element('h2', {}, title), ...children);
 }
 
+/** Of a panel that each of two flights has: its title, and its id. */
+const titled = (run, title, id) => [isPair() ? `${title}: ${kRuns[run]}` : title, {id: run > 0 ? `${id}-${kRuns[run]}` : id}];
+
 function headRow(names) {
   return element('thead', {}, element('tr', {}, ...names.map((name) => element('th', {scope: 'col'}, name))));
 }
@@ -23,25 +29,41 @@ function headRow(names) {
 /** @param choose  what a click on a UAV means */
 export function fleetPanel(choose) {
   const rows = data.uavs.map((uav, i) => {
-    const button = element('button', {type: 'button', title: `Follow ${uav.name}`}, swatch(trackColour(i)), uav.name);
+    const button = element('button', {type: 'button', title: `Follow ${uav.name}`}, swatch(trackColour(i)), shortName(uav.name, 12));
     button.addEventListener('click', () => choose(i));
-    const cells = ['words', '', '', '', ''].map((kind) => element('td', kind ? {class: kind} : {}));
-    return {row: element('tr', {'aria-selected': 'false'}, element('th', {scope: 'row'}, button), ...cells), cells};
+    const does = element('div', {class: 'does'});
+    const cells = [0, 1, 2, 3].map(() => element('td'));
+    return {row: element('tr', {'aria-selected': 'false'}, element('th', {scope: 'row'}, button, does), ...cells), does, cells};
   });
   const body = element('tbody', {}, ...rows.map(({row}) => row));
   const show = (chosen) => {
     const shares = sharesAt(moment.seconds);
-    rows.forEach(({row, cells}, i) => {
+    rows.forEach(({row, does: place, cells}, i) => {
       row.setAttribute('aria-selected', String(i === chosen));
       const pose = poseAt(i, moment.seconds, moment.newest);
-      [doing(i, moment.seconds), pose === null ? '–' : pose.speed.toFixed(1), linkOf(i, moment.seconds),
-       String(shares[i].undelivered), shares[i].score.toFixed(2)]
-          .forEach((text, k) => (cells[k].textContent = text));
+      const does = doing(i, moment.seconds);
+      const said = saidAt(i, moment.seconds);
+      showDoes(place, does, does === said?.mode ? said : null);
+      [pose === null ? '–' : pose.speed.toFixed(1), linkOf(i, moment.seconds), String(shares[i].undelivered),
+       shares[i].score.toFixed(2)]
+          .forEach((text, k) => cells[k].textContent === text || (cells[k].textContent = text));
     });
   };
   const table = element(
-      'table', {class: 'uavs'}, headRow(['UAV', 'does', 'm/s', 'station', 'not delivered', 'score']), body);
+      'table', {class: data.uavs.length > 8 ? 'uavs many' : 'uavs'},
+      headRow(['UAV, and what it does', 'm/s', 'station', 'not delivered', 'score']), body);
   return {element: panel('Fleet', {id: 'fleet'}, element('div', {class: 'wide'}, table)), show};
+}
+
+function askForPoint(choose) {
+  const number = element('input', {
+    type: 'number', id: 'point-number', min: '0', max: String(data.points.length / 9 - 1), step: '1', 'aria-label': 'number of a point'});
+  const ask = element('form', {class: 'tools-row'}, element('label', {}, 'Point ', number), element('button', {}, 'Show'));
+  ask.addEventListener('submit', (event) => {
+    event.preventDefault();
+    if (number.value !== '' && number.checkValidity()) choose(Number(number.value));
+  });
+  return ask;
 }
 
 const kPointStates = [
@@ -51,14 +73,18 @@ const kPointStates = [
   ['unseen', 'q0', 'in no picture'],
 ];
 
-/** What became of the points so far, and what keeps those that were delivered from 1. */
-export function pointsPanel() {
+/**
+ * What became of the points so far, and what keeps those that were delivered from 1.
+ * @param choose  what it means to ask for a point by its number: a click in the scene is not for everybody. null: nobody
+ * asks here. @param run  of two, which
+ */
+export function pointsPanel(choose, run = 0) {
   const cells = kPointStates.map(() => ['', ''].map(() => element('td')));
   const rows = kPointStates.map(([, colour, text], i) => element(
       'tr', {}, element('th', {scope: 'row'}, swatch(colour), text), ...cells[i]));
   const note = element('p', {class: 'soft'}, '');
   const show = () => {
-    const {states, blur, resolution} = pointsAt(moment.seconds);
+    const {states, blur, resolution} = flights[run].pointsAt(moment.seconds);
     kPointStates.forEach(([state], i) => {
       cells[i][0].textContent = String(states[state].points);
       cells[i][1].textContent = state === 'unseen' ? '–' : states[state].score.toFixed(1);
@@ -68,31 +94,36 @@ export function pointsPanel() {
         'resolution (distance and tilt), on average.';
   };
   const table = element('table', {class: 'states'}, headRow(['points', 'number', 'score']), element('tbody', {}, ...rows));
-  return {element: panel('Where the score is', {id: 'points'}, element('div', {class: 'wide'}, table), note), show};
+  return {
+    element: panel(...titled(run, 'Where the score is', 'points'), element('div', {class: 'wide'}, table), note,
+                   ...(choose === null ? [] : [askForPoint(choose)])),
+    show,
+  };
 }
 
-export function linksPanel() {
-  const names = ['station', ...data.uavs.map(({name}) => name)];
+export function linksPanel(run = 0) {
+  const names = ['station', ...flights[run].data.uavs.map(({name}) => name)];
   const legend = element('ul', {class: 'legend'}, ...kLinks.map((text, i) => element(
       'li', {}, element('span', {class: `l l${i}`, 'aria-hidden': 'true'}), text)));
   if (names.length > kMostInMatrix)
-    return {element: panel('Radio links', {id: 'links'}, element('p', {}, 'A fleet of this size has its links in the scene.')), show: () => {}};
-  const cells = names.map(() => names.map(() => element('span', {class: 'l l0'})));
+    return {element: panel(...titled(run, 'Radio links', 'links'), element('p', {}, 'A fleet of this size has its links in the scene.')), show: () => {}};
+  const cells = names.map((_, from) => names.map((__, to) => linkButton(from, to)));
   const rows = names.map((name, from) => element(
-      'tr', {}, element('th', {scope: 'row'}, name),
+      'tr', {}, element('th', {scope: 'row', title: name}, shortName(name, 14)),
       ...names.map((_, to) => element('td', {}, ...(from === to ? [] : [cells[from][to]])))));
+  const many = names.length > kManyInMatrix;
+  const columns = names.map((name, i) => (many ? (i === 0 ? 'stn' : String(i)) : shortName(name, 7)));
+  if (many) rows.forEach((row, i) => i > 0 && row.firstChild.prepend(element('small', {}, `${i} `)));
   const table = element(
-      'table', {class: 'matrix'}, headRow(['from, to', ...names.map((name) => name.slice(0, 6))]),
-      element('tbody', {}, ...rows));
+      'table', {class: many ? 'matrix many' : 'matrix'}, headRow(['from, to', ...columns]), element('tbody', {}, ...rows));
   const show = () => {
-    const digits = linksAt(moment.seconds);
+    const digits = flights[run].linksAt(moment.seconds);
     cells.forEach((row, from) => row.forEach((cell, to) => {
       const kind = digits === '' ? 0 : Number(digits[from * names.length + to]);
-      cell.className = `l l${kind}`;
-      cell.title = `${names[from]} to ${names[to]}: ${kLinks[kind]}`;
+      showLinkButton(cell, from, to, kind, kLinks[kind]);
     }));
   };
-  return {element: panel('Radio links', {id: 'links'}, element('div', {class: 'wide'}, table), legend), show};
+  return {element: panel(...titled(run, 'Radio links', 'links'), element('div', {class: 'wide'}, table), legend), show};
 }
 
 const kWords = {
@@ -102,51 +133,56 @@ const kWords = {
   fault: (e) => `fault: ${[e.subject, e.object].filter(Boolean).join(' ')}`,
   delivered: (e) => `${e.subject} delivered ${e.object} ${e.object === 1 ? 'capture' : 'captures'}`,
 };
+const clock = (time) => `${time.toFixed(1)} s`;
 const kTone = {left: 'bad', collision: 'bad', fault: 'bad', delivered: 'good'};
 
 export function eventsPanel() {
   const list = element('ol', {class: 'events', tabindex: '0', 'aria-label': 'what happened, newest first'});
   let shown = '';
   const show = () => {
-    const past = events.filter(({time}) => time <= moment.seconds).sort((a, b) => b.time - a.time).slice(0, kMostEvents);
+    const past = allEvents().filter(({time}) => time <= moment.seconds).sort((a, b) => b.time - a.time).slice(0, kMostEvents);
     const key = `${past.length} ${past[0]?.time} ${past[0]?.object}`;
     if (key === shown) return;
     shown = key;
     list.replaceChildren(...past.map((e) => element(
-        'li', {}, element('time', {}, `${e.time.toFixed(1)} s`),
-        element('span', {class: kTone[e.event] ?? ''}, (kWords[e.event] ?? (() => e.event))(e)))));
+        'li', {}, element('time', {}, clock(e.time)),
+        element('span', {class: kTone[e.event] ?? ''}, `${e.run ? `${e.run}: ` : ''}${(kWords[e.event] ?? (() => e.event))(e)}`))));
   };
   return {element: panel('Events', {id: 'events'}, list), show};
 }
 
-const seconds = (time) => `${time.toFixed(1)} s`;
-
-function factsOfPoint(index) {
-  const {delivered, taken} = custody(index, moment.seconds);
+function factsOfPoint(index, flight = flights[drawn.points]) {
+  const {delivered, taken} = flight.custody(index, moment.seconds);
   const one = delivered ?? taken;
   if (one === null) return [['state', 'unseen: in no picture so far']];
-  const by = data.uavs[one.of.uav].name;
+  const by = flight.data.uavs[one.of.uav].name;
   const facts = [
     ['state', delivered !== null ? 'delivered' : 'photographed, not delivered'],
     ['score', `${one.q.toFixed(3)}${one.q < 0.2 ? ' (below 0.2 does not count)' : ''}`],
-    ['best capture', `no. ${one.of.number} of ${by}, at ${seconds(one.of.time)}`],
+    ['best capture', `no. ${one.of.number} of ${by}, at ${clock(one.of.time)}`],
     ['qualities', `sharp ${one.blur.toFixed(3)}, resolution ${one.res.toFixed(3)}` +
                       (one.distance > 0 ? `, ${one.distance.toFixed(3)} if seen head-on` : '')],
-    ['delivered', one.of.delivered <= moment.seconds ? `at ${seconds(one.of.delivered)}` : 'not yet: its UAV had no direct link to the station, or has not sent it'],
+    ['delivered', one.of.delivered <= moment.seconds ? `at ${clock(one.of.delivered)}` : 'not yet: its UAV had no direct link to the station, or has not sent it'],
   ];
   if (delivered !== null && taken.q > delivered.q + 1e-6)
-    facts.push(['better', `${taken.q.toFixed(3)} by ${data.uavs[taken.of.uav].name}, not delivered`]);
+    facts.push(['better', `${taken.q.toFixed(3)} by ${flight.data.uavs[taken.of.uav].name}, not delivered`]);
   return facts;
 }
+
+/** Of both flights, where there are two. */
+const factsOfPoints = (index) => !isPair() ? factsOfPoint(index) :
+    flights.flatMap((flight, k) => factsOfPoint(index, flight).map(([name, text]) => [`${kRuns[k]}: ${name}`, text]));
 
 function factsOfUav(index) {
   const pose = poseAt(index, moment.seconds, moment.newest);
   const share = sharesAt(moment.seconds)[index];
+  const counts = numbersOf(index)?.undelivered ?? share.undelivered;
   return [
     ['does', doing(index, moment.seconds)],
+    ...factsOfActivity(index, pose),
     ['position', pose === null ? '–' : `${[pose.x, pose.y, pose.z].map((v) => v.toFixed(1)).join(', ')} m`],
     ['speed', pose === null ? '–' : `${pose.speed.toFixed(1)} m/s`],
-    ['undelivered', String(share.undelivered)],
+    ['undelivered', `${share.undelivered}${counts === share.undelivered ? '' : `; ${counts} by its own count`}`],
     ['share of the score', share.score.toFixed(2)],
   ];
 }
@@ -176,7 +212,7 @@ export function chosenPanel(onThrough, onLeave) {
     through.hidden = !isUav;
     through.setAttribute('aria-pressed', String(chosen.through));
     through.textContent = chosen.through ? 'Look from outside' : 'Look through its camera';
-    facts.replaceChildren(...(isUav ? factsOfUav(chosen.uav) : factsOfPoint(chosen.point))
+    facts.replaceChildren(...(isUav ? factsOfUav(chosen.uav) : factsOfPoints(chosen.point))
                               .flatMap(([name, text]) => [element('dt', {}, name), element('dd', {}, text)]));
   };
   return {element: made, show};

@@ -1,15 +1,20 @@
 // The scene in three dimensions: the structure as its interest points, boxes, tracks, and the fleet at one moment.
 import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
-import {Line2} from 'three/addons/lines/Line2.js';
-import {LineGeometry} from 'three/addons/lines/LineGeometry.js';
-import {LineMaterial} from 'three/addons/lines/LineMaterial.js';
 
+import {makeGoals} from './activity.js';
+import {Fleet, Marks} from './bodies.js';
+import {countFrame} from './figures.js';
+import {takeKeys} from './keys.js';
+import {Labels} from './labels.js';
+import {makeClouds} from './clouds.js';
 import {makeFrusta, makeLinks} from './overlays.js';
 import {colour, data, element, indexAt, moment, onTheme, replaceDrawing, track, trackColour} from './page.js';
+import {trailsOfRuns} from './trails.js';
 
 const kPerPoint = 9;  // numbers of a point in the data
 const kDetected = 0.2;
+const kMostNames = 20;
 const count = data.points.length / kPerPoint;
 
 const point = (i) => {
@@ -71,41 +76,6 @@ function makeBoxes() {
   return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({transparent: true, opacity: 0.7}));
 }
 
-/** A track as a line, of which the first segments are drawn, up to where the UAV is. It has room to grow. */
-class Trail {
-  constructor(t) {
-    this.t = t;
-    this.line = new Line2(new LineGeometry(), new LineMaterial({linewidth: 1.7, transparent: true, opacity: 0.6}));
-    this.line.frustumCulled = false;
-    this.room = 0;
-    this.filled = 0;
-    this.grow();
-  }
-
-  grow() {
-    const segments = Math.max(this.t.t.length - 1, 0);
-    if (segments > this.room || this.room === 0) {
-      this.room = this.t.grows ? Math.max(2 * segments, 128) : Math.max(segments, 1);
-      this.line.geometry.dispose();
-      this.line.geometry = new LineGeometry();
-      this.line.geometry.setPositions(new Float32Array(3 * (this.room + 1)));
-      this.filled = 0;
-    }
-    if (segments === this.filled) return;
-    const {data: buffer} = this.line.geometry.attributes.instanceStart;
-    const {x, y, z} = this.t;
-    for (let i = this.filled; i < segments; ++i)
-      buffer.array.set([x[i], y[i], z[i], x[i + 1], y[i + 1], z[i + 1]], 6 * i);
-    buffer.needsUpdate = true;
-    this.filled = segments;
-  }
-
-  showUntil(at) {
-    this.line.visible = this.filled > 0;
-    this.line.geometry.instanceCount = Math.min(Math.max(at, 1), Math.max(this.filled, 1));
-  }
-}
-
 function bounds() {
   const box = new THREE.Box3();
   for (const {p} of points) box.expandByPoint(p);
@@ -113,6 +83,7 @@ function bounds() {
     for (const c of corners) box.expandByPoint(new THREE.Vector3(...c).multiplyScalar(0.01));
   if (box.isEmpty())
     for (const t of tracks) t.t.forEach((_, i) => box.expandByPoint(new THREE.Vector3(t.x[i], t.y[i], t.z[i])));
+  if (data.station) box.expandByPoint(new THREE.Vector3().fromArray(data.station).multiplyScalar(0.01));
   if (box.isEmpty()) box.expandByPoint(new THREE.Vector3());
   return box;
 }
@@ -130,12 +101,20 @@ class Scene {
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener('change', () => this.draw());
     this.by = 'score';
+    this.named = new Map();  // colours
+    this.painted = null;     // time of which the points have their colours
     this.fill();
     this.lookFrom();
     moment.listen(() => this.show());
     onTheme(() => this.paint());
     new ResizeObserver(() => this.fit()).observe(stage);
     this.fit();
+    const [eye, target] = [this.camera.position.clone(), this.controls.target.clone()];
+    takeKeys(this.renderer.domElement, this.camera, this.controls, () => {
+      this.camera.position.copy(eye);
+      this.controls.target.copy(target);
+      this.controls.update();
+    });
     this.renderer.domElement.addEventListener('pointermove', (event) => this.point(event));
   }
 
@@ -145,37 +124,18 @@ class Scene {
     this.scene.add(new THREE.AmbientLight(0xffffff, 2.0), sun);
     this.structure = makeStructure();
     this.boxes = makeBoxes();
-    this.tracks = new THREE.Group();
-    this.trails = tracks.map((t) => new Trail(t));
-    for (const {line} of this.trails) this.tracks.add(line);
-    this.fleet = new THREE.Group();
-    this.bodies = data.uavs.map((uav) => {
-      const body = new THREE.Mesh(
-          uav.explorer ? new THREE.OctahedronGeometry(1.1) : new THREE.SphereGeometry(0.8, 16, 12),
-          new THREE.MeshBasicMaterial());
-      this.fleet.add(body);
-      return body;
-    });
-    this.tags = data.uavs.map((uav) => {
-      const tag = element('span', {class: 'tag'}, uav.name);
-      if (data.uavs.length <= 20) this.stage.append(tag);
-      return tag;
-    });
-    this.marks = new THREE.Group();
-    const mark = (cm, geometry, name) => {
-      const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial());
-      mesh.position.fromArray(cm).multiplyScalar(0.01);
-      mesh.userData.colour = name;
-      this.marks.add(mesh);
-      return mesh;
-    };
-    if (data.station) mark(data.station, new THREE.ConeGeometry(1.2, 3, 20).rotateX(Math.PI / 2), 'ink');
-    for (const place of data.collisions) mark(place, new THREE.IcosahedronGeometry(1.3), 'bad');
-    this.scene.add(this.structure, this.boxes, this.tracks, this.fleet, this.marks);
+    this.trails = trailsOfRuns(tracks);
+    this.fleet = new Fleet();
+    this.bodies = this.fleet.bodies;
+    this.labels = data.uavs.length <= kMostNames ? new Labels(this.stage, this.bodies) : null;
+    this.marks = new Marks();
+    this.tracks = new THREE.Group().add(...this.trails.map(({object}) => object));
+    this.scene.add(this.structure, this.boxes, this.tracks, this.fleet.object, this.marks.object);
     // Of a flight that tells of its cameras and links.
-    this.frusta = data.poseAt ? makeFrusta() : null;
+    this.frusta = data.poseAt && data.uavs.every(({hfov}) => hfov > 0) ? makeFrusta() : null;
     this.links = data.linksAt ? makeLinks(this.bodies) : null;
-    for (const overlay of [this.frusta, this.links])
+    this.goals = data.poseAt ? makeGoals(this.bodies) : null;
+    for (const overlay of [this.frusta, this.links, this.goals])
       if (overlay) this.scene.add(overlay.object);
   }
 
@@ -185,7 +145,8 @@ class Scene {
     const size = Math.max(box.getSize(new THREE.Vector3()).length(), 10);
     this.extent = size;
     this.controls.target.copy(middle).z -= 0.06 * size;
-    const narrow = this.stage.clientWidth < 600 ? 1.45 : 1.0;
+    const {clientWidth: width, clientHeight: height} = this.stage;
+    const narrow = Math.max(width < 600 ? 1.45 : 1.0, width > 0 ? Math.min((1.15 * height) / width, 2.2) : 1.0);
     this.camera.position.copy(middle).add(new THREE.Vector3(0.4, -0.95, 0.36).multiplyScalar(size * 0.86 * narrow));
     const cells = Math.min(Math.ceil((size * 1.6) / 10), 60);
     this.ground = new THREE.GridHelper(cells * 10, cells).rotateX(Math.PI / 2);
@@ -201,14 +162,9 @@ class Scene {
     this.ground.material.color.set(colour('line'));
     this.ground.material.vertexColors = false;
     this.ground.material.needsUpdate = true;
-    this.trails.forEach(({line}, uav) => line.material.color.set(colour(trackColour(uav))));
-    this.frusta?.paint();
-    this.links?.paint();
-    this.bodies.forEach((body, uav) => body.material.color.set(colour(trackColour(uav))));
-    this.tags.forEach((tag, uav) => {
-      tag.style.color = colour(trackColour(uav));
-    });
-    for (const mesh of this.marks.children) mesh.material.color.set(colour(mesh.userData.colour));
+    for (const part of [...this.trails, this.fleet, this.labels, this.marks, this.frusta, this.links, this.goals, this.clouds]) part?.paint();
+    this.named.clear();
+    this.painted = null;
     this.show();
   }
 
@@ -245,24 +201,39 @@ class Scene {
     return at;
   }
 
+  paintPoint(index, seconds, over) {
+    const name = this.colourOf(points[index], index, seconds, over);
+    if (!this.named.has(name)) this.named.set(name, new THREE.Color(colour(name)));
+    this.structure.setColorAt(index, this.named.get(name));
+  }
+
+  /** Of a flight that goes on only what has changed is painted anew. */
+  paintPoints(seconds, over) {
+    const changed = data.changedPoints && this.painted === Infinity && over ? data.changedPoints() : null;
+    const time = over ? Infinity : seconds;
+    if (changed === null && this.painted === time) return;
+    if (changed === null) {
+      data.changedPoints?.();
+      for (let index = 0; index < count; ++index) this.paintPoint(index, seconds, over);
+    } else
+      for (const index of changed) this.paintPoint(index, seconds, over);
+    this.painted = time;
+    if (this.structure.instanceColor && changed?.size !== 0) this.structure.instanceColor.needsUpdate = true;
+  }
+
   /** As it was at the moment. */
   show() {
     const {seconds} = moment;
     const over = seconds >= data.end;
-    const known = new Map();
-    const named = (name) => {
-      if (!known.has(name)) known.set(name, new THREE.Color(colour(name)));
-      return known.get(name);
-    };
-    points.forEach((p, i) => this.structure.setColorAt(i, named(this.colourOf(p, i, seconds, over))));
-    if (this.structure.instanceColor) this.structure.instanceColor.needsUpdate = true;
-    tracks.forEach((_, uav) => {
-      const at = this.place(this.bodies[uav], uav, seconds);
-      this.trails[uav].grow();
-      this.trails[uav].showUntil(at);
-    });
+    this.paintPoints(seconds, over);
+    tracks.forEach((_, uav) => this.place(this.bodies[uav], uav, seconds));
+    this.fleet.update();
+    for (const trails of this.trails) trails.showUntil(seconds, (uav) => this.bodies[uav].visible);
+    this.marks.show(seconds);
     this.frusta?.show(seconds);
     this.links?.show(seconds);
+    this.goals?.show(seconds);
+    this.clouds?.show(seconds);
     this.ride(seconds);
     this.draw();
   }
@@ -284,7 +255,9 @@ class Scene {
     if (!(this.followed >= 0)) return;
     const {position} = this.bodies[this.followed];
     if (this.through) {
-      const {yaw, pitch} = data.poseAt(this.followed, seconds, moment.newest);
+      const pose = data.poseAt(this.followed, seconds, moment.newest);
+      if (pose === null) return;
+      const {yaw, pitch} = pose;
       this.camera.position.copy(position);
       this.camera.lookAt(position.clone().add(
           new THREE.Vector3(Math.cos(pitch) * Math.cos(yaw), Math.cos(pitch) * Math.sin(yaw), -Math.sin(pitch))));
@@ -308,15 +281,10 @@ class Scene {
 
   draw() {
     this.renderer.render(this.scene, this.camera);
+    countFrame(this.renderer.info);
     const {clientWidth: width, clientHeight: height} = this.stage;
-    this.bodies.forEach((body, uav) => {
-      const at = body.position.clone().project(this.camera);
-      const tag = this.tags[uav];
-      const visible = this.fleet.visible && body.visible && at.z < 1 && !(this.through && this.followed === uav);
-      tag.style.display = visible ? '' : 'none';
-      if (visible)
-        tag.style.transform = `translate(${((at.x + 1) / 2) * width + 9}px, ${((1 - at.y) / 2) * height - 18}px)`;
-    });
+    const followed = this.followed ?? -1;
+    this.labels?.show(this.camera, {width, height}, this.fleet.object.visible, followed, this.through ? followed : -1);
   }
 
   /** @returns what is hit of some objects, first the nearest. */
@@ -369,6 +337,15 @@ function legendOf(by) {
       ([from, to], i) => entry(`q${i + 1}`, `${from.toFixed(1)} to ${to.toFixed(1)}`));
   if (data.custody && by === 'score') return [entry('q0', 'unseen'), entry('carried', 'not delivered'), ...steps];
   return [entry('q0', by === 'estimate' ? 'not attainable' : 'not detected'), ...steps];
+}
+
+function legendOfLinks() {
+  const names = [['direct', 'link to the station'], ['relayed', 'link between UAVs'], ['bad', 'cut by a fault']];
+  return element('ul', {class: 'legend'}, ...names.map(([name, text]) => {
+    const line = element('span', {class: 'line', 'aria-hidden': 'true'});
+    line.style.background = `var(--${name})`;
+    return element('li', {}, line, text);
+  }));
 }
 
 function layer(name, objects, scene) {
@@ -427,8 +404,8 @@ function takeClicks(scene) {
   canvas.addEventListener('pointerdown', (event) => (from = [event.clientX, event.clientY]));
   canvas.addEventListener('pointerup', (event) => {
     if (from === null || Math.hypot(event.clientX - from[0], event.clientY - from[1]) > 4) return;
-    const body = scene.hits(event, scene.bodies)[0]?.object;
-    if (body) return data.onUav(scene.bodies.indexOf(body));
+    const body = scene.hits(event, scene.fleet.targets)[0];
+    if (body) return data.onUav(scene.fleet.uavOf(body));
     const hit = scene.hits(event, [scene.structure])[0];
     if (hit) data.onPoint(hit.instanceId);
   });
@@ -436,7 +413,14 @@ function takeClicks(scene) {
 
 /** @returns the scene, or undefined where there is no WebGL. */
 export function sceneView(figure) {
-  if (document.createElement('canvas').getContext('webgl2') === null) return;  // the drawing stays
+  if (document.createElement('canvas').getContext('webgl2') === null) {
+    // A report keeps its drawing. A flight that is followed has none, but a time.
+    if (data.follows)
+      figure.append(
+          element('p', {class: 'soft'}, 'This browser has no WebGL 2, which the scene needs. All else is here.'),
+          element('div', {class: 'scene'}, element('div', {class: 'tools'}, timeTools())));
+    return;
+  }
   const stage = element('div', {class: 'stage'});
   const tip = element('div', {class: 'tip'});
   tip.hidden = true;
@@ -457,17 +441,24 @@ export function sceneView(figure) {
   for (const [value, text] of colours) choice.append(element('option', {value}, text));
   choice.addEventListener('change', () => {
     scene.by = choice.value;
+    scene.painted = null;
     legend.replaceChildren(...legendOf(scene.by));
     scene.show();
   });
   const tools = element(
-      'div', {class: 'tools'}, element('label', {}, 'Points by', choice), layer('points', [scene.structure], scene),
-      layer('tracks', [scene.tracks], scene), layer('boxes', [scene.boxes], scene), layer('UAVs', [scene.fleet], scene),
-      layer('station, collisions', [scene.marks], scene),
+      'div', {class: 'tools'}, element('label', {}, 'Points by ', choice), layer('points', [scene.structure], scene),
+      layer('tracks', [scene.tracks], scene), layer('boxes', [scene.boxes], scene), layer('UAVs', [scene.fleet.object], scene),
+      layer('station, collisions', [scene.marks.object], scene),
       ...(scene.links ? [layer('links', [scene.links.object], scene)] : []),
+      ...(scene.goals ? [layer('goals', [scene.goals.object], scene)] : []),
       ...(scene.frusta ? [layer('cameras', [scene.frusta.object], scene)] : []), timeTools());
   live.prepend(tools);
+  if (data.clouds) {
+    scene.clouds = makeClouds(scene);
+    tools.after(scene.clouds.tools);
+  }
   live.append(legend);
+  if (scene.links) live.append(legendOfLinks());
   if (data.onPoint) takeClicks(scene);
   scene.fit();
   return scene;

@@ -1,0 +1,42 @@
+// A film of a page that holds its flight (view::kept_page): pictures at times of the simulation, whatever the machine
+// takes to draw them, so that the same command makes the same film.   Threads: one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "cli/film/browser.hpp"
+
+namespace skein::cli {
+
+inline constexpr double kUsualFilm_s = 30.0;
+
+/// Which moments are pictures.
+class FilmTimes {
+ public:
+  /// @throws InputError when there is nothing to be filmed, or far too much.
+  FilmTimes(const FilmOptions& options, double from_s, double end_s);
+
+  std::size_t size() const { return size_; }
+  /// The last is the end of the flight.
+  double operator[](std::size_t picture) const;
+
+ private:
+  double from_s_, end_s_, each_s_;
+  std::size_t size_;
+};
+
+/// The programs that make films. @throws InputError naming the Debian package of one that is missing.
+struct FilmPrograms {
+  FilmPrograms();
+  std::filesystem::path chromium, ffmpeg;
+};
+
+/// Writes an MP4 file (H.264), whole or not at all.
+/// @throws Interrupted; std::runtime_error with what the browser or the encoder said.
+void write_film(const FilmPrograms& programs, const std::string& page, const FilmOptions& options,
+                const std::filesystem::path& file, const Console& console);
+
+}  // namespace skein::cli

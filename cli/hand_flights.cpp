@@ -1,0 +1,59 @@
+#include "cli/hand_flights.hpp"
+
+#include <algorithm>
+
+#include "core/hand_command.hpp"
+#include "core/hand_spec.hpp"
+#include "core/suggestion.hpp"
+#include "core/text.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+std::string hand_repeated(const UavPlanner& planner, const std::filesystem::path& file) {
+  std::vector<std::string> parameters = *hand_parameters(planner.spec);
+  UavPlanner again = planner;
+  again.spec = std::string(kHandPlanner) + ":";
+  if (!parameters.empty() || file.string().find('=') != std::string::npos) again.spec += "file=";
+  again.spec += file.string();
+  for (const std::string& parameter : parameters) again.spec += "," + parameter;
+  return written(again);
+}
+
+}  // namespace
+
+std::vector<std::string> flown_by_hand(const std::vector<UavPlanner>& planners) {
+  std::vector<std::string> uavs;
+  for (const UavPlanner& planner : planners) {
+    if (wants_hands(planner.spec)) uavs.push_back(planner.uav);
+  }
+  return uavs;
+}
+
+void check_hands(const std::vector<UavPlanner>& planners, bool watched) {
+  const std::vector<std::string> uavs = flown_by_hand(planners);
+  if (uavs.empty() || watched) return;
+  const std::string& uav = uavs.front();
+  throw InputError("--planner " + uav + "=" + kHandPlanner + ": somebody must fly " + joined(uavs) +
+                   " on the page of `skein run --view`; to fly again what somebody flew, name what that run kept: "
+                   "--planner " +
+                   uav + "=" + kHandPlanner + ":RUN/hand-" + uav + ".csv");
+}
+
+std::string planners_repeated(const std::string& text, const std::vector<std::string>& fleet,
+                              const std::function<std::filesystem::path(const std::string& uav)>& file_of) {
+  const Planners planners = parse_planners(text, fleet);
+  if (flown_by_hand(planners.uavs).empty()) return text;
+  const std::string fallback = written(planners.fallback);
+  std::string again = fallback;
+  for (const UavPlanner& planner : planners.uavs) {
+    const bool by_hand = wants_hands(planner.spec);
+    const std::string spec = by_hand ? hand_repeated(planner, file_of(planner.uav)) : written(planner);
+    if (by_hand || spec != fallback) again += "," + planner.uav + "=" + spec;
+  }
+  if (planners.ground) again += "," + planners.ground->uav + "=" + written(*planners.ground);
+  return again;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,18 @@
+#include "cli/run/watch_arguments.hpp"
+
+#include "cli/hand_flights.hpp"
+#include "core/suggestion.hpp"
+#include "core/text.hpp"
+#include "view/time_order.hpp"
+
+namespace skein::cli {
+
+std::vector<std::string> watch_arguments(const FleetPlan& plan) {
+  const std::vector<std::string> by_hand = flown_by_hand(plan.planners);
+  const double speed = by_hand.empty() ? view::kUsualSpeed : view::kHandSpeed;
+  std::vector<std::string> arguments = {"--watch", plan.options.view.speed.value_or(shortest(speed))};
+  if (!by_hand.empty()) arguments.insert(arguments.end(), {"--by-hand", joined(by_hand, ",")});
+  return arguments;
+}
+
+}  // namespace skein::cli

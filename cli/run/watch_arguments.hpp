@@ -1,0 +1,14 @@
+// What sim_server is told of a run that somebody looks on, and perhaps flies by hand.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/run/fleet_plan.hpp"
+
+namespace skein::cli {
+
+/// @param plan  of a run that is watched.
+std::vector<std::string> watch_arguments(const FleetPlan& plan);
+
+}  // namespace skein::cli

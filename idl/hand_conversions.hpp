@@ -1,0 +1,16 @@
+// What somebody wants of the UAV that he flies by hand, on the wire.   Pure; safe from any thread.
+#pragma once
+
+#include <optional>
+
+#include "core/hand_command.hpp"
+#include "idl/type_names.hpp"
+
+namespace skein {
+
+/// @param tick  of the step from which on it is wanted.
+msg::HandCommand to_hand_command(Tick tick, const HandCommand& command);
+/// nullopt where a number is not finite.
+std::optional<HandCommand> from_hand_command(const msg::HandCommand& message);
+
+}  // namespace skein

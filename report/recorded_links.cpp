@@ -1,0 +1,139 @@
+#include "report/recorded_links.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "core/text.hpp"
+#include "process/run_tables.hpp"
+
+namespace skein::report {
+namespace {
+
+bool cuts(const RunFault& fault) {
+  return fault.kind == "blackout" || fault.kind == "station_outage" || fault.kind == "partition";
+}
+
+/// Of radio nodes by number: the station is 0, and all that is no UAV.
+std::size_t node_of(const RunData& run, const std::string& name) {
+  const auto uav = run.uav_of(name);
+  return uav ? *uav + 1 : 0;
+}
+
+/// Which group a node is in; who is in none is in one of its own. "gcs jurong | raffles".
+std::vector<std::size_t> groups_of(const RunData& run, const std::string& partition) {
+  std::vector<std::size_t> groups(run.uavs.size() + 1);
+  for (std::size_t node = 0; node < groups.size(); ++node) groups[node] = node;
+  std::size_t group = groups.size();
+  for (const std::string& names : split(partition, '|')) {
+    ++group;
+    for (const std::string& name : split(names, ' ')) {
+      if (!name.empty()) groups[node_of(run, name)] = group;
+    }
+  }
+  return groups;
+}
+
+/// Whether a fault that cuts keeps two nodes apart.
+class Cut {
+ public:
+  Cut(const RunData& run, const RunFault& fault)
+      : fault_(fault),
+        groups_(fault.kind == "partition" ? groups_of(run, fault.target) : std::vector<std::size_t>()),
+        silent_(node_of(run, fault.kind == "blackout" ? fault.target : "")) {}
+
+  bool is_active(double time_s) const { return time_s >= fault_.from_s && time_s < fault_.until_s; }
+  bool parts(std::size_t a, std::size_t b) const {
+    return groups_.empty() ? a == silent_ || b == silent_ : groups_[a] != groups_[b];
+  }
+  const RunFault& fault() const { return fault_; }
+
+ private:
+  const RunFault& fault_;
+  const std::vector<std::size_t> groups_;
+  const std::size_t silent_;
+};
+
+class Links {
+ public:
+  explicit Links(const RunData& run) : nodes_(run.uavs.size() + 1), up_(nodes_ * nodes_), dead_s_(nodes_, 1e12) {
+    for (const RunFault& fault : run.faults) {
+      if (cuts(fault)) cuts_.emplace_back(run, fault);
+    }
+    for (const RunCollision& collision : run.collisions) {
+      double& dead_s = dead_s_[node_of(run, collision.uav)];
+      if (run.uav_of(collision.uav)) dead_s = std::min(dead_s, collision.time_s);
+    }
+  }
+
+  void set(std::size_t from, std::size_t to, bool up) { up_[from * nodes_ + to] = up; }
+
+  LinkStates shown(double time_s) const {
+    LinkStates links;
+    for (std::size_t from = 0; from < nodes_; ++from) {
+      for (std::size_t to = 0; to < nodes_; ++to) links.push_back(shown(from, to, time_s));
+    }
+    return links;
+  }
+
+  /// When links change beside their events.
+  std::vector<double> turns() const {
+    std::vector<double> turns;
+    for (const Cut& cut : cuts_) turns.insert(turns.end(), {cut.fault().from_s, cut.fault().until_s});
+    std::ranges::copy_if(dead_s_, std::back_inserter(turns), [](double time_s) { return time_s < 1e11; });
+    return turns;
+  }
+
+ private:
+  LinkState shown(std::size_t from, std::size_t to, double time_s) const {
+    if (from == to) return LinkState::blocked;
+    if (time_s >= std::min(dead_s_[from], dead_s_[to])) return LinkState::dead;
+    if (up_[from * nodes_ + to]) return LinkState::linked;
+    const bool cut =
+        std::ranges::any_of(cuts_, [&](const Cut& one) { return one.is_active(time_s) && one.parts(from, to); });
+    return cut ? LinkState::cut : LinkState::blocked;
+  }
+
+  const std::size_t nodes_;
+  std::vector<bool> up_;
+  std::vector<double> dead_s_;  ///< by node: when its UAV collided
+  std::vector<Cut> cuts_;
+};
+
+bool is_of_a_link(const RunEvent& event) {
+  return event.event == run_tables::kLinkUp || event.event == run_tables::kLinkDown;
+}
+
+}  // namespace
+
+std::vector<std::pair<double, LinkStates>> recorded_links(const RunData& run) {
+  std::multimap<double, const RunEvent*> changes;
+  for (const RunEvent& event : run.events) {
+    if (is_of_a_link(event)) changes.emplace(event.time_s, &event);
+  }
+  std::vector<std::pair<double, LinkStates>> told;
+  if (changes.empty()) return told;
+  Links links(run);
+  for (const double time_s : links.turns()) changes.emplace(time_s, nullptr);
+  for (auto change = changes.begin(); change != changes.end();) {
+    const double time_s = change->first;
+    for (; change != changes.end() && change->first == time_s; ++change) {
+      if (change->second == nullptr) continue;
+      links.set(node_of(run, change->second->subject), node_of(run, change->second->object),
+                change->second->event == run_tables::kLinkUp);
+    }
+    LinkStates now = links.shown(time_s);
+    if (told.empty() || told.back().second != now) told.emplace_back(time_s, std::move(now));
+  }
+  return told;
+}
+
+std::string digits_of(const LinkStates& row_major) {
+  std::string digits;
+  for (const LinkState link : row_major) digits += static_cast<char>('0' + static_cast<int>(link));
+  return digits;
+}
+
+bool has_cuts(const RunData& run) { return std::ranges::any_of(run.faults, cuts); }
+
+}  // namespace skein::report

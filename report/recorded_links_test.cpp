@@ -1,0 +1,92 @@
+#include "report/recorded_links.hpp"
+
+#include <gtest/gtest.h>
+
+#include "process/run_tables.hpp"
+
+namespace skein::report {
+namespace {
+
+/// Two UAVs; all links are up from 0 on.
+RunData two_uavs() {
+  RunData run;
+  run.uavs = {"a", "b"};
+  const std::vector<std::string> nodes = {"gcs", "a", "b"};
+  for (const std::string& from : nodes) {
+    for (const std::string& to : nodes) {
+      if (from != to) run.events.push_back({0.0, run_tables::kLinkUp, from, to});
+    }
+  }
+  run.end_s = 60.0;
+  return run;
+}
+
+void all_down(RunData& run, double time_s, const std::string& node, bool up = false) {
+  for (const std::string other : {"gcs", "a", "b"}) {
+    if (other == node) continue;
+    for (const auto& [from, to] : {std::pair(node, other), std::pair(other, node)}) {
+      run.events.push_back({time_s, up ? run_tables::kLinkUp : run_tables::kLinkDown, from, to});
+    }
+  }
+}
+
+/// As a line has it.
+std::string digits(const RunData& run, double time_s) {
+  std::string found;
+  for (const auto& [from_s, links] : recorded_links(run)) {
+    if (from_s > time_s) break;
+    found = digits_of(links);
+  }
+  return found;
+}
+
+TEST(RecordedLinks, AreNoneWhereNothingIsRecorded) { EXPECT_TRUE(recorded_links({}).empty()); }
+
+TEST(RecordedLinks, AreBlockedWithoutAFault) {
+  RunData run = two_uavs();
+  run.events.push_back({5.0, run_tables::kLinkDown, "a", "gcs"});
+  EXPECT_EQ(digits(run, 4.0), "011101110");
+  EXPECT_EQ(digits(run, 5.0), "011001110");
+  EXPECT_FALSE(has_cuts(run));
+}
+
+TEST(RecordedLinks, AreCutWhereAFaultSilencesANode) {
+  RunData run = two_uavs();
+  run.faults = {{"blackout", "b", 10.0, 20.0}};
+  all_down(run, 10.0, "b");
+  all_down(run, 25.0, "b", true);
+  EXPECT_TRUE(has_cuts(run));
+  EXPECT_EQ(digits(run, 9.9), "011101110");
+  EXPECT_EQ(digits(run, 10.0), "012102220");
+  EXPECT_EQ(digits(run, 20.0), "010100000") << "the fault is over, and they are out of sight";
+  EXPECT_EQ(digits(run, 25.0), "011101110");
+}
+
+TEST(RecordedLinks, AreCutBetweenTheGroupsOfAPartition) {
+  RunData run = two_uavs();
+  run.faults = {{"partition", "gcs a | b", 10.0, 20.0}, {"kill", "a", 30.0, 40.0}};
+  all_down(run, 10.0, "b");
+  EXPECT_EQ(digits(run, 12.0), "012102220");
+  run.faults[0].target = "a | b";
+  run.events.push_back({10.0, run_tables::kLinkDown, "a", "gcs"});
+  EXPECT_EQ(digits(run, 12.0), "012202220") << "who is in no group is in one of its own";
+  EXPECT_EQ(digits(run, 35.0), "010000000") << "a killed program cuts no link";
+}
+
+TEST(RecordedLinks, AreCutOfAStationThatIsOut) {
+  RunData run = two_uavs();
+  run.faults = {{"station_outage", "gcs", 10.0, 20.0}};
+  all_down(run, 10.0, "gcs");
+  EXPECT_EQ(digits(run, 12.0), "022201210");
+}
+
+TEST(RecordedLinks, AreDeadOfAUavThatCollided) {
+  RunData run = two_uavs();
+  run.collisions = {{10.0, "a", "structure", {}}};
+  all_down(run, 10.05, "a");
+  EXPECT_EQ(digits(run, 9.0), "011101110");
+  EXPECT_EQ(digits(run, 12.0), "031303130");
+}
+
+}  // namespace
+}  // namespace skein::report

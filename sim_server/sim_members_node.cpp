@@ -1,0 +1,32 @@
+// SimNode: who of the fleet is lost, and who sends commands without being of it.
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "sim_server/sim_node.hpp"
+
+namespace skein::sim {
+
+void SimNode::take_losses() {
+  for (const auto& lost : server_.take_lost()) {
+    spdlog::warn("{} is lost at step {}: {}; the run goes on without it", lost.name, lost.k, lost.reason);
+    summary_.lost.push_back({lost.name, lost.k, simulation_.tick(), lost.reason});
+    summary_.warnings.push_back(lost.name + " was lost: " + lost.reason);
+    summary_.deterministic = false;
+  }
+}
+
+// Commands from outside the lock-step have no effect. Their sender sees a matched subscriber, and must not wonder.
+void SimNode::tell_of_strangers(std::uint64_t patience) {
+  const auto is_stranger = [this](bus::ParticipantId source) { return server_.is_stranger(source); };
+  for (const bus::Strangers::Notice& notice : strangers_.take_notices(simulation_.step(), patience, is_stranger)) {
+    const std::string text = describe(notice);
+    spdlog::warn("{}", text);
+    status_.send_surely(status::line_json(status::Warning{text}));
+    summary_.warnings.push_back(text);
+    const auto uav = std::find(uav_names_.begin(), uav_names_.end(), notice.node);
+    uavs_[static_cast<std::size_t>(uav - uav_names_.begin())]->reject_unheard(notice.topic);
+  }
+}
+
+}  // namespace skein::sim

@@ -1,0 +1,77 @@
+// Follows a run in a browser: what its UAVs say that they do, as activity.csv has it, live and in the replay; and whom
+// it waits for while a UAV's program is stopped. Prints what is wrong, a line each; nothing: all is well.
+// usage: node activity.mjs WEB CHROMIUM DOOR RUN UAV PID
+import {readFileSync} from 'node:fs';
+import path from 'node:path';
+
+import {openRun, sleep, stateOf, until} from './page.mjs';
+
+const [web, chromium, door, run, uav, pid] = process.argv.slice(2);
+const {browser, page, complaints} = await openRun([web, chromium, door]);
+const expect = (good, what) => good || console.log(what);
+const kTicks = 400;  // of a second
+
+/** By UAV, what the table says that it does: [what, why]. */
+const shown = () => page.$$eval('#fleet tbody tr', (rows) => Object.fromEntries(rows.map((row) => {
+  const cell = row.querySelector('.does');
+  const why = cell.querySelector('.why')?.textContent ?? '';
+  return [row.querySelector('button').textContent, [cell.firstChild?.textContent ?? '', why]];
+})));
+
+/** The same of activity.csv. */
+function written(seconds) {
+  const [head, ...lines] = readFileSync(path.join(run, 'activity.csv'), 'utf8').trim().split('\n').map((l) => l.split(','));
+  const found = {};
+  for (const cells of lines) {
+    const row = Object.fromEntries(head.map((key, i) => [key, cells[i]]));
+    if (Number(row.time_s) > seconds + 1e-6) continue;
+    const why = [row.waits_for && `waits for ${row.waits_for}`, row.no_way && `no way: ${row.no_way}`];
+    found[row.uav] = [row.mode, why.filter(Boolean).join('; ')];
+  }
+  return found;
+}
+
+await until(page, ({state, tick}) => state === 'flies' && tick > 12 * kTicks, 'it flies');
+await page.click('#pause');
+const held = await until(page, ({state}) => state === 'paused', 'it is paused');
+await sleep(1000);  // lines and states come by different ways
+const live = await shown();
+await page.evaluate((name) => [...document.querySelectorAll('#fleet button')]
+    .find((button) => button.textContent === name).click(), uav);
+const facts = await page.$eval('#chosen', (element) => element.textContent);
+for (const word of [live[uav][0], 'goal', 'waits for', 'ms for a simulated second'])
+  expect(facts.includes(word), `of ${uav} the page says ${facts}, without ${word}`);
+await page.keyboard.press('Escape');
+
+// A program that does not answer holds the run up, and the page says whose.
+await page.click('#pause');
+await until(page, ({state}) => state === 'flies', 'it goes on');
+process.kill(Number(pid), 'SIGSTOP');
+try {
+  const waits = await until(page, ({state}) => state === 'waits', `it waits for ${uav}`);
+  const text = await page.$eval('#state', (element) => element.textContent);
+  expect(text === `waits for ${uav} (to answer)`, `it says '${text}'`);
+  await sleep(1000);
+  const still = await stateOf(page);
+  expect(still.state === 'waits' && still.tick === waits.tick, `it went from ${waits.tick} to ${still.tick} meanwhile`);
+} finally {
+  process.kill(Number(pid), 'SIGCONT');
+}
+await until(page, ({state, tick}) => state === 'flies' && tick > held.tick + kTicks, 'it flies on');
+await page.select('#speed', 'max');
+await until(page, ({state, live: drawn}) => state === 'replay' && drawn === 'yes', 'its replay');
+await page.$eval('#moment', (slider, seconds) => {
+  slider.value = String(seconds);
+  slider.dispatchEvent(new Event('input'));
+}, held.tick / kTicks);
+await sleep(1000);
+const seconds = held.tick / kTicks;
+const [replay, table] = [await shown(), written(seconds)];
+for (const name of Object.keys(table)) {
+  for (const [where, what] of [['live', live], ['in the replay', replay]])
+    expect(JSON.stringify(what[name]) === JSON.stringify(table[name]),
+           `at ${seconds} s ${name} does ${what[name]} ${where}, and ${table[name]} in activity.csv`);
+}
+expect(Object.keys(table).length === Object.keys(live).length, 'activity.csv has not all UAVs');
+for (const complaint of complaints) console.log(complaint);
+await browser.close();

@@ -1,0 +1,137 @@
+// Looks at LiDAR points and at a map while a run flies, stops to look at them, and looks at the map in its replay.
+// Prints what is wrong, a line each; nothing: all is well.
+// usage: node clouds.mjs WEB CHROMIUM DOOR RUN
+import {lookAt} from '../report/browser.mjs';
+import {openRun, sleep, until} from './page.mjs';
+
+const [web, chromium, door] = process.argv.slice(2);
+const {browser, page, complaints} = await openRun([web, chromium, door]);
+const expect = (good, what) => good || console.log(what);
+const kMostBytes = 20000;  // of a message with points or a map, on average: five such messages of each kind a second
+
+/** What the page is told, by its socket. */
+const told = {scene: null, frames: 0, clouds: 0, bytes: 0, since: 0, names: new Map(), newest: new Map(), points: []};
+const spy = await page.createCDPSession();
+await spy.send('Network.enable');
+spy.on('Network.webSocketFrameReceived', ({response}) => {
+  const message = JSON.parse(response.payloadData);
+  told.scene = message.scene ?? told.scene;
+  ++told.frames;
+  ++told.since;
+  if (!message.clouds) return;
+  ++told.clouds;
+  told.since = 0;
+  told.bytes += response.payloadData.length;
+  for (const cloud of message.clouds) {
+    told.names.set(cloud.n, (told.names.get(cloud.n) ?? 0) + 1);
+    told.newest.set(cloud.n, cloud);
+    for (const {points} of cloud.steps ?? []) {
+      if (points === undefined) continue;
+      const bytes = Buffer.from(points, 'base64');
+      for (let i = 0; i + 6 <= bytes.length; i += 6)
+        told.points.push([0, 2, 4].map((at) => bytes.readInt16LE(i + at) / 10));
+    }
+  }
+});
+const eventually = async (holds, what) => {
+  for (let tries = 0; tries < 1200; ++tries) {
+    if (await holds()) return;
+    await sleep(100);
+  }
+  throw new Error(`it never came: ${what}; told ${JSON.stringify([...told.names])}`);
+};
+const note = () => page.$eval('#clouds-note', (element) => element.textContent);
+const choose = (id, value) => page.select(`#${id}`, value);
+const press = (id) => page.evaluate((name) => document.getElementById(name).click(), id);
+const stage = async () => {
+  await sleep(300);  // a picture of the screen later
+  const png = await (await page.$('.stage')).screenshot({encoding: 'base64'});
+  const figures = await lookAt(browser, png);
+  await page.bringToFront();
+  return {png, ...figures};
+};
+const count = (kind) => [...told.names].reduce((sum, [name, times]) => sum + (name.startsWith(kind) ? times : 0), 0);
+
+await page.reload();  // with the spy from the beginning
+await until(page, ({state, live}) => state === 'flies' && live === 'yes', 'it flies');
+await eventually(() => told.frames > 30, 'news of the flight');
+expect(told.clouds === 0, 'there are points or maps, and nobody looks');
+expect(await note() === '', `nobody looks, and the page says ${await note()}`);
+
+await choose('speed', '0.5');  // it must not be over before the look
+await choose('lidar-of', 'all');
+await choose('map-of', 'jurong');
+await eventually(() => count('lidar') >= 10 && told.points.length > 1500, 'LiDAR points');
+await eventually(() => (told.newest.get('map jurong')?.steps?.[0].runs.length ?? 0) > 2000, 'a map of some size');
+expect(told.names.has('lidar jurong') && told.names.has('lidar raffles'), 'not all explorers have points');
+expect(![...told.names.keys()].some((name) => /sentosa|map raffles/.test(name)), 'there is what nobody asked for');
+expect(told.bytes / told.clouds < kMostBytes, `a message has ${told.bytes / told.clouds} bytes`);
+expect(told.newest.get('map jurong').kind === 'what it flies on', 'it is another map');
+expect(told.newest.get('map jurong').free.length > 100, 'nothing is free at its height');
+
+// Points lie on the structure, of which the page has points some way apart.
+const near = (() => {
+  const kCell = 1.5;
+  const cells = new Map();
+  const key = (p) => p.map((v) => Math.floor(v / kCell)).join();
+  const {points} = told.scene;
+  for (let i = 0; i < points.length; i += 9) {
+    const p = [points[i] / 100, points[i + 1] / 100, points[i + 2] / 100];
+    cells.set(key(p), [...(cells.get(key(p)) ?? []), p]);
+  }
+  return (p) => {
+    for (let i = 0; i < 27; ++i) {
+      const shifted = [i % 3, Math.floor(i / 3) % 3, Math.floor(i / 9)].map((v, axis) => p[axis] + (v - 1) * kCell);
+      for (const q of cells.get(key(shifted)) ?? [])
+        if (Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) < kCell) return true;
+    }
+    return false;
+  };
+})();
+const share = told.points.filter(near).length / told.points.length;
+expect(share > 0.6, `${share} of the LiDAR points are beside the points of the structure`);
+const beside = told.points.filter(([x, y, z]) => near([x + 6, y - 6, z + 6])).length / told.points.length;
+expect(beside < share / 2, `${beside} of the LiDAR points would be there if they stood elsewhere: that proves little`);
+
+// What is chosen is to be seen: while time is held nothing else changes.
+await press('pause');
+await until(page, ({state}) => state === 'paused', 'it is paused');
+await sleep(1500);  // for what was on its way
+expect(/LiDAR points, the newest of .* jurong: what it flies on/.test(await note()), `the page says ${await note()}`);
+const both = await stage();
+await choose('clouds-by', 'uav');
+const byUav = await stage();
+await press('map-free');
+const noFree = await stage();
+await choose('map-of', '');
+const points = await stage();
+await choose('lidar-of', '');
+const none = await stage();
+const pictures = {both, byUav, noFree, points, none};
+for (const [one, {png}] of Object.entries(pictures))
+  for (const [other, {png: second}] of Object.entries(pictures))
+    if (one < other) expect(png !== second, `the pictures ${one} and ${other} are the same`);
+expect(both.colours > none.colours, 'points and map add no colour');
+
+// Who does not look any more is sent nothing; nor is a page that has ceased to ask.
+await press('pause');
+await until(page, ({state}) => state === 'flies', 'it goes on');
+await eventually(() => told.since > 20, 'an end of points and maps');
+await choose('lidar-of', 'all');
+await eventually(() => told.since === 0, 'points again');
+await page.evaluate(() => {
+  for (let timer = 0; timer < 100000; ++timer) clearInterval(timer);
+});
+await eventually(() => told.since > 60, 'an end of the lease');
+
+await choose('speed', 'max');
+await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'its replay');
+await sleep(500);
+expect(await page.$eval('#lidar-of', (element) => element.disabled), 'the recording has no clouds');
+const before = await stage();
+await choose('map-of', 'jurong');
+await eventually(async () => /jurong: /.test(await note()), 'the map in the replay');
+const after = await stage();
+expect(before.png !== after.png, 'the map of the replay is not to be seen');
+for (const complaint of complaints) console.log(complaint);
+await browser.close();

@@ -1,0 +1,78 @@
+// What the page takes to show 20 UAVs and 10,000 points: draw calls, bytes, memory over an hour. Prints what is beyond
+// its bounds, a line each; nothing: all is well. With FIGURES in its environment the figures go to stderr.
+// usage: node figures.mjs WEB CHROMIUM DOOR FEEDER
+import {lookAt} from '../report/browser.mjs';
+import {makeUp} from './made_up.mjs';
+import {openRun, sleep} from './page.mjs';
+
+const kSpeed = 8;               // simulated seconds a second
+const kStates = 1000 / 80;      // a second that the server sends at most (kPause of view/server.cpp)
+const kMostDrawCalls = 25;     // 50 are asked for; layers on demand may take as many again
+const kMostSent = 300000;       // bytes a second
+const kLeastSent = 60000;       // less would not be the flight that was meant
+const kMostGrowth = 1.4;        // of memory from ten minutes to an hour; 2.2 if nothing is thinned
+const [web, chromium, door, feeder] = process.argv.slice(2);
+const expect = (good, what) => good || console.log(what);
+const note = (...what) => process.env.FIGURES && console.error(...what);
+
+const flight = await makeUp(feeder, door);
+const {browser, page, complaints} = await openRun([web, chromium, door]);
+const devtools = await page.createCDPSession();
+const figures = () => page.evaluate(() => globalThis.skein.figures());
+
+/** Flies to a simulated time, and waits until the page shows it. */
+async function flyTo(seconds) {
+  await flight.tell(`to ${seconds}`);
+  for (;;) {
+    const shown = await figures();
+    if (shown.end >= seconds - 1e-3 && shown.shown >= seconds - 1e-3) return shown;
+    await sleep(100);
+  }
+}
+
+async function memory() {
+  await devtools.send('HeapProfiler.collectGarbage');
+  const {usedSize, backingStorageSize = 0} = await devtools.send('Runtime.getHeapUsage');
+  return usedSize + backingStorageSize;
+}
+
+/** What is sent in a second, of a minute of the flight: its lines come by simulated time, states by that of the server. */
+async function checkSent(from, until) {
+  await flyTo(from);
+  let [lines, largestState, messages] = [0, 0, 0];
+  devtools.on('Network.webSocketFrameReceived', ({response: {payloadData}}) => {
+    const {state} = JSON.parse(payloadData);
+    const size = state === undefined ? 0 : JSON.stringify(state).length;
+    lines += Buffer.byteLength(payloadData) - size;
+    largestState = Math.max(largestState, size);
+    ++messages;
+  });
+  await devtools.send('Network.enable');
+  await flyTo(until);
+  await devtools.send('Network.disable');
+  const sent = (kSpeed * lines) / (until - from) + kStates * largestState;
+  note({sent, lines, largestState, messages});
+  expect(sent <= kMostSent, `${Math.round(sent)} bytes are sent in a second at ${kSpeed} times real time`);
+  expect(sent >= kLeastSent, `only ${Math.round(sent)} bytes are sent in a second: that proves little`);
+}
+
+await checkSent(20, 80);
+const after = {tenMinutes: await flyTo(600)};
+after.tenMinutes.memory = await memory();
+note(after.tenMinutes);
+expect(after.tenMinutes.mostDrawCalls <= kMostDrawCalls, `a picture takes ${after.tenMinutes.mostDrawCalls} draw calls`);
+expect(after.tenMinutes.trailSegments >= 20 * 1190, `the trails have ${after.tenMinutes.trailSegments} segments`);
+expect(after.tenMinutes.points === 10000, `there are ${after.tenMinutes.points} points`);
+const picture = async () => lookAt(browser, await (await page.$('.stage')).screenshot({encoding: 'base64'}));
+const seen = await picture();
+await page.bringToFront();
+expect(seen.colours > 100 && seen.largest < 0.95, `the scene is blank: ${JSON.stringify(seen)}`);
+after.hour = await flyTo(3600);
+after.hour.memory = await memory();
+note(after.hour);
+expect(after.hour.mostDrawCalls <= kMostDrawCalls, `a picture takes ${after.hour.mostDrawCalls} draw calls`);
+const growth = after.hour.memory / after.tenMinutes.memory;
+expect(growth <= kMostGrowth, `after an hour the page takes ${growth.toFixed(2)} times the memory of ten minutes`);
+for (const complaint of complaints) console.log(complaint);
+await browser.close();
+await flight.end();

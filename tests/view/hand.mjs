@@ -1,0 +1,93 @@
+// Flies a UAV by hand from the page of a run, and vanishes with a key held down. Prints what is wrong, a line each;
+// nothing: all is well. With a fifth word it leaves pictures in that folder, for people.
+// usage: node hand.mjs WEB CHROMIUM DOOR UAV [PICTURES]
+import {openRun, sleep, until} from './page.mjs';
+
+const [web, chromium, door, uav, pictures] = process.argv.slice(2);
+const {browser, page, complaints} = await openRun([web, chromium, door]);
+const expect = (good, what) => good || console.log(what);
+
+const hand = () => page.evaluate(() => ({
+  wanted: document.getElementById('wanted').textContent,
+  title: document.querySelector('#hand h2').textContent,
+  held: document.getElementById('held').textContent,
+  facts: Object.fromEntries(
+      [...document.querySelectorAll('#chosen dt')].map((name) => [name.textContent, name.nextElementSibling.textContent])),
+  chosen: document.querySelector('#chosen h2').textContent,
+}));
+const position = async () => (await hand()).facts.position.split(',').map(Number.parseFloat);
+async function wait(holds, what) {
+  for (let tries = 0; tries < 600; ++tries) {
+    const now = await hand();
+    if (holds(now)) return now;
+    await sleep(100);
+  }
+  throw new Error(`it never came to that: ${what}; the page says ${JSON.stringify(await hand())}`);
+}
+const shoot = (name) => pictures && page.screenshot({path: `${pictures}/${name}.png`});
+
+await until(page, ({state, live}) => state === 'flies' && live === 'yes', 'it flies');
+// Nobody has the controls yet: keys fly nothing.
+await page.keyboard.down('w');
+await sleep(700);
+expect((await hand()).wanted === 'rest', 'a key flies it before the controls were taken');
+await page.keyboard.up('w');
+
+await page.click('#take');
+const taken = await wait(({title}) => title === `You fly ${uav}`, 'the controls are taken');
+expect(taken.chosen === uav, `the page follows ${taken.chosen}`);
+await page.keyboard.down('r');
+await wait(({wanted}) => wanted.startsWith('up'), 'it is told to climb');
+await wait(({facts}) => Number.parseFloat(facts.position.split(',')[2]) > 6, 'it climbs');
+await page.keyboard.up('r');
+await wait(({wanted}) => wanted === 'rest', 'the key is up');
+const top = await position();
+
+// Two keys at once, and a page that loses its focus while they are down.
+await page.keyboard.down('w');
+await page.keyboard.down('q');
+await wait(({wanted}) => wanted.includes('ahead') && wanted.includes('turn left'), 'it flies ahead and turns');
+await shoot('flying');
+await wait(({facts}) => {
+  const [x, y] = facts.position.split(',').map(Number.parseFloat);
+  return Math.hypot(x - top[0], y - top[1]) > 3;
+}, 'it is 3 m from there');
+await page.evaluate(() => dispatchEvent(new Event('blur')));
+await wait(({wanted}) => wanted === 'rest', 'a page without focus lets it rest');
+await page.keyboard.up('w');
+await page.keyboard.up('q');
+
+// The arrows fly, and the speed counts; what is typed elsewhere does not fly.
+await page.evaluate(() => {
+  const speed = document.getElementById('hand-speed');
+  speed.value = '1';
+  speed.dispatchEvent(new Event('input'));
+});
+await page.keyboard.down('ArrowLeft');
+await wait(({wanted}) => wanted === 'left 1.0 m/s', 'it flies left at the speed of the slider');
+await page.keyboard.up('ArrowLeft');
+await wait(({wanted}) => wanted === 'rest', 'the arrow is up');
+await page.keyboard.press('Escape');
+await wait(({title}) => title === `Fly ${uav} by hand`, 'Escape lets go');
+await page.keyboard.down('d');
+await sleep(700);
+expect((await hand()).wanted === 'rest', 'a key flies it after the controls were let go');
+await page.keyboard.up('d');
+
+// A gamepad with the standard mapping.
+await page.evaluate(() => {
+  const pad = {connected: true, mapping: 'standard', axes: [0, 0, 0.05, -1], buttons: []};
+  Object.defineProperty(navigator, 'getGamepads', {configurable: true, value: () => [pad]});
+});
+await page.click('#take');
+await wait(({wanted}) => wanted === 'ahead 1.0 m/s', 'a stick flies it, and its dead zone does not');
+await page.evaluate(() => Object.defineProperty(navigator, 'getGamepads', {configurable: true, value: () => []}));
+await wait(({wanted}) => wanted === 'rest', 'the stick is let go');
+
+await page.select('#speed', '8');
+await page.evaluate(() => document.activeElement.blur());
+await page.keyboard.down('d');
+await wait(({wanted}) => wanted === 'right 1.0 m/s', 'it flies to the right');
+for (const complaint of complaints) console.log(complaint);
+// Nobody says goodbye.
+browser.process().kill('SIGKILL');

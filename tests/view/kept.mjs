@@ -1,0 +1,80 @@
+// Looks at the file of a finished run, as somebody does to whom it was sent. Prints what is wrong, a line each; nothing:
+// all is well.
+// usage: node kept.mjs WEB CHROMIUM FILE RUN
+import {readFileSync} from 'node:fs';
+import path from 'node:path';
+
+import {lookAt, openBrowser, openPage} from '../report/browser.mjs';
+import {sleep, stateOf, until} from './page.mjs';
+
+const [web, chromium, file, run] = process.argv.slice(2);
+const expect = (good, what) => good || console.log(what);
+const result = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));
+const browser = await openBrowser(web, chromium);
+
+async function checkLosses(page) {
+  if (!result.losses) return expect(await page.$('#losses') === null, 'it tells of losses that nobody knows');
+  const shown = await page.$eval('#losses', (panel) => panel.innerText).catch(() => '');
+  for (const {points, score} of Object.values(result.losses)) {
+    if (points > 0) expect(shown.includes(`${points}\t${(-score).toFixed(1)}`), `the losses lack ${points} points, ${-score}: ${shown}`);
+  }
+  expect(shown.includes(result.attainable.score.toFixed(1)), `the losses do not tell what could be had: ${shown}`);
+}
+
+async function checkPoint(page) {
+  const box = await (await page.$('.stage canvas')).boundingBox();
+  for (let y = 0.3; y < 0.8; y += 0.02) {
+    for (let x = 0.15; x < 0.85; x += 0.015) {
+      const at = [box.x + x * box.width, box.y + y * box.height];
+      await page.mouse.move(...at);
+      const tip = await page.$eval('.tip', (element) => (element.hidden ? '' : element.textContent));
+      if (!/ · delivered · /.test(tip)) continue;
+      await page.mouse.click(...at);
+      const shown = await page.$eval('#chosen', (element) => element.textContent);
+      const index = Number(/point (\d+)/.exec(tip)[1]);
+      const [head, ...lines] = readFileSync(path.join(run, 'score.csv'), 'utf8').trim().split('\n').map((line) => line.split(','));
+      const score = Number(lines[index][head.indexOf('score')]);
+      expect(shown.includes(score.toFixed(3)), `of point ${index} the page says ${shown}, and score.csv ${score}`);
+      return;
+    }
+  }
+  expect(false, 'no delivered point is to be found with the pointer');
+}
+
+for (const [width, scheme] of [[1400, 'light'], [390, 'dark']]) {
+  const {page, complaints} = await openPage(browser, file, {width, scheme});
+  await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'the replay');
+  await sleep(500);
+  const {score, shown} = await stateOf(page);
+  expect(score === result.score && shown === result.score.toFixed(3), `the score is ${shown}, not ${result.score}`);
+  expect(result.score > 0, 'nothing was scored: that proves little');
+  const stage = async () => (await page.$('.stage')).screenshot({encoding: 'base64'});
+  const end = await stage();
+  const figures = await lookAt(browser, end);
+  await page.bringToFront();
+  expect(figures.colours > 60 && figures.largest < 0.97, `the scene is blank: ${JSON.stringify(figures)}`);
+  await page.focus('#moment');
+  await page.keyboard.press('Home');
+  await sleep(300);
+  expect((await stateOf(page)).score === 0, 'there is a score at the begin');
+  expect(await stage() !== end, 'the pictures of the begin and the end are the same');
+  expect((await page.evaluate(() => location.hash)).startsWith('#t=0'), 'the address does not hold the time');
+  await page.keyboard.press('End');
+  const tooWide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  expect(tooWide <= 0, `the page is ${tooWide} pixels too wide`);
+  if (width === 1400) await checkPoint(page);
+  await checkLosses(page);
+  for (const complaint of complaints) expect(false, complaint);
+  await page.close();
+}
+
+// An address that was shared.
+const name = result.uavs[1].name;
+const {page, complaints} = await openPage(browser, `${file}#t=20&uav=${name}&view=camera`, {width: 1400, scheme: 'light'});
+await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'the replay');
+expect(await page.$eval('#chosen h2', (element) => element.textContent) === name, 'the address does not choose its UAV');
+expect((await page.$eval('#clock', (element) => element.textContent)) === '20.0 s', 'the address does not choose its time');
+expect((await page.evaluate(() => location.hash)).includes('view=camera'), 'the address was lost');
+for (const complaint of complaints)
+  expect(complaint.startsWith('asks for file://'), complaint);  // of itself, with what follows its #
+await browser.close();

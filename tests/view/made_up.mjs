@@ -1,0 +1,21 @@
+// A flight that is made up (feeder.cpp), at the pace of who looks.
+import {spawn} from 'node:child_process';
+import {createInterface} from 'node:readline';
+
+/** @returns how to tell the feeder something; it resolves with its answer. */
+export async function makeUp(feeder, door, ...size) {
+  const child = spawn(feeder, [door, ...size.map(String)], {stdio: ['pipe', 'pipe', 'inherit']});
+  const answers = createInterface({input: child.stdout})[Symbol.asyncIterator]();
+  const answer = async () => (await answers.next()).value;
+  await answer();
+  return {
+    tell: (line) => {
+      child.stdin.write(`${line}\n`);
+      return answer();
+    },
+    end: () => new Promise((resolve) => {
+      child.on('exit', resolve);
+      child.stdin.end();
+    }),
+  };
+}

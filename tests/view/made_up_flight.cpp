@@ -1,0 +1,208 @@
+#include "made_up_flight.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/camera_quality.hpp"
+#include "process/json_text.hpp"
+
+namespace skein::test {
+namespace {
+
+constexpr std::size_t kTowers = 4;
+constexpr double kTau = 2.0 * std::numbers::pi;
+constexpr double kRadius_m = 5.0, kHeight_m = 24.0, kSpacing_m = 32.0;
+constexpr double kOrbit_m = 5.5;                      ///< from the wall
+constexpr double kTurn_rad_s = 0.25, kClimb_m = 4.0;  ///< a circle
+constexpr double kStay_s = 150.0, kMove_s = 12.0;
+constexpr double kRadio_m = 45.0;
+constexpr double kWindow_rad = 0.30, kWindow_m = 2.2;  ///< half of what a camera sees of a tower
+constexpr std::uint64_t kCapturePeriod = 3, kPosePeriod = 10, kLinksPeriod = 5;  ///< in exchanges
+constexpr std::size_t kDeliveries = 4;                                           ///< of a UAV in an exchange
+const Vector3d kStation(0.0, -34.0, 0.3);
+
+Vector3d axis_of(std::size_t tower) {
+  return {(static_cast<double>(tower % 2) - 0.5) * kSpacing_m, (static_cast<double>(tower / 2) - 0.5) * kSpacing_m, 0};
+}
+
+/// A number in [0, 1) for three others.
+double noise(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+  std::uint64_t x = a * 0x9e3779b97f4a7c15U + b * 0xbf58476d1ce4e5b9U + c * 0x94d049bb133111ebU;
+  for (int i = 0; i < 2; ++i) x = (x ^ (x >> 31U)) * 0xd6e8feb86659fd93U;
+  return static_cast<double>(x >> 40U) / static_cast<double>(1U << 24U);
+}
+
+/// Whether no tower stands between two places.
+bool in_sight(const Vector3d& a, const Vector3d& b) {
+  for (std::size_t tower = 0; tower < kTowers; ++tower) {
+    const Vector3d axis = axis_of(tower);
+    const Eigen::Vector2d along = (b - a).head<2>(), from = (axis - a).head<2>();
+    const double share = std::clamp(from.dot(along) / std::max(along.squaredNorm(), 1e-9), 0.0, 1.0);
+    const double height = a.z() + share * (b.z() - a.z());
+    if ((from - share * along).norm() < kRadius_m && height < kHeight_m) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+MadeUpFlight::MadeUpFlight(MadeUpSize size, view::Feed& feed) : size_(size), feed_(feed), fleet_(size.uavs) {
+  report::RunData run;
+  const std::size_t each = size.points / kTowers, around = 50;
+  const double levels = std::ceil(static_cast<double>(each) / around);
+  for (std::size_t i = 0; i < each * kTowers; ++i) {
+    const double angle = kTau * static_cast<double>(i % each % around) / around;
+    const Vector3d out(std::cos(angle), std::sin(angle), 0.0);
+    report::RunPoint point;
+    point.normal_W = out;
+    point.p_W = axis_of(i / each) + kRadius_m * out;
+    point.p_W.z() = kHeight_m * (static_cast<double>(i % each / around) + 0.5) / levels;
+    points_.push_back(point.p_W);
+    run.points.push_back(point);
+  }
+  for (std::size_t i = 0; i < size.uavs; ++i) {
+    run.uavs.push_back(fmt::format("uav{:02}", i));
+    run.explorer.push_back(i % 5 < 2);
+    fleet_[i].best.assign(points_.size(), 0.0F);
+  }
+  run.station = kStation;
+  run.boxes.push_back(
+      {"site", {0.0, 0.0, 0.5 * kHeight_m}, {56.0, 56.0, kHeight_m + 4.0}, Eigen::Matrix3d::Identity()});
+  delivered_.assign(points_.size(), 0.0F);
+  Json scene = view::scene_json(run, std::vector<CameraConfig>(size.uavs), std::vector<double>(size.uavs, 8.0));
+  scene["mode"] = "live";
+  scene["paced"] = true;
+  scene["scenario"] = "made up";
+  scene["title"] = "made up";
+  scene["duration"] = 3600.0;
+  feed_.set_scene(scene.dump());
+  for (const std::string& name : run.uavs) feed_.add_line(view::event_line(0.0, "joined", name, ""));
+  move();
+  tell_links();
+  feed_.add_line(view::pose_line(0.0, [this] {
+    std::vector<view::ShownUav> shown;
+    for (const Uav& uav : fleet_) shown.push_back(uav.shown);
+    return shown;
+  }()));
+  tell_state();
+}
+
+/// UAVs stay at a tower for a while, and fly on to the next one.
+Vector3d MadeUpFlight::place_of(std::size_t uav, double time_s, std::size_t& tower, double& angle) const {
+  const double stay = std::floor(time_s / kStay_s), since_s = time_s - stay * kStay_s;
+  tower = (uav + static_cast<std::size_t>(stay)) % kTowers;
+  const double of_fleet = static_cast<double>(uav / kTowers) * static_cast<double>(kTowers) /
+                          static_cast<double>(std::max<std::size_t>(size_.uavs, kTowers));
+  angle = kTau * of_fleet + kTurn_rad_s * time_s;
+  const double climbed = std::fmod(3.0 + 5.0 * of_fleet * kClimb_m + kClimb_m * kTurn_rad_s * since_s / kTau, 21.0);
+  const double r = kRadius_m + kOrbit_m + 0.5 * std::sin(0.3 * time_s + static_cast<double>(uav));
+  return axis_of(tower) + Vector3d(r * std::cos(angle), r * std::sin(angle), 1.5 + climbed);
+}
+
+void MadeUpFlight::move() {
+  const double now_s = time_s();
+  for (std::size_t i = 0; i < fleet_.size(); ++i) {
+    Uav& uav = fleet_[i];
+    const double left_s = kStay_s - std::fmod(now_s, kStay_s);
+    Vector3d place = place_of(i, now_s, uav.tower, uav.angle);
+    uav.works = left_s > kMove_s;
+    if (!uav.works) {
+      std::size_t tower = 0;
+      double angle = 0.0;
+      const Vector3d next = place_of(i, now_s + left_s, tower, angle);
+      const double share = 1.0 - left_s / kMove_s;
+      place += share * share * (3.0 - 2.0 * share) * (next - place);
+    }
+    uav.shown.body.p_WB = place;
+    uav.shown.body.q_WB = Quaterniond(Eigen::AngleAxisd(uav.angle + std::numbers::pi, Vector3d::UnitZ()));
+  }
+}
+
+/// The points of the tower that are before it; of these, those that it had not seen as well before.
+void MadeUpFlight::photograph(std::size_t index) {
+  Uav& uav = fleet_[index];
+  const std::size_t each = points_.size() / kTowers;
+  Capture capture;
+  for (std::size_t i = uav.tower * each; i < (uav.tower + 1) * each; ++i) {
+    const Vector3d from_axis = points_[i] - axis_of(uav.tower);
+    const double up = std::abs(points_[i].z() - uav.shown.body.p_WB.z());
+    if (up > kWindow_m) continue;
+    const double aside = std::abs(std::remainder(std::atan2(from_axis.y(), from_axis.x()) - uav.angle, kTau));
+    if (aside > kWindow_rad) continue;
+    const double middle = (1.0 - 0.6 * aside / kWindow_rad) * (1.0 - 0.4 * up / kWindow_m);
+    const auto blur = static_cast<float>(0.45 + 0.55 * noise(index, i, step_ / 60));
+    const auto res = static_cast<float>(middle * (0.75 + 0.25 * noise(i, step_ / 900, index)));
+    if (blur * res <= uav.best[i] + 0.12F) continue;
+    uav.best[i] = blur * res;
+    capture.points.push_back({static_cast<std::uint32_t>(i), blur, res, blur * res, std::min(res * 1.1F, 1.0F)});
+  }
+  if (capture.points.empty()) return;
+  capture.number = uav.captures++;
+  feed_.add_line(view::capture_line(time_s(), index, capture.number, capture.points));
+  uav.waiting.push_back(std::move(capture));
+}
+
+void MadeUpFlight::tell_links() {
+  const std::size_t nodes = fleet_.size() + 1;
+  const auto place = [this](std::size_t node) { return node == 0 ? kStation : fleet_[node - 1].shown.body.p_WB; };
+  std::vector<view::ShownLink> links(nodes * nodes, view::ShownLink::blocked);
+  for (std::size_t a = 0; a < nodes; ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      if ((place(a) - place(b)).norm() > kRadio_m || !in_sight(place(a), place(b))) continue;
+      links[a * nodes + b] = links[b * nodes + a] = view::ShownLink::linked;
+    }
+  }
+  if (links == links_) return;
+  links_ = std::move(links);
+  feed_.add_line(view::links_line(time_s(), links_));
+}
+
+void MadeUpFlight::deliver(std::size_t index) {
+  const std::size_t nodes = fleet_.size() + 1;
+  if (links_[(index + 1) * nodes] != view::ShownLink::linked) return;
+  Uav& uav = fleet_[index];
+  for (std::size_t i = 0; i < kDeliveries && !uav.waiting.empty(); ++i) {
+    for (const CapturePoint& point : uav.waiting.front().points) {
+      float& best = delivered_[point.index];
+      if (point.q < kDetectedQuality || point.q <= best) continue;
+      scored_ += best == 0.0F ? 1 : 0;
+      score_ += point.q - best;
+      best = point.q;
+    }
+    deliveries_.push_back({index, uav.waiting.front().number});
+    uav.waiting.pop_front();
+  }
+}
+
+void MadeUpFlight::tell_state() {
+  std::vector<view::ShownUav> shown;
+  for (const Uav& uav : fleet_) shown.push_back(uav.shown);
+  feed_.set_state(
+      fmt::format(R"({{"t":{:.3f},"tick":{},"mission":{:.3f},"phase":"flies","paused":false,"speed":"8","u":{}}})",
+                  time_s(), step_ * 20, time_s(), view::poses_json(shown)));
+}
+
+void MadeUpFlight::step() {
+  ++step_;
+  move();
+  if (step_ % kLinksPeriod == 0) tell_links();
+  if (step_ % kPosePeriod == 0) {
+    std::vector<view::ShownUav> shown;
+    for (const Uav& uav : fleet_) shown.push_back(uav.shown);
+    feed_.add_line(view::pose_line(time_s(), shown));
+  }
+  const double before = score_;
+  for (std::size_t i = 0; i < fleet_.size(); ++i) {
+    if ((step_ + i) % kCapturePeriod == 0 && fleet_[i].works) photograph(i);
+    deliver(i);
+  }
+  if (!deliveries_.empty()) feed_.add_line(view::delivered_line(time_s(), deliveries_));
+  deliveries_.clear();
+  if (score_ != before) feed_.add_line(view::score_line(time_s(), scored_, score_));
+  tell_state();
+}
+
+}  // namespace skein::test

@@ -1,0 +1,45 @@
+// A browser on another machine, by a tunnel whose near end has another port, as `ssh -L 9000:127.0.0.1:8080 HOST` makes
+// it: the key is pasted at the door, and the page follows the run. Prints what is wrong, a line each.
+// usage: node tunnel.mjs WEB CHROMIUM DOOR RUN
+import {readFileSync} from 'node:fs';
+import net from 'node:net';
+import path from 'node:path';
+
+import {openBrowser} from '../report/browser.mjs';
+import {until} from './page.mjs';
+
+const [web, chromium, door] = process.argv.slice(2);
+const expect = (good, what) => good || console.log(what);
+const far = Number(/http:\/\/127\.0\.0\.1:(\d+)\/enter/.exec(readFileSync(door, 'utf8'))[1]);
+const key = readFileSync(path.join(path.dirname(door), 'view.key'), 'utf8').trim();
+
+const tunnel = net.createServer((near) => {
+  const there = net.connect(far, '127.0.0.1');
+  for (const end of [near, there]) end.on('error', () => { near.destroy(); there.destroy(); });
+  near.pipe(there).pipe(near);
+});
+await new Promise((listens) => tunnel.listen(0, '127.0.0.1', listens));
+const {port} = tunnel.address();
+
+const browser = await openBrowser(web, chromium);
+for (const host of [`localhost:${port}`, `127.0.0.1:${port}`]) {
+  const page = await browser.newPage();
+  const complaints = [];
+  page.on('console', (message) => message.type() === 'error' && complaints.push(`console: ${message.text()}`));
+  page.on('pageerror', (error) => complaints.push(`error: ${error.message}`));
+  await page.goto(`http://${host}/`, {waitUntil: 'load'});
+  expect(await page.$('#flight') === null, `${host} shows the run to who has no key`);
+  await page.type('input[name=key]', '0'.repeat(64));
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('[role=alert]');
+  complaints.length = 0;  // of the refusal
+  await page.type('input[name=key]', key);
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('#score', {timeout: 120000});
+  await until(page, ({live, tick}) => live === 'yes' && tick > 0, 'it follows');
+  expect(page.url() === `http://${host}/` || page.url().startsWith(`http://${host}/#`), `it ended at ${page.url()}`);
+  for (const complaint of complaints) console.log(complaint);
+  await page.close();
+}
+await browser.close();
+tunnel.close();

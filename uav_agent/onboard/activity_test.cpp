@@ -1,0 +1,191 @@
+#include "uav_agent/onboard/activity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace skein::agent {
+namespace {
+
+using What = Doing::What;
+
+class ActivityWords : public testing::Test {
+ protected:
+  ActivityWords() { facts_.what = Doing{}; }
+
+  /// One exchange more of the same. @returns what is told with it.
+  std::optional<Activity> step() {
+    const auto told = teller_.step(facts_);
+    facts_.no_way.clear();
+    facts_.tick += 20;
+    if (told) last_ = *told;
+    count_ += told ? 1 : 0;
+    return told;
+  }
+  /// @returns how often it is told meanwhile.
+  int steps(int exchanges) {
+    count_ = 0;
+    for (int i = 0; i < exchanges; ++i) step();
+    return count_;
+  }
+  void doing(What what, std::optional<Vector3d> goal_W = {}) { facts_.what = Doing{what, goal_W, {}}; }
+
+  const std::vector<FleetMember> fleet_{{.name = "jurong"}, {.name = "changi"}};
+  ActivityTeller teller_{fleet_};
+  ActivityFacts facts_;
+  Activity last_;
+  int count_ = 0;
+};
+
+TEST_F(ActivityWords, AreToldWhenTheyChangeAndEachSecond) {
+  const auto first = step();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->mode, "on the ground");
+  facts_.speed_mps = 1.0;  // numbers alone are no news
+  EXPECT_EQ(steps(60), 3);
+  doing(What::takeoff, Vector3d(0.0, 0.0, 5.0));
+  const auto takeoff = step();
+  ASSERT_TRUE(takeoff);
+  EXPECT_EQ(takeoff->mode, "takes off");
+  EXPECT_EQ(takeoff->goal_W, Vector3d(0.0, 0.0, 5.0));
+  doing(What::takeoff, Vector3d(0.0, 0.4, 5.0));
+  EXPECT_FALSE(step()) << "that is the same place";
+  doing(What::takeoff, Vector3d(0.0, 0.6, 5.0));
+  EXPECT_TRUE(step());
+}
+
+TEST_F(ActivityWords, DifferForAllThatAUavMayDo) {
+  std::set<std::string> words;
+  facts_.undelivered = 1;
+  for (int what = 0; what <= static_cast<int>(What::awaits_link); ++what) {
+    doing(static_cast<What>(what));
+    facts_.tick += 400;
+    step();
+    steps(20);  // beyond the time between two goals
+    EXPECT_FALSE(last_.mode.empty());
+    EXPECT_TRUE(words.insert(last_.mode).second) << last_.mode;
+  }
+  doing(What::delivers);
+  facts_.undelivered = 0;
+  step();
+  EXPECT_EQ(last_.mode, "stays where the station hears it");
+  facts_.what = Doing{What::shows_mate, {}, 1};
+  step();
+  EXPECT_EQ(last_.mode, "shows changi its way up");
+}
+
+TEST_F(ActivityWords, AreTheOldOnesBetweenTwoGoals) {
+  doing(What::to_goal, Vector3d(9.0, 0.0, 5.0));
+  facts_.speed_mps = 1.0;
+  step();
+  doing(What::no_goal);
+  steps(10);
+  EXPECT_EQ(last_.mode, "flies to a goal");
+  EXPECT_TRUE(last_.goal_W);
+  steps(2);
+  EXPECT_EQ(last_.mode, "has no goal");
+  EXPECT_FALSE(last_.goal_W);
+}
+
+// A strategy that waits at a place wants it again and again.
+TEST_F(ActivityWords, AreTheSameAsLongAsItRestsAtAPlace) {
+  doing(What::to_goal, Vector3d(9.0, 0.0, 5.0));
+  facts_.p_WB = {9.0, 0.4, 5.0};
+  steps(20);
+  EXPECT_EQ(last_.mode, "flies to a goal");
+  steps(1);
+  EXPECT_EQ(last_.mode, "rests at its goal");
+  count_ = 0;
+  for (int i = 0; i < 400; ++i) {
+    doing(i % 40 < 28 ? What::no_goal : What::along_goal);
+    if (i % 40 >= 28) doing(What::along_goal, Vector3d(9.0, 0.0, 5.0));
+    step();
+    EXPECT_EQ(last_.mode, "rests at its goal");
+  }
+  EXPECT_EQ(count_, 20) << "each second";
+  EXPECT_EQ(last_.goal_W, Vector3d(9.0, 0.0, 5.0));
+  doing(What::no_goal);
+  facts_.no_way = "no way";  // to another one
+  steps(30);
+  EXPECT_EQ(last_.mode, "has no goal");
+}
+
+TEST_F(ActivityWords, TellWhyThereIsNoWayUntilItFliesOn) {
+  doing(What::no_goal);
+  step();
+  facts_.no_way = "not proved to be free";
+  ASSERT_TRUE(step());
+  steps(100);
+  EXPECT_EQ(last_.no_way, "not proved to be free") << "that is why it stands there";
+  doing(What::looks_round);
+  steps(100);
+  EXPECT_EQ(last_.no_way, "not proved to be free");
+  doing(What::to_goal, Vector3d::Zero());
+  step();
+  EXPECT_EQ(last_.no_way, "");
+  facts_.no_way = "no way";  // another goal
+  steps(20);
+  EXPECT_EQ(last_.no_way, "no way") << "long enough to be read";
+  steps(2);
+  EXPECT_EQ(last_.no_way, "");
+}
+
+TEST_F(ActivityWords, TellForWhomItWaits) {
+  step();
+  facts_.waits_for = 1;
+  ASSERT_TRUE(step());
+  EXPECT_EQ(last_.waits_for, "changi");
+  facts_.waits_for.reset();
+  EXPECT_EQ(steps(5), 0) << "a short break is none";
+  steps(10);
+  EXPECT_EQ(last_.waits_for, "");
+  facts_.waits_for = 7;  // of whatever planner
+  steps(20);
+  EXPECT_EQ(last_.waits_for, "");
+}
+
+TEST_F(ActivityWords, TellWhatHoldsAUavThatStands) {
+  doing(What::to_goal, Vector3d(9.0, 0.0, 5.0));
+  facts_.speed_mps = 2.0;
+  facts_.held = {.by = Held::By::unproved};
+  steps(60);
+  EXPECT_EQ(last_.mode, "flies to a goal") << "slower, perhaps";
+  facts_.speed_mps = 0.1;
+  steps(20);
+  EXPECT_EQ(last_.mode, "flies to a goal");
+  steps(1);
+  EXPECT_TRUE(last_.waits_for.empty());
+  EXPECT_EQ(last_.mode, "stands: what is ahead is not proved to be free");
+  EXPECT_TRUE(last_.goal_W) << "it still wants to get there";
+  facts_.held = {.by = Held::By::peer, .peer = 1};
+  steps(1);
+  EXPECT_EQ(last_.mode, "stands: another UAV is in the way");
+  EXPECT_EQ(last_.waits_for, "changi");
+  facts_.speed_mps = 1.0;
+  steps(1);
+  EXPECT_EQ(last_.mode, "flies to a goal");
+  doing(What::awaits_way_up, Vector3d(9.0, 0.0, 5.0));
+  facts_.speed_mps = 0.0;
+  steps(60);
+  EXPECT_EQ(last_.mode, "waits to be shown its way up") << "that is why";
+}
+
+TEST_F(ActivityWords, ArePlainForPlannersThatFlyThemselves) {
+  facts_.what = OwnMotion{};
+  step();
+  EXPECT_EQ(last_.mode, "on the ground");
+  facts_.what = OwnMotion{OwnMotion::Kind::path, Vector3d(1.0, 2.0, 3.0)};
+  step();
+  EXPECT_EQ(last_.mode, "flies along a path");
+  EXPECT_EQ(last_.goal_W, Vector3d(1.0, 2.0, 3.0));
+  facts_.what = OwnMotion{OwnMotion::Kind::path, {}};
+  step();
+  EXPECT_EQ(last_.mode, "holds its place");
+  EXPECT_FALSE(last_.goal_W);
+  facts_.what = OwnMotion{OwnMotion::Kind::command, {}};
+  step();
+  EXPECT_EQ(last_.mode, "sends commands of its own");
+}
+
+}  // namespace
+}  // namespace skein::agent

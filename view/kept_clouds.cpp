@@ -1,0 +1,110 @@
+#include "view/kept_clouds.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/topics.hpp"
+#include "core/types.hpp"
+#include "idl/cdr.hpp"
+#include "idl/conversions.hpp"
+#include "mcap/reader.hpp"
+#include "process/run_folder.hpp"
+#include "report/octree_file.hpp"
+#include "view/cube_runs.hpp"
+#include "view/look_order.hpp"
+
+namespace skein::view {
+namespace {
+
+constexpr double kPointsStep_s = 0.5;
+constexpr const char* kKeyFrameMap = "its map of key frames at the end";
+
+/// The recorded topic of a UAV's scans: its name on the wire less "rt".
+std::string scans_of(const std::string& uav) { return topics::cloud(uav).name.substr(2); }
+
+bool has_any(const mcap::Reader& reader, const std::map<std::string, std::size_t>& wanted) {
+  bool any = !reader.complete();  // cut off: nothing tells what is in it
+  reader.summary([&](const mcap::RawRecord& record) {
+    if (record.opcode != mcap::Opcode::channel) return;
+    const auto channel = mcap::parse_channel(record.content);
+    any = any || (channel && wanted.contains(channel->topic));
+  });
+  return any;
+}
+
+/// The points of one UAV, as its scans come.
+class Gathered {
+ public:
+  void add(double time_s, const std::vector<ScanPoint>& scan) {
+    if (time_s - begin_s_ >= kPointsStep_s) {
+      end_step();
+      begin_s_ = time_s;
+    }
+    newest_s_ = time_s;
+    std::vector<Eigen::Vector3f> points_W;
+    points_W.reserve(scan.size());
+    for (const ScanPoint& p : scan) points_W.emplace_back(p.x, p.y, p.z);
+    seen_.add(points_W);
+  }
+  std::vector<PointsStep> take() {
+    end_step();
+    return std::move(steps_);
+  }
+
+ private:
+  void end_step() {
+    if (!seen_.empty()) steps_.push_back({newest_s_, seen_.take_for_good()});
+  }
+
+  ScanPoints seen_{KeptClouds::kMostPointsKept};
+  double begin_s_ = 0.0, newest_s_ = 0.0;
+  std::vector<PointsStep> steps_;
+};
+
+}  // namespace
+
+KeptClouds::KeptClouds(const std::filesystem::path& dir, const report::RunData& run)
+    : run_(run), points_(run.uavs.size()) {
+  try {
+    read_recording(dir / run_folder::kRecording);
+  } catch (const InputError&) {
+    points_.assign(run.uavs.size(), {});  // there is none, or it is damaged
+  }
+  for (std::size_t i = 0; i < run.uavs.size(); ++i) {
+    if (!points_[i].empty()) lidar.push_back(run.uavs[i]);
+    if (i < run.maps.size() && !run.maps[i].empty()) maps.push_back(run.uavs[i]);
+  }
+  const bool explorers = std::ranges::count(run.explorer, true) > 0;
+  if (lidar.empty() && explorers) missing = "The recording has no LiDAR points: a run with --record=clouds has.";
+}
+
+void KeptClouds::read_recording(const std::filesystem::path& file) {
+  std::map<std::string, std::size_t> wanted;
+  for (std::size_t i = 0; i < run_.uavs.size(); ++i) wanted[scans_of(run_.uavs[i])] = i;
+  mcap::Reader reader(file);
+  if (!has_any(reader, wanted)) return;
+  std::vector<Gathered> gathered(run_.uavs.size());
+  reader.messages([&](const mcap::Channel& channel, const mcap::Message& message) {
+    const auto uav = wanted.find(channel.topic);
+    msg::PointCloud2 cloud;
+    if (uav == wanted.end() || !decode(message.data, cloud)) return;
+    gathered[uav->second].add(seconds(from_time(cloud.header().stamp())), from_cloud<ScanPoint>(cloud));
+  });
+  for (std::size_t i = 0; i < gathered.size(); ++i) points_[i] = gathered[i].take();
+}
+
+void KeptClouds::tell(std::span<const ShownUav> last, Feed& feed) const {
+  for (std::size_t i = 0; i < run_.uavs.size(); ++i) {
+    const std::string& uav = run_.uavs[i];
+    if (!points_[i].empty()) feed.set_cloud(lidar_cloud(uav), lidar_text(uav, points_[i]));
+    if (i >= run_.maps.size()) continue;
+    const auto file = report::octree_of_file(run_.maps[i]);
+    const double slice_m = i < last.size() ? last[i].body.p_WB.z() : 0.0;
+    const auto map = file ? shown_map(file->tree, file->cell_m, slice_m) : std::nullopt;
+    if (map) feed.set_cloud(map_cloud(uav), map_text(uav, run_.end_s, *map, kKeyFrameMap));
+  }
+}
+
+}  // namespace skein::view

@@ -1,0 +1,43 @@
+#include "view/look_order.hpp"
+
+#include <gtest/gtest.h>
+
+#include "view/order.hpp"
+
+namespace skein::view {
+namespace {
+
+TEST(LookOrders, AreReadAsTheyAreWritten) {
+  for (const LookOrder& order : {LookOrder{}, LookOrder{{"jurong"}, ""}, LookOrder{{}, "changi"},
+                                 LookOrder{{"jurong", "raffles"}, "jurong"}, LookOrder{{"a \"b\" \\"}, "ü"}}) {
+    EXPECT_EQ(read_look_order(text_of(order)), order) << text_of(order);
+    const auto any = read_order(text_of(order));
+    ASSERT_TRUE(any && std::holds_alternative<LookOrder>(*any)) << text_of(order);
+    EXPECT_EQ(text_of(*any), text_of(order));
+  }
+  EXPECT_EQ(read_look_order(R"({"do":"look","lidar":["a"],"map":"b"})"), (LookOrder{{"a"}, "b"}));
+  EXPECT_EQ(read_look_order(R"({"do":"look","lidar":[]})"), LookOrder{});
+}
+
+TEST(LookOrders, AreNothingElse) {
+  for (const char* text :
+       {"", "{}", "[]", R"({"do":"see"})", R"({"do":["look"]})", R"({"lidar":["a"]})", R"({"do":"look","lidar":"a"})",
+        R"({"do":"look","lidar":[1]})", R"({"do":"look","lidar":[""]})", R"({"do":"look","map":""})",
+        R"({"do":"look","map":["a"]})", R"({"do":"look","map":null})", R"({"do":"look","what":1})",
+        R"({"do":"pause","lidar":["a"]})", R"({"do":"look","lidar":[["a"]]})"}) {
+    EXPECT_EQ(read_look_order(text), std::nullopt) << text;
+    EXPECT_FALSE(read_order(text).has_value()) << text;
+  }
+  EXPECT_TRUE(read_look_order(text_of(LookOrder{std::vector<std::string>(32, "a"), ""})));
+  EXPECT_FALSE(read_look_order(text_of(LookOrder{std::vector<std::string>(33, "a"), ""}))) << "too many";
+  EXPECT_FALSE(read_look_order(text_of(LookOrder{{}, std::string(65, 'a')}))) << "longer than any name";
+  EXPECT_FALSE(read_look_order(R"({"do":"look")" + std::string(1000, ' ') + "}")) << "longer than any order";
+}
+
+TEST(LookOrders, NameWhatTheyAskFor) {
+  EXPECT_EQ(clouds_of({{"a", "b"}, "c"}), (std::vector<std::string>{"lidar a", "lidar b", "map c"}));
+  EXPECT_TRUE(clouds_of({}).empty());
+}
+
+}  // namespace
+}  // namespace skein::view

@@ -1,0 +1,87 @@
+#include "view/scan_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "process/json_text.hpp"
+#include "view/testing/unpacked.hpp"
+
+namespace skein::view {
+namespace {
+
+std::vector<Eigen::Vector3f> drawn(std::mt19937& random, std::size_t count, float reach) {
+  std::uniform_real_distribution<float> along(-reach, reach);
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = 0; i < count; ++i) points.emplace_back(along(random), along(random), along(random));
+  return points;
+}
+
+TEST(ScanPoints, AreOneInEachCubeAboveTheGround) {
+  std::mt19937 random(1);
+  ScanPoints scan;
+  const auto points = drawn(random, 4000, 4.0F);
+  scan.add(points);
+  scan.add(points);
+  const auto kept = scan.take(100'000);
+  EXPECT_TRUE(scan.empty());
+  EXPECT_GT(kept.size(), 500U);
+  EXPECT_LE(kept.size(), 16U * 16U * 8U);
+  const auto cube = [](const Eigen::Vector3f& p) { return Eigen::Vector3f((2.0F * p).array().floor()); };
+  for (const Eigen::Vector3f& p : kept) {
+    EXPECT_GE(p.z(), 0.3F);
+    EXPECT_EQ(std::ranges::count_if(kept, [&](const auto& other) { return cube(other) == cube(p); }), 1);
+  }
+  for (const Eigen::Vector3f& p : points) {
+    if (p.z() < 0.3F) continue;
+    EXPECT_TRUE(std::ranges::any_of(kept, [&](const auto& other) { return cube(other) == cube(p); }));
+  }
+}
+
+TEST(ScanPoints, AreNoMoreThanAskedFor) {
+  std::mt19937 random(2);
+  ScanPoints scan;
+  for (int i = 0; i < 20; ++i) scan.add(drawn(random, 3000, 100.0F));
+  const auto few = scan.take(50);
+  EXPECT_EQ(few.size(), 50U);
+  EXPECT_TRUE(scan.take(50).empty());
+  for (int i = 0; i < 20; ++i) scan.add(drawn(random, 3000, 100.0F));
+  EXPECT_EQ(scan.take(100'000).size(), ScanPoints::kMostKept);
+  scan.add(few);
+  EXPECT_EQ(scan.take(0).size(), 0U);
+}
+
+TEST(ScanPoints, ComeOnceWhereTheyAreTakenForGood) {
+  std::mt19937 random(4);
+  ScanPoints scan(300);
+  const auto first = drawn(random, 100, 5.0F), second = drawn(random, 2000, 5.0F);
+  scan.add(first);
+  const std::size_t early = scan.take_for_good().size();
+  EXPECT_GT(early, 20U);
+  scan.add(first);
+  EXPECT_TRUE(scan.empty());
+  scan.add(second);
+  EXPECT_EQ(early + scan.take_for_good().size(), 300U) << "and no more than it was made for";
+  scan.add(drawn(random, 100, 100.0F));
+  EXPECT_TRUE(scan.empty());
+}
+
+TEST(ScanPoints, ArriveToTheDecimetre) {
+  std::mt19937 random(3);
+  auto points = drawn(random, 200, 3000.0F);
+  const auto arrived = unpacked_points(packed_points(points));
+  ASSERT_EQ(arrived.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT((arrived[i] - points[i].cast<double>()).norm(), 0.09);
+  points = {{1e9F, 0.0F, 1.0F}, {1.0F, 2.0F, 3.0F}, {0.0F, std::nanf(""), 0.0F}};
+  EXPECT_EQ(unpacked_points(packed_points(points)).size(), 1U) << "what is too far away is left out";
+  const std::vector<Eigen::Vector3f> two = {{1.0F, -2.0F, 3.0F}, {-300.0F, 0.0F, 0.5F}};
+  EXPECT_EQ(packed_points(two), "CgDs/x4ASPQAAAUA") << "the vector that web/src/packed.js is held against, too";
+  const Json told = parse_json(lidar_text("a", std::vector<PointsStep>{{2.5, two}}));
+  EXPECT_EQ(told["n"], "lidar a");
+  EXPECT_EQ(told["steps"][0]["t"], 2.5);
+  EXPECT_EQ(unpacked_points(told["steps"][0]["points"].get<std::string>()).size(), 2U);
+}
+
+}  // namespace
+}  // namespace skein::view

@@ -1,0 +1,67 @@
+#include "view/two_runs.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/types.hpp"
+#include "process/json_text.hpp"
+#include "view/testing/results_folder.hpp"
+
+namespace skein::view {
+namespace {
+
+class TwoRuns : public testing::Test {
+ protected:
+  TwoRuns() {
+    a_.write_tables();
+    b_.write_tables();
+  }
+
+  Json told(const Parting& parting = {}) const {
+    Feed feed;
+    tell_two_runs(a_.path(), b_.path(), parting, feed);
+    FeedPlace place;
+    return parse_json(feed.next(place, 1 << 20));
+  }
+
+  ResultsFolder a_, b_;
+};
+
+TEST_F(TwoRuns, AreToldAsOneWithTheOtherInIt) {
+  b_.write("score_timeline.csv", "time_s,points,score\n0.00,0,0\n2.00,1,0.5\n");
+  const Json both = told({2.0, {"a position"}, {}});
+  EXPECT_EQ(both["scene"]["other"]["uavs"].size(), 2U);
+  EXPECT_EQ(both["scene"]["difference"]["t"], 2.0);
+  EXPECT_EQ(both["scene"]["difference"]["fields"], Json::array({"a position"}));
+  EXPECT_EQ(both["scene"]["fleets_differ"], false);
+  std::size_t own = 0, others = 0;
+  for (const Json& line : both["lines"]) {
+    const bool other = line["k"] == "other";
+    ++(other ? others : own);
+    const Json& shown = other ? line["line"] : line;
+    EXPECT_TRUE(shown.contains("t") && shown["k"] != "other") << line;
+    if (shown["k"] == "score") {
+      EXPECT_EQ(shown["t"] == 2.0, other && shown["s"] == 0.5) << line;
+    }
+  }
+  EXPECT_EQ(own, others);
+}
+
+TEST_F(TwoRuns, SayWhatIsNotKnownAndWhatIsTheSame) {
+  EXPECT_TRUE(told()["scene"]["difference"].empty());
+  EXPECT_EQ(told({{}, {}, "no digests.csv"})["scene"]["difference"]["unknown"], "no digests.csv");
+}
+
+TEST_F(TwoRuns, MayBeOfDifferentFleets) {
+  b_.write("result.json", R"({"scenario": "towers", "sim_time_s": 3.0, "uavs": [{"name": "b", "role": "explorer"}]})");
+  EXPECT_EQ(told()["scene"]["fleets_differ"], true);
+}
+
+TEST_F(TwoRuns, AreNoneOfDifferentScenes) {
+  b_.write("score.csv", "index,x,y,z,nx,ny,nz,score\n0,1,2,3,0,0,1,0.877\n1,1,2,4.5,0,0,1,0\n");
+  EXPECT_THROW(told(), InputError);
+  b_.write("score.csv", "index,x,y,z,nx,ny,nz,score\n0,1,2,3,0,0,1,0.877\n");
+  EXPECT_THROW(told(), InputError);
+}
+
+}  // namespace
+}  // namespace skein::view

@@ -1,0 +1,334 @@
+// What the page asks for beside what everybody is told: LiDAR points, and the map of one UAV. One draw call for all
+// points, one for what a map has occupied, one for what it has free.
+import * as THREE from 'three';
+
+import {colour, data, element, moment, trackColour} from './page.js';
+import {unpackedPoints, unpackedRuns} from './packed.js';
+
+const kAskAgain = 2000;    // ms; who does not ask for three times as long is told no more
+const kMostPoints = 60000; // of all UAVs; then the oldest go
+const kCell = 0.5;         // m; one point in each cube
+const kNew = 1;            // s that a point is drawn larger
+const kHeights = ['c0', 'c2', 'c4', 'c1'];  // from the ground up
+
+const maps = new Map();     // UAV -> the newest that was told
+const scans = new Map();    // UAV -> the newest points that were told; of a finished run, all
+let layers = null;
+
+/** Colours by height, up to that of what is inspected. */
+function heightColours() {
+  const named = kHeights.map((name) => new THREE.Color(colour(name)));
+  const top = Math.max(...data.boxes.flat().map(([, , z]) => z / 100), 10);
+  return (z, into) => {
+    const at = Math.min(Math.max(z / top, 0), 0.9999) * (named.length - 1);
+    return into.lerpColors(named[Math.floor(at)], named[Math.floor(at) + 1], at % 1);
+  };
+}
+
+const vertexShader = `
+attribute vec2 seen;  // first, last [s]
+attribute vec3 tint;
+uniform float now, size;
+varying vec3 shade;
+void main() {
+  shade = tint;
+  vec4 place = modelViewMatrix * vec4(position, 1.0);
+  gl_Position = seen.x > now ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * place;
+  gl_PointSize = clamp(size / -place.z, 2.0, 9.0) * (now - seen.y < ${kNew.toFixed(1)} ? 1.6 : 1.0);
+}`;
+const fragmentShader = `
+varying vec3 shade;
+void main() {
+  vec2 off = gl_PointCoord - 0.5;
+  if (dot(off, off) > 0.25) discard;
+  gl_FragColor = vec4(shade, 1.0);
+  #include <colorspace_fragment>
+}`;
+
+/** LiDAR points of all UAVs, in a ring: when it is full the oldest make room. */
+class Points {
+  constructor() {
+    const attribute = (name, size) => {
+      const made = new THREE.BufferAttribute(new Float32Array(size * kMostPoints), size);
+      this.geometry.setAttribute(name, made);
+      return made;
+    };
+    this.geometry = new THREE.BufferGeometry();
+    [this.position, this.seen, this.tint] = [['position', 3], ['seen', 2], ['tint', 3]].map((one) => attribute(...one));
+    this.material = new THREE.ShaderMaterial(
+        {vertexShader, fragmentShader, uniforms: {now: {value: 0}, size: {value: 420}}});
+    this.object = new THREE.Points(this.geometry, this.material);
+    this.object.frustumCulled = false;
+    this.uavs = new Uint16Array(kMostPoints);
+    this.clear();
+  }
+
+  clear() {
+    this.slots = new Map();  // cube -> place in the ring
+    this.keys = new Array(kMostPoints);
+    this.next = this.count = 0;
+    this.geometry.setDrawRange(0, 0);
+  }
+
+  add(uav, time, points, shade) {
+    const across = 1 << 14;
+    for (let i = 0; i < points.length; i += 3) {
+      let key = uav;
+      for (let axis = 0; axis < 3; ++axis) key = key * across + (Math.floor(points[i + axis] / kCell) + across / 2) % across;
+      let slot = this.slots.get(key);
+      if (slot !== undefined) {
+        this.seen.array[2 * slot] = Math.min(this.seen.array[2 * slot], time);
+        this.seen.array[2 * slot + 1] = Math.max(this.seen.array[2 * slot + 1], time);
+        continue;
+      }
+      slot = this.next;
+      this.next = (this.next + 1) % kMostPoints;
+      if (this.count === kMostPoints) this.slots.delete(this.keys[slot]);
+      this.count = Math.min(this.count + 1, kMostPoints);
+      this.slots.set(key, slot);
+      this.keys[slot] = key;
+      this.uavs[slot] = uav;
+      this.position.array.set(points.subarray(i, i + 3), 3 * slot);
+      this.seen.array.set([time, time], 2 * slot);
+      shade(uav, points[i + 2]).toArray(this.tint.array, 3 * slot);
+    }
+    this.update();
+  }
+
+  paint(shade) {
+    for (let slot = 0; slot < this.count; ++slot)
+      shade(this.uavs[slot], this.position.array[3 * slot + 2]).toArray(this.tint.array, 3 * slot);
+    this.update();
+  }
+
+  update() {
+    for (const attribute of [this.position, this.seen, this.tint]) attribute.needsUpdate = true;
+    this.geometry.setDrawRange(0, this.count);
+  }
+}
+
+/** Rows of cubes, each stretched along x: an instance a row. */
+class Rows {
+  constructor(geometry, material) {
+    [this.geometry, this.material] = [geometry, material];
+    this.object = new THREE.Group();
+    this.ends = [];  // of steps: time, rows up to there
+  }
+
+  /** @param steps  {t, runs}: what was added when. @param squeeze  of a cube in each direction. */
+  set(steps, cell, squeeze) {
+    const all = steps.map(({t, runs}) => ({t, runs: unpackedRuns(runs)}));
+    const count = all.reduce((sum, {runs}) => sum + runs.length / 4, 0);
+    if (!this.mesh || count > this.mesh.instanceMatrix.count) {
+      this.mesh?.dispose();
+      this.mesh = new THREE.InstancedMesh(this.geometry, this.material, Math.max(2 * count, 256));
+      this.mesh.frustumCulled = false;
+      this.object.clear().add(this.mesh);
+    }
+    this.ends = [];
+    this.cubes = 0;
+    let at = 0;
+    for (const {t, runs} of all) {
+      for (let i = 0; i < runs.length; i += 4) {
+        const [x, y, z, length] = runs.slice(i, i + 4);
+        this.cubes += length;
+        const [sx, sy, sz] = squeeze;
+        this.mesh.instanceMatrix.array.set([
+          (length - 1 + sx) * cell, 0, 0, 0, 0, sy * cell, 0, 0, 0, 0, sz * cell, 0,
+          (x + length / 2) * cell, (y + 0.5) * cell, (z + 0.5) * cell, 1], 16 * at++);
+      }
+      this.ends.push([t, at]);
+    }
+    this.mesh.instanceMatrix.needsUpdate = true;
+  }
+
+  paint(shade) {
+    if (!this.mesh) return;
+    for (let i = 0; i < (this.ends.at(-1)?.[1] ?? 0); ++i) this.mesh.setColorAt(i, shade(this.mesh.instanceMatrix.array[16 * i + 14]));
+    if (this.mesh.instanceColor) this.mesh.instanceColor.needsUpdate = true;
+  }
+
+  show(seconds) {
+    if (!this.mesh) return;
+    this.mesh.count = this.ends.reduce((rows, [t, end]) => (t <= seconds + 1e-6 ? end : rows), 0);
+  }
+}
+
+class Layers {
+  constructor(scene) {
+    this.scene = scene;
+    this.points = new Points();
+    this.occupied = new Rows(new THREE.BoxGeometry(), new THREE.MeshLambertMaterial());
+    this.free = new Rows(
+        new THREE.PlaneGeometry(),
+        new THREE.MeshBasicMaterial({transparent: true, opacity: 0.3, depthWrite: false, side: THREE.DoubleSide}));
+    this.object = new THREE.Group();
+    this.object.add(this.points.object, this.occupied.object, this.free.object);
+    scene.scene.add(this.object);
+    this.chosen = {lidar: '', map: '', free: true, by: 'height'};
+    this.note = element('span', {id: 'clouds-note', class: 'soft', role: 'status'});
+    this.asked = '';
+    setInterval(() => this.ask(), kAskAgain);
+  }
+
+  /** UAVs whose points are wanted. */
+  lidar() {
+    const {lidar} = this.chosen;
+    if (lidar !== 'followed') return lidar === 'all' ? data.clouds.lidar : [];
+    const followed = data.uavs[this.scene.followed]?.name;
+    return data.clouds.lidar.filter((name) => name === followed);
+  }
+
+  /** Asks for what is wanted; of that, again and again, or nobody is told any more. */
+  ask() {
+    const lidar = this.lidar();
+    const order = {do: 'look', ...(lidar.length > 0 ? {lidar} : {}), ...(this.chosen.map ? {map: this.chosen.map} : {})};
+    const text = JSON.stringify(order);
+    if (Object.keys(order).length > 1 || text !== this.asked) data.ask(order);
+    this.asked = text;
+  }
+
+  shade() {
+    if (this.chosen.by === 'height') {
+      const high = heightColours();
+      const into = new THREE.Color();
+      return (_, z) => high(z, into);
+    }
+    const colours = data.uavs.map((_, uav) => new THREE.Color(colour(trackColour(uav))));
+    return (uav) => colours[uav];
+  }
+
+  /** What is told no more, as it was all told. */
+  clearPoints() {
+    this.points.clear();
+    if (data.mode === 'replay')
+      for (const name of this.lidar()) this.addPoints(name, scans.get(name) ?? []);
+  }
+
+  addPoints(name, steps) {
+    const uav = data.uavs.findIndex((one) => one.name === name);
+    if (uav < 0 || !this.lidar().includes(name)) return;
+    const shade = this.shade();
+    for (const {t, points} of steps) this.points.add(uav, t, unpackedPoints(points), shade);
+  }
+
+  showMap() {
+    const map = maps.get(this.chosen.map);
+    this.occupied.object.visible = this.free.object.visible = map?.steps !== undefined;
+    if (!map?.steps) return;
+    this.occupied.set(map.steps, map.cell, [0.9, 0.9, 0.9]);
+    this.free.set(map.free ? [{t: map.t, runs: map.free}] : [], map.freeCell ?? map.cell, [1, 1, 0.02]);
+    this.paintMap();
+  }
+
+  paintMap() {
+    const shade = this.shade();
+    const uav = data.uavs.findIndex((one) => one.name === this.chosen.map);
+    if (uav < 0) return;
+    this.occupied.paint((z) => shade(uav, z));
+    this.free.material.color.set(colour('direct'));
+  }
+
+  paint() {
+    this.points.paint(this.shade());
+    this.paintMap();
+    this.show(moment.seconds);
+  }
+
+  choose(what) {
+    const before = this.lidar().join();
+    Object.assign(this.chosen, what);
+    if (this.lidar().join() !== before) this.clearPoints();
+    this.ask();
+    this.showMap();
+    this.paint();
+    this.scene.draw();
+  }
+
+  /** As it was at the moment; called before each picture. */
+  show(seconds) {
+    if (this.chosen.lidar === 'followed' && this.scene.followed !== this.last) {
+      this.last = this.scene.followed;
+      this.clearPoints();
+      this.ask();
+    }
+    this.points.object.visible = this.lidar().length > 0;
+    const now = moment.newest ? data.end : seconds;
+    this.points.material.uniforms.now.value = now;
+    this.occupied.show(now);
+    this.free.show(now);
+    this.free.object.visible = this.occupied.object.visible && this.chosen.free;
+    this.tell(seconds);
+  }
+
+  tell(seconds) {
+    const parts = [];
+    const lidar = this.lidar();
+    if (this.chosen.lidar === 'followed' && lidar.length === 0) parts.push('LiDAR points: follow a UAV that has a LiDAR');
+    if (lidar.length > 0) {
+      const last = Math.max(...lidar.map((name) => scans.get(name)?.at(-1)?.t ?? -Infinity));
+      parts.push(last === -Infinity ? `LiDAR points ${data.mode === 'live' ? 'come with the next scan' : 'are being loaded'}` :
+                                      `${this.points.count} LiDAR points${data.mode === 'live' ? `, the newest of ${last.toFixed(1)} s` : ''}`);
+    }
+    if (this.chosen.map) parts.push(this.tellMap(seconds));
+    const text = parts.join(' · ');
+    if (this.note.textContent !== text) this.note.textContent = text;
+  }
+
+  tellMap(seconds) {
+    const name = this.chosen.map;
+    const map = maps.get(name);
+    if (map === undefined) return data.mode === 'live' ? `the map of ${name} comes with the next step` : `the map of ${name} is being loaded`;
+    if (map.none) return `${name} has no map to show: ${map.none}`;
+    const begin = map.steps[0]?.t ?? map.t;
+    if (!moment.newest && seconds < begin - 1e-6)
+      return `of this moment there is no map of ${name}: ${map.steps.length > 1 ? 'the first is' : 'this one is'} of ${begin.toFixed(1)} s`;
+    return `${name}: ${map.kind}, ${map.steps.length > 1 ? 'up to' : 'of'} ${map.t.toFixed(1)} s, ${this.occupied.cubes} cubes of ${map.cell} m`;
+  }
+}
+
+/** Takes in what was asked for. */
+export function takeClouds(list) {
+  let news = false;
+  for (const cloud of list) {
+    const at = cloud.n.indexOf(' ');
+    const [kind, name] = [cloud.n.slice(0, at), cloud.n.slice(at + 1)];
+    if (kind === 'lidar') {
+      scans.set(name, cloud.steps);
+      layers?.addPoints(name, cloud.steps);
+    }
+    if (kind === 'map') {
+      maps.set(name, cloud);
+      if (layers?.chosen.map === name) layers.showMap();
+    }
+    news = true;
+  }
+  if (!news || !layers) return;
+  layers.show(moment.seconds);
+  layers.scene.draw();
+}
+
+/** Controls of these layers, which they add to a scene. */
+export function makeClouds(scene) {
+  layers = new Layers(scene);
+  const {lidar, maps: mapped, missing = ''} = data.clouds;
+  const select = (id, label, options) => element(
+      'select', {id, 'aria-label': label}, ...options.map(([value, text]) => element('option', {value}, text)));
+  const of = select('lidar-of', 'LiDAR points', [
+    ['', 'no LiDAR points'], ['all', 'LiDAR points'], ['followed', 'LiDAR points of the followed UAV']]);
+  const map = select('map-of', 'map', [['', 'no map'], ...mapped.map((name) => [name, `map of ${name}`])]);
+  const by = select('clouds-by', 'colour of LiDAR points and maps', [['height', 'by height'], ['uav', 'by UAV']]);
+  const free = element('input', {type: 'checkbox', id: 'map-free'});
+  free.checked = true;
+  of.disabled = lidar.length === 0;
+  map.disabled = mapped.length === 0;
+  if (missing) for (const one of [of, map]) one.title = missing;
+  of.addEventListener('change', () => layers.choose({lidar: of.value}));
+  map.addEventListener('change', () => layers.choose({map: map.value}));
+  by.addEventListener('change', () => layers.choose({by: by.value}));
+  free.addEventListener('change', () => layers.choose({free: free.checked}));
+  layers.tools = element(
+      'div', {class: 'tools', id: 'clouds'}, of, map, element('label', {}, free, 'free space at its height'), by, layers.note,
+      ...(missing ? [element('span', {class: 'soft'}, missing)] : []));
+  return layers;
+}

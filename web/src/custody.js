@@ -1,0 +1,200 @@
+// What became of each interest point: who photographed it how well, and what was delivered of that. What stands now is
+// kept up to date by each line that is told; the past is looked up in the captures that are kept.
+
+export const kDetected = 0.2;
+const kHistory = 4;  // captures of a point that are kept for the past alone
+const kMore = 6;     // that come before its captures are looked through again
+
+/** A point in a capture; q in 1/1000000, its parts in 1/1000, whole numbers, which take a third of the memory. */
+class Seen {
+  constructor(of, q, blur, distance) {
+    this.of = of;
+    this.its_q = q;
+    this.its_blur = blur;
+    this.its_distance = distance;
+    this.record = false;  // whether it was the point's best for a time
+    this.stays = 0;       // what forget() made of it last
+  }
+  get q() { return this.its_q / 1000000; }
+  get blur() { return this.its_blur / 1000; }
+  get res() { return this.its_blur > 0 ? Math.min(this.q / this.blur, 1) : 0; }
+  get distance() { return this.its_distance / 1000; }
+}
+
+const kNobody = {delivered: null, taken: null};
+/** Of two that are as good the earlier one counts, as with the station. */
+const better = (one, other) => (other === null || other === undefined ? one.its_q > 0 :
+    one.its_q > other.its_q || (one.its_q === other.its_q && one.of.time < other.of.time));
+const counts = (seen) => seen !== null && seen.q >= kDetected;
+
+/** @param data  of the flight: its UAVs, and when it ends. */
+export function makeCustody(data) {
+  const bestTaken = [], bestDelivered = [];  // by UAV, while a point's captures are looked through
+  let stamp = 0;
+  const open = new Map();      // by UAV and number: captures that were not delivered, with what they saw
+  const points = [];           // {seen, delivered, taken}: the best that was delivered, and the best that was taken
+  let now = null;              // tally of what stands
+  let changed = new Set();     // points whose state is another since somebody asked
+  let past = {time: NaN, tally: null};
+
+  const isVoid = ({uav}) => data.uavs[uav].voided !== Infinity;
+
+  function emptyTally() {
+    const state = () => ({points: 0, score: 0});
+    return {
+      states: {delivered: state(), carried: state(), poor: state(), unseen: state()},
+      blur: 0, resolution: 0, earned: 0, shares: data.uavs.map(() => 0),
+    };
+  }
+
+  /** Adds a point to a tally, or takes it off. */
+  function count(tally, {delivered, taken}, by) {
+    const given = counts(delivered);
+    const state = tally.states[given ? 'delivered' : taken === null ? 'unseen' : counts(taken) ? 'carried' : 'poor'];
+    state.points += by;
+    state.score += by * ((given ? delivered : taken)?.q ?? 0);
+    if (counts(taken)) tally.earned += by * taken.q;
+    if (!given) return;
+    tally.blur += by * (1 - delivered.blur);
+    tally.resolution += by * (1 - delivered.res);
+    tally.shares[delivered.of.uav] += by * delivered.q;
+  }
+
+  /** As it is at the end of what was told. */
+  function set(index, change) {
+    const point = points[index];
+    count(now, point, -1);
+    change(point);
+    count(now, point, 1);
+    changed.add(index);
+  }
+
+  function beginPoints(number) {
+    for (let i = 0; i < number; ++i) points.push({seen: [], delivered: null, taken: null});
+    now = emptyTally();
+    for (const point of points) count(now, point, 1);
+  }
+
+  /**
+   * Of the captures of a point stay, of each UAV, the best one and the best one that was delivered: whatever is delivered
+   * yet, and whoever collides, they tell what stands. Of the others a few for the past, first those that were the best once.
+   */
+  function forget(point) {
+    ++stamp;
+    for (const one of point.seen) {
+      const {uav, delivered} = one.of;
+      if (better(one, bestTaken[uav])) bestTaken[uav] = one;
+      if (delivered !== Infinity && better(one, bestDelivered[uav])) bestDelivered[uav] = one;
+    }
+    for (const {of: {uav}} of point.seen) {
+      for (const list of [bestTaken, bestDelivered]) {
+        if (list[uav]) list[uav].stays = stamp;
+        list[uav] = null;
+      }
+    }
+    for (const one of [point.delivered, point.taken])
+      if (one !== null) one.stays = stamp;
+    let room = kHistory;
+    for (const records of [true, false]) {
+      for (let i = point.seen.length - 1; i >= 0 && room > 0; --i) {
+        const one = point.seen[i];
+        if (one.stays === stamp || one.record !== records) continue;
+        one.stays = stamp;
+        --room;
+      }
+    }
+    let kept = 0;
+    for (const one of point.seen)
+      if (one.stays === stamp) point.seen[kept++] = one;
+    point.seen.length = kept;
+    point.room = kept + kMore;
+  }
+
+  /** A UAV took a capture. @param list  of each point that it saw: index, less the one before; q, q_blur, q_distance. */
+  function take({t, u, c, p: list}) {
+    const capture = {uav: u, number: c, time: t, delivered: Infinity};
+    const seen = [];
+    let index = 0;
+    for (let i = 0; i + 3 < list.length; i += 4) {
+      index += list[i];
+      const point = points[index];
+      const one = new Seen(capture, list[i + 1], list[i + 2], list[i + 3]);
+      point.seen.push(one);
+      seen.push(index, one);
+      if (!isVoid(capture) && better(one, point.taken)) {
+        one.record = true;
+        set(index, (its) => (its.taken = one));
+      }
+      if (point.seen.length > (point.room ?? kMore)) forget(point);
+    }
+    open.set(`${u} ${c}`, {capture, seen});
+  }
+
+  /** A capture came to the station. @returns false when none such was taken and not delivered. */
+  function deliver(time, uav, number) {
+    const key = `${uav} ${number}`;
+    const taken = open.get(key);
+    if (taken === undefined) return false;
+    open.delete(key);
+    taken.capture.delivered = time;
+    for (let i = 0; i < taken.seen.length; i += 2) {
+      const one = taken.seen[i + 1];
+      if (isVoid(one.of) || !better(one, points[taken.seen[i]].delivered)) continue;
+      one.record = true;
+      set(taken.seen[i], (its) => (its.delivered = one));
+    }
+    return true;
+  }
+
+  /** A UAV's captures do not count from now on: what stands is looked up anew. */
+  function lookUpAll() {
+    now = emptyTally();
+    points.forEach((point, index) => {
+      Object.assign(point, lookUp(index, Infinity));
+      count(now, point, 1);
+      changed.add(index);
+    });
+  }
+
+  function lookUp(index, time) {
+    let delivered = null;
+    let taken = null;
+    for (const one of points[index].seen) {
+      const {of} = one;
+      if (of.time > time || (time === Infinity ? isVoid(of) : time >= data.uavs[of.uav].voided)) continue;
+      if (of.delivered !== Infinity && of.delivered <= time && better(one, delivered)) delivered = one;
+      if (better(one, taken)) taken = one;
+    }
+    return {delivered, taken};
+  }
+
+  /** What is known of a point at a time: its best capture that was delivered, and the best that was taken. */
+  function custody(index, time) {
+    const point = points[index];
+    if (time >= data.end) return point;
+    return point.seen.length === 0 ? kNobody : lookUp(index, time);
+  }
+
+  /** Of all points: how many are in which state and what they hold, what was earned, and whose the score is. */
+  function tallyAt(time) {
+    if (time >= data.end) return now;
+    if (past.time !== time) {
+      const tally = emptyTally();
+      for (let index = 0; index < points.length; ++index) count(tally, custody(index, time), 1);
+      past = {time, tally};
+    }
+    return past.tally;
+  }
+
+  /** Points that are otherwise than when this was asked last; what the page shows of the past does not change. */
+  function changedPoints() {
+    const those = changed;
+    changed = new Set();
+    return those;
+  }
+
+  /** For who watches over the page's memory. */
+  const kept = () => points.reduce((sum, {seen}) => sum + seen.length, 0);
+
+  return {beginPoints, take, deliver, lookUpAll, custody, tallyAt, changedPoints, kept};
+}

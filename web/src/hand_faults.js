@@ -1,0 +1,232 @@
+// Faults: which there were, and those that whoever looks on begins and ends by hand (view/fault_order.hpp). What is asked
+// for holds from the next step on; whether it was done, the next state tells.
+import {data, element, moment} from './page.js';
+
+const kMostRows = 60;
+const kStationAway_s = 5;  // the station serves this page: nobody could bring it back by hand
+const kStation = 'gcs';    // the node; its program is called station
+
+const hand = {order: () => {}, connected: false, seen: null};
+
+/**
+ * A line of the flight (story.hpp). @param told  of each fault that has begun: number, by hand or not, kind, of whom, from
+ * when until when.
+ */
+export function tellFault(told, {t, n, hand: byHand, on, kind, of}) {
+  if (on === 1) told.push({number: n, byHand: byHand === 1, kind, of, from: t, until: Infinity});
+  const open = told.find((one) => one.number === n && one.byHand === (byHand === 1) && one.until === Infinity);
+  if (on === 0 && open !== undefined) open.until = t;
+}
+
+/** @param order  how to ask for something. */
+export function useHand(order) {
+  hand.order = order;
+}
+
+/** Whether somebody hears what is asked for. */
+export function connectHand(connected) {
+  hand.connected = connected;
+}
+
+const openByHand = () => data.now?.faults?.open ?? [];
+const openOf = (kind, of) => openByHand().find((one) => one.kind === kind && one.of === of);
+/** What is broken is broken now, not in the past that the slider may show. */
+const mayAct = () => data.mode === 'live' && hand.connected && moment.newest;
+
+function ask(order) {
+  hand.seen = data.now?.faults?.refused ?? 0;
+  hand.order(order);
+}
+const begin = (kind, of, more = {}) => ask({do: 'fault', kind, ...(of === null ? {} : {of}), ...more});
+const end = (number) => ask({do: 'end_fault', fault: number});
+
+function setButton(button, text, title, disabled) {
+  if (button.textContent !== text) button.textContent = text;
+  if (button.title !== title) button.title = title;
+  button.disabled = disabled;
+}
+
+// ---- the link matrix --------------------------------------------------------------------------------------------
+
+const nodeName = (node) => (node === 0 ? kStation : data.uavs[node - 1].name);
+const shownName = (node) => (node === 0 ? 'station' : data.uavs[node - 1].name);
+const cutOf = (from, to) => openOf('link', `${nodeName(from)} > ${nodeName(to)}`);
+
+function toggleLink(from, to) {
+  const cut = cutOf(from, to);
+  if (cut !== undefined) return end(cut.n);
+  ask({do: 'fault', kind: 'link', from: nodeName(from), to: nodeName(to)});
+}
+
+/** A cell of the matrix: a click cuts the link or heals it, with Shift that of the other direction, too. */
+export function linkButton(from, to) {
+  const button = element('button', {type: 'button', class: 'l l0', disabled: '', 'data-from': from, 'data-to': to});
+  button.addEventListener('click', (event) => {
+    const heals = cutOf(from, to) !== undefined;
+    toggleLink(from, to);
+    if (event.shiftKey && heals === (cutOf(to, from) !== undefined)) toggleLink(to, from);
+  });
+  return button;
+}
+
+/** @param kind  of the link, a digit; @param text  the same in words */
+export function showLinkButton(button, from, to, kind, text) {
+  const cut = cutOf(from, to);
+  const waits = cut !== undefined && !cut.begun;
+  button.className = `l l${kind}${waits ? ' waits' : ''}`;
+  button.disabled = !mayAct();
+  const what = cut === undefined ? 'Click cuts it' : waits ? 'It is cut with the next step; click takes that back' : 'Cut by hand; click heals it';
+  const title = `${shownName(from)} to ${shownName(to)}: ${text}${button.disabled ? '' : `. ${what} (with Shift: both directions)`}`;
+  if (button.title === title) return;
+  button.title = title;
+  button.setAttribute('aria-label', title);
+}
+
+// ---- what belongs to one UAV ------------------------------------------------------------------------------------
+
+/** kind, what begins it, what ends it */
+const kOfUav = [
+  ['kill', 'Kill its program', 'Start its program again'],
+  ['pause', 'Pause its program', 'Let its program go on'],
+  ['blackout', 'Cut its radio', 'Radio works again'],
+  ['camera_failure', 'Camera fails', 'Camera works again'],
+  ['lidar_failure', 'LiDAR fails', 'LiDAR works again'],
+  ['stuck_gimbal', 'Gimbal sticks', 'Gimbal works again'],
+  ['odometry_freeze', 'Odometry freezes', 'Odometry works again'],
+];
+
+function toggle(kind, of, begins, ends, more = {}) {
+  const button = element('button', {type: 'button', 'data-fault': kind, 'data-of': of ?? ''}, begins);
+  const name = of ?? kStation;
+  button.addEventListener('click', () => {
+    const open = openOf(kind, name);
+    if (open !== undefined) return end(open.n);
+    begin(kind, of, more);
+  });
+  const show = () => {
+    const open = openOf(kind, name);
+    const other = {kill: 'pause', pause: 'kill'}[kind];
+    const taken = other !== undefined && openOf(other, name) !== undefined;
+    const waits = open !== undefined && !open.begun;
+    setButton(button, open === undefined ? begins : waits ? `${begins}: take back` : ends,
+              waits ? 'begins with the next step' : `takes effect with the next step (${kind})`, !mayAct() || taken);
+    button.setAttribute('aria-pressed', String(open !== undefined));
+  };
+  return {button, show};
+}
+
+function selectOf(label, values, chosen) {
+  return element('select', {'aria-label': label},
+                 ...values.map(([value, text]) => element('option', value === chosen ? {value, selected: ''} : {value}, text)));
+}
+
+/** Beside the facts of the chosen UAV: what of it can be broken. */
+export function uavFaultsPanel() {
+  const title = element('h2', {}, '');
+  const row = element('div', {class: 'tools-row'});
+  const made = element('section', {class: 'panel', id: 'uav-faults'}, title, row);
+  made.hidden = true;
+  let [shown, parts] = [-1, []];
+  const build = (uav) => {
+    const {name, explorer} = data.uavs[uav];
+    title.textContent = `Break something of ${name}`;
+    parts = kOfUav.filter(([kind]) => explorer || kind !== 'lidar_failure').map(([kind, ...texts]) => toggle(kind, name, ...texts));
+    const rotor = selectOf('rotor', [0, 1, 2, 3, 4, 5].map((i) => [i, `rotor ${i}`]), 0);
+    const thrust = selectOf('thrust that is left', [[0, 'no thrust'], [0.25, '25 %'], [0.5, '50 %'], [0.75, '75 %']], 0.5);
+    const weaken = element('button', {type: 'button', 'data-fault': 'motor_failure'}, 'Weaken');
+    weaken.addEventListener('click', () => begin('motor_failure', name, {rotor: Number(rotor.value), thrust: Number(thrust.value)}));
+    const delay = selectOf('delay', [[4, '0.2 s'], [10, '0.5 s'], [20, '1 s']], 4);
+    const late = element('button', {type: 'button', 'data-fault': 'command_delay'}, 'Delay its commands by');
+    late.addEventListener('click', () => begin('command_delay', name, {exchanges: Number(delay.value)}));
+    parts.push({show: () => {
+      for (const one of [rotor, thrust, weaken, delay, late]) one.disabled = !mayAct();
+    }});
+    row.replaceChildren(...parts.flatMap(({button}) => button ?? []),
+                        element('span', {class: 'joint'}, weaken, rotor, thrust), element('span', {class: 'joint'}, late, delay));
+  };
+  const show = ({uav}) => {
+    made.hidden = uav < 0 || data.mode !== 'live';
+    if (made.hidden) return;
+    if (uav !== shown) build(uav);
+    shown = uav;
+    for (const part of parts) part.show();
+  };
+  return {element: made, show};
+}
+
+// ---- all of them ------------------------------------------------------------------------------------------------
+
+const kKinds = {
+  link: 'link', partition: 'partition', blackout: 'radio blackout', station_outage: 'radio outage', kill: 'killed',
+  pause: 'paused', lidar_failure: 'LiDAR fails', camera_failure: 'camera fails', motor_failure: 'rotor weak',
+  command_delay: 'commands late', odometry_freeze: 'odometry frozen', odometry_jump: 'odometry jumped', stuck_gimbal: 'gimbal stuck',
+};
+const targetText = ({kind, of}) => (kind === 'link' ? of.replaceAll(kStation, 'station').replace(' > ', ' to ') : of === kStation ? 'station' : of);
+
+/** At the moment that the page shows: those in force first, then the past, newest first. */
+function rows() {
+  const now = moment.seconds;
+  const open = openByHand();
+  const waiting = moment.newest ? open.filter(({begun}) => !begun) : [];
+  const known = (data.failures ?? []).filter(({from}) => from <= now).map((one) => ({...one, over: one.until <= now}));
+  known.sort((a, b) => a.over - b.over || b.from - a.from);
+  const seconds = (time) => time.toFixed(2);
+  const list = waiting.map((one) => ({
+    key: `${one.n}`, text: `${kKinds[one.kind] ?? one.kind}`, of: targetText(one), when: 'begins with the next step', state: 'waits',
+    ends: one.n, label: 'Take back',
+  }));
+  for (const one of known.slice(0, kMostRows)) {
+    const byHand = one.byHand && moment.newest ? open.find(({n}) => n === one.number) : undefined;
+    const ending = data.mode === 'live' && one.byHand && moment.newest && !one.over && byHand === undefined;
+    const until = byHand?.until !== undefined ? `, until ${seconds(byHand.until)} s` : '';
+    list.push({
+      key: `${one.byHand ? '' : 'f'}${one.number}`, text: kKinds[one.kind] ?? one.kind, of: targetText(one),
+      when: one.over ? `${seconds(one.from)} to ${seconds(one.until)} s` :
+          ending ? `since ${seconds(one.from)} s; ends with the next step` : `since ${seconds(one.from)} s${until}`,
+      state: one.over ? 'over' : 'on', ends: one.over ? undefined : byHand?.n, label: 'End', byHand: one.byHand,
+    });
+  }
+  return list;
+}
+
+function rowOf({key, text, of, when, state, ends, label, byHand}) {
+  const button = element('button', {type: 'button', 'data-end': key}, label ?? '');
+  button.addEventListener('click', () => end(ends));
+  button.disabled = !mayAct();
+  return element('li', {class: state}, element('div', {}, element('strong', {}, text), ' ', of, element('div', {class: 'soft'}, when)),
+                 ends === undefined ? element('span', {class: 'soft'}, byHand === false ? 'fault file' : '') : button);
+}
+
+/** What failed and fails; those by hand can be ended, and programs that no UAV has be killed. */
+export function faultsPanel() {
+  const parts = [
+    toggle('kill', 'station', `Kill the station for ${kStationAway_s} s`, 'Start the station again', {for_s: kStationAway_s}),
+    toggle('pause', 'station', `Pause the station for ${kStationAway_s} s`, 'Let the station go on', {for_s: kStationAway_s}),
+    toggle('station_outage', null, 'Cut the station\'s radio', 'Station\'s radio works again'),
+    toggle('kill', 'comm_router', 'Kill the radio router', 'Start the radio router again'),
+    toggle('pause', 'comm_router', 'Pause the radio router', 'Let the radio router go on'),
+  ];
+  const buttons = element('div', {class: 'tools-row'}, ...parts.map(({button}) => button));
+  const refused = element('p', {class: 'refused', role: 'status'}, '');
+  const list = element('ol', {class: 'faults', 'aria-label': 'faults, those in force first'});
+  const none = element('p', {class: 'soft'}, 'None so far.');
+  const made = element('section', {class: 'panel', id: 'faults'}, element('h2', {}, 'Faults'),
+                       ...(data.mode === 'live' ? [buttons, refused] : []), none, list);
+  let shown = '';
+  const show = () => {
+    for (const part of parts) part.show();
+    const now = data.now?.faults;
+    hand.seen ??= now?.refused ?? null;
+    const text = now !== undefined && hand.seen !== null && now.refused > hand.seen ? `Not done: ${now.why}.` : '';
+    if (refused.textContent !== text) refused.textContent = text;
+    const all = rows();
+    none.hidden = all.length > 0;
+    const key = JSON.stringify([all, mayAct()]);
+    if (key === shown) return;
+    shown = key;
+    const focused = list.contains(document.activeElement) ? document.activeElement.dataset.end : undefined;
+    list.replaceChildren(...all.map(rowOf));
+    if (focused !== undefined) list.querySelector(`[data-end="${focused}"]`)?.focus();
+  };
+  return {element: made, show};
+}
