@@ -125,7 +125,8 @@ class FilmOfARun : public KeptRun {
 };
 
 TEST_F(FilmOfARun, IsTheSameEachTime) {
-  const SkeinRun& done = run("done", joined(kKeptFlight, {"--duration", "40", "--no-oracle"}));
+  const SkeinRun& done =
+      run("done", {"towers", "--planner", "kios", "--duration", "40", "--one-process", "--no-report", "--no-oracle"});
   const Arguments how = {"--fps", "2", "--seconds", "2", "--from-address", "#uav=changi&view=camera&t=20"};
   for (const char* name : {"one.mp4", "two.mp4"}) replay(joined({done.dir(), "--export", folder() / name}, how));
   EXPECT_EQ(text_of(folder() / "one.mp4"), text_of(folder() / "two.mp4"));

@@ -59,6 +59,6 @@ export class Labels {
     const {style} = this.tags[uav];
     if (place.shown !== shown) style.visibility = shown ? 'visible' : 'hidden';
     place.shown = shown;
-    if (shown) style.transform = `translate(${place.x}px, ${place.y}px)`;
+    style.transform = `translate(${place.x}px, ${place.y}px)`;
   }
 }
