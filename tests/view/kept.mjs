@@ -5,7 +5,7 @@ import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
 import {lookAt, openBrowser, openPage} from '../report/browser.mjs';
-import {sleep, stateOf, until} from './page.mjs';
+import {findPoint, sleep, stateOf, until} from './page.mjs';
 
 const [web, chromium, file, run] = process.argv.slice(2);
 const expect = (good, what) => good || console.log(what);
@@ -22,23 +22,14 @@ async function checkLosses(page) {
 }
 
 async function checkPoint(page) {
-  const box = await (await page.$('.stage canvas')).boundingBox();
-  for (let y = 0.3; y < 0.8; y += 0.02) {
-    for (let x = 0.15; x < 0.85; x += 0.015) {
-      const at = [box.x + x * box.width, box.y + y * box.height];
-      await page.mouse.move(...at);
-      const tip = await page.$eval('.tip', (element) => (element.hidden ? '' : element.textContent));
-      if (!/ · delivered · /.test(tip)) continue;
-      await page.mouse.click(...at);
-      const shown = await page.$eval('#chosen', (element) => element.textContent);
-      const index = Number(/point (\d+)/.exec(tip)[1]);
-      const [head, ...lines] = readFileSync(path.join(run, 'score.csv'), 'utf8').trim().split('\n').map((line) => line.split(','));
-      const score = Number(lines[index][head.indexOf('score')]);
-      expect(shown.includes(score.toFixed(3)), `of point ${index} the page says ${shown}, and score.csv ${score}`);
-      return;
-    }
-  }
-  expect(false, 'no delivered point is to be found with the pointer');
+  const found = await findPoint(page, / · delivered · /);
+  if (found === null) return expect(false, 'no delivered point is to be found with the pointer');
+  const {at, index} = found;
+  await page.mouse.click(...at);
+  const shown = await page.$eval('#chosen', (element) => element.textContent);
+  const [head, ...lines] = readFileSync(path.join(run, 'score.csv'), 'utf8').trim().split('\n').map((line) => line.split(','));
+  const score = Number(lines[index][head.indexOf('score')]);
+  expect(shown.includes(score.toFixed(3)), `of point ${index} the page says ${shown}, and score.csv ${score}`);
 }
 
 for (const [width, scheme] of [[1400, 'light'], [390, 'dark']]) {

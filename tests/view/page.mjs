@@ -58,3 +58,17 @@ export async function until(page, holds, what) {
   }
   throw new Error(`the page never got there: ${what}; it says ${JSON.stringify(await stateOf(page))}`);
 }
+
+/** Where a point of the scene is on the screen, by the page's own means: the pointer tells of it. */
+export async function findPoint(page, wanted) {
+  const box = await (await page.$('.stage canvas')).boundingBox();
+  for (let y = 0.3; y < 0.8; y += 0.02) {
+    for (let x = 0.15; x < 0.85; x += 0.015) {
+      const at = [box.x + x * box.width, box.y + y * box.height];
+      await page.mouse.move(...at);
+      const tip = await page.$eval('.tip', (element) => (element.hidden ? '' : element.textContent));
+      if (wanted.test(tip)) return {at, index: Number(/point (\d+)/.exec(tip)[1]), tip};
+    }
+  }
+  return null;
+}

@@ -5,7 +5,7 @@ import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
 import {lookAt} from '../report/browser.mjs';
-import {openRun, sleep, stateOf, until} from './page.mjs';
+import {findPoint, openRun, sleep, stateOf, until} from './page.mjs';
 
 const [web, chromium, door, run] = process.argv.slice(2);
 let where = '';
@@ -25,20 +25,6 @@ const picture = async (browser, page) => {
   const png = await (await page.$('.stage')).screenshot({encoding: 'base64'});
   return {png, ...await look(browser, page, png)};
 };
-
-/** Where a point of the scene is on the screen, by the page's own means: the pointer tells of it. */
-async function findPoint(page, wanted) {
-  const box = await (await page.$('.stage canvas')).boundingBox();
-  for (let y = 0.3; y < 0.8; y += 0.02) {
-    for (let x = 0.15; x < 0.85; x += 0.015) {
-      const at = [box.x + x * box.width, box.y + y * box.height];
-      await page.mouse.move(...at);
-      const tip = await page.$eval('.tip', (element) => (element.hidden ? '' : element.textContent));
-      if (wanted.test(tip)) return {at, index: Number(/point (\d+)/.exec(tip)[1]), tip};
-    }
-  }
-  return null;
-}
 
 async function checkPoint(page) {
   const found = await findPoint(page, / · delivered · /);
