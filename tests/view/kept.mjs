@@ -66,6 +66,24 @@ await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'the 
 expect(await page.$eval('#chosen h2', (element) => element.textContent) === name, 'the address does not choose its UAV');
 expect((await page.$eval('#clock', (element) => element.textContent)) === '20.0 s', 'the address does not choose its time');
 expect((await page.evaluate(() => location.hash)).includes('view=camera'), 'the address was lost');
+
+// Each picture of a film shows its own moment in all its parts, however fast one follows the other.
+const filmed = (seconds) => page.evaluate(async (at) => {
+  await film.show(at);
+  return document.getElementById('fleet').innerText;
+}, seconds);
+await page.evaluate(() => film.begin(''));
+const moments = Array.from({length: 8}, (_, k) => (k + Math.random()) * result.sim_time_s / 8);
+const fast = [];
+for (const seconds of moments) fast.push(await filmed(seconds));
+for (const [k, seconds] of moments.entries()) {
+  const slow = await filmed(seconds);
+  await sleep(600);
+  const rested = await page.$eval('#fleet', (panel) => panel.innerText);
+  expect(fast[k] === rested && slow === rested, `at ${seconds} s the film shows ${fast[k]}, and the page ${rested}`);
+}
+expect(new Set(fast).size > 4, 'nothing moves in the film');
+
 for (const complaint of complaints)
   expect(complaint.startsWith('asks for file://'), complaint);  // of itself, with what follows its #
 await browser.close();

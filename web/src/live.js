@@ -225,7 +225,7 @@ async function show(order) {
   open();
   addEventListener('hashchange', open);
   scene?.controls.addEventListener('end', () => address.write());
-  if (keptFlight !== null) offerFilm(open);
+  if (keptFlight !== null) offerFilm(open, showPanels);
 }
 
 let begun = false;
