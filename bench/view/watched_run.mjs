@@ -1,14 +1,17 @@
 // Flies a run with --view, with a browser that looks on or without one, and prints what the page took, as a line of JSON:
 // milliseconds from the first step to the first picture, script and all work of the page's thread by picture [ms],
-// pictures, the largest number of draw calls. `skein bench --view` starts it.
+// pictures, the largest number of draw calls. `skein bench --view` starts it. The browser is open before the run is, as
+// a user's is; the thread's work is its CPU time, for a machine without a graphics card draws on the same cores.
 // usage: node watched_run.mjs WEB CHROMIUM page|nobody RUN SKEIN ARGUMENT...
 import {spawn} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
+import {openBrowser} from '../../tests/report/browser.mjs';
 import {openRun, sleep, stateOf} from '../../tests/view/page.mjs';
 
 const [web, chromium, who, run, ...command] = process.argv.slice(2);
+const browser = who === 'page' ? await openBrowser(web, chromium) : null;
 const begun = performance.now();
 const skein = spawn(command[0], command.slice(1), {stdio: ['ignore', 'ignore', 'pipe']});
 for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => skein.kill(signal));
@@ -20,9 +23,9 @@ skein.stderr.on('data', (text) => (said += text));
 async function look() {
   while (!/open (\S+)/.test(said) && !over) await sleep(10);
   if (over) return {};
-  const {browser, page} = await openRun([web, chromium, /open (\S+)/.exec(said)[1]]);
+  const {page} = await openRun([web, chromium, /open (\S+)/.exec(said)[1]], {}, browser);
   const devtools = await page.createCDPSession();
-  await devtools.send('Performance.enable');
+  await devtools.send('Performance.enable', {timeDomain: 'threadTicks'});
   const metrics = async () => {
     const all = Object.fromEntries((await devtools.send('Performance.getMetrics')).metrics.map((m) => [m.name, m.value]));
     return {...await page.evaluate(() => globalThis.skein.figures()), script: all.ScriptDuration, task: all.TaskDuration};
@@ -35,9 +38,8 @@ async function look() {
     const now = await metrics().catch(() => null);
     if (now !== null && (last === null || now.frames >= last.frames)) last = now;
     first ??= now;
-    await sleep(500);
+    await sleep(2000);  // asking costs script, too
   }
-  await browser.close();
   const frames = last === null ? 0 : last.frames - first.frames;
   if (frames === 0) return {picture};  // it was over too soon
   return {
@@ -50,6 +52,7 @@ async function look() {
 
 const {picture, ...seen} = who === 'page' ? await look() : {};
 const code = await ended;
+await browser?.close();
 if (code !== 0) process.stderr.write(said);
 else if (picture !== undefined) {
   const {startup_s: startup} = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));

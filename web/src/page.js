@@ -23,12 +23,15 @@ export function onTheme(use) {
 export const trackColour = (uav) => `t${(data.uavs?.[uav]?.own ?? uav) % 6}`;
 
 const listeners = [];
+let chosen = data.end;
 export const moment = {
-  seconds: data.end,
   /** Whether it is the newest that there is, and moves on with it. */
   newest: true,
+  get seconds() {
+    return this.newest ? data.end : chosen;
+  },
   set(seconds) {
-    this.seconds = Math.min(Math.max(seconds, 0), data.end);
+    chosen = Math.min(Math.max(seconds, 0), data.end);
     this.newest = seconds >= data.end;
     for (const use of listeners) use(this.seconds);
   },

@@ -103,6 +103,7 @@ class Scene {
     this.by = 'score';
     this.named = new Map();  // colours
     this.painted = null;     // time of which the points have their colours
+    this.size = {width: 1, height: 1};
     this.fill();
     this.lookFrom();
     moment.listen(() => this.show());
@@ -273,6 +274,7 @@ class Scene {
   fit() {
     const {clientWidth: width, clientHeight: height} = this.stage;
     if (width === 0 || height === 0) return;
+    this.size = {width, height};  // asked for in each picture it would cost a layout of the page each
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -282,9 +284,8 @@ class Scene {
   draw() {
     this.renderer.render(this.scene, this.camera);
     countFrame(this.renderer.info);
-    const {clientWidth: width, clientHeight: height} = this.stage;
     const followed = this.followed ?? -1;
-    this.labels?.show(this.camera, {width, height}, this.fleet.object.visible, followed, this.through ? followed : -1);
+    this.labels?.show(this.camera, this.size, this.fleet.object.visible, followed, this.through ? followed : -1);
   }
 
   /** @returns what is hit of some objects, first the nearest. */
