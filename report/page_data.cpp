@@ -175,7 +175,11 @@ Json scene_data(const RunData& run) {
   Json data = Json::object();
   data["points"] = points_json(run);
   data["causes"] = Json::array();
-  for (const Cause& cause : kCauses) data["causes"].push_back(std::string(cause.title));
+  data["cause_keys"] = Json::array();
+  for (const Cause& cause : kCauses) {
+    data["causes"].push_back(std::string(cause.title));
+    data["cause_keys"].push_back(std::string(cause.key));
+  }
   data["causes_known"] = run.causes_known;
   data["boxes"] = Json::array();
   for (const RunBox& box : run.boxes) {

@@ -35,9 +35,9 @@ std::optional<double> realtime_factor(const std::string& clock) {
   throw InputError("--clock " + clock + ": it must be lockstep, realtime or realtime:FACTOR with a factor above 0");
 }
 
-std::optional<WatchOptions> watch_options(const std::string& speed, const std::string& clock) {
+std::optional<WatchOptions> watch_options(const std::string& speed, const std::string& clock, bool losses) {
   if (speed.empty()) return std::nullopt;
-  return WatchOptions{view::read_speed(speed), !realtime_factor(clock)};
+  return WatchOptions{view::read_speed(speed), !realtime_factor(clock), losses};
 }
 
 std::vector<UavIndex> indices_of(const std::vector<std::string>& names, const Scenario& scenario) {
@@ -130,6 +130,9 @@ void ServerProgram::add_options(CLI::App& app) {
          "--watch", watch_speed_,
          "tell the station what a page needs, and fly at this speed, SPEED or max, until the page says otherwise")
       ->group("Launcher");
+  app.add_flag("--watch-losses", watch_losses_, "ask the oracle what could be had, for that page")
+      ->needs("--watch")
+      ->group("Launcher");
   app.add_option("--by-hand", by_hand_, "UAVs that somebody flies from that page")
       ->delimiter(',')
       ->needs("--watch")
@@ -164,7 +167,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .replay = replay_,
                                     .notice_deaths = !options.has_launcher(),
                                     .expect_gcs_program = ground_program_,
-                                    .watch = watch_options(watch_speed_, clock_),
+                                    .watch = watch_options(watch_speed_, clock_, watch_losses_),
                                     .by_hand = indices_of(by_hand_, *scenario),
                                     .faults = load_fault_plan(options.faults, *scenario, options.seed)};
   Scene scene = load_scene(*scenario);

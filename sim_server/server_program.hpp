@@ -29,6 +29,7 @@ class ServerProgram final : public bus::FleetProgram {
   double agent_timeout_s_ = 60.0;
   bool ground_program_ = false;
   std::string watch_speed_;  ///< empty: nobody watches
+  bool watch_losses_ = false;
   std::vector<std::string> by_hand_;
   recording::ReplayOptions replay_;
   ServerTasks tasks_;

@@ -64,6 +64,7 @@ WatchNode::WatchNode(const Scenario& scenario, const Simulation& simulation, Eve
     tell(view::event_line(seconds(event.tick), event.event, event.subject, event.object));
   });
   tell_scene();
+  if (options.losses) estimate_.emplace(scenario, simulation.scene(), estimate_request());
 }
 
 void WatchNode::obey(const view::Order& order) {
@@ -107,6 +108,13 @@ void WatchNode::tell_scene() {
   scene["duration"] = scenario_.duration_s;
   if (hand_.flies()) scene["by_hand"] = hand_.names();
   tell(scene.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+void WatchNode::tell_estimate() {
+  if (!estimate_ || !estimate_->over()) return;
+  const auto summary = estimate_->take();
+  estimate_.reset();
+  if (summary) tell(view::estimate_line(seconds(simulation_.tick()), summary->estimate, summary->flyable));
 }
 
 std::vector<view::ShownUav> WatchNode::shown_uavs() const {
@@ -155,6 +163,7 @@ void WatchNode::begin_step(const std::vector<std::string>& faults) {
     tell(view::pose_line(now_s, shown_uavs()));
     pose_due_ = simulation_.tick() + kPosePeriod;
   }
+  tell_estimate();
   state_stale_ = true;
   const auto now = Clock::now();
   end_wait(now);

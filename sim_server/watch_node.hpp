@@ -12,6 +12,7 @@
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "sim_server/cpu_rate.hpp"
+#include "sim_server/estimate_task.hpp"
 #include "sim_server/fault_node.hpp"
 #include "sim_server/hand_node.hpp"
 #include "sim_server/look_node.hpp"
@@ -27,6 +28,7 @@ namespace skein::sim {
 struct WatchOptions {
   std::optional<double> speed;  ///< simulated seconds a second; none: as fast as the machine allows
   bool paced = true;            ///< false: a clock of the world sets the pace, and nothing holds the run
+  bool losses = false;          ///< ask the oracle what could be had, so that the page tells what is lost
 };
 
 class WatchNode {
@@ -62,6 +64,7 @@ class WatchNode {
   void obey(const view::Order& order);
   void tell(const std::string& line);
   void tell_scene();
+  void tell_estimate();
   void tell_state(Clock::time_point now);
   void end_wait(Clock::time_point now);
   std::string waits_json() const;
@@ -94,6 +97,7 @@ class WatchNode {
   Tick pose_due_ = 0, links_due_ = 0;
   bool state_stale_ = true;
   Clock::time_point state_told_{};
+  std::optional<EstimateTask> estimate_;  ///< none: nobody asked, or it has been told
 };
 
 }  // namespace skein::sim

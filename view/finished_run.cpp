@@ -125,6 +125,19 @@ void tell_incidents(const RunData& run, Story& story) {
   }
 }
 
+/// What could be had, where it is known. Points of which it was lost that no UAV fits there are told as such.
+void tell_estimate(const RunData& run, Story& story) {
+  if (!run.causes_known) return;
+  constexpr std::size_t kOutOfReach = *report::cause_of("out_of_reach");
+  std::vector<float> q;
+  std::vector<std::uint8_t> flyable;
+  for (const report::RunPoint& point : run.points) {
+    q.push_back(static_cast<float>(point.estimate));
+    flyable.push_back(point.cause == kOutOfReach ? 0 : 1);
+  }
+  story.add(0.0, estimate_line(0.0, q, flyable));
+}
+
 struct TakenCapture {
   double time_s = 0.0;
   std::optional<double> delivered_s;
@@ -191,8 +204,6 @@ Json scene_of(const fs::path& dir, const RunData& run) {
   scene["status"] = report::text_in(run.result, "status");
   scene["attainable"] = value_or(run.result, "attainable", Json::object());
   scene["losses"] = value_or(run.result, "losses", nullptr);
-  scene["cause_keys"] = Json::array();
-  for (const report::Cause& cause : report::kCauses) scene["cause_keys"].push_back(std::string(cause.key));
   scene["score"] = report::number_in(run.result, "score");
   scene["detected"] = report::number_in(run.result, "points_detected");
   scene["warnings"] = value_or(run.result, "warnings", Json::array());
@@ -210,6 +221,7 @@ std::string title_of_run(const fs::path& dir) {
 ToldRun told_run(const fs::path& dir, const RunData& run) {
   Story story;
   std::vector<ShownUav> last = tell_poses(dir, run, story);
+  tell_estimate(run, story);
   tell_events(run, story);
   tell_activities(dir, run, story);
   tell_captures(dir, run, story);

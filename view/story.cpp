@@ -123,6 +123,18 @@ std::string delivered_line(double time_s, std::span<const ShownDelivery> deliver
   return fmt::format(R"({{"k":"delivered","t":{:.3f},"d":[{}]}})", time_s, list);
 }
 
+std::string estimate_line(double time_s, std::span<const float> q, std::span<const std::uint8_t> flyable) {
+  std::string estimates, beyond;
+  std::size_t former = 0;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    fmt::format_to(std::back_inserter(estimates), "{}{}", i == 0 ? "" : ",", quality(q[i]));
+    if (q[i] <= 0.0F || flyable[i] != 0) continue;
+    fmt::format_to(std::back_inserter(beyond), "{}{}", beyond.empty() ? "" : ",", i - former);
+    former = i;
+  }
+  return fmt::format(R"({{"k":"estimate","t":{:.3f},"q":[{}],"no":[{}]}})", time_s, estimates, beyond);
+}
+
 std::string void_line(double time_s, std::size_t uav) {
   return fmt::format(R"({{"k":"void","t":{:.3f},"u":{}}})", time_s, uav);
 }

@@ -76,6 +76,10 @@ struct ShownDelivery {
 };
 /// k: delivered. "d": UAV and number of each capture that came at this time.
 std::string delivered_line(double time_s, std::span<const ShownDelivery> deliveries);
+/// k: estimate. What could be had, by interest point: "q" in 1/1000000, 0 where nothing; "no": the points of these that
+/// a camera could photograph and no UAV, each less the one before.
+/// @param flyable  by interest point; 0: no UAV fits there.
+std::string estimate_line(double time_s, std::span<const float> q, std::span<const std::uint8_t> flyable);
 /// k: void. The captures of "u" do not count: it collided.
 std::string void_line(double time_s, std::size_t uav);
 /// k: score. "n": points, "s": delivered, exact.

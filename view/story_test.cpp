@@ -68,6 +68,8 @@ TEST(StoryLines, TellCapturesAndLinks) {
   EXPECT_EQ(parse_json(links_line(1.0, std::vector{blocked, linked, cut, dead}))["l"], "0123");
   EXPECT_EQ(parse_json(delivered_line(3.5, std::vector<ShownDelivery>{{2, 7}, {0, 9}})),
             Json::parse(R"({"k":"delivered","t":3.5,"d":[2,7,0,9]})"));
+  EXPECT_EQ(parse_json(estimate_line(0.5, std::vector{1.0F, 0.25F, 0.0F, 0.5F}, std::vector<std::uint8_t>{1, 0, 0, 0})),
+            Json::parse(R"({"k":"estimate","t":0.5,"q":[1000000,250000,0,500000],"no":[1,2]})"));
   EXPECT_EQ(parse_json(void_line(3.5, 2)), Json::parse(R"({"k":"void","t":3.5,"u":2})"));
 }
 

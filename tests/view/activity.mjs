@@ -73,5 +73,9 @@ for (const name of Object.keys(table)) {
            `at ${seconds} s ${name} does ${what[name]} ${where}, and ${table[name]} in activity.csv`);
 }
 expect(Object.keys(table).length === Object.keys(live).length, 'activity.csv has not all UAVs');
+// Its lanes have a colour for each of its words.
+const others = await page.evaluate(() => globalThis.skein.figures().otherModes);
+expect(others.length === 0, `of no kind: ${others}`);
+expect((await page.$$('#modes li')).length > 4, 'the lanes have no legend');
 for (const complaint of complaints) console.log(complaint);
 await browser.close();

@@ -25,9 +25,12 @@ class PageOfARun : public BrowserTest {
 
 const Arguments kWatchedFlight = {"towers", "--planner", "kios", "--duration", "60", "--no-oracle"};
 
-TEST_F(PageOfARun, FollowsAFleetOverDds) { watch(kWatchedFlight, {}); }
+/// What is lost is told, too.
+const Arguments kEstimatedFlight = {"towers", "--planner", "kios", "--duration", "60"};
 
-TEST_F(PageOfARun, FollowsAFleetInOneProcess) { watch(kWatchedFlight, {"--one-process"}); }
+TEST_F(PageOfARun, FollowsAFleetOverDds) { watch(kEstimatedFlight, {}); }
+
+TEST_F(PageOfARun, FollowsAFleetInOneProcess) { watch(kEstimatedFlight, {"--one-process"}); }
 
 TEST_F(PageOfARun, TellsWhatUavsDoAndForWhomARunWaits) {
   const std::string unseen = run("unseen", joined(kWatchedFlight, {"--one-process"})).digest();

@@ -5,7 +5,7 @@ import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
 import {lookAt, openBrowser, openPage} from '../report/browser.mjs';
-import {findPoint, sleep, stateOf, until} from './page.mjs';
+import {addsUp, findPoint, lossesOf, sleep, stateOf, until} from './page.mjs';
 
 const [web, chromium, file, run] = process.argv.slice(2);
 const expect = (good, what) => good || console.log(what);
@@ -13,12 +13,36 @@ const result = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));
 const browser = await openBrowser(web, chromium);
 
 async function checkLosses(page) {
-  if (!result.losses) return expect(await page.$('#losses') === null, 'it tells of losses that nobody knows');
+  if (!result.losses) return expect(await lossesOf(page) === null, 'it tells of losses that nobody knows');
   const shown = await page.$eval('#losses', (panel) => panel.innerText).catch(() => '');
   for (const {points, score} of Object.values(result.losses)) {
     if (points > 0) expect(shown.includes(`${points}\t${(-score).toFixed(1)}`), `the losses lack ${points} points, ${-score}: ${shown}`);
   }
   expect(shown.includes(result.attainable.score.toFixed(1)), `the losses do not tell what could be had: ${shown}`);
+  await checkLossesInTime(page, await lossesOf(page));
+}
+
+/** What the page makes of the captures comes to what the launcher has found; captures do not tell what was too poor. */
+async function checkLossesInTime(page, last) {
+  const at = (seconds) => page.$eval('#moment', (slider, to) => {
+    slider.value = String(to);
+    slider.dispatchEvent(new Event('input'));
+  }, seconds).then(() => sleep(600)).then(() => lossesOf(page));
+  const made = await page.evaluate(() => globalThis.skein.figures().losses);
+  for (const [cause, told] of Object.entries(result.losses)) {
+    if (cause === 'below_threshold') continue;
+    const {points, score} = cause === 'never_in_picture' ?
+        {points: told.points + result.losses.below_threshold.points, score: told.score + result.losses.below_threshold.score} : told;
+    const its = made[cause] ?? {points: 0, score: 0};
+    expect(its.points === points && Math.abs(its.score - score) < 0.01, `${cause}: the page finds ${JSON.stringify(its)}, the launcher ${points}, ${score}`);
+  }
+  for (let k = 1; k < 6; ++k) {
+    const then = await at((k * result.sim_time_s) / 6);
+    expect(addsUp(then) && then.rows.delivered[0] <= last.rows.delivered[0], `at ${k} sixths: ${JSON.stringify(then)}`);
+  }
+  const begin = await at(0);
+  expect(begin.rows.delivered[0] === 0 && !begin.rows.blur, `at the begin ${JSON.stringify(begin)}`);
+  await at(result.sim_time_s);
 }
 
 async function checkPoint(page) {
@@ -54,6 +78,7 @@ for (const [width, scheme] of [[1400, 'light'], [390, 'dark']]) {
   const tooWide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   expect(tooWide <= 0, `the page is ${tooWide} pixels too wide`);
   if (width === 1400) await checkPoint(page);
+  await sleep(600);  // the panels come after the scene
   await checkLosses(page);
   for (const complaint of complaints) expect(false, complaint);
   await page.close();

@@ -72,3 +72,17 @@ export async function findPoint(page, wanted) {
   }
   return null;
 }
+
+/** What the page tells of losses: by row of its table points and score; null while it tells nothing. */
+export const lossesOf = (page) => page.$eval('#losses', (panel) => (panel.hidden ? null : {
+  when: panel.querySelector('thead th').textContent,
+  rows: Object.fromEntries([...panel.querySelectorAll('tbody tr:not([hidden])')].map((row) => [
+    row.cells[0].textContent, [Number(row.cells[1].textContent), Number(row.cells[2].textContent)]])),
+}));
+
+/** Whether what could be had, less what is lost, is what was delivered: as shown, so to a tenth a row. */
+export function addsUp({rows}) {
+  const {'could be had, by estimate': [, could], delivered: [, delivered], ...lost} = rows;
+  const losses = Object.values(lost);
+  return Math.abs(could + losses.reduce((sum, [, score]) => sum + score, 0) - delivered) <= 0.05 * (losses.length + 2) + 1e-9;
+}

@@ -5,7 +5,7 @@ import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
 import {lookAt} from '../report/browser.mjs';
-import {openRun, sleep, stateOf, until} from './page.mjs';
+import {addsUp, lossesOf, openRun, sleep, stateOf, until} from './page.mjs';
 
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page, complaints, host} = await openRun([web, chromium, door]);
@@ -27,12 +27,22 @@ for (let step = 1; step <= 3; ++step) {
 await sleep(500);
 expect((await stateOf(page)).tick === held.tick + 3 * kStep, 'it went on after a step');
 
+// What could be had is told as soon as the oracle knows, with the next step.
+let losses = null;
+for (let tries = 0; losses === null && tries < 300; ++tries) {
+  await page.keyboard.press('s');
+  await sleep(200);
+  losses = await lossesOf(page);
+}
+expect(losses?.when === 'so far' && addsUp(losses), `of losses it tells ${JSON.stringify(losses)}`);
+const stepped = await stateOf(page);
+
 // Time is told from the keyboard alone, and another speed counts.
 await page.select('#speed', 'max');
 await page.keyboard.press('Escape');
 await page.evaluate(() => document.activeElement.blur());
 await page.keyboard.press('p');
-const later = await until(page, ({tick, state}) => state !== 'paused' && tick > held.tick + 200 * kStep, 'it goes on');
+const later = await until(page, ({tick, state}) => state !== 'paused' && tick > stepped.tick + 200 * kStep, 'it goes on');
 expect(later.events > 0, 'no event is told');
 const flown = await page.screenshot({encoding: 'base64'}).catch(() => null);  // the replay may have begun
 if (flown !== null) expect(flown !== before, 'the picture has not changed');
@@ -43,6 +53,9 @@ const result = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));
 expect(replay.score === result.score, `the score is ${replay.score}, and in result.json ${result.score}`);
 expect(replay.shown === result.score.toFixed(3), `the score shown is ${replay.shown}`);
 expect(result.score > 0, 'nothing was scored: that proves little');
+const lost = await lossesOf(page);
+expect(lost?.rows['could be had, by estimate'][0] === result.attainable.points && addsUp(lost) && lost.when.startsWith('at the end'),
+       `in the end it tells ${JSON.stringify(lost)} of losses`);
 const picture = await lookAt(browser, await page.screenshot({encoding: 'base64'}));
 expect(picture.colours > 100 && picture.largest < 0.9, `the page is blank: ${JSON.stringify(picture)}`);
 // Who has not shown the key sees nothing.

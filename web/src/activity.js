@@ -19,6 +19,8 @@ export function makeSayings() {
       said[u].t.push(t);
       said[u].what.push({mode: m, goal: g && {x: g[0] / 100, y: g[1] / 100, z: g[2] / 100}, waitsFor: w, noWay: n, since: t});
     },
+    /** All that a UAV said: {t, what}, in order; null: nothing. */
+    of: (index) => said[index] ?? null,
     /** What a UAV said last; null: nothing so far. */
     at(index, time) {
       const at = said[index] === undefined ? -1 : indexAt(said[index].t, time);

@@ -1,6 +1,7 @@
 // Charts over time: the score, and a lane for each UAV. They zoom together and share a cursor.
 import uPlot from 'uplot';
 
+import {legendOfModes, spansOf} from './modes.js';
 import {colour, data, element, growth, indexAt, moment, onTheme, replaceDrawing, shortName, trackColour} from './page.js';
 
 const sync = uPlot.sync('time');
@@ -253,8 +254,10 @@ function drawLane(u, uav, index, most) {
   const strip = each * 0.2;
   const top = bbox.top + each * index + each * 0.06;
   const end = uav.collided ?? data.end;
+  const said = data.saidBy?.(index) ?? null;
   drawSpans(u, [0, end], 'flying', top, strip);
-  drawSpans(u, uav.still, 'still', top, strip);
+  if (said === null) drawSpans(u, uav.still, 'still', top, strip);
+  else for (const {colour, flat} of spansOf(said, end)) drawSpans(u, flat, colour, top, strip);
   if (uav.collided != null) drawSpans(u, [end, data.end], 'bad', top, strip);
   drawSpans(u, uav.direct, 'direct', top + strip * 1.15, strip);
   drawSpans(u, uav.relayed, 'relayed', top + strip * 1.15, strip);
@@ -292,7 +295,7 @@ function drawLane(u, uav, index, most) {
   ctx.textAlign = 'right';
   ctx.fillStyle = colour('soft');
   ctx.font = `${9 * ratio}px system-ui, sans-serif`;
-  ['flying, still', 'station', 'captures', 'undelivered'].forEach(
+  [said === null ? 'flying, still' : 'what it does', 'station', 'captures', 'undelivered'].forEach(
       (row, i) => ctx.fillText(row, bbox.left - 6 * ratio, top + strip * (0.55 + 1.15 * i)));
 }
 
@@ -337,4 +340,5 @@ export function lanesChart(figure) {
       },
       columns,
   );
+  if (data.follows) figure.append(legendOfModes());
 }

@@ -21,6 +21,7 @@ class Seen {
   get distance() { return this.its_distance / 1000; }
 }
 
+const kRounding = 2e-6;  // of two numbers in 1/1000000
 const kNobody = {delivered: null, taken: null};
 /** Of two that are as good the earlier one counts, as with the station. */
 const better = (one, other) => (other === null || other === undefined ? one.its_q > 0 :
@@ -32,10 +33,11 @@ export function makeCustody(data) {
   const bestTaken = [], bestDelivered = [];  // by UAV, while a point's captures are looked through
   let stamp = 0;
   const open = new Map();      // by UAV and number: captures that were not delivered, with what they saw
-  const points = [];           // {seen, delivered, taken}: the best that was delivered, and the best that was taken
+  const points = [];           // {seen, delivered, taken, lost}: the best that was delivered, and the best that was taken
   let now = null;              // tally of what stands
   let changed = new Set();     // points whose state is another since somebody asked
   let past = {time: NaN, tally: null};
+  let estimate = null;         // by point: the best that could be had, and whether a UAV gets there
 
   const isVoid = ({uav}) => data.uavs[uav].voided !== Infinity;
 
@@ -43,8 +45,61 @@ export function makeCustody(data) {
     const state = () => ({points: 0, score: 0});
     return {
       states: {delivered: state(), carried: state(), poor: state(), unseen: state()},
-      blur: 0, resolution: 0, earned: 0, shares: data.uavs.map(() => 0),
+      blur: 0, resolution: 0, earned: 0, shares: data.uavs.map(() => 0), losses: new Map(),
     };
+  }
+
+  /** The best capture of a point by those whose captures do not count. */
+  function bestVoid(index, time) {
+    let best = null;
+    for (const one of points[index].seen)
+      if (data.uavs[one.of.uav].voided <= time && isVoid(one.of) && one.of.time <= time && better(one, best)) best = one;
+    return best;
+  }
+
+  /**
+   * What separates a point from what could be had of it, as result.json will have it (docs/results.md, Losses), as far as
+   * captures tell: what was in the picture too poorly counts as never in the picture.
+   * @returns null for a point that has lost nothing, and as long as nobody knows what could be had.
+   */
+  function lossOf(index, {delivered, taken}, time) {
+    if (estimate === null) return null;
+    const could = estimate.q[index];
+    const score = counts(delivered) ? delivered.q : 0;
+    const loss = could - score;
+    const isToBlame = (one) => counts(one) && one.q > score && (score === 0 || one.q - score >= could - one.q);
+    const worst = ({blur, res, distance}) => {
+      const tilt = distance > 0 ? res / distance : 0;
+      return distance <= tilt && distance <= blur ? 'distance' : tilt <= blur ? 'tilt' : 'blur';
+    };
+    const cause = () => {
+      if (loss < 0) return 'above_estimate';
+      if (isToBlame(taken)) return 'not_delivered';
+      if (anyVoid() && isToBlame(bestVoid(index, time))) return 'voided';
+      if (score > 0) return worst(delivered);
+      return estimate.beyond.has(index) ? 'out_of_reach' : 'never_in_picture';
+    };
+    return Math.abs(loss) < kRounding ? null : {cause: cause(), loss};
+  }
+  const anyVoid = () => data.uavs.some(({voided}) => voided !== Infinity);
+
+  /** What could be had, once that is known. */
+  function expect({q, no}) {
+    let index = 0;
+    estimate = {q: Float64Array.from(q, (value) => value / 1000000), beyond: new Set(no.map((more) => (index += more)))};
+    estimate.points = estimate.q.reduce((sum, value) => sum + (value > 0 ? 1 : 0), 0);
+    estimate.score = estimate.q.reduce((sum, value) => sum + value, 0);
+    past = {time: NaN, tally: null};
+    recount();
+  }
+
+  /** Adds what a point has lost to a tally, or takes it off. */
+  function lose(tally, lost, by) {
+    if (lost === null) return;
+    const sum = tally.losses.get(lost.cause) ?? {points: 0, score: 0};
+    sum.points += by;
+    sum.score += by * lost.loss;
+    tally.losses.set(lost.cause, sum);
   }
 
   /** Adds a point to a tally, or takes it off. */
@@ -64,15 +119,26 @@ export function makeCustody(data) {
   function set(index, change) {
     const point = points[index];
     count(now, point, -1);
+    lose(now, point.lost, -1);
     change(point);
+    point.lost = lossOf(index, point, Infinity);
     count(now, point, 1);
+    lose(now, point.lost, 1);
     changed.add(index);
   }
 
   function beginPoints(number) {
-    for (let i = 0; i < number; ++i) points.push({seen: [], delivered: null, taken: null});
+    for (let i = 0; i < number; ++i) points.push({seen: [], delivered: null, taken: null, lost: null});
+    recount();
+  }
+
+  function recount() {
     now = emptyTally();
-    for (const point of points) count(now, point, 1);
+    points.forEach((point, index) => {
+      point.lost = lossOf(index, point, Infinity);
+      count(now, point, 1);
+      lose(now, point.lost, 1);
+    });
   }
 
   /**
@@ -148,12 +214,11 @@ export function makeCustody(data) {
 
   /** A UAV's captures do not count from now on: what stands is looked up anew. */
   function lookUpAll() {
-    now = emptyTally();
     points.forEach((point, index) => {
       Object.assign(point, lookUp(index, Infinity));
-      count(now, point, 1);
       changed.add(index);
     });
+    recount();
   }
 
   function lookUp(index, time) {
@@ -180,7 +245,11 @@ export function makeCustody(data) {
     if (time >= data.end) return now;
     if (past.time !== time) {
       const tally = emptyTally();
-      for (let index = 0; index < points.length; ++index) count(tally, custody(index, time), 1);
+      for (let index = 0; index < points.length; ++index) {
+        const point = custody(index, time);
+        count(tally, point, 1);
+        lose(tally, lossOf(index, point, time), 1);
+      }
       past = {time, tally};
     }
     return past.tally;
@@ -196,5 +265,8 @@ export function makeCustody(data) {
   /** For who watches over the page's memory. */
   const kept = () => points.reduce((sum, {seen}) => sum + seen.length, 0);
 
-  return {beginPoints, take, deliver, lookUpAll, custody, tallyAt, changedPoints, kept};
+  /** What could be had in all, {points, score}; null: not known. */
+  const expected = () => estimate;
+
+  return {beginPoints, expect, expected, take, deliver, lookUpAll, custody, tallyAt, changedPoints, kept};
 }

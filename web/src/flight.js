@@ -25,7 +25,7 @@ export function makeFlight(data) {
   const events = [];
   const failures = [];               // faults, as hand_faults.js has them
   const sayings = makeSayings();
-  const {beginPoints, take: takeCapture, deliver, lookUpAll, custody, tallyAt, changedPoints, kept} = makeCustody(data);
+  const {beginPoints, expect, expected, take: takeCapture, deliver, lookUpAll, custody, tallyAt, changedPoints, kept} = makeCustody(data);
   const saidAt = sayings.at;
 
   /** Fills what scene and charts read with a flight of which nothing is known but its scene. */
@@ -54,6 +54,7 @@ export function makeFlight(data) {
     data.linksAt = linksAt;
     data.poseAt = poseAt;
     data.saidAt = saidAt;
+    data.saidBy = sayings.of;
     data.failures = failures;
   }
 
@@ -97,6 +98,7 @@ export function makeFlight(data) {
   const take = {
     activity: sayings.take,
     fault: (line) => tellFault(failures, line),
+    estimate: expect,
     pose({t, u}) {
       u.forEach(([x, y, z, yaw, pitch, alive], i) => {
         const uav = data.uavs[i];
@@ -248,6 +250,14 @@ export function makeFlight(data) {
     return {states, blur: points > 0 ? blur / points : 0, resolution: points > 0 ? resolution / points : 0};
   }
 
+  /** Where the points went: what could be had, and by cause what of it is lost. null: nobody knows what could be had. */
+  function lossesAt(time) {
+    const could = expected();
+    if (could === null) return null;
+    const {losses, states} = tallyAt(time);
+    return {could, losses, delivered: states.delivered};
+  }
+
   /** What a UAV does, in words: its own, else from its motion. */
   function doing(index, time) {
     const uav = data.uavs[index];
@@ -265,6 +275,6 @@ export function makeFlight(data) {
   }
 
   return {
-    data, events, failures, begin, tell, stand, custody, linksAt, linkOf, scoreAt, poseAt, saidAt, sharesAt, pointsAt, doing, kept,
+    data, events, failures, begin, tell, stand, custody, linksAt, linkOf, scoreAt, poseAt, saidAt, saidBy: sayings.of, sharesAt, pointsAt, lossesAt, doing, kept,
   };
 }

@@ -28,6 +28,7 @@ export const doing = ofUav('doing');
 export const linkOf = ofUav('linkOf');
 export const poseAt = ofUav('poseAt');
 const saidAt = ofUav('saidAt');
+const saidBy = ofUav('saidBy');
 
 /** By UAV of the page. */
 export const sharesAt = (time) => flights.flatMap((flight) => flight.sharesAt(time));
@@ -73,6 +74,7 @@ function beginPair({other, ...first}) {
     custody: (point, time) => flights[drawn.points].custody(point, time),
     linksAt: pairedLinksAt,
     saidAt: (uav, ...rest) => (drawn.runs[data.uavs[uav].run] ? saidAt(uav, ...rest) : null),
+    saidBy,
     failures: flights[0].failures,
     poseAt: (uav, ...rest) => (drawn.runs[data.uavs[uav].run] ? poseAt(uav, ...rest) : null),
   });

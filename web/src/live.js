@@ -6,12 +6,13 @@ import {connect} from './connection.js';
 import {addFigures} from './figures.js';
 import filmStyle from './film.css';
 import {offerFilm} from './film.js';
-import {begin, flights, isPair, kRuns, stand, tell} from './flights.js';
+import {begin, flights, isPair, stand, tell} from './flights.js';
 import {connectHand, faultsPanel, uavFaultsPanel, useHand} from './hand_faults.js';
 import {handPanel} from './hand_flight.js';
 import {tellKept} from './kept.js';
 import style from './live.css';
 import {lossesPanel} from './losses.js';
+import {otherModes} from './modes.js';
 import {data, element, growth, moment} from './page.js';
 import pairStyle from './pair.css';
 import {completePair, pairFigures, pairNote, showPairHead} from './pair.js';
@@ -175,8 +176,9 @@ async function show(order) {
   places.side.prepend(...(hand ? [hand.element] : []), panels[0].element, panels[4].element, fleet.element);
   const [morePoints, moreLinks] = isPair() ? [pointsPanel(null, 1), linksPanel(1)] : [];
   if (isPair()) panels.push(morePoints, moreLinks);
-  const losses = flights.map(({data: run}, k) => lossesPanel(run, isPair() ? `Where the points went: ${kRuns[k]}` : undefined));
-  places.side.append(panels[1].element, ...(isPair() ? [morePoints.element] : []), ...losses.filter((one) => one !== null));
+  const losses = flights.map(lossesPanel);
+  panels.push(...losses);
+  places.side.append(panels[1].element, ...(isPair() ? [morePoints.element] : []), ...losses.map((one) => one.element));
   places.couple.append(panels[2].element, ...(isPair() ? [moreLinks.element] : []), panels[5].element, panels[3].element);
   const showPanels = () => {
     fleet.show(chosen.uav);
@@ -200,6 +202,8 @@ async function show(order) {
   scene = sceneView(places.scene);
   addFigures(() => ({
     end: data.end, shown: moment.seconds, points: data.points.length / 9, capturesKept: flights.reduce((sum, flight) => sum + flight.kept(), 0),
+    otherModes: data.uavs.flatMap((_, uav) => otherModes(data.saidBy(uav))),
+    losses: Object.fromEntries(flights[0].lossesAt(Infinity)?.losses ?? []),
     trailSegments: scene?.trails.reduce((sum, {ends}) => sum + ends.length, 0) ?? 0,
   }));
   scoreChart(places.score);

@@ -1,24 +1,54 @@
-// Where the points of a finished run went: from what could be had to what was delivered, cause by cause (docs/results.md).
-import {data, element} from './page.js';
+// Where the points went: from what could be had to what was delivered, cause by cause (docs/results.md), at the moment
+// that is shown. At the end of a run it is what result.json says.
+import {isPair, kRuns} from './flights.js';
+import {element, moment} from './page.js';
 
-const score = (value) => value.toFixed(1);
+const score = (value) => (value === 0 ? 0 : value).toFixed(1);
 
-/** @param of  a run's scene. @returns the panel; null where the run does not tell. */
-export function lossesPanel(of = data, title = 'Where the points went') {
-  if (!of.losses || typeof of.attainable?.score !== 'number') return null;
-  const row = (colour, text, points, value, kind = '') => {
+/** Points and score of each cause at the moment. */
+function lostBy({lossesAt, data: run}) {
+  const final = run.losses && typeof run.attainable?.score === 'number' && moment.seconds >= run.end;
+  if (final) {
+    return {could: run.attainable, of: (key) => run.losses[key], delivered: {points: run.detected, score: run.score}};
+  }
+  const so = lossesAt(moment.seconds);
+  return so && {could: so.could, of: (key) => so.losses.get(key), delivered: so.delivered};
+}
+
+/** @param flight  of which. @param run  of two, which */
+export function lossesPanel(flight, run = 0) {
+  const {data} = flight;
+  const row = (colour, text, kind = '') => {
     const swatch = element('span', {class: 'swatch', 'aria-hidden': 'true'});
     swatch.style.background = `var(--${colour})`;
-    const cell = (content) => element('td', {}, content);
-    return element('tr', kind ? {class: kind} : {}, element('th', {scope: 'row'}, ...(colour ? [swatch] : []), text), cell(points), cell(value));
+    const cells = [element('td'), element('td')];
+    return {cells, row: element('tr', kind ? {class: kind} : {}, element('th', {scope: 'row'}, ...(colour ? [swatch] : []), text), ...cells)};
   };
-  const lost = of.cause_keys.flatMap((key, i) => {
-    const sum = of.losses[key];
-    return sum?.points > 0 ? [row(`k${i}`, of.causes[i], String(sum.points), score(-sum.score))] : [];
-  });
-  const rows = [row('', 'could be had, by estimate', String(of.attainable.points), score(of.attainable.score), 'sum'), ...lost,
-                row('', 'delivered', String(of.detected), score(of.score), 'sum')];
-  const head = element('tr', {}, ...['at the end of the run', 'points', 'score'].map((name) => element('th', {scope: 'col'}, name)));
-  const table = element('table', {class: 'states'}, element('thead', {}, head), element('tbody', {}, ...rows));
-  return element('section', {class: 'panel', id: 'losses'}, element('h2', {}, title), element('div', {class: 'wide'}, table));
+  const fill = ({cells}, points, value) => {
+    cells[0].textContent = String(points);
+    cells[1].textContent = score(value);
+  };
+  const could = row('', 'could be had, by estimate', 'sum'), delivered = row('', 'delivered', 'sum');
+  const causes = data.cause_keys.map((key, i) => ({key, ...row(`k${i}`, data.causes[i])}));
+  const when = element('th', {scope: 'col'}, '');
+  const head = element('tr', {}, when, ...['points', 'score'].map((name) => element('th', {scope: 'col'}, name)));
+  const body = element('tbody', {}, could.row, ...causes.map((cause) => cause.row), delivered.row);
+  const title = isPair() ? `Where the points went: ${kRuns[run]}` : 'Where the points went';
+  const panel = element('section', {class: 'panel', id: run === 0 ? 'losses' : 'losses-B'}, element('h2', {}, title),
+                        element('div', {class: 'wide'}, element('table', {class: 'states'}, element('thead', {}, head), body)));
+  const show = () => {
+    const lost = lostBy(flight);
+    panel.hidden = !lost;
+    if (!lost) return;
+    when.textContent = moment.seconds < data.end ? `at ${moment.seconds.toFixed(1)} s` :
+        data.mode === 'replay' ? 'at the end of the run' : 'so far';
+    fill(could, lost.could.points, lost.could.score);
+    for (const cause of causes) {
+      const sum = lost.of(cause.key);
+      cause.row.hidden = !(sum?.points > 0);
+      if (sum) fill(cause, sum.points, -sum.score);
+    }
+    fill(delivered, lost.delivered.points, lost.delivered.score);
+  };
+  return {element: panel, show};
 }

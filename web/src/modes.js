@@ -1,0 +1,48 @@
+// What UAVs say that they do, in kinds with a colour each, for the lanes. The words are those of the on-board software
+// (docs/view.md); a program of a user's own may have others.
+import {element} from './page.js';
+
+const kOther = {colour: 'q2', text: 'other', begins: ['']};
+const kKinds = [
+  {colour: 'q0', text: 'on the ground, takes off', begins: ['on the ground', 'takes off', 'waits to be shown its way up']},
+  {colour: 'c0', text: 'flies to goals, rests there', begins: ['flies to a goal', 'flies along', 'flies to a set-point', 'rests at its goal', 'holds its place', 'sends commands']},
+  {colour: 'c3', text: 'shows a mate its way up', begins: ['shows ']},
+  {colour: 'c4', text: 'has no goal or way, recovers', begins: ['has no goal', 'looks for a way', 'looks around', 'flies nearer', 'tries from elsewhere', 'climbs to see more', 'flies back']},
+  {colour: 'c1', text: 'stands', begins: ['stands: ']},
+  {colour: 'c2', text: 'brings captures home', begins: ['returns', 'delivers', 'waits for a link', 'stays where']},
+  kOther,
+];
+
+const kindOf = (mode) => kKinds.find(({begins}) => begins.some((begin) => mode.startsWith(begin)));
+
+/**
+ * When a UAV did what.
+ * @param said  times and sayings, in order. @param end  of the time
+ * @returns by kind: its colour, and begin and end of each of its spans, one after the other.
+ */
+export function spansOf({t, what}, end) {
+  const spans = new Map();
+  let last = null;
+  for (let i = 0; i < t.length; ++i) {
+    const kind = kindOf(what[i].mode);
+    const until = i + 1 < t.length ? t[i + 1] : end;
+    if (!spans.has(kind)) spans.set(kind, []);
+    const those = spans.get(kind);
+    if (kind === last) those[those.length - 1] = until;
+    else those.push(t[i], until);
+    last = kind;
+  }
+  return [...spans].map(([{colour}, flat]) => ({colour, flat}));
+}
+
+/** Words of a UAV's that are of no kind. */
+export const otherModes = (said) => [...new Set((said?.what ?? []).map(({mode}) => mode))].filter((mode) => kindOf(mode) === kOther);
+
+/** What the colours mean. */
+export function legendOfModes() {
+  return element('ul', {class: 'legend', id: 'modes'}, ...kKinds.map(({colour, text}) => {
+    const swatch = element('span', {class: 'swatch', 'aria-hidden': 'true'});
+    swatch.style.background = `var(--${colour})`;
+    return element('li', {}, swatch, text);
+  }));
+}
