@@ -13,12 +13,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Between two sets of points, and how many one has, of all UAVs: with 8 bytes a point that is 100 kB/s at most.
-constexpr milliseconds kPointsPeriod{200};
-constexpr std::size_t kMostPoints = 2'500;
-/// Between two maps of a UAV; after a large one more, so that no UAV's take more than this.
+/// Between two maps of a UAV; after a large one more, so that no UAV's take more than the budget has.
 constexpr milliseconds kShownMapPeriod{1000};
-constexpr std::size_t kMapBytesPerSecond = 80'000;
 /// After so long without a writer of its map, a UAV has none.
 constexpr milliseconds kMapPatience{3000};
 constexpr const char* kFlightMap = "what it flies on";
@@ -37,6 +33,7 @@ LookNode::LookNode(const Scenario& scenario, const Simulation& simulation, bus::
     : scenario_(scenario),
       simulation_(simulation),
       uavs_(uavs),
+      budget_(view::look_budget(scenario.fleet.size())),
       clouds_(world.create_writer(bus::spec(topics::view_cloud()))) {}
 
 Json LookNode::offer() const {
@@ -94,9 +91,9 @@ void LookNode::tell(Clock::time_point now) {
 void LookNode::tell_points(Clock::time_point now) {
   for (auto& [uav, lidar] : lidars_) {
     if (lidar.points.empty()) continue;
-    const view::PointsStep step{seconds(lidar.tick), lidar.points.take(kMostPoints / lidars_.size())};
+    const view::PointsStep step{seconds(lidar.tick), lidar.points.take(budget_.points / lidars_.size())};
     write(view::lidar_text(scenario_.fleet[uav].name, std::span(&step, 1)));
-    points_due_ = now + kPointsPeriod;
+    points_due_ = now + view::LookBudget::kPointsPeriod;
   }
 }
 
@@ -108,7 +105,7 @@ void LookNode::tell_map(UavIndex uav, Map& map, Clock::time_point now) {
   }
   if (payload) {
     const std::size_t size = write(shown(uav, *payload));
-    map.due = now + std::max(kShownMapPeriod, milliseconds(1000 * size / kMapBytesPerSecond));
+    map.due = now + std::max(kShownMapPeriod, milliseconds(1000 * size / budget_.map_bytes_per_s));
     map.told = true;
   } else if (!map.told && now >= map.since + kMapPatience && map.reader->matched().empty()) {
     write(view::no_map_text(scenario_.fleet[uav].name, seconds(simulation_.tick()), "its program shows none"));

@@ -1,6 +1,6 @@
 // What somebody looks at on the page of a watched run, beside what everybody is told: LiDAR points of some UAVs, and
 // maps. Points come from the simulation, maps from the UAVs' own domains, which the server has joined: the station
-// joins none of these. Both go to the station as the newest that there is, at a bounded rate.
+// joins none of these. Both go to the station as the newest that there is, at a bounded rate (view::look_budget()).
 //
 // Nobody in the fleet hears of it, and it is in no count. Wall time decides what is shown and when, and nothing else: a
 // scan that is computed for the page alone changes nothing (Simulation::want_scans()).
@@ -70,6 +70,7 @@ class LookNode {
   const Scenario& scenario_;
   const Simulation& simulation_;
   const std::span<const std::unique_ptr<bus::Participant>> uavs_;
+  const view::LookBudget budget_;
   std::unique_ptr<bus::Writer> clouds_;
   std::map<UavIndex, Lidar> lidars_;
   std::map<UavIndex, Map> maps_;

@@ -1,5 +1,7 @@
 #include "view/look_order.hpp"
 
+#include <algorithm>
+
 #include "process/json_text.hpp"
 
 namespace skein::view {
@@ -23,6 +25,13 @@ bool take_names(const Json& value, std::vector<std::string>& names) {
 }
 
 }  // namespace
+
+LookBudget look_budget(std::size_t uavs) {
+  constexpr std::size_t kPoints = 2'500, kMapBytes_per_s = 80'000;  // with 8 bytes a point 180 kB/s in all
+  constexpr std::size_t kSmallFleet = 5;
+  const std::size_t size = std::max(uavs, kSmallFleet);
+  return {kPoints * kSmallFleet / size, kMapBytes_per_s * kSmallFleet / size};
+}
 
 std::string text_of(const LookOrder& order) {
   Json json = {{"do", "look"}};

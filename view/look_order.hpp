@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,15 @@ namespace skein::view {
 
 /// After so long without asking again, of wall time, nobody looks any more. Pages ask three times as often.
 inline constexpr std::chrono::seconds kLookLease{6};
+
+/// How much of it is told a second at most, beside what everybody is told: together less than 300 kB for up to 20 UAVs.
+struct LookBudget {
+  static constexpr std::chrono::milliseconds kPointsPeriod{200};  ///< between two sets of points
+  std::size_t points = 0;                                         ///< of all UAVs in one of these
+  std::size_t map_bytes_per_s = 0;                                ///< of a UAV's maps
+};
+/// What everybody is told grows with the fleet, so that large ones have less of this.
+LookBudget look_budget(std::size_t uavs);
 
 struct LookOrder {
   std::vector<std::string> lidar = {};  ///< UAVs

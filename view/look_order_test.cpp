@@ -34,6 +34,17 @@ TEST(LookOrders, AreNothingElse) {
   EXPECT_FALSE(read_look_order(R"({"do":"look")" + std::string(1000, ' ') + "}")) << "longer than any order";
 }
 
+// 300 kB a second in all; everybody is told some 12 kB for each UAV at 8 times real time (tests/view/figures.mjs).
+TEST(LookBudget, LeavesRoomForTheFleet) {
+  for (std::size_t uavs = 1; uavs <= 20; ++uavs) {
+    const LookBudget budget = look_budget(uavs);
+    const std::size_t points_per_s = budget.points * (std::chrono::seconds(1) / LookBudget::kPointsPeriod);
+    EXPECT_LE(8 * points_per_s + budget.map_bytes_per_s + 12'000 * uavs, 300'000U) << uavs;
+    EXPECT_GE(budget.points, 500U);
+  }
+  EXPECT_GT(look_budget(100).points, 100U);
+}
+
 TEST(LookOrders, NameWhatTheyAskFor) {
   EXPECT_EQ(clouds_of({{"a", "b"}, "c"}), (std::vector<std::string>{"lidar a", "lidar b", "map c"}));
   EXPECT_TRUE(clouds_of({}).empty());

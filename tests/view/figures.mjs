@@ -7,7 +7,8 @@ import {openRun, sleep} from './page.mjs';
 
 const kSpeed = 8;               // simulated seconds a second
 const kStates = 1000 / 80;      // a second that the server sends at most (kPause of view/server.cpp)
-const kMostDrawCalls = 25;     // 50 are asked for; layers on demand may take as many again
+const kPointSets = 5, kMapBytes = 20000;  // a second at most, for 20 UAVs (view::look_budget())
+const kMostDrawCalls = 25;     // 50 are asked for
 const kMostSent = 300000;       // bytes a second
 const kLeastSent = 60000;       // less would not be the flight that was meant
 const kMostGrowth = 1.4;        // of memory from ten minutes to an hour; 2.2 if nothing is thinned
@@ -36,26 +37,42 @@ async function memory() {
   return usedSize + backingStorageSize;
 }
 
+/** All that may be shown is: points of all UAVs, and a map. */
+async function showAll() {
+  await page.select('#lidar-of', 'all');
+  await page.select('#map-of', 'uav00');
+}
+
 /** What is sent in a second, of a minute of the flight: its lines come by simulated time, states by that of the server. */
 async function checkSent(from, until) {
   await flyTo(from);
   let [lines, largestState, messages] = [0, 0, 0];
+  const largest = new Map();  // by cloud
   devtools.on('Network.webSocketFrameReceived', ({response: {payloadData}}) => {
-    const {state} = JSON.parse(payloadData);
+    const {state, clouds = []} = JSON.parse(payloadData);
     const size = state === undefined ? 0 : JSON.stringify(state).length;
     lines += Buffer.byteLength(payloadData) - size;
     largestState = Math.max(largestState, size);
+    for (const cloud of clouds) {
+      const bytes = JSON.stringify(cloud).length;
+      lines -= bytes;
+      largest.set(cloud.n, Math.max(largest.get(cloud.n) ?? 0, bytes));
+    }
     ++messages;
   });
   await devtools.send('Network.enable');
   await flyTo(until);
   await devtools.send('Network.disable');
-  const sent = (kSpeed * lines) / (until - from) + kStates * largestState;
-  note({sent, lines, largestState, messages});
+  const points = [...largest].reduce((sum, [name, bytes]) => sum + (name.startsWith('lidar') ? bytes : 0), 0);
+  expect(points > 5000 && largest.get('map uav00') > 5000, `points and map are not told: ${JSON.stringify([...largest])}`);
+  const onDemand = kPointSets * points + kMapBytes;
+  const sent = (kSpeed * lines) / (until - from) + kStates * largestState + onDemand;
+  note({sent, lines, largestState, messages, points, map: largest.get('map uav00')});
   expect(sent <= kMostSent, `${Math.round(sent)} bytes are sent in a second at ${kSpeed} times real time`);
   expect(sent >= kLeastSent, `only ${Math.round(sent)} bytes are sent in a second: that proves little`);
 }
 
+await showAll();
 await checkSent(20, 80);
 const after = {tenMinutes: await flyTo(600)};
 after.tenMinutes.memory = await memory();

@@ -3,11 +3,15 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "core/camera_quality.hpp"
 #include "process/json_text.hpp"
+#include "view/cube_runs.hpp"
+#include "view/look_order.hpp"
+#include "view/scan_points.hpp"
 
 namespace skein::test {
 namespace {
@@ -21,7 +25,9 @@ constexpr double kStay_s = 150.0, kMove_s = 12.0;
 constexpr double kRadio_m = 45.0;
 constexpr double kWindow_rad = 0.30, kWindow_m = 2.2;  ///< half of what a camera sees of a tower
 constexpr std::uint64_t kCapturePeriod = 3, kPosePeriod = 10, kLinksPeriod = 5;  ///< in exchanges
-constexpr std::size_t kDeliveries = 4;                                           ///< of a UAV in an exchange
+constexpr std::uint64_t kActivityPeriod = 40;
+constexpr std::uint64_t kCloudPeriod = 32, kMapPeriod = 1600;  ///< at 8 times real time 0.2 and 10 s
+constexpr std::size_t kDeliveries = 4;                         ///< of a UAV in an exchange
 const Vector3d kStation(0.0, -34.0, 0.3);
 
 Vector3d axis_of(std::size_t tower) {
@@ -78,6 +84,7 @@ MadeUpFlight::MadeUpFlight(MadeUpSize size, view::Feed& feed) : size_(size), fee
   scene["scenario"] = "made up";
   scene["title"] = "made up";
   scene["duration"] = 3600.0;
+  scene["clouds"] = {{"lidar", run.uavs}, {"maps", run.uavs}};
   feed_.set_scene(scene.dump());
   for (const std::string& name : run.uavs) feed_.add_line(view::event_line(0.0, "joined", name, ""));
   move();
@@ -87,6 +94,8 @@ MadeUpFlight::MadeUpFlight(MadeUpSize size, view::Feed& feed) : size_(size), fee
     for (const Uav& uav : fleet_) shown.push_back(uav.shown);
     return shown;
   }()));
+  feed_.add_line(
+      view::estimate_line(0.0, std::vector(points_.size(), 1.0F), std::vector<std::uint8_t>(points_.size(), 1)));
   tell_state();
 }
 
@@ -179,10 +188,51 @@ void MadeUpFlight::deliver(std::size_t index) {
 
 void MadeUpFlight::tell_state() {
   std::vector<view::ShownUav> shown;
-  for (const Uav& uav : fleet_) shown.push_back(uav.shown);
-  feed_.set_state(
-      fmt::format(R"({{"t":{:.3f},"tick":{},"mission":{:.3f},"phase":"flies","paused":false,"speed":"8","u":{}}})",
-                  time_s(), step_ * 20, time_s(), view::poses_json(shown)));
+  std::vector<std::optional<view::ShownNumbers>> numbers;
+  for (const Uav& uav : fleet_) {
+    shown.push_back(uav.shown);
+    numbers.push_back(view::ShownNumbers{1.5, static_cast<std::uint32_t>(uav.waiting.size()), 0.0125});
+  }
+  feed_.set_state(fmt::format(
+      R"({{"t":{:.3f},"tick":{},"mission":{:.3f},"phase":"flies","paused":false,"speed":"8","u":{},"a":{}}})", time_s(),
+      step_ * 20, time_s(), view::poses_json(shown), view::numbers_json(numbers)));
+}
+
+/// Each says every two seconds that it does something else.
+void MadeUpFlight::tell_activities() {
+  static constexpr std::array kModes = {"flies to a goal", "rests at its goal", "looks for a way", "delivers"};
+  for (std::size_t i = 0; i < fleet_.size(); ++i) {
+    const std::uint64_t turn = step_ + 7 * i;
+    if (turn % kActivityPeriod != 0) continue;
+    Activity activity{.mode = kModes[turn / kActivityPeriod % kModes.size()]};
+    activity.goal_W = fleet_[i].shown.body.p_WB + Vector3d(6.0, 0.0, 2.0);
+    if (turn / kActivityPeriod % 3 == 0) activity.waits_for = fmt::format("uav{:02}", (i + 1) % fleet_.size());
+    feed_.add_line(view::activity_line(time_s(), i, activity));
+  }
+}
+
+/// As much as the server would tell of points that the scans meet, and of maps, to who asks for them.
+void MadeUpFlight::tell_clouds() {
+  const view::LookBudget budget = view::look_budget(fleet_.size());
+  const std::size_t each = budget.points / fleet_.size();
+  for (std::size_t i = 0; i < fleet_.size(); ++i) {
+    const std::string name = fmt::format("uav{:02}", i);
+    view::PointsStep step{time_s(), {}};
+    for (std::size_t k = 0; k < each; ++k) {
+      const auto drawn = static_cast<std::size_t>(noise(i, k, step_) * static_cast<double>(points_.size()));
+      step.points_W.push_back(points_[drawn].cast<float>());
+    }
+    feed_.set_cloud(view::lidar_cloud(name), view::lidar_text(name, std::span(&step, 1)));
+    if (step_ % kMapPeriod != 0) continue;
+    view::ShownMap map;
+    for (const Vector3d& point : points_) {
+      const Vector3d cell = point / map.cell_m;
+      map.occupied.push_back({static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z()), 1});
+    }
+    map.occupied = view::joined_runs(std::move(map.occupied));
+    for (int y = -60; y < 60; ++y) map.free.push_back({-60, y, 10, 120});
+    feed_.set_cloud(view::map_cloud(name), view::map_text(name, time_s(), map, "what it flies on"));
+  }
 }
 
 void MadeUpFlight::step() {
@@ -201,6 +251,8 @@ void MadeUpFlight::step() {
   }
   if (!deliveries_.empty()) feed_.add_line(view::delivered_line(time_s(), deliveries_));
   deliveries_.clear();
+  tell_activities();
+  if (step_ % kCloudPeriod == 0) tell_clouds();
   if (score_ != before) feed_.add_line(view::score_line(time_s(), scored_, score_));
   tell_state();
 }

@@ -50,6 +50,8 @@ class MadeUpFlight {
   void tell_links();
   void deliver(std::size_t uav);
   void tell_state();
+  void tell_activities();
+  void tell_clouds();
 
   const MadeUpSize size_;
   view::Feed& feed_;

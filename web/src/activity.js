@@ -2,6 +2,7 @@
 // into the scene as a line to its goal. A UAV that says nothing has none; then flight.js goes by its motion.
 import * as THREE from 'three';
 
+import {kMostSayings, thin} from './history.js';
 import {Segments} from './overlays.js';
 import {colour, data, element, indexAt, moment, trackColour} from './page.js';
 
@@ -18,6 +19,7 @@ export function makeSayings() {
       while (said.length <= u) said.push({t: [], what: []});
       said[u].t.push(t);
       said[u].what.push({mode: m, goal: g && {x: g[0] / 100, y: g[1] / 100, z: g[2] / 100}, waitsFor: w, noWay: n, since: t});
+      thin([said[u].t, said[u].what], kMostSayings);
     },
     /** All that a UAV said: {t, what}, in order; null: nothing. */
     of: (index) => said[index] ?? null,

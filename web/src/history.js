@@ -8,6 +8,8 @@ export const kMostPoses = 1600;
 export const kMostSteps = 4000;
 /** Of the radio links of all. */
 export const kMostLinks = 2400;
+/** What a UAV said that it does. */
+export const kMostSayings = 600;
 /** Numbers in a list of spans, two each. */
 export const kMostSpans = 1000;
 export const kMostEvents = 2000;

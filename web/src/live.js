@@ -201,7 +201,7 @@ async function show(order) {
   });
   scene = sceneView(places.scene);
   addFigures(() => ({
-    end: data.end, shown: moment.seconds, points: data.points.length / 9, capturesKept: flights.reduce((sum, flight) => sum + flight.kept(), 0),
+    end: data.end, shown: scene?.shown ?? moment.seconds, points: data.points.length / 9, capturesKept: flights.reduce((sum, flight) => sum + flight.kept(), 0),
     otherModes: data.uavs.flatMap((_, uav) => otherModes(data.saidBy(uav))),
     losses: Object.fromEntries(flights[0].lossesAt(Infinity)?.losses ?? []),
     trailSegments: scene?.trails.reduce((sum, {ends}) => sum + ends.length, 0) ?? 0,

@@ -237,6 +237,7 @@ class Scene {
     this.clouds?.show(seconds);
     this.ride(seconds);
     this.draw();
+    this.shown = seconds;
   }
 
   /** A UAV that the view goes with; -1: none. @param through  looks through its camera. */
