@@ -69,7 +69,8 @@ struct RunOptions {
   std::optional<double> agent_timeout_s;  ///< of wall time, for a program's answer, instead of a minute
   std::optional<std::filesystem::path> out;
   bool force = false;
-  std::string record = "run";  ///< how much goes into the recording: none, messages, run, all or clouds
+  std::string record = "run";         ///< how much goes into the recording: none, messages, run, all or clouds
+  std::optional<double> keep_maps_s;  ///< UAVs keep their maps in time, a snapshot every so many simulated seconds
   std::optional<ReplayOf> replay;
   ViewOptions view;
   bool check = true;       ///< ask the programs first whether they can fly this
@@ -104,6 +105,7 @@ struct ReplayOptions {
   std::optional<std::filesystem::path> exported;  ///< .html or .mp4, instead of a page that is served
   bool force = false;                             ///< overwrites it
   FilmOptions film;
+  bool maps = false;  ///< compute the UAVs' maps in time first, where the folder has none
 };
 
 /// `skein hunt`: a search for faults that break a property.

@@ -13,6 +13,7 @@ namespace skein::cli {
 namespace {
 
 constexpr double kLongestS = 36000.0, kLeastFactor = 0.001, kGreatestFactor = 1000.0;
+constexpr double kLeastMapsPeriodS = 1.0, kGreatestMapsPeriodS = 3600.0;
 
 }  // namespace
 
@@ -36,6 +37,12 @@ std::string check_seconds(const std::string& text) {
   const auto value = parse_number(text);
   const bool good = value && *value > 0.0 && *value <= kLongestS;
   return good ? "" : "'" + text + "' must be a number of seconds above 0 and at most 36000";
+}
+
+std::string check_maps_period(const std::string& text) {
+  const auto value = parse_number(text);
+  const bool good = value && *value >= kLeastMapsPeriodS && *value <= kGreatestMapsPeriodS;
+  return good ? "" : "'" + text + "' must be a number of seconds from 1 to 3600";
 }
 
 void refuse_empty_values(const CLI::App& app) {

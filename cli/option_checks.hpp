@@ -16,6 +16,8 @@ std::string check_clock(const std::string& text);
 std::string check_seed(const std::string& text);
 /// A decimal number of seconds, above 0 and at most ten hours, the longest mission: 1e18 would overflow the ticks.
 std::string check_seconds(const std::string& text);
+/// A decimal number of seconds within [1, 3600].
+std::string check_maps_period(const std::string& text);
 
 /// An empty text is never meant: it is a variable of a script that is not set.
 /// @throws InputError that names the first option of a command that was given with one.

@@ -78,6 +78,12 @@ void add_result_options(CLI::App* command, RunOptions& run) {
                       "Results folder (default runs/<scenario>-<planner>-<seed>, or with -2, -3... if that is taken)");
   command->add_flag("--force", run.force, "Overwrite an existing result");
   add_record(*command, run.record);
+  const std::string keep_maps =
+      "Keep each UAV's map in time, for the replay: in maps-UAV.mcap, a snapshot every 10 simulated seconds; =SECONDS: "
+      "every so many, from 1 to 3600";
+  command->add_flag("--keep-maps{10}", keep_maps)
+      ->check(CLI::Validator(check_maps_period, ""))
+      ->each([&run](const std::string& seconds) { run.keep_maps_s = parse_number(seconds); });
   command->add_flag("--no-oracle{false}", run.attainable, "Do not ask after the run what could have been had");
   command->add_flag("--no-report{false}", run.report, "Make no report.html");
 }

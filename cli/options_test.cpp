@@ -171,27 +171,6 @@ TEST(Options, OtherCommands) {
   EXPECT_EQ(parse<HelpText>({"--version"}).text.find("skein "), 0u);
 }
 
-TEST(Options, ReplayReadsAll) {
-  const auto served = parse<ReplayOptions>({"replay", "a", "b", "--view", "8080"});
-  EXPECT_TRUE(served.run == "a" && served.other == "b" && served.at == "8080");
-  EXPECT_FALSE(served.exported || served.force);
-  const auto film = parse<ReplayOptions>({"replay", "a", "--export", "a.mp4", "--force", "--fps", "10", "--seconds",
-                                          "12.5", "--from-address", "#uav=changi"});
-  EXPECT_TRUE(film.exported == "a.mp4" && film.force && !film.other && !film.film.speed);
-  EXPECT_TRUE(film.film.fps == 10 && film.film.seconds == 12.5);
-  EXPECT_EQ(film.film.address, "#uav=changi");
-  EXPECT_EQ(parse<ReplayOptions>({"replay", "a", "--export", "a.mp4", "--speed", "8"}).film.speed, 8.0);
-  for (const std::vector<std::string>& wrong :
-       {std::vector<std::string>{"--fps", "10"}, std::vector<std::string>{"--force"},
-        std::vector<std::string>{"--export", "a.mp4", "--fps", "0"},
-        std::vector<std::string>{"--export", "a.mp4", "--seconds", "3", "--speed", "2"},
-        std::vector<std::string>{"--export", "a.html", "--view", "1"}}) {
-    std::vector<std::string> words = {"replay", "a"};
-    words.insert(words.end(), wrong.begin(), wrong.end());
-    EXPECT_THROW(parse_command_line(words), InputError) << wrong.back();
-  }
-}
-
 TEST(Options, OracleReadsAll) {
   const auto oracle = parse<OracleOptions>(
       {"oracle", "towers", "--scene-seed", "4", "--assets", "data", "--clearance", "0.75", "--outside", "--json"});
@@ -364,6 +343,7 @@ TEST(Options, OfARunCanBeWrittenAsArguments) {
   run.clock = "realtime:2";
   run.agent = "mine";
   run.stop_at_s = 1e-3;
+  run.keep_maps_s = 2.5;
   run.out = "here";
   run.native = run.secure = run.force = true;
   run.attainable = run.report = false;
@@ -374,6 +354,7 @@ TEST(Options, OfARunCanBeWrittenAsArguments) {
   EXPECT_EQ(again.duration_s, run.duration_s);
   EXPECT_FALSE(again.attainable);
   EXPECT_FALSE(again.report);
+  EXPECT_EQ(again.keep_maps_s, 2.5);
   EXPECT_NE(again.command.find("'--planner=hover,jurong=exec:./mine --speed 3, 4'"), std::string::npos)
       << "as a shell takes it: " << again.command;
   EXPECT_TRUE(again.secure);

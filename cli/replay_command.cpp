@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "cli/film/film.hpp"
+#include "cli/maps_in_time.hpp"
 #include "cli/run/diff.hpp"
 #include "cli/run/live_page.hpp"
 #include "core/text.hpp"
@@ -17,6 +18,9 @@ namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Of a page in a file that has maps or LiDAR points, to be sent to somebody.
+constexpr std::size_t kMostBytes = 4'000'000;
 
 view::Parting parting_of(const fs::path& a, const fs::path& b) {
   try {
@@ -73,9 +77,11 @@ int export_run(const ReplayOptions& options, const Console& console) {
   const fs::path& file = *options.exported;
   const bool is_film = check_export(options);
   const auto programs = is_film ? std::optional<FilmPrograms>(std::in_place) : std::nullopt;
+  if (const int code = options.maps ? add_maps_in_time(options.run, console) : kExitDone; code != kExitDone)
+    return code;
   Shown shown;
   tell(options, console, shown);
-  const std::string page = view::kept_page(shown.title, shown.feed);
+  const std::string page = view::kept_page(shown.title, shown.feed, is_film ? 0 : kMostBytes);
   if (is_film) {
     write_film(*programs, page, options.film, file, console);
   } else {
@@ -90,6 +96,8 @@ int export_run(const ReplayOptions& options, const Console& console) {
 
 int replay_run(const ReplayOptions& options, const Console& console) {
   if (options.exported) return export_run(options, console);
+  if (const int code = options.maps ? add_maps_in_time(options.run, console) : kExitDone; code != kExitDone)
+    return code;
   Shown shown;
   tell(options, console, shown);
   LivePage page(view::read_endpoint(options.at));

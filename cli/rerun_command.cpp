@@ -52,6 +52,7 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   if (fs::exists(run / run_folder::kByHand)) options.faults = run / run_folder::kByHand;  // wherever the run is now
   options.secure = options.force = options.one_process = options.cores = false;
   options.record = "run";
+  options.keep_maps_s.reset();
   options.view = {};
   // Hands are not there any more; what they wanted is.
   options.planner = planners_repeated(options.planner, fleet_of(result), [&](const std::string& uav) {
@@ -100,11 +101,20 @@ std::vector<std::string> with_other_planner(const RunOptions& then, const RunOpt
   return members;
 }
 
-/// The digest of then, or what became of it, for people.
-void tell_digest(const Json& then, const Json& now, const Console& console) {
-  if (!then["digest"].is_string() || !now["digest"].is_string() || then["digest"] == now["digest"]) return;
-  console.out << "the world itself is another one: its digest was " << then["digest"].get<std::string>() << ", and is "
-              << now["digest"].get<std::string>() << "; another version, build or scenario file?\n";
+/// What became of the digest of then, for people; empty: it is the same, or there is none.
+std::string other_digest(const Json& then, const Json& now) {
+  if (!then["digest"].is_string() || !now["digest"].is_string() || then["digest"] == now["digest"]) return {};
+  return "the world itself is another one: its digest was " + then["digest"].get<std::string>() + ", and is " +
+         now["digest"].get<std::string>() + "; another version, build or scenario file?";
+}
+
+/// UAVs that an agent flies, and no program of the user's own.
+std::vector<std::string> uavs_with_agents(const RunOptions& options) {
+  std::vector<std::string> uavs;
+  for (const UavPlanner& planner : plan_fleet(options, program_dir()).planners) {
+    if (!exec_command(planner.spec)) uavs.push_back(planner.uav);
+  }
+  return uavs;
 }
 
 /// A fork changes what comes after a time, so there must be something after it.
@@ -139,12 +149,36 @@ int rerun(const RerunOptions& options, const Console& console) {
   const int code = run_fleet(run, console);
   if (code != kExitDone) return code;
   const Json now = read_result_file(*run.out);
-  tell_digest(then, now, console);
+  if (const std::string other = other_digest(then, now); !other.empty()) console.out << other << '\n';
   const std::vector<std::string> differences = differences_of(now);
   for (const std::string& difference : differences) console.out << difference << '\n';
   if (differences.empty()) console.out << options.uav << " says what it said then\n";
   console.out << std::flush;
   return differences.empty() && then["digest"] == now["digest"] ? kExitDone : kExitCheckFailed;
+}
+
+ThoughtAgain think_again_with_maps(const fs::path& run, const fs::path& out, const Console& console) {
+  constexpr double kUsualPeriod_s = 10.0;
+  const Json then = read_result_file(run);
+  RunOptions options = options_of(run, then);
+  options.replay = replay_of(run);
+  options.replay->only = uavs_with_agents(options);
+  if (options.replay->only.empty()) {
+    throw InputError(run.string() + ": programs of your own flew all its UAVs, and they keep no maps");
+  }
+  options.attainable = options.report = false;
+  options.record = "none";
+  options.keep_maps_s = kUsualPeriod_s;
+  Reflight reflight;
+  reflight.force = true;
+  choose_processes(reflight, options);
+  options.out = out;
+  const int code = run_fleet(options, console);
+  if (code != kExitDone) return {code, {}};
+  const Json now = read_result_file(out);
+  std::vector<std::string> different = differences_of(now);
+  if (std::string other = other_digest(then, now); !other.empty()) different.push_back(std::move(other));
+  return {code, std::move(different)};
 }
 
 int fork_run(const ForkOptions& options, const Console& console) {

@@ -35,6 +35,7 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
   add("--domain", run.domain, number);
   add("--stop-at", run.stop_at_s, number);
   add("--agent-timeout", run.agent_timeout_s, number);
+  add("--keep-maps", run.keep_maps_s, number);
   add("--out", run.out, path);
   for (const auto& [flag, set] : {std::pair("--native", run.native),
                                   {"--cores", run.cores},

@@ -68,7 +68,8 @@ void add_view_options(CLI::App& command, ViewOptions& view) {
 void add_replay(CLI::App& app, ReplayOptions& replay) {
   CLI::App* command = app.add_subcommand("replay", "Show a finished run in a browser, with a slider over its time");
   command->add_option("RUN", replay.run, "A results folder")->required();
-  command->add_option("OTHER", replay.other, "Another one of the same scene: both on one clock, with where they part");
+  CLI::Option* const other = command->add_option(
+      "OTHER", replay.other, "Another one of the same scene: both on one clock, with where they part");
   CLI::Option* const served =
       command->add_option("--view", replay.at, "Port of 127.0.0.1 (default: a free one), or of another address");
   served->type_name("[ADDRESS:]PORT")->check(CLI::Validator(check_endpoint, ""));
@@ -79,9 +80,16 @@ void add_replay(CLI::App& app, ReplayOptions& replay) {
                           "FILE.mp4, a film of it, by chromium and ffmpeg");
   exported->type_name("FILE")->excludes(served);
   command->add_flag("--force", replay.force, "Overwrite it")->needs(exported);
+  command
+      ->add_flag(
+          "--maps", replay.maps,
+          "Show each UAV's map in time: where the run did not keep it (skein run --keep-maps), fly the run again "
+          "from its recording, without the oracle and the report, to have it; RUN keeps it then")
+      ->excludes(other);
   add_film_options(*command, *exported, replay.film);
   command->footer(
       "Examples:\n  skein replay runs/towers-kios-0\n  skein replay runs/towers-kios-0 runs/towers-star-0\n"
+      "  skein replay runs/towers-kios-0 --maps\n"
       "  skein replay runs/towers-kios-0 --export flight.html\n"
       "  skein replay runs/towers-kios-0 --export flight.mp4 --from-address '#uav=changi&view=camera'\n\n"
       "docs/view.md tells what the page shows.");

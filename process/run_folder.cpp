@@ -39,6 +39,16 @@ std::string recording_part(const std::string& program, int life) {
   return program + (life == 0 ? "" : "." + std::to_string(life + 1)) + ".mcap";
 }
 
+std::string maps_file(const std::string& uav, int life) { return recording_part("maps-" + uav, life); }
+
+bool is_maps_file(const std::string& name, const std::string& uav) {
+  const std::string begin = "maps-" + uav + ".", end = ".mcap";
+  if (name == maps_file(uav, 0)) return true;
+  if (!name.starts_with(begin) || !name.ends_with(end) || name.size() <= begin.size() + end.size()) return false;
+  const std::string_view life = std::string_view(name).substr(begin.size(), name.size() - begin.size() - end.size());
+  return life.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 bool is_of_a_run(const std::string& name) {
   constexpr std::array<std::string_view, 18> kTables = {
       kFleetLog,  kResult,          kScore,        kCaptures,      kDigests,  kLosses,
@@ -51,7 +61,8 @@ bool is_of_a_run(const std::string& name) {
                             });
   // What was being written when its program was killed: see atomic_file.hpp.
   const std::string whole = name.substr(0, name.rfind(".tmp"));
-  const bool is_map = whole.starts_with("map-") && whole.ends_with(".bt");
+  const bool is_map =
+      (whole.starts_with("map-") && whole.ends_with(".bt")) || (whole.starts_with("maps-") && whole.ends_with(".mcap"));
   const bool is_of_a_hand = whole.starts_with("hand-") && whole.ends_with(".csv");
   return of_a_program || is_map || is_of_a_hand || std::find(kTables.begin(), kTables.end(), whole) != kTables.end();
 }

@@ -70,6 +70,11 @@ std::string log_file(const std::string& program);
 std::string hand_file(const std::string& uav);
 /// What it knew at its end of the space around it, as OctoMap writes it: "map-jurong.bt".
 std::string map_file(const std::string& uav);
+/// What that was in time, if it was to be kept: "maps-jurong.mcap"; of a program that was started again,
+/// "maps-jurong.2.mcap". @param life  0, 1, ...
+std::string maps_file(const std::string& uav, int life);
+/// Whether a file has one of these names.
+bool is_maps_file(const std::string& name, const std::string& uav);
 /// What it recorded, until the launcher makes one recording of it: "station.mcap"; of a program that was started again,
 /// "station.2.mcap". @param life  0, 1, ...
 std::string recording_part(const std::string& program, int life);

@@ -25,6 +25,8 @@ TEST(RunFolder, KnowsItsFilesAlsoHalfWritten) {
     files.push_back(run_folder::report_file(program));
     files.push_back(run_folder::log_file(program));
   }
+  files.push_back(run_folder::map_file("jurong"));
+  for (int life = 0; life < 3; ++life) files.push_back(run_folder::maps_file("jurong", life));
   for (const std::string& file : files) {
     EXPECT_TRUE(run_folder::is_of_a_run(file)) << file;
     EXPECT_TRUE(run_folder::is_of_a_run(file + ".tmp4711")) << file;
@@ -33,6 +35,16 @@ TEST(RunFolder, KnowsItsFilesAlsoHalfWritten) {
   for (const char* other :
        {"notes.txt", "score.csv.old", "station", "sim_server", "flight.log", "flight.json", "uav_agent"}) {
     EXPECT_FALSE(run_folder::is_of_a_run(other)) << other;
+  }
+}
+
+TEST(RunFolder, KnowsWhoseMapsAreInAFile) {
+  for (int life : {0, 1, 11}) {
+    EXPECT_TRUE(run_folder::is_maps_file(run_folder::maps_file("jurong", life), "jurong"));
+    EXPECT_FALSE(run_folder::is_maps_file(run_folder::maps_file("jurong", life), "juro"));
+  }
+  for (const char* other : {"maps-jurong.x.mcap", "maps-jurong..mcap", "maps-jurong.mcap.tmp1", "map-jurong.bt"}) {
+    EXPECT_FALSE(run_folder::is_maps_file(other, "jurong")) << other;
   }
 }
 

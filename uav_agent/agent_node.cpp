@@ -9,31 +9,12 @@
 #include "idl/conversions.hpp"
 #include "idl/hand_conversions.hpp"
 #include "uav_agent/neighbours.hpp"
+#include "uav_agent/octomap_message.hpp"
 
 namespace skein::agent {
 
 using bus::LockstepClient;
 using Counterpart = LockstepClient::Counterpart;
-
-namespace {
-
-/// @param bytes  of a tree, as OctoMap serialises it.
-template <class Bytes>
-msg::Octomap octomap_of(const Bytes& bytes, double resolution_m, Tick tick) {
-  msg::Octomap message;
-  message.header(to_header(tick));
-  message.binary(true);
-  message.id("OcTree");
-  message.resolution(resolution_m);
-  message.data().assign(bytes.begin(), bytes.end());
-  return message;
-}
-
-msg::Octomap octomap_of(const OccupancyMap& map, Tick tick) {
-  return octomap_of(map.octomap_bytes(), map.config().resolution_m, tick);
-}
-
-}  // namespace
 
 AgentNode::AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain,
                      bus::Bus& bus, std::shared_ptr<ReadyFrames> frames, bool by_hand)
@@ -157,8 +138,18 @@ std::optional<std::vector<WaitReport>> AgentNode::waits() const {
   return reports;
 }
 
+void AgentNode::keep_maps(std::unique_ptr<KeptMaps> maps) { kept_maps_ = std::move(maps); }
+
+std::string AgentNode::end_maps() {
+  if (!kept_maps_) return {};
+  kept_maps_->end(agent_.world_map(), agent_.map());
+  return kept_maps_->trouble();
+}
+
 void AgentNode::send(LockstepClient& client) {
   write(client);
+  // Before the step is answered: who is killed at the next one has kept the same each time.
+  if (kept_maps_) kept_maps_->keep(input_.tick, agent_.world_map(), agent_.map());
   // State stays until the next sample replaces it; events are over.
   input_.boxes.clear();
   input_.key_frames.clear();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "uav_agent/kept_maps.hpp"
 #include "uav_agent/maps/map_tree.hpp"
 #include "uav_agent/member_node.hpp"
 #include "uav_agent/onboard/agent.hpp"
@@ -21,8 +22,12 @@ class AgentNode final : public MemberNode {
   AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain, bus::Bus& bus,
             std::shared_ptr<ReadyFrames> frames = nullptr, bool by_hand = false);
 
+  /// From now on its maps are kept. Before it begins.
+  void keep_maps(std::unique_ptr<KeptMaps> maps);
+
   void start() override;
   std::optional<std::string> octomap_file() const override { return agent_.map().octomap_file(); }
+  std::string end_maps() override;
   std::vector<std::string> no_ways() const override;
   std::optional<double> waited_s() const override { return agent_.waited_s(); }
   std::optional<std::vector<WaitReport>> waits() const override;
@@ -53,6 +58,7 @@ class AgentNode final : public MemberNode {
   /// As it was written to flight_map_.
   std::optional<MapTree> shown_tree_;
   std::uint64_t shown_flight_key_frames_ = 0;  ///< where there is no map of beams
+  std::unique_ptr<KeptMaps> kept_maps_;        ///< nullptr: they are not kept
 };
 
 }  // namespace skein::agent

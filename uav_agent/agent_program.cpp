@@ -10,6 +10,7 @@
 #include "bus/program_bus.hpp"
 #include "core/hand_spec.hpp"
 #include "core/scenario_reader.hpp"
+#include "core/text.hpp"
 #include "core/topics.hpp"
 #include "process/atomic_file.hpp"
 #include "process/log_time.hpp"
@@ -21,6 +22,9 @@
 
 namespace skein::agent {
 namespace {
+
+/// Of --maps-every: a step, and the longest mission.
+constexpr double kLeastMapsPeriod_s = 0.05, kMostMapsPeriod_s = 36000.0;
 
 /// For the launcher and for people: which strategies there are, and which have a program at the ground station.
 int list_strategies() {
@@ -50,6 +54,13 @@ void check_fleet_size(const Planner& planner, const std::string& name, std::size
                    " UAVs tell each other; this fleet has " + std::to_string(uavs));
 }
 
+/// @throws InputError
+void check_maps_period(double period_s) {
+  if (period_s >= kLeastMapsPeriod_s && period_s <= kMostMapsPeriod_s) return;
+  throw InputError("--maps-every " + shortest(period_s) + ": must be within [" + shortest(kLeastMapsPeriod_s) + ", " +
+                   shortest(kMostMapsPeriod_s) + "] s");
+}
+
 class AgentMember final : public bus::FleetMember {
  public:
   /// @param scenario, bus  that the node refers to.
@@ -74,7 +85,7 @@ class AgentMember final : public bus::FleetMember {
     const int code = bus::exit_code(end, node_->member());
     if (node_->came_too_late()) return code;
     const auto map = node_->octomap_file();
-    const std::string no_map = map ? write_if_possible(map_, *map) : "";
+    const std::string no_map = map ? write_if_possible(map_, *map) : "", no_maps = node_->end_maps();
     const CpuHistogram& cpu = node_->planner_cpu();
     AgentReport report{.planner_cpu_s = cpu.total_s(),
                        .planner_cpu_p99_ms = 1e3 * cpu.quantile_s(0.99),
@@ -87,7 +98,9 @@ class AgentMember final : public bus::FleetMember {
                        .unsent = node_->unsent(),
                        .planner = planner_,
                        .dds = dds_};
-    if (!no_map.empty()) report.unwritten = {no_map};
+    std::vector<std::string> unwritten = {no_map, no_maps};
+    std::erase(unwritten, "");
+    if (!unwritten.empty()) report.unwritten = std::move(unwritten);
     hand_in_report(json_of(report), report_, status_);
     return code;
   }
@@ -110,6 +123,8 @@ void AgentProgram::add_options(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--uav", uav_, "UAV whose software this is (default: the first of the fleet)");
   app.add_option("--planner", planner_, "NAME or NAME:key=value,... or NAME:file.yaml");
+  app.add_option("--maps-every", maps_every_s_,
+                 "Keep the map that it flies on in maps-UAV.mcap, a snapshot every so many simulated seconds [s]");
   app.add_flag("--list-planners", list_, "Print the strategies' names as JSON, then stop");
 }
 
@@ -117,6 +132,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
                                                                            StatusPipe& status) {
   if (list_) return list_strategies();
   show_log_time(*spdlog::default_logger());
+  if (maps_every_s_) check_maps_period(*maps_every_s_);
   auto scenario =
       std::make_unique<const Scenario>(load_scenario(options.scenario, options.load_options_without_scene()));
   const UavIndex uav = scenario->uav_index(uav_.empty() ? scenario->fleet.front().name : uav_);
@@ -135,8 +151,12 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   if (ground) {
     node = std::make_unique<GroundNode>(*scenario, std::move(ground), options.domain, *bus);
   } else {
-    node = std::make_unique<AgentNode>(*scenario, uav, std::move(planner), options.domain, *bus, frames_,
-                                       wants_hands(planner_));
+    auto on_board = std::make_unique<AgentNode>(*scenario, uav, std::move(planner), options.domain, *bus, frames_,
+                                                wants_hands(planner_));
+    if (maps_every_s_) {
+      on_board->keep_maps(std::make_unique<KeptMaps>(options.out, scenario->fleet[uav].name, ticks(*maps_every_s_)));
+    }
+    node = std::move(on_board);
   }
   return std::make_unique<AgentMember>(options, planner_, status, std::move(scenario), std::move(bus), std::move(node));
 }

@@ -31,6 +31,8 @@ class MemberNode : public bus::ClientNode {
   std::uint64_t unsent() const { return bus_.unsent()->count(); }
   /// What it knows of the space around it, as a file that OctoMap reads; nullopt: it keeps no map.
   virtual std::optional<std::string> octomap_file() const { return std::nullopt; }
+  /// Ends the file of its maps in time, where it keeps one. @returns what the disk refused of it, for people.
+  virtual std::string end_maps() { return {}; }
   /// Why its strategy found no ways, and how often: a sentence for each reason.
   virtual std::vector<std::string> no_ways() const { return {}; }
   /// How long its strategy has waited for other UAVs [s]; nullopt: it flies none.

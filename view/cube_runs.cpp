@@ -19,18 +19,15 @@ constexpr std::size_t kMostRows = 1'000'000;
 
 auto row_of(const CubeRun& run) { return std::tuple(run.z, run.y); }
 
+/// A number that rises as (z, y, x) does, since a tree has 2^16 cells in each direction: numbers are sorted quickly.
+constexpr auto place_in_order = [](const CubeRun& run) {
+  constexpr int kBits = 21, kMiddle = 1 << (kBits - 1);
+  return static_cast<std::uint64_t>(run.z + kMiddle) << 2 * kBits |
+         static_cast<std::uint64_t>(run.y + kMiddle) << kBits | static_cast<std::uint64_t>(run.x + kMiddle);
+};
+
 /// Of cubes twice as large.
 int halved(int cube) { return cube >> 1; }
-
-std::vector<CubeRun> coarser(const std::vector<CubeRun>& runs) {
-  std::vector<CubeRun> larger;
-  larger.reserve(runs.size());
-  for (const CubeRun& run : runs) {
-    const int begin = halved(run.x), end = halved(run.x + run.length - 1) + 1;
-    larger.push_back({begin, halved(run.y), halved(run.z), end - begin});
-  }
-  return joined_runs(std::move(larger));
-}
 
 /// Rows of a tree's leaves.
 class LeafRows {
@@ -77,7 +74,7 @@ class Bytes {
 }  // namespace
 
 std::vector<CubeRun> joined_runs(std::vector<CubeRun> runs) {
-  std::ranges::sort(runs, {}, [](const CubeRun& run) { return std::tuple(run.z, run.y, run.x); });
+  std::ranges::sort(runs, {}, place_in_order);
   std::vector<CubeRun> joined;
   for (const CubeRun& run : runs) {
     CubeRun* const last = joined.empty() ? nullptr : &joined.back();
@@ -90,13 +87,23 @@ std::vector<CubeRun> joined_runs(std::vector<CubeRun> runs) {
   return joined;
 }
 
+std::vector<CubeRun> coarser_runs(const std::vector<CubeRun>& runs) {
+  std::vector<CubeRun> larger;
+  larger.reserve(runs.size());
+  for (const CubeRun& run : runs) {
+    const int begin = halved(run.x), end = halved(run.x + run.length - 1) + 1;
+    larger.push_back({begin, halved(run.y), halved(run.z), end - begin});
+  }
+  return joined_runs(std::move(larger));
+}
+
 std::optional<ShownMap> shown_map(std::string_view octree, double cell_m, double slice_m, std::size_t most_runs) {
   if (!(cell_m >= 1e-3 && cell_m <= 100.0) || !(std::abs(slice_m) < 1e5)) return std::nullopt;
   LeafRows rows(cell_m, static_cast<int>(std::floor(slice_m / cell_m)));
   if (!visit_octree(octree, cell_m, [&](const KnownCube& leaf) { rows.add(leaf); }) || !rows.sound) return std::nullopt;
   ShownMap map{cell_m, joined_runs(std::move(rows.occupied)), cell_m, slice_m, joined_runs(std::move(rows.free))};
-  for (; map.occupied.size() > most_runs; map.cell_m *= 2.0) map.occupied = coarser(map.occupied);
-  for (; map.free.size() > most_runs; map.slice_cell_m *= 2.0) map.free = coarser(map.free);
+  for (; map.occupied.size() > most_runs; map.cell_m *= 2.0) map.occupied = coarser_runs(map.occupied);
+  for (; map.free.size() > most_runs; map.slice_cell_m *= 2.0) map.free = coarser_runs(map.free);
   return map;
 }
 

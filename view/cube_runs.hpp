@@ -31,6 +31,8 @@ struct ShownMap {
 
 /// In the order of their rows (z, y, x), and as few as can be.
 std::vector<CubeRun> joined_runs(std::vector<CubeRun> runs);
+/// Cubes twice as large, wherever there is one of these; joined.
+std::vector<CubeRun> coarser_runs(const std::vector<CubeRun>& runs);
 
 /// @param octree  as OctoMap serialises it. @param cell_m  edge of its smallest cells.
 /// @param slice_m  at this height free space is wanted. @param most_runs  larger cubes where there would be more.

@@ -91,6 +91,13 @@ std::string Feed::next(FeedPlace& place, std::size_t most_bytes) const {
   return text.empty() ? text : text + "}";
 }
 
+std::vector<std::string> Feed::cloud_names() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> names;
+  for (const auto& [name, cloud] : clouds_) names.push_back(name);
+  return names;
+}
+
 void Feed::on_news(std::function<void()> tell) {
   const std::scoped_lock lock(tell_mutex_);
   tell_ = std::move(tell);

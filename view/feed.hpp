@@ -37,6 +37,9 @@ class Feed {
   /// @param name  who asks for it is told the newest of this name, which is kept.
   void set_cloud(const std::string& name, std::string cloud);
 
+  /// Of all clouds that there are.
+  std::vector<std::string> cloud_names() const;
+
   /// The next message for who stands at `place`, which moves on: {"scene": ..., "lines": [...], "state": ...,
   /// "clouds": [...]}, each only if it is news; "more" is true while lines are left. About `most_bytes`, but at least a
   /// line, and a cloud where that is all.

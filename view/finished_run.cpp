@@ -13,7 +13,6 @@
 #include "report/csv_table.hpp"
 #include "report/page_parts.hpp"
 #include "report/recorded_links.hpp"
-#include "view/kept_clouds.hpp"
 #include "view/story.hpp"
 
 namespace skein::view {
@@ -57,8 +56,9 @@ class Story {
   std::vector<std::pair<double, std::string>> lines_;
 };
 
-/// The table has the fleet's poses of each time in a row. @returns those of the end.
-std::vector<ShownUav> tell_poses(const fs::path& dir, const RunData& run, Story& story) {
+/// The table has the fleet's poses of each time in a row. @param heights  is filled. @returns those of the end.
+std::vector<ShownUav> tell_poses(const fs::path& dir, const RunData& run, Story& story, Heights& heights) {
+  heights.resize(run.uavs.size());
   std::vector<ShownUav> fleet(run.uavs.size());
   std::optional<double> time_s;
   double due_s = 0.0;
@@ -73,6 +73,7 @@ std::vector<ShownUav> tell_poses(const fs::path& dir, const RunData& run, Story&
     const double now_s = table.number("time_s");
     if (time_s && now_s > *time_s) tell(false);
     fleet[*uav] = pose_of(table);
+    heights[*uav][now_s] = fleet[*uav].body.p_WB.z();
     time_s = now_s;
   });
   tell(true);
@@ -220,20 +221,21 @@ std::string title_of_run(const fs::path& dir) {
 
 ToldRun told_run(const fs::path& dir, const RunData& run) {
   Story story;
-  std::vector<ShownUav> last = tell_poses(dir, run, story);
+  Heights heights;
+  std::vector<ShownUav> last = tell_poses(dir, run, story, heights);
   tell_estimate(run, story);
   tell_events(run, story);
   tell_activities(dir, run, story);
   tell_captures(dir, run, story);
   tell_incidents(run, story);
   tell_scores(run, story);
-  return {scene_of(dir, run), story.in_order(), std::move(last)};
+  return {scene_of(dir, run), story.in_order(), std::move(last), std::move(heights)};
 }
 
 void tell_finished_run(const fs::path& dir, Feed& feed) {
   const RunData run = report::read_run_data(dir);
   ToldRun told = told_run(dir, run);
-  const KeptClouds clouds(dir, run);
+  const KeptClouds clouds(dir, run, told.heights);
   told.scene["clouds"] = {{"lidar", clouds.lidar}, {"maps", clouds.maps}, {"missing", clouds.missing}};
   feed.set_scene(told.scene.dump(-1, ' ', false, Json::error_handler_t::replace));
   clouds.tell(told.last, feed);

@@ -7,6 +7,7 @@
 
 #include "report/run_data.hpp"
 #include "view/feed.hpp"
+#include "view/kept_clouds.hpp"
 #include "view/story.hpp"
 
 namespace skein::view {
@@ -16,6 +17,7 @@ struct ToldRun {
   Json scene;
   std::vector<std::string> lines;  ///< by their times
   std::vector<ShownUav> last;      ///< the fleet at its end
+  Heights heights;
 };
 
 /// @param run  what the folder `dir` holds. What it lacks is named in the scene's "missing".

@@ -1,8 +1,7 @@
 #include "view/kept_clouds.hpp"
 
 #include <algorithm>
-#include <map>
-#include <optional>
+#include <iterator>
 #include <utility>
 
 #include "core/topics.hpp"
@@ -14,12 +13,19 @@
 #include "report/octree_file.hpp"
 #include "view/cube_runs.hpp"
 #include "view/look_order.hpp"
+#include "view/map_files.hpp"
 
 namespace skein::view {
 namespace {
 
 constexpr double kPointsStep_s = 0.5;
 constexpr const char* kKeyFrameMap = "its map of key frames at the end";
+constexpr const char* kFlightMap = "what it flies on";
+
+double height_at(const std::map<double, double>& heights, double time_s) {
+  const auto after = heights.upper_bound(time_s);
+  return after == heights.begin() ? 0.0 : std::prev(after)->second;
+}
 
 /// The recorded topic of a UAV's scans: its name on the wire less "rt".
 std::string scans_of(const std::string& uav) { return topics::cloud(uav).name.substr(2); }
@@ -65,8 +71,8 @@ class Gathered {
 
 }  // namespace
 
-KeptClouds::KeptClouds(const std::filesystem::path& dir, const report::RunData& run)
-    : run_(run), points_(run.uavs.size()) {
+KeptClouds::KeptClouds(const std::filesystem::path& dir, const report::RunData& run, const Heights& heights)
+    : run_(run), points_(run.uavs.size()), in_time_(run.uavs.size()) {
   try {
     read_recording(dir / run_folder::kRecording);
   } catch (const InputError&) {
@@ -74,10 +80,22 @@ KeptClouds::KeptClouds(const std::filesystem::path& dir, const report::RunData& 
   }
   for (std::size_t i = 0; i < run.uavs.size(); ++i) {
     if (!points_[i].empty()) lidar.push_back(run.uavs[i]);
-    if (i < run.maps.size() && !run.maps[i].empty()) maps.push_back(run.uavs[i]);
+    in_time_[i] = read_maps(dir, run.uavs[i],
+                            [&](double time_s) { return i < heights.size() ? height_at(heights[i], time_s) : 0.0; });
+    if (in_time_[i] || (i < run.maps.size() && !run.maps[i].empty())) maps.push_back(run.uavs[i]);
   }
-  const bool explorers = std::ranges::count(run.explorer, true) > 0;
+  say_what_is_missing(dir);
+}
+
+void KeptClouds::say_what_is_missing(const std::filesystem::path& dir) {
+  const bool explorers = std::ranges::count(run_.explorer, true) > 0;
   if (lidar.empty() && explorers) missing = "The recording has no LiDAR points: a run with --record=clouds has.";
+  if (maps.empty() || std::ranges::any_of(in_time_, [](const auto& map) { return map.has_value(); })) return;
+  if (!missing.empty()) missing += ' ';
+  missing += "Maps are those of the end. Maps in time: ";
+  missing += std::filesystem::exists(dir / run_folder::kRecording)
+                 ? "`skein replay RUN --maps` computes them, with the folder of this run as RUN."
+                 : "a run with --keep-maps has them; of this one they cannot be computed, since it has no recording.";
 }
 
 void KeptClouds::read_recording(const std::filesystem::path& file) {
@@ -99,7 +117,8 @@ void KeptClouds::tell(std::span<const ShownUav> last, Feed& feed) const {
   for (std::size_t i = 0; i < run_.uavs.size(); ++i) {
     const std::string& uav = run_.uavs[i];
     if (!points_[i].empty()) feed.set_cloud(lidar_cloud(uav), lidar_text(uav, points_[i]));
-    if (i >= run_.maps.size()) continue;
+    if (in_time_[i]) feed.set_cloud(map_cloud(uav), map_text(uav, *in_time_[i], kFlightMap));
+    if (in_time_[i] || i >= run_.maps.size()) continue;
     const auto file = report::octree_of_file(run_.maps[i]);
     const double slice_m = i < last.size() ? last[i].body.p_WB.z() : 0.0;
     const auto map = file ? shown_map(file->tree, file->cell_m, slice_m) : std::nullopt;

@@ -9,6 +9,7 @@
 #include "idl/conversions.hpp"
 #include "mcap/writer.hpp"
 #include "process/json_text.hpp"
+#include "process/run_folder.hpp"
 #include "view/testing/unpacked.hpp"
 
 namespace skein::view {
@@ -40,6 +41,15 @@ class KeptCloudsTest : public testing::Test {
       const Tick tick = scan * kTicksPerSecond / 10;
       file.write(channel, static_cast<std::uint64_t>(scan) * 100'000'000, encode(to_cloud(tick, points)));
     }
+  }
+  /// In the file of its maps in time.
+  void keep_empty_map(const std::string& uav, int second) const {
+    mcap::Writer file(folder_ / run_folder::maps_file(uav, 0));
+    const std::uint16_t channel = file.add_channel("/" + uav + "/flight_map", "octomap_msgs/msg/Octomap", "");
+    msg::Octomap map;
+    map.header(to_header(second * kTicksPerSecond));
+    map.resolution(0.5);
+    file.write(channel, static_cast<std::uint64_t>(second) * 1'000'000'000, encode(map));
   }
   static Json told(const Feed& feed, const std::string& name) {
     FeedPlace place;
@@ -115,6 +125,27 @@ TEST_F(KeptCloudsTest, MapsAreThoseThatTheUavsLeft) {
   EXPECT_EQ(free.size(), 32U);
   EXPECT_EQ(free[0], (CubeRun{32, 0, 6, 32}));
   EXPECT_TRUE(told(feed, "map a").is_null());
+  EXPECT_NE(clouds.missing.find("cannot be computed"), std::string::npos) << "there is no recording";
+  record("/a/cloud_inW", 3);
+  EXPECT_NE(KeptClouds(folder_, run_).missing.find("skein replay RUN --maps"), std::string::npos);
+}
+
+TEST_F(KeptCloudsTest, MapsInTimeComeBeforeThoseOfTheEnd) {
+  keep_empty_map("a", 3);
+  keep_empty_map("b", 5);
+  std::ofstream(folder_ / run_folder::maps_file("b", 1)) << "damaged";
+  run_.maps = {"x", ""};
+  const KeptClouds clouds(folder_, run_);
+  EXPECT_EQ(clouds.maps, std::vector<std::string>{"a"});
+  EXPECT_EQ(clouds.missing.find("--maps"), std::string::npos) << clouds.missing;
+  Feed feed;
+  begin(feed);
+  clouds.tell(std::vector<ShownUav>(2), feed);
+  const Json map = told(feed, "map a");
+  ASSERT_TRUE(map.is_object());
+  EXPECT_EQ(map["kind"], "what it flies on");
+  EXPECT_EQ(map["times"], Json::parse("[3.0]"));
+  EXPECT_TRUE(told(feed, "map b").is_null());
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include "view/pages.hpp"
 
-#include <limits>
+#include <algorithm>
 
 #include "core/file_bytes.hpp"
 #include "core/types.hpp"
 #include "report/html.hpp"
 #include "report/style.hpp"
 #include "report/web_bundle.hpp"
-#include "view/packed.hpp"
+#include "view/kept_flight.hpp"
 
 namespace skein::view {
 namespace {
@@ -47,23 +47,24 @@ Site site_of(const std::string& title, const std::filesystem::path& script) {
           read_file_bytes(script, kLargestScript)};
 }
 
-std::string kept_page(const std::string& title, const Feed& flight) {
+std::string kept_page(const std::string& title, const Feed& flight, std::size_t most_bytes) {
   const auto script = report::web_bundle(report::kLiveScript);
   if (!script) find_script();
   if (!script) throw InputError("the page's script live.js is damaged: it cannot stand in a page");
-  FeedPlace place;
-  const std::string told = flight.next(place, std::numeric_limits<std::size_t>::max());
   const std::string policy =
       "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
       "form-action 'none'; script-src '" +
       report::script_hash(*script) + "'";
   const std::string head = "<meta http-equiv=\"Content-Security-Policy\" content=\"" + report::escaped(policy) +
                            "\"/>\n" + run_style_element();
+  constexpr std::size_t kElements = 1000;
+  const std::size_t own = head.size() + script->size() + kElements;
+  const std::size_t room = most_bytes > own ? most_bytes - own : std::min<std::size_t>(most_bytes, 1);
   return document("Skein: " + title, head,
                   "<body class=\"run watch\">\n<noscript>This page needs JavaScript.</noscript>\n"
                   "<main id=\"flight\"><p class=\"soft\">One moment, please.</p></main>\n"
                   "<script type=\"text/plain\" id=\"kept\">" +
-                      packed(told) + "</script>\n<script>" + *script + "</script>\n</body>\n");
+                      kept_flight(flight, room) + "</script>\n<script>" + *script + "</script>\n</body>\n");
 }
 
 std::string door_page(bool refused) {

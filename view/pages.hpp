@@ -16,8 +16,10 @@ std::filesystem::path find_script();
 Site site_of(const std::string& title, const std::filesystem::path& script);
 
 /// One file that shows a finished run, or two, without any request: page, script and flight.
-/// @param flight  all of it. @throws InputError when the script is missing.
-std::string kept_page(const std::string& title, const Feed& flight);
+/// @param flight  all of it.
+/// @param most_bytes  maps and LiDAR points are in the page as long as it is not larger: points go first, and the page
+/// says so. 0: it has neither, nor a word of them. @throws InputError when the script is missing.
+std::string kept_page(const std::string& title, const Feed& flight, std::size_t most_bytes = 0);
 
 /// For who has not shown the key. @param refused  it was a wrong one
 std::string door_page(bool refused = false);

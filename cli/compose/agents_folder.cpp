@@ -15,10 +15,11 @@ void gather_agents(const fs::path& out) {
   std::vector<fs::path> files;  // moved once nothing iterates
   for (const auto& folder : fs::directory_iterator(agents)) {
     if (!fs::is_directory(folder.symlink_status())) continue;
-    const std::string program = programs::agent_program(folder.path().filename());
+    const std::string member = folder.path().filename(), program = programs::agent_program(member);
     for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string name = entry.path().filename();
-      if (fs::is_regular_file(entry.symlink_status()) && name.starts_with(program + ".")) files.push_back(entry);
+      const bool own = name.starts_with(program + ".") || run_folder::is_maps_file(name, member);
+      if (fs::is_regular_file(entry.symlink_status()) && own) files.push_back(entry);
     }
   }
   for (const fs::path& file : files) fs::rename(file, out / file.filename());

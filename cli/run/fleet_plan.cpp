@@ -118,10 +118,11 @@ Arguments view_arguments(const FleetPlan& plan) {
 
 /// Whose software an agent is.
 Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
-  const Arguments planner = {"--planner", planner_of(plan, program).spec};
+  const auto& maps_s = plan.options.keep_maps_s;
   Arguments arguments = {"--uav", programs::member_name(program)};
+  if (maps_s) append(arguments, {"--maps-every", shortest(*maps_s)});
   if (program == programs::kGroundAgent) arguments = {"--role", "gcs"};
-  append(arguments, planner);
+  append(arguments, {"--planner", planner_of(plan, program).spec});
   return arguments;
 }
 

@@ -227,7 +227,9 @@ std::vector<std::string> SecureRun::collect() const {
     std::size_t files = 0, cut = 0;
     for (const auto& entry : fs::directory_iterator(folder.out)) {
       const std::string name = entry.path().filename();
-      const bool own = name.starts_with(program + ".") || name == run_folder::map_file(programs::member_name(program));
+      const std::string member = programs::member_name(program);
+      const bool own = name.starts_with(program + ".") || name == run_folder::map_file(member) ||
+                       run_folder::is_maps_file(name, member);
       const fs::path copy = out_ / (own ? name : program + "." + name);
       if (++files > kMostFilesOfAnAgent || !copy_from(entry.path(), copy, *folder.user, room)) ++cut;
     }

@@ -4,6 +4,7 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
+import {barsOf} from '../../web/src/steps.js';
 import {lookAt, openBrowser, openPage} from '../report/browser.mjs';
 import {addsUp, findPoint, lossesOf, sleep, stateOf, until} from './page.mjs';
 
@@ -55,6 +56,22 @@ async function checkPoint(page) {
   const score = Number(lines[index][head.indexOf('score')]);
   expect(shown.includes(score.toFixed(3)), `of point ${index} the page says ${shown}, and score.csv ${score}`);
 }
+
+/** Of drawn steps: where one is a pixel wide or wider its bar has its value, and no bar tells of more than there is. */
+function checkBars() {
+  for (let tries = 0; tries < 200; ++tries) {
+    const t = Array.from({length: 30}, () => Math.random() ** 3 * 100).sort((a, b) => a - b);
+    const v = t.map(() => Math.floor(5 * Math.random()));
+    const bars = barsOf({t, v}, 100, (time) => time);
+    expect(bars.every(([from, to], i) => from <= to && (i === 0 || from === bars[i - 1][1])), `bars have gaps: ${bars}`);
+    t.forEach((begin, i) => {
+      const until = t[i + 1] ?? 100;
+      const bar = bars.find(([from, to]) => from <= begin && begin < to);
+      if (until - begin >= 1) expect(bar?.[0] === begin && bar[1] === until && bar[2] === v[i], `of ${v[i]} from ${begin} to ${until} the bar is ${bar}`);
+    });
+  }
+}
+checkBars();
 
 for (const [width, scheme] of [[1400, 'light'], [390, 'dark']]) {
   const {page, complaints} = await openPage(browser, file, {width, scheme});

@@ -3,11 +3,9 @@
 import * as THREE from 'three';
 
 import {kMostSayings, thin} from './history.js';
-import {Segments} from './overlays.js';
+import {kDashes, Segments} from './overlays.js';
 import {colour, data, element, indexAt, moment, trackColour} from './page.js';
 
-const kDashes = 24;  // of a line at most
-const kDash = 1.6;   // m, and as much between two of them
 const kCross = 0.9;  // m, at the goal
 
 /** What the UAVs of a flight said. */
@@ -91,12 +89,7 @@ export function makeGoals(bodies) {
         const {collided} = data.uavs[uav];
         if (!goal || !body.visible || (collided !== null && collided <= seconds)) return;
         const to = place(goal);
-        const way = to.clone().sub(body.position);
-        const dashes = Math.min(Math.ceil(way.length() / (2 * kDash)), kDashes);
-        for (let i = 0; i < dashes; ++i)
-          segments.add(
-              body.position.clone().addScaledVector(way, i / dashes),
-              body.position.clone().addScaledVector(way, (i + 0.5) / dashes), colours[uav]);
+        segments.addDashed(body.position, to, colours[uav]);
         for (const axis of [new THREE.Vector3(kCross, 0, 0), new THREE.Vector3(0, kCross, 0), new THREE.Vector3(0, 0, kCross)])
           segments.add(to.clone().sub(axis), to.clone().add(axis), colours[uav]);
       });

@@ -3,6 +3,7 @@ import uPlot from 'uplot';
 
 import {legendOfModes, spansOf} from './modes.js';
 import {colour, data, element, growth, indexAt, moment, onTheme, replaceDrawing, shortName, trackColour} from './page.js';
+import {barsOf} from './steps.js';
 
 const sync = uPlot.sync('time');
 const charts = [];
@@ -29,7 +30,7 @@ const axis = (more) => ({
 });
 
 /** How often a chart of data that grow is drawn again, in ms; and how much more time than its drawing lies between. */
-const kRefresh = 500;
+const kRefresh = 1000;
 const kRest = 30;
 
 /** Draws more data, now and then, and all of them in the end. */
@@ -269,15 +270,7 @@ function drawLane(u, uav, index, most) {
   });
   ctx.globalAlpha = 0.75;
   ctx.fillStyle = colour('c1');
-  const {t, v} = uav.waiting;
-  for (let i = 0; i < t.length;) {
-    // Steps within a pixel are one, of the most that waited.
-    const from = u.valToPos(t[i] / 1000, 'x', true);
-    let [to, waited] = [from, 0];
-    for (; i < t.length && to - from < 1; ++i) {
-      waited = Math.max(waited, v[i]);
-      to = u.valToPos(i + 1 < t.length ? t[i + 1] / 1000 : data.end, 'x', true);
-    }
+  for (const [from, to, waited] of barsOf(uav.waiting, 1000 * data.end, (ms) => u.valToPos(ms / 1000, 'x', true))) {
     const left = Math.max(from, bbox.left);
     const right = Math.min(to, bbox.left + bbox.width);
     const height = Math.max((waited / most) * strip, 1);

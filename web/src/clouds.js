@@ -107,50 +107,67 @@ class Points {
   }
 }
 
-/** Rows of cubes, each stretched along x: an instance a row. */
+/** Rows of cubes, each stretched along x: an instance a row. Which of them are there changes with the moment. */
 class Rows {
   constructor(geometry, material) {
     [this.geometry, this.material] = [geometry, material];
     this.object = new THREE.Group();
-    this.ends = [];  // of steps: time, rows up to there
+    this.steps = [];  // {t, until, runs, cubes}, until Infinity of those that stay
+    this.times = [];  // at which any of them comes or goes, in order
   }
 
-  /** @param steps  {t, runs}: what was added when. @param squeeze  of a cube in each direction. */
+  /** @param steps  {t, until?, runs}: what was there from when to when. @param squeeze  of a cube in each direction. */
   set(steps, cell, squeeze) {
-    const all = steps.map(({t, runs}) => ({t, runs: unpackedRuns(runs)}));
-    const count = all.reduce((sum, {runs}) => sum + runs.length / 4, 0);
+    [this.cell, this.squeeze] = [cell, squeeze];
+    this.steps = steps.map(({t, until = Infinity, runs}) => ({t, until, runs: unpackedRuns(runs)}));
+    for (const step of this.steps) {
+      step.cubes = 0;
+      for (let i = 3; i < step.runs.length; i += 4) step.cubes += step.runs[i];
+    }
+    this.times = [...new Set(this.steps.flatMap(({t, until}) => [t, until]))].sort((one, other) => one - other);
+    const rows = (now) => this.steps.reduce((sum, {t, until, runs}) => (t <= now && now < until ? sum + runs.length / 4 : sum), 0);
+    const count = Math.max(0, ...this.times.map(rows));  // at once
     if (!this.mesh || count > this.mesh.instanceMatrix.count) {
       this.mesh?.dispose();
       this.mesh = new THREE.InstancedMesh(this.geometry, this.material, Math.max(2 * count, 256));
       this.mesh.frustumCulled = false;
       this.object.clear().add(this.mesh);
     }
-    this.ends = [];
-    this.cubes = 0;
-    let at = 0;
-    for (const {t, runs} of all) {
-      for (let i = 0; i < runs.length; i += 4) {
-        const [x, y, z, length] = runs.slice(i, i + 4);
-        this.cubes += length;
-        const [sx, sy, sz] = squeeze;
-        this.mesh.instanceMatrix.array.set([
-          (length - 1 + sx) * cell, 0, 0, 0, 0, sy * cell, 0, 0, 0, 0, sz * cell, 0,
-          (x + length / 2) * cell, (y + 0.5) * cell, (z + 0.5) * cell, 1], 16 * at++);
-      }
-      this.ends.push([t, at]);
-    }
-    this.mesh.instanceMatrix.needsUpdate = true;
+    this.shown = null;
   }
 
+  /** @param shade  a colour by height; none: that of the material. */
   paint(shade) {
-    if (!this.mesh) return;
-    for (let i = 0; i < (this.ends.at(-1)?.[1] ?? 0); ++i) this.mesh.setColorAt(i, shade(this.mesh.instanceMatrix.array[16 * i + 14]));
-    if (this.mesh.instanceColor) this.mesh.instanceColor.needsUpdate = true;
+    this.shade = shade;
+    this.shown = null;
   }
 
+  /** Those of a moment. They are laid out anew only where other ones are there than before. */
   show(seconds) {
     if (!this.mesh) return;
-    this.mesh.count = this.ends.reduce((rows, [t, end]) => (t <= seconds + 1e-6 ? end : rows), 0);
+    const now = seconds + 1e-6;
+    const shown = this.times.findLastIndex((time) => time <= now);
+    if (shown === this.shown) return;
+    this.shown = shown;
+    this.cubes = 0;
+    let at = 0;
+    for (const {t, until, runs, cubes} of this.steps) {
+      if (t > now || until <= now) continue;
+      this.cubes += cubes;
+      for (let i = 0; i < runs.length; i += 4) this.place(at++, runs[i], runs[i + 1], runs[i + 2], runs[i + 3]);
+    }
+    this.mesh.count = at;
+    this.mesh.instanceMatrix.needsUpdate = true;
+    if (this.shade && this.mesh.instanceColor) this.mesh.instanceColor.needsUpdate = true;
+  }
+
+  place(at, x, y, z, length) {
+    const {cell, squeeze: [sx, sy, sz]} = this;
+    const high = (z + 0.5) * cell;
+    this.mesh.instanceMatrix.array.set([
+      (length - 1 + sx) * cell, 0, 0, 0, 0, sy * cell, 0, 0, 0, 0, sz * cell, 0,
+      (x + length / 2) * cell, (y + 0.5) * cell, high, 1], 16 * at);
+    if (this.shade) this.mesh.setColorAt(at, this.shade(high));
   }
 }
 
@@ -217,7 +234,7 @@ class Layers {
     this.occupied.object.visible = this.free.object.visible = map?.steps !== undefined;
     if (!map?.steps) return;
     this.occupied.set(map.steps, map.cell, [0.9, 0.9, 0.9]);
-    this.free.set(map.free ? [{t: map.t, runs: map.free}] : [], map.freeCell ?? map.cell, [1, 1, 0.02]);
+    this.free.set(map.freeSteps ?? (map.free ? [{t: map.t, runs: map.free}] : []), map.freeCell ?? map.cell, [1, 1, 0.02]);
     this.paintMap();
   }
 
@@ -280,10 +297,12 @@ class Layers {
     const map = maps.get(name);
     if (map === undefined) return data.mode === 'live' ? `the map of ${name} comes with the next step` : `the map of ${name} is being loaded`;
     if (map.none) return `${name} has no map to show: ${map.none}`;
-    const begin = map.steps[0]?.t ?? map.t;
-    if (!moment.newest && seconds < begin - 1e-6)
-      return `of this moment there is no map of ${name}: ${map.steps.length > 1 ? 'the first is' : 'this one is'} of ${begin.toFixed(1)} s`;
-    return `${name}: ${map.kind}, ${map.steps.length > 1 ? 'up to' : 'of'} ${map.t.toFixed(1)} s, ${this.occupied.cubes} cubes of ${map.cell} m`;
+    const times = map.times ?? [map.t];  // of its snapshots
+    const now = moment.newest ? Infinity : seconds + 1e-6;
+    const newest = times.findLast((time) => time <= now);
+    if (newest === undefined)
+      return `of this moment there is no map of ${name}: ${times.length > 1 ? 'the first is' : 'this one is'} of ${times[0].toFixed(1)} s`;
+    return `${name}: ${map.kind}, of ${newest.toFixed(1)} s, ${this.occupied.cubes} cubes of ${map.cell} m`;
   }
 }
 

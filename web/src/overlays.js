@@ -6,6 +6,9 @@ import {LineSegmentsGeometry} from 'three/addons/lines/LineSegmentsGeometry.js';
 
 import {colour, data, moment, trackColour} from './page.js';
 
+export const kDashes = 24;  // of a line at most
+const kDash = 1.6;          // m, and as much between two of them
+
 /** Segments with a colour each, in one draw call. */
 export class Segments {
   constructor(room, width, opacity) {
@@ -26,6 +29,14 @@ export class Segments {
     const at = 6 * this.count++;
     this.geometry.attributes.instanceStart.data.array.set([from.x, from.y, from.z, to.x, to.y, to.z], at);
     this.geometry.attributes.instanceColorStart.data.array.set([r, g, b, r, g, b], at);
+  }
+
+  /** A line of kDashes segments at most. @param share  of it that is drawn */
+  addDashed(from, to, shade, share = 0.5) {
+    const way = to.clone().sub(from);
+    const dashes = Math.min(Math.ceil(way.length() / (2 * kDash)), kDashes);
+    for (let i = 0; i < dashes; ++i)
+      this.add(from.clone().addScaledVector(way, i / dashes), from.clone().addScaledVector(way, (i + share) / dashes), shade);
   }
 
   end() {
@@ -71,10 +82,14 @@ export function makeFrusta() {
   };
 }
 
-/** Links that are there, and those that a fault cuts; what is out of sight or dead is not drawn. */
-export function makeLinks(bodies) {
+/**
+ * Links that are there, and those that a fault cuts. Of what is blocked or dead only the links of the followed UAV are
+ * drawn: all of them would hide the scene.
+ * @param followed  tells which UAV that is; -1: none
+ */
+export function makeLinks(bodies, followed) {
   const nodes = bodies.length + 1;
-  const segments = new Segments((nodes * (nodes - 1)) / 2, 2.0, 0.85);
+  const segments = new Segments((nodes * (nodes - 1)) / 2 + nodes * kDashes, 2.0, 0.85);
   const station = new THREE.Vector3().fromArray(data.station ?? [0, 0, 0]).multiplyScalar(0.01);
   const place = (node) => (node === 0 ? station : bodies[node - 1].position);
   let colours = {};
@@ -84,9 +99,11 @@ export function makeLinks(bodies) {
       linked: new THREE.Color(colour('direct')),
       relayed: new THREE.Color(colour('relayed')),
       cut: new THREE.Color(colour('bad')),
+      none: new THREE.Color(colour('soft')),
     }),
     show(seconds) {
       const digits = data.linksAt(seconds);
+      const own = data.runs ? 0 : followed() + 1;  // of two flights, no link leads from one to the other
       segments.begin();
       for (let from = 0; digits !== '' && from < nodes; ++from) {
         for (let to = from + 1; to < nodes; ++to) {
@@ -95,6 +112,8 @@ export function makeLinks(bodies) {
             segments.add(place(from), place(to), colours.cut);
           else if (both.includes('1'))
             segments.add(place(from), place(to), from === 0 ? colours.linked : colours.relayed);
+          else if (own > 0 && (from === own || to === own))
+            segments.addDashed(place(from), place(to), colours.none, both.includes('3') ? 0.12 : 0.5);
         }
       }
       segments.end();

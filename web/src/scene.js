@@ -134,7 +134,7 @@ class Scene {
     this.scene.add(this.structure, this.boxes, this.tracks, this.fleet.object, this.marks.object);
     // Of a flight that tells of its cameras and links.
     this.frusta = data.poseAt && data.uavs.every(({hfov}) => hfov > 0) ? makeFrusta() : null;
-    this.links = data.linksAt ? makeLinks(this.bodies) : null;
+    this.links = data.linksAt ? makeLinks(this.bodies, () => this.followed ?? -1) : null;
     this.goals = data.poseAt ? makeGoals(this.bodies) : null;
     for (const overlay of [this.frusta, this.links, this.goals])
       if (overlay) this.scene.add(overlay.object);
@@ -343,11 +343,15 @@ function legendOf(by) {
 
 function legendOfLinks() {
   const names = [['direct', 'link to the station'], ['relayed', 'link between UAVs'], ['bad', 'cut by a fault']];
-  return element('ul', {class: 'legend'}, ...names.map(([name, text]) => {
+  const entry = (background, text) => {
     const line = element('span', {class: 'line', 'aria-hidden': 'true'});
-    line.style.background = `var(--${name})`;
+    line.style.background = background;
     return element('li', {}, line, text);
-  }));
+  };
+  const dashes = (share) => `repeating-linear-gradient(90deg, var(--soft) 0 ${6 * share}px, transparent ${6 * share}px 6px)`;
+  return element(
+      'ul', {class: 'legend'}, ...names.map(([name, text]) => entry(`var(--${name})`, text)),
+      ...(data.runs ? [] : [entry(dashes(0.5), 'blocked, of the followed UAV'), entry(dashes(0.17), 'dead')]));
 }
 
 function layer(name, objects, scene) {

@@ -1,0 +1,52 @@
+// Options of what a browser is shown: of a replay, and which maps a run keeps for it.
+#include "cli/view_options.hpp"
+
+#include <gtest/gtest.h>
+
+#include "cli/options.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+template <class Options>
+Options read(const std::vector<std::string>& arguments) {
+  return std::get<Options>(parse_command_line(arguments));
+}
+
+TEST(ViewOptions, ReplayReadsAll) {
+  const auto served = read<ReplayOptions>({"replay", "a", "b", "--view", "8080"});
+  EXPECT_TRUE(served.run == "a" && served.other == "b" && served.at == "8080");
+  EXPECT_FALSE(served.exported || served.force || served.maps);
+  EXPECT_TRUE(read<ReplayOptions>({"replay", "a", "--maps", "--export", "a.html"}).maps);
+  const auto film = read<ReplayOptions>({"replay", "a", "--export", "a.mp4", "--force", "--fps", "10", "--seconds",
+                                         "12.5", "--from-address", "#uav=changi"});
+  EXPECT_TRUE(film.exported == "a.mp4" && film.force && !film.other && !film.film.speed);
+  EXPECT_TRUE(film.film.fps == 10 && film.film.seconds == 12.5);
+  EXPECT_EQ(film.film.address, "#uav=changi");
+  EXPECT_EQ(read<ReplayOptions>({"replay", "a", "--export", "a.mp4", "--speed", "8"}).film.speed, 8.0);
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"--fps", "10"}, std::vector<std::string>{"--force"},
+        std::vector<std::string>{"--export", "a.mp4", "--fps", "0"},
+        std::vector<std::string>{"--export", "a.mp4", "--seconds", "3", "--speed", "2"},
+        std::vector<std::string>{"--export", "a.html", "--view", "1"}, std::vector<std::string>{"b", "--maps"}}) {
+    std::vector<std::string> words = {"replay", "a"};
+    words.insert(words.end(), wrong.begin(), wrong.end());
+    EXPECT_THROW(parse_command_line(words), InputError) << wrong.back();
+  }
+}
+
+TEST(ViewOptions, MapsAreKeptWhereSomebodyAsks) {
+  EXPECT_EQ(read<RunOptions>({"run"}).keep_maps_s, std::nullopt);
+  EXPECT_EQ(read<RunOptions>({"run", "--keep-maps", "cranes"}).keep_maps_s, 10.0);
+  EXPECT_EQ(read<RunOptions>({"run", "--keep-maps", "cranes"}).scenario, "cranes");
+  EXPECT_EQ(read<RunOptions>({"run", "--keep-maps=1"}).keep_maps_s, 1.0);
+  EXPECT_EQ(read<RunOptions>({"run", "--keep-maps=2.5"}).keep_maps_s, 2.5);
+  EXPECT_EQ(read<ComposeOptions>({"compose", "--keep-maps=3600"}).run.keep_maps_s, 3600.0);
+  for (const char* wrong : {"0.5", "3601", "nan", "often", "0x10", "-10"}) {
+    EXPECT_THROW(parse_command_line({"run", std::string("--keep-maps=") + wrong}), InputError) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace skein::cli
