@@ -7,7 +7,6 @@
 
 #include "cli/rerun_command.hpp"
 #include "core/types.hpp"
-#include "process/json_text.hpp"
 #include "process/program.hpp"
 #include "process/result_file.hpp"
 #include "process/run_folder.hpp"
@@ -21,14 +20,6 @@ namespace fs = std::filesystem;
 /// In the run's folder, so that maps are moved and not copied. It goes last: while it is there, nobody knows whether
 /// all maps have been moved.
 constexpr const char* kReflight = "replay-maps";
-
-std::vector<std::string> uavs_of(const fs::path& run) {
-  std::vector<std::string> names;
-  for (const Json& uav : value_or(read_result_file(run), "uavs", Json::array())) {
-    names.push_back(value_or(uav, "name", "").get<std::string>());
-  }
-  return names;
-}
 
 void move_maps(const std::vector<std::string>& uavs, const fs::path& from, const fs::path& to) {
   for (const std::string& uav : uavs) {
@@ -45,7 +36,7 @@ void move_maps(const std::vector<std::string>& uavs, const fs::path& from, const
 
 int add_maps_in_time(const fs::path& run, const Console& console) try {
   const fs::path reflight = run / kReflight;
-  const std::vector<std::string> uavs = uavs_of(run);
+  const std::vector<std::string> uavs = fleet_of(read_result_file(run));
   if (!fs::exists(reflight) && view::has_maps_in_time(run, uavs)) return kExitDone;
   console.err << "computing the UAVs' maps: the run is flown again from its recording" << std::endl;
   std::ostringstream unseen;  // its score is known

@@ -19,14 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> fleet_of(const Json& result) {
-  std::vector<std::string> names;
-  for (const Json& uav : value_or(result, "uavs", Json::array())) {
-    names.push_back(value_or(uav, "name", "").get<std::string>());
-  }
-  return names;
-}
-
 /// As the user gave them then. What belongs to that run alone, where it went and who debugged, is left out.
 RunOptions options_of(const fs::path& run, const Json& result) {
   const std::string command = value_or(result, "command", "").get<std::string>();
@@ -134,6 +126,14 @@ std::vector<std::string> differences_of(const Json& result) {
 }
 
 }  // namespace
+
+std::vector<std::string> fleet_of(const Json& result) {
+  std::vector<std::string> names;
+  for (const Json& uav : value_or(result, "uavs", Json::array())) {
+    names.push_back(value_or(uav, "name", "").get<std::string>());
+  }
+  return names;
+}
 
 RunOptions options_of_run(const fs::path& run) { return options_of(run, read_result_file(run)); }
 

@@ -4,8 +4,12 @@
 
 #include "cli/command.hpp"
 #include "cli/console.hpp"
+#include "process/json_text.hpp"
 
 namespace skein::cli {
+
+/// The UAVs of a result.json, by name.
+std::vector<std::string> fleet_of(const Json& result);
 
 /// What was flown in a results folder, as the user gave it then, less what belonged to that run alone.
 /// @throws InputError when the folder does not tell.

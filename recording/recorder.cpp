@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/tick_time.hpp"
 #include "idl/message_definition.hpp"
 #include "process/run_folder.hpp"
 
@@ -28,11 +29,6 @@ mcap::WriterOptions options_of(const std::string& program, int life) {
   const auto first = static_cast<std::uint16_t>(ids.first + life * ids.of_a_life);
   return {.first_id = first, .last_id = static_cast<std::uint16_t>(first + ids.of_a_life - 1)};
 }
-
-constexpr std::uint64_t kTickNs = 1'000'000'000 / kTicksPerSecond;
-static_assert(kTickNs * kTicksPerSecond == 1'000'000'000);
-
-std::uint64_t nanoseconds(Tick tick) { return static_cast<std::uint64_t>(tick) * kTickNs; }
 
 /// Without what no run repeats: the CPU time of what a program says that it does.
 mcap::Bytes repeatable(std::span<const std::uint8_t> payload) {

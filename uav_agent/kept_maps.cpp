@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/tick_time.hpp"
 #include "core/view_topics.hpp"
 #include "idl/cdr.hpp"
 #include "idl/message_definition.hpp"
@@ -11,13 +12,6 @@
 #include "uav_agent/octomap_message.hpp"
 
 namespace skein::agent {
-namespace {
-
-constexpr std::uint64_t kTickNs = 1'000'000'000 / kTicksPerSecond;
-static_assert(kTickNs * kTicksPerSecond == 1'000'000'000);
-
-}  // namespace
-
 KeptMaps::KeptMaps(std::filesystem::path folder, std::string uav, Tick period)
     : folder_(std::move(folder)), uav_(std::move(uav)), period_(period) {}
 
@@ -51,7 +45,7 @@ void KeptMaps::write(const WorldMap* world, const OccupancyMap& key_frames) {
   const Tick tick = *tick_;
   const msg::Octomap map =
       world != nullptr ? octomap_of(tree_.bytes(), world->config().cell_m, tick) : octomap_of(key_frames, tick);
-  file_->write(channel_, static_cast<std::uint64_t>(tick) * kTickNs, encode(map));
+  file_->write(channel_, nanoseconds(tick), encode(map));
   file_->flush();
   written_ = tick;
   trouble_ = file_->trouble();

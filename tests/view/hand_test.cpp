@@ -10,13 +10,7 @@ namespace fs = std::filesystem;
 
 const Arguments kHandFlight = {"towers", "--duration", "120", "--no-oracle", "--no-report"};
 
-class FlownByHand : public ViewTest {
- protected:
-  static bool has_browser() {
-    return !command_file("node").empty() && !command_file("chromium").empty() &&
-           fs::exists(source_path("web/node_modules/puppeteer-core"));
-  }
-};
+class FlownByHand : public ViewTest {};
 
 bool rests(const std::map<std::string, std::string>& row) {
   for (const char* column : {"ahead", "left", "up", "yaw_rate", "gimbal_pitch_rate", "gimbal_yaw_rate"}) {
@@ -26,13 +20,10 @@ bool rests(const std::map<std::string, std::string>& row) {
 }
 
 TEST_F(FlownByHand, RepeatsFromWhatWasKept) {
-  if (!has_browser()) GTEST_SKIP() << "there is no browser, or web/ is not built";
+  if (const std::string why = no_browser(); !why.empty()) GTEST_SKIP() << why;
   SkeinRun& flown =
       start("flown", joined(kHandFlight, {"--planner", "kios,jurong=hand", "--view", "--view-close", "--record=run"}));
-  ChildProcess& node = start_program("hand", {command_file("node"), source_path("tests/view/hand.mjs"),
-                                              source_path("web"), command_file("chromium"), door_of(flown), "jurong"});
-  EXPECT_EQ(node.wait().code, 0) << node.err() << node.out();
-  EXPECT_EQ(node.out(), "");
+  look_with_browser("hand", {door_of(flown), "jurong"});
   ASSERT_EQ(flown.exit_code(), 0) << flown.err();
   expect_complete_result(flown);
 

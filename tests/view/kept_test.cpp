@@ -22,18 +22,8 @@ class KeptRun : public ViewTest {
 
   /// What a script beside this finds wrong with a page.
   void look(const std::string& script, const Arguments& arguments) {
-    for (const char* name : {"node", "chromium"}) {
-      if (command_file(name).empty()) GTEST_SKIP() << "there is no " << name;
-    }
-    if (!fs::exists(source_path("web/node_modules/puppeteer-core"))) {
-      GTEST_SKIP() << "web/ is not built: ./skein test does that, or `npm ci && npm run build` there";
-    }
-    ChildProcess& node =
-        start_program(script, joined({command_file("node"), source_path("tests/view/" + script + ".mjs"),
-                                      source_path("web"), command_file("chromium")},
-                                     arguments));
-    EXPECT_EQ(node.wait().code, 0) << node.err() << node.out();
-    EXPECT_EQ(node.out(), "");
+    if (const std::string why = no_browser(); !why.empty()) GTEST_SKIP() << why;
+    look_with_browser(script, arguments);
   }
 };
 

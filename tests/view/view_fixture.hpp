@@ -29,6 +29,25 @@ class ViewTest : public FleetTest {
     EXPECT_TRUE(run.wait_for("view.html")) << run.err();
     return door_in(run.err());
   }
+
+  /// Why nothing can be looked at with a browser here; empty: it can.
+  static std::string no_browser() {
+    for (const char* name : {"node", "chromium"}) {
+      if (command_file(name).empty()) return std::string("there is no ") + name;
+    }
+    if (std::filesystem::exists(source_path("web/node_modules/puppeteer-core"))) return "";
+    return "web/ is not built: ./skein test does that, or `npm ci && npm run build` there";
+  }
+
+  /// What a script beside this finds wrong with a page. @param arguments  behind those that all scripts take
+  void look_with_browser(const std::string& script, const Arguments& arguments) {
+    ChildProcess& node =
+        start_program(script, joined({command_file("node"), source_path("tests/view/" + script + ".mjs"),
+                                      source_path("web"), command_file("chromium")},
+                                     arguments));
+    EXPECT_EQ(node.wait().code, 0) << node.err() << node.out();
+    EXPECT_EQ(node.out(), "");
+  }
 };
 
 /// What is looked at with a browser, by the scripts beside this.
@@ -37,26 +56,13 @@ class BrowserTest : public ViewTest {
   void SetUp() override {
     ViewTest::SetUp();
     if (IsSkipped()) return;
-    for (const char* name : {"node", "chromium"}) {
-      if (command_file(name).empty()) GTEST_SKIP() << "there is no " << name;
-    }
-    if (!std::filesystem::exists(source_path("web/node_modules/puppeteer-core"))) {
-      GTEST_SKIP() << "web/ is not built: ./skein test does that, or `npm ci && npm run build` there";
-    }
+    if (const std::string why = no_browser(); !why.empty()) GTEST_SKIP() << why;
   }
 
   /// What a script finds wrong with a page.
   void look(const std::string& script, const std::filesystem::path& door, const std::filesystem::path& run,
             const Arguments& more = {}) {
-    const Arguments command = {command_file("node"),
-                               source_path("tests/view/" + script + ".mjs"),
-                               source_path("web"),
-                               command_file("chromium"),
-                               door,
-                               run};
-    ChildProcess& node = start_program(script, joined(command, more));
-    EXPECT_EQ(node.wait().code, 0) << node.err() << node.out();
-    EXPECT_EQ(node.out(), "");
+    look_with_browser(script, joined({door, run}, more));
   }
 };
 

@@ -1,7 +1,7 @@
 // Where the points went: from what could be had to what was delivered, cause by cause (docs/results.md), at the moment
 // that is shown. At the end of a run it is what result.json says.
 import {isPair, kRuns} from './flights.js';
-import {element, moment} from './page.js';
+import {element, moment, swatch} from './page.js';
 
 const score = (value) => (value === 0 ? 0 : value).toFixed(1);
 
@@ -19,10 +19,8 @@ function lostBy({lossesAt, data: run}) {
 export function lossesPanel(flight, run = 0) {
   const {data} = flight;
   const row = (colour, text, kind = '') => {
-    const swatch = element('span', {class: 'swatch', 'aria-hidden': 'true'});
-    swatch.style.background = `var(--${colour})`;
     const cells = [element('td'), element('td')];
-    return {cells, row: element('tr', kind ? {class: kind} : {}, element('th', {scope: 'row'}, ...(colour ? [swatch] : []), text), ...cells)};
+    return {cells, row: element('tr', kind ? {class: kind} : {}, element('th', {scope: 'row'}, ...(colour ? [swatch(colour)] : []), text), ...cells)};
   };
   const fill = ({cells}, points, value) => {
     cells[0].textContent = String(points);

@@ -1,6 +1,6 @@
 // What UAVs say that they do, in kinds with a colour each, for the lanes. The words are those of the on-board software
 // (docs/view.md); a program of a user's own may have others.
-import {element} from './page.js';
+import {element, swatch} from './page.js';
 
 const kOther = {colour: 'q2', text: 'other', begins: ['']};
 const kKinds = [
@@ -40,9 +40,5 @@ export const otherModes = (said) => [...new Set((said?.what ?? []).map(({mode}) 
 
 /** What the colours mean. */
 export function legendOfModes() {
-  return element('ul', {class: 'legend', id: 'modes'}, ...kKinds.map(({colour, text}) => {
-    const swatch = element('span', {class: 'swatch', 'aria-hidden': 'true'});
-    swatch.style.background = `var(--${colour})`;
-    return element('li', {}, swatch, text);
-  }));
+  return element('ul', {class: 'legend', id: 'modes'}, ...kKinds.map(({colour, text}) => element('li', {}, swatch(colour), text)));
 }

@@ -81,6 +81,13 @@ export function element(name, attributes = {}, ...children) {
   return made;
 }
 
+/** A small field of a named colour. */
+export function swatch(name) {
+  const made = element('span', {class: 'swatch', 'aria-hidden': 'true'});
+  made.style.background = `var(--${name})`;
+  return made;
+}
+
 /** Puts a live part before a figure's drawing, which stays for paper. */
 export function replaceDrawing(figure, live) {
   for (const child of figure.children) {

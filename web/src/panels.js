@@ -3,17 +3,11 @@
 import {factsOfActivity, numbersOf, saidAt, showDoes} from './activity.js';
 import {allEvents, doing, drawn, flights, isPair, kLinks, kRuns, linkOf, poseAt, sharesAt} from './flights.js';
 import {linkButton, showLinkButton} from './hand_faults.js';
-import {data, element, moment, shortName, trackColour} from './page.js';
+import {data, element, moment, shortName, swatch, trackColour} from './page.js';
 
 const kMostEvents = 150;
 const kMostInMatrix = 33;  // radio nodes
 const kManyInMatrix = 9;   // from here on cells are small, and columns have no names
-
-function swatch(name) {
-  const made = element('span', {class: 'swatch', 'aria-hidden': 'true'});
-  made.style.background = `var(--${name})`;
-  return made;
-}
 
 function panel(title, attributes, ...children) {
   return element('section', {class: 'panel', ...attributes}, element('h2', {}, title), ...children);

@@ -9,7 +9,7 @@ import {takeKeys} from './keys.js';
 import {Labels} from './labels.js';
 import {makeClouds} from './clouds.js';
 import {makeFrusta, makeLinks} from './overlays.js';
-import {colour, data, element, indexAt, moment, onTheme, replaceDrawing, track, trackColour} from './page.js';
+import {colour, data, element, indexAt, moment, onTheme, replaceDrawing, swatch, track, trackColour} from './page.js';
 import {trailsOfRuns} from './trails.js';
 
 const kPerPoint = 9;  // numbers of a point in the data
@@ -320,11 +320,7 @@ class Scene {
 }
 
 function legendOf(by) {
-  const entry = (name, text) => {
-    const swatch = element('span', {class: 'swatch'});
-    swatch.style.background = `var(--${name})`;
-    return element('li', {}, swatch, text);
-  };
+  const entry = (name, text) => element('li', {}, swatch(name), text);
   if (by === 'uav')
     return [
       ...data.uavs.slice(0, 12).map((uav, i) => entry(trackColour(i), `by ${uav.name}`)), entry('q0', 'by nobody')
