@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "uav_agent/maps/block_table.hpp"
-
 namespace skein::agent {
 namespace {
 
@@ -16,13 +14,21 @@ constexpr std::size_t kMostAnswers = 200'000;
 void BodyFit::update(const WorldMap& map, Tick now) {
   map_ = &map;
   now_ = now;
-  if (answers_.size() > kMostAnswers) answers_.clear();
+  if (asked_ <= kMostAnswers) return;
+  answers_.clear();
+  asked_ = 0;
+}
+
+BodyFit::Answer& BodyFit::answer_of(const WorldMap::Cube& cube) const {
+  const auto in = [&](int axis) { return static_cast<std::size_t>(cube[axis] & (kBlock - 1)); };
+  return answers_[grid_key(shifted(cube, kBlockBits))][in(0) | in(1) << kBlockBits | in(2) << 2 * kBlockBits];
 }
 
 bool BodyFit::fits(const Vector3d& p_W) const {
   const WorldMap::Cube cube = map_->cube_of(p_W);
-  const auto [it, is_new] = answers_.try_emplace(grid_key(cube));
-  Answer& answer = it->second;
+  Answer& answer = answer_of(cube);
+  const bool is_new = answer.fits == Fits::unasked;
+  if (is_new) ++asked_;
   if (is_new || seconds(now_ - answer.at) >= (answer.fits == Fits::everywhere ? kFreeForS : kUnknownForS)) {
     answer = {now_, fits_in(cube)};
   }

@@ -3,8 +3,8 @@
 // Frame W.   Units: metres.   Threads: one.   Deterministic.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <unordered_map>
 
 #include "uav_agent/maps/world_map.hpp"
 
@@ -22,17 +22,23 @@ class BodyFit {
 
  private:
   /// The body, with its middle in a cube of the map.
-  enum class Fits : std::uint8_t { nowhere, somewhere, everywhere };
+  enum class Fits : std::uint8_t { unasked, nowhere, somewhere, everywhere };
   struct Answer {
-    Tick at = 0;
-    Fits fits = Fits::nowhere;
+    Tick at : 56 = 0;
+    Fits fits : 8 = Fits::unasked;
   };
+  /// A search asks for many cubes beside each other: their answers lie beside each other, too.
+  static constexpr int kBlockBits = 2, kBlock = 1 << kBlockBits;
+  using Answers = std::array<Answer, kBlock * kBlock * kBlock>;
+
+  Answer& answer_of(const WorldMap::Cube& cube) const;
   Fits fits_in(const WorldMap::Cube& cube) const;
 
   double radius_m_, ground_m_;
   const WorldMap* map_ = nullptr;
   Tick now_ = 0;
-  mutable std::unordered_map<std::uint64_t, Answer> answers_;  // looked up only
+  mutable BlockTable<Answers> answers_;
+  mutable std::size_t asked_ = 0;  ///< cubes that have an answer
 };
 
 }  // namespace skein::agent

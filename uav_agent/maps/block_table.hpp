@@ -41,6 +41,12 @@ class BlockTable {
     return blocks_.emplace_back();
   }
 
+  /// Of all blocks; their memory is kept for others.
+  void clear() {
+    std::ranges::fill(slots_, Slot());
+    blocks_.clear();
+  }
+
   /// Of memory.
   std::size_t bytes() const { return slots_.capacity() * sizeof(Slot) + blocks_.capacity() * sizeof(Block); }
 

@@ -38,6 +38,20 @@ TEST(BlockTable, AnswersAsAMapDoesWhateverItsSize) {
   }
 }
 
+TEST(BlockTable, AfterClearingItIsAsOneThatWasJustMade) {
+  RandomStream random(3, "cleared_blocks", 0);
+  BlockTable<int> table;
+  std::map<std::uint64_t, int> all;
+  for (int i = 0; i < 500; ++i) table[drawn_key(random, 12)] = 7;
+  table.clear();
+  for (int i = 0; i < 500; ++i) {
+    const std::uint64_t key = drawn_key(random, 12);
+    ASSERT_EQ(table.find(key) != nullptr, all.contains(key));
+    ASSERT_EQ(table[key], all[key]) << "0 where there was none";
+    table[key] = all[key] = i;
+  }
+}
+
 TEST(BlockTable, EqualIsWhoHoldsTheSameInWhateverOrderItCame) {
   for (std::uint64_t world = 0; world < 20; ++world) {
     RandomStream random(world, "equal_blocks", 0);

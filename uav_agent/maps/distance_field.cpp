@@ -96,12 +96,20 @@ void DistanceField::make(const Cell& at, const OccupiedIn& occupied_in, Block& b
   }
 }
 
+/// Many cells of a block are asked for between two changes.
+std::uint64_t DistanceField::newest_change(const Cell& at) {
+  Newest& newest = newest_[grid_key(at)];
+  if (newest.changes == changes_) return newest.at;
+  newest.changes = changes_;
+  for_each_about(at, [&](const Cell& near) {
+    if (const std::uint64_t* const changed = changed_.find(grid_key(near))) newest.at = std::max(newest.at, *changed);
+  });
+  return newest.at;
+}
+
 double DistanceField::distance_m(const Cell& cell, const OccupiedIn& occupied_in) {
   const Cell at = block_of(cell);
-  std::uint64_t newest = 0;
-  for_each_about(at, [&](const Cell& near) {
-    if (const std::uint64_t* const changed = changed_.find(grid_key(near))) newest = std::max(newest, *changed);
-  });
+  const std::uint64_t newest = newest_change(at);
   if (newest == 0) return reach_m_;
   Block& block = blocks_[grid_key(at)];
   if (block.made_at < newest) make(at, occupied_in, block);

@@ -30,7 +30,7 @@ class DistanceField {
   /// Between the nearest points of the cell and of the nearest occupied one; reach_m if that is not nearer.
   double distance_m(const Cell& cell, const OccupiedIn& occupied_in);
 
-  std::size_t bytes() const { return blocks_.bytes() + changed_.bytes(); }
+  std::size_t bytes() const { return blocks_.bytes() + changed_.bytes() + newest_.bytes(); }
 
  private:
   static constexpr std::uint8_t kFar = 255;
@@ -39,12 +39,20 @@ class DistanceField {
     std::array<std::uint8_t, kBlock* kBlock* kBlock> squares = {};  ///< of distances in cells, x first
   };
 
+  /// The last change within reach of a block, as it was when there had been so many in all.
+  struct Newest {
+    std::uint64_t at = 0, changes = 0;
+  };
+
   static Cell block_of(const Cell& cell) { return shifted(cell, kBlockBits); }
+  /// Of a block and those about it; 0: none.
+  std::uint64_t newest_change(const Cell& at);
   void make(const Cell& at, const OccupiedIn& occupied_in, Block& block);
 
   double cell_m_, reach_m_;
   BlockTable<Block> blocks_;
   BlockTable<std::uint64_t> changed_;  ///< by block: number of its last change
+  BlockTable<Newest> newest_;          ///< of blocks that were asked for
   std::uint64_t changes_ = 0;
   std::vector<Cell> occupied_;
 };

@@ -56,8 +56,8 @@ BeamEvidence::BeamEvidence(const Eigen::Vector3f& direction, int across, float p
   const float straight = static_cast<float>(kUnit) * per_m2, units = straight / std::abs(direction[across]);
   const auto rounded = [](float value) { return static_cast<std::int16_t>(value + (value < 0.0F ? -0.5F : 0.5F)); };
   const float x = direction.x(), y = direction.y(), z = direction.z();
-  sums_ = {rounded(units * x * x), rounded(units * y * y), rounded(units * z * z), rounded(units * x * y),
-           rounded(units * x * z), rounded(units * y * z), rounded(straight),      0};
+  sums_ = Sums{rounded(units * x * x), rounded(units * y * y), rounded(units * z * z), rounded(units * x * y),
+               rounded(units * x * z), rounded(units * y * z), rounded(straight),      0};
 }
 
 double BeamEvidence::unseen_probability(const FreeCriterion& criterion) const {

@@ -79,15 +79,14 @@ class alignas(16) BeamEvidence {
 
   /// Nothing once there are kMostPerM2.   @param other  just made from beams.
   void add(const BeamEvidence& other) {
-    if (full()) return;
-    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] = static_cast<std::int16_t>(sums_[i] + other.sums_[i]);
+    if (!full()) sums_ += other.sums_;
   }
   /// Beams that were gathered elsewhere, besides. Where both do not fit, it becomes the one with more of them.
   void join(const BeamEvidence& other) {
     if (per_m2() + other.per_m2() < kMostPerM2) {
       for (std::size_t i = 0; i < kWhenDue; ++i) sums_[i] = static_cast<std::int16_t>(sums_[i] + other.sums_[i]);
     } else if (other.per_m2() > per_m2()) {
-      std::copy_n(other.sums_.begin(), kWhenDue, sums_.begin());
+      for (std::size_t i = 0; i < kWhenDue; ++i) sums_[i] = other.sums_[i];
     }
   }
   double per_m2() const { return static_cast<double>(sums_[6]) / kUnit; }
@@ -110,8 +109,11 @@ class alignas(16) BeamEvidence {
   /// One beam a square metre, straight through; the most oblique counts for 1.73 times as much.
   static constexpr int kUnit = 16;
 
+  /// A vector of the processor, and not left to the compiler: it adds them one by one, where it has read one of them.
+  using Sums [[gnu::vector_size(16)]] = std::int16_t;
+
   /// xx, yy, zz, xy, xz, yz of the beams' sum of rho b b', in 1/kUnit; that of their number; and when due.
-  std::array<std::int16_t, 8> sums_ = {};
+  Sums sums_ = {};
 };
 
 /// Tells whether P is below the criterion, as unseen_probability() does, but most of what is not is told by few

@@ -42,17 +42,23 @@ void Frontiers::update(const VoxelGrid& grid, const std::vector<Id>& changed) {
 }
 
 std::vector<Frontiers::Cluster> Frontiers::clusters(const VoxelGrid& grid, double max_m, std::size_t min_cubes) const {
-  return clusters_of(grid, cubes_, max_m, min_cubes);
+  return clusters_of(grid, std::vector<Id>(cubes_.begin(), cubes_.end()), max_m, min_cubes);
 }
 
-std::vector<CubeCluster> clusters_of(const VoxelGrid& grid, std::set<Id> left, double max_m, std::size_t min_cubes) {
+std::vector<CubeCluster> clusters_of(const VoxelGrid& grid, const std::vector<Id>& cubes, double max_m,
+                                     std::size_t min_cubes) {
   std::vector<CubeCluster> result;
-  while (!left.empty()) {
-    std::vector<Id> together = {*left.begin()};
-    left.erase(left.begin());
+  std::vector<bool> left(grid.count(), false);
+  for (const Id id : cubes) left[id] = true;
+  for (const Id first : cubes) {
+    if (!left[first]) continue;
+    std::vector<Id> together = {first};
+    left[first] = false;
     for (std::size_t i = 0; i < together.size(); ++i) {
       grid.around(together[i], 1, [&](Id id) {
-        if (left.erase(id) > 0) together.push_back(id);
+        if (!left[id]) return;
+        left[id] = false;
+        together.push_back(id);
       });
     }
     std::vector<std::vector<Id>> pieces;

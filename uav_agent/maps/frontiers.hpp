@@ -38,8 +38,8 @@ class Frontiers {
   std::set<Id> cubes_;
 };
 
-/// Cubes of any kind that touch (26 neighbours), in pieces as above.
-std::vector<CubeCluster> clusters_of(const VoxelGrid& grid, std::set<VoxelGrid::Id> cubes, double max_m,
+/// Cubes of any kind that touch (26 neighbours), in pieces as above.   @param cubes  ascending.
+std::vector<CubeCluster> clusters_of(const VoxelGrid& grid, const std::vector<VoxelGrid::Id>& cubes, double max_m,
                                      std::size_t min_cubes);
 
 /// Cuts a set of cubes in halves across its direction of greatest spread until no piece is longer than `max_m`.

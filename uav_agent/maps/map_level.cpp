@@ -127,11 +127,15 @@ void MapLevel::settle(Block& block, std::size_t place) {
   if (block.evidence) (*block.evidence)[place].never_remind();
 }
 
-void MapLevel::set(const Cell& cell, Space space, Teller teller) {
+MapLevel::Known MapLevel::set(const Cell& cell, Space space, Teller teller) {
   const Known before = known(cell);
-  if (before.space < space) return change(opened_block(block_of(cell)), place_of(cell), space, teller);
   const bool met_again = space == Space::occupied && teller == kOwn;
-  if (met_again && doubts_ > 0) settle(opened_block(block_of(cell)), place_of(cell));
+  if (before.space < space) {
+    change(opened_block(block_of(cell)), place_of(cell), space, teller);
+  } else if (met_again && doubts_ > 0) {
+    settle(opened_block(block_of(cell)), place_of(cell));
+  }
+  return before;
 }
 
 void MapLevel::forget(const Cell& cell) {
@@ -156,9 +160,17 @@ bool MapLevel::doubted(const Cell& cell) const {
   return slot != nullptr && slot->number >= kFirst && doubted(blocks_[slot->number - kFirst], place_of(cell));
 }
 
-void MapLevel::settle_free(const Cell& cell, Teller teller) {
-  if (!doubted(cell)) return;
-  change(opened_block(block_of(cell)), place_of(cell), Space::free, teller);
+void MapLevel::settle_free(const Cell& lowest, int edge, Teller teller) {
+  if (doubts_ == 0) return;
+  const Slot* const slot = slots_.find(grid_key(block_of(lowest)));
+  if (slot == nullptr || slot->number < kFirst) return;
+  Block& block = blocks_[slot->number - kFirst];
+  if (block.occupied == 0) return;
+  for (int i = 0; i < edge * edge * edge; ++i) {
+    const std::size_t place = place_of(lowest + Cell(i % edge, i / edge % edge, i / edge / edge));
+    const bool told = teller == kOwn || block.teller[place] == teller;
+    if (told && doubted(block, place)) change(block, place, Space::free, teller);
+  }
 }
 
 void MapLevel::ask(Block& block, std::size_t place) {
@@ -265,17 +277,21 @@ void MapLevel::pass(const BeamBundle& bundle, double from_m, double to_m) {
     const int block_u = u >> kBlockBits, block_v = v >> kBlockBits, block_layer = walk.layer >> kBlockBits;
     constexpr int kIn = kBlock - 1;
     Evidence& gathered = evidence_of(*here);
+    const int left_before = walk.left;
     do {
       const auto place =
           static_cast<std::size_t>((u & kIn) << bits_u | (v & kIn) << bits_v | (walk.layer & kIn) << bits_layer);
-      gathered[place].add(evidence);
-      if (gathered[place].due()) ask(*here, place);
-      ++windows_;
+      // Of free cells, only finer ones would ever ask for it; so most of a block's evidence stays out of the cache.
+      if (finer_ != nullptr || here->space[place] != Space::free) {
+        gathered[place].add(evidence);
+        if (gathered[place].due()) ask(*here, place);
+      }
       walk.advance(1);
       u = static_cast<int>(walk.at_u);
       v = static_cast<int>(walk.at_v);
     } while (walk.left > 0 && u >> kBlockBits == block_u && v >> kBlockBits == block_v &&
              walk.layer >> kBlockBits == block_layer);
+    windows_ += static_cast<std::uint64_t>(left_before - walk.left);
   }
 }
 

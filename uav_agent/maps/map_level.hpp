@@ -58,7 +58,8 @@ class MapLevel {
   void pass(const BeamBundle& bundle, double from_m, double to_m);
   /// Occupied overwrites all else, and nothing overwrites it but forget() and what doubt() says. A doubt is over when
   /// this UAV finds the cell occupied again.
-  void set(const Cell& cell, Space space, Teller teller);
+  /// @returns what it was before.
+  Known set(const Cell& cell, Space space, Teller teller);
   /// Makes a cell unknown, whatever it was, and what was gathered about it is gone. At coarser levels it may still be
   /// free.
   void forget(const Cell& cell);
@@ -66,8 +67,9 @@ class MapLevel {
   void doubt(const Cell& cell);
   bool doubted(const Cell& cell) const;
   std::size_t doubts() const { return doubts_; }
-  /// Makes a cell free that is in doubt.
-  void settle_free(const Cell& cell, Teller teller);
+  /// Makes those cells of a cube within a block free that are in doubt, if this UAV itself knows them to be free now,
+  /// or whoever told of them.   @param edge  in cells.
+  void settle_free(const Cell& lowest, int edge, Teller teller);
 
   /// Of this level alone.
   Known known(const Cell& cell) const;

@@ -11,10 +11,11 @@ bool MapTree::update(const WorldMap& map) {
     const std::uint64_t region_changed_at = map.region_changed_at(map.regions()[i]);
     if (region_changed_at == region.changed_at) continue;
     region.changed_at = region_changed_at;
+    const WorldMap::ChunksChangedAt& chunks_changed_at = map.chunks_changed_at(map.regions()[i]);
     for (int j = 0; j < WorldMap::kRegionChunks; ++j) {
       const auto place = static_cast<std::size_t>(j);
       const Eigen::Vector3i chunk = WorldMap::chunk_of(map.regions()[i], j);
-      const std::uint64_t changed_at = map.changed_at(chunk);
+      const std::uint64_t changed_at = chunks_changed_at[place];
       if (changed_at == region.chunks_changed_at[place] || !within_tree(chunk)) continue;
       region.chunks_changed_at[place] = changed_at;
       if (region.subtrees[place] == 0) {

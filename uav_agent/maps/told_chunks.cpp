@@ -43,10 +43,12 @@ void ToldChunks::take_changes(const WorldMap& map, Region& region, std::optional
   const std::uint64_t before = region.revision;
   region.revision = map.region_changed_at(region.at);
   if (region.revision == before) return;
+  const WorldMap::ChunksChangedAt& revisions = map.chunks_changed_at(region.at);
   for (int i = 0; i < WorldMap::kRegionChunks; ++i) {
+    const std::uint64_t revision = revisions[static_cast<std::size_t>(i)];
+    if (revision <= before) continue;
     const Eigen::Vector3i at = WorldMap::chunk_of(region.at, i);
-    const std::uint64_t revision = map.changed_at(at);
-    if (revision <= before || !within_tree(at)) continue;
+    if (!within_tree(at)) continue;
     std::int32_t& number = region.chunks[static_cast<std::size_t>(i)];
     if (number < 0) {
       number = static_cast<std::int32_t>(chunks_.size());

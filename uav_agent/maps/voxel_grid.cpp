@@ -60,6 +60,15 @@ VoxelGrid::Cell VoxelGrid::cell(Id id) const {
   return {i % dims_.x(), i / dims_.x() % dims_.y(), i / (dims_.x() * dims_.y())};
 }
 
+std::pair<VoxelGrid::Cell, VoxelGrid::Cell> VoxelGrid::cells_within(const Vector3d& middle_W,
+                                                                    double half_edge_m) const {
+  const Vector3d p = X_GW_ * middle_W / voxel_m_;
+  const Vector3d reach = X_GW_.linear().cwiseAbs() * Vector3d::Constant(half_edge_m / voxel_m_);
+  const Eigen::Array3d most = dims_.cast<double>();
+  return {(p - reach).array().floor().max(0.0).min(most).cast<int>(),
+          (p + reach).array().floor().max(-1.0).min(most - 1.0).cast<int>()};
+}
+
 Vector3d VoxelGrid::centre_W(Id id) const {
   return X_WG_ * ((cell(id).cast<double>() + Vector3d::Constant(0.5)) * voxel_m_);
 }

@@ -41,6 +41,9 @@ class VoxelGrid {
   std::optional<Id> at(const Vector3d& p_W) const;
   std::optional<Id> at(const Cell& cell) const;
   Cell cell(Id id) const;
+  /// The lowest and the highest cell of all that have their middle in a cube along W's axes, and of some beside them;
+  /// the lowest lies above the highest along some axis where none is in the grid.
+  std::pair<Cell, Cell> cells_within(const Vector3d& middle_W, double half_edge_m) const;
   Vector3d centre_W(Id id) const;
   /// The cube on the other side of a face; nullopt at the rim.
   std::optional<Id> neighbour(Id id, int face) const;

@@ -53,6 +53,22 @@ bool same(const VoxelGrid& a, const VoxelGrid& b) {
   return true;
 }
 
+TEST(VoxelGrid, CellsWithinACubeOfTheWorldAreAmongThoseInARange) {
+  const VoxelGrid grid = turned_grid();
+  GridDraw draw;
+  for (int drawn = 0; drawn < 300; ++drawn) {
+    const Vector3d middle_W = draw.in({-25.0, -5.0, -10.0}, {25.0, 40.0, 20.0});
+    const double half_edge_m = 8.0 * draw();
+    const auto [low, high] = grid.cells_within(middle_W, half_edge_m);
+    ASSERT_TRUE((low.array() >= 0).all() && (high.array() < grid.dims().array()).all());
+    for (Id id = 0; id < grid.count(); ++id) {
+      if (((grid.centre_W(id) - middle_W).cwiseAbs().array() > half_edge_m).any()) continue;
+      const VoxelGrid::Cell cell = grid.cell(id);
+      ASSERT_TRUE((cell.array() >= low.array()).all() && (cell.array() <= high.array()).all()) << id;
+    }
+  }
+}
+
 TEST(VoxelGrid, EveryCubeFindsItself) {
   const VoxelGrid grid = turned_grid();
   EXPECT_EQ(grid.dims(), Eigen::Vector3i(7, 5, 4));

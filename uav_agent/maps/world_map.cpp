@@ -13,6 +13,7 @@ constexpr std::size_t kTidyAfterBlocks = 256;  // more than after the last time,
 constexpr int kRegionBits = 2;                 // of chunks
 /// From this level on, windows are so large that beams of a LiDAR that creeps are not spread evenly in them.
 constexpr std::size_t kUneven = 2;
+constexpr std::uint8_t kRowFree = 0xFF;  ///< all cubes of a row of a chunk
 
 /// In a cube of a chunk.   @param lowest  of its smallest ones.   @param edge  in smallest ones.
 void fill_unknown(WorldMap::Chunk& known, const Eigen::Vector3i& lowest, int edge, const MapLevel::Known& about) {
@@ -47,9 +48,7 @@ WorldMap::WorldMap(const Config& config) : config_(config), distances_(config.ce
 }
 
 void WorldMap::meet(const Cube& cube, Teller teller) {
-  MapLevel& level = *levels_.front();
-  const bool news = on_met_ && level.known(cube).space != Space::occupied;
-  level.set(cube, Space::occupied, teller);
+  const bool news = levels_.front()->set(cube, Space::occupied, teller).space != Space::occupied;
   if (on_met_ && (news || teller == kOwn)) on_met_(cube, news);
 }
 
@@ -100,12 +99,15 @@ void WorldMap::note_changes() {
       const Cube chunk = shifted(cube, MapLevel::kBlockBits - i);
       const Cube region = shifted(chunk, kRegionBits);
       chunks_[grid_key(chunk)].changed_at = ++changes_;
-      std::uint64_t& changed_at = in_regions_[grid_key(region)];
-      if (changed_at == 0) regions_.push_back(region);
-      changed_at = changes_;
+      RegionNote& note = in_regions_[grid_key(region)];
+      if (note.changed_at == 0) regions_.push_back(region);
+      note.changed_at = note.chunks[place_in_region(chunk)] = changes_;
     }
   }
-  for (const Cube& cube : levels_.front()->take_structure_changes()) distances_.changed(cube);
+  for (const Cube& cube : levels_.front()->take_structure_changes()) {
+    distances_.changed(cube);
+    chunks_[grid_key(MapLevel::block_of(cube))].structure_changed_at = changes_;
+  }
 }
 
 std::uint64_t WorldMap::changed_at(const Cube& chunk) const {
@@ -114,8 +116,8 @@ std::uint64_t WorldMap::changed_at(const Cube& chunk) const {
 }
 
 std::uint64_t WorldMap::region_changed_at(const Cube& region) const {
-  const std::uint64_t* const found = in_regions_.find(grid_key(region));
-  return found == nullptr ? 0 : *found;
+  const RegionNote* const found = in_regions_.find(grid_key(region));
+  return found == nullptr ? 0 : found->changed_at;
 }
 
 template <class Visit>
@@ -225,12 +227,8 @@ void WorldMap::take(const HeardCube& heard, Teller teller) {
 /// Doubts within a cube that is free now: own beams have proved it since, or whoever said that they were occupied says
 /// now that they are free.
 void WorldMap::settle_free(const Cube& cube, int level, Teller teller) {
-  MapLevel& smallest = *levels_.front();
   const int edge = 1 << level;
-  for (int i = 0; smallest.doubts() > 0 && i < edge * edge * edge; ++i) {
-    const Cube in = cube * edge + Cube(i % edge, i / edge % edge, i / edge / edge);
-    if (teller == kOwn || smallest.known(in).teller == teller) smallest.settle_free(in, teller);
-  }
+  levels_.front()->settle_free(cube * edge, edge, teller);
 }
 
 MapLevel::Known WorldMap::known(const Cube& cube) const {
@@ -260,10 +258,10 @@ class WorldMap::FreeCubes {
   const ChunkNote* note_ = nullptr;
 };
 
-/// Calls `test` with the chunks that have a point between two corners, until it returns false.
+/// Calls `test` with the chunks from that of a cube to that of another, until it returns false.
 template <class Test>
-bool WorldMap::all_chunks(const Vector3d& low_W, const Vector3d& high_W, const Test& test) const {
-  const Cube low = MapLevel::block_of(cube_of(low_W)), high = MapLevel::block_of(cube_of(high_W));
+bool WorldMap::all_chunks(const Cube& lowest, const Cube& highest, const Test& test) const {
+  const Cube low = MapLevel::block_of(lowest), high = MapLevel::block_of(highest);
   for (int z = low.z(); z <= high.z(); ++z) {
     for (int y = low.y(); y <= high.y(); ++y) {
       for (int x = low.x(); x <= high.x(); ++x) {
@@ -277,9 +275,10 @@ bool WorldMap::all_chunks(const Vector3d& low_W, const Vector3d& high_W, const T
 bool WorldMap::tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius_m) const {
   const Vector3d reach = Vector3d::Constant(radius_m);
   // Most chunks are free all over, where a UAV flies.
-  const bool chunks_free = all_chunks(a_W.cwiseMin(b_W) - reach, a_W.cwiseMax(b_W) + reach, [&](const Cube& chunk) {
+  const Cube low = cube_of(a_W.cwiseMin(b_W) - reach), high = cube_of(a_W.cwiseMax(b_W) + reach);
+  const bool chunks_free = all_chunks(low, high, [&](const Cube& chunk) {
     const ChunkNote* const note = free_rows(chunk);
-    return note != nullptr && std::ranges::all_of(note->free_rows, [](auto row) { return row == 0xFF; });
+    return note != nullptr && note->all_free;
   });
   if (chunks_free) return true;
   return all_near(a_W, b_W, radius_m, FreeCubes(*this));
@@ -297,33 +296,42 @@ const WorldMap::ChunkNote* WorldMap::free_rows(const Cube& chunk) const {
     }
     note->free_rows[row] = free;
   }
+  note->all_free = std::ranges::all_of(note->free_rows, [](auto row) { return row == kRowFree; });
   note->read_at = note->changed_at;
   return note;
 }
 
-/// Row by row: those of its cubes that the ball touches lie beside each other.
-bool WorldMap::ball_free_in(const Cube& chunk, const Vector3d& p_W, double radius_m, double lowest_m) const {
-  const ChunkNote* note = nullptr;
+/// Row by row: those of its cubes that the ball touches lie beside each other. What is free all over is not measured.
+bool WorldMap::ball_free_in(const Cube& chunk, const Ball& ball) const {
+  const ChunkNote* const note = free_rows(chunk);
+  if (note != nullptr && note->all_free) return true;
   const double cell_m = config_.cell_m;
   const Cube first = chunk * kChunk;
-  std::array<std::array<double, kChunk>, 3> gap2 = {};  // along each axis, from the place to the cubes
+  std::array<int, 3> begin = {}, end = {};
+  std::array<std::array<double, kChunk>, 3> gap2;  // along each axis, from the place to the cubes
   for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < kChunk; ++i) {
+    const auto along = static_cast<std::size_t>(axis);
+    begin[along] = std::max(0, ball.low[axis] - first[axis]);
+    end[along] = std::min(kChunk, ball.high[axis] + 1 - first[axis]);
+    for (int i = begin[along]; i < end[along]; ++i) {
       const double low_m = (first[axis] + i) * cell_m;
-      const double gap_m = std::max({0.0, low_m - p_W[axis], p_W[axis] - low_m - cell_m});
-      gap2[static_cast<std::size_t>(axis)][static_cast<std::size_t>(i)] = gap_m * gap_m;
+      const double gap_m = std::max({0.0, low_m - ball.p_W[axis], ball.p_W[axis] - low_m - cell_m});
+      gap2[along][static_cast<std::size_t>(i)] = gap_m * gap_m;
     }
   }
-  const double radius2 = radius_m * radius_m;
-  for (std::size_t z = 0; z < kChunk; ++z) {
-    if (gap2[2][z] > radius2 || (first.z() + static_cast<int>(z) + 1) * cell_m <= lowest_m) continue;
-    for (std::size_t y = 0; y < kChunk; ++y) {
-      const double left2 = radius2 - gap2[2][z] - gap2[1][y];
+  const double radius2 = ball.radius_m * ball.radius_m;
+  for (int z = begin[2]; z < end[2]; ++z) {
+    const double gap2_z = gap2[2][static_cast<std::size_t>(z)];
+    if (gap2_z > radius2 || (first.z() + z + 1) * cell_m <= ball.lowest_m) continue;
+    for (int y = begin[1]; y < end[1]; ++y) {
+      const unsigned free = note == nullptr ? 0 : note->free_rows[static_cast<std::size_t>(z * kChunk + y)];
+      if (free == kRowFree) continue;
+      const double left2 = radius2 - gap2_z - gap2[1][static_cast<std::size_t>(y)];
       unsigned touched = 0;
-      for (std::size_t x = 0; x < kChunk; ++x) touched |= static_cast<unsigned>(gap2[0][x] <= left2) << x;
-      if (touched == 0) continue;
-      if (note == nullptr) note = free_rows(chunk);
-      if (note == nullptr || (touched & ~note->free_rows[z * kChunk + y]) != 0) return false;
+      for (int x = begin[0]; x < end[0]; ++x) {
+        touched |= static_cast<unsigned>(gap2[0][static_cast<std::size_t>(x)] <= left2) << x;
+      }
+      if ((touched & ~free) != 0) return false;
     }
   }
   return true;
@@ -331,8 +339,10 @@ bool WorldMap::ball_free_in(const Cube& chunk, const Vector3d& p_W, double radiu
 
 bool WorldMap::ball_free(const Vector3d& p_W, double radius_m, double lowest_m) const {
   const Vector3d reach = Vector3d::Constant(radius_m);
-  return all_chunks(p_W - reach, p_W + reach,
-                    [&](const Cube& chunk) { return ball_free_in(chunk, p_W, radius_m, lowest_m); });
+  const Cube low = cube_of(p_W - reach), high = cube_of(p_W + reach);
+  // One more on each side: where a cube begins just at the radius, the sum and the gap may be rounded apart.
+  const Ball ball = {p_W, radius_m, lowest_m, low - Cube::Ones(), high + Cube::Ones()};
+  return all_chunks(low, high, [&](const Cube& chunk) { return ball_free_in(chunk, ball); });
 }
 
 void WorldMap::not_free_near(const Vector3d& p_W, double radius_m, double lowest_m, std::vector<Cube>& cubes) const {

@@ -54,6 +54,11 @@ class WorldMap {
   static Cube chunk_of(const Cube& region, int i) {
     return kRegion * region + Cube(i % kRegion, i / kRegion % kRegion, i / (kRegion * kRegion));
   }
+  /// The other way round.
+  static std::size_t place_in_region(const Cube& chunk) {
+    const auto along = [&](int axis) { return static_cast<std::size_t>(chunk[axis] & (kRegion - 1)); };
+    return along(0) + kRegion * (along(1) + kRegion * along(2));
+  }
 
   explicit WorldMap(const Config& config);
 
@@ -106,6 +111,17 @@ class WorldMap {
   /// When something of a chunk, or of a region of 4^3 chunks, became known last: 1, 2, ...; 0: nothing is known.
   std::uint64_t changed_at(const Eigen::Vector3i& chunk) const;
   std::uint64_t region_changed_at(const Eigen::Vector3i& region) const;
+  using ChunksChangedAt = std::array<std::uint64_t, kRegionChunks>;
+  /// changed_at() of all chunks of a region, in the order of chunk_of(). Good until the map changes.
+  /// @param region  one of regions().
+  const ChunksChangedAt& chunks_changed_at(const Eigen::Vector3i& region) const {
+    return in_regions_.find(grid_key(region))->chunks;
+  }
+  /// Differs from what it was whenever one of a chunk's cubes has become occupied since, or is so no longer.
+  std::uint64_t structure_changed_at(const Eigen::Vector3i& chunk) const {
+    const ChunkNote* const found = chunks_.find(grid_key(chunk));
+    return found == nullptr ? 0 : found->structure_changed_at;
+  }
   /// All regions of which something is known, in the order in which they became so.
   const std::vector<Eigen::Vector3i>& regions() const { return regions_; }
 
@@ -129,9 +145,19 @@ class WorldMap {
  private:
   /// Of a chunk: changed_at(), and which of its smallest cubes are free, worked out anew when that is asked for.
   struct ChunkNote {
-    std::uint64_t changed_at = 0;
+    std::uint64_t changed_at = 0, structure_changed_at = 0;
     mutable std::uint64_t read_at = 0;                                ///< free_rows are of that change
     mutable std::array<std::uint8_t, kChunk* kChunk> free_rows = {};  ///< a bit for each x; y first
+    mutable bool all_free = false;                                    ///< so are all bits of them
+  };
+  struct RegionNote {
+    std::uint64_t changed_at = 0;
+    ChunksChangedAt chunks = {};
+  };
+  struct Ball {
+    Vector3d p_W;
+    double radius_m, lowest_m;
+    Cube low, high;  ///< no cubes but those from the one to the other have a point in it
   };
 
   class FreeCubes;
@@ -147,8 +173,8 @@ class WorldMap {
   /// nullptr: nothing is known of it.
   const ChunkNote* free_rows(const Cube& chunk) const;
   template <class Test>
-  bool all_chunks(const Vector3d& low_W, const Vector3d& high_W, const Test& test) const;
-  bool ball_free_in(const Cube& chunk, const Vector3d& p_W, double radius_m, double lowest_m) const;
+  bool all_chunks(const Cube& lowest, const Cube& highest, const Test& test) const;
+  bool ball_free_in(const Cube& chunk, const Ball& ball) const;
   template <class Visit>
   bool all_near(const Vector3d& a_W, const Vector3d& b_W, double radius_m, Visit&& visit) const;
 
@@ -156,7 +182,7 @@ class WorldMap {
   std::vector<std::unique_ptr<MapLevel>> levels_;  ///< the smallest cubes first
   mutable DistanceField distances_;                ///< of occupied cubes, worked out when they are asked for
   BlockTable<ChunkNote> chunks_;
-  BlockTable<std::uint64_t> in_regions_;  ///< changed_at()
+  BlockTable<RegionNote> in_regions_;
   std::vector<Eigen::Vector3i> regions_;
   std::uint64_t changes_ = 0, scans_ = 0;
   std::size_t tidied_blocks_ = 0;  ///< that there were after the last time

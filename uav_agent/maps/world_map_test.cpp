@@ -365,6 +365,10 @@ TEST(WorldMap, TellsWhereSomethingChanged) {
   EXPECT_EQ(map.changed_at({0, 0, 0}), first);
   EXPECT_GT(map.changed_at({-2, 0, 0}), first);
   EXPECT_GT(map.region_changed_at({-1, 0, 0}), first);
+  for (int i = 0; i < WorldMap::kRegionChunks; ++i) {
+    const WorldMap::Cube chunk = WorldMap::chunk_of({-1, 0, 0}, i);
+    EXPECT_EQ(map.chunks_changed_at({-1, 0, 0})[WorldMap::place_in_region(chunk)], map.changed_at(chunk)) << i;
+  }
   EXPECT_EQ(map.regions(), (std::vector<Eigen::Vector3i>{{0, 0, 0}, {-1, 0, 0}}));
   const std::uint64_t last = map.region_changed_at({-1, 0, 0});
   map.hear({-3, 0, 0}, 2, Space::free, 1);

@@ -35,7 +35,9 @@ class WorldVoxels {
 
  private:
   void find_occupied(const WorldMap& map, VoxelGrid& grid);
-  void count(const WorldMap& map, const WorldMap::Cube& chunk, VoxelGrid& grid);
+  /// Something of the chunk has changed: the cubes of the grid about it are to be looked at again.
+  void note(const WorldMap& map, const WorldMap::Cube& chunk, const VoxelGrid& grid);
+  void count(const WorldMap& map, const WorldMap::Cube& chunk, std::uint64_t changed_at, VoxelGrid& grid);
   void find_free(const WorldMap& map, VoxelGrid& grid);
 
   struct Hits {
@@ -44,7 +46,8 @@ class WorldVoxels {
   };
   /// Of a chunk of the map: when it was looked at last, and which of its cubes are counted.
   struct Counted {
-    std::uint64_t changed_at = 0;
+    std::uint64_t changed_at = 0, structure_changed_at = 0;
+    bool any_in_doubt = false;
     std::bitset<MapLevel::kCells> cubes = {};
   };
 
@@ -53,6 +56,8 @@ class WorldVoxels {
   BlockTable<Counted> chunks_;
   BlockTable<std::uint64_t> regions_;  ///< when they were looked at last
   VoxelGrid::Id next_look_ = 0;
+  /// By cube: 0 if nothing about it has changed since it was found not to be free.
+  std::vector<std::uint8_t> look_again_;
 };
 
 }  // namespace skein::agent

@@ -87,6 +87,30 @@ TEST(WorldVoxels, WhatMayHaveBeenAUavCountsForNothing) {
   EXPECT_EQ(voxels.hits(id), 0);
 }
 
+TEST(WorldVoxels, WhatBecomesFreeOrIsNoLongerInDoubtIsFoundLater) {
+  WorldMap map = map_above_ground();
+  VoxelGrid grid = grid_of_site();
+  WorldVoxels voxels;
+  std::mt19937_64 random(5);
+  for (int update = 0; update < 30; ++update) {
+    map.set_free(middle_W(drawn_cube(random)), 2.0);
+    voxels.update(map, grid);
+    for (Id id = 0; id < grid.count(); ++id) {
+      const bool free = map.ball_free(grid.centre_W(id), WorldVoxels::Config().around_m, 0.0);
+      ASSERT_EQ(grid.state(id) == VoxelState::free, free) << id;
+    }
+  }
+  const Cube cube(3, 4, 20);
+  tell(map, cube, Space::occupied);
+  map.doubt(cube);
+  voxels.update(map, grid);
+  const std::vector<Eigen::Vector3f> hits_W = {middle_W(cube).cast<float>()};
+  map.insert({}, hits_W);                        // it was no UAV,
+  tell(map, cube + Cube(1, 0, 0), Space::free);  // and something else of its chunk is told
+  voxels.update(map, grid);
+  EXPECT_EQ(voxels.hits(*grid.at(middle_W(cube))), 1);
+}
+
 TEST(WorldVoxels, LooksInTurnsFindTheSame) {
   std::mt19937_64 random(3);
   WorldMap map = map_above_ground();

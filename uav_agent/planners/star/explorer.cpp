@@ -55,12 +55,12 @@ void StarExplorer::look(const VoxelGrid& grid, const std::vector<Id>& changed, c
 
 std::vector<CubeCluster> StarExplorer::clusters(const VoxelGrid& grid, const OrientedBox& box, const Vector3d& p_W,
                                                 Tick now) const {
-  std::set<Id> open;
+  std::vector<Id> open;
   for (const Id id : frontiers_.cubes()) {
     if (looks_[id] >= config_.looks || now < not_before_[id]) continue;
-    if (box.contains(grid.centre_W(id), config_.margin_m) && worth_a_look(grid, id)) open.insert(open.end(), id);
+    if (box.contains(grid.centre_W(id), config_.margin_m) && worth_a_look(grid, id)) open.push_back(id);
   }
-  auto all = clusters_of(grid, std::move(open), config_.cluster_m, config_.min_cluster);
+  auto all = clusters_of(grid, open, config_.cluster_m, config_.min_cluster);
   std::ranges::stable_sort(all, {}, [&](const CubeCluster& cluster) { return (cluster.middle_W - p_W).norm(); });
   if (all.size() > kMaxClusters) all.resize(kMaxClusters);
   return all;

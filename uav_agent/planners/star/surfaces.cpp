@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/euler.hpp"
 #include "uav_agent/maps/frontiers.hpp"
@@ -62,12 +61,12 @@ std::vector<StarSurfaces::Patch> StarSurfaces::patches(const VoxelGrid& grid, co
                                                        const WorldVoxels& voxels, const Vector3d& p_W, Tick now) const {
   std::vector<Patch> result;
   for (int face = 0; face < VoxelGrid::kFaces; ++face) {
-    std::set<Id> open;
+    std::vector<Id> open;
     for (const Id id : cubes) {
       if (grid.state(id) != VoxelState::occupied || grid.marked(id, face) || !exposed(grid, id, face)) continue;
-      if (now >= failures_[VoxelGrid::kFaces * id + static_cast<Id>(face)].not_before) open.insert(open.end(), id);
+      if (now >= failures_[VoxelGrid::kFaces * id + static_cast<Id>(face)].not_before) open.push_back(id);
     }
-    for (const CubeCluster& cluster : clusters_of(grid, std::move(open), config_.patch_m, 1)) {
+    for (const CubeCluster& cluster : clusters_of(grid, open, config_.patch_m, 1)) {
       Patch patch;
       patch.face = face;
       for (const Id id : cluster.cubes) {
