@@ -29,8 +29,8 @@ set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test proce
 
 # What takes more than half a minute, for it computes much: a third of it runs at each commit.
 set(SKEIN_SLOW_TESTS agent_planner_contract_test agent_planners_kios_kios_test agent_planners_patrol_patrol_test
-  agent_planners_star_star_flight_test agent_planners_xxh_xxh_test bus_contract_test sim_oracle_oracle_test
-  sim_scenes_scene_families_test sim_wild_flood_test)
+  agent_planners_star_star_flight_test agent_planners_xxh_xxh_test agent_published_strategies_test bus_contract_test
+  sim_oracle_oracle_test sim_scenes_scene_families_test sim_wild_flood_test)
 
 # What takes long with sanitizers, for it computes much: an eighth of it runs at each commit.
 set(SKEIN_SLOW_SANITIZED_TESTS sim_oracle_oracle_test sim_plan_flight_test sim_plan_plan_test
@@ -40,7 +40,7 @@ set(SKEIN_SLOW_SANITIZED_TESTS sim_oracle_oracle_test sim_plan_flight_test sim_p
   sim_flight_vehicle_faults_test sim_oracle_best_aim_test sim_oracle_open_space_test sim_rays_ray_scene_test
   sim_scenes_scene_digests_test sim_scenes_scene_export_test sim_scenes_scene_source_test report_run_report_test
   agent_planners_kios_kios_test agent_planners_patrol_patrol_test agent_planners_star_star_flight_test
-  agent_planners_xxh_xxh_test agent_flight_core_safety_filter_test
+  agent_planners_xxh_xxh_test agent_published_strategies_test agent_flight_core_safety_filter_test
   cli_compose_compose_file_test one_process_digests_test protocol_test)
 # A third of it, for this is about what sanitizers look for.
 set(SKEIN_SANITIZED_TESTS_IN_THREE bus_contract_test radio_contract_test)

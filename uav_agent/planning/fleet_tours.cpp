@@ -79,7 +79,7 @@ class Solver {
       for (const std::size_t node : open) places[agent][node] = best_place(node, agent);
     }
     while (!open.empty()) {
-      const auto agent = static_cast<std::size_t>(std::ranges::min_element(load_) - load_.begin());
+      const std::size_t agent = next_to_take(open, places);
       const auto chosen = std::ranges::min_element(
           open, [&](std::size_t a, std::size_t b) { return places[agent][a].cost < places[agent][b].cost; });
       const std::size_t node = *chosen;
@@ -89,6 +89,24 @@ class Solver {
       load_[agent] += place.cost;
       for (const std::size_t other : open) update(places[agent][other], other, agent, place.position);
     }
+  }
+
+  /// For the longest tour: who has least to do. For the sum of all: who takes a task at least cost, those first who
+  /// have none.
+  std::size_t next_to_take(const std::vector<std::size_t>& open, const std::vector<std::vector<Place>>& places) const {
+    if (!for_total()) return static_cast<std::size_t>(std::ranges::min_element(load_) - load_.begin());
+    const bool all_have_one = std::ranges::none_of(tours_, [](const Tour& tour) { return tour.empty(); });
+    std::size_t taker = 0;
+    double least = kInfinity;
+    for (std::size_t agent = 0; agent < tours_.size(); ++agent) {
+      if (!all_have_one && !tours_[agent].empty()) continue;
+      for (const std::size_t node : open) {
+        if (places[agent][node].cost >= least) continue;
+        least = places[agent][node].cost;
+        taker = agent;
+      }
+    }
+    return taker;
   }
 
   /// After something was inserted at a position: only the two new ways there are cheaper than before, and only who
@@ -124,8 +142,11 @@ class Solver {
     tour = std::move(shorter);
   }
 
-  /// Whether two tours are better with these loads: the greater one counts, their sum a little.
+  bool for_total() const { return config_.objective == FleetTourObjective::total; }
+
+  /// Whether two tours are better with these loads. For the longest tour the greater one counts, their sum a little.
   bool better(std::size_t a, std::size_t b, double load_a, double load_b) const {
+    if (for_total()) return load_a + load_b < load_[a] + load_[b] - kTourGain;
     const double now = std::max(load_[a], load_[b]) + config_.total_weight * (load_[a] + load_[b]);
     return std::max(load_a, load_b) + config_.total_weight * (load_a + load_b) < now - kTourGain;
   }
@@ -140,6 +161,7 @@ class Solver {
 
   bool relocate() {
     for (const std::size_t from : by_load()) {
+      if (for_total() && tours_[from].size() < 2) continue;  // it keeps one task
       for (std::size_t position = 0; position < tours_[from].size(); ++position) {
         const std::size_t node = tours_[from][position];
         const double gain = removal(from, position);
@@ -160,9 +182,16 @@ class Solver {
     return false;
   }
 
-  /// A task of the longest tour for one of another.
+  /// A task of the longest tour, or of any if their sum counts, for one of another.
   bool swap() {
-    const std::size_t from = by_load().front();
+    for (const std::size_t from : by_load()) {
+      if (swap_of(from)) return true;
+      if (!for_total() || evaluations_ == 0) return false;
+    }
+    return false;
+  }
+
+  bool swap_of(std::size_t from) {
     for (std::size_t i = 0; i < tours_[from].size(); ++i) {
       const std::size_t mine = tours_[from][i];
       const double gain = removal(from, i);

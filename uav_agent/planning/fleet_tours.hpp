@@ -1,14 +1,17 @@
-// Who visits what, and in which order: a heuristic for the multiple travelling salesmen problem with the longest tour
-// as short as possible. Everybody begins elsewhere and ends anywhere. Whoever has least to do takes the task that
-// lengthens its tour least (cheapest insertion); then every tour is shortened on its own, and tasks move from longer
-// tours to shorter ones or change places with theirs, as long as that helps.
+// Who visits what, and in which order: a heuristic for the multiple travelling salesmen problem, with the longest tour
+// as short as possible, or the sum of all. Everybody begins elsewhere and ends anywhere. For the longest tour, whoever
+// has least to do takes the task that lengthens its tour least (cheapest insertion); for the sum, first each takes one
+// task, as the problem has it, then the cheapest insertion of all comes next. Then every tour is shortened on its own,
+// and tasks move to other tours or change places with theirs, as long as that helps.
 // Pure and deterministic: ties go to the lower number; effort is bounded by a count of evaluated moves.
 // Source: reconstructs the distributed mTSP of KIOS, whose paper was not available; STAR's task assignment.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
+#include "core/types.hpp"
 #include "uav_agent/planning/tours.hpp"
 
 namespace skein::agent {
@@ -21,8 +24,16 @@ struct FleetTourProblem {
   std::vector<double> ahead = {};    ///< cost that each agent has before it begins; empty: none
 };
 
+enum class FleetTourObjective { longest, total };
+
+constexpr std::array<EnumName<FleetTourObjective>, 2> enum_names(FleetTourObjective) {
+  return {{{"longest", FleetTourObjective::longest}, {"total", FleetTourObjective::total}}};
+}
+
 struct FleetTourConfig {
   std::size_t max_evaluations = 300'000;
+  /// What is to be short. For `total`, nobody stays without a task where there is one for each.
+  FleetTourObjective objective = FleetTourObjective::longest;
   double total_weight = 0.02;  ///< of the sum of all tours beside the longest one
 };
 

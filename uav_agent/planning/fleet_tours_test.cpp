@@ -74,6 +74,49 @@ void expect_partition(const FleetTours& tours, std::size_t agents, std::size_t n
   EXPECT_EQ(tours.tours.size(), agents);
 }
 
+/// The least sum of all tours in which each agent has a task where there are enough: by all ways to deal tasks out.
+double least_total(const FleetTourProblem& p) {
+  const std::size_t n = p.costs.nodes() - p.agents;
+  std::vector<std::size_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = p.agents + i;
+  double least = std::numeric_limits<double>::infinity();
+  do {  // each order, cut into a stretch for each agent: cuts as the digits of a number
+    for (std::size_t code = 0; code < static_cast<std::size_t>(std::pow(n + 1, p.agents - 1)); ++code) {
+      std::vector<std::size_t> cuts = {0};
+      for (std::size_t rest = code, i = 1; i < p.agents; ++i, rest /= n + 1) cuts.push_back(rest % (n + 1));
+      cuts.push_back(n);
+      if (!std::ranges::is_sorted(cuts)) continue;
+      if (n >= p.agents && std::ranges::adjacent_find(cuts) != cuts.end()) continue;
+      std::vector<Tour> tours(p.agents);
+      for (std::size_t agent = 0; agent < p.agents; ++agent) {
+        tours[agent].assign(order.begin() + static_cast<std::ptrdiff_t>(cuts[agent]),
+                            order.begin() + static_cast<std::ptrdiff_t>(cuts[agent + 1]));
+      }
+      least = std::min(least, measure_fleet_tours(p, std::move(tours)).total);
+    }
+  } while (std::ranges::next_permutation(order).found);
+  return least;
+}
+
+TEST(FleetTours, TheSumOfAllIsNearlyLeastAndNobodyStaysWithoutATask) {
+  double gaps = 0.0;
+  constexpr int kInstances = 40;
+  for (int i = 0; i < kInstances; ++i) {
+    const std::size_t agents = 1 + static_cast<std::size_t>(i % 3), tasks = 1 + static_cast<std::size_t>(i % 6);
+    const FleetTourProblem problem = random_problem(agents, tasks, 100 + static_cast<std::uint64_t>(i));
+    const FleetTours tours = solve_fleet_tours(problem, {.objective = FleetTourObjective::total});
+    expect_partition(tours, agents, agents + tasks);
+    if (tasks >= agents) {
+      EXPECT_TRUE(std::ranges::none_of(tours.tours, [](const Tour& tour) { return tour.empty(); })) << "instance " << i;
+    }
+    const double gap = tours.total / least_total(problem) - 1.0;
+    EXPECT_GE(gap, -1e-9) << "instance " << i;
+    EXPECT_LT(gap, 0.25) << "instance " << i;
+    gaps += gap;
+  }
+  EXPECT_LT(gaps / kInstances, 0.03);
+}
+
 TEST(FleetTours, SmallOnesAreNearlyOptimal) {
   double gaps = 0.0, worst = 0.0;
   constexpr int kInstances = 40;

@@ -5,9 +5,11 @@
 
 #include "core/config_reader.hpp"
 #include "uav_agent/flight_core/flight_config.hpp"
+#include "uav_agent/planners/preset.hpp"
 
 namespace skein::agent {
 
+/// Parameters without a value of their own have one by `faithful`, told behind them: resolved() fills them in.
 struct KiosConfig {
   double voxel_m = 0.0;          ///< edge of a cube; 0: 0.9 d*, but 2.5 to 6 m
   int lanes = 1;                 ///< of the mapping stage, in all; at least one for each explorer
@@ -24,9 +26,14 @@ struct KiosConfig {
   int reserve = 2;               ///< cubes ahead that are claimed beside the one it is in
   double share_s = 0.5;          ///< between two messages
   double claim_s = 3.0;          ///< after which a claim is void
-  double wait_s = 45.0;          ///< photographers wait no longer for the explorers' map, from when they could work
-  bool faithful = false;         ///< photographers wait for an explorer's word without end
+  /// 45, never: photographers wait no longer for the explorers' map, from when they could work.
+  std::optional<double> wait_s = {};
+  std::optional<double> silence_s = {};  ///< 45, never: nor for longer after they saw an explorer fly
+  std::optional<bool> maps_anew = {};    ///< false, true: an explorer that restarts takes as long to map as it takes
+  bool faithful = false;                 ///< photographers wait for an explorer's word without end
   FlightConfig flight = {};
+
+  KiosConfig resolved() const;
 
   template <class R>
   void describe(R& r) {
@@ -45,11 +52,21 @@ struct KiosConfig {
     r.field("reserve", reserve, within(0, 7));
     r.field("share_s", share_s, within(0.05, 10.0));
     r.field("claim_s", claim_s, within(0.1, 60.0));
-    r.field("wait_s", wait_s, within(0.0, 1e6));
+    r.field("wait_s", wait_s, within(0.0, kNeverS));
+    r.field("silence_s", silence_s, within(0.0, kNeverS));
+    r.field("maps_anew", maps_anew);
     r.field("faithful", faithful);
     flight.describe(r);
     r.check(voxel_m == 0.0 || voxel_m >= 1.0, "voxel_m", "must be 0 (by the camera) or at least 1");
   }
 };
+
+inline KiosConfig KiosConfig::resolved() const {
+  KiosConfig all = *this;
+  fill(all.wait_s, faithful, 45.0, kNeverS);
+  fill(all.silence_s, faithful, 45.0, kNeverS);
+  fill(all.maps_anew, faithful, false, true);
+  return all;
+}
 
 }  // namespace skein::agent

@@ -52,7 +52,7 @@ class KiosPlanner final : public Planner {
   using Config = KiosConfig;
 
   KiosPlanner(const Config& config, const AgentConfig& agent)
-      : config_(config),
+      : config_(config.resolved()),
         agent_(agent),
         reach_(camera_reach(agent.vehicle.camera, agent.desired_mm_per_pixel)),
         talk_({.share_s = config.share_s, .claim_s = config.claim_s}, agent_),
@@ -154,7 +154,7 @@ void KiosPlanner::survey_site(const PlannerInput& in) {
   patience_.begin(in.tick);
   if (!agent_.first_explorer()) return fill_boxes(in.boxes, *grid_);
   lay_lanes(in, config_.lanes);
-  if (!came_back || config_.faithful) return;
+  if (!came_back || *config_.maps_anew) return;
   const auto& left_W = mapping_.left_W();
   const double lanes_m = path_length(in.tracking.setpoint.p_WB, {left_W.begin(), left_W.end()});
   mapped_at_ = ticks(kLiftOffS + lanes_m / config_.map_mps);

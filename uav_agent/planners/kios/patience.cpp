@@ -5,7 +5,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSilenceS = 45.0, kFliesMps = 0.3;
+constexpr double kFliesMps = 0.3;
 
 }  // namespace
 
@@ -23,8 +23,8 @@ bool KiosPatience::is_over(const PlannerInput& in, const KiosConfig& config) {
     busy |= word && word->mapping && peer.visible;
   }
   if (!anybody_maps || (done && !busy)) return true;
-  if (config.faithful) return false;
-  return seconds(in.tick - std::max(seen_flying_, since_)) > kSilenceS || seconds(in.tick - since_) > config.wait_s;
+  const double silent_s = seconds(in.tick - std::max(seen_flying_, since_)), waited_s = seconds(in.tick - since_);
+  return silent_s > *config.silence_s || waited_s > *config.wait_s;
 }
 
 }  // namespace skein::agent

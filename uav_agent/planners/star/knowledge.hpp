@@ -18,6 +18,11 @@ class StarKnowledge {
   StarKnowledge(const StarConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
                 const std::vector<std::size_t>& own_boxes);
 
+  /// Another team's boxes, too.
+  void work_on(const std::vector<OrientedBox>& boxes, const std::vector<std::size_t>& own_boxes) {
+    cubes_ = cubes_of_boxes(grid_, boxes, own_boxes);
+  }
+
   VoxelGrid& grid() { return grid_; }
   const VoxelGrid& grid() const { return grid_; }
   StarSurfaces& surfaces() { return surfaces_; }

@@ -4,14 +4,16 @@
 //    over way and volume (teams.hpp), once and for all. 2. Explorers go through their team's boxes by frontiers:
 //    one viewpoint for each cluster, an ATSP over them (explorer.hpp). 3. What they find reaches the others in
 //    chunks (talk.hpp). 4. Photographers begin at once: viewpoints before known surface that nobody has inspected
-//    (surfaces.hpp), in clusters, by a hierarchical ATSP (tour.hpp); without any they hover. 5. Everybody
+//    (surfaces.hpp), in clusters, by a hierarchical ATSP (tour.hpp); without any they hover. Explorers explore: their
+//    cameras look at what they explore, unless `explorers_inspect`, or a team has no photographer. 5. Everybody
 //    flies on through its viewpoints without a stop, turning and tilting the camera all the time, and plans anew every
 //    1.5 s; so pictures are blurred and oblique.
 //
-// Its weaknesses are the published ones: boxes are shared out by volume and never again, empty volume is explored like
-// any other, photographers begin late, and pictures are taken in motion. `faithful` brings back what else the sources
-// tell or leave out: photographers without surface hover for ever where they are, out of sight as they may be; an
-// explorer that has seen everything is done, and a team without a box has nothing to do; UAVs of one team plan without
+// Its weaknesses are the published ones: boxes are shared out by way and never again, empty volume is explored like any
+// other, photographers begin late, and pictures are taken in motion. That a team with nothing left to do goes on to the
+// boxes of others (`helps`) is ours. `faithful` brings back what else the sources tell or leave out: photographers
+// without surface hover for ever where they are, out of sight as they may be; an explorer that has seen everything is
+// done (`explorers_inspect` wins over that), and a team without a box has nothing to do; UAVs of one team plan without
 // regard to where the others are about to work. Collisions at the start, which are published, are not brought back.
 // Not published for this contest, and so our choice: all numbers (config.hpp), the messages, and how it is flown: by
 // the flight core (flight_core/flight_core.hpp).
@@ -43,7 +45,7 @@ class StarPlanner final : public Planner {
   using Config = StarConfig;
 
   StarPlanner(const Config& config, const AgentConfig& agent)
-      : config_(config),
+      : config_(config.resolved()),
         agent_(agent),
         talk_({.share_s = config.share_s}, agent_),
         camera_(agent.vehicle, agent.me().role != Role::explorer) {}
@@ -62,6 +64,7 @@ class StarPlanner final : public Planner {
   };
 
   bool has_lidar() const { return agent_.me().role == Role::explorer; }
+  bool inspects() const { return !has_lidar() || config_.explorers_inspect || team_.size() == 1; }
   StarTourConfig tour_config() const;
 
   void survey_site(const PlannerInput& in);
@@ -75,6 +78,9 @@ class StarPlanner final : public Planner {
   bool inspect(const PlannerInput& in, PlannerOutput& out);
   void approach(const PlannerInput& in, std::size_t box, PlannerOutput& out);
   void idle(const PlannerInput& in, PlannerOutput& out);
+  std::optional<std::size_t> awaited() const;
+  bool team_is_done() const;
+  void help_others(const PlannerInput& in);
   void begin_box(std::size_t box);
   void hover(const PlannerInput& in, PlannerOutput& out);
   void offer(std::vector<Route> routes, double speed_mps, const PlannerInput& in, PlannerOutput& out);
@@ -88,12 +94,13 @@ class StarPlanner final : public Planner {
   StarCamera camera_;
 
   std::optional<StarKnowledge> known_;  ///< once the boxes have come, as all that follows
-  std::size_t leader_ = 0;              ///< of the team
+  std::vector<std::size_t> team_;       ///< its explorer first
   std::vector<std::size_t> boxes_;      ///< of the team, in the order of visit
 
   std::size_t at_box_ = 0;  ///< index into boxes_; the end: explored
   int approaches_ = 0;      ///< to this box
   bool been_there_ = false;
+  bool helps_others_ = false;
   std::vector<Route> routes_;  ///< offered to the flight core, which flies the first
   std::int64_t id_ = 0;        ///< of the last one that was offered
   std::optional<Vector3d> last_cluster_W_;
@@ -119,6 +126,7 @@ PlannerOutput StarPlanner::plan(const PlannerInput& in) {
   for (const Outcome& outcome : in.flight.outcomes) take_note(outcome, in);
   if (in.flight.working) {
     carry_on(in, out);
+    if (idle_since_ && routes_.empty()) out.waits_for = awaited();
   } else {
     routes_.clear();
   }
@@ -132,14 +140,15 @@ StarTourConfig StarPlanner::tour_config() const {
           .turn_s = config_.turn_s,
           .radius_m = config_.view_radius_m,
           .history_s = config_.history_s,
-          .mate_s = config_.mate_s,
+          .mate_s = *config_.mate_s,
           .effort = static_cast<std::size_t>(config_.effort)};
 }
 
 /// The teams, and all that follows from the boxes.
 void StarPlanner::survey_site(const PlannerInput& in) {
-  const StarTeam team = own_team(agent_.fleet, agent_.self, in.boxes, config_.volume_weight, !config_.faithful);
-  leader_ = team.uavs.front();
+  const StarShare share{.volume_weight = config_.volume_weight, .objective = config_.share};
+  const StarTeam team = own_team(agent_.fleet, agent_.self, in.boxes, share, *config_.helps);
+  team_ = team.uavs;
   boxes_ = team.boxes;
   known_.emplace(config_, agent_, in.boxes, boxes_);
   if (!has_lidar()) at_box_ = boxes_.size();
@@ -193,9 +202,7 @@ void StarPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   planned_at_ = in.tick;
   if (at_box_ < boxes_.size()) {
     explore(in, out);
-  } else if (has_lidar() && config_.faithful) {
-    hover(in, out);
-  } else if (!inspect(in, out)) {
+  } else if (!inspects() || !inspect(in, out)) {
     idle(in, out);
   }
 }
@@ -203,7 +210,7 @@ void StarPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
 /// On through the frontiers of this box; when there is none left, on to the next box.
 void StarPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
   StarStart start{in.tracking.setpoint.p_WB, in.tracking.setpoint.v_WB, {}};
-  if (!config_.faithful) start.mates_W = talk_.goals_W(in.tick);
+  start.mates_W = talk_.goals_W(in.tick);
   const std::size_t box = boxes_[at_box_];
   const std::vector<StarGoal> goals = known_->explorer().tour(known_->grid(), *in.space, in.boxes[box], start, in.tick);
   if (goals.empty()) {
@@ -226,9 +233,8 @@ bool StarPlanner::inspect(const PlannerInput& in, PlannerOutput& out) {
   if (views.empty()) return false;
   std::vector<Vector3d> places;
   for (const StarView& view : views) places.push_back(view.p_WB);
-  const std::vector<Vector3d> mates = config_.faithful ? std::vector<Vector3d>() : talk_.goals_W(in.tick);
-  const StarTour tour =
-      hierarchical_tour(known_->grid(), here, in.tracking.setpoint.v_WB, places, last_cluster_W_, mates, tour_config());
+  const StarTour tour = hierarchical_tour(known_->grid(), here, in.tracking.setpoint.v_WB, places, last_cluster_W_,
+                                          talk_.goals_W(in.tick), tour_config());
   std::vector<Route> routes;
   for (std::size_t first = 0; first < std::min(views.size(), kCandidates); ++first) {
     Route& route = routes.emplace_back();
@@ -261,20 +267,49 @@ void StarPlanner::approach(const PlannerInput& in, std::size_t box, PlannerOutpu
 void StarPlanner::idle(const PlannerInput& in, PlannerOutput& out) {
   if (!routes_.empty() && routes_.front().beside_W) return;
   if (!idle_since_) idle_since_ = in.tick;
-  const bool waits = seconds(in.tick - *idle_since_) < config_.follow_s;
-  if (config_.faithful || boxes_.empty() || waits) return hover(in, out);
+  const bool waits = seconds(in.tick - *idle_since_) < *config_.follow_s;
+  if (boxes_.empty() || waits) return hover(in, out);
   idle_since_ = in.tick;
+  if (*config_.helps && !helps_others_ && team_is_done()) return help_others(in);
   if (has_lidar()) {
     begin_box(rounds_ % boxes_.size());
     ++rounds_;
     return;
   }
-  const auto word = talk_.word(leader_);
+  const auto word = talk_.word(team_.front());
   const bool to_leader = word && word->box < in.boxes.size() && rounds_ % 2 == 0;
   const std::size_t box = to_leader ? word->box : boxes_[rounds_ / 2 % boxes_.size()];
   ++rounds_;
   approaches_ = 0;
   approach(in, box, out);
+}
+
+/// Its explorer has seen everything in its boxes, or is at another team's already.
+bool StarPlanner::team_is_done() const {
+  const auto word = talk_.word(team_.front());
+  return has_lidar() || (word && (word->explored || std::ranges::count(boxes_, word->box) == 0));
+}
+
+/// On to the boxes of the others, the nearest first.
+void StarPlanner::help_others(const PlannerInput& in) {
+  helps_others_ = true;
+  const auto is_own = [&](std::size_t box) { return std::ranges::count(boxes_, box) > 0; };
+  std::vector<std::size_t> others;
+  for (std::size_t box = 0; box < in.boxes.size(); ++box) {
+    if (!is_own(box)) others.push_back(box);
+  }
+  std::ranges::stable_sort(others, {}, [&](std::size_t box) { return (in.boxes[box].center - in.state.p_WB).norm(); });
+  if (others.empty()) return;
+  const std::size_t own = boxes_.size();
+  boxes_.insert(boxes_.end(), others.begin(), others.end());
+  known_->work_on(in.boxes, boxes_);
+  begin_box(has_lidar() ? own : boxes_.size());
+}
+
+/// Photographers wait for what their explorer finds, and it for the first of them to be done.
+std::optional<std::size_t> StarPlanner::awaited() const {
+  if (team_.size() < 2) return std::nullopt;
+  return team_[has_lidar() ? 1 : 0];
 }
 
 void StarPlanner::begin_box(std::size_t box) {
@@ -320,16 +355,17 @@ Goal StarPlanner::goal_of(Route& route, bool is_first, double speed_mps, const P
   return goal;
 }
 
-/// Explorers photograph what they pass, photographers what they fly to.
+/// Photographers look at what they fly to, explorers at what they explore, or, if they inspect, at surface that they
+/// pass.
 void StarPlanner::point_camera(const PlannerInput& in, PlannerOutput& out) {
   if (!in.tracking.airborne) return;
   if (!routes_.empty() && !routes_.front().views.empty()) {
     const StarView& view = routes_.front().views.front();
     camera_.sweep(in.state, in.gimbal, view.p_WB, view.surface_W, out);
   } else if (in.k % kCameraSteps == 0) {
-    auto passed = known_->nearest_open_W(in.state.p_WB);
-    if (!passed && !routes_.empty() && !routes_.front().goals.empty()) passed = routes_.front().goals.front().middle_W;
-    if (passed) camera_.look_at(in.state, *passed, out);
+    auto target = inspects() ? known_->nearest_open_W(in.state.p_WB) : std::nullopt;
+    if (!target && !routes_.empty() && !routes_.front().goals.empty()) target = routes_.front().goals.front().middle_W;
+    if (target) camera_.look_at(in.state, *target, out);
   }
 }
 

@@ -24,7 +24,8 @@ AgentConfig photographer_and_explorer() {
 
 /// A photographer that the navigator flies for STAR, in space that is known to be free.
 struct AtWork : FlownUav {
-  AtWork() : FlownUav(photographer_and_explorer(), {-10.0, 0.0, 10.0}), planner(make_planner("star", agent)) {
+  explicit AtWork(AgentConfig of_agent = photographer_and_explorer(), const std::string& spec = "star")
+      : FlownUav(std::move(of_agent), {-10.0, 0.0, 10.0}), planner(make_planner(spec, agent)) {
     clear({-24.0, -30.0, 0.0}, {60.0, 30.0, 26.0});
   }
 
@@ -129,6 +130,61 @@ TEST(StarFlight, WithoutSurfaceItGoesWhereItsExplorerWorks) {
       ASSERT_GT((uav.state.p_WB - uav.boxes[1 - box].center).norm(), 14.0) << "the other one first";
     }
     EXPECT_LT(nearest_m, 14.0);
+  }
+}
+
+/// Of an explorer beside a wall that is all known, with photographers in its team: places that it asks to fly to before
+/// that. Who inspects has viewpoints there; who does not has nothing to do there.
+std::size_t places_before_walls(const std::string& planner, std::size_t photographers) {
+  AgentConfig agent;
+  agent.fleet = {{.name = "lidar", .body_radius_m = 0.32}};
+  for (std::size_t i = 0; i < photographers; ++i) {
+    agent.fleet.push_back({.name = "eye", .role = Role::photographer, .p_WB_start = {0.0, -8.0, 0.0}});
+  }
+  AtWork uav(agent, planner);
+  const OrientedBox box = make_box({10.0, 0.0, 10.0}, {8.0, 28.0, 14.0});
+  uav.boxes = {box};
+  uav.build({9.5, -14.0, 4.0}, {10.5, 14.0, 16.0});
+  std::size_t near = 0;
+  while (uav.k < 1200) {
+    const auto goals = uav.work().goals;
+    for (const Goal& goal : goals.value_or(std::vector<Goal>())) {
+      const Vector3d place = first_place(goal, uav.state.p_WB);
+      const bool on_its_way = (place - uav.state.p_WB).norm() > 0.5;
+      near += on_its_way && std::abs(place.x() - 10.0) < 7.0 && std::abs(place.y()) < 13.0 ? 1U : 0U;
+    }
+  }
+  return near;
+}
+
+TEST(StarFlight, ExplorersInspectWhereTheyAreAskedToOrNobodyElseCan) {
+  EXPECT_LT(places_before_walls("star", 1), places_before_walls("star:explorers_inspect=true", 1) / 4);
+  EXPECT_GT(places_before_walls("star:explorers_inspect=true,faithful=true", 1), 20U) << "what is given wins";
+  EXPECT_GT(places_before_walls("star", 0), 20U) << "it has no photographer";
+}
+
+/// Two boxes, one of another team: whose own one is explored and photographed goes on to that one, or stays.
+TEST(StarFlight, ATeamThatHasNothingLeftToDoHelpsUnlessItIsFaithful) {
+  for (const bool helps : {true, false}) {
+    AgentConfig agent = photographer_and_explorer();
+    agent.fleet.push_back({.name = "other", .p_WB_start = {60.0, 20.0, 0.0}});
+    AtWork uav(agent, helps ? "star" : "star:helps=false");
+    uav.boxes = {make_box({10.0, -20.0, 9.0}, {6.0, 6.0, 14.0}), make_box({40.0, 18.0, 9.0}, {6.0, 6.0, 14.0})};
+    AgentConfig explorer = agent;
+    explorer.self = UavIndex(1);
+    StarTalk talk({}, explorer);
+    const VoxelGrid nothing(Isometry3d::Identity(), {4.0, 4.0, 4.0}, 2.0);
+    double nearest_m = 1e9;
+    while (uav.k < 1200) {
+      PlannerOutput said;
+      StarTalk::Word word;
+      word.explored = true;
+      talk.speak(uav.input(), nothing, word, said);
+      uav.radio = said.radio;
+      uav.work();
+      nearest_m = std::min(nearest_m, (uav.state.p_WB - uav.boxes[1].center).norm());
+    }
+    EXPECT_EQ(nearest_m < 14.0, helps) << nearest_m;
   }
 }
 

@@ -1,4 +1,4 @@
-// The parts of the STAR planner: teams, boxes, frontiers, surfaces, tours, ways, camera, messages.
+// The parts of the STAR planner: boxes, frontiers, surfaces, tours, ways, camera, messages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,75 +14,12 @@
 #include "uav_agent/planners/star/site.hpp"
 #include "uav_agent/planners/star/surfaces.hpp"
 #include "uav_agent/planners/star/talk.hpp"
-#include "uav_agent/planners/star/teams.hpp"
 #include "uav_agent/planners/star/tour.hpp"
 #include "uav_agent/planners/star/way.hpp"
 #include "uav_agent/testing/test_world.hpp"
 
 namespace skein::agent {
 namespace {
-
-FleetMember member(Role role, double x, double y = 0.0) {
-  FleetMember uav;
-  uav.role = role;
-  uav.p_WB_start = {x, y, 0.0};
-  return uav;
-}
-
-TEST(StarTeams, AreBalancedAndTakeTheNearestFirst) {
-  // Three photographers stand beside the first explorer: one of them has to go to the other.
-  const std::vector<FleetMember> fleet = {member(Role::explorer, 0.0), member(Role::explorer, 50.0),
-                                          member(Role::photographer, 3.0), member(Role::photographer, 1.0),
-                                          member(Role::photographer, 2.0)};
-  const auto teams = star_teams(fleet);
-  ASSERT_EQ(teams.size(), 2U);
-  EXPECT_EQ(teams[0].uavs, (std::vector<std::size_t>{0, 3, 4}));
-  EXPECT_EQ(teams[1].uavs, (std::vector<std::size_t>{1, 2}));
-}
-
-TEST(StarTeams, EverybodyIsInOneOfThemWhateverTheFleet) {
-  for (std::size_t explorers = 0; explorers < 5; ++explorers) {
-    for (std::size_t photographers = 0; photographers < 6; ++photographers) {
-      std::vector<FleetMember> fleet;
-      for (std::size_t i = 0; i < explorers; ++i) fleet.push_back(member(Role::explorer, 7.0 * i));
-      for (std::size_t i = 0; i < photographers; ++i) fleet.push_back(member(Role::photographer, 5.0 * i, 3.0));
-      std::vector<std::size_t> all;
-      for (const StarTeam& team : star_teams(fleet)) {
-        all.insert(all.end(), team.uavs.begin(), team.uavs.end());
-        if (explorers == 0) continue;
-        EXPECT_LE(team.uavs.size() - 1, (photographers + explorers - 1) / explorers);
-      }
-      std::ranges::sort(all);
-      ASSERT_EQ(all.size(), fleet.size());
-      for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], i);
-    }
-  }
-}
-
-TEST(StarTeams, VolumeWeighsAgainstWay) {
-  const std::vector<FleetMember> fleet = {member(Role::explorer, 0.0), member(Role::explorer, 10.0)};
-  const std::vector<OrientedBox> boxes = {make_box({0, 40, 10}, {40, 40, 20}), make_box({60, 0, 5}, {8, 8, 10}),
-                                          make_box({70, 0, 5}, {8, 8, 10}), make_box({80, 0, 5}, {8, 8, 10})};
-  auto teams = star_teams(fleet);
-  share_boxes(fleet, boxes, 0.005, teams);
-  const std::size_t has_large = std::ranges::count(teams[0].boxes, 0U) > 0 ? 0 : 1;
-  EXPECT_EQ(teams[has_large].boxes, std::vector<std::size_t>{0}) << "the large one is work enough";
-  EXPECT_EQ(teams[1 - has_large].boxes, (std::vector<std::size_t>{1, 2, 3})) << "in the order of the way";
-  std::size_t shared = 0;
-  share_boxes(fleet, boxes, 0.0, teams);
-  for (const StarTeam& team : teams) shared += team.boxes.size();
-  EXPECT_EQ(shared, boxes.size());
-}
-
-TEST(StarTeams, ATeamWithoutABoxHelpsUnlessItIsFaithful) {
-  const std::vector<FleetMember> fleet = {member(Role::explorer, 0.0), member(Role::explorer, 90.0)};
-  const std::vector<OrientedBox> boxes = {make_box({5, 0, 10}, {10, 10, 20})};
-  for (const std::size_t self : {0U, 1U}) {
-    EXPECT_EQ(own_team(fleet, self, boxes, 0.005, true).boxes, std::vector<std::size_t>{0});
-  }
-  EXPECT_EQ(own_team(fleet, 0, boxes, 0.005, false).boxes.size() + own_team(fleet, 1, boxes, 0.005, false).boxes.size(),
-            1U);
-}
 
 TEST(StarCamera, TurnsAllTheWayAndLooksAtTheSurfaceOnArrival) {
   StarCamera camera(VehicleConfig(), true);
@@ -258,7 +195,8 @@ TEST(StarSurfaces, AViewThatFailedIsTriedLater) {
 /// the boxes of the team.
 TEST(StarKnowledge, SurfaceIsWhatBeamsMetInTheTeamsBoxes) {
   AgentConfig agent;
-  agent.fleet = {member(Role::explorer, -20.0), member(Role::photographer, -25.0)};
+  agent.fleet = {{.name = "a", .role = Role::explorer, .p_WB_start = {-20.0, 0.0, 0.0}},
+                 {.name = "b", .role = Role::photographer, .p_WB_start = {-25.0, 0.0, 0.0}}};
   agent.self = UavIndex(1);
   const std::vector<OrientedBox> boxes = {make_box({0, 0, 10}, {16, 16, 16}), make_box({40, 0, 10}, {16, 16, 16})};
   const OccupancyMap hits;
@@ -359,7 +297,7 @@ TEST(StarExplorer, GivesUpFrontiersThatStayOnes) {
 TEST(StarTalk, GoalsAndInspectedSurfaceTravel) {
   AgentConfig speaker, listener;
   for (AgentConfig* agent : {&speaker, &listener}) {
-    agent->fleet = {member(Role::explorer, 0.0), member(Role::photographer, 5.0)};
+    agent->fleet = {{.name = "a"}, {.name = "b", .role = Role::photographer, .p_WB_start = {5.0, 0.0, 0.0}}};
   }
   listener.self = UavIndex(1);
   VoxelGrid theirs(Isometry3d::Identity(), {20.0, 20.0, 20.0}, 2.0), ours = theirs;

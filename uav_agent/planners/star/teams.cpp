@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "uav_agent/planning/fleet_tours.hpp"
-
 namespace skein::agent {
 
 std::vector<StarTeam> star_teams(const std::vector<FleetMember>& fleet) {
@@ -35,7 +33,7 @@ std::vector<StarTeam> star_teams(const std::vector<FleetMember>& fleet) {
   return teams;
 }
 
-void share_boxes(const std::vector<FleetMember>& fleet, const std::vector<OrientedBox>& boxes, double volume_weight,
+void share_boxes(const std::vector<FleetMember>& fleet, const std::vector<OrientedBox>& boxes, const StarShare& share,
                  std::vector<StarTeam>& teams) {
   FleetTourProblem problem;
   problem.agents = teams.size();
@@ -47,8 +45,8 @@ void share_boxes(const std::vector<FleetMember>& fleet, const std::vector<Orient
   for (std::size_t from = 0; from < n; ++from) {
     for (std::size_t to = teams.size(); to < n; ++to) problem.costs(from, to) = (place(to) - place(from)).norm();
   }
-  for (const OrientedBox& box : boxes) problem.service.push_back(volume_weight * box.size.prod());
-  const FleetTours tours = solve_fleet_tours(problem);
+  for (const OrientedBox& box : boxes) problem.service.push_back(share.volume_weight * box.size.prod());
+  const FleetTours tours = solve_fleet_tours(problem, {.objective = share.objective});
   for (std::size_t team = 0; team < teams.size(); ++team) {
     teams[team].boxes.clear();
     for (const std::size_t node : tours.tours[team]) teams[team].boxes.push_back(node - teams.size());
@@ -56,9 +54,9 @@ void share_boxes(const std::vector<FleetMember>& fleet, const std::vector<Orient
 }
 
 StarTeam own_team(const std::vector<FleetMember>& fleet, std::size_t self, const std::vector<OrientedBox>& boxes,
-                  double volume_weight, bool helps) {
+                  const StarShare& share, bool helps) {
   std::vector<StarTeam> teams = star_teams(fleet);
-  share_boxes(fleet, boxes, volume_weight, teams);
+  share_boxes(fleet, boxes, share, teams);
   StarTeam own =
       *std::ranges::find_if(teams, [self](const StarTeam& team) { return std::ranges::count(team.uavs, self) > 0; });
   if (!own.boxes.empty() || !helps) return own;

@@ -28,9 +28,7 @@ std::size_t XxhCrew::rank() const {
   return static_cast<std::size_t>(std::ranges::find(team_.members, agent_.self) - team_.members.begin());
 }
 
-bool XxhCrew::silent(std::size_t uav, Tick now) const {
-  return !config_.faithful && talk_.silent_s(uav, now) > config_.silence_s;
-}
+bool XxhCrew::silent(std::size_t uav, Tick now) const { return talk_.silent_s(uav, now) > *config_.silence_s; }
 
 std::size_t XxhCrew::awaited(Tick now) const {
   if (leader() != agent_.self) return leader();

@@ -10,7 +10,6 @@ constexpr std::size_t kChain = 12;   ///< places that are flown in one go
 constexpr std::size_t kChoices = 3;  ///< places from which on a way may begin
 constexpr int kShifts = 2;           ///< of a place, outwards
 constexpr double kShiftM = 4.0;
-constexpr double kGetsOutS = 30.0;     ///< of a corner from which no place of a section can be reached
 constexpr double kInwardsShare = 0.6;  ///< of the box: what the camera looks at
 
 /// The nearest place in a box, made smaller about its middle.
@@ -40,7 +39,7 @@ void XxhExplorer::begin(const XxhRegionMap& region, const XxhRegionMap::Section&
 bool XxhExplorer::finished(const XxhRegionMap& region, const PlannerInput& in) {
   if (late(in)) stop();
   if (!places_.empty() || !put_off_.empty()) return false;
-  if (config_.faithful || !got_nowhere_ || seconds(in.tick - since_) > kGetsOutS) return true;
+  if (!got_nowhere_ || seconds(in.tick - since_) >= *config_.retry_s) return true;
   lay_out(region, in);
   return false;
 }
@@ -48,7 +47,7 @@ bool XxhExplorer::finished(const XxhRegionMap& region, const PlannerInput& in) {
 void XxhExplorer::lay_out(const XxhRegionMap& region, const PlannerInput& in) {
   stop();
   if (region.is_empty(section_)) return;
-  for (Vector3d place : region.spiral(section_, in.tracking.setpoint.p_WB, config_.faithful)) {
+  for (Vector3d place : region.spiral(section_, in.tracking.setpoint.p_WB, *config_.first_turn)) {
     const Vector3d out = place - nearest_in_box(region.box(), place, 1.0);
     const auto taken = [&] {
       return !in.space->free(place) ||

@@ -24,7 +24,7 @@ class XxhExplorer {
              const PlannerInput& in);
   void stop();
   /// No time is left for this section.
-  bool late(const PlannerInput& in) const { return !config_.faithful && in.tick > until_; }
+  bool late(const PlannerInput& in) const { return *config_.time_share > 0.0 && in.tick > until_; }
   /// Been everywhere, or no time is left. Who came to no place at all begins again for a while.
   bool finished(const XxhRegionMap& region, const PlannerInput& in);
 

@@ -14,7 +14,7 @@ class XxhGround final : public GroundProgram {
  public:
   using Config = XxhConfig;
 
-  XxhGround(const Config& config, const AgentConfig& ground) : config_(config), ground_(ground) {}
+  XxhGround(const Config& config, const AgentConfig& ground) : config_(config.resolved()), ground_(ground) {}
 
   std::vector<RadioMessage> work(const GroundInput& in) override {
     bool somebody_lacks_it = false;
@@ -36,7 +36,7 @@ class XxhGround final : public GroundProgram {
  private:
   bool list_is_closed(const GroundInput& in) const {
     if (in.boxes.empty() || reports_.empty()) return false;
-    const bool complete = reports_.size() == ground_.fleet.size() && !config_.faithful;
+    const bool complete = reports_.size() == ground_.fleet.size() && !*config_.reported_only;
     return complete || seconds(in.tick - last_new_) >= config_.freeze_s;
   }
 
@@ -47,7 +47,7 @@ class XxhGround final : public GroundProgram {
       const auto report = reports_.find(uav);
       if (report != reports_.end()) {
         starts.push_back({uav, member.role, settled_start(report->second, member.p_WB_start)});
-      } else if (!config_.faithful) {
+      } else if (!*config_.reported_only) {
         starts.push_back({uav, member.role, member.p_WB_start});
       }
     }

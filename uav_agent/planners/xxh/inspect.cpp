@@ -14,18 +14,20 @@ constexpr int kPasses = 3;
 
 void XxhInspector::begin(const XxhRegionMap::Section& section) {
   layers_.clear();
-  for (int layer = section.first + config_.layer_step / 2; layer < section.last; layer += config_.layer_step) {
-    layers_.push_back(layer);
-  }
+  const int step = *config_.layer_step;
+  for (int layer = section.first + step / 2; layer < section.last; layer += step) layers_.push_back(layer);
   if (layers_.empty() && section.first < section.last) layers_.push_back(section.first);
   all_layers_.assign(layers_.begin(), layers_.end());
   pass_ = 0;
   failed_.clear();
+  last_cell_W_.reset();
   leave();
 }
 
 std::vector<Goal> XxhInspector::choices(const XxhRegionMap& region, const Vector3d& here_W, const FreeSpace& space) {
-  choices_ = region.nearest_visits(here_W, layers_.front(), space, failed_, kCandidates);
+  const XxhOrder order = *config_.order;
+  const Vector3d from_W = order == XxhOrder::spiral ? last_cell_W_.value_or(here_W) : here_W;
+  choices_ = region.visits(from_W, layers_.front(), order, space, failed_, kCandidates);
   std::vector<Goal> goals;
   for (const XxhVisit& visit : choices_) {
     Goal& goal = goals.emplace_back();
@@ -48,6 +50,7 @@ void XxhInspector::hear(const XxhErrand& errand) {
   if (!end) return;
   if (end->reached) {
     visit_ = choices_[end->choice];
+    last_cell_W_ = visit_->cell_W;
   } else {
     ++failed_[choices_[end->choice].cell];
   }

@@ -1,7 +1,8 @@
-// The layered inspection of XXH: which cell of a section to visit next, and what to do there. Every few layers one is
-// inspected, cell by cell, the nearest first; at a cell the gimbal turns to one occupied neighbour after the other.
+// The layered inspection of XXH: which cell of a section to visit next, and what to do there. Layer after layer is
+// inspected, cell by cell around the region; at a cell the gimbal turns to one occupied neighbour after the other.
 // Frame W.   Units: SI and radians.   Threads: one.
-// Source: paper, "Inspection Strategy" of Team XXH; its public code for the angle at which a target counts as reached
+// Source: paper, "Inspection Strategy" of Team XXH ("all exposed voxel faces", "a spiral pattern"); its public code for
+// every third layer, the nearest cell first, the angle at which a target counts as reached
 // and the 3 s at a cell. That the UAV comes to rest first, stays for a picture, and goes over its layers again for what
 // it could not reach are ours.
 #pragma once
@@ -26,7 +27,7 @@ class XxhInspector {
   void begin(const XxhRegionMap::Section& section);
   bool finished() const { return layers_.empty() && !visit_; }
 
-  /// Cells to choose from, the nearest first; none when this layer is done: then the next one is tried next time.
+  /// Cells to choose from, the next one first; none when this layer is done: then the next one is tried next time.
   std::vector<Goal> choices(const XxhRegionMap& region, const Vector3d& here_W, const FreeSpace& space);
   /// Once per exchange: hears what became of these choices.
   void hear(const XxhErrand& errand);
@@ -51,6 +52,7 @@ class XxhInspector {
   std::vector<int> all_layers_;
   int pass_ = 0;  ///< how often it has gone over the section's layers
   std::vector<XxhVisit> choices_;
+  std::optional<Vector3d> last_cell_W_;  ///< that it visited, from which the spiral goes on
   std::optional<XxhVisit> visit_;
   std::map<VoxelGrid::Id, int> failed_;
   std::optional<Tick> at_cell_since_, reached_since_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace skein::agent {
@@ -107,6 +108,12 @@ int longest_axis(const OrientedBox& box) {
     if (box.size[i] > box.size[axis]) axis = i;
   }
   return axis;
+}
+
+std::optional<BoxEnd> foot_end(const OrientedBox& box) {
+  const double up = box.R_WO.col(longest_axis(box)).z();
+  if (std::abs(up) < std::numbers::sqrt2 / 2.0) return std::nullopt;
+  return up > 0.0 ? BoxEnd::low : BoxEnd::high;
 }
 
 double volume_of(const OrientedBox& box) { return box.size.prod(); }

@@ -37,6 +37,9 @@ struct XxhRegion {
 
 /// Index of the longest edge; of equal ones the first.
 int longest_axis(const OrientedBox& box);
+/// The end of the longest edge that is below the other one; nothing if that edge lies more than it stands.
+enum class BoxEnd { low, high };
+std::optional<BoxEnd> foot_end(const OrientedBox& box);
 double volume_of(const OrientedBox& box);
 /// The region as a box with the same axes.
 OrientedBox region_box(const XxhRegion& region, const OrientedBox& box);

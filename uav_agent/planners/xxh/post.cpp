@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "uav_agent/flight/free_space.hpp"
-
 namespace skein::agent {
 namespace {
 
@@ -12,6 +10,7 @@ constexpr int kHeights = 6;
 constexpr double kStaysS = 2.0;        ///< then it says again that it is to stay: who wants nothing is taken elsewhere
 constexpr double kTriesAgainS = 5.0;   ///< to the flight core, which gets a UAV on that finds no way
 constexpr std::size_t kMostPosts = 3;  ///< for which a way is looked for
+constexpr double kRayM = 0.25;         ///< about a line of sight, to mapped cells
 
 }  // namespace
 
@@ -52,6 +51,16 @@ void XxhPost::stay(const std::vector<Vector3d>& places_W, double speed_mps, XxhE
   to_post_ = post_W_ || !choices.empty();
   if (choices.empty()) choices.push_back({.way = {{post_W_.value_or(in.tracking.setpoint.p_WB), speed_mps}}});
   errand.set_out(std::move(choices), out);
+}
+
+void sort_by_sight(const std::vector<Vector3d>& explorer_W, const FreeSpace& space, std::vector<Vector3d>& posts_W) {
+  std::vector<std::pair<std::ptrdiff_t, Vector3d>> ranked;
+  for (const Vector3d& post : posts_W) {
+    const auto seen = std::ranges::count_if(explorer_W, [&](const Vector3d& p) { return space.sees(post, p, kRayM); });
+    ranked.emplace_back(seen, post);
+  }
+  std::ranges::stable_sort(ranked, std::ranges::greater(), &std::pair<std::ptrdiff_t, Vector3d>::first);
+  for (std::size_t i = 0; i < ranked.size(); ++i) posts_W[i] = ranked[i].second;
 }
 
 }  // namespace skein::agent

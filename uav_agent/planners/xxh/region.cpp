@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <numbers>
+#include <tuple>
 
 namespace skein::agent {
 namespace {
@@ -152,32 +154,67 @@ std::optional<Vector3d> XxhRegionMap::stop_at(VoxelGrid::Id cell, const std::vec
   return std::nullopt;
 }
 
-std::vector<XxhVisit> XxhRegionMap::nearest_visits(const Vector3d& from_W, int layer, const FreeSpace& space,
-                                                   const std::map<VoxelGrid::Id, int>& skip, std::size_t most) const {
-  std::vector<XxhVisit> visits;
-  const Vector3d from_G = X_WG_.inverse() * from_W / config_.voxel_m;
-  VoxelGrid::Cell start;
-  for (int i = 0; i < 3; ++i) {
-    start[i] = static_cast<int>(std::clamp(from_G[i], 0.0, grid_.dims()[i] - 1.0));
-  }
+VoxelGrid::Id XxhRegionMap::cell_at(const Vector3d& p_W) const {
+  const Vector3d p_G = X_WG_.inverse() * p_W / config_.voxel_m;
+  VoxelGrid::Cell cell;
+  for (int i = 0; i < 3; ++i) cell[i] = static_cast<int>(std::clamp(p_G[i], 0.0, grid_.dims()[i] - 1.0));
+  return *grid_.at(cell);
+}
+
+/// By steps.
+std::vector<VoxelGrid::Id> XxhRegionMap::reachable(VoxelGrid::Id from, int layer) const {
+  std::vector<VoxelGrid::Id> cells;
   std::vector<bool> met(grid_.count());
-  std::deque<VoxelGrid::Id> queue = {*grid_.at(start)};
-  met[queue.front()] = true;
-  for (std::size_t tries = 0; !queue.empty() && visits.size() < most && tries < kMostTries;) {
+  std::deque<VoxelGrid::Id> queue = {from};
+  met[from] = true;
+  while (!queue.empty()) {
     const VoxelGrid::Id cell = queue.front();
     queue.pop_front();
-    if (this->layer(cell) == layer && !skip.contains(cell)) {
-      if (auto looks = targets(cell); !looks.empty()) {
-        ++tries;
-        if (const auto stop = stop_at(cell, looks, space)) visits.push_back({cell, *stop, std::move(looks)});
-      }
-    }
+    if (this->layer(cell) == layer) cells.push_back(cell);
     for (int face = 0; face < VoxelGrid::kFaces; ++face) {
       const auto next = grid_.neighbour(cell, face);
       if (!next || met[*next] || grid_.state(*next) == VoxelState::occupied) continue;
       met[*next] = true;
       queue.push_back(*next);
     }
+  }
+  return cells;
+}
+
+/// From a cell on, once around the axis, in sectors as wide as a cell at the rim.
+void XxhRegionMap::sort_around(VoxelGrid::Id from, std::vector<VoxelGrid::Id>& cells) const {
+  const Vector2d middle = 0.5 * (grid_.dims().head<2>().cast<double>() - Vector2d::Ones());
+  const auto off_axis = [&](VoxelGrid::Id id) { return Vector2d(grid_.cell(id).head<2>().cast<double>() - middle); };
+  const auto angle = [](const Vector2d& p) { return std::atan2(p.y(), p.x()); };
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const int sectors = std::max(4, 2 * static_cast<int>(middle.x() + middle.y()));
+  const double begin = angle(off_axis(from));
+  std::vector<std::tuple<int, double, VoxelGrid::Id>> keys;
+  for (const VoxelGrid::Id id : cells) {
+    const Vector2d p = off_axis(id);
+    const double ahead = angle(p) - begin + kTurn / (2.0 * sectors);  // the sector about `from` comes first
+    const int sector = static_cast<int>((ahead - kTurn * std::floor(ahead / kTurn)) / kTurn * sectors);
+    keys.emplace_back(sector, -p.squaredNorm(), id);
+  }
+  std::ranges::sort(keys);
+  for (std::size_t i = 0; i < keys.size(); ++i) cells[i] = std::get<2>(keys[i]);
+}
+
+std::vector<XxhVisit> XxhRegionMap::visits(const Vector3d& from_W, int layer, XxhOrder order, const FreeSpace& space,
+                                           const std::map<VoxelGrid::Id, int>& skip, std::size_t most) const {
+  const VoxelGrid::Id from = cell_at(from_W);
+  std::vector<VoxelGrid::Id> cells = reachable(from, layer);
+  if (order == XxhOrder::spiral) sort_around(from, cells);
+  std::vector<XxhVisit> visits;
+  std::size_t tries = 0;
+  for (const VoxelGrid::Id cell : cells) {
+    if (visits.size() >= most || tries >= kMostTries) break;
+    if (skip.contains(cell)) continue;
+    auto looks = targets(cell);
+    if (looks.empty()) continue;
+    ++tries;
+    if (const auto stop = stop_at(cell, looks, space))
+      visits.push_back({cell, grid_.centre_W(cell), *stop, std::move(looks)});
   }
   return visits;
 }

@@ -4,7 +4,8 @@
 // Threads: one.   Deterministic.   Effort: in proportion to the cells of the region.
 // Source: paper, "Exploration Strategy" and "Inspection Strategy" of Team XXH; its public code for cells of 2.5 m, the
 // margin of 6 m and one gimbal target for each occupied face neighbour. How far the spiral is from the box, the
-// distance between its turns, and where exactly in front of a cell's targets a UAV stops are our choice.
+// distance between its turns, what a spiral is among the cells of a layer, and where exactly in front of a cell's
+// targets a UAV stops are our choice.
 #pragma once
 
 #include <map>
@@ -13,6 +14,7 @@
 
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/maps/world_voxels.hpp"
+#include "uav_agent/planners/xxh/config.hpp"
 
 namespace skein::agent {
 
@@ -27,8 +29,9 @@ struct XxhTarget {
 /// One cell to visit.
 struct XxhVisit {
   VoxelGrid::Id cell = 0;
-  Vector3d p_WB = Vector3d::Zero();  ///< where the UAV stops
-  std::vector<XxhTarget> targets;    ///< not looked at yet
+  Vector3d cell_W = Vector3d::Zero();  ///< its middle
+  Vector3d p_WB = Vector3d::Zero();    ///< where the UAV stops
+  std::vector<XxhTarget> targets;      ///< not looked at yet
 };
 
 class XxhRegionMap {
@@ -71,11 +74,13 @@ class XxhRegionMap {
   /// @param bottom_only  just one turn, at the section's first layer.
   std::vector<Vector3d> spiral(const Section& section, const Vector3d& from_W, bool bottom_only = false) const;
 
-  /// The cells of a layer that have targets, the nearest first by steps through cells that are not occupied, at most
-  /// `most` of those that have a free place to stop at.
-  /// @param from_W  is brought into the grid.   @param skip  cells that are left out.
-  std::vector<XxhVisit> nearest_visits(const Vector3d& from_W, int layer, const FreeSpace& space,
-                                       const std::map<VoxelGrid::Id, int>& skip, std::size_t most) const;
+  /// The cells of a layer that have targets and can be reached from `from_W` through cells that are not occupied, at
+  /// most `most` of those that have a free place to stop at.
+  /// @param from_W  is brought into the grid.   @param order  nearest: by the number of steps. spiral: the next one
+  /// around the region first, in the sense in which the explorer flies; of those in one direction the outermost.
+  /// @param skip  cells that are left out.
+  std::vector<XxhVisit> visits(const Vector3d& from_W, int layer, XxhOrder order, const FreeSpace& space,
+                               const std::map<VoxelGrid::Id, int>& skip, std::size_t most) const;
   /// Without places to stop at; empty if the cell is no place to look from.
   std::vector<XxhTarget> targets(VoxelGrid::Id cell) const;
 
@@ -83,6 +88,9 @@ class XxhRegionMap {
   int core_first() const;
   int core_last() const;
   std::vector<int> turns() const;
+  VoxelGrid::Id cell_at(const Vector3d& p_W) const;
+  std::vector<VoxelGrid::Id> reachable(VoxelGrid::Id from, int layer) const;
+  void sort_around(VoxelGrid::Id from, std::vector<VoxelGrid::Id>& cells) const;
   std::optional<Vector3d> stop_at(VoxelGrid::Id cell, const std::vector<XxhTarget>& targets,
                                   const FreeSpace& space) const;
 

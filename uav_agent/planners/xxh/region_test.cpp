@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "core/random_stream.hpp"
@@ -78,7 +80,7 @@ struct LoneCell {
   Vector3d cell_W() const { return region.targets(*region.grid().neighbour(cube(), 0)).front().surface_W; }
   VoxelGrid::Id cube() const { return *region.grid().at(Vector3d(0.1, 0.1, 20.1)); }
   std::vector<XxhVisit> visits(int layer) const {
-    return region.nearest_visits({10.0, 0.0, 20.0}, layer, space, {}, 100);
+    return region.visits({10.0, 0.0, 20.0}, layer, XxhOrder::nearest, space, {}, 100);
   }
 };
 
@@ -99,13 +101,45 @@ TEST(XxhRegion, CellsBesideAnOccupiedOneAreVisitedAndLookAtIt) {
   EXPECT_EQ(found, 6U);
 }
 
+/// Structure drawn in one layer: visited one after the other, it is gone around once, in the sense of the explorer.
+TEST(XxhRegion, TheSpiralVisitsAllCellsOfALayerOnceAround) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream random(seed, "layer", 0);
+    LoneCell world;
+    for (int i = 0; i < 12; ++i) {
+      const Vector3d p_B(random.uniform(-4.5, 4.5), random.uniform(-3.5, 3.5), 0.1);
+      tell(world.world, kBox.center + kBox.R_WO * p_B);
+    }
+    world.region.update(world.world);
+    const int layer = world.region.layer(world.cube());
+    std::map<VoxelGrid::Id, int> done;
+    Vector3d at_W(30.0, 0.0, 20.0);
+    double turned = 0.0, backwards = 0.0;
+    std::size_t visited = 0;
+    const auto visits = [&](XxhOrder order, std::size_t most) {
+      return world.region.visits(at_W, layer, order, world.space, done, most);
+    };
+    const std::size_t all = visits(XxhOrder::nearest, 1000).size();
+    for (auto next = visits(XxhOrder::spiral, 1); !next.empty(); next = visits(XxhOrder::spiral, 1), ++visited) {
+      const Vector3d from = at_W - kBox.center, to = next.front().cell_W - kBox.center;
+      const double turn = std::atan2(from.x() * to.y() - from.y() * to.x(), from.head<2>().dot(to.head<2>()));
+      if (visited > 0) (turn < 0.0 ? backwards : turned) += std::abs(turn);
+      at_W = next.front().cell_W;
+      ++done[next.front().cell];
+    }
+    EXPECT_EQ(visited, all) << "seed " << seed;
+    EXPECT_LT(turned - backwards, 2.5 * std::numbers::pi) << "seed " << seed << ": once";
+    EXPECT_LT(backwards, turned) << "seed " << seed;
+  }
+}
+
 TEST(XxhRegion, WhereNothingIsFreeNearIsLookedAtFromFartherOff) {
   LoneCell world;
   const Vector3d there_W = world.cell_W();
   const FreeSpace space(FreeSpace::Config(), world.no_boxes, world.map, {{there_W, 5.0}});
   std::size_t found = 0;
   for (int layer = 0; layer < world.region.grid().dims().z(); ++layer) {
-    for (const XxhVisit& visit : world.region.nearest_visits({10.0, 0.0, 20.0}, layer, space, {}, 100)) {
+    for (const XxhVisit& visit : world.region.visits({10.0, 0.0, 20.0}, layer, XxhOrder::nearest, space, {}, 100)) {
       ++found;
       EXPECT_NEAR((visit.p_WB - there_W).dot(visit.targets.front().out_W), XxhRegionMap::Config().limit_m, 0.01);
     }
@@ -124,7 +158,7 @@ TEST(XxhRegion, WhatHasAPillarInFrontIsLookedAtFromAside) {
     pillar.push_back({target.surface_W + 2.9 * target.out_W + up * Vector3d::UnitZ(), 2.0});
   }
   const FreeSpace space(FreeSpace::Config(), world.no_boxes, world.map, pillar);
-  const auto visits = world.region.nearest_visits({10.0, 0.0, 20.0}, layer, space, {}, 100);
+  const auto visits = world.region.visits({10.0, 0.0, 20.0}, layer, XxhOrder::nearest, space, {}, 100);
   EXPECT_EQ(visits.size(), in_front.size());
   for (const XxhVisit& visit : visits) {
     if (visit.cell != in_front.front().cell) continue;
@@ -201,7 +235,9 @@ TEST(XxhRegion, NothingKnownIsNotEmptyAndWhatWasSeenToBeFreeIs) {
 
 /// An inspector whose flight core tells of every choice what the test says.
 struct Inspecting : LoneCell {
-  explicit Inspecting(Outcome::Kind all_become) : kind(all_become) {
+  explicit Inspecting(Outcome::Kind all_become, int layer_step = 1) : kind(all_become) {
+    config.layer_step = layer_step;
+    config = config.resolved();
     agent.fleet = {{.name = "a"}};
     inspector.begin(region.section(0, 1, 1.0));
   }
@@ -223,15 +259,19 @@ struct Inspecting : LoneCell {
     return *out.goals;
   }
   const Outcome::Kind kind;
-  const XxhConfig config;
+  XxhConfig config;
   AgentConfig agent;
   XxhInspector inspector{config, agent};
   XxhErrand errand;
   std::vector<Outcome> outcomes;
 };
 
-TEST(XxhInspector, GoesOverEveryThirdLayerAndAgainForWhatWasNotReached) {
-  Inspecting world(Outcome::Kind::no_way);
+/// Every layer as the paper says, or every third as the public code, or as many as are asked for.
+class XxhInspectorLayers : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Steps, XxhInspectorLayers, testing::Values(1, 2, 3, 5));
+
+TEST_P(XxhInspectorLayers, AreGoneOverAndAgainForWhatWasNotReached) {
+  Inspecting world(Outcome::Kind::no_way, GetParam());
   std::map<int, int> tried;  // choices, by layer
   for (int i = 0; i < 1000 && !world.inspector.finished(); ++i) {
     for (const Goal& goal : world.exchange()) ++tried[world.region.layer(*world.region.grid().at(goal.way[0].p_WB))];
@@ -239,7 +279,7 @@ TEST(XxhInspector, GoesOverEveryThirdLayerAndAgainForWhatWasNotReached) {
   EXPECT_TRUE(world.inspector.finished());
   ASSERT_FALSE(tried.empty());
   for (const auto& [layer, times] : tried) {
-    EXPECT_EQ(layer % world.config.layer_step, world.config.layer_step / 2);
+    EXPECT_EQ(layer % GetParam(), GetParam() / 2);
     EXPECT_EQ(times % 3, 0) << "in three passes";
   }
 }
@@ -290,7 +330,7 @@ struct Exploring : LoneCell {
     });
     return out.goals.value_or(std::vector<Goal>());
   }
-  const XxhConfig config;
+  const XxhConfig config = XxhConfig().resolved();
   AgentConfig agent;
   XxhExplorer explorer{config};
   XxhErrand errand;

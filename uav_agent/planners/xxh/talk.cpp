@@ -15,7 +15,8 @@ constexpr std::size_t kMostPlaces = 8;  ///< of one trajectory: what is farther 
 
 void write_word(const XxhWord& word, PayloadWriter& writer) {
   writer.position(word.start_W);
-  writer.u8(static_cast<std::uint8_t>((word.has_plan ? 1 : 0) | (word.acknowledged ? 2 : 0) | (word.done ? 4 : 0)));
+  writer.u8(static_cast<std::uint8_t>((word.has_plan ? 1 : 0) | (word.acknowledged ? 2 : 0) | (word.done ? 4 : 0) |
+                                      (word.from_high_end ? 8 : 0) | (word.decided ? 16 : 0)));
   writer.u16(word.region);
   writer.u8(word.explored);
   const std::size_t corners = std::min(word.way_W.size(), XxhWord::kMaxWay);
@@ -30,6 +31,8 @@ std::optional<XxhWord> read_word(PayloadReader& reader) {
   word.has_plan = (flags & 1) != 0;
   word.acknowledged = (flags & 2) != 0;
   word.done = (flags & 4) != 0;
+  word.from_high_end = (flags & 8) != 0;
+  word.decided = (flags & 16) != 0;
   word.region = reader.u16();
   word.explored = reader.u8();
   const int corners = reader.u8();
@@ -57,16 +60,17 @@ std::optional<std::pair<std::size_t, XxhWord>> open_word(const RadioMessage& mes
   return std::pair(payload->sender, std::move(*word));
 }
 
-void XxhTalk::listen(const PlannerInput& in, VoxelGrid* grid) {
+void XxhTalk::listen(const PlannerInput& in, const XxhWord& own, VoxelGrid* grid) {
   for (const RadioMessage& message : in.radio) {
     std::vector<std::uint8_t> map;
     if (auto heard = open_word(message, agent_.fleet.size(), &map)) {
       auto& [sender, word] = *heard;
       if (sender == agent_.self) continue;
       word.heard = in.tick;
+      const bool same_grid = word.region == own.region && word.from_high_end == own.from_high_end;
       words_[sender] = std::move(word);
       PayloadReader reader(map);
-      if (grid && exchange_ && !map.empty()) exchange_->read(sender, in.tick, *grid, reader);
+      if (grid && same_grid && exchange_ && !map.empty()) exchange_->read(sender, in.tick, *grid, reader);
     } else if (const auto said = open_payload(message, kPlanName, agent_.fleet.size() + 1); said && !plan_) {
       PayloadReader reader(said->bytes);
       if (!in.boxes.empty()) plan_ = read_plan(reader, agent_.fleet.size(), in.boxes.size());
@@ -103,7 +107,7 @@ std::vector<Sphere> XxhTalk::trajectories(const PlannerInput& in) const {
   std::vector<Sphere> spheres;
   const Vector3d here = in.tracking.setpoint.p_WB;
   for (const auto& [uav, word] : words_) {
-    const bool valid = config_.forever || (goes_first(uav) && seconds(in.tick - word.heard) < config_.claim_s);
+    const bool valid = (config_.all_give_way || goes_first(uav)) && seconds(in.tick - word.heard) < config_.claim_s;
     if (!valid || word.way_W.empty()) continue;
     const double radius = agent_.me().body_radius_m + agent_.fleet[uav].body_radius_m + kApartM;
     std::size_t places = 0;

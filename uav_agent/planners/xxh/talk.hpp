@@ -24,6 +24,8 @@ struct XxhWord {
   Vector3d start_W = Vector3d::Zero();
   bool has_plan = false;
   std::uint16_t region = 0;          ///< index in its team's list; past the end: all done
+  bool from_high_end = false;        ///< of its longest edge that region is begun
+  bool decided = false;              ///< so, by a leader
   std::uint8_t explored = 0;         ///< sections of it that may be inspected, for a leader
   bool acknowledged = false;         ///< knows that its own section may be inspected
   bool done = false;                 ///< with its section
@@ -45,14 +47,15 @@ class XxhTalk {
   struct Config {
     double share_s = 0.5;
     double claim_s = 3.0;
-    bool forever = false;  ///< what others said they would fly is never forgotten
+    bool all_give_way = false;  ///< also those who go first
   };
 
   /// @param agent  must outlive this.
   XxhTalk(const Config& config, const AgentConfig& agent) : config_(config), agent_(agent) {}
 
-  /// Takes what arrived, maps of `grid` into it if there is one.
-  void listen(const PlannerInput& in, VoxelGrid* grid);
+  /// Takes what arrived; maps of the same region, begun at the same end, into `grid` if there is one.
+  /// @param own  what it would say itself.
+  void listen(const PlannerInput& in, const XxhWord& own, VoxelGrid* grid);
   /// When it is time, says `own` and the map.
   void speak(const PlannerInput& in, const VoxelGrid* grid, const XxhWord& own, PlannerOutput& out);
   /// Another region: nobody is known to know anything of its map.

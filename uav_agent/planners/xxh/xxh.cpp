@@ -26,25 +26,18 @@
 #include "uav_agent/planners/xxh/explore.hpp"
 #include "uav_agent/planners/xxh/inspect.hpp"
 #include "uav_agent/planners/xxh/post.hpp"
+#include "uav_agent/planners/xxh/worksite.hpp"
 #include "uav_agent/planning/aiming.hpp"
-#include "uav_agent/planning/strips.hpp"
 
 namespace skein::agent {
 namespace {
 
-constexpr double kAirborneM = 2.0;  ///< a UAV that begins at such a height was restarted in flight
-constexpr double kSpareM = 0.4;     ///< of stops, beside the clearance
-constexpr double kRoomM = 1.0;  ///< near to surfaces, little is proved: stops are this much farther, if that is sharp
-constexpr double kLimitRatio = 1.1;     ///< of stops where there is nothing better, in units of d*
-constexpr double kLookAtMapS = 1.0;     ///< between two looks at what the LiDARs saw
-constexpr double kLowestM = 2.5;        ///< of places on the spiral and of stops
-constexpr int kFruitless = 8;           ///< choices in a row to which there was no way: then the flight core...
-constexpr double kGivesWayS = 5.0;      ///< ...has so much time to get the UAV on
-constexpr double kLookAgainS = 10.0;    ///< between two times that it goes over its section again
-constexpr double kHandOverS = 25.0;     ///< to find somebody who has not heard its order
-constexpr double kExploreShare = 0.4;   ///< of the time left, for all sections together: others wait meanwhile
-constexpr std::size_t kMostRounds = 8;  ///< through all regions: early ones may have found no way
-constexpr double kFreshS = 10.0;        ///< after a start in flight: others may know how far the team is
+constexpr double kAirborneM = 2.0;   ///< a UAV that begins at such a height was restarted in flight
+constexpr double kLookAtMapS = 1.0;  ///< between two looks at what the LiDARs saw
+constexpr int kFruitless = 8;        ///< choices in a row to which there was no way: then the flight core...
+constexpr double kGivesWayS = 5.0;   ///< ...has so much time to get the UAV on
+constexpr double kSeekFootS = 40.0;  ///< of an upright region, for proof that it is open there
+constexpr double kFreshS = 10.0;     ///< after a start in flight: others may know how far the team is
 
 }  // namespace
 
@@ -53,11 +46,11 @@ class XxhPlanner final : public Planner {
   using Config = XxhConfig;
 
   XxhPlanner(const Config& config, const AgentConfig& agent)
-      : config_(config),
+      : config_(config.resolved()),
         agent_(agent),
-        reach_(camera_reach(agent.vehicle.camera, agent.desired_mm_per_pixel)),
-        talk_({.share_s = config.share_s, .claim_s = config.claim_s, .forever = config.faithful}, agent_),
+        talk_({.share_s = config_.share_s, .claim_s = *config_.claim_s, .all_give_way = *config_.all_give_way}, agent_),
         crew_(config_, agent_, talk_),
+        site_(config_, agent_),
         explorer_(config_),
         inspector_(config_, agent_),
         post_(agent_) {}
@@ -72,7 +65,9 @@ class XxhPlanner final : public Planner {
 
   void prepare(const PlannerInput& in);
   void enter_region(std::size_t index, const PlannerInput& in);
-  XxhRegionMap::Config map_config(const PlannerInput& in) const;
+  Vector3d end_before(std::size_t index, const PlannerInput& in) const;
+  void decide_end(const PlannerInput& in, PlannerOutput& out);
+  void heed_leader(const PlannerInput& in);
   void begin_section(std::size_t section, const PlannerInput& in);
   XxhRegionMap::Section section_layers(std::size_t section) const;
   void change(Stage stage, const PlannerInput& in);
@@ -89,16 +84,15 @@ class XxhPlanner final : public Planner {
   void section_done(const PlannerInput& in);
   void regroup(const PlannerInput& in, PlannerOutput& out);
   void stay_at_post(const PlannerInput& in, PlannerOutput& out);
-  void assume_solid();
-  VoxelGrid* shared_grid() { return region_ && !solid_ ? &region_->grid() : nullptr; }
+  std::vector<Vector3d> posts_W(const PlannerInput& in) const;
   XxhWord own_word(const PlannerInput& in) const;
 
   const Config config_;
   const AgentConfig agent_;
-  const CameraReach reach_;
   XxhTalk talk_;
   XxhCrew crew_;
   XxhErrand errand_;
+  XxhWorksite site_;
   XxhExplorer explorer_;
   XxhInspector inspector_;
   XxhPost post_;
@@ -108,18 +102,15 @@ class XxhPlanner final : public Planner {
   bool restarted_ = false;  ///< in flight
   Stage stage_ = Stage::none;
   Tick stage_since_ = 0, not_before_ = 0;
-  int fruitless_ = 0;             ///< choices in a row to which there was no way
-  std::size_t region_index_ = 0;  ///< counts on through the rounds
-  std::optional<XxhRegionMap> region_;
-  bool solid_ = false;  ///< goes by the box, not by a map
-  Vector3d entry_W_ = Vector3d::Zero();
-  Vector3d came_from_W_ = Vector3d::Zero();  ///< end of the region before
-  std::size_t explored_ = 0;                 ///< sections
-  bool exploring_ = false;                   ///< the next one
-  std::vector<std::size_t> begun_;           ///< sections that this UAV inspects or has inspected
-  bool looks_again_ = false;                 ///< goes over its section again while it waits for the others
-  Tick look_again_at_ = 0;                   ///< or will do so
-  bool ordered_ = false;                     ///< knows that its section is explored
+  int fruitless_ = 0;               ///< choices in a row to which there was no way
+  std::size_t region_index_ = 0;    ///< counts on through the rounds
+  std::vector<Vector3d> posts_W_;   ///< beside its entry, what is liked best first; empty: to be chosen
+  std::size_t explored_ = 0;        ///< sections
+  bool exploring_ = false;          ///< the next one
+  std::vector<std::size_t> begun_;  ///< sections that this UAV inspects or has inspected
+  bool looks_again_ = false;        ///< goes over its section again while it waits for the others
+  Tick look_again_at_ = 0;          ///< or will do so
+  bool ordered_ = false;            ///< knows that its section is explored
 };
 
 PlannerOutput XxhPlanner::plan(const PlannerInput& in) {
@@ -134,7 +125,7 @@ PlannerOutput XxhPlanner::plan(const PlannerInput& in) {
     fruitless_ = 0;
   }
   errand_.conclude(out);
-  talk_.speak(in, shared_grid(), own_word(in), out);
+  talk_.speak(in, site_.shared_grid(), own_word(in), out);
   return out;
 }
 
@@ -144,59 +135,60 @@ void XxhPlanner::prepare(const PlannerInput& in) {
     restarted_ = in.state.p_WB.z() > kAirborneM;
     start_W_ = restarted_ ? agent_.me().p_WB_start : in.state.p_WB;
   }
-  talk_.listen(in, shared_grid());
+  talk_.listen(in, own_word(in), site_.shared_grid());
   if (crew_.seek_assignment(in, restarted_)) {
     assigned_at_ = in.tick;
-    came_from_W_ = agent_.fleet[crew_.leader()].p_WB_start;
     enter_region(0, in);
   }
-  if (region_ && !solid_ && agent_.due(in.k, kLookAtMapS, agent_.self)) region_->update(*in.world_map);
+  if (site_.shared_grid() && agent_.due(in.k, kLookAtMapS, agent_.self)) site_.map().update(*in.world_map);
 }
 
 void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
-  const std::size_t count = crew_.regions().size(), all = config_.faithful ? count : kMostRounds * count;
+  const std::size_t count = crew_.regions().size(), all = static_cast<std::size_t>(*config_.rounds) * count;
+  const Vector3d came_from_W = end_before(index, in);
   region_index_ = std::min(index, all);
   talk_.new_map();
-  solid_ = false;
   ordered_ = false;
   explored_ = 0;
   exploring_ = false;
   explorer_.stop();
   begun_.clear();
-  region_.reset();
+  site_.leave();
   if (region_index_ == all) return change(Stage::finished, in);
   const XxhRegion& region = crew_.regions()[region_index_ % count];
-  if (region_index_ > 0) {
-    const XxhRegion& last = crew_.regions()[(region_index_ - 1) % count];
-    came_from_W_ = far_end(last, in.boxes[last.box]);
-  }
-  const OrientedBox& whole = in.boxes[region.box];
-  region_.emplace(map_config(in), region_box(region, whole), longest_axis(whole), region.from_high_end);
-  const auto first_turn = region_->spiral(region_->section(0, 1, 1.0), came_from_W_);
-  entry_W_ = first_turn.empty() ? region_->box().center : first_turn.front();
+  site_.enter(region, in.boxes[region.box], came_from_W, in.space->config().clearance_m);
   if (crew_.led()) return change(crew_.leads() ? Stage::explore : Stage::wait, in);
-  assume_solid();
+  site_.go_by_the_box();
   begin_section(crew_.rank(), in);
 }
 
-XxhRegionMap::Config XxhPlanner::map_config(const PlannerInput& in) const {
-  XxhRegionMap::Config map;
-  map.voxel_m = config_.voxel_m;
-  map.margin_m = config_.margin_m;
-  map.rim_m = config_.rim_m;
-  map.spiral_step = config_.spiral_step;
-  map.lowest_m = kLowestM;
-  map.nearest_m = in.space->config().clearance_m + kSpareM;
-  const double room_m = std::min(map.nearest_m + kRoomM, reach_.sharp_distance_m);
-  map.farthest_m = std::max({map.nearest_m, room_m, config_.standoff_ratio * reach_.sharp_distance_m});
-  map.limit_m = std::max(map.farthest_m, kLimitRatio * reach_.sharp_distance_m);
-  return map;
+/// Where the team comes from to a region: the far end of the one before, or its leader's start.
+Vector3d XxhPlanner::end_before(std::size_t index, const PlannerInput& in) const {
+  if (index == 0) return agent_.fleet[crew_.leader()].p_WB_start;
+  if (site_ && index == region_index_ + 1) return site_.far_end_W();
+  const XxhRegion& last = crew_.regions()[(index - 1) % crew_.regions().size()];
+  return far_end(last, in.boxes[last.box]);
 }
 
-/// Without anybody's map there is only the box to go by. That is not shared: it is no knowledge.
-void XxhPlanner::assume_solid() {
-  solid_ = true;
-  region_->assume_solid();
+/// An upright region is begun at its foot if it is open there. Its leader goes to the entry to see, and if it is not,
+/// begins at the top. Its team hears so of it.
+void XxhPlanner::decide_end(const PlannerInput& in, PlannerOutput& out) {
+  const bool open = site_.begins_in_the_open(section_layers(0), space_for_stops(in), in.tracking.setpoint.p_WB);
+  const bool closed = post_.reached() || errand_.came_to_nothing() || seconds(in.tick - stage_since_) > kSeekFootS;
+  if (!open && !closed) return post_.stay(posts_W(in), config_.flight.approach_mps, errand_, in, out);
+  if (site_.decide(open ? site_.from_high_end() : !site_.from_high_end())) talk_.new_map();
+  post_.leave();
+  errand_.drop();
+}
+
+/// What its leader has decided holds for its team.
+void XxhPlanner::heed_leader(const PlannerInput& in) {
+  const XxhWord* leader = site_ && crew_.led() && !crew_.leads() ? talk_.word(crew_.leader()) : nullptr;
+  if (!leader || !leader->decided || leader->region != region_index_) return;
+  if (!site_.decide(leader->from_high_end)) return;
+  talk_.new_map();
+  begun_.clear();
+  change(Stage::wait, in);
 }
 
 void XxhPlanner::begin_section(std::size_t section, const PlannerInput& in) {
@@ -206,7 +198,7 @@ void XxhPlanner::begin_section(std::size_t section, const PlannerInput& in) {
 }
 
 XxhRegionMap::Section XxhPlanner::section_layers(std::size_t section) const {
-  return region_->section(section, crew_.size(), crew_.led() && !config_.faithful ? config_.leader_share : 1.0);
+  return site_.map().section(section, crew_.size(), crew_.led() ? *config_.leader_share : 1.0);
 }
 
 void XxhPlanner::change(Stage stage, const PlannerInput& in) {
@@ -217,6 +209,7 @@ void XxhPlanner::change(Stage stage, const PlannerInput& in) {
   looks_again_ = false;
   look_again_at_ = in.tick;
   post_.leave();
+  posts_W_.clear();
   errand_.drop();
 }
 
@@ -224,6 +217,7 @@ void XxhPlanner::work(const PlannerInput& in, PlannerOutput& out) {
   fruitless_ = errand_.ended() ? 0 : fruitless_ + static_cast<int>(errand_.missed().size());
   const bool fresh = restarted_ && seconds(in.tick - assigned_at_) < kFreshS;
   if (fresh && crew_.assigned() && crew_.farthest_region() > region_index_) enter_region(crew_.farthest_region(), in);
+  if (crew_.assigned()) heed_leader(in);
   switch (stage_) {
     case Stage::none:
       return post_.stay({}, config_.flight.approach_mps, errand_, in, out);
@@ -255,11 +249,12 @@ bool XxhPlanner::may_set_out(const PlannerInput& in) {
 
 /// Around the section, turn by turn.
 void XxhPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
-  explorer_.look_inwards(*region_, in, out);
+  if (!site_.decided()) return decide_end(in, out);
+  explorer_.look_inwards(site_.map(), in, out);
   explorer_.hear(errand_);
   if (explorer_.late(in)) errand_.drop();
   if (!may_set_out(in)) return;
-  if (explorer_.finished(*region_, in)) next_section(in);
+  if (explorer_.finished(site_.map(), in)) next_section(in);
   if (stage_ != Stage::explore) return;
   if (auto choices = explorer_.choices(*in.space); !choices.empty()) errand_.set_out(std::move(choices), out);
 }
@@ -270,14 +265,14 @@ void XxhPlanner::next_section(const PlannerInput& in) {
   exploring_ = explored_ < crew_.size();
   if (!exploring_) return change(Stage::hand_over, in);
   const double left_s = in.mission_remaining_s.value_or(agent_.duration_s);
-  const double at_most_s = kExploreShare * left_s / static_cast<double>(crew_.size() - explored_);
-  explorer_.begin(*region_, section_layers(explored_), at_most_s, in);
+  const double at_most_s = *config_.time_share * left_s / static_cast<double>(crew_.size() - explored_);
+  explorer_.begin(site_.map(), section_layers(explored_), at_most_s, in);
 }
 
 /// Everybody has to hear its order: back to the entry, where they wait.
 void XxhPlanner::hand_over(const PlannerInput& in, PlannerOutput& out) {
   const bool gone_on =
-      crew_.all_ordered(region_index_, in.tick) || (!config_.faithful && seconds(in.tick - stage_since_) > kHandOverS);
+      crew_.all_ordered(region_index_, in.tick) || seconds(in.tick - stage_since_) > *config_.hand_over_s;
   gone_on ? begin_section(crew_.section_of(0), in) : stay_at_post(in, out);
 }
 
@@ -285,7 +280,7 @@ void XxhPlanner::wait(const PlannerInput& in, PlannerOutput& out) {
   ordered_ = crew_.ordered(region_index_);
   const bool on_its_own = !ordered_ && crew_.silent(crew_.leader(), in.tick);
   if (!ordered_ && !on_its_own) return stay_at_post(in, out);
-  if (on_its_own && !region_->anything_known()) assume_solid();
+  if (on_its_own && !site_.map().anything_known()) site_.go_by_the_box();
   begin_section(crew_.section_of(crew_.rank()), in);
 }
 
@@ -296,14 +291,14 @@ void XxhPlanner::inspect(const PlannerInput& in, PlannerOutput& out) {
 /// @returns whether there is none left.
 bool XxhPlanner::visit_cells(const PlannerInput& in, PlannerOutput& out) {
   inspector_.hear(errand_);
-  if (inspector_.visit()) inspector_.look(in, region_->grid());
+  if (inspector_.visit()) inspector_.look(in, site_.map().grid());
   if (inspector_.visit()) {
     out.yaw = yaw_facing(inspector_.target().out_W);
     out.gimbal = inspector_.target().surface_W;
     return false;
   }
   const auto flies_to = errand_.flies_to(in);
-  if (flies_to && !inspector_.ahead(*flies_to, *region_)) errand_.drop();
+  if (flies_to && !inspector_.ahead(*flies_to, site_.map())) errand_.drop();
   if (!may_set_out(in)) return false;
   if (inspector_.finished()) return true;
   choose_cell(in, out);
@@ -311,7 +306,7 @@ bool XxhPlanner::visit_cells(const PlannerInput& in, PlannerOutput& out) {
 }
 
 void XxhPlanner::choose_cell(const PlannerInput& in, PlannerOutput& out) {
-  auto choices = inspector_.choices(*region_, in.tracking.setpoint.p_WB, space_for_stops(in));
+  auto choices = inspector_.choices(site_.map(), in.tracking.setpoint.p_WB, space_for_stops(in));
   if (!choices.empty()) errand_.set_out(std::move(choices), out);
 }
 
@@ -335,8 +330,9 @@ void XxhPlanner::section_done(const PlannerInput& in) {
 /// A UAV that has to wait goes over its layers now and then: what it could not reach may have been proved to be free.
 void XxhPlanner::regroup(const PlannerInput& in, PlannerOutput& out) {
   const bool decides = crew_.leads() || !crew_.led() || crew_.silent(crew_.leader(), in.tick);
-  const bool impatient = !config_.faithful && seconds(in.tick - stage_since_) > config_.gather_s;
+  const bool impatient = seconds(in.tick - stage_since_) > *config_.gather_s;
   const XxhWord* leader = talk_.word(crew_.leader());
+  out.waits_for = crew_.awaited(in.tick);
   if (!crew_.leads() && crew_.led() && leader && leader->region > region_index_) {
     enter_region(leader->region, in);
   } else if (decides && (impatient || crew_.all_done(region_index_, in.tick))) {
@@ -344,19 +340,28 @@ void XxhPlanner::regroup(const PlannerInput& in, PlannerOutput& out) {
   } else if (looks_again_) {
     if (!visit_cells(in, out)) return;
     looks_again_ = false;
-    look_again_at_ = in.tick + ticks(kLookAgainS);
+    look_again_at_ = in.tick + ticks(*config_.look_again_s);
     errand_.drop();
   } else {
     stay_at_post(in, out);
-    looks_again_ = in.tick >= look_again_at_ && !errand_.under_way() && !solid_ && !config_.faithful;
+    looks_again_ = in.tick >= look_again_at_ && !errand_.under_way() && !site_.is_solid();
     if (looks_again_) inspector_.begin(section_layers(begun_.back()));
   }
 }
 
 void XxhPlanner::stay_at_post(const PlannerInput& in, PlannerOutput& out) {
   out.waits_for = crew_.awaited(in.tick);
-  const auto places_W = post_.beside(entry_W_, region_->box().center, crew_.rank(), top_of(in.boxes));
-  post_.stay(places_W, config_.flight.approach_mps, errand_, in, out);
+  if (posts_W_.empty()) {
+    posts_W_ = posts_W(in);
+    const auto spiral_W = site_.map().spiral(site_.map().section(0, 1, 1.0), site_.entry_W());
+    if (*config_.wait_at == XxhWaitAt::sight) sort_by_sight(spiral_W, *in.space, posts_W_);
+  }
+  post_.stay(posts_W_, config_.flight.approach_mps, errand_, in, out);
+}
+
+/// Its own posts beside the region's entry, the lowest first.
+std::vector<Vector3d> XxhPlanner::posts_W(const PlannerInput& in) const {
+  return post_.beside(site_.entry_W(), site_.map().box().center, crew_.rank(), top_of(in.boxes));
 }
 
 XxhWord XxhPlanner::own_word(const PlannerInput& in) const {
@@ -364,6 +369,8 @@ XxhWord XxhPlanner::own_word(const PlannerInput& in) const {
   word.start_W = *start_W_;
   word.has_plan = crew_.assigned();
   word.region = static_cast<std::uint16_t>(region_index_);
+  word.from_high_end = site_.from_high_end();
+  word.decided = site_ && site_.decided();
   word.explored = static_cast<std::uint8_t>(explored_);
   word.acknowledged = ordered_;
   word.done = stage_ == Stage::regroup || stage_ == Stage::finished;

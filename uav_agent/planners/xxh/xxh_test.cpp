@@ -15,6 +15,7 @@ TEST(XxhTalk, WordsSurviveTheRadio) {
   word.has_plan = word.done = true;
   word.region = 7;
   word.explored = 3;
+  word.from_high_end = word.decided = true;
   word.way_W = {{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}};
   PayloadWriter writer;
   write_word(word, writer);
@@ -23,6 +24,7 @@ TEST(XxhTalk, WordsSurviveTheRadio) {
   ASSERT_TRUE(heard);
   EXPECT_EQ(heard->start_W, word.start_W);
   EXPECT_TRUE(heard->has_plan && heard->done && !heard->acknowledged);
+  EXPECT_TRUE(heard->from_high_end && heard->decided);
   EXPECT_EQ(heard->region, 7);
   EXPECT_EQ(heard->explored, 3);
   EXPECT_EQ(heard->way_W, word.way_W);
@@ -37,7 +39,7 @@ std::size_t keeps_clear_of(std::size_t self, double after_s, bool forever) {
   AgentConfig agent;
   agent.self = UavIndex(self);
   for (const TestUav& uav : test_fleet(4)) agent.fleet.push_back({uav.name, uav.role, {0.0, 0.0, 0.0}, 0.5});
-  XxhTalk talk({.forever = forever}, agent);
+  XxhTalk talk({.claim_s = forever ? kNeverS : 3.0, .all_give_way = forever}, agent);
   const OccupancyMap map;
   const Peers peers(agent);
   const std::vector<OrientedBox> boxes;
@@ -49,7 +51,7 @@ std::size_t keeps_clear_of(std::size_t self, double after_s, bool forever) {
     write_word(word, writer);
     radio.push_back(send_payload("xxh/1", uav, writer));
   }
-  talk.listen({0, 0, {}, {}, {}, map, boxes, peers, {}, false, 0, {}, radio}, nullptr);
+  talk.listen({0, 0, {}, {}, {}, map, boxes, peers, {}, false, 0, {}, radio}, {}, nullptr);
   return talk.trajectories({0, ticks(after_s), {}, {}, {}, map, boxes, peers, {}, false, 0, {}, {}}).size();
 }
 

@@ -1,0 +1,34 @@
+"""For which share of the time that photographers wait for an explorer they have a link to it, for each run named.
+
+    python3 python/examples/waiting_in_sight.py runs/towers-xxh-1 ...
+"""
+
+import sys
+
+import skein
+
+
+def waits(run: skein.Run) -> list[tuple[str, str, float, float]]:
+    """Photographer, explorer, from, until: as activity.csv tells, from when it has risen."""
+    roles = {uav["name"]: uav["role"] for uav in run.result["uavs"]}
+    found = []
+    for uav, role in roles.items():
+        rows = run.activity[run.activity["uav"] == uav]
+        ends = [*rows["time_s"][1:], run.sim_time_s]
+        for row, until_s in zip(rows, ends):
+            mate = str(row["waits_for"])
+            on_the_ground = str(row["mode"]).startswith(("takes off", "waits to be shown", "is shown"))
+            if role == "photographer" and roles.get(mate) == "explorer" and not on_the_ground:
+                found.append((uav, mate, float(row["time_s"]), float(until_s)))
+    return found
+
+
+for path in sys.argv[1:]:
+    run = skein.Run(path)
+    waited_s = linked_s = 0.0
+    for uav, mate, from_s, until_s in waits(run):
+        links = run.links[(run.links["a"] == mate) & (run.links["b"] == uav)]
+        linked_s += sum(max(0.0, min(until_s, link["to_s"]) - max(from_s, link["from_s"])) for link in links)
+        waited_s += until_s - from_s
+    share = f"{100.0 * linked_s / waited_s:.0f} % of {waited_s:.0f} s" if waited_s else "nobody waited"
+    print(f"{path}: {share}")

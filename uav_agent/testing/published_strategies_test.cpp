@@ -1,0 +1,135 @@
+// The published strategies off the beaten track: fleets and boxes that the paper does not have, drawn; and what
+// `faithful=true` changes, all of which docs/strategies.md tells.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <regex>
+
+#include "core/config_writer.hpp"
+#include "core/random_stream.hpp"
+#include "tests/support/places.hpp"
+#include "uav_agent/planners/kios/config.hpp"
+#include "uav_agent/planners/star/config.hpp"
+#include "uav_agent/planners/xxh/config.hpp"
+#include "uav_agent/testing/test_world.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kBodyAndABit_M = 0.63 + 0.3, kBetweenBodiesM = 0.3;
+
+class PublishedStrategy : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Planners, PublishedStrategy, testing::Values("kios", "xxh", "star"));
+
+std::vector<TestUav> fleet_of(int explorers, int photographers) {
+  std::vector<TestUav> fleet;
+  for (int i = 0; i < explorers + photographers; ++i) {
+    fleet.push_back(
+        {"uav" + std::to_string(i), i < explorers ? Role::explorer : Role::photographer, {3.0 * i - 8.0, -14.0}});
+  }
+  return fleet;
+}
+
+void expect_work(const TestScene& scene, const std::vector<TestUav>& fleet, const std::string& planner) {
+  TestWorld world(scene, fleet, planner, 300.0);
+  world.run(200.0);
+  EXPECT_EQ(world.bad_commands(), 0U);
+  EXPECT_GT(world.clearance(), kBodyAndABit_M);
+  EXPECT_GT(world.gap(), kBetweenBodiesM);
+  EXPECT_GT(world.coverage(), 0.05);
+}
+
+/// One explorer and many photographers; fewer photographers than explorers; explorers alone.
+TEST_P(PublishedStrategy, InspectsWithAnyFleetThatHasAnExplorer) {
+  RandomStream random(7, GetParam(), 0);
+  std::vector<std::pair<int, int>> fleets = {{1, 5}, {3, 1}, {2, 0}, {1, 0}, {4, 2}};
+  const std::size_t left_out = random.bits() % fleets.size();
+  fleets.erase(fleets.begin() + static_cast<std::ptrdiff_t>(left_out));
+  for (const auto& [explorers, photographers] : fleets) {
+    SCOPED_TRACE(std::to_string(explorers) + " explorers, " + std::to_string(photographers) + " photographers");
+    expect_work(two_towers(), fleet_of(explorers, photographers), GetParam());
+  }
+}
+
+TEST_P(PublishedStrategy, InspectsWhateverTheBoxes) {
+  TestScene around_all = two_towers(), overlapping = two_towers(), one = two_towers();
+  around_all.boxes = {make_box({14.0, 12.0, 16.0}, {54.0, 26.0, 32.0})};
+  overlapping.boxes.push_back(overlapping.boxes[0]);
+  overlapping.boxes.back().center += Vector3d(4.0, 1.0, 1.0);
+  one.boxes.pop_back();  // a team stays without
+  for (const TestScene* scene : {&around_all, &overlapping, &one}) {
+    SCOPED_TRACE(std::to_string(scene->boxes.size()) + " boxes");
+    expect_work(*scene, fleet_of(2, 2), GetParam());
+  }
+}
+
+std::map<std::string, std::string> keys_of(const std::string& yaml) {
+  std::map<std::string, std::string> keys;
+  std::istringstream lines(yaml);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t colon = line.find(": ");
+    if (colon != std::string::npos) keys[line.substr(0, colon)] = line.substr(colon + 2);
+  }
+  return keys;
+}
+
+/// Lines "planner | key | ours | faithful" of all that `faithful` changes.
+template <class Config>
+void list_changes(const std::string& planner, std::vector<std::string>& lines) {
+  Config faithful;
+  faithful.faithful = true;
+  const auto ours = keys_of(config_to_yaml(Config().resolved()));
+  const auto changed = keys_of(config_to_yaml(faithful.resolved()));
+  const auto value = [](const std::string& text) { return text == "1e+06" || text == "1000000" ? "never" : text; };
+  for (const auto& [key, text] : ours) {
+    if (key == "faithful" || changed.at(key) == text) continue;
+    lines.push_back("| `" + planner + "` | `" + key + "` | " + value(text) + " | " + value(changed.at(key)) + " |");
+  }
+}
+
+TEST(Faithful, ChangesWhatItsTableTellsAndNothingElse) {
+  std::vector<std::string> changes;
+  list_changes<KiosConfig>("kios", changes);
+  list_changes<XxhConfig>("xxh", changes);
+  list_changes<StarConfig>("star", changes);
+  std::ifstream page(source_path("docs/strategies.md"));
+  std::vector<std::string> told;
+  const std::regex row(R"((\| `\w+` \| `\w+` \| [^|]+ \| [^|]+ \|).*)");
+  std::smatch match;
+  for (std::string line; std::getline(page, line);) {
+    if (std::regex_match(line, match, row)) told.push_back(match[1]);
+  }
+  std::ranges::sort(changes);
+  std::ranges::sort(told);
+  EXPECT_EQ(told, changes);
+}
+
+/// The configuration comes from the code that flies, so a behaviour that `faithful` changes aside of it is not in the
+/// table: planners may look at the parameter in resolved() alone.
+TEST(Faithful, IsLookedAtWhereParametersAreFilledInAlone) {
+  for (const std::string planner : {"kios", "xxh", "star"}) {
+    for (const auto& file : std::filesystem::directory_iterator(source_path("uav_agent/planners/" + planner))) {
+      const std::string name = file.path().filename();
+      if (name.ends_with("_test.cpp") || name == "config.hpp") continue;
+      std::ifstream in(file.path());
+      const std::string text{std::istreambuf_iterator<char>(in), {}};
+      EXPECT_FALSE(std::regex_search(text, std::regex(R"(\.faithful)"))) << planner << "/" << name;
+    }
+  }
+}
+
+/// What is given by its own name stays as it is given.
+TEST(Faithful, GivesWayToWhatIsGiven) {
+  XxhConfig config;
+  config.faithful = true;
+  config.layer_step = 2;
+  config.order = XxhOrder::spiral;
+  EXPECT_EQ(config.resolved().layer_step, 2);
+  EXPECT_EQ(config.resolved().order, XxhOrder::spiral);
+  EXPECT_EQ(config.resolved().begin, XxhBegin::path);
+}
+
+}  // namespace
+}  // namespace skein::agent
