@@ -68,6 +68,7 @@ void write_report(const Study& study, const fs::path& out) {
   write_file_atomically(out / "summary.csv", summary_csv(study));
   if (study.contest) write_file_atomically(out / "totals.csv", totals_csv(study));
   const StudyReport report(study, pictures_of(study));
+  write_file_atomically(out / "pairs.csv", pairs_csv(study, figure_pairs(study)));
   write_file_atomically(out / kTexTable, study_tex(study, report.pairs, report.titles));
   write_figures(report, out / kFiguresFolder);
   write_file_atomically(out / run_folder::kPage, study_page(report));
@@ -109,6 +110,7 @@ Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
     const StudyOutcome& outcome = outcomes.flights[i];
     FlightEntry entry{flight.planner, flight.scenario, flight.seed, flight.dir, std::nullopt, outcome.problem};
     entry.command = repeating_command(plan, flight);
+    entry.folder = flight.dir.lexically_relative(plan.out).generic_string();
     if (outcome.result.is_object()) {
       entry.figures = figures_of(outcome.result);
       entry.tables = read_flight_tables(flight.dir);

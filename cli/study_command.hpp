@@ -7,8 +7,8 @@
 
 namespace skein::cli {
 
-/// Flies what has not been flown yet, then writes report.html, flights.csv, summary.csv, table.tex, figures/*.svg and,
-/// of a contest, totals.csv; also after Ctrl-C and with flights that failed.
+/// Flies what has not been flown yet, then writes report.html, flights.csv, summary.csv, pairs.csv, table.tex,
+/// figures/*.svg and, of a contest, totals.csv; also after Ctrl-C and with flights that failed.
 /// @returns the exit code: kExitProcessFailed when a flight failed, kExitCheckFailed when one does not keep a
 ///   requirement. @throws InputError before anything flies;
 ///   Interrupted while the input is checked.

@@ -75,6 +75,10 @@ TEST_F(StudyCommand, FliesAllAndReports) {
       << file("totals.csv");
   EXPECT_NE(file("report.html").find("Ranking"), std::string::npos);
   EXPECT_NE(file("flights.csv").find(",hover,2,completed,20,"), std::string::npos);
+  EXPECT_NE(file("flights.csv").find(",flights/small/hover/seed-2\n"), std::string::npos) << file("flights.csv");
+  const std::string head = "figure,scenario,first,second,pairs,median,low,high,p,p_holm\n";
+  EXPECT_EQ(file("pairs.csv").find(head + "score," + programs_.scenario().string() + ",hover,patrol,3,-1000,,,,\n"), 0U)
+      << file("pairs.csv");
   EXPECT_TRUE(std::filesystem::exists(*options_.out / "flights/small/patrol/seed-3/result.json"));
   EXPECT_NE(err_.str().find("6 of 6: "), std::string::npos) << err_.str();
   EXPECT_NE(err_.str().find(" left"), std::string::npos);

@@ -1,5 +1,7 @@
 #include "cli/study/csv.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include "cli/study/columns.hpp"
 #include "report/html.hpp"
 
@@ -28,7 +30,7 @@ std::string number_of_any(const std::vector<double>& values, double value) {
 std::string flights_csv(const Study& study) {
   std::string csv = "scenario,planner,seed,status";
   for (const StudyColumn& column : study_columns()) csv += "," + column.name;
-  csv += ",points_total,digest,problem\n";
+  csv += ",points_total,digest,problem,folder\n";
   for (const FlightEntry& flight : study.flights) {
     const FlightFigures none, &figures = flight.figures ? *flight.figures : none;
     csv += cell(study.scenarios[flight.scenario]) + "," + cell(study.planners[flight.planner]) + "," +
@@ -37,7 +39,21 @@ std::string flights_csv(const Study& study) {
       csv += "," + (flight.figures ? number(column.value(figures)) : "");
     }
     csv += "," + (flight.figures ? std::to_string(figures.points_total) : "") + "," + figures.digest + "," +
-           cell(flight.problem) + "\n";
+           cell(flight.problem) + "," + cell(flight.folder) + "\n";
+  }
+  return csv;
+}
+
+std::string pairs_csv(const Study& study, const std::vector<PlannerPair>& pairs) {
+  std::string csv = "figure,scenario,first,second,pairs,median,low,high,p,p_holm\n";
+  for (const PlannerPair& pair : pairs) {
+    using Value = std::optional<double>;
+    csv += pair.figure + "," + (pair.scenario ? cell(study.scenarios[*pair.scenario]) : "") + "," +
+           cell(study.planners[pair.first]) + "," + cell(study.planners[pair.second]) + "," +
+           std::to_string(pair.differences.size()) + "," + number(pair.median) + "," +
+           number(pair.interval ? Value(pair.interval->low) : std::nullopt) + "," +
+           number(pair.interval ? Value(pair.interval->high) : std::nullopt) + "," +
+           (pair.test ? fmt::format("{:.4g},{:.4g}", pair.test->p, *pair.p_holm) : ",") + "\n";
   }
   return csv;
 }

@@ -57,6 +57,15 @@ std::optional<double> decisive(const std::vector<double>& totals, Rank rank) {
   return std::nullopt;
 }
 
+std::optional<double> greatest_share(const std::vector<UavFigures>& uavs) {
+  double all = 0.0, most = 0.0;
+  for (const UavFigures& uav : uavs) {
+    all += uav.score;
+    most = std::max(most, uav.score);
+  }
+  return all > 0.0 ? std::optional(100.0 * most / all) : std::nullopt;
+}
+
 }  // namespace
 
 FlightFigures figures_of(const Json& result) {
@@ -86,6 +95,7 @@ FlightFigures figures_of(const Json& result) {
     figures.uavs.push_back({name, report::text_in(uav, "role"), number(scores, name.c_str()), number(uav, "distance_m"),
                             report::number_if_any(uav, "idle_s"), report::number_if_any(uav, "captures")});
   }
+  figures.greatest_share = greatest_share(figures.uavs);
   const Json check = value_or(result, "flight_check", Json::object());
   figures.braking_hits = report::number_if_any(check, "braking_hits");
   figures.braking_meets = report::number_if_any(check, "braking_meets");

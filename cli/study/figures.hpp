@@ -27,6 +27,7 @@ struct FlightFigures {
   std::optional<double> attainable_percent;  ///< of the score that full knowledge could get
   std::optional<double> attainable;          ///< that score
   std::optional<double> mean_quality;        ///< score by detected point
+  std::optional<double> greatest_share;      ///< of one UAV in the score [%]
   int collisions = 0;
   std::optional<int> frozen_uavs, waiting_uavs;                  ///< without work; excused since they waited
   std::optional<double> frozen_s, waited_s, without_work_s;      ///< of all; of all; the longest of any
@@ -60,6 +61,7 @@ struct FlightEntry {
   std::string page = {};                 ///< its own report, from the study's folder; empty: there is none
   std::optional<FlightTables> tables = {};
   std::string command = {};  ///< that repeats it
+  std::string folder = {};   ///< of its results, from the study's folder
 };
 
 /// All that tables and pages show.

@@ -161,8 +161,10 @@ std::size_t cells(const std::string& line) {
 
 TEST(StudyFigures, EveryLineOfACsvFileHasAllColumns) {
   const Study study = three_planners();
-  const std::vector<std::pair<std::string, std::size_t>> files = {
-      {flights_csv(study), 18}, {summary_csv(study), 6}, {totals_csv(study), 3}};
+  const std::vector<std::pair<std::string, std::size_t>> files = {{flights_csv(study), 18},
+                                                                  {summary_csv(study), 6},
+                                                                  {totals_csv(study), 3},
+                                                                  {pairs_csv(study, planner_pairs(study)), 9}};
   for (const auto& [csv, lines] : files) {
     std::istringstream in(csv);
     std::string line;

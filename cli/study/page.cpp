@@ -147,7 +147,7 @@ std::string explanations() {
 }
 
 std::string file_links(const StudyReport& report) {
-  std::vector<std::string> files = {"flights.csv", "summary.csv"};
+  std::vector<std::string> files = {"flights.csv", "summary.csv", "pairs.csv"};
   if (report.study.contest) files.push_back("totals.csv");
   files.push_back(kTexTable);
   for (const StudyFigure& figure : report.figures) files.push_back(std::string(kFiguresFolder) + "/" + figure.file);

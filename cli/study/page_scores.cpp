@@ -71,9 +71,9 @@ std::string pair_row(const StudyReport& report, const PlannerPair& pair, bool ne
                                  escaped(study.planners[pair.first]), escaped(study.planners[pair.second]),
                                  values.size(), values.empty() ? "–" : fmt::format("{} of {}", ahead, values.size()));
   html += "<td>" + fixed(pair.median, 1) + "</td>";
-  if (!pair.interval) return html + "<td class=\"few\" colspan=\"2\">n too small</td></tr>\n";
-  return html + fmt::format("<td>{} to {}</td><td>{}</td></tr>\n", fixed(pair.interval->low, 1),
-                            fixed(pair.interval->high, 1), escaped(p_text(pair.test)));
+  if (!pair.interval) return html + "<td class=\"few\" colspan=\"3\">n too small</td></tr>\n";
+  return html + fmt::format("<td>{} to {}</td><td>{}</td><td>{}</td></tr>\n", fixed(pair.interval->low, 1),
+                            fixed(pair.interval->high, 1), escaped(p_text(pair.test->p)), escaped(p_text(pair.p_holm)));
 }
 
 /// What the figures of pairs mean, and what they do not.
@@ -86,7 +86,9 @@ std::string pairs_words(const StudyReport& report) {
       "Wilcoxon&#39;s signed-rank test (1945), two-sided and exact for up to 100 pairs, differences of 0 left out. ";
   std::size_t tests = 0;
   for (const PlannerPair& pair : report.pairs) tests += pair.test ? 1 : 0;
-  if (tests > 1) html += fmt::format("It is not corrected for the {} tests of this page. ", tests);
+  if (tests > 1) {
+    html += "Beside it stands the same corrected for all scenes of the pair, or for all pairs of totals (Holm 1979). ";
+  }
   html += fmt::format("Below {} pairs neither is told. ", kFewestPairs);
   const std::size_t seeds = report.study.seeds.size();
   if (tests > 0 && seeds < 8) {

@@ -92,7 +92,7 @@ TEST(StudyPage, AsksForNothingFromElsewhereAndLinksStayInItsFolder) {
   for (int trial = 0; trial < 16; ++trial) {
     const Study study = odd_study(random, true);
     const StudyReport report(study, pictures_of(study));
-    std::set<std::string> good = {"flights.csv", "summary.csv", "totals.csv", kTexTable};
+    std::set<std::string> good = {"flights.csv", "summary.csv", "pairs.csv", "totals.csv", kTexTable};
     for (const StudyFigure& figure : report.figures) good.insert("figures/" + figure.file);
     for (const FlightEntry& flight : study.flights) good.insert(flight.page);
     const std::string page = study_page(report);

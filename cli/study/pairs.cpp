@@ -1,35 +1,101 @@
 #include "cli/study/pairs.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "cli/study/columns.hpp"
 #include "core/text.hpp"
 
 namespace skein::cli {
 namespace {
 
+/// Of one flight.
+using Figure = std::function<std::optional<double>(const FlightEntry&)>;
+
 /// Of one seed: in a scene, or in all of them together.
-std::optional<double> score_of(const Study& study, std::size_t planner, std::optional<std::size_t> scenario,
-                               std::uint64_t seed) {
-  const auto score = [](const FlightFigures& figures) { return figures.score; };
-  if (!scenario) return total_of(study, planner, seed, score);
-  for (const FlightEntry* flight : study.cell(planner, *scenario)) {
-    if (flight->seed == seed) return flight->figures->score;
+std::optional<double> value_of(const Study& study, const Figure& figure, std::size_t planner,
+                               std::optional<std::size_t> scenario, std::uint64_t seed) {
+  if (scenario) {
+    for (const FlightEntry* flight : study.cell(planner, *scenario)) {
+      if (flight->seed == seed) return figure(*flight);
+    }
+    return std::nullopt;
   }
-  return std::nullopt;
+  double sum = 0.0;
+  for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
+    const auto value = value_of(study, figure, planner, s, seed);
+    if (!value) return std::nullopt;
+    sum += *value;
+  }
+  return sum;
 }
 
-PlannerPair pair_of(const Study& study, std::size_t first, std::size_t second, std::optional<std::size_t> scenario) {
-  PlannerPair pair{first, second, scenario, {}, {}, {}, {}};
+PlannerPair pair_of(const Study& study, const std::string& name, const Figure& figure, std::size_t first,
+                    std::size_t second, std::optional<std::size_t> scenario) {
+  PlannerPair pair{name, first, second, scenario, {}, {}, {}, {}, {}};
+  const bool is_mean = !scenario && name != "score";
+  const double share = is_mean ? 1.0 / static_cast<double>(study.scenarios.size()) : 1.0;
   for (const std::uint64_t seed : study.seeds) {
-    const auto a = score_of(study, first, scenario, seed), b = score_of(study, second, scenario, seed);
-    if (a && b) pair.differences.emplace_back(seed, *a - *b);
+    const auto a = value_of(study, figure, first, scenario, seed), b = value_of(study, figure, second, scenario, seed);
+    if (a && b) pair.differences.emplace_back(seed, share * (*a - *b));
   }
   const std::vector<double> values = pair.values();
   if (values.empty()) return pair;
   pair.median = spread_of(values).median;
   if (values.size() < kFewestPairs) return pair;
-  pair.interval = median_interval(values, study.planners[first] + "\n" + study.planners[second] + "\n" +
+  const std::string of_figure = name == "score" ? "" : name + "\n";
+  pair.interval = median_interval(values, of_figure + study.planners[first] + "\n" + study.planners[second] + "\n" +
                                               (scenario ? study.scenarios[*scenario] : ""));
   pair.test = signed_rank_test(values);
   return pair;
+}
+
+/// The scenes of two planners are one family, and so are the totals of all.
+void correct(std::vector<PlannerPair>& pairs) {
+  std::map<std::optional<std::pair<std::size_t, std::size_t>>, std::vector<PlannerPair*>> families;
+  for (PlannerPair& pair : pairs) {
+    if (!pair.test) continue;
+    const auto family = pair.scenario ? std::optional(std::pair(pair.first, pair.second)) : std::nullopt;
+    families[family].push_back(&pair);
+  }
+  for (const auto& [family, tests] : families) {
+    std::vector<double> p;
+    for (const PlannerPair* pair : tests) p.push_back(pair->test->p);
+    const std::vector<double> corrected = holm(p);
+    for (std::size_t i = 0; i < tests.size(); ++i) tests[i]->p_holm = corrected[i];
+  }
+}
+
+std::vector<PlannerPair> pairs_of(const Study& study, const std::string& name, const Figure& figure) {
+  std::vector<std::optional<std::size_t>> where;
+  for (std::size_t s = 0; s < study.scenarios.size(); ++s) where.emplace_back(s);
+  if (study.scenarios.size() > 1) where.emplace_back(std::nullopt);
+  std::vector<PlannerPair> pairs;
+  for (const auto& scenario : where) {
+    for (std::size_t first = 0; first < study.planners.size(); ++first) {
+      for (std::size_t second = first + 1; second < study.planners.size(); ++second) {
+        pairs.push_back(pair_of(study, name, figure, first, second, scenario));
+      }
+    }
+  }
+  correct(pairs);
+  return pairs;
+}
+
+Figure of_column(const StudyColumn& column) {
+  return [&column](const FlightEntry& flight) { return column.value(*flight.figures); };
+}
+
+/// @param study  must outlive it.
+Figure deviation(const Study& study) {
+  return [&study](const FlightEntry& flight) -> std::optional<double> {
+    const auto scores = column_values(study_column("score"), study.cell(flight.planner, flight.scenario));
+    const double median = spread_of(scores).median;
+    if (median <= 0.0) return std::nullopt;
+    return 100.0 * std::abs(flight.figures->score - median) / median;
+  };
 }
 
 }  // namespace
@@ -41,23 +107,25 @@ std::vector<double> PlannerPair::values() const {
 }
 
 std::vector<PlannerPair> planner_pairs(const Study& study) {
-  std::vector<std::optional<std::size_t>> where;
-  for (std::size_t s = 0; s < study.scenarios.size(); ++s) where.emplace_back(s);
-  if (study.scenarios.size() > 1) where.emplace_back(std::nullopt);
+  const StudyColumn& score = study_column("score");
+  return pairs_of(study, score.name, of_column(score));
+}
+
+std::vector<PlannerPair> figure_pairs(const Study& study) {
   std::vector<PlannerPair> pairs;
-  for (const auto& scenario : where) {
-    for (std::size_t first = 0; first < study.planners.size(); ++first) {
-      for (std::size_t second = first + 1; second < study.planners.size(); ++second) {
-        pairs.push_back(pair_of(study, first, second, scenario));
-      }
-    }
+  const auto add = [&](const std::string& name, const Figure& figure) {
+    std::ranges::move(pairs_of(study, name, figure), std::back_inserter(pairs));
+  };
+  for (const StudyColumn& column : study_columns()) {
+    if (column.paired) add(column.name, of_column(column));
   }
+  add(kDeviation, deviation(study));
   return pairs;
 }
 
-std::string p_text(const std::optional<SignedRank>& test) {
-  if (!test) return "";
-  return test->p < 0.001 ? "< 0.001" : fixed_at_most(test->p, test->p < 0.1 ? 4 : 3);
+std::string p_text(const std::optional<double>& p) {
+  if (!p) return "";
+  return *p < 0.001 ? "< 0.001" : fixed_at_most(*p, *p < 0.1 ? 4 : 3);
 }
 
 }  // namespace skein::cli

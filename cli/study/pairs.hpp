@@ -1,4 +1,4 @@
-// Planner against planner: the differences of their scores, seed by seed. Pure; any thread.
+// Planner against planner: the differences of their scores and of other figures, seed by seed. Pure; any thread.
 #pragma once
 
 #include <optional>
@@ -12,6 +12,7 @@
 namespace skein::cli {
 
 struct PlannerPair {
+  std::string figure = "score";  ///< a column of flights.csv, or kDeviation
   std::size_t first = 0, second = 0;
   std::optional<std::size_t> scenario;  ///< none: totals, the sums over all scenes
   /// First less second, by seed, of the seeds with which both have flights that count.
@@ -19,14 +20,22 @@ struct PlannerPair {
   std::optional<double> median;      ///< none without a difference
   std::optional<Interval> interval;  ///< for the median; from kFewestPairs on
   std::optional<SignedRank> test;    ///< from kFewestPairs on
+  /// Of the test, corrected for those of the same two planners and figure in all scenes; of totals, for all pairs.
+  std::optional<double> p_holm;
 
   std::vector<double> values() const;
 };
 
-/// All pairs in each scene, then, where there are several scenes, over all of them.
+/// How far a score is from the planner's median in the scene, in percent of that: whose scores are spread wider.
+inline constexpr const char* kDeviation = "score_deviation_percent";
+
+/// All pairs in each scene, then, where there are several scenes, over all of them: sums of scores.
 std::vector<PlannerPair> planner_pairs(const Study& study);
+/// The same of all figures that are paired (columns.hpp), scores first, and of deviations; over all scenes means of
+/// what is no score.
+std::vector<PlannerPair> figure_pairs(const Study& study);
 
 /// "0.031", "< 0.001"; none: an empty text.
-std::string p_text(const std::optional<SignedRank>& test);
+std::string p_text(const std::optional<double>& p);
 
 }  // namespace skein::cli

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/random_stream.hpp"
 
@@ -89,6 +90,19 @@ SignedRank signed_rank_test(const std::vector<double>& differences) {
   // What one sign gets and what the other gets are as likely as each other.
   const double share = share_up_to(all, std::min(positive, whole - positive), whole);
   return {all.size(), std::min(1.0, 2.0 * share), true};
+}
+
+std::vector<double> holm(const std::vector<double>& p) {
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p[i]; });
+  std::vector<double> corrected(p.size());
+  double so_far = 0.0;
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    so_far = std::max(so_far, std::min(1.0, static_cast<double>(p.size() - rank) * p[order[rank]]));
+    corrected[order[rank]] = so_far;
+  }
+  return corrected;
 }
 
 }  // namespace skein::cli

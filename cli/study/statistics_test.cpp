@@ -125,5 +125,15 @@ TEST(MedianInterval, EndsWhereTheBinomialSaysForAnOddNumber) {
   }
 }
 
+/// By hand: 0.01 x 4, 0.02 x 3, 0.03 x 2 would be 0.06 again, 0.5.
+TEST(Holm, MultipliesTheSmallestMostAndNeverTurnsTheOrder) {
+  const std::vector<double> corrected = holm({0.03, 0.5, 0.01, 0.02});
+  const std::vector<double> expected = {0.06, 0.5, 0.04, 0.06};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(corrected[i], expected[i], 1e-12);
+  EXPECT_EQ(holm({0.4, 0.9}), (std::vector<double>{0.8, 0.9}));
+  EXPECT_EQ(holm({0.7, 0.9}), (std::vector<double>{1.0, 1.0}));
+  EXPECT_TRUE(holm({}).empty());
+}
+
 }  // namespace
 }  // namespace skein::cli

@@ -125,7 +125,7 @@ std::string pairs_tex(const Study& study, const std::vector<PlannerPair>& pairs,
                       tex_escaped(study.planners[pair.first]) + " $-$ " + tex_escaped(study.planners[pair.second]) +
                       fmt::format(" & {} & ", pair.differences.size()) +
                       (pair.median ? tex_number(*pair.median, 1) : "--");
-    const std::string p = p_text(pair.test);
+    const std::string p = p_text(pair.test ? std::optional(pair.test->p) : std::nullopt);
     row += pair.interval ? " & " + tex_number(pair.interval->low, 1) + " to " + tex_number(pair.interval->high, 1) +
                                " & " + (p.starts_with("<") ? "$<$" + p.substr(1) : p)
                          : " & \\multicolumn{2}{c}{$n$ too small}";
