@@ -8,7 +8,8 @@ set(SKEIN_CONTRACT_DIR ${PROJECT_SOURCE_DIR}/uav_agent/testing)  # where the sou
 set(installed_contract_dir ${CMAKE_INSTALL_DATADIR}/skein/contract)
 
 # Components, which are Debian packages too (SkeinPackages.cmake): `runtime` is what flies fleets, `agent` the part of
-# it that flies one UAV, `dev` what planners outside of this tree are built with, `source` the code that debuggers show.
+# it that flies one UAV, `dev` what planners outside of this tree are built with, `source` the code that debuggers show,
+# `python` the package `skein` for Python.
 set(programs skein sim_server comm_router station uav_agent uav_agent_fleet skein_doctor)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/man)
 foreach(program ${programs})
@@ -47,6 +48,11 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # 
 install(DIRECTORY bus cli comm_router core doctor mcap one_process process properties recording report sim_server
   station uav_agent view DESTINATION src/skein COMPONENT source
   FILES_MATCHING PATTERN "*.cpp" PATTERN "*.hpp" PATTERN testing EXCLUDE)
+
+# The package for Python, where Debian's finds it under /usr.
+install(DIRECTORY python/skein DESTINATION lib/python3/dist-packages COMPONENT python
+  FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+install(FILES python/examples/compare.ipynb DESTINATION ${CMAKE_INSTALL_DOCDIR}/python COMPONENT python)
 
 set(libraries core process report view idl mcap bus lockstep recording agent agent_nodes agent_main
   sim sim_node router router_node station station_node one_process one_process_main)

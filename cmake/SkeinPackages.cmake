@@ -1,8 +1,9 @@
 # Debian packages of the components, for Debian 12: `cpack` in the build folder writes skein, skein-agent and skein-dev,
-# what debuggers want of the first two, skein-dbgsym and skein-agent-dbgsym, and the code that they show, skein-source.
+# what debuggers want of the first two, skein-dbgsym and skein-agent-dbgsym, the code that they show, skein-source, and
+# python3-skein.
 # What the programs need of Debian is read from them (dpkg-shlibdeps), so they have to be built on Debian 12.
 set(CPACK_GENERATOR DEB)
-set(CPACK_COMPONENTS_ALL agent runtime dev source)
+set(CPACK_COMPONENTS_ALL agent runtime dev source python)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES OFF)  # what has a -dbgsym is stripped when that is made; archives keep their lines
@@ -64,10 +65,21 @@ ${about}
 This package is what debuggers show of Skein with the symbols of skein-dbgsym or
 skein-agent-dbgsym. Nothing is built from it.")
 
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-skein)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "skein (= ${PROJECT_VERSION}), python3 (>= 3.11), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "experiments with Skein from Python
+${about}
+.
+This package flies fleets from Python, gives what they leave behind as arrays of
+NumPy and frames of pandas, and plots it for papers.")
+
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 configure_file(cmake/debian/changelog.in ${CMAKE_BINARY_DIR}/changelog @ONLY)
 execute_process(COMMAND gzip -9nf ${CMAKE_BINARY_DIR}/changelog)
-foreach(component agent runtime dev source)
+foreach(component agent runtime dev source python)
   string(TOUPPER ${component} upper)
   set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
   install(FILES cmake/debian/copyright DESTINATION ${folder} COMPONENT ${component})

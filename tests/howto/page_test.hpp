@@ -1,7 +1,8 @@
 // What a page tells its reader to type, and a folder in which that is typed.
 //
 // Blocks of commands are ```sh; ```console has `$ command` with what it prints, where "..." stands for anything within
-// a line, and a line "..." for all that follows. A block with a file's name behind its language is that file. Comments
+// a line, and a line "..." for all that follows. ```python blocks are one program, as far as no commands stand between
+// them. A block with a file's name behind its language is that file. Comments
 // that readers do not see, before a block, say what the test has to know of it:
 //   <!-- not run: needs docker -->               only to be read, and why
 //   <!-- given: build/my_agent is an agent -->   what its reader has: an agent (with `orbit`), a program (that flies a
@@ -27,7 +28,8 @@ struct PageBlock {
   std::vector<std::pair<std::string, std::string>> notes = {};  ///< the comments before it
 
   bool is_file() const { return !name.empty(); }
-  bool is_typed() const { return !is_file() && (language == "sh" || language == "console"); }
+  bool is_python() const { return !is_file() && language == "python"; }
+  bool is_typed() const { return !is_file() && (language == "sh" || language == "console" || is_python()); }
   bool is_run() const { return is_typed() && note("not run").empty(); }
   /// Of the first note of that kind; empty: there is none.
   std::string note(const std::string& kind) const;
@@ -47,6 +49,7 @@ bool matches(const std::string& shown, const std::string& printed);
 class PageTest : public FleetTest {
  protected:
   /// The reader's folder: a checkout, with the programs of this build as `./skein`, and as an installed `skein`, too.
+  /// `python3` is Debian's, and finds the checkout's package.
   PageTest();
 
   const std::filesystem::path& checkout() const { return checkout_; }
@@ -57,8 +60,10 @@ class PageTest : public FleetTest {
   void give_agent(const std::filesystem::path& file) const;
   /// In the checkout, by `sh -e`, with nothing to read. Nothing of it may run on. @returns what it printed.
   std::string typed(const std::string& commands, int exit_code = 0, const Environment& environment = {});
-  /// Writes its file, or types it. @returns false when it is only to be read.
+  /// Writes its file, or types it; Python is only noted. @returns false when it is only to be read.
   bool follow(const PageBlock& block);
+  /// Runs the Python that was noted since the last commands.
+  void run_python();
   /// `$ command` and what it prints, until the next one. @param chosen  by its number: whether it is typed
   void follow_console(const PageBlock& block, const std::function<bool(int)>& chosen);
 
@@ -66,7 +71,7 @@ class PageTest : public FleetTest {
   bool give(const PageBlock& block);
 
   const std::filesystem::path checkout_;
-  std::string errors_;
+  std::string errors_, python_;
   int commands_ = 0;
 };
 

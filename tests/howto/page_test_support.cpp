@@ -118,7 +118,10 @@ PageTest::PageTest() : checkout_(folder() / "checkout") {
   fs::create_directories(checkout_ / "build");
   fs::create_symlink(program("skein"), checkout_ / "skein");
   fs::create_directory_symlink(build_path(), checkout_ / "build" / "release");
-  for (const char* name : {"config", "docker"}) fs::create_directory_symlink(source_path(name), checkout_ / name);
+  for (const char* name : {"config", "docker", "python"})
+    fs::create_directory_symlink(source_path(name), checkout_ / name);
+  fs::create_directories(folder() / "bin");
+  fs::create_symlink(python_program(), folder() / "bin" / "python3");
 }
 
 std::string PageTest::typed(const std::string& commands, int exit_code, const Environment& environment) {
@@ -126,14 +129,16 @@ std::string PageTest::typed(const std::string& commands, int exit_code, const En
   const fs::path script = write(name + ".sh", commands + "\n");
   // Neither where the programs nor where their configuration is may be told from outside.
   const std::string line =
-      "unset SKEIN_CONFIG_DIR SKEIN_BIN_DIR SKEIN_ASSETS SKEIN_GOLDEN SKEIN_CHAOS SKEIN_LOG SKEIN_NETWORK; "
+      "unset SKEIN SKEIN_CONFIG_DIR SKEIN_BIN_DIR SKEIN_ASSETS SKEIN_GOLDEN SKEIN_CHAOS SKEIN_LOG SKEIN_NETWORK; "
       "cd '" +
       checkout_.string() + "' && exec sh -e '" + script.string() + "' </dev/null";
   Environment all = environment;
   all.try_emplace("SKEIN_DURATION", kBriefly);
   all.try_emplace("SKEIN_AGENT", "");
   all.try_emplace("XDG_CACHE_HOME", folder() / "cache");
-  all.try_emplace("PATH", build_path("bin:") + std::getenv("PATH"));
+  all.try_emplace("PATH", build_path("bin:") + (folder() / "bin").string() + ":" + std::getenv("PATH"));
+  all.try_emplace("PYTHONDONTWRITEBYTECODE", "1");  // into the source tree
+  all.try_emplace("MPLBACKEND", "Agg");
   ChildProcess shell({"/bin/sh", "-c", line}, all, folder() / (name + ".out"), folder() / (name + ".err"));
   const bool over = eventually([&] { return shell.ended().has_value(); }, kPagesPatience);
   EXPECT_TRUE(over) << "still busy with:\n" << commands;
@@ -186,6 +191,11 @@ bool PageTest::follow(const PageBlock& block) {
     return true;
   }
   if (!block.is_run() || !give(block)) return false;
+  if (block.is_python()) {
+    python_ += "# line " + std::to_string(block.line) + " of the page\n" + block.text;
+    return true;
+  }
+  run_python();
   if (block.language == "console") {
     follow_console(block, [](int) { return true; });
     return true;
@@ -196,6 +206,12 @@ bool PageTest::follow(const PageBlock& block) {
   }
   typed(block.text, block.exit_code(), environment);
   return true;
+}
+
+void PageTest::run_python() {
+  if (python_.empty()) return;
+  const fs::path script = write("noted-" + std::to_string(commands_ + 1) + ".py", std::exchange(python_, {}));
+  typed("python3 '" + script.string() + "'", 0, {{"PYTHONPATH", checkout_ / "python"}});
 }
 
 void PageTest::follow_console(const PageBlock& block, const std::function<bool(int)>& chosen) {

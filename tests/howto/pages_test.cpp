@@ -59,6 +59,8 @@ TEST_P(Pages, AreTypedTwice) {
       SCOPED_TRACE(page + ":" + std::to_string(block.line) + ", " + round);
       if (!is_typed_elsewhere(page, block)) follow(block);
     }
+    SCOPED_TRACE(page + ", at its end, " + round);
+    run_python();
   }
 }
 

@@ -251,7 +251,7 @@ Violations check_clocks(const Tree& tree) {
 Violations check_length(const Tree& tree, std::size_t most_lines) {
   Violations violations;
   for (const SourceFile& file : tree) {
-    if (!file.is_cpp() || file.lines.size() <= most_lines) continue;
+    if ((!file.is_cpp() && !file.path.ends_with(".py")) || file.lines.size() <= most_lines) continue;
     violations.push_back(at(file, file.lines.size(), "is longer than " + std::to_string(most_lines) + " lines"));
   }
   return violations;
@@ -261,7 +261,8 @@ Violations check_columns(const Tree& tree, std::size_t most_columns) {
   Violations violations;
   for (const SourceFile& file : tree) {
     const bool other_code = file.name() == "CMakeLists.txt" || file.path.ends_with(".cmake") ||
-                            file.path.ends_with(".sh") || file.path == "skein" || file.path == ".ci/run";
+                            file.path.ends_with(".sh") || file.path.ends_with(".py") || file.path == "skein" ||
+                            file.path == ".ci/run";
     if (!file.is_cpp() && !other_code) continue;
     for (std::size_t i = 0; i < file.lines.size(); ++i) {
       const auto blank = [i](const std::vector<std::string>& lines) {

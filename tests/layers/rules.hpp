@@ -52,10 +52,10 @@ Violations check_sleeping(const Tree& tree);
 /// Tests do not read the clock: they wait for facts with tests/support/eventually.hpp.
 Violations check_clocks(const Tree& tree);
 
-/// No C++ file beyond `most_lines`.
+/// No file of C++ or Python beyond `most_lines`.
 Violations check_length(const Tree& tree, std::size_t most_lines = 400);
 
-/// No line of C++, CMake or shell beyond `most_columns`; lines that are nothing but the text of a literal may.
+/// No line of C++, Python, CMake or shell beyond `most_columns`; lines that are nothing but the text of a literal may.
 Violations check_columns(const Tree& tree, std::size_t most_columns = 120);
 
 /// No marks of unfinished work.

@@ -195,7 +195,8 @@ TEST_F(MadeUpTree, LongFilesAreFound) {
   file("docs/long.md", "1\n2\n3\n4\n");
   file("core/good.cpp", "1\n2\n3\n");
   file("core/long.cpp", "1\n2\n3\n4\n");
-  EXPECT_EQ(places(check_length(tree(), 3)), Places{"core/long.cpp:4"});
+  file("python/long.py", "1\n2\n3\n4\n");
+  EXPECT_EQ(places(check_length(tree(), 3)), (Places{"core/long.cpp:4", "python/long.py:4"}));
 }
 
 TEST_F(MadeUpTree, LongLinesAreFoundInAllCode) {
@@ -205,8 +206,10 @@ TEST_F(MadeUpTree, LongLinesAreFoundInAllCode) {
   EXPECT_EQ(check_columns(tree(), 4), Violations{});
   file("core/CMakeLists.txt", "\n12345\n");
   file("core/long.hpp", "12345\n");
+  file("python/long.py", "12345\n");
   file("skein", "12345\n");
-  EXPECT_EQ(places(check_columns(tree(), 4)), (Places{"core/CMakeLists.txt:2", "core/long.hpp:1", "skein:1"}));
+  EXPECT_EQ(places(check_columns(tree(), 4)),
+            (Places{"core/CMakeLists.txt:2", "core/long.hpp:1", "python/long.py:1", "skein:1"}));
 }
 
 TEST_F(MadeUpTree, FoldersThatIncludeEachOtherAreFound) {

@@ -84,12 +84,15 @@ class Packages : public FleetTest {
 
 TEST_F(Packages, EachComponentHasWhatItIsFor) {
   const Paths runtime = files_of(install("runtime")), agent = files_of(install("agent")),
-              dev = files_of(install("dev"));
+              dev = files_of(install("dev")), python = files_of(install("python"));
   EXPECT_EQ(below(runtime, "bin/"), kAllPrograms);
   EXPECT_EQ(below(agent, "bin/"), Paths{"uav_agent"});
   EXPECT_EQ(below(dev, "bin/"), Paths{});
   EXPECT_EQ(below(runtime, "lib/"), Paths{"skein/libskein_other_clock.so"}) << "of skein check-planner";
   EXPECT_EQ(below(agent, "lib/"), Paths{});
+  Paths modules = below(files_of(source_path("python")), "skein/");
+  std::erase_if(modules, [](const std::string& file) { return file.ends_with(".pyc"); });
+  EXPECT_EQ(below(python, "lib/python3/dist-packages/skein/"), modules);
   for (const Paths* programs : {&runtime, &agent}) {
     EXPECT_EQ(below(*programs, "share/skein/config/"), files_of(source_path("config")));
     Paths manuals;
@@ -131,6 +134,17 @@ TEST_F(Packages, AnInstalledFleetFliesForWhoMayNotWriteThere) {
   EXPECT_EQ(flown["digest"], run("built", {"towers", "--duration", "20"}).digest());
 }
 
+TEST_F(Packages, ThePackageForPythonFliesWhatIsInstalled) {
+  const fs::path programs = install("runtime"), modules = install("python") / "lib/python3/dist-packages";
+  const std::string flown =
+      done({"env", "-C", folder(), "-u", "SKEIN", "-u", "SKEIN_CONFIG_DIR", "-u", "SKEIN_BIN_DIR", "-u", "SKEIN_AGENT",
+            "PYTHONPATH=" + modules.string(), "PATH=" + (programs / "bin").string() + ":" + std::getenv("PATH"),
+            python_program(), "-B", "-c",
+            "import skein; print(skein.find_launcher()); "
+            "print(skein.run('towers', planner='hover', one_process=True, duration=2).status)"});
+  EXPECT_EQ(flown, (programs / "bin" / "skein").string() + "\ncompleted\n");
+}
+
 TEST_F(Packages, SymbolsThatAreInstalledNameFunctionsAndTheirCode) {
   for (const char* tool : {"dpkg-deb", "dpkg-shlibdeps", "file", "gdb", "readelf"}) {
     if (!has_program(tool)) GTEST_SKIP() << "there is no " << tool << " here";
@@ -161,8 +175,11 @@ TEST_F(Packages, DebianPackagesAreTheComponents) {
   for (const char* tool : {"dpkg-deb", "dpkg-shlibdeps", "file"}) {
     if (!has_program(tool)) GTEST_SKIP() << "there is no " << tool << " here";
   }
-  const std::map<std::string, std::string> names = {
-      {"runtime", "skein"}, {"agent", "skein-agent"}, {"dev", "skein-dev"}, {"source", "skein-source"}};
+  const std::map<std::string, std::string> names = {{"runtime", "skein"},
+                                                    {"agent", "skein-agent"},
+                                                    {"dev", "skein-dev"},
+                                                    {"source", "skein-source"},
+                                                    {"python", "python3-skein"}};
   std::map<std::string, std::string> depends;
   for (const auto& [component, name] : names) {
     const fs::path package = package_that_begins_with(name + "_");
@@ -186,6 +203,7 @@ TEST_F(Packages, DebianPackagesAreTheComponents) {
   }
   EXPECT_TRUE(needs("runtime", "libembree3"));
   EXPECT_FALSE(needs("agent", "libembree3"));
+  EXPECT_TRUE(needs("python", "skein (= ") && needs("python", "python3-numpy"));
   EXPECT_TRUE(needs("dev", "skein (= ") && needs("dev", "libeigen3-dev"));
 }
 

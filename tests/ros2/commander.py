@@ -1,4 +1,5 @@
-"""A ROS 2 node that sends a UAV commands and a radio message without taking part in the lock-step, until nobody is left to hear it.
+"""A ROS 2 node that sends a UAV commands and a radio message without taking part in the lock-step, until nobody is
+left to hear it.
 
     commander.py UAV FILE     FILE.ready appears once somebody subscribes
 """

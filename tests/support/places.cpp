@@ -17,6 +17,8 @@ std::string helper_program(const std::string& name) { return build_path("tests/"
 
 std::string compiler_launcher() { return SKEIN_TEST_COMPILER_LAUNCHER; }
 
+std::string python_program() { return SKEIN_TEST_PYTHON; }
+
 std::string sanitizer() { return SKEIN_TEST_SANITIZER; }
 
 }  // namespace skein

@@ -18,6 +18,9 @@ std::string helper_program(const std::string& name);
 /// CMAKE_CXX_COMPILER_LAUNCHER of this build: ccache, or nothing.
 std::string compiler_launcher();
 
+/// Debian's Python, which has NumPy and what plots.
+std::string python_program();
+
 /// "address" (with undefined behaviour) or "thread"; empty in a build without sanitizers.
 std::string sanitizer();
 

@@ -1,0 +1,18 @@
+# The Python that tests and packages are made for, in SKEIN_PYTHON: Debian's, which has Debian's packages. What is
+# python3 in PATH may be another one.
+set(modules numpy pandas matplotlib pytest)
+list(JOIN modules "," imports)
+find_program(SKEIN_PYTHON_IN_PATH python3)
+foreach(candidate /usr/bin/python3 ${SKEIN_PYTHON_IN_PATH})
+  if(NOT SKEIN_PYTHON AND EXISTS ${candidate})
+    execute_process(COMMAND ${candidate} -c "import ${imports}" RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
+    if(NOT failed)
+      set(SKEIN_PYTHON ${candidate} CACHE FILEPATH "Python 3 that has ${imports}")
+    endif()
+  endif()
+endforeach()
+if(NOT SKEIN_PYTHON)
+  list(TRANSFORM modules PREPEND "python3-")
+  list(JOIN modules " " packages)
+  message(FATAL_ERROR "no python3 has ${imports}: run ./skein test once, or apt-get install ${packages}")
+endif()

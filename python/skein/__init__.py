@@ -1,0 +1,22 @@
+"""Experiments with Skein from Python: flights, what they leave behind as arrays, and plots of it for papers.
+
+    import skein
+
+    run = skein.run("towers", planner="kios", seed=3, one_process=True)
+    run.score, run.captures["q_blur"], run.frame("losses")
+
+docs/how-to-python.md goes through it. Only NumPy is needed; `frame()` needs pandas, and `skein.plots` matplotlib.
+"""
+
+from . import plots
+from .columns import RUN_TABLES, STUDY_TABLES, Column, Table
+from .errors import (CheckError, DamagedError, DependencyError, Error, InputError, Interrupted, MissingError,
+                     ProcessError)
+from .launch import find_launcher
+from .run import Run, run
+from .study import Study, compare, contest
+
+__all__ = [
+    "CheckError", "Column", "DamagedError", "DependencyError", "Error", "InputError", "Interrupted", "MissingError",
+    "ProcessError", "RUN_TABLES", "Run", "STUDY_TABLES", "Study", "Table", "compare", "contest", "find_launcher",
+    "plots", "run"]

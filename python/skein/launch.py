@@ -1,0 +1,206 @@
+"""The launcher, `skein`, as a child of this program.
+
+Keyword options become its options one to one: `one_process=True` is `--one-process`, `duration=60` is
+`--duration=60`, a list of texts is the option repeated, and a list or range of whole numbers one value with commas.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import selectors
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, NoReturn
+
+from .errors import CheckError, Error, InputError, Interrupted, ProcessError
+
+_EXIT_ERRORS: dict[int, type[Error]] = {1: CheckError, 2: InputError, 3: ProcessError, 130: Interrupted}
+_PATIENCE_S = 30.0  # for a launcher that was told to end
+_MOST_LINES = 25  # of what it said, in a message
+
+
+def find_launcher(launcher: str | os.PathLike[str] | None = None) -> str:
+    """Where the launcher is: `launcher`, SKEIN in the environment, `./skein` of this checkout, or `skein` in PATH."""
+    named = os.fspath(launcher) if launcher is not None else os.environ.get("SKEIN")
+    if named:
+        found = shutil.which(named)
+        if found is None:
+            raise InputError(f"there is no program {named!r}" + ("" if launcher is not None else ", which SKEIN names"))
+        return found
+    checkout = Path(__file__).absolute().parents[2] / "skein"
+    if checkout.is_file() and os.access(checkout, os.X_OK):
+        return str(checkout)
+    found = shutil.which("skein")
+    if found is None:
+        raise InputError("there is no skein in PATH: install the package skein, or set SKEIN to the launcher's path")
+    return found
+
+
+def _is_whole(value: object) -> bool:
+    return hasattr(value, "__index__") and not isinstance(value, bool)
+
+
+def _text(name: str, value: Any) -> str:
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    if _is_whole(value):
+        return str(value.__index__())
+    if hasattr(value, "__float__"):
+        return repr(float(value))
+    raise InputError(f"{name}: an option is a text, a number, a path, True, or a list of these, not {value!r}")
+
+
+def _is_flag(value: Any) -> bool:
+    return isinstance(value, bool) or type(value).__name__ in ("bool_", "bool")  # NumPy has its own
+
+
+def option_arguments(options: Mapping[str, Any]) -> list[str]:
+    """Keyword options as words of the command line. False and None leave an option out."""
+    words: list[str] = []
+    for name, value in options.items():
+        option = "--" + name.rstrip("_").replace("_", "-")
+        if value is None or (_is_flag(value) and not value):
+            continue
+        if _is_flag(value):
+            words.append(option)
+        elif isinstance(value, Mapping):
+            raise InputError(f"{name}: an option is no dictionary; write {value!r} as on the command line")
+        elif hasattr(value, "__iter__") and not isinstance(value, (str, bytes)):
+            items = list(value)
+            if items and all(_is_whole(item) for item in items):
+                words.append(f"{option}={','.join(_text(name, item) for item in items)}")
+            else:
+                words.extend(f"{option}={_text(name, item)}" for item in items)
+        else:
+            words.append(f"{option}={_text(name, value)}")
+    return words
+
+
+def positional(name: str, value: str | os.PathLike[str]) -> str:
+    """A word of the command line that is no option."""
+    text = os.fspath(value)
+    if not isinstance(text, str) or not text or text.startswith("-"):
+        raise InputError(f"{name}: {value!r} is none; options are keywords of this function")
+    return text
+
+
+class Finished:
+    """What a launcher said and how it ended."""
+
+    def __init__(self, out: str, err: str, code: int) -> None:
+        self.out, self.err, self.code = out, err, code
+
+    def error(self) -> Error | None:
+        """What its exit code means; None: it is done."""
+        if self.code == 0:
+            return None
+        lines = [line for line in self.err.splitlines() if line and not line.startswith("simulated ")]
+        message = "\n".join(lines[-_MOST_LINES:]) or f"the launcher ended with exit code {self.code} and said nothing"
+        if self.code < 0:
+            message = f"the launcher was killed by signal {-self.code}\n{message}"
+        return _EXIT_ERRORS.get(self.code, Error)(message, self.code)
+
+
+def call(words: list[str], folder_of: Callable[[Finished], Path | None], *,
+         launcher: str | os.PathLike[str] | None = None, verbose: bool = False) -> Finished:
+    """Runs the launcher to its end. `verbose`: what it says is written to sys.stdout and sys.stderr meanwhile.
+    `folder_of` finds the results folder in what it said.
+
+    Ctrl-C goes to the launcher, which ends the fleet at its next step and writes the result; only then
+    KeyboardInterrupt is raised here. A second one ends it at once. If this program dies, the launcher is told to end.
+    """
+    command = [find_launcher(launcher), *words]
+    # By the kernel's word, which reaches it even if this program is killed. A function that runs between fork and
+    # exec (preexec_fn) would not be safe beside other threads.
+    if setpriv := shutil.which("setpriv"):
+        command = [setpriv, "--pdeathsig", "TERM", "--", *command]
+    try:
+        # A session of its own: a terminal's Ctrl-C reaches this program alone, which passes it on once, wherever it
+        # came from. In one group with it the launcher would get two from a terminal and one from a notebook.
+        child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                 start_new_session=True)
+    except (OSError, ValueError) as error:  # not to be executed; a word with a NUL
+        raise InputError(f"the launcher cannot be started: {error}") from error
+    with _passing_on_interrupts(child) as interrupts:
+        try:
+            out, err = _read_both(child, verbose)
+            code = child.wait()
+        finally:
+            _end(child)
+    finished = Finished(out, err, code)
+    if interrupts:
+        folder = folder_of(finished)
+        raise KeyboardInterrupt("interrupted" + (f"; what was flown until then is in {folder}" if folder else ""))
+    return finished
+
+
+def _read_both(child: subprocess.Popen[bytes], verbose: bool) -> tuple[str, str]:
+    assert child.stdout is not None and child.stderr is not None
+    said: dict[int, bytearray] = {child.stdout.fileno(): bytearray(), child.stderr.fileno(): bytearray()}
+    sinks = {child.stdout.fileno(): sys.stdout, child.stderr.fileno(): sys.stderr}
+    with selectors.DefaultSelector() as selector:
+        for descriptor in said:
+            selector.register(descriptor, selectors.EVENT_READ)
+        while selector.get_map():
+            for key, _ in selector.select():
+                data = os.read(key.fd, 1 << 16)
+                if not data:
+                    selector.unregister(key.fd)
+                    continue
+                said[key.fd] += data
+                if verbose:
+                    sinks[key.fd].write(data.decode(errors="replace"))
+                    sinks[key.fd].flush()
+    out, err = (bytes(text).decode(errors="replace") for text in said.values())
+    return out, err
+
+
+def _signal_group(child: subprocess.Popen[bytes], number: int) -> None:
+    if child.poll() is None:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(child.pid, number)
+
+
+@contextlib.contextmanager
+def _passing_on_interrupts(child: subprocess.Popen[bytes]) -> Iterator[list[int]]:
+    """While it lasts, Ctrl-C goes to the child. Where the user has a handler of their own, that stays."""
+    interrupts: list[int] = []
+
+    def pass_on(number: int, _frame: object) -> None:
+        interrupts.append(number)
+        _signal_group(child, signal.SIGINT if len(interrupts) < 3 else signal.SIGKILL)
+
+    ours = (threading.current_thread() is threading.main_thread()
+            and signal.getsignal(signal.SIGINT) is signal.default_int_handler)
+    if ours:
+        signal.signal(signal.SIGINT, pass_on)
+    try:
+        yield interrupts
+    finally:
+        if ours:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _end(child: subprocess.Popen[bytes]) -> None:
+    """After an exception in this program: nothing of the fleet stays."""
+    if child.poll() is None:
+        _signal_group(child, signal.SIGINT)
+        try:
+            child.wait(_PATIENCE_S)
+        except subprocess.TimeoutExpired:
+            _signal_group(child, signal.SIGKILL)
+            child.wait()
+    for pipe in (child.stdout, child.stderr):
+        if pipe is not None:
+            pipe.close()
+
+
+def no_folder(finished: Finished) -> NoReturn:
+    """For a launcher that ended well and named no folder of results: `help=True`, say."""
+    raise Error("the launcher named no results folder; it said:\n" + (finished.out + finished.err).strip(), 0)

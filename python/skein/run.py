@@ -1,0 +1,332 @@
+"""A run: flown by `skein.run()`, or read from its folder by `Run`."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+import re
+import struct
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from . import columns
+from .errors import DamagedError, Error, MissingError, missing_package
+from .launch import Finished, call, no_folder, option_arguments, positional
+from .tables import Array, read_table, read_text, read_wide_table
+
+if TYPE_CHECKING:
+    import pandas
+
+_Kind = TypeVar("_Kind")
+
+
+def run(scenario: str | os.PathLike[str] = "towers", *, launcher: str | os.PathLike[str] | None = None,
+        verbose: bool = False, **options: Any) -> Run:
+    """Flies a fleet, as `skein run SCENARIO` does, and returns the finished run.
+
+    Every option of `skein run --help` is a keyword: `planner="kios"`, `seed=3`, `one_process=True`, `duration=60`,
+    `log=["jurong=debug", "raffles=debug"]`. Results go where the command line puts them: `out="..."` chooses a folder.
+
+    `launcher` is the program; without it SKEIN in the environment, this checkout's `./skein`, or `skein` in PATH.
+    `verbose` shows what it says meanwhile.
+
+    Raises `InputError` where the input is wrong, `ProcessError` where a process failed (with the complete results in
+    its `run`), another `Error` for other exit codes, and KeyboardInterrupt, when the fleet has ended, after Ctrl-C.
+    """
+    words = ["run", positional("scenario", scenario), *option_arguments(options)]
+    finished = call(words, results_folder, launcher=launcher, verbose=verbose)
+    error = finished.error()
+    folder = results_folder(finished)
+    if error is not None:
+        error.run = Run(folder) if folder is not None else None
+        raise error
+    if folder is None:
+        no_folder(finished)
+    return Run(folder)
+
+
+def results_folder(finished: Finished) -> Path | None:
+    """As the launcher named it at the end, or else at the beginning."""
+    named = re.findall(r"^results   (.+)$", finished.out, re.MULTILINE)
+    named = named or re.findall(r"^.*, results in (.+)$", finished.err, re.MULTILINE)
+    return Path(named[-1]) if named else None
+
+
+class _AsWritten(str):
+    """A number of a JSON file, digit by digit."""
+
+
+def _compact(value: Any) -> str:
+    """JSON as Skein writes it before it takes the checksum."""
+    if isinstance(value, _AsWritten):
+        return str(value)
+    if isinstance(value, dict):
+        return "{" + ",".join(f"{_compact(k)}:{_compact(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ",".join(map(_compact, value)) + "]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def read_json(file: Path, missing: str) -> dict[str, Any]:
+    """A JSON file that holds an object. Where it has a checksum, it must fit."""
+    text = read_text(file, missing)
+    try:
+        value = json.loads(text)
+        as_written = json.loads(text, parse_float=_AsWritten, parse_int=_AsWritten, parse_constant=_AsWritten)
+        if not isinstance(value, dict):
+            raise ValueError("it is no JSON object")
+        told = as_written.pop("checksum", None)
+        # surrogatepass: an escape in the file may be half of a character; then the checksum does not fit.
+        held = _compact(as_written).encode(errors="surrogatepass") if told is not None else b""
+    except (ValueError, RecursionError) as error:  # the latter: too many brackets in each other
+        line = getattr(error, "lineno", 1)
+        raise DamagedError(f"{file}:{line}: is damaged: {error}") from None
+    if told is not None and hashlib.sha256(struct.pack("<Q", len(held)) + held).hexdigest() != told:
+        raise DamagedError(f"{file}:1: is damaged, or was edited: its checksum does not fit what it holds (without the "
+                           "key 'checksum' it is taken as it is)")
+    return value
+
+
+class Run:
+    """The results folder of a run. A file is read when it is asked for first.
+
+    `result` is all of result.json; the tables are structured arrays of NumPy, read only, with the columns of
+    docs/results.md: `run.captures["q_blur"]`. `run.frame("captures")` is the same for pandas. Flags are bool, empty
+    cells NaN or "". A file that is not there is a `MissingError`, one that is damaged a `DamagedError`.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(os.path.abspath(path))
+        self._tables: dict[str, Array] = {}
+        self._json: dict[str, dict[str, Any]] = {}
+        if not self.path.is_dir():
+            raise MissingError(f"there is no folder {self.path}")
+
+    def __repr__(self) -> str:
+        try:
+            what = f"{self.scenario}, seed {self.seed}, {self.status}: score {self.score:.1f}"
+        except (Error, TypeError, ValueError) as error:
+            what = str(error)
+        return f"<skein.Run {self.path}: {what}>"
+
+    # -- what result.json says ----------------------------------------------------------------------------------------
+
+    @property
+    def result(self) -> dict[str, Any]:
+        """result.json, with the keys of docs/results.md."""
+        return self._read_json("result.json", "it is no results folder, or its run is not over")
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """scene.json: boxes, interest points, the mesh, and each UAV's camera."""
+        return self._read_json("scene.json", "the run was ended before it was written, or the disk was full")
+
+    def _read_json(self, name: str, missing: str) -> dict[str, Any]:
+        if name not in self._json:
+            self._json[name] = read_json(self.path / name, missing)
+        return self._json[name]
+
+    def _told(self, key: str, kind: type[_Kind]) -> _Kind:
+        value = self.result.get(key)
+        if not isinstance(value, kind):
+            raise DamagedError(
+                f"{self.path / 'result.json'}:1: {key} must be of kind {kind.__name__}, not {value!r:.60}")
+        return value
+
+    def _number(self, key: str) -> float:
+        """NaN where nobody could tell: the process that knows had died."""
+        value = self.result.get(key)
+        return float(value) if isinstance(value, (int, float)) else math.nan
+
+    @property
+    def scenario(self) -> str:
+        return self._told("scenario", str)
+
+    @property
+    def planner(self) -> dict[str, str]:
+        """By UAV."""
+        return dict(self._told("planner", dict))
+
+    @property
+    def seed(self) -> int:
+        return self._told("seed", int)
+
+    @property
+    def status(self) -> str:
+        """completed, no_takeoff, interrupted or aborted."""
+        return self._told("status", str)
+
+    @property
+    def score(self) -> float:
+        """The delivered score; NaN where nobody could tell."""
+        return self._number("score")
+
+    @property
+    def digest(self) -> str | None:
+        """None where the same command would not give the same one."""
+        value = self.result.get("digest")
+        return value if isinstance(value, str) else None
+
+    @property
+    def uavs(self) -> list[str]:
+        """Their names, in fleet order."""
+        return [str(uav["name"]) for uav in self._told("uavs", list)]
+
+    @property
+    def sim_time_s(self) -> float:
+        """Simulated time; NaN where nobody could tell."""
+        return self._number("sim_time_s")
+
+    # -- tables -------------------------------------------------------------------------------------------------------
+
+    def table(self, name: str) -> Array:
+        """One of the tables below, by its name."""
+        if name not in self._tables:
+            self._tables[name] = self._read_table(name)
+        return self._tables[name]
+
+    def _read_table(self, name: str) -> Array:
+        if name == "links":
+            return self._make_links()
+        if name == "digests":
+            uavs = "|".join(map(re.escape, self.uavs))
+            return read_wide_table(self.path, columns.DIGESTS, 2, f"({uavs})\\.({'|'.join(columns.DIGESTS_OF_A_UAV)})")
+        if name not in columns.RUN_TABLES:
+            names = ", ".join([*columns.RUN_TABLES, "links"])
+            raise KeyError(f"a run has no table {name!r}; it has {names}")
+        table = columns.RUN_TABLES[name]
+        if name == "capture_messages" and not (self.path / table.file).exists() and self.result:
+            return np.empty(0, [(c.name, "U1" if c.kind == "text" else columns.KINDS[c.kind]) for c in table.columns])
+        return read_table(self.path, table)
+
+    def frame(self, name: str) -> pandas.DataFrame:
+        """One of the tables below as a pandas frame of its own."""
+        return frame_of(self.table(name))
+
+    @property
+    def points(self) -> Array:
+        """score.csv: every interest point and its delivered score."""
+        return self.table("points")
+
+    @property
+    def captures(self) -> Array:
+        """captures.csv: a row for each point of each capture."""
+        return self.table("captures")
+
+    @property
+    def losses(self) -> Array:
+        """losses.csv: a row for each attainable point: what it scored, what it could have, and why not."""
+        return self.table("losses")
+
+    @property
+    def work(self) -> Array:
+        """work.csv: a row for each UAV and second: whether there was work for it, and what it did of it."""
+        return self.table("work")
+
+    @property
+    def timeline(self) -> Array:
+        """score_timeline.csv: the delivered score whenever it changed."""
+        return self.table("timeline")
+
+    @property
+    def trajectories(self) -> Array:
+        """trajectories.csv: pose, velocity and gimbal of every UAV, ten times a simulated second."""
+        return self.table("trajectories")
+
+    @property
+    def tracking(self) -> Array:
+        """tracking.csv: how far UAVs were from their set-points, as counts."""
+        return self.table("tracking")
+
+    @property
+    def events(self) -> Array:
+        """events.csv: who took part when, links, captures handed out and acknowledged."""
+        return self.table("events")
+
+    @property
+    def activity(self) -> Array:
+        """activity.csv: what each UAV did and why, as its program said."""
+        return self.table("activity")
+
+    @property
+    def capture_messages(self) -> Array:
+        """capture_messages.csv: messages with captures that a link with faults lost or delayed; often none."""
+        return self.table("capture_messages")
+
+    @property
+    def digests(self) -> Array:
+        """digests.csv: a row for each step, with a hash of every field."""
+        return self.table("digests")
+
+    @property
+    def links(self) -> Array:
+        """Radio links as intervals: from `a` to `b`, from `from_s` until `to_s` (of those that stay, the run's end)."""
+        return self.table("links")
+
+    def hand(self, uav: str) -> Array:
+        """hand-UAV.csv: what somebody who flew this UAV by hand wanted of it."""
+        if uav not in self.uavs:
+            raise KeyError(f"there is no UAV {uav!r}; there are {', '.join(self.uavs)}")
+        return read_table(self.path, columns.HAND, columns.HAND.file.format(uav=uav))
+
+    def _make_links(self) -> Array:
+        begun: dict[tuple[str, str], float] = {}
+        links: list[tuple[str, str, float, float]] = []
+        events = self.events
+        for row in events[np.isin(events["event"], ["link_up", "link_down"])]:
+            link = (str(row["subject"]), str(row["object"]))
+            if (row["event"] == "link_up") == (link in begun):
+                raise DamagedError(f"{self.path / 'events.csv'}: at {row['time_s']} s there is a {row['event']} from "
+                                   f"{link[0]} to {link[1]}, which it was already")
+            if row["event"] == "link_up":
+                begun[link] = float(row["time_s"])
+            else:
+                links.append((*link, begun.pop(link), float(row["time_s"])))
+        links.extend((*link, from_s, self.sim_time_s) for link, from_s in begun.items())
+        links.sort(key=lambda link: (link[2], link[0], link[1]))
+        longest = max((len(name) for link in links for name in link[:2]), default=1)
+        table = np.array(links, [("a", f"U{longest}"), ("b", f"U{longest}"), ("from_s", "f8"), ("to_s", "f8")])
+        table.flags.writeable = False
+        return table
+
+    # -- made of them -------------------------------------------------------------------------------------------------
+
+    @property
+    def score_losses(self) -> dict[str, float]:
+        """By cause, the score that separates `score` from what was attainable. Docs: docs/results.md, Losses."""
+        losses = self.result.get("losses")
+        if not isinstance(losses, dict):
+            raise MissingError(f"{self.path / 'result.json'} has no losses: {columns.LOSSES.missing}")
+        return {cause: float(part["score"]) for cause, part in losses.items()}
+
+    def earned(self) -> Array:
+        """The score over time (`time_s`, `score`) of all captures, delivered or not, of UAVs that did not collide."""
+        captures = self.captures
+        good = captures[(captures["q"] >= 0.2) & (captures["reason"] != "uav collided")]
+        good = good[np.argsort(good["time_s"], kind="stable")]
+        best = np.zeros(int(good["point"].max(initial=-1)) + 1)
+        gains = np.zeros(len(good))
+        for i, (point, quality) in enumerate(zip(good["point"], good["q"])):
+            gains[i] = max(quality - best[point], 0.0)
+            best[point] += gains[i]
+        rows = gains > 0.0
+        table = np.empty(int(rows.sum()) + 1, [("time_s", "f8"), ("score", "f8")])
+        table[0] = (0.0, 0.0)
+        table["time_s"][1:] = good["time_s"][rows]
+        table["score"][1:] = np.cumsum(gains[rows])
+        return table
+
+
+def frame_of(table: Array) -> pandas.DataFrame:
+    """A structured array as a pandas frame; its texts are Python's."""
+    try:
+        import pandas
+    except ImportError:
+        raise missing_package("pandas") from None
+    assert table.dtype.names is not None
+    return pandas.DataFrame({name: table[name].astype(object) if table[name].dtype.kind == "U" else table[name].copy()
+                             for name in table.dtype.names})

@@ -1,0 +1,103 @@
+"""Ctrl-C, and the end of the program that flies: no orphan stays, and what was flown is there."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import skein
+from processes import PATIENCE_S, Watch, processes_in
+
+_FLIGHT = """
+import sys
+sys.path.insert(0, {package!r})
+import skein
+try:
+    skein.run("towers", planner="kios", duration=600, verbose=True, no_report=True, {options})
+except KeyboardInterrupt as interrupt:
+    print("said:", interrupt)
+    raise SystemExit(5)
+"""
+
+
+def start(folder: Path, options: str = "") -> subprocess.Popen[str]:
+    """A Python program that flies in `folder`, in a session of its own, once its fleet flies."""
+    code = _FLIGHT.format(package=str(Path(skein.__file__).parents[1]), options=options)
+    child = subprocess.Popen([sys.executable, "-c", code], cwd=folder, text=True, start_new_session=True,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
+    assert child.stderr is not None
+    seen = []
+    for line in child.stderr:
+        seen.append(line)
+        if line.startswith("simulated "):
+            return child
+    raise AssertionError(f"it did not fly: {seen}")
+
+
+@pytest.mark.parametrize("how, options", [("terminal", ""), ("notebook", "one_process=True")])
+def test_an_interrupt_ends_the_fleet_and_keeps_the_result(tmp_path: Path, how: str, options: str) -> None:
+    child = start(tmp_path, options)
+    assert len(processes_in(tmp_path)) > (2 if options else 7)
+    # A terminal sends it to all of its foreground group, a notebook to the interpreter.
+    os.killpg(child.pid, signal.SIGINT) if how == "terminal" else child.send_signal(signal.SIGINT)
+    out, _ = child.communicate(timeout=PATIENCE_S)
+    assert child.returncode == 5
+    folder = tmp_path / "runs" / "towers-kios-0"
+    assert f"said: interrupted; what was flown until then is in {folder.relative_to(tmp_path)}\n" in out
+    assert processes_in(tmp_path) == {}
+    assert skein.Run(folder).status == "interrupted"
+
+
+def test_a_program_that_is_killed_leaves_no_orphan(tmp_path: Path) -> None:
+    child = start(tmp_path)
+    watch = Watch(tmp_path)
+    assert len(watch.names) > 7
+    child.kill()
+    child.communicate(timeout=PATIENCE_S)
+    assert watch.still_there_after_waiting() == []
+    assert skein.Run(tmp_path / "runs" / "towers-kios-0").status == "interrupted"
+
+
+def test_an_exception_of_the_users_own_ends_the_fleet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Enough(Exception):
+        pass
+
+    class Stream:
+        """Of a user who has seen enough of what the launcher says."""
+
+        def write(self, text: str) -> None:
+            if "simulated" in text:
+                raise Enough
+
+        def flush(self) -> None:
+            pass
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "stderr", Stream())
+    with pytest.raises(Enough):
+        skein.run("towers", planner="kios", duration=600, one_process=True, verbose=True)
+    others = {pid: name for pid, name in processes_in(tmp_path).items() if pid != os.getpid()}
+    assert others == {}
+
+
+def test_a_handler_of_the_users_own_stays(tmp_path: Path) -> None:
+    def mine(_number: int, _frame: object) -> None:
+        pass
+
+    program = tmp_path / "launcher"
+    program.write_text(f"#!/bin/sh\necho 'results   {tmp_path}'\nkill -INT {os.getpid()}\n")
+    program.chmod(0o755)
+    before = signal.signal(signal.SIGINT, mine)
+    try:
+        assert skein.run(launcher=program).path == tmp_path
+        assert signal.getsignal(signal.SIGINT) is mine
+    finally:
+        signal.signal(signal.SIGINT, before)
+    with pytest.raises(KeyboardInterrupt, match="what was flown until then is in"):
+        skein.run(launcher=program)
+    assert signal.getsignal(signal.SIGINT) is before

@@ -1,0 +1,163 @@
+"""A run's folder: what its result says, its tables together, and what is not there."""
+
+from __future__ import annotations
+
+import inspect
+import shutil
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import skein
+from skein import columns
+
+
+def test_a_run_is_what_its_result_says(flown: skein.Run) -> None:
+    result = flown.result
+    assert (flown.scenario, flown.seed, flown.status) == ("towers", 2, "completed")
+    assert flown.uavs == ["jurong", "raffles", "sentosa", "changi", "nanyang"]
+    assert flown.planner == dict.fromkeys(flown.uavs, "patrol")
+    assert flown.score == result["score"] > 1.0
+    assert flown.digest == result["digest"] and len(result["digest"]) == 64
+    assert flown.sim_time_s == result["sim_time_s"] >= 45.0
+    assert len(flown.scene["points"]) == result["points_total"] == len(flown.points)
+    assert f"towers, seed 2, completed: score {flown.score:.1f}" in repr(flown)
+
+
+def test_its_tables_add_up(flown: skein.Run) -> None:
+    assert flown.points["score"].sum() == pytest.approx(flown.score)
+    assert flown.timeline["score"][-1] == pytest.approx(flown.score, abs=1e-6)
+    assert flown.timeline["points"][-1] == flown.result["points_detected"] == (flown.points["score"] > 0).sum()
+    assert flown.earned()["score"][-1] == pytest.approx(flown.result["score_earned"], abs=1e-6)
+    assert (np.diff(flown.earned()["score"]) > 0).all()
+    counts = flown.captures[flown.captures["reason"] == ""]
+    assert counts["q"].sum() == pytest.approx(flown.score, abs=1e-6)
+    losses, causes = flown.losses, flown.score_losses
+    for cause, size in causes.items():
+        assert losses["loss"][losses["cause"] == cause].sum() == pytest.approx(size)
+    assert flown.score + sum(causes.values()) == pytest.approx(flown.result["attainable"]["score"])
+    assert set(flown.work["uav"]) == set(flown.trajectories["uav"]) == set(flown.uavs)
+    assert flown.digests["digest"][-1] == flown.digest
+    assert flown.digests.dtype.names[2] == "jurong.position"
+    assert np.isnan(flown.captures["delivered_at_s"]).any(), "not received"
+    assert len(flown.capture_messages) > 0, "the faulty links lost some"
+
+
+def test_links_are_the_events_as_intervals(flown: skein.Run) -> None:
+    links = flown.links
+    assert (links["from_s"] <= links["to_s"]).all() and (np.diff(links["from_s"]) >= 0).all()
+    # Replayed event by event, the links that are up are those whose interval holds the time.
+    up: set[tuple[str, str]] = set()
+    changes = flown.events[np.isin(flown.events["event"], ["link_up", "link_down"])]
+    assert len(np.unique(changes["time_s"])) > 2
+    for time_s in np.unique(changes["time_s"]):
+        for row in changes[changes["time_s"] == time_s]:
+            (up.add if row["event"] == "link_up" else up.remove)((str(row["subject"]), str(row["object"])))
+        now = links[(links["from_s"] <= time_s) & (links["to_s"] > time_s)]
+        assert {(str(row["a"]), str(row["b"])) for row in now} == up
+    assert set(links["to_s"][[(str(row["a"]), str(row["b"])) in up for row in links]]) >= {flown.sim_time_s}
+
+
+def test_links_that_cannot_be_are_damage(flown: skein.Run, tmp_path: Path) -> None:
+    shutil.copy(flown.path / "result.json", tmp_path)
+    text = (flown.path / "events.csv").read_text()
+    line = next(line for line in text.splitlines() if ",link_up," in line)
+    (tmp_path / "events.csv").write_text(text.replace(line, f"{line}\n{line}", 1))
+    with pytest.raises(skein.DamagedError, match=r"events\.csv: at 0\.0 s there is a link_up"):
+        skein.Run(tmp_path).links
+
+
+@pytest.mark.parametrize("name", [*columns.RUN_TABLES, "links"])
+def test_a_frame_has_the_same_rows(flown: skein.Run, name: str) -> None:
+    array, frame = flown.table(name), flown.frame(name)
+    assert tuple(frame.columns) == array.dtype.names and len(frame) == len(array)
+    for column in frame:
+        values = frame[column].to_numpy()
+        assert np.array_equal(values, array[column], equal_nan=array[column].dtype.kind == "f"), column
+        assert array[column].dtype.kind != "U" or all(type(value) is str for value in values)
+    frame.iloc[:1] = frame.iloc[1:2].to_numpy()  # it is the caller's own
+    assert not array.flags.writeable
+
+
+def test_tables_are_attributes(flown: skein.Run) -> None:
+    for name in [*columns.RUN_TABLES, "links"]:
+        assert getattr(flown, name) is flown.table(name), "read once"
+    with pytest.raises(ValueError, match="read-only"):
+        flown.captures["q"] = 0.0
+    with pytest.raises(KeyError, match="'capture'; it has .*captures"):
+        flown.table("capture")
+
+
+def test_what_is_missing_says_what_brings_it(tmp_path: Path) -> None:
+    run = skein.run("towers", planner="hover", one_process=True, duration=2, no_oracle=True, no_report=True,
+                    out=tmp_path / "run")
+    with pytest.raises(skein.MissingError, match="no_oracle"):
+        run.losses
+    with pytest.raises(skein.MissingError, match="no_oracle"):
+        run.score_losses
+    with pytest.raises(skein.MissingError, match="by hand"):
+        run.hand("jurong")
+    with pytest.raises(KeyError, match="jurnog"):
+        run.hand("jurnog")
+    assert len(run.capture_messages) == 0, "no link lost any, so that there is no file"
+    assert run.capture_messages.dtype.names == columns.CAPTURE_MESSAGES.names
+    assert len(run.captures) == 0 and len(run.earned()) == 1
+    with pytest.raises(skein.MissingError, match="no folder"):
+        skein.Run(tmp_path / "none")
+    with pytest.raises(skein.MissingError, match="no results folder"):
+        skein.Run(tmp_path).result
+    assert "no results folder" in repr(skein.Run(tmp_path))
+
+
+def test_what_nobody_could_tell_is_nan(tmp_path: Path) -> None:
+    (tmp_path / "result.json").write_text('{"score": null, "digest": null, "uavs": null}')
+    run = skein.Run(tmp_path)
+    assert np.isnan(run.score) and np.isnan(run.sim_time_s) and run.digest is None
+    for name in ("uavs", "seed", "planner", "status"):
+        with pytest.raises(skein.DamagedError, match=rf"result\.json:1: {name} must be"):
+            getattr(run, name)
+
+
+def test_results_go_where_the_command_line_puts_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    options = {"planner": "hover", "one_process": True, "duration": 1, "no_report": True, "no_oracle": True}
+    runs = [skein.run("towers", **options) for _ in range(2)]
+    assert [run.path for run in runs] == [tmp_path / "runs" / name for name in ("towers-hover-0", "towers-hover-0-2")]
+    assert runs[0].digest == runs[1].digest
+    with pytest.raises(skein.InputError, match="force"):
+        skein.run("towers", out=runs[0].path, **options)
+    assert skein.run("towers", out=runs[0].path, force=True, **options).path == runs[0].path
+
+
+def test_runs_side_by_side_are_the_same(tmp_path: Path) -> None:
+    def fly(number: int) -> str | None:
+        return skein.run("towers", planner="hover", one_process=True, duration=2, no_report=True, no_oracle=True,
+                         out=tmp_path / str(number)).digest
+
+    with ThreadPoolExecutor(3) as pool:
+        digests = list(pool.map(fly, range(3)))
+    assert digests[0] is not None and len(set(digests)) == 1
+
+
+def test_a_process_that_fails_leaves_its_results(tmp_path: Path) -> None:
+    with pytest.raises(skein.ProcessError) as caught:
+        skein.run("towers", planner="hover,jurong=exec:exit 9", duration=2, no_report=True, out=tmp_path / "run")
+    assert caught.value.exit_code == 3 and "jurong" in str(caught.value)
+    assert caught.value.run is not None
+    assert caught.value.run.result["lost_members"][0]["member"] == "jurong"
+
+
+def test_all_that_is_public_is_typed_and_explained() -> None:
+    for name in skein.__all__:
+        thing = getattr(skein, name)
+        assert inspect.getdoc(thing) or isinstance(thing, dict), name
+    for owner in (skein, skein.plots, skein.Run, skein.Study):
+        for name in getattr(owner, "__all__", vars(owner)):
+            function = getattr(getattr(owner, name), "fget", getattr(owner, name))
+            if name.startswith("_") or not inspect.isfunction(function):
+                continue
+            signature = inspect.signature(function)
+            assert signature.return_annotation is not signature.empty, name
+            assert all(p.annotation is not p.empty for p in signature.parameters.values() if p.name != "self"), name
