@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include "idl/conversions.hpp"
 #include "mcap/reader.hpp"
 #include "process/run_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "uav_agent/testing/news_radio.hpp"
 
 namespace skein::agent {
@@ -24,13 +24,6 @@ constexpr Tick kSecond = kTicksPerSecond;
 
 class KeptMapsTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path() / "skein-maps-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   struct Snapshot {
     Tick tick = 0;
     std::vector<std::uint8_t> bytes;
@@ -75,7 +68,8 @@ class KeptMapsTest : public testing::Test {
     return expected;
   }
 
-  fs::path folder_;
+  const ScratchFolder scratch_;
+  const fs::path& folder_ = scratch_.path();
   const OccupancyMap none_;
 };
 

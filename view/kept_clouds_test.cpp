@@ -1,7 +1,6 @@
 #include "view/kept_clouds.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
@@ -10,6 +9,7 @@
 #include "mcap/writer.hpp"
 #include "process/json_text.hpp"
 #include "process/run_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "view/testing/unpacked.hpp"
 
 namespace skein::view {
@@ -20,15 +20,11 @@ namespace fs = std::filesystem;
 class KeptCloudsTest : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = fs::temp_directory_path() / "skein-clouds-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
     run_.uavs = {"a", "b"};
     run_.explorer = {true, false};
     run_.end_s = 9.0;
     run_.maps = {"", ""};
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   fs::path recording() const { return folder_ / "recording.mcap"; }
   /// Scans of 0.1 s each: a wall that is seen farther and farther.
@@ -59,7 +55,8 @@ class KeptCloudsTest : public testing::Test {
   }
   static void begin(Feed& feed) { feed.set_scene("{}"); }
 
-  fs::path folder_;
+  const ScratchFolder scratch_;
+  const fs::path& folder_ = scratch_.path();
   report::RunData run_;
 };
 

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/types.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace skein::view {
 namespace {
@@ -14,14 +15,8 @@ namespace fs = std::filesystem;
 
 class KeyFile : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path() / "skein-key-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path folder_;
+  const ScratchFolder scratch_;
+  const fs::path& folder_ = scratch_.path();
 };
 
 TEST(Keys, AreDrawnAnewAndOpenOnlyForThemselves) {

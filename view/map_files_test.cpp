@@ -2,7 +2,6 @@
 #include "view/map_files.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <sstream>
@@ -11,6 +10,7 @@
 #include "idl/conversions.hpp"
 #include "mcap/writer.hpp"
 #include "process/run_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace skein::view {
 namespace {
@@ -26,13 +26,6 @@ std::string one_large_cube(bool occupied) {
 
 class MapFilesTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path() / "skein-map-files-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path file(int life = 0) const { return folder_ / run_folder::maps_file("a", life); }
   struct Kept {
     int second;
@@ -64,7 +57,8 @@ class MapFilesTest : public testing::Test {
     std::ofstream(file()) << text;
   }
 
-  fs::path folder_;
+  const ScratchFolder scratch_;
+  const fs::path& folder_ = scratch_.path();
 };
 
 TEST_F(MapFilesTest, TellWhatWasWhen) {

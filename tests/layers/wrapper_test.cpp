@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "tests/support/places.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace skein::test {
 namespace {
@@ -33,8 +34,6 @@ class Wrapper : public testing::Test {
   };
 
   void SetUp() override {
-    std::string name = testing::TempDir() + "wrapper_XXXXXX";
-    root_ = ::mkdtemp(name.data());
     fs::copy_file(source_path("skein"), root_ / "skein");
     // All packages are there; nothing is up to date; what is asked of ninja is written down.
     write(root_ / "bin/dpkg-query", "#!/bin/sh\nshift 3\nfor package in \"$@\"; do echo $package installed; done\n",
@@ -54,7 +53,6 @@ class Wrapper : public testing::Test {
     write(root_ / "build/web/report.js", "");
     write(root_ / "build/web/live.js", "");
   }
-  void TearDown() override { fs::remove_all(root_); }
 
   Outcome run(const std::string& words) {
     fs::remove(root_ / "targets");
@@ -69,7 +67,8 @@ class Wrapper : public testing::Test {
     return {WEXITSTATUS(status), line("targets"), line("words"), read(root_ / "errors")};
   }
 
-  fs::path root_;
+  const ScratchFolder scratch_;
+  const fs::path& root_ = scratch_.path();
 };
 
 TEST_F(Wrapper, BuildsWhatACommandNeedsAndHandsItsWordsOn) {

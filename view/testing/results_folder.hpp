@@ -7,25 +7,21 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/scratch_folder.hpp"
+
 namespace skein::view {
 
 class ResultsFolder {
  public:
   ResultsFolder() {
-    std::string name = std::filesystem::temp_directory_path() / "skein-view-XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder can be made");
-    folder_ = name;
     write("result.json", R"({"scenario": "towers", "status": "completed", "score": 0.8765432101234567,
       "points_detected": 1, "sim_time_s": 3.0, "exchange_period_s": 0.05, "planners": {"a": "kios", "b": "hover"},
       "uavs": [{"name": "a", "role": "explorer"}, {"name": "b", "role": "photographer"}],
       "station": {"position": [1, 2, 0]}, "collisions": [{"time_s": 2.5, "uav": "b", "with": "structure"}]})");
   }
-  ~ResultsFolder() { std::filesystem::remove_all(folder_); }
-  ResultsFolder(const ResultsFolder&) = delete;
-  ResultsFolder& operator=(const ResultsFolder&) = delete;
 
-  const std::filesystem::path& path() const { return folder_; }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  const std::filesystem::path& path() const { return folder_.path(); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path() / name) << text; }
 
   void write_tables() const {
     write("scene.json", R"({"boxes": []})");
@@ -47,7 +43,7 @@ class ResultsFolder {
   }
 
  private:
-  std::filesystem::path folder_;
+  ScratchFolder folder_;
 };
 
 }  // namespace skein::view
