@@ -16,10 +16,11 @@ import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, TypeVar
 
 from .errors import CheckError, Error, InputError, Interrupted, ProcessError
 
+_Results = TypeVar("_Results")
 _EXIT_ERRORS: dict[int, type[Error]] = {1: CheckError, 2: InputError, 3: ProcessError, 130: Interrupted}
 _PATIENCE_S = 30.0  # for a launcher that was told to end
 _MOST_LINES = 25  # of what it said, in a message
@@ -201,6 +202,16 @@ def _end(child: subprocess.Popen[bytes]) -> None:
             pipe.close()
 
 
-def no_folder(finished: Finished) -> NoReturn:
-    """For a launcher that ended well and named no folder of results: `help=True`, say."""
-    raise Error("the launcher named no results folder; it said:\n" + (finished.out + finished.err).strip(), 0)
+def fly(words: list[str], folder_of: Callable[[Finished], Path | None], results: Callable[[Path], _Results], name: str,
+        *, launcher: str | os.PathLike[str] | None = None, verbose: bool = False) -> _Results:
+    """Runs the launcher to its end, as `call` does, and returns what it left, by `results` of its folder. The error of
+    an exit code has that as its attribute `name`."""
+    finished = call(words, folder_of, launcher=launcher, verbose=verbose)
+    folder, error = folder_of(finished), finished.error()
+    left = results(folder) if folder is not None else None
+    if error is not None:
+        setattr(error, name, left)
+        raise error
+    if left is None:  # it ended well: `help=True`, say
+        raise Error("the launcher named no results folder; it said:\n" + (finished.out + finished.err).strip(), 0)
+    return left

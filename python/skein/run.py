@@ -15,7 +15,7 @@ import numpy as np
 
 from . import columns
 from .errors import DamagedError, Error, MissingError, missing_package
-from .launch import Finished, call, no_folder, option_arguments, positional
+from .launch import Finished, fly, option_arguments, positional
 from .tables import Array, read_table, read_text, read_wide_table
 
 if TYPE_CHECKING:
@@ -38,15 +38,7 @@ def run(scenario: str | os.PathLike[str] = "towers", *, launcher: str | os.PathL
     its `run`), another `Error` for other exit codes, and KeyboardInterrupt, when the fleet has ended, after Ctrl-C.
     """
     words = ["run", positional("scenario", scenario), *option_arguments(options)]
-    finished = call(words, results_folder, launcher=launcher, verbose=verbose)
-    error = finished.error()
-    folder = results_folder(finished)
-    if error is not None:
-        error.run = Run(folder) if folder is not None else None
-        raise error
-    if folder is None:
-        no_folder(finished)
-    return Run(folder)
+    return fly(words, results_folder, Run, "run", launcher=launcher, verbose=verbose)
 
 
 def results_folder(finished: Finished) -> Path | None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import columns
 from .errors import Error, MissingError
-from .launch import Finished, call, no_folder, option_arguments
+from .launch import Finished, fly, option_arguments
 from .run import Run, frame_of, read_json
 from .tables import Array, read_study_table, read_wide_table
 
@@ -38,15 +38,7 @@ def contest(planners: list[str] | str, *, launcher: str | os.PathLike[str] | Non
 def _fly(command: str, planners: list[str] | str, launcher: str | os.PathLike[str] | None, verbose: bool,
          options: dict[str, Any]) -> Study:
     words = [command, *option_arguments({"planners": planners, **options})]
-    finished = call(words, study_folder, launcher=launcher, verbose=verbose)
-    error = finished.error()
-    folder = study_folder(finished)
-    if error is not None:
-        error.study = Study(folder) if folder is not None else None
-        raise error
-    if folder is None:
-        no_folder(finished)
-    return Study(folder)
+    return fly(words, study_folder, Study, "study", launcher=launcher, verbose=verbose)
 
 
 def study_folder(finished: Finished) -> Path | None:
