@@ -2,6 +2,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "cli/machine.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/study/columns.hpp"
@@ -68,7 +71,9 @@ void write_report(const Study& study, const fs::path& out) {
   write_file_atomically(out / "summary.csv", summary_csv(study));
   if (study.contest) write_file_atomically(out / "totals.csv", totals_csv(study));
   const StudyReport report(study, pictures_of(study));
-  write_file_atomically(out / "pairs.csv", pairs_csv(study, figure_pairs(study)));
+  std::vector<PlannerPair> pairs = report.pairs;
+  std::ranges::move(other_pairs(study), std::back_inserter(pairs));
+  write_file_atomically(out / "pairs.csv", pairs_csv(study, pairs));
   write_file_atomically(out / kTexTable, study_tex(study, report.pairs, report.titles));
   write_figures(report, out / kFiguresFolder);
   write_file_atomically(out / run_folder::kPage, study_page(report));

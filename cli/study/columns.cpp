@@ -9,7 +9,7 @@ const std::vector<StudyColumn>& study_columns() {
   using F = FlightFigures;
   static const std::vector<StudyColumn> kColumns = {
       {"score", "Score", "sum over all points of the best delivered capture, of UAVs without a collision", 1, true,
-       [](const F& f) { return f.score; }, true},
+       [](const F& f) { return f.score; }},
       {"attainable_percent", "% of attainable", "of what full knowledge of the scene could score", 1, true,
        [](const F& f) { return f.attainable_percent; }},
       {"points_detected", "Points detected", "points with a delivered capture of quality 0.2 or better", 0, true,

@@ -17,7 +17,7 @@ struct StudyColumn {
   int digits = 0;     ///< behind the point, in the report
   bool in_report = true;
   std::function<std::optional<double>(const FlightFigures&)> value;
-  bool paired = false;  ///< planner against planner is told of it, too (pairs.hpp)
+  bool paired = false;  ///< pairs.csv compares planners by it, beside the score (pairs.hpp)
 };
 
 const std::vector<StudyColumn>& study_columns();

@@ -139,12 +139,14 @@ bool Study::any_problem() const {
 }
 
 std::optional<double> total_of(const Study& study, std::size_t planner, std::uint64_t seed,
-                               const std::function<double(const FlightFigures&)>& value) {
+                               const std::function<std::optional<double>(const FlightEntry&)>& value) {
   double total = 0.0;
   std::size_t scenes = 0;
   for (const FlightEntry& flight : study.flights) {
     if (flight.planner != planner || flight.seed != seed || !flight.figures) continue;
-    total += value(*flight.figures);
+    const std::optional<double> of_flight = value(flight);
+    if (!of_flight) continue;
+    total += *of_flight;
     ++scenes;
   }
   return scenes == study.scenarios.size() ? std::optional(total) : std::nullopt;
@@ -155,7 +157,8 @@ std::vector<Standing> standings(const Study& study) {
   for (std::size_t p = 0; p < study.planners.size(); ++p) {
     Standing standing{p, {}, {}, 0};
     for (const std::uint64_t seed : study.seeds) {
-      standing.totals.push_back(total_of(study, p, seed, [](const FlightFigures& figures) { return figures.score; }));
+      standing.totals.push_back(
+          total_of(study, p, seed, [](const FlightEntry& flight) { return flight.figures->score; }));
     }
     standing.decides = decisive(complete_totals(standing), study.rank);
     all.push_back(std::move(standing));

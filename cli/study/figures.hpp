@@ -83,9 +83,10 @@ struct Study {
   bool any_problem() const;
 };
 
-/// What of all scenes together counts for a planner with a seed: the sum over its flights, if all of them count.
+/// What of all scenes together counts for a planner with a seed: the sum over its flights, if all of them count and
+/// have a value. @param value  of a flight that counts.
 std::optional<double> total_of(const Study& study, std::size_t planner, std::uint64_t seed,
-                               const std::function<double(const FlightFigures&)>& value);
+                               const std::function<std::optional<double>(const FlightEntry&)>& value);
 
 /// One planner in the ranking.
 struct Standing {

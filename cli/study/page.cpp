@@ -70,7 +70,7 @@ std::string leader_card(const Study& study) {
   for (std::size_t p = 0; p < study.planners.size(); ++p) {
     std::vector<double> totals;
     for (const std::uint64_t seed : study.seeds) {
-      if (const auto total = total_of(study, p, seed, [](const FlightFigures& f) { return f.score; }))
+      if (const auto total = total_of(study, p, seed, [](const FlightEntry& flight) { return flight.figures->score; }))
         totals.push_back(*total);
     }
     const double median = spread_of(totals).median;

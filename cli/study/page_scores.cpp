@@ -35,7 +35,7 @@ OverviewCell overview_of(const Study& study, std::size_t planner, std::optional<
   for (const std::uint64_t seed : study.seeds) {
     bool known = true;  // what could be had in each scene
     const auto total = [&](const std::function<double(const FlightFigures&)>& value) {
-      return total_of(study, planner, seed, value);
+      return total_of(study, planner, seed, [&](const FlightEntry& flight) { return value(*flight.figures); });
     };
     const auto attainable = total([&](const FlightFigures& f) {
       known = known && f.attainable;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 
@@ -11,32 +12,26 @@
 namespace skein::cli {
 namespace {
 
+constexpr const char* kScore = "score";
+
 /// Of one flight.
 using Figure = std::function<std::optional<double>(const FlightEntry&)>;
 
 /// Of one seed: in a scene, or in all of them together.
 std::optional<double> value_of(const Study& study, const Figure& figure, std::size_t planner,
                                std::optional<std::size_t> scenario, std::uint64_t seed) {
-  if (scenario) {
-    for (const FlightEntry* flight : study.cell(planner, *scenario)) {
-      if (flight->seed == seed) return figure(*flight);
-    }
-    return std::nullopt;
+  if (!scenario) return total_of(study, planner, seed, figure);
+  for (const FlightEntry* flight : study.cell(planner, *scenario)) {
+    if (flight->seed == seed) return figure(*flight);
   }
-  double sum = 0.0;
-  for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
-    const auto value = value_of(study, figure, planner, s, seed);
-    if (!value) return std::nullopt;
-    sum += *value;
-  }
-  return sum;
+  return std::nullopt;
 }
 
 PlannerPair pair_of(const Study& study, const std::string& name, const Figure& figure, std::size_t first,
                     std::size_t second, std::optional<std::size_t> scenario) {
   PlannerPair pair{name, first, second, scenario, {}, {}, {}, {}, {}};
-  const bool is_mean = !scenario && name != "score";
-  const double share = is_mean ? 1.0 / static_cast<double>(study.scenarios.size()) : 1.0;
+  const bool is_score = name == kScore;
+  const double share = scenario || is_score ? 1.0 : 1.0 / static_cast<double>(study.scenarios.size());
   for (const std::uint64_t seed : study.seeds) {
     const auto a = value_of(study, figure, first, scenario, seed), b = value_of(study, figure, second, scenario, seed);
     if (a && b) pair.differences.emplace_back(seed, share * (*a - *b));
@@ -45,7 +40,7 @@ PlannerPair pair_of(const Study& study, const std::string& name, const Figure& f
   if (values.empty()) return pair;
   pair.median = spread_of(values).median;
   if (values.size() < kFewestPairs) return pair;
-  const std::string of_figure = name == "score" ? "" : name + "\n";
+  const std::string of_figure = is_score ? "" : name + "\n";
   pair.interval = median_interval(values, of_figure + study.planners[first] + "\n" + study.planners[second] + "\n" +
                                               (scenario ? study.scenarios[*scenario] : ""));
   pair.test = signed_rank_test(values);
@@ -91,7 +86,7 @@ Figure of_column(const StudyColumn& column) {
 /// @param study  must outlive it.
 Figure deviation(const Study& study) {
   return [&study](const FlightEntry& flight) -> std::optional<double> {
-    const auto scores = column_values(study_column("score"), study.cell(flight.planner, flight.scenario));
+    const auto scores = column_values(study_column(kScore), study.cell(flight.planner, flight.scenario));
     const double median = spread_of(scores).median;
     if (median <= 0.0) return std::nullopt;
     return 100.0 * std::abs(flight.figures->score - median) / median;
@@ -107,11 +102,10 @@ std::vector<double> PlannerPair::values() const {
 }
 
 std::vector<PlannerPair> planner_pairs(const Study& study) {
-  const StudyColumn& score = study_column("score");
-  return pairs_of(study, score.name, of_column(score));
+  return pairs_of(study, kScore, of_column(study_column(kScore)));
 }
 
-std::vector<PlannerPair> figure_pairs(const Study& study) {
+std::vector<PlannerPair> other_pairs(const Study& study) {
   std::vector<PlannerPair> pairs;
   const auto add = [&](const std::string& name, const Figure& figure) {
     std::ranges::move(pairs_of(study, name, figure), std::back_inserter(pairs));

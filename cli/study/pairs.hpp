@@ -31,9 +31,8 @@ inline constexpr const char* kDeviation = "score_deviation_percent";
 
 /// All pairs in each scene, then, where there are several scenes, over all of them: sums of scores.
 std::vector<PlannerPair> planner_pairs(const Study& study);
-/// The same of all figures that are paired (columns.hpp), scores first, and of deviations; over all scenes means of
-/// what is no score.
-std::vector<PlannerPair> figure_pairs(const Study& study);
+/// The same of what else is paired (columns.hpp), and of deviations; over all scenes their means.
+std::vector<PlannerPair> other_pairs(const Study& study);
 
 /// "0.031", "< 0.001"; none: an empty text.
 std::string p_text(const std::optional<double>& p);

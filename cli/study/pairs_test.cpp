@@ -86,7 +86,8 @@ TEST(PlannerPairs, TellOfOtherFiguresAndOfWhoseScoresAreSpreadWider) {
     }
   }
   std::map<std::string, PlannerPair> pairs;
-  for (const PlannerPair& pair : figure_pairs(study)) pairs.emplace(pair.figure, pair);
+  for (const PlannerPair& pair : planner_pairs(study)) pairs.emplace(pair.figure, pair);
+  for (const PlannerPair& pair : other_pairs(study)) pairs.emplace(pair.figure, pair);
   EXPECT_NEAR(*pairs.at(kDeviation).median, 2.0, 1e-9);
   EXPECT_NEAR(pairs.at(kDeviation).test->p, 0.03125, 1e-9);
   EXPECT_NEAR(*pairs.at("greatest_share").median, 5.0, 1e-9);

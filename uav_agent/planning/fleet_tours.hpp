@@ -1,8 +1,8 @@
-// Who visits what, and in which order: a heuristic for the multiple travelling salesmen problem, with the longest tour
-// as short as possible, or the sum of all. Everybody begins elsewhere and ends anywhere. For the longest tour, whoever
-// has least to do takes the task that lengthens its tour least (cheapest insertion); for the sum, first each takes one
-// task, as the problem has it, then the cheapest insertion of all comes next. Then every tour is shortened on its own,
-// and tasks move to other tours or change places with theirs, as long as that helps.
+// Tours of several agents over tasks: a heuristic for the multiple travelling salesmen problem that makes the longest
+// tour as short as possible, or the sum of all. Everybody begins elsewhere and ends anywhere. For the longest tour,
+// whoever has least to do takes the task that lengthens its tour least (cheapest insertion); for the sum, first each
+// takes one task, as the problem has it, then the cheapest insertion of all comes next. Then every tour is shortened on
+// its own, and tasks move to other tours or change places with theirs, as long as that helps.
 // Pure and deterministic: ties go to the lower number; effort is bounded by a count of evaluated moves.
 // Source: reconstructs the distributed mTSP of KIOS, whose paper was not available; STAR's task assignment.
 #pragma once

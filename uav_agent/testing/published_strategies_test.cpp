@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <map>
 #include <regex>
 
 #include "core/config_writer.hpp"
@@ -65,27 +64,19 @@ TEST_P(PublishedStrategy, InspectsWhateverTheBoxes) {
   }
 }
 
-std::map<std::string, std::string> keys_of(const std::string& yaml) {
-  std::map<std::string, std::string> keys;
-  std::istringstream lines(yaml);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t colon = line.find(": ");
-    if (colon != std::string::npos) keys[line.substr(0, colon)] = line.substr(colon + 2);
-  }
-  return keys;
-}
-
-/// Lines "planner | key | ours | faithful" of all that `faithful` changes.
+/// Lines "| planner | key | ours | faithful |" of all that `faithful` changes.
 template <class Config>
 void list_changes(const std::string& planner, std::vector<std::string>& lines) {
   Config faithful;
   faithful.faithful = true;
-  const auto ours = keys_of(config_to_yaml(Config().resolved()));
-  const auto changed = keys_of(config_to_yaml(faithful.resolved()));
-  const auto value = [](const std::string& text) { return text == "1e+06" || text == "1000000" ? "never" : text; };
-  for (const auto& [key, text] : ours) {
-    if (key == "faithful" || changed.at(key) == text) continue;
-    lines.push_back("| `" + planner + "` | `" + key + "` | " + value(text) + " | " + value(changed.at(key)) + " |");
+  const ConfigNode ours = *ConfigWriter::node_of(Config().resolved());
+  const ConfigNode changed = *ConfigWriter::node_of(faithful.resolved());
+  const std::string never = ConfigWriter::node_of(kNeverS)->scalar;
+  const auto value = [&](const ConfigNode& node) { return node.scalar == never ? "never" : node.scalar; };
+  for (const std::string& key : ours.keys) {
+    const ConfigNode &before = *ours.find(key), &after = *changed.find(key);
+    if (key == "faithful" || after.scalar == before.scalar) continue;
+    lines.push_back("| `" + planner + "` | `" + key + "` | " + value(before) + " | " + value(after) + " |");
   }
 }
 

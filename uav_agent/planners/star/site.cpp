@@ -69,7 +69,7 @@ StarExplorer::Config explorer_config(const StarConfig& config) {
   StarExplorer::Config explorer;
   explorer.speed_mps = config.explore_mps;
   explorer.turn_s = config.turn_s;
-  explorer.mate_s = config.resolved().mate_s.value();
+  explorer.mate_s = config.mate_s.value();
   explorer.cluster_m = config.cluster_m;
   explorer.min_cluster = static_cast<std::size_t>(config.min_cluster);
   explorer.ring_inner_m = config.ring_inner_m;

@@ -210,7 +210,7 @@ TEST(StarKnowledge, SurfaceIsWhatBeamsMetInTheTeamsBoxes) {
       map.hear(met.back(), 0, Space::occupied, kOwn + 1);
       if (i % 3 == 0) map.doubt(met.back());
     }
-    StarKnowledge known(StarConfig(), agent, boxes, {0});
+    StarKnowledge known(StarConfig().resolved(), agent, boxes, {0});
     known.look_at_map(map, {0, 0, 30});
     const FreeSpace space({.world = &map}, boxes, hits);
     std::set<VoxelGrid::Id> seen, expected;

@@ -20,13 +20,14 @@ void XxhInspector::begin(const XxhRegionMap::Section& section) {
   all_layers_.assign(layers_.begin(), layers_.end());
   pass_ = 0;
   failed_.clear();
-  last_cell_W_.reset();
+  last_cell_.reset();
   leave();
 }
 
 std::vector<Goal> XxhInspector::choices(const XxhRegionMap& region, const Vector3d& here_W, const FreeSpace& space) {
   const XxhOrder order = *config_.order;
-  const Vector3d from_W = order == XxhOrder::spiral ? last_cell_W_.value_or(here_W) : here_W;
+  const bool goes_on = order == XxhOrder::spiral && last_cell_;
+  const Vector3d from_W = goes_on ? region.grid().centre_W(*last_cell_) : here_W;
   choices_ = region.visits(from_W, layers_.front(), order, space, failed_, kCandidates);
   std::vector<Goal> goals;
   for (const XxhVisit& visit : choices_) {
@@ -50,7 +51,7 @@ void XxhInspector::hear(const XxhErrand& errand) {
   if (!end) return;
   if (end->reached) {
     visit_ = choices_[end->choice];
-    last_cell_W_ = visit_->cell_W;
+    last_cell_ = visit_->cell;
   } else {
     ++failed_[choices_[end->choice].cell];
   }

@@ -52,7 +52,7 @@ class XxhInspector {
   std::vector<int> all_layers_;
   int pass_ = 0;  ///< how often it has gone over the section's layers
   std::vector<XxhVisit> choices_;
-  std::optional<Vector3d> last_cell_W_;  ///< that it visited, from which the spiral goes on
+  std::optional<VoxelGrid::Id> last_cell_;  ///< that it visited, from which the spiral goes on
   std::optional<XxhVisit> visit_;
   std::map<VoxelGrid::Id, int> failed_;
   std::optional<Tick> at_cell_since_, reached_since_;

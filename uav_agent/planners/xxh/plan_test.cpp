@@ -204,7 +204,7 @@ struct Ground {
       }
       said = station->work(at_station);
       const PlannerInput in = input(k, peers, hears_station ? said : silence);
-      talk.listen(in, {}, nullptr);
+      talk.listen(in, nullptr);
       if (crew.seek_assignment(in, false)) break;
     }
     XxhTeam team;

@@ -213,8 +213,7 @@ std::vector<XxhVisit> XxhRegionMap::visits(const Vector3d& from_W, int layer, Xx
     auto looks = targets(cell);
     if (looks.empty()) continue;
     ++tries;
-    if (const auto stop = stop_at(cell, looks, space))
-      visits.push_back({cell, grid_.centre_W(cell), *stop, std::move(looks)});
+    if (const auto stop = stop_at(cell, looks, space)) visits.push_back({cell, *stop, std::move(looks)});
   }
   return visits;
 }

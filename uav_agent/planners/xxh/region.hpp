@@ -29,9 +29,8 @@ struct XxhTarget {
 /// One cell to visit.
 struct XxhVisit {
   VoxelGrid::Id cell = 0;
-  Vector3d cell_W = Vector3d::Zero();  ///< its middle
-  Vector3d p_WB = Vector3d::Zero();    ///< where the UAV stops
-  std::vector<XxhTarget> targets;      ///< not looked at yet
+  Vector3d p_WB = Vector3d::Zero();  ///< where the UAV stops
+  std::vector<XxhTarget> targets;    ///< not looked at yet
 };
 
 class XxhRegionMap {

@@ -121,10 +121,10 @@ TEST(XxhRegion, TheSpiralVisitsAllCellsOfALayerOnceAround) {
     };
     const std::size_t all = visits(XxhOrder::nearest, 1000).size();
     for (auto next = visits(XxhOrder::spiral, 1); !next.empty(); next = visits(XxhOrder::spiral, 1), ++visited) {
-      const Vector3d from = at_W - kBox.center, to = next.front().cell_W - kBox.center;
+      const Vector3d from = at_W - kBox.center, to = world.region.grid().centre_W(next.front().cell) - kBox.center;
       const double turn = std::atan2(from.x() * to.y() - from.y() * to.x(), from.head<2>().dot(to.head<2>()));
       if (visited > 0) (turn < 0.0 ? backwards : turned) += std::abs(turn);
-      at_W = next.front().cell_W;
+      at_W = world.region.grid().centre_W(next.front().cell);
       ++done[next.front().cell];
     }
     EXPECT_EQ(visited, all) << "seed " << seed;

@@ -60,17 +60,17 @@ std::optional<std::pair<std::size_t, XxhWord>> open_word(const RadioMessage& mes
   return std::pair(payload->sender, std::move(*word));
 }
 
-void XxhTalk::listen(const PlannerInput& in, const XxhWord& own, VoxelGrid* grid) {
+void XxhTalk::listen(const PlannerInput& in, VoxelGrid* grid) {
   for (const RadioMessage& message : in.radio) {
     std::vector<std::uint8_t> map;
     if (auto heard = open_word(message, agent_.fleet.size(), &map)) {
       auto& [sender, word] = *heard;
       if (sender == agent_.self) continue;
       word.heard = in.tick;
-      const bool same_grid = word.region == own.region && word.from_high_end == own.from_high_end;
+      const bool same_map = map_ && word.region == map_->region && word.from_high_end == map_->from_high_end;
       words_[sender] = std::move(word);
       PayloadReader reader(map);
-      if (grid && same_grid && exchange_ && !map.empty()) exchange_->read(sender, in.tick, *grid, reader);
+      if (grid && same_map && !map.empty()) map_->exchange.read(sender, in.tick, *grid, reader);
     } else if (const auto said = open_payload(message, kPlanName, agent_.fleet.size() + 1); said && !plan_) {
       PayloadReader reader(said->bytes);
       if (!in.boxes.empty()) plan_ = read_plan(reader, agent_.fleet.size(), in.boxes.size());
@@ -82,7 +82,7 @@ void XxhTalk::speak(const PlannerInput& in, const VoxelGrid* grid, const XxhWord
   if (!agent_.due(in.k, config_.share_s, 2 * agent_.self)) return;
   PayloadWriter writer;
   write_word(own, writer);
-  if (grid && exchange_) exchange_->write(*grid, in.peers, in.tick, writer);
+  if (grid && map_) map_->exchange.write(*grid, in.peers, in.tick, writer);
   out.radio.push_back(send_payload(kWordName, agent_.self, writer));
 }
 

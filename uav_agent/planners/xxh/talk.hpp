@@ -53,13 +53,12 @@ class XxhTalk {
   /// @param agent  must outlive this.
   XxhTalk(const Config& config, const AgentConfig& agent) : config_(config), agent_(agent) {}
 
-  /// Takes what arrived; maps of the same region, begun at the same end, into `grid` if there is one.
-  /// @param own  what it would say itself.
-  void listen(const PlannerInput& in, const XxhWord& own, VoxelGrid* grid);
+  /// Takes what arrived, maps of the present region into `grid` if there is one.
+  void listen(const PlannerInput& in, VoxelGrid* grid);
   /// When it is time, says `own` and the map.
   void speak(const PlannerInput& in, const VoxelGrid* grid, const XxhWord& own, PlannerOutput& out);
-  /// Another region: nobody is known to know anything of its map.
-  void new_map() { exchange_.emplace(); }
+  /// Another region, or begun at its other end: nobody is known to know anything of its map.
+  void new_map(std::uint16_t region, bool from_high_end) { map_.emplace(RegionMap{region, from_high_end, {}}); }
 
   /// The station's assignment, once heard.
   const std::optional<XxhPlan>& plan() const { return plan_; }
@@ -71,11 +70,18 @@ class XxhTalk {
   std::vector<Sphere> trajectories(const PlannerInput& in) const;
 
  private:
+  /// Who knows what of the map of a region. Another region, or the other end, is another map.
+  struct RegionMap {
+    std::uint16_t region = 0;
+    bool from_high_end = false;
+    MapExchange exchange;
+  };
+
   bool goes_first(std::size_t uav) const;
 
   const Config config_;
   const AgentConfig& agent_;
-  std::optional<MapExchange> exchange_;   ///< of the present region's map
+  std::optional<RegionMap> map_;          ///< the present one
   std::map<std::size_t, XxhWord> words_;  ///< by UAV
   std::optional<XxhPlan> plan_;
 };

@@ -128,8 +128,8 @@ TEST(XxhTalk, MapsOfOtherRegionsAreNotTakenIn) {
   for (const int region : {0, 1}) {
     for (const bool high : {false, true}) {
       XxhTalk listens({}, self), speaks({}, other);
-      listens.new_map();
-      speaks.new_map();
+      listens.new_map(0, false);
+      speaks.new_map(static_cast<std::uint16_t>(region), high);
       VoxelGrid mine(Isometry3d::Identity(), {20.0, 20.0, 20.0}, 2.5), theirs = mine;
       theirs.raise(5, VoxelState::occupied);
       XxhWord said, own;
@@ -143,10 +143,10 @@ TEST(XxhTalk, MapsOfOtherRegionsAreNotTakenIn) {
         near_other.update(tick, {{node_of_uav(UavIndex(0)), Vector3d::Zero(), {}}});
         listens.speak({k, tick, {}, {}, {}, hits, boxes, near_self, {}, false, 0, {}, {}}, &mine, own, from_mine);
         const auto& heard = from_mine.radio;
-        speaks.listen({k, tick, {}, {}, {}, hits, boxes, near_other, {}, false, 0, {}, heard}, said, &theirs);
+        speaks.listen({k, tick, {}, {}, {}, hits, boxes, near_other, {}, false, 0, {}, heard}, &theirs);
         speaks.speak({k, tick, {}, {}, {}, hits, boxes, near_other, {}, false, 0, {}, {}}, &theirs, said, from_theirs);
         const auto& told = from_theirs.radio;
-        listens.listen({k, tick, {}, {}, {}, hits, boxes, near_self, {}, false, 0, {}, told}, own, &mine);
+        listens.listen({k, tick, {}, {}, {}, hits, boxes, near_self, {}, false, 0, {}, told}, &mine);
       }
       EXPECT_EQ(mine.state(5) == VoxelState::occupied, region == 0 && !high) << "region " << region << high;
     }

@@ -68,6 +68,7 @@ class XxhPlanner final : public Planner {
   Vector3d end_before(std::size_t index, const PlannerInput& in) const;
   void decide_end(const PlannerInput& in, PlannerOutput& out);
   void heed_leader(const PlannerInput& in);
+  void share_new_map() { talk_.new_map(static_cast<std::uint16_t>(region_index_), site_.from_high_end()); }
   void begin_section(std::size_t section, const PlannerInput& in);
   XxhRegionMap::Section section_layers(std::size_t section) const;
   void change(Stage stage, const PlannerInput& in);
@@ -135,7 +136,7 @@ void XxhPlanner::prepare(const PlannerInput& in) {
     restarted_ = in.state.p_WB.z() > kAirborneM;
     start_W_ = restarted_ ? agent_.me().p_WB_start : in.state.p_WB;
   }
-  talk_.listen(in, own_word(in), site_.shared_grid());
+  talk_.listen(in, site_.shared_grid());
   if (crew_.seek_assignment(in, restarted_)) {
     assigned_at_ = in.tick;
     enter_region(0, in);
@@ -147,7 +148,6 @@ void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
   const std::size_t count = crew_.regions().size(), all = static_cast<std::size_t>(*config_.rounds) * count;
   const Vector3d came_from_W = end_before(index, in);
   region_index_ = std::min(index, all);
-  talk_.new_map();
   ordered_ = false;
   explored_ = 0;
   exploring_ = false;
@@ -157,6 +157,7 @@ void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
   if (region_index_ == all) return change(Stage::finished, in);
   const XxhRegion& region = crew_.regions()[region_index_ % count];
   site_.enter(region, in.boxes[region.box], came_from_W, in.space->config().clearance_m);
+  share_new_map();
   if (crew_.led()) return change(crew_.leads() ? Stage::explore : Stage::wait, in);
   site_.go_by_the_box();
   begin_section(crew_.rank(), in);
@@ -176,7 +177,7 @@ void XxhPlanner::decide_end(const PlannerInput& in, PlannerOutput& out) {
   const bool open = site_.begins_in_the_open(section_layers(0), space_for_stops(in), in.tracking.setpoint.p_WB);
   const bool closed = post_.reached() || errand_.came_to_nothing() || seconds(in.tick - stage_since_) > kSeekFootS;
   if (!open && !closed) return post_.stay(posts_W(in), config_.flight.approach_mps, errand_, in, out);
-  if (site_.decide(open ? site_.from_high_end() : !site_.from_high_end())) talk_.new_map();
+  if (site_.decide(open ? site_.from_high_end() : !site_.from_high_end())) share_new_map();
   post_.leave();
   errand_.drop();
 }
@@ -186,7 +187,7 @@ void XxhPlanner::heed_leader(const PlannerInput& in) {
   const XxhWord* leader = site_ && crew_.led() && !crew_.leads() ? talk_.word(crew_.leader()) : nullptr;
   if (!leader || !leader->decided || leader->region != region_index_) return;
   if (!site_.decide(leader->from_high_end)) return;
-  talk_.new_map();
+  share_new_map();
   begun_.clear();
   change(Stage::wait, in);
 }

@@ -51,7 +51,7 @@ std::size_t keeps_clear_of(std::size_t self, double after_s, bool forever) {
     write_word(word, writer);
     radio.push_back(send_payload("xxh/1", uav, writer));
   }
-  talk.listen({0, 0, {}, {}, {}, map, boxes, peers, {}, false, 0, {}, radio}, {}, nullptr);
+  talk.listen({0, 0, {}, {}, {}, map, boxes, peers, {}, false, 0, {}, radio}, nullptr);
   return talk.trajectories({0, ticks(after_s), {}, {}, {}, map, boxes, peers, {}, false, 0, {}, {}}).size();
 }
 
