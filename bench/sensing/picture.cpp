@@ -172,7 +172,7 @@ std::string picture_svg(const Picture& picture) {
       coordinate(kWidth), coordinate(std::ceil(height)), report::escaped(picture.title), kStyle);
   const double right = kMargin + kPanel + kGap;
   svg += text(kMargin, 24.0, "title", picture.title) + legend();
-  svg += text(kMargin, 80.0, "head", "today's map (key frames)") + text(right, 80.0, "head", "world map (all beams)");
+  svg += text(kMargin, 80.0, "head", "map of key frames") + text(right, 80.0, "head", "world map (all beams)");
   double top = kTop;
   for (const PictureRow& row : picture.rows) {
     svg += text(kMargin, top + 24.0, "", row.label);

@@ -1,4 +1,4 @@
-// One flight at a site, and what today's map and the world map know of it at some times.
+// One flight at a site, and what the map of key frames and the world map know of it at some times.
 // Frame W.   Units: SI.   Deterministic, but for CPU times.
 #pragma once
 
@@ -42,7 +42,7 @@ struct SiteStudy {
   Picture level, upright;
   std::vector<Snapshot> snapshots;
   Messages messages;
-  int rays = 0;  ///< that must pass a place at this site before today's flights believe that it is free
+  int rays = 0;  ///< that must pass a place at this site before planners of key frames take it for free
 };
 
 /// @param times_s  of snapshots, ascending, since the UAV began to hover.

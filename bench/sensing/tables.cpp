@@ -25,7 +25,7 @@ double percent(int part, int all) { return all == 0 ? 0.0 : 100.0 * part / all; 
 Table space_table(std::span<const SiteStudy> studies) {
   std::string text = "| after | from the route |";
   for (const SiteStudy& study : studies) {
-    text += fmt::format(" {0}: free [m³] | today's map [%] | world map [%] |", study.name);
+    text += fmt::format(" {0}: free [m³] | key frames [%] | world map [%] |", study.name);
   }
   text += "\n" + ruled(2 + 3 * studies.size());
   const std::vector<Snapshot>& times = studies.front().snapshots;
@@ -45,7 +45,7 @@ Table space_table(std::span<const SiteStudy> studies) {
 
 Table surface_table(std::span<const SiteStudy> studies) {
   std::string text =
-      "| | after | places on it | today's map: occupied [%] | free [%] | world map: occupied [%] | free [%] |\n" +
+      "| | after | places on it | key frames: occupied [%] | free [%] | world map: occupied [%] | free [%] |\n" +
       ruled(7);
   for (const SiteStudy& study : studies) {
     for (const Snapshot& snapshot : study.snapshots) {
