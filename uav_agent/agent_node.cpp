@@ -93,7 +93,9 @@ void AgentNode::read_sensors(LockstepClient& client) {
   }
   client.read<msg::PointCloud2>(bus::spec(topics::detected()), Counterpart::server, [this](const auto& m) {
     for (const DetectionPoint& p : from_cloud<DetectionPoint>(m)) {
-      if (const auto order = whole_number(p.order)) input_.detected.push_back({{p.x, p.y, p.z}, p.score, *order});
+      const auto order = whole_number(p.order);
+      if (!order) continue;
+      input_.detected.push_back({{p.x, p.y, p.z}, p.score, *order, {p.normal_x, p.normal_y, p.normal_z}});
     }
   });
 }

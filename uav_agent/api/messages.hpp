@@ -32,6 +32,7 @@ struct DetectedPoint {
   Eigen::Vector3f p_W = Eigen::Vector3f::Zero();
   double score = 0.0;       ///< best so far of this UAV, [0, 1]
   std::uint32_t order = 0;  ///< in which this UAV first saw it, 0, 1, 2, ...: its name for the point, and nobody else's
+  Eigen::Vector3f n_W = Eigen::Vector3f::Zero();  ///< unit normal of the surface, to either side
 };
 
 /// One LiDAR scan of this UAV.

@@ -20,7 +20,7 @@ namespace {
 constexpr double kBodyAndABit_M = 0.63 + 0.3, kBetweenBodiesM = 0.3;
 
 class PublishedStrategy : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Planners, PublishedStrategy, testing::Values("kios", "xxh", "star"));
+INSTANTIATE_TEST_SUITE_P(Planners, PublishedStrategy, testing::Values("flock", "kios", "xxh", "star"));
 
 std::vector<TestUav> fleet_of(int explorers, int photographers) {
   std::vector<TestUav> fleet;

@@ -1,0 +1,54 @@
+// Parameters of the planner flock (flock.cpp): --planner flock:near_ratio=0.5.
+// Units: SI unless the name says otherwise. d* is the distance at which the camera just has the desired resolution.
+#pragma once
+
+#include "core/config_reader.hpp"
+#include "uav_agent/flight_core/flight_config.hpp"
+
+namespace skein::agent {
+
+struct FlockConfig {
+  double voxel_m = 0.0;      ///< edge of a cube of the map; 0: 0.2 d*, but 1 to 2 m
+  int max_voxels = 250'000;  ///< the cubes grow until the site has no more
+  double density = 0.125;    ///< interest points expected on a square metre of surface, before any was seen
+  double wide_ratio = 1.5;   ///< distance from which more is in the picture, though coarser, in units of d*
+  double far_ratio = 0.92;   ///< distance from which surface is looked at, in units of d*, ...
+  double near_ratio = 0.55;  ///< ... and the nearer one, where that brings more
+  double looked_q = 0.4;     ///< a surface seen with this quality shows all its interest points
+  double good_q = 0.9;       ///< a point that was photographed with this quality is left alone
+  double inspect_mps = 4.0;  ///< between views that are near each other
+  int max_views = 160;       ///< views judged in one decision
+  int depth = 4;             ///< views looked ahead
+  double replan_s = 1.5;     ///< between two decisions
+  double share_s = 0.5;      ///< between two messages
+  double claim_s = 4.0;      ///< another UAV's announced view that was heard longer ago is free again
+  double prove_gain = 0.3;   ///< what an explorer adds to the worth of a view from where space is not proved yet
+  double survey_m = 30.0;    ///< a LiDAR finds all structure within this distance
+  FlightConfig flight = {};
+
+  template <class R>
+  void describe(R& r) {
+    r.field("voxel_m", voxel_m, within(0.0, 10.0));
+    r.field("max_voxels", max_voxels, within(1000, 2'000'000));
+    r.field("density", density, within(0.001, 100.0));
+    r.field("wide_ratio", wide_ratio, within(0.2, 3.0));
+    r.field("far_ratio", far_ratio, within(0.2, 1.5));
+    r.field("near_ratio", near_ratio, within(0.1, 1.5));
+    r.field("looked_q", looked_q, within(0.05, 1.0));
+    r.field("good_q", good_q, within(0.1, 1.0));
+    r.field("inspect_mps", inspect_mps, within(0.2, 20.0));
+    r.field("max_views", max_views, within(1, 5000));
+    r.field("depth", depth, within(1, 20));
+    r.field("replan_s", replan_s, within(0.1, 30.0));
+    r.field("share_s", share_s, within(0.05, 10.0));
+    r.field("claim_s", claim_s, within(0.1, 60.0));
+    r.field("prove_gain", prove_gain, within(0.0, 10.0));
+    r.field("survey_m", survey_m, within(5.0, 100.0));
+    r.check(voxel_m == 0.0 || voxel_m >= 0.5, "voxel_m", "must be 0 (by the camera) or at least 0.5");
+    r.check(near_ratio <= far_ratio, "near_ratio", "must not be more than far_ratio");
+    r.check(far_ratio <= wide_ratio, "far_ratio", "must not be more than wide_ratio");
+    flight.describe(r);
+  }
+};
+
+}  // namespace skein::agent

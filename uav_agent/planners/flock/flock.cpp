@@ -1,0 +1,372 @@
+// flock: each UAV does what raises the fleet's score most for the time that it takes. All follow the same rule.
+//
+// 1. Work is quality that can still be gained (surfaces.hpp): interest points expected on surface that no camera has
+//    looked at, and known points, by what their best picture lacks. A detection tells where a point is and how good its
+//    picture was. UAVs that hear each other share points and the surface that was looked at.
+// 2. The targets propose views (views.hpp), and the formulas of the score judge them.
+// 3. Each UAV takes the views that gain most per second (route.hpp), less what others have announced (talk.hpp).
+//    There are no teams and no fixed shares: when a UAV is lost its claims lapse, and others take its work.
+// 4. Explorers do the same work. Beyond that they fly where free space is not proved yet, which opens it to the
+//    photographers, and where no LiDAR has looked for structure (survey.hpp).
+// The flight core does the flying (flight_core/flight_core.hpp); docs/flock.md tells how well it works.
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "core/euler.hpp"
+#include "uav_agent/api/planner.hpp"
+#include "uav_agent/flight/free_space.hpp"
+#include "uav_agent/flight/voxel_route.hpp"
+#include "uav_agent/planners/flock/config.hpp"
+#include "uav_agent/planners/flock/route.hpp"
+#include "uav_agent/planners/flock/surfaces.hpp"
+#include "uav_agent/planners/flock/talk.hpp"
+#include "uav_agent/planners/flock/views.hpp"
+#include "uav_agent/planning/aiming.hpp"
+#include "uav_agent/planning/strips.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kLookAtMapS = 1.0;                  ///< between two looks at the map
+constexpr std::uint64_t kCameraSteps = 3;            ///< exchanges between two looks at what the camera saw
+constexpr double kReachedM = 0.6;                    ///< a view is taken this near to it ...
+constexpr double kAimed = 0.12;                      ///< ... with the camera so near to its direction [rad]
+constexpr double kPictureS = 0.15;                   ///< the camera takes one within
+constexpr double kPatienceS = 2.5;                   ///< at a view, for the camera to turn
+constexpr double kRefusedS = 15.0, kRefusedM = 2.0;  ///< a view that could not be reached, and those about it
+constexpr double kApartM = 4.5;                      ///< a view is so far from other UAVs, and from their next views
+constexpr double kGainM = 0.5, kStallS = 2.5;        ///< a UAV that gains no way for so long is held up...
+constexpr double kStalledS = 6.0;                    ///< ...and leaves that view for so long
+constexpr double kRestS = 0.5;                       ///< between two decisions while there is nothing to photograph
+constexpr double kClaimedShare = 0.9;                ///< of the quality that another UAV's announced view promises
+constexpr std::size_t kMostLegs = 3;
+constexpr double kGlanceS = 0.45;                ///< the camera follows a place on the way for so long
+constexpr double kAimAheadS = 0.9;               ///< before a view, the camera turns there
+constexpr double kLeastGlance = 0.3;             ///< points
+constexpr double kFollowM = 6.0, kTrailM = 2.0;  ///< behind an explorer; between two places of its way
+constexpr std::size_t kMostTrail = 60;
+constexpr double kPointsPerS = 1.2;  ///< that a UAV photographs where there are enough
+
+}  // namespace
+
+class FlockPlanner final : public Planner {
+ public:
+  using Config = FlockConfig;
+
+  FlockPlanner(const Config& config, const AgentConfig& agent)
+      : config_(config),
+        agent_(agent),
+        sharp_m_(camera_reach(agent.vehicle.camera, agent.desired_mm_per_pixel).sharp_distance_m),
+        views_(config_, agent_, sharp_m_),
+        talk_({.share_s = config.share_s, .claim_s = config.claim_s}, agent_) {}
+
+  const FlightConfig* flight() const override { return &config_.flight; }
+  PlannerOutput plan(const PlannerInput& in) override;
+
+ private:
+  struct Refused {
+    Vector3d p_W;
+    Tick until;
+  };
+
+  bool has_lidar() const { return agent_.me().role == Role::explorer; }
+  void look_around(const PlannerInput& in);
+  void take_note(const Outcome& outcome, const PlannerInput& in);
+  void carry_on(const PlannerInput& in, PlannerOutput& out);
+  bool view_taken(const PlannerInput& in);
+  void note_picture(const FlockView::Sight& sight);
+  void glance(const PlannerInput& in, PlannerOutput& out);
+  bool out_of_reach(const Vector3d& p_WB, const PlannerInput& in) const;
+  void watch_progress(const PlannerInput& in);
+  double lack_of_work(const PlannerInput& in, const FlockTargets& targets) const;
+  void decide(const PlannerInput& in, PlannerOutput& out);
+  void count_claims(const PlannerInput& in, FlockTargets& targets) const;
+  void offer(const PlannerInput& in, PlannerOutput& out);
+  std::optional<Vector3d> behind_explorer_W(const PlannerInput& in) const;
+  void rest(const PlannerInput& in, PlannerOutput& out);
+  std::vector<FlockClaim> own_claims() const;
+
+  const Config config_;
+  const AgentConfig agent_;
+  const double sharp_m_;
+  FlockViews views_;
+  FlockTalk talk_;
+  std::optional<FlockSurfaces> surfaces_;  ///< once the boxes have come
+  std::optional<FlockTargets> targets_;    ///< as of the last decision
+
+  std::vector<FlockView> route_;  ///< the first is flown to
+  std::int64_t id_ = 0;           ///< of the goal that it is
+  bool rests_ = false;
+  std::optional<Tick> there_since_, aimed_since_;
+  Tick planned_at_ = 0, glance_until_ = 0;
+  Vector3d gained_p_W_ = Vector3d::Zero();  ///< where it last got on
+  Tick gained_at_ = 0;
+  bool glances_ = false;  ///< the camera looks elsewhere than the route's first view
+  std::vector<Refused> refused_;
+  std::deque<Vector3d> trail_W_;  ///< of explorers that it has seen, oldest first
+  Vector3d rest_W_ = Vector3d::Zero();
+};
+
+PlannerOutput FlockPlanner::plan(const PlannerInput& in) {
+  PlannerOutput out;
+  if (!in.boxes.empty() && !surfaces_) surfaces_.emplace(config_, agent_, in.boxes, sharp_m_);
+  if (!surfaces_) return out;
+  talk_.listen(in, surfaces_->grid(), surfaces_->points());
+  look_around(in);
+  for (const Outcome& outcome : in.flight.outcomes) take_note(outcome, in);
+  if (in.flight.working) {
+    carry_on(in, out);
+  } else {
+    route_.clear();
+  }
+  talk_.speak(in, surfaces_->grid(), surfaces_->points(), own_claims(), out);
+  return out;
+}
+
+void FlockPlanner::look_around(const PlannerInput& in) {
+  const CameraState camera = camera_state(in.state, in.gimbal, agent_.vehicle.camera);
+  surfaces_->detect(in.detected, camera.X_WC.translation());
+  if (in.k % kCameraSteps == 0 && in.tracking.airborne) {
+    const Exposure exposure(camera, agent_.vehicle.camera, agent_.desired_mm_per_pixel, ResolutionRule::contest);
+    surfaces_->look_at_picture(exposure, in.tick);
+  }
+  if (!agent_.due(in.k, kLookAtMapS, agent_.self)) return;
+  surfaces_->look_at_map(*in.world_map);
+  if (has_lidar()) surfaces_->survey().look(surfaces_->grid(), in.state.p_WB);
+  for (const Peer& peer : in.peers.all()) {
+    if (!peer.visible || agent_.fleet[peer.uav].role != Role::explorer) continue;
+    surfaces_->survey().look(surfaces_->grid(), peer.p_W);
+    if (trail_W_.empty() || (trail_W_.back() - peer.p_W).norm() > kTrailM) trail_W_.push_back(peer.p_W);
+    if (trail_W_.size() > kMostTrail) trail_W_.pop_front();
+  }
+}
+
+void FlockPlanner::take_note(const Outcome& outcome, const PlannerInput& in) {
+  if (outcome.id != id_ || route_.empty() || outcome.kind == Outcome::Kind::reached) return;
+  refused_.push_back({route_.front().p_WB, in.tick + ticks(kRefusedS)});
+  route_.clear();
+}
+
+/// The first view of the route has been taken, or cannot be.
+bool FlockPlanner::view_taken(const PlannerInput& in) {
+  const FlockView& view = route_.front();
+  if ((in.state.p_WB - view.p_WB).norm() > kReachedM) {
+    there_since_.reset();
+    return false;
+  }
+  if (!there_since_) there_since_ = in.tick;
+  const bool aimed = aim_error(view.aim_W, in.state, in.gimbal, agent_.vehicle) < kAimed;
+  if (!aimed) aimed_since_.reset();
+  if (aimed && !aimed_since_) aimed_since_ = in.tick;
+  return (aimed && seconds(in.tick - *aimed_since_) >= kPictureS) || seconds(in.tick - *there_since_) > kPatienceS;
+}
+
+void FlockPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
+  if (rests_ && seconds(in.tick - planned_at_) < kRestS) return;
+  watch_progress(in);
+  const bool due = seconds(in.tick - planned_at_) >= config_.replan_s;
+  const bool taken = !route_.empty() && view_taken(in);
+  if (taken) {
+    for (const FlockView::Sight& sight : route_.front().sights) note_picture(sight);
+    route_.erase(route_.begin());
+    there_since_.reset();
+  }
+  if (due || route_.empty()) {
+    decide(in, out);
+  } else if (taken) {
+    offer(in, out);
+  } else {
+    glance(in, out);
+  }
+}
+
+void FlockPlanner::note_picture(const FlockView::Sight& sight) {
+  FlockTarget& target = targets_->all()[sight.target];
+  target.have = std::max(target.have, double{sight.q});
+}
+
+/// On the way to a view, the camera follows what gains most there, for a moment each. While it follows a place, pictures
+/// of it are sharp however fast the UAV flies.
+void FlockPlanner::glance(const PlannerInput& in, PlannerOutput& out) {
+  if (in.tick < glance_until_ || !targets_) return;
+  const FlockView& next = route_.front();
+  const double way_m = (next.p_WB - in.state.p_WB).norm();
+  const double speed = std::max(in.state.v_WB.norm(), 1.0);
+  if (way_m / speed < kAimAheadS) {
+    if (glances_) out.gimbal = next.aim_W;
+    glances_ = false;
+    return;
+  }
+  glance_until_ = in.tick + ticks(kGlanceS);
+  const Vector3d soon_W = in.state.p_WB + 0.5 * kGlanceS * in.state.v_WB;
+  FlockView best;
+  double most = kLeastGlance;
+  for (const Vector3d& aim_W : views_.aims(*targets_, soon_W, in.state, in.gimbal)) {
+    FlockView view{.p_WB = soon_W, .aim_W = aim_W};
+    views_.judge(*surfaces_, *targets_, view);
+    double gain = 0.0;
+    for (const FlockView::Sight& sight : view.sights) {
+      const FlockTarget& target = targets_->all()[sight.target];
+      gain += target.points * std::max(0.0, sight.q - target.have);
+    }
+    if (gain <= most) continue;
+    most = gain;
+    best = std::move(view);
+  }
+  if (best.sights.empty()) return;
+  for (const FlockView::Sight& sight : best.sights) note_picture(sight);
+  glances_ = true;
+  out.gimbal = best.aim_W;
+}
+
+/// What other UAVs are about to photograph counts as photographed.
+void FlockPlanner::count_claims(const PlannerInput& in, FlockTargets& targets) const {
+  for (const auto& [uav, claims] : talk_.claims(in.tick)) {
+    for (const FlockClaim& claim : claims) {
+      FlockView view{.p_WB = claim.p_WB, .aim_W = claim.aim_W};
+      if (!((view.aim_W - view.p_WB).norm() > 0.1)) continue;
+      views_.judge(*surfaces_, targets, view);
+      for (const FlockView::Sight& sight : view.sights) {
+        FlockTarget& target = targets.all()[sight.target];
+        target.have = std::max(target.have, kClaimedShare * sight.q);
+      }
+    }
+  }
+}
+
+/// The UAV could not get there a moment ago, or another UAV is there or about to be.
+bool FlockPlanner::out_of_reach(const Vector3d& p_WB, const PlannerInput& in) const {
+  const auto near = [&](const Vector3d& p_W, double m) { return (p_W - p_WB).squaredNorm() < m * m; };
+  const auto is_near = [&](const Refused& refused) { return near(refused.p_W, kRefusedM); };
+  if (std::ranges::any_of(refused_, is_near)) return true;
+  for (const Peer& peer : in.peers.all()) {
+    if (peer.visible && near(peer.p_W, kApartM)) return true;
+  }
+  for (const auto& [uav, claims] : talk_.claims(in.tick)) {
+    if (uav < agent_.self && !claims.empty() && near(claims.front().p_WB, kApartM)) return true;
+  }
+  return false;
+}
+
+/// Leaves a view for later when the UAV comes no nearer to it.
+void FlockPlanner::watch_progress(const PlannerInput& in) {
+  if ((in.state.p_WB - gained_p_W_).norm() > kGainM) {
+    gained_p_W_ = in.state.p_WB;
+    gained_at_ = in.tick;
+  }
+  if (route_.empty() || there_since_ || seconds(in.tick - gained_at_) < kStallS) return;
+  gained_at_ = in.tick;
+  refused_.push_back({route_.front().p_WB, in.tick + ticks(kStalledS)});
+  route_.clear();
+}
+
+/// The share of what the fleet can photograph in the time left that has not been found yet: as much is it worth an
+/// explorer's time to find more.
+double FlockPlanner::lack_of_work(const PlannerInput& in, const FlockTargets& targets) const {
+  double open = 0.0;
+  for (const FlockTarget& target : targets.all()) open += target.open();
+  const double left_s = in.mission_remaining_s.value_or(agent_.duration_s);
+  const double capacity = kPointsPerS * left_s * static_cast<double>(agent_.fleet.size());
+  return std::clamp(1.0 - open / std::max(1.0, capacity), 0.0, 1.0);
+}
+
+void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
+  planned_at_ = in.tick;
+  std::erase_if(refused_, [&](const Refused& refused) { return refused.until <= in.tick; });
+  FlockTargets& targets = targets_.emplace(surfaces_->targets(in.tick), views_.range_m());
+  count_claims(in, targets);
+  const Vector3d here_W = in.tracking.setpoint.p_WB;
+  const double lack = has_lidar() ? lack_of_work(in, targets) : 0.0;
+  std::vector<FlockView> views = views_.find(*surfaces_, targets, *in.space, here_W, has_lidar(), lack);
+  std::erase_if(views, [&](const FlockView& view) { return out_of_reach(view.p_WB, in); });
+  std::optional<std::size_t> current;
+  if (!route_.empty()) {
+    FlockView view = route_.front();
+    const double survey = view.survey;
+    views_.judge(*surfaces_, targets, view);
+    view.survey = survey;
+    if (!out_of_reach(view.p_WB, in)) {
+      current = views.size();
+      views.push_back(std::move(view));
+    }
+  }
+  const CameraState camera = camera_state(in.state, in.gimbal, agent_.vehicle.camera);
+  const FlockPace pace{.near_mps = config_.inspect_mps, .far_mps = config_.flight.approach_mps};
+  const FlockRoute route = find_route(views, targets, surfaces_->grid(), here_W, camera.X_WC.linear().col(0), pace,
+                                      config_.prove_gain, config_.depth, current);
+  if (route.views.empty()) return rest(in, out);
+  const bool goes_on = current && route.views.front() == *current;
+  route_.clear();
+  for (const std::size_t i : route.views) route_.push_back(views[i]);
+  if (!goes_on) there_since_.reset();
+  rests_ = false;
+  offer(in, out);
+}
+
+/// Through the views without a stop, as far as the ways between them are free. Where no way to the first is found here,
+/// the flight core looks for one.
+void FlockPlanner::offer(const PlannerInput& in, PlannerOutput& out) {
+  const Vector3d here_W = in.tracking.setpoint.p_WB;
+  Goal goal;
+  const double first_m = (route_.front().p_WB - here_W).norm();
+  const double speed_mps = first_m > 10.0 ? config_.flight.approach_mps : config_.inspect_mps;
+  std::vector<Vector3d> corners = {route_.front().p_WB};
+  bool straight = in.space->segment_free(here_W, route_.front().p_WB);
+  if (!straight) {
+    if (auto around = find_voxel_route(surfaces_->grid(), *in.space, here_W, route_.front().p_WB)) {
+      corners = std::move(*around);
+      straight = true;
+    }
+  }
+  if (straight) goal.way.push_back({here_W, config_.inspect_mps});
+  for (const Vector3d& corner_W : corners) goal.way.push_back({corner_W, speed_mps});
+  for (std::size_t i = 1; i < std::min(route_.size(), kMostLegs); ++i) {
+    const Vector3d& before_W = route_[i - 1].p_WB;
+    const double leg_m = (route_[i].p_WB - before_W).norm();
+    if (leg_m > 10.0 || !in.space->segment_free(before_W, route_[i].p_WB)) break;
+    goal.way.push_back({route_[i].p_WB, config_.inspect_mps});
+  }
+  const Vector3d look = route_.front().aim_W - route_.front().p_WB;
+  if (!has_lidar() || route_.front().proved) goal.yaw = std::atan2(look.y(), look.x());
+  goal.gimbal = route_.front().aim_W;
+  const bool goes_on = in.flight.goal && *in.flight.goal == id_ && (straight == in.flight.on_way);
+  if (!goes_on) ++id_;
+  if (goes_on && straight) goal.way.erase(goal.way.begin());
+  goal.id = id_;
+  if (goal.yaw && straight) out.yaw = goal.yaw;
+  if (!goes_on || !glances_) out.gimbal = route_.front().aim_W;
+  out.goals = {std::move(goal)};
+}
+
+/// A place on an explorer's trail. Space is proved there, and the explorer opens new work near it.
+std::optional<Vector3d> FlockPlanner::behind_explorer_W(const PlannerInput& in) const {
+  for (auto p_W = trail_W_.rbegin(); p_W != trail_W_.rend(); ++p_W) {
+    const bool taken = std::ranges::any_of(
+        in.peers.all(), [&](const Peer& peer) { return peer.visible && (peer.p_W - *p_W).norm() < kFollowM; });
+    if (!taken && in.space->free(*p_W)) return *p_W;
+  }
+  return std::nullopt;
+}
+
+/// Nothing is worth a picture now: the UAV follows an explorer, or holds. A goal keeps the flight core from recovery.
+void FlockPlanner::rest(const PlannerInput& in, PlannerOutput& out) {
+  route_.clear();
+  const std::optional<Vector3d> behind_W = behind_explorer_W(in);
+  if (rests_ && in.flight.goal && (!behind_W || (*behind_W - rest_W_).norm() < kFollowM)) return;
+  rests_ = true;
+  rest_W_ = behind_W.value_or(in.tracking.setpoint.p_WB);
+  out.goals = {{.id = ++id_, .way = {{rest_W_, config_.flight.approach_mps}}}};
+}
+
+std::vector<FlockClaim> FlockPlanner::own_claims() const {
+  std::vector<FlockClaim> claims;
+  for (const FlockView& view : route_) {
+    if (claims.size() < FlockTalk::kMostClaims) claims.push_back({view.p_WB, view.aim_W});
+  }
+  return claims;
+}
+
+SKEIN_REGISTER_PLANNER("flock", FlockPlanner);
+
+}  // namespace skein::agent

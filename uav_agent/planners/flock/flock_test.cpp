@@ -1,0 +1,320 @@
+// The parts of the planner flock: points and their exchange, survey, surfaces, views, routes, messages.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/random_stream.hpp"
+#include "uav_agent/planners/flock/route.hpp"
+#include "uav_agent/planners/flock/surfaces.hpp"
+#include "uav_agent/planners/flock/talk.hpp"
+#include "uav_agent/planners/flock/views.hpp"
+#include "uav_agent/testing/flown_uav.hpp"
+#include "uav_agent/testing/test_world.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kSharpM = 7.36;
+
+AgentConfig three_uavs(std::size_t self) {
+  AgentConfig agent;
+  agent.self = UavIndex(self);
+  for (int i = 0; i < 3; ++i) {
+    agent.fleet.push_back({.name = "uav" + std::to_string(i),
+                           .role = i == 0 ? Role::explorer : Role::photographer,
+                           .p_WB_start = {5.0 * i, -20.0, 0.0}});
+  }
+  agent.vehicle.camera = VehicleConfig().camera;
+  return agent;
+}
+
+/// All others in line of sight.
+Peers all_in_sight(const AgentConfig& agent) {
+  Peers peers(agent);
+  std::vector<Neighbour> neighbours;
+  for (std::size_t uav = 0; uav < agent.fleet.size(); ++uav) {
+    if (uav != agent.self) neighbours.push_back({.node = node_of_uav(UavIndex(uav)), .p_W = {1.0, 2.0, 3.0}});
+  }
+  peers.update(1, neighbours);
+  return peers;
+}
+
+std::vector<DetectedPoint> drawn_points(RandomStream& random, int count) {
+  std::vector<DetectedPoint> points;
+  for (int i = 0; i < count; ++i) {
+    const auto along = [&] { return static_cast<float>(random.uniform(-60.0, 60.0)); };
+    Eigen::Vector3f normal(along(), along(), along());
+    points.push_back(
+        {{along(), along(), along()}, random.uniform(0.2, 1.0), static_cast<std::uint32_t>(i), normal.normalized()});
+  }
+  return points;
+}
+
+/// Best quality by place, to the step in which it is told.
+std::map<std::array<long, 3>, long> qualities(const FlockPoints& points) {
+  std::map<std::array<long, 3>, long> all;
+  for (const FlockPoint& point : points.all()) {
+    const Eigen::Vector3d cm = (100.0 * point.p_W).array().floor();
+    all[{std::lround(cm.x()), std::lround(cm.y()), std::lround(cm.z())}] = std::lround(50.0 * point.q);
+  }
+  return all;
+}
+
+/// Three UAVs that each found points of their own, some of them the same, and lose half of all messages: in the end all
+/// know the best of each. One of them then begins anew, and gets everything back.
+TEST(FlockPoints, AllEndUpWithTheBestOfAllWhateverIsLost) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RandomStream random(seed, "points", 0);
+    std::vector<FlockPoints> uavs(3);
+    std::map<std::array<long, 3>, long> best;
+    const std::vector<DetectedPoint> scene = drawn_points(random, 200);
+    for (FlockPoints& points : uavs) {
+      std::vector<DetectedPoint> own;
+      for (DetectedPoint point : scene) {
+        point.score = random.uniform(0.2, 1.0);
+        if (random.bits() % 2 == 0) own.push_back(point);
+      }
+      points.detect(own, Vector3d::Zero());
+      for (const auto& [place, q] : qualities(points)) best[place] = std::max(best[place], q);
+    }
+    Tick now = 0;
+    const auto talk = [&](int rounds) {
+      for (int round = 0; round < rounds; ++round, now += 200) {
+        for (std::size_t from = 0; from < uavs.size(); ++from) {
+          PayloadWriter writer;
+          uavs[from].write(all_in_sight(three_uavs(from)), now, 1500, writer);
+          ASSERT_LE(writer.size(), kMaxPayloadBytes);
+          for (std::size_t to = 0; to < uavs.size(); ++to) {
+            PayloadReader reader(writer.data());
+            if (to == from || random.bits() % 2 == 0) continue;
+            EXPECT_TRUE(uavs[to].read(from, now, reader));
+          }
+        }
+      }
+    };
+    talk(80);
+    for (const FlockPoints& points : uavs) EXPECT_EQ(qualities(points), best) << "seed " << seed;
+    uavs[1] = FlockPoints();
+    talk(80);
+    EXPECT_EQ(qualities(uavs[1]), best) << "seed " << seed;
+  }
+}
+
+/// Whatever arrives, nothing but points comes of it.
+TEST(FlockPoints, DamagedMessagesDoNoHarm) {
+  RandomStream random(11, "damage", 0);
+  FlockPoints sender;
+  sender.detect(drawn_points(random, 60), Vector3d::Zero());
+  PayloadWriter writer;
+  FlockPoints hungry;
+  PayloadWriter request;
+  hungry.write(all_in_sight(three_uavs(1)), 0, 1000, request);
+  PayloadReader asked(request.data());
+  ASSERT_TRUE(sender.read(1, 0, asked));
+  sender.write(all_in_sight(three_uavs(0)), 0, 4000, writer);
+  for (int i = 0; i < 300; ++i) {
+    std::vector<std::uint8_t> bytes = writer.data();
+    bytes.resize(1 + random.bits() % bytes.size());
+    for (int flips = 0; flips < 4; ++flips) bytes[random.bits() % bytes.size()] ^= 1U << random.bits() % 8;
+    FlockPoints points;
+    PayloadReader reader(bytes);
+    points.read(0, 0, reader);
+    for (const FlockPoint& point : points.all()) {
+      EXPECT_TRUE(point.p_W.allFinite());
+      EXPECT_NEAR(point.n_W.norm(), 1.0, 1e-9);
+      EXPECT_GE(point.q, 0.0);
+    }
+  }
+}
+
+/// What stands behind a wall stays to be surveyed until somebody looks from the other side.
+TEST(FlockSurvey, WallsHideWhatIsBehindThem) {
+  const std::vector<OrientedBox> boxes = {make_box({0, 0, 12}, {40, 40, 24})};
+  VoxelGrid grid = operational_volume(boxes, {}, 12.0, 0.0, 1.5);
+  for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
+    if (std::abs(grid.centre_W(id).x()) < 1.0) grid.raise(id, VoxelState::occupied);
+  }
+  FlockSurvey survey(boxes, 60.0);
+  const Vector3d left(-20, 0, 10), right(20, 0, 10);
+  for (int look = 0; look < 3; ++look) survey.look(grid, left);
+  EXPECT_TRUE(survey.seen(Vector3d(-10, 5, 10)));
+  EXPECT_FALSE(survey.seen(Vector3d(10, 5, 10)));
+  const std::vector<FlockGap> gaps = survey.gaps();
+  ASSERT_FALSE(gaps.empty());
+  for (const FlockGap& gap : gaps) EXPECT_GT(gap.middle_W.x(), -4.0);
+  for (int look = 0; look < 3; ++look) survey.look(grid, right);
+  EXPECT_TRUE(survey.seen(Vector3d(10, 5, 10)));
+  EXPECT_LT(survey.gaps().size(), gaps.size());
+}
+
+/// A wall 16 m long in a box, as this UAV's map has it, and free space before it.
+struct BeforeAWall : FlownUav {
+  BeforeAWall() : FlownUav(three_uavs(1), {-10.0, 0.0, 10.0}) {
+    boxes = {make_box({4.0, 0.0, 10.0}, {12.0, 20.0, 20.0})};
+    clear({-30.0, -20.0, 0.0}, {2.0, 20.0, 26.0});
+    build({2.2, -8.0, 2.0}, {2.4, 8.0, 18.0});
+    surfaces.emplace(flock, agent, boxes, kSharpM);
+    for (int i = 0; i < 40; ++i) surfaces->look_at_map(map);
+  }
+  Exposure facing_it(double off_m) const {
+    const FlockView view{.p_WB = {2.0 - off_m, 0.0, 10.0}, .aim_W = {2.2, 0.0, 10.0}};
+    return exposure_of(view, agent);
+  }
+  std::size_t open_faces() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(surfaces->targets(0), [](const FlockTarget& target) { return !target.known; }));
+  }
+  std::size_t told_faces() const {
+    std::size_t told = 0;
+    for (VoxelGrid::Id id = 0; id < surfaces->grid().count(); ++id) {
+      for (int face = 0; face < VoxelGrid::kFaces; ++face) told += surfaces->grid().marked(id, face) ? 1 : 0;
+    }
+    return told;
+  }
+
+  FlockConfig flock;
+  std::optional<FlockSurfaces> surfaces;
+};
+
+/// Surface that was in a picture is no longer open for this UAV. Others hear of it once the camera has proved to work.
+TEST(FlockSurfaces, ADeadCameraKeepsOthersFromNothing) {
+  BeforeAWall uav;
+  const std::size_t before = uav.open_faces();
+  ASSERT_GT(before, 20U);
+  uav.surfaces->look_at_picture(uav.facing_it(6.0), 0);
+  EXPECT_LT(uav.open_faces(), before);
+  EXPECT_EQ(uav.told_faces(), 0U);
+  uav.surfaces->detect(std::vector<DetectedPoint>{{{2.2F, 0.0F, 10.0F}, 0.9, 0, {-1.0F, 0.0F, 0.0F}}},
+                       {-4.0, 0.0, 10.0});
+  EXPECT_GT(uav.told_faces(), 10U);
+}
+
+/// A point that is photographed again and again, and gets no better, is left alone for a time, and only that one.
+TEST(FlockSurfaces, APointThatGetsNoBetterIsLeftAloneForATime) {
+  BeforeAWall uav;
+  const std::vector<DetectedPoint> both = {{{2.2F, 0.0F, 10.0F}, 0.4, 0, {-1.0F, 0.0F, 0.0F}},
+                                           {{2.2F, 7.9F, 17.0F}, 0.4, 1, {-1.0F, 0.0F, 0.0F}}};
+  uav.surfaces->detect(both, {-4.0, 0.0, 10.0});
+  const auto known = [&](Tick now) {
+    return std::ranges::count_if(uav.surfaces->targets(now), [](const FlockTarget& target) { return target.known; });
+  };
+  EXPECT_EQ(known(0), 2);
+  for (int i = 0; i < 30; ++i) uav.surfaces->look_at_picture(uav.facing_it(5.0), 0);
+  EXPECT_EQ(known(0), 1);
+  EXPECT_EQ(known(ticks(600.0)), 2);
+}
+
+/// Views before the wall: what each shows is what the score's formulas say of that picture, and nothing on the wall's
+/// far side.
+TEST(FlockViews, ShowWhatAPictureFromThereWouldShow) {
+  BeforeAWall uav;
+  const FlockViews views(uav.flock, uav.agent, kSharpM);
+  const FlockTargets targets(uav.surfaces->targets(0), views.range_m());
+  uav.navigator.update(uav.input());
+  const FreeSpace space = uav.navigator.open_space(uav.input());
+  const auto found = views.find(*uav.surfaces, targets, space, uav.state.p_WB, false, 0.0);
+  ASSERT_GT(found.size(), 5U);
+  for (const FlockView& view : found) {
+    EXPECT_TRUE(space.free(view.p_WB));
+    EXPECT_FALSE(view.sights.empty());
+    const Exposure exposure = exposure_of(view, uav.agent);
+    for (const FlockView::Sight& sight : view.sights) {
+      const FlockTarget& target = targets.all()[sight.target];
+      const PointQuality quality = exposure.evaluate(target.p_W, target.n_W);
+      EXPECT_TRUE(quality.in_fov);
+      EXPECT_NEAR(quality.q_res.value_or(-1.0), sight.q, 1e-6);
+      EXPECT_GT(target.n_W.dot(view.p_WB - target.p_W), 0.0);
+    }
+  }
+}
+
+/// Drawn views of drawn targets: a route of one view is the best by gain a second, and a longer one counts what two of
+/// its views show only once.
+TEST(FlockRoute, TakesWhatBringsMostASecondAndCountsNothingTwice) {
+  const std::vector<OrientedBox> boxes = {make_box({0, 0, 12}, {40, 40, 24})};
+  const VoxelGrid grid = operational_volume(boxes, {}, 12.0, 0.0, 2.0);
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    RandomStream random(seed, "views", 0);
+    std::vector<FlockTarget> all;
+    for (int i = 0; i < 60; ++i) {
+      all.push_back(
+          {.p_W = {random.uniform(-20, 20), random.uniform(-20, 20), 10.0}, .points = random.uniform(0.1, 1.0)});
+    }
+    const FlockTargets targets(all, 10.0);
+    std::vector<FlockView> views;
+    for (int i = 0; i < 25; ++i) {
+      FlockView view{.p_WB = {random.uniform(-20, 20), random.uniform(-20, 20), 10.0}, .aim_W = {0.0, 0.0, 5.0}};
+      for (std::uint32_t t = 0; t < all.size(); ++t) {
+        if (random.bits() % 8 == 0) view.sights.push_back({t, static_cast<float>(random.uniform(0.2, 1.0))});
+      }
+      views.push_back(std::move(view));
+    }
+    const Vector3d here(0, 0, 10), looks = Vector3d::UnitX();
+    const FlockPace pace;
+    const auto gain_of = [&](const std::vector<std::size_t>& taken) {
+      std::vector<double> have(all.size(), 0.0);
+      for (const std::size_t i : taken) {
+        for (const auto& sight : views[i].sights) have[sight.target] = std::max(have[sight.target], double{sight.q});
+      }
+      double gain = 0.0;
+      for (std::size_t t = 0; t < all.size(); ++t) gain += all[t].points * have[t];
+      return gain;
+    };
+    double best = 0.0;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      best = std::max(best, gain_of({i}) / way_s(grid, here, looks, views[i], pace));
+    }
+    const FlockRoute one = find_route(views, targets, grid, here, looks, pace, 0.0, 1, std::nullopt);
+    ASSERT_EQ(one.views.size(), 1U);
+    EXPECT_NEAR(one.rate(), best, 1e-5 * best) << "seed " << seed;
+    const FlockRoute four = find_route(views, targets, grid, here, looks, pace, 0.0, 4, std::nullopt);
+    ASSERT_LE(four.views.size(), 4U);
+    EXPECT_LE(four.gain, gain_of(four.views) + 1e-5) << "later views count less, never more; seed " << seed;
+    EXPECT_EQ(std::set(four.views.begin(), four.views.end()).size(), four.views.size());
+  }
+}
+
+/// What one says the others hear: its claims, until they are too old.
+TEST(FlockTalk, ClaimsAreHeardAndLapse) {
+  const AgentConfig sender_config = three_uavs(0), listener_config = three_uavs(2);
+  FlockTalk sender({}, sender_config), listener({}, listener_config);
+  BeforeAWall said, heard;
+  const std::vector<FlockClaim> claims = {{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}, {{-1.5, 2.25, 8.0}, {0.0, 0.0, 1.0}}};
+  const Peers peers = all_in_sight(sender_config);
+  std::vector<RadioMessage> radio;
+  for (std::uint64_t k = 0; k < 20; ++k) {
+    PlannerInput in = said.input();
+    PlannerOutput out;
+    const PlannerInput at{.k = k,
+                          .tick = static_cast<Tick>(20 * k),
+                          .state = in.state,
+                          .gimbal = {},
+                          .tracking = in.tracking,
+                          .map = in.map,
+                          .boxes = in.boxes,
+                          .peers = peers,
+                          .mission_remaining_s = {},
+                          .detected = {},
+                          .radio = {}};
+    sender.speak(at, said.surfaces->grid(), said.surfaces->points(), claims, out);
+    radio.insert(radio.end(), out.radio.begin(), out.radio.end());
+  }
+  ASSERT_FALSE(radio.empty());
+  PlannerInput in = heard.input();
+  in.radio = radio;
+  listener.listen(in, heard.surfaces->grid(), heard.surfaces->points());
+  const auto now = listener.claims(in.tick);
+  ASSERT_EQ(now.size(), 1U);
+  EXPECT_EQ(now[0].first, 0U);
+  ASSERT_EQ(now[0].second.size(), claims.size());
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    EXPECT_LT((now[0].second[i].p_WB - claims[i].p_WB).norm(), 0.02);
+    EXPECT_LT((now[0].second[i].aim_W - claims[i].aim_W).norm(), 0.02);
+  }
+  EXPECT_TRUE(listener.claims(in.tick + ticks(60.0)).empty());
+}
+
+}  // namespace
+}  // namespace skein::agent

@@ -1,0 +1,148 @@
+#include "uav_agent/planners/flock/surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kAutoVoxelRatio = 0.2, kSmallestVoxelM = 1.0, kLargestVoxelM = 2.0;
+constexpr double kGrowth = 1.1;        ///< of the cubes while there are too many
+constexpr double kGridAroundM = 12.0;  ///< of the grid, around the boxes
+constexpr double kBoxMarginM = 1.0;    ///< structure so far outside a box belongs to it
+constexpr double kFreeAroundM = 0.5;   ///< about the middle of a cube that is free
+constexpr double kLowestM = 0.3;       ///< surface below is not looked at
+constexpr double kEndM = 1.2;       ///< of a line of sight, in cubes: what is so near to its end belongs to the surface
+constexpr double kPriorM2 = 200.0;  ///< of surface, that count with the expected density
+constexpr double kClearlyBetter = 0.1;  ///< in quality
+constexpr double kFacing = 0.17;        ///< cosine of the flattest look at a face
+constexpr double kRangeRatio = 1.6;     ///< of d*: pictures from farther away show nothing well
+
+VoxelGrid site_grid(const std::vector<OrientedBox>& boxes, const FlockConfig& config, double sharp_m) {
+  double voxel_m = config.voxel_m;
+  if (voxel_m == 0.0) voxel_m = std::clamp(kAutoVoxelRatio * sharp_m, kSmallestVoxelM, kLargestVoxelM);
+  const Vector3d edges = extent_of(boxes).sizes().array() + 2.0 * kGridAroundM;
+  while ((edges / voxel_m).array().ceil().prod() > config.max_voxels) voxel_m *= kGrowth;
+  return operational_volume(boxes, {}, kGridAroundM, 0.0, voxel_m);
+}
+
+}  // namespace
+
+FlockSurfaces::FlockSurfaces(const FlockConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
+                             double sharp_m)
+    : config_(config),
+      agent_(agent),
+      sharp_m_(sharp_m),
+      grid_(site_grid(boxes, config, sharp_m)),
+      voxels_({.around_m = kFreeAroundM}),
+      survey_(boxes, config.survey_m),
+      listed_(grid_.count(), 0),
+      in_site_(grid_.count(), 0),
+      looked_here_(grid_.count(), 0) {
+  const double margin_m = kBoxMarginM + 0.5 * grid_.voxel_m();
+  for (Id id = 0; id < grid_.count(); ++id) {
+    const Vector3d centre = grid_.centre_W(id);
+    in_site_[id] = std::ranges::any_of(boxes, [&](const OrientedBox& box) { return box.contains(centre, margin_m); });
+  }
+  if (!agent.first_explorer()) fill_boxes(boxes, grid_);
+}
+
+void FlockSurfaces::look_at_map(const WorldMap& map) {
+  voxels_.update(map, grid_);
+  for (const Id id : grid_.take_changed()) {
+    if (grid_.state(id) != VoxelState::occupied || listed_[id] != 0 || in_site_[id] == 0) continue;
+    if (grid_.centre_W(id).z() + 0.5 * grid_.voxel_m() < kLowestM) continue;
+    listed_[id] = 1;
+    occupied_.push_back(id);
+  }
+  faces_ = looked_ = 0;
+  for (const Id id : occupied_) {
+    for (int face = 0; face < VoxelGrid::kFaces; ++face) {
+      if (!exposed(id, face)) continue;
+      ++faces_;
+      if (looked_at(id, face)) ++looked_;
+    }
+  }
+}
+
+bool FlockSurfaces::exposed(Id id, int face) const {
+  const auto next = grid_.neighbour(id, face);
+  if (!next || grid_.state(*next) == VoxelState::occupied) return false;
+  return grid_.state(*next) == VoxelState::free || survey_.seen(grid_.centre_W(*next));
+}
+
+Vector3d FlockSurfaces::surface_W(Id id) const { return voxels_.surface_W(id).value_or(grid_.centre_W(id)); }
+
+bool FlockSurfaces::sees(const Vector3d& p_WC, const Vector3d& p_W) const {
+  const Vector3d way = p_WC - p_W;
+  const double length = way.norm(), end_m = kEndM * grid_.voxel_m();
+  return length <= end_m || grid_.sees(p_WC, p_W + way * (end_m / length));
+}
+
+void FlockSurfaces::detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC) {
+  if (detected.empty()) return;
+  points_.detect(detected, p_WC);
+  for (const auto& [id, face] : std::exchange(not_told_, {})) grid_.mark(id, face);
+}
+
+void FlockSurfaces::look_at_picture(const Exposure& exposure, Tick now) {
+  look_at_faces(exposure);
+  const std::vector<FlockPoint>& points = points_.all();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto p_C = exposure.view(points[i].p_W);
+    if (!p_C || points[i].q >= config_.good_q || points[i].n_W.dot(exposure.position() - points[i].p_W) <= 0.0)
+      continue;
+    const auto score = exposure.score(*p_C, points[i].n_W);
+    const bool better = score && score->score() > points[i].q + kClearlyBetter;
+    if (better && sees(exposure.position(), points[i].p_W)) points_.expect_better(i, now);
+  }
+}
+
+void FlockSurfaces::look_at_faces(const Exposure& exposure) {
+  const Vector3d& p_WC = exposure.position();
+  const auto here = grid_.at(p_WC);
+  if (!here) return;
+  const double range_m = kRangeRatio * sharp_m_;
+  grid_.around(*here, static_cast<int>(std::ceil(range_m / grid_.voxel_m())), [&](Id id) {
+    if (listed_[id] == 0) return;
+    const Vector3d surface = surface_W(id);
+    const auto p_C = exposure.view(surface);
+    if (!p_C) return;
+    bool asked = false;
+    for (int face = 0; face < VoxelGrid::kFaces; ++face) {
+      if (looked_at(id, face) || !exposed(id, face)) continue;
+      const Vector3d n_W = grid_.normal_W(face);
+      if (n_W.dot(p_WC - surface) < kFacing * (p_WC - surface).norm()) continue;
+      const auto score = exposure.score(*p_C, n_W);
+      if (!score || score->score() < config_.looked_q) continue;
+      if (!asked && !sees(p_WC, surface)) return;
+      asked = true;
+      looked_here_[id] = static_cast<std::uint8_t>(looked_here_[id] | 1U << face);
+      not_told_.emplace_back(id, face);
+    }
+  });
+}
+
+double FlockSurfaces::density() const {
+  const double looked_m2 = voxel_area() * static_cast<double>(looked_);
+  return (static_cast<double>(points_.all().size()) + config_.density * kPriorM2) / (looked_m2 + kPriorM2);
+}
+
+std::vector<FlockTarget> FlockSurfaces::targets(Tick now) const {
+  std::vector<FlockTarget> targets;
+  const double expected = density() * voxel_area();
+  for (const Id id : occupied_) {
+    for (int face = 0; face < VoxelGrid::kFaces; ++face) {
+      if (looked_at(id, face) || !exposed(id, face)) continue;
+      targets.push_back({surface_W(id), grid_.normal_W(face), expected, 0.0});
+    }
+  }
+  for (const FlockPoint& point : points_.all()) {
+    if (point.q < config_.good_q && point.not_before <= now)
+      targets.push_back({point.p_W, point.n_W, 1.0, point.q, true});
+  }
+  return targets;
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,70 @@
+#include "uav_agent/planners/flock/survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kCellsAroundM = 12.0;  ///< of the cells, around the boxes
+constexpr double kMarginM = 1.0;        ///< around a box, what is surveyed with it
+constexpr int kEnoughLooks = 3;         ///< of a second each; the LiDAR looks everywhere within four
+constexpr int kGroup = 3;               ///< cells along an edge of a group
+
+}  // namespace
+
+FlockSurvey::FlockSurvey(const std::vector<OrientedBox>& boxes, double survey_m)
+    : survey_m_(survey_m),
+      cells_(operational_volume(boxes, {}, kCellsAroundM, 0.0, kCellM)),
+      wanted_(cells_.count(), 0),
+      looks_(cells_.count(), 0) {
+  for (VoxelGrid::Id id = 0; id < cells_.count(); ++id) {
+    const Vector3d centre = cells_.centre_W(id);
+    const auto holds = [&](const OrientedBox& box) { return box.contains(centre, kMarginM); };
+    if (std::ranges::any_of(boxes, holds)) {
+      wanted_[id] = 1;
+      ++to_survey_;
+    }
+  }
+}
+
+void FlockSurvey::look(const VoxelGrid& grid, const Vector3d& p_W) {
+  const auto [low, high] = cells_.cells_within(p_W, survey_m_);
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) {
+        const auto id = cells_.at(VoxelGrid::Cell(x, y, z));
+        if (!id || looks_[*id] >= kEnoughLooks) continue;
+        const Vector3d centre = cells_.centre_W(*id);
+        if ((centre - p_W).squaredNorm() > survey_m_ * survey_m_ || !grid.sees(p_W, centre)) continue;
+        if (++looks_[*id] == kEnoughLooks && wanted_[*id] != 0) ++surveyed_;
+      }
+    }
+  }
+}
+
+bool FlockSurvey::seen(const Vector3d& p_W) const {
+  const auto id = cells_.at(p_W);
+  return !id || looks_[*id] > 0;
+}
+
+std::vector<FlockGap> FlockSurvey::gaps() const {
+  std::map<std::tuple<int, int, int>, FlockGap> groups;
+  for (VoxelGrid::Id id = 0; id < cells_.count(); ++id) {
+    if (wanted_[id] == 0 || looks_[id] >= kEnoughLooks) continue;
+    const VoxelGrid::Cell cell = cells_.cell(id) / kGroup;
+    FlockGap& gap = groups[{cell.x(), cell.y(), cell.z()}];
+    gap.middle_W += cells_.centre_W(id);
+    ++gap.cells;
+  }
+  std::vector<FlockGap> gaps;
+  for (auto& [cell, gap] : groups) {
+    gap.middle_W /= gap.cells;
+    gaps.push_back(gap);
+  }
+  return gaps;
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,65 @@
+#include "uav_agent/planners/flock/talk.hpp"
+
+#include <algorithm>
+
+namespace skein::agent {
+namespace {
+
+constexpr std::string_view kName = "flock/1";
+constexpr std::size_t kPointsRoom = 4000;
+constexpr std::size_t kMaxChunks = 8, kMaxChunkBytes = 3000;  ///< in one message
+
+MapExchange::Config exchange_config() {
+  MapExchange::Config config;
+  config.max_chunks = kMaxChunks;
+  config.max_bytes = kMaxChunkBytes;
+  return config;
+}
+
+}  // namespace
+
+FlockTalk::FlockTalk(const Config& config, const AgentConfig& agent)
+    : config_(config), agent_(agent), exchange_(exchange_config()) {}
+
+void FlockTalk::listen(const PlannerInput& in, VoxelGrid& grid, FlockPoints& points) {
+  for (const RadioMessage& message : in.radio) {
+    const auto payload = open_payload(message, kName, agent_.fleet.size());
+    if (!payload || payload->sender == agent_.self) continue;
+    PayloadReader reader(payload->bytes);
+    Word word;
+    word.heard = in.tick;
+    const std::size_t claims = std::min<std::size_t>(reader.u8(), kMostClaims);
+    for (std::size_t i = 0; i < claims; ++i) {
+      const Vector3d p_WB = reader.position(), aim_W = reader.position();
+      word.claims.push_back({p_WB, aim_W});
+    }
+    if (!reader.ok()) continue;
+    words_[payload->sender] = word;
+    if (points.read(payload->sender, in.tick, reader)) exchange_.read(payload->sender, in.tick, grid, reader);
+  }
+}
+
+void FlockTalk::speak(const PlannerInput& in, const VoxelGrid& grid, const FlockPoints& points,
+                      const std::vector<FlockClaim>& claims, PlannerOutput& out) {
+  if (!agent_.due(in.k, config_.share_s, 2 * agent_.self)) return;
+  PayloadWriter writer;
+  const std::size_t count = std::min(claims.size(), kMostClaims);
+  writer.u8(static_cast<std::uint8_t>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    writer.position(claims[i].p_WB);
+    writer.position(claims[i].aim_W);
+  }
+  points.write(in.peers, in.tick, kPointsRoom, writer);
+  exchange_.write(grid, in.peers, in.tick, writer);
+  out.radio.push_back(send_payload(kName, agent_.self, writer));
+}
+
+std::vector<std::pair<std::size_t, std::vector<FlockClaim>>> FlockTalk::claims(Tick now) const {
+  std::vector<std::pair<std::size_t, std::vector<FlockClaim>>> fresh;
+  for (const auto& [uav, word] : words_) {
+    if (seconds(now - word.heard) < config_.claim_s) fresh.emplace_back(uav, word.claims);
+  }
+  return fresh;
+}
+
+}  // namespace skein::agent

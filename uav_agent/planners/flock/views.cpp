@@ -1,0 +1,249 @@
+#include "uav_agent/planners/flock/views.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/euler.hpp"
+#include "uav_agent/maps/block_table.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kTargetRange = 2.1;  ///< of d*: farther targets are not worth a picture
+constexpr double kTilt = 0.6;         ///< of views from aside [rad]
+constexpr double kPlaceM = 2.0;       ///< votes for places nearer to each other than that add up
+constexpr double kPieceM = 4.0;       ///< of surface that votes as one
+constexpr int kDirections = 3;        ///< along each axis
+constexpr double kNearAxis = 1.3;     ///< a component of at least 0.5 of this counts as along its axis
+constexpr double kLeastOpen = 0.04;   ///< points: less is not voted for
+constexpr double kWayM = 20.0;        ///< of way that count like a vote's half
+constexpr double kLeastGain = 0.05, kLeastQuality = 0.2;
+constexpr double kGlanceTurn = 0.8, kGlanceFacing = 0.35;  ///< how far, and at what, the camera turns on its way
+constexpr std::size_t kMostAims = 5;
+constexpr std::size_t kMostGaps = 40;
+constexpr double kGapM = 10.0;  ///< from a gap, to where it is looked at from
+constexpr int kGapSides = 8;
+constexpr double kGapArea = 16.0;  ///< of surface in a cell, before any was found [m^2]
+constexpr double kPriorCells = 20.0;
+constexpr double kGapWorth = 0.5;  ///< of a point that is found, and has yet to be photographed
+
+struct Direction {
+  double yaw = 0.0, pitch = 0.0;  ///< pitch down
+};
+
+Direction direction_of(const Vector3d& way) {
+  return {std::atan2(way.y(), way.x()), std::atan2(-way.z(), way.head<2>().norm())};
+}
+
+/// Which of 26 directions a unit vector has, as a cell of 3^3.
+Eigen::Vector3i direction_cell(const Vector3d& direction_W) {
+  return (kNearAxis * direction_W).array().round().cast<int>() + 1;
+}
+
+}  // namespace
+
+FlockTargets::FlockTargets(std::vector<FlockTarget> targets, double range_m)
+    : targets_(std::move(targets)), cell_m_(range_m) {
+  Eigen::AlignedBox3d extent;
+  for (const FlockTarget& target : targets_) extent.extend(target.p_W);
+  if (targets_.empty()) extent.extend(Vector3d::Zero());
+  low_W_ = extent.min();
+  dims_ = (extent.sizes() / cell_m_).array().floor().cast<int>() + 1;
+  const auto cell_of = [&](const Vector3d& p_W) {
+    const Eigen::Vector3i at = ((p_W - low_W_) / cell_m_).array().floor().cast<int>().min(dims_.array() - 1);
+    return static_cast<std::size_t>((at.z() * dims_.y() + at.y()) * dims_.x() + at.x());
+  };
+  begins_.assign(static_cast<std::size_t>(dims_.prod()) + 1, 0);
+  for (const FlockTarget& target : targets_) ++begins_[cell_of(target.p_W) + 1];
+  for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
+  std::vector<std::uint32_t> next(begins_.begin(), begins_.end() - 1);
+  order_.resize(targets_.size());
+  for (std::uint32_t i = 0; i < targets_.size(); ++i) order_[next[cell_of(targets_[i].p_W)]++] = i;
+}
+
+Exposure exposure_of(const FlockView& view, const AgentConfig& agent) {
+  const Direction direction = direction_of(view.aim_W - view.p_WB);
+  RigidBodyState body;
+  body.p_WB = view.p_WB;
+  body.q_WB = Eigen::AngleAxisd(direction.yaw, Vector3d::UnitZ());
+  const CameraState camera = camera_state(body, {direction.pitch, 0.0, 0.0, 0.0}, agent.vehicle.camera);
+  return {camera, agent.vehicle.camera, agent.desired_mm_per_pixel, ResolutionRule::contest};
+}
+
+struct FlockViews::Vote {
+  Vector3d p_sum_W = Vector3d::Zero(), aim_sum_W = Vector3d::Zero();
+  double weight = 0.0;
+};
+
+double FlockViews::range_m() const { return kTargetRange * sharp_m_; }
+
+/// Surface that nobody has looked at, in pieces that vote as one; and points, each for itself.
+std::vector<FlockTarget> FlockViews::voters(const FlockTargets& targets) const {
+  std::vector<FlockTarget> voters;
+  BlockTable<std::uint32_t> piece_of;  // by place and direction: its number + 1
+  for (const FlockTarget& target : targets.all()) {
+    if (target.open() < kLeastOpen) continue;
+    if (target.known) {
+      voters.push_back(target);
+      continue;
+    }
+    const Eigen::Vector3i place = (target.p_W / kPieceM).array().floor().cast<int>();
+    std::uint32_t& piece = piece_of[grid_key(kDirections * place + direction_cell(target.n_W))];
+    if (piece == 0) {
+      voters.push_back({.p_W = Vector3d::Zero(), .n_W = target.n_W, .points = 0.0});
+      piece = static_cast<std::uint32_t>(voters.size());
+    }
+    FlockTarget& sum = voters[piece - 1];
+    sum.p_W = (sum.p_W * sum.points + target.p_W * target.open()) / (sum.points + target.open());
+    sum.points += target.open();
+  }
+  return voters;
+}
+
+std::vector<FlockViews::Vote> FlockViews::votes(const FlockTargets& targets) const {
+  const double steepest = std::sin(agent_.vehicle.gimbal.pitch_limit_deg * kRadPerDeg);
+  std::vector<Vote> votes;
+  BlockTable<std::uint32_t> number_of;  // by place and direction, + 1
+  const auto vote = [&](const FlockTarget& target, const Vector3d& out_W, double distance_m, double worth) {
+    const Vector3d p_W = target.p_W + distance_m * out_W;
+    if (p_W.z() < config_.flight.floor_m || std::abs(out_W.z()) > steepest) return;
+    const Eigen::Vector3i place = (p_W / kPlaceM).array().round().cast<int>();
+    std::uint32_t& number = number_of[grid_key(kDirections * place + direction_cell(out_W))];
+    if (number == 0) {
+      votes.emplace_back();
+      number = static_cast<std::uint32_t>(votes.size());
+    }
+    Vote& votes_here = votes[number - 1];
+    votes_here.p_sum_W += worth * p_W;
+    votes_here.aim_sum_W += worth * target.p_W;
+    votes_here.weight += worth;
+  };
+  const double tilt = std::tan(kTilt), cosine = std::cos(kTilt);
+  for (const FlockTarget& target : voters(targets)) {
+    const Vector3d n = target.n_W, u = n.unitOrthogonal(), v = n.cross(u);
+    for (const double ratio : {config_.wide_ratio, config_.far_ratio, config_.near_ratio}) {
+      const double far_m = ratio * sharp_m_;
+      vote(target, n, far_m, target.open());
+      for (const Vector3d& aside : {u, Vector3d(-u), v, Vector3d(-v)}) {
+        vote(target, (n + tilt * aside).normalized(), cosine * far_m, cosine * target.open());
+      }
+    }
+  }
+  return votes;
+}
+
+std::vector<FlockView> FlockViews::find(const FlockSurfaces& surfaces, const FlockTargets& targets,
+                                        const FreeSpace& space, const Vector3d& p_W, bool explores, double lack) const {
+  const std::vector<Vote> places = votes(targets);
+  std::vector<std::pair<double, std::size_t>> promising;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double way_m = (places[i].p_sum_W / places[i].weight - p_W).norm();
+    promising.emplace_back(-places[i].weight / (kWayM + way_m), i);
+  }
+  std::ranges::sort(promising);
+  std::vector<FlockView> views;
+  const std::size_t most = static_cast<std::size_t>(config_.max_views);
+  std::size_t unproved = 0;
+  for (const auto& [promise, i] : promising) {
+    if (views.size() >= most) break;
+    const Vote& vote = places[i];
+    FlockView view{.p_WB = vote.p_sum_W / vote.weight, .aim_W = vote.aim_sum_W / vote.weight};
+    if (!space.free(view.p_WB)) continue;
+    view.proved = space.cost(view.p_WB) <= 1.0;
+    if (!view.proved && (!explores || unproved >= most / 2 || !surfaces.survey().seen(view.p_WB))) continue;
+    judge(surfaces, targets, view);
+    if (view.sights.empty()) continue;
+    if (!view.proved) ++unproved;
+    views.push_back(std::move(view));
+  }
+  if (explores && lack > 0.0) find_gaps(surfaces, space, p_W, lack, views);
+  return views;
+}
+
+void FlockViews::judge(const FlockSurfaces& surfaces, const FlockTargets& targets, FlockView& view) const {
+  const Exposure exposure = exposure_of(view, agent_);
+  view.sights.clear();
+  targets.near(exposure.position(), [&](std::uint32_t i) {
+    const FlockTarget& target = targets.all()[i];
+    const Vector3d to_camera = exposure.position() - target.p_W;
+    if (to_camera.dot(target.n_W) <= 0.0) return;
+    const auto p_C = exposure.view(target.p_W);
+    if (!p_C) return;
+    const auto score = exposure.score(*p_C, target.n_W);
+    if (!score || score->q_res < kLeastQuality || target.points * (score->q_res - target.have) < 0.01) return;
+    if (surfaces.sees(exposure.position(), target.p_W)) view.sights.push_back({i, static_cast<float>(score->q_res)});
+  });
+}
+
+std::vector<Vector3d> FlockViews::aims(const FlockTargets& targets, const Vector3d& p_WB, const RigidBodyState& state,
+                                       const GimbalState& gimbal) const {
+  struct Piece {
+    Vector3d sum_W = Vector3d::Zero();
+    double open = 0.0;
+  };
+  const Vector3d axis_W = camera_state(state, gimbal, agent_.vehicle.camera).X_WC.linear().col(0);
+  const double yaw = roll_pitch_yaw(state.q_WB.toRotationMatrix()).yaw;
+  const Vector3d ahead_W(std::cos(yaw), std::sin(yaw), 0.0);
+  const double yaw_limit = std::cos(agent_.vehicle.gimbal.yaw_limit_deg * kRadPerDeg - 0.3);
+  const double far_m = config_.far_ratio * sharp_m_;
+  std::map<std::array<int, 3>, Piece> pieces;
+  targets.near(p_WB, [&](std::uint32_t i) {
+    const FlockTarget& target = targets.all()[i];
+    const Vector3d way = target.p_W - p_WB;
+    const double length = way.norm();
+    if (length > 1.3 * far_m || length < 1.0 || -way.dot(target.n_W) < kGlanceFacing * length) return;
+    const double turn = std::acos(std::clamp(way.dot(axis_W) / length, -1.0, 1.0));
+    if (turn > kGlanceTurn || way.dot(ahead_W) < yaw_limit * way.head<2>().norm()) return;
+    const Eigen::Vector3i place = (target.p_W / kPieceM).array().floor().cast<int>();
+    Piece& piece = pieces[{place.x(), place.y(), place.z()}];
+    piece.sum_W += target.open() * target.p_W;
+    piece.open += target.open();
+  });
+  std::vector<std::pair<double, Vector3d>> best;
+  for (const auto& [place, piece] : pieces) {
+    if (piece.open > 0.0) best.emplace_back(piece.open, piece.sum_W / piece.open);
+  }
+  std::ranges::stable_sort(best, std::greater<>(), [](const auto& entry) { return entry.first; });
+  std::vector<Vector3d> aims;
+  for (const auto& [open, p_W] : best) {
+    if (aims.size() < kMostAims) aims.push_back(p_W);
+  }
+  return aims;
+}
+
+/// Places from which an explorer sees what has not been surveyed yet.
+void FlockViews::find_gaps(const FlockSurfaces& surfaces, const FreeSpace& space, const Vector3d& p_W, double lack,
+                           std::vector<FlockView>& views) const {
+  const FlockSurvey& survey = surfaces.survey();
+  const double cell_m2 =
+      (surfaces.surface_m2() + kPriorCells * kGapArea) / (static_cast<double>(survey.surveyed()) + kPriorCells);
+  const double points = lack * kGapWorth * surfaces.density() * cell_m2;
+  std::vector<FlockGap> gaps = survey.gaps();
+  std::ranges::stable_sort(gaps, std::greater<>(),
+                           [&](const FlockGap& gap) { return gap.cells / (kWayM + (gap.middle_W - p_W).norm()); });
+  if (gaps.size() > kMostGaps) gaps.resize(kMostGaps);
+  for (const FlockGap& gap : gaps) {
+    std::optional<Vector3d> best_W;
+    for (int i = 0; i < kGapSides; ++i) {
+      const double turn = 2.0 * std::numbers::pi * i / kGapSides;
+      Vector3d place = gap.middle_W + kGapM * Vector3d(std::cos(turn), std::sin(turn), 0.0);
+      place.z() = std::max(place.z(), config_.flight.floor_m + 1.0);
+      if (best_W && (*best_W - p_W).norm() <= (place - p_W).norm()) continue;
+      if (space.free(place) && surfaces.sees(place, gap.middle_W)) best_W = place;
+    }
+    if (!best_W) continue;
+    FlockView view{.p_WB = *best_W, .aim_W = gap.middle_W};
+    view.proved = space.cost(*best_W) <= 1.0;
+    for (const FlockGap& other : gaps) {
+      if ((other.middle_W - *best_W).norm() < 0.7 * config_.survey_m && surfaces.sees(*best_W, other.middle_W)) {
+        view.survey += points * other.cells;
+      }
+    }
+    views.push_back(std::move(view));
+  }
+}
+
+}  // namespace skein::agent
