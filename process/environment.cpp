@@ -16,7 +16,7 @@ constexpr const char* kBaselineMath = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX,-S
 
 /// What Debian's NumPy may choose code for, and can do without: SSE3 is left.
 constexpr const char* kBaselineNumpy =
-    "SSSE3 SSE41 POPCNT SSE42 AVX F16C FMA3 AVX2 AVX512F AVX512CD AVX512_SKX AVX512_CLX AVX512_CNL AVX512_ICL";
+    "SSSE3,SSE41,POPCNT,SSE42,AVX,F16C,FMA3,AVX2,AVX512F,AVX512CD,AVX512_SKX,AVX512_CLX,AVX512_CNL,AVX512_ICL";
 /// The oldest that OpenBLAS knows with 64 bits: SSE3.
 constexpr const char* kBaselineBlas = "Prescott";
 

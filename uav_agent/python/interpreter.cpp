@@ -122,7 +122,8 @@ const Interpreter& interpreter(const std::filesystem::path& package_folder) {
 
 std::string explanation(py::error_already_set& error) {
   try {
-    return interpreter().embedded.attr("explain")(error.value(), error.trace()).cast<std::string>();
+    const py::object frames = error.trace() ? py::object(error.trace()) : py::object(py::none());
+    return interpreter().embedded.attr("explain")(error.value(), frames).cast<std::string>();
   } catch (py::error_already_set& another) {  // its own text cannot be had
     return another.what();
   }

@@ -1,8 +1,11 @@
 #include "uav_agent/python/python_planner.hpp"
 
 #include <dlfcn.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <string_view>
 
@@ -75,7 +78,9 @@ std::unique_ptr<Planner> make_python_planner(const std::string& spec, const Agen
   std::optional<PythonSpec> named = python_spec(spec);
   if (!named) return nullptr;
   named->file = fs::absolute(named->file).lexically_normal();
-  if (!fs::is_regular_file(named->file)) throw InputError("--planner " + spec + ": there is no such file");
+  if (::access(named->file.c_str(), R_OK) != 0) {  // with --secure the agent is another user
+    throw InputError("--planner " + spec + ": " + named->file.string() + ": " + std::strerror(errno));
+  }
   python::Order order{.planner = *named,
                       .parameters = parameters_of(*named),
                       .agent = agent,
