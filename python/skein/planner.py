@@ -16,7 +16,7 @@ import enum
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, Union
+from typing import TYPE_CHECKING, Any, Literal, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -296,15 +296,17 @@ class PlannerInput:
         for name, value in fields.items():
             setattr(self, name, value)
 
-    def __getattr__(self, name: str) -> Any:
-        """Of a field that was not read before."""
-        if name not in PlannerInput.__slots__:
-            raise AttributeError(f"a planner's inputs have no '{name}'; they have " + ", ".join(self.__slots__[1:]))
-        if name == "_source" or self._source is None:
-            raise AttributeError(f"these inputs were made without '{name}'")
-        value = self._source.read(name)
-        setattr(self, name, value)
-        return value
+    if not TYPE_CHECKING:  # there, a field that is none is a mistake
+
+        def __getattr__(self, name: str) -> Any:
+            """Of a field that was not read before."""
+            if name not in PlannerInput.__slots__:
+                raise AttributeError(f"a planner's inputs have no '{name}'; they have " + ", ".join(self.__slots__[1:]))
+            if name == "_source" or self._source is None:
+                raise AttributeError(f"these inputs were made without '{name}'")
+            value = self._source.read(name)
+            setattr(self, name, value)
+            return value
 
     @property
     def time_s(self) -> float:

@@ -72,7 +72,7 @@ class PlannerContract:
         self.expect_sound(self.fly(tmp_path / "run", scene_seed=7))
 
     def test_nobody_hears_anybody(self, tmp_path: Path) -> None:
-        deaf = self.faults(tmp_path, f"at_s: 0, until_s: {self.duration_s + 60:g}, link: {{loss: 1}}")
+        deaf = self.faults(tmp_path, "at_s: 0, link: {loss: 1}")
         self.expect_sound(self.fly(tmp_path / "run", faults=deaf))
 
     def test_started_again_in_flight(self, tmp_path: Path) -> None:
