@@ -44,4 +44,13 @@ std::string text_of(const PythonSpec& spec) {
   return text;
 }
 
+std::string without_folders(const std::string& spec) try {
+  auto python = python_spec(spec);
+  if (!python) return spec;
+  python->file = python->file.filename();
+  return text_of(*python);
+} catch (const InputError&) {
+  return spec;
+}
+
 }  // namespace skein

@@ -23,4 +23,7 @@ std::optional<PythonSpec> python_spec(const std::string& spec);
 /// What python_spec() reads back.
 std::string text_of(const PythonSpec& spec);
 
+/// For a table: of a planner in Python without the folders of its file; any other one as it is.
+std::string without_folders(const std::string& spec);
+
 }  // namespace skein

@@ -22,6 +22,11 @@ TEST(PythonSpec, FileClassAndParametersAreToldApart) {
   EXPECT_THROW(python_spec("py::Orbit"), InputError);
 }
 
+TEST(PythonSpec, TablesShowNoFolders) {
+  EXPECT_EQ(without_folders("py:/a/b.py:C:x=/d/e"), "py:b.py:C:x=/d/e");
+  for (const char* other : {"kios:file=/a/b", "py:", "py:b.py", "exec:/a/b"}) EXPECT_EQ(without_folders(other), other);
+}
+
 TEST(PythonSpec, WhatIsWrittenReadsBackTheSame) {
   RandomStream random(7, "python specs", 0);
   const auto one_of = [&](const std::vector<std::string>& texts) { return texts[random.bits() % texts.size()]; };

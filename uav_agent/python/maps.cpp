@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "uav_agent/python/values.hpp"
 
@@ -41,8 +42,10 @@ void check_places(const Eigen::Ref<const Eigen::ArrayXd>& numbers, const char* n
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 Numbers numbers_of(const py::object& value, const char* name) {
-  auto numbers = Numbers::ensure(value);
-  if (!numbers) {
+  const auto given = py::array::ensure(value);
+  const bool is_real = given && std::string_view("fiu").find(given.dtype().kind()) != std::string_view::npos;
+  const auto numbers = is_real ? Numbers::ensure(given) : Numbers();
+  if (!is_real || !numbers) {
     PyErr_Clear();
     refuse(name, "an array of numbers");
   }

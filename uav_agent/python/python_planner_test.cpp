@@ -117,7 +117,7 @@ TEST_F(PythonPlannerTest, MapsAreAskedOneByOneAndAllAtOnce) {
       "        assert m.occupied_cells == 2 and not m.segment_clear(p[0], p[2], 0.5)\n"
       "        assert np.isinf(m.distance_to_occupied([0, 0, 0], 2.0)) and m.cast(p[1], [0, 0, -3], 10, 1) is None\n"
       "        assert len(m.occupied_in(OrientedBox('', p[0], np.ones(3), np.eye(3)))) == 1\n"
-      "        assert w.at([0.25, 0.25, 0.25]) == Space.free and w.at(p).tolist() == [0, 0, 0]\n"
+      "        assert w.at([0.25, 0.25, 0.25]) == Space.free and w.at(p).tolist() == [0, 1, 0]\n"
       "        assert w.window([0, 0, 0], [2, 3, 4]).shape == (2, 3, 4) and w.window([0, 0, 0], (1, 1, 1))[0, 0, 0] == "
       "1\n"
       "        assert w.regions().tolist() == [[0, 0, 0]] and not w.ball_free([0, 0, 0], 1.0, 0.0)");
@@ -128,6 +128,7 @@ TEST_F(PythonPlannerTest, MapsAreAskedOneByOneAndAllAtOnce) {
                                "m.occupied([1, 2, float('nan')])",
                                "m.occupied([1e9, 0, 0])",
                                "m.occupied(np.zeros((2, 2)))",
+                               "m.occupied(np.zeros(3, complex))",
                                "m.known_free([0, 0, 0], 0)",
                                "m.distance_to_occupied([0, 0, 0], 1e9)",
                                "m.cast([0, 0, 0], [0, 0, 0], 5, 1)",

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <string_view>
 
 namespace skein::agent::python {
 namespace {
@@ -30,6 +31,7 @@ std::string what_is(py::handle value) {
 double number_in(py::handle value) {
   if (PyFloat_Check(value.ptr()) != 0) return PyFloat_AS_DOUBLE(value.ptr());
   if (PyNumber_Check(value.ptr()) == 0 || PyBool_Check(value.ptr()) != 0) return std::nan("");
+  if (std::string_view(Py_TYPE(value.ptr())->tp_name).starts_with("numpy.complex")) return std::nan("");
   const double number = PyFloat_AsDouble(value.ptr());
   if (PyErr_Occurred() != nullptr) {
     PyErr_Clear();
@@ -42,6 +44,8 @@ bool is_plain(const py::array& array) {
   return array.ndim() == 1 && array.shape(0) == 3 && array.dtype().num() == py::detail::npy_api::NPY_DOUBLE_ &&
          array.strides(0) == sizeof(double);
 }
+
+bool is_real(const py::array& array) { return std::string_view("fiu").find(array.dtype().kind()) != std::string::npos; }
 
 }  // namespace
 
@@ -80,7 +84,7 @@ Vector3d read_vector(py::handle value, const Place& place) {
     const auto array = py::reinterpret_borrow<py::array>(value);
     if (is_plain(array)) {
       vector = Eigen::Map<const Vector3d>(static_cast<const double*>(array.data()));
-    } else if (array.ndim() == 1 && array.shape(0) == 3) {
+    } else if (array.ndim() == 1 && array.shape(0) == 3 && is_real(array)) {
       for (py::ssize_t i = 0; i < 3; ++i) vector[i] = number_in(array[py::int_(i)]);
     }
   } else if ((PyTuple_Check(value.ptr()) != 0 || PyList_Check(value.ptr()) != 0) && py::len(value) == 3) {
