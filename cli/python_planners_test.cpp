@@ -33,8 +33,7 @@ class PythonPlanners : public testing::Test {
 
   /// As write_results() does, of a fleet of one.
   Json result() const {
-    return {{"planner", {{"jurong", spec(":Orbit:x=1")}}},
-            {"planner_files", kept({{"jurong", spec(":Orbit:x=1")}})}};
+    return {{"planner", {{"jurong", spec(":Orbit:x=1")}}}, {"planner_files", kept({{"jurong", spec(":Orbit:x=1")}})}};
   }
   Json kept(const std::vector<UavPlanner>& planners) const {
     std::vector<std::string> warnings;

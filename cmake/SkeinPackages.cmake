@@ -69,7 +69,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-skein)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 # In an agent's image nothing but the agent is wanted, for planners in Python.
 string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-  "skein (= ${PROJECT_VERSION}) | skein-agent (= ${PROJECT_VERSION})" "python3 (>= 3.11)" "python3 (<< 3.12)" python3-numpy)
+  "skein (= ${PROJECT_VERSION}) | skein-agent (= ${PROJECT_VERSION})"
+  "python3 (>= 3.11)" "python3 (<< 3.12)" python3-numpy)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "experiments with Skein and planners for it in Python

@@ -48,7 +48,7 @@ bool is_ignored_variable(std::string_view name) {
 }
 
 std::map<std::string, std::string> pinned_variables(bool native) {
-  // The last but one: else Fast DDS takes a file DEFAULT_FASTRTPS_PROFILES.xml that happens to lie in the current folder.
+  // SKIP...: else Fast DDS takes a file DEFAULT_FASTRTPS_PROFILES.xml that happens to lie in the current folder.
   std::map<std::string, std::string> pins = {
       {"LC_ALL", "C"},         {"OMP_NUM_THREADS", "1"},       {"OPENBLAS_NUM_THREADS", "1"}, {"MKL_NUM_THREADS", "1"},
       {"PYTHONHASHSEED", "0"}, {"SKIP_DEFAULT_XML_FILE", "1"}, {kPinnedVariable, "1"}};

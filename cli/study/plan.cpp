@@ -137,7 +137,8 @@ class AgentDigests {
 bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& built_in) {
   const auto is_built_in = [&](const UavPlanner& planner) {
     const std::string& spec = planner.spec;
-    return planner.agent || exec_command(spec) || python_spec(spec) || std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;
+    const bool is_listed = std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;
+    return planner.agent || exec_command(spec) || python_spec(spec) || is_listed;
   };
   return std::ranges::all_of(plan.planners, is_built_in) && (!plan.ground || is_built_in(*plan.ground));
 }

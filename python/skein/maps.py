@@ -64,7 +64,7 @@ class WorldMap(Protocol):
     def window(self, lowest_W: Places, cubes: Sequence[int]) -> npt.NDArray[np.uint8]:
         """`Space` of as many cubes along x, y and z, from the cube about a place on."""
     def regions(self) -> npt.NDArray[np.float64]:
-        """Lowest corners (N, 3) of the cubes of 16 m of which something is known, in the order in which it became so."""
+        """Lowest corners (N, 3) of cubes of 16 m of which something is known, in the order in which it became so."""
 
 
 class FreeSpace(Protocol):

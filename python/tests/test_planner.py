@@ -158,7 +158,8 @@ def test_a_wrong_spec_says_what_would_be_right(tmp_path: Path, spec: str, text: 
 
 def test_pdb_stops_in_plan_while_the_fleet_waits(tmp_path: Path) -> None:
     launcher = [skein.find_launcher(), "run", "towers", "--planner", f"hover,jurong={HOVER}", "--duration", "4",
-                "--debug", "jurong=pdb", "--break-at", "2", "--no-oracle", "--no-report", "--out", str(tmp_path / "run")]
+                "--debug", "jurong=pdb", "--break-at", "2", "--no-oracle", "--no-report", "--out",
+                str(tmp_path / "run")]
     commands = "p 'stopped at', inputs.k\np self.agent.name\nc\n"
     said = subprocess.run(launcher, input=commands, capture_output=True, text=True, timeout=300)
     assert said.returncode == 0, said.stdout + said.stderr
