@@ -16,6 +16,7 @@
 #include "cli/run/program_start.hpp"
 #include "cli/run_command.hpp"
 #include "cli/study/flights.hpp"
+#include "core/python_spec.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
 #include "process/json_text.hpp"
@@ -48,9 +49,10 @@ fs::path other_clock(const fs::path& bin_dir) {
   return fs::exists(beside) ? beside : bin_dir.parent_path() / "lib" / "skein" / kOtherClockLibrary;
 }
 
-std::vector<Surroundings> all_surroundings(const fs::path& bin_dir) {
+/// @param python  whether a planner of the fleet is written in it.
+std::vector<Surroundings> all_surroundings(const fs::path& bin_dir, bool python) {
   const std::string order = "the order in which messages arrive, timers, or threads";
-  return {
+  std::vector<Surroundings> all = {
       {"again", "the same once more, at other addresses",
        "a random device, the order of a hash map over pointers, the wall clock, or threads"},
       {"heap",
@@ -70,6 +72,13 @@ std::vector<Surroundings> all_surroundings(const fs::path& bin_dir) {
       {"fastdds", "processes over Fast DDS", order, {}, "fastdds"},
       {"chaos", "arrivals delayed and reordered at random", order, {{"SKEIN_CHAOS", "7"}}, "cyclonedds"},
   };
+  if (python) {
+    all.push_back({"hash",
+                   "another seed of Python's hashes",
+                   "the order of a set of texts, or hash() of one",
+                   {{"SKEIN_HASH_SEED", "4711"}}});
+  }
+  return all;
 }
 
 /// Sets variables of this process, and so of all that it starts, while it lives.
@@ -125,13 +134,15 @@ class PlannerCheck {
     base_.one_process = !needs_processes(plan);
     duration_s_ = plan.scenario.duration_s;
     first_uav_ = plan.scenario.fleet.front().name;
+    python_ =
+        std::ranges::any_of(plan.planners, [](const auto& planner) { return python_spec(planner.spec).has_value(); });
   }
 
   int run() {
     const ScratchDir scratch;
     out_ = options_.out ? fs::absolute(*options_.out) : scratch.path();
     fs::create_directories(out_);
-    for (const Surroundings& one : all_surroundings(program_dir())) {
+    for (const Surroundings& one : all_surroundings(program_dir(), python_)) {
       if (!is_as_first(one)) surroundings_.push_back(one);
     }
     planned_ = kMissions * (1 + surroundings_.size());
@@ -238,6 +249,7 @@ class PlannerCheck {
   RunOptions base_;
   double duration_s_ = 0.0;
   std::string first_uav_;
+  bool python_ = false;
   fs::path out_;
   int differences_ = 0;
   std::vector<Surroundings> surroundings_;  ///< in which each mission is flown again

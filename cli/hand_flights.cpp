@@ -11,14 +11,14 @@
 namespace skein::cli {
 namespace {
 
-std::string hand_repeated(const UavPlanner& planner, const std::filesystem::path& file) {
+UavPlanner hand_repeated(const UavPlanner& planner, const std::filesystem::path& file) {
   std::vector<std::string> parameters = *hand_parameters(planner.spec);
   UavPlanner again = planner;
   again.spec = std::string(kHandPlanner) + ":";
   if (!parameters.empty() || file.string().find('=') != std::string::npos) again.spec += "file=";
   again.spec += file.string();
   for (const std::string& parameter : parameters) again.spec += "," + parameter;
-  return written(again);
+  return again;
 }
 
 }  // namespace
@@ -43,17 +43,9 @@ void check_hands(const std::vector<UavPlanner>& planners, bool watched) {
 
 std::string planners_repeated(const std::string& text, const std::vector<std::string>& fleet,
                               const std::function<std::filesystem::path(const std::string& uav)>& file_of) {
-  const Planners planners = parse_planners(text, fleet);
-  if (flown_by_hand(planners.uavs).empty()) return text;
-  const std::string fallback = written(planners.fallback);
-  std::string again = fallback;
-  for (const UavPlanner& planner : planners.uavs) {
-    const bool by_hand = wants_hands(planner.spec);
-    const std::string spec = by_hand ? hand_repeated(planner, file_of(planner.uav)) : written(planner);
-    if (by_hand || spec != fallback) again += "," + planner.uav + "=" + spec;
-  }
-  if (planners.ground) again += "," + planners.ground->uav + "=" + written(*planners.ground);
-  return again;
+  return planners_rewritten(text, fleet, [&](const UavPlanner& planner) {
+    return wants_hands(planner.spec) ? hand_repeated(planner, file_of(planner.uav)) : planner;
+  });
 }
 
 }  // namespace skein::cli

@@ -100,8 +100,8 @@ void add_run(CLI::App& app, RunOptions& run) {
   command
       ->add_option("--debug", run.debug,
                    "Look into this program while the fleet waits: UAV (or gcs, sim_server, comm_router, station), with "
-                   "=gdb in this terminal, =gdbserver:PORT, =wait until you attach, or =CMD before its command line "
-                   "(default: gdb; without a terminal a command for you to start)")
+                   "=gdb (or =pdb, of a planner in Python) in this terminal, =gdbserver:PORT, =wait until you attach, "
+                   "or =CMD before its command line (default: gdb; without a terminal a command for you to start)")
       ->type_name("UAV[=TOOL]")
       ->allow_extra_args(false)
       ->excludes("--agent-timeout");  // it waits until Ctrl-C, or until the debugged program ends

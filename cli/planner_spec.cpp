@@ -5,6 +5,7 @@
 #include <map>
 #include <string_view>
 
+#include "core/python_spec.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
 #include "core/types.hpp"
@@ -98,7 +99,24 @@ Planners parse_planners(const std::string& text, const std::vector<std::string>&
   return planners;
 }
 
+std::string planners_rewritten(const std::string& text, const std::vector<std::string>& fleet,
+                               const std::function<UavPlanner(const UavPlanner& planner)>& rewrite) {
+  const Planners planners = parse_planners(text, fleet);
+  const std::string fallback = written(planners.fallback);
+  std::string again = fallback;
+  bool any = false;
+  for (const UavPlanner& planner : planners.uavs) {
+    const std::string before = written(planner), now = written(rewrite(planner));
+    any = any || now != before;
+    if (now != fallback) again += "," + planner.uav + "=" + now;
+  }
+  if (planners.ground) again += "," + planners.ground->uav + "=" + written(*planners.ground);
+  return any ? again : text;
+}
+
 bool has_parameters(const std::string& spec) {
+  // The colons of py:FILE:CLASS are not theirs.
+  if (const auto python = python_spec(spec.substr(0, spec.rfind(kAt)))) return !python->parameters.empty();
   const std::size_t end_of_name = spec.find_first_of(":@");
   return end_of_name != std::string::npos && spec[end_of_name] == ':';
 }

@@ -51,6 +51,11 @@ struct Planners {
 /// @throws InputError for an unknown UAV, an empty name, command or AGENT, or two planners for one UAV.
 Planners parse_planners(const std::string& text, const std::vector<std::string>& fleet);
 
+/// The text of the same fleet with other planners for some UAVs.
+/// @param text, fleet  as for parse_planners(). @param rewrite  what flies a UAV in the place of its planner
+std::string planners_rewritten(const std::string& text, const std::vector<std::string>& fleet,
+                               const std::function<UavPlanner(const UavPlanner& planner)>& rewrite);
+
 /// Whether a planner's text has parameters, so that a piece KEY=VALUE after a comma goes on with them.
 bool has_parameters(const std::string& spec);
 

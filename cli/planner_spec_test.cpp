@@ -86,6 +86,17 @@ TEST(PlannerSpec, WhatFollowsTheLastAtIsAnAgentProgram) {
   }
 }
 
+TEST(PlannerSpec, APlannerInPythonHasItsParametersBehindAnotherColon) {
+  EXPECT_EQ(specs("py:a.py,jurong=py:a.py:B:x=1,y=2,raffles=hover"), (Specs{"py:a.py:B:x=1,y=2", "hover", "py:a.py"}));
+  EXPECT_EQ(specs("py:a.py:x=1,y=2"), (Specs{"py:a.py:x=1,y=2", "py:a.py:x=1,y=2", "py:a.py:x=1,y=2"}));
+  const Planners planners = parse_planners("py:a.py:B@team/agent", kFleet);
+  EXPECT_EQ(planners.uavs[0].spec, "py:a.py:B");
+  EXPECT_EQ(planners.uavs[0].agent, "team/agent");
+  for (const char* text : {"py:a.py,x=1", "py:a.py:B,x=1", "py:a.py,juron=hover", "py:a.py@team/agent,x=1"}) {
+    EXPECT_THROW(parse_planners(text, kFleet), InputError) << text;
+  }
+}
+
 TEST(PlannerSpec, ACommandKeepsItsAts) {
   const Planners planners = parse_planners("jurong=exec:./mine me@home,a=b@c,raffles=hover@a", kFleet);
   EXPECT_EQ(written(planners.uavs[0]), "exec:./mine me@home,a=b@c");

@@ -1,9 +1,11 @@
 #include "cli/rerun_command.hpp"
 
 #include <algorithm>
+#include <iostream>
 
 #include "cli/hand_flights.hpp"
 #include "cli/options.hpp"
+#include "cli/python_planners.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/run_command.hpp"
@@ -50,6 +52,8 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   options.planner = planners_repeated(options.planner, fleet_of(result), [&](const std::string& uav) {
     return fs::absolute(run / run_folder::hand_file(uav));
   });
+  options.planner = with_python_files_of(options.planner, fleet_of(result), run, result,
+                                         [](const std::string& text) { std::cerr << text << std::endl; });
   return options;
 }
 

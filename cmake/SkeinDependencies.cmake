@@ -17,6 +17,13 @@ foreach(part ${pcl_parts})
   target_include_directories(pcl::${part} INTERFACE ${PCL_INCLUDE_DIR})
 endforeach()
 
+# For planners in Python: the interpreter as a library. pybind11's own package would look for whichever Python is first
+# in PATH.
+pkg_check_modules(PYTHON REQUIRED IMPORTED_TARGET python3-embed)
+find_path(PYBIND11_INCLUDE_DIR pybind11/pybind11.h REQUIRED)
+add_library(pybind11::headers INTERFACE IMPORTED)
+target_include_directories(pybind11::headers INTERFACE ${PYBIND11_INCLUDE_DIR})
+
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
   find_package(valijson REQUIRED)

@@ -67,14 +67,18 @@ skein-agent-dbgsym. Nothing is built from it.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-skein)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "skein (= ${PROJECT_VERSION}), python3 (>= 3.11), python3-numpy")
+# In an agent's image nothing but the agent is wanted, for planners in Python.
+string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+  "skein (= ${PROJECT_VERSION}) | skein-agent (= ${PROJECT_VERSION})"
+  "python3 (>= 3.11)" "python3 (<< 3.12)" python3-numpy)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib")
-set(CPACK_COMPONENT_PYTHON_DESCRIPTION "experiments with Skein from Python
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "experiments with Skein and planners for it in Python
 ${about}
 .
 This package flies fleets from Python, gives what they leave behind as arrays of
-NumPy and frames of pandas, and plots it for papers.")
+NumPy and frames of pandas, and plots it for papers. And it flies planners that
+are written in Python.")
 
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 configure_file(cmake/debian/changelog.in ${CMAKE_BINARY_DIR}/changelog @ONLY)

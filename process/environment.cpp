@@ -14,6 +14,12 @@ namespace {
 /// back to SSE2, which every x86-64 has.
 constexpr const char* kBaselineMath = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX,-SSE4_1";
 
+/// What Debian's NumPy may choose code for, and can do without: SSE3 is left.
+constexpr const char* kBaselineNumpy =
+    "SSSE3,SSE41,POPCNT,SSE42,AVX,F16C,FMA3,AVX2,AVX512F,AVX512CD,AVX512_SKX,AVX512_CLX,AVX512_CNL,AVX512_ICL";
+/// The oldest that OpenBLAS knows with 64 bits: SSE3.
+constexpr const char* kBaselineBlas = "Prescott";
+
 /// Which settings a program's DDS has is decided by its bus alone. RMW_IMPLEMENTATION is left: it is the library that a
 /// ROS 2 node of the user's is built on, and none of ours reads it.
 constexpr std::array<std::string_view, 5> kVendorPrefixes = {"CYCLONE", "FASTDDS_", "FASTRTPS_", "RMW_FASTRTPS_",
@@ -42,12 +48,15 @@ bool is_ignored_variable(std::string_view name) {
 }
 
 std::map<std::string, std::string> pinned_variables(bool native) {
-  // The last one: else Fast DDS takes a file DEFAULT_FASTRTPS_PROFILES.xml that happens to lie in the current folder.
+  // SKIP...: else Fast DDS takes a file DEFAULT_FASTRTPS_PROFILES.xml that happens to lie in the current folder.
   std::map<std::string, std::string> pins = {
-      {"LC_ALL", "C"}, {"OMP_NUM_THREADS", "1"}, {"SKIP_DEFAULT_XML_FILE", "1"}, {kPinnedVariable, "1"}};
+      {"LC_ALL", "C"},         {"OMP_NUM_THREADS", "1"},       {"OPENBLAS_NUM_THREADS", "1"}, {"MKL_NUM_THREADS", "1"},
+      {"PYTHONHASHSEED", "0"}, {"SKIP_DEFAULT_XML_FILE", "1"}, {kPinnedVariable, "1"}};
   if (!native) {
     const char* users = std::getenv("GLIBC_TUNABLES");
     pins["GLIBC_TUNABLES"] = (users != nullptr && *users != '\0' ? std::string(users) + ":" : "") + kBaselineMath;
+    pins["NPY_DISABLE_CPU_FEATURES"] = kBaselineNumpy;
+    pins["OPENBLAS_CORETYPE"] = kBaselineBlas;
   }
   return pins;
 }

@@ -13,9 +13,10 @@ namespace skein {
 std::vector<std::string> environment_with(const std::map<std::string, std::string>& variables);
 
 /// This process's environment with what could change a result taken out or pinned. Taken out is what would reach
-/// into the DDS of the programs (ignored_variables()). Pinned are the C locale, one OpenMP thread, and the code that
-/// libm selects by CPU (its AVX and FMA variants of sin, exp, pow... differ from the SSE2 ones in last bits).
-/// @param native leaves libm to choose the fastest code for this CPU.
+/// into the DDS of the programs (ignored_variables()). Pinned are the C locale, one thread for OpenMP and BLAS,
+/// Python's hash seed, and the code that libm, NumPy and OpenBLAS select by CPU (their AVX and FMA variants of sin,
+/// exp, pow... differ from the SSE2 ones in last bits).
+/// @param native leaves them to choose the fastest code for this CPU.
 /// @param more set on top of that, so a program can be given again what was taken out.
 std::vector<std::string> fleet_environment(bool native, const std::map<std::string, std::string>& more = {});
 

@@ -111,5 +111,20 @@ TEST(Environment, LibmIsTheSameOnEveryMachineUnlessNativeIsWanted) {
   EXPECT_TRUE(pinned_variables(false).at("GLIBC_TUNABLES").starts_with(pin));
 }
 
+TEST(Environment, PythonIsTheSameOnEveryMachineUnlessNativeIsWanted) {
+  const With users(Variables{{"PYTHONHASHSEED", "random"}, {"OPENBLAS_NUM_THREADS", "8"}});
+  for (const bool native : {false, true}) {
+    const auto environment = by_name(fleet_environment(native));
+    EXPECT_EQ(environment.at("PYTHONHASHSEED"), "0");
+    EXPECT_EQ(environment.at("OPENBLAS_NUM_THREADS"), "1");
+    for (const char* chosen_by_cpu : {"NPY_DISABLE_CPU_FEATURES", "OPENBLAS_CORETYPE"}) {
+      EXPECT_EQ(pinned_variables(native).contains(chosen_by_cpu), !native) << chosen_by_cpu;
+    }
+  }
+  for (const auto& [name, value] : pinned_variables(false)) {
+    EXPECT_EQ(value.find(' '), std::string::npos) << name << ": commands that are printed have it without quotes";
+  }
+}
+
 }  // namespace
 }  // namespace skein

@@ -58,6 +58,7 @@ inline constexpr const char* kJournal = "station.journal";
 // The router's. The counts are what it takes up when it starts again.
 inline constexpr const char* kCaptureMessages = "capture_messages.csv";
 inline constexpr const char* kCounts = "comm_router.counts";
+inline constexpr const char* kPlannerFiles = "planner_files";  ///< a folder: planners in Python, as they flew
 // For people: of a run, or of a study, which is a folder of runs.
 inline constexpr const char* kPage = "report.html";
 inline constexpr const char* kFlightLog = "flight.log";  ///< what `skein run` said

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/python_spec.hpp"
 #include "core/text.hpp"
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
@@ -35,12 +36,12 @@ std::string uav_table(const RunPage& page) {
                      "<tbody>\n";
   for (std::size_t i = 0; i < page.run.uavs.size(); ++i) {
     const Json& uav = uavs[i];
-    const std::string& name = page.run.uavs[i];
+    const std::string &name = page.run.uavs[i], planner = without_folders(text_in(planners, name.c_str()));
     html += table_row({fmt::format("<span class=\"swatch\" style=\"background:var(--t{})\"></span>{}",
                                    i % kTrackColours, escaped(name)),
-                       escaped(text_in(uav, "role")), escaped(shortened(text_in(planners, name.c_str()), 32)),
-                       state_of(uav), cell_of(scores, name.c_str(), 1), cell_of(uav, "captures", 0),
-                       cell_of(uav, "distance_m", 1), cell_of(uav, "max_speed_mps", 2), cell_of(uav, "idle_s", 1),
+                       escaped(text_in(uav, "role")), escaped(shortened(planner, 32)), state_of(uav),
+                       cell_of(scores, name.c_str(), 1), cell_of(uav, "captures", 0), cell_of(uav, "distance_m", 1),
+                       cell_of(uav, "max_speed_mps", 2), cell_of(uav, "idle_s", 1),
                        share_text(page.lanes[i].direct, page.run.end_s),
                        share_text(page.lanes[i].relayed, page.run.end_s)});
   }

@@ -9,6 +9,7 @@
 #include "bus/lockstep/names.hpp"
 #include "bus/program_bus.hpp"
 #include "core/hand_spec.hpp"
+#include "core/python_spec.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/text.hpp"
 #include "core/topics.hpp"
@@ -19,6 +20,8 @@
 #include "uav_agent/agent_node.hpp"
 #include "uav_agent/ground_node.hpp"
 #include "uav_agent/maps/told_chunks.hpp"
+#include "uav_agent/python/python_planner.hpp"
+#include "uav_agent/radio_node.hpp"
 
 namespace skein::agent {
 namespace {
@@ -59,6 +62,19 @@ void check_maps_period(double period_s) {
   if (period_s >= kLeastMapsPeriod_s && period_s <= kMostMapsPeriod_s) return;
   throw InputError("--maps-every " + shortest(period_s) + ": must be within [" + shortest(kLeastMapsPeriod_s) + ", " +
                    shortest(kMostMapsPeriod_s) + "] s");
+}
+
+/// In C++, or in Python.
+std::unique_ptr<Planner> planner_of(const std::string& spec, const Scenario& scenario, UavIndex uav, std::uint64_t seed,
+                                    const std::optional<double>& pdb_from_s) {
+  if (!python_spec(spec)) {
+    if (pdb_from_s) throw InputError("--pdb: planner " + spec + " is not written in Python");
+    return make_planner(spec, agent_config(scenario, uav));
+  }
+  const RadioNode radio(scenario, node_of_uav(uav));
+  return make_python_planner(
+      spec, agent_config(scenario, uav),
+      {.seed = seed, .radio_topics = {radio.topics().begin(), radio.topics().end()}, .debug_from_s = pdb_from_s});
 }
 
 class AgentMember final : public bus::FleetMember {
@@ -122,9 +138,11 @@ void AgentProgram::add_options(CLI::App& app) {
       ->check(CLI::IsMember({"uav", "gcs"}))
       ->capture_default_str();
   app.add_option("--uav", uav_, "UAV whose software this is (default: the first of the fleet)");
-  app.add_option("--planner", planner_, "NAME or NAME:key=value,... or NAME:file.yaml");
+  app.add_option("--planner", planner_, "NAME or NAME:key=value,... or NAME:file.yaml; NAME may be py:FILE[:CLASS]");
   app.add_option("--maps-every", maps_every_s_,
                  "Keep the map that it flies on in maps-UAV.mcap, a snapshot every so many simulated seconds [s]");
+  app.add_option("--pdb", pdb_from_s_, "Python's debugger has this terminal, and stops from this simulated time on [s]")
+      ->group("Launcher");
   app.add_flag("--list-planners", list_, "Print the strategies' names as JSON, then stop");
 }
 
@@ -141,7 +159,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   if (role_ == "gcs") {
     ground = make_ground_program(planner_, ground_config(*scenario));
   } else {
-    planner = make_planner(planner_, agent_config(*scenario, uav));
+    planner = planner_of(planner_, *scenario, uav, options.seed, pdb_from_s_);
     check_debug_names(planner->debug_names(), planner_, scenario->fleet[uav].name);
     check_fleet_size(*planner, planner_, scenario->fleet.size());
   }

@@ -19,6 +19,8 @@ class RadioNode {
  public:
   RadioNode(const Scenario& scenario, Node node);
 
+  /// Topics that it may send on.
+  const std::set<std::string>& topics() const { return out_; }
   /// Declares this node's topics, before client.start().
   /// @param received  takes what arrives; it must outlive the client.
   void declare(bus::LockstepClient& client, std::vector<RadioMessage>& received) const;

@@ -8,8 +8,10 @@
 #include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_checks.hpp"
 #include "cli/compose/compose_yaml.hpp"
+#include "cli/python_planners.hpp"
 #include "cli/run/live_page.hpp"
 #include "core/config_files.hpp"
+#include "core/python_spec.hpp"
 #include "core/text.hpp"
 #include "core/topics.hpp"
 #include "process/run_folder.hpp"
@@ -38,6 +40,7 @@ constexpr int kMostProcesses = 256;  ///< in a container, threads included
 /// What docker-compose fills in when the file is read.
 constexpr const char* kImageVariable = "${SKEIN_IMAGE:-skein}";
 constexpr const char* kAgentImageVariable = "${SKEIN_AGENT_IMAGE:-skein-agent}";
+constexpr const char* kPythonAgentImageVariable = "${SKEIN_PYTHON_AGENT_IMAGE:-skein-agent-python}";
 constexpr const char* kRunVariable = "${SKEIN_RUN:-1}";
 constexpr const char* kUserVariable = "${SKEIN_USER:-1000:1000}";
 
@@ -114,6 +117,9 @@ fs::path in_container(const fs::path& file) { return in_image(file).value_or(fs:
 
 /// The file FILE of NAME:FILE, which holds a planner's parameters; empty: there is none.
 fs::path parameter_file(const UavPlanner& planner) {
+  if (const auto python = python_spec(planner.spec)) {
+    return python->parameters.find('=') == std::string::npos ? fs::path(python->parameters) : fs::path();
+  }
   const std::size_t colon = planner.spec.find(':');
   if (exec_command(planner.spec) || colon == std::string::npos || planner.spec.find('=') != std::string::npos) {
     return {};
@@ -140,6 +146,9 @@ std::map<fs::path, fs::path> files_of(const FleetPlan& plan, const std::string& 
   if (programs::is_agent(program)) {
     const fs::path parameters = parameter_file(planner_of(plan, program));
     if (!parameters.empty()) mounted[kParametersInContainer] = fs::weakly_canonical(parameters);
+    if (const auto python = python_spec(planner_of(plan, program).spec)) {
+      for (const fs::path& source : python_sources(python->file)) mounted[source] = fs::weakly_canonical(source);
+    }
   }
   return mounted;
 }
@@ -188,7 +197,7 @@ class ComposeText {
     if (foreign) {
       yaml_.literal(own_image->second);
     } else {
-      add(yaml_, agent ? layout_.agent_image : layout_.image, agent ? kAgentImageVariable : kImageVariable);
+      add(yaml_, agent ? layout_.agent_image : layout_.image, image_variable(program));
     }
     // A program that is dropped, or crashes, comes back; a run without its server cannot.
     yaml_.key("restart").own(server ? "no" : "on-failure:5");
@@ -221,6 +230,10 @@ class ComposeText {
     yaml_.end_list().end_map();
   }
 
+  const char* image_variable(const std::string& program) const {
+    if (!programs::is_agent(program)) return kImageVariable;
+    return python_spec(planner_of(plan_, program).spec) ? kPythonAgentImageVariable : kAgentImageVariable;
+  }
   bool serves_page(const std::string& program) const { return layout_.view && program == programs::kStation; }
   bool is_debugged(const std::string& program) const {
     return std::ranges::find(plan_.debug, program, &Debuggee::program) != plan_.debug.end();

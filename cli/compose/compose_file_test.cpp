@@ -241,6 +241,22 @@ TEST_F(ComposeFile, FilesAreMountedForThoseWhoNeedThem) {
   });
 }
 
+TEST_F(ComposeFile, APlannerInPythonHasItsFilesAndAnImageWithPython) {
+  Fleet fleet{plan_of({"a", "b"}, false, false, {}), {}};
+  for (const char* file : {"mine.py", "helper.py"}) write_text(dir_ / file, "");
+  const std::string spec = "py:" + (dir_ / "mine.py").string();
+  fleet.plan.planners[0].spec = spec + ":x=1";
+  const Compose file = fleet.file();
+  EXPECT_EQ(file.option("uav_agent-a", "--planner"), spec + ":x=1");
+  for (const char* name : {"mine.py", "helper.py"}) {
+    EXPECT_TRUE(file.mounts("uav_agent-a").contains(dir_ / name)) << name;
+    EXPECT_FALSE(file.mounts("uav_agent-b").contains(dir_ / name)) << name;
+  }
+  EXPECT_NE(compose_file(fleet.plan, fleet.layout).find("skein-agent-python"), std::string::npos);
+  fleet.plan.planners[0].spec = spec + ":" + (dir_ / "parameters.yaml").string();
+  EXPECT_EQ(fleet.file().option("uav_agent-a", "--planner"), spec + ":/planner.yaml");
+}
+
 TEST_F(ComposeFile, AgentsSeeOneAnothersResultsAsLittleAsTheServers) {
   for_all([](const Fleet& fleet, const Compose& file) {
     std::map<std::string, Names> users;

@@ -9,6 +9,7 @@
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/supervisor.hpp"
+#include "core/python_spec.hpp"
 #include "core/suggestion.hpp"
 #include "process/environment.hpp"
 #include "process/reports.hpp"
@@ -58,6 +59,7 @@ std::string hint_for(const UavPlanner& planner) {
 
 /// The agent itself would say so, but not which of them it is.
 void require_known(const UavPlanner& planner, const std::vector<std::string>& known) {
+  if (python_spec(planner.spec)) return;  // every agent can load Python
   const std::string name = planner.spec.substr(0, planner.spec.find(':'));
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
   throw InputError("--planner " + written(planner) + ": there is no planner '" + name + "' in it; " +

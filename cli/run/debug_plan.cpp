@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/python_spec.hpp"
 #include "core/suggestion.hpp"
 #include "core/types.hpp"
 #include "process/run_folder.hpp"
@@ -31,6 +32,11 @@ std::vector<Debuggee> debuggees(const FleetPlan& plan) {
     }
     if (plan.options.break_at_s && one.program == programs::kSimServer) {
       throw InputError("--break-at: sim_server makes the time that others stop at; break in its own code");
+    }
+    const bool in_python = programs::is_agent(one.program) && one.program != programs::kGroundAgent &&
+                           python_spec(planner_of(plan, one.program).spec).has_value();
+    if (one.how == Debuggee::How::pdb && !in_python) {
+      throw InputError(why + "=pdb: only a planner in Python (--planner py:FILE) has pdb; gdb is for all others");
     }
     if (one.how == Debuggee::How::wait && is_exec(plan, one.program)) {
       throw InputError(why + "=wait: a command of yours does not know how to wait; let it have gdb or gdbserver:PORT");

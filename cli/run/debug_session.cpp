@@ -48,6 +48,9 @@ std::string DebugSession::introduction(const FleetPlan& plan, const Debuggee& de
       return member + " is in " + std::filesystem::path(debuggee.tool[0]).filename().string() + " here" +
              (debuggee.how == How::gdb ? "; `run` starts it, and the fleet waits for it" : "") +
              "; the fleet's progress goes to " + log_file_.string();
+    case How::pdb:
+      return member + " is in pdb here: it stops in plan(), and `continue` goes on; the fleet waits for it, and its " +
+             "progress goes to " + log_file_.string();
     case How::inside:
       return member +
              " is in gdb here, in its container; `continue` starts it, and the fleet waits for it; the fleet's " +

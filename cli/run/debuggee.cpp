@@ -42,6 +42,13 @@ void put_under_gdb(ProgramSpec& program, const Words& tool) {
   set_variable(program.env, "SHELL", "/bin/sh");
 }
 
+/// The terminal is for pdb and for what the planner prints; what the program logs goes to its log as always.
+void put_under_pdb(ProgramSpec& program) {
+  program.here = program.minded = true;
+  const std::string redirected = "exec \"$@\" 2>>" + shell_word(program.log);
+  program.argv.insert(program.argv.begin(), {"/bin/sh", "-c", redirected, "sh"});
+}
+
 }  // namespace
 
 std::vector<Debuggee> parse_debug(const Words& values,
@@ -61,6 +68,8 @@ std::vector<Debuggee> parse_debug(const Words& values,
     } else if (how == "gdb") {
       one.how = How::gdb;
       one.tool = gdb_words({"--return-child-result"});
+    } else if (how == "pdb") {
+      one.how = How::pdb;
     } else if (how == "wait") {
       one.how = How::wait;
     } else if (const auto port = gdbserver_port(how)) {
@@ -75,10 +84,11 @@ std::vector<Debuggee> parse_debug(const Words& values,
     if (one.has_tool()) one.tool[0] = tool_file(one.tool[0], why);
     debuggees.push_back(one);
   }
-  if (std::ranges::count(debuggees, How::gdb, &Debuggee::how) > 1) {
-    throw InputError("--debug: one gdb can have this terminal; give the others gdbserver:PORT or wait");
+  const auto wants_terminal = [](const Debuggee& one) { return one.how == How::gdb || one.how == How::pdb; };
+  if (std::ranges::count_if(debuggees, wants_terminal) > 1) {
+    throw InputError("--debug: one gdb or pdb can have this terminal; give the others gdbserver:PORT or wait");
   }
-  auto first = std::ranges::find(debuggees, How::gdb, &Debuggee::how);
+  auto first = std::ranges::find_if(debuggees, wants_terminal);
   if (first == debuggees.end()) first = std::ranges::find(debuggees, How::command, &Debuggee::how);
   if (first != debuggees.end()) first->here = true;
   return debuggees;
@@ -86,6 +96,7 @@ std::vector<Debuggee> parse_debug(const Words& values,
 
 void put_under_tool(ProgramSpec& program, const Debuggee& debuggee) {
   if (debuggee.how == How::wait) program.argv.push_back("--wait-for-debugger");
+  if (debuggee.how == How::pdb) put_under_pdb(program);
   if (!debuggee.has_tool()) return;
   program.minded = true;
   program.here = debuggee.here;

@@ -16,6 +16,7 @@ struct Debuggee {
     by_hand,    ///< the user starts it himself, with a command that is printed
     gdb,        ///< in this terminal
     inside,     ///< gdb in this terminal, in the container of a program that waits for it
+    pdb,        ///< Python's debugger, which the program itself starts, in this terminal
     gdbserver,  ///< at `port` of this host
     wait,       ///< it stands before its first step until a debugger is attached, or SIGCONT
     command     ///< any tool, with the program's command line behind its own
@@ -31,7 +32,7 @@ struct Debuggee {
   bool has_tool() const { return !tool.empty(); }
 };
 
-/// Takes values of --debug apart: UAV[=gdb|gdbserver:PORT|wait|CMD].
+/// Takes values of --debug apart: UAV[=gdb|pdb|gdbserver:PORT|wait|CMD].
 /// @param program_of  of a name as the user gives it; throws InputError for one that the fleet does not have
 /// @throws InputError for what is wrong, and for a tool that is not installed, with the package that has it
 std::vector<Debuggee> parse_debug(const std::vector<std::string>& values,

@@ -33,6 +33,7 @@ TEST(Debuggee, OneHasTheTerminal) {
   EXPECT_FALSE(both[0].here);
   EXPECT_TRUE(both[1].here);
   EXPECT_FALSE(both[2].here);
+  EXPECT_TRUE(parse({"changi=/bin/sh", "jurong=pdb"})[1].here);
 }
 
 TEST(Debuggee, WhatIsWrongIsNamed) {
@@ -49,6 +50,11 @@ TEST(Debuggee, ItsToolStandsBeforeTheCommandLine) {
   put_under_tool(program, parse({"jurong=/bin/sh -e"})[0]);
   EXPECT_EQ(program.argv, (std::vector<std::string>{"/bin/sh", "-e", "/bin/agent", "--uav", "jurong"}));
   EXPECT_TRUE(program.minded && program.here);
+  ProgramSpec in_pdb{"uav_agent-jurong", {"/bin/agent", "--pdb", "0"}, {}, "a b.log"};
+  put_under_tool(in_pdb, parse({"jurong=pdb"})[0]);
+  EXPECT_EQ(in_pdb.argv,
+            (std::vector<std::string>{"/bin/sh", "-c", "exec \"$@\" 2>>'a b.log'", "sh", "/bin/agent", "--pdb", "0"}));
+  EXPECT_TRUE(in_pdb.minded && in_pdb.here);
   ProgramSpec waiting{"uav_agent-jurong", {"/bin/agent"}, {}, "a.log"};
   put_under_tool(waiting, parse({"jurong=wait"})[0]);
   EXPECT_EQ(waiting.argv, (std::vector<std::string>{"/bin/agent", "--wait-for-debugger"}));

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "cli/hand_flights.hpp"
+#include "cli/python_planners.hpp"
 #include "cli/run/agent_file.hpp"
 #include "cli/run/debug_plan.hpp"
 #include "cli/run/drawn_world.hpp"
@@ -73,10 +74,11 @@ bool is_foreign(const FleetPlan& plan, const std::string& program) {
   return programs::is_agent(program) && agent_file(plan, program) != plan.bin_dir / programs::kAgent;
 }
 
-/// An agent from elsewhere does not find the configuration beside it.
+/// An agent from elsewhere does not find beside it what it reads and loads.
 std::map<std::string, std::string> config_variable(const FleetPlan& plan, const std::string& program) {
   if (!is_foreign(plan, program)) return {};
-  return {{"SKEIN_CONFIG_DIR", std::filesystem::absolute(default_config_dir())}};
+  return {{"SKEIN_CONFIG_DIR", std::filesystem::absolute(default_config_dir())},
+          {"SKEIN_BIN_DIR", std::filesystem::absolute(plan.bin_dir)}};
 }
 
 /// What a user's command is told. It joins SKEIN_DOMAIN and no other.
@@ -107,15 +109,6 @@ Arguments replay_arguments(const ReplayOf& replay) {
   return arguments;
 }
 
-/// What the station must know to serve the page of a run.
-Arguments view_arguments(const FleetPlan& plan) {
-  const auto& [listener, key, script] = *plan.watched;
-  return {"--view-fd",     std::to_string(kViewFd),
-          "--view-key",    key,
-          "--view-script", script,
-          "--view-title",  plan.scenario.name + " by " + plan.options.planner};
-}
-
 /// Whose software an agent is.
 Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
   const auto& maps_s = plan.options.keep_maps_s;
@@ -136,8 +129,12 @@ Arguments run_arguments(const FleetPlan& plan, const std::string& program, int b
   if (!secure.keys.empty()) append(arguments, {"--security", secure.keys});
   const auto level = plan.log_levels.find(program);
   if (level != plan.log_levels.end()) append(arguments, {"--log-level", level->second});
-  const bool debugged = std::ranges::find(plan.debug, program, &Debuggee::program) != plan.debug.end();
-  if (debugged && plan.options.break_at_s) append(arguments, {"--break-at", shortest(*plan.options.break_at_s)});
+  const auto debugged = std::ranges::find(plan.debug, program, &Debuggee::program);
+  if (debugged != plan.debug.end() && debugged->how == Debuggee::How::pdb) {
+    append(arguments, {"--pdb", shortest(plan.options.break_at_s.value_or(0.0))});
+  } else if (debugged != plan.debug.end() && plan.options.break_at_s) {
+    append(arguments, {"--break-at", shortest(*plan.options.break_at_s)});
+  }
   append(arguments, {"--lease", std::to_string(lease_s(plan)), "--run", std::to_string(plan.run)});
   return arguments;
 }
@@ -176,6 +173,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   Planners planners = parse_planners(options.planner, names);
   check_hands(planners.uavs, options.view.at.has_value());
   plan.agent = own_agent(options.agent);
+  find_python_files(planners);
   find_agents(planners, plan.agent);
   plan.planners = planners.uavs;
   plan.ground = ground_program(planners, fleets_agent(plan));

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <variant>
 
+#include "cli/python_planners.hpp"
 #include "cli/run/crash_trace.hpp"
 #include "cli/run/shared_process.hpp"
 #include "cli/run/supervisor.hpp"
@@ -58,6 +59,7 @@ FleetRun::FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal)
 }
 
 void FleetRun::fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure) {
+  facts_.planner_files = keep_python_files(plan_.planners, out, facts_.warnings);
   if (plan_.options.one_process) {
     programs_[programs::kOneProcess] = shared_process(plan_, out);
     host_ = std::make_unique<SharedProcess>(programs_[programs::kOneProcess],
@@ -71,6 +73,7 @@ void FleetRun::fly(int base_domain, const std::filesystem::path& out, const Secu
 }
 
 void FleetRun::fly_in_containers(const std::vector<ProgramSpec>& containers, const std::filesystem::path& out) {
+  facts_.planner_files = keep_python_files(plan_.planners, out, facts_.warnings);
   in_containers_ = true;
   host_ = std::make_unique<Supervisor>();
   if (std::ranges::any_of(plan_.debug, &Debuggee::here)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iomanip>
 
+#include "core/python_spec.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
 #include "report/causes.hpp"
@@ -124,7 +125,7 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
   row("UAV", {"role", "planner", "state", "score", "captures", "distance [m]", "idle [s]"});
   for (const Json& uav : result["uavs"]) {
     const std::string name = uav["name"];
-    std::string planner = result["planner"][name];
+    std::string planner = without_folders(result["planner"][name]);
     if (planner.size() > 12) planner = planner.substr(0, 10) + "..";
     row(name, {uav["role"], planner, uav_state(uav), cell(result["score_by_uav"], name.c_str(), 3),
                cell(uav, "captures", 0), cell(uav, "distance_m", 1), cell(uav, "idle_s", 1)});

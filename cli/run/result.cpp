@@ -292,6 +292,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   for (Json& fault : result["faults"]) fault.erase("by_hand");  // the same when a file repeats it
   result["interventions"] = interventions(sim.faults, scenario.exchange_period_s);
   if (sim.hand) result["hand"] = json_of(*sim.hand);
+  if (!facts.planner_files.empty()) result["planner_files"] = facts.planner_files;
   if (sim.differences) {
     result["differences"] = *sim.differences;
     for (const std::string& text : router.differences.value_or(Texts())) result["differences"].push_back(text);

@@ -44,6 +44,7 @@ struct RunFacts {
   std::map<std::string, std::string> crashes;  ///< by member, where its log tells of it
   double startup_s = 0.0;                      ///< of wall time, from the first program's start to the first step
   std::map<std::string, ProcessUse> processes;
+  Json planner_files = Json::array();  ///< of planners in Python, as keep_python_files() has them
 };
 
 /// What the programs left behind; empty where a report is missing or cut short.

@@ -26,6 +26,8 @@ void remove_stale(const std::filesystem::path& dir) {
     if (!run_folder::is_of_a_run(entry.path().filename())) continue;
     if (entry.symlink_status().type() != std::filesystem::file_type::directory) {
       std::filesystem::remove(entry.path());
+    } else if (entry.path().filename() == run_folder::kPlannerFiles) {
+      std::filesystem::remove_all(entry.path());
     } else if (entry.path().has_extension()) {
       throw InputError(entry.path().string() + ": a folder is in the way of a file that the run writes");
     }

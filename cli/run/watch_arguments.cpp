@@ -16,4 +16,12 @@ std::vector<std::string> watch_arguments(const FleetPlan& plan) {
   return arguments;
 }
 
+std::vector<std::string> view_arguments(const FleetPlan& plan) {
+  const auto& [listener, key, script] = *plan.watched;
+  return {"--view-fd",     std::to_string(kViewFd),
+          "--view-key",    key,
+          "--view-script", script,
+          "--view-title",  plan.scenario.name + " by " + plan.options.planner};
+}
+
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// What sim_server is told of a run that somebody looks on, and perhaps flies by hand.
+// What programs are told of a run that somebody looks on, and perhaps flies by hand.
 #pragma once
 
 #include <string>
@@ -8,7 +8,10 @@
 
 namespace skein::cli {
 
-/// @param plan  of a run that is watched.
+/// sim_server.   @param plan  of a run that is watched.
 std::vector<std::string> watch_arguments(const FleetPlan& plan);
+
+/// The station, to serve the page.   @param plan  as above.
+std::vector<std::string> view_arguments(const FleetPlan& plan);
 
 }  // namespace skein::cli

@@ -5,12 +5,14 @@
 #include <set>
 #include <thread>
 
+#include "cli/python_planners.hpp"
 #include "cli/run/agent_file.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/study/spec.hpp"
 #include "core/drawn_worlds.hpp"
 #include "core/file_bytes.hpp"
+#include "core/python_spec.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/sha256.hpp"
 #include "core/suggestion.hpp"
@@ -135,7 +137,8 @@ class AgentDigests {
 bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& built_in) {
   const auto is_built_in = [&](const UavPlanner& planner) {
     const std::string& spec = planner.spec;
-    return planner.agent || exec_command(spec) || std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;
+    const bool is_listed = std::ranges::count(built_in, spec.substr(0, spec.find(':'))) > 0;
+    return planner.agent || exec_command(spec) || python_spec(spec) || is_listed;
   };
   return std::ranges::all_of(plan.planners, is_built_in) && (!plan.ground || is_built_in(*plan.ground));
 }
@@ -159,6 +162,10 @@ std::string input_digest(const FleetPlan& plan) {
   for (const UavPlanner& planner : plan.planners) specs.push_back(planner.spec);
   if (plan.ground) specs.push_back(plan.ground->spec);
   for (const std::string& spec : specs) {
+    if (const auto python = python_spec(spec)) {
+      hash.add(python_digest(python->file));
+      if (fs::is_regular_file(python->parameters)) files.push_back(python->parameters);
+    }
     if (const auto file = parameter_file(spec)) files.push_back(*file);
   }
   for (const fs::path& file : files) hash.add(read_file_bytes(file, kLargestFile));

@@ -29,12 +29,14 @@ Violations check_bus_users(const Tree& tree);
 /// A DDS vendor's headers are for bus/<vendor>/ alone; tests/ may talk raw DDS, to check us from outside.
 Violations check_dds_headers(const Tree& tree);
 
-/// Large libraries stay where they belong: in the folders named here, in few .cpp files, never in a header.
+/// Large libraries stay where they belong: in the folders named here, in few .cpp files, never in a header unless they
+/// have a folder of their own.
 struct LibraryRule {
   std::string name;
   std::vector<std::string> prefixes;  ///< of what is included: "pcl/"
   std::vector<std::string> folders;   ///< "uav_agent/", "sim_server/scene_files/"
   std::size_t most_files = 1;         ///< in each of these folders
+  bool own_folder = false;            ///< its headers may show it
 };
 /// The rules of this project.
 const std::vector<LibraryRule>& library_rules();

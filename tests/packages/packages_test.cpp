@@ -93,6 +93,7 @@ TEST_F(Packages, EachComponentHasWhatItIsFor) {
   Paths modules = below(files_of(source_path("python")), "skein/");
   std::erase_if(modules, [](const std::string& file) { return file.ends_with(".pyc"); });
   EXPECT_EQ(below(python, "lib/python3/dist-packages/skein/"), modules);
+  EXPECT_EQ(below(python, "lib/skein/"), Paths{"libskein_python.so"}) << "of planners in Python";
   for (const Paths* programs : {&runtime, &agent}) {
     EXPECT_EQ(below(*programs, "share/skein/config/"), files_of(source_path("config")));
     Paths manuals;
@@ -143,6 +144,39 @@ TEST_F(Packages, ThePackageForPythonFliesWhatIsInstalled) {
             "import skein; print(skein.find_launcher()); "
             "print(skein.run('towers', planner='hover', one_process=True, duration=2).status)"});
   EXPECT_EQ(flown, (programs / "bin" / "skein").string() + "\ncompleted\n");
+}
+
+/// As one installation below one folder, and without a variable that helps Python to find anything.
+TEST_F(Packages, APlannerInPythonFliesByWhatIsInstalled) {
+  const fs::path prefix = install("runtime");
+  done({"cmake", "--install", build_path(), "--component", "python", "--prefix", prefix});
+  std::ofstream(folder() / "up.py") << "from skein.planner import *\nimport skein\n"
+                                       "class Up(Planner):\n    def plan(self, inputs):\n"
+                                       "        print(skein.__file__)\n        return PlannerOutput(Hold())\n";
+  done({"env",
+        "-C",
+        folder(),
+        "-u",
+        "SKEIN_CONFIG_DIR",
+        "-u",
+        "SKEIN_BIN_DIR",
+        "-u",
+        "SKEIN_AGENT",
+        "-u",
+        "PYTHONPATH",
+        prefix / "bin" / "skein",
+        "run",
+        "towers",
+        "--planner",
+        "py:up.py",
+        "--one-process",
+        "--duration",
+        "2",
+        "--no-report",
+        "--out",
+        "flown"});
+  const std::string said = text_of(folder() / "flown" / "uav_agent-jurong.log");
+  EXPECT_NE(said.find((prefix / "lib/python3/dist-packages/skein").string()), std::string::npos) << said;
 }
 
 TEST_F(Packages, SymbolsThatAreInstalledNameFunctionsAndTheirCode) {
@@ -200,10 +234,12 @@ TEST_F(Packages, DebianPackagesAreTheComponents) {
   for (const char* programs : {"runtime", "agent"}) {
     EXPECT_TRUE(needs(programs, "libfastrtps") && needs(programs, "libddsc") && needs(programs, "libpcl-filters"));
     EXPECT_FALSE(needs(programs, "-dev") || needs(programs, "g++") || needs(programs, "libpcl-io"));
+    EXPECT_FALSE(needs(programs, "python")) << "planners in Python need a package of their own";
   }
   EXPECT_TRUE(needs("runtime", "libembree3"));
   EXPECT_FALSE(needs("agent", "libembree3"));
   EXPECT_TRUE(needs("python", "skein (= ") && needs("python", "python3-numpy"));
+  EXPECT_TRUE(needs("python", "| skein-agent (= ") && needs("python", "libpython3.11"));
   EXPECT_TRUE(needs("dev", "skein (= ") && needs("dev", "libeigen3-dev"));
 }
 

@@ -1,0 +1,27 @@
+"""The planner `hover` in Python: takes off to a height and stays there.
+
+    ./skein run towers --planner py:python/examples/hover.py:height_m=4
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from skein.planner import GimbalCommand, Path, Planner, PlannerInput, PlannerOutput, Waypoint, parameter
+
+
+class Hover(Planner):
+    @dataclass
+    class Config:
+        height_m: float = parameter(3.0, at_least=0.2, at_most=200.0)  # above the start
+        climb_mps: float = parameter(1.0, at_least=0.1, at_most=5.0)
+
+    config: Config
+    started = False
+
+    def plan(self, inputs: PlannerInput) -> PlannerOutput:
+        if self.started:
+            return PlannerOutput()
+        self.started = True
+        top = inputs.state.p_WB + [0.0, 0.0, self.config.height_m]
+        return PlannerOutput(motion=Path([Waypoint(top, self.config.climb_mps)]), gimbal=GimbalCommand("angle"))

@@ -1,0 +1,224 @@
+"""For agents alone: what of the life of a planner in Python is best said in Python (uav_agent/python has the rest).
+
+Each planner has a module object of its own, made of its file, and so have the modules beside it that it imports: the
+UAVs of one process share none of them.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import hashlib
+import importlib.util
+import inspect
+import linecache
+import os
+import random
+import sys
+import traceback
+import types
+import typing
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .planner import FlightConfig, Planner
+
+#: Of the environment's packages: a folder below the planner's own may hold them.
+_OTHERS = ("site-packages", "dist-packages")
+
+
+class Wrong(Exception):
+    """The user's input is wrong; the text says what would be right."""
+
+
+# ---- loading -----------------------------------------------------------------------------------------------------
+
+
+def load(file: str, class_name: str) -> type[Planner]:
+    """The planner in a file; sys.path begins with the file's folder. Another exception than Wrong is the user's."""
+    name = Path(file).stem
+    if not name.isidentifier() or name in sys.modules:
+        name = f"planner_{name}"
+    spec = importlib.util.spec_from_file_location(name, file)
+    if spec is None or spec.loader is None:
+        raise Wrong(f"{file}: is no file of Python; its name must end with .py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return _chosen(module, file, class_name)
+
+
+def _chosen(module: types.ModuleType, file: str, class_name: str) -> type[Planner]:
+    planners = {name: value for name, value in vars(module).items()
+                if inspect.isclass(value) and issubclass(value, Planner) and value.__module__ == module.__name__
+                and not inspect.isabstract(value)}
+    if class_name:
+        value = getattr(module, class_name, None)
+        if inspect.isclass(value) and issubclass(value, Planner) and value is not Planner:
+            return value
+        if value is not None:
+            raise Wrong(f"{file}: {class_name} is no planner: it must be a class derived from skein.planner.Planner")
+        near = difflib.get_close_matches(class_name, planners, 1)
+        raise Wrong(f"{file}: there is no class '{class_name}' in it; "
+                    + (f"did you mean '{near[0]}'?" if near else _known(planners)))
+    if len(planners) == 1:
+        return next(iter(planners.values()))
+    if planners:
+        raise Wrong(f"{file}: which of its planners? Write py:FILE:CLASS with one of {', '.join(planners)}")
+    raise Wrong(f"{file}: there is no planner in it: a class derived from skein.planner.Planner")
+
+
+def _known(planners: dict[str, type[Planner]]) -> str:
+    return f"its planners are {', '.join(planners)}" if planners else "it has no planner at all"
+
+
+_KINDS: dict[Any, str] = {bool: "bool", int: "int", float: "float", str: "str"}
+
+
+def _kind_of(owner: str, name: str, declared: Any) -> tuple[str, bool]:
+    """What a parameter is, and whether it may be None."""
+    arguments = typing.get_args(declared)
+    if type(None) in arguments:
+        others = [argument for argument in arguments if argument is not type(None)]
+        if len(others) == 1:
+            return _kind_of(owner, name, others[0])[0], True
+    if declared in _KINDS:
+        return _KINDS[declared], False
+    element = arguments[0] if arguments and typing.get_origin(declared) in (list, tuple) else None
+    if element in _KINDS and element is not bool and (len(arguments) == 1 or arguments[1:] == (...,)):
+        return _KINDS[element] + "s", False
+    raise Wrong(f"{owner}.{name}: a parameter is bool, int, float, str, list[float], list[int] or list[str], or one of "
+                f"these or None, and not {declared}")
+
+
+def parameters(planner: type[Planner]) -> list[tuple[str, str, bool, bool, float, float]]:
+    """Of its Config: name, kind ("flight" for a FlightConfig), may be None, required, least, greatest."""
+    config = planner.Config
+    owner = f"{planner.__name__}.Config"
+    if not dataclasses.is_dataclass(config):
+        raise Wrong(f"{owner} must be a dataclass: write @dataclass before it")
+    hints = typing.get_type_hints(config, vars(sys.modules[config.__module__]) | vars(planner))
+    found = []
+    for field in dataclasses.fields(config):
+        if not field.init:
+            continue
+        required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
+        if hints[field.name] is FlightConfig:
+            found.append((field.name, "flight", False, False, 0.0, 0.0))
+            continue
+        kind, optional = _kind_of(owner, field.name, hints[field.name])
+        found.append((field.name, kind, optional, required, float(field.metadata.get("at_least", -np.inf)),
+                      float(field.metadata.get("at_most", np.inf))))
+    return found
+
+
+def construct(planner: type[Planner], values: dict[str, Any], agent: Any) -> Planner:
+    """The planner, with what its constructor takes of config and agent."""
+    config = planner.Config(**values)
+    wanted = [parameter for parameter in inspect.signature(planner).parameters.values()
+              if parameter.default is parameter.empty
+              and parameter.kind in (parameter.POSITIONAL_ONLY, parameter.POSITIONAL_OR_KEYWORD)]
+    if len(wanted) > 2:
+        raise Wrong(f"{planner.__name__}.__init__ takes {len(wanted)} arguments; it may take none, (config), or "
+                    "(config, agent)")
+    return typing.cast(Callable[..., Planner], planner)(*(config, agent)[:len(wanted)])
+
+
+# ---- what belongs to one UAV -------------------------------------------------------------------------------------
+
+
+def own_modules(folder: str) -> list[str]:
+    """Names of the modules that lie in a planner's folder."""
+    found = []
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None)
+        if not file or name.partition(".")[0] == "skein" or name == "__main__":
+            continue
+        path = os.path.abspath(file)
+        if path.startswith(folder + os.sep) and not any(f"{os.sep}{other}{os.sep}" in path for other in _OTHERS):
+            found.append(name)
+    return found
+
+
+def seed(number: int, uav: str) -> None:
+    """Seeds the global generators, of `random` and of NumPy, by the run's seed and the UAV."""
+    digest = hashlib.sha256(f"planner {number} {uav}".encode()).digest()
+    random.seed(int.from_bytes(digest, "little"))
+    np.random.seed(np.frombuffer(digest, dtype="<u4"))
+
+
+# ---- exceptions and debuggers ------------------------------------------------------------------------------------
+
+
+def explain(error: BaseException, frames: types.TracebackType | None) -> str:
+    """The traceback, from the user's first frame on."""
+    while frames is not None and _is_ours(frames.tb_frame.f_code.co_filename) and frames.tb_next is not None:
+        frames = frames.tb_next
+    linecache.checkcache()
+    return "".join(traceback.format_exception(type(error), error, frames)).rstrip("\n")
+
+
+def _is_ours(file: str) -> bool:
+    return file.startswith("<frozen") or os.path.dirname(file) == os.path.dirname(__file__)
+
+
+def _refuse_breakpoint(*_: Any, **__: Any) -> None:
+    raise RuntimeError("breakpoint() has no terminal here: fly with --debug UAV=pdb")
+
+
+def _audit(event: str, _: tuple[Any, ...]) -> None:
+    if event in ("os.fork", "os.forkpty"):
+        raise RuntimeError(f"{event}() in a planner would fork the agent, and a fork of it belongs to no fleet; "
+                           "subprocess starts other programs")
+
+
+def prepare() -> None:
+    """Once for each interpreter."""
+    sys.dont_write_bytecode = True
+    sys.breakpointhook = _refuse_breakpoint
+    sys.addaudithook(_audit)
+    sys.path.insert(0, "")
+
+
+class Debugger:
+    """pdb in this terminal, for the calls of one planner."""
+
+    def __init__(self, from_s: float) -> None:
+        import pdb
+        self._pdb = pdb.Pdb(nosigint=True, stdin=sys.__stdin__, stdout=sys.__stdout__)
+        self._pdb.prompt = "(pdb) "
+        self._from_s = from_s
+        self._begun = False
+        sys.breakpointhook = self._stop
+
+    def _stop(self, *_: Any, **__: Any) -> None:
+        self._pdb.set_trace(sys._getframe(1))
+
+    def call(self, plan: Callable[[Any], Any], inputs: Any) -> Any:
+        try:
+            if not self._begun and inputs.time_s >= self._from_s:
+                self._begun = True
+                return self._pdb.runcall(plan, inputs)
+            return plan(inputs)
+        except Exception:
+            import bdb
+            error = sys.exc_info()
+            if not issubclass(typing.cast(type, error[0]), bdb.BdbQuit):
+                self._pdb.message("".join(traceback.format_exception(*error)))
+                self._pdb.interaction(None, error[2])
+            raise
+
+
+def generators() -> tuple[Any, Any]:
+    """The hidden objects of the global generators: that of `random`, and NumPy's legacy one."""
+    return random._inst, np.random.mtrand._rand
+
+
+def names_of(values: Sequence[Any]) -> list[str]:
+    """For `debug_names()`: texts, or an error that says so."""
+    if isinstance(values, str) or not all(isinstance(value, str) for value in values):
+        raise Wrong(f"debug_names() must return a sequence of texts, not {values!r}")
+    return list(values)

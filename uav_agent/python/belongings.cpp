@@ -1,0 +1,139 @@
+#include "uav_agent/python/belongings.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "uav_agent/python/interpreter.hpp"
+
+namespace skein::agent::python {
+namespace {
+
+constexpr std::size_t kWords = 624;  // of a Mersenne twister, and one that says how far they are used up
+
+using Twister = std::vector<std::uint32_t>;
+
+/// The two global generators: where their twisters lie in memory. To ask for their states would take longer than a
+/// small planner does. NumPy tells the address; of `random`'s it is found, and without it the slow way is gone.
+class Globals {
+ public:
+  Globals() {
+    const py::tuple both = interpreter().embedded.attr("generators")();
+    random = both[0], numpy = both[1];
+    const py::object numpy_bits = numpy.attr("_bit_generator");
+    const auto address = numpy_bits.attr("ctypes").attr("state_address").cast<std::uintptr_t>();
+    numpy_bits.inc_ref();  // for as long as its address is used
+    numpy_twister = {reinterpret_cast<std::uint32_t*>(address), kWords + 1};
+    random_twister = find_random();
+  }
+
+  py::object random, numpy;
+  std::span<std::uint32_t> numpy_twister, random_twister;  ///< the latter: empty where it was not found
+
+ private:
+  /// CPython has the count before the words. Looked for by what getstate() says, so a build that has it elsewhere is
+  /// not misread.
+  std::span<std::uint32_t> find_random() const {
+    Twister words;
+    const py::tuple numbers = random.attr("getstate")().cast<py::tuple>()[1];
+    for (const py::handle number : numbers) words.push_back(number.cast<std::uint32_t>());
+    std::rotate(words.begin(), words.end() - 1, words.end());
+    const auto size = py::module_::import("_random").attr("Random").attr("__basicsize__").cast<std::size_t>();
+    const std::span<std::uint32_t> object{reinterpret_cast<std::uint32_t*>(random.ptr()), size / sizeof(std::uint32_t)};
+    const auto found = std::ranges::search(object, words);
+    return found.empty() ? std::span<std::uint32_t>() : std::span(found);
+  }
+};
+
+const Globals& globals() {
+  static const Globals& kGlobals = *new Globals();
+  return kGlobals;
+}
+
+}  // namespace
+
+struct Belongings::Generators {
+  Twister random, numpy;
+  py::object random_state = py::none(), gauss_next = py::none();  ///< of `random`
+  py::object numpy_rest = py::none();  ///< of NumPy's, where it has a number of its Gaussian in store
+
+  void save() {
+    const Globals& of = globals();
+    gauss_next = of.random.attr("gauss_next");
+    if (of.random_twister.empty()) random_state = of.random.attr("getstate")();
+    random.assign(of.random_twister.begin(), of.random_twister.end());
+    const bool untouched = std::ranges::equal(numpy, of.numpy_twister) && numpy_rest.is_none();
+    if (untouched) return;
+    numpy.assign(of.numpy_twister.begin(), of.numpy_twister.end());
+    const py::object state = of.numpy.attr("get_state")(false);
+    numpy_rest = state["has_gauss"].cast<int>() != 0 ? state : py::object(py::none());
+  }
+
+  /// @param in_store  whether NumPy's generator has such a number from somebody else.
+  void load(bool in_store) const {
+    const Globals& of = globals();
+    if (of.random_twister.empty()) of.random.attr("setstate")(random_state);
+    std::ranges::copy(random, of.random_twister.begin());
+    of.random.attr("gauss_next") = gauss_next;
+    if (!numpy_rest.is_none()) {
+      of.numpy.attr("set_state")(numpy_rest);
+    } else if (in_store) {
+      const py::object state = of.numpy.attr("get_state")(false);
+      state["has_gauss"] = 0;
+      state["gauss"] = 0.0;
+      of.numpy.attr("set_state")(state);
+    }
+    std::ranges::copy(numpy, of.numpy_twister.begin());
+  }
+};
+
+Belongings* Belongings::current = nullptr;
+
+Belongings::Belongings(std::string folder, std::uint64_t seed, const std::string& uav)
+    : folder_(std::move(folder)), generators_(std::make_unique<Generators>()) {
+  if (current != nullptr) current->put_away();
+  current = nullptr;
+  interpreter().embedded.attr("seed")(seed, uav);
+  generators_->save();
+  enter();
+}
+
+Belongings::~Belongings() {
+  if (current == this) {
+    put_away();
+    current = nullptr;
+  }
+}
+
+void Belongings::enter() {
+  if (current == this) return;
+  const bool in_store = current != nullptr && (current->put_away(), !current->generators_->numpy_rest.is_none());
+  py::module_ sys = py::module_::import("sys");
+  for (const auto& [name, module] : modules_) sys.attr("modules")[name] = module;
+  sys.attr("path")[py::int_(0)] = folder_;
+  generators_->load(in_store);
+  modules_seen_ = PyDict_Size(sys.attr("modules").ptr());
+  current = this;
+}
+
+void Belongings::put_away() {
+  const py::dict all = py::module_::import("sys").attr("modules");
+  note_modules();
+  for (const auto& [name, module] : modules_) {
+    if (all.contains(name)) PyDict_DelItem(all.ptr(), name.ptr());
+  }
+  generators_->save();
+}
+
+void Belongings::note_modules() {
+  PyObject* const all = PyImport_GetModuleDict();
+  if (PyDict_Size(all) == modules_seen_) return;
+  modules_seen_ = PyDict_Size(all);
+  for (const py::handle name : interpreter().embedded.attr("own_modules")(folder_)) {
+    modules_[name] = py::reinterpret_borrow<py::dict>(all)[name];
+  }
+}
+
+}  // namespace skein::agent::python

@@ -1,0 +1,20 @@
+// The maps as Python asks them: skein.maps says what each function answers.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "uav_agent/python/call.hpp"
+
+namespace skein::agent::python {
+
+/// Their classes, once.
+void register_maps(py::module_& module);
+
+/// Of a call. None where the planner has no such map.
+py::object occupancy_map_of(const std::shared_ptr<Call>& call);
+py::object world_map_of(const std::shared_ptr<Call>& call);
+py::object free_space_of(const std::shared_ptr<Call>& call);
+
+}  // namespace skein::agent::python

@@ -1,0 +1,367 @@
+// Planners in Python, called with inputs made here: what goes in, what comes out, and what is refused.
+#include "uav_agent/python/python_planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/places.hpp"
+#include "uav_agent/flight_core/flight_config.hpp"
+#include "uav_agent/maps/occupancy_map.hpp"
+#include "uav_agent/maps/world_map.hpp"
+
+namespace skein::agent {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kHead =
+    "from dataclasses import dataclass, field\nimport numpy as np\nfrom skein.planner import *\n";
+
+class PythonPlannerTest : public testing::Test {
+ protected:
+  PythonPlannerTest() : folder_(fs::path(testing::TempDir()) / ("python_planner_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+    ::setenv("SKEIN_BIN_DIR", build_path("bin").c_str(), 1);
+    for (const char* name : {"jurong", "raffles", "sentosa"}) agent_.fleet.push_back({.name = name});
+  }
+  ~PythonPlannerTest() override { fs::remove_all(folder_); }
+
+  /// @param code  behind the imports. @returns the spec of a file that has it.
+  std::string file(const std::string& code, const std::string& name = "mine.py") const {
+    std::ofstream(folder_ / name) << kHead << code;
+    return "py:" + (folder_ / name).string();
+  }
+  std::unique_ptr<Planner> make(const std::string& spec, std::uint64_t seed = 1, std::size_t self = 0) {
+    agent_.self = UavIndex(self);
+    return make_python_planner(spec, agent_, {.seed = seed, .radio_topics = {"/plan", "/talk"}});
+  }
+  /// A planner whose plan() has this body.
+  std::unique_ptr<Planner> planning(const std::string& body, const std::string& more = "") {
+    return make(file("class Mine(Planner):\n" + more + "    def plan(self, inputs):\n        " + body + "\n"));
+  }
+  PlannerOutput ask(Planner& planner, std::uint64_t k = 7) {
+    const Peers peers(agent_);
+    PlannerInput in{.k = k,
+                    .tick = static_cast<Tick>(20 * k),
+                    .state = {.p_WB = {1.0, 2.0, 3.0}, .v_WB = {0.5, 0.25, 0.125}},
+                    .gimbal = {},
+                    .tracking = {},
+                    .map = map_,
+                    .boxes = boxes_,
+                    .peers = peers,
+                    .mission_remaining_s = 12.5,
+                    .detected = detected_,
+                    .radio = {},
+                    .scans = scans_,
+                    .world_map = &world_};
+    return planner.plan(in);
+  }
+  std::string refusal(Planner& planner, std::uint64_t k = 7) {
+    try {
+      ask(planner, k);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return {};
+  }
+  std::string input_error(const std::string& spec) {
+    try {
+      make(spec);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  const fs::path folder_;
+  AgentConfig agent_;
+  OccupancyMap map_;
+  WorldMap world_{WorldMap::Config{}};
+  std::vector<OrientedBox> boxes_ = {{"box", {1, 2, 3}, {4, 5, 6}, Matrix3d::Identity()}};
+  std::vector<Scan> scans_ = {{20, {{1, 2, 3}, {4, 5, 6}}}};
+  std::vector<DetectedPoint> detected_ = {{{1, 2, 3}, 0.5, 9}, {{4, 5, 6}, 0.25, 8}};
+};
+
+void expect_has(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " is not in: " << text;
+}
+
+TEST_F(PythonPlannerTest, InputsArriveAsTheyAre) {
+  const auto planner = planning(
+      "assert (inputs.k, inputs.tick, inputs.time_s) == (7, 140, 0.35)\n"
+      "        assert inputs.state.p_WB.tolist() == [1, 2, 3] and inputs.state.v_WB.tolist() == [0.5, 0.25, 0.125]\n"
+      "        assert inputs.state.q_WB.tolist() == [1, 0, 0, 0] and inputs.state.R_WB.tolist() == np.eye(3).tolist()\n"
+      "        assert inputs.boxes[0].name == 'box' and inputs.boxes[0].contains([1, 2, 5.9])\n"
+      "        assert [peer.name for peer in inputs.peers] == ['raffles', 'sentosa'] and inputs.peers[0].seen is None\n"
+      "        assert inputs.mission_remaining_s == 12.5 and inputs.space is None\n"
+      "        assert inputs.scans[0].points_W.dtype == np.float32\n"
+      "        assert inputs.scans[0].points_W.tolist() == [[1, 2, 3], [4, 5, 6]]\n"
+      "        assert inputs.detected['p_W'].tolist() == [[1, 2, 3], [4, 5, 6]]\n"
+      "        assert inputs.detected['order'].tolist() == [9, 8] and inputs.detected['score'][1] == 0.25\n"
+      "        assert self.agent.name == 'jurong' and self.agent.me().role == 'explorer'\n"
+      "        assert inputs.radio == () and inputs.flight.goal is None and inputs.tracking.done");
+  EXPECT_EQ(refusal(*planner), "");
+}
+
+TEST_F(PythonPlannerTest, MapsAreAskedOneByOneAndAllAtOnce) {
+  map_.insert({{5.1F, 5.1F, 5.1F}, {9.1F, 5.1F, 5.1F}}, std::nullopt);
+  world_.set_free({0.25, 0.25, 0.25}, 0.1);
+  const auto planner = planning(
+      "m, w, p = inputs.map, inputs.world_map, np.array([[5.1, 5.1, 5.1], [0, 0, 0], [9.1, 5.1, 5.1]])\n"
+      "        assert m.occupied(p).tolist() == [True, False, True] and m.occupied(p[0]) is True\n"
+      "        assert m.occupied_cells == 2 and not m.segment_clear(p[0], p[2], 0.5)\n"
+      "        assert np.isinf(m.distance_to_occupied([0, 0, 0], 2.0)) and m.cast(p[1], [0, 0, -3], 10, 1) is None\n"
+      "        assert len(m.occupied_in(OrientedBox('', p[0], np.ones(3), np.eye(3)))) == 1\n"
+      "        assert w.at([0.25, 0.25, 0.25]) == Space.free and w.at(p).tolist() == [0, 1, 0]\n"
+      "        assert w.window([0, 0, 0], [2, 3, 4]).shape == (2, 3, 4) and w.window([0, 0, 0], (1, 1, 1))[0, 0, 0] == "
+      "1\n"
+      "        assert w.regions().tolist() == [[0, 0, 0]] and not w.ball_free([0, 0, 0], 1.0, 0.0)");
+  EXPECT_EQ(refusal(*planner), "");
+  // Whatever is asked of them, the answer is an exception.
+  for (const char* question : {"m.occupied([1, 2])",
+                               "m.occupied('abc')",
+                               "m.occupied([1, 2, float('nan')])",
+                               "m.occupied([1e9, 0, 0])",
+                               "m.occupied(np.zeros((2, 2)))",
+                               "m.occupied(np.zeros(3, complex))",
+                               "m.known_free([0, 0, 0], 0)",
+                               "m.distance_to_occupied([0, 0, 0], 1e9)",
+                               "m.cast([0, 0, 0], [0, 0, 0], 5, 1)",
+                               "m.cast([0, 0, 0], [1, 0, 0], float('nan'), 1)",
+                               "m.segment_clear([0, 0, 0], [99999, 99999, 0], 1)",
+                               "w.window([0, 0, 0], [0, 1, 1])",
+                               "w.window([0, 0, 0], [10**9, 10**9, 10**9])",
+                               "w.window([0, 0, 0], [1, 1])",
+                               "w.at(None)",
+                               "w.tube_free([0, 0, 0], [1, 0, 0], -1)",
+                               "w.ball_free([0, 0, 0], 1, float('inf'))",
+                               "m.occupied_in(3)",
+                               "m.occupied_in(OrientedBox('', [1, 2], np.ones(3), np.eye(3)))",
+                               "m.nothing",
+                               "inputs.nothing"}) {
+    const auto wrong = planning(std::string("m, w = inputs.map, inputs.world_map; ") + question);
+    expect_has(refusal(*wrong), {"Traceback", question, "jurong's planner", "at step 7 (0.35 s)"});
+  }
+}
+
+TEST_F(PythonPlannerTest, OutputsArriveAsTheyAre) {
+  const auto planner = planning(
+      "return PlannerOutput(motion=Path([Waypoint((1, 2, 3), 2), Waypoint(np.array([4, 5, 6]))]), yaw=0.5,\n"
+      "            gimbal=[7, 8, 9], trigger=True, radio=[RadioMessage('/talk', 'h\\u00e4llo\\udcff')],\n"
+      "            heard_maps=[b'\\0x'], going_to_W=(1, 1, 1), no_way='none', waits_for='sentosa', debug={'a': 1})",
+      "    def debug_names(self): return ['a']\n");
+  EXPECT_EQ(planner->debug_names(), std::vector<std::string>{"a"});
+  const PlannerOutput out = ask(*planner);
+  const auto& path = std::get<Path>(out.motion);
+  ASSERT_EQ(path.waypoints.size(), 2U);
+  EXPECT_EQ(path.waypoints[0].p_WB, Vector3d(1, 2, 3));
+  EXPECT_EQ(path.waypoints[0].speed_mps, 2.0);
+  EXPECT_EQ(path.waypoints[1].speed_mps, 1.0);
+  EXPECT_EQ(std::get<Vector3d>(out.gimbal), Vector3d(7, 8, 9));
+  EXPECT_TRUE(out.trigger);
+  EXPECT_EQ(out.radio.at(0).text, "h\xc3\xa4llo\xff");
+  EXPECT_EQ(out.heard_maps.at(0), std::string("\0x", 2));
+  EXPECT_EQ(out.going_to_W, Vector3d(1, 1, 1));
+  EXPECT_EQ(out.no_way, "none");
+  EXPECT_EQ(out.waits_for, 2U);
+  EXPECT_EQ(out.debug.at(0).value, 1.0);
+  EXPECT_TRUE(std::holds_alternative<Hold>(ask(*planning("return PlannerOutput(motion=Hold())")).motion));
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(ask(*planning("return None")).motion));
+  const auto command = ask(*planning("return PlannerOutput(TrajectoryCommand(v_WB=(1, 0, 0), yaw_rate=2))"));
+  EXPECT_EQ(std::get<TrajectoryCommand>(command.motion).v_WB, Vector3d(1, 0, 0));
+}
+
+TEST_F(PythonPlannerTest, GoalsNeedTheFlightCore) {
+  const std::string goal =
+      "return PlannerOutput(goals=[Goal(3, [Waypoint([1, 2, 3])], yaw=1, gimbal=GimbalCommand('rate', 1, 2))])";
+  const auto planner = planning(goal, "    def flight(self): return FlightConfig(climb_mps=2.5)\n");
+  ASSERT_NE(planner->flight(), nullptr);
+  EXPECT_EQ(planner->flight()->climb_mps, 2.5);
+  const PlannerOutput out = ask(*planner);
+  EXPECT_EQ(out.goals.value().at(0).id, 3);
+  EXPECT_EQ(std::get<GimbalCommand>(out.goals->at(0).gimbal).mode, GimbalMode::rate);
+  expect_has(refusal(*planning(goal)), {"goals", "flight()"});
+}
+
+/// All fields with all kinds of wrong values: each is refused by its field's name, or is a right one; and the planner
+/// can be asked again, so nothing was left in pieces.
+TEST_F(PythonPlannerTest, WrongOutputsAreRefusedByName) {
+  const std::string bad =
+      "class Odd:\n"
+      "    def __float__(self): raise ValueError('odd')\n"
+      "    def __repr__(self): raise ValueError('odd')\n"
+      "    def __index__(self): return 2 ** 80\n"
+      "n = float('nan')\n"
+      "VALUES = [n, float('inf'), -float('inf'), 'text', b'bytes', 2 ** 80, -1, 3.5, [], [1, 2], [1, 2, 3, 4],\n"
+      "    [n, 0, 0], [0, 0, float('inf')], ['a', 'b', 'c'], np.zeros((2, 3)), np.full(3, n), np.zeros(3, complex),\n"
+      "    np.array(['a', 'b', 'c']), np.zeros(0), object(), Odd(), [Odd()] * 3, {}, {'b': 1}, {'a': n}, {1: 1}, "
+      "[None],\n"
+      "    [[]], (3,), True, 'nobody', 'jurong', 99, Path([]), Path(None), Path([1]), Path([Waypoint([0, 0, n])]),\n"
+      "    Path([Waypoint([0, 0, 1], 0)]), Path([Waypoint([0, 0, 1], 'fast')]), Path, Setpoint([1, 2]),\n"
+      "    Setpoint([1, 2, 3], n), Setpoint([1, 2, 3], a_WB='up'), TrajectoryCommand(yaw=n), GimbalCommand('spin'),\n"
+      "    GimbalCommand('rate', n), [Goal(1, [])], [Goal('a', [Waypoint([0, 0, 1])])], [RadioMessage('/nobody', "
+      "'x')],\n"
+      "    [RadioMessage('/plan', 'a\\0b')], [RadioMessage('/plan', 3)], [RadioMessage(3, 'x')], ['x'], lambda: 1]\n"
+      "FIELDS = ['motion', 'yaw', 'gimbal', 'trigger', 'radio', 'goals', 'heard_maps', 'going_to_W', 'no_way',\n"
+      "    'waits_for', 'debug']\n"
+      "OUTPUTS = [lambda f=f, v=v: PlannerOutput(**{f: v}) for f in FIELDS for v in VALUES]\n"
+      "OUTPUTS += [lambda v=v: v for v in VALUES]\n";
+  const auto all = make(file(bad + "class Mine(Planner):\n"
+                                   "    def debug_names(self): return ['a']\n"
+                                   "    def plan(self, inputs):\n"
+                                   "        return OUTPUTS[inputs.k]()\n"));
+  const std::vector<std::string> fields = {"motion",     "yaw",        "gimbal", "trigger",   "radio", "goals",
+                                           "heard_maps", "going_to_W", "no_way", "waits_for", "debug", "plan()"};
+  constexpr std::size_t kValues = 54, kAlways = 3;  // no number that is not finite is right anywhere
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < fields.size() * kValues; ++i) {
+    const std::string text = refusal(*all, i);
+    const bool is_right = text.empty();
+    EXPECT_FALSE(is_right && i % kValues < kAlways) << fields[i / kValues] << ", value " << i % kValues;
+    if (is_right) continue;
+    ++refused;
+    EXPECT_EQ(text.find("jurong's planner"), 0U) << text;
+    expect_has(text, {"was refused: " + fields[i / kValues], "at step " + std::to_string(i) + " ("});
+  }
+  EXPECT_GT(refused, 12 * kValues - 40) << "few values are right somewhere";
+  EXPECT_LT(refused, 12 * kValues);
+  EXPECT_NE(refusal(*all, fields.size() * kValues), "") << "there is no such output: all values were asked for";
+}
+
+TEST_F(PythonPlannerTest, AnExceptionNamesUavAndStepBelowItsTraceback) {
+  const auto planner =
+      planning("return self.deep(inputs)",
+               "    def deep(self, inputs):\n        raise RuntimeError('too deep at %d' % inputs.k)\n");
+  const std::string text = refusal(*planner, 120);
+  expect_has(text, {"Traceback", "mine.py", "in deep", "RuntimeError: too deep at 120"});
+  EXPECT_TRUE(text.ends_with("mine.py failed, at step 120 (6.00 s)")) << text;
+  EXPECT_EQ(text.find("_embedded"), std::string::npos) << "our own frames";
+  expect_has(refusal(*planning("import sys; sys.exit(3)")), {"SystemExit: 3"});
+  expect_has(refusal(*planning("import os; os.fork()")), {"fork"});
+  expect_has(refusal(*planning("breakpoint()")), {"--debug UAV=pdb"});
+  expect_has(refusal(*planning("return self.plan(inputs)")), {"RecursionError"});
+}
+
+TEST_F(PythonPlannerTest, WhatIsGoneSaysSo) {
+  const std::string keep = "        self.kept = inputs\n        return PlannerOutput()\n";
+  const auto late =
+      make(file("class Mine(Planner):\n    kept = None\n    def plan(self, inputs):\n"
+                "        if self.kept is not None:\n            return self.kept.gimbal\n" +
+                keep));
+  EXPECT_EQ(refusal(*late), "");
+  expect_has(refusal(*late), {"GoneError", "inputs.gimbal: plan() has returned"});
+  const auto map =
+      make(file("class Mine(Planner):\n    kept = None\n    def plan(self, inputs):\n"
+                "        if self.kept is not None:\n            self.kept.occupied([0, 0, 0])\n"
+                "        self.kept = inputs.map\n"));
+  EXPECT_EQ(refusal(*map), "");
+  expect_has(refusal(*map), {"GoneError", "inputs.map"});
+}
+
+TEST_F(PythonPlannerTest, ViewsOfCloudsAreReadOnlyAndMayNotBeKept) {
+  for (const char* kept : {"inputs.scans[0].points_W", "inputs.scans[0].points_W[:1]", "inputs.scans",
+                           "memoryview(inputs.scans[0].points_W)", "inputs.scans[0].points_W.T"}) {
+    expect_has(refusal(*planning(std::string("self.kept = ") + kept)), {"inputs.scans[0].points_W was kept"});
+  }
+  expect_has(refusal(*planning("self.kept = inputs.detected['score']")), {"inputs.detected was kept"});
+  for (const char* fine : {"self.kept = inputs.scans[0].points_W.copy()", "self.kept = inputs.scans[0].points_W + 1",
+                           "self.kept = inputs.state.p_WB", "ring = [inputs.scans]; ring.append(ring)"}) {
+    EXPECT_EQ(refusal(*planning(fine)), "") << fine;
+  }
+  expect_has(refusal(*planning("inputs.scans[0].points_W[0] = 0")), {"read-only"});
+  expect_has(refusal(*planning("inputs.scans[0].points_W.flags.writeable = True")), {"WRITEABLE"});
+}
+
+TEST_F(PythonPlannerTest, ParametersAreReadAsThoseOfAnyPlanner) {
+  const std::string spec = file(
+      "class Mine(Planner):\n    @dataclass\n    class Config:\n        a: float = parameter(1.0, at_least=0, "
+      "at_most=9)\n"
+      "        n: int = 2\n        s: str = 'x'\n        b: bool = False\n        l: list[float] = "
+      "field(default_factory=list)\n"
+      "        o: float | None = None\n        flight: FlightConfig = field(default_factory=FlightConfig)\n"
+      "    def plan(self, inputs):\n        c = self.config\n"
+      "        raise RuntimeError(f'{c.a} {c.n} {c.s} {c.b} {c.l} {c.o} {c.flight.climb_mps} {c.flight.floor_m}')\n");
+  expect_has(refusal(*make(spec)), {"1.0 2 x False [] None 3.0 2.0"});
+  expect_has(refusal(*make(spec + ":a=4,n=5,s=y,b=true,o=7,climb_mps=2")), {"4.0 5 y True [] 7.0 2.0 2.0"});
+  std::ofstream(folder_ / "p.yaml") << "a: 3\nl: [1, 2]\n";
+  expect_has(refusal(*make(spec + ":" + (folder_ / "p.yaml").string())), {"3.0 2 x False [1.0, 2.0] None"});
+  expect_has(input_error(spec + ":a=10"), {"a", "within [0, 9]"});
+  expect_has(input_error(spec + ":n=1.5"), {"n"});
+  expect_has(input_error(spec + ":climb_mp=1"), {"climb_mp", "climb_mps"});
+  expect_has(input_error(spec + ":climb_mps=99"), {"climb_mps", "within [0.2, 10]"});
+}
+
+TEST_F(PythonPlannerTest, WhatCannotBeLoadedIsBadInput) {
+  const auto error = [&](const std::string& code, const std::string& more = "") {
+    return input_error(file(code) + more);
+  };
+  const std::string good = "class Mine(Planner):\n    def plan(self, inputs): return None\n";
+  EXPECT_EQ(error(good), "");
+  expect_has(input_error("py:/nobody/there.py"), {"/nobody/there.py", "No such file"});
+  expect_has(error("def plan(:\n"), {"SyntaxError", "mine.py", "line 4"});
+  expect_has(error("import nothing_of_that_name\n"), {"ModuleNotFoundError", "nothing_of_that_name"});
+  expect_has(error(""), {"there is no planner in it"});
+  expect_has(error(good + "class Other(Mine): pass\n"), {"which of its planners", "Mine, Other"});
+  expect_has(error(good, ":Min"), {"did you mean 'Mine'"});
+  expect_has(error(good, ":np"), {"np is no planner"});
+  expect_has(error("class Mine(Planner):\n    Config = 3\n"), {"must be a dataclass"});
+  expect_has(error("class Mine(Planner):\n    @dataclass\n    class Config:\n        a: dict = None\n"), {"Config.a"});
+  expect_has(error("class Mine(Planner):\n    @dataclass\n    class Config:\n        a: int\n"), {"'a'", "required"});
+  expect_has(error("class Mine(Planner):\n    def __init__(self): raise OSError('no')\n"), {"OSError: no", "mine.py"});
+  expect_has(error("class Mine(Planner):\n    def __init__(self, a, b, c): pass\n"), {"takes 3"});
+  expect_has(error(good + "    def wants_scans(self): return 'yes'\n"), {"wants_scans", "True or False"});
+  expect_has(error(good + "    def flight(self): return 3\n"), {"flight()", "FlightConfig"});
+  expect_has(error(good + "    def flight(self): return FlightConfig(floor_m=0)\n"), {"flight().floor_m", "within"});
+  expect_has(error(good + "    def debug_names(self): return 'abc'\n"), {"debug_names()"});
+}
+
+/// Two UAVs of one process, in turn, and each alone: the same numbers.
+TEST_F(PythonPlannerTest, GeneratorsAndModulesAreEachUavsOwn) {
+  std::ofstream(folder_ / "shared.py") << "count = 0\n";
+  const std::string spec = file(
+      "import random, shared\nclass Mine(Planner):\n    def plan(self, inputs):\n        import shared as again\n"
+      "        assert again is shared\n        shared.count += 1\n"
+      "        drawn = random.random(), random.gauss(0, 1), np.random.rand(), np.random.normal()\n"
+      "        return PlannerOutput(no_way=' '.join(map(str, drawn)), yaw=float(shared.count))\n");
+  const auto said = [&](Planner& planner) {
+    const PlannerOutput out = ask(planner);
+    return out.no_way + ", call " + std::to_string(out.yaw.value());
+  };
+  std::vector<std::vector<std::string>> alone(2), together(2);
+  for (std::size_t uav : {0, 1}) {
+    const auto planner = make(spec, 5, uav);
+    for (int i = 0; i < 5; ++i) alone[uav].push_back(said(*planner));
+  }
+  const auto first = make(spec, 5, 0), second = make(spec, 5, 1);
+  for (int i = 0; i < 5; ++i) {
+    together[0].push_back(said(*first));
+    together[1].push_back(said(*second));
+  }
+  EXPECT_EQ(together, alone);
+  EXPECT_NE(alone[0], alone[1]);
+  EXPECT_NE(said(*make(spec, 6, 0)), alone[0][0]) << "of another seed";
+  EXPECT_EQ(said(*make(spec, 5, 0)), alone[0][0]) << "one that is started again begins anew";
+}
+
+TEST_F(PythonPlannerTest, TheFlightConfigOfPythonIsThatOfCpp) {
+  const auto planner = planning("return None", "    def flight(self): return FlightConfig()\n");
+  struct Values {
+    std::vector<double> all;
+    void field(const char*, double& value, const Bounds&) { all.push_back(value); }
+  } ours, theirs;
+  FlightConfig usual;
+  usual.describe(ours);
+  FlightConfig given = *planner->flight();
+  given.describe(theirs);
+  EXPECT_EQ(theirs.all, ours.all);
+  expect_has(refusal(*planning("import dataclasses; raise RuntimeError(len(dataclasses.fields(FlightConfig)))")),
+             {"RuntimeError: " + std::to_string(ours.all.size())});
+}
+
+}  // namespace
+}  // namespace skein::agent
