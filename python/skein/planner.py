@@ -281,7 +281,7 @@ class PlannerInput:
     mission_remaining_s: float | None  #: None before the first take-off
     station_linked: bool               #: direct link at this step
     undelivered_captures: int
-    detected: npt.NDArray[np.void]  #: in this step's pictures, a view: `p_W` (3 float32), `score`, `order`
+    detected: npt.NDArray[np.void]  #: in this step's pictures, a view: `p_W`, `n_W` (3 float32), `score`, `order`
     radio: tuple[RadioMessage, ...]
     key_frames: tuple[KeyFrame, ...]
     scans: tuple[Scan, ...]           #: only if `wants_scans()`

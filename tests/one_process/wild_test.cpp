@@ -18,10 +18,10 @@ TEST_F(Wild, AllPlannersFlyInTenWorlds) {
   for (std::size_t seed = 100; seed < 110; ++seed) {
     if (has_turn(seed, sanitizer().empty() ? 3 : 4)) worlds.push_back(std::to_string(seed));
   }
-  const std::vector<std::string> planners = {"kios", "patrol", "star", "xxh"};
-  ChildProcess& study = skein({"compare", "--planners", "kios,patrol,star,xxh", "--scenarios", "wild", "--scene-seeds",
-                               skein::joined(worlds, ","), "--seeds", "0", "--duration", "60", "--require",
-                               "collisions==0", "--out", folder() / "study"});
+  const std::vector<std::string> planners = {"flock", "kios", "patrol", "star", "xxh"};
+  ChildProcess& study = skein({"compare", "--planners", "flock,kios,patrol,star,xxh", "--scenarios", "wild",
+                               "--scene-seeds", skein::joined(worlds, ","), "--seeds", "0", "--duration", "60",
+                               "--require", "collisions==0", "--out", folder() / "study"});
   ASSERT_EQ(study.wait().code, 0) << study.err() << study.out();
   const auto flights = read_csv(folder() / "study" / "flights.csv");
   EXPECT_EQ(flights.size(), worlds.size() * planners.size());
@@ -38,12 +38,12 @@ TEST_F(Wild, AllPlannersFlyInTenWorlds) {
 /// thin braces, canopies, stations on roofs, UAVs that meet behind a corner (docs/decisions/0029-flight-core.md).
 TEST_F(Wild, WorldsOfFormerMistakesStaySafe) {
   if (!long_tests()) GTEST_SKIP() << "takes minutes: SKEIN_LONG=1";
-  ChildProcess& study = skein({"compare", "--planners", "kios,patrol,star,xxh", "--scenarios", "wild", "--scene-seeds",
-                               "3,5,18,32,43,48,54,60,77,82,102,119,125,140,143,151,152,166,169,181,188,189,201,203",
-                               "--seeds", "1", "--record=none", "--require", "collisions==0", "--require",
-                               "braking_hits==0", "--out", folder() / "study"});
+  ChildProcess& study = skein(
+      {"compare", "--planners", "flock,kios,patrol,star,xxh", "--scenarios", "wild", "--scene-seeds",
+       "3,5,18,32,43,48,54,60,77,82,102,119,125,140,143,151,152,166,169,181,188,189,201,203", "--seeds", "1",
+       "--record=none", "--require", "collisions==0", "--require", "braking_hits==0", "--out", folder() / "study"});
   ASSERT_EQ(study.wait().code, 0) << study.err() << study.out();
-  EXPECT_EQ(read_csv(folder() / "study" / "flights.csv").size(), 24U * 4U);
+  EXPECT_EQ(read_csv(folder() / "study" / "flights.csv").size(), 24U * 5U);
 }
 
 }  // namespace

@@ -78,8 +78,8 @@ class FlownMaps : public FleetTest {
   /// Of a scene that chance chooses.
   SkeinRun& flight(const std::string& name, Arguments more) {
     static constexpr const char* kScenes[] = {"towers", "hangar", "cranes", "spire", "sail"};
-    static constexpr const char* kPlanners[] = {"patrol", "kios", "xxh", "star"};
-    Arguments arguments = {kScenes[draw_() % 5],          "--planner",    kPlanners[draw_() % 4],       "--seed",
+    static constexpr const char* kPlanners[] = {"patrol", "kios", "xxh", "star", "flock"};
+    Arguments arguments = {kScenes[draw_() % 5],          "--planner",    kPlanners[draw_() % 5],       "--seed",
                            std::to_string(draw_() % 900), "--scene-seed", std::to_string(draw_() % 900)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(name, arguments);

@@ -19,7 +19,7 @@ class Rerun : public FleetTest {
   Arguments drawn_flight() {
     return {drawn({"towers", "hangar", "cranes", "spire", "sail"}),
             "--planner",
-            drawn({"patrol", "kios", "xxh", "star"}),
+            drawn({"patrol", "kios", "xxh", "star", "flock"}),
             "--seed",
             std::to_string(1 + draw_() % 500),
             "--scene-seed",

@@ -93,10 +93,11 @@ py::dtype record(const char* text, py::ssize_t size) {
 
 py::object detected_of(Call& call, const PlannerInput& in) {
   static_assert(offsetof(DetectedPoint, p_W) == 0 && offsetof(DetectedPoint, score) == 16 &&
-                offsetof(DetectedPoint, order) == 24);
-  static const py::dtype& kType = *new py::dtype(
-      record("{'names': ['p_W', 'score', 'order'], 'formats': [('<f4', 3), '<f8', '<u4'], 'offsets': [0, 16, 24]}",
-             sizeof(DetectedPoint)));
+                offsetof(DetectedPoint, order) == 24 && offsetof(DetectedPoint, n_W) == 28);
+  static const py::dtype& kType =
+      *new py::dtype(record("{'names': ['p_W', 'score', 'order', 'n_W'], 'formats': [('<f4', 3), '<f8', '<u4', "
+                            "('<f4', 3)], 'offsets': [0, 16, 24, 28]}",
+                            sizeof(DetectedPoint)));
   return call.view("inputs.detected", kType, {static_cast<py::ssize_t>(in.detected.size())}, {sizeof(DetectedPoint)},
                    in.detected.data());
 }

@@ -84,7 +84,7 @@ class PythonPlannerTest : public testing::Test {
   WorldMap world_{WorldMap::Config{}};
   std::vector<OrientedBox> boxes_ = {{"box", {1, 2, 3}, {4, 5, 6}, Matrix3d::Identity()}};
   std::vector<Scan> scans_ = {{20, {{1, 2, 3}, {4, 5, 6}}}};
-  std::vector<DetectedPoint> detected_ = {{{1, 2, 3}, 0.5, 9}, {{4, 5, 6}, 0.25, 8}};
+  std::vector<DetectedPoint> detected_ = {{{1, 2, 3}, 0.5, 9, {0, 0, 1}}, {{4, 5, 6}, 0.25, 8, {1, 0, 0}}};
 };
 
 void expect_has(const std::string& text, const std::vector<std::string>& parts) {
@@ -102,6 +102,7 @@ TEST_F(PythonPlannerTest, InputsArriveAsTheyAre) {
       "        assert inputs.scans[0].points_W.dtype == np.float32\n"
       "        assert inputs.scans[0].points_W.tolist() == [[1, 2, 3], [4, 5, 6]]\n"
       "        assert inputs.detected['p_W'].tolist() == [[1, 2, 3], [4, 5, 6]]\n"
+      "        assert inputs.detected['n_W'].tolist() == [[0, 0, 1], [1, 0, 0]]\n"
       "        assert inputs.detected['order'].tolist() == [9, 8] and inputs.detected['score'][1] == 0.25\n"
       "        assert self.agent.name == 'jurong' and self.agent.me().role == 'explorer'\n"
       "        assert inputs.radio == () and inputs.flight.goal is None and inputs.tracking.done");
