@@ -169,7 +169,8 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .expect_gcs_program = ground_program_,
                                     .watch = watch_options(watch_speed_, clock_, watch_losses_),
                                     .by_hand = indices_of(by_hand_, *scenario),
-                                    .faults = load_fault_plan(options.faults, *scenario, options.seed)};
+                                    .faults = load_fault_plan(options.faults, *scenario, options.seed),
+                                    .gate = gate_};
   Scene scene = load_scene(*scenario);
   if (!options.check_only) refuse_used_folder(options);
   auto bus = bus::make_bus(options, *scenario);

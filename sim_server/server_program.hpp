@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,11 +12,14 @@
 #include "process/run_folder.hpp"
 #include "recording/replay.hpp"
 #include "sim_server/server_tasks.hpp"
+#include "sim_server/step_gate.hpp"
 
 namespace skein::sim {
 
 class ServerProgram final : public bus::FleetProgram {
  public:
+  /// @param gate  of whoever steps the fleet in this process; nullptr: it flies by itself.
+  explicit ServerProgram(std::shared_ptr<StepGate> gate = nullptr) : gate_(std::move(gate)) {}
   const char* name() const override { return programs::kSimServer; }
   void add_options(CLI::App& app) override;
   std::variant<int, std::unique_ptr<bus::FleetMember>> prepare(const ProgramOptions& options,
@@ -33,6 +37,7 @@ class ServerProgram final : public bus::FleetProgram {
   std::vector<std::string> by_hand_;
   recording::ReplayOptions replay_;
   ServerTasks tasks_;
+  const std::shared_ptr<StepGate> gate_;
 };
 
 }  // namespace skein::sim
