@@ -24,6 +24,7 @@
 #include "process/crash_notes.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
+#include "sim_server/server_program.hpp"
 
 namespace skein::one_process {
 namespace {
@@ -81,6 +82,7 @@ SessionPlan read_session_plan(const std::filesystem::path& file) {
 
 Session::Session(SessionPlan plan, int socket, double patience_s)
     : plan_(std::move(plan)), socket_(socket), guard_(patience_s) {
+  ::prctl(PR_SET_PDEATHSIG, 0);        // of the thread that started the launcher, which may end before the fleet does
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // of copies whose own parent has gone
   std::signal(SIGCHLD, SIG_IGN);       // nobody waits for them
   std::signal(SIGPIPE, SIG_IGN);
@@ -91,7 +93,20 @@ Session::Session(SessionPlan plan, int socket, double patience_s)
 
 Session::~Session() = default;
 
+/// So that copies need not.
+void Session::load_scene() {
+  const auto server = std::ranges::find(plan_.programs, programs::kSimServer, &shared_lines::Start::program);
+  if (server == plan_.programs.end()) throw std::runtime_error("there is no sim_server in the plan");
+  std::vector<const char*> argv;
+  for (const std::string& word : server->argv) argv.push_back(word.c_str());
+  sim::ServerProgram program;
+  const auto options = parse_program(programs::kSimServer, static_cast<int>(argv.size()), argv.data(),
+                                     [&](CLI::App& app) { program.add_options(app); });
+  if (const auto* parsed = std::get_if<ProgramOptions>(&options)) shelf_->put(sim::ServerProgram::load_ahead(*parsed));
+}
+
 int Session::serve() {
+  load_scene();
   hello();
   while (const auto message = socket_.receive()) {
     try {
@@ -160,7 +175,7 @@ bool Session::copy(const SessionMessage& message) {
 }
 
 void Session::begin(std::uint64_t seed) {
-  fleet_ = std::make_unique<SteppedFleet>(plan_.programs, plan_.uavs, seed);
+  fleet_ = std::make_unique<SteppedFleet>(plan_.programs, plan_.uavs, seed, shelf_);
   guard_.look_after(fleet_.get());
   const std::size_t bytes = fleet_->layout().bytes();
   if (::ftruncate(block_fd_, static_cast<off_t>(bytes)) != 0) throw_errno("ftruncate");

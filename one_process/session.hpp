@@ -47,6 +47,7 @@ class Session {
   void answer(const SessionMessage& message);
   /// In the parent true; in the copy false, and its descriptors are those of the message.
   bool copy(const SessionMessage& message);
+  void load_scene();
   void begin(std::uint64_t seed);
   void hello();
   void fail(const FleetFailed& failed);
@@ -55,6 +56,7 @@ class Session {
   const SessionPlan plan_;
   SessionSocket socket_;
   SessionGuard guard_;
+  const std::shared_ptr<sim::SceneShelf> shelf_ = std::make_shared<sim::SceneShelf>();
   std::unique_ptr<SteppedFleet> fleet_;
   std::byte* block_ = nullptr;  ///< of `fleet_`
   int block_fd_ = -1;           ///< between copy() and begin()

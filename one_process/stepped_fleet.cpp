@@ -67,12 +67,11 @@ class SteppedFleet::Desk final : public agent::LearnerDesk, public sim::StepGate
 };
 
 SteppedFleet::SteppedFleet(const std::vector<shared_lines::Start>& starts, const std::vector<std::string>& uavs,
-                           std::uint64_t seed)
+                           std::uint64_t seed, std::shared_ptr<sim::SceneShelf> shelf)
     : score_(std::make_shared<station::ScoreView>()),
       desk_(std::make_shared<Desk>(score_, uavs)),
-      crew_(pipe_, [programs = FleetPrograms{.desk = desk_, .gate = desk_, .score = score_}](const std::string& name) {
-        return programs.make(name);
-      }) {
+      crew_(pipe_, [programs = FleetPrograms{.desk = desk_, .gate = desk_, .score = score_, .shelf = std::move(shelf)}](
+                       const std::string& name) { return programs.make(name); }) {
   for (const shared_lines::Start& start : with_seed(starts, seed)) crew_.obey(start);
   if (const auto& failed = crew_.failure()) {
     throw FleetFailed{failed->program, failed->code, failed->signal, "it did not start"};

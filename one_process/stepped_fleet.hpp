@@ -18,6 +18,7 @@
 #include "one_process/crew.hpp"
 #include "process/shared_lines.hpp"
 #include "process/status_pipe.hpp"
+#include "sim_server/scene_shelf.hpp"
 #include "sim_server/step_gate.hpp"
 #include "station/score_view.hpp"
 #include "uav_agent/api/learner.hpp"
@@ -34,9 +35,9 @@ struct FleetFailed {
 class SteppedFleet {
  public:
   /// @param starts  of its programs, as the launcher has them. @param uavs  names in fleet order. @param seed  instead of
-  /// what those say. @throws FleetFailed
-  SteppedFleet(const std::vector<shared_lines::Start>& starts, const std::vector<std::string>& uavs,
-               std::uint64_t seed);
+  /// what those say. @param shelf  with their scene. @throws FleetFailed
+  SteppedFleet(const std::vector<shared_lines::Start>& starts, const std::vector<std::string>& uavs, std::uint64_t seed,
+               std::shared_ptr<sim::SceneShelf> shelf);
   ~SteppedFleet();
   SteppedFleet(const SteppedFleet&) = delete;
   SteppedFleet& operator=(const SteppedFleet&) = delete;

@@ -63,11 +63,7 @@ void Truth::write(std::byte* block) const {
   step_.in(block)[0] = static_cast<std::int64_t>(simulation_->step());
   time_s_.in(block)[0] = seconds(simulation_->tick());
   mission_.in(block)[0] = static_cast<std::int8_t>(simulation_->mission().phase());
-  if (const station::Scoreboard* board = score_->board) {
-    score_now_.in(block)[0] = board->delivered().score();
-    earned_.in(block)[0] = board->earned().score();
-    points_.in(block)[0] = static_cast<std::int64_t>(board->delivered().points_detected());
-  }
+  write_score(block);
   for (const UavIndex i : FirstUavs(uavs_.size())) {
     const sim::UavView& uav = simulation_->uav(i);
     const Quaterniond& q = uav.state.q_WB;
@@ -81,6 +77,18 @@ void Truth::write(std::byte* block) const {
     airborne_.in(block)[i] = uav.airborne ? 1 : 0;
     captures_.in(block)[i] = static_cast<std::int64_t>(uav.captures);
     distance_m_.in(block)[i] = uav.distance_m;
+  }
+}
+
+/// What is earned is added up only when a capture came to it.
+void Truth::write_score(std::byte* block) const {
+  const station::Scoreboard* board = score_->board;
+  if (board == nullptr) return;
+  const station::TimelinePoint& now = board->timeline().back();
+  score_now_.in(block)[0] = now.score;
+  points_.in(block)[0] = static_cast<std::int64_t>(now.points);
+  if (std::exchange(standing_, board->standing()) != board->standing()) {
+    earned_.in(block)[0] = board->earned().score();
   }
 }
 

@@ -35,10 +35,13 @@ class Truth {
   nlohmann::json scene() const;
 
  private:
+  void write_score(std::byte* block) const;
+
   const std::shared_ptr<station::ScoreView> score_;
   const std::vector<std::string> uavs_;
   const sim::Simulation* simulation_ = nullptr;  ///< null: it has ended
   const sim::RunDigest* digest_ = nullptr;
+  mutable std::uint64_t standing_ = 0;  ///< entries of the ledger, when what is earned was written last
   nlohmann::json kept_result_, kept_scene_;
   nlohmann::json collisions_ = nlohmann::json::array();
   BlockArray<std::int64_t> step_, points_, captures_;

@@ -17,7 +17,7 @@ bool SimNode::end_run(bool joined) {
   summary_.malformed = inbox_.malformed();
   summary_.unsent = participants_.front()->unsent().count();
   summary_.faults = faults_.report();
-  summary_.work = work_.tracks();
+  if (work_) summary_.work = work_->tracks();
   summary_.differences = recording_.differences();
   summary_.status = end_status();
   // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.

@@ -53,8 +53,8 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       server_(inbox_, recording_.tap()),
       hand_(scenario, simulation_, options.by_hand, options.out),
       faults_(scenario, simulation_, server_, status, options_.replay, options.out),
-      work_(scenario, simulation_),
       progress_(scenario, status) {
+  if (!options.gate) work_.emplace(scenario, simulation_);
   participants_.push_back(bus.join(world_domain(options.base_domain)));
   for (const Node node : scenario.nodes()) {
     participants_.push_back(bus.join(node_domain(options.base_domain, node)));
@@ -348,7 +348,7 @@ void SimNode::finish_step() {
     for (const std::uint64_t capture : uavs_[i]->take_released()) {
       files_.events().add_release(simulation_, uav_names_[i], capture);
       faults_.signals().add_release(i);
-      work_.add_release(i, capture);
+      if (work_) work_->add_release(i, capture);
     }
     if (const auto activity = uavs_[i]->take_activity()) {
       const bool news = files_.activities().add(simulation_, i, *activity);
@@ -359,7 +359,7 @@ void SimNode::finish_step() {
       hand_.hear(i, name, value);
     }
   }
-  work_.end_step([this](const std::string& member) { return server_.is_member(member); });
+  if (work_) work_->end_step([this](const std::string& member) { return server_.is_member(member); });
   faults_.end_step();
   progress_.tell(simulation_, summary_.lost);
 }

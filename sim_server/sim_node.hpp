@@ -120,7 +120,7 @@ class SimNode final : public bus::LockstepNode {
   HandNode hand_;
   std::unique_ptr<WatchNode> watch_;  ///< none: nobody watches
   FaultNode faults_;
-  WorkLog work_;
+  std::optional<WorkLog> work_;  ///< for the report alone: none where nobody reads it
   ProgressTeller progress_;
   State state_ = State::joining;
   std::optional<WaitTeller> wait_;  ///< for whom this state waits

@@ -39,6 +39,8 @@ def _numbers(uav: str, name: str, value: Any, shape: tuple[int, ...]) -> Any:
         array = np.asarray(value, np.float64)
     except (TypeError, ValueError):
         raise InputError(f"{uav}: {name} must be numbers, not {value!r}") from None
+    if array.shape == shape and all(map(math.isfinite, array.flat)):
+        return array
     wanted = "(" + ", ".join("n" if size < 0 else str(size) for size in shape) + ("," if len(shape) == 1 else "") + ")"
     if len(array.shape) != len(shape) or any(want not in (-1, size) for want, size in zip(shape, array.shape)):
         raise InputError(f"{uav}: {name} must have the shape {wanted}, not {array.shape}")

@@ -305,7 +305,7 @@ class Fleet:
     def _take(self, worker: Worker) -> None:
         self._worker = worker
         self._flying = False
-        self._observations = {uav: Observations(uav, worker.views) for uav in self.possible_agents}
+        self._observations = {uav: Observations(uav, worker.fields, worker.block) for uav in self.possible_agents}
         self._orders = {uav: Orders(uav, self._actions, worker.views) for uav in self.possible_agents}
 
     def _check_open(self) -> None:

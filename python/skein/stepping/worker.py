@@ -22,6 +22,7 @@ import numpy as np
 
 from ..errors import Error, InputError, ProcessError
 from ..launch import Finished, find_launcher
+from .observations import Field
 
 _LONGEST_ANSWER = 1 << 20
 _MOST_LINES = 20
@@ -204,7 +205,7 @@ class Worker(_Process):
     """A fleet's process, and the block of memory that it shares."""
 
     def __init__(self, family: Family, original: _Process, order: dict[str, Any],
-                 fields: list[tuple[str, str, list[int], int]] | None = None) -> None:
+                 fields: list[Field] | None = None) -> None:
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         log = _memory_file("skein-fleet-log")
         super().__init__(ours, log)
@@ -214,7 +215,7 @@ class Worker(_Process):
             theirs.close()
             original.receive()
             told = self.hello()
-            self._block = mmap.mmap(block, int(told["bytes"]))
+            self.block = mmap.mmap(block, int(told["bytes"]))
         except BaseException:
             self.let_go()
             raise
@@ -222,13 +223,13 @@ class Worker(_Process):
             theirs.close()
             os.close(block)
         self._family = family
-        self._fields = fields or told["fields"]
-        self.views: dict[str, Any] = {name: np.ndarray(shape, kind, self._block, offset)
-                                      for name, kind, shape, offset in self._fields}
+        self.fields = fields or told["fields"]
+        self.views: dict[str, Any] = {name: np.ndarray(shape, kind, self.block, offset)
+                                      for name, kind, shape, offset in self.fields}
 
     def fork(self) -> Worker:
         """A copy of this process, fleet and all."""
-        return Worker(self._family, self, {"do": "fork"}, self._fields)
+        return Worker(self._family, self, {"do": "fork"}, self.fields)
 
     def begin_steps(self, count: int) -> None:
         self.send(f"s {count}")
