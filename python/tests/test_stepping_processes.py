@@ -111,7 +111,7 @@ def test_side_by_side_they_fly_as_alone() -> None:
 
 
 def test_a_vector_says_what_is_wrong_and_stays_usable() -> None:
-    with skein.vector_env(2, "towers", learners=["jurong"], duration=1, step_s=0.5) as fleets:
+    with skein.vector_env(2, "towers", learners=["jurong"], stop_at=1, step_s=0.5) as fleets:
         fleets.reset(seed=1)
         with pytest.raises(skein.InputError, match="2 fleets, and 1 actions"):
             fleets.step([{}])
@@ -145,11 +145,27 @@ def test_a_crash_is_an_exception_and_reset_begins_anew(number: signal.Signals) -
         fleet.step()
 
 
-def test_an_exception_of_a_planner_names_it(tmp_path: Path) -> None:
-    file = tmp_path / "paths.yaml"
-    file.write_text("paths:\n  jurong:\n    - {position: [0, 0, 5]}\n")
-    with pytest.raises(skein.InputError, match="waypoints"):
-        skein.Fleet("towers", planner=f"waypoints:{file}x")
+NAMED = ["throws", "throws_number", "segfaults", "aborts", "exits", "overflows", "hangs"]
+
+
+@pytest.mark.parametrize("how", [*NAMED, "stops", "closes", "exits_now", "becomes"])
+def test_whatever_a_planner_does_is_an_exception_that_names_it(how: str) -> None:
+    agent = Path(skein.find_launcher()).parents[1] / "tests" / "nasty_agent"
+    if not agent.exists():
+        pytest.skip(f"{agent} is not built")
+    with skein.Fleet("towers", planner=f"hover,raffles=nasty:how={how},at_s=0.5", learners=["jurong"], agent=agent,
+                     agent_timeout=1, no_check=True) as fleet:
+        fleet.reset()
+        fleet.step(step_s=0.3)
+        fleet.begin_step(step_s=1)
+        with pytest.raises(skein.ProcessError) as caught:
+            fleet.end_step()
+        if how in NAMED:
+            assert "uav_agent-raffles" in str(caught.value) and f"nasty {how}" in str(caught.value)
+        pid = pid_of(fleet)
+        fleet.reset()
+        fleet.step(step_s=0.3)
+    wait_for_end(pid)
 
 
 def test_nothing_is_left_behind() -> None:

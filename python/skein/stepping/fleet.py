@@ -288,7 +288,7 @@ class Fleet:
             options = {**self._options, "scene_seed": scene_seed}
             words = ["fleet", positional("scenario", self._scenario), f"--planner={self._planner}",
                      *option_arguments(options)]
-            self._families[scene_seed] = Family(words, self._launcher)
+            self._families[scene_seed] = Family(words, self._launcher, self._options.get("agent_timeout"))
         return self._families[scene_seed]
 
     def _start(self, seed: int) -> None:

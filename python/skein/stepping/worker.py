@@ -26,6 +26,7 @@ from .observations import Field
 
 _LONGEST_ANSWER = 1 << 20
 _MOST_LINES = 20
+_LOOK_S = 1.0  # how often a process that does not answer is looked at
 _PATIENCE_S = 30.0  # for a process that was told to end
 
 _all: weakref.WeakSet[_Process] = weakref.WeakSet()
@@ -57,6 +58,8 @@ class _Process:
         self._log = log
         self._owner = os.getpid()
         self.pid = 0
+        self.patience_s = 60.0  # for a turn, as the launcher has it
+        ours.settimeout(_LOOK_S)
         _all.add(self)
 
     @property
@@ -101,7 +104,7 @@ class _Process:
         """The answer. Whoever does not wait for it to its end (Ctrl-C) has no fleet any more."""
         ours = self._open()
         try:
-            answer = ours.recv(_LONGEST_ANSWER)
+            answer = self._wait_for(ours)
         except OSError:
             answer = b""
         except BaseException:
@@ -112,6 +115,23 @@ class _Process:
             if not answer or "failed" in told or "fatal" in told:
                 raise self._failure(told)
         return answer
+
+    def _wait_for(self, ours: socket.socket) -> bytes:
+        stopped_s = 0.0
+        while True:
+            try:
+                return ours.recv(_LONGEST_ANSWER)
+            except TimeoutError:
+                stopped_s = stopped_s + _LOOK_S if self._is_stopped() else 0.0
+                if stopped_s > 1.5 * self.patience_s > 0.0:  # it looks after itself unless it stands still
+                    raise self._failure({"failed": "is stopped (SIGSTOP), and does not go on"}) from None
+
+    def _is_stopped(self) -> bool:
+        try:
+            with open(f"/proc/{self.pid}/stat", encoding="utf-8") as file:
+                return file.read().rpartition(")")[2].split()[0] == "T"
+        except OSError:
+            return False
 
     def _last_words(self) -> dict[str, Any]:
         with contextlib.suppress(OSError, ValueError):
@@ -131,6 +151,9 @@ class _Process:
         else:
             how = str(told.get("failed", "ended without a word (killed, or out of memory?)"))
         said = self.said()
+        if self._is_stopped():
+            with contextlib.suppress(OSError):
+                os.kill(self.pid, signal.SIGKILL)
         self.let_go()
         return ProcessError(f"{who} {how}" + (f"; the end of what was printed:\n{said}" if said else ""), 3)
 
@@ -143,7 +166,7 @@ class _Process:
 class Family:
     """What the processes of equal fleets have in common: the one that is copied for a new fleet."""
 
-    def __init__(self, words: list[str], launcher: str | os.PathLike[str] | None) -> None:
+    def __init__(self, words: list[str], launcher: str | os.PathLike[str] | None, patience_s: Any = None) -> None:
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         log = _memory_file("skein-fleet-log")
         command = [find_launcher(launcher), *words, f"--session={theirs.fileno()}"]
@@ -151,6 +174,8 @@ class Family:
         if setpriv := shutil.which("setpriv"):
             command = [setpriv, "--pdeathsig", "TERM", "--", *command]
         self._root = _Process(ours, log)
+        with contextlib.suppress(TypeError, ValueError):  # the launcher will say what is wrong
+            self._root.patience_s = float(patience_s)
         try:
             child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
                                      pass_fds=(theirs.fileno(),), start_new_session=True)
@@ -209,6 +234,7 @@ class Worker(_Process):
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         log = _memory_file("skein-fleet-log")
         super().__init__(ours, log)
+        self.patience_s = original.patience_s
         block = _memory_file("skein-fleet")
         try:
             original.send(json.dumps(order), (theirs.fileno(), block, log))
