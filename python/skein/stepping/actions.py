@@ -14,6 +14,7 @@ from . import spaces
 MOST_WAYPOINTS = 32
 _GIMBALS = {"gimbal_rate": (1, 2), "gimbal": (2, 2), "look_at": (3, 3)}  # kind, numbers
 _MOTIONS = {"velocity": ("velocity", "yaw_rate"), "goal": ("goal", "speed", "path", "yaw")}
+_KNOWN = {actions: dict.fromkeys((*motion, *_GIMBALS, "trigger")) for actions, motion in _MOTIONS.items()}
 _MOST_MPS, _MOST_CLIMB_MPS, _MOST_TURN = 5.0, 3.0, 1.0
 _FAR_M, _HIGH_M = 300.0, 150.0
 
@@ -39,7 +40,7 @@ def _numbers(uav: str, name: str, value: Any, shape: tuple[int, ...]) -> Any:
         array = np.asarray(value, np.float64)
     except (TypeError, ValueError):
         raise InputError(f"{uav}: {name} must be numbers, not {value!r}") from None
-    if array.shape == shape and all(map(math.isfinite, array.flat)):
+    if array.shape == shape and math.isfinite(sum(array.ravel().tolist())):  # the usual case, and quick
         return array
     wanted = "(" + ", ".join("n" if size < 0 else str(size) for size in shape) + ("," if len(shape) == 1 else "") + ")"
     if len(array.shape) != len(shape) or any(want not in (-1, size) for want, size in zip(shape, array.shape)):
@@ -52,12 +53,12 @@ def _numbers(uav: str, name: str, value: Any, shape: tuple[int, ...]) -> Any:
 def check_names(uav: str, action: Any, actions: str) -> Mapping[str, Any]:
     if not isinstance(action, Mapping):
         raise InputError(f"{uav}: an action is a dictionary, as {{'{_MOTIONS[actions][0]}': (x, y, z)}}, not {action!r}")
-    known = (*_MOTIONS[actions], *_GIMBALS, "trigger")
-    for name in action:
-        if name not in known:
-            raise InputError(f"{uav}: there is no {name!r} in an action of actions={actions!r}; there are "
-                             + ", ".join(known))
-    if sum(name in action for name in _GIMBALS) > 1:
+    known = _KNOWN[actions]
+    if not action.keys() <= known.keys():
+        unknown = next(name for name in action if name not in known)
+        raise InputError(f"{uav}: there is no {unknown!r} in an action of actions={actions!r}; there are "
+                         + ", ".join(known))
+    if len(action.keys() & _GIMBALS.keys()) > 1:
         raise InputError(f"{uav}: one of {', '.join(_GIMBALS)} in an action, not several")
     if "goal" in action and "path" in action:
         raise InputError(f"{uav}: a goal or a path in an action, not both")
@@ -76,9 +77,10 @@ class Orders:
         """Checks all of it, so that of a wrong one nothing is done. Returns values by field."""
         uav, action = self._uav, check_names(self._uav, action, self._actions)
         values: dict[str, Any] = {}
-        for name in ("velocity", "yaw_rate"):
-            if name in action:
-                values[name] = _numbers(uav, name, action[name], (3,) if name == "velocity" else ())
+        if "velocity" in action:
+            values["velocity"] = _numbers(uav, "velocity", action["velocity"], (3,))
+        if "yaw_rate" in action:
+            values["yaw_rate"] = _numbers(uav, "yaw_rate", action["yaw_rate"], ())
         if "goal" in action or "path" in action:
             values.update(self._way(action))
         elif "yaw" in action or "speed" in action:
@@ -86,9 +88,12 @@ class Orders:
         for name, (kind, count) in _GIMBALS.items():
             if name in action:
                 values["gimbal_kind"] = kind
-                values["gimbal"] = np.zeros(3)
-                values["gimbal"][:count] = _numbers(uav, name, action[name], (count,))
-        trigger = action.get("trigger", 0)
+                values["gimbal"] = wanted = np.zeros(3)
+                wanted[:count] = _numbers(uav, name, action[name], (count,))
+        values["trigger"] = 0
+        if "trigger" not in action:
+            return values
+        trigger = action["trigger"]
         if not (isinstance(trigger, (bool, np.bool_)) or (np.ndim(trigger) == 0 and trigger in (0, 1))):
             raise InputError(f"{uav}: trigger must be 0 or 1, not {trigger!r}")
         values["trigger"] = int(trigger)

@@ -111,10 +111,12 @@ class Fleet:
         return self
 
     def observation_space(self, agent: str) -> spaces.Space:
-        return self._of(self._observation_spaces, agent)
+        space: spaces.Space = self._of(self._observation_spaces, agent)
+        return space
 
     def action_space(self, agent: str) -> spaces.Space:
-        return self._of(self._action_spaces, agent)
+        space: spaces.Space = self._of(self._action_spaces, agent)
+        return space
 
     @property
     def observation_spaces(self) -> dict[str, spaces.Space]:
@@ -126,7 +128,7 @@ class Fleet:
 
     @property
     def state_space(self) -> spaces.Space:
-        size = sum(self._observation_spaces[uav][name].shape[0] for uav in self.possible_agents for name in _STATE)
+        size = sum(self._observations[uav].views[name].shape[0] for uav in self.possible_agents for name in _STATE)
         return spaces.Box(-np.inf, np.inf, (size,), np.float64)
 
     def _of(self, table: Mapping[str, Any], agent: str) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Mapping
 from types import TracebackType
 from typing import Any
@@ -10,11 +11,11 @@ from ..errors import InputError
 from . import spaces
 from .fleet import Fleet
 
+_Env: Any
 try:
-    from gymnasium import Env as _Env  # type: ignore[import-not-found]
+    _Env = importlib.import_module("gymnasium").Env
 except ImportError:
-    class _Env:  # type: ignore[no-redef]
-        """Stands in for Gymnasium's class where that is not installed."""
+    _Env = object
 
 
 class GymEnv(_Env):  # type: ignore[misc]
@@ -44,9 +45,9 @@ class GymEnv(_Env):  # type: ignore[misc]
     def step(self, action: Mapping[str, Any]) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
         if self.agent not in self.fleet.agents:
             raise InputError("the episode is over: call reset()")
-        parts = self.fleet.step({self.agent: action})
-        observation, reward, terminated, truncated, info = (part[self.agent] for part in parts)
-        return observation, reward, terminated, truncated, info
+        agent = self.agent
+        observations, rewards, terminations, truncations, infos = self.fleet.step({agent: action})
+        return observations[agent], rewards[agent], terminations[agent], truncations[agent], infos[agent]
 
     def render(self) -> str | None:
         return self.fleet.render()

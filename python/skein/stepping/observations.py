@@ -26,7 +26,7 @@ class Observations:
         first = offsets[0]
         kind = np.dtype({"names": names, "formats": formats, "offsets": [offset - first for offset in offsets]})
         self._names: list[str] = names
-        self._now = np.ndarray((1,), kind, block, first)
+        self._now: Any = np.ndarray((1,), kind, block, first)
         self.views: dict[str, Any] = {name: self._now[name][0:1].reshape(self._now[name].shape[1:]) for name in names}
 
     def read(self) -> dict[str, Any]:

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from types import TracebackType
 from typing import Any
 
+import numpy as np
+
 from ..errors import InputError
 from .fleet import Fleet, _whole
 
@@ -34,10 +36,12 @@ class FleetVector:
               ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
         """Begins anew. One seed is the first fleet's; the others get those after it."""
         seeds: Sequence[int | None]
-        if seed is None or hasattr(seed, "__index__"):
-            seeds = [None if seed is None else _whole("seed", seed) + i for i in range(len(self.fleets))]
+        if seed is None:
+            seeds = [None] * len(self.fleets)
+        elif isinstance(seed, (int, np.integer)):
+            seeds = [_whole("seed", seed) + i for i in range(len(self.fleets))]
         else:
-            seeds = list(seed)  # type: ignore[arg-type]
+            seeds = list(seed)
         self._check_length("seeds", seeds)
         both = [fleet.reset(one, options) for fleet, one in zip(self.fleets, seeds)]
         return [observations for observations, _ in both], [infos for _, infos in both]
