@@ -5,14 +5,7 @@
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace skein::cli {
-
-/// Its sub-command.
-void add_fleet(CLI::App& app, FleetOptions& fleet);
 
 /// Does not return if the fleet can be stepped. @throws InputError, Interrupted.
 int step_fleet(const FleetOptions& options, const Console& console);

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/fleet_command.hpp"
 #include "cli/option_checks.hpp"
 #include "cli/tool_options.hpp"
 #include "cli/view_options.hpp"

@@ -2,8 +2,9 @@
 // there: a reset is a copy of a process that has no fleet yet, a fork is one of a fleet.
 // They talk over a socket (SOCK_SEQPACKET), a message each way in turn, JSON but for "s COUNT" and "k":
 //
-//   {"do": "reset", "seed": N}  a copy begins a fleet. With it come three descriptors: the copy's own socket, a memfd for
-//                               its block of memory, and a file for what its programs print. The copy says hello on its socket.
+//   {"do": "reset", "seed": N}  a copy begins a fleet. With it come three descriptors: the copy's own socket, a memfd
+//                               for its block of memory, and a file for what its programs print. The copy says hello
+//                               on its socket.
 //   {"do": "fork"}              the same, of the fleet as it stands.
 //   s COUNT                     the fleet goes on by so many steps: "k", and "e" when the run has ended.
 //   {"do": "result"}, {"do": "scene"}  see SteppedFleet. With them comes a memfd, into which the answer goes.
@@ -25,7 +26,7 @@
 
 namespace skein::one_process {
 
-/// What the launcher says of a fleet that is to be stepped (cli/run/session_plan.hpp).
+/// What the launcher says of a fleet that is to be stepped (cli/fleet_command.cpp).
 struct SessionPlan {
   std::vector<shared_lines::Start> programs;
   std::vector<std::string> uavs;  ///< names in fleet order

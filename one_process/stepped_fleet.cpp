@@ -1,9 +1,10 @@
 #include "one_process/stepped_fleet.hpp"
 
+#include <poll.h>
+
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "one_process/fleet_programs.hpp"
@@ -25,6 +26,12 @@ std::vector<shared_lines::Start> with_seed(std::vector<shared_lines::Start> star
     *(option + 1) = std::to_string(seed);
   }
   return starts;
+}
+
+/// What they wait for then is a clock.
+void nap() {
+  const timespec nap{0, std::chrono::nanoseconds(Crew::kNap).count()};
+  ::ppoll(nullptr, 0, &nap, nullptr);
 }
 
 }  // namespace
@@ -129,7 +136,7 @@ void SteppedFleet::run() {
     if (++idle < Crew::kIdleRounds) continue;
     if (!idle_since) idle_since = Clock::now();
     if (Clock::now() - *idle_since > kStandstill) throw FleetFailed{"", 0, 0, "the fleet stands still"};
-    std::this_thread::sleep_for(Crew::kNap);
+    nap();
   }
 }
 

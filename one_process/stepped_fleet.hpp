@@ -34,8 +34,8 @@ struct FleetFailed {
 
 class SteppedFleet {
  public:
-  /// @param starts  of its programs, as the launcher has them. @param uavs  names in fleet order. @param seed  instead of
-  /// what those say. @param shelf  with their scene. @throws FleetFailed
+  /// @param starts  of its programs, as the launcher has them. @param uavs  names in fleet order.
+  /// @param seed  instead of what those say. @param shelf  with their scene. @throws FleetFailed
   SteppedFleet(const std::vector<shared_lines::Start>& starts, const std::vector<std::string>& uavs, std::uint64_t seed,
                std::shared_ptr<sim::SceneShelf> shelf);
   ~SteppedFleet();

@@ -1,5 +1,5 @@
-// A scene that is loaded before anybody flies in it: processes that are copied have it at hand (one_process/session.hpp).
-// Threads: one.
+// A scene that is loaded before anybody flies in it: processes that are copied (one_process/session.hpp) have it at
+// hand.   Threads: one.
 #pragma once
 
 #include <optional>

@@ -14,8 +14,8 @@ class StepGate {
   StepGate& operator=(const StepGate&) = delete;
   virtual ~StepGate() = default;
 
-  /// A step is told to all. @param simulation, digest  of steps before this one; live until closed(). @param last  it is
-  /// the run's last one.
+  /// A step is told to all. @param digest  of the steps before this one; it and the simulation live until closed().
+  /// @param last  it is the run's last one.
   virtual void begin(const Simulation& simulation, const RunDigest& digest, bool last) = 0;
   /// Whether step k may end, once all have answered.
   virtual bool may_end(std::uint64_t k) const = 0;

@@ -27,7 +27,8 @@ class StationNode final : public bus::ClientNode {
  public:
   /// @param out  where the journal is; what it holds from an earlier life of this run is taken up again.
   /// @param recorder  records the tally, and the score as others read it; must outlive this. nullptr: nobody does.
-  /// @param view  the page that is served; nullptr: none is. @param score  gets the tally to look at; nullptr: nobody does.
+  /// @param view  the page that is served; nullptr: none is.
+  /// @param score  gets the tally to look at; nullptr: nobody does.
   StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
               StatusPipe& status, recording::Recorder* recorder = nullptr, const ReadyView* view = nullptr,
               std::shared_ptr<ScoreView> score = nullptr);

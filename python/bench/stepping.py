@@ -2,8 +2,8 @@
 
     python3 python/bench/stepping.py [--repeat 3] [--resets 1000] [--seconds 60] [--mbs 300]
 
-Times are told twice: by the clock, and as CPU time of this program and the fleet's process together, which is the clock's
-time on a core that nobody else uses. mbs needs SKEIN_ASSETS.
+Times are told twice: by the clock, and as CPU time of this program and the fleet's process together, which is the
+clock's time on a core that nobody else uses. mbs needs SKEIN_ASSETS.
 """
 
 from __future__ import annotations
@@ -41,8 +41,9 @@ def stepping(seconds: float, safe: bool) -> tuple[float, float]:
     """Simulated time a second, by the clock and by CPU time: five learners, a step of 0.05 s."""
     with skein.Fleet("towers", learners=UAVS, safe=safe) as fleet:
         fleet.reset()
-        up: Any = {uav: {"velocity": np.array([0.2, 0.1, 1.0]), "yaw_rate": 0.05, "gimbal_rate": np.zeros(2)} for uav in UAVS}
-        on: Any = {uav: {**action, "velocity": np.array([0.3, 0.05 * i, 0.0])} for i, (uav, action) in enumerate(up.items())}
+        up: Any = {uav: {"velocity": np.array([0.2, 0.1, 1.0]), "yaw_rate": 0.05, "gimbal_rate": np.zeros(2)}
+                   for uav in UAVS}
+        on: Any = {uav: {**up[uav], "velocity": np.array([0.3, 0.05 * i, 0.0])} for i, uav in enumerate(UAVS)}
         for _ in range(200):
             fleet.step(up)
         pid, began, used = pid_of(fleet), time.perf_counter(), time.process_time() + cpu_s(pid_of(fleet))
@@ -54,7 +55,7 @@ def stepping(seconds: float, safe: bool) -> tuple[float, float]:
 
 
 def resets(count: int) -> tuple[float, float, float, float]:
-    """Resets a minute, by the clock and by CPU time; growth of memory [MB], of this program and of the first process."""
+    """Resets a minute, by the clock and by CPU time; growth of memory [MB], here and in the first process."""
     with skein.Fleet("towers", learners=UAVS, safe=False) as fleet:
         root = fleet._families[None]._root.pid
         for seed in range(20):

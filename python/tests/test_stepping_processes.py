@@ -308,10 +308,12 @@ def test_what_cannot_be_flown_is_refused(scenario: str, options: dict[str, Any],
 def bad_actions() -> list[tuple[dict[str, Any], str]]:
     """Drawn: values that are none, in each part of an action."""
     random = np.random.default_rng(4)
-    shapes: dict[str, tuple[int, ...]] = {"velocity": (3,), "yaw_rate": (), "gimbal_rate": (2,), "gimbal": (2,), "look_at": (3,)}
+    shapes: dict[str, tuple[int, ...]] = {"velocity": (3,), "yaw_rate": (), "gimbal_rate": (2,), "gimbal": (2,),
+                                          "look_at": (3,)}
     found: list[tuple[dict[str, Any], str]] = [
         ({"velocity": "fast"}, "numbers"), ({"speed": 3}, "no 'speed'"), ({"trigger": 2}, "0 or 1"),
-        ({"trigger": [1]}, "0 or 1"), ({"gimbal": (0, 0), "look_at": (0, 0, 0)}, "one of"), ({"velocity": None}, "velocity"),
+        ({"trigger": [1]}, "0 or 1"), ({"gimbal": (0, 0), "look_at": (0, 0, 0)}, "one of"),
+        ({"velocity": None}, "velocity"),
         ({"velocity": [[1], [2, 3]]}, "numbers"), ({3: 4}, "there is no 3")]
     for name, shape in shapes.items():
         for _ in range(4):

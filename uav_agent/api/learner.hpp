@@ -1,6 +1,6 @@
 // A planner that is told in each step what to do by a program outside: by Python, which steps the fleet
-// (docs/how-to-python.md). It looks first and shows what it sees; the step stands still until it is told; then it plans.
-// Both go by a block of memory that the planner lays out and the program outside shares.   Threads: one.
+// (docs/how-to-python.md). It looks first and shows what it sees; the step stands still until it is told; then it
+// plans. Both go by a block of memory that the planner lays out and the program outside shares.   Threads: one.
 #pragma once
 
 #include <cstddef>

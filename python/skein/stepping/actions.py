@@ -52,7 +52,8 @@ def _numbers(uav: str, name: str, value: Any, shape: tuple[int, ...]) -> Any:
 
 def check_names(uav: str, action: Any, actions: str) -> Mapping[str, Any]:
     if not isinstance(action, Mapping):
-        raise InputError(f"{uav}: an action is a dictionary, as {{'{_MOTIONS[actions][0]}': (x, y, z)}}, not {action!r}")
+        example = {_MOTIONS[actions][0]: (0, 0, 1)}
+        raise InputError(f"{uav}: an action is a dictionary, as {example}, not {action!r}")
     known = _KNOWN[actions]
     if not action.keys() <= known.keys():
         unknown = next(name for name in action if name not in known)

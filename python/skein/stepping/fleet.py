@@ -327,7 +327,8 @@ class Fleet:
         except (TypeError, ValueError):
             raise InputError(f"step_s must be a time in seconds, not {step_s!r}") from None
         if not np.isfinite(steps) or steps < 0.5 or abs(steps - round(steps)) > 1e-6:
-            raise InputError(f"step_s must be a multiple of {self._period_s:g} s, the exchange's period, not {step_s!r}")
+            raise InputError(f"step_s must be a multiple of {self._period_s:g} s, the exchange's period, "
+                             f"not {step_s!r}")
         return round(steps)
 
     def _info(self) -> dict[str, Any]:

@@ -103,7 +103,7 @@ class Truth:
 
     @property
     def points(self) -> Array:
-        """All interest points, with the best quality delivered and earned of each (0: none), and whether any camera saw it."""
+        """All interest points: the best quality delivered and earned of each (0: none), and whether a camera saw it."""
         rows = self._worker.ask("scene")["points"]
         table = np.zeros(len(rows), _POINT)
         if rows:

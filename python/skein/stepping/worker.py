@@ -8,6 +8,7 @@ end of this program.
 from __future__ import annotations
 
 import contextlib
+import fcntl
 import json
 import mmap
 import os
@@ -26,6 +27,7 @@ from .observations import Field
 
 _LONGEST_ANSWER = 1 << 20
 _MOST_LINES = 20
+_FIRST_SESSION = 64  # descriptors below 10 are a shell's own, and the checkout's launcher begins as one
 _LOOK_S = 1.0  # how often a process that does not answer is looked at
 _PATIENCE_S = 30.0  # for a process that was told to end
 
@@ -169,7 +171,9 @@ class Family:
     def __init__(self, words: list[str], launcher: str | os.PathLike[str] | None, patience_s: Any = None) -> None:
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         log = _memory_file("skein-fleet-log")
-        command = [find_launcher(launcher), *words, f"--session={theirs.fileno()}"]
+        session = fcntl.fcntl(theirs, fcntl.F_DUPFD_CLOEXEC, _FIRST_SESSION)
+        theirs.close()
+        command = [find_launcher(launcher), *words, f"--session={session}"]
         # Until the launcher has become that process, which looks after itself, the kernel tells it of our death.
         if setpriv := shutil.which("setpriv"):
             command = [setpriv, "--pdeathsig", "TERM", "--", *command]
@@ -178,12 +182,12 @@ class Family:
             self._root.patience_s = float(patience_s)
         try:
             child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                     pass_fds=(theirs.fileno(),), start_new_session=True)
+                                     pass_fds=(session,), start_new_session=True)
         except (OSError, ValueError) as error:
             self._root.let_go()
             raise InputError(f"the launcher cannot be started: {error}") from error
         finally:
-            theirs.close()
+            os.close(session)
         self._end = weakref.finalize(self, _end, self._root, child)
         try:
             self.about: dict[str, Any] = self._greet(child)["about"]

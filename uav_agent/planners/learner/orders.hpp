@@ -34,7 +34,7 @@ class Orders {
   bool trigger() const { return trigger_.in(block_)[0] != 0; }
 
  private:
-  enum class Gimbal : std::int8_t { carry_on, rate, angle, look_at };  // as python/skein/actions.py has them
+  enum class Gimbal : std::int8_t { carry_on, rate, angle, look_at };  // as python/skein/stepping/actions.py has them
 
   std::byte* block_ = nullptr;
   BlockArray<std::int64_t> serial_, waypoints_;
