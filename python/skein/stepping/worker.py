@@ -27,6 +27,7 @@ from .observations import Field
 
 _LONGEST_ANSWER = 1 << 20
 _MOST_LINES = 20
+_FRAME = "  at "  # of the addresses that a crash leaves (process/crash_notes.hpp)
 _FIRST_SESSION = 64  # descriptors below 10 are a shell's own, and the checkout's launcher begins as one
 _LOOK_S = 1.0  # how often a process that does not answer is looked at
 _PATIENCE_S = 30.0  # for a process that was told to end
@@ -92,7 +93,8 @@ class _Process:
 
     def said(self) -> str:
         """The last lines of what was printed."""
-        lines = _content(self._log).decode(errors="replace").strip().splitlines()
+        lines = [line for line in _content(self._log).decode(errors="replace").strip().splitlines()
+                 if not line.startswith(_FRAME)]
         return "\n".join(lines[-_MOST_LINES:])
 
     def send(self, text: str, files: tuple[int, ...] = ()) -> None:
@@ -144,7 +146,7 @@ class _Process:
 
     def _failure(self, told: dict[str, Any]) -> Error:
         """The process has ended, or is about to."""
-        who = told.get("program") or "the fleet's process"
+        who = told.get("ended") or told.get("program") or "the fleet's process"
         number = int(told.get("signal", 0))
         if number:
             how = f"ended by signal {number} ({signal.strsignal(number) or 'unknown'})"
