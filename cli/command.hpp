@@ -61,6 +61,7 @@ struct RunOptions {
   std::vector<std::string> log;                     ///< UAV=LEVEL
   bool cores = false;                               ///< programs that crash leave a core
   bool one_process = false;                         ///< all programs in one process, without DDS
+  bool stepped = false;                             ///< there a program steps them, and says what learners do
   bool native = false;
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
   std::optional<int> domain;
@@ -106,6 +107,12 @@ struct ReplayOptions {
   bool force = false;                             ///< overwrites it
   FilmOptions film;
   bool maps = false;  ///< compute the UAVs' maps in time first, where the folder has none
+};
+
+/// `skein fleet`: a fleet that a program steps.
+struct FleetOptions {
+  RunOptions run;
+  int session = -1;  ///< descriptor of that program's socket
 };
 
 /// `skein hunt`: a search for faults that break a property.
@@ -306,6 +313,6 @@ struct CompletionOptions {
 using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions,
                              DiffOptions, StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions,
                              CheckPlannerOptions, KeysOptions, MergeOptions, ReportOptions, ReplayOptions, RerunOptions,
-                             ForkOptions, PsOptions, AttachOptions, HelpText, CompletionOptions>;
+                             ForkOptions, FleetOptions, PsOptions, AttachOptions, HelpText, CompletionOptions>;
 
 }  // namespace skein::cli

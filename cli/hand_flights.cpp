@@ -11,6 +11,9 @@
 namespace skein::cli {
 namespace {
 
+/// The planner that does what such a program says (uav_agent/planners/learner/learner.cpp).
+constexpr const char* kLearner = "learner";
+
 UavPlanner hand_repeated(const UavPlanner& planner, const std::filesystem::path& file) {
   std::vector<std::string> parameters = *hand_parameters(planner.spec);
   UavPlanner again = planner;
@@ -31,7 +34,13 @@ std::vector<std::string> flown_by_hand(const std::vector<UavPlanner>& planners) 
   return uavs;
 }
 
-void check_hands(const std::vector<UavPlanner>& planners, bool watched) {
+void check_hands(const std::vector<UavPlanner>& planners, bool watched, bool stepped) {
+  const auto learner = std::ranges::find_if(
+      planners, [](const UavPlanner& planner) { return planner.spec.substr(0, planner.spec.find(':')) == kLearner; });
+  if (learner != planners.end() && !stepped) {
+    throw InputError("--planner " + learner->uav + "=" + kLearner + ": a program must step the fleet and say what " +
+                     learner->uav + " does, as skein.Fleet does in Python (docs/how-to-python.md)");
+  }
   const std::vector<std::string> uavs = flown_by_hand(planners);
   if (uavs.empty() || watched) return;
   const std::string& uav = uavs.front();

@@ -16,8 +16,9 @@ namespace skein::cli {
 std::vector<std::string> flown_by_hand(const std::vector<UavPlanner>& planners);
 
 /// @param watched  whether there is a page on which somebody can fly.
+/// @param stepped  whether a program steps the fleet, and says what learners do (--planner jurong=learner).
 /// @throws InputError when somebody must fly, and cannot.
-void check_hands(const std::vector<UavPlanner>& planners, bool watched);
+void check_hands(const std::vector<UavPlanner>& planners, bool watched, bool stepped = false);
 
 /// --planner of the same flight without hands.
 /// @param text, fleet  as for parse_planners(). @param file_of  what was kept of the commands of a UAV.

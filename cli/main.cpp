@@ -14,6 +14,7 @@
 #include "cli/compose_command.hpp"
 #include "cli/diff_command.hpp"
 #include "cli/doctor_command.hpp"
+#include "cli/fleet_command.hpp"
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/hunt_command.hpp"
 #include "cli/merge_command.hpp"
@@ -82,6 +83,7 @@ struct Execute {
   int operator()(const ReplayOptions& options) const { return replay_run(options, console); }
   int operator()(const RerunOptions& options) const { return rerun(options, console); }
   int operator()(const ForkOptions& options) const { return fork_run(options, console); }
+  int operator()(const FleetOptions& options) const { return step_fleet(options, console); }
   int operator()(const PsOptions&) const { return list_fleets(console); }
   int operator()(const AttachOptions& options) const { return attach_to(options, console); }
   int operator()(const StudyOptions& options) const { return run_study(options, console); }

@@ -288,6 +288,7 @@ struct OptionParser {
   BlameOptions blame;
   CheckPlannerOptions check_planner;
   AttachOptions attach;
+  FleetOptions fleet;
   StudyOptions contest, compare;
   int tests = 5;  ///< of the contest
 };
@@ -320,6 +321,7 @@ OptionParser::OptionParser()
   add_doctor(app, doctor);
   app.add_subcommand("ps", "List the fleets that fly, with their processes");
   add_attach(app, attach);
+  add_fleet(app, fleet);
   CLI::App* diff_command = app.add_subcommand(
       "diff", "First step, entity and field in which two runs differ, and what else differs in what they left");
   diff_command->add_option("RUN_A", diff.run_a, "A results folder")->required();
@@ -371,6 +373,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (is("fork")) return parser.fork;
   if (is("ps")) return PsOptions{};
   if (is("attach")) return parser.attach;
+  if (is("fleet")) return parser.fleet;
   if (is("test")) return parser.test;
   if (is("hunt")) {
     parser.hunt.run.command = command;

@@ -25,6 +25,7 @@ void add_report(CLI::App& app, ReportOptions& report);
 void add_rerun(CLI::App& app, RerunOptions& rerun);
 void add_fork(CLI::App& app, ForkOptions& fork);
 void add_hunt(CLI::App& app, HuntOptions& hunt);
+void add_fleet(CLI::App& app, FleetOptions& fleet);
 void add_blame(CLI::App& app, BlameOptions& blame);
 void add_check_planner(CLI::App& app, CheckPlannerOptions& check);
 

@@ -7,6 +7,7 @@
 
 #include "bus/program_bus.hpp"
 #include "comm_router/router_node.hpp"
+#include "process/nowhere.hpp"
 #include "process/program_report.hpp"
 #include "process/reports.hpp"
 
@@ -112,7 +113,7 @@ class RouterMember final : public bus::FleetMember {
     const Notes notes{node_->malformed(),         node_->unheard(), node_->unsent(),
                       node_->stranger_warnings(), unwritten_,       node_->differences()};
     write_report(options_, scenario_, node_->gate(), notes, status_);
-    std::filesystem::remove(counts_file_);
+    if (!is_nowhere(counts_file_)) std::filesystem::remove(counts_file_);
     return code;
   }
 

@@ -104,7 +104,7 @@ void Crew::start(const shared_lines::Start& order) try {
                                        [&](CLI::App& app) { place.program->add_options(app); });
     if (const int* code = std::get_if<int>(&options)) return *code;
     const auto& parsed = std::get<ProgramOptions>(options);
-    place.output.set_log(place.program->name(), parsed.log_level);
+    place.output.set_log(order.log.empty() ? place.name : place.program->name(), parsed.log_level);
     auto prepared = place.program->prepare(parsed, place.status);
     if (const int* code = std::get_if<int>(&prepared)) return *code;
     place.member = std::move(std::get<std::unique_ptr<bus::FleetMember>>(prepared));
@@ -190,7 +190,9 @@ void Crew::check_pipe(const Place& place) const {
 
 void Crew::end(Place& place, int code, int signal) {
   place.over = true;
-  pipe_.send_surely(shared_lines::news_json(shared_lines::Ended{place.name, code, signal, false}));
+  const shared_lines::Ended ended{place.name, code, signal, false};
+  if (!failure_ && (code != kExitDone || signal != 0)) failure_ = ended;
+  pipe_.send_surely(shared_lines::news_json(ended));
 }
 
 // Not destroyed: no destructor of its own or of its planner may say or write anything more. It is out of reach, and
@@ -214,6 +216,10 @@ void Crew::signal(Place& place, int signal) {
   place.paused = false;
   place.continued = true;
   place.member->node().inbox().set_deaf(false);
+}
+
+void Crew::ring(const std::string& program) {
+  if (Place* place = find(program); place != nullptr && place->member) place->member->node().inbox().wake();
 }
 
 void Crew::stop() {

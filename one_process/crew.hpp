@@ -7,9 +7,11 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,14 @@ class Crew {
   /// A turn for everybody who can do something. @returns whether anybody had anything to do.
   bool round();
   bool empty() const { return places_.empty(); }
+  /// At its next round a program gets a turn though nothing has arrived: something else has come about.
+  void ring(const std::string& program);
+  /// The first program that ended in any other way than it should.
+  const std::optional<shared_lines::Ended>& failure() const { return failure_; }
+
+  /// After so many rounds in which nobody had anything to do they wait for a clock, and whoever drives them naps.
+  static constexpr int kIdleRounds = 3;
+  static constexpr std::chrono::microseconds kNap{100};
 
   /// How many turns have begun; even: none is under way. From any thread.
   std::uint64_t turns() const { return turns_; }
@@ -64,6 +74,7 @@ class Crew {
   const int status_fd_;
   ino_t pipe_inode_ = 0;
   std::vector<std::unique_ptr<Place>> places_;
+  std::optional<shared_lines::Ended> failure_;
   std::atomic<std::uint64_t> turns_ = 0;
 };
 

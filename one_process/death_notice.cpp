@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <string_view>
 
 #include "process/crash_notes.hpp"
 #include "process/program.hpp"
@@ -75,6 +76,13 @@ void DeathNotice::watch(int fd) {
 
 void DeathNotice::give_up(const std::string& why) {
   std::cerr << programs::kOneProcess << ": " << why << std::endl;
+  tell_of_death(SIGABRT);
+  ::_exit(kExitProcessFailed);
+}
+
+void DeathNotice::give_up_at_once() {
+  constexpr std::string_view kWhy = "this program did not end its turn, and with it stands the fleet\n";
+  static_cast<void>(!::write(STDERR_FILENO, kWhy.data(), kWhy.size()));
   tell_of_death(SIGABRT);
   ::_exit(kExitProcessFailed);
 }

@@ -21,6 +21,8 @@ class DeathNotice {
   static void watch(int fd);
   /// Gives up a program that does not end its turn: the process ends, as if the program had been aborted.
   [[noreturn]] static void give_up(const std::string& why);
+  /// The same, for handlers of signals.
+  [[noreturn]] static void give_up_at_once();
   /// The process ends as it should.
   static void stand_down();
 

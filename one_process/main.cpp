@@ -8,18 +8,17 @@
 #include <cstdio>
 #include <iostream>
 #include <optional>
+#include <string_view>
 
-#include "comm_router/router_program.hpp"
 #include "core/number_checks.hpp"
 #include "one_process/crew.hpp"
 #include "one_process/death_notice.hpp"
+#include "one_process/fleet_programs.hpp"
 #include "one_process/order_queue.hpp"
+#include "one_process/session.hpp"
 #include "one_process/watchdog.hpp"
 #include "process/environment.hpp"
 #include "process/run_folder.hpp"
-#include "sim_server/server_program.hpp"
-#include "station/station_program.hpp"
-#include "uav_agent/agent_program.hpp"
 
 /// Of LeakSanitizer, where the program is built with it.
 extern "C" void __lsan_do_leak_check(void) __attribute__((weak));
@@ -28,22 +27,6 @@ namespace skein::one_process {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// Nobody has anything to do for so many rounds: they wait for a clock.
-constexpr int kIdleRounds = 3;
-constexpr auto kNap = 100us;
-
-/// More than a large fleet hears in a step.
-constexpr std::size_t kFramesRemembered = 256;
-
-/// @param frames  for all agents
-std::unique_ptr<bus::FleetProgram> make_program(const std::string& name,
-                                                const std::shared_ptr<agent::ReadyFrames>& frames) {
-  if (name == programs::kSimServer) return std::make_unique<sim::ServerProgram>();
-  if (name == programs::kCommRouter) return std::make_unique<router::RouterProgram>();
-  if (name == programs::kStation) return std::make_unique<station::StationProgram>();
-  return std::make_unique<agent::AgentProgram>(frames);
-}
 
 void fly(Crew& crew, OrderQueue& orders, const StopSignal& stop) {
   bool asked = false;
@@ -55,8 +38,8 @@ void fly(Crew& crew, OrderQueue& orders, const StopSignal& stop) {
     idle = crew.round() ? 0 : idle + 1;
     if (crew.empty()) {
       orders.wait(100ms);
-    } else if (idle >= kIdleRounds) {
-      orders.wait(kNap);
+    } else if (idle >= Crew::kIdleRounds) {
+      orders.wait(Crew::kNap);
     }
   }
 }
@@ -67,6 +50,12 @@ void fly(Crew& crew, OrderQueue& orders, const StopSignal& stop) {
 int main(int argc, char** argv) {
   skein::take_fleet_environment(argv);
   using namespace skein;
+  if (argc > 1 && std::string_view(argv[1]) == "--session") {
+    const int code = one_process::run_session(argc, argv);
+    one_process::DeathNotice::stand_down();
+    std::cout.flush();
+    ::_exit(code);  // see below
+  }
   double patience_s = 60.0;
   std::string turn_page;
   const auto add_options = [&](CLI::App& app) {
@@ -82,11 +71,10 @@ int main(int argc, char** argv) {
         one_process::OrderQueue orders;
         const ControlPipe control(
             options.control_fd, [&](const std::string& line) { orders.add(line); }, [&] { orders.end(); });
-        const auto frames = std::make_shared<agent::ReadyFrames>(one_process::kFramesRemembered);
         std::optional<TurnPage> page;
         if (!turn_page.empty()) page.emplace(turn_page);
         one_process::Crew crew(
-            pipe, [&](const std::string& name) { return one_process::make_program(name, frames); },
+            pipe, [programs = one_process::FleetPrograms()](const std::string& name) { return programs.make(name); },
             page ? &*page : nullptr, options.status_fd);
         const one_process::Watchdog watchdog(crew, patience_s);
         one_process::fly(crew, orders, stop);

@@ -19,20 +19,24 @@ const ProgramOutput* current = nullptr;
 }  // namespace
 
 ProgramOutput::ProgramOutput(const std::filesystem::path& file, bool append)
-    : fd_(::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (append ? 0 : O_TRUNC), 0644)) {
-  if (fd_ < 0) throw std::system_error(errno, std::generic_category(), file.string());
+    : fd_(file.empty()
+              ? -1
+              : ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (append ? 0 : O_TRUNC), 0644)) {
+  if (fd_ < 0 && !file.empty()) throw std::system_error(errno, std::generic_category(), file.string());
 }
 
 ProgramOutput::~ProgramOutput() {
   if (current == this) current = nullptr;
-  ::close(fd_);
+  if (fd_ >= 0) ::close(fd_);
 }
 
 void ProgramOutput::enter() {
   if (current == this) return;
-  std::fflush(stdout);  // of the one before
-  ::dup2(fd_, STDOUT_FILENO);
-  ::dup2(fd_, STDERR_FILENO);
+  if (fd_ >= 0) {
+    std::fflush(stdout);  // of the one before
+    ::dup2(fd_, STDOUT_FILENO);
+    ::dup2(fd_, STDERR_FILENO);
+  }
   if (log_) spdlog::set_default_logger(log_);
   current = this;
 }

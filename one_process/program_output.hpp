@@ -14,7 +14,7 @@ namespace skein::one_process {
 
 class ProgramOutput {
  public:
-  /// @throws std::system_error when the file cannot be opened.
+  /// @param file  empty: it writes where its process does. @throws std::system_error when the file cannot be opened.
   ProgramOutput(const std::filesystem::path& file, bool append);
   ~ProgramOutput();
   ProgramOutput(const ProgramOutput&) = delete;

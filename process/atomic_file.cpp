@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "process/closed_to_agents.hpp"
+#include "process/nowhere.hpp"
 
 namespace skein {
 namespace {
@@ -60,6 +61,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 }
 
 std::string write_if_possible(const std::filesystem::path& path, std::string_view content) try {
+  if (is_nowhere(path)) return {};
   write_file_atomically(path, content);
   return {};
 } catch (const std::system_error& error) {

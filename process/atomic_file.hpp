@@ -15,7 +15,7 @@ enum class Readers { all, no_agents };
 /// @throws std::runtime_error with the system's reason; no temporary file is left.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content, Readers readers = Readers::all);
 
-/// The same, for a file that the program can do without.
+/// The same, for a file that the program can do without; one in kNowhere (process/nowhere.hpp) is not written.
 /// @returns what went wrong, with the file's name, for people; empty when it is written.
 std::string write_if_possible(const std::filesystem::path& path, std::string_view content);
 

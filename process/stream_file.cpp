@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "process/nowhere.hpp"
+
 namespace skein {
 namespace {
 
@@ -13,19 +15,19 @@ constexpr std::size_t kBlock = 8192;
 
 }  // namespace
 
-StreamFile::StreamFile(const std::filesystem::path& file, Mode mode)
-    : file_(file),
-      fd_(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_APPEND | (mode == Mode::fresh ? O_TRUNC : 0), 0644)) {
+StreamFile::StreamFile(const std::filesystem::path& file, Mode mode) : file_(file) {
+  if (is_nowhere(file)) return;
+  fd_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_APPEND | (mode == Mode::fresh ? O_TRUNC : 0), 0644);
   if (fd_ < 0) throw std::system_error(errno, std::generic_category(), "cannot write " + file.string());
 }
 
 StreamFile::~StreamFile() {
   flush();
-  ::close(fd_);
+  if (kept()) ::close(fd_);
 }
 
 StreamFile& StreamFile::operator<<(std::string_view text) {
-  if (!trouble_.empty()) return *this;
+  if (!kept() || !trouble_.empty()) return *this;
   buffer_ += text;
   if (buffer_.size() >= kBlock) flush();
   return *this;

@@ -12,6 +12,7 @@ class StreamFile {
  public:
   enum class Mode { fresh, append };
 
+  /// @param file  in kNowhere (process/nowhere.hpp): nothing is written.
   /// @throws std::system_error, with the file's name, when it cannot be opened.
   explicit StreamFile(const std::filesystem::path& file, Mode mode = Mode::fresh);
   ~StreamFile();
@@ -21,6 +22,8 @@ class StreamFile {
   /// Reaches the file in blocks, or with flush().
   StreamFile& operator<<(std::string_view text);
   void flush();
+  /// Whether what is written goes anywhere: it need not be made otherwise.
+  bool kept() const { return fd_ >= 0; }
   /// What went wrong, with the file's name, for people; empty as long as nothing did.
   const std::string& trouble() const { return trouble_; }
 

@@ -149,6 +149,10 @@ double ServerProgram::startup_timeout_s(const Scenario& scenario) const {
   return std::max(agent_timeout_s_, kLeast_s) + kPerUav_s * static_cast<double>(scenario.fleet.size());
 }
 
+Scene ServerProgram::load_ahead(const ProgramOptions& options) {
+  return load_scene(load_scenario(options.scenario, options.load_options()));
+}
+
 std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(const ProgramOptions& options,
                                                                             StatusPipe& status) {
   if (!tasks_.golden.empty()) return tasks_.check_golden();
@@ -169,8 +173,10 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .expect_gcs_program = ground_program_,
                                     .watch = watch_options(watch_speed_, clock_, watch_losses_),
                                     .by_hand = indices_of(by_hand_, *scenario),
-                                    .faults = load_fault_plan(options.faults, *scenario, options.seed)};
-  Scene scene = load_scene(*scenario);
+                                    .faults = load_fault_plan(options.faults, *scenario, options.seed),
+                                    .gate = gate_};
+  std::optional<Scene> ready = shelf_ ? shelf_->take() : std::nullopt;
+  Scene scene = ready ? std::move(*ready) : load_scene(*scenario);
   if (!options.check_only) refuse_used_folder(options);
   auto bus = bus::make_bus(options, *scenario);
   if (options.check_only) {

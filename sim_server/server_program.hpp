@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,12 +11,20 @@
 #include "bus/lockstep/fleet_program.hpp"
 #include "process/run_folder.hpp"
 #include "recording/replay.hpp"
+#include "sim_server/scene_shelf.hpp"
 #include "sim_server/server_tasks.hpp"
+#include "sim_server/step_gate.hpp"
 
 namespace skein::sim {
 
 class ServerProgram final : public bus::FleetProgram {
  public:
+  /// @param gate  of whoever steps the fleet in this process; nullptr: it flies by itself.
+  /// @param shelf  with the scene of its scenario; nullptr, or empty: it loads that.
+  explicit ServerProgram(std::shared_ptr<StepGate> gate = nullptr, std::shared_ptr<SceneShelf> shelf = nullptr)
+      : gate_(std::move(gate)), shelf_(std::move(shelf)) {}
+  /// Loads the scene that a server with these options will have. @throws InputError
+  static Scene load_ahead(const ProgramOptions& options);
   const char* name() const override { return programs::kSimServer; }
   void add_options(CLI::App& app) override;
   std::variant<int, std::unique_ptr<bus::FleetMember>> prepare(const ProgramOptions& options,
@@ -33,6 +42,8 @@ class ServerProgram final : public bus::FleetProgram {
   std::vector<std::string> by_hand_;
   recording::ReplayOptions replay_;
   ServerTasks tasks_;
+  const std::shared_ptr<StepGate> gate_;
+  const std::shared_ptr<SceneShelf> shelf_;
 };
 
 }  // namespace skein::sim

@@ -53,8 +53,8 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       server_(inbox_, recording_.tap()),
       hand_(scenario, simulation_, options.by_hand, options.out),
       faults_(scenario, simulation_, server_, status, options_.replay, options.out),
-      work_(scenario, simulation_),
       progress_(scenario, status) {
+  if (!options.gate) work_.emplace(scenario, simulation_);
   participants_.push_back(bus.join(world_domain(options.base_domain)));
   for (const Node node : scenario.nodes()) {
     participants_.push_back(bus.join(node_domain(options.base_domain, node)));
@@ -192,10 +192,12 @@ bool SimNode::join_members() {
 void SimNode::begin_step() {
   last_step_ = is_last_step();
   publish_step();
+  if (options_.gate) options_.gate->begin(simulation_, digest_, last_step_);
   wait_for(State::in_step, "to answer", options_.agent_timeout_s);
 }
 
 bool SimNode::take_answers(bool arrived) {
+  if (options_.gate && !options_.gate->may_end(simulation_.step())) return false;
   if (!server_.answered()) {
     const bool told = tell_waiting();
     if (!arrived && !told) progress_.tell(simulation_, summary_.lost);
@@ -204,7 +206,7 @@ bool SimNode::take_answers(bool arrived) {
       return false;
     }
     if (patience_.over()) give_up_awaited(fmt::format("did not answer for {} s", options_.agent_timeout_s));
-    if (until_asked_again_.over()) {
+    if (!options_.gate && until_asked_again_.over()) {
       server_.ask_again();
       until_asked_again_ = bus::Patience(kAskAgain_s);
     }
@@ -274,32 +276,6 @@ SimNode::Clock::time_point SimNode::due() const {
   if (!options_.realtime_factor) return started_;
   const double due_s = seconds(simulation_.tick() + scenario_.exchange_ticks()) / *options_.realtime_factor;
   return started_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
-}
-
-/// @param joined  there was a step. @returns that there is nothing more to do.
-bool SimNode::end_run(bool joined) {
-  state_ = State::over;
-  tell_of_strangers(0);
-  for (const std::string& name : uav_names_) summary_.commands_unheard.push_back(strangers_.unheard(name));
-  summary_.wall_time_s = joined ? elapsed_s(started_) - (watch_ ? watch_->held_s() : 0.0) : 0.0;
-  summary_.timing = clock_.summary();
-  summary_.timing.cpu_s = joined ? thread_cpu_s() - cpu_before_s_ : 0.0;
-  summary_.malformed = inbox_.malformed();
-  summary_.unsent = participants_.front()->unsent().count();
-  summary_.faults = faults_.report();
-  summary_.work = work_.tracks();
-  summary_.differences = recording_.differences();
-  summary_.status = end_status();
-  // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
-  if (options_.realtime_factor || summary_.status == RunStatus::interrupted || aborted_) summary_.deterministic = false;
-  if (summary_.deterministic) summary_.digest = digest_.hex();
-  summary_.hand = hand_.report();
-  for (std::string& trouble : hand_.finish()) files_.note_unwritten(std::move(trouble));
-  files_.note_unwritten(recording_.close());
-  files_.write_report(simulation_, summary_, status_);
-  if (joined) progress_.tell_now(simulation_, summary_.lost);
-  status_.send_surely(status::line_json(status::Ended{summary_.status, stalled_}));
-  return false;
 }
 
 // ---- one step ---------------------------------------------------------------------------------------------------
@@ -372,7 +348,7 @@ void SimNode::finish_step() {
     for (const std::uint64_t capture : uavs_[i]->take_released()) {
       files_.events().add_release(simulation_, uav_names_[i], capture);
       faults_.signals().add_release(i);
-      work_.add_release(i, capture);
+      if (work_) work_->add_release(i, capture);
     }
     if (const auto activity = uavs_[i]->take_activity()) {
       const bool news = files_.activities().add(simulation_, i, *activity);
@@ -383,16 +359,9 @@ void SimNode::finish_step() {
       hand_.hear(i, name, value);
     }
   }
-  work_.end_step([this](const std::string& member) { return server_.is_member(member); });
+  if (work_) work_->end_step([this](const std::string& member) { return server_.is_member(member); });
   faults_.end_step();
   progress_.tell(simulation_, summary_.lost);
-}
-
-RunStatus SimNode::end_status() const {
-  if (aborted_) return RunStatus::aborted;
-  if (stop_requested_) return RunStatus::interrupted;
-  if (simulation_.mission().end() == MissionEnd::takeoff_timeout) return RunStatus::no_takeoff;
-  return RunStatus::completed;
 }
 
 }  // namespace skein::sim

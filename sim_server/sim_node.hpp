@@ -25,6 +25,7 @@
 #include "sim_server/record/run_files.hpp"
 #include "sim_server/recording_node.hpp"
 #include "sim_server/simulation.hpp"
+#include "sim_server/step_gate.hpp"
 #include "sim_server/uav_node.hpp"
 #include "sim_server/viz_node.hpp"
 #include "sim_server/wait_teller.hpp"
@@ -49,6 +50,7 @@ struct SimNodeOptions {
   std::optional<WatchOptions> watch = {};  ///< somebody looks on (--watch)
   std::vector<UavIndex> by_hand = {};      ///< UAVs that somebody who looks on flies (--by-hand)
   FaultPlan faults;
+  std::shared_ptr<StepGate> gate = nullptr;  ///< somebody in this process steps the fleet
 };
 
 class SimNode final : public bus::LockstepNode {
@@ -118,7 +120,7 @@ class SimNode final : public bus::LockstepNode {
   HandNode hand_;
   std::unique_ptr<WatchNode> watch_;  ///< none: nobody watches
   FaultNode faults_;
-  WorkLog work_;
+  std::optional<WorkLog> work_;  ///< for the report alone: none where nobody reads it
   ProgressTeller progress_;
   State state_ = State::joining;
   std::optional<WaitTeller> wait_;  ///< for whom this state waits

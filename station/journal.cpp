@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "core/sha256.hpp"
+#include "process/nowhere.hpp"
 
 namespace skein::station {
 namespace {
@@ -153,7 +154,8 @@ Bytes read_all(int descriptor, const std::filesystem::path& file) {
 
 }  // namespace
 
-Journal::Journal(const std::filesystem::path& file, RunId run) : file_(file) {
+Journal::Journal(const std::filesystem::path& file, RunId run) : file_(file), ended_(is_nowhere(file)) {
+  if (ended_) return;
   descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (descriptor_ < 0) fail(file_, "cannot be opened");
   try {
@@ -164,7 +166,9 @@ Journal::Journal(const std::filesystem::path& file, RunId run) : file_(file) {
   }
 }
 
-Journal::~Journal() { ::close(descriptor_); }
+Journal::~Journal() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
 
 std::optional<RunId> Journal::run_of(const std::filesystem::path& file) {
   std::array<char, kMagic.size() + sizeof(RunId)> head{};

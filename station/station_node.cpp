@@ -23,13 +23,15 @@ constexpr Tick kVizPeriod = kTicksPerSecond / 10;
 }  // namespace
 
 StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
-                         StatusPipe& status, recording::Recorder* recorder, const ReadyView* view)
+                         StatusPipe& status, recording::Recorder* recorder, const ReadyView* view,
+                         std::shared_ptr<ScoreView> score)
     : scenario_(scenario),
       out_(out),
       status_(status),
       recorder_(recorder),
       uavs_(scenario.uav_names()),
       journal_(out / run_folder::kJournal, bus.run()),
+      score_view_(std::move(score)),
       names_(uavs_.size()),
       inbox_(bus.run()),
       world_(bus.join(world_domain(base_domain))),
@@ -54,6 +56,10 @@ StationNode::StationNode(const Scenario& scenario, int base_domain, bus::Bus& bu
   });
 }
 
+StationNode::~StationNode() {
+  if (score_view_) score_view_->board = nullptr;
+}
+
 void StationNode::on_ledger(const msg::Ledger& ledger) {
   if (!scoreboard_) open_scoreboard(ledger.interest_points());
   if (points_.empty()) {
@@ -67,6 +73,7 @@ void StationNode::on_ledger(const msg::Ledger& ledger) {
 
 void StationNode::open_scoreboard(std::size_t points) {
   scoreboard_.emplace(uavs_.size(), points, scenario_.rules);
+  if (score_view_) score_view_->board = &*scoreboard_;
   for (const TallyRecord& record : journal_.replayed()) scoreboard_->restore(record);
   if (view_) view_->add_records(journal_.replayed());
   if (!journal_.replayed().empty()) spdlog::info("took up {} records of the journal", journal_.replayed().size());

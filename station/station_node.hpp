@@ -17,6 +17,7 @@
 #include "recording/recorder.hpp"
 #include "station/journal.hpp"
 #include "station/point_names.hpp"
+#include "station/score_view.hpp"
 #include "station/scoreboard.hpp"
 #include "station/view_node.hpp"
 
@@ -27,8 +28,11 @@ class StationNode final : public bus::ClientNode {
   /// @param out  where the journal is; what it holds from an earlier life of this run is taken up again.
   /// @param recorder  records the tally, and the score as others read it; must outlive this. nullptr: nobody does.
   /// @param view  the page that is served; nullptr: none is.
+  /// @param score  gets the tally to look at; nullptr: nobody does.
   StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
-              StatusPipe& status, recording::Recorder* recorder = nullptr, const ReadyView* view = nullptr);
+              StatusPipe& status, recording::Recorder* recorder = nullptr, const ReadyView* view = nullptr,
+              std::shared_ptr<ScoreView> score = nullptr);
+  ~StationNode() override;
 
   bus::Inbox& inbox() override { return inbox_; }
   /// A file of another that the disk refused, a sentence; for the report.
@@ -59,7 +63,8 @@ class StationNode final : public bus::ClientNode {
   recording::Recorder* const recorder_;
   std::vector<std::string> uavs_;
   Journal journal_;
-  std::vector<std::string> unwritten_;    ///< what the disk refused, one sentence each
+  std::vector<std::string> unwritten_;  ///< what the disk refused, one sentence each
+  const std::shared_ptr<ScoreView> score_view_;
   std::optional<Scoreboard> scoreboard_;  ///< once the ledger told the number of points
   std::vector<InterestPoint> points_;     ///< once it told where they are
   PointNames names_;

@@ -15,12 +15,13 @@ namespace {
 class StationMember final : public bus::FleetMember {
  public:
   StationMember(Scenario scenario, const ProgramOptions& options, StatusPipe& status, std::unique_ptr<bus::Bus> bus,
-                std::optional<ReadyView> view)
+                std::optional<ReadyView> view, std::shared_ptr<ScoreView> score)
       : scenario_(std::move(scenario)),
         options_(options),
         status_(status),
         bus_(std::move(bus)),
         view_(std::move(view)),
+        score_(std::move(score)),
         recorder_(options_.out, programs::kStation, recording::scope_of(options_.record)) {
     withdraw_report(options_.out / run_folder::report_file(programs::kStation));
     make_node();
@@ -48,7 +49,8 @@ class StationMember final : public bus::FleetMember {
  private:
   void make_node() {
     node_.reset();
-    node_.emplace(scenario_, options_.domain, *bus_, options_.out, status_, &recorder_, view_ ? &*view_ : nullptr);
+    node_.emplace(scenario_, options_.domain, *bus_, options_.out, status_, &recorder_, view_ ? &*view_ : nullptr,
+                  score_);
   }
 
   const Scenario scenario_;
@@ -56,6 +58,7 @@ class StationMember final : public bus::FleetMember {
   StatusPipe& status_;
   const std::unique_ptr<bus::Bus> bus_;
   const std::optional<ReadyView> view_;
+  const std::shared_ptr<ScoreView> score_;
   recording::Recorder recorder_;
   std::optional<StationNode> node_;
 };
@@ -89,7 +92,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> StationProgram::prepare(con
   if (options.check_only) return kExitDone;
   std::optional<ReadyView> view;
   if (view_.listener >= 0 || !view_.listen.empty()) view.emplace(view_);
-  return std::make_unique<StationMember>(std::move(scenario), options, status, std::move(bus), std::move(view));
+  return std::make_unique<StationMember>(std::move(scenario), options, status, std::move(bus), std::move(view), score_);
 }
 
 }  // namespace skein::station

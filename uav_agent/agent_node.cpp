@@ -114,7 +114,21 @@ void AgentNode::read_captures(LockstepClient& client) {
       });
 }
 
+/// All that was announced has been read: the learner looks, and is told when all of them have.
+bool AgentNode::may_think() {
+  if (desk_ == nullptr) return true;
+  const msg::Step& step = this->step();
+  if (!looked_ && desk_->looks(step.k())) {
+    input_.k = step.k();
+    input_.tick = step.tick();
+    agent_.look(input_);
+    looked_ = true;
+  }
+  return !looked_ || desk_->told(step.k());
+}
+
 void AgentNode::work(const msg::Step& step) {
+  looked_ = false;
   input_.k = step.k();
   input_.tick = step.tick();
   released_ = input_.capture_acks;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "uav_agent/api/learner.hpp"
 #include "uav_agent/kept_maps.hpp"
 #include "uav_agent/maps/map_tree.hpp"
 #include "uav_agent/member_node.hpp"
@@ -22,6 +23,8 @@ class AgentNode final : public MemberNode {
   AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain, bus::Bus& bus,
             std::shared_ptr<ReadyFrames> frames = nullptr, bool by_hand = false);
 
+  /// Its planner, which is a learner, is stepped from now on. Before it begins. @param desk  must outlive this.
+  void step_by(const LearnerDesk& desk) { desk_ = &desk; }
   /// From now on its maps are kept. Before it begins.
   void keep_maps(std::unique_ptr<KeptMaps> maps);
 
@@ -37,6 +40,7 @@ class AgentNode final : public MemberNode {
   void work(const bus::LockstepClient::Step& step) override;
   void send(bus::LockstepClient& client) override;
   void show() override;
+  bool may_think() override;
   void show_octomap();
   void show_flight_map();
   void read_sensors(bus::LockstepClient& client);
@@ -59,6 +63,8 @@ class AgentNode final : public MemberNode {
   std::optional<MapTree> shown_tree_;
   std::uint64_t shown_flight_key_frames_ = 0;  ///< where there is no map of beams
   std::unique_ptr<KeptMaps> kept_maps_;        ///< nullptr: they are not kept
+  const LearnerDesk* desk_ = nullptr;          ///< nullptr: its planner decides by itself
+  bool looked_ = false;                        ///< in this step
 };
 
 }  // namespace skein::agent

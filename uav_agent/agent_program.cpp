@@ -166,6 +166,12 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   auto bus = bus::make_bus(options, *scenario);
   if (options.check_only) return kExitDone;
   std::unique_ptr<MemberNode> node;
+  Learner* const learner = planner ? planner->learner() : nullptr;
+  if (learner != nullptr && !desk_) {
+    throw InputError("--planner " + scenario->fleet[uav].name + "=" + planner_ +
+                     ": a learner does what a program says that steps the fleet: skein.Fleet(learners=[\"" +
+                     scenario->fleet[uav].name + "\"]) in Python");
+  }
   if (ground) {
     node = std::make_unique<GroundNode>(*scenario, std::move(ground), options.domain, *bus);
   } else {
@@ -173,6 +179,10 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
                                                 wants_hands(planner_));
     if (maps_every_s_) {
       on_board->keep_maps(std::make_unique<KeptMaps>(options.out, scenario->fleet[uav].name, ticks(*maps_every_s_)));
+    }
+    if (learner != nullptr) {
+      desk_->enter(scenario->fleet[uav].name, *learner);
+      on_board->step_by(*desk_);
     }
     node = std::move(on_board);
   }

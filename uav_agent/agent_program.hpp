@@ -3,6 +3,7 @@
 
 #include "bus/lockstep/fleet_program.hpp"
 #include "process/run_folder.hpp"
+#include "uav_agent/api/learner.hpp"
 #include "uav_agent/onboard/ready_frames.hpp"
 
 namespace skein::agent {
@@ -10,7 +11,9 @@ namespace skein::agent {
 class AgentProgram final : public bus::FleetProgram {
  public:
   /// @param frames  that the agents of this process have in common; nullptr: there is one.
-  explicit AgentProgram(std::shared_ptr<ReadyFrames> frames = nullptr) : frames_(std::move(frames)) {}
+  /// @param desk  steps this program's learner; nullptr: nobody can, and a learner is refused.
+  explicit AgentProgram(std::shared_ptr<ReadyFrames> frames = nullptr, std::shared_ptr<LearnerDesk> desk = nullptr)
+      : frames_(std::move(frames)), desk_(std::move(desk)) {}
   const char* name() const override { return programs::kAgent; }
   void add_options(CLI::App& app) override;
   std::variant<int, std::unique_ptr<bus::FleetMember>> prepare(const ProgramOptions& options,
@@ -22,6 +25,7 @@ class AgentProgram final : public bus::FleetProgram {
   std::optional<double> maps_every_s_, pdb_from_s_;
   bool list_ = false;
   const std::shared_ptr<ReadyFrames> frames_;
+  const std::shared_ptr<LearnerDesk> desk_;
 };
 
 }  // namespace skein::agent

@@ -54,6 +54,8 @@ class MemberNode : public bus::ClientNode {
   /// For who looks on, when the step is answered. In no count, so that nobody waits for it.
   virtual void show() {}
   bus::Participant& participant() { return *participant_; }
+  /// That is to be worked on, or was last.
+  const bus::LockstepClient::Step& step() const { return client_->step(); }
 
  private:
   bus::LockstepClient& client() override { return *client_; }

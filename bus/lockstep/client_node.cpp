@@ -18,7 +18,7 @@ constexpr double kLinger_s = 5.0;  // as long as the answer to the last step may
 void ClientNode::start() {
   client().start();
   wait_from_now();
-  was_member_ = met_server_ = false;
+  was_member_ = met_server_ = thinking_ = false;
   until_server_ = Patience(patience_with_server_s_);
   serving_ = true;
 }
@@ -45,6 +45,10 @@ void ClientNode::turn(bool arrived) {
   if (end_) return;
   if (event == LockstepClient::Event::think) {
     break_if_due(client().step().tick());
+    thinking_ = true;
+  }
+  if (thinking_ && may_think()) {
+    thinking_ = false;
     think();
     wait_from_now();
   }

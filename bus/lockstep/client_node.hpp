@@ -26,6 +26,8 @@ class ClientNode : public LockstepNode {
 
   /// Thinks about client().step(), writes, and calls client().done(); the router does so later, from serve().
   virtual void think() = 0;
+  /// A step is here, all of it. @returns whether it is time for think(); else the node is asked again in its next turn.
+  virtual bool may_think() { return true; }
   /// In every turn. @returns true while it waits for something that no sample announces (a match).
   virtual bool serve() { return false; }
   /// For Inbox::dispatch(), while it waits for nothing else.
@@ -48,7 +50,8 @@ class ClientNode : public LockstepNode {
   double patience_with_server_s_ = 0.0;
   Patience until_server_{0.0};
   bool was_member_ = false, met_server_ = false;
-  bool serving_ = true;  ///< waits for what no sample announces
+  bool thinking_ = false;  ///< a step is here, and may_think() was not true yet
+  bool serving_ = true;    ///< waits for what no sample announces
 };
 
 }  // namespace skein::bus

@@ -171,7 +171,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   std::vector<std::string> names;
   for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
   Planners planners = parse_planners(options.planner, names);
-  check_hands(planners.uavs, options.view.at.has_value());
+  check_hands(planners.uavs, options.view.at.has_value(), options.stepped);
   plan.agent = own_agent(options.agent);
   find_python_files(planners);
   find_agents(planners, plan.agent);

@@ -1,4 +1,5 @@
-"""Experiments with Skein from Python: flights, what they leave behind as arrays, and plots of it for papers.
+"""Experiments with Skein from Python: flights, what they leave behind as arrays, plots of it for papers, and fleets
+that a program steps.
 
     import skein
 
@@ -14,9 +15,10 @@ from .errors import (CheckError, DamagedError, DependencyError, Error, InputErro
                      ProcessError)
 from .launch import find_launcher
 from .run import Run, run
+from .stepping import Fleet, FleetVector, GymEnv, Truth, gym_env, spaces, vector_env
 from .study import Study, compare, contest
 
 __all__ = [
-    "CheckError", "Column", "DamagedError", "DependencyError", "Error", "InputError", "Interrupted", "MissingError",
-    "ProcessError", "RUN_TABLES", "Run", "STUDY_TABLES", "Study", "Table", "compare", "contest", "find_launcher",
-    "plots", "run"]
+    "CheckError", "Column", "DamagedError", "DependencyError", "Error", "Fleet", "FleetVector", "GymEnv", "InputError",
+    "Interrupted", "MissingError", "ProcessError", "RUN_TABLES", "Run", "STUDY_TABLES", "Study", "Table", "Truth",
+    "compare", "contest", "find_launcher", "gym_env", "plots", "run", "spaces", "vector_env"]

@@ -66,6 +66,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario
 }
 
 void RunFiles::write_scene(const Scene& scene) {
+  if (!digests_.kept()) return;
   nlohmann::json json;
   json["boxes"] = nlohmann::json::array();
   for (const OrientedBox& box : scene.boxes) {
@@ -103,6 +104,7 @@ void RunFiles::note_unwritten(std::string trouble) {
 }
 
 void RunFiles::add_step(const Simulation& simulation, const StepDigest& digest) {
+  if (!digests_.kept()) return;
   digests_ << std::to_string(digest.k) << "," << digest.running;
   for (const std::string& field : digest.fields) digests_ << "," << field;
   digests_ << "\n";

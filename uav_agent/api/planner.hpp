@@ -29,6 +29,7 @@ class FreeSpace;      // flight/free_space.hpp
 class OccupancyMap;   // maps/occupancy_map.hpp
 class WorldMap;       // maps/world_map.hpp
 struct FlightConfig;  // flight_core/flight_config.hpp
+class Learner;        // api/learner.hpp
 
 /// How far the tracker has come with the last Path.
 struct TrackingState {
@@ -114,6 +115,8 @@ class Planner {
   virtual const FlightConfig* flight() const { return nullptr; }
   /// Names of the values that it publishes; asked before the first exchange, and the answer must stay the same.
   virtual std::vector<std::string> debug_names() const { return {}; }
+  /// What it is to a program outside that tells it in each step what to do; nullptr: it decides by itself.
+  virtual Learner* learner() { return nullptr; }
 };
 
 /// Makes the planner that `spec` names: "hover", "hover:height_m=4,climb_mps=1" or "patrol:params.yaml" (a

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/euler.hpp"
+#include "uav_agent/api/learner.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/flight_core/flight_core.hpp"
 #include "uav_agent/flight_core/tracker.hpp"
@@ -66,6 +67,7 @@ struct Agent::Impl {
   void read_beams(const AgentInput& input);
   void clear_own_place(const Vector3d& p_W);
   void perceive(const AgentInput& input);
+  void take_in(const AgentInput& input);
   WorldMap* known_world() { return world_mapper ? &world_mapper->map() : world_map.get(); }
   const WorldMap* known_world() const { return world_mapper ? &world_mapper->map() : world_map.get(); }
   std::optional<RadioMessage> tell_map(const std::optional<Vector3d>& going_to_W, Tick tick);
@@ -103,6 +105,8 @@ struct Agent::Impl {
   std::string no_way;
   OwnMotion own_motion;  ///< if no core flies the planner
   ActivityTeller activity{config.fleet};
+  std::optional<FreeSpace> space;        ///< of `taken_in`, if the core flies the planner
+  std::optional<PlannerInput> taken_in;  ///< of a step that is not over
 };
 
 void Agent::Impl::wait_for(std::size_t mate, double now_s) {
@@ -298,15 +302,25 @@ std::uint64_t Agent::beam_scans(ScanDoubt doubt) const {
 }
 std::vector<std::string> Agent::debug_names() const { return impl_->planner->debug_names(); }
 
+void Agent::Impl::take_in(const AgentInput& input) {
+  perceive(input);
+  PlannerInput& in = taken_in.emplace(planner_input(input));
+  if (!core) return;
+  core->update(in);
+  in.flight = core->state();
+  in.space = &space.emplace(core->space(in));
+}
+
+Learner* Agent::learner() { return impl_->planner->learner(); }
+
+void Agent::look(const AgentInput& input) {
+  impl_->take_in(input);
+  impl_->planner->learner()->look(*impl_->taken_in);
+}
+
 AgentOutput Agent::step(const AgentInput& input) {
-  impl_->perceive(input);
-  PlannerInput in = impl_->planner_input(input);
-  std::optional<FreeSpace> space;
-  if (impl_->core) {
-    impl_->core->update(in);
-    in.flight = impl_->core->state();
-    in.space = &space.emplace(impl_->core->space(in));
-  }
+  if (!impl_->taken_in) impl_->take_in(input);
+  const PlannerInput& in = *impl_->taken_in;
   PlannerOutput decision = impl_->planner->plan(in);
   if (!impl_->core) impl_->note_motion(decision.motion);
   if (impl_->core) impl_->fly(in, decision);
@@ -323,6 +337,7 @@ AgentOutput Agent::step(const AgentInput& input) {
   output.debug = std::move(decision.debug);
   output.activity = impl_->activity.step(impl_->facts(in, decision.waits_for));
   output.captures = impl_->uplink.send(input.k, impl_->peers.station_visible());
+  impl_->taken_in.reset();
   return output;
 }
 

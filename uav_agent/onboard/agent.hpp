@@ -67,6 +67,11 @@ class Agent {
   std::vector<std::string> debug_names() const;
   /// One exchange. Inputs must come in order of k.
   AgentOutput step(const AgentInput& input);
+  /// What its planner is to a program outside that tells it what to do; nullptr: its planner decides by itself.
+  Learner* learner();
+  /// The first half of step(), in which all is taken in; then the learner looks. step() with the same input, which must
+  /// be there until then, does the rest.
+  void look(const AgentInput& input);
   /// Scans whose beams were asked for, by what was wrong with them.
   std::uint64_t beam_scans(ScanDoubt doubt) const;
   /// Whether that capture's report may yet have to be sent.

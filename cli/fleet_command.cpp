@@ -1,0 +1,100 @@
+#include "cli/fleet_command.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <variant>
+#include <vector>
+
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
+#include "core/text.hpp"
+#include "core/types.hpp"
+#include "process/nowhere.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// A program that dies or stands for a while needs a launcher that brings it back, and files that remember.
+void check_faults(const FaultPlan& faults) {
+  for (const Fault& fault : faults.faults) {
+    if (!std::holds_alternative<Kill>(fault.action) && !std::holds_alternative<Pause>(fault.action)) continue;
+    throw InputError(faults.file.string() +
+                     ": a fleet that is stepped takes no faults that kill or pause programs; "
+                     "fly them with `skein run`");
+  }
+}
+
+/// What the process is told (one_process/session.hpp).
+nlohmann::json session_plan(const FleetPlan& plan) {
+  nlohmann::json programs = nlohmann::json::array(), uavs = nlohmann::json::array();
+  for (const ProgramSpec& program : fleet_programs(plan, kFirstDomain, kNowhere)) {
+    programs.push_back({{"program", program.name}, {"argv", program.argv}});
+  }
+  for (const UavConfig& uav : plan.scenario.fleet) {
+    uavs.push_back({{"name", uav.name}, {"role", name_of(uav.vehicle.role)}});
+  }
+  return {{"programs", programs},
+          {"uavs", plan.scenario.uav_names()},
+          {"about",
+           {{"scenario", plan.scenario.name},
+            {"file", std::filesystem::absolute(plan.scenario.file)},
+            {"uavs", uavs},
+            {"duration_s", plan.scenario.duration_s},
+            {"exchange_period_s", seconds(plan.scenario.exchange_ticks())}}}};
+}
+
+/// A file without a name, which the next program finds under the path that is returned.
+std::string file_with(const std::string& text) {
+  const int file = ::memfd_create("skein-session", 0);
+  if (file < 0 || ::write(file, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+    throw std::system_error(errno, std::generic_category(), "memfd");
+  }
+  return "/proc/self/fd/" + std::to_string(file);
+}
+
+[[noreturn]] void become(const ProgramSpec& program) {
+  std::vector<char*> argv, env;
+  for (const std::string& word : program.argv) argv.push_back(const_cast<char*>(word.c_str()));
+  for (const std::string& entry : program.env) env.push_back(const_cast<char*>(entry.c_str()));
+  argv.push_back(nullptr);
+  env.push_back(nullptr);
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::execve(argv[0], argv.data(), env.data());
+  throw std::system_error(errno, std::generic_category(), argv[0]);
+}
+
+}  // namespace
+
+int step_fleet(const FleetOptions& options, const Console& console) {
+  if (options.session <= STDERR_FILENO || ::fcntl(options.session, F_GETFD) < 0) {
+    throw InputError("--session " + std::to_string(options.session) +
+                     ": there is no such descriptor; `skein fleet` is for skein.Fleet in Python, not for people");
+  }
+  RunOptions run = options.run;
+  run.one_process = run.stepped = true;
+  run.record = "none";
+  FleetPlan plan = plan_fleet(run, program_dir());
+  plan.run = draw_run_id();
+  check_faults(plan.faults);
+  if (run.check) {
+    const ScratchDir scratch;
+    run_checks(check_programs(plan, scratch.path()),
+               [&](const std::string& waiting) { console.err << waiting << std::endl; });
+  }
+  ProgramSpec process = shared_process(plan, kNowhere);
+  process.argv = {process.argv.front(), "--session", std::to_string(options.session), "--plan",
+                  file_with(session_plan(plan).dump())};
+  if (run.agent_timeout_s) process.argv.insert(process.argv.end(), {"--agent-timeout", shortest(*run.agent_timeout_s)});
+  become(process);
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,34 @@
+// Makes the programs of a fleet in this process, by their names in a run ("uav_agent-jurong").
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "comm_router/router_program.hpp"
+#include "process/run_folder.hpp"
+#include "sim_server/server_program.hpp"
+#include "station/station_program.hpp"
+#include "uav_agent/agent_program.hpp"
+
+namespace skein::one_process {
+
+/// More than a large fleet hears in a step.
+inline constexpr std::size_t kFramesRemembered = 256;
+
+/// What they share. All but the first are of whoever steps the fleet; null: it flies by itself.
+struct FleetPrograms {
+  std::shared_ptr<agent::ReadyFrames> frames = std::make_shared<agent::ReadyFrames>(kFramesRemembered);
+  std::shared_ptr<agent::LearnerDesk> desk = {};
+  std::shared_ptr<sim::StepGate> gate = {};
+  std::shared_ptr<station::ScoreView> score = {};
+  std::shared_ptr<sim::SceneShelf> shelf = {};
+
+  std::unique_ptr<bus::FleetProgram> make(const std::string& name) const {
+    if (name == programs::kSimServer) return std::make_unique<sim::ServerProgram>(gate, shelf);
+    if (name == programs::kCommRouter) return std::make_unique<router::RouterProgram>();
+    if (name == programs::kStation) return std::make_unique<station::StationProgram>(score);
+    return std::make_unique<agent::AgentProgram>(frames, desk);
+  }
+};
+
+}  // namespace skein::one_process

@@ -1,0 +1,224 @@
+#include "one_process/session.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "core/number_checks.hpp"
+#include "one_process/death_notice.hpp"
+#include "process/crash_notes.hpp"
+#include "process/program.hpp"
+#include "process/run_folder.hpp"
+#include "sim_server/server_program.hpp"
+
+namespace skein::one_process {
+namespace {
+
+/// A copy's files, in the order in which they come.
+enum File : std::size_t { kSocketFile, kBlockFile, kLogFile, kFiles };
+
+/// What the programs print is there for whoever asks why they failed: its newest part will do.
+constexpr off_t kLongestLog = 4 << 20;
+constexpr std::uint64_t kLookAtLog = 1024;  ///< answers
+
+[[noreturn]] void throw_errno(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+/// @param at  null: anywhere.
+std::byte* map_block(int file, std::size_t bytes, std::byte* at = nullptr) {
+  void* const block = ::mmap(at, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | (at != nullptr ? MAP_FIXED : 0), file, 0);
+  if (block == MAP_FAILED) throw_errno("mmap");
+  return static_cast<std::byte*>(block);
+}
+
+void write_to_file(int file, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t written = ::write(file, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw_errno("write");
+    done += static_cast<std::size_t>(written);
+  }
+}
+
+void close_all(const std::vector<int>& files) {
+  for (const int file : files) ::close(file);
+}
+
+nlohmann::json layout_json(const BlockLayout& layout) {
+  nlohmann::json fields = nlohmann::json::array();
+  for (const BlockField& field : layout.fields()) {
+    fields.push_back({field.name, field.type, field.shape, field.offset});
+  }
+  return fields;
+}
+
+}  // namespace
+
+SessionPlan read_session_plan(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  const nlohmann::json json = nlohmann::json::parse(in);
+  SessionPlan plan;
+  plan.about = json.at("about");
+  json.at("uavs").get_to(plan.uavs);
+  for (const nlohmann::json& program : json.at("programs")) {
+    plan.programs.push_back({program.at("program"), program.at("argv"), "", false});
+  }
+  return plan;
+}
+
+Session::Session(SessionPlan plan, int socket, double patience_s)
+    : plan_(std::move(plan)), socket_(socket), guard_(patience_s) {
+  ::prctl(PR_SET_PDEATHSIG, 0);        // of the thread that started the launcher, which may end before the fleet does
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // of copies whose own parent has gone
+  std::signal(SIGCHLD, SIG_IGN);       // nobody waits for them
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  DeathNotice::watch(socket);
+  guard_.watch(socket);
+}
+
+Session::~Session() = default;
+
+/// So that copies need not.
+void Session::load_scene() {
+  const auto server = std::ranges::find(plan_.programs, programs::kSimServer, &shared_lines::Start::program);
+  if (server == plan_.programs.end()) throw std::runtime_error("there is no sim_server in the plan");
+  std::vector<const char*> argv;
+  for (const std::string& word : server->argv) argv.push_back(word.c_str());
+  sim::ServerProgram program;
+  const auto options = parse_program(programs::kSimServer, static_cast<int>(argv.size()), argv.data(),
+                                     [&](CLI::App& app) { program.add_options(app); });
+  if (const auto* parsed = std::get_if<ProgramOptions>(&options)) shelf_->put(sim::ServerProgram::load_ahead(*parsed));
+}
+
+int Session::serve() {
+  load_scene();
+  hello();
+  while (const auto message = socket_.receive()) {
+    try {
+      answer(*message);
+    } catch (const FleetFailed& failed) {
+      fail(failed);
+      return kExitProcessFailed;
+    } catch (const std::exception& error) {
+      fail({"", 0, 0, error.what()});
+      return kExitProcessFailed;
+    }
+  }
+  return kExitDone;
+}
+
+void Session::answer(const SessionMessage& message) {
+  if (++answers_ % kLookAtLog == 0) cut_log();
+  if (message.text.starts_with("s ")) {
+    std::uint64_t steps = 0;
+    std::from_chars(message.text.data() + 2, message.text.data() + message.text.size(), steps);
+    if (steps == 0 || !fleet_ || fleet_->over()) throw std::logic_error("there is nothing to step");
+    fleet_->step(steps);
+    return socket_.send(fleet_->over() ? "e" : "k");
+  }
+  const nlohmann::json order = nlohmann::json::parse(message.text);
+  const std::string what = order.at("do");
+  if (what == "reset" || what == "fork") {
+    if (copy(message)) return socket_.send("k");
+    if (what == "reset") begin(order.at("seed"));
+    return hello();
+  }
+  if (!fleet_ || message.files.empty()) throw std::logic_error("there is no fleet to tell of");
+  write_to_file(message.files[0], (what == "scene" ? fleet_->scene() : fleet_->result()).dump());
+  close_all(message.files);
+  socket_.send("k");
+}
+
+bool Session::copy(const SessionMessage& message) {
+  if (message.files.size() != kFiles) throw std::logic_error("a copy needs files of its own");
+  // The block is copied before: afterwards both go their own ways.
+  if (fleet_) {
+    const std::size_t bytes = fleet_->layout().bytes();
+    if (::ftruncate(message.files[kBlockFile], static_cast<off_t>(bytes)) != 0) throw_errno("ftruncate");
+    std::byte* const theirs = map_block(message.files[kBlockFile], bytes);
+    std::memcpy(theirs, block_, bytes);
+    ::munmap(theirs, bytes);
+  }
+  std::fflush(stdout);
+  const pid_t pid = ::fork();
+  if (pid < 0) throw_errno("fork");
+  if (pid > 0) {
+    close_all(message.files);
+    return true;
+  }
+  socket_.become(message.files[kSocketFile]);
+  ::dup2(message.files[kLogFile], STDOUT_FILENO);
+  ::dup2(message.files[kLogFile], STDERR_FILENO);
+  ::close(message.files[kLogFile]);
+  block_fd_ = message.files[kBlockFile];
+  if (fleet_) {
+    map_block(block_fd_, fleet_->layout().bytes(), block_);  // where the fleet looks for it
+    ::close(std::exchange(block_fd_, -1));
+  }
+  guard_.watch(socket_.descriptor());  // timers are not copied
+  return false;
+}
+
+void Session::begin(std::uint64_t seed) {
+  fleet_ = std::make_unique<SteppedFleet>(plan_.programs, plan_.uavs, seed, shelf_);
+  guard_.look_after(fleet_.get());
+  const std::size_t bytes = fleet_->layout().bytes();
+  if (::ftruncate(block_fd_, static_cast<off_t>(bytes)) != 0) throw_errno("ftruncate");
+  block_ = map_block(block_fd_, bytes);
+  ::close(std::exchange(block_fd_, -1));
+  fleet_->begin(block_);
+}
+
+/// It is ready, and what there is to know of it.
+void Session::hello() {
+  if (!fleet_) return socket_.send(nlohmann::json({{"pid", ::getpid()}, {"about", plan_.about}}).dump());
+  const BlockLayout& layout = fleet_->layout();
+  const nlohmann::json hello = {{"pid", ::getpid()}, {"bytes", layout.bytes()}, {"fields", layout_json(layout)}};
+  socket_.send(hello.dump());
+}
+
+void Session::fail(const FleetFailed& failed) {
+  std::fflush(stdout);
+  socket_.send(
+      nlohmann::json(
+          {{"failed", failed.why}, {"program", failed.program}, {"code", failed.code}, {"signal", failed.signal}})
+          .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void Session::cut_log() const {
+  if (::lseek(STDERR_FILENO, 0, SEEK_END) > kLongestLog) static_cast<void>(!::ftruncate(STDERR_FILENO, 0));
+}
+
+int run_session(int argc, const char* const* argv) {
+  int socket = -1;
+  double patience_s = 60.0;
+  std::string plan;
+  const auto add_options = [&](CLI::App& app) {
+    app.description("Skein: home of a fleet that is stepped");
+    app.add_option("--session", socket, "Socket of the program that steps it")->group("Launcher");
+    app.add_option("--plan", plan, "File of the launcher that tells what flies")->group("Launcher");
+    app.add_option("--agent-timeout", patience_s, "wall time that a program may take for one turn [s], 0: for ever")
+        ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
+  };
+  const auto options = parse_program(programs::kOneProcess, argc, argv, add_options);
+  if (const int* code = std::get_if<int>(&options)) return *code;
+  note_crashes("/");  // no place for a core
+  return guarded(programs::kOneProcess, [&] { return Session(read_session_plan(plan), socket, patience_s).serve(); });
+}
+
+}  // namespace skein::one_process

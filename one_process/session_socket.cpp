@@ -1,0 +1,51 @@
+#include "one_process/session_socket.hpp"
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace skein::one_process {
+namespace {
+
+constexpr std::size_t kLongest = 4096, kMostFiles = 4;
+
+}  // namespace
+
+std::optional<SessionMessage> SessionSocket::receive() const {
+  std::array<char, kLongest> text{};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(kMostFiles * sizeof(int))> control{};
+  iovec part{text.data(), text.size()};
+  msghdr head{};
+  head.msg_iov = &part;
+  head.msg_iovlen = 1;
+  head.msg_control = control.data();
+  head.msg_controllen = control.size();
+  ssize_t size = 0;
+  do {
+    size = ::recvmsg(descriptor_, &head, MSG_CMSG_CLOEXEC);
+  } while (size < 0 && errno == EINTR);
+  if (size <= 0) return std::nullopt;
+  SessionMessage message{{text.data(), static_cast<std::size_t>(size)}, {}};
+  for (cmsghdr* note = CMSG_FIRSTHDR(&head); note != nullptr; note = CMSG_NXTHDR(&head, note)) {
+    if (note->cmsg_level != SOL_SOCKET || note->cmsg_type != SCM_RIGHTS) continue;
+    message.files.resize((note->cmsg_len - CMSG_LEN(0)) / sizeof(int));
+    std::memcpy(message.files.data(), CMSG_DATA(note), message.files.size() * sizeof(int));
+  }
+  return message;
+}
+
+void SessionSocket::send(std::string_view text) const {
+  while (::send(descriptor_, text.data(), text.size(), MSG_NOSIGNAL) < 0 && errno == EINTR) {
+  }
+}
+
+void SessionSocket::become(int descriptor) const {
+  ::dup3(descriptor, descriptor_, O_CLOEXEC);
+  ::close(descriptor);
+}
+
+}  // namespace skein::one_process

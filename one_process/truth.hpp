@@ -1,0 +1,53 @@
+// The truth about a fleet that is stepped, for those who ask for it by that name: the server's world and the station's
+// tally. No UAV knows any of it.
+// Frame W.   Units: SI and radians.   Threads: one.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/block_layout.hpp"
+#include "sim_server/step_gate.hpp"
+#include "station/score_view.hpp"
+
+namespace skein::one_process {
+
+class Truth {
+ public:
+  /// @param uavs  names in fleet order.
+  Truth(std::shared_ptr<station::ScoreView> score, std::vector<std::string> uavs)
+      : score_(std::move(score)), uavs_(std::move(uavs)) {}
+  void lay_out(BlockLayout& layout);
+
+  /// It is about these from now on.
+  void follow(const sim::Simulation& simulation, const sim::RunDigest& digest);
+  /// They end: what result() and scene() say is kept.
+  void keep();
+
+  /// Into the block of the layout, how it stands.
+  void write(std::byte* block) const;
+  /// Digest, score and what each UAV did.
+  nlohmann::json result() const;
+  /// Boxes and interest points, with what was delivered of each.
+  nlohmann::json scene() const;
+
+ private:
+  void write_score(std::byte* block) const;
+
+  const std::shared_ptr<station::ScoreView> score_;
+  const std::vector<std::string> uavs_;
+  const sim::Simulation* simulation_ = nullptr;  ///< null: it has ended
+  const sim::RunDigest* digest_ = nullptr;
+  mutable std::uint64_t standing_ = 0;  ///< entries of the ledger, when what is earned was written last
+  nlohmann::json kept_result_, kept_scene_;
+  nlohmann::json collisions_ = nlohmann::json::array();
+  BlockArray<std::int64_t> step_, points_, captures_;
+  BlockArray<double> time_s_, score_now_, earned_;
+  BlockArray<double> position_, attitude_, velocity_, angular_velocity_, gimbal_, distance_m_;
+  BlockArray<std::int8_t> mission_, alive_, airborne_;
+};
+
+}  // namespace skein::one_process

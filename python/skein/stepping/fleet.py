@@ -1,0 +1,341 @@
+"""A fleet that this program steps, with PettingZoo's interface for several agents (ParallelEnv)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..launch import option_arguments, positional
+from . import spaces
+from .actions import Orders, action_space
+from .observations import Observations
+from .saved import hand_file
+from .truth import Truth
+from .worker import Family, Worker
+
+Observation = dict[str, Any]
+Reward = Callable[["Fleet", str], float]
+_ACTIONS = {"velocity": "velocity", "goal": "way"}  # as the planner `learner` calls them
+_STATE = ("position", "velocity", "attitude", "angular_velocity", "gimbal")  # of each learner, in Fleet.state()
+
+
+class Fleet:
+    """A fleet in a process of its own, which stands between two calls of `step()`.
+
+    Whoever is in `learners` does what `step()` says; all others fly their planner. See docs/how-to-python.md.
+    """
+
+    metadata: dict[str, Any] = {"name": "skein_v0", "render_modes": ["ansi"], "is_parallelizable": True}
+
+    def __init__(self, scenario: str | os.PathLike[str] = "towers", *, planner: str = "patrol", seed: int = 0,
+                 learners: Iterable[str] = (), step_s: float = 0.05, actions: str = "velocity", safe: bool = True,
+                 scans: bool = False, map_window: tuple[int, int, int] = (16, 16, 8), map_cell_m: float = 1.0,
+                 detections: int = 256, reward: Reward | None = None, render_mode: str | None = None,
+                 launcher: str | os.PathLike[str] | None = None, **options: Any) -> None:
+        """`options` are those of `skein fleet --help`, as keywords: `duration=60`, `scene_seed=3`, `faults="a.yaml"`.
+
+        Raises InputError, with the launcher's message, if this cannot be flown.
+        """
+        if isinstance(learners, str):
+            learners = [learners]
+        self.possible_agents: list[str] = list(dict.fromkeys(learners))
+        if actions not in _ACTIONS:
+            raise InputError(f"actions must be one of {', '.join(map(repr, _ACTIONS))}, not {actions!r}")
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise InputError(f"render_mode must be None or 'ansi', not {render_mode!r}")
+        if len(map_window) != 3:
+            raise InputError(f"map_window must be three numbers of cells, along x, y and z, not {map_window!r}")
+        self.render_mode = render_mode
+        self._actions, self._safe, self._reward = actions, bool(safe), reward
+        self._seed = _whole("seed", seed)
+        learner = ",".join(f"{name}={value}" for name, value in {
+            "flies": _ACTIONS[actions], "safe": str(bool(safe)).lower(), "scans": str(bool(scans)).lower(),
+            "detections": int(detections), "map_x": int(map_window[0]), "map_y": int(map_window[1]),
+            "map_z": int(map_window[2]), "map_cell_m": float(map_cell_m)}.items())
+        self._planner = ",".join([planner, *(f"{uav}=learner:{learner}" for uav in self.possible_agents)])
+        self._scenario, self._launcher, self._options = scenario, launcher, dict(options)
+        self._families: dict[Any, Family] = {}
+        self._worker: Worker | None = None
+        self._observations: dict[str, Observations] = {}
+        self._orders: dict[str, Orders] = {}
+        self._log: dict[str, list[tuple[int, dict[str, Any]]]] = {}  # what learners were told, by step
+        self._started: tuple[int, Any] = (0, None)  # seed and scene
+        self._score = 0.0  # of the station, at the last step
+        self._flying = self._closed = False
+        self.agents: list[str] = []
+        self._over = False
+        self._resets = 0
+        about = self._family(options.get("scene_seed")).about
+        self._uavs: tuple[str, ...] = tuple(uav["name"] for uav in about["uavs"])
+        self._index = {uav: i for i, uav in enumerate(self._uavs)}
+        self._period_s = float(about["exchange_period_s"])
+        self._steps = self._steps_of(step_s)
+        self._about = about
+        self._action_spaces = {uav: action_space(actions) for uav in self.possible_agents}
+        self._start(self._seed)  # spaces are known once it flies
+        self._observation_spaces = {uav: self._observations[uav].space() for uav in self.possible_agents}
+
+    # -- what it is ---------------------------------------------------------------------------------------------------
+
+    @property
+    def uavs(self) -> tuple[str, ...]:
+        """All of the fleet, in its order."""
+        return self._uavs
+
+    @property
+    def step_s(self) -> float:
+        """Simulated time that a step takes."""
+        return self._steps * self._period_s
+
+    @property
+    def over(self) -> bool:
+        """The mission has ended."""
+        return self._over
+
+    @property
+    def num_agents(self) -> int:
+        return len(self.agents)
+
+    @property
+    def max_num_agents(self) -> int:
+        return len(self.possible_agents)
+
+    @property
+    def unwrapped(self) -> Fleet:
+        return self
+
+    def observation_space(self, agent: str) -> spaces.Space:
+        space: spaces.Space = self._of(self._observation_spaces, agent)
+        return space
+
+    def action_space(self, agent: str) -> spaces.Space:
+        space: spaces.Space = self._of(self._action_spaces, agent)
+        return space
+
+    @property
+    def observation_spaces(self) -> dict[str, spaces.Space]:
+        return dict(self._observation_spaces)
+
+    @property
+    def action_spaces(self) -> dict[str, spaces.Space]:
+        return dict(self._action_spaces)
+
+    @property
+    def state_space(self) -> spaces.Space:
+        size = sum(self._observations[uav].views[name].shape[0] for uav in self.possible_agents for name in _STATE)
+        return spaces.Box(-np.inf, np.inf, (size,), np.float64)
+
+    def _of(self, table: Mapping[str, Any], agent: str) -> Any:
+        if agent not in table:
+            raise InputError(f"there is no learner {agent!r}; there are: {', '.join(self.possible_agents) or 'none'}")
+        return table[agent]
+
+    @property
+    def truth(self) -> Truth:
+        """The world as it is, which no UAV knows."""
+        return Truth(self._running(), self._uavs)
+
+    def state(self) -> Any:
+        """What the learners know of themselves, in one array: position, velocity, attitude, angular velocity and gimbal
+        of each of `possible_agents`. It is not the truth."""
+        self._running()
+        parts = [self._observations[uav].views[name] for uav in self.possible_agents for name in _STATE]
+        return np.concatenate(parts) if parts else np.zeros(0)
+
+    # -- flying -------------------------------------------------------------------------------------------------------
+
+    def reset(self, seed: int | None = None, options: Mapping[str, Any] | None = None
+              ) -> tuple[dict[str, Observation], dict[str, dict[str, Any]]]:
+        """Begins anew. Without a seed the first mission is that of the fleet's seed, the next one that of the number
+        after it, and so on. `options={"scene_seed": 3}` chooses another scene of a procedural family."""
+        self._check_open()
+        unknown = set(options or {}) - {"scene_seed"}
+        if unknown:
+            raise InputError(f"reset(options=...) knows scene_seed, not {', '.join(map(repr, sorted(unknown)))}")
+        if seed is not None:
+            self._seed = _whole("seed", seed)
+        elif self._resets > 0:
+            self._seed += 1
+        if options and "scene_seed" in options:
+            self._options["scene_seed"] = _whole("scene_seed", options["scene_seed"])
+        as_it_is = (self._resets == 0 and self._started == (self._seed, self._scene())
+                    and self._running().views["truth.step"] == 0)  # the constructor has begun it
+        if not as_it_is:
+            self._start(self._seed)
+        self._resets += 1
+        observations = {uav: self._observations[uav].read() for uav in self.agents}
+        return observations, {uav: self._info() for uav in self.agents}
+
+    def step(self, actions: Mapping[str, Mapping[str, Any]] | None = None, *, step_s: float | None = None
+             ) -> tuple[dict[str, Observation], dict[str, float], dict[str, bool], dict[str, bool],
+                        dict[str, dict[str, Any]]]:
+        """Goes on by `step_s`. A learner without an action goes on with its last one.
+
+        Returns observations, rewards, terminations, truncations and infos of those that were in `agents`."""
+        self.begin_step(actions, step_s=step_s)
+        return self.end_step()
+
+    def begin_step(self, actions: Mapping[str, Mapping[str, Any]] | None = None, *,
+                   step_s: float | None = None) -> None:
+        """The first half of `step()`: the fleet flies, and this program may do something else."""
+        worker = self._running()
+        if self._over:
+            raise InputError("the mission is over: call reset()")
+        if self._flying:
+            raise InputError("the fleet is flying already: call end_step() before")
+        steps = self._steps if step_s is None else self._steps_of(step_s)
+        if actions is not None and not isinstance(actions, Mapping):
+            raise InputError(f"actions must be a dictionary from learners to their actions, not {actions!r}")
+        values = {}
+        for uav, action in (actions or {}).items():
+            if uav not in self._orders:
+                self._of(self._orders, uav)
+            if uav in self.agents:
+                values[uav] = self._orders[uav].read(action)
+        now = int(worker.views["truth.step"])
+        for uav, value in values.items():
+            self._orders[uav].write(value)
+            self._log.setdefault(uav, []).append((now, value))
+        self._flying = True
+        worker.begin_steps(steps)
+
+    def end_step(self) -> tuple[dict[str, Observation], dict[str, float], dict[str, bool], dict[str, bool],
+                                dict[str, dict[str, Any]]]:
+        """The second half of `step()`: waits for the fleet."""
+        worker = self._running()
+        if not self._flying:
+            raise InputError("the fleet stands: call begin_step() before")
+        self._flying = False
+        self._over = worker.end_steps()
+        agents, alive, score = self.agents, worker.views["truth.alive"], float(worker.views["truth.score"][()])
+        gain, self._score = score - self._score, score
+        terminations = {uav: not alive[self._index[uav]] for uav in agents}
+        truncations = {uav: self._over and not terminations[uav] for uav in agents}
+        observations = {uav: self._observations[uav].read() for uav in agents}
+        infos = {uav: self._info() for uav in agents}
+        self.agents = [uav for uav in agents if not terminations[uav] and not truncations[uav]]
+        rewards = {uav: gain if self._reward is None else float(self._reward(self, uav)) for uav in agents}
+        return observations, rewards, terminations, truncations, infos
+
+    def fork(self) -> Fleet:
+        """A copy of the fleet as it stands, planners' minds and all. Both go on by themselves, and with the same
+        actions they fly the same."""
+        worker = self._running()
+        if self._flying:
+            raise InputError("a fleet that flies cannot be copied: call end_step() before")
+        copy = object.__new__(Fleet)
+        copy.__dict__.update(self.__dict__)
+        copy.agents = list(self.agents)
+        copy._families, copy._options = dict(self._families), dict(self._options)
+        copy._log = {uav: list(entries) for uav, entries in self._log.items()}
+        copy._take(worker.fork())
+        return copy
+
+    def result(self) -> dict[str, Any]:
+        """Digest, score, and what each UAV did, until now. Writes no files."""
+        result: dict[str, Any] = self._running().ask("result")
+        return {"scenario": self._about["scenario"], "planner": self._planner, "seed": self._started[0], **result}
+
+    def save_commands(self, uav: str, file: str | os.PathLike[str]) -> Path:
+        """Writes what a learner was told since reset() as a file that the planner `hand` flies again:
+        `skein run --planner patrol,UAV=hand:FILE` is the same flight, with all that a run leaves behind."""
+        self._of(self._orders, uav)
+        if self._actions != "velocity":
+            raise InputError("only velocities can be flown again: actions='velocity'")
+        return hand_file(uav, self._log.get(uav, []), self._period_s, Path(file))
+
+    def render(self) -> str | None:
+        """With render_mode="ansi": the fleet's state as text."""
+        if self.render_mode is None:
+            return None
+        truth = self.truth
+        lines = [f"{self._about['scenario']} {truth.time_s:.2f} s  mission {truth.mission}  score {truth.score:.3f}"]
+        for uav, p, v, alive in zip(self._uavs, truth.position, truth.velocity, truth.alive):
+            what = f"{np.sqrt(v @ v):.1f} m/s" if alive else "out"
+            lines.append(f"  {uav:12} ({p[0]:7.2f}, {p[1]:7.2f}, {p[2]:6.2f})  {what}"
+                         + ("  learner" if uav in self.possible_agents else ""))
+        return "\n".join(lines)
+
+    def close(self) -> None:
+        """Ends the process. Nothing is left of the fleet."""
+        if self._worker is not None:
+            self._worker.let_go()
+        self._worker, self._closed, self.agents = None, True, []
+        self._families.clear()  # those that no copy needs end
+
+    def __enter__(self) -> Fleet:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
+                 trace: TracebackType | None) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        state = "closed" if self._worker is None else f"at {self.truth.time_s:.2f} s"
+        return f"<skein.Fleet {os.fspath(self._scenario)}, learners {self.possible_agents}, {state}>"
+
+    # -- its process --------------------------------------------------------------------------------------------------
+
+    def _scene(self) -> Any:
+        return self._options.get("scene_seed")
+
+    def _family(self, scene_seed: Any) -> Family:
+        if scene_seed not in self._families:
+            options = {**self._options, "scene_seed": scene_seed}
+            words = ["fleet", positional("scenario", self._scenario), f"--planner={self._planner}",
+                     *option_arguments(options)]
+            self._families[scene_seed] = Family(words, self._launcher, self._options.get("agent_timeout"))
+        return self._families[scene_seed]
+
+    def _start(self, seed: int) -> None:
+        if self._worker is not None:
+            self._worker.let_go()
+            self._worker = None
+        self._log = {}
+        self._take(self._family(self._scene()).worker(seed))
+        self._started = (seed, self._scene())
+        self._over = False
+        self._score = float(self._running().views["truth.score"][()])
+        self.agents = list(self.possible_agents)
+
+    def _take(self, worker: Worker) -> None:
+        self._worker = worker
+        self._flying = False
+        self._observations = {uav: Observations(uav, worker.fields, worker.block) for uav in self.possible_agents}
+        self._orders = {uav: Orders(uav, self._actions, worker.views) for uav in self.possible_agents}
+
+    def _check_open(self) -> None:
+        if self._closed:
+            raise InputError("the fleet is closed: make another one, or do not call close() before")
+
+    def _running(self) -> Worker:
+        self._check_open()
+        if self._worker is None:
+            raise InputError("the fleet could not begin: call reset()")
+        self._worker.check()
+        return self._worker
+
+    def _steps_of(self, step_s: float) -> int:
+        try:
+            steps = float(step_s) / self._period_s
+        except (TypeError, ValueError):
+            raise InputError(f"step_s must be a time in seconds, not {step_s!r}") from None
+        if not np.isfinite(steps) or steps < 0.5 or abs(steps - round(steps)) > 1e-6:
+            raise InputError(f"step_s must be a multiple of {self._period_s:g} s, the exchange's period, "
+                             f"not {step_s!r}")
+        return round(steps)
+
+    def _info(self) -> dict[str, Any]:
+        return {"seed": self._started[0], "step": int(self._running().views["truth.step"])}
+
+
+def _whole(name: str, value: Any) -> int:
+    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__") or not 0 <= value.__index__() < 1 << 63:
+        raise InputError(f"{name} must be a whole number, 0 or above, not {value!r}")
+    return int(value.__index__())

@@ -1,0 +1,92 @@
+"""Several fleets side by side, each in a process of its own."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Mapping, Sequence
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from .fleet import Fleet, _whole
+
+
+class FleetVector:
+    """Fleets that are stepped at once; they use as many cores as there are. What each returns is that of `Fleet`."""
+
+    def __init__(self, fleets: Sequence[Fleet]) -> None:
+        self.fleets = list(fleets)
+
+    @property
+    def num_envs(self) -> int:
+        return len(self.fleets)
+
+    def __len__(self) -> int:
+        return len(self.fleets)
+
+    def __iter__(self) -> Iterator[Fleet]:
+        return iter(self.fleets)
+
+    def __getitem__(self, index: int) -> Fleet:
+        return self.fleets[index]
+
+    def reset(self, seed: int | Sequence[int] | None = None, options: Mapping[str, Any] | None = None
+              ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+        """Begins anew. One seed is the first fleet's; the others get those after it."""
+        seeds: Sequence[int | None]
+        if seed is None:
+            seeds = [None] * len(self.fleets)
+        elif isinstance(seed, (int, np.integer)):
+            seeds = [_whole("seed", seed) + i for i in range(len(self.fleets))]
+        else:
+            seeds = list(seed)
+        self._check_length("seeds", seeds)
+        both = [fleet.reset(one, options) for fleet, one in zip(self.fleets, seeds)]
+        return [observations for observations, _ in both], [infos for _, infos in both]
+
+    def step(self, actions: Sequence[Mapping[str, Any] | None], *, step_s: float | None = None
+             ) -> tuple[list[dict[str, Any]], list[dict[str, float]], list[dict[str, bool]], list[dict[str, bool]],
+                        list[dict[str, Any]]]:
+        """A step of each fleet; a fleet whose mission is over stays, and returns empty dictionaries."""
+        self._check_length("actions", actions)
+        flying = []
+        try:
+            for fleet, one in zip(self.fleets, actions):
+                if not fleet.over:
+                    fleet.begin_step(one, step_s=step_s)
+                    flying.append(fleet)
+        except InputError:
+            for fleet in flying:  # those that were told before go on, and stand again
+                fleet.end_step()
+            raise
+        parts: list[tuple[Any, ...]] = [fleet.end_step() if fleet in flying else ({}, {}, {}, {}, {})
+                                        for fleet in self.fleets]
+        observations, rewards, terminations, truncations, infos = (list(part) for part in zip(*parts))
+        return observations, rewards, terminations, truncations, infos
+
+    def _check_length(self, name: str, values: Sequence[Any]) -> None:
+        if len(values) != len(self.fleets):
+            raise InputError(f"there are {len(self.fleets)} fleets, and {len(values)} {name}")
+
+    def close(self) -> None:
+        for fleet in self.fleets:
+            fleet.close()
+
+    def __enter__(self) -> FleetVector:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
+                 trace: TracebackType | None) -> None:
+        self.close()
+
+
+def vector_env(n: int, scenario: Any = "towers", *, seed: int = 0, **options: Any) -> FleetVector:
+    """`n` fleets as `skein.Fleet` makes them, with the seeds `seed`, `seed + 1`, ..."""
+    if _whole("n", n) < 1:
+        raise InputError("n must be 1 or more")
+    with contextlib.ExitStack() as stack:
+        fleets = [stack.enter_context(Fleet(scenario, seed=_whole("seed", seed) + i, **options)) for i in range(n)]
+        stack.pop_all()
+    return FleetVector(fleets)

@@ -1,0 +1,280 @@
+"""Processes in which fleets fly, and the one talk that there is with them (one_process/session.hpp).
+
+A family of them begins with one that the launcher becomes, which has no fleet. All others are copies: of that one with
+a fleet that begins, or of another with a fleet as it stands. A process ends when its socket is closed here, by whatever
+end of this program.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import json
+import mmap
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import weakref
+from typing import Any
+
+import numpy as np
+
+from ..errors import Error, InputError, ProcessError
+from ..launch import Finished, find_launcher
+from .observations import Field
+
+_LONGEST_ANSWER = 1 << 20
+_MOST_LINES = 20
+_FRAME = "  at "  # of the addresses that a crash leaves (process/crash_notes.hpp)
+_FIRST_SESSION = 64  # descriptors below 10 are a shell's own, and the checkout's launcher begins as one
+_LOOK_S = 1.0  # how often a process that does not answer is looked at
+_PATIENCE_S = 30.0  # for a process that was told to end
+
+_all: weakref.WeakSet[_Process] = weakref.WeakSet()
+
+
+def _forget_all() -> None:
+    """In a copy of this program: fleets are its parent's, and must end when that does."""
+    for process in list(_all):
+        process.let_go()
+
+
+os.register_at_fork(after_in_child=_forget_all)
+
+
+def _memory_file(name: str) -> int:
+    return os.memfd_create(name, os.MFD_CLOEXEC)
+
+
+def _content(file: int) -> bytes:
+    size = os.fstat(file).st_size
+    return os.pread(file, size, 0)
+
+
+class _Process:
+    """A socket, and what is printed at its other end."""
+
+    def __init__(self, ours: socket.socket, log: int) -> None:
+        self._socket: socket.socket | None = ours
+        self._log = log
+        self._owner = os.getpid()
+        self.pid = 0
+        self.patience_s = 60.0  # for a turn, as the launcher has it
+        ours.settimeout(_LOOK_S)
+        _all.add(self)
+
+    @property
+    def closed(self) -> bool:
+        return self._socket is None
+
+    def let_go(self) -> None:
+        """Closes what is open here; the process at the other end finds out."""
+        if self._socket is not None:
+            self._socket.close()
+            os.close(self._log)
+            self._socket = None
+
+    def __del__(self) -> None:
+        self.let_go()
+
+    def _open(self) -> socket.socket:
+        if self._socket is None:
+            if os.getpid() != self._owner:
+                raise InputError("this Python program is a copy (os.fork, multiprocessing), and the fleet is that of "
+                                 "the one that it was copied from: make a fleet here")
+            raise InputError("the fleet's process has ended: call reset(), or make another fleet")
+        return self._socket
+
+    def check(self) -> None:
+        """Raises InputError if there is nobody to talk to."""
+        self._open()
+
+    def said(self) -> str:
+        """The last lines of what was printed."""
+        lines = [line for line in _content(self._log).decode(errors="replace").strip().splitlines()
+                 if not line.startswith(_FRAME)]
+        return "\n".join(lines[-_MOST_LINES:])
+
+    def send(self, text: str, files: tuple[int, ...] = ()) -> None:
+        ours = self._open()
+        try:
+            socket.send_fds(ours, [text.encode()], list(files)) if files else ours.send(text.encode())
+        except OSError:
+            raise self._failure(self._last_words()) from None
+
+    def receive(self) -> bytes:
+        """The answer. Whoever does not wait for it to its end (Ctrl-C) has no fleet any more."""
+        ours = self._open()
+        try:
+            answer = self._wait_for(ours)
+        except OSError:
+            answer = b""
+        except BaseException:
+            self.let_go()
+            raise
+        if not answer or answer[:1] in b"\n{":
+            told = json.loads(answer) if answer.strip() else {}
+            if not answer or "failed" in told or "fatal" in told:
+                raise self._failure(told)
+        return answer
+
+    def _wait_for(self, ours: socket.socket) -> bytes:
+        stopped_s = 0.0
+        while True:
+            try:
+                return ours.recv(_LONGEST_ANSWER)
+            except TimeoutError:
+                stopped_s = stopped_s + _LOOK_S if self._is_stopped() else 0.0
+                if stopped_s > 1.5 * self.patience_s > 0.0:  # it looks after itself unless it stands still
+                    raise self._failure({"failed": "is stopped (SIGSTOP), and does not go on"}) from None
+
+    def _is_stopped(self) -> bool:
+        try:
+            with open(f"/proc/{self.pid}/stat", encoding="utf-8") as file:
+                return file.read().rpartition(")")[2].split()[0] == "T"
+        except OSError:
+            return False
+
+    def _last_words(self) -> dict[str, Any]:
+        with contextlib.suppress(OSError, ValueError):
+            assert self._socket is not None
+            words = json.loads(self._socket.recv(_LONGEST_ANSWER, socket.MSG_DONTWAIT) or b"{}")
+            return words if isinstance(words, dict) else {}
+        return {}
+
+    def _failure(self, told: dict[str, Any]) -> Error:
+        """The process has ended, or is about to."""
+        who = told.get("ended") or told.get("program") or "the fleet's process"
+        number = int(told.get("signal", 0))
+        if number:
+            how = f"ended by signal {number} ({signal.strsignal(number) or 'unknown'})"
+        elif told.get("code"):
+            how = f"ended with exit code {told['code']}"
+        else:
+            how = str(told.get("failed", "ended without a word (killed, or out of memory?)"))
+        said = self.said()
+        if self._is_stopped():
+            with contextlib.suppress(OSError):
+                os.kill(self.pid, signal.SIGKILL)
+        self.let_go()
+        return ProcessError(f"{who} {how}" + (f"; the end of what was printed:\n{said}" if said else ""), 3)
+
+    def hello(self) -> dict[str, Any]:
+        told: dict[str, Any] = json.loads(self.receive())
+        self.pid = int(told["pid"])
+        return told
+
+
+class Family:
+    """What the processes of equal fleets have in common: the one that is copied for a new fleet."""
+
+    def __init__(self, words: list[str], launcher: str | os.PathLike[str] | None, patience_s: Any = None) -> None:
+        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        log = _memory_file("skein-fleet-log")
+        session = fcntl.fcntl(theirs, fcntl.F_DUPFD_CLOEXEC, _FIRST_SESSION)
+        theirs.close()
+        command = [find_launcher(launcher), *words, f"--session={session}"]
+        # Until the launcher has become that process, which looks after itself, the kernel tells it of our death.
+        if setpriv := shutil.which("setpriv"):
+            command = [setpriv, "--pdeathsig", "TERM", "--", *command]
+        self._root = _Process(ours, log)
+        with contextlib.suppress(TypeError, ValueError):  # the launcher will say what is wrong
+            self._root.patience_s = float(patience_s)
+        try:
+            child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                                     pass_fds=(session,), start_new_session=True)
+        except (OSError, ValueError) as error:
+            self._root.let_go()
+            raise InputError(f"the launcher cannot be started: {error}") from error
+        finally:
+            os.close(session)
+        self._end = weakref.finalize(self, _end, self._root, child)
+        try:
+            self.about: dict[str, Any] = self._greet(child)["about"]
+        except BaseException:
+            self.close()
+            raise
+
+    def _greet(self, child: subprocess.Popen[bytes]) -> dict[str, Any]:
+        log = os.dup(self._root._log)
+        try:
+            return self._root.hello()
+        except ProcessError as error:  # the launcher refused
+            finished = Finished("", _content(log).decode(errors="replace"), child.wait(_PATIENCE_S))
+            raise finished.error() or error from None
+        finally:
+            os.close(log)
+
+    def close(self) -> None:
+        self._end()
+
+    def worker(self, seed: int) -> Worker:
+        """A fleet that begins."""
+        return Worker(self, self._root, {"do": "reset", "seed": seed})
+
+
+def _end(root: _Process, child: subprocess.Popen[bytes]) -> None:
+    """The first process of a family; those that are left are still needed, and end by themselves."""
+    if root.closed and os.getpid() != root._owner:
+        return
+    root.let_go()
+    try:
+        child.wait(0.0 if child.poll() is not None else 1.0)
+    except subprocess.TimeoutExpired:  # it was still the launcher
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(child.pid, signal.SIGTERM)
+        try:
+            child.wait(_PATIENCE_S)
+        except subprocess.TimeoutExpired:
+            child.kill()
+            child.wait()
+
+
+class Worker(_Process):
+    """A fleet's process, and the block of memory that it shares."""
+
+    def __init__(self, family: Family, original: _Process, order: dict[str, Any],
+                 fields: list[Field] | None = None) -> None:
+        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        log = _memory_file("skein-fleet-log")
+        super().__init__(ours, log)
+        self.patience_s = original.patience_s
+        block = _memory_file("skein-fleet")
+        try:
+            original.send(json.dumps(order), (theirs.fileno(), block, log))
+            theirs.close()
+            original.receive()
+            told = self.hello()
+            self.block = mmap.mmap(block, int(told["bytes"]))
+        except BaseException:
+            self.let_go()
+            raise
+        finally:
+            theirs.close()
+            os.close(block)
+        self._family = family
+        self.fields = fields or told["fields"]
+        self.views: dict[str, Any] = {name: np.ndarray(shape, kind, self.block, offset)
+                                      for name, kind, shape, offset in self.fields}
+
+    def fork(self) -> Worker:
+        """A copy of this process, fleet and all."""
+        return Worker(self._family, self, {"do": "fork"}, self.fields)
+
+    def begin_steps(self, count: int) -> None:
+        self.send(f"s {count}")
+
+    def end_steps(self) -> bool:
+        """Waits until the fleet stands again. Returns whether its run has ended."""
+        return self.receive() == b"e"
+
+    def ask(self, what: str) -> Any:
+        file = _memory_file("skein-fleet-answer")
+        try:
+            self.send(json.dumps({"do": what}), (file,))
+            self.receive()
+            return json.loads(_content(file))
+        finally:
+            os.close(file)
