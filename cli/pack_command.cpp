@@ -101,7 +101,7 @@ int pack_programs(const PackOptions& options, const Console& console) {
   std::ofstream(pack / "skein") << fmt::format(fmt::runtime(kLauncher), loader);
   fs::permissions(pack / "skein", fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
                                       fs::perms::others_read | fs::perms::others_exec);
-  output_of({"/usr/bin/env", "tar", "--create", "--gzip", "--file", unfinished, "--directory", dir, "skein"});
+  output_of({"/usr/bin/env", "tar", "--create", "--use-compress-program=gzip -1", "--file", unfinished, "--directory", dir, "skein"});
   fs::rename(unfinished, archive);
   fs::remove_all(dir);
   console.out << fmt::format("{}: {} programs, {} libraries, {:.0f} MB; unpack it anywhere, and call skein/skein\n",
