@@ -82,10 +82,12 @@ void TrialFlights::fly_round(const std::vector<std::size_t>& numbers, const std:
     const auto engine = make_engine(plan_.options.sweep, plan_.options.jobs, folder, console_);
     SweepController controller(folder, *engine, here, console_.err);
     const auto slots = static_cast<std::size_t>(plan_.options.jobs.value_or(usable_cores()));
-    controller.plan({flights.size(), [&](std::size_t index) { return flights[index]; },
-                     reference(plan_, folder, made_under),
+    controller.plan({flights.size(),
+                     [&](std::size_t index) { return flights[index]; },
+                     {reference(plan_, folder, made_under)},
                      [&](double) { return std::max<std::size_t>(1, flights.size() / (4 * slots)); },
-                     plan_.options.sweep.command, fs::current_path()});
+                     plan_.options.sweep.command,
+                     fs::current_path()});
     write_fly_script(folder, fs::absolute(plan_.out), fs::current_path());
     if (!controller.fly()) throw Interrupted{};
     for (const auto& [unit, words] : controller.failed()) {

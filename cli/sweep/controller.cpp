@@ -51,7 +51,7 @@ bool is_checked(std::size_t index, std::size_t flights) {
   return RandomStream(1, "checked flight", index / kCheckedShare).bits() % kCheckedShare == index % kCheckedShare;
 }
 
-void SweepController::plan(const SweepPlan& plan) {
+void SweepController::plan(const SweepPlan& plan, bool anew) {
   const std::string digest = digest_of(plan);
   const auto former = folder_.settings();
   if (former && former->plan == digest) {
@@ -61,7 +61,9 @@ void SweepController::plan(const SweepPlan& plan) {
       settings_.working_folder = plan.working_folder;
       folder_.write_settings(settings_);
     }
+    if (!anew) return;
     reopen_what_must_fly(plan);
+    folder_.write_tries({});
     return;
   }
   if (former) engine_.cancel();
@@ -73,18 +75,19 @@ void SweepController::begin(const SweepPlan& plan, const std::string& digest_of_
   settings_.token = new_token(digest_of_plan);
   settings_.plan = digest_of_plan;
   settings_.flights = plan.flights;
-  settings_.reference = plan.reference;
   settings_.command = plan.command;
   settings_.working_folder = plan.working_folder;
   const auto former = folder_.settings();
-  const bool proved = former && to_json(former->reference) == to_json(plan.reference);  // as in a hunt's last round
+  // As in a hunt's last round: what is known of nodes stays.
+  const bool proved = former && std::ranges::any_of(plan.references, [&](const SweepFlight& flight) {
+                        return to_json(flight) == to_json(former->reference);
+                      });
   if (proved) {
+    settings_.reference = former->reference;
     settings_.digest = former->digest;
     settings_.reference_s = former->reference_s;
   } else {
-    const auto began = std::chrono::steady_clock::now();
-    settings_.digest = fly_reference(folder_, plan.reference, here_);
-    settings_.reference_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    fly_a_reference(plan);
   }
   settings_.unit_flights = plan.unit_flights(settings_.reference_s);
   folder_.begin(settings_, proved, [&](std::size_t number) {
@@ -95,6 +98,22 @@ void SweepController::begin(const SweepPlan& plan, const std::string& digest_of_
     return unit;
   });
   for (std::size_t number = 0; number < settings_.units(); ++number) close_what_is_flown(number);
+}
+
+/// A planner that always fails does not keep the others from the air.
+void SweepController::fly_a_reference(const SweepPlan& plan) {
+  for (const SweepFlight& flight : plan.references) {
+    const auto began = std::chrono::steady_clock::now();
+    try {
+      settings_.digest = fly_reference(folder_, flight, here_);
+    } catch (const NodeTrouble&) {
+      if (&flight == &plan.references.back()) throw;
+      continue;
+    }
+    settings_.reference = flight;
+    settings_.reference_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    return;
+  }
 }
 
 /// A study that was flown otherwise before, or in part.
@@ -127,8 +146,7 @@ void SweepController::look() {
   settings_ = *settings;
 }
 
-bool SweepController::fly(bool anew) {
-  if (anew) folder_.write_tries({});
+bool SweepController::fly() {
   for (;;) {
     judge_checks();
     remove_quarantined();

@@ -21,7 +21,7 @@ namespace skein::cli {
 struct SweepPlan {
   std::size_t flights = 0;
   std::function<SweepFlight(std::size_t index)> flight;
-  SweepFlight reference;
+  std::vector<SweepFlight> references;  ///< the first of them that goes well is the reference flight
   /// How many flights make a unit, if the reference flight takes so long [s].
   std::function<std::size_t(double reference_s)> unit_flights;
   std::vector<std::string> command;  ///< as in SweepSettings, like the next one
@@ -45,13 +45,13 @@ class SweepController {
   SweepController(SweepFolder& folder, SweepEngine& engine, const SweepNode& here, std::ostream& say)
       : folder_(folder), engine_(engine), here_(here), say_(say) {}
 
-  /// Begins the sweep, or goes on with it where it is the same. What failed then is tried once more.
-  void plan(const SweepPlan& plan);
+  /// Begins the sweep, or goes on with it where it is the same.
+  /// @param anew  the user asked: what failed before gets all its tries again
+  void plan(const SweepPlan& plan, bool anew = true);
   /// Of a sweep that is there, to be looked at. @throws InputError when there is none.
   void look();
-  /// @param anew  the user asked: units that failed before get all their tries again.
   /// @returns false when it was interrupted, or nobody waits for the engine.
-  bool fly(bool anew = true);
+  bool fly();
 
   /// Calls `take` with what came of each flight that is over, in no order that means anything.
   void collect(const std::function<void(SweepRow row)>& take) const;
@@ -64,6 +64,7 @@ class SweepController {
 
  private:
   void begin(const SweepPlan& plan, const std::string& digest_of_plan);
+  void fly_a_reference(const SweepPlan& plan);
   void close_what_is_flown(std::size_t unit) const;
   void reopen_what_must_fly(const SweepPlan& plan) const;
   std::vector<std::size_t> open_units() const;

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kUsualArraySize = 1001;  ///< Slurm's own default of MaxArraySize
-constexpr std::size_t kLastLines = 3;
+constexpr std::size_t kMostSilent = 40;        ///< looks in a row: ten minutes
 constexpr std::chrono::milliseconds kFirstLook{250}, kLongestLook{15000};
 /// So long before its limit of time a unit is told to end [s]: what is in the air then is flown again.
 constexpr const char* kNotice = "B:TERM@30";
@@ -37,7 +37,7 @@ std::string output_of(const std::string& command) {
       run_to_end({"slurm", {"/bin/sh", "-c", command + " >" + shell_word(out)}, environment_with({}), log});
   if (!exit.ok()) {
     throw InputError("'" + command.substr(0, command.find(' ')) + "' ended with " + exit.text() + ":" +
-                     last_lines_below(log, kLastLines));
+                     last_lines_below(log, 3));
   }
   std::ifstream in(out);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -187,19 +187,33 @@ class SlurmEngine : public SweepEngine {
     return id.substr(0, id.find_first_of(";\n"));  // of a cluster among several its name follows
   }
 
-  bool follow(const std::function<void()>& tell) {
+  bool follow(const std::function<void()>& tell) try {
     Supervisor signals;
     std::chrono::milliseconds look = kFirstLook;
-    for (std::size_t left = jobs().size(), before = left; left > 0; before = left, left = jobs().size()) {
+    std::size_t before = 0, silent = 0;
+    for (;;) {
+      const std::optional<std::size_t> left = jobs_left(silent);
+      if (left == 0U) return true;
       tell();
-      look = left == before ? std::min(2 * look, kLongestLook) : kFirstLook;
+      look = !left || left == before ? std::min(2 * look, kLongestLook) : kFirstLook;
+      before = left.value_or(before);
       for (const Event& event : signals.wait(look)) {
-        if (event.kind != Event::Kind::interrupt) continue;
-        console_.err << "Slurm goes on flying, and merges; the same command follows again" << std::endl;
-        return false;
+        if (event.kind == Event::Kind::interrupt) throw Interrupted{};
       }
     }
-    return true;
+  } catch (const Interrupted&) {
+    console_.err << "Slurm goes on flying, and merges; the same command follows again" << std::endl;
+    return false;
+  }
+
+  /// nullopt: a busy Slurm does not answer at times. @param silent  how often it has not
+  std::optional<std::size_t> jobs_left(std::size_t& silent) try {
+    const std::size_t left = jobs().size();
+    silent = 0;
+    return left;
+  } catch (const InputError&) {
+    if (++silent > kMostSilent) throw;
+    return std::nullopt;
   }
 
   const std::vector<std::string> options_;

@@ -38,14 +38,19 @@ SweepFlight sweep_flight(const StudyPlan& plan, std::size_t index) {
 
 double reference_duration_s(const StudyPlan& plan) { return std::min(plan.flights.front().mission_s, kReference_s); }
 
-/// The study's first flight, cut short: its scenario, planner and programs.
-SweepFlight reference(const StudyPlan& plan, const SweepFolder& folder) {
-  const Command first = parse_command_line(arguments(plan, plan.flights.front()));
-  RunOptions run = std::get<RunOptions>(first);
-  run.duration_s = reference_duration_s(plan);
-  run.record = "none";
-  run.attainable = run.report = false;
-  return {0, folder.dir() / "reference", arguments_of(run), plan.flights.front().command};
+/// The first flight of each planner, cut short.
+std::vector<SweepFlight> references(const StudyPlan& plan, const SweepFolder& folder) {
+  std::vector<SweepFlight> references;
+  for (std::size_t i = 0; i < plan.flights.size() && references.size() < plan.planners.size(); ++i) {
+    if (plan.flights[i].planner != references.size()) continue;
+    const Command first = parse_command_line(arguments(plan, plan.flights[i]));
+    RunOptions run = std::get<RunOptions>(first);
+    run.duration_s = reference_duration_s(plan);
+    run.record = "none";
+    run.attainable = run.report = false;
+    references.push_back({0, folder.dir() / "reference", arguments_of(run), plan.flights[i].command});
+  }
+  return references;
 }
 
 std::size_t slots(const StudyOptions& options) {
@@ -60,7 +65,7 @@ SweepPlan sweep_plan(const StudyPlan& plan, const SweepFolder& folder) {
   for (const StudyFlight& flight : plan.flights) mission_s += flight.mission_s;
   mission_s /= static_cast<double>(plan.flights.size());
   SweepPlan sweep{plan.flights.size(),        [&plan](std::size_t index) { return sweep_flight(plan, index); },
-                  reference(plan, folder),    {},
+                  references(plan, folder),   {},
                   plan.options.sweep.command, fs::current_path()};
   sweep.unit_flights = [&plan, mission_s](double reference_s) {
     constexpr double kMinute_s = 60.0;
@@ -113,12 +118,12 @@ StudyOutcomes fly_sweep(const StudyPlan& plan, const Console& console) {
   const SweepNode here = this_node(console);
   const auto engine = make_engine(plan.options.sweep, plan.options.jobs, folder, console);
   SweepController controller(folder, *engine, here, console.err);
-  controller.plan(sweep_plan(plan, folder));
+  controller.plan(sweep_plan(plan, folder), ::getenv(kMergeVariable) == nullptr);
   write_fly_script(folder, plan.out, fs::current_path());
   console.err << fmt::format("{} units of up to {} flights", controller.settings().units(),
                              controller.settings().unit_flights)
               << std::endl;
-  const bool all = controller.fly(::getenv(kMergeVariable) == nullptr);
+  const bool all = controller.fly();
   StudyOutcomes outcomes = outcomes_of(plan, controller);
   outcomes.detached = !all && plan.options.sweep.detach;
   outcomes.interrupted = !all && !outcomes.detached;

@@ -47,10 +47,13 @@ class MadeUpWorld {
             {{"programs", build}, {"seed", index}}};
   }
   SweepPlan plan(std::size_t unit_flights) const {
-    SweepPlan plan{flights_,           [this](std::size_t index) { return flight(index); },
-                   flight(kReference), [unit_flights](double) { return unit_flights; },
-                   {"compare"},        scratch_.path()};
-    plan.reference.dir = study() / "reference";
+    SweepPlan plan{flights_,
+                   [this](std::size_t index) { return flight(index); },
+                   {flight(kReference)},
+                   [unit_flights](double) { return unit_flights; },
+                   {"compare"},
+                   scratch_.path()};
+    plan.references.front().dir = study() / "reference";
     return plan;
   }
   std::string digest(std::size_t index) const { return build + "/" + std::to_string(index); }
