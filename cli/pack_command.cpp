@@ -22,17 +22,18 @@ namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using report::find_web_bundle;
 
 constexpr std::size_t kLastLines = 3;
 
 /// Finds its libraries beside itself, the system's own among them: another libm would fly another flight.
-constexpr const char* kLauncher = R"(#!/bin/sh
+constexpr const char* kLauncher = R"sh(#!/bin/sh
 # Skein with its libraries: from wherever this folder is, and whatever is installed there.
 here=$(cd "$(dirname "$(readlink -f "$0")")" && pwd)
 export SKEIN_LAUNCHER="$here/skein" SKEIN_LOADER="$here/lib/{0}" SKEIN_BIN_DIR="$here/bin"
 export SKEIN_CONFIG_DIR="$here/share/skein/config" SKEIN_WEB="$here/share/skein/web/report.js"
 exec "$SKEIN_LOADER" --library-path "$here/lib" --argv0 skein "$here/bin/skein" "$@"
-)";
+)sh";
 
 std::string output_of(const std::vector<std::string>& argv) {
   const ScratchDir scratch;
@@ -61,7 +62,7 @@ void add_libraries(const fs::path& program, std::map<std::string, fs::path>& lib
 }
 
 /// With who may read and run it.
-void copy(const fs::path& from, const fs::path& to) {
+void copy_all(const fs::path& from, const fs::path& to) {
   fs::create_directories(to.parent_path());
   fs::copy(from, to, fs::copy_options::recursive);
 }
@@ -93,15 +94,16 @@ int pack_programs(const PackOptions& options, const Console& console) {
   const fs::path archive = fs::absolute(options.file), unfinished = archive.string() + ".tmp";
   const fs::path dir = archive.parent_path() / (archive.filename().string() + ".parts"), pack = dir / "skein";
   fs::remove_all(dir);
-  for (const fs::path& file : files) copy(fs::canonical(file), pack / "bin" / file.filename());
-  for (const auto& [name, file] : libraries) copy(fs::canonical(file), pack / "lib" / name);
-  copy(default_config_dir(), pack / "share/skein/config");
-  if (const auto script = find_web_bundle(kReportScript)) copy(*script, pack / "share/skein/web/report.js");
-  if (const auto script = find_web_bundle(kLiveScript)) copy(*script, pack / "share/skein/web/live.js");
+  for (const fs::path& file : files) copy_all(fs::canonical(file), pack / "bin" / file.filename());
+  for (const auto& [name, file] : libraries) copy_all(fs::canonical(file), pack / "lib" / name);
+  copy_all(default_config_dir(), pack / "share/skein/config");
+  if (const auto script = find_web_bundle(report::kReportScript)) copy_all(*script, pack / "share/skein/web/report.js");
+  if (const auto script = find_web_bundle(report::kLiveScript)) copy_all(*script, pack / "share/skein/web/live.js");
   std::ofstream(pack / "skein") << fmt::format(fmt::runtime(kLauncher), loader);
   fs::permissions(pack / "skein", fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
                                       fs::perms::others_read | fs::perms::others_exec);
-  output_of({"/usr/bin/env", "tar", "--create", "--use-compress-program=gzip -1", "--file", unfinished, "--directory", dir, "skein"});
+  output_of({"/usr/bin/env", "tar", "--create", "--use-compress-program=gzip -1", "--file", unfinished, "--directory",
+             dir, "skein"});
   fs::rename(unfinished, archive);
   fs::remove_all(dir);
   console.out << fmt::format("{}: {} programs, {} libraries, {:.0f} MB; unpack it anywhere, and call skein/skein\n",

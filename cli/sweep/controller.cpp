@@ -64,6 +64,7 @@ void SweepController::plan(const SweepPlan& plan, bool anew) {
     if (!anew) return;
     reopen_what_must_fly(plan);
     folder_.write_tries({});
+    folder_.forget_sick();
     return;
   }
   if (former) engine_.cancel();
@@ -90,6 +91,7 @@ void SweepController::begin(const SweepPlan& plan, const std::string& digest_of_
     fly_a_reference(plan);
   }
   settings_.unit_flights = plan.unit_flights(settings_.reference_s);
+  folder_.forget_sick();
   folder_.begin(settings_, proved, [&](std::size_t number) {
     SweepUnit unit;
     const std::size_t first = number * settings_.unit_flights;
@@ -154,11 +156,20 @@ bool SweepController::fly() {
     if (units.empty()) units = units_of_checks();
     if (units.empty() && check_here()) continue;
     if (units.empty()) break;
-    if (!engine_.fly(units, folder_.quarantined_nodes(), [this] { tell_progress(); })) return false;
+    const std::set<std::string> before = nodes_to_avoid();
+    if (!engine_.fly(units, before, [this] { tell_progress(); })) return false;
     tell_progress();
+    // A node that fails at once may have taken all units: that says nothing about them.
+    if (nodes_to_avoid() != before) folder_.write_tries({});
   }
   folder_.clear_air();
   return true;
+}
+
+std::set<std::string> SweepController::nodes_to_avoid() const {
+  std::set<std::string> nodes = folder_.quarantined_nodes();
+  nodes.merge(folder_.sick_nodes());
+  return nodes;
 }
 
 std::vector<std::size_t> SweepController::open_units() const {

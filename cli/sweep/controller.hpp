@@ -67,6 +67,7 @@ class SweepController {
   void fly_a_reference(const SweepPlan& plan);
   void close_what_is_flown(std::size_t unit) const;
   void reopen_what_must_fly(const SweepPlan& plan) const;
+  std::set<std::string> nodes_to_avoid() const;
   std::vector<std::size_t> open_units() const;
   std::vector<std::size_t> within_tries(const std::vector<std::size_t>& units) const;
   std::vector<SweepFlight> unchecked_flights() const;

@@ -79,7 +79,8 @@ class ParallelEngine : public SweepEngine {
     std::vector<std::string> argv = {"/usr/bin/env", "parallel", "--plain", "--termseq", "TERM,5000,KILL,25"};
     if (jobs_) argv.insert(argv.end(), {"--jobs", std::to_string(*jobs_)});
     for (const std::string& login : logins_) argv.insert(argv.end(), {"--sshlogin", login});
-    if (!logins_.empty()) argv.insert(argv.end(), {"--ssh", "ssh -o BatchMode=yes"});
+    // A unit that fails is tried on another host.
+    if (!logins_.empty()) argv.insert(argv.end(), {"--ssh", "ssh -o BatchMode=yes", "--retries", "3"});
     argv.insert(argv.end(), {"--arg-file", list, "/bin/sh " + shell_word(fly_script(folder_)) + " {}"});
     ProgramSpec spec{"", std::move(argv), environment_with({}), folder_.dir() / "log" / "parallel.log", true};
     spec.minded = true;

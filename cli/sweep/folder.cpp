@@ -240,6 +240,22 @@ std::set<std::string> SweepFolder::quarantined_nodes() const {
   return nodes;
 }
 
+void SweepFolder::note_sick(const std::string& node, const std::string& reason) const {
+  write(file_of("sick", file_name(node)), {{"node", node}, {"reason", reason}});
+}
+
+std::set<std::string> SweepFolder::sick_nodes() const {
+  std::set<std::string> nodes;
+  for (const std::string& name : names_in(dir_ / "sick"))
+    nodes.insert(text_in(read_json(file_of("sick", name)), "node"));
+  return nodes;
+}
+
+void SweepFolder::forget_sick() const {
+  step();
+  remove(dir_ / "sick");
+}
+
 void SweepFolder::write_check(const SweepCheck& check) const {
   write(file_of("checks", numbered(check.index)), {{"index", check.index},
                                                    {"node", check.node},

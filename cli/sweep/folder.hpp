@@ -6,6 +6,7 @@
 //   done/N.json      what came of them, written once all are over
 //   nodes/NODE.json  how a node did with the reference flight
 //   quarantine/NODE.json  why nothing of a node counts
+//   sick/NODE.json   why a node does not fly now
 //   checks/I.json    flight I, flown again elsewhere
 //   tries.json       how often units were given to the engine
 //   log/N.log        what was said while unit N flew
@@ -110,6 +111,11 @@ class SweepFolder {
   /// Why; nullopt: it may fly.
   std::optional<std::string> quarantined(const std::string& node) const;
   std::set<std::string> quarantined_nodes() const;
+
+  /// Nothing should fly on this node until the user calls again: its disk is full, say. What it has flown counts.
+  void note_sick(const std::string& node, const std::string& reason) const;
+  std::set<std::string> sick_nodes() const;
+  void forget_sick() const;
 
   void write_check(const SweepCheck& check) const;
   std::optional<SweepCheck> check(std::size_t index) const;

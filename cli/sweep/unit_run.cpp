@@ -52,7 +52,10 @@ class UnitRun {
   void check_node() const {
     check_still_wanted();
     for (const SweepFlight& flight : unit_.flights) {
-      if (const std::string how = node_.unlike(flight); !how.empty()) throw NodeTrouble(node_.name + ": " + how);
+      if (const std::string how = node_.unlike(flight); !how.empty()) {
+        folder_.note_sick(node_.name, how);
+        throw NodeTrouble(how);
+      }
     }
     const Json known = folder_.node(node_.name);
     if (text_in(known, "boot") != node_.boot || text_in(known, "reference") != reference_text()) prove_node();
@@ -63,7 +66,7 @@ class UnitRun {
 
   /// By the reference flight.
   void prove_node() const {
-    const std::string digest = fly_reference(folder_, settings_.reference, node_);
+    const std::string digest = reference_digest();
     if (digest != settings_.digest) {
       folder_.quarantine(node_.name,
                          "its reference flight has the digest '" + digest + "' and not '" + settings_.digest + "'");
@@ -74,6 +77,13 @@ class UnitRun {
                                     {"cpu", node_.cpu},
                                     {"reference", reference_text()},
                                     {"digest", digest}});
+  }
+
+  std::string reference_digest() const try {
+    return fly_reference(folder_, settings_.reference, node_);
+  } catch (const NodeTrouble& trouble) {
+    folder_.note_sick(node_.name, trouble.what());
+    throw;
   }
 
   SweepRow fly(const SweepFlight& flight) const {
@@ -165,6 +175,10 @@ auto flown_aside(const SweepFolder& folder, const SweepFlight& flight, const Swe
 }
 
 }  // namespace
+
+void fly_unit(const SweepFolder& folder, std::size_t unit, const SweepNode& node, std::ostream& say) {
+  UnitRun(folder, unit, node, say).run();
+}
 
 std::optional<SweepRow> row_in_place(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node) {
   const Json mark = read_json(flight.dir / kFlightMark);
