@@ -34,8 +34,8 @@ class Sweep {
   } catch (const Killed&) {
     return false;
   }
-  /// From now on nothing bad happens to it. Where a disk had no room for a flight, and had for the reference flight that
-  /// came after it, the flight is noted as one that failed: the second command flies it again.
+  /// From now on nothing bad happens to it. Where a disk had no room for a flight, and had for the reference flight
+  /// after it, the flight is noted as one that failed: the second command flies it again.
   void end_well() {
     engine.manners = {};
     for (MadeUpNode& node : nodes) {

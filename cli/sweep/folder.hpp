@@ -14,8 +14,8 @@
 //   aside/           folders that others took the place of
 //
 // Whatever is written appears whole or not at all: files by write_file_atomically(), flights by one rename of their
-// folder. So a program may be killed at any moment, two may fly the same unit at once, and a full disk loses no more than
-// what is in the air.   Threads: any; each program has an object of its own.
+// folder. So a program may be killed at any moment, two may fly the same unit at once, and a full disk loses no more
+// than what is in the air.   Threads: any; each program has an object of its own.
 #pragma once
 
 #include <filesystem>
