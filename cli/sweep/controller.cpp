@@ -126,19 +126,19 @@ void SweepController::close_what_is_flown(std::size_t unit) const {
     if (!row) return;
     rows.push_back(std::move(*row));
   }
-  folder_.write_done(unit, rows);
+  folder_.write_done(settings_.token, unit, rows);
 }
 
 /// What failed, and what somebody has removed.
 void SweepController::reopen_what_must_fly(const SweepPlan& plan) const {
-  for (const std::size_t unit : folder_.done()) {
-    const auto rows = folder_.rows(unit);
+  for (const std::size_t unit : folder_.done(settings_.token)) {
+    const auto rows = folder_.rows(settings_.token, unit);
     if (unit >= settings_.units()) continue;
     const bool whole = rows && std::ranges::all_of(*rows, [&](const SweepRow& row) {
                          return row.problem.empty() && row.index < plan.flights &&
                                 fs::exists(plan.flight(row.index).dir / run_folder::kResult);
                        });
-    if (!whole) folder_.reopen(unit);
+    if (!whole) folder_.reopen(settings_.token, unit);
   }
 }
 
@@ -173,7 +173,7 @@ std::set<std::string> SweepController::nodes_to_avoid() const {
 }
 
 std::vector<std::size_t> SweepController::open_units() const {
-  const std::set<std::size_t> done = folder_.done();
+  const std::set<std::size_t> done = folder_.done(settings_.token);
   std::vector<std::size_t> open;
   for (std::size_t unit = 0; unit < settings_.units(); ++unit) {
     if (!done.contains(unit)) open.push_back(unit);
@@ -209,11 +209,11 @@ std::vector<SweepFlight> SweepController::unchecked_flights() const {
   std::vector<SweepFlight> unchecked;
   for (std::size_t index = 0; index < settings_.flights; ++index) {
     if (!is_checked(index, settings_.flights)) continue;
-    const auto rows = folder_.rows(index / settings_.unit_flights);
+    const auto rows = folder_.rows(settings_.token, index / settings_.unit_flights);
     if (!rows) continue;
     const auto row = std::ranges::find(*rows, index, &SweepRow::index);
     if (row == rows->end() || digest_in(*row).empty()) continue;
-    const auto check = folder_.check(index);
+    const auto check = folder_.check(settings_.token, index);
     if (check && check->first_node == row->node && check->first_digest == digest_in(*row)) continue;
     unchecked.push_back(flight(index));
   }
@@ -236,7 +236,7 @@ std::vector<std::size_t> SweepController::units_of_checks() const {
     const auto begin = flights.begin();
     folder_.add_unit(number,
                      {{begin + static_cast<std::ptrdiff_t>(i), begin + static_cast<std::ptrdiff_t>(end)}, true});
-    if (folder_.rows(number)) folder_.reopen(number);
+    if (folder_.rows(settings_.token, number)) folder_.reopen(settings_.token, number);
     units.push_back(number);
   }
   return units;
@@ -251,16 +251,16 @@ bool SweepController::check_here() {
     if (!first || first->node == here_.name) continue;
     if (checked_here_ == kMostChecksHere) break;
     ++checked_here_;
-    folder_.write_check(
-        {flight.index, here_.name, digest_here(folder_, flight, here_), first->node, digest_in(*first)});
+    folder_.write_check(settings_.token, {flight.index, here_.name, digest_here(folder_, flight, here_), first->node,
+                                          digest_in(*first)});
     any = true;
   }
   return any;
 }
 
 void SweepController::judge_checks() const {
-  for (const std::size_t index : folder_.checks()) {
-    const auto check = folder_.check(index);
+  for (const std::size_t index : folder_.checks(settings_.token)) {
+    const auto check = folder_.check(settings_.token, index);
     if (check && check->digest != check->first_digest) judge(*check);
   }
 }
@@ -279,7 +279,7 @@ void SweepController::judge(const SweepCheck& check) const {
                                            here, here_.name));
     }
   }
-  folder_.forget_check(check.index);
+  folder_.forget_check(settings_.token, check.index);
 }
 
 /// Also of units that are not over: nobody may take these flights for good ones later.
@@ -299,16 +299,16 @@ void SweepController::remove_quarantined() {
       folder_.set_aside(flight.dir);
       any = true;
     }
-    const auto rows = folder_.rows(unit);
+    const auto rows = folder_.rows(settings_.token, unit);
     any = any || (rows && std::ranges::any_of(*rows, [&](const SweepRow& row) { return nodes.contains(row.node); }));
-    if (any && rows) folder_.reopen(unit);
+    if (any && rows) folder_.reopen(settings_.token, unit);
   }
   removed_ = nodes;
 }
 
 void SweepController::collect(const std::function<void(SweepRow row)>& take) const {
   for (std::size_t unit = 0; unit < settings_.units(); ++unit) {
-    if (auto rows = folder_.rows(unit)) {
+    if (auto rows = folder_.rows(settings_.token, unit)) {
       for (SweepRow& row : *rows) take(std::move(row));
       continue;
     }
@@ -332,7 +332,7 @@ std::vector<std::string> SweepController::findings() const {
   for (const std::string& node : folder_.quarantined_nodes()) {
     lines.push_back("nothing of " + node + " counts: " + folder_.quarantined(node).value_or(""));
   }
-  const std::set<std::size_t> checks = folder_.checks();
+  const std::set<std::size_t> checks = folder_.checks(settings_.token);
   std::set<std::string> nodes;
   for (const std::string& node : folder_.nodes()) nodes.insert(node);
   lines.push_back(fmt::format("{} node{}; {} flight{} flown again elsewhere, {}", nodes.size(),
@@ -342,7 +342,7 @@ std::vector<std::string> SweepController::findings() const {
 }
 
 void SweepController::tell_progress() {
-  const std::set<std::size_t> done = folder_.done();
+  const std::set<std::size_t> done = folder_.done(settings_.token);
   const auto over = static_cast<std::size_t>(std::distance(done.begin(), done.lower_bound(settings_.units())));
   if (over == told_) return;
   told_ = over;

@@ -97,7 +97,7 @@ SweepFlight sweep_flight_of(const Json& json) {
   return flight;
 }
 
-fs::path SweepFolder::file_of(const char* folder, const std::string& name) const {
+fs::path SweepFolder::file_of(const fs::path& folder, const std::string& name) const {
   return dir_ / folder / (name + ".json");
 }
 
@@ -171,9 +171,11 @@ SweepUnit SweepFolder::unit(std::size_t number) const {
   return unit;
 }
 
-std::set<std::size_t> SweepFolder::done() const { return numbers_in(dir_ / "done"); }
+std::set<std::size_t> SweepFolder::done(const std::string& token) const { return numbers_in(dir_ / "done" / token); }
 
-std::set<std::size_t> SweepFolder::checks() const { return numbers_in(dir_ / "checks"); }
+std::set<std::size_t> SweepFolder::checks(const std::string& token) const {
+  return numbers_in(dir_ / "checks" / token);
+}
 
 std::map<std::size_t, SweepFolder::Tries> SweepFolder::tries() const {
   std::map<std::size_t, Tries> tries;
@@ -189,23 +191,23 @@ void SweepFolder::write_tries(const std::map<std::size_t, Tries>& tries) const {
   write(dir_ / kTries, {{"units", units}});
 }
 
-void SweepFolder::write_done(std::size_t unit, const std::vector<SweepRow>& rows) const {
+void SweepFolder::write_done(const std::string& token, std::size_t unit, const std::vector<SweepRow>& rows) const {
   Json flights = Json::array();
   for (const SweepRow& row : rows) flights.push_back(to_json(row));
-  write(file_of("done", numbered(unit)), {{"flights", flights}});
+  write(file_of(fs::path("done") / token, numbered(unit)), {{"flights", flights}});
 }
 
-std::optional<std::vector<SweepRow>> SweepFolder::rows(std::size_t unit) const {
-  const Json json = read_json(file_of("done", numbered(unit)));
+std::optional<std::vector<SweepRow>> SweepFolder::rows(const std::string& token, std::size_t unit) const {
+  const Json json = read_json(file_of(fs::path("done") / token, numbered(unit)));
   if (!json.is_object()) return std::nullopt;
   std::vector<SweepRow> rows;
   for (const Json& row : value_or(json, "flights", Json::array())) rows.push_back(row_of(row));
   return rows;
 }
 
-void SweepFolder::reopen(std::size_t unit) const {
+void SweepFolder::reopen(const std::string& token, std::size_t unit) const {
   step();
-  fs::remove(file_of("done", numbered(unit)));
+  fs::remove(file_of(fs::path("done") / token, numbered(unit)));
 }
 
 Json SweepFolder::node(const std::string& name) const { return read_json(file_of("nodes", file_name(name))); }
@@ -256,24 +258,24 @@ void SweepFolder::forget_sick() const {
   remove(dir_ / "sick");
 }
 
-void SweepFolder::write_check(const SweepCheck& check) const {
-  write(file_of("checks", numbered(check.index)), {{"index", check.index},
-                                                   {"node", check.node},
-                                                   {"digest", check.digest},
-                                                   {"first_node", check.first_node},
-                                                   {"first_digest", check.first_digest}});
+void SweepFolder::write_check(const std::string& token, const SweepCheck& check) const {
+  write(file_of(fs::path("checks") / token, numbered(check.index)), {{"index", check.index},
+                                                                     {"node", check.node},
+                                                                     {"digest", check.digest},
+                                                                     {"first_node", check.first_node},
+                                                                     {"first_digest", check.first_digest}});
 }
 
-std::optional<SweepCheck> SweepFolder::check(std::size_t index) const {
-  const Json json = read_json(file_of("checks", numbered(index)));
+std::optional<SweepCheck> SweepFolder::check(const std::string& token, std::size_t index) const {
+  const Json json = read_json(file_of(fs::path("checks") / token, numbered(index)));
   if (!json.is_object()) return std::nullopt;
   return SweepCheck{number_in(json, "index"), text_in(json, "node"), text_in(json, "digest"),
                     text_in(json, "first_node"), text_in(json, "first_digest")};
 }
 
-void SweepFolder::forget_check(std::size_t index) const {
+void SweepFolder::forget_check(const std::string& token, std::size_t index) const {
   step();
-  fs::remove(file_of("checks", numbered(index)));
+  fs::remove(file_of(fs::path("checks") / token, numbered(index)));
 }
 
 fs::path SweepFolder::place_in_the_air(const std::string& node) const {

@@ -3,11 +3,11 @@
 //
 //   sweep.json       what is flown, with a token that tells this sweep from a former one in the same folder
 //   units/N.json     the flights of unit N
-//   done/N.json      what came of them, written once all are over
+//   done/TOKEN/N.json  what came of them, written once all are over
 //   nodes/NODE.json  how a node did with the reference flight
 //   quarantine/NODE.json  why nothing of a node counts
 //   sick/NODE.json   why a node does not fly now
-//   checks/I.json    flight I, flown again elsewhere
+//   checks/TOKEN/I.json  flight I, flown again elsewhere
 //   tries.json       how often units were given to the engine
 //   log/N.log        what was said while unit N flew
 //   air/             flights that are not over
@@ -94,13 +94,14 @@ class SweepFolder {
   /// @throws InputError when there is no such unit.
   SweepUnit unit(std::size_t number) const;
 
+  // Of the sweep with this token: a program of a former one, which is about to end, may still write its own.
   /// Units that are over.
-  std::set<std::size_t> done() const;
-  void write_done(std::size_t unit, const std::vector<SweepRow>& rows) const;
+  std::set<std::size_t> done(const std::string& token) const;
+  void write_done(const std::string& token, std::size_t unit, const std::vector<SweepRow>& rows) const;
   /// nullopt: it is not over.
-  std::optional<std::vector<SweepRow>> rows(std::size_t unit) const;
+  std::optional<std::vector<SweepRow>> rows(const std::string& token, std::size_t unit) const;
   /// It must be flown again, as far as its flights are not there.
-  void reopen(std::size_t unit) const;
+  void reopen(const std::string& token, std::size_t unit) const;
 
   Json node(const std::string& name) const;
   void write_node(const std::string& name, const Json& facts) const;
@@ -117,10 +118,10 @@ class SweepFolder {
   std::set<std::string> sick_nodes() const;
   void forget_sick() const;
 
-  void write_check(const SweepCheck& check) const;
-  std::optional<SweepCheck> check(std::size_t index) const;
-  void forget_check(std::size_t index) const;
-  std::set<std::size_t> checks() const;
+  void write_check(const std::string& token, const SweepCheck& check) const;
+  std::optional<SweepCheck> check(const std::string& token, std::size_t index) const;
+  void forget_check(const std::string& token, std::size_t index) const;
+  std::set<std::size_t> checks(const std::string& token) const;
 
   /// How often units were given to an engine, by number, and how many of their flights were there then.
   struct Tries {
@@ -146,7 +147,7 @@ class SweepFolder {
   void on_step(std::function<void()> step) { step_ = std::move(step); }
 
  private:
-  std::filesystem::path file_of(const char* folder, const std::string& name) const;
+  std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& name) const;
   void write(const std::filesystem::path& file, const Json& json) const;
   void step() const {
     if (step_) step_();

@@ -239,7 +239,8 @@ std::vector<std::string> sbatch_options(const std::string& text) {
       continue;
     }
     const std::string name = piece.substr(0, equals);
-    if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") != std::string::npos) {
+    if (name.empty() || name.front() == '-' ||
+        name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") != std::string::npos) {
       throw InputError("--slurm " + text + ": '" + name + "' is no option of sbatch; give long ones, without --");
     }
     if (ours.contains(name)) throw InputError("--slurm " + text + ": Skein sets " + name + " itself");

@@ -37,7 +37,7 @@ class UnitRun {
       }
     }
     check_still_wanted();
-    folder_.write_done(number_, rows);
+    folder_.write_done(settings_.token, number_, rows);
   }
 
  private:
@@ -128,12 +128,13 @@ class UnitRun {
       SweepFlight there = flight;
       there.dir = dir;
       sooner = row_in_place(folder_, there, node_);
+      if (!sooner) check_still_wanted();  // it may be of a sweep that was planned anew
       return sooner.has_value();
     };
     if (folder_.land(air, flight.dir, stays)) return;
     const std::string first = text_in(sooner->figures, "digest");
     if (sooner->node != row.node && row.problem.empty() && !first.empty() && !digest.empty()) {
-      folder_.write_check({flight.index, row.node, digest, sooner->node, first});
+      folder_.write_check(settings_.token, {flight.index, row.node, digest, sooner->node, first});
     }
     row = std::move(*sooner);
   }
@@ -142,12 +143,12 @@ class UnitRun {
     check_still_wanted();
     const auto first = row_in_place(folder_, flight, node_);
     if (!first || first->node == node_.name) return;
-    const auto known = folder_.check(flight.index);
+    const auto known = folder_.check(settings_.token, flight.index);
     const std::string digest = text_in(first->figures, "digest");
     if (known && known->first_node == first->node && known->first_digest == digest) return;
     const std::string again = digest_here(folder_, flight, node_);
     check_still_wanted();
-    folder_.write_check({flight.index, node_.name, again, first->node, digest});
+    folder_.write_check(settings_.token, {flight.index, node_.name, again, first->node, digest});
     say_ << flight.dir.string() << ": flown again, " << (again == digest ? "the same" : "and another one") << std::endl;
   }
 

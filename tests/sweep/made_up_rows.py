@@ -14,12 +14,12 @@ names = ["hover", "patrol", "kios", "xxh", "star"][:planners]
 count, unit = planners * scenes * seeds, 30
 draw = random.Random(1)
 sweep = folder / "sweep"
-(sweep / "done").mkdir(parents=True)
+(sweep / "done" / "made-up").mkdir(parents=True)
 command = ["compare", "--planners", ",".join(names), "--scenarios", "towers", "--scene-seeds", f"0-{scenes - 1}", "--seeds",
            f"0-{seeds - 1}", "--executor", "local", "--out", str(folder)]
 reference = {"index": 0, "dir": str(sweep / "reference"), "arguments": ["run"], "made_under": None}
 (sweep / "sweep.json").write_text(json.dumps({
-    "format": 1, "token": "made up", "plan": "", "flights": count, "unit_flights": unit, "reference": reference, "digest": "",
+    "format": 1, "token": "made-up", "plan": "", "flights": count, "unit_flights": unit, "reference": reference, "digest": "",
     "reference_s": 1.0, "command": command, "working_folder": str(folder)}))
 
 
@@ -40,4 +40,4 @@ def figures(index):
 for number in range((count + unit - 1) // unit):
     rows = [{"index": index, "node": f"node{number % 50}", "problem": "", "figures": figures(index)}
             for index in range(number * unit, min((number + 1) * unit, count))]
-    (sweep / "done" / f"{number:06}.json").write_text(json.dumps({"flights": rows}))
+    (sweep / "done" / "made-up" / f"{number:06}.json").write_text(json.dumps({"flights": rows}))
