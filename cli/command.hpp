@@ -115,6 +115,17 @@ struct FleetOptions {
   int session = -1;  ///< descriptor of that program's socket
 };
 
+/// What flies a study or a hunt that is more than this process: cli/sweep/.
+struct SweepOptions {
+  std::optional<std::string> executor;  ///< local, parallel or slurm; none: flights are children of this process
+  std::vector<std::string> logins;      ///< of parallel: hosts as ssh takes them
+  std::optional<std::string> slurm;     ///< options of sbatch, as sbatch_options() has them
+  bool detach = false;                  ///< give it to Slurm and end
+  double unit_minutes = 5.0;            ///< of flights, in each unit
+  std::optional<std::filesystem::path> status;  ///< of the study in this folder, instead of flying
+  std::vector<std::string> command;             ///< words behind `skein`, as typed
+};
+
 /// `skein hunt`: a search for faults that break a property.
 struct HuntOptions {
   RunOptions run;                                   ///< what is flown
@@ -129,7 +140,9 @@ struct HuntOptions {
   bool first = false;       ///< the first find ends the search
   std::size_t shrink = 40;  ///< flights that it may take to make a find small
   std::optional<std::filesystem::path> out, junit;
-  bool force = false;  ///< begin anew where another hunt was
+  bool force = false;      ///< begin anew where another hunt was
+  std::size_t round = 16;  ///< so many cases may be in the air, or not yet looked at
+  SweepOptions sweep;
 };
 
 /// `skein blame`: what each fault of a run cost.
@@ -249,6 +262,12 @@ struct ForkOptions {
   std::optional<std::string> planner;  ///< "UAV=NAME,..."
 };
 
+/// `skein pack`: the programs with their libraries.
+struct PackOptions {
+  std::filesystem::path file;
+  std::vector<std::filesystem::path> agents;  ///< agent programs of the user's, too
+};
+
 struct KeysOptions {
   RunOptions run;
   std::filesystem::path out;
@@ -268,6 +287,12 @@ struct PsOptions {};
 struct AttachOptions {
   std::string what;                          ///< UAV[=TOOL], as for --debug
   std::optional<std::filesystem::path> run;  ///< results folder of its fleet; else the only one that flies
+};
+
+/// `skein --unit`: what an engine runs on a node.
+struct UnitOptions {
+  std::filesystem::path study;
+  std::size_t unit = 0;
 };
 
 /// Which of a planner's totals over the tests decides its rank.
@@ -297,6 +322,7 @@ struct StudyOptions {
   std::string record = "none";  ///< as in RunOptions
   std::optional<int> jobs;      ///< flights at once; else one, or in one process each as many as there are cores
   bool force = false;
+  SweepOptions sweep;
 };
 
 /// --help or --version: what to print.
@@ -310,9 +336,10 @@ struct CompletionOptions {
   std::vector<std::string> words;
 };
 
-using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions,
-                             DiffOptions, StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions,
-                             CheckPlannerOptions, KeysOptions, MergeOptions, ReportOptions, ReplayOptions, RerunOptions,
-                             ForkOptions, FleetOptions, PsOptions, AttachOptions, HelpText, CompletionOptions>;
+using Command =
+    std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
+                 StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions, CheckPlannerOptions,
+                 KeysOptions, MergeOptions, ReportOptions, ReplayOptions, RerunOptions, ForkOptions, FleetOptions,
+                 PsOptions, AttachOptions, UnitOptions, PackOptions, HelpText, CompletionOptions>;
 
 }  // namespace skein::cli

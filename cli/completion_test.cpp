@@ -79,6 +79,7 @@ TEST(Completion, ValuesAreOfferedWhereTheyAreKnown) {
   EXPECT_EQ(offered({"compare", "--planners", "hover,"}), Words({"hover,hover", "hover,kios"}));
   EXPECT_EQ(offered({"contest", "--scenarios", "sail,c"}), Words({"sail,cranes"}));
   EXPECT_EQ(offered({"run", "--dds", ""}), Words({"cyclonedds", "fastdds", "mixed"}));
+  EXPECT_EQ(offered({"compare", "--executor", ""}), Words({"local", "parallel", "slurm"}));
   EXPECT_EQ(offered({"run", "--dds=f"}), Words({"--dds=fastdds"}));
   EXPECT_EQ(offered({"oracle", "--rules", "p"}), Words({"paper"}));
 }

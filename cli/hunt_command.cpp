@@ -36,7 +36,7 @@ class Hunt {
       : plan_(plan),
         console_(console),
         log_(plan.out, plan.settings, plan.options.force),
-        search_(FaultMaker(plan.fleet.scenario, plan.space), plan.options.seed),
+        search_(FaultMaker(plan.fleet.scenario, plan.space), plan.options.seed, plan.options.round),
         flights_(plan, console),
         finds_(plan, flights_, console),
         wanted_(plan.options.runs.value_or(kMostRuns)) {}
@@ -93,12 +93,13 @@ class Hunt {
       if (is_enough(index) || !can_make(index)) return std::nullopt;
       return trial(index);
     };
-    flights_.fly(numbers, make, [this](std::size_t index, TrialOutcome outcome) {
+    const auto over = [this](std::size_t index, TrialOutcome outcome) {
       log_.add(index, flown_text(trial(index)), std::move(outcome));
       ++flown_now_;
       last_ = Clock::now();
       tell_progress();
-    });
+    };
+    plan_.options.sweep.executor ? flights_.fly_in_rounds(numbers, make, over) : flights_.fly(numbers, make, over);
   }
 
   /// Whether all is known that the case is made of.

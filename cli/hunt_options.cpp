@@ -52,6 +52,13 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
       ->add_option("--jobs", hunt.jobs,
                    "Flights at once; finds do not depend on it (default: as many as cores, over DDS one)")
       ->check(CLI::Range(1, 16));
+  command
+      ->add_option("--round", hunt.round,
+                   "So many cases are fixed before what came of the first of them is looked at: they can fly at once; "
+                   "another number is another search")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  add_sweep(*command, hunt.sweep);
   command->add_option("--out", hunt.out, "Folder of the search and its finds (default runs/hunt-<scenario>-<planner>)");
   command->add_flag("--force", hunt.force, "Begin anew where another hunt was; its finds move into earlier/");
   command->add_option("--junit", hunt.junit, "Report for CI servers (JUnit XML)");

@@ -20,6 +20,7 @@
 #include "cli/merge_command.hpp"
 #include "cli/options.hpp"
 #include "cli/oracle_command.hpp"
+#include "cli/pack_command.hpp"
 #include "cli/replay_command.hpp"
 #include "cli/report_command.hpp"
 #include "cli/rerun_command.hpp"
@@ -31,6 +32,7 @@
 #include "cli/run_command.hpp"
 #include "cli/scene_command.hpp"
 #include "cli/study_command.hpp"
+#include "cli/sweep/this_node.hpp"
 #include "cli/test_command.hpp"
 #include "core/config_files.hpp"
 #include "core/drawn_worlds.hpp"
@@ -87,6 +89,8 @@ struct Execute {
   int operator()(const PsOptions&) const { return list_fleets(console); }
   int operator()(const AttachOptions& options) const { return attach_to(options, console); }
   int operator()(const StudyOptions& options) const { return run_study(options, console); }
+  int operator()(const PackOptions& options) const { return pack_programs(options, console); }
+  int operator()(const UnitOptions& options) const { return run_unit(options, console); }
   int operator()(const HelpText& help) const {
     console.out << help.text;
     if (help.names_planners) console.out << planner_list();

@@ -29,6 +29,15 @@ void add_network(CLI::App& command, std::optional<std::string>& network) {
       ->default_str("all");
 }
 
+void add_record(CLI::App& command, std::string& record) {
+  command
+      .add_flag("--record{all}", record,
+                "Record more than poses, commands, captures, radio and events: all that is read; =clouds: LiDAR clouds "
+                "that nobody reads, too; =run: no more; =messages: only radio; =none: nothing")
+      ->check(CLI::IsMember({"none", "messages", "run", "all", "clouds"}))
+      ->default_str(record);
+}
+
 namespace {
 
 /// What is flown, and how; of run, compose and keys.
@@ -60,16 +69,6 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
       ->check(seconds);
   command->add_flag("--secure", run.secure, "Enforce the isolation of agents: certificates, encryption, user ids");
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
-}
-
-/// Of run, compose and those that fly many.
-void add_record(CLI::App& command, std::string& record) {
-  command
-      .add_flag("--record{all}", record,
-                "Record more than poses, commands, captures, radio and events: all that is read; =clouds: LiDAR clouds "
-                "that nobody reads, too; =run: no more; =messages: only radio; =none: nothing")
-      ->check(CLI::IsMember({"none", "messages", "run", "all", "clouds"}))
-      ->default_str(record);
 }
 
 /// What becomes of its results; of run and compose.
@@ -181,78 +180,6 @@ void add_keys(CLI::App& app, KeysOptions& keys) {
   command->footer("Example:\n  skein keys towers --out keys");
 }
 
-/// What `skein contest` and `skein compare` have in common.
-void add_study_options(CLI::App& command, StudyOptions& study) {
-  const CLI::Validator seconds(check_seconds, "");
-  command.add_option("--planners", study.planner_lists, "A,B,... with parameters if any: kios,xxh:faithful=true,star")
-      ->allow_extra_args(false);
-  command.add_option("--planner", study.planners, "One more, as for `skein run`: fleets of several, any command")
-      ->allow_extra_args(false);
-  command
-      .add_option("--scenarios", study.scenarios, "Names under config/scenarios/ or YAML files, with commas between")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command.add_option("--assets", study.assets, "Folder with models/ for scenarios that read files");
-  command.add_option("--duration", study.duration_s, "Mission time [s], instead of the scenarios'")->check(seconds);
-  command
-      .add_option("--agent-timeout", study.agent_timeout_s,
-                  "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
-      ->check(seconds);
-  command.add_option("--rules", study.rules, "Preset of rules, instead of the scenarios': contest, paper or reference");
-  command
-      .add_option("--dds", study.dds,
-                  "Fly as processes over this DDS vendor: cyclonedds, fastdds or mixed (default: each fleet in one "
-                  "process where it can; the results are the same)")
-      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}));
-  add_network(command, study.network);
-  command.add_option("--agent", study.agent, "Agent program with planners of your own, as for `skein run`");
-  add_record(command, study.record);
-  command.add_option("--out", study.out, "Folder of flights and report (default runs/" + command.get_name() + ")");
-  command
-      .add_option("--jobs", study.jobs,
-                  "Flights at once; results do not depend on it (default: as many as cores, over DDS one)")
-      ->check(CLI::Range(1, 64));
-  command.add_flag("--force", study.force, "Go on in a folder of other settings; flights that fit are kept");
-  const bool contest = command.get_name() == "contest";
-  command.footer(std::string("Example:\n  skein ") +
-                 (contest ? "contest --planners kios,xxh,star --tests 3\n\n"
-                          : "compare --planners kios,patrol --scenarios towers,cranes --seeds 1-5\n\n") +
-                 "The same command again goes on where it was stopped. docs/how-to-compare-planners.md has more.");
-}
-
-void add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
-  CLI::App* command =
-      app.add_subcommand("contest", "The contest's protocol: tests of all scenes, totals and a ranking");
-  add_study_options(*command, contest);
-  command->add_option("--tests", tests, "Number of tests; test N is seed N of every scene")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  const auto set_rank = [&contest](const std::string& by) {
-    contest.rank = by == "max" ? Rank::maximum : by == "median" ? Rank::median : Rank::worst;
-  };
-  command
-      ->add_option_function<std::string>("--rank", set_rank,
-                                         "By the greatest total of a test (max), the median or the worst")
-      ->check(CLI::IsMember({"max", "median", "worst"}))
-      ->default_str("max");
-}
-
-void add_compare(CLI::App& app, StudyOptions& study) {
-  CLI::App* command = app.add_subcommand("compare", "Planners side by side over any scenes and seeds");
-  add_study_options(*command, study);
-  command->add_option("--seeds", study.seeds, "Which seeds: 0-4, 3,5,8 or one, such as 7")->capture_default_str();
-  CLI::Option* const one = command->add_option("--scene-seed", study.scene_seed, "Which scene of a procedural family");
-  one->check(CLI::Validator(check_seed, ""));
-  command->add_option("--scene-seeds", study.scene_seeds, "Many scenes of a family, as --seeds has them: 0-99")
-      ->excludes(one);
-  command->add_option("--faults", study.faults, "Fault file: what goes wrong in every flight");
-  command->add_flag("--secure", study.secure, "DDS Security, as for `skein run`");
-  command
-      ->add_option("--require", study.requirements,
-                   "What every flight must keep: collisions==0, attainable_percent>=5, ...")
-      ->allow_extra_args(false);
-}
-
 /// What cannot be had without processes.
 void check_one_process(const RunOptions& run) {
   if (!run.one_process) return;
@@ -289,6 +216,7 @@ struct OptionParser {
   CheckPlannerOptions check_planner;
   AttachOptions attach;
   FleetOptions fleet;
+  PackOptions pack;
   StudyOptions contest, compare;
   int tests = 5;  ///< of the contest
 };
@@ -318,6 +246,7 @@ OptionParser::OptionParser()
   add_oracle(app, oracle);
   add_contest(app, contest, tests);
   add_compare(app, compare);
+  add_pack(app, pack);
   add_doctor(app, doctor);
   app.add_subcommand("ps", "List the fleets that fly, with their processes");
   add_attach(app, attach);
@@ -340,6 +269,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (!arguments.empty() && arguments[0] == "--complete") {
     return CompletionOptions{{arguments.begin() + 1, arguments.end()}};
   }
+  if (!arguments.empty() && arguments[0] == "--unit") return unit_options({arguments.begin() + 1, arguments.end()});
   const auto is = [&parser](const char* command) { return parser.app.got_subcommand(command); };
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
   try {
@@ -366,6 +296,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     return parser.compose;
   }
   if (is("keys")) return parser.keys;
+  if (is("pack")) return parser.pack;
   if (is("merge")) return parser.merge;
   if (is("report")) return parser.report;
   if (is("replay")) return parser.replay;
@@ -377,6 +308,11 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (is("test")) return parser.test;
   if (is("hunt")) {
     parser.hunt.run.command = command;
+    check_sweep(parser.hunt.sweep);
+    if (parser.hunt.sweep.detach || parser.hunt.sweep.status) {
+      throw InputError("--detach and --status are of studies: a hunt decides after each round what flies next");
+    }
+    parser.hunt.sweep.command = arguments;
     return parser.hunt;
   }
   if (is("scene")) return parser.scene;
@@ -386,6 +322,10 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (is("oracle")) return parser.oracle;
   if (is("diff")) return parser.diff;
   if (is("doctor")) return parser.doctor;
+  for (StudyOptions* study : {&parser.contest, &parser.compare}) {
+    check_sweep(study->sweep);
+    study->sweep.command = arguments;
+  }
   parser.contest.seeds = "1-" + std::to_string(parser.tests);
   if (is("contest")) return parser.contest;
   if (is("compare")) return parser.compare;

@@ -3,7 +3,9 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
+#include <memory>
 
 #include "cli/machine.hpp"
 #include "cli/run/results_dir.hpp"
@@ -14,6 +16,8 @@
 #include "cli/study/requirement.hpp"
 #include "cli/study/tex.hpp"
 #include "cli/study/worlds.hpp"
+#include "cli/sweep/slurm.hpp"
+#include "cli/sweep/study_sweep.hpp"
 #include "core/sha256.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
@@ -32,6 +36,8 @@ using report::shortened;
 constexpr const char* kSettings = "study.json";
 constexpr std::size_t kLongestName = 40;   ///< of a planner on the terminal
 constexpr std::size_t kMostPictured = 20;  ///< scenes
+/// Flights whose scores over time and deliveries are read for the page: beyond that it would take minutes.
+constexpr std::size_t kMostWithTables = 5000;
 
 /// @throws InputError when the folder is of a study with other settings, unless that is wanted.
 void check_settings(const StudyPlan& plan) {
@@ -116,10 +122,8 @@ Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
     FlightEntry entry{flight.planner, flight.scenario, flight.seed, flight.dir, std::nullopt, outcome.problem};
     entry.command = repeating_command(plan, flight);
     entry.folder = flight.dir.lexically_relative(plan.out).generic_string();
-    if (outcome.result.is_object()) {
-      entry.figures = figures_of(outcome.result);
-      entry.tables = read_flight_tables(flight.dir);
-    }
+    entry.figures = outcome.figures;
+    if (outcome.figures && plan.flights.size() <= kMostWithTables) entry.tables = read_flight_tables(flight.dir);
     if (fs::exists(flight.dir / run_folder::kPage)) {
       entry.page = (flight.dir / run_folder::kPage).lexically_relative(plan.out).generic_string();
     }
@@ -159,19 +163,15 @@ void print_study(std::ostream& out, const Study& study) {
   out << "\nmedians over the seeds, and from the least to the greatest; collisions of all flights\n";
 }
 
-int run_study(const StudyOptions& options, const Console& console) {
-  std::vector<Requirement> requirements;
-  for (const std::string& text : options.requirements) requirements.push_back(parse_requirement(text));
-  const StudyPlan plan = plan_study(options);
-  check_settings(plan);
-  const ResultsDir out(plan.out, false);
-  write_file_atomically(plan.out / kSettings, plan.settings.dump(2) + "\n");
-  console.err << plan.flights.size() << " flights, results in " << plan.out.string() << std::endl;
+namespace {
 
-  const StudyOutcomes outcomes = fly_study(plan, console);
+/// Writes and prints what there is. @returns the exit code.
+int merge(const StudyPlan& plan, const StudyOutcomes& outcomes, const Console& console) {
+  std::vector<Requirement> requirements;
+  for (const std::string& text : plan.options.requirements) requirements.push_back(parse_requirement(text));
   const Study study = study_of(plan, outcomes);
   write_report(study, plan.out);
-  options.scene_seeds ? print_worlds(console.out, study) : print_study(console.out, study);
+  plan.options.scene_seeds ? print_worlds(console.out, study) : print_study(console.out, study);
   const bool kept = print_requirements(console.out, study, requirements);
   console.out << "report: " << (plan.out / run_folder::kPage).string() << std::endl;
   if (outcomes.interrupted) {
@@ -180,6 +180,43 @@ int run_study(const StudyOptions& options, const Console& console) {
   }
   if (study.any_problem()) return kExitProcessFailed;
   return kept ? kExitDone : kExitCheckFailed;
+}
+
+/// None when this is the job at the end of a study that somebody follows.
+std::unique_ptr<ResultsDir> results_dir(const fs::path& dir) try {
+  return std::make_unique<ResultsDir>(dir, false);
+} catch (const InputError&) {
+  if (std::getenv(kMergeVariable) == nullptr) throw;
+  return nullptr;
+}
+
+/// `--status`: says how far it is, and merges what is there.
+int tell_status(const fs::path& folder, const Console& console) {
+  const Command command = parse_command_line(enter_sweep(folder));
+  const auto* options = std::get_if<StudyOptions>(&command);
+  if (options == nullptr) throw InputError("--status " + folder.string() + ": this is no study");
+  const StudyPlan plan = plan_study(*options, AskPrograms::no);
+  check_settings(plan);
+  return merge(plan, tell_sweep(plan, console), console);
+}
+
+}  // namespace
+
+int run_study(const StudyOptions& options, const Console& console) {
+  if (options.sweep.status) return tell_status(*options.sweep.status, console);
+  for (const std::string& text : options.requirements) parse_requirement(text);
+  const StudyPlan plan = plan_study(options);
+  check_settings(plan);
+  const auto out = results_dir(plan.out);
+  if (!out) {
+    console.out << "another program follows this study, and merges it" << std::endl;
+    return kExitDone;
+  }
+  write_file_atomically(plan.out / kSettings, plan.settings.dump(2) + "\n");
+  console.err << plan.flights.size() << " flights, results in " << plan.out.string() << std::endl;
+
+  const StudyOutcomes outcomes = options.sweep.executor ? fly_sweep(plan, console) : fly_study(plan, console);
+  return outcomes.detached ? kExitDone : merge(plan, outcomes, console);
 }
 
 }  // namespace skein::cli

@@ -9,6 +9,14 @@ class App;
 
 namespace skein::cli {
 
+/// --record, of run, compose and those that fly many.
+void add_record(CLI::App& command, std::string& record);
+/// What flies a study or a hunt beyond one process.
+void add_sweep(CLI::App& command, SweepOptions& sweep);
+/// @throws InputError for options that need another --executor.
+void check_sweep(const SweepOptions& sweep);
+/// Of `skein --unit STUDY N`, which is not for people. @throws InputError.
+UnitOptions unit_options(const std::vector<std::string>& words);
 /// --network, of all that may let other hosts take part.
 void add_network(CLI::App& command, std::optional<std::string>& network);
 
@@ -24,6 +32,9 @@ void add_merge(CLI::App& app, MergeOptions& merge);
 void add_report(CLI::App& app, ReportOptions& report);
 void add_rerun(CLI::App& app, RerunOptions& rerun);
 void add_fork(CLI::App& app, ForkOptions& fork);
+void add_pack(CLI::App& app, PackOptions& pack);
+void add_contest(CLI::App& app, StudyOptions& contest, int& tests);
+void add_compare(CLI::App& app, StudyOptions& study);
 void add_hunt(CLI::App& app, HuntOptions& hunt);
 void add_fleet(CLI::App& app, FleetOptions& fleet);
 void add_blame(CLI::App& app, BlameOptions& blame);

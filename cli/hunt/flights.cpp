@@ -25,9 +25,9 @@ void remove_folder(const fs::path& dir) {
   fs::remove_all(dir, ignored);
 }
 
-std::string name_of_trial(std::size_t index) { return "case-" + std::to_string(index); }
-
 }  // namespace
+
+std::string TrialFlights::name_of_trial(std::size_t index) { return "case-" + std::to_string(index); }
 
 fs::path TrialFlights::dir_of(const std::string& name) const { return fs::absolute(plan_.out) / kFlightsFolder / name; }
 

@@ -33,6 +33,9 @@ class TrialFlights {
   /// file may say, has an outcome without findings. What they are compared with was flown before. @throws Interrupted.
   void fly(const std::vector<std::size_t>& numbers, const Make& make, const Over& over);
   std::vector<TrialOutcome> fly(const std::vector<Trial>& trials);
+  /// The same by the engine that the hunt's options name: as many as can be made fly before anything is looked at, then
+  /// the next ones. @throws Interrupted; InputError when the engine does not fly one.
+  void fly_in_rounds(const std::vector<std::size_t>& numbers, const Make& make, const Over& over);
   /// Keeps its folder, which `trial.run.out` names. @throws Interrupted.
   TrialOutcome fly_and_keep(const Trial& trial);
 
@@ -46,8 +49,10 @@ class TrialFlights {
 
   /// nullptr: it makes no sense.
   const Setting* setting_of(const Trial& trial);
+  static std::string name_of_trial(std::size_t index);
   std::filesystem::path dir_of(const std::string& name) const;
   ProgramSpec start(const Trial& trial, const std::filesystem::path& dir) const;
+  void fly_round(const std::vector<std::size_t>& numbers, const std::vector<Trial>& trials, const Over& over);
   TrialOutcome read(const Trial& trial, const std::filesystem::path& dir, const ExitStatus& exit);
   properties::PropertySet asked(const properties::PropertySet& set) const;
 

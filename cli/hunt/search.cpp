@@ -17,7 +17,7 @@ std::size_t place(RandomStream& draw, std::size_t count) {
 }  // namespace
 
 bool HuntSearch::may_go_on(const std::vector<std::optional<TrialOutcome>>& before) const {
-  const std::size_t needed = cases_.size() < kLag ? 0 : cases_.size() - kLag + 1;
+  const std::size_t needed = cases_.size() < lag_ ? 0 : cases_.size() - lag_ + 1;
   for (std::size_t i = learnt_; i < needed; ++i) {
     if (i >= before.size() || !before[i]) return false;
   }
@@ -25,7 +25,7 @@ bool HuntSearch::may_go_on(const std::vector<std::optional<TrialOutcome>>& befor
 }
 
 const HuntCase& HuntSearch::next(const std::vector<std::optional<TrialOutcome>>& before) {
-  const std::size_t index = cases_.size(), known = index < kLag ? 0 : index - kLag + 1;
+  const std::size_t index = cases_.size(), known = index < lag_ ? 0 : index - lag_ + 1;
   for (; learnt_ < known; ++learnt_) learn(learnt_, *before[learnt_]);
   RandomStream draw(seed_, "hunt", index);
   HuntCase made;

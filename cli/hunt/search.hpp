@@ -1,5 +1,5 @@
 // Which case a hunt flies next: a drawn one, or one like a former one that came near to breaking a property or got into
-// a new state. What case N is depends on the seed and on what came of the cases up to N - kLag, and on nothing else:
+// a new state. What case N is depends on the seed and on what came of the cases up to N - lag, and on nothing else:
 // not on how many fly at once, nor on which was over first. Pure. One thread.
 #pragma once
 
@@ -21,15 +21,16 @@ struct HuntCase {
 
 class HuntSearch {
  public:
-  /// So many cases may be in the air or not yet looked at.
+  /// The usual lag: so many cases may be in the air or not yet looked at.
   static constexpr std::size_t kLag = 16;
   /// Runs have one of so many seeds, from 1 on.
   static constexpr std::uint64_t kRunSeeds = 4;
 
-  HuntSearch(FaultMaker maker, std::uint64_t seed) : maker_(std::move(maker)), seed_(seed) {}
+  HuntSearch(FaultMaker maker, std::uint64_t seed, std::size_t lag = kLag)
+      : maker_(std::move(maker)), seed_(seed), lag_(lag) {}
 
   /// The next case; the first one has no faults.
-  /// @param before  what came of the cases in their order: at least up to the one kLag before this one. What is
+  /// @param before  what came of the cases in their order: at least up to the one `lag` before this one. What is
   ///   behind that one is not looked at.
   const HuntCase& next(const std::vector<std::optional<TrialOutcome>>& before);
   /// Whether enough is known for the next one.
@@ -42,6 +43,7 @@ class HuntSearch {
 
   const FaultMaker maker_;
   const std::uint64_t seed_;
+  const std::size_t lag_;
   std::vector<HuntCase> cases_;
   std::size_t learnt_ = 0;  ///< cases
   std::set<std::uint64_t> states_;

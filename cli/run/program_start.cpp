@@ -8,6 +8,8 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <system_error>
 
@@ -96,6 +98,17 @@ struct ChildSetup {
   ::_exit(127);
 }
 
+/// Of a pack, which brings its own loader and libraries (cli/pack_command.cpp), a program is started by that loader.
+std::vector<std::string> loaded(const std::vector<std::string>& argv) {
+  const char* loader = std::getenv("SKEIN_LOADER");
+  const std::filesystem::path libraries = std::filesystem::path(loader == nullptr ? "" : loader).parent_path();
+  const bool is_packed = loader != nullptr && argv[0].starts_with(libraries.parent_path().string() + "/bin/");
+  if (!is_packed) return argv;
+  std::vector<std::string> words = {loader, "--library-path", libraries, "--argv0", argv[0]};
+  words.insert(words.end(), argv.begin(), argv.end());
+  return words;
+}
+
 /// What a child told; nullopt when it said no more.
 std::optional<int> next_news(const Fd& from) {
   int number = 0;
@@ -139,7 +152,8 @@ StartedProgram start_program(const ProgramSpec& spec) {
   const Fd view = spec.listener < 0 ? Fd() : Fd(::fcntl(spec.listener, F_DUPFD_CLOEXEC, kViewFd + 1));
   if (spec.listener >= 0 && view.get() < 0) throw_errno("the socket of the page");
   Pipe status = make_pipe(), control = make_pipe(), news = make_pipe();
-  const std::vector<char*> argv = pointers(spec.argv), env = pointers(spec.env);
+  const std::vector<std::string> words = loaded(spec.argv);
+  const std::vector<char*> argv = pointers(words), env = pointers(spec.env);
   const ChildSetup setup{::getpid(),
                          input.get(),
                          log.get(),

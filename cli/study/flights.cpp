@@ -19,15 +19,14 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kMark = "flight.json";  ///< written when a flight is over: under which command it was flown
+}  // namespace
 
 bool went_to_its_end(const Json& result) {
   const Json status = value_or(result, "status", "");
   return status == name_of(RunStatus::completed) || status == name_of(RunStatus::no_takeoff);
 }
 
-/// Why `skein run` ended with another code than 0, in a sentence.
-std::string problem_of(const StudyFlight& flight, const Json& result, const ExitStatus& exit) {
+std::string problem_of(const fs::path& dir, const Json& result, const ExitStatus& exit) {
   std::string reasons;
   const auto add = [&](const std::string& reason) { reasons += (reasons.empty() ? "" : "; ") + reason; };
   for (const Json& lost : value_or(result, "lost_members", Json::array())) {
@@ -39,10 +38,12 @@ std::string problem_of(const StudyFlight& flight, const Json& result, const Exit
     if (is_failure(text)) add(text);
   }
   if (reasons.empty()) {
-    for (const std::string& line : last_lines(flight.dir / run_folder::kFlightLog, 1)) add(line);
+    for (const std::string& line : last_lines(dir / run_folder::kFlightLog, 1)) add(line);
   }
   return "skein run ended with " + exit.text() + (reasons.empty() ? "" : ": " + reasons);
 }
+
+namespace {
 
 /// One call of fly_study().
 class StudyRun {
@@ -74,7 +75,7 @@ class StudyRun {
   ProgramSpec start(std::size_t index) const {
     const StudyFlight& flight = plan_.flights[index];
     fs::create_directories(flight.dir);
-    fs::remove(flight.dir / kMark);
+    fs::remove(flight.dir / kFlightMark);
     return {"", flight_arguments(plan_, flight, program_dir() / "skein"), environment_with({}),
             flight.dir / run_folder::kFlightLog};
   }
@@ -82,10 +83,10 @@ class StudyRun {
   void on_exit(std::size_t index, const ExitStatus& exit) {
     const StudyFlight& flight = plan_.flights[index];
     StudyOutcome& outcome = outcomes_.flights[index];
-    Json result = read_json(flight.dir / run_folder::kResult);
-    if (!exit.ok() || !went_to_its_end(result)) outcome.problem = problem_of(flight, result, exit);
-    if (went_to_its_end(result)) outcome.result = std::move(result);
-    write_file_atomically(flight.dir / kMark,
+    const Json result = read_json(flight.dir / run_folder::kResult);
+    if (!exit.ok() || !went_to_its_end(result)) outcome.problem = problem_of(flight.dir, result, exit);
+    if (went_to_its_end(result)) outcome.figures = figures_of(result);
+    write_file_atomically(flight.dir / kFlightMark,
                           Json{{"command", flight.command}, {"problem", outcome.problem}}.dump(2) + "\n");
     ++over_;
     flown_s_ += flight.mission_s;
@@ -96,13 +97,11 @@ class StudyRun {
   std::string news_of(const StudyFlight& flight, const StudyOutcome& outcome) const {
     std::string news =
         fmt::format("{}, {}, seed {}: ", plan_.scenarios[flight.scenario], plan_.labels[flight.planner], flight.seed);
-    if (outcome.result.is_object()) {
-      const std::size_t collisions = value_or(outcome.result, "collisions", Json::array()).size();
-      news += fmt::format("score {:.1f}, {} collision{}, x{:.1f} real time",
-                          value_or(outcome.result, "score", 0.0).get<double>(), collisions, collisions == 1 ? "" : "s",
-                          value_or(outcome.result, "real_time_factor", 0.0).get<double>());
+    if (const auto& figures = outcome.figures) {
+      news += fmt::format("score {:.1f}, {} collision{}, x{:.1f} real time", figures->score, figures->collisions,
+                          figures->collisions == 1 ? "" : "s", figures->real_time_factor);
     }
-    if (!outcome.problem.empty()) news += (outcome.result.is_object() ? "; " : "") + outcome.problem;
+    if (!outcome.problem.empty()) news += (outcome.figures ? "; " : "") + outcome.problem;
     const double wall_s = std::chrono::duration<double>(Clock::now() - started_).count();
     if (over_ < plan_.flights.size()) news += "; about " + duration_text(left_s_ / flown_s_ * wall_s) + " left";
     return news;
@@ -121,12 +120,12 @@ class StudyRun {
 }  // namespace
 
 std::optional<StudyOutcome> flown_before(const StudyFlight& flight) {
-  const Json mark = read_json(flight.dir / kMark);
-  Json result = read_json(flight.dir / run_folder::kResult);
+  const Json mark = read_json(flight.dir / kFlightMark);
+  const Json result = read_json(flight.dir / run_folder::kResult);
   const bool same = value_or(mark, "command", nullptr) == flight.command && value_or(mark, "problem", nullptr) == "" &&
                     value_or(result, "seed", nullptr) == flight.seed;
   if (!same || !went_to_its_end(result)) return std::nullopt;
-  return StudyOutcome{std::move(result), ""};
+  return StudyOutcome{figures_of(result), ""};
 }
 
 StudyOutcomes fly_study(const StudyPlan& plan, const Console& console) { return StudyRun(plan, console).fly(); }

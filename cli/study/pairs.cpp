@@ -5,6 +5,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <memory>
 
 #include "cli/study/columns.hpp"
 #include "core/text.hpp"
@@ -17,14 +18,20 @@ constexpr const char* kScore = "score";
 /// Of one flight.
 using Figure = std::function<std::optional<double>(const FlightEntry&)>;
 
-/// Of one seed: in a scene, or in all of them together.
-std::optional<double> value_of(const Study& study, const Figure& figure, std::size_t planner,
-                               std::optional<std::size_t> scenario, std::uint64_t seed) {
-  if (!scenario) return total_of(study, planner, seed, figure);
-  for (const FlightEntry* flight : study.cell(planner, *scenario)) {
-    if (flight->seed == seed) return figure(*flight);
+/// By seed: in a scene, or in all of them together.
+std::map<std::uint64_t, double> values_of(const Study& study, const Figure& figure, std::size_t planner,
+                                          std::optional<std::size_t> scenario) {
+  std::map<std::uint64_t, double> values;
+  if (scenario) {
+    for (const FlightEntry* flight : study.cell(planner, *scenario)) {
+      if (const auto value = figure(*flight)) values.emplace(flight->seed, *value);
+    }
+  } else {
+    for (const std::uint64_t seed : study.seeds) {
+      if (const auto value = total_of(study, planner, seed, figure)) values.emplace(seed, *value);
+    }
   }
-  return std::nullopt;
+  return values;
 }
 
 PlannerPair pair_of(const Study& study, const std::string& name, const Figure& figure, std::size_t first,
@@ -32,9 +39,12 @@ PlannerPair pair_of(const Study& study, const std::string& name, const Figure& f
   PlannerPair pair{name, first, second, scenario, {}, {}, {}, {}, {}};
   const bool is_score = name == kScore;
   const double share = scenario || is_score ? 1.0 : 1.0 / static_cast<double>(study.scenarios.size());
+  const auto of_first = values_of(study, figure, first, scenario),
+             of_second = values_of(study, figure, second, scenario);
   for (const std::uint64_t seed : study.seeds) {
-    const auto a = value_of(study, figure, first, scenario, seed), b = value_of(study, figure, second, scenario, seed);
-    if (a && b) pair.differences.emplace_back(seed, share * (*a - *b));
+    const auto a = of_first.find(seed), b = of_second.find(seed);
+    if (a == of_first.end() || b == of_second.end()) continue;
+    pair.differences.emplace_back(seed, share * (a->second - b->second));
   }
   const std::vector<double> values = pair.values();
   if (values.empty()) return pair;
@@ -85,9 +95,15 @@ Figure of_column(const StudyColumn& column) {
 
 /// @param study  must outlive it.
 Figure deviation(const Study& study) {
-  return [&study](const FlightEntry& flight) -> std::optional<double> {
-    const auto scores = column_values(study_column(kScore), study.cell(flight.planner, flight.scenario));
-    const double median = spread_of(scores).median;
+  using Medians = std::map<std::pair<std::size_t, std::size_t>, double>;  // by planner and scene
+  const auto medians = std::make_shared<Medians>();
+  return [&study, medians](const FlightEntry& flight) -> std::optional<double> {
+    const auto [known, is_new] = medians->try_emplace({flight.planner, flight.scenario});
+    if (is_new) {
+      const auto scores = column_values(study_column(kScore), study.cell(flight.planner, flight.scenario));
+      known->second = spread_of(scores).median;
+    }
+    const double median = known->second;
     if (median <= 0.0) return std::nullopt;
     return 100.0 * std::abs(flight.figures->score - median) / median;
   };

@@ -5,16 +5,13 @@
 #include <set>
 #include <thread>
 
-#include "cli/python_planners.hpp"
 #include "cli/run/agent_file.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
+#include "cli/study/made_under.hpp"
 #include "cli/study/spec.hpp"
 #include "core/drawn_worlds.hpp"
-#include "core/file_bytes.hpp"
 #include "core/python_spec.hpp"
-#include "core/scenario_reader.hpp"
-#include "core/sha256.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
 #include "core/types.hpp"
@@ -28,8 +25,6 @@ namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uintmax_t kLargestFile = 2'000'000'000;
 
 /// The scenes that need no files, then the contest's own.
 const std::vector<std::string> kProcedural = {"towers", "hangar", "cranes", "spire", "sail"};
@@ -100,38 +95,6 @@ RunOptions run_options(const StudyOptions& options, const StudyScene& scene, con
   return run;
 }
 
-/// Of the programs that fly with every planner; the launcher only watches.
-std::string programs_digest(const FleetPlan& plan) {
-  Sha256 hash;
-  for (const char* name : programs::kServers) {
-    hash.add(read_file_bytes(plan.bin_dir / name, kLargestFile));
-  }
-  return hash.hex();
-}
-
-/// Digests of agent programs, each read once.
-class AgentDigests {
- public:
-  /// Of all that fly a fleet; of one it is the program's own.
-  std::string of(const FleetPlan& plan) {
-    if (plan.options.one_process) return of(fleet_file(plan));
-    const std::vector<fs::path> agents = agent_files(plan);
-    if (agents.size() == 1) return of(agents.front());
-    Sha256 hash;
-    for (const fs::path& agent : agents) hash.add(of(agent));
-    return hash.hex();
-  }
-
- private:
-  const std::string& of(const fs::path& agent) {
-    std::string& digest = digests_[agent];
-    if (digest.empty()) digest = Sha256().add(read_file_bytes(agent, kLargestFile)).hex();
-    return digest;
-  }
-
-  std::map<fs::path, std::string> digests_;
-};
-
 /// Whether uav_agent itself has all planners of a fleet that name no agent: then it flies them, and what they did does
 /// not fall due again when the user's own agent is built anew.
 bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& built_in) {
@@ -141,35 +104,6 @@ bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& bui
     return planner.agent || exec_command(spec) || python_spec(spec) || is_listed;
   };
   return std::ranges::all_of(plan.planners, is_built_in) && (!plan.ground || is_built_in(*plan.ground));
-}
-
-/// The file that a planner takes its parameters from, if any: "kios:mine.yaml,voxel_m=4".
-std::optional<fs::path> parameter_file(const std::string& spec) {
-  const std::size_t colon = spec.find(':');
-  if (colon == std::string::npos || exec_command(spec)) return std::nullopt;
-  const fs::path file = spec.substr(colon + 1, spec.find(',', colon) - colon - 1);
-  return fs::is_regular_file(file) ? std::optional(file) : std::nullopt;
-}
-
-/// Of the scenario with all its vehicles and files, and of the planners' files.
-std::string input_digest(const FleetPlan& plan) {
-  const SceneConfig& scene = plan.scenario.scene;
-  Sha256 hash;
-  hash.add(to_yaml(plan.scenario));
-  std::vector<fs::path> files = scene.meshes;
-  if (from_files(scene)) files.insert(files.end(), {scene.points, scene.boxes});
-  std::vector<std::string> specs;
-  for (const UavPlanner& planner : plan.planners) specs.push_back(planner.spec);
-  if (plan.ground) specs.push_back(plan.ground->spec);
-  for (const std::string& spec : specs) {
-    if (const auto python = python_spec(spec)) {
-      hash.add(python_digest(python->file));
-      if (fs::is_regular_file(python->parameters)) files.push_back(python->parameters);
-    }
-    if (const auto file = parameter_file(spec)) files.push_back(*file);
-  }
-  for (const fs::path& file : files) hash.add(read_file_bytes(file, kLargestFile));
-  return hash.hex();
 }
 
 /// The programs' own checks; sim_server is asked once a scenario.
@@ -183,18 +117,6 @@ void check_with_programs(const FleetPlan& plan, bool with_server) {
   } catch (const InputError& error) {
     throw InputError(plan.options.scenario + ", planner " + plan.options.planner + ": " + error.what());
   }
-}
-
-std::string medium_of(const FleetPlan& plan) { return plan.options.one_process ? "one process" : plan.options.dds; }
-
-Json flight_command(const FleetPlan& plan, const std::string& programs, const std::string& agent) {
-  return {{"skein_version", SKEIN_VERSION},
-          {"programs", programs},
-          {"agent", agent},
-          {"scenario", plan.options.scenario},
-          {"planner", plan.options.planner},
-          {"input", input_digest(plan)},
-          {"dds", medium_of(plan)}};
 }
 
 /// How this very program is called: by the script of the source tree that it was built in, or as installed.
@@ -244,7 +166,7 @@ std::string plain(const Json& value) {
 
 }  // namespace
 
-StudyPlan plan_study(const StudyOptions& options) {
+StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
   StudyPlan plan;
   plan.options = options;
   plan.planners = planners_of(options);
@@ -263,7 +185,7 @@ StudyPlan plan_study(const StudyOptions& options) {
   std::set<std::string> media;
   std::vector<StudyFlight> of_one_seed;
   Json inputs = Json::object(), agents = Json::object();
-  AgentDigests digests;
+  MadeUnder made_under;
   const auto built_in =
       own_agent(options.agent) ? planners_of(program_dir() / programs::kAgent) : std::vector<std::string>{};
   for (std::size_t s = 0; s < plan.scenarios.size(); ++s) {
@@ -277,14 +199,13 @@ StudyPlan plan_study(const StudyOptions& options) {
       media.insert(medium_of(fleet));
       // Scenes of one family differ in nothing that a program would refuse.
       const bool another_seed = s > 0 && options.scene_seeds && plan.scenes[s].scenario == plan.scenes[s - 1].scenario;
-      if (!another_seed) check_with_programs(fleet, p == 0);
-      if (programs.empty()) programs = programs_digest(fleet);
+      if (!another_seed && ask == AskPrograms::yes) check_with_programs(fleet, p == 0);
       const fs::path dir = plan.out / "flights" / scenario_folders[s] / planner_folders[p];
-      const std::string agent = digests.of(fleet);
-      const Json command = flight_command(fleet, programs, agent);
+      const Json command = made_under.of(fleet);
       of_one_seed.push_back(
           {p, s, 0, dir, fleet.scenario.duration_s, fleet.options.agent, fleet.options.one_process, command});
-      agents[plan.planners[p]] = agent;
+      programs = command["programs"];
+      agents[plan.planners[p]] = command["agent"];
       inputs[plan.scenarios[s] + ", " + plan.planners[p]] = command["input"];
     }
   }

@@ -42,10 +42,13 @@ struct StudyPlan {
   std::string command_line;          ///< that makes this study, but for how it is flown
 };
 
+/// Whether the programs themselves are asked what they think of it: it takes a while.
+enum class AskPrograms { no, yes };
+
 /// Reads everything that is named, and lets the programs themselves check every planner in every scenario.
 /// @throws InputError naming what is wrong and what would be right: a planner or scenario that is unknown or named
 ///   twice, seeds, a missing agent program. Interrupted. Nothing is written.
-StudyPlan plan_study(const StudyOptions& options);
+StudyPlan plan_study(const StudyOptions& options, AskPrograms ask = AskPrograms::yes);
 
 /// How two studies' settings differ, a sentence each; empty when they do not.
 std::vector<std::string> differing_settings(const Json& then, const Json& now);

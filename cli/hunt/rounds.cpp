@@ -1,0 +1,106 @@
+// Rounds of a hunt, each a sweep (cli/sweep/): its cases are fixed before the first of them flies, so that the search
+// does not depend on who flies them, or where.
+#include <fstream>
+
+#include "cli/hunt/flights.hpp"
+#include "cli/machine.hpp"
+#include "cli/options.hpp"
+#include "cli/study/flights.hpp"
+#include "cli/study/made_under.hpp"
+#include "cli/sweep/controller.hpp"
+#include "cli/sweep/engines.hpp"
+#include "cli/sweep/this_node.hpp"
+#include "core/types.hpp"
+#include "process/atomic_file.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kReferenceMission_s = 20.0;  ///< at most
+
+ExitStatus exit_in(const fs::path& dir) {
+  const Json exit = value_or(read_json(dir / kFlightMark), "exit", Json::object());
+  const auto number = [&](const char* key) { return static_cast<int>(value_or(exit, key, 0).get<std::int64_t>()); };
+  ExitStatus status;
+  status.code = number("code");
+  status.signal = number("signal");
+  return status;
+}
+
+/// The hunt's flight without faults, cut short.
+SweepFlight reference(const HuntPlan& plan, const SweepFolder& folder, MadeUnder& made_under) {
+  RunOptions run = plan.fleet.options;
+  run.duration_s = std::min(plan.fleet.scenario.duration_s, kReferenceMission_s);
+  run.seed = 1;
+  run.attainable = run.report = false;
+  return {0, folder.dir() / "reference", arguments_of(run), made_under.of(plan_fleet(run, program_dir()))};
+}
+
+}  // namespace
+
+void TrialFlights::fly_in_rounds(const std::vector<std::size_t>& numbers, const Make& make, const Over& over) {
+  for (auto next = numbers.begin(); next != numbers.end();) {
+    std::vector<std::size_t> round;
+    std::vector<Trial> trials;
+    for (; next != numbers.end() && round.size() < plan_.options.round; ++next) {
+      std::optional<Trial> trial = make(*next);
+      if (!trial) break;
+      round.push_back(*next);
+      trials.push_back(std::move(*trial));
+    }
+    if (round.empty()) return;
+    fly_round(round, trials, over);
+  }
+}
+
+void TrialFlights::fly_round(const std::vector<std::size_t>& numbers, const std::vector<Trial>& trials,
+                             const Over& over) {
+  SweepFolder folder(fs::absolute(plan_.out));
+  MadeUnder made_under;
+  std::vector<SweepFlight> flights;
+  std::map<std::size_t, std::size_t> refused;  // by number: `skein run` would not fly them
+  fs::create_directories(folder.dir() / "cases");
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const std::string name = name_of_trial(numbers[i]);
+    RunOptions run = trials[i].run;
+    run.out = dir_of(name);
+    if (!trials[i].faults.empty()) {
+      run.faults = folder.dir() / "cases" / (name + ".yaml");
+      write_file_atomically(*run.faults, trials[i].text());
+    }
+    try {
+      flights.push_back({flights.size(), *run.out, arguments_of(run), made_under.of(plan_fleet(run, program_dir()))});
+      flights.back().made_under["case"] = numbers[i];
+    } catch (const InputError&) {
+      refused.emplace(numbers[i], i);
+    }
+  }
+  if (!flights.empty()) {
+    const SweepNode here = this_node(console_);
+    const auto engine = make_engine(plan_.options.sweep, plan_.options.jobs, folder, console_);
+    SweepController controller(folder, *engine, here, console_.err);
+    const auto slots = static_cast<std::size_t>(plan_.options.jobs.value_or(usable_cores()));
+    controller.plan({flights.size(),
+                     [&](std::size_t index) { return flights[index]; },
+                     {reference(plan_, folder, made_under)},
+                     [&](double) { return std::max<std::size_t>(1, flights.size() / (4 * slots)); },
+                     plan_.options.sweep.command,
+                     fs::current_path()});
+    write_fly_script(folder, fs::absolute(plan_.out), fs::current_path());
+    if (!controller.fly()) throw Interrupted{};
+    for (const auto& [unit, words] : controller.failed()) {
+      throw InputError("unit " + std::to_string(unit) + " of this round was not flown: " + words +
+                       "\nThe same command goes on.");
+    }
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const fs::path dir = dir_of(name_of_trial(numbers[i]));
+    TrialOutcome outcome = refused.contains(numbers[i]) ? TrialOutcome{} : read(trials[i], dir, exit_in(dir));
+    SweepFolder::remove(dir);
+    over(numbers[i], std::move(outcome));
+  }
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,115 @@
+#include "cli/pack_command.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
+#include "cli/run/supervisor.hpp"
+#include "core/config_files.hpp"
+#include "core/text.hpp"
+#include "core/types.hpp"
+#include "process/environment.hpp"
+#include "process/program.hpp"
+#include "process/run_folder.hpp"
+#include "report/web_bundle.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using report::find_web_bundle;
+
+constexpr std::size_t kLastLines = 3;
+
+/// Finds its libraries beside itself, the system's own among them: another libm would fly another flight.
+constexpr const char* kLauncher = R"sh(#!/bin/sh
+# Skein with its libraries: from wherever this folder is, and whatever is installed there.
+here=$(cd "$(dirname "$(readlink -f "$0")")" && pwd)
+export SKEIN_LAUNCHER="$here/skein" SKEIN_LOADER="$here/lib/{0}" SKEIN_BIN_DIR="$here/bin"
+export SKEIN_CONFIG_DIR="$here/share/skein/config" SKEIN_WEB="$here/share/skein/web/report.js"
+exec "$SKEIN_LOADER" --library-path "$here/lib" --argv0 skein "$here/bin/skein" "$@"
+)sh";
+
+std::string output_of(const std::vector<std::string>& argv) {
+  const ScratchDir scratch;
+  const fs::path log = scratch.path() / "log";
+  const ExitStatus exit = run_to_end({"pack", argv, environment_with({{"LC_ALL", "C"}}), log});
+  if (!exit.ok()) throw InputError(argv[1] + " ended with " + exit.text() + ":" + last_lines_below(log, kLastLines));
+  std::ifstream in(log);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Libraries of a program by the names under which it asks for them, and the loader among them.
+void add_libraries(const fs::path& program, std::map<std::string, fs::path>& libraries, std::string& loader) {
+  std::istringstream lines(output_of({"/usr/bin/env", "ldd", program}));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string name, arrow, file;
+    words >> name >> arrow >> file;
+    if (name.starts_with("/")) {
+      loader = fs::path(name).filename();
+      libraries[loader] = name;
+    } else if (arrow == "=>") {
+      if (file == "not") throw InputError(program.string() + " needs " + name + ", which is not here");
+      libraries[name] = file;
+    }
+  }
+}
+
+/// With who may read and run it.
+void copy_all(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to.parent_path());
+  fs::copy(from, to, fs::copy_options::recursive);
+}
+
+}  // namespace
+
+int pack_programs(const PackOptions& options, const Console& console) {
+  std::vector<fs::path> files;
+  for (const char* name :
+       {"skein", programs::kSimServer, programs::kCommRouter, programs::kStation, programs::kAgent}) {
+    files.push_back(program_dir() / name);
+  }
+  files.push_back(program_dir() / (std::string(programs::kAgent) + programs::kFleetSuffix));
+  for (const fs::path& agent : options.agents) {
+    if (!fs::is_regular_file(agent)) throw InputError("--agent " + agent.string() + ": is no program");
+    files.push_back(agent);
+    const fs::path fleet = agent.string() + programs::kFleetSuffix;
+    if (fs::exists(fleet)) files.push_back(fleet);
+  }
+  std::map<std::string, fs::path> libraries;
+  std::string loader;
+  std::set<std::string> names;
+  for (const fs::path& file : files) {
+    if (!fs::exists(file)) throw InputError("there is no " + file.string() + " to be packed");
+    if (!names.insert(file.filename()).second) throw InputError("two programs are called " + file.filename().string());
+    add_libraries(file, libraries, loader);
+  }
+
+  const fs::path archive = fs::absolute(options.file), unfinished = archive.string() + ".tmp";
+  const fs::path dir = archive.parent_path() / (archive.filename().string() + ".parts"), pack = dir / "skein";
+  fs::remove_all(dir);
+  for (const fs::path& file : files) copy_all(fs::canonical(file), pack / "bin" / file.filename());
+  for (const auto& [name, file] : libraries) copy_all(fs::canonical(file), pack / "lib" / name);
+  copy_all(default_config_dir(), pack / "share/skein/config");
+  if (const auto script = find_web_bundle(report::kReportScript)) copy_all(*script, pack / "share/skein/web/report.js");
+  if (const auto script = find_web_bundle(report::kLiveScript)) copy_all(*script, pack / "share/skein/web/live.js");
+  std::ofstream(pack / "skein") << fmt::format(fmt::runtime(kLauncher), loader);
+  fs::permissions(pack / "skein", fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
+                                      fs::perms::others_read | fs::perms::others_exec);
+  output_of({"/usr/bin/env", "tar", "--create", "--use-compress-program=gzip -1", "--file", unfinished, "--directory",
+             dir, "skein"});
+  fs::rename(unfinished, archive);
+  fs::remove_all(dir);
+  console.out << fmt::format("{}: {} programs, {} libraries, {:.0f} MB; unpack it anywhere, and call skein/skein\n",
+                             archive.string(), files.size(), libraries.size(),
+                             static_cast<double>(fs::file_size(archive)) / 1e6);
+  return kExitDone;
+}
+
+}  // namespace skein::cli

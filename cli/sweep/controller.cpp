@@ -1,0 +1,352 @@
+#include "cli/sweep/controller.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ostream>
+#include <random>
+
+#include "cli/run/supervisor.hpp"
+#include "cli/study/flights.hpp"
+#include "core/random_stream.hpp"
+#include "core/sha256.hpp"
+#include "core/types.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kUnitsPerSlot = 8;     ///< at least, where there are flights enough
+constexpr std::size_t kMostTries = 3;        ///< of a unit that does not get on
+constexpr std::size_t kMostCheckRounds = 4;  ///< chance may give a flight to the node that has flown it
+constexpr std::size_t kMostChecksHere = 10;  ///< of those that are left then
+
+std::string digest_in(const SweepRow& row) { return value_or(row.figures, "digest", "").get<std::string>(); }
+
+std::string digest_of(const SweepPlan& plan) {
+  Sha256 hash;
+  for (std::size_t i = 0; i < plan.flights; ++i) hash.add(to_json(plan.flight(i)).dump());
+  return hash.hex();
+}
+
+std::string new_token(const std::string& plan) {
+  std::random_device chance;
+  return Sha256().add(plan).add(std::uint64_t{chance()}).add(std::uint64_t{chance()}).hex().substr(0, 12);
+}
+
+}  // namespace
+
+std::size_t unit_size(std::size_t flights, double flight_s, double unit_s, std::size_t slots) {
+  const double by_time = unit_s / std::max(flight_s, 1e-3);
+  const std::size_t by_slots = flights / (kUnitsPerSlot * std::max<std::size_t>(slots, 1));
+  return std::max<std::size_t>(1, std::min(static_cast<std::size_t>(std::min(by_time, 1e6)), by_slots));
+}
+
+bool is_checked(std::size_t index, std::size_t flights) {
+  if (flights < kCheckedShare) return index == flights / 2;
+  // Not every hundredth: a study's order may have a period of a hundred, too.
+  return RandomStream(1, "checked flight", index / kCheckedShare).bits() % kCheckedShare == index % kCheckedShare;
+}
+
+void SweepController::plan(const SweepPlan& plan, bool anew) {
+  const std::string digest = digest_of(plan);
+  const auto former = folder_.settings();
+  if (former && former->plan == digest) {
+    settings_ = *former;
+    if (settings_.command != plan.command || settings_.working_folder != plan.working_folder) {
+      settings_.command = plan.command;
+      settings_.working_folder = plan.working_folder;
+      folder_.write_settings(settings_);
+    }
+    if (!anew) return;
+    reopen_what_must_fly(plan);
+    folder_.write_tries({});
+    folder_.forget_sick();
+    return;
+  }
+  if (former) engine_.cancel();
+  begin(plan, digest);
+}
+
+void SweepController::begin(const SweepPlan& plan, const std::string& digest_of_plan) {
+  settings_ = {};
+  settings_.token = new_token(digest_of_plan);
+  settings_.plan = digest_of_plan;
+  settings_.flights = plan.flights;
+  settings_.command = plan.command;
+  settings_.working_folder = plan.working_folder;
+  const auto former = folder_.settings();
+  // As in a hunt's last round: what is known of nodes stays.
+  const bool proved = former && std::ranges::any_of(plan.references, [&](const SweepFlight& flight) {
+                        return to_json(flight) == to_json(former->reference);
+                      });
+  if (proved) {
+    settings_.reference = former->reference;
+    settings_.digest = former->digest;
+    settings_.reference_s = former->reference_s;
+  } else {
+    fly_a_reference(plan);
+  }
+  settings_.unit_flights = plan.unit_flights(settings_.reference_s);
+  folder_.forget_sick();
+  folder_.begin(settings_, proved, [&](std::size_t number) {
+    SweepUnit unit;
+    const std::size_t first = number * settings_.unit_flights;
+    const std::size_t end = std::min(first + settings_.unit_flights, plan.flights);
+    for (std::size_t i = first; i < end; ++i) unit.flights.push_back(plan.flight(i));
+    return unit;
+  });
+  for (std::size_t number = 0; number < settings_.units(); ++number) close_what_is_flown(number);
+}
+
+/// A planner that always fails does not keep the others from the air.
+void SweepController::fly_a_reference(const SweepPlan& plan) {
+  for (const SweepFlight& flight : plan.references) {
+    const auto began = std::chrono::steady_clock::now();
+    try {
+      settings_.digest = fly_reference(folder_, flight, here_);
+    } catch (const NodeTrouble&) {
+      if (&flight == &plan.references.back()) throw;
+      continue;
+    }
+    settings_.reference = flight;
+    settings_.reference_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    return;
+  }
+}
+
+/// A study that was flown otherwise before, or in part.
+void SweepController::close_what_is_flown(std::size_t unit) const {
+  std::vector<SweepRow> rows;
+  for (const SweepFlight& flight : folder_.unit(unit).flights) {
+    auto row = row_in_place(folder_, flight, here_);
+    if (!row) return;
+    rows.push_back(std::move(*row));
+  }
+  folder_.write_done(settings_.token, unit, rows);
+}
+
+/// What failed, and what somebody has removed.
+void SweepController::reopen_what_must_fly(const SweepPlan& plan) const {
+  for (const std::size_t unit : folder_.done(settings_.token)) {
+    const auto rows = folder_.rows(settings_.token, unit);
+    if (unit >= settings_.units()) continue;
+    const bool whole = rows && std::ranges::all_of(*rows, [&](const SweepRow& row) {
+                         return row.problem.empty() && row.index < plan.flights &&
+                                fs::exists(plan.flight(row.index).dir / run_folder::kResult);
+                       });
+    if (!whole) folder_.reopen(settings_.token, unit);
+  }
+}
+
+void SweepController::look() {
+  const auto settings = folder_.settings();
+  if (!settings) throw InputError(folder_.dir().string() + " holds no sweep");
+  settings_ = *settings;
+}
+
+bool SweepController::fly() {
+  for (;;) {
+    judge_checks();
+    remove_quarantined();
+    std::vector<std::size_t> units = within_tries(open_units());
+    if (units.empty()) units = units_of_checks();
+    if (units.empty() && check_here()) continue;
+    if (units.empty()) break;
+    const std::set<std::string> before = nodes_to_avoid();
+    if (!engine_.fly(units, before, [this] { tell_progress(); })) return false;
+    tell_progress();
+    // A node that fails at once may have taken all units: that says nothing about them.
+    if (nodes_to_avoid() != before) folder_.write_tries({});
+  }
+  folder_.clear_air();
+  return true;
+}
+
+std::set<std::string> SweepController::nodes_to_avoid() const {
+  std::set<std::string> nodes = folder_.quarantined_nodes();
+  nodes.merge(folder_.sick_nodes());
+  return nodes;
+}
+
+std::vector<std::size_t> SweepController::open_units() const {
+  const std::set<std::size_t> done = folder_.done(settings_.token);
+  std::vector<std::size_t> open;
+  for (std::size_t unit = 0; unit < settings_.units(); ++unit) {
+    if (!done.contains(unit)) open.push_back(unit);
+  }
+  return open;
+}
+
+/// A unit that gets on has all its tries again: a limit of time may cut it in many pieces.
+std::vector<std::size_t> SweepController::within_tries(const std::vector<std::size_t>& units) const {
+  std::map<std::size_t, SweepFolder::Tries> tries = folder_.tries();
+  std::vector<std::size_t> within;
+  for (const std::size_t unit : units) {
+    const SweepUnit its = folder_.unit(unit);
+    const auto flown = static_cast<std::size_t>(std::ranges::count_if(
+        its.flights, [](const SweepFlight& flight) { return fs::exists(flight.dir / kFlightMark); }));
+    SweepFolder::Tries& its_tries = tries[unit];
+    if (flown > its_tries.flown) its_tries.tries = 0;
+    its_tries.flown = flown;
+    if (its_tries.tries >= kMostTries) continue;
+    ++its_tries.tries;
+    within.push_back(unit);
+  }
+  if (!within.empty()) folder_.write_tries(tries);
+  return within;
+}
+
+SweepFlight SweepController::flight(std::size_t index) const {
+  return folder_.unit(index / settings_.unit_flights).flights.at(index % settings_.unit_flights);
+}
+
+/// Those that are to be flown again elsewhere, and were not.
+std::vector<SweepFlight> SweepController::unchecked_flights() const {
+  std::vector<SweepFlight> unchecked;
+  for (std::size_t index = 0; index < settings_.flights; ++index) {
+    if (!is_checked(index, settings_.flights)) continue;
+    const auto rows = folder_.rows(settings_.token, index / settings_.unit_flights);
+    if (!rows) continue;
+    const auto row = std::ranges::find(*rows, index, &SweepRow::index);
+    if (row == rows->end() || digest_in(*row).empty()) continue;
+    const auto check = folder_.check(settings_.token, index);
+    if (check && check->first_node == row->node && check->first_digest == digest_in(*row)) continue;
+    unchecked.push_back(flight(index));
+  }
+  return unchecked;
+}
+
+/// Whichever node gets one flies what others have flown.
+std::vector<std::size_t> SweepController::units_of_checks() const {
+  if (!engine_.has_other_nodes() || folder_.nodes().size() < 2) return {};
+  const std::size_t first = settings_.units();
+  std::map<std::size_t, SweepFolder::Tries> tries = folder_.tries();
+  std::size_t& rounds = tries[first].tries;
+  const std::vector<SweepFlight> flights = unchecked_flights();
+  if (flights.empty() || rounds == kMostCheckRounds) return {};
+  ++rounds;
+  folder_.write_tries(tries);
+  std::vector<std::size_t> units;
+  for (std::size_t i = 0; i < flights.size(); i += settings_.unit_flights) {
+    const std::size_t number = first + units.size(), end = std::min(i + settings_.unit_flights, flights.size());
+    const auto begin = flights.begin();
+    folder_.add_unit(number,
+                     {{begin + static_cast<std::ptrdiff_t>(i), begin + static_cast<std::ptrdiff_t>(end)}, true});
+    if (folder_.rows(settings_.token, number)) folder_.reopen(settings_.token, number);
+    units.push_back(number);
+  }
+  return units;
+}
+
+/// What chance has left over, or all where there is one node beside this one. @returns whether there was any.
+bool SweepController::check_here() {
+  if (!engine_.has_other_nodes()) return false;
+  bool any = false;
+  for (const SweepFlight& flight : unchecked_flights()) {
+    const auto first = row_in_place(folder_, flight, here_);
+    if (!first || first->node == here_.name) continue;
+    if (checked_here_ == kMostChecksHere) break;
+    ++checked_here_;
+    folder_.write_check(settings_.token, {flight.index, here_.name, digest_here(folder_, flight, here_), first->node,
+                                          digest_in(*first)});
+    any = true;
+  }
+  return any;
+}
+
+void SweepController::judge_checks() const {
+  for (const std::size_t index : folder_.checks(settings_.token)) {
+    const auto check = folder_.check(settings_.token, index);
+    if (check && check->digest != check->first_digest) judge(*check);
+  }
+}
+
+/// Two nodes differ: this one tells which is wrong, unless the flight is another one each time.
+void SweepController::judge(const SweepCheck& check) const {
+  const SweepFlight disputed = flight(check.index);
+  const std::string here = digest_here(folder_, disputed, here_);
+  if (digest_here(folder_, disputed, here_) != here) {
+    say_ << disputed.dir.string() << " is another flight each time that it is flown: see `skein check-planner`\n";
+  } else {
+    for (const auto& [node, digest] :
+         {std::pair(check.first_node, check.first_digest), std::pair(check.node, check.digest)}) {
+      if (digest == here) continue;
+      folder_.quarantine(node, fmt::format("{} has the digest {} there, and {} on {}", disputed.dir.string(), digest,
+                                           here, here_.name));
+    }
+  }
+  folder_.forget_check(settings_.token, check.index);
+}
+
+/// Also of units that are not over: nobody may take these flights for good ones later.
+void SweepController::remove_quarantined() {
+  const std::set<std::string> nodes = folder_.quarantined_nodes();
+  if (nodes == removed_) return;
+  for (const std::string& node : nodes) {
+    if (!removed_.contains(node)) {
+      say_ << "nothing of " << node << " counts: " << folder_.quarantined(node).value_or("") << std::endl;
+    }
+  }
+  for (std::size_t unit = 0; unit < settings_.units(); ++unit) {
+    bool any = false;
+    for (const SweepFlight& flight : folder_.unit(unit).flights) {
+      const Json mark = read_json(flight.dir / kFlightMark);
+      if (!nodes.contains(value_or(mark, "node", "").get<std::string>())) continue;
+      folder_.set_aside(flight.dir);
+      any = true;
+    }
+    const auto rows = folder_.rows(settings_.token, unit);
+    any = any || (rows && std::ranges::any_of(*rows, [&](const SweepRow& row) { return nodes.contains(row.node); }));
+    if (any && rows) folder_.reopen(settings_.token, unit);
+  }
+  removed_ = nodes;
+}
+
+void SweepController::collect(const std::function<void(SweepRow row)>& take) const {
+  for (std::size_t unit = 0; unit < settings_.units(); ++unit) {
+    if (auto rows = folder_.rows(settings_.token, unit)) {
+      for (SweepRow& row : *rows) take(std::move(row));
+      continue;
+    }
+    for (const SweepFlight& flight : folder_.unit(unit).flights) {
+      if (auto row = row_in_place(folder_, flight, here_)) take(std::move(*row));
+    }
+  }
+}
+
+std::map<std::size_t, std::string> SweepController::failed() const {
+  std::map<std::size_t, std::string> failed;
+  for (const std::size_t unit : open_units()) {
+    const std::vector<std::string> words = last_lines(folder_.log_of(unit), 1);
+    failed[unit] = words.empty() ? "" : words.back();
+  }
+  return failed;
+}
+
+std::vector<std::string> SweepController::findings() const {
+  std::vector<std::string> lines;
+  for (const std::string& node : folder_.quarantined_nodes()) {
+    lines.push_back("nothing of " + node + " counts: " + folder_.quarantined(node).value_or(""));
+  }
+  const std::set<std::size_t> checks = folder_.checks(settings_.token);
+  std::set<std::string> nodes;
+  for (const std::string& node : folder_.nodes()) nodes.insert(node);
+  lines.push_back(fmt::format("{} node{}; {} flight{} flown again elsewhere, {}", nodes.size(),
+                              nodes.size() == 1 ? "" : "s", checks.size(), checks.size() == 1 ? "" : "s",
+                              checks.empty() ? "none of them another one" : "each with the same digest"));
+  return lines;
+}
+
+void SweepController::tell_progress() {
+  const std::set<std::size_t> done = folder_.done(settings_.token);
+  const auto over = static_cast<std::size_t>(std::distance(done.begin(), done.lower_bound(settings_.units())));
+  if (over == told_) return;
+  told_ = over;
+  say_ << fmt::format("{} of {} units are over", over, settings_.units()) << std::endl;
+}
+
+}  // namespace skein::cli

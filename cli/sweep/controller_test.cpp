@@ -1,0 +1,227 @@
+// Drawn orders of ends and failures: whatever an engine does to the units, the nodes and the controller, each flight is
+// there in the end, once, as a sound node flies it.
+#include "cli/sweep/controller.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cli/sweep/testing/made_up_nodes.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A sweep in a made-up world, with as many controllers as it takes.
+class Sweep {
+ public:
+  Sweep(std::uint64_t seed, std::size_t flights, std::size_t unit_flights, std::vector<MadeUpNode> its_nodes)
+      : world(seed, flights), nodes(std::move(its_nodes)), engine(world, nodes), unit_flights_(unit_flights) {}
+
+  /// A controller from its start to its end. @returns false when it was killed.
+  bool control() try {
+    said.str("");
+    SweepFolder folder(world.study());
+    folder.on_step([this] {
+      if (world.draw.uniform() < engine.manners.kills_controller) throw Killed{};
+    });
+    const SweepNode node = world.node(here, [] {});
+    SweepController controller(folder, engine, node, said);
+    controller.plan(world.plan(unit_flights_));
+    controller.fly();
+    return true;
+  } catch (const Killed&) {
+    return false;
+  }
+  /// From now on nothing bad happens to it. Where a disk had no room for a flight, and had for the reference flight
+  /// after it, the flight is noted as one that failed: the second command flies it again.
+  void end_well() {
+    engine.manners = {};
+    for (MadeUpNode& node : nodes) {
+      node.disk_fills = 0.0;
+      node.sick = false;
+    }
+    ASSERT_TRUE(control());
+    ASSERT_TRUE(control());
+  }
+
+  std::map<std::size_t, std::vector<SweepRow>> rows() {
+    SweepFolder folder(world.study());
+    const SweepNode node = world.node(here, [] {});
+    SweepController controller(folder, engine, node, said);
+    controller.look();
+    std::map<std::size_t, std::vector<SweepRow>> rows;
+    controller.collect([&](const SweepRow& row) { rows[row.index].push_back(row); });
+    return rows;
+  }
+  void expect_all(std::size_t flights) {
+    const auto all = rows();
+    ASSERT_EQ(all.size(), flights);
+    for (const auto& [index, its] : all) {
+      ASSERT_EQ(its.size(), 1U) << "flight " << index << " counts more than once";
+      ASSERT_EQ(its[0].problem, world.fails(index) ? kMadeUpProblem : "") << index;
+      ASSERT_EQ(its[0].figures["digest"], world.digest(index)) << "flown by " << its[0].node;
+      const SweepFlight flight = world.flight(index);
+      const Json mark = read_json(flight.dir / kFlightMark);
+      ASSERT_EQ(value_or(mark, "command", nullptr), flight.made_under) << index;
+      ASSERT_EQ(value_or(read_json(flight.dir / run_folder::kResult), "digest", nullptr), world.digest(index)) << index;
+    }
+  }
+  bool quarantined(const std::string& node) const { return SweepFolder(world.study()).quarantined(node).has_value(); }
+
+  MadeUpWorld world;
+  std::vector<MadeUpNode> nodes;
+  MadeUpNode here{"here"};
+  MadeUpEngine engine;
+  std::ostringstream said;
+
+ private:
+  const std::size_t unit_flights_;
+};
+
+std::vector<MadeUpNode> drawn_nodes(RandomStream& draw) {
+  std::vector<MadeUpNode> nodes = {{"sound 1"}, {"sound 2"}, {"full"}, {"other cpu"}, {"other build"}};
+  nodes[2].disk_fills = 0.2;
+  nodes[3].other_arithmetic = true;
+  nodes[4].other_build = true;
+  const auto count = 1 + static_cast<std::size_t>(draw.uniform() * static_cast<double>(nodes.size()));
+  nodes.resize(std::min(count, nodes.size()));
+  return nodes;
+}
+
+TEST(SweepController, LosesAndDoublesNothingInDrawnOrders) {
+  constexpr std::uint64_t kOrders = 2000;
+  std::size_t killed = 0, failing = 0;
+  for (std::uint64_t order = 1; order <= kOrders; ++order) {
+    SCOPED_TRACE("order " + std::to_string(order));
+    RandomStream draw(order, "manners", 0);
+    const auto flights = 1 + static_cast<std::size_t>(12.0 * draw.uniform());
+    const auto unit = 1 + static_cast<std::size_t>(4.0 * draw.uniform());
+    Sweep sweep(order, flights, unit, drawn_nodes(draw));
+    sweep.engine.manners = {0.03 * draw.uniform(), 0.02 * draw.uniform(), draw.uniform(), 0.5 * draw.uniform(),
+                            1 + static_cast<std::size_t>(5.0 * draw.uniform())};
+    if (draw.uniform() < 0.3) sweep.world.failing = {static_cast<std::size_t>(draw.uniform() * 3.0)};
+    for (int controller = 0; controller < 3 && !sweep.control(); ++controller) ++killed;
+    sweep.end_well();
+    sweep.expect_all(flights);
+    if (::testing::Test::HasFatalFailure()) return;
+    failing += sweep.world.failing.size();
+    const SweepFolder folder(sweep.world.study());
+    EXPECT_FALSE(folder.quarantined("sound 1")) << *folder.quarantined("sound 1");
+    EXPECT_FALSE(folder.quarantined("sound 2")) << *folder.quarantined("sound 2");
+    EXPECT_TRUE(fs::is_empty(folder.dir() / "air"));
+  }
+  EXPECT_GT(killed, kOrders / 5) << "controllers are killed in many orders";
+  EXPECT_GT(failing, kOrders / 10);
+}
+
+TEST(SweepController, AnotherArithmeticIsFoundByTheReferenceFlight) {
+  std::vector<MadeUpNode> nodes = {{"sound"}, {"odd"}};
+  nodes[1].other_arithmetic = true;
+  Sweep sweep(1, 20, 2, nodes);
+  ASSERT_TRUE(sweep.control());
+  sweep.expect_all(20);
+  EXPECT_TRUE(sweep.quarantined("odd"));
+  EXPECT_FALSE(sweep.quarantined("sound"));
+  EXPECT_NE(sweep.said.str().find("nothing of odd counts: its reference flight has the digest"), std::string::npos)
+      << sweep.said.str();
+}
+
+/// The reference flight does not show it: flights that are flown again elsewhere do.
+TEST(SweepController, AllFlightsOfANodeGoWhenOneIsAnotherElsewhere) {
+  int found = 0;
+  for (std::uint64_t order = 1; order <= 20; ++order) {
+    SCOPED_TRACE("order " + std::to_string(order));
+    std::vector<MadeUpNode> nodes = {{"sound"}, {"odd"}, {"sound too"}};
+    nodes[1].odd_once_proved = true;
+    Sweep sweep(order, 30, 3, nodes);
+    ASSERT_TRUE(sweep.control());
+    const auto all = sweep.rows();
+    ASSERT_EQ(all.size(), 30U);
+    EXPECT_FALSE(sweep.quarantined("sound"));
+    EXPECT_FALSE(sweep.quarantined("sound too"));
+    // The flight that was chosen is right whoever flew it first; and if that was the odd one, nothing of it is left.
+    EXPECT_EQ(all.at(15).front().figures["digest"], sweep.world.digest(15));
+    if (!sweep.quarantined("odd")) continue;
+    ++found;
+    sweep.expect_all(30);
+    for (std::size_t i = 0; i < 30; ++i) {
+      const Json mark = read_json(sweep.world.flight(i).dir / kFlightMark);
+      EXPECT_NE(value_or(mark, "node", ""), "odd") << i;
+    }
+  }
+  EXPECT_GT(found, 5);
+}
+
+TEST(SweepController, WithNodesThatFlyNothingItEndsAndSaysWhatIsMissing) {
+  std::vector<MadeUpNode> nodes = {{"full"}};
+  nodes[0].disk_fills = 1.0;
+  Sweep sweep(3, 6, 2, nodes);
+  ASSERT_TRUE(sweep.control());
+  EXPECT_TRUE(sweep.rows().empty());
+  sweep.end_well();
+  sweep.expect_all(6);
+}
+
+TEST(SweepController, WhatFailedIsFlownOnceMoreByTheNextCommandAndNothingElse) {
+  Sweep sweep(4, 9, 3, {{"one"}, {"two"}});
+  sweep.world.failing = {4};
+  ASSERT_TRUE(sweep.control());
+  sweep.expect_all(9);
+  std::map<std::size_t, fs::file_time_type> before;
+  for (std::size_t i = 0; i < 9; ++i) before[i] = fs::last_write_time(sweep.world.flight(i).dir / run_folder::kResult);
+  sweep.world.failing.clear();
+  ASSERT_TRUE(sweep.control());
+  sweep.expect_all(9);
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_EQ(fs::last_write_time(sweep.world.flight(i).dir / run_folder::kResult) == before[i], i != 4) << i;
+  }
+}
+
+TEST(SweepController, AnotherBuildBeginsAnewAndTheFormerOnesUnitsEnd) {
+  Sweep sweep(5, 8, 2, {{"one"}, {"two"}});
+  ASSERT_TRUE(sweep.control());
+  MadeUpWorker late(sweep.world, sweep.nodes[0], 1);
+  ASSERT_TRUE(late.run_a_step()) << "it has begun";
+  sweep.world.build = "build 2";
+  ASSERT_TRUE(sweep.control());
+  while (late.run_a_step()) {
+  }
+  sweep.expect_all(8);
+}
+
+TEST(SweepController, AFlightThatSomebodyRemovedIsFlownAgain) {
+  Sweep sweep(6, 8, 2, {{"one"}});
+  ASSERT_TRUE(sweep.control());
+  fs::remove_all(sweep.world.flight(5).dir);
+  ASSERT_TRUE(sweep.control());
+  sweep.expect_all(8);
+}
+
+TEST(Sweep, OneFlightInAHundredIsCheckedWhateverTheOrder) {
+  for (const std::size_t flights : {std::size_t{100'000}, std::size_t{1700}, std::size_t{99}, std::size_t{1}}) {
+    std::size_t checked = 0;
+    std::vector<std::size_t> by_seed(100);
+    for (std::size_t i = 0; i < flights; ++i) {
+      if (!is_checked(i, flights)) continue;
+      ++checked;
+      ++by_seed[i % 100];
+    }
+    EXPECT_EQ(checked, std::max<std::size_t>(1, flights / 100));
+    if (flights == 100'000) {
+      EXPECT_LT(*std::ranges::max_element(by_seed), 35U) << "not always the same place in a hundred";
+    }
+  }
+}
+
+TEST(Sweep, UnitsTakeTheirTimeButLeaveSeveralToEachSlot) {
+  EXPECT_EQ(unit_size(100'000, 15.0, 300.0, 64), 20U);
+  EXPECT_EQ(unit_size(105, 15.0, 300.0, 2), 6U) << "eight for each slot";
+  EXPECT_EQ(unit_size(4, 15.0, 300.0, 2), 1U);
+  EXPECT_EQ(unit_size(100'000, 1000.0, 300.0, 2), 1U);
+  EXPECT_EQ(unit_size(1'000'000, 0.0, 300.0, 1), 125'000U);
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,42 @@
+// What flies the units of a sweep: this machine, GNU parallel over ssh, or Slurm. Skein schedules nothing itself.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace skein::cli {
+
+/// A unit as the engine has it.
+struct EngineJob {
+  std::size_t unit = 0;
+  std::string state;  ///< in the engine's words: "RUNNING on node3", "PENDING (Resources)"
+};
+
+class SweepEngine {
+ public:
+  virtual ~SweepEngine() = default;
+
+  /// Has these units flown, and returns when it holds none of the sweep any more, whatever came of them: the sweep's
+  /// folder tells. Units that it holds already, of an earlier call, are not given to it twice.
+  /// @param not_on  nodes on which nothing may fly, as far as the engine can choose
+  /// @param tell  called now and then meanwhile.
+  /// @returns false when the user interrupted it, or does not want to wait.
+  /// @throws InputError when the engine does not take them, with its own words.
+  virtual bool fly(const std::vector<std::size_t>& units, const std::set<std::string>& not_on,
+                   const std::function<void()>& tell) = 0;
+
+  /// What it holds, asked from the engine.
+  virtual std::vector<EngineJob> jobs() = 0;
+
+  /// Ends what it holds of this sweep, which was planned anew.
+  virtual void cancel() {}
+
+  /// Whether units fly on other machines than this one.
+  virtual bool has_other_nodes() const = 0;
+};
+
+}  // namespace skein::cli

@@ -1,0 +1,333 @@
+#include "cli/sweep/folder.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <random>
+#include <system_error>
+
+#include "core/types.hpp"
+#include "process/atomic_file.hpp"
+#include "report/run_data.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using report::text_in;
+
+constexpr const char* kSettings = "sweep.json";
+constexpr const char* kTries = "tries.json";
+constexpr int kFormat = 1;  ///< of these files
+
+/// Sorts as the numbers do.
+std::string numbered(std::size_t number) { return fmt::format("{:06}", number); }
+
+std::size_t number_in(const Json& json, const char* key) {
+  const Json value = value_or(json, key, nullptr);
+  return value.is_number_unsigned() ? value.get<std::size_t>() : 0;
+}
+
+std::vector<std::string> texts_in(const Json& json, const char* key) {
+  std::vector<std::string> texts;
+  for (const Json& text : value_or(json, key, Json::array())) {
+    if (text.is_string()) texts.push_back(text.get<std::string>());
+  }
+  return texts;
+}
+
+/// Names of the JSON files of a folder, without their ending; none where there is no such folder.
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+/// Of files that are called by numbers.
+std::set<std::size_t> numbers_in(const fs::path& folder) {
+  std::set<std::size_t> numbers;
+  for (const std::string& name : names_in(folder)) {
+    std::size_t number = 0;
+    const auto read = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (read.ec == std::errc() && read.ptr == name.data() + name.size()) numbers.insert(number);
+  }
+  return numbers;
+}
+
+/// Of a node, which may be called anything, as the name of a file.
+std::string file_name(const std::string& node) {
+  std::string name;
+  for (const char c : node) {
+    const bool plain =
+        (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '.';
+    name += plain ? std::string(1, c) : fmt::format("_{:02x}", static_cast<unsigned char>(c));
+  }
+  return "node-" + name;
+}
+
+Json to_json(const SweepRow& row) {
+  return {{"index", row.index}, {"node", row.node}, {"problem", row.problem}, {"figures", row.figures}};
+}
+
+SweepRow row_of(const Json& json) {
+  return {number_in(json, "index"), text_in(json, "node"), text_in(json, "problem"),
+          value_or(json, "figures", nullptr)};
+}
+
+}  // namespace
+
+Json to_json(const SweepFlight& flight) {
+  return {{"index", flight.index},
+          {"dir", flight.dir.string()},
+          {"arguments", flight.arguments},
+          {"made_under", flight.made_under}};
+}
+
+SweepFlight sweep_flight_of(const Json& json) {
+  SweepFlight flight{number_in(json, "index"), text_in(json, "dir"), texts_in(json, "arguments"),
+                     value_or(json, "made_under", nullptr)};
+  if (flight.dir.empty() || flight.arguments.empty())
+    throw InputError("a flight of the sweep is damaged: " + json.dump());
+  return flight;
+}
+
+fs::path SweepFolder::file_of(const fs::path& folder, const std::string& name) const {
+  return dir_ / folder / (name + ".json");
+}
+
+fs::path SweepFolder::log_of(std::size_t unit) const { return dir_ / "log" / (numbered(unit) + ".log"); }
+
+void SweepFolder::write(const fs::path& file, const Json& json) const {
+  step();
+  fs::create_directories(file.parent_path());
+  write_file_atomically(file, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+std::optional<SweepSettings> SweepFolder::settings() const {
+  const Json json = read_json(dir_ / kSettings);
+  if (value_or(json, "format", nullptr) != kFormat) return std::nullopt;
+  SweepSettings settings{text_in(json, "token"),
+                         text_in(json, "plan"),
+                         number_in(json, "flights"),
+                         std::max<std::size_t>(number_in(json, "unit_flights"), 1),
+                         {},
+                         text_in(json, "digest"),
+                         texts_in(json, "command"),
+                         text_in(json, "working_folder"),
+                         0.0};
+  settings.reference = sweep_flight_of(value_or(json, "reference", Json::object()));
+  settings.reference_s = value_or(json, "reference_s", 0.0).get<double>();
+  return settings;
+}
+
+void SweepFolder::begin(const SweepSettings& settings, bool nodes_stay,
+                        const std::function<SweepUnit(std::size_t number)>& unit) const {
+  step();
+  fs::remove(dir_ / kSettings);  // from here on the former sweep's programs end with their next flight
+  for (const char* folder : {"units", "done", "checks", "log", "lists"}) remove(dir_ / folder);
+  if (!nodes_stay) {
+    for (const char* folder : {"nodes", "quarantine"}) remove(dir_ / folder);
+  }
+  for (const char* folder : {"units", "done", "checks", "log", "lists", "nodes", "quarantine", "air", "aside"}) {
+    fs::create_directories(dir_ / folder);
+  }
+  write_tries({});
+  for (std::size_t number = 0; number < settings.units(); ++number) add_unit(number, unit(number));
+  write_settings(settings);
+}
+
+void SweepFolder::write_settings(const SweepSettings& settings) const {
+  write(dir_ / kSettings, {{"format", kFormat},
+                           {"token", settings.token},
+                           {"plan", settings.plan},
+                           {"flights", settings.flights},
+                           {"unit_flights", settings.unit_flights},
+                           {"reference", to_json(settings.reference)},
+                           {"digest", settings.digest},
+                           {"reference_s", settings.reference_s},
+                           {"command", settings.command},
+                           {"working_folder", settings.working_folder.string()}});
+}
+
+void SweepFolder::add_unit(std::size_t number, const SweepUnit& unit) const {
+  Json flights = Json::array();
+  for (const SweepFlight& flight : unit.flights) flights.push_back(to_json(flight));
+  write(file_of("units", numbered(number)), {{"flights", flights}, {"again", unit.again}});
+}
+
+SweepUnit SweepFolder::unit(std::size_t number) const {
+  const fs::path file = file_of("units", numbered(number));
+  const Json json = read_json(file);
+  if (!json.is_object()) throw InputError(file.string() + ": there is no such unit of a sweep");
+  SweepUnit unit;
+  for (const Json& flight : value_or(json, "flights", Json::array())) unit.flights.push_back(sweep_flight_of(flight));
+  unit.again = value_or(json, "again", false).get<bool>();
+  return unit;
+}
+
+std::set<std::size_t> SweepFolder::done(const std::string& token) const { return numbers_in(dir_ / "done" / token); }
+
+std::set<std::size_t> SweepFolder::checks(const std::string& token) const {
+  return numbers_in(dir_ / "checks" / token);
+}
+
+std::map<std::size_t, SweepFolder::Tries> SweepFolder::tries() const {
+  std::map<std::size_t, Tries> tries;
+  for (const Json& one : value_or(read_json(dir_ / kTries), "units", Json::array())) {
+    tries[number_in(one, "unit")] = {number_in(one, "tries"), number_in(one, "flown")};
+  }
+  return tries;
+}
+
+void SweepFolder::write_tries(const std::map<std::size_t, Tries>& tries) const {
+  Json units = Json::array();
+  for (const auto& [unit, one] : tries) units.push_back({{"unit", unit}, {"tries", one.tries}, {"flown", one.flown}});
+  write(dir_ / kTries, {{"units", units}});
+}
+
+void SweepFolder::write_done(const std::string& token, std::size_t unit, const std::vector<SweepRow>& rows) const {
+  Json flights = Json::array();
+  for (const SweepRow& row : rows) flights.push_back(to_json(row));
+  write(file_of(fs::path("done") / token, numbered(unit)), {{"flights", flights}});
+}
+
+std::optional<std::vector<SweepRow>> SweepFolder::rows(const std::string& token, std::size_t unit) const {
+  const Json json = read_json(file_of(fs::path("done") / token, numbered(unit)));
+  if (!json.is_object()) return std::nullopt;
+  std::vector<SweepRow> rows;
+  for (const Json& row : value_or(json, "flights", Json::array())) rows.push_back(row_of(row));
+  return rows;
+}
+
+void SweepFolder::reopen(const std::string& token, std::size_t unit) const {
+  step();
+  fs::remove(file_of(fs::path("done") / token, numbered(unit)));
+}
+
+Json SweepFolder::node(const std::string& name) const { return read_json(file_of("nodes", file_name(name))); }
+
+void SweepFolder::write_node(const std::string& name, const Json& facts) const {
+  write(file_of("nodes", file_name(name)), facts);
+}
+
+std::vector<std::string> SweepFolder::nodes() const {
+  std::vector<std::string> nodes;
+  for (const std::string& name : names_in(dir_ / "nodes")) {
+    nodes.push_back(text_in(read_json(file_of("nodes", name)), "node"));
+  }
+  return nodes;
+}
+
+void SweepFolder::quarantine(const std::string& node, const std::string& reason) const {
+  if (!quarantined(node)) write(file_of("quarantine", file_name(node)), {{"node", node}, {"reason", reason}});
+}
+
+std::optional<std::string> SweepFolder::quarantined(const std::string& node) const {
+  const fs::path file = file_of("quarantine", file_name(node));
+  if (!fs::exists(file)) return std::nullopt;
+  return text_in(read_json(file), "reason");
+}
+
+std::set<std::string> SweepFolder::quarantined_nodes() const {
+  std::set<std::string> nodes;
+  for (const std::string& name : names_in(dir_ / "quarantine")) {
+    nodes.insert(text_in(read_json(file_of("quarantine", name)), "node"));
+  }
+  return nodes;
+}
+
+void SweepFolder::note_sick(const std::string& node, const std::string& reason) const {
+  write(file_of("sick", file_name(node)), {{"node", node}, {"reason", reason}});
+}
+
+std::set<std::string> SweepFolder::sick_nodes() const {
+  std::set<std::string> nodes;
+  for (const std::string& name : names_in(dir_ / "sick"))
+    nodes.insert(text_in(read_json(file_of("sick", name)), "node"));
+  return nodes;
+}
+
+void SweepFolder::forget_sick() const {
+  step();
+  remove(dir_ / "sick");
+}
+
+void SweepFolder::write_check(const std::string& token, const SweepCheck& check) const {
+  write(file_of(fs::path("checks") / token, numbered(check.index)), {{"index", check.index},
+                                                                     {"node", check.node},
+                                                                     {"digest", check.digest},
+                                                                     {"first_node", check.first_node},
+                                                                     {"first_digest", check.first_digest}});
+}
+
+std::optional<SweepCheck> SweepFolder::check(const std::string& token, std::size_t index) const {
+  const Json json = read_json(file_of(fs::path("checks") / token, numbered(index)));
+  if (!json.is_object()) return std::nullopt;
+  return SweepCheck{number_in(json, "index"), text_in(json, "node"), text_in(json, "digest"),
+                    text_in(json, "first_node"), text_in(json, "first_digest")};
+}
+
+void SweepFolder::forget_check(const std::string& token, std::size_t index) const {
+  step();
+  fs::remove(file_of(fs::path("checks") / token, numbered(index)));
+}
+
+fs::path SweepFolder::place_in_the_air(const std::string& node) const {
+  // Process ids repeat on machines, and machines in containers share their names.
+  std::random_device chance;
+  const std::string unique = fmt::format("{}-{}-{:08x}{:08x}", file_name(node), ::getpid(), chance(), chance());
+  fs::path place = dir_ / "air" / unique;
+  step();
+  fs::create_directories(place);
+  return place;
+}
+
+bool SweepFolder::land(const fs::path& flown, const fs::path& dir,
+                       const std::function<bool(const fs::path&)>& stays) const {
+  fs::create_directories(dir.parent_path());
+  for (;;) {
+    step();
+    std::error_code error;
+    fs::rename(flown, dir, error);
+    if (!error) return true;
+    const bool taken = error == std::errc::directory_not_empty || error == std::errc::file_exists;
+    if (!taken) throw fs::filesystem_error("cannot put a flight in its place", flown, dir, error);
+    if (stays(dir)) {
+      step();
+      remove(flown);
+      return false;
+    }
+    // Between that look and this step another program may have put a good one there: it goes back.
+    const fs::path aside = set_aside(dir);
+    if (!aside.empty() && stays(aside)) fs::rename(aside, dir, error);
+  }
+}
+
+fs::path SweepFolder::set_aside(const fs::path& dir) const {
+  std::random_device chance;
+  const fs::path aside = dir_ / "aside" / fmt::format("{}-{:08x}{:08x}", dir.filename().string(), chance(), chance());
+  step();
+  std::error_code error;
+  fs::rename(dir, aside, error);
+  if (!error) return aside;
+  if (error == std::errc::no_such_file_or_directory) return {};  // another program was sooner
+  throw fs::filesystem_error("cannot set a flight aside", dir, aside, error);
+}
+
+void SweepFolder::remove(const fs::path& dir) {
+  std::error_code ignored;
+  fs::remove_all(dir, ignored);
+}
+
+void SweepFolder::clear_air() const {
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(dir_ / "air", none)) remove(entry.path());
+}
+
+}  // namespace skein::cli

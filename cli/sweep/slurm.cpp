@@ -1,0 +1,257 @@
+#include "cli/sweep/slurm.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "cli/run/preflight.hpp"
+#include "cli/run/supervisor.hpp"
+#include "cli/sweep/engines.hpp"
+#include "core/suggestion.hpp"
+#include "core/text.hpp"
+#include "core/types.hpp"
+#include "process/atomic_file.hpp"
+#include "process/environment.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kUsualArraySize = 1001;  ///< Slurm's own default of MaxArraySize
+constexpr std::size_t kMostSilent = 40;        ///< looks in a row: ten minutes
+constexpr std::chrono::milliseconds kFirstLook{250}, kLongestLook{15000};
+/// So long before its limit of time a unit is told to end [s]: what is in the air then is flown again.
+constexpr const char* kNotice = "B:TERM@30";
+
+/// Jobs of a sweep are found by their names, which tell the list of units too: who submitted them need not live.
+std::string job_prefix(const SweepSettings& settings) { return "skein-" + settings.token + "-"; }
+
+/// What a shell's command says on its standard output. @throws InputError with its own words when it fails.
+std::string output_of(const std::string& command) {
+  const ScratchDir scratch;
+  const fs::path out = scratch.path() / "out", log = scratch.path() / "log";
+  const ExitStatus exit =
+      run_to_end({"slurm", {"/bin/sh", "-c", command + " >" + shell_word(out)}, environment_with({}), log});
+  if (!exit.ok()) {
+    throw InputError("'" + command.substr(0, command.find(' ')) + "' ended with " + exit.text() + ":" +
+                     last_lines_below(log, 3));
+  }
+  std::ifstream in(out);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Of an array a task's index must be below it.
+std::size_t max_array_size() {
+  std::istringstream lines(output_of("scontrol show config"));
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("MaxArraySize")) continue;
+    const auto value = parse_number(line.substr(line.find_last_of("= ") + 1));
+    if (value && *value >= 2.0) return static_cast<std::size_t>(*value);
+  }
+  return kUsualArraySize;
+}
+
+class SlurmEngine : public SweepEngine {
+ public:
+  SlurmEngine(const SweepOptions& options, std::optional<int> jobs, const SweepFolder& folder, const Console& console)
+      : options_(sbatch_options(options.slurm.value_or(""))),
+        detach_(options.detach),
+        jobs_(jobs),
+        folder_(folder),
+        console_(console) {
+    for (const char* program : {"sbatch", "squeue", "scontrol", "scancel"}) {
+      if (!is_installed(program)) {
+        throw InputError(std::string("--executor slurm: there is no ") + program +
+                         ": this must be a machine from which Slurm takes jobs");
+      }
+    }
+  }
+
+  bool fly(const std::vector<std::size_t>& units, const std::set<std::string>& not_on,
+           const std::function<void()>& tell) override {
+    std::set<std::size_t> held;
+    for (const EngineJob& job : jobs()) held.insert(job.unit);
+    std::vector<std::size_t> given;
+    std::ranges::copy_if(units, std::back_inserter(given), [&](std::size_t unit) { return !held.contains(unit); });
+    if (!given.empty()) submit(given, not_on);
+    if (!held.empty()) console_.err << held.size() << " units are with Slurm already" << std::endl;
+    if (detach_) return false;
+    return follow(tell);
+  }
+
+  std::vector<EngineJob> jobs() override {
+    const auto settings = folder_.settings();
+    if (!settings) return {};
+    const std::string prefix = job_prefix(*settings);
+    std::vector<EngineJob> jobs;
+    std::map<std::string, std::vector<std::size_t>> lists;
+    for (const std::vector<std::string>& job : queue(prefix)) {
+      const auto index = parse_number(job[2]);
+      if (!index) continue;  // the job that merges
+      const std::string list = job[1].substr(prefix.size());
+      if (!lists.contains(list)) lists[list] = units_in(list);
+      const auto at = static_cast<std::size_t>(*index);
+      if (at < lists[list].size()) jobs.push_back({lists[list][at], job[3] + (job[4].empty() ? "" : " on " + job[4])});
+    }
+    return jobs;
+  }
+
+  void cancel() override {
+    const auto settings = folder_.settings();
+    if (!settings) return;
+    std::set<std::string> ids;
+    for (const std::vector<std::string>& job : queue(job_prefix(*settings))) ids.insert(job[0]);
+    for (const std::string& id : ids) output_of("scancel " + id);
+  }
+
+  bool has_other_nodes() const override { return true; }
+
+ private:
+  /// Of all jobs with such a name: job, name, index in its array, state, node.
+  std::vector<std::vector<std::string>> queue(const std::string& prefix) const {
+    std::vector<std::vector<std::string>> jobs;
+    std::istringstream lines(output_of("squeue --noheader --array --format='%F|%j|%K|%T|%N'"));
+    for (std::string line; std::getline(lines, line);) {
+      std::vector<std::string> parts = split(line, '|');
+      if (parts.size() == 5 && parts[1].starts_with(prefix)) jobs.push_back(std::move(parts));
+    }
+    return jobs;
+  }
+
+  std::vector<std::size_t> units_in(const std::string& list) const {
+    std::vector<std::size_t> units;
+    std::ifstream lines(folder_.dir() / "lists" / list);
+    for (std::size_t unit = 0; lines >> unit;) units.push_back(unit);
+    return units;
+  }
+
+  void submit(const std::vector<std::size_t>& units, const std::set<std::string>& not_on) {
+    const std::size_t most = max_array_size();
+    std::vector<std::string> ids;
+    for (std::size_t i = 0; i < units.size(); i += most) {
+      const std::size_t end = std::min(i + most, units.size());
+      const auto begin = units.begin();
+      // One array after the other where only so many may fly at once: each counts for itself.
+      ids.push_back(submit_array({begin + static_cast<std::ptrdiff_t>(i), begin + static_cast<std::ptrdiff_t>(end)},
+                                 not_on, jobs_ && !ids.empty() ? ids.back() : ""));
+    }
+    submit_merge(ids);
+    console_.err << fmt::format("{} units are with Slurm, job{} {}", units.size(), ids.size() == 1 ? "" : "s",
+                                joined(ids))
+                 << std::endl;
+  }
+
+  std::string submit_array(const std::vector<std::size_t>& units, const std::set<std::string>& not_on,
+                           const std::string& after) {
+    const auto settings = *folder_.settings();
+    const fs::path lists = folder_.dir() / "lists";
+    int number = 1;
+    while (fs::exists(lists / std::to_string(number))) ++number;
+    const std::string list = std::to_string(number);
+    std::string lines;
+    for (const std::size_t unit : units) lines += std::to_string(unit) + "\n";
+    write_file_atomically(lists / list, lines);
+    write_file_atomically(lists / (list + ".sh"), "#!/bin/sh\nexec /bin/sh " + shell_word(fly_script(folder_)) +
+                                                      " \"$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" " +
+                                                      shell_word(lists / list) + ")\"\n");
+    std::string command = "sbatch --parsable --requeue --signal=" + std::string(kNotice) +
+                          fmt::format(" --array=0-{}{} --job-name={}{}", units.size() - 1,
+                                      jobs_ ? "%" + std::to_string(*jobs_) : "", job_prefix(settings), list);
+    if (!not_on.empty()) command += " --exclude=" + shell_word(joined({not_on.begin(), not_on.end()}, ","));
+    if (!after.empty()) command += " --dependency=afterany:" + after;
+    return submitted(command, lists / (list + ".sh"));
+  }
+
+  /// It goes on with the sweep, whoever lives: gives Slurm what failed once more, or merges.
+  void submit_merge(const std::vector<std::string>& after) {
+    const auto settings = *folder_.settings();
+    std::vector<std::string> words = settings.command;
+    if (std::ranges::count(words, "--detach") == 0) words.emplace_back("--detach");
+    std::string script = "#!/bin/sh\ncd " + shell_word(settings.working_folder) + " || exit 3\nexport " +
+                         kMergeVariable + "=1\nexec " + shell_word(launcher_file()) + " " + shell_line(words) + "\n";
+    const fs::path file = folder_.dir() / "lists" / "merge.sh";
+    write_file_atomically(file, script);
+    submitted(
+        "sbatch --parsable --job-name=" + job_prefix(settings) + "merge --dependency=afterany:" + joined(after, ":"),
+        file);
+  }
+
+  std::string submitted(std::string command, const fs::path& script) const {
+    for (const std::string& option : options_) command += " " + shell_word(option);
+    command +=
+        " --output=" + shell_word(folder_.dir() / "log" / "slurm.log") + " --open-mode=append " + shell_word(script);
+    const std::string id = output_of(command);
+    return id.substr(0, id.find_first_of(";\n"));  // of a cluster among several its name follows
+  }
+
+  bool follow(const std::function<void()>& tell) try {
+    Supervisor signals;
+    std::chrono::milliseconds look = kFirstLook;
+    std::size_t before = 0, silent = 0;
+    for (;;) {
+      const std::optional<std::size_t> left = jobs_left(silent);
+      if (left == 0U) return true;
+      tell();
+      look = !left || left == before ? std::min(2 * look, kLongestLook) : kFirstLook;
+      before = left.value_or(before);
+      for (const Event& event : signals.wait(look)) {
+        if (event.kind == Event::Kind::interrupt) throw Interrupted{};
+      }
+    }
+  } catch (const Interrupted&) {
+    console_.err << "Slurm goes on flying, and merges; the same command follows again" << std::endl;
+    return false;
+  }
+
+  /// nullopt: a busy Slurm does not answer at times. @param silent  how often it has not
+  std::optional<std::size_t> jobs_left(std::size_t& silent) try {
+    const std::size_t left = jobs().size();
+    silent = 0;
+    return left;
+  } catch (const InputError&) {
+    if (++silent > kMostSilent) throw;
+    return std::nullopt;
+  }
+
+  const std::vector<std::string> options_;
+  const bool detach_;
+  const std::optional<int> jobs_;
+  const SweepFolder& folder_;
+  const Console& console_;
+};
+
+}  // namespace
+
+std::vector<std::string> sbatch_options(const std::string& text) {
+  const std::set<std::string> ours = {"array",      "job-name", "output",     "open-mode", "parsable", "requeue",
+                                      "no-requeue", "signal",   "dependency", "wrap",      "wait"};
+  std::vector<std::string> options;
+  if (text.empty()) return options;
+  for (const std::string& piece : split(text)) {
+    const std::size_t equals = piece.find('=');
+    if (equals == std::string::npos) {
+      if (options.empty())
+        throw InputError("--slurm " + text + ": must be NAME=VALUE,..., as partition=debug,time=10:00");
+      options.back() += "," + piece;
+      continue;
+    }
+    const std::string name = piece.substr(0, equals);
+    if (name.empty() || name.front() == '-' ||
+        name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") != std::string::npos) {
+      throw InputError("--slurm " + text + ": '" + name + "' is no option of sbatch; give long ones, without --");
+    }
+    if (ours.contains(name)) throw InputError("--slurm " + text + ": Skein sets " + name + " itself");
+    options.push_back("--" + piece);
+  }
+  return options;
+}
+
+std::unique_ptr<SweepEngine> make_slurm_engine(const SweepOptions& options, std::optional<int> jobs,
+                                               const SweepFolder& folder, const Console& console) {
+  return std::make_unique<SlurmEngine>(options, jobs, folder, console);
+}
+
+}  // namespace skein::cli

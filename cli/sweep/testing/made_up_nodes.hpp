@@ -1,0 +1,211 @@
+// For tests: nodes that make flights up, and an engine that has units flown on them in an order that is drawn, several
+// at a time, one step at a time. It kills workers and the controller between any two steps, flies units twice, forgets
+// them, and fills disks. The folder, the workers and the controller are the real ones.
+#pragma once
+
+#include <atomic>
+#include <fstream>
+#include <memory>
+#include <semaphore>
+#include <sstream>
+#include <thread>
+
+#include "cli/run/preflight.hpp"
+#include "cli/study/flights.hpp"
+#include "cli/sweep/controller.hpp"
+#include "core/random_stream.hpp"
+#include "process/run_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace skein::cli {
+
+/// As SIGKILL: nothing may catch it.
+struct Killed {};
+
+/// What may be wrong with a node.
+struct MadeUpNode {
+  std::string name;
+  bool other_arithmetic = false;  ///< the reference flight shows it
+  bool odd_once_proved = false;   ///< all flights but the reference flight are others
+  bool other_build = false;
+  double disk_fills = 0.0;  ///< how probable it is that a flight finds no room
+  bool sick = false;        ///< since then nothing flies there
+};
+
+inline constexpr const char* kMadeUpProblem = "skein run ended with exit code 3: uav_agent-jurong crashed";
+
+class MadeUpWorld {
+ public:
+  MadeUpWorld(std::uint64_t seed, std::size_t flights) : draw(seed, "sweep test", 0), flights_(flights) {}
+
+  std::filesystem::path study() const { return scratch_.path() / "study"; }
+
+  SweepFlight flight(std::size_t index) const {
+    return {index,
+            study() / "flights" / ("seed-" + std::to_string(index)),
+            {"run", std::to_string(index)},
+            {{"programs", build}, {"seed", index}}};
+  }
+  SweepPlan plan(std::size_t unit_flights) const {
+    SweepPlan plan{flights_,
+                   [this](std::size_t index) { return flight(index); },
+                   {flight(kReference)},
+                   [unit_flights](double) { return unit_flights; },
+                   {"compare"},
+                   scratch_.path()};
+    plan.references.front().dir = study() / "reference";
+    return plan;
+  }
+  std::string digest(std::size_t index) const { return build + "/" + std::to_string(index); }
+
+  /// @param step  called between any two things that it does
+  SweepNode node(MadeUpNode& of, const std::function<void()>& step) {
+    SweepNode node{of.name, "boot", "cpu", {}, {}, {}, {}};
+    node.fly = [this, &of, step](const SweepFlight& flight, const std::filesystem::path& out) {
+      step();
+      if (of.sick || draw.uniform() < of.disk_fills) {
+        of.sick = of.disk_fills > 0.0;
+        std::ofstream(out / run_folder::kResult) << "{\"status\": \"comp";  // cut off
+        return ExitStatus{.code = 3};
+      }
+      const bool odd = of.other_arithmetic || (of.odd_once_proved && flight.index != kReference);
+      const Json result = {{"status", "completed"}, {"digest", digest(flight.index) + (odd ? "?" : "")}};
+      std::ofstream(out / run_folder::kResult) << result.dump();
+      step();
+      return ExitStatus{.code = fails(flight.index) ? 3 : 0};
+    };
+    node.unlike = [&of](const SweepFlight&) { return of.other_build ? "the programs are of another build" : ""; };
+    node.figures = [](const Json& result) { return Json{{"digest", result["digest"]}}; };
+    node.reason = [](const std::filesystem::path&, const ExitStatus&) { return kMadeUpProblem; };
+    return node;
+  }
+
+  /// Flights that fail wherever they are flown.
+  bool fails(std::size_t index) const { return failing.contains(index); }
+
+  static constexpr std::size_t kReference = 1'000'000;
+  RandomStream draw;
+  std::string build = "build 1";
+  std::set<std::size_t> failing;
+
+ private:
+  const std::size_t flights_;
+  ScratchFolder scratch_;
+};
+
+/// A unit on its way on a node: a thread that runs while it is told to, one step at a time.
+class MadeUpWorker {
+ public:
+  MadeUpWorker(MadeUpWorld& world, MadeUpNode& node, std::size_t unit) : unit_(unit) {
+    thread_ = std::thread([this, &world, &node] {
+      go_.acquire();
+      try {
+        SweepFolder folder(world.study());
+        const auto step = [this] { pause(); };
+        folder.on_step(step);
+        if (!killed_) fly_unit(folder, unit_, world.node(node, step), said_);
+      } catch (const Killed&) {
+      } catch (const std::exception& error) {
+        said_ << error.what();
+      }
+      over_ = true;
+      back_.release();
+    });
+  }
+  ~MadeUpWorker() {
+    kill();
+    thread_.join();
+  }
+  MadeUpWorker(const MadeUpWorker&) = delete;
+  MadeUpWorker& operator=(const MadeUpWorker&) = delete;
+
+  /// @returns whether there is more to do.
+  bool run_a_step() {
+    if (!over_) {
+      go_.release();
+      back_.acquire();
+    }
+    return !over_;
+  }
+  void kill() {
+    killed_ = true;
+    while (run_a_step()) {
+    }
+  }
+  std::size_t unit() const { return unit_; }
+  std::string said() const { return said_.str(); }
+
+ private:
+  void pause() {
+    back_.release();
+    go_.acquire();
+    if (killed_) throw Killed{};
+  }
+
+  const std::size_t unit_;
+  std::binary_semaphore go_{0}, back_{0};
+  std::atomic<bool> over_ = false, killed_ = false;
+  std::ostringstream said_;
+  std::thread thread_;
+};
+
+/// What an engine may do to a sweep; each number is how probable it is at a step.
+struct EngineManners {
+  double kills_worker = 0.0, kills_controller = 0.0, flies_twice = 0.0, forgets = 0.0;
+  std::size_t at_once = 4;
+};
+
+class MadeUpEngine : public SweepEngine {
+ public:
+  MadeUpEngine(MadeUpWorld& world, std::vector<MadeUpNode>& nodes) : world_(world), nodes_(nodes) {}
+
+  bool fly(const std::vector<std::size_t>& units, const std::set<std::string>& not_on,
+           const std::function<void()>& tell) override {
+    std::vector<std::size_t> waiting;
+    for (const std::size_t unit : units) {
+      const bool held = std::ranges::any_of(workers_, [&](const auto& worker) { return worker->unit() == unit; });
+      if (!held && !drawn(manners.forgets)) waiting.push_back(unit);
+      if (drawn(manners.flies_twice)) waiting.push_back(unit);
+    }
+    while (!waiting.empty() || !workers_.empty()) {
+      if (drawn(manners.kills_controller)) throw Killed{};
+      if (!waiting.empty() && (workers_.empty() || (workers_.size() < manners.at_once && drawn(0.3)))) {
+        start(take(waiting), not_on);
+        continue;
+      }
+      const std::size_t which = place(workers_.size());
+      if (drawn(manners.kills_worker)) workers_[which]->kill();
+      if (!workers_[which]->run_a_step()) workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(which));
+      tell();
+    }
+    return true;
+  }
+  std::vector<EngineJob> jobs() override { return {}; }
+  bool has_other_nodes() const override { return true; }
+
+  EngineManners manners;
+
+ private:
+  bool drawn(double probability) { return world_.draw.uniform() < probability; }
+  std::size_t place(std::size_t count) {
+    return std::min(static_cast<std::size_t>(world_.draw.uniform() * static_cast<double>(count)), count - 1);
+  }
+  std::size_t take(std::vector<std::size_t>& waiting) {
+    const std::size_t at = place(waiting.size()), unit = waiting[at];
+    waiting.erase(waiting.begin() + static_cast<std::ptrdiff_t>(at));
+    return unit;
+  }
+  void start(std::size_t unit, const std::set<std::string>& not_on) {
+    std::vector<MadeUpNode*> free;
+    for (MadeUpNode& node : nodes_) {
+      if (!not_on.contains(node.name)) free.push_back(&node);
+    }
+    if (!free.empty()) workers_.push_back(std::make_unique<MadeUpWorker>(world_, *free[place(free.size())], unit));
+  }
+
+  MadeUpWorld& world_;
+  std::vector<MadeUpNode>& nodes_;
+  std::vector<std::unique_ptr<MadeUpWorker>> workers_;
+};
+
+}  // namespace skein::cli

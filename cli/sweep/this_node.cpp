@@ -1,0 +1,126 @@
+#include "cli/sweep/this_node.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <memory>
+#include <ostream>
+
+#include "cli/machine.hpp"
+#include "cli/options.hpp"
+#include "cli/run/fleet_plan.hpp"
+#include "cli/run/preflight.hpp"
+#include "cli/study/figures.hpp"
+#include "cli/study/figures_json.hpp"
+#include "cli/study/flights.hpp"
+#include "cli/study/made_under.hpp"
+#include "cli/study/side_by_side.hpp"
+#include "core/suggestion.hpp"
+#include "core/text.hpp"
+#include "core/types.hpp"
+#include "process/environment.hpp"
+#include "process/program.hpp"
+#include "process/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Another one after each start of the machine, which may be another machine of the same name then.
+std::string boot_id() {
+  std::ifstream in("/proc/sys/kernel/random/boot_id");
+  std::string id;
+  std::getline(in, id);
+  return id;
+}
+
+RunOptions run_of(const SweepFlight& flight) {
+  const Command command = parse_command_line(flight.arguments);
+  if (const auto* run = std::get_if<RunOptions>(&command)) return *run;
+  throw InputError("no flight: skein " + shell_line(flight.arguments));
+}
+
+/// Whether programs and files are those that a sweep was planned with; asked once for flights that differ in their
+/// seeds alone.
+class Likeness {
+ public:
+  std::string unlike(const SweepFlight& flight) {
+    Json then = flight.made_under;
+    for (const char* own : {"seed", "case"}) then.erase(own);
+    const auto [known, is_new] = known_.try_emplace(then.dump());
+    if (is_new) known->second = differences(then, run_of(flight));
+    return known->second;
+  }
+
+ private:
+  std::string differences(const Json& then, const RunOptions& run) try {
+    const Json now = made_under_.of(plan_fleet(run, program_dir()));
+    std::vector<std::string> what;
+    const auto differs = [&](const char* key) { return value_or(now, key, nullptr) != value_or(then, key, nullptr); };
+    if (differs("skein_version") || differs("programs")) what.emplace_back("the programs are of another build");
+    if (differs("agent")) what.emplace_back("the agent program is of another build");
+    if (differs("input")) what.emplace_back("the world is another draw, or a file of the scenario another one");
+    if (what.empty() && now != then) what.emplace_back("the same is flown otherwise: " + now.dump());
+    return what.empty() ? "" : joined(what, "; ") + " (" + run.scenario + ", " + run.planner + ")";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+
+  MadeUnder made_under_;
+  std::map<std::string, std::string> known_;
+};
+
+}  // namespace
+
+std::string node_name() {
+  for (const char* variable : {"SKEIN_NODE", "SLURMD_NODENAME"}) {
+    if (const char* name = ::getenv(variable); name != nullptr && *name != '\0') return name;
+  }
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "host";
+}
+
+std::vector<std::string> arguments_into(const SweepFlight& flight, const fs::path& out) {
+  RunOptions run = run_of(flight);
+  run.out = out;
+  run.force = true;
+  return arguments_of(run);
+}
+
+SweepNode this_node(const Console& console) {
+  const auto likeness = std::make_shared<Likeness>();
+  SweepNode node{node_name(), boot_id(), cpu_model(), {}, {}, {}, {}};
+  node.fly = [&console](const SweepFlight& flight, const fs::path& out) {
+    SideBySide sky(1, console);
+    ExitStatus end;
+    const auto start = [&](std::size_t) -> ProgramSpec {
+      std::vector<std::string> arguments = arguments_into(flight, out);
+      arguments.insert(arguments.begin(), program_dir() / "skein");
+      return {"", std::move(arguments), environment_with({}), out / run_folder::kFlightLog};
+    };
+    if (!sky.fly({0}, start, [&](std::size_t, const ExitStatus& exit) { end = exit; })) throw Interrupted{};
+    return end;
+  };
+  node.unlike = [likeness](const SweepFlight& flight) { return likeness->unlike(flight); };
+  node.figures = [](const Json& result) { return to_json(figures_of(result)); };
+  node.reason = [](const fs::path& out, const ExitStatus& exit) {
+    return problem_of(out, read_json(out / run_folder::kResult), exit);
+  };
+  return node;
+}
+
+int run_unit(const UnitOptions& options, const Console& console) try {
+  const SweepFolder folder(options.study);
+  fly_unit(folder, options.unit, this_node(console), console.out);
+  return kExitDone;
+} catch (const NodeTrouble& trouble) {
+  console.err << node_name() << ": " << trouble.what() << std::endl;
+  return kExitProcessFailed;
+} catch (const Interrupted&) {
+  console.err << node_name() << ": told to end; the flights until now stay" << std::endl;
+  return kExitInterrupted;
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,216 @@
+#include "cli/sweep/unit_run.hpp"
+
+#include <ostream>
+
+#include "cli/run/preflight.hpp"
+#include "cli/study/flights.hpp"
+#include "core/types.hpp"
+#include "process/atomic_file.hpp"
+#include "process/run_folder.hpp"
+#include "report/run_data.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using report::text_in;
+
+/// What one program does for a unit.
+class UnitRun {
+ public:
+  UnitRun(const SweepFolder& folder, std::size_t number, const SweepNode& node, std::ostream& say)
+      : folder_(folder), number_(number), node_(node), say_(say) {
+    const auto settings = folder.settings();
+    if (!settings) throw InputError(folder.dir().string() + " holds no sweep");
+    settings_ = *settings;
+    unit_ = folder.unit(number);
+  }
+
+  void run() {
+    check_node();
+    std::vector<SweepRow> rows;
+    for (const SweepFlight& flight : unit_.flights) {
+      if (unit_.again) {
+        fly_again(flight);
+      } else {
+        rows.push_back(fly(flight));
+      }
+    }
+    check_still_wanted();
+    folder_.write_done(settings_.token, number_, rows);
+  }
+
+ private:
+  void check_still_wanted() const {
+    const auto now = folder_.settings();
+    if (!now || now->token != settings_.token) throw NodeTrouble("the study was planned anew: this unit is not wanted");
+    if (const auto reason = folder_.quarantined(node_.name)) {
+      throw NodeTrouble("nothing of " + node_.name + " counts: " + *reason);
+    }
+  }
+
+  void check_node() const {
+    check_still_wanted();
+    for (const SweepFlight& flight : unit_.flights) {
+      if (const std::string how = node_.unlike(flight); !how.empty()) {
+        folder_.note_sick(node_.name, how);
+        throw NodeTrouble(how);
+      }
+    }
+    const Json known = folder_.node(node_.name);
+    if (text_in(known, "boot") != node_.boot || text_in(known, "reference") != reference_text()) prove_node();
+  }
+
+  /// The reference flight, and what must come of it: rounds of a hunt have the same one.
+  std::string reference_text() const { return to_json(settings_.reference).dump() + settings_.digest; }
+
+  /// By the reference flight.
+  void prove_node() const {
+    const std::string digest = reference_digest();
+    if (digest != settings_.digest) {
+      folder_.quarantine(node_.name,
+                         "its reference flight has the digest '" + digest + "' and not '" + settings_.digest + "'");
+      check_still_wanted();
+    }
+    folder_.write_node(node_.name, {{"node", node_.name},
+                                    {"boot", node_.boot},
+                                    {"cpu", node_.cpu},
+                                    {"reference", reference_text()},
+                                    {"digest", digest}});
+  }
+
+  std::string reference_digest() const try {
+    return fly_reference(folder_, settings_.reference, node_);
+  } catch (const NodeTrouble& trouble) {
+    folder_.note_sick(node_.name, trouble.what());
+    throw;
+  }
+
+  SweepRow fly(const SweepFlight& flight) const {
+    if (auto row = row_in_place(folder_, flight, node_)) return std::move(*row);
+    check_still_wanted();
+    const fs::path air = folder_.place_in_the_air(node_.name);
+    try {
+      return land(flight, air, node_.fly(flight, air));
+    } catch (const std::exception&) {  // a disk that is full has the room at least
+      SweepFolder::remove(air);
+      throw;
+    } catch (const Interrupted&) {
+      SweepFolder::remove(air);
+      throw;
+    }
+  }
+
+  /// A flight that is over gets what tells under what it was flown, then goes where it belongs.
+  SweepRow land(const SweepFlight& flight, const fs::path& air, const ExitStatus& exit) const {
+    const Json result = read_json(air / run_folder::kResult);
+    SweepRow row{flight.index, node_.name, "", nullptr};
+    if (!exit.ok() || !went_to_its_end(result)) {
+      row.problem = node_.reason(air, exit);
+      prove_node();  // else it is the node's problem
+    }
+    if (went_to_its_end(result)) row.figures = node_.figures(result);
+    const Json mark = {{"command", flight.made_under},
+                       {"problem", row.problem},
+                       {"node", row.node},
+                       {"exit", {{"code", exit.code}, {"signal", exit.signal}}}};
+    write_file_atomically(air / kFlightMark, mark.dump(2) + "\n");
+    check_still_wanted();
+    put_in_place(flight, air, text_in(result, "digest"), row);
+    say_ << flight.dir.string() << ": " << (row.problem.empty() ? "flown" : row.problem) << std::endl;
+    return row;
+  }
+
+  /// Two programs that flew the same must have the same.
+  void put_in_place(const SweepFlight& flight, const fs::path& air, const std::string& digest, SweepRow& row) const {
+    std::optional<SweepRow> sooner;
+    const auto stays = [&](const fs::path& dir) {
+      SweepFlight there = flight;
+      there.dir = dir;
+      sooner = row_in_place(folder_, there, node_);
+      if (!sooner) check_still_wanted();  // it may be of a sweep that was planned anew
+      return sooner.has_value();
+    };
+    if (folder_.land(air, flight.dir, stays)) return;
+    const std::string first = text_in(sooner->figures, "digest");
+    if (sooner->node != row.node && row.problem.empty() && !first.empty() && !digest.empty()) {
+      folder_.write_check(settings_.token, {flight.index, row.node, digest, sooner->node, first});
+    }
+    row = std::move(*sooner);
+  }
+
+  void fly_again(const SweepFlight& flight) const {
+    check_still_wanted();
+    const auto first = row_in_place(folder_, flight, node_);
+    if (!first || first->node == node_.name) return;
+    const auto known = folder_.check(settings_.token, flight.index);
+    const std::string digest = text_in(first->figures, "digest");
+    if (known && known->first_node == first->node && known->first_digest == digest) return;
+    const std::string again = digest_here(folder_, flight, node_);
+    check_still_wanted();
+    folder_.write_check(settings_.token, {flight.index, node_.name, again, first->node, digest});
+    say_ << flight.dir.string() << ": flown again, " << (again == digest ? "the same" : "and another one") << std::endl;
+  }
+
+  const SweepFolder& folder_;
+  const std::size_t number_;
+  const SweepNode& node_;
+  std::ostream& say_;
+  SweepSettings settings_;
+  SweepUnit unit_;
+};
+
+/// Flies it, and takes a look before its folder goes.
+template <class Look>
+auto flown_aside(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node, const Look& look) {
+  const fs::path air = folder.place_in_the_air(node.name);
+  try {
+    const ExitStatus exit = node.fly(flight, air);
+    const auto seen = look(air, exit);
+    SweepFolder::remove(air);
+    return seen;
+  } catch (...) {
+    SweepFolder::remove(air);
+    throw;
+  }
+}
+
+}  // namespace
+
+void fly_unit(const SweepFolder& folder, std::size_t unit, const SweepNode& node, std::ostream& say) {
+  UnitRun(folder, unit, node, say).run();
+}
+
+std::optional<SweepRow> row_in_place(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node) {
+  const Json mark = read_json(flight.dir / kFlightMark);
+  if (value_or(mark, "command", nullptr) != flight.made_under || value_or(mark, "problem", nullptr) != "") {
+    return std::nullopt;
+  }
+  const std::string flown_by = text_in(mark, "node");
+  if (folder.quarantined(flown_by)) return std::nullopt;
+  const Json result = read_json(flight.dir / run_folder::kResult);
+  if (!went_to_its_end(result)) return std::nullopt;
+  return SweepRow{flight.index, flown_by, "", node.figures(result)};
+}
+
+std::string fly_reference(const SweepFolder& folder, const SweepFlight& reference, const SweepNode& node) {
+  return flown_aside(folder, reference, node, [&](const fs::path& air, const ExitStatus& exit) {
+    const Json result = read_json(air / run_folder::kResult);
+    if (!exit.ok() || !went_to_its_end(result)) {
+      throw NodeTrouble("the reference flight fails on " + node.name + ": " + node.reason(air, exit));
+    }
+    return text_in(result, "digest");
+  });
+}
+
+std::string digest_here(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node) {
+  return flown_aside(folder, flight, node, [&](const fs::path& air, const ExitStatus& exit) {
+    const Json result = read_json(air / run_folder::kResult);
+    if (!exit.ok() || !went_to_its_end(result)) {
+      throw NodeTrouble(node.name + ": " + flight.dir.string() + ", flown again, fails: " + node.reason(air, exit));
+    }
+    return text_in(result, "digest");
+  });
+}
+
+}  // namespace skein::cli

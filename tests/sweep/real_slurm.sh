@@ -1,0 +1,76 @@
+#!/bin/sh
+# A Slurm of its own on this machine: munged, slurmctld, and a slurmd for each of two nodes of one core. No systemd, no
+# cgroups. Runs until it is told to end; then nothing of it is left, nor if it is killed.
+#   real_slurm.sh FOLDER     FOLDER/slurm.conf is for SLURM_CONF; FOLDER/ready appears once jobs may come
+# Exit code 77: it cannot run here, and says why.
+set -eu
+folder=$1
+[ "$(id -u)" = 0 ] || { echo "only root can start Slurm's daemons"; exit 77; }
+for program in slurmctld slurmd sbatch munged; do
+  PATH=$PATH:/usr/sbin:/sbin command -v $program >/dev/null ||
+    { echo "there is no $program: apt-get install slurmctld slurmd slurm-client munge"; exit 77; }
+done
+PATH=$PATH:/usr/sbin:/sbin
+mkdir -p "$folder/state" "$folder/spool-n1" "$folder/spool-n2" "$folder/munge"
+chmod 0755 "$folder"
+chmod 0700 "$folder/munge"
+
+# Three ports that nobody has now.
+set -- $(python3 -c 'import socket
+sockets = [socket.socket() for _ in range(3)]
+[s.bind(("127.0.0.1", 0)) for s in sockets]
+print(*[s.getsockname()[1] for s in sockets])')
+cat >"$folder/slurm.conf" <<END
+ClusterName=skein
+SlurmctldHost=$(hostname)(127.0.0.1)
+SlurmctldPort=$1
+SlurmUser=root
+AuthType=auth/munge
+AuthInfo=socket=$folder/munge/socket
+CredType=cred/munge
+StateSaveLocation=$folder/state
+SlurmdSpoolDir=$folder/spool-%n
+SlurmctldPidFile=$folder/slurmctld.pid
+SlurmdPidFile=$folder/slurmd-%n.pid
+SlurmctldLogFile=$folder/slurmctld.log
+SlurmdLogFile=$folder/slurmd-%n.log
+ProctrackType=proctrack/pgid
+TaskPlugin=task/none
+SwitchType=switch/none
+MpiDefault=none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+SchedulerParameters=batch_sched_delay=0,sched_interval=1
+ReturnToService=2
+KillWait=5
+MinJobAge=300
+MaxArraySize=8
+NodeName=n1 NodeHostname=$(hostname) NodeAddr=127.0.0.1 Port=$2 CPUs=1 State=UNKNOWN
+NodeName=n2 NodeHostname=$(hostname) NodeAddr=127.0.0.1 Port=$3 CPUs=1 State=UNKNOWN
+PartitionName=debug Nodes=n1,n2 Default=YES MaxTime=INFINITE State=UP
+END
+export SLURM_CONF="$folder/slurm.conf"
+
+daemons=
+end() {
+  trap - EXIT
+  kill $daemons 2>/dev/null || true
+  wait
+}
+trap end EXIT
+trap 'exit 0' TERM INT HUP
+
+dd if=/dev/urandom of="$folder/munge/key" bs=128 count=1 2>/dev/null
+chmod 0400 "$folder/munge/key"
+start() { setpriv --pdeathsig KILL "$@" >/dev/null 2>&1 & daemons="$daemons $!"; }
+start munged --foreground --force --key-file="$folder/munge/key" --socket="$folder/munge/socket" \
+  --pid-file="$folder/munge/pid" --seed-file="$folder/munge/seed" --log-file="$folder/munge/log"
+until [ -S "$folder/munge/socket" ]; do sleep 0.1; done
+start slurmctld -D
+for node in n1 n2; do start slurmd -D -N $node; done
+until [ "$(sinfo --noheader --states=idle --format=%D 2>/dev/null)" = 2 ]; do
+  for daemon in $daemons; do kill -0 "$daemon" || { tail -n 5 "$folder"/*.log; exit 1; }; done
+  sleep 0.2
+done
+touch "$folder/ready"
+wait
