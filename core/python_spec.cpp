@@ -17,22 +17,31 @@ bool is_class_name(const std::string& text) {
          std::ranges::all_of(text, may_be_in_it);
 }
 
+/// Where the file's name ends: folders may have colons, and a planner's file ends with ".py".
+std::size_t end_of_file(const std::string& rest) {
+  constexpr std::string_view kEnding = ".py";
+  for (std::size_t at = rest.find(kEnding); at != std::string::npos; at = rest.find(kEnding, at + 1)) {
+    const std::size_t end = at + kEnding.size();
+    if (end == rest.size() || rest[end] == ':') return end;
+  }
+  return rest.find(':');
+}
+
 }  // namespace
 
 std::optional<PythonSpec> python_spec(const std::string& spec) {
   if (!spec.starts_with(kPrefix)) return std::nullopt;
   std::string rest = spec.substr(kPrefix.size());
-  const auto take_part = [&rest] {
-    const std::size_t colon = rest.find(':');
+  const auto take_part = [&rest](std::size_t colon) {
     const std::string part = rest.substr(0, colon);
     rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
     return part;
   };
-  PythonSpec python{take_part()};
+  PythonSpec python{take_part(end_of_file(rest))};
   if (python.file.empty()) {
     throw InputError("--planner " + spec + ": a file must follow 'py:', such as py:my_planner.py");
   }
-  if (is_class_name(rest.substr(0, rest.find(':')))) python.class_name = take_part();
+  if (is_class_name(rest.substr(0, rest.find(':')))) python.class_name = take_part(rest.find(':'));
   python.parameters = rest;
   return python;
 }

@@ -31,7 +31,7 @@ TEST(PythonSpec, WhatIsWrittenReadsBackTheSame) {
   RandomStream random(7, "python specs", 0);
   const auto one_of = [&](const std::vector<std::string>& texts) { return texts[random.bits() % texts.size()]; };
   for (int i = 0; i < 300; ++i) {
-    const PythonSpec spec{one_of({"a.py", "/b/c.py", "d e.py", "f=g.py"}), one_of({"", "A", "_b", "C9"}),
+    const PythonSpec spec{one_of({"a.py", "/b/c.py", "d e.py", "f=g.py", "/e: f/g.py"}), one_of({"", "A", "_b", "C9"}),
                           one_of({"", "x=1", "x=1,y=a:b", "p.yaml", "/q/r.yaml", "x=,y=@"})};
     EXPECT_EQ(python_spec(text_of(spec)), spec) << text_of(spec);
   }

@@ -121,21 +121,22 @@ def call(words: list[str], folder_of: Callable[[Finished], Path | None], *,
     # exec (preexec_fn) would not be safe beside other threads.
     if setpriv := shutil.which("setpriv"):
         command = [setpriv, "--pdeathsig", "TERM", "--", *command]
-    try:
-        # A session of its own: a terminal's Ctrl-C reaches this program alone, which passes it on once, wherever it
-        # came from. In one group with it the launcher would get two from a terminal and one from a notebook.
-        child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                 start_new_session=True)
-    except (OSError, ValueError) as error:  # not to be executed; a word with a NUL
-        raise InputError(f"the launcher cannot be started: {error}") from error
-    with _passing_on_interrupts(child) as interrupts:
+    with _passing_on_interrupts() as interrupts:
+        try:
+            # A session of its own: a terminal's Ctrl-C reaches this program alone, which passes it on once, wherever it
+            # came from. In one group with it the launcher would get two from a terminal and one from a notebook.
+            child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                     start_new_session=True)
+        except (OSError, ValueError) as error:  # not to be executed; a word with a NUL
+            raise InputError(f"the launcher cannot be started: {error}") from error
+        interrupts.to(child)
         try:
             out, err = _read_both(child, verbose)
             code = child.wait()
         finally:
             _end(child)
     finished = Finished(out, err, code)
-    if interrupts:
+    if interrupts.count:
         folder = folder_of(finished)
         raise KeyboardInterrupt("interrupted" + (f"; what was flown until then is in {folder}" if folder else ""))
     return finished
@@ -168,19 +169,32 @@ def _signal_group(child: subprocess.Popen[bytes], number: int) -> None:
             os.killpg(child.pid, number)
 
 
+class _Interrupts:
+    """Ctrl-C on its way to a child. What comes before the child has started waits for it."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self._child: subprocess.Popen[bytes] | None = None
+
+    def to(self, child: subprocess.Popen[bytes]) -> None:
+        self._child = child
+        if self.count:
+            _signal_group(child, signal.SIGINT)
+
+    def pass_on(self, _number: int, _frame: object) -> None:
+        self.count += 1
+        if self._child is not None:
+            _signal_group(self._child, signal.SIGINT if self.count < 3 else signal.SIGKILL)
+
+
 @contextlib.contextmanager
-def _passing_on_interrupts(child: subprocess.Popen[bytes]) -> Iterator[list[int]]:
+def _passing_on_interrupts() -> Iterator[_Interrupts]:
     """While it lasts, Ctrl-C goes to the child. Where the user has a handler of their own, that stays."""
-    interrupts: list[int] = []
-
-    def pass_on(number: int, _frame: object) -> None:
-        interrupts.append(number)
-        _signal_group(child, signal.SIGINT if len(interrupts) < 3 else signal.SIGKILL)
-
+    interrupts = _Interrupts()
     ours = (threading.current_thread() is threading.main_thread()
             and signal.getsignal(signal.SIGINT) is signal.default_int_handler)
     if ours:
-        signal.signal(signal.SIGINT, pass_on)
+        signal.signal(signal.SIGINT, interrupts.pass_on)
     try:
         yield interrupts
     finally:

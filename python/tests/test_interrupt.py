@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -101,3 +102,22 @@ def test_a_handler_of_the_users_own_stays(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt, match="what was flown until then is in"):
         skein.run(launcher=program)
     assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_ctrl_c_while_the_launcher_starts_reaches_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    program = tmp_path / "launcher"
+    program.write_text(f"#!/bin/sh\ntrap 'echo \"results   {tmp_path}\"; exit 130' INT\n"
+                       "while :; do sleep 0.05; done\n")
+    program.chmod(0o755)
+    popen, children = subprocess.Popen, []
+
+    def interrupted_popen(*words: Any, **options: Any) -> Any:
+        child = popen(*words, **options)
+        children.append(child)
+        os.kill(os.getpid(), signal.SIGINT)  # before the caller knows of the child
+        return child
+
+    monkeypatch.setattr(subprocess, "Popen", interrupted_popen)
+    with pytest.raises(KeyboardInterrupt):
+        skein.run(launcher=program)
+    assert children and children[0].poll() is not None

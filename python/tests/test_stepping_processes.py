@@ -235,8 +235,7 @@ def test_whoever_is_killed_takes_all_along(then: str, tmp_path: Path) -> None:
 
 
 def test_ctrl_c_is_an_interrupt_and_leaves_nothing(tmp_path: Path) -> None:
-    then = ("print('ready', flush=True)\n"
-            "try:\n    fleet.step(step_s=600)\n"
+    then = ("try:\n    print('ready', flush=True)\n    fleet.step(step_s=600)\n"
             "except KeyboardInterrupt:\n    print('interrupted', flush=True)\n"
             "copies[0].step()\n"
             "fleet.reset(seed=2)\n"
