@@ -183,7 +183,7 @@ TEST_F(SweepTest, AnotherBuildOnANodeFliesNothing) {
 TEST_F(SweepTest, AHuntIsTheSameSearch) {
   const auto hunt = [&](const std::string& out, const Arguments& how) -> ChildProcess& {
     return start_program(out, joined({program("skein"), "hunt", scene_, "--planner", "patrol", "--runs", "20",
-                                      "--duration", "20", "--shrink", "0", "--out", folder() / out},
+                                      "--duration", "90", "--shrink", "0", "--out", folder() / out},
                                      how));
   };
   ChildProcess& plain = hunt("plain hunt", {"--jobs", "2"});
