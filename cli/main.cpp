@@ -32,7 +32,7 @@
 #include "cli/run_command.hpp"
 #include "cli/scene_command.hpp"
 #include "cli/study_command.hpp"
-#include "cli/sweep/this_node.hpp"
+#include "cli/sweep/this_machine.hpp"
 #include "cli/test_command.hpp"
 #include "core/config_files.hpp"
 #include "core/drawn_worlds.hpp"

@@ -9,7 +9,7 @@
 #include "cli/study/made_under.hpp"
 #include "cli/sweep/controller.hpp"
 #include "cli/sweep/engines.hpp"
-#include "cli/sweep/this_node.hpp"
+#include "cli/sweep/this_machine.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
 
@@ -78,7 +78,7 @@ void TrialFlights::fly_round(const std::vector<std::size_t>& numbers, const std:
     }
   }
   if (!flights.empty()) {
-    const SweepNode here = this_node(console_);
+    const SweepNode here = this_machine(console_);
     const auto engine = make_engine(plan_.options.sweep, plan_.options.jobs, folder, console_);
     SweepController controller(folder, *engine, here, console_.err);
     const auto slots = static_cast<std::size_t>(plan_.options.jobs.value_or(usable_cores()));

@@ -12,7 +12,7 @@
 #include "cli/sweep/controller.hpp"
 #include "cli/sweep/engines.hpp"
 #include "cli/sweep/slurm.hpp"
-#include "cli/sweep/this_node.hpp"
+#include "cli/sweep/this_machine.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -115,7 +115,7 @@ void tell_failed(const SweepController& controller, const std::set<std::size_t>&
 
 StudyOutcomes fly_sweep(const StudyPlan& plan, const Console& console) {
   SweepFolder folder(plan.out);
-  const SweepNode here = this_node(console);
+  const SweepNode here = this_machine(console);
   const auto engine = make_engine(plan.options.sweep, plan.options.jobs, folder, console);
   SweepController controller(folder, *engine, here, console.err);
   controller.plan(sweep_plan(plan, folder), ::getenv(kMergeVariable) == nullptr);
@@ -137,7 +137,7 @@ StudyOutcomes fly_sweep(const StudyPlan& plan, const Console& console) {
 
 StudyOutcomes tell_sweep(const StudyPlan& plan, const Console& console) {
   SweepFolder folder(plan.out);
-  const SweepNode here = this_node(console);
+  const SweepNode here = this_machine(console);
   const auto engine = make_engine(plan.options.sweep, plan.options.jobs, folder, console);
   SweepController controller(folder, *engine, here, console.err);
   controller.look();

@@ -15,11 +15,13 @@ count, unit = planners * scenes * seeds, 30
 draw = random.Random(1)
 sweep = folder / "sweep"
 (sweep / "done" / "made-up").mkdir(parents=True)
-command = ["compare", "--planners", ",".join(names), "--scenarios", "towers", "--scene-seeds", f"0-{scenes - 1}", "--seeds",
+command = ["compare", "--planners", ",".join(names), "--scenarios", "towers", "--scene-seeds", f"0-{scenes - 1}",
+           "--seeds",
            f"0-{seeds - 1}", "--executor", "local", "--out", str(folder)]
 reference = {"index": 0, "dir": str(sweep / "reference"), "arguments": ["run"], "made_under": None}
 (sweep / "sweep.json").write_text(json.dumps({
-    "format": 1, "token": "made-up", "plan": "", "flights": count, "unit_flights": unit, "reference": reference, "digest": "",
+    "format": 1, "token": "made-up", "plan": "", "flights": count, "unit_flights": unit, "reference": reference,
+    "digest": "",
     "reference_s": 1.0, "command": command, "working_folder": str(folder)}))
 
 
@@ -28,7 +30,8 @@ def figures(index):
     uavs = [{"name": name, "role": "explorer" if name in ("jurong", "raffles") else "photographer", "score": score / 5,
              "distance_m": draw.uniform(100, 600), "idle_s": draw.uniform(0, 60), "captures": draw.randrange(200)}
             for name in ("jurong", "raffles", "sentosa", "changi", "nanyang")]
-    return {"score": score, "points_detected": 150, "points_total": 400, "attainable_percent": score / 4, "attainable": 400.0,
+    return {"score": score, "points_detected": 150, "points_total": 400,
+            "attainable_percent": score / 4, "attainable": 400.0,
             "mean_quality": score / 150, "greatest_share": 20.0, "collisions": 0, "frozen_uavs": 0, "waiting_uavs": 1,
             "frozen_s": draw.uniform(0, 20), "waited_s": 31.2, "without_work_s": 44.1, "idle_explorers_s": 12.3,
             "idle_photographers_s": draw.uniform(0, 60), "distance_m": 1800.5, "planner_cpu_ms": 3.1,

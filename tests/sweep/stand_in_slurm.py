@@ -2,8 +2,8 @@
 """Stands in for Slurm in tests: sbatch, squeue, scancel and scontrol, by the name under which it is called.
 
 Obeys what Skein asks of the real ones: --array with %N, --dependency=afterany, --job-name, --output, --open-mode,
---requeue, --signal, --time, --exclude, --parsable. Jobs are in the folder STAND_IN_SLURM, which `nodes` (names, one a line) and
-`limits` belong to; each job has a process of its own that runs its tasks, one on each node at a time.
+--requeue, --signal, --time, --exclude, --parsable. Jobs are in the folder STAND_IN_SLURM, which `nodes` (names, one a
+line) and `limits` belong to; each job has a process of its own that runs its tasks, one on each node at a time.
 Options that it does not know are errors, as with the real one.
 """
 import fcntl
@@ -53,7 +53,8 @@ def sbatch(words):
         sys.exit("sbatch: error: Batch job submission failed: Invalid job array specification")
     with Locked() as jobs:
         number = str(len(jobs) + 1)
-        jobs[number] = {"options": options, "text": Path(script).read_text(), "tasks": ["PENDING"] * (int(match[1]) + 1),
+        jobs[number] = {"options": options, "text": Path(script).read_text(),
+                        "tasks": ["PENDING"] * (int(match[1]) + 1),
                         "nodes": [""] * (int(match[1]) + 1), "pids": {}, "cancelled": False}
         with open(STATE / "calls", "a") as calls:
             calls.write(" ".join(words) + "\n")

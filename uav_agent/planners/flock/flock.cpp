@@ -38,8 +38,10 @@ constexpr double kRefusedS = 15.0, kRefusedM = 2.0;  ///< a view that could not 
 constexpr double kApartM = 4.5;                      ///< a view is so far from other UAVs, and from their next views
 constexpr double kGainM = 0.5, kStallS = 2.5;        ///< a UAV that gains no way for so long is held up...
 constexpr double kStalledS = 6.0;                    ///< ...and leaves that view for so long
-constexpr double kRestS = 0.5;                       ///< between two decisions while there is nothing to photograph
-constexpr double kClaimedShare = 0.9;                ///< of the quality that another UAV's announced view promises
+constexpr double kInTheWayM = 9.0;  ///< another UAV so near holds this one up; it flies away from there
+constexpr double kAwayCosine = 0.2;
+constexpr double kRestS = 0.5;         ///< between two decisions while there is nothing to photograph
+constexpr double kClaimedShare = 0.9;  ///< of the quality that another UAV's announced view promises
 constexpr std::size_t kMostLegs = 3;
 constexpr double kGlanceS = 0.45;                ///< the camera follows a place on the way for so long
 constexpr double kAimAheadS = 0.9;               ///< before a view, the camera turns there
@@ -102,6 +104,8 @@ class FlockPlanner final : public Planner {
   Tick planned_at_ = 0, glance_until_ = 0;
   Vector3d gained_p_W_ = Vector3d::Zero();  ///< where it last got on
   Tick gained_at_ = 0;
+  std::optional<std::size_t> in_the_way_;  ///< a UAV that held this one up
+  Tick gives_way_until_ = 0;
   bool glances_ = false;  ///< the camera looks elsewhere than the route's first view
   std::vector<Refused> refused_;
   std::deque<Vector3d> trail_W_;  ///< of explorers that it has seen, oldest first
@@ -169,6 +173,7 @@ void FlockPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
   const bool taken = !route_.empty() && view_taken(in);
   if (taken) {
     for (const FlockView::Sight& sight : route_.front().sights) note_picture(sight);
+    if (route_.front().survey > 0.0) surfaces_->survey().visited(in.state.p_WB, views_.surveyed_m());
     route_.erase(route_.begin());
     there_since_.reset();
   }
@@ -186,8 +191,8 @@ void FlockPlanner::note_picture(const FlockView::Sight& sight) {
   target.have = std::max(target.have, double{sight.q});
 }
 
-/// On the way to a view, the camera follows what gains most there, for a moment each. While it follows a place, pictures
-/// of it are sharp however fast the UAV flies.
+/// On the way to a view, the camera follows what gains most there, for a moment each. While it follows a place,
+/// pictures of it are sharp however fast the UAV flies.
 void FlockPlanner::glance(const PlannerInput& in, PlannerOutput& out) {
   if (in.tick < glance_until_ || !targets_) return;
   const FlockView& next = route_.front();
@@ -241,7 +246,12 @@ bool FlockPlanner::out_of_reach(const Vector3d& p_WB, const PlannerInput& in) co
   const auto is_near = [&](const Refused& refused) { return near(refused.p_W, kRefusedM); };
   if (std::ranges::any_of(refused_, is_near)) return true;
   for (const Peer& peer : in.peers.all()) {
-    if (peer.visible && near(peer.p_W, kApartM)) return true;
+    if (!peer.visible) continue;
+    if (near(peer.p_W, kApartM)) return true;
+    // Away from a UAV that held this one up, or two block each other for ever.
+    const bool gives_way = in_the_way_ == std::size_t{peer.uav} && in.tick < gives_way_until_;
+    const Vector3d way = p_WB - in.tracking.setpoint.p_WB, to_peer = peer.p_W - in.tracking.setpoint.p_WB;
+    if (gives_way && way.dot(to_peer) > kAwayCosine * way.norm() * to_peer.norm()) return true;
   }
   for (const auto& [uav, claims] : talk_.claims(in.tick)) {
     if (uav < agent_.self && !claims.empty() && near(claims.front().p_WB, kApartM)) return true;
@@ -259,6 +269,14 @@ void FlockPlanner::watch_progress(const PlannerInput& in) {
   gained_at_ = in.tick;
   refused_.push_back({route_.front().p_WB, in.tick + ticks(kStalledS)});
   route_.clear();
+  double nearest_m = kInTheWayM;
+  for (const Peer& peer : in.peers.all()) {
+    const double off_m = (peer.p_W - in.state.p_WB).norm();
+    if (!peer.visible || off_m >= nearest_m) continue;
+    nearest_m = off_m;
+    in_the_way_ = peer.uav;
+    gives_way_until_ = in.tick + ticks(kStalledS);
+  }
 }
 
 /// The share of what the fleet can photograph in the time left that has not been found yet: as much is it worth an

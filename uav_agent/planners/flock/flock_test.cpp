@@ -149,6 +149,29 @@ TEST(FlockSurvey, WallsHideWhatIsBehindThem) {
   EXPECT_LT(survey.gaps().size(), gaps.size());
 }
 
+/// What stays out of sight from the places that were meant to show it is given up, so that no explorer circles there
+/// for ever; what lies farther off stays.
+TEST(FlockSurvey, WhatStaysOutOfSightIsGivenUp) {
+  const std::vector<OrientedBox> boxes = {make_box({0, 0, 12}, {40, 40, 24})};
+  VoxelGrid grid = operational_volume(boxes, {}, 12.0, 0.0, 1.5);
+  for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
+    if (std::abs(grid.centre_W(id).x()) < 1.0) grid.raise(id, VoxelState::occupied);
+  }
+  FlockSurvey survey(boxes, 60.0);
+  const Vector3d left(-20, 0, 10);
+  for (int look = 0; look < 3; ++look) survey.look(grid, left);
+  const auto cells = [&] {
+    int sum = 0;
+    for (const FlockGap& gap : survey.gaps()) sum += gap.cells;
+    return sum;
+  };
+  const int hidden = cells();
+  for (int visit = 0; visit < 4; ++visit) survey.visited(left, 25.0);
+  EXPECT_LT(cells(), hidden);
+  EXPECT_GT(cells(), 0);
+  for (const FlockGap& gap : survey.gaps()) EXPECT_GT((gap.middle_W - left).norm(), 12.0);
+}
+
 /// A wall 16 m long in a box, as this UAV's map has it, and free space before it.
 struct BeforeAWall : FlownUav {
   BeforeAWall() : FlownUav(three_uavs(1), {-10.0, 0.0, 10.0}) {

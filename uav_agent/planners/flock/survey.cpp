@@ -11,7 +11,8 @@ namespace {
 constexpr double kCellsAroundM = 12.0;  ///< of the cells, around the boxes
 constexpr double kMarginM = 1.0;        ///< around a box, what is surveyed with it
 constexpr int kEnoughLooks = 3;         ///< of a second each; the LiDAR looks everywhere within four
-constexpr int kGroup = 3;               ///< cells along an edge of a group
+constexpr int kMostVisits = 2;
+constexpr int kGroup = 3;  ///< cells along an edge of a group
 
 }  // namespace
 
@@ -19,7 +20,8 @@ FlockSurvey::FlockSurvey(const std::vector<OrientedBox>& boxes, double survey_m)
     : survey_m_(survey_m),
       cells_(operational_volume(boxes, {}, kCellsAroundM, 0.0, kCellM)),
       wanted_(cells_.count(), 0),
-      looks_(cells_.count(), 0) {
+      looks_(cells_.count(), 0),
+      visits_(cells_.count(), 0) {
   for (VoxelGrid::Id id = 0; id < cells_.count(); ++id) {
     const Vector3d centre = cells_.centre_W(id);
     const auto holds = [&](const OrientedBox& box) { return box.contains(centre, kMarginM); };
@@ -45,6 +47,13 @@ void FlockSurvey::look(const VoxelGrid& grid, const Vector3d& p_W) {
   }
 }
 
+void FlockSurvey::visited(const Vector3d& p_W, double radius_m) {
+  for (VoxelGrid::Id id = 0; id < cells_.count(); ++id) {
+    if (wanted_[id] == 0 || (cells_.centre_W(id) - p_W).squaredNorm() > radius_m * radius_m) continue;
+    if (visits_[id] < kMostVisits) ++visits_[id];
+  }
+}
+
 bool FlockSurvey::seen(const Vector3d& p_W) const {
   const auto id = cells_.at(p_W);
   return !id || looks_[*id] > 0;
@@ -53,7 +62,7 @@ bool FlockSurvey::seen(const Vector3d& p_W) const {
 std::vector<FlockGap> FlockSurvey::gaps() const {
   std::map<std::tuple<int, int, int>, FlockGap> groups;
   for (VoxelGrid::Id id = 0; id < cells_.count(); ++id) {
-    if (wanted_[id] == 0 || looks_[id] >= kEnoughLooks) continue;
+    if (wanted_[id] == 0 || looks_[id] >= kEnoughLooks || visits_[id] >= kMostVisits) continue;
     const VoxelGrid::Cell cell = cells_.cell(id) / kGroup;
     FlockGap& gap = groups[{cell.x(), cell.y(), cell.z()}];
     gap.middle_W += cells_.centre_W(id);

@@ -24,6 +24,7 @@ constexpr double kLeastGain = 0.05, kLeastQuality = 0.2;
 constexpr double kGlanceTurn = 0.8, kGlanceFacing = 0.35;  ///< how far, and at what, the camera turns on its way
 constexpr std::size_t kMostAims = 5;
 constexpr std::size_t kMostGaps = 40;
+constexpr double kSurveyShare = 0.7;
 constexpr double kGapM = 10.0;  ///< from a gap, to where it is looked at from
 constexpr int kGapSides = 8;
 constexpr double kGapArea = 16.0;  ///< of surface in a cell, before any was found [m^2]
@@ -79,6 +80,8 @@ struct FlockViews::Vote {
 };
 
 double FlockViews::range_m() const { return kTargetRange * sharp_m_; }
+
+double FlockViews::surveyed_m() const { return kSurveyShare * config_.survey_m; }
 
 /// Surface that nobody has looked at, in pieces that vote as one; and points, each for itself.
 std::vector<FlockTarget> FlockViews::voters(const FlockTargets& targets) const {
@@ -238,7 +241,7 @@ void FlockViews::find_gaps(const FlockSurfaces& surfaces, const FreeSpace& space
     FlockView view{.p_WB = *best_W, .aim_W = gap.middle_W};
     view.proved = space.cost(*best_W) <= 1.0;
     for (const FlockGap& other : gaps) {
-      if ((other.middle_W - *best_W).norm() < 0.7 * config_.survey_m && surfaces.sees(*best_W, other.middle_W)) {
+      if ((other.middle_W - *best_W).norm() < surveyed_m() && surfaces.sees(*best_W, other.middle_W)) {
         view.survey += points * other.cells;
       }
     }

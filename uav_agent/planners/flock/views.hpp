@@ -56,6 +56,8 @@ class FlockViews {
       : config_(config), agent_(agent), sharp_m_(sharp_m) {}
 
   double range_m() const;
+  /// Within this distance of a place that find() proposes for a survey, all should come into sight.
+  double surveyed_m() const;
   /// The views that promise most for the way to them, judged.
   /// @param explores  whether this UAV may go where nothing is proved, and finds structure.
   /// @param lack  of work, 0 to 1: what it is worth to find more.

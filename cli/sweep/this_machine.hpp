@@ -10,7 +10,7 @@ namespace skein::cli {
 std::string node_name();
 
 /// From one thread, which must live as long as the flights. @param console  must outlive it.
-SweepNode this_node(const Console& console);
+SweepNode this_machine(const Console& console);
 
 /// A flight as `skein` is told it, in a folder of its own. @throws InputError for what is no flight.
 std::vector<std::string> arguments_into(const SweepFlight& flight, const std::filesystem::path& out);

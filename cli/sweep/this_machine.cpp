@@ -1,4 +1,4 @@
-#include "cli/sweep/this_node.hpp"
+#include "cli/sweep/this_machine.hpp"
 
 #include <unistd.h>
 
@@ -89,7 +89,7 @@ std::vector<std::string> arguments_into(const SweepFlight& flight, const fs::pat
   return arguments_of(run);
 }
 
-SweepNode this_node(const Console& console) {
+SweepNode this_machine(const Console& console) {
   const auto likeness = std::make_shared<Likeness>();
   SweepNode node{node_name(), boot_id(), cpu_model(), {}, {}, {}, {}};
   node.fly = [&console](const SweepFlight& flight, const fs::path& out) {
@@ -113,7 +113,7 @@ SweepNode this_node(const Console& console) {
 
 int run_unit(const UnitOptions& options, const Console& console) try {
   const SweepFolder folder(options.study);
-  fly_unit(folder, options.unit, this_node(console), console.out);
+  fly_unit(folder, options.unit, this_machine(console), console.out);
   return kExitDone;
 } catch (const NodeTrouble& trouble) {
   console.err << node_name() << ": " << trouble.what() << std::endl;
