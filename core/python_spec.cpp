@@ -22,7 +22,8 @@ std::size_t end_of_file(const std::string& rest) {
   constexpr std::string_view kEnding = ".py";
   for (std::size_t at = rest.find(kEnding); at != std::string::npos; at = rest.find(kEnding, at + 1)) {
     const std::size_t end = at + kEnding.size();
-    if (end == rest.size() || rest[end] == ':') return end;
+    if (end == rest.size()) return std::string::npos;
+    if (rest[end] == ':') return end;
   }
   return rest.find(':');
 }

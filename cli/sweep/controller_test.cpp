@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cli/sweep/testing/made_up_nodes.hpp"
+#include "tests/support/test_program.hpp"
 
 namespace skein::cli {
 namespace {
@@ -91,9 +92,11 @@ std::vector<MadeUpNode> drawn_nodes(RandomStream& draw) {
 }
 
 TEST(SweepController, LosesAndDoublesNothingInDrawnOrders) {
-  constexpr std::uint64_t kOrders = 2000;
-  std::size_t killed = 0, failing = 0;
-  for (std::uint64_t order = 1; order <= kOrders; ++order) {
+  // A tenth of two thousand at a commit: each order is some hundred small files.
+  std::size_t orders = 0, killed = 0, failing = 0;
+  for (std::uint64_t order = 1; order <= 2000; ++order) {
+    if (!has_turn(order, 10)) continue;
+    ++orders;
     SCOPED_TRACE("order " + std::to_string(order));
     RandomStream draw(order, "manners", 0);
     const auto flights = 1 + static_cast<std::size_t>(12.0 * draw.uniform());
@@ -112,8 +115,8 @@ TEST(SweepController, LosesAndDoublesNothingInDrawnOrders) {
     EXPECT_FALSE(folder.quarantined("sound 2")) << *folder.quarantined("sound 2");
     EXPECT_TRUE(fs::is_empty(folder.dir() / "air"));
   }
-  EXPECT_GT(killed, kOrders / 5) << "controllers are killed in many orders";
-  EXPECT_GT(failing, kOrders / 10);
+  EXPECT_GT(killed, orders / 5) << "controllers are killed in many orders";
+  EXPECT_GT(failing, orders / 10);
 }
 
 TEST(SweepController, AnotherArithmeticIsFoundByTheReferenceFlight) {
