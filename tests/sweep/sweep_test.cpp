@@ -216,6 +216,7 @@ tar -xzf "$2" -C "$root/opt"
 mount -t proc proc "$root/proc"
 mount --rbind /dev "$root/dev"
 cp "$3" "$root/scenario.yaml"
+cp -r "$(dirname "$3")/scene" "$root/scene"  # its files
 loader=$(cd "$root/opt/skein/lib" && ls ld-linux*)
 lib=/opt/skein/lib
 export SKEIN_LAUNCHER=/opt/skein/skein SKEIN_LOADER=$lib/$loader SKEIN_BIN_DIR=/opt/skein/bin

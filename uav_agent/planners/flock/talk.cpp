@@ -9,17 +9,10 @@ constexpr std::string_view kName = "flock/1";
 constexpr std::size_t kPointsRoom = 4000;
 constexpr std::size_t kMaxChunks = 8, kMaxChunkBytes = 3000;  ///< in one message
 
-MapExchange::Config exchange_config() {
-  MapExchange::Config config;
-  config.max_chunks = kMaxChunks;
-  config.max_bytes = kMaxChunkBytes;
-  return config;
-}
-
 }  // namespace
 
 FlockTalk::FlockTalk(const Config& config, const AgentConfig& agent)
-    : config_(config), agent_(agent), exchange_(exchange_config()) {}
+    : config_(config), agent_(agent), exchange_({.max_chunks = kMaxChunks, .max_bytes = kMaxChunkBytes}) {}
 
 void FlockTalk::listen(const PlannerInput& in, VoxelGrid& grid, FlockPoints& points) {
   for (const RadioMessage& message : in.radio) {
