@@ -101,7 +101,8 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
   if (goals) wanted_ = std::move(*goals);
   const bool asked = goals.has_value();
   if (mode_ != Mode::ground) homing_.update(in);
-  const bool works = mode_ == Mode::working || mode_ == Mode::recovering || mode_ == Mode::showing;
+  const bool recovers = mode_ == Mode::recovering && !lost_way_home_;
+  const bool works = mode_ == Mode::working || recovers || mode_ == Mode::showing;
   if (works && homing_.due(in)) {
     navigator_.stop(steering);
     next_place_ = 0;
@@ -127,7 +128,9 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
       go_home(in, steering);
       break;
     case Mode::recovering:
-      if (recovery_.step(in, filter_.held(), steering)) enter(Mode::working, in);
+      if (!recovery_.step(in, filter_.held(), steering)) break;
+      lost_way_home_ = false;
+      enter(Mode::working, in);
       break;
   }
   return steering;
@@ -263,10 +266,22 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
     return;
   }
   navigator_.step(in, filter_.held(), steering);
+  bool missed = false;
   for (const Outcome& outcome : outcomes()) {
-    if (outcome.kind == Outcome::Kind::reached) at_place_since_ = in.tick;
+    missed = outcome.kind != Outcome::Kind::reached;
+    if (missed) continue;
+    at_place_since_ = in.tick;
+    recovery_.progress();
   }
-  if (!navigator_.idle()) return;
+  const bool shut_in = missed && filter_.held().by == Held::By::structure;
+  if (!navigator_.idle() && !shut_in) return;
+  if (missed) {
+    navigator_.stop(steering);
+    lost_way_home_ = true;
+    recovery_.begin(in);
+    enter(Mode::recovering, in);
+    return;
+  }
   if (at_place_since_ && seconds(in.tick - *at_place_since_) < kNoLinkS) return;
   at_place_since_.reset();
   const std::vector<Vector3d> places_W = homing_.places(in, navigator_.space(in));

@@ -40,7 +40,7 @@ class FlightCore {
   /// Lets the tracker go on by one exchange, as fast as is safe.
   std::optional<TrajectoryCommand> move(Tracker& tracker, const SafetyFilter::Facts& facts) {
     const double most_mps = filter_.assumes_boxes() ? config_.alone_mps : navigator_.pace_mps();
-    return filter_.step(tracker, facts, most_mps);
+    return filter_.step(tracker, facts, most_mps, navigator_.retraces());
   }
 
   /// Whom it waits for, in this exchange.
@@ -88,6 +88,7 @@ class FlightCore {
   Tick show_at_ = 0;                    ///< not before
   std::optional<Tick> at_place_since_;  ///< of homing, without a link
   std::size_t next_place_ = 0;
+  bool lost_way_home_ = false;     ///< it recovers since there was no way to any place of homing
   std::vector<Outcome> outcomes_;  ///< for the strategy
   std::vector<Goal> wanted_;       ///< by the strategy, to be taken up when it works again
   std::optional<std::size_t> waits_for_;

@@ -97,5 +97,39 @@ TEST(FlightCore, EachOutcomeIsHeardWhenTheStrategyDecides) {
   }
 }
 
+// It is due home, and structure that was seen since has closed the way: it does what it would do for its strategy, and
+// gets home along its own trail.
+TEST(FlightCore, RecoversWhereThereIsNoWayHome) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    WantsOnePlaceAfterTheOther uav(seed);
+    uav.agent.station_position = {0.0, 0.0, 0.3};
+    uav.lidar_works = false;
+    uav.map = WorldMap(WorldMap::Config{});
+    uav.clear({-6.0, -6.0, 4.0}, {36.0, 6.0, 16.0});
+    uav.flying = true;
+    const double far_m = uav.random.uniform(26.0, 30.0), wall_m = uav.random.uniform(14.0, 18.0);
+    uav.exchange();
+    uav.tracker.follow({{{Vector3d(far_m, 0.0, 10.0), 4.0}}});
+    while (!uav.tracker.tracking().done) uav.exchange();
+    // A hole of 2 m to each side is too little for kHaloM and the map's cubes.
+    for (const double sign : {-1.0, 1.0}) {
+      for (const int axis : {1, 2}) {
+        Vector3d low(wall_m, -6.0, 4.0), high(wall_m + 1.0, 5.9, 15.9);
+        const double middle_m = axis == 1 ? 0.0 : 10.0;
+        (sign > 0 ? low : high)[axis] = middle_m + sign * 2.2;
+        uav.build(low, high);
+      }
+    }
+    uav.undelivered = 3;
+    uav.remaining_s = 300.0;
+    for (int i = 0; i < 100; ++i) uav.exchange();
+    uav.seen.clear();
+    uav.remaining_s = 1.0;
+    for (int i = 0; i < 2400 && uav.state.p_WB.x() > wall_m - 3.0; ++i) uav.exchange();
+    EXPECT_LT(uav.state.p_WB.x(), wall_m - 2.9) << "seed " << seed;
+    EXPECT_TRUE(uav.seen.contains(Doing::What::back)) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace skein::agent

@@ -9,12 +9,14 @@
 namespace skein::agent {
 namespace {
 
+constexpr std::int64_t kTrail = -3;      ///< the goal that is its own trail
 constexpr double kGainM = 0.5;           ///< less is no way
 constexpr int kSearchesPerExchange = 2;  ///< for goals
 constexpr int kMostExpansions = 4000;
 constexpr double kGreedyHeuristic = 3.0;  ///< of a second search: a long way is better than none
-constexpr double kSearchAgainS = 0.5;     ///< after one that came to nothing
-constexpr std::uint64_t kLookEach = 4;    ///< exchanges
+constexpr double kFineCellM = 1.0;  ///< of another one, out of places that are too narrow for the first one's lattice
+constexpr double kSearchAgainS = 0.5;   ///< after one that came to nothing
+constexpr std::uint64_t kLookEach = 4;  ///< exchanges
 constexpr double kLookAheadM = 15.0, kSlackM = 0.4;
 constexpr int kMostReplans = 3;
 constexpr double kRefusedM = 1.5;
@@ -90,10 +92,17 @@ void Navigator::want(std::vector<Goal> goals) {
     current_ = std::move(goals.front());
     goals.erase(goals.begin());
     new_way_ = true;
+    retraces_ = false;
   } else {
     current_.reset();
   }
   goals_ = std::move(goals);
+}
+
+void Navigator::retrace(std::vector<Waypoint> trail) {
+  goals_.clear();
+  current_ = Goal{.id = kTrail, .way = std::move(trail)};
+  on_way_ = new_way_ = retraces_ = true;
 }
 
 void Navigator::stop(Steering& steering) {
@@ -118,6 +127,9 @@ void Navigator::step(const PlannerInput& in, const Held& held, Steering& steerin
     if (on_way_) {
       fly(current_->way, steering);
       leg_ = 0;
+      if (!retraces_) return;
+      gained_p_W_ = in.tracking.setpoint.p_WB;
+      gained_at_ = in.tick;
       return;
     }
     const bool moved = (path_.back().p_WB - current_->way.front().p_WB).norm() > kHereM;
@@ -137,7 +149,7 @@ void Navigator::step(const PlannerInput& in, const Held& held, Steering& steerin
   if (in.k % kLookEach == 0 && sees()) {
     pace_mps_ = std::max(kCreepMps, proved_ahead_m(in, config_.approach_mps * config_.sweep_s) / config_.sweep_s);
   }
-  if (in.k % kLookEach == 0 && blocked_ahead(in)) {
+  if (in.k % kLookEach == 0 && !retraces_ && blocked_ahead(in)) {
     replan(in, "something was seen on the way", steering);
     return;
   }
@@ -149,7 +161,7 @@ void Navigator::choose(const PlannerInput& in, Steering& steering) {
   for (int searches = 0; searches < kSearchesPerExchange && !goals_.empty(); ++searches) {
     current_ = std::move(goals_.front());
     goals_.erase(goals_.begin());
-    on_way_ = new_way_ = false;
+    on_way_ = new_way_ = retraces_ = false;
     leg_ = 0;
     replans_ = 0;
     gained_p_W_ = in.tracking.setpoint.p_WB;
@@ -174,7 +186,8 @@ Navigator::Search Navigator::set_out(const PlannerInput& in, Steering& steering)
   const FreeSpace space = this->space(in, begin_W);
   PathSearchConfig search{.max_expansions = kMostExpansions};
   auto corners = find_path(space, in.boxes, begin_W, to_W, search, &gave_up);
-  if (gave_up) {
+  if (!corners) {
+    if (!gave_up) search.cell_m = kFineCellM;
     search.heuristic = kGreedyHeuristic;
     corners = find_path(space, in.boxes, begin_W, to_W, search, &gave_up);
   }

@@ -37,6 +37,10 @@ class Navigator {
   bool sees() const { return sight_.sees(); }
   /// What to fly to from now on. A goal that is being flown goes on if it is the first one; its way may have changed.
   void want(std::vector<Goal> goals);
+  /// Flies back along its own trail, whose places are given from here on. Its body has been there: the safety filter asks
+  /// for less about it, and nothing is looked for.
+  void retrace(std::vector<Waypoint> trail);
+  bool retraces() const { return current_ && retraces_; }
   /// Brakes, and wants nothing.
   void stop(Steering& steering);
 
@@ -99,6 +103,7 @@ class Navigator {
   std::size_t leg_ = 0;
   std::vector<Waypoint> path_;  ///< being flown: to the goal's first waypoint, or along its way
   bool new_way_ = false;        ///< the current goal's way has changed
+  bool retraces_ = false;       ///< the current goal is its own trail
   int replans_ = 0;             ///< for the current goal
   Tick search_at_ = 0;          ///< not before
   double pace_mps_ = std::numeric_limits<double>::infinity();

@@ -17,8 +17,8 @@ constexpr double kElsewhereM[] = {8.0, 14.0};
 constexpr double kHeightsM[] = {3.0, 0.0, -3.0, 8.0};
 constexpr int kHeadings = 8, kHeadingStep = 3;  ///< of the first direction, from one try to the next
 constexpr double kLongestS = 30.0;
-constexpr double kTrailStepM = 3.0, kBackM = 8.0;
-constexpr std::size_t kLongestTrail = 64;
+constexpr double kTrailStepM = 1.0, kBackM = 8.0;
+constexpr std::size_t kLongestTrail = 192;
 
 }  // namespace
 
@@ -27,12 +27,23 @@ Recovery::Recovery(const FlightConfig& config, Navigator& navigator) : config_(c
 void Recovery::update(const PlannerInput& in) {
   if (!in.tracking.airborne) return;
   const Vector3d& here_W = in.tracking.setpoint.p_WB;
-  if (!trail_W_.empty() && (here_W - trail_W_.back()).norm() < kTrailStepM) return;
+  const auto here = [&](const Vector3d& p_W) { return (here_W - p_W).norm() < kTrailStepM; };
+  const auto before = std::ranges::find_if(trail_W_, here);
+  if (before != trail_W_.end()) {
+    trail_W_.erase(before + 1, trail_W_.end());
+    return;
+  }
   trail_W_.push_back(here_W);
   if (trail_W_.size() > kLongestTrail) trail_W_.pop_front();
 }
 
 void Recovery::begin(const PlannerInput& in) {
+  const Vector3d here_W = in.tracking.setpoint.p_WB;
+  if (!navigator_.open_space(in).free(here_W) && go_back(here_W)) {
+    behaviour_ = Behaviour::back;
+    until_ = in.tick + ticks(kLongestS);
+    return;
+  }
   for (int i = 0; i < kBehaviours; ++i) {
     behaviour_ = kOrder[tries_++ % kBehaviours];
     if (behaviour_ == Behaviour::look_around) {
@@ -83,13 +94,19 @@ bool Recovery::set_out(const PlannerInput& in) {
   return false;
 }
 
-/// Farther each time that the list comes to it.
+/// Along its own trail, since a search on a lattice may find no way out of a place that is just wide enough. Farther
+/// each time.
 bool Recovery::go_back(const Vector3d& here_W) {
-  const double least_m = kBackM * std::ceil(static_cast<double>(tries_) / kBehaviours);
+  const double least_m = kBackM * (1 + backs_++);
   const auto far = [&](const Vector3d& p_W) { return (p_W - here_W).norm() >= least_m; };
-  const auto last = std::find_if(trail_W_.rbegin(), trail_W_.rend(), far);
-  if (last == trail_W_.rend()) return false;
-  navigator_.want({{.id = kGoal, .way = {{*last, config_.approach_mps}}}});
+  auto last = std::find_if(trail_W_.rbegin(), trail_W_.rend(), far);
+  if (last == trail_W_.rend()) {
+    if (trail_W_.empty() || (trail_W_.front() - here_W).norm() < kWorthM) return false;
+    --last;
+  }
+  std::vector<Waypoint> trail;
+  for (auto p_W = trail_W_.rbegin(); p_W <= last; ++p_W) trail.push_back({*p_W, config_.approach_mps});
+  navigator_.retrace(std::move(trail));
   return true;
 }
 

@@ -142,6 +142,102 @@ TEST(Recovery, GoesBackTheWayThatItCame) {
   }
 }
 
+// A shaft in which a neck is seen only after the UAV has flown through it: too narrow for kHaloM, and wide enough for a
+// body that goes back slowly where it came. Half of the UAVs stand in the neck, the others above it.
+struct ShutIn : Recovers {
+  /// @param too_narrow  even for a body that goes back.
+  ShutIn(Role role, std::uint64_t seed, bool too_narrow) : Recovers(role) {
+    RandomStream random(seed, "shut_in", 0);
+    lidar_works = false;
+    const double neck_m = random.uniform(20.0, 24.0);
+    // The map measures from cube to cube, so up to an edge of a cube is lost.
+    const double least_m = filter.tube_m(config.tight_mps) - kHaloM + config.tight_halo_m + kCubeM;
+    const double half_m = kCubeM * (too_narrow ? 1.0 : std::ceil(least_m / kCubeM));
+    EXPECT_TRUE(too_narrow || half_m - kCubeM < filter.tube_m(0.0)) << "it is a neck";
+    top_m = seed % 2 == 0 ? neck_m + 1.0 : neck_m + random.uniform(5.0, 8.0);
+    low_m = neck_m - 3.0;
+    map = WorldMap(WorldMap::Config{});
+    clear({-6.0, -6.0, 0.0}, {6.0, 6.0, 40.0});
+    navigator.want({{.id = 1, .way = {{Vector3d(0.0, 0.0, top_m), 3.0}}}});
+    while (!navigator.idle()) {
+      recovery.update(input());
+      navigate();
+    }
+    for (const double sign : {-1.0, 1.0}) {
+      for (int axis = 0; axis < 2; ++axis) {
+        Vector3d low(-6.0, -6.0, neck_m), high(5.9, 5.9, neck_m + 2.0);
+        (sign > 0 ? low : high)[axis] = sign * (half_m + 0.5 * kCubeM);
+        build(low, high);
+      }
+    }
+  }
+  static constexpr double kCubeM = 0.5;
+  double top_m = 0.0, low_m = 0.0;
+};
+
+TEST(Recovery, AUavThatStructureHasShutInGoesBackWhereItCame) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    ShutIn uav(seed % 3 == 0 ? Role::photographer : Role::explorer, seed, false);
+    ASSERT_NEAR(uav.state.p_WB.z(), uav.top_m, 0.2) << "seed " << seed;
+    double least_m = 10.0;
+    int tries = 0;
+    for (; tries < 12 && uav.state.p_WB.z() > uav.low_m; ++tries) {
+      const PlannerInput in = uav.input();
+      uav.navigator.update(in);
+      uav.recovery.begin(in);
+      for (bool over = false; !over;) {
+        const PlannerInput now = uav.input();
+        uav.navigator.update(now);
+        uav.recovery.update(now);
+        Steering steering;
+        over = uav.recovery.step(now, uav.filter.held(), steering);
+        uav.fly(steering);
+        least_m = std::min(least_m, uav.map.structure_distance_m(uav.state.p_WB));
+      }
+    }
+    EXPECT_LE(uav.state.p_WB.z(), uav.low_m) << "seed " << seed << ": it is out";
+    EXPECT_LE(tries, 8) << "seed " << seed;
+    EXPECT_GT(least_m, uav.agent.me().body_radius_m + uav.config.tight_halo_m) << "seed " << seed;
+  }
+}
+
+// Where not even that is left, it stays.
+TEST(Recovery, NobodyGoesBackThroughLessThanItsBodyNeeds) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    ShutIn uav(seed % 2 == 0 ? Role::photographer : Role::explorer, 2 * seed + 1, true);
+    for (int i = 0; i < 8; ++i) uav.recover();
+    EXPECT_GT(uav.state.p_WB.z(), uav.low_m + 3.0) << "seed " << seed;
+  }
+}
+
+// A UAV that has flown to and fro goes back to where it began, not through all its loops.
+TEST(Recovery, ForgetsLoopsOfItsTrail) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    RandomStream random(seed, "loops", 0);
+    Recovers uav;
+    uav.lidar_works = false;
+    const Vector3d far_W(random.uniform(12.0, 18.0), 0.0, 10.0), aside_W(far_W.x(), random.uniform(8.0, 12.0), 10.0);
+    std::int64_t id = 0;
+    for (const Vector3d& p_W : {far_W, aside_W, far_W, aside_W, far_W}) {
+      uav.navigator.want({{.id = ++id, .way = {{p_W, 4.0}}}});
+      while (!uav.navigator.idle()) {
+        uav.recovery.update(uav.input());
+        uav.navigate();
+      }
+    }
+    // All but the way that it came is unknown from now on.
+    uav.map = WorldMap(WorldMap::Config{});
+    uav.clear({-4.0, -4.0, 6.0}, {24.0, 4.0, 14.0});
+    double farthest_y_m = 0.0;
+    for (int i = 0; i < 12 && uav.state.p_WB.x() > far_W.x() - 7.0; ++i) {
+      uav.recover();
+      farthest_y_m = std::max(farthest_y_m, uav.state.p_WB.y());
+    }
+    EXPECT_LE(uav.state.p_WB.x(), far_W.x() - 7.0) << "seed " << seed;
+    EXPECT_LT(farthest_y_m, 2.0) << "seed " << seed;
+  }
+}
+
 TEST(Recovery, ComesNearerToWhatItMissed) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "approach", 0);

@@ -65,7 +65,8 @@ double SafetyFilter::apart_m(std::size_t uav, double speed_mps) const {
          error_m(other.role, 0.0) + config_.peer_margin_m;
 }
 
-std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Facts& facts, double most_mps) {
+std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Facts& facts, double most_mps,
+                                                    bool retraces) {
   held_ = {};
   now_W_ = tracker.moves() && tracker.tracking().airborne ? tracker.commanded().p_WB : facts.state.p_WB;
   const double dt_s = agent_.exchange_period_s;
@@ -80,6 +81,20 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
   halo_m_ = had_room_ ? kHaloM : config_.tight_halo_m;
   if (!had_room_) most_mps = std::min(most_mps, config_.tight_mps);
   const std::vector<PeerReach> peers = reach_of_peers(facts);
+  if (auto command = move_on(tracker, facts, most_mps, peers)) return command;
+  if (retraces && had_room_ && tracker.tracking().setpoint.v_WB.norm() <= config_.tight_mps) {
+    halo_m_ = config_.tight_halo_m;
+    if (auto command = move_on(tracker, facts, std::min(most_mps, config_.tight_mps), peers)) return command;
+  }
+  ++counts_.slowed;
+  tracker.limit_speed(0.0);
+  return tracker.step(facts.state, dt_s);
+}
+
+/// As fast as is safe; nullopt: it must brake.
+std::optional<TrajectoryCommand> SafetyFilter::move_on(Tracker& tracker, const Facts& facts, double most_mps,
+                                                       const std::vector<PeerReach>& peers) {
+  const double dt_s = agent_.exchange_period_s;
   const double speed_mps = tracker.tracking().setpoint.v_WB.norm();
   const double limits_mps[] = {most_mps, std::min(most_mps, speed_mps), 0.9 * speed_mps - 0.02};
   for (const double limit_mps : limits_mps) {
@@ -96,9 +111,7 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
     }
     if (held_.by == Held::By::nothing) held_ = held;
   }
-  ++counts_.slowed;
-  tracker.limit_speed(0.0);
-  return tracker.step(facts.state, dt_s);
+  return std::nullopt;
 }
 
 /// As much as is asked for, about where it is commanded to be.

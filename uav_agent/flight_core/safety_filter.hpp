@@ -7,7 +7,8 @@
 // safe in the exchange before, so it is safe still, unless the world has changed (a new hit, a UAV out of nowhere, a
 // restart). Where it is broken so, nothing that breaks it may come nearer; but a UAV that was put down where there
 // is less room than kHaloM, beside a wall perhaps, may leave slowly with less (FlightConfig::tight_halo_m), all of it
-// proved, until it has had room once.
+// proved, until it has had room once. So may one that structure seen since has shut in fly back along its own trail:
+// kHaloM is there for what beams may have missed, and nothing was in its way where its body has been.
 //
 // Two UAVs that both keep it never meet: either could brake at any time, and neither counts on what the other will do.
 // In a fleet without a LiDAR nobody can prove anything, nor can a UAV that nobody tells anything: there, what is
@@ -49,7 +50,8 @@ class SafetyFilter {
   SafetyFilter(const FlightConfig& config, const AgentConfig& agent);
 
   /// Lets the tracker go on by one exchange, as fast as is safe.   @param most_mps  and no faster than that.
-  std::optional<TrajectoryCommand> step(Tracker& tracker, const Facts& facts, double most_mps);
+  /// @param retraces  it flies back along its own trail: its body has been there.
+  std::optional<TrajectoryCommand> step(Tracker& tracker, const Facts& facts, double most_mps, bool retraces = false);
 
   /// From now on, what is outside all boxes is taken to be free, or not.
   void assume_boxes(bool assume) { assumes_boxes_ = assume; }
@@ -84,6 +86,8 @@ class SafetyFilter {
   double error_m(Role role, double speed_mps) const;
   bool has_room(const Facts& facts) const;
   std::vector<PeerReach> reach_of_peers(const Facts& facts) const;
+  std::optional<TrajectoryCommand> move_on(Tracker& tracker, const Facts& facts, double most_mps,
+                                           const std::vector<PeerReach>& peers);
   Held judge(const std::vector<Vector3d>& way_W, double speed_mps, const Facts& facts,
              const std::vector<PeerReach>& peers);
   bool proved(const Vector3d& p_W, double radius_m, const Facts& facts, Held& held);

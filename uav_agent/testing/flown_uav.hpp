@@ -59,7 +59,7 @@ struct FlownUav {
     if (std::holds_alternative<Hold>(steering.motion)) tracker.hold();
     const PlannerInput in = input();
     filter.step(tracker, {.tick = in.tick, .state = state, .map = map, .boxes = boxes, .peers = peers},
-                navigator.pace_mps());
+                navigator.pace_mps(), navigator.retraces());
     state.p_WB = tracker.commanded().p_WB;
     state.v_WB = tracker.commanded().v_WB;
     ++k;
