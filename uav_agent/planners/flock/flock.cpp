@@ -12,12 +12,14 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numeric>
 
 #include "core/euler.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/flight/voxel_route.hpp"
 #include "uav_agent/planners/flock/config.hpp"
+#include "uav_agent/planners/flock/reach.hpp"
 #include "uav_agent/planners/flock/route.hpp"
 #include "uav_agent/planners/flock/surfaces.hpp"
 #include "uav_agent/planners/flock/talk.hpp"
@@ -28,20 +30,14 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kLookAtMapS = 1.0;                  ///< between two looks at the map
-constexpr std::uint64_t kCameraSteps = 3;            ///< exchanges between two looks at what the camera saw
-constexpr double kReachedM = 0.6;                    ///< a view is taken this near to it ...
-constexpr double kAimed = 0.12;                      ///< ... with the camera so near to its direction [rad]
-constexpr double kPictureS = 0.15;                   ///< the camera takes one within
-constexpr double kPatienceS = 2.5;                   ///< at a view, for the camera to turn
-constexpr double kRefusedS = 15.0, kRefusedM = 2.0;  ///< a view that could not be reached, and those about it
-constexpr double kApartM = 4.5;                      ///< a view is so far from other UAVs, and from their next views
-constexpr double kGainM = 0.5, kStallS = 2.5;        ///< a UAV that gains no way for so long is held up...
-constexpr double kStalledS = 6.0;                    ///< ...and leaves that view for so long
-constexpr double kInTheWayM = 9.0;  ///< another UAV so near holds this one up; it flies away from there
-constexpr double kAwayCosine = 0.2;
-constexpr double kRestS = 0.5;         ///< between two decisions while there is nothing to photograph
-constexpr double kClaimedShare = 0.9;  ///< of the quality that another UAV's announced view promises
+constexpr double kLookAtMapS = 1.0;        ///< between two looks at the map
+constexpr std::uint64_t kCameraSteps = 3;  ///< exchanges between two looks at what the camera saw
+constexpr double kReachedM = 0.6;          ///< a view is taken this near to it ...
+constexpr double kAimed = 0.12;            ///< ... with the camera so near to its direction [rad]
+constexpr double kPictureS = 0.15;         ///< the camera takes one within
+constexpr double kPatienceS = 2.5;         ///< at a view, for the camera to turn
+constexpr double kRestS = 0.5;             ///< between two decisions while there is nothing to photograph
+constexpr double kClaimedShare = 0.9;      ///< of the quality that another UAV's announced view promises
 constexpr std::size_t kMostLegs = 3;
 constexpr double kGlanceS = 0.45;                ///< the camera follows a place on the way for so long
 constexpr double kAimAheadS = 0.9;               ///< before a view, the camera turns there
@@ -49,6 +45,8 @@ constexpr double kLeastGlance = 0.3;             ///< points
 constexpr double kFollowM = 6.0, kTrailM = 2.0;  ///< behind an explorer; between two places of its way
 constexpr std::size_t kMostTrail = 60;
 constexpr double kPointsPerS = 1.2;  ///< that a UAV photographs where there are enough
+constexpr double kGoodRate = 3.0;    ///< that a route promises where there are enough [points/s]
+constexpr double kRateShare = 0.15;  ///< of a new decision, in the mean of late
 
 }  // namespace
 
@@ -61,17 +59,13 @@ class FlockPlanner final : public Planner {
         agent_(agent),
         sharp_m_(camera_reach(agent.vehicle.camera, agent.desired_mm_per_pixel).sharp_distance_m),
         views_(config_, agent_, sharp_m_),
-        talk_({.share_s = config.share_s, .claim_s = config.claim_s}, agent_) {}
+        talk_({.share_s = config.share_s, .claim_s = config.claim_s}, agent_),
+        reach_(agent_, talk_) {}
 
   const FlightConfig* flight() const override { return &config_.flight; }
   PlannerOutput plan(const PlannerInput& in) override;
 
  private:
-  struct Refused {
-    Vector3d p_W;
-    Tick until;
-  };
-
   bool has_lidar() const { return agent_.me().role == Role::explorer; }
   void look_around(const PlannerInput& in);
   void take_note(const Outcome& outcome, const PlannerInput& in);
@@ -79,21 +73,20 @@ class FlockPlanner final : public Planner {
   bool view_taken(const PlannerInput& in);
   void note_picture(const FlockView::Sight& sight);
   void glance(const PlannerInput& in, PlannerOutput& out);
-  bool out_of_reach(const Vector3d& p_WB, const PlannerInput& in) const;
-  void watch_progress(const PlannerInput& in);
   double lack_of_work(const PlannerInput& in, const FlockTargets& targets) const;
   void decide(const PlannerInput& in, PlannerOutput& out);
   void count_claims(const PlannerInput& in, FlockTargets& targets) const;
   void offer(const PlannerInput& in, PlannerOutput& out);
   std::optional<Vector3d> behind_explorer_W(const PlannerInput& in) const;
   void rest(const PlannerInput& in, PlannerOutput& out);
-  std::vector<FlockClaim> own_claims() const;
+  FlockWord own_word() const;
 
   const Config config_;
   const AgentConfig agent_;
   const double sharp_m_;
   FlockViews views_;
   FlockTalk talk_;
+  FlockReach reach_;
   std::optional<FlockSurfaces> surfaces_;  ///< once the boxes have come
   std::optional<FlockTargets> targets_;    ///< as of the last decision
 
@@ -102,13 +95,9 @@ class FlockPlanner final : public Planner {
   bool rests_ = false;
   std::optional<Tick> there_since_, aimed_since_;
   Tick planned_at_ = 0, glance_until_ = 0;
-  Vector3d gained_p_W_ = Vector3d::Zero();  ///< where it last got on
-  Tick gained_at_ = 0;
-  std::optional<std::size_t> in_the_way_;  ///< a UAV that held this one up
-  Tick gives_way_until_ = 0;
-  bool glances_ = false;  ///< the camera looks elsewhere than the route's first view
-  std::vector<Refused> refused_;
-  std::deque<Vector3d> trail_W_;  ///< of explorers that it has seen, oldest first
+  double rate_ = 0.0, best_rate_ = kGoodRate;  ///< that its routes promise, of late and at best [points/s]
+  bool glances_ = false;                       ///< the camera looks elsewhere than the route's first view
+  std::deque<Vector3d> trail_W_;               ///< of explorers that it has seen, oldest first
   Vector3d rest_W_ = Vector3d::Zero();
 };
 
@@ -124,7 +113,7 @@ PlannerOutput FlockPlanner::plan(const PlannerInput& in) {
   } else {
     route_.clear();
   }
-  talk_.speak(in, surfaces_->grid(), surfaces_->points(), own_claims(), out);
+  talk_.speak(in, surfaces_->grid(), surfaces_->points(), own_word(), out);
   return out;
 }
 
@@ -148,7 +137,7 @@ void FlockPlanner::look_around(const PlannerInput& in) {
 
 void FlockPlanner::take_note(const Outcome& outcome, const PlannerInput& in) {
   if (outcome.id != id_ || route_.empty() || outcome.kind == Outcome::Kind::reached) return;
-  refused_.push_back({route_.front().p_WB, in.tick + ticks(kRefusedS)});
+  reach_.refuse(route_.front().p_WB, in.tick);
   route_.clear();
 }
 
@@ -168,7 +157,8 @@ bool FlockPlanner::view_taken(const PlannerInput& in) {
 
 void FlockPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
   if (rests_ && seconds(in.tick - planned_at_) < kRestS) return;
-  watch_progress(in);
+  const bool on_its_way = !route_.empty() && !there_since_;
+  if (reach_.stalls(in, on_its_way ? std::optional(route_.front().p_WB) : std::nullopt)) route_.clear();
   const bool due = seconds(in.tick - planned_at_) >= config_.replan_s;
   const bool taken = !route_.empty() && view_taken(in);
   if (taken) {
@@ -240,79 +230,57 @@ void FlockPlanner::count_claims(const PlannerInput& in, FlockTargets& targets) c
   }
 }
 
-/// The UAV could not get there a moment ago, or another UAV is there or about to be.
-bool FlockPlanner::out_of_reach(const Vector3d& p_WB, const PlannerInput& in) const {
-  const auto near = [&](const Vector3d& p_W, double m) { return (p_W - p_WB).squaredNorm() < m * m; };
-  const auto is_near = [&](const Refused& refused) { return near(refused.p_W, kRefusedM); };
-  if (std::ranges::any_of(refused_, is_near)) return true;
-  for (const Peer& peer : in.peers.all()) {
-    if (!peer.visible) continue;
-    if (near(peer.p_W, kApartM)) return true;
-    // Away from a UAV that held this one up, or two block each other for ever.
-    const bool gives_way = in_the_way_ == std::size_t{peer.uav} && in.tick < gives_way_until_;
-    const Vector3d way = p_WB - in.tracking.setpoint.p_WB, to_peer = peer.p_W - in.tracking.setpoint.p_WB;
-    if (gives_way && way.dot(to_peer) > kAwayCosine * way.norm() * to_peer.norm()) return true;
-  }
-  for (const auto& [uav, claims] : talk_.claims(in.tick)) {
-    if (uav < agent_.self && !claims.empty() && near(claims.front().p_WB, kApartM)) return true;
-  }
-  return false;
-}
-
-/// Leaves a view for later when the UAV comes no nearer to it.
-void FlockPlanner::watch_progress(const PlannerInput& in) {
-  if ((in.state.p_WB - gained_p_W_).norm() > kGainM) {
-    gained_p_W_ = in.state.p_WB;
-    gained_at_ = in.tick;
-  }
-  if (route_.empty() || there_since_ || seconds(in.tick - gained_at_) < kStallS) return;
-  gained_at_ = in.tick;
-  refused_.push_back({route_.front().p_WB, in.tick + ticks(kStalledS)});
-  route_.clear();
-  double nearest_m = kInTheWayM;
-  for (const Peer& peer : in.peers.all()) {
-    const double off_m = (peer.p_W - in.state.p_WB).norm();
-    if (!peer.visible || off_m >= nearest_m) continue;
-    nearest_m = off_m;
-    in_the_way_ = peer.uav;
-    gives_way_until_ = in.tick + ticks(kStalledS);
-  }
-}
-
-/// The share of what the fleet can photograph in the time left that has not been found yet: as much is it worth an
-/// explorer's time to find more.
+/// How much it is worth an explorer's time to find more, from 0 to 1: the share of what the fleet can photograph in the
+/// time left that has not been found yet; or how far what is left pays less than what there was at best.
 double FlockPlanner::lack_of_work(const PlannerInput& in, const FlockTargets& targets) const {
+  const std::vector<double> rates = talk_.rates(in.tick);
+  const double others = std::accumulate(rates.begin(), rates.end(), 0.0);
+  const double pays = (rate_ + others) / (1.0 + static_cast<double>(rates.size())) / best_rate_;
   double open = 0.0;
   for (const FlockTarget& target : targets.all()) open += target.open();
   const double left_s = in.mission_remaining_s.value_or(agent_.duration_s);
   const double capacity = kPointsPerS * left_s * static_cast<double>(agent_.fleet.size());
-  return std::clamp(1.0 - open / std::max(1.0, capacity), 0.0, 1.0);
+  return std::clamp(1.0 - std::min(open / std::max(1.0, capacity), pays), 0.0, 1.0);
 }
 
 void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   planned_at_ = in.tick;
-  std::erase_if(refused_, [&](const Refused& refused) { return refused.until <= in.tick; });
+  reach_.update(in.tick);
   FlockTargets& targets = targets_.emplace(surfaces_->targets(in.tick), views_.range_m());
   count_claims(in, targets);
   const Vector3d here_W = in.tracking.setpoint.p_WB;
-  const double lack = has_lidar() ? lack_of_work(in, targets) : 0.0;
-  std::vector<FlockView> views = views_.find(*surfaces_, targets, *in.space, here_W, has_lidar(), lack);
-  std::erase_if(views, [&](const FlockView& view) { return out_of_reach(view.p_WB, in); });
+  std::vector<FlockView> views = views_.find(*surfaces_, targets, *in.space, here_W, has_lidar());
+  const auto unreachable = [&](const FlockView& view) { return reach_.out_of_reach(view.p_WB, in); };
+  std::erase_if(views, unreachable);
   std::optional<std::size_t> current;
+  double survey = 0.0;  ///< of the current view
   if (!route_.empty()) {
     FlockView view = route_.front();
-    const double survey = view.survey;
+    survey = std::exchange(view.survey, 0.0);
     views_.judge(*surfaces_, targets, view);
-    view.survey = survey;
-    if (!out_of_reach(view.p_WB, in)) {
+    if (!unreachable(view)) {
       current = views.size();
       views.push_back(std::move(view));
     }
   }
   const CameraState camera = camera_state(in.state, in.gimbal, agent_.vehicle.camera);
   const FlockPace pace{.near_mps = config_.inspect_mps, .far_mps = config_.flight.approach_mps};
-  const FlockRoute route = find_route(views, targets, surfaces_->grid(), here_W, camera.X_WC.linear().col(0), pace,
-                                      config_.prove_gain, config_.depth, current);
+  const auto best_route = [&] {
+    return find_route(views, targets, surfaces_->grid(), here_W, camera.X_WC.linear().col(0), pace, config_.prove_gain,
+                      config_.depth, current);
+  };
+  FlockRoute route = best_route();
+  rate_ += kRateShare * (route.rate() - rate_);
+  best_rate_ = std::max(best_rate_, rate_);
+  if (has_lidar()) {
+    const double lack = lack_of_work(in, targets);
+    const std::size_t pictures = views.size();
+    views_.find_gaps(*surfaces_, *in.space, here_W, lack, views);
+    const auto gaps = views.begin() + static_cast<std::ptrdiff_t>(pictures);
+    views.erase(std::remove_if(gaps, views.end(), unreachable), views.end());
+    if (current) views[*current].survey = survey;
+    if (views.size() > pictures || survey > 0.0) route = best_route();
+  }
   if (route.views.empty()) return rest(in, out);
   const bool goes_on = current && route.views.front() == *current;
   route_.clear();
@@ -377,12 +345,12 @@ void FlockPlanner::rest(const PlannerInput& in, PlannerOutput& out) {
   out.goals = {{.id = ++id_, .way = {{rest_W_, config_.flight.approach_mps}}}};
 }
 
-std::vector<FlockClaim> FlockPlanner::own_claims() const {
-  std::vector<FlockClaim> claims;
+FlockWord FlockPlanner::own_word() const {
+  FlockWord word{.rate = rate_};
   for (const FlockView& view : route_) {
-    if (claims.size() < FlockTalk::kMostClaims) claims.push_back({view.p_WB, view.aim_W});
+    if (word.claims.size() < FlockTalk::kMostClaims) word.claims.push_back({view.p_WB, view.aim_W});
   }
-  return claims;
+  return word;
 }
 
 SKEIN_REGISTER_PLANNER("flock", FlockPlanner);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/random_stream.hpp"
+#include "uav_agent/planners/flock/reach.hpp"
 #include "uav_agent/planners/flock/route.hpp"
 #include "uav_agent/planners/flock/surfaces.hpp"
 #include "uav_agent/planners/flock/talk.hpp"
@@ -237,7 +238,7 @@ TEST(FlockViews, ShowWhatAPictureFromThereWouldShow) {
   const FlockTargets targets(uav.surfaces->targets(0), views.range_m());
   uav.navigator.update(uav.input());
   const FreeSpace space = uav.navigator.open_space(uav.input());
-  const auto found = views.find(*uav.surfaces, targets, space, uav.state.p_WB, false, 0.0);
+  const auto found = views.find(*uav.surfaces, targets, space, uav.state.p_WB, false);
   ASSERT_GT(found.size(), 5U);
   for (const FlockView& view : found) {
     EXPECT_TRUE(space.free(view.p_WB));
@@ -250,6 +251,52 @@ TEST(FlockViews, ShowWhatAPictureFromThereWouldShow) {
       EXPECT_NEAR(quality.q_res.value_or(-1.0), sight.q, 1e-6);
       EXPECT_GT(target.n_W.dot(view.p_WB - target.p_W), 0.0);
     }
+  }
+}
+
+/// The less work there is, the more it is worth to look for some; without a lack of it, no explorer looks.
+TEST(FlockViews, GapsAreWorthWhatWorkLacks) {
+  BeforeAWall uav;
+  const FlockViews views(uav.flock, uav.agent, kSharpM);
+  uav.navigator.update(uav.input());
+  const FreeSpace space = uav.navigator.open_space(uav.input());
+  const auto worth = [&](double lack) {
+    std::vector<FlockView> found;
+    views.find_gaps(*uav.surfaces, space, uav.state.p_WB, lack, found);
+    double sum = 0.0;
+    for (const FlockView& view : found) sum += view.survey;
+    return sum;
+  };
+  EXPECT_EQ(worth(0.0), 0.0);
+  ASSERT_GT(worth(1.0), 1.0);
+  EXPECT_NEAR(worth(0.25), 0.25 * worth(1.0), 1e-9);
+}
+
+/// What could not be reached is left for a while, and what lies beside it; a UAV that gains no way leaves its view.
+TEST(FlockReach, LeavesWhatItCannotReachForAWhile) {
+  FlownUav uav(three_uavs(1), {0.0, 0.0, 10.0});
+  const FlockTalk talk({}, uav.agent);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream random(seed, "reach", 0);
+    FlockReach reach(uav.agent, talk);
+    const Vector3d there(random.uniform(5, 20), random.uniform(-20, 20), random.uniform(5, 20));
+    const Vector3d beside = there + Vector3d(1.0, -1.0, 0.5), far = there + Vector3d(0.0, 8.0, 0.0);
+    PlannerInput in = uav.input();
+    EXPECT_FALSE(reach.out_of_reach(there, in));
+    if (seed % 2 == 0) {
+      reach.refuse(there, in.tick);
+    } else {
+      int exchanges = 0;
+      for (; !reach.stalls(in, there) && exchanges < 1000; ++exchanges) in.tick += ticks(uav.agent.exchange_period_s);
+      ASSERT_LT(exchanges, 1000) << "it stands";
+      EXPECT_FALSE(reach.stalls(in, std::nullopt)) << "it is where it wants to be";
+    }
+    EXPECT_TRUE(reach.out_of_reach(there, in)) << "seed " << seed;
+    EXPECT_TRUE(reach.out_of_reach(beside, in));
+    EXPECT_FALSE(reach.out_of_reach(far, in));
+    in.tick += ticks(60.0);
+    reach.update(in.tick);
+    EXPECT_FALSE(reach.out_of_reach(there, in));
   }
 }
 
@@ -305,6 +352,7 @@ TEST(FlockTalk, ClaimsAreHeardAndLapse) {
   FlockTalk sender({}, sender_config), listener({}, listener_config);
   BeforeAWall said, heard;
   const std::vector<FlockClaim> claims = {{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}, {{-1.5, 2.25, 8.0}, {0.0, 0.0, 1.0}}};
+  const FlockWord word{.claims = claims, .rate = 2.5};
   const Peers peers = all_in_sight(sender_config);
   std::vector<RadioMessage> radio;
   for (std::uint64_t k = 0; k < 20; ++k) {
@@ -321,7 +369,7 @@ TEST(FlockTalk, ClaimsAreHeardAndLapse) {
                           .mission_remaining_s = {},
                           .detected = {},
                           .radio = {}};
-    sender.speak(at, said.surfaces->grid(), said.surfaces->points(), claims, out);
+    sender.speak(at, said.surfaces->grid(), said.surfaces->points(), word, out);
     radio.insert(radio.end(), out.radio.begin(), out.radio.end());
   }
   ASSERT_FALSE(radio.empty());
@@ -337,6 +385,9 @@ TEST(FlockTalk, ClaimsAreHeardAndLapse) {
     EXPECT_LT((now[0].second[i].aim_W - claims[i].aim_W).norm(), 0.02);
   }
   EXPECT_TRUE(listener.claims(in.tick + ticks(60.0)).empty());
+  ASSERT_EQ(listener.rates(in.tick).size(), 1U);
+  EXPECT_NEAR(listener.rates(in.tick).front(), word.rate, 0.06);
+  EXPECT_TRUE(listener.rates(in.tick + ticks(60.0)).empty());
 }
 
 }  // namespace

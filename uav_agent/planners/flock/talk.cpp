@@ -7,6 +7,7 @@ namespace {
 
 constexpr std::string_view kName = "flock/1";
 constexpr std::size_t kPointsRoom = 4000;
+constexpr double kRateUnit = 0.1, kRateS = 20.0;
 constexpr std::size_t kMaxChunks = 8, kMaxChunkBytes = 3000;  ///< in one message
 
 }  // namespace
@@ -19,28 +20,28 @@ void FlockTalk::listen(const PlannerInput& in, VoxelGrid& grid, FlockPoints& poi
     const auto payload = open_payload(message, kName, agent_.fleet.size());
     if (!payload || payload->sender == agent_.self) continue;
     PayloadReader reader(payload->bytes);
-    Word word;
-    word.heard = in.tick;
+    FlockWord word{.rate = kRateUnit * reader.u8()};
     const std::size_t claims = std::min<std::size_t>(reader.u8(), kMostClaims);
     for (std::size_t i = 0; i < claims; ++i) {
       const Vector3d p_WB = reader.position(), aim_W = reader.position();
       word.claims.push_back({p_WB, aim_W});
     }
     if (!reader.ok()) continue;
-    words_[payload->sender] = word;
+    words_[payload->sender] = {std::move(word), in.tick};
     if (points.read(payload->sender, in.tick, reader)) exchange_.read(payload->sender, in.tick, grid, reader);
   }
 }
 
-void FlockTalk::speak(const PlannerInput& in, const VoxelGrid& grid, const FlockPoints& points,
-                      const std::vector<FlockClaim>& claims, PlannerOutput& out) {
+void FlockTalk::speak(const PlannerInput& in, const VoxelGrid& grid, const FlockPoints& points, const FlockWord& word,
+                      PlannerOutput& out) {
   if (!agent_.due(in.k, config_.share_s, 2 * agent_.self)) return;
   PayloadWriter writer;
-  const std::size_t count = std::min(claims.size(), kMostClaims);
+  writer.u8(static_cast<std::uint8_t>(std::clamp(word.rate / kRateUnit, 0.0, 255.0)));
+  const std::size_t count = std::min(word.claims.size(), kMostClaims);
   writer.u8(static_cast<std::uint8_t>(count));
   for (std::size_t i = 0; i < count; ++i) {
-    writer.position(claims[i].p_WB);
-    writer.position(claims[i].aim_W);
+    writer.position(word.claims[i].p_WB);
+    writer.position(word.claims[i].aim_W);
   }
   points.write(in.peers, in.tick, kPointsRoom, writer);
   exchange_.write(grid, in.peers, in.tick, writer);
@@ -49,10 +50,18 @@ void FlockTalk::speak(const PlannerInput& in, const VoxelGrid& grid, const Flock
 
 std::vector<std::pair<std::size_t, std::vector<FlockClaim>>> FlockTalk::claims(Tick now) const {
   std::vector<std::pair<std::size_t, std::vector<FlockClaim>>> fresh;
-  for (const auto& [uav, word] : words_) {
-    if (seconds(now - word.heard) < config_.claim_s) fresh.emplace_back(uav, word.claims);
+  for (const auto& [uav, heard] : words_) {
+    if (seconds(now - heard.at) < config_.claim_s) fresh.emplace_back(uav, heard.word.claims);
   }
   return fresh;
+}
+
+std::vector<double> FlockTalk::rates(Tick now) const {
+  std::vector<double> rates;
+  for (const auto& [uav, heard] : words_) {
+    if (seconds(now - heard.at) < kRateS) rates.push_back(heard.word.rate);
+  }
+  return rates;
 }
 
 }  // namespace skein::agent

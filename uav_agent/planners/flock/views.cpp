@@ -29,7 +29,6 @@ constexpr double kGapM = 10.0;  ///< from a gap, to where it is looked at from
 constexpr int kGapSides = 8;
 constexpr double kGapArea = 16.0;  ///< of surface in a cell, before any was found [m^2]
 constexpr double kPriorCells = 20.0;
-constexpr double kGapWorth = 0.5;  ///< of a point that is found, and has yet to be photographed
 
 struct Direction {
   double yaw = 0.0, pitch = 0.0;  ///< pitch down
@@ -139,7 +138,7 @@ std::vector<FlockViews::Vote> FlockViews::votes(const FlockTargets& targets) con
 }
 
 std::vector<FlockView> FlockViews::find(const FlockSurfaces& surfaces, const FlockTargets& targets,
-                                        const FreeSpace& space, const Vector3d& p_W, bool explores, double lack) const {
+                                        const FreeSpace& space, const Vector3d& p_W, bool explores) const {
   const std::vector<Vote> places = votes(targets);
   std::vector<std::pair<double, std::size_t>> promising;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -162,7 +161,6 @@ std::vector<FlockView> FlockViews::find(const FlockSurfaces& surfaces, const Flo
     if (!view.proved) ++unproved;
     views.push_back(std::move(view));
   }
-  if (explores && lack > 0.0) find_gaps(surfaces, space, p_W, lack, views);
   return views;
 }
 
@@ -217,13 +215,13 @@ std::vector<Vector3d> FlockViews::aims(const FlockTargets& targets, const Vector
   return aims;
 }
 
-/// Places from which an explorer sees what has not been surveyed yet.
 void FlockViews::find_gaps(const FlockSurfaces& surfaces, const FreeSpace& space, const Vector3d& p_W, double lack,
                            std::vector<FlockView>& views) const {
+  if (lack <= 0.0) return;
   const FlockSurvey& survey = surfaces.survey();
   const double cell_m2 =
       (surfaces.surface_m2() + kPriorCells * kGapArea) / (static_cast<double>(survey.surveyed()) + kPriorCells);
-  const double points = lack * kGapWorth * surfaces.density() * cell_m2;
+  const double points = lack * surfaces.density() * cell_m2;
   std::vector<FlockGap> gaps = survey.gaps();
   std::ranges::stable_sort(gaps, std::greater<>(),
                            [&](const FlockGap& gap) { return gap.cells / (kWayM + (gap.middle_W - p_W).norm()); });

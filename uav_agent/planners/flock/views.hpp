@@ -60,9 +60,12 @@ class FlockViews {
   double surveyed_m() const;
   /// The views that promise most for the way to them, judged.
   /// @param explores  whether this UAV may go where nothing is proved, and finds structure.
-  /// @param lack  of work, 0 to 1: what it is worth to find more.
   std::vector<FlockView> find(const FlockSurfaces& surfaces, const FlockTargets& targets, const FreeSpace& space,
-                              const Vector3d& p_W, bool explores, double lack) const;
+                              const Vector3d& p_W, bool explores) const;
+  /// Adds places from which an explorer sees what has not been surveyed yet.
+  /// @param lack  of work, 0 to 1: what it is worth to find more.
+  void find_gaps(const FlockSurfaces& surfaces, const FreeSpace& space, const Vector3d& p_W, double lack,
+                 std::vector<FlockView>& views) const;
   /// Places to which the camera can turn within a moment, with most to photograph around them.
   std::vector<Vector3d> aims(const FlockTargets& targets, const Vector3d& p_WB, const RigidBodyState& state,
                              const GimbalState& gimbal) const;
@@ -73,8 +76,6 @@ class FlockViews {
   struct Vote;
   std::vector<FlockTarget> voters(const FlockTargets& targets) const;
   std::vector<Vote> votes(const FlockTargets& targets) const;
-  void find_gaps(const FlockSurfaces& surfaces, const FreeSpace& space, const Vector3d& p_W, double lack,
-                 std::vector<FlockView>& views) const;
 
   const FlockConfig& config_;
   const AgentConfig& agent_;

@@ -1,0 +1,60 @@
+#include "uav_agent/planners/flock/reach.hpp"
+
+#include <algorithm>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kRefusedS = 15.0, kRefusedM = 2.0;  ///< a view that could not be reached, and those about it
+constexpr double kApartM = 4.5;                      ///< a view is so far from other UAVs, and from their next views
+constexpr double kGainM = 0.5, kStallS = 2.5;        ///< a UAV that gains no way for so long is held up...
+constexpr double kStalledS = 6.0;                    ///< ...and leaves that view for so long
+constexpr double kInTheWayM = 9.0;  ///< another UAV so near holds this one up; it flies away from there
+constexpr double kAwayCosine = 0.2;
+
+}  // namespace
+
+void FlockReach::refuse(const Vector3d& p_WB, Tick now) { refused_.push_back({p_WB, now + ticks(kRefusedS)}); }
+
+void FlockReach::update(Tick now) {
+  std::erase_if(refused_, [&](const Refused& refused) { return refused.until <= now; });
+}
+
+bool FlockReach::out_of_reach(const Vector3d& p_WB, const PlannerInput& in) const {
+  const auto near = [&](const Vector3d& p_W, double m) { return (p_W - p_WB).squaredNorm() < m * m; };
+  const auto is_near = [&](const Refused& refused) { return near(refused.p_W, kRefusedM); };
+  if (std::ranges::any_of(refused_, is_near)) return true;
+  for (const Peer& peer : in.peers.all()) {
+    if (!peer.visible) continue;
+    if (near(peer.p_W, kApartM)) return true;
+    // Away from a UAV that held this one up, or two block each other for ever.
+    const bool gives_way = in_the_way_ == std::size_t{peer.uav} && in.tick < gives_way_until_;
+    const Vector3d way = p_WB - in.tracking.setpoint.p_WB, to_peer = peer.p_W - in.tracking.setpoint.p_WB;
+    if (gives_way && way.dot(to_peer) > kAwayCosine * way.norm() * to_peer.norm()) return true;
+  }
+  for (const auto& [uav, claims] : talk_.claims(in.tick)) {
+    if (uav < agent_.self && !claims.empty() && near(claims.front().p_WB, kApartM)) return true;
+  }
+  return false;
+}
+
+bool FlockReach::stalls(const PlannerInput& in, const std::optional<Vector3d>& to_W) {
+  if ((in.state.p_WB - gained_p_W_).norm() > kGainM) {
+    gained_p_W_ = in.state.p_WB;
+    gained_at_ = in.tick;
+  }
+  if (!to_W || seconds(in.tick - gained_at_) < kStallS) return false;
+  gained_at_ = in.tick;
+  refused_.push_back({*to_W, in.tick + ticks(kStalledS)});
+  double nearest_m = kInTheWayM;
+  for (const Peer& peer : in.peers.all()) {
+    const double off_m = (peer.p_W - in.state.p_WB).norm();
+    if (!peer.visible || off_m >= nearest_m) continue;
+    nearest_m = off_m;
+    in_the_way_ = peer.uav;
+    gives_way_until_ = in.tick + ticks(kStalledS);
+  }
+  return true;
+}
+
+}  // namespace skein::agent
