@@ -26,15 +26,25 @@ double gain_of(const FlockView& view, const FlockTargets& targets, const std::ve
 
 }  // namespace
 
-double way_s(const VoxelGrid& grid, const Vector3d& from_W, const Vector3d& direction_W, const FlockView& to,
-             const FlockPace& pace) {
+namespace {
+
+/// @param straight  nothing is in the way.
+double way_s(const Vector3d& from_W, const Vector3d& direction_W, const FlockView& to, const FlockPace& pace,
+             bool straight) {
   double way_m = (to.p_WB - from_W).norm();
-  if (!grid.sees(from_W, to.p_WB)) way_m = kDetour * way_m + kDetourM;
+  if (!straight) way_m = kDetour * way_m + kDetourM;
   double fly_s = way_m < kFarM ? way_m / pace.near_mps : way_m / pace.far_mps + pace.far_mps / pace.acceleration_mps2;
   if (!to.proved) fly_s = std::max(fly_s, way_m / kProveMps + kProveS);
   const Vector3d direction = (to.aim_W - to.p_WB).normalized();
   const double turn_s = std::acos(std::clamp(direction.dot(direction_W), -1.0, 1.0)) / pace.gimbal_radps;
   return std::max(fly_s, turn_s) + pace.stop_s;
+}
+
+}  // namespace
+
+double way_s(const VoxelGrid& grid, const Vector3d& from_W, const Vector3d& direction_W, const FlockView& to,
+             const FlockPace& pace) {
+  return way_s(from_W, direction_W, to, pace, grid.sees(from_W, to.p_WB));
 }
 
 FlockRoute find_route(const std::vector<FlockView>& views, const FlockTargets& targets, const VoxelGrid& grid,
@@ -78,7 +88,8 @@ FlockRoute find_route(const std::vector<FlockView>& views, const FlockTargets& t
       for (std::size_t i = 0; i < views.size(); ++i) {
         if (used[i] != 0) continue;
         const double gain = gain_of(views[i], targets, have, prove_gain, surveyed);
-        if (gain <= kLeast) continue;
+        // Most views are out of question even if the way to them is straight: no look at the map for those.
+        if (gain <= kLeast || gain <= most * way_s(at_W, looks_W, views[i], pace, true)) continue;
         const double per_s = gain / way_s(grid, at_W, looks_W, views[i], pace);
         if (per_s <= most) continue;
         most = per_s;

@@ -145,13 +145,14 @@ std::vector<FlockView> FlockViews::find(const FlockSurfaces& surfaces, const Flo
     const double way_m = (places[i].p_sum_W / places[i].weight - p_W).norm();
     promising.emplace_back(-places[i].weight / (kWayM + way_m), i);
   }
-  std::ranges::sort(promising);
+  std::ranges::make_heap(promising, std::greater<>());  // only the first of thousands are needed in order
   std::vector<FlockView> views;
   const std::size_t most = static_cast<std::size_t>(config_.max_views);
   std::size_t unproved = 0;
-  for (const auto& [promise, i] : promising) {
-    if (views.size() >= most) break;
-    const Vote& vote = places[i];
+  while (!promising.empty() && views.size() < most) {
+    std::ranges::pop_heap(promising, std::greater<>());
+    const Vote& vote = places[promising.back().second];
+    promising.pop_back();
     FlockView view{.p_WB = vote.p_sum_W / vote.weight, .aim_W = vote.aim_sum_W / vote.weight};
     if (!space.free(view.p_WB)) continue;
     view.proved = space.cost(view.p_WB) <= 1.0;
