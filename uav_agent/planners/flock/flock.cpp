@@ -39,6 +39,7 @@ constexpr double kPatienceS = 2.5;         ///< at a view, for the camera to tur
 constexpr double kRestS = 0.5;             ///< between two decisions while there is nothing to photograph
 constexpr double kClaimedShare = 0.9;      ///< of the quality that another UAV's announced view promises
 constexpr std::size_t kMostLegs = 3;
+constexpr int kTries = 4;                        ///< routes in a decision, until there is a way to the first view
 constexpr double kGlanceS = 0.45;                ///< the camera follows a place on the way for so long
 constexpr double kAimAheadS = 0.9;               ///< before a view, the camera turns there
 constexpr double kLeastGlance = 0.3;             ///< points
@@ -76,7 +77,8 @@ class FlockPlanner final : public Planner {
   double lack_of_work(const PlannerInput& in, const FlockTargets& targets) const;
   void decide(const PlannerInput& in, PlannerOutput& out);
   void count_claims(const PlannerInput& in, FlockTargets& targets) const;
-  void offer(const PlannerInput& in, PlannerOutput& out);
+  std::optional<std::vector<Vector3d>> way_W(const PlannerInput& in, const Vector3d& to_W) const;
+  void offer(const PlannerInput& in, const std::optional<std::vector<Vector3d>>& way, PlannerOutput& out);
   std::optional<Vector3d> behind_explorer_W(const PlannerInput& in) const;
   void rest(const PlannerInput& in, PlannerOutput& out);
   FlockWord own_word() const;
@@ -170,7 +172,7 @@ void FlockPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
   if (due || route_.empty()) {
     decide(in, out);
   } else if (taken) {
-    offer(in, out);
+    offer(in, way_W(in, route_.front().p_WB), out);
   } else {
     glance(in, out);
   }
@@ -281,32 +283,46 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
     if (current) views[*current].survey = survey;
     if (views.size() > pictures || survey > 0.0) route = best_route();
   }
+  std::optional<std::vector<Vector3d>> way;
+  for (int tries = 1; !route.views.empty(); ++tries) {
+    const Vector3d to_W = views[route.views.front()].p_WB;
+    way = way_W(in, to_W);
+    if (way || tries == kTries) break;
+    reach_.refuse(to_W, in.tick);
+    for (FlockView& view : views) {
+      if (!unreachable(view)) continue;
+      view.sights.clear();
+      view.survey = 0.0;
+    }
+    route = best_route();
+  }
   if (route.views.empty()) return rest(in, out);
   const bool goes_on = current && route.views.front() == *current;
   route_.clear();
   for (const std::size_t i : route.views) route_.push_back(views[i]);
   if (!goes_on) there_since_.reset();
   rests_ = false;
-  offer(in, out);
+  offer(in, way, out);
 }
 
-/// Through the views without a stop, as far as the ways between them are free. Where no way to the first is found here,
-/// the flight core looks for one.
-void FlockPlanner::offer(const PlannerInput& in, PlannerOutput& out) {
+/// Corners on a free way from here, up to that place; nullopt if none is found with little effort.
+std::optional<std::vector<Vector3d>> FlockPlanner::way_W(const PlannerInput& in, const Vector3d& to_W) const {
+  const Vector3d here_W = in.tracking.setpoint.p_WB;
+  if (in.space->segment_free(here_W, to_W)) return std::vector<Vector3d>{to_W};
+  return find_voxel_route(surfaces_->grid(), *in.space, here_W, to_W);
+}
+
+/// Through the views without a stop, as far as the ways between them are free.
+/// @param way  to the first one. Where none is found here, the flight core looks for one.
+void FlockPlanner::offer(const PlannerInput& in, const std::optional<std::vector<Vector3d>>& way, PlannerOutput& out) {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   Goal goal;
   const double first_m = (route_.front().p_WB - here_W).norm();
   const double speed_mps = first_m > 10.0 ? config_.flight.approach_mps : config_.inspect_mps;
-  std::vector<Vector3d> corners = {route_.front().p_WB};
-  bool straight = in.space->segment_free(here_W, route_.front().p_WB);
-  if (!straight) {
-    if (auto around = find_voxel_route(surfaces_->grid(), *in.space, here_W, route_.front().p_WB)) {
-      corners = std::move(*around);
-      straight = true;
-    }
+  if (way) goal.way.push_back({here_W, config_.inspect_mps});
+  for (const Vector3d& corner_W : way.value_or(std::vector{route_.front().p_WB})) {
+    goal.way.push_back({corner_W, speed_mps});
   }
-  if (straight) goal.way.push_back({here_W, config_.inspect_mps});
-  for (const Vector3d& corner_W : corners) goal.way.push_back({corner_W, speed_mps});
   for (std::size_t i = 1; i < std::min(route_.size(), kMostLegs); ++i) {
     const Vector3d& before_W = route_[i - 1].p_WB;
     const double leg_m = (route_[i].p_WB - before_W).norm();
@@ -316,11 +332,11 @@ void FlockPlanner::offer(const PlannerInput& in, PlannerOutput& out) {
   const Vector3d look = route_.front().aim_W - route_.front().p_WB;
   if (!has_lidar() || route_.front().proved) goal.yaw = std::atan2(look.y(), look.x());
   goal.gimbal = route_.front().aim_W;
-  const bool goes_on = in.flight.goal && *in.flight.goal == id_ && (straight == in.flight.on_way);
+  const bool goes_on = in.flight.goal && *in.flight.goal == id_ && (way.has_value() == in.flight.on_way);
   if (!goes_on) ++id_;
-  if (goes_on && straight) goal.way.erase(goal.way.begin());
+  if (goes_on && way) goal.way.erase(goal.way.begin());
   goal.id = id_;
-  if (goal.yaw && straight) out.yaw = goal.yaw;
+  if (goal.yaw && way) out.yaw = goal.yaw;
   if (!goes_on || !glances_) out.gimbal = route_.front().aim_W;
   out.goals = {std::move(goal)};
 }
