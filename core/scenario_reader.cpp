@@ -307,6 +307,13 @@ void apply_overrides(const LoadOptions& options, Scenario& scenario) {
       throw InputError(std::string("--rules: ") + error.what());
     }
   }
+  if (options.conditions) {
+    try {
+      scenario.conditions = chosen_conditions(*options.conditions, scenario.conditions);
+    } catch (const InputError& error) {
+      throw InputError(std::string("--conditions: ") + error.what());
+    }
+  }
 }
 
 }  // namespace
