@@ -1,5 +1,5 @@
 // The keys of scenario and vehicle files, each listed once: reading, range checks and printing follow these lists.
-// For scenario_reader.cpp and its tests only. The structs and their defaults are in scenario.hpp.
+// For scenario_reader.cpp, rules_presets.cpp and their tests only. The structs and their defaults are in scenario.hpp.
 #pragma once
 
 #include <algorithm>

@@ -1,10 +1,8 @@
 #include "idl/conversions.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 namespace skein {
 namespace {
@@ -130,16 +128,6 @@ msg::Transform to_transform(const Isometry3d& X) {
   return transform;
 }
 
-namespace {
-
-// Row-major 6 x 6, order x, y, z, rotation about X, Y, Z: where the diagonal is.
-constexpr std::array<std::size_t, 3> kPositionVariance = {0, 7, 14};
-constexpr std::size_t kYawVariance = 35;
-
-double deviation(double variance) { return variance > 0.0 && std::isfinite(variance) ? std::sqrt(variance) : 0.0; }
-
-}  // namespace
-
 msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState& state,
                           const PoseUncertainty& uncertainty) {
   msg::Odometry odometry;
@@ -148,63 +136,8 @@ msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState
   odometry.pose().pose(to_pose(state.p_WB, state.q_WB));
   set_xyz(odometry.twist().twist().linear(), state.q_WB.conjugate() * state.v_WB);
   set_xyz(odometry.twist().twist().angular(), state.w_WB_B);
-  for (std::size_t axis = 0; axis < kPositionVariance.size(); ++axis) {
-    const double sigma_m = uncertainty.position_m[static_cast<Eigen::Index>(axis)];
-    odometry.pose().covariance()[kPositionVariance[axis]] = sigma_m * sigma_m;
-    odometry.twist().covariance()[kPositionVariance[axis]] = uncertainty.velocity_mps * uncertainty.velocity_mps;
-  }
-  odometry.pose().covariance()[kYawVariance] = uncertainty.yaw * uncertainty.yaw;
+  add_uncertainty(uncertainty, odometry);
   return odometry;
-}
-
-PoseUncertainty uncertainty_from_odometry(const msg::Odometry& odometry) {
-  PoseUncertainty uncertainty;
-  for (std::size_t axis = 0; axis < kPositionVariance.size(); ++axis) {
-    uncertainty.position_m[static_cast<Eigen::Index>(axis)] =
-        deviation(odometry.pose().covariance()[kPositionVariance[axis]]);
-  }
-  uncertainty.yaw = deviation(odometry.pose().covariance()[kYawVariance]);
-  uncertainty.velocity_mps = deviation(odometry.twist().covariance()[kPositionVariance[0]]);
-  return uncertainty;
-}
-
-msg::BatteryState to_battery(Tick tick, const BatteryStatus& battery, int cells) {
-  constexpr std::uint8_t kDischarging = 2, kGood = 1, kLithiumPolymer = 3;  // as sensor_msgs/msg/BatteryState has them
-  msg::BatteryState state;
-  state.header(to_header(tick, ""));
-  state.voltage(static_cast<float>(battery.voltage_v));
-  state.temperature(std::numeric_limits<float>::quiet_NaN());
-  state.current(static_cast<float>(-battery.current_a));
-  state.charge(static_cast<float>(battery.charge * battery.capacity_ah));
-  state.capacity(static_cast<float>(battery.capacity_ah));
-  state.design_capacity(static_cast<float>(battery.capacity_ah));
-  state.percentage(static_cast<float>(battery.charge));
-  state.power_supply_status(kDischarging);
-  state.power_supply_health(kGood);
-  state.power_supply_technology(kLithiumPolymer);
-  state.present(true);
-  const auto count = static_cast<std::size_t>(cells);
-  state.cell_voltage().assign(count, static_cast<float>(battery.voltage_v / cells));
-  return state;
-}
-
-std::optional<BatteryStatus> from_battery(const msg::BatteryState& battery) {
-  const BatteryStatus status{battery.percentage(), battery.capacity(), battery.voltage(), -battery.current()};
-  const bool finite = std::isfinite(status.charge) && std::isfinite(status.capacity_ah) &&
-                      std::isfinite(status.voltage_v) && std::isfinite(status.current_a);
-  return finite ? std::optional(status) : std::nullopt;
-}
-
-msg::TwistStamped to_wind(Tick tick, const Vector3d& wind_W) {
-  msg::TwistStamped twist;
-  twist.header(to_header(tick));
-  set_xyz(twist.twist().linear(), wind_W);
-  return twist;
-}
-
-std::optional<Vector3d> from_wind(const msg::TwistStamped& wind) {
-  const Vector3d wind_W = xyz(wind.twist().linear());
-  return wind_W.allFinite() ? std::optional(wind_W) : std::nullopt;
 }
 
 RigidBodyState from_odometry(const msg::Odometry& odometry) {

@@ -32,6 +32,7 @@ msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState
                           const PoseUncertainty& uncertainty = {});
 /// Velocity back in W.
 RigidBodyState from_odometry(const msg::Odometry& odometry);
+void add_uncertainty(const PoseUncertainty& uncertainty, msg::Odometry& odometry);
 /// What it says of its own errors; a negative or infinite variance counts as none.
 PoseUncertainty uncertainty_from_odometry(const msg::Odometry& odometry);
 

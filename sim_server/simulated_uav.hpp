@@ -22,7 +22,7 @@ struct SimulatedUav {
   std::optional<GimbalCommand> gimbal_command;  ///< arrived since the last control step
   VehicleCondition condition;                   ///< in this exchange
   bool manual_trigger = false, triggered = false;
-  std::optional<Tick> shutter_at;  ///< a picture that was triggered is taken then
+  std::optional<Tick> shutter_at = {};  ///< a picture that was triggered is taken then
   bool scans_wanted = true;
   Tick last_raise = 0, idle_ticks = 0;  ///< when a capture last raised a score; how long it has idled
 

@@ -47,6 +47,7 @@ struct Simulation::Impl {
   void take_scans();
   void finish_exchange();
   void trace_links();
+  RigidBodyState believed(UavIndex uav) const { return uavs[uav].surroundings.believed(world.state(uav)); }
   void tell(UavIndex uav, const VehicleCondition& condition);
   void refresh_rays();
   void reject(UavIndex uav, RejectionEvent::Command command, std::string reason);
@@ -309,7 +310,7 @@ Simulation::~Simulation() = default;
 
 bool Simulation::command_trajectory(UavIndex uav, const TrajectoryCommand& command) {
   if (!impl_->listening(uav)) return true;
-  if (auto reason = impl_->uavs[uav].vehicle.refuse(command, impl_->world.state(uav))) {
+  if (auto reason = impl_->uavs[uav].vehicle.refuse(command, impl_->believed(uav))) {
     impl_->reject(uav, RejectionEvent::Command::trajectory, std::move(*reason));
     return false;
   }

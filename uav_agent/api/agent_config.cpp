@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/airframe.hpp"
-#include "core/rotor_power.hpp"
 
 namespace skein::agent {
 
@@ -44,7 +43,6 @@ AgentConfig agent_config(const Scenario& scenario, UavIndex self) {
   config.station_position = scenario.station_position;
   if (config.vehicle.lidar) know_conditions(scenario.conditions.lidar, *config.vehicle.lidar);
   config.battery = scenario.conditions.battery;
-  if (config.battery.on()) config.hover_power_w = hover_power(config.vehicle, config.battery);
   return config;
 }
 

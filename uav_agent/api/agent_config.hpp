@@ -30,8 +30,7 @@ struct AgentConfig {
   double duration_s = 600.0;
   double exchange_period_s = 0.05;
   Vector3d station_position = Vector3d::Zero();
-  BatteryConditions battery;   ///< of its own vehicle
-  double hover_power_w = 0.0;  ///< in still air; 0 without a battery
+  BatteryConditions battery;  ///< of its own vehicle
 
   const FleetMember& me() const { return fleet.at(self); }
   /// The first of the fleet that has a LiDAR; none: nobody ever sees what is free.

@@ -47,11 +47,12 @@ void Caution::watch_wind(const std::optional<Vector3d>& wind_W) {
 
 void Caution::watch_battery(const PlannerInput& in) {
   if (!in.battery) return;
-  const double spent = last_charge_ - in.battery->charge;
+  const double dt_s = seconds(in.tick - last_tick_);  // more than an exchange, if the program stood still
+  const double spent = last_charge_ ? *last_charge_ - in.battery->charge : 0.0;
   last_charge_ = in.battery->charge;
-  if (spent <= 0.0) return;  // its motors stand still
-  const double dt_s = agent_.exchange_period_s;
-  charge_per_s_ += dt_s / kPowerMemoryS * (spent / dt_s - charge_per_s_);
+  last_tick_ = in.tick;
+  if (spent <= 0.0 || dt_s <= 0.0) return;  // its motors stand still
+  charge_per_s_ += std::min(1.0, dt_s / kPowerMemoryS) * (spent / dt_s - charge_per_s_);
 }
 
 double Caution::way_down_s(const Vector3d& p_WB, const std::optional<Vector3d>& wind_W) const {

@@ -38,7 +38,8 @@ class Caution {
   std::optional<Vector3d> mean_wind_W_;  ///< over the last 20 s or so
   double gusts2_ = 0.0;                  ///< mean square about it [m^2/s^2]
   double charge_per_s_;                  ///< what a second costs
-  double last_charge_ = 1.0;
+  std::optional<double> last_charge_;
+  Tick last_tick_ = 0;  ///< of last_charge_
 };
 
 }  // namespace skein::agent

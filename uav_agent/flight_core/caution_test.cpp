@@ -86,6 +86,7 @@ TEST(Caution, GoesHomeByTheChargeTheWayAndTheWind) {
       uav.battery = BatteryStatus{.charge = charge};
       uav.caution.update(uav.told());
       if (uav.caution.must_land(uav.told())) break;
+      ++uav.k;
     }
     return charge;
   };
@@ -96,6 +97,17 @@ TEST(Caution, GoesHomeByTheChargeTheWayAndTheWind) {
   EXPECT_NEAR(high - near, 1.15 * 0.005 * 30.0, 0.01) << "30 m more at 1 m/s";
   EXPECT_GT(lands_at({60, 0, 10}, Vector3d(10, 0, 0)), far) << "against the wind";
   EXPECT_NEAR(lands_at({60, 0, 10}, Vector3d(-10, 0, 0)), far, 1e-3) << "a tail wind is not counted on";
+}
+
+TEST(Caution, ARestartOrAPauseIsNoReasonToGoHome) {
+  Told uav;
+  uav.battery = BatteryStatus{.charge = 0.6};  // the first that a restarted program hears
+  uav.caution.update(uav.told());
+  EXPECT_FALSE(uav.caution.must_land(uav.told()));
+  uav.k += 400;  // 20 s at 0.005 a second
+  uav.battery->charge = 0.5;
+  uav.caution.update(uav.told());
+  EXPECT_FALSE(uav.caution.must_land(uav.told()));
 }
 
 TEST(Caution, CanBeTurnedOff) {
