@@ -50,6 +50,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> assets;
   std::optional<double> duration_s;
   std::optional<std::string> rules;                 ///< a preset, instead of the scenario's
+  std::optional<std::string> conditions;            ///< presets, instead of the scenario's
   std::optional<std::filesystem::path> faults;      ///< fault file
   std::string dds = "cyclonedds";                   ///< a vendor or "mixed"
   std::string clock = "lockstep";                   ///< "lockstep", "realtime" or "realtime:FACTOR"
@@ -315,6 +316,7 @@ struct StudyOptions {
   std::optional<double> duration_s;            ///< mission time, instead of the scenarios'
   std::optional<double> agent_timeout_s;       ///< as in RunOptions
   std::optional<std::string> rules;            ///< a preset, instead of the scenarios'
+  std::vector<std::string> conditions;         ///< each scenario under each of these; empty: the scenarios' own
   std::optional<std::string> dds;              ///< a vendor or "mixed"; else fleets fly in one process where they can
   std::optional<std::filesystem::path> agent;  ///< as in RunOptions
   std::optional<std::string> network;          ///< as in RunOptions

@@ -25,6 +25,7 @@ Names values_of(const CLI::Option& option, const KnownNames& known) {
   if (name == "--rules") {
     for (const RulesConfig& rules : rules_presets()) presets.push_back(rules.preset);
   }
+  if (name == "--conditions") presets.assign(kConditionPresets.begin(), kConditionPresets.end());
   return presets;
 }
 

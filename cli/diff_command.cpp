@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 /// Of a result, what is the same in runs with the same digest: no measured time, nothing of the machine, the DDS, or
 /// of how it was started.
 constexpr std::array kSettled = {
-    "seed",         "scene_seed",   "exchange_period_s", "rules",          "status",          "deterministic",
-    "digest",       "sim_time_s",   "points_total",      "mission_time_s", "points_detected", "score",
-    "score_earned", "score_by_uav", "collisions",        "faults",         "flight_check"};
+    "seed",          "scene_seed",   "exchange_period_s", "rules",        "conditions",     "status",
+    "deterministic", "digest",       "sim_time_s",        "points_total", "mission_time_s", "points_detected",
+    "score",         "score_earned", "score_by_uav",      "collisions",   "faults",         "flight_check"};
 constexpr std::array kSettledOfUavs = {"name",     "role",   "alive",    "distance_m",       "max_speed_mps",
                                        "captures", "idle_s", "frozen_s", "commands_rejected"};
 constexpr std::array kTables = {run_folder::kCaptures, run_folder::kEvents, run_folder::kScore,

@@ -20,6 +20,8 @@ void add_fleet(CLI::App& app, FleetOptions& fleet) {
   command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
   command->add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
+  command->add_option("--conditions", run.conditions,
+                      "Wind, odometry errors, batteries: none, breezy or harsh for all, or by part: wind=harsh");
   command->add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when; no kills, no pauses");
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
   command

@@ -56,6 +56,8 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
   command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
   command->add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
   command->add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
+  command->add_option("--conditions", run.conditions,
+                      "Wind, odometry errors, batteries: none, breezy or harsh for all, or by part: wind=harsh");
   command->add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when");
   command->add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))

@@ -25,6 +25,7 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
   add("--assets", run.assets, path);
   add("--duration", run.duration_s, number);
   add("--rules", run.rules, as_it_is);
+  add("--conditions", run.conditions, as_it_is);
   add("--network", run.network, as_it_is);
   add("--faults", run.faults, path);
   add("--break-at", run.break_at_s, number);

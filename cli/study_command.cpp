@@ -10,6 +10,7 @@
 #include "cli/machine.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/study/columns.hpp"
+#include "cli/study/conditions_table.hpp"
 #include "cli/study/csv.hpp"
 #include "cli/study/figure_files.hpp"
 #include "cli/study/page.hpp"
@@ -116,6 +117,9 @@ Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
   if (plan.options.faults) conditions.push_back("faults of " + plan.options.faults->string());
   study.conditions = joined(conditions);
   study.machine = machine_text();
+  for (const StudyScene& scene : plan.scenes) {
+    if (scene.conditions) study.scene_conditions.push_back(*scene.conditions);
+  }
   for (std::size_t i = 0; i < plan.flights.size(); ++i) {
     const StudyFlight& flight = plan.flights[i];
     const StudyOutcome& outcome = outcomes.flights[i];
@@ -172,6 +176,7 @@ int merge(const StudyPlan& plan, const StudyOutcomes& outcomes, const Console& c
   const Study study = study_of(plan, outcomes);
   write_report(study, plan.out);
   plan.options.scene_seeds ? print_worlds(console.out, study) : print_study(console.out, study);
+  print_conditions(console.out, study);
   const bool kept = print_requirements(console.out, study, requirements);
   console.out << "report: " << (plan.out / run_folder::kPage).string() << std::endl;
   if (outcomes.interrupted) {

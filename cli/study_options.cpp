@@ -72,6 +72,11 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
       ->check(seconds);
   command.add_option("--rules", study.rules, "Preset of rules, instead of the scenarios': contest, paper or reference");
   command
+      .add_option("--conditions", study.conditions,
+                  "Fly each scenario under each of these: none, breezy, harsh, wind=harsh+battery=breezy")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
       .add_option("--dds", study.dds,
                   "Fly as processes over this DDS vendor: cyclonedds, fastdds or mixed (default: each fleet in one "
                   "process where it can; the results are the same)")

@@ -19,6 +19,7 @@ GatedStep LinkGate::gate(std::uint64_t k, const Links& links, const std::vector<
     throw std::invalid_argument("links between " + std::to_string(links.nodes()) + " radio nodes where there are " +
                                 std::to_string(counts_.nodes()));
   }
+  model_->begin_step(links);
   for (const SentMessage& message : messages) send(k, links, message);
 
   GatedStep step;

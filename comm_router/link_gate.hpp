@@ -46,6 +46,8 @@ struct LinkFate {
 class LinkModel {
  public:
   virtual ~LinkModel() = default;
+  /// The links of the step whose messages come next.
+  virtual void begin_step(const Links& /*links*/) {}
   virtual LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) = 0;
   /// A fault of the fault file that waited for a condition begins with the exchange at this tick. Told before that, and
   /// as often as anybody likes.

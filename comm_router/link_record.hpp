@@ -22,6 +22,7 @@ class LinkRecord final : public LinkModel {
              std::vector<std::string>& unwritten);
 
   LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) override;
+  void begin_step(const Links& links) override { links_->begin_step(links); }
   void set_off(std::size_t fault, Tick tick) override { links_->set_off(fault, tick); }
   void set_by_hand(const std::vector<Fault>& faults) override { links_->set_by_hand(faults); }
 

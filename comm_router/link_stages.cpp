@@ -31,7 +31,9 @@ LinkStages::LinkStages(const Scenario& scenario, const FaultPlan& faults, std::u
       faults_(faults),
       planned_(faults.faults.size()),
       seed_(seed),
-      stages_(scenario.fleet.size() + 1) {
+      stages_(scenario.fleet.size() + 1),
+      radio_(scenario.fleet.size() + 1),
+      links_(scenario.fleet.size() + 1) {
   for (std::size_t i = 0; i < scenario.links.size(); ++i) {
     add_effect(scenario.links[i], "radio.links[" + std::to_string(i) + "]");
   }
@@ -103,6 +105,13 @@ void LinkStages::set_end(std::size_t fault) {
 LinkFate LinkStages::fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) {
   if (is_cut(k, route.source, target)) return {.loss = LinkLoss::fault};
   Passage passage;
+  if (const std::uint8_t level = links_.at(route.source, target); level > 0 && scenario_.conditions.radio.on()) {
+    Stage& radio = radio_.at(route.source, target);
+    const double rate_bit_s = kRadioRates.at(level - 1U).rate_bit_s;
+    radio.effect.bandwidth_bit_s = scenario_.conditions.radio.rate_share * rate_bit_s;
+    const auto size_bytes = static_cast<double>(message.payload->size());
+    if (!queue(radio, k, size_bytes, passage.delay_s)) return {.loss = LinkLoss::overflow};
+  }
   for (Stage& stage : stages_.at(route.source, target)) {
     if (k < stage.first || k >= stage.end || !names_topic(stage.effect.topics, route.ros_topic)) continue;
     pass(stage, k, route, message, passage);

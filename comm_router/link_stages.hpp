@@ -19,6 +19,7 @@ class LinkStages final : public LinkModel {
   /// @param seed  of the run; 0 draws too: who asks for loss gets loss.
   LinkStages(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed);
 
+  void begin_step(const Links& links) override { links_ = links; }
   LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) override;
   void set_off(std::size_t fault, Tick tick) override;
   void set_by_hand(const std::vector<Fault>& faults) override;
@@ -59,6 +60,8 @@ class LinkStages final : public LinkModel {
   const std::size_t planned_;  ///< faults without those by hand
   const std::uint64_t seed_;
   LinkMatrix<std::vector<Stage>> stages_;
+  LinkMatrix<Stage> radio_;      ///< the rate of each link, if the scenario's conditions have path loss
+  Links links_;                  ///< of this step
   std::uint64_t cut_step_ = ~0;  ///< the step to which `cut_` belongs
   std::optional<LinkMatrix<std::uint8_t>> cut_;
 };

@@ -27,7 +27,8 @@ std::optional<std::string> held_by(const FaultAction& action) {
                  [](const CommandDelay& f) -> Text { return "the commands of " + f.uav; },
                  [](const OdometryFreeze& f) -> Text { return "the odometry of " + f.uav; },
                  [](const OdometryJump& f) -> Text { return "the odometry of " + f.uav; },
-                 [](const StuckGimbal& f) -> Text { return "the gimbal of " + f.uav; }},
+                 [](const StuckGimbal& f) -> Text { return "the gimbal of " + f.uav; },
+                 [](const Gust& f) -> Text { return "the air about " + f.uav; }},
       action);
 }
 
@@ -43,17 +44,17 @@ void FaultChecker::check(const Fault& longest, const Fault& shortest, const std:
   check_times(longest, shortest, path);
   const std::string key = path + "." + fault_kind(longest);
   std::visit(
-      Overloaded{[&](const LinkEffect& f) { check_link(f, key); }, [&](const Partition& f) { check_partition(f, key); },
-                 [&](const Blackout& f) { check_uav(f.uav, key); }, [](const StationOutage&) {},
-                 [&](const Kill& f) { check_name(f.member, members_, key, "program"); },
-                 [&](const Pause& f) { check_name(f.member, members_, key, "program"); },
-                 [&](const LidarFailure& f) { check_lidar(f, key); },
-                 [&](const CameraFailure& f) { check_uav(f.uav, key); },
-                 [&](const MotorFailure& f) { check_uav(f.uav, key + ".uav"); },
-                 [&](const CommandDelay& f) { check_uav(f.uav, key + ".uav"); },
-                 [&](const OdometryFreeze& f) { check_uav(f.uav, key); },
-                 [&](const OdometryJump& f) { check_uav(f.uav, key + ".uav"); },
-                 [&](const StuckGimbal& f) { check_uav(f.uav, key); }},
+      Overloaded{
+          [&](const LinkEffect& f) { check_link(f, key); }, [&](const Partition& f) { check_partition(f, key); },
+          [&](const Blackout& f) { check_uav(f.uav, key); }, [](const StationOutage&) {},
+          [&](const Kill& f) { check_name(f.member, members_, key, "program"); },
+          [&](const Pause& f) { check_name(f.member, members_, key, "program"); },
+          [&](const LidarFailure& f) { check_lidar(f, key); }, [&](const CameraFailure& f) { check_uav(f.uav, key); },
+          [&](const MotorFailure& f) { check_uav(f.uav, key + ".uav"); },
+          [&](const CommandDelay& f) { check_uav(f.uav, key + ".uav"); },
+          [&](const OdometryFreeze& f) { check_uav(f.uav, key); },
+          [&](const OdometryJump& f) { check_uav(f.uav, key + ".uav"); },
+          [&](const StuckGimbal& f) { check_uav(f.uav, key); }, [&](const Gust& f) { check_uav(f.uav, key + ".uav"); }},
       longest.action);
   check_contradiction(longest, path);
 }

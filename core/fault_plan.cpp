@@ -20,7 +20,7 @@ const char* key_of(const FaultAction& action) {
           [](const LidarFailure&) { return "lidar_failure"; }, [](const CameraFailure&) { return "camera_failure"; },
           [](const MotorFailure&) { return "motor_failure"; }, [](const CommandDelay&) { return "command_delay"; },
           [](const OdometryFreeze&) { return "odometry_freeze"; }, [](const OdometryJump&) { return "odometry_jump"; },
-          [](const StuckGimbal&) { return "stuck_gimbal"; }},
+          [](const StuckGimbal&) { return "stuck_gimbal"; }, [](const Gust&) { return "gust"; }},
       action);
 }
 

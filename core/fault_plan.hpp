@@ -78,6 +78,18 @@ struct MotorFailure {
     r.field("thrust", thrust, within(0.0, 0.999));
   }
 };
+/// The air about a UAV moves by this much more.
+struct Gust {
+  std::string uav;
+  Vector3d velocity_mps = Vector3d::Zero();  ///< of the air, in W
+
+  template <class R>
+  void describe(R& r) {
+    r.required("uav", uav);
+    r.required("velocity_mps", velocity_mps, within(-50.0, 50.0));
+    r.check(!velocity_mps.isZero(0.0), "velocity_mps", "must not be zero");
+  }
+};
 /// A UAV's commands take effect later.
 struct CommandDelay {
   std::string uav;
@@ -90,8 +102,9 @@ struct CommandDelay {
   }
 };
 
-using FaultAction = std::variant<LinkEffect, Partition, Blackout, StationOutage, Kill, Pause, LidarFailure,
-                                 CameraFailure, MotorFailure, CommandDelay, OdometryFreeze, OdometryJump, StuckGimbal>;
+using FaultAction =
+    std::variant<LinkEffect, Partition, Blackout, StationOutage, Kill, Pause, LidarFailure, CameraFailure, MotorFailure,
+                 CommandDelay, OdometryFreeze, OdometryJump, StuckGimbal, Gust>;
 
 /// What a fault waits for: the server looks at it at the end of each exchange.
 struct FaultCondition {

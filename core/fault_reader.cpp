@@ -56,6 +56,7 @@ struct FaultEntry {
   std::optional<CommandDelay> command_delay;
   std::optional<std::string> odometry_freeze, stuck_gimbal;
   std::optional<OdometryJump> odometry_jump;
+  std::optional<Gust> gust;
 
   template <class R>
   void describe(R& r) {
@@ -77,6 +78,7 @@ struct FaultEntry {
     r.field("odometry_freeze", odometry_freeze);
     r.field("odometry_jump", odometry_jump);
     r.field("stuck_gimbal", stuck_gimbal);
+    r.field("gust", gust);
   }
 
   /// As long as any seed, or its condition, can make it; and as short.
@@ -123,6 +125,7 @@ struct FaultEntry {
     if (odometry_freeze) all.emplace_back(OdometryFreeze{*odometry_freeze});
     if (odometry_jump) all.emplace_back(*odometry_jump);
     if (stuck_gimbal) all.emplace_back(StuckGimbal{*stuck_gimbal});
+    if (gust) all.emplace_back(*gust);
     return all;
   }
 };
@@ -188,10 +191,11 @@ std::vector<Fault> read_faults(const FaultFile& content, const ConfigDocument& d
     const FaultEntry& entry = (*entries)[i];
     const std::string path = fault_path(i);
     const std::vector<FaultAction> actions = entry.actions();
-    errors.check(actions.size() == 1, path,
-                 "must have exactly one of link, partition, blackout, station_outage, kill, pause, lidar_failure, "
-                 "camera_failure, motor_failure, command_delay, odometry_freeze, odometry_jump, stuck_gimbal; it has " +
-                     std::to_string(actions.size()));
+    errors.check(
+        actions.size() == 1, path,
+        "must have exactly one of link, partition, blackout, station_outage, kill, pause, lidar_failure, "
+        "camera_failure, motor_failure, command_delay, odometry_freeze, odometry_jump, stuck_gimbal, gust; it has " +
+            std::to_string(actions.size()));
     errors.check(entry.station_outage.value_or(true), path + ".station_outage", "must be true, or be left out");
     if (actions.size() != 1) continue;
     Fault& fault = faults.emplace_back(entry.drawn(actions.front(), seed, i));

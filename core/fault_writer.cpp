@@ -35,7 +35,7 @@ ConfigNode action_node(const FaultAction& action) {
                  [](const StationOutage&) { return written(true); }, [](const Kill& f) { return written(f.member); },
                  [](const Pause& f) { return written(f.member); }, [](const MotorFailure& f) { return written(f); },
                  [](const CommandDelay& f) { return written(f); }, [](const OdometryJump& f) { return written(f); },
-                 [](const auto& f) { return written(f.uav); }},
+                 [](const Gust& f) { return written(f); }, [](const auto& f) { return written(f.uav); }},
       action);
 }
 

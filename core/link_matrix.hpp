@@ -37,7 +37,7 @@ class LinkMatrix {
   std::vector<T> values_;
 };
 
-/// Which links there are: 1 = linked.
+/// Which links there are: 0 = none; else, with path loss, the place of the rate in kRadioRates, counted from 1.
 using Links = LinkMatrix<std::uint8_t>;
 
 }  // namespace skein

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/conditions.hpp"
 #include "core/link_effect.hpp"
 #include "core/types.hpp"
 
@@ -150,6 +151,7 @@ struct Scenario {
   double station_antenna_offset_m = 0.1;
   SceneConfig scene;
   RulesConfig rules;
+  ConditionsConfig conditions;          ///< wind, odometry that errs, batteries; none by default
   std::vector<UavConfig> fleet;         ///< fleet order: node numbers, domains and ties follow it
   std::vector<RadioTopicConfig> radio;  ///< beyond the capture topics that Skein itself declares
   std::vector<LinkEffect> links;        ///< how radio links differ from ideal ones, all through the run

@@ -1,5 +1,5 @@
 // The keys of scenario and vehicle files, each listed once: reading, range checks and printing follow these lists.
-// For scenario_reader.cpp and its tests only. The structs and their defaults are in scenario.hpp.
+// For scenario_reader.cpp, rules_presets.cpp and their tests only. The structs and their defaults are in scenario.hpp.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/airframe.hpp"
+#include "core/conditions_keys.hpp"
 #include "core/config_reader.hpp"
 #include "core/drawn_worlds.hpp"
 #include "core/euler.hpp"
@@ -257,6 +258,7 @@ struct ScenarioFile {
     r.field("station", station);
     r.required("scene", scenario.scene);
     r.field("rules", scenario.rules);
+    if (R::kReads || conditions_text(scenario.conditions) != "none") r.field("conditions", scenario.conditions);
     r.required("fleet", fleet);
     r.field("radio", radio);
   }

@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -35,16 +34,6 @@ bool is_ros_word(const std::string& text) {
   return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
          std::all_of(text.begin(), text.end(), allowed);
 }
-
-/// Collects the switches that describe() lists.
-struct SwitchList {
-  static constexpr bool kReads = false;
-  void field(const std::string&, const std::string&) {}  // the preset's name
-  void field(const std::string& key, bool value) { all.emplace_back(key, value); }
-  void field(const std::string& key, double value, const Bounds& = {}) { all.emplace_back(key, value); }
-
-  std::vector<RuleSwitch> all;
-};
 
 /// What `reject` throws as an InputError, or nothing.
 template <class Reject>
@@ -284,6 +273,14 @@ void resize_fleet(std::size_t uavs, std::vector<FleetEntry>& fleet) {
   fleet.erase(fleet.begin() + static_cast<std::ptrdiff_t>(std::min(uavs, fleet.size())), fleet.end());
 }
 
+/// What `apply` complains of is about an option.
+template <class Apply>
+void of_option(const std::string& option, const Apply& apply) try {
+  apply();
+} catch (const InputError& error) {
+  throw InputError(option + ": " + error.what());
+}
+
 void apply_overrides(const LoadOptions& options, Scenario& scenario) {
   if (options.duration_s) {
     const bool fits = *options.duration_s >= scenario.exchange_period_s && *options.duration_s <= 36000.0;
@@ -300,12 +297,10 @@ void apply_overrides(const LoadOptions& options, Scenario& scenario) {
     }
     scenario.scene.scene_seed = *options.scene_seed;
   }
-  if (options.rules) {
-    try {
-      scenario.rules = rules_preset(*options.rules);
-    } catch (const InputError& error) {
-      throw InputError(std::string("--rules: ") + error.what());
-    }
+  if (options.rules) of_option("--rules", [&] { scenario.rules = rules_preset(*options.rules); });
+  if (options.conditions) {
+    of_option("--conditions",
+              [&] { scenario.conditions = chosen_conditions(*options.conditions, scenario.conditions); });
   }
 }
 
@@ -341,48 +336,6 @@ Scenario load_scenario(const std::string& name_or_path, const LoadOptions& optio
 
 VehicleConfig load_vehicle(const std::string& name_or_path, const fs::path& config_dir) {
   return read_config_file<VehicleConfig>(find_config_file("vehicle", name_or_path, config_dir / "vehicles"));
-}
-
-std::span<const RulesConfig> rules_presets() {
-  static const auto presets = [] {
-    const RulesConfig contest;
-    RulesConfig paper;
-    paper.preset = "paper";
-    paper.limit_search_radius = false;
-    paper.unnormalised_displacement = false;
-    paper.min_point_score = 0.0;
-    RulesConfig reference;
-    reference.preset = "reference";
-    reference.ray_ends_at_point = true;
-    reference.camera_blind_in_structure = false;
-    reference.phantom_gimbal_rate = true;
-    reference.reject_commands_beyond_limits = false;
-    reference.guard_position_commands = false;
-    reference.collision_voids_score = false;
-    return std::array{contest, paper, reference};
-  }();
-  return presets;
-}
-
-RulesConfig rules_preset(const std::string& preset) {
-  std::vector<std::string> names;
-  for (const RulesConfig& rules : rules_presets()) {
-    if (rules.preset == preset) return rules;
-    names.push_back(rules.preset);
-  }
-  throw InputError("there is no rules preset '" + preset + "'; " + suggestion(preset, names));
-}
-
-std::vector<RuleSwitch> own_switches(const RulesConfig& rules) {
-  RulesConfig own = rules, preset = rules_preset(rules.preset);
-  SwitchList switches, usual;
-  describe(switches, own);
-  describe(usual, preset);
-  std::vector<RuleSwitch> differing;
-  for (std::size_t i = 0; i < switches.all.size(); ++i) {
-    if (switches.all[i] != usual.all[i]) differing.push_back(switches.all[i]);
-  }
-  return differing;
 }
 
 std::string to_yaml(const Scenario& scenario) {

@@ -24,8 +24,9 @@ struct LoadOptions {
   std::optional<std::uint64_t> scene_seed = {};  ///< instead of the file's; only for a procedural scene
   /// Fleet size: the first of the file's fleet, or beyond it the same UAVs again ("jurong2") in places of the scene.
   std::optional<std::size_t> uavs = {};
-  std::optional<std::string> rules = {};  ///< a preset, instead of all that the file says of rules
-  bool needs_scene_files = true;          ///< false for programs that do not look at the scene: they need no assets
+  std::optional<std::string> rules = {};       ///< a preset, instead of all that the file says of rules
+  std::optional<std::string> conditions = {};  ///< as chosen_conditions() reads it, on top of the file's
+  bool needs_scene_files = true;  ///< false for programs that do not look at the scene: they need no assets
 };
 
 /// @param name_or_path a name under config/scenarios/, or a path (it holds a '/' or ends in .yaml).

@@ -85,6 +85,8 @@ WireTopic wire(const TopicInfo& topic, std::string_view id) {
 std::span<const TopicInfo> uav_topics() {
   static constexpr std::array kAll{kOdometry,
                                    kGimbal,
+                                   kBattery,
+                                   kWind,
                                    kCloud,
                                    kLidarServo,
                                    kSelfKeyframe,

@@ -127,6 +127,12 @@ inline constexpr TopicInfo kOdometry{"/{id}/ground_truth/odometry", "nav_msgs/ms
                                      kStateDepth, "every exchange; twist in the body frame"};
 inline constexpr TopicInfo kGimbal{"/{id}/gimbal", "geometry_msgs/msg/TwistStamped", Direction::to_agent, kStateDepth,
                                    "every exchange; angles in linear, rates in angular: y pitch, z yaw"};
+/// Only if the scenario's conditions have batteries.
+inline constexpr TopicInfo kBattery{"/{id}/battery", "sensor_msgs/msg/BatteryState", Direction::to_agent, kStateDepth,
+                                    "every exchange, if there are batteries"};
+/// What the UAV's flight controller estimates; only if the scenario's conditions have wind.
+inline constexpr TopicInfo kWind{"/{id}/wind", "geometry_msgs/msg/TwistStamped", Direction::to_agent, kStateDepth,
+                                 "every exchange, if there is wind; linear: velocity of the air in W"};
 inline constexpr TopicInfo kCloud{
     "/{id}/cloud_inW", "sensor_msgs/msg/PointCloud2", Direction::to_agent, kCloudDepth, "10 Hz", false, true,
     &kScanLayout};
@@ -330,6 +336,8 @@ std::span<const TopicInfo> lockstep_topics();
 
 inline WireTopic odometry(std::string_view id) { return wire(kOdometry, id); }
 inline WireTopic gimbal(std::string_view id) { return wire(kGimbal, id); }
+inline WireTopic battery(std::string_view id) { return wire(kBattery, id); }
+inline WireTopic wind(std::string_view id) { return wire(kWind, id); }
 inline WireTopic cloud(std::string_view id) { return wire(kCloud, id); }
 inline WireTopic lidar_servo(std::string_view id) { return wire(kLidarServo, id); }
 inline WireTopic self_keyframe(std::string_view id) { return wire(kSelfKeyframe, id); }

@@ -128,13 +128,15 @@ msg::Transform to_transform(const Isometry3d& X) {
   return transform;
 }
 
-msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState& state) {
+msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState& state,
+                          const PoseUncertainty& uncertainty) {
   msg::Odometry odometry;
   odometry.header(to_header(tick));
   odometry.child_frame_id(id + "/base_link");
   odometry.pose().pose(to_pose(state.p_WB, state.q_WB));
   set_xyz(odometry.twist().twist().linear(), state.q_WB.conjugate() * state.v_WB);
   set_xyz(odometry.twist().twist().angular(), state.w_WB_B);
+  add_uncertainty(uncertainty, odometry);
   return odometry;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/score_table.hpp"
+#include "core/told_state.hpp"
 #include "core/topics.hpp"
 #include "core/types.hpp"
 #include "idl/type_names.hpp"
@@ -26,10 +27,23 @@ msg::Point to_point(const Vector3d& p);
 msg::Pose to_pose(const Vector3d& p, const Quaterniond& q);
 msg::Transform to_transform(const Isometry3d& X);
 
-/// Twist in the body frame, as CARIC has it.
-msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState& state);
+/// Twist in the body frame, as CARIC has it. The covariances are diagonal: an exact odometry has none.
+msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState& state,
+                          const PoseUncertainty& uncertainty = {});
 /// Velocity back in W.
 RigidBodyState from_odometry(const msg::Odometry& odometry);
+void add_uncertainty(const PoseUncertainty& uncertainty, msg::Odometry& odometry);
+/// What it says of its own errors; a negative or infinite variance counts as none.
+PoseUncertainty uncertainty_from_odometry(const msg::Odometry& odometry);
+
+msg::BatteryState to_battery(Tick tick, const BatteryStatus& battery, int cells);
+/// nullopt where a number is not finite.
+std::optional<BatteryStatus> from_battery(const msg::BatteryState& battery);
+
+/// Velocity of the air, in W.
+msg::TwistStamped to_wind(Tick tick, const Vector3d& wind_W);
+/// nullopt where a number is not finite.
+std::optional<Vector3d> from_wind(const msg::TwistStamped& wind);
 
 /// Angles in linear, rates in angular; y pitch, z yaw.
 msg::TwistStamped to_gimbal(Tick tick, const std::string& id, const GimbalState& gimbal);

@@ -57,6 +57,7 @@ std::string type_name() {
   X(octomap_msgs, Octomap)                         \
   X(sensor_msgs, PointField)                       \
   X(sensor_msgs, PointCloud2)                      \
+  X(sensor_msgs, BatteryState)                     \
   X(sensor_msgs, CompressedImage)                  \
   X(sensor_msgs, JointState)                       \
   X(sensor_msgs, ChannelFloat32)                   \

@@ -99,6 +99,7 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
       ->check(CLI::Validator(check_positive, "POSITIVE"));
   app.add_option("--duration", options.duration_s, "Mission time [s], instead of the scenario's");
   app.add_option("--rules", options.rules, "Preset of rules, instead of what the scenario says of them");
+  app.add_option("--conditions", options.conditions, "Presets of conditions, instead of the scenario's");
   app.add_option("--record", options.record, "What goes into recording.mcap: none, messages, run, all or clouds")
       ->check(CLI::IsMember({"none", "messages", "run", "all", "clouds"}))
       ->capture_default_str();
@@ -145,6 +146,7 @@ LoadOptions ProgramOptions::load_options() const {
   load.scene_seed = scene_seed;
   load.uavs = uavs;
   load.rules = rules;
+  load.conditions = conditions;
   return load;
 }
 

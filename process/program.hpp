@@ -57,6 +57,7 @@ struct ProgramOptions {
   std::optional<std::size_t> uavs;          ///< --uavs
   std::optional<double> duration_s;         ///< --duration
   std::optional<std::string> rules;         ///< --rules: a preset
+  std::optional<std::string> conditions;    ///< --conditions: presets
   std::filesystem::path faults;             ///< --faults: fault file; empty: none
   std::string record = "run";               ///< --record: how much (recording/choice.hpp)
   bool check_only = false;                  ///< --check: validate the input, then stop

@@ -19,11 +19,13 @@ namespace skein {
 struct CollisionReport {
   Number time_s = {};
   Text uav = {};
-  Text with = {};  ///< "ground", "structure" or a UAV
+  Text with = {};   ///< "ground", "structure" or a UAV
+  Text cause = {};  ///< "battery": it fell, since its battery was empty; else none
   std::optional<std::array<double, 3>> position = {};
 };
 template <class Fields>
 void describe(Fields& f, CollisionReport& collision) {
+  f.field("cause", collision.cause);
   f.field("position", collision.position);
   f.field("time_s", collision.time_s);
   f.field("uav", collision.uav);
@@ -98,6 +100,21 @@ void describe(Fields& f, WorkReport& work) {
   f.field("open", work.open);
 }
 
+/// A battery at a run's end.
+struct BatteryReport {
+  Number charge = {};  ///< share that is left
+  Number energy_wh = {}, capacity_wh = {}, mean_power_w = {};
+  Number empty_s = {};  ///< when it was empty
+};
+template <class Fields>
+void describe(Fields& f, BatteryReport& battery) {
+  f.field("capacity_wh", battery.capacity_wh);
+  f.field("charge", battery.charge);
+  f.field("empty_s", battery.empty_s);
+  f.field("energy_wh", battery.energy_wh);
+  f.field("mean_power_w", battery.mean_power_w);
+}
+
 struct UavReport {
   Text name = {};
   std::optional<Role> role = {};
@@ -109,10 +126,12 @@ struct UavReport {
   Number first_rejected_s = {};
   Count commands_unheard = {};
   std::optional<WorkReport> work = {};
+  std::optional<BatteryReport> battery = {};
 };
 template <class Fields>
 void describe(Fields& f, UavReport& uav) {
   f.field("alive", uav.alive);
+  f.field("battery", uav.battery);
   f.field("captures", uav.captures);
   f.field("commands_rejected", uav.commands_rejected);
   f.field("commands_unheard", uav.commands_unheard);
@@ -162,7 +181,8 @@ struct SimServerReport {
   std::optional<bool> deterministic = {};
   Text digest = {};
   Number sim_time_s = {}, mission_time_s = {}, wall_time_s = {};
-  Text rules = {};  ///< the preset
+  Text rules = {};       ///< the preset
+  Text conditions = {};  ///< in the words of --conditions; none: an ideal world
   Count points_total = {};
   Text points_seen = {};  ///< a digit for each point: 1 was in some picture
   std::vector<CollisionReport> collisions = {};
@@ -182,6 +202,7 @@ struct SimServerReport {
 template <class Fields>
 void describe(Fields& f, SimServerReport& report) {
   f.field("collisions", report.collisions);
+  f.field("conditions", report.conditions);
   f.field("deterministic", report.deterministic);
   f.nullable("digest", report.digest);
   f.field("faults", report.faults);

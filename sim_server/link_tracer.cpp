@@ -5,6 +5,11 @@
 
 namespace skein::sim {
 
+LinkTracer::LinkTracer(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed)
+    : scenario_(scenario), faults_(faults), sights_(scenario.fleet.size() + 1), unfailed_(scenario.fleet.size() + 1) {
+  if (scenario.conditions.radio.on()) path_loss_.emplace(scenario.conditions.radio, seed);
+}
+
 Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs) {
   Links links(uavs.size() + 1);
   unfailed_ = links;
@@ -24,10 +29,11 @@ Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place
       const RayFilter filter{.except_uav = body_of(a), .except_other_uav = body_of(b), .among = about};
       const bool linked = sights_.at(a, b).linked(from, to, rays, filter);
       const double distance_m = (from.p_W - to.p_W).norm();
+      const std::uint8_t level = !linked ? 0 : path_loss_ ? path_loss_->level(from.p_W, to.p_W) : 1;
       for (const auto& [source, target] : {std::pair(a, b), std::pair(b, a)}) {
-        const bool unfailed = linked && in_range(source, target, distance_m);
+        const std::uint8_t unfailed = in_range(source, target, distance_m) ? level : 0;
         unfailed_.at(source, target) = unfailed;
-        links.at(source, target) = unfailed && !fails(tick, source, target, distance_m);
+        links.at(source, target) = fails(tick, source, target, distance_m) ? 0 : unfailed;
       }
     }
   }
@@ -39,7 +45,9 @@ Links LinkTracer::open(Tick tick, const Links& links) const {
   const auto cut = cut_links(faults_, scenario_, tick);
   if (!cut) return open;
   for (const Node from : scenario_.nodes()) {
-    for (const Node to : scenario_.nodes()) open.at(from, to) &= static_cast<std::uint8_t>(cut->at(from, to) == 0);
+    for (const Node to : scenario_.nodes()) {
+      if (cut->at(from, to) != 0) open.at(from, to) = 0;
+    }
   }
   return open;
 }

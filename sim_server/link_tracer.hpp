@@ -2,11 +2,13 @@
 // Threads: one.   Frames: W.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/fault_plan.hpp"
 #include "core/link_matrix.hpp"
 #include "core/scenario.hpp"
+#include "sim_server/conditions/path_loss.hpp"
 #include "sim_server/rays/ray_scene.hpp"
 #include "sim_server/sensors/sight_memory.hpp"
 
@@ -20,14 +22,11 @@ class LinkTracer {
     bool alive = true;
   };
 
-  /// Both must outlive this.
-  LinkTracer(const Scenario& scenario, const FaultPlan& faults)
-      : scenario_(scenario),
-        faults_(faults),
-        sights_(scenario.fleet.size() + 1),
-        unfailed_(scenario.fleet.size() + 1) {}
+  /// Both must outlive this. @param seed  draws the shadowing, if the scenario's conditions have any.
+  LinkTracer(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed = 0);
 
   /// @param rays  with the bodies where they are. @param uavs  in fleet order.
+  /// @returns 1 for a link; with path loss the place of its rate in kRadioRates, counted from 1.
   Links trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs);
   /// Those of the last trace() before faults limited their range.
   const Links& unfailed() const { return unfailed_; }
@@ -42,6 +41,7 @@ class LinkTracer {
 
   const Scenario& scenario_;
   const FaultPlan& faults_;
+  std::optional<PathLoss> path_loss_;
   LinkMatrix<SightMemory> sights_;  ///< of each pair of nodes, the lower one first
   Links unfailed_;
 };

@@ -41,7 +41,7 @@ void Mission::update_airborne(Tick tick, const std::vector<RigidBodyState>& stat
       const bool on_ground = std::any_of(contacts.begin(), contacts.end(), [i](const Contact& contact) {
         return contact.uav == i && contact.other.kind == BodyId::Kind::ground;
       });
-      if (!high || on_ground) uav.airborne = false;
+      if (!high || on_ground) uav.airborne = uav.falls;  // one that falls meets the ground flying
     }
   }
 }
@@ -57,11 +57,11 @@ std::vector<Collision> Mission::find_collisions(Tick tick, const std::vector<Con
   const auto kill = [&](UavIndex i, const BodyId& with, const Vector3d& p_W) {
     if (!was_alive[i] || !uavs_[i].alive) return;
     uavs_[i].alive = uavs_[i].airborne = false;
-    collisions.push_back({tick, i, with, p_W});
+    collisions.push_back({tick, i, with, p_W, uavs_[i].falls});
   };
   for (const Contact& contact : contacts) {
     const BodyId& other = contact.other;
-    if (other.kind == BodyId::Kind::ground) continue;
+    if (other.kind == BodyId::Kind::ground && !uavs_[contact.uav].falls) continue;
     const bool pair = other.kind == BodyId::Kind::uav, first_flies = was_flying[contact.uav];
     const bool second_flies = pair && was_flying[other.uav];
     const bool both = collision_kills_both_ && pair && (first_flies || second_flies);

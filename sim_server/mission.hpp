@@ -21,13 +21,14 @@ struct Collision {
   UavIndex uav = {};
   BodyId with;                      ///< the structure or another UAV
   Vector3d p_W = Vector3d::Zero();  ///< where they touched
+  bool battery_empty = false;       ///< it fell: that is why
 };
 
 /// Watches the fleet tick by tick. Not thread-safe.
 ///
 /// A UAV is airborne once it is `takeoff_height_m` above its rest height and faster than `takeoff_speed_mps`, and
 /// grounded again once it is slow and either low or on the ground. The clock starts when the first UAV becomes
-/// airborne. An airborne UAV that touches anything but the ground dies, each of two UAVs by its own state (with
+/// airborne. An airborne UAV that touches anything but the ground dies (one without power: the ground, too), each of two UAVs by its own state (with
 /// `rules.collision_kills_both` the one that one touches dies with it, though it rests). The mission ends when the
 /// time is up, when every UAV is dead or has landed after a flight, or when nobody took off in time.
 class Mission {
@@ -43,6 +44,9 @@ class Mission {
 
   /// A UAV that is no longer of this world: dead from here on, without a collision.
   void take_out(UavIndex uav) { uavs_[uav].alive = uavs_[uav].airborne = false; }
+
+  /// Its battery is empty: if it is in the air it falls, and then the ground kills it, too.
+  void lose_power(UavIndex uav) { uavs_[uav].falls = uavs_[uav].airborne; }
 
   Phase phase() const { return phase_; }
   MissionEnd end() const { return end_; }
@@ -60,6 +64,7 @@ class Mission {
   struct Member {
     double rest_height = 0.0;
     bool alive = true, airborne = false, has_flown = false;
+    bool falls = false;  ///< without power
   };
 
   void update_airborne(Tick tick, const std::vector<RigidBodyState>& states, const std::vector<Contact>& contacts);

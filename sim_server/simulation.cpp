@@ -5,15 +5,13 @@
 #include <utility>
 
 #include "core/airframe.hpp"
-#include "sim_server/flight/command_link.hpp"
 #include "sim_server/flight/enclosure.hpp"
 #include "sim_server/flight/fleet_start.hpp"
 #include "sim_server/flight/physics_world.hpp"
-#include "sim_server/flight/vehicle.hpp"
-#include "sim_server/flight/vehicle_faults.hpp"
 #include "sim_server/link_tracer.hpp"
 #include "sim_server/rays/moving_clearance.hpp"
 #include "sim_server/rays/ray_scene.hpp"
+#include "sim_server/simulated_uav.hpp"
 
 namespace skein::sim {
 namespace {
@@ -21,21 +19,6 @@ namespace {
 /// A UAV idles while it is slower than this and no capture has raised one of its scores for this long.
 constexpr double kIdleSpeed = 0.1;
 constexpr Tick kIdleAge = 5 * kTicksPerSecond;
-
-/// Everything that belongs to one UAV.
-struct Uav {
-  Vehicle vehicle;
-  CommandLink link;
-  Camera camera;
-  std::optional<Lidar> lidar;
-  KeyFrameSelector keyframes;
-  UavView view;
-  std::optional<GimbalCommand> gimbal_command;  ///< arrived since the last control step
-  VehicleCondition condition;                   ///< in this exchange
-  bool manual_trigger = false, triggered = false;
-  bool scans_wanted = true;
-  Tick last_raise = 0, idle_ticks = 0;  ///< when a capture last raised a score; how long it has idled
-};
 
 std::vector<BodyShape> body_shapes(const Scenario& scenario) {
   std::vector<BodyShape> shapes;
@@ -64,7 +47,8 @@ struct Simulation::Impl {
   void take_scans();
   void finish_exchange();
   void trace_links();
-  RigidBodyState told(UavIndex uav, const VehicleCondition& condition) const;
+  RigidBodyState believed(UavIndex uav) const { return uavs[uav].surroundings.believed(world.state(uav)); }
+  void tell(UavIndex uav, const VehicleCondition& condition);
   void refresh_rays();
   void reject(UavIndex uav, RejectionEvent::Command command, std::string reason);
   bool listening(UavIndex uav) const { return mission.alive(uav) && mission.phase() != Phase::ended; }
@@ -77,7 +61,7 @@ struct Simulation::Impl {
   RayScene rays;
   Mission mission;
   Referee referee;
-  std::vector<Uav> uavs;
+  std::vector<SimulatedUav> uavs;
   std::vector<UavView> views;  ///< at the step boundary
   std::vector<MovingClearance> clearances;
   Links links, open_links;
@@ -101,7 +85,7 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
       mission(scenario, rest_heights(scenario)),
       referee(the_seed, scenario.fleet.size(), scene.points.size(), scenario.rules),
       clearances(scenario.fleet.size(), MovingClearance(kFarClearance_m)),
-      tracer(scenario, faults) {
+      tracer(scenario, faults, the_seed) {
   const auto touches = [this](const VehicleConfig& vehicle, const Isometry3d& X_WB) {
     return world.touches_structure(vehicle, X_WB);
   };
@@ -114,13 +98,15 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
     world.add_uav(vehicle, starts[i].X_WB);
     uavs.push_back({.vehicle = Vehicle(vehicle, scenario.rules, kTickS, scenario.exchange_ticks()),
                     .link = CommandLink(starts[i]),
-                    .camera = Camera(vehicle.camera, scenario.desired_mm_per_pixel, scenario.rules, scene.points, i),
+                    .camera = Camera(vehicle.camera, scenario.desired_mm_per_pixel, scenario.rules, scene.points, i,
+                                     scenario.conditions.camera, the_seed),
+                    .surroundings = Surroundings(scenario, the_seed, i),
                     .lidar = {},
                     .keyframes = {},
                     .view = {},
                     .gimbal_command = {},
                     .condition = {}});
-    if (vehicle.lidar) uavs.back().lidar.emplace(*vehicle.lidar, i, the_seed);
+    if (vehicle.lidar) uavs.back().lidar.emplace(*vehicle.lidar, i, the_seed, scenario.conditions.lidar);
   }
   meet_faults();
   take_scans();
@@ -140,7 +126,7 @@ void Simulation::Impl::meet_faults() {
 
 void Simulation::Impl::deliver_commands() {
   for (const UavIndex i : FirstUavs(uavs.size())) {
-    Uav& uav = uavs[i];
+    SimulatedUav& uav = uavs[i];
     const Commands arrived = uav.link.exchange(tick, uav.condition.command_delay);
     if (!listening(i)) continue;
     if (arrived.gimbal) uav.gimbal_command = arrived.gimbal;
@@ -163,14 +149,19 @@ void Simulation::Impl::run_tick() {
 
 void Simulation::Impl::control_and_fly() {
   for (const UavIndex i : FirstUavs(uavs.size())) {
-    Uav& uav = uavs[i];
+    SimulatedUav& uav = uavs[i];
     const RigidBodyState& state = world.state(i);
+    uav.surroundings.begin_tick(tick, state, uav.condition.gust_W);
     if (tick % kControlTicks == 0 && listening(i)) {
       const auto gimbal_command = std::exchange(uav.gimbal_command, std::nullopt);
-      uav.vehicle.control(tick, state, uav.link.take_trajectory(tick), gimbal_command);
+      uav.vehicle.control(tick, uav.surroundings.believed(state), uav.link.take_trajectory(tick), gimbal_command);
     }
-    const Wrench wrench = uav.vehicle.step(state);
+    const Wrench wrench = uav.surroundings.fly(uav.vehicle, state);
     world.apply_wrench(i, state.q_WB * wrench.force_B, state.q_WB * wrench.torque_B);
+    if (uav.surroundings.spend(tick, uav.vehicle, state)) {
+      uav.vehicle.stop();
+      mission.lose_power(i);
+    }
   }
 }
 
@@ -187,10 +178,10 @@ void Simulation::Impl::judge_mission() {
     events.collisions.push_back(collision);
   }
   if (was_waiting && mission.phase() == Phase::flying) {
-    for (Uav& uav : uavs) uav.last_raise = tick;
+    for (SimulatedUav& uav : uavs) uav.last_raise = tick;
   }
   if (mission.end_tick() == tick) {
-    for (Uav& uav : uavs) uav.vehicle.stop();
+    for (SimulatedUav& uav : uavs) uav.vehicle.stop();
   }
 }
 
@@ -198,7 +189,7 @@ void Simulation::Impl::measure(const std::vector<RigidBodyState>& before) {
   if (mission.phase() != Phase::flying) return;
   for (const UavIndex i : FirstUavs(uavs.size())) {
     if (!mission.alive(i)) continue;
-    Uav& uav = uavs[i];
+    SimulatedUav& uav = uavs[i];
     const RigidBodyState& state = world.state(i);
     const double speed = state.v_WB.norm();
     if (mission.airborne(i)) {
@@ -210,11 +201,11 @@ void Simulation::Impl::measure(const std::vector<RigidBodyState>& before) {
 }
 
 void Simulation::Impl::take_pictures() {
+  const Tick shutter_delay = ticks(scenario.conditions.camera.shutter_delay_s);
   for (const UavIndex i : FirstUavs(uavs.size())) {
-    Uav& uav = uavs[i];
+    SimulatedUav& uav = uavs[i];
     if (!mission.alive(i) || !uav.condition.camera_works) continue;
-    if ((uav.manual_trigger && !uav.triggered) || !uav.camera.ready(tick)) continue;
-    uav.triggered = false;
+    if (!uav.shutter_opens(tick, shutter_delay)) continue;
     refresh_rays();
     Capture capture = [&] {
       const WorkSection section(clock, Work::camera);
@@ -224,25 +215,28 @@ void Simulation::Impl::take_pictures() {
     ++uav.view.captures;
     if (capture.improved()) uav.last_raise = tick;
     auto report = referee.enter(i, capture);
-    events.captures.push_back({i, std::move(capture), std::move(report)});
+    events.captures.push_back({i, std::move(capture), uav.surroundings.X_told_W(world.state(i)), std::move(report)});
   }
 }
 
 void Simulation::Impl::take_scans() {
   for (const UavIndex i : FirstUavs(uavs.size())) {
-    Uav& uav = uavs[i];
+    SimulatedUav& uav = uavs[i];
     if (!uav.lidar || !mission.alive(i)) continue;
     uav.lidar->move(tick, world.state(i).X_WB());
     if (!uav.condition.lidar_works || !uav.lidar->due(tick)) continue;
     events.servos.push_back({i, uav.lidar->servo(tick)});
     const Isometry3d X_WB = world.state(i).X_WB();
-    if (!uav.scans_wanted && !uav.keyframes.wants(tick, X_WB)) continue;
+    const std::optional<Isometry3d> X_told_W = uav.surroundings.X_told_W(world.state(i));
+    const Isometry3d X_told_B = X_told_W ? *X_told_W * X_WB : X_WB;
+    if (!uav.scans_wanted && !uav.keyframes.wants(tick, X_told_B)) continue;
     refresh_rays();
     LidarScan scan = [&] {
       const WorkSection section(clock, Work::lidar);
       return uav.lidar->scan(tick, X_WB, rays);
     }();
-    if (auto key_frame = uav.keyframes.offer(scan, X_WB)) {
+    if (X_told_W) place(scan, *X_told_W);
+    if (auto key_frame = uav.keyframes.offer(scan, X_told_B)) {
       events.key_frames.push_back({i, std::move(*key_frame), {}});
     }
     events.scans.push_back({i, std::move(scan)});
@@ -256,7 +250,7 @@ void Simulation::Impl::finish_exchange() {
   for (const UavIndex i : FirstUavs(uavs.size())) {
     UavView& view = uavs[i].view;
     view.state = world.state(i);
-    view.told = told(i, conditions[i]);
+    tell(i, conditions[i]);
     view.gimbal = uavs[i].vehicle.gimbal();
     view.alive = mission.alive(i);
     view.airborne = mission.airborne(i);
@@ -283,12 +277,19 @@ void Simulation::Impl::trace_links() {
   open_links = tracer.open(tick, links);
 }
 
-/// What each UAV's software hears of where it is.
-RigidBodyState Simulation::Impl::told(UavIndex uav, const VehicleCondition& condition) const {
-  if (condition.odometry_frozen && step > 0) return views[uav].told;
-  RigidBodyState state = world.state(uav);
-  state.p_WB += condition.odometry_offset_m;
-  return state;
+/// What a UAV's software hears of its state.
+void Simulation::Impl::tell(UavIndex i, const VehicleCondition& condition) {
+  const Surroundings& surroundings = uavs[i].surroundings;
+  const ToldState told = uavs[i].surroundings.tell(tick, world.state(i));
+  UavView& view = uavs[i].view;
+  view.told_tick = told.tick;
+  view.uncertainty = surroundings.uncertainty();
+  view.battery = surroundings.battery();
+  view.battery_use = surroundings.battery_use();
+  view.wind_W = surroundings.wind_estimate_W();
+  if (condition.odometry_frozen && step > 0) return;
+  view.told = told.state;
+  view.told.p_WB += condition.odometry_offset_m;
 }
 
 void Simulation::Impl::refresh_rays() {
@@ -309,7 +310,7 @@ Simulation::~Simulation() = default;
 
 bool Simulation::command_trajectory(UavIndex uav, const TrajectoryCommand& command) {
   if (!impl_->listening(uav)) return true;
-  if (auto reason = impl_->uavs[uav].vehicle.refuse(command, impl_->world.state(uav))) {
+  if (auto reason = impl_->uavs[uav].vehicle.refuse(command, impl_->believed(uav))) {
     impl_->reject(uav, RejectionEvent::Command::trajectory, std::move(*reason));
     return false;
   }
@@ -346,6 +347,7 @@ void Simulation::advance() {
   self.events.rejections = std::exchange(self.rejections, {});
   self.events.ledger_begin = self.referee.ledger().size();
   ++self.step;
+  for (SimulatedUav& uav : self.uavs) uav.surroundings.begin_exchange();
   self.meet_faults();
   self.deliver_commands();
   for (Tick end = self.tick + self.scenario.exchange_ticks(); self.tick < end;) self.run_tick();
@@ -372,7 +374,7 @@ const RayScene& Simulation::rays() const { return impl_->rays; }
 
 std::vector<bool> Simulation::points_seen() const {
   std::vector<bool> seen(impl_->scene.points.size(), false);
-  for (const Uav& uav : impl_->uavs) {
+  for (const SimulatedUav& uav : impl_->uavs) {
     for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = seen[i] || uav.camera.seen()[i];
   }
   return seen;

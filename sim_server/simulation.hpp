@@ -19,6 +19,7 @@
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
 #include "core/types.hpp"
+#include "sim_server/conditions/surroundings.hpp"
 #include "sim_server/mission.hpp"
 #include "sim_server/referee.hpp"
 #include "sim_server/run_digest.hpp"
@@ -36,6 +37,11 @@ inline constexpr double kFarClearance_m = 100.0;
 struct UavView {
   RigidBodyState state;
   RigidBodyState told;  ///< what its software, and its neighbours, hear of that: the same unless its odometry fails
+  Tick told_tick = 0;   ///< when that was so
+  PoseUncertainty uncertainty;           ///< of `told`
+  std::optional<BatteryStatus> battery;  ///< nullopt: this world has none
+  BatteryUse battery_use;
+  std::optional<Vector3d> wind_W;  ///< as the UAV estimates it; nullopt: there is none
   GimbalState gimbal;
   bool alive = true;
   bool airborne = false;
@@ -72,7 +78,8 @@ struct KeyFrameEvent {
 struct CaptureEvent {
   UavIndex uav = {};
   Capture capture;
-  std::optional<CaptureReport> report;  ///< what the ledger holds of it: the points not seen as well before
+  std::optional<Isometry3d> X_told_W = {};  ///< takes what is in W to where the UAV sees it; nullopt: where it is
+  std::optional<CaptureReport> report;      ///< what the ledger holds of it: the points not seen as well before
 };
 
 /// A command that was ignored.

@@ -35,8 +35,9 @@ msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& s
     const Eigen::Vector3f p = state.p_WB.cast<float>(), w = state.w_WB_B.cast<float>();
     const Eigen::Vector3f v = (state.q_WB.conjugate() * state.v_WB).cast<float>();
     const Eigen::Quaternionf q = state.q_WB.cast<float>();
-    points.push_back({p.x(), p.y(), p.z(), static_cast<float>(node_of_uav(other)), seconds(simulation.tick()), q.x(),
-                      q.y(), q.z(), q.w(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z()});
+    points.push_back({p.x(), p.y(), p.z(), static_cast<float>(node_of_uav(other)),
+                      seconds(simulation.uav(other).told_tick), q.x(), q.y(), q.z(), q.w(), v.x(), v.y(), v.z(), w.x(),
+                      w.y(), w.z()});
   }
   return to_cloud(simulation.tick(), points);
 }
@@ -77,6 +78,8 @@ UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation,
     servo_ = &server.writer(domain, bus::spec(topics::lidar_servo(id_)));
     self_keyframe_ = &server.writer(domain, bus::spec(topics::self_keyframe(id_)));
   }
+  if (scenario.conditions.battery.on()) battery_ = &server.writer(domain, bus::spec(topics::battery(id_)));
+  if (scenario.conditions.wind.on()) wind_ = &server.writer(domain, bus::spec(topics::wind(id_)));
   server.read<msg::MultiDOFJointTrajectory>(domain, bus::spec(topics::trajectory_command(id_)),
                                             [this](const msg::MultiDOFJointTrajectory& trajectory) {
                                               if (const auto command = from_trajectory(trajectory))
@@ -127,7 +130,9 @@ void UavNode::publish() {
 void UavNode::publish_state() {
   const Tick tick = simulation_.tick();
   const UavView& view = simulation_.uav(uav_);
-  send(odometry_, [&] { return to_odometry(tick, id_, view.told); });
+  send(odometry_, [&] { return to_odometry(view.told_tick, id_, view.told, view.uncertainty); });
+  if (battery_) send(*battery_, [&] { return to_battery(tick, *view.battery, scenario_.conditions.battery.cells); });
+  if (wind_) send(*wind_, [&] { return to_wind(tick, *view.wind_W); });
   send(gimbal_, [&] { return to_gimbal(tick, id_, view.gimbal); });
   send(clock_, [&] {
     msg::Clock clock;
@@ -169,7 +174,7 @@ void UavNode::publish_captures() {
   }
   for (const CaptureEvent& event : simulation_.events().captures) {
     if (event.uav != uav_) continue;
-    detections_.add(event.capture);
+    detections_.add(event.capture, event.X_told_W);
     if (!event.report) continue;
     const auto [entry, fresh] = card_.emplace(event.report->capture, detections_.as_told(*event.report));
     reports.reports().push_back(to_message(entry->second, fleet_));
@@ -185,7 +190,7 @@ void UavNode::publish_detections() {
   const auto cloud_of = [&](const std::vector<std::uint32_t>& numbers) {
     std::vector<DetectionPoint> points;
     for (const std::uint32_t number : numbers) {
-      const InterestPoint& point = simulation_.scene().points[log[number].point];
+      const InterestPoint point = log[number].as_told(simulation_.scene().points[log[number].point]);
       points.push_back({point.p_W.x(), point.p_W.y(), point.p_W.z(), log[number].best, point.n_W.x(), point.n_W.y(),
                         point.n_W.z(), static_cast<float>(number)});
     }

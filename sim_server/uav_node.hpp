@@ -76,6 +76,7 @@ class UavNode {
   bus::CountedWriter &odometry_, &gimbal_, &neighbour_odometry_, &neighbour_keyframe_, &detected_points_, &detected_,
       &remained_, &clock_, &boxes_, &rejected_, &capture_;
   bus::CountedWriter *cloud_ = nullptr, *servo_ = nullptr, *self_keyframe_ = nullptr;  ///< explorers only
+  bus::CountedWriter *battery_ = nullptr, *wind_ = nullptr;  ///< if the scenario's conditions have them
   DetectionLog detections_;
   std::map<std::uint64_t, CaptureReport> card_;  ///< captures that the agent has not released, as it is told of them
   std::vector<std::uint64_t> released_;

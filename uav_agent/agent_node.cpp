@@ -51,8 +51,21 @@ void AgentNode::declare(LockstepClient& client) {
 }
 
 void AgentNode::read_sensors(LockstepClient& client) {
-  client.read<msg::Odometry>(bus::spec(topics::odometry(member())), Counterpart::server,
-                             [this](const auto& m) { input_.state = from_odometry(m); });
+  client.read<msg::Odometry>(bus::spec(topics::odometry(member())), Counterpart::server, [this](const auto& m) {
+    input_.state = from_odometry(m);
+    input_.state_tick = from_time(m.header().stamp());
+    input_.uncertainty = uncertainty_from_odometry(m);
+  });
+  if (scenario_.conditions.battery.on()) {
+    client.read<msg::BatteryState>(bus::spec(topics::battery(member())), Counterpart::server, [this](const auto& m) {
+      if (const auto battery = from_battery(m)) input_.battery = battery;
+    });
+  }
+  if (scenario_.conditions.wind.on()) {
+    client.read<msg::TwistStamped>(bus::spec(topics::wind(member())), Counterpart::server, [this](const auto& m) {
+      if (const auto wind = from_wind(m)) input_.wind_W = wind;
+    });
+  }
   client.read<msg::TwistStamped>(bus::spec(topics::gimbal(member())), Counterpart::server,
                                  [this](const auto& m) { input_.gimbal = from_gimbal(m); });
   client.read<msg::Duration>(bus::spec(topics::mission_duration_remained(member())), Counterpart::server,

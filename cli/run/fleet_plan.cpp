@@ -54,6 +54,7 @@ Arguments scenario_arguments(const FleetPlan& plan) {
   if (options.uavs) append(arguments, {"--uavs", std::to_string(*options.uavs)});
   if (options.duration_s) append(arguments, {"--duration", shortest(*options.duration_s)});
   if (options.rules) append(arguments, {"--rules", *options.rules});
+  if (options.conditions) append(arguments, {"--conditions", *options.conditions});
   if (options.faults) append(arguments, {"--faults", std::filesystem::absolute(*options.faults)});
   return arguments;
 }
@@ -153,6 +154,7 @@ LoadOptions load_options(const RunOptions& options) {
   load.scene_seed = options.scene_seed;
   load.uavs = options.uavs;
   load.rules = options.rules;
+  load.conditions = options.conditions;
   return load;
 }
 

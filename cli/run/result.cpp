@@ -61,6 +61,7 @@ Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Rep
                        {"planner_cpu_p99_ms", or_null(agent.planner_cpu_p99_ms)},
                        {"planner_cpu_max_ms", or_null(agent.planner_cpu_max_ms)},
                        {"planner_exchanges_over_50ms", or_null(agent.planner_exchanges_over_50ms)}});
+    if (flown.battery) entries.back()["battery"] = json_of(*flown.battery);
   }
   return entries;
 }
@@ -268,6 +269,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   for (const auto& [name, value] : own_switches(scenario.rules)) {
     std::visit([&](const auto setting) { result["rule_switches"][name] = setting; }, value);
   }
+  if (sim.conditions) result["conditions"] = *sim.conditions;
   result["status"] = name_of(status_of(facts, sim));
   result["deterministic"] = sim.deterministic.value_or(false);
   result["digest"] = or_null(sim.digest);

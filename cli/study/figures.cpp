@@ -80,6 +80,9 @@ FlightFigures figures_of(const Json& result) {
   }
   if (figures.points_detected > 0) figures.mean_quality = figures.score / figures.points_detected;
   figures.collisions = static_cast<int>(value_or(result, "collisions", Json::array()).size());
+  for (const Json& collision : value_or(result, "collisions", Json::array())) {
+    figures.collisions_by_battery += report::text_in(collision, "cause") == "battery" ? 1 : 0;
+  }
   figures.real_time_factor = number(result, "real_time_factor");
   figures.mission_time_s = number(result, "mission_time_s");
   figures.status = value_or(result, "status", "").get<std::string>();

@@ -24,11 +24,11 @@ struct UavFigures {
 struct FlightFigures {
   double score = 0.0;
   int points_detected = 0, points_total = 0;
-  std::optional<double> attainable_percent;  ///< of the score that full knowledge could get
-  std::optional<double> attainable;          ///< that score
-  std::optional<double> mean_quality;        ///< score by detected point
-  std::optional<double> greatest_share;      ///< of one UAV in the score [%]
-  int collisions = 0;
+  std::optional<double> attainable_percent;                      ///< of the score that full knowledge could get
+  std::optional<double> attainable;                              ///< that score
+  std::optional<double> mean_quality;                            ///< score by detected point
+  std::optional<double> greatest_share;                          ///< of one UAV in the score [%]
+  int collisions = 0, collisions_by_battery = 0;                 ///< the latter: it fell, since that was empty
   std::optional<int> frozen_uavs, waiting_uavs;                  ///< without work; excused since they waited
   std::optional<double> frozen_s, waited_s, without_work_s;      ///< of all; of all; the longest of any
   std::optional<double> idle_explorers_s, idle_photographers_s;  ///< a UAV of that role on average
@@ -73,8 +73,9 @@ struct Study {
   std::vector<FlightEntry> flights;
   std::string command_line, version, programs, medium;
   int jobs = 1;
-  std::string conditions = {};  ///< other than the scenarios' own: "missions of 120 s"; empty: none
-  std::string machine = {};     ///< on which this was written; empty: nobody asked
+  std::string conditions = {};                     ///< other than the scenarios' own: "missions of 120 s"; empty: none
+  std::vector<std::string> scene_conditions = {};  ///< by scenario, as --conditions has them; empty: not told apart
+  std::string machine = {};                        ///< on which this was written; empty: nobody asked
 
   /// The flights of a planner in a scenario that count, by seed.
   std::vector<const FlightEntry*> cell(std::size_t planner, std::size_t scenario) const;

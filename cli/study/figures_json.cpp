@@ -14,6 +14,7 @@ void each_figure(Figures& f, const Each& each) {
   each("mean_quality", f.mean_quality);
   each("greatest_share", f.greatest_share);
   each("collisions", f.collisions);
+  each("collisions_by_battery", f.collisions_by_battery);
   each("frozen_uavs", f.frozen_uavs);
   each("waiting_uavs", f.waiting_uavs);
   each("frozen_s", f.frozen_s);

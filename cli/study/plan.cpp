@@ -62,17 +62,26 @@ std::vector<std::string> scenarios_of(const StudyOptions& options) {
   return scenarios;
 }
 
-/// Each scenario with each scene seed.
+/// Each scenario with each scene seed, under all conditions.
 void list_scenes(const StudyOptions& options, StudyPlan& plan) {
+  refuse_doubles("conditions", options.conditions);
+  const auto list = [&](const std::string& name, const StudyScene& scene) {
+    if (options.conditions.empty()) {
+      plan.scenes.push_back(scene);
+      plan.scenarios.push_back(name);
+    }
+    for (const std::string& conditions : options.conditions) {
+      plan.scenes.push_back({scene.scenario, scene.scene_seed, conditions});
+      plan.scenarios.push_back(name + " " + conditions);
+    }
+  };
   for (const std::string& scenario : scenarios_of(options)) {
     if (!options.scene_seeds) {
-      plan.scenes.push_back({scenario, options.scene_seed});
-      plan.scenarios.push_back(scenario);
+      list(scenario, {scenario, options.scene_seed, {}});
       continue;
     }
     for (const std::uint64_t scene_seed : parse_seeds(*options.scene_seeds, "--scene-seeds")) {
-      plan.scenes.push_back({scenario, scene_seed});
-      plan.scenarios.push_back(scenario + " " + std::to_string(scene_seed));
+      list(scenario + " " + std::to_string(scene_seed), {scenario, scene_seed, {}});
     }
   }
 }
@@ -88,6 +97,7 @@ RunOptions run_options(const StudyOptions& options, const StudyScene& scene, con
   run.duration_s = options.duration_s;
   run.agent_timeout_s = options.agent_timeout_s;
   run.rules = options.rules;
+  run.conditions = scene.conditions;
   run.dds = options.dds.value_or(run.dds);
   run.agent = options.agent;
   run.network = options.network;
@@ -147,6 +157,7 @@ std::string command_line(const StudyPlan& plan) {
   if (options.duration_s) add("--duration", shortest(*options.duration_s));
   if (options.agent_timeout_s) add("--agent-timeout", shortest(*options.agent_timeout_s));
   if (options.rules) add("--rules", *options.rules);
+  if (!options.conditions.empty()) add("--conditions", joined(options.conditions, ","));
   if (options.dds) add("--dds", *options.dds);
   if (const auto agent = own_agent(options.agent)) add("--agent", options.agent.value_or(*agent));
   if (options.faults) add("--faults", *options.faults);
@@ -178,6 +189,7 @@ StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
   for (const StudyScene& scene : plan.scenes) {
     stems.push_back(fs::path(scene.scenario).stem());
     if (options.scene_seeds) stems.back() += "-" + std::to_string(*scene.scene_seed);
+    if (scene.conditions) stems.back() += "-" + *scene.conditions;
   }
   const std::vector<std::string> planner_folders = folder_names(plan.labels), scenario_folders = folder_names(stems);
 
@@ -198,7 +210,8 @@ StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
       fleet.options.one_process = !options.dds && !needs_processes(fleet);
       media.insert(medium_of(fleet));
       // Scenes of one family differ in nothing that a program would refuse.
-      const bool another_seed = s > 0 && options.scene_seeds && plan.scenes[s].scenario == plan.scenes[s - 1].scenario;
+      const bool another_seed = s > 0 && (options.scene_seeds || plan.scenes[s].conditions) &&
+                                plan.scenes[s].scenario == plan.scenes[s - 1].scenario;
       if (!another_seed && ask == AskPrograms::yes) check_with_programs(fleet, p == 0);
       const fs::path dir = plan.out / "flights" / scenario_folders[s] / planner_folders[p];
       const Json command = made_under.of(fleet);
@@ -233,6 +246,7 @@ StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
                    {"duration_s", options.duration_s ? Json(*options.duration_s) : Json()},
                    {"agent_timeout_s", options.agent_timeout_s ? Json(*options.agent_timeout_s) : Json()},
                    {"rules", options.rules ? Json(*options.rules) : Json()},
+                   {"conditions", options.conditions.empty() ? Json() : Json(options.conditions)},
                    {"dds", plan.medium},
                    {"programs", programs},
                    {"agents", agents},
@@ -283,6 +297,7 @@ std::string repeating_command(const StudyPlan& plan, const StudyFlight& flight) 
   if (plan.options.duration_s) add("--duration", shortest(*plan.options.duration_s));
   if (plan.options.agent_timeout_s) add("--agent-timeout", shortest(*plan.options.agent_timeout_s));
   if (plan.options.rules) add("--rules", *plan.options.rules);
+  if (scene.conditions) add("--conditions", *scene.conditions);
   if (plan.options.assets) add("--assets", *plan.options.assets);
   if (flight.agent) {
     add("--agent", *flight.agent);

@@ -25,13 +25,14 @@ struct StudyFlight {
 struct StudyScene {
   std::string scenario;                     ///< as `skein run` takes it
   std::optional<std::uint64_t> scene_seed;  ///< nullopt: the scenario's own
+  std::optional<std::string> conditions;    ///< as `skein run --conditions` takes them; nullopt: the scenario's own
 };
 
 struct StudyPlan {
   StudyOptions options;
   std::vector<std::string> planners;   ///< as `skein run --planner` takes them
   std::vector<std::string> labels;     ///< what they are called: planner_labels()
-  std::vector<std::string> scenarios;  ///< what its scenes are called: "towers", "wild 7"
+  std::vector<std::string> scenarios;  ///< what its scenes are called: "towers", "wild 7", "wild 7 harsh"
   std::vector<StudyScene> scenes;      ///< the same, as they are flown
   std::vector<std::uint64_t> seeds;
   std::filesystem::path out;         ///< absolute

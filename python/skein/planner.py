@@ -267,7 +267,7 @@ class PlannerInput:
 
     __slots__ = ("_source", "k", "tick", "state", "gimbal", "tracking", "map", "boxes", "peers", "mission_remaining_s",
                  "station_linked", "undelivered_captures", "detected", "radio", "key_frames", "scans", "beam_scans",
-                 "world_map", "scanned", "flight", "space")
+                 "world_map", "scanned", "flight", "space", "position_sigma_m", "yaw_sigma", "battery_charge", "wind_W")
 
     _source: Any
     k: int     #: exchange
@@ -290,6 +290,10 @@ class PlannerInput:
     scanned: bool
     flight: FlightState      #: only if `flight()`
     space: FreeSpace | None  #: where it may choose to fly; only if `flight()`
+    position_sigma_m: npt.NDArray[np.float64]  #: deviation of `state`'s position by axis; 0: it is exact
+    yaw_sigma: float                           #: of its yaw [rad]
+    battery_charge: float | None               #: share that is left; None: this world has no batteries
+    wind_W: npt.NDArray[np.float64] | None     #: estimated velocity of the air [m/s]; None: there is no wind
 
     def __init__(self, **fields: Any) -> None:
         self._source = None

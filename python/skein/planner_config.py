@@ -98,5 +98,10 @@ class FlightConfig:
     alone_s: float = 45.0
     alone_mps: float = 1.5
     yield_s: float = 5.0
+    reacts: bool = True
+    drift_sigmas: float = 2.0
+    wind_error_s: float = 0.03
+    gust_slows_s_m: float = 0.15
+    land_mps: float = 1.0
     deliver_every_s: float = 240.0
     return_margin_s: float = 12.0

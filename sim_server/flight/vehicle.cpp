@@ -24,13 +24,19 @@ void Rotors::step(const RotorSpeeds& demand) {
   }
 }
 
-Wrench Rotors::wrench(const RigidBodyState& state) const {
-  const Vector3d v_WB_B = state.q_WB.conjugate() * state.v_WB;
+std::array<double, kRotors> Rotors::thrusts_n() const {
+  std::array<double, kRotors> thrusts{};
+  for (std::size_t i = 0; i < kRotors; ++i) thrusts[i] = shares_[i] * force_constant_ * speeds_[i] * speeds_[i];
+  return thrusts;
+}
+
+Wrench Rotors::wrench(const RigidBodyState& state, const Vector3d& v_WA) const {
+  const Vector3d v_AB_B = state.q_WB.conjugate() * (state.v_WB - v_WA);
   Wrench sum;
   for (std::size_t i = 0; i < kRotors; ++i) {
     const double speed = speeds_[i];
     const double thrust = force_constant_ * speed * speed;
-    Vector3d v_across = v_WB_B + state.w_WB_B.cross(p_BR_[i]);
+    Vector3d v_across = v_AB_B + state.w_WB_B.cross(p_BR_[i]);
     v_across.z() = 0.0;
     const Vector3d force = shares_[i] * (thrust * Vector3d::UnitZ() - drag_ * speed * v_across);
     const double reaction = (i % 2 == 0 ? -1.0 : 1.0) * shares_[i] * moment_constant_ * thrust;
@@ -84,9 +90,9 @@ void Vehicle::control_attitude(const RigidBodyState& state) {
   rotor_demand_ = powered ? attitude_control_.step(state.q_WB, state.w_WB_B, demand_) : RotorSpeeds{};
 }
 
-Wrench Vehicle::fly(const RigidBodyState& state) {
+Wrench Vehicle::fly(const RigidBodyState& state, const Vector3d& v_WA) {
   rotors_.step(rotor_demand_);
-  return rotors_.wrench(state);
+  return rotors_.wrench(state, v_WA);
 }
 
 }  // namespace skein::sim

@@ -37,7 +37,10 @@ class Rotors {
 
   /// One step towards the demanded speeds; no rotor exceeds its greatest speed.
   void step(const RotorSpeeds& demand);
-  Wrench wrench(const RigidBodyState& state) const;
+  /// @param v_WA  velocity of the air.
+  Wrench wrench(const RigidBodyState& state, const Vector3d& v_WA = Vector3d::Zero()) const;
+  /// Thrust of each [N].
+  std::array<double, kRotors> thrusts_n() const;
   /// Damage. @param shares  of thrust and torque that each rotor gives at its speed, [0, 1].
   void damage(const std::array<double, kRotors>& shares) { shares_ = shares; }
   const RotorSpeeds& speeds() const { return speeds_; }
@@ -71,8 +74,8 @@ class Vehicle {
 
   /// Attitude loop: every tick.
   void control_attitude(const RigidBodyState& state);
-  /// Motors: every step of the physics. @returns the wrench during the coming step.
-  Wrench fly(const RigidBodyState& state);
+  /// Motors: every step of the physics. @param v_WA  velocity of the air. @returns the wrench during the coming step.
+  Wrench fly(const RigidBodyState& state, const Vector3d& v_WA = Vector3d::Zero());
   /// Both, where a step is a tick.
   Wrench step(const RigidBodyState& state) {
     control_attitude(state);
@@ -93,6 +96,7 @@ class Vehicle {
   /// Acceleration that it asked for; z includes gravity [m/s^2].
   const Vector3d& target_acceleration() const { return position_control_.target_acceleration(); }
   const RotorSpeeds& rotor_speeds() const { return rotors_.speeds(); }
+  std::array<double, kRotors> rotor_thrusts_n() const { return rotors_.thrusts_n(); }
 
  private:
   CommandGuard guard_;

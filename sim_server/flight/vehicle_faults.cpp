@@ -21,6 +21,7 @@ class Applier {
   void operator()(const OdometryFreeze& fault) const { of(fault.uav).odometry_frozen = true; }
   void operator()(const OdometryJump& fault) const { of(fault.uav).odometry_offset_m = fault.offset_m; }
   void operator()(const StuckGimbal& fault) const { of(fault.uav).gimbal_works = false; }
+  void operator()(const Gust& fault) const { of(fault.uav).gust_W = fault.velocity_mps; }
   template <class OfSomethingElse>
   void operator()(const OfSomethingElse&) const {}
 

@@ -18,6 +18,7 @@ struct VehicleCondition {
   bool odometry_frozen = false;
   Vector3d odometry_offset_m = Vector3d::Zero();  ///< in W
   std::array<double, kRotors> rotor_shares;       ///< of its thrust and torque that each rotor gives, [0, 1]
+  Vector3d gust_W = Vector3d::Zero();             ///< that the air about it moves faster [m/s]
   int command_delay = 0;                          ///< exchanges, on top of the UAV's own latency
 
   VehicleCondition() { rotor_shares.fill(1.0); }

@@ -16,6 +16,20 @@ namespace {
 
 constexpr Tick kTrajectoryPeriod = 40;  // 100 ms
 
+/// None: an ideal world.
+Text conditions_of(const Scenario& scenario) {
+  const std::string text = conditions_text(scenario.conditions);
+  return text == "none" ? Text() : Text(text);
+}
+
+BatteryReport battery_report(const BatteryStatus& battery, const BatteryUse& use) {
+  return {.charge = battery.charge,
+          .energy_wh = use.given_wh,
+          .capacity_wh = use.capacity_wh,
+          .mean_power_w = use.mean_power_w,
+          .empty_s = use.empty ? Number(seconds(*use.empty)) : Number()};
+}
+
 nlohmann::json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -34,9 +48,9 @@ std::string collided_with(const Collision& collision, const Scenario& scenario) 
 
 std::string describe(const Collision& collision, const Scenario& scenario) {
   const Vector3d& p = collision.p_W;
-  return fmt::format("{} collided with {} at {:.4f} s, at ({:.2f}, {:.2f}, {:.2f}): it is out",
-                     scenario.fleet[collision.uav].name, collided_with(collision, scenario), seconds(collision.tick),
-                     p.x(), p.y(), p.z());
+  return fmt::format("{} {} {} at {:.4f} s, at ({:.2f}, {:.2f}, {:.2f}): it is out", scenario.fleet[collision.uav].name,
+                     collision.battery_empty ? "fell with an empty battery, and hit" : "collided with",
+                     collided_with(collision, scenario), seconds(collision.tick), p.x(), p.y(), p.z());
 }
 
 std::string describe(const Stray& stray, const Scenario& scenario) {
@@ -138,6 +152,7 @@ std::vector<UavReport> RunFiles::uav_reports(const Simulation& simulation, const
                        .commands_rejected = uav.commands_rejected,
                        .first_rejected_s = uav.first_rejected ? Number(seconds(*uav.first_rejected)) : Number(),
                        .commands_unheard = i < summary.commands_unheard.size() ? summary.commands_unheard[i] : 0});
+    if (uav.battery) reports.back().battery = battery_report(*uav.battery, uav.battery_use);
     if (i < summary.work.size()) {
       const WorkTrack& work = summary.work[i];
       reports.back().work = WorkReport{work.open, std::vector<Amount>(work.done.begin(), work.done.end())};
@@ -155,6 +170,7 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
                          .mission_time_s = 0.0,
                          .wall_time_s = summary.wall_time_s,
                          .rules = scenario_.rules.preset,
+                         .conditions = conditions_of(scenario_),
                          .points_total = simulation.scene().points.size(),
                          .points_seen = std::string(),
                          .uavs = uav_reports(simulation, summary),
@@ -176,6 +192,7 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
     report.collisions.push_back({.time_s = seconds(c.tick),
                                  .uav = scenario_.fleet[c.uav].name,
                                  .with = collided_with(c, scenario_),
+                                 .cause = c.battery_empty ? Text("battery") : Text(),
                                  .position = {{c.p_W.x(), c.p_W.y(), c.p_W.z()}}});
   }
   for (const LostProcess& lost : summary.lost) {

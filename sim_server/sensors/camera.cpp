@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/camera_quality.hpp"
+#include "core/euler.hpp"
+#include "sim_server/conditions/normals.hpp"
 
 namespace skein::sim {
 
@@ -36,18 +38,28 @@ bool is_through_structure(const Vector3d& p_WB, const Vector3d& p_WC, const RayS
 bool Capture::improved() const { return std::ranges::any_of(detections, &Detection::improved); }
 
 Camera::Camera(const CameraConfig& config, double desired_mm_per_pixel, const RulesConfig& rules,
-               const std::vector<InterestPoint>& points, UavIndex uav)
+               const std::vector<InterestPoint>& points, UavIndex uav, const CameraConditions& conditions,
+               std::uint64_t seed)
     : config_(config),
+      vibration_(conditions.vibration_deg_s * kRadPerDeg),
+      seed_(seed),
       desired_mm_per_pixel_(desired_mm_per_pixel),
       rules_(rules),
       points_(points),
       uav_(uav),
       interval_(ticks(config.trigger_interval_s)),
       best_(points.size(), 0.0F),
-      seen_(points.size(), false) {}
+      seen_(points.size(), false) {
+  config_.exposure_s *= conditions.exposure_factor;
+}
 
 Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world) {
-  const Exposure exposure(camera_state(body, gimbal, config_), config_, desired_mm_per_pixel_, rules_);
+  CameraState state = camera_state(body, gimbal, config_);
+  if (vibration_ > 0.0) {
+    RandomStream draw(seed_, "vibration", uav_, captures_);
+    state.w_WC += vibration_ * normals(draw);
+  }
+  const Exposure exposure(state, config_, desired_mm_per_pixel_, rules_);
   const Vector3d& p_WC = exposure.position();
   // A first sieve in single precision, a hair wide: most points of a scene are out of reach.
   const Eigen::Vector3f centre = p_WC.cast<float>();

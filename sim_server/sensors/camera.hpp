@@ -46,8 +46,10 @@ class Camera {
  public:
   /// @param points  interest points of the scene; must outlive the camera.
   /// @param uav     fleet index: whose body hides only with `rules.own_body_hides`.
+  /// @param conditions  true exposure and vibration; what is drawn is keyed by (seed, uav, number of the picture).
   Camera(const CameraConfig& config, double desired_mm_per_pixel, const RulesConfig& rules,
-         const std::vector<InterestPoint>& points, UavIndex uav);
+         const std::vector<InterestPoint>& points, UavIndex uav, const CameraConditions& conditions = {},
+         std::uint64_t seed = 0);
 
   /// Whether strictly more than the trigger interval has passed since the last capture (0.1 s: every 41 ticks).
   bool ready(Tick tick) const { return !last_ || tick - *last_ > interval_; }
@@ -70,6 +72,8 @@ class Camera {
 
  private:
   CameraConfig config_;
+  double vibration_;  ///< deviation of each component of the turn [rad/s]
+  std::uint64_t seed_;
   double desired_mm_per_pixel_;
   RulesConfig rules_;
   const std::vector<InterestPoint>& points_;

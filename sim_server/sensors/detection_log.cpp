@@ -5,11 +5,18 @@
 
 namespace skein::sim {
 
-void DetectionLog::add(const Capture& capture) {
+InterestPoint DetectionLog::Entry::as_told(const InterestPoint& point_W) const {
+  if (!X_told_W) return point_W;
+  return {(*X_told_W * point_W.p_W.cast<double>()).cast<float>(),
+          (X_told_W->linear() * point_W.n_W.cast<double>()).cast<float>()};
+}
+
+void DetectionLog::add(const Capture& capture, const std::optional<Isometry3d>& X_told_W) {
   for (const Detection& detection : capture.detections) {
     const std::uint32_t number = order_.number(detection.point);
-    if (number == entries_.size()) entries_.push_back({detection.point, 0.0F});
+    if (number == entries_.size()) entries_.push_back({.point = detection.point});
     entries_[number].best = detection.best;
+    entries_[number].X_told_W = X_told_W;
     seen_.push_back(number);
   }
 }

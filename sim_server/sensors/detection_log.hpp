@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,12 +16,16 @@ namespace skein::sim {
 class DetectionLog {
  public:
   struct Entry {
-    std::uint32_t point = 0;  ///< index in the scene: for the server alone
-    float best = 0.0F;        ///< best score of this UAV so far
+    std::uint32_t point = 0;                  ///< index in the scene: for the server alone
+    float best = 0.0F;                        ///< best score of this UAV so far
+    std::optional<Isometry3d> X_told_W = {};  ///< where the UAV took it to be when it last saw it; nullopt: where it is
+
+    InterestPoint as_told(const InterestPoint& point_W) const;
   };
 
   /// A capture of this UAV's camera, in the order in which they were taken.
-  void add(const Capture& capture);
+  /// @param X_told_W  takes what is in W to where the UAV sees it.
+  void add(const Capture& capture, const std::optional<Isometry3d>& X_told_W = {});
 
   /// By number: the order in which this UAV first saw them.
   std::span<const Entry> entries() const { return entries_; }

@@ -23,12 +23,13 @@ Eigen::Matrix3Xf beam_directions(const LidarConfig& config) {
 
 }  // namespace
 
-Lidar::Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed)
+Lidar::Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed, const LidarConditions& conditions)
     : config_(config),
       uav_(uav),
       seed_(seed),
       period_(lidar_period(config)),
       lost_(config, uav, seed),
+      errors_(conditions, config, seed, uav),
       directions_L_(beam_directions(config)),
       ranges_(static_cast<std::size_t>(directions_L_.cols())) {
   if (seed != 0) {
@@ -94,12 +95,13 @@ LidarScan Lidar::scan(Tick tick, const Isometry3d& X_WB, const RayScene& world) 
   const bool noisy = seed_ != 0 && config_.sigma_m > 0.0;
   RandomStream noise(seed_, "lidar_noise", uav_, scan.number);
   const std::vector<bool>* const lost = lost_.any() ? &lost_.of(tick) : nullptr;
-  scan.points_W.reserve(ranges_.size());
-  for (std::size_t i = 0; i < ranges_.size(); ++i) {
-    if (ranges_[i] < config_.range_min_m || ranges_[i] > config_.range_max_m) {
+  const std::vector<double>& ranges = errors_.any() ? errors_.measure(scan.number, ranges_) : ranges_;
+  scan.points_W.reserve(ranges.size());
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (ranges[i] < config_.range_min_m || ranges[i] > config_.range_max_m) {
       continue;
     }
-    const double range = noisy ? ranges_[i] + config_.sigma_m * noise.normal() : ranges_[i];
+    const double range = noisy ? ranges[i] + config_.sigma_m * noise.normal() : ranges[i];
     if (lost != nullptr && (*lost)[i]) continue;
     const Eigen::Vector3f direction_W =
         instant ? directions_W_[i] : Eigen::Vector3f(R_WL * directions_L_.col(static_cast<Eigen::Index>(i)));

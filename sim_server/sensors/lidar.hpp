@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "sim_server/conditions/lidar_errors.hpp"
 #include "sim_server/rays/ray_scene.hpp"
 #include "sim_server/sensors/lost_returns.hpp"
 
@@ -27,7 +28,8 @@ class Lidar {
   /// @param seed  0: no range noise, no lost returns, and the servo starts at 0. Otherwise the servo's phase and the
   ///              noise are drawn from streams keyed by (seed, "lidar_phase", uav) and (seed, "lidar_noise", uav, scan
   ///              number). A beam whose return is lost draws its noise, too: that of the others does not change.
-  Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed);
+  /// @param conditions  what it measures worse than its vehicle's file says; drawn with seed 0, too.
+  Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed, const LidarConditions& conditions = {});
 
   /// Whether a scan falls on this tick: tick 0 and every period after it.
   bool due(Tick tick) const { return tick % period_ == 0; }
@@ -60,6 +62,7 @@ class Lidar {
   std::uint64_t seed_;
   Tick period_;
   LostReturns lost_;
+  LidarErrors errors_;
   Tick phase_ = 0;                 ///< how long the servo has been running at tick 0
   Eigen::Matrix3Xf directions_L_;  ///< of all beams, in the order of the cloud
   std::vector<Isometry3d> past_;   ///< X_WB by tick modulo the period

@@ -1,6 +1,7 @@
 #include "uav_agent/api/agent_config.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/airframe.hpp"
 
@@ -17,6 +18,17 @@ std::optional<std::size_t> AgentConfig::first_explorer() const {
   return static_cast<std::size_t>(it - fleet.begin());
 }
 
+namespace {
+
+/// A UAV knows the day: how noisy its LiDAR is at most, and that some returns are missing.
+void know_conditions(const LidarConditions& conditions, LidarConfig& lidar) {
+  constexpr double kWeakReturns = 0.1;  ///< share that is taken to be lost where returns may be too weak
+  lidar.sigma_m = std::hypot(lidar.sigma_m, conditions.sigma_per_m * lidar.range_max_m);
+  if (conditions.reflectivity) lidar.no_return_p = std::max(lidar.no_return_p, kWeakReturns);
+}
+
+}  // namespace
+
 AgentConfig agent_config(const Scenario& scenario, UavIndex self) {
   AgentConfig config;
   config.self = self;
@@ -29,6 +41,8 @@ AgentConfig agent_config(const Scenario& scenario, UavIndex self) {
   config.duration_s = scenario.duration_s;
   config.exchange_period_s = scenario.exchange_period_s;
   config.station_position = scenario.station_position;
+  if (config.vehicle.lidar) know_conditions(scenario.conditions.lidar, *config.vehicle.lidar);
+  config.battery = scenario.conditions.battery;
   return config;
 }
 

@@ -15,6 +15,7 @@
 
 #include "core/config_reader.hpp"
 #include "core/hand_command.hpp"
+#include "core/told_state.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/beam_scan.hpp"
 #include "uav_agent/api/goals.hpp"
@@ -60,6 +61,9 @@ struct PlannerInput {
   bool scanned = false;                       ///< the own LiDAR told something since the step before
   FlightState flight = {};                    ///< what became of its goals; only if flight() is given
   std::optional<HandCommand> hand = {};       ///< news of who flies it by hand; only for planners named "hand"
+  PoseUncertainty uncertainty = {};           ///< of `state`; as the odometry says
+  std::optional<BatteryStatus> battery = {};  ///< nullopt: this world has no batteries
+  std::optional<Vector3d> wind_W = {};        ///< estimated velocity of the air [m/s]; nullopt: there is no wind
   const FreeSpace* space = nullptr;           ///< where the flight core may fly it; only if flight() is given
 };
 

@@ -25,6 +25,7 @@ struct Doing {
     back,
     homing,      ///< to where the station is in sight
     delivers,    ///< there
+    lands,       ///< at its start: its battery has no more to give
     awaits_link  ///< there, without a link
   };
   What what = What::ground;

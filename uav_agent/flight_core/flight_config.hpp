@@ -33,6 +33,13 @@ struct FlightConfig {
   double alone_mps = 1.5;   ///< ...and flies no faster then
   double yield_s = 5.0;     ///< a UAV waits for one of lower number for so long
 
+  // What it makes of what it is told of odometry, wind and battery (caution.hpp).
+  bool reacts = true;
+  double drift_sigmas = 2.0;     ///< of the told position that are kept off structure and UAVs
+  double wind_error_s = 0.03;    ///< tracking error for each m/s of wind
+  double gust_slows_s_m = 0.15;  ///< share of approach_mps that each m/s of gusts costs, beyond the first
+  double land_mps = 1.0;         ///< down to the ground
+
   // Bringing captures home.
   double deliver_every_s = 240.0;
   double return_margin_s = 12.0;
@@ -58,6 +65,11 @@ struct FlightConfig {
     r.field("alone_s", alone_s, within(1.0, 1e6));
     r.field("alone_mps", alone_mps, within(0.1, 20.0));
     r.field("yield_s", yield_s, within(0.0, 60.0));
+    r.field("reacts", reacts);
+    r.field("drift_sigmas", drift_sigmas, within(0.0, 6.0));
+    r.field("wind_error_s", wind_error_s, within(0.0, 1.0));
+    r.field("gust_slows_s_m", gust_slows_s_m, within(0.0, 2.0));
+    r.field("land_mps", land_mps, within(0.2, 3.0));
     r.field("deliver_every_s", deliver_every_s, within(10.0, 1e6));
     r.field("return_margin_s", return_margin_s, within(0.0, 600.0));
   }

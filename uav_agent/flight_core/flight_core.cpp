@@ -17,6 +17,8 @@ constexpr double kClimbGainM = 0.3;
 constexpr double kNoLinkS = 4.0;  ///< at a place from which the station should be seen
 constexpr double kIdleS = 4.0;    ///< without a goal that can be flown to
 constexpr std::int64_t kHome = -2;
+constexpr double kLandFromM = 5.0;     ///< above its start, before it comes down
+constexpr double kBelowGroundM = 1.0;  ///< of the setpoint of a UAV that has landed: it stands firm
 constexpr double kShowCheckS = 5.0;
 constexpr std::uint64_t kShowLook = 10;  ///< exchanges
 
@@ -25,6 +27,7 @@ constexpr std::uint64_t kShowLook = 10;  ///< exchanges
 FlightCore::FlightCore(const FlightConfig& config, const AgentConfig& agent)
     : config_(config),
       agent_(agent),
+      caution_(config, agent),
       filter_(config, agent),
       told_(config, agent),
       navigator_(config, agent, filter_),
@@ -72,6 +75,9 @@ Doing FlightCore::doing(const PlannerInput& in) const {
     case Mode::recovering:
       doing.what = recovery_.doing();
       break;
+    case Mode::landing:
+      doing.what = Doing::What::lands;
+      break;
   }
   return doing;
 }
@@ -101,6 +107,7 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
   if (goals) wanted_ = std::move(*goals);
   const bool asked = goals.has_value();
   if (mode_ != Mode::ground) homing_.update(in);
+  if (mode_ != Mode::ground && mode_ != Mode::landing && caution_.must_land(in)) begin_landing(in, steering);
   const bool recovers = mode_ == Mode::recovering && !lost_way_home_;
   const bool works = mode_ == Mode::working || recovers || mode_ == Mode::showing;
   if (works && homing_.due(in)) {
@@ -131,6 +138,9 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
       if (!recovery_.step(in, filter_.held(), steering)) break;
       lost_way_home_ = false;
       enter(Mode::working, in);
+      break;
+    case Mode::landing:
+      land(in, steering);
       break;
   }
   return steering;
@@ -292,6 +302,33 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   }
   ++next_place_;
   navigator_.want(std::move(goals));
+}
+
+void FlightCore::begin_landing(const PlannerInput& in, Steering& steering) {
+  navigator_.stop(steering);
+  outcomes();
+  descends_ = false;
+  enter(Mode::landing, in);
+}
+
+/// To above its start, where it was seen that nothing stands; then down. While no way there is found, it comes down
+/// where it is: the filter keeps it off structure.
+void FlightCore::land(const PlannerInput& in, Steering& steering) {
+  const Vector3d start_W = agent_.me().p_WB_start;
+  if (descends_) return;
+  navigator_.step(in, filter_.held(), steering);
+  bool arrived = false;
+  for (const Outcome& outcome : outcomes()) arrived = arrived || outcome.kind == Outcome::Kind::reached;
+  const bool in_need = in.battery && in.battery->charge < 0.5 * agent_.battery.reserve;
+  const double off_m = (in.state.p_WB - start_W).head<2>().norm();
+  if (arrived || off_m < 0.5 * kRisenM || (in_need && navigator_.idle())) {
+    const Vector3d& at_W = off_m < kLandFromM ? start_W : in.state.p_WB;
+    steering.motion = Path{{{Vector3d(at_W.x(), at_W.y(), -kBelowGroundM), config_.land_mps}}};
+    descends_ = true;
+    return;
+  }
+  if (!navigator_.idle()) return;
+  navigator_.want({{.id = kHome, .way = {{start_W + Vector3d(0.0, 0.0, kLandFromM), config_.approach_mps}}}});
 }
 
 }  // namespace skein::agent

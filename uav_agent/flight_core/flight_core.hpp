@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "uav_agent/flight_core/caution.hpp"
 #include "uav_agent/flight_core/doing.hpp"
 #include "uav_agent/flight_core/homing.hpp"
 #include "uav_agent/flight_core/navigator.hpp"
@@ -29,6 +30,8 @@ class FlightCore {
 
   /// Once per exchange, before anything else.
   void update(const PlannerInput& in) {
+    caution_.update(in);
+    filter_.expect(caution_.error_m());
     navigator_.update(in);
     recovery_.update(in);
   }
@@ -40,7 +43,7 @@ class FlightCore {
   /// Lets the tracker go on by one exchange, as fast as is safe.
   std::optional<TrajectoryCommand> move(Tracker& tracker, const SafetyFilter::Facts& facts) {
     const double most_mps = filter_.assumes_boxes() ? config_.alone_mps : navigator_.pace_mps();
-    return filter_.step(tracker, facts, most_mps, navigator_.retraces());
+    return filter_.step(tracker, facts, std::min(most_mps, caution_.most_mps()), navigator_.retraces());
   }
 
   /// Whom it waits for, in this exchange.
@@ -56,7 +59,7 @@ class FlightCore {
   const SafetyFilter& filter() const { return filter_; }
 
  private:
-  enum class Mode { ground, takeoff, working, homing, showing, recovering };
+  enum class Mode { ground, takeoff, working, homing, showing, recovering, landing };
 
   void leave_ground(const PlannerInput& in, Steering& steering);
   void take_off(const PlannerInput& in, Steering& steering);
@@ -65,6 +68,8 @@ class FlightCore {
   bool begin_showing(const PlannerInput& in);
   void show(const PlannerInput& in, Steering& steering);
   void go_home(const PlannerInput& in, Steering& steering);
+  void begin_landing(const PlannerInput& in, Steering& steering);
+  void land(const PlannerInput& in, Steering& steering);
   bool flies_along() const;
   Doing::What doing_home(const PlannerInput& in) const;
   int neighbours_after() const;
@@ -73,6 +78,7 @@ class FlightCore {
 
   const FlightConfig& config_;
   const AgentConfig& agent_;
+  Caution caution_;
   SafetyFilter filter_;
   ToldSpace told_;
   Navigator navigator_;
@@ -89,6 +95,7 @@ class FlightCore {
   std::optional<Tick> at_place_since_;  ///< of homing, without a link
   std::size_t next_place_ = 0;
   bool lost_way_home_ = false;     ///< it recovers since there was no way to any place of homing
+  bool descends_ = false;          ///< above where it lands
   std::vector<Outcome> outcomes_;  ///< for the strategy
   std::vector<Goal> wanted_;       ///< by the strategy, to be taken up when it works again
   std::optional<std::size_t> waits_for_;

@@ -52,7 +52,8 @@ SafetyFilter::SafetyFilter(const FlightConfig& config, const AgentConfig& agent)
     : config_(config), agent_(agent), assumes_boxes_(!agent.first_explorer()) {}
 
 double SafetyFilter::error_m(Role role, double speed_mps) const {
-  return (role == Role::explorer ? config_.error_m : config_.light_error_m) + config_.error_per_mps_s * speed_mps;
+  return (role == Role::explorer ? config_.error_m : config_.light_error_m) + config_.error_per_mps_s * speed_mps +
+         more_error_m_;
 }
 
 double SafetyFilter::tube_m(double speed_mps, double halo_m) const {

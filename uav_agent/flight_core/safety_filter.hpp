@@ -53,6 +53,8 @@ class SafetyFilter {
   /// @param retraces  it flies back along its own trail: its body has been there.
   std::optional<TrajectoryCommand> step(Tracker& tracker, const Facts& facts, double most_mps, bool retraces = false);
 
+  /// From now on, bodies are off by so much more than their tracking error, this UAV's and the others'.
+  void expect(double more_m) { more_error_m_ = more_m; }
   /// From now on, what is outside all boxes is taken to be free, or not.
   void assume_boxes(bool assume) { assumes_boxes_ = assume; }
   bool assumes_boxes() const { return assumes_boxes_; }
@@ -96,6 +98,7 @@ class SafetyFilter {
   const FlightConfig& config_;
   const AgentConfig& agent_;
   bool assumes_boxes_;
+  double more_error_m_ = 0.0;
   Held held_;
   Counts counts_;
   std::vector<Cube> cubes_;  ///< scratch

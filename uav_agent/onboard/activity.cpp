@@ -23,7 +23,7 @@ bool is_on_its_way(const ActivityFacts& facts) {
   const auto* doing = std::get_if<Doing>(&facts.what);
   return doing == nullptr || doing->what == What::takeoff || doing->what == What::to_goal ||
          doing->what == What::along_goal || doing->what == What::shows_mate || doing->what == What::homing ||
-         doing->what == What::delivers;
+         doing->what == What::delivers || doing->what == What::lands;
 }
 
 std::optional<Vector3d> goal_of(const ActivityFacts& facts) {
@@ -79,6 +79,8 @@ const char* words_for(What what) {
       return "returns to the station's sight";
     case What::delivers:
       return "delivers";
+    case What::lands:
+      return "returns to its start and lands: its battery is low";
     case What::awaits_link:
       return "waits for a link to the station";
   }

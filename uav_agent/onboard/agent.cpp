@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <iterator>
 
 #include "core/euler.hpp"
@@ -27,6 +28,7 @@ namespace {
 constexpr double kBodyMarginM = 0.3;  ///< around a known body
 constexpr double kGroundM = 0.3;      ///< what a LiDAR meets below is the ground
 constexpr double kScanAgeS = 0.1;     ///< a scan is at most this much older than the positions with it
+constexpr double kBodySigmas = 2.0;   ///< of odometry, by which another UAV's body may be off
 constexpr double kWaitBreak_s = 0.5;
 
 WorldMap::Config world_map_config() {
@@ -71,7 +73,7 @@ struct Agent::Impl {
   WorldMap* known_world() { return world_mapper ? &world_mapper->map() : world_map.get(); }
   const WorldMap* known_world() const { return world_mapper ? &world_mapper->map() : world_map.get(); }
   std::optional<RadioMessage> tell_map(const std::optional<Vector3d>& going_to_W, Tick tick);
-  std::vector<KnownBody> other_bodies() const;
+  std::vector<KnownBody> other_bodies(const PoseUncertainty& uncertainty) const;
   std::vector<KnownBody> known_bodies(const AgentInput& input) const;
   std::optional<Vector3d> sensor_position(const KeyFrame& frame, const AgentInput& input) const;
   PlannerInput planner_input(const AgentInput& input) const;
@@ -88,6 +90,7 @@ struct Agent::Impl {
   Peers peers;
   OccupancyMap map;
   std::optional<BeamReader> beam_reader;      ///< if the planner wants beams and there is a LiDAR
+  std::deque<Scan> scans_ahead;               ///< of which the odometry has yet to come
   std::vector<BeamScan> beam_scans;           ///< of this exchange
   std::unique_ptr<WorldMapper> world_mapper;  ///< if the planner wants the map and there is a LiDAR
   std::unique_ptr<WorldMap> world_map;        ///< if it wants the map and there is none
@@ -117,18 +120,20 @@ void Agent::Impl::wait_for(std::size_t mate, double now_s) {
   waits.back().until_s = now_s + config.exchange_period_s;
 }
 
-std::vector<KnownBody> Agent::Impl::other_bodies() const {
+std::vector<KnownBody> Agent::Impl::other_bodies(const PoseUncertainty& uncertainty) const {
+  // The others' odometry is taken to be as good as the own: what lies between two that err so.
+  const double off_m = kBodySigmas * std::sqrt(2.0) * uncertainty.position_m.maxCoeff();
   std::vector<KnownBody> bodies;
   for (const Peer& peer : peers.all()) {
     // One that was never seen still stands where it was put.
     if (!peer.visible && peer.seen) continue;
-    bodies.push_back(known_body(peer.p_W, peer.v_W, config.fleet[peer.uav].body_radius_m));
+    bodies.push_back(known_body(peer.p_W, peer.v_W, config.fleet[peer.uav].body_radius_m + off_m));
   }
   return bodies;
 }
 
 std::vector<KnownBody> Agent::Impl::known_bodies(const AgentInput& input) const {
-  std::vector<KnownBody> bodies = other_bodies();
+  std::vector<KnownBody> bodies = other_bodies(input.uncertainty);
   bodies.insert(bodies.begin(), known_body(input.state.p_WB, input.state.v_WB, config.me().body_radius_m));
   return bodies;
 }
@@ -142,12 +147,14 @@ void Agent::Impl::read_radio(const AgentInput& input) {
 void Agent::Impl::read_beams(const AgentInput& input) {
   beam_scans.clear();
   if (!beam_reader) return;
-  beam_reader->hear(input.tick, input.state);
+  const Tick state_tick = input.state_tick.value_or(input.tick);
+  beam_reader->hear(state_tick, input.state);
   for (const LidarServo& servo : input.servos) beam_reader->hear(servo);
-  if (input.scans.empty()) return;
-  const std::vector<KnownBody> others = other_bodies();
-  for (const Scan& scan : input.scans) {
-    beam_scans.push_back(beam_reader->read(scan, others));
+  scans_ahead.insert(scans_ahead.end(), input.scans.begin(), input.scans.end());
+  if (scans_ahead.empty() || scans_ahead.front().tick > state_tick) return;
+  const std::vector<KnownBody> others = other_bodies(input.uncertainty);
+  for (; !scans_ahead.empty() && scans_ahead.front().tick <= state_tick; scans_ahead.pop_front()) {
+    beam_scans.push_back(beam_reader->read(scans_ahead.front(), others));
     if (world_mapper) world_mapper->insert(beam_scans.back());
   }
 }
@@ -219,7 +226,10 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
                       .beam_scans = planner->wants_beams() ? std::span(beam_scans) : std::span<BeamScan>(),
                       .world_map = known_world(),
                       .scanned = !beam_scans.empty(),
-                      .hand = input.hand};
+                      .hand = input.hand,
+                      .uncertainty = input.uncertainty,
+                      .battery = input.battery,
+                      .wind_W = input.wind_W};
 }
 
 /// The flight core does what the planner wants.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/activity.hpp"
+#include "core/told_state.hpp"
 #include "core/work_time.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
@@ -23,7 +24,11 @@ namespace skein::agent {
 struct AgentInput {
   std::uint64_t k = 0;
   Tick tick = 0;
-  RigidBodyState state;  ///< odometry, twist already turned into W
+  RigidBodyState state;                 ///< odometry, twist already turned into W
+  std::optional<Tick> state_tick = {};  ///< when that was so; nullopt: at this tick
+  PoseUncertainty uncertainty;          ///< of the odometry
+  std::optional<BatteryStatus> battery;
+  std::optional<Vector3d> wind_W;  ///< estimated velocity of the air
   GimbalState gimbal;
   std::optional<double> mission_remaining_s;  ///< nullopt before the first take-off
   std::vector<OrientedBox> boxes;             ///< when they arrived at this step; else empty

@@ -182,6 +182,13 @@ const std::map<std::string_view, Make>& fields() {
       {"scanned", [](const CallPtr&, const In& in) { return py::bool_(in.scanned); }},
       {"flight", [](const CallPtr&, const In& in) { return flight_of(in.flight); }},
       {"space", [](const CallPtr& call, const In&) { return free_space_of(call); }},
+      {"position_sigma_m", [](const CallPtr&, const In& in) { return to_array(in.uncertainty.position_m); }},
+      {"yaw_sigma", [](const CallPtr&, const In& in) { return py::float_(in.uncertainty.yaw); }},
+      {"battery_charge",
+       [](const CallPtr&, const In& in) {
+         return in.battery ? py::object(py::float_(in.battery->charge)) : py::object(py::none());
+       }},
+      {"wind_W", [](const CallPtr&, const In& in) { return array_or_none(in.wind_W); }},
   };
   return kFields;
 }

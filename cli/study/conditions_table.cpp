@@ -1,0 +1,58 @@
+#include "cli/study/conditions_table.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <optional>
+#include <ostream>
+
+#include "core/text.hpp"
+
+namespace skein::cli {
+namespace {
+
+struct Row {
+  int flights = 0, collisions = 0, by_battery = 0;
+  std::vector<double> shares;  ///< of the estimate [%]
+  std::optional<double> median() const {
+    return shares.empty() ? std::nullopt : std::optional(spread_of(shares).median);
+  }
+};
+
+Row row_of(const Study& study, const std::string& conditions, std::size_t planner) {
+  Row row;
+  for (const FlightEntry& flight : study.flights) {
+    const bool belongs = flight.planner == planner && study.scene_conditions.at(flight.scenario) == conditions;
+    if (!belongs || !flight.figures) continue;
+    ++row.flights;
+    row.collisions += flight.figures->collisions;
+    row.by_battery += flight.figures->collisions_by_battery;
+    if (flight.figures->attainable_percent) row.shares.push_back(*flight.figures->attainable_percent);
+  }
+  return row;
+}
+
+}  // namespace
+
+void print_conditions(std::ostream& out, const Study& study) {
+  std::vector<std::string> all;
+  for (const std::string& conditions : study.scene_conditions) {
+    if (std::ranges::find(all, conditions) == all.end()) all.push_back(conditions);
+  }
+  if (all.empty()) return;
+  out << "\n| conditions | planner | flights | share of the estimate [%], median | of " << all.front()
+      << "'s [%] | collisions | of these with an empty battery |\n|---|---|---|---|---|---|---|\n";
+  for (const std::string& conditions : all) {
+    for (std::size_t p = 0; p < study.planners.size(); ++p) {
+      const Row row = row_of(study, conditions, p);
+      const auto median = row.median(), first = row_of(study, all.front(), p).median();
+      const bool comparable = median && first && *first > 0.0;
+      out << fmt::format("| `{}` | `{}` | {} | {} | {} | {} | {} |\n", conditions, study.planners[p], row.flights,
+                         median ? fmt::format("{:.1f}", *median) : "-",
+                         comparable ? fmt::format("{:.0f}", 100.0 * *median / *first) : "-", row.collisions,
+                         row.by_battery);
+    }
+  }
+}
+
+}  // namespace skein::cli

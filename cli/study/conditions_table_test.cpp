@@ -1,0 +1,47 @@
+#include "cli/study/conditions_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace skein::cli {
+namespace {
+
+std::string printed(const Study& study) {
+  std::ostringstream out;
+  print_conditions(out, study);
+  return out.str();
+}
+
+TEST(ConditionsTable, ComparesMediansWithTheFirstConditionsAndCountsFalls) {
+  Study study;
+  study.planners = {"kios", "star"};
+  const auto add = [&](const std::string& conditions, std::size_t planner, double percent, int collisions, int falls) {
+    FlightEntry entry{planner, study.scenarios.size(), 0, {}, FlightFigures(), ""};
+    entry.figures->attainable_percent = percent;
+    entry.figures->collisions = collisions;
+    entry.figures->collisions_by_battery = falls;
+    study.scenarios.push_back("wild " + conditions);
+    study.scene_conditions.push_back(conditions);
+    study.flights.push_back(std::move(entry));
+  };
+  for (const double percent : {40.0, 50.0, 80.0}) add("none", 0, percent, 0, 0);
+  for (const double percent : {20.0, 30.0, 35.0}) add("harsh", 0, percent, 2, 1);
+  add("none", 1, 0.0, 0, 0);
+  add("harsh", 1, 10.0, 1, 0);
+  study.flights.push_back({1, 7, 1, {}, std::nullopt, "failed"});
+  const std::string text = printed(study);
+  EXPECT_NE(text.find("| `none` | `kios` | 3 | 50.0 | 100 | 0 | 0 |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| `harsh` | `kios` | 3 | 30.0 | 60 | 6 | 3 |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| `harsh` | `star` | 1 | 10.0 | - | 1 | 0 |"), std::string::npos) << text;
+}
+
+TEST(ConditionsTable, IsEmptyWithoutConditions) {
+  Study study;
+  study.planners = {"kios"};
+  study.scenarios = {"towers"};
+  EXPECT_EQ(printed(study), "");
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,27 @@
+// What flying costs, by momentum theory: a rotor of disc area A that gives thrust T accelerates air of density rho by
+// the induced velocity v_i. Hovering, v_i = v_h = sqrt(T / (2 rho A)); through air that comes with V across the disc and
+// climbs with V_c, v_i = v_h^2 / sqrt(V^2 + (V_c + v_i)^2) (Glauert). Ideal power: T (v_i + V_c). What a vehicle needs
+// beyond that (profile drag, motors, controllers) is one efficiency.
+// Source: J. G. Leishman, Principles of Helicopter Aerodynamics, 2nd ed., chapter 2.   Units: SI.   Pure.
+#pragma once
+
+#include "core/conditions.hpp"
+#include "core/scenario.hpp"
+
+namespace skein {
+
+inline constexpr double kAirDensity = 1.225;  ///< at sea level and 15 degrees C [kg/m^3]
+inline constexpr double kStandardGravity = 9.8;
+
+/// @param thrust_n  of one rotor, at least 0.  @param across_mps  speed of the air across the disc.
+/// @param climb_mps  of the disc along its axis through the air; negative: it descends.
+/// @returns 0 without thrust or disc. Momentum theory fails for descents near v_h: there, that of the hover counts.
+double induced_velocity(double thrust_n, double disc_area_m2, double across_mps, double climb_mps);
+
+/// Ideal power of one rotor [W], not negative.
+double ideal_power(double thrust_n, double disc_area_m2, double across_mps, double climb_mps);
+
+/// Electric power with which this vehicle hovers in still air [W].
+double hover_power(const VehicleConfig& vehicle, const BatteryConditions& battery);
+
+}  // namespace skein

@@ -1,0 +1,104 @@
+#include "sim_server/conditions/lidar_errors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace skein::sim {
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::infinity();
+
+LidarConfig one_ring() {
+  LidarConfig lidar;
+  lidar.rings = 1;
+  return lidar;
+}
+
+/// Ranges of a ring to a straight wall, whose nearest point is `distance_m` away at azimuth 0.
+std::vector<double> wall(const LidarConfig& lidar, double distance_m) {
+  std::vector<double> ranges;
+  for (int column = 0; column < lidar.columns; ++column) {
+    const double azimuth = 2.0 * std::numbers::pi * column / lidar.columns - std::numbers::pi;
+    ranges.push_back(std::cos(azimuth) > 0.05 ? distance_m / std::cos(azimuth) : kNothing);
+  }
+  return ranges;
+}
+
+TEST(LidarErrors, FindTheIncidenceOnAWall) {
+  const LidarConfig lidar = one_ring();
+  const std::vector<double> ranges = wall(lidar, 10.0);
+  const LidarErrors errors({}, lidar, 1, UavIndex{0});
+  for (const double azimuth : {0.0, 0.3, -0.7, 1.2}) {
+    const auto beam =
+        static_cast<std::size_t>(std::lround((azimuth + std::numbers::pi) / (2.0 * std::numbers::pi) * lidar.columns));
+    EXPECT_NEAR(errors.cos_incidence(ranges, beam), std::cos(azimuth), 0.03) << azimuth;
+  }
+}
+
+TEST(LidarErrors, DarkSurfacesVanishAtTheRangeThatTheirAngleAllows) {
+  const LidarConfig lidar = one_ring();
+  LidarErrors errors({.reflectivity = 0.04, .full_range_m = 100.0}, lidar, 1, UavIndex{0});
+  const std::vector<double> ranges = wall(lidar, 15.0);
+  const std::vector<double>& measured = errors.measure(0, ranges);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (!std::isfinite(ranges[i])) continue;
+    // 20 m sqrt(cos) against 15 m / cos.
+    const double azimuth = 2.0 * std::numbers::pi * static_cast<double>(i) / lidar.columns - std::numbers::pi;
+    const double seen_m = 20.0 * std::sqrt(std::cos(azimuth));
+    if (std::abs(ranges[i] / seen_m - 1.0) < 0.03) continue;
+    EXPECT_EQ(measured[i], ranges[i] < seen_m ? ranges[i] : kNothing) << azimuth;
+  }
+}
+
+TEST(LidarErrors, NoiseGrowsWithTheRange) {
+  const LidarConfig lidar = one_ring();
+  LidarErrors errors({.sigma_per_m = 0.002}, lidar, 1, UavIndex{0});
+  for (const double range : {5.0, 40.0}) {
+    const std::vector<double> ranges(static_cast<std::size_t>(lidar.columns), range);
+    double sum = 0.0, squares = 0.0;
+    constexpr int kScans = 200;
+    for (std::uint64_t scan = 0; scan < kScans; ++scan) {
+      for (const double measured : errors.measure(scan, ranges)) {
+        sum += measured - range;
+        squares += (measured - range) * (measured - range);
+      }
+    }
+    const double count = kScans * lidar.columns, sigma = 0.002 * range;
+    EXPECT_NEAR(sum / count, 0.0, 0.02 * sigma);
+    EXPECT_NEAR(squares / count, sigma * sigma, 0.03 * sigma * sigma);
+  }
+}
+
+TEST(LidarErrors, RainReturnsWhatItsProbabilitySaysAndNothingBehindASurface) {
+  const LidarConfig lidar = one_ring();
+  LidarErrors errors({.clutter_p = 0.02, .clutter_mean_m = 4.0}, lidar, 1, UavIndex{0});
+  std::vector<double> ranges(static_cast<std::size_t>(lidar.columns), kNothing);
+  for (std::size_t i = 0; i < ranges.size(); i += 2) ranges[i] = lidar.range_min_m + 2.0;
+  double drops = 0.0, before_surface = 0.0, way_m = 0.0;
+  constexpr int kScans = 1000;
+  for (std::uint64_t scan = 0; scan < kScans; ++scan) {
+    const std::vector<double>& measured = errors.measure(scan, ranges);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      ASSERT_LE(measured[i], ranges[i]);
+      if (measured[i] == ranges[i]) continue;
+      ASSERT_GE(measured[i], lidar.range_min_m);
+      if (i % 2 == 0) {
+        before_surface += 1.0;
+      } else {
+        drops += 1.0;
+        way_m += measured[i] - lidar.range_min_m;
+      }
+    }
+  }
+  const double beams = 0.5 * kScans * lidar.columns;
+  EXPECT_NEAR(drops / beams, 0.02, 0.001);
+  EXPECT_NEAR(way_m / drops, 4.0, 0.25);
+  EXPECT_NEAR(before_surface / beams, 0.02 * (1.0 - std::exp(-0.5)), 0.001);
+}
+
+}  // namespace
+}  // namespace skein::sim

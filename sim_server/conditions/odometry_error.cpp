@@ -1,0 +1,85 @@
+#include "sim_server/conditions/odometry_error.hpp"
+
+#include <cmath>
+
+#include "core/euler.hpp"
+#include "sim_server/conditions/normals.hpp"
+
+namespace skein::sim {
+
+void GaussMarkov::step(double keeps, RandomStream& draw) {
+  value_ = keeps * value_ + std::sqrt(1.0 - keeps * keeps) * draw.normal();
+}
+
+OdometryError::OdometryError(const OdometryConditions& config, std::uint64_t seed, UavIndex uav)
+    : config_(config),
+      draw_(seed, "odometry_error", uav),
+      noise_draw_(seed, "odometry_noise", uav),
+      bias_m_(config.bias_sigma_m * normals(draw_)),
+      x_(draw_),
+      y_(draw_),
+      z_(draw_),
+      yaw_(draw_) {
+  if (config_.mean_fix_s) until_change_s_ = draw_duration(*config_.mean_fix_s);
+  draw_noise();
+}
+
+Vector3d OdometryError::with_fix_m() const {
+  return bias_m_ + Vector3d(config_.horizontal_sigma_m * x_.value(), config_.horizontal_sigma_m * y_.value(),
+                            config_.vertical_sigma_m * z_.value());
+}
+
+Vector3d OdometryError::position_error_m() const { return lost_ ? walked_m_ : with_fix_m(); }
+double OdometryError::yaw_error() const { return config_.yaw_sigma_deg * kRadPerDeg * yaw_.value(); }
+
+void OdometryError::step(double step_s) {
+  const double keeps = std::exp(-step_s / config_.time_constant_s);
+  for (GaussMarkov* axis : {&x_, &y_, &z_}) axis->step(keeps, draw_);
+  yaw_.step(std::exp(-step_s / config_.yaw_time_constant_s), draw_);
+  if (!config_.mean_fix_s) return;
+  if (lost_) {
+    lost_s_ += step_s;
+    walked_m_ += config_.walk_m_per_sqrt_s * std::sqrt(step_s) * normals(draw_);
+  }
+  until_change_s_ -= step_s;
+  if (until_change_s_ > 0.0) return;
+  if (!lost_) {
+    walked_m_ = with_fix_m();
+    lost_s_ = 0.0;
+  }
+  lost_ = !lost_;
+  until_change_s_ = draw_duration(lost_ ? config_.mean_lost_s : *config_.mean_fix_s);
+}
+
+void OdometryError::draw_noise() {
+  noise_m_ = config_.noise_sigma_m * normals(noise_draw_);
+  velocity_noise_mps_ = config_.velocity_sigma_mps * normals(noise_draw_);
+}
+
+RigidBodyState OdometryError::believed(const RigidBodyState& truth) const {
+  RigidBodyState state = truth;
+  state.p_WB += position_error_m();
+  state.q_WB = Eigen::AngleAxisd(yaw_error(), Vector3d::UnitZ()) * truth.q_WB;
+  return state;
+}
+
+RigidBodyState OdometryError::told(const RigidBodyState& truth) const {
+  RigidBodyState state = believed(truth);
+  state.p_WB += noise_m_;
+  state.v_WB += velocity_noise_mps_;
+  return state;
+}
+
+PoseUncertainty OdometryError::uncertainty() const {
+  const double walk_m = lost_ ? config_.walk_m_per_sqrt_s * std::sqrt(lost_s_) : 0.0;
+  const auto deviation = [&](double sigma_m) {
+    return std::sqrt(sigma_m * sigma_m + config_.bias_sigma_m * config_.bias_sigma_m +
+                     config_.noise_sigma_m * config_.noise_sigma_m + walk_m * walk_m);
+  };
+  const double horizontal_m = deviation(config_.horizontal_sigma_m);
+  return {{horizontal_m, horizontal_m, deviation(config_.vertical_sigma_m)},
+          config_.yaw_sigma_deg * kRadPerDeg,
+          config_.velocity_sigma_mps};
+}
+
+}  // namespace skein::sim

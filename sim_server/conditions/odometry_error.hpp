@@ -1,0 +1,66 @@
+// How far one UAV's idea of where it is lies off the truth.
+//
+// Position and yaw: first-order Gauss-Markov processes, and a constant offset. While the fix is lost, the position walks
+// off at random from where it was, and the yaw goes on as before; afterwards the error jumps back to what it would have
+// been. The flight controller flies by this, the LiDAR's clouds and what the camera finds are placed by it: all that a
+// UAV is told agrees. The messages have white noise on top, the same in all samples of an exchange.
+// Frames: W world, B body.  Units: SI, radians.  Threads: one.  The same seed gives the same bits.
+#pragma once
+
+#include "core/conditions.hpp"
+#include "core/random_stream.hpp"
+#include "core/told_state.hpp"
+#include "core/types.hpp"
+
+namespace skein::sim {
+
+/// dx = -x / tau dt + noise, with a stationary deviation of 1.
+class GaussMarkov {
+ public:
+  explicit GaussMarkov(RandomStream& draw) : value_(draw.normal()) {}
+  /// @param keeps  exp(-step / tau).
+  void step(double keeps, RandomStream& draw);
+  double value() const { return value_; }
+
+ private:
+  double value_;
+};
+
+class OdometryError {
+ public:
+  OdometryError(const OdometryConditions& config, std::uint64_t seed, UavIndex uav);
+
+  /// A time step later.
+  void step(double step_s);
+  /// Another exchange begins: its noise.
+  void draw_noise();
+
+  /// Where the UAV's flight controller takes the UAV to be.
+  RigidBodyState believed(const RigidBodyState& truth) const;
+  /// The same with the noise of the messages of this exchange.
+  RigidBodyState told(const RigidBodyState& truth) const;
+  /// Takes what is in W to where the UAV that is truly at X_WB takes it to be.
+  Isometry3d X_told_W(const RigidBodyState& truth) const { return told(truth).X_WB() * truth.X_WB().inverse(); }
+  /// Of told().
+  PoseUncertainty uncertainty() const;
+
+  bool has_fix() const { return !lost_; }
+  Vector3d position_error_m() const;
+  double yaw_error() const;
+
+ private:
+  double draw_duration(double mean_s) { return -mean_s * portable_log(1.0 - draw_.uniform()); }
+  Vector3d with_fix_m() const;
+
+  OdometryConditions config_;
+  RandomStream draw_, noise_draw_;
+  Vector3d bias_m_;
+  GaussMarkov x_, y_, z_, yaw_;
+  bool lost_ = false;
+  double until_change_s_ = 0.0;  ///< of the fix
+  double lost_s_ = 0.0;
+  Vector3d walked_m_ = Vector3d::Zero();  ///< the error while the fix is lost
+  Vector3d noise_m_ = Vector3d::Zero(), velocity_noise_mps_ = Vector3d::Zero();
+};
+
+}  // namespace skein::sim

@@ -1,0 +1,148 @@
+// The odometry's error against its formulas, over long samples; and what it says of itself against what it does.
+#include "sim_server/conditions/odometry_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/euler.hpp"
+
+namespace skein::sim {
+namespace {
+
+constexpr double kStep_s = 0.05;
+const Quaterniond kTilted(Matrix3d(rotation_z(1.3) * rotation_y(-0.2)));
+
+TEST(OdometryError, IsAGaussMarkovProcessOfItsDeviationAndTimeConstant) {
+  const OdometryConditions config{.horizontal_sigma_m = 0.3,
+                                  .vertical_sigma_m = 0.6,
+                                  .time_constant_s = 5.0,
+                                  .yaw_sigma_deg = 2.0,
+                                  .yaw_time_constant_s = 8.0,
+                                  .mean_fix_s = {}};
+  OdometryError error(config, 1, UavIndex{0});
+  constexpr std::size_t kSteps = 1'000'000;
+  std::vector<double> x(kSteps), z(kSteps), yaw(kSteps);
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    error.step(kStep_s);
+    x[i] = error.position_error_m().x();
+    z[i] = error.position_error_m().z();
+    yaw[i] = error.yaw_error();
+  }
+  const auto correlation = [](const std::vector<double>& values, double lag_s) {
+    const auto lag = static_cast<std::size_t>(std::lround(lag_s / kStep_s));
+    double sum = 0.0;
+    for (std::size_t i = lag; i < values.size(); ++i) sum += values[i] * values[i - lag];
+    return sum / static_cast<double>(values.size() - lag);
+  };
+  const double yaw2 = std::pow(2.0 * kRadPerDeg, 2);
+  for (const double lag_s : {0.0, 2.0, 5.0, 15.0}) {
+    EXPECT_NEAR(correlation(x, lag_s) / 0.09, std::exp(-lag_s / 5.0), 0.06) << lag_s;
+    EXPECT_NEAR(correlation(z, lag_s) / 0.36, std::exp(-lag_s / 5.0), 0.06) << lag_s;
+    EXPECT_NEAR(correlation(yaw, lag_s) / yaw2, std::exp(-lag_s / 8.0), 0.07) << lag_s;
+  }
+}
+
+/// Normalised estimation errors squared, of position, yaw and velocity; each is 1 a degree of freedom if what the
+/// odometry says of its errors is true.
+struct Nees {
+  double position = 0.0, yaw = 0.0, velocity = 0.0;
+  std::size_t samples = 0, without_fix = 0;
+};
+
+Nees nees(const OdometryConditions& config, bool only_without_fix = false) {
+  constexpr std::uint64_t kSeeds = 4000;
+  constexpr double kDuration_s = 40.0;
+  const RigidBodyState truth{.p_WB = {3, -4, 20}, .q_WB = kTilted, .v_WB = {1, 2, 0}};
+  Nees sum;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    OdometryError error(config, seed, UavIndex{seed % 5});
+    const double until_s = kDuration_s * RandomStream(seed, "nees_test", 0).uniform();
+    for (double t = 0.0; t < until_s; t += kStep_s) error.step(kStep_s);
+    error.draw_noise();
+    sum.without_fix += error.has_fix() ? 0 : 1;
+    if (only_without_fix && error.has_fix()) continue;
+    const RigidBodyState told = error.told(truth);
+    const PoseUncertainty sigma = error.uncertainty();
+    sum.position += (told.p_WB - truth.p_WB).cwiseQuotient(sigma.position_m).squaredNorm();
+    const Eigen::AngleAxisd turn(told.q_WB * truth.q_WB.conjugate());
+    sum.yaw += std::pow(turn.angle() * turn.axis().z() / sigma.yaw, 2);
+    sum.velocity += ((told.v_WB - truth.v_WB) / sigma.velocity_mps).squaredNorm();
+    ++sum.samples;
+  }
+  const auto n = static_cast<double>(sum.samples);
+  sum.position /= n;
+  sum.yaw /= n;
+  sum.velocity /= n;
+  return sum;
+}
+
+/// Four deviations of the mean of n sums of squares of `dof` normal numbers.
+double tolerance(double dof, std::size_t n) { return 4.0 * std::sqrt(2.0 * dof / static_cast<double>(n)); }
+
+TEST(OdometryError, ItsCovarianceIsConsistentWithWhatItIsOffBy) {
+  for (const char* preset : {"breezy", "harsh"}) {
+    OdometryConditions config = conditions_preset(preset).odometry;
+    const Nees all = nees(config);
+    EXPECT_NEAR(all.position, 3.0, tolerance(3.0, all.samples)) << preset;
+    EXPECT_NEAR(all.yaw, 1.0, tolerance(1.0, all.samples)) << preset;
+    EXPECT_NEAR(all.velocity, 3.0, tolerance(3.0, all.samples)) << preset;
+  }
+}
+
+TEST(OdometryError, ItsCovarianceIsConsistentWithoutAFixToo) {
+  OdometryConditions config = conditions_preset("harsh").odometry;
+  config.mean_fix_s = 10.0;
+  config.mean_lost_s = 10.0;
+  config.walk_m_per_sqrt_s = 0.3;
+  const Nees lost = nees(config, true);
+  ASSERT_GT(lost.samples, 1000U) << "of 4000 flights, about half have no fix";
+  EXPECT_NEAR(lost.position, 3.0, tolerance(3.0, lost.samples));
+}
+
+TEST(OdometryError, WalksOffWithoutAFixAndJumpsBackWithOne) {
+  OdometryConditions config{
+      .horizontal_sigma_m = 0.1, .vertical_sigma_m = 0.1, .time_constant_s = 1e4, .mean_fix_s = {}};
+  config.mean_fix_s = 20.0;
+  config.mean_lost_s = 60.0;
+  config.walk_m_per_sqrt_s = 1.0;
+  double walked2 = 0.0, lost_s = 0.0, jumps = 0.0;
+  int returns = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    OdometryError error(config, seed, UavIndex{0});
+    for (double t = 0.0; t < 300.0; t += kStep_s) {
+      const bool had_fix = error.has_fix();
+      const Vector3d before = error.position_error_m();
+      error.step(kStep_s);
+      const Vector3d moved = error.position_error_m() - before;
+      if (had_fix && error.has_fix()) {
+        EXPECT_LT(moved.norm(), 0.02);
+      }
+      if (!had_fix && !error.has_fix()) {
+        walked2 += moved.squaredNorm();
+        lost_s += kStep_s;
+      }
+      if (had_fix || !error.has_fix()) continue;
+      ++returns;
+      jumps += moved.norm();
+      EXPECT_LT(error.position_error_m().norm(), 1.0) << "it is known again";
+    }
+  }
+  EXPECT_NEAR(walked2 / lost_s, 3.0, 0.1) << "the square of a metre a second, each axis";
+  ASSERT_GT(returns, 100);
+  EXPECT_GT(jumps / returns, 3.0) << "back over what it walked in a minute";
+}
+
+TEST(OdometryError, PlacesWhatIsSeenByWhereTheUavTakesItselfToBe) {
+  OdometryError error(conditions_preset("harsh").odometry, 5, UavIndex{0});
+  const RigidBodyState truth{.p_WB = {3, -4, 20}, .q_WB = kTilted};
+  const Isometry3d X_told_W = error.X_told_W(truth);
+  EXPECT_LT((X_told_W * truth.p_WB - error.told(truth).p_WB).norm(), 1e-9);
+  // A point 10 m ahead of the body is 10 m ahead of where the UAV takes the body to be.
+  const Vector3d p_W = truth.X_WB() * Vector3d(10, 0, 0);
+  EXPECT_LT((X_told_W * p_W - error.told(truth).X_WB() * Vector3d(10, 0, 0)).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace skein::sim

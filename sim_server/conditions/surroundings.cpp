@@ -1,0 +1,75 @@
+#include "sim_server/conditions/surroundings.hpp"
+
+#include <cmath>
+
+namespace skein::sim {
+namespace {
+
+constexpr Tick kErrorTicks = kControlTicks;  ///< between two steps of the odometry's error: as the controller's
+constexpr Tick kPowerTicks = 4;              ///< between two looks at the power
+
+}  // namespace
+
+Surroundings::Surroundings(const Scenario& scenario, std::uint64_t seed, UavIndex uav)
+    : conditions_(scenario.conditions),
+      vehicle_(scenario.fleet[uav].vehicle),
+      latency_(static_cast<std::size_t>(std::lround(conditions_.odometry.latency_s / scenario.exchange_period_s))) {
+  if (conditions_.wind.on()) wind_.emplace(conditions_.wind, seed, uav);
+  if (conditions_.odometry.on()) odometry_.emplace(conditions_.odometry, seed, uav);
+  if (conditions_.battery.on()) battery_.emplace(conditions_.battery, vehicle_, scenario.duration_s);
+}
+
+void Surroundings::begin_exchange() {
+  if (odometry_) odometry_->draw_noise();
+}
+
+void Surroundings::begin_tick(Tick tick, const RigidBodyState& state, const Vector3d& gust_W) {
+  if (odometry_ && tick % kErrorTicks == 0) odometry_->step(seconds(kErrorTicks));
+  v_WA_ = gust_W;
+  if (!wind_) return;
+  wind_->step(state.p_WB, state.v_WB, kTickS, gust_W);
+  v_WA_ = wind_->velocity_W();
+}
+
+Wrench Surroundings::fly(Vehicle& vehicle, const RigidBodyState& state) {
+  vehicle.control_attitude(believed(state));
+  Wrench wrench = vehicle.fly(state, v_WA_);
+  // A UAV that has not begun to fly stands firm; without wind the reference has no drag of the body.
+  if (v_WA_.isZero(0.0) || vehicle.mode() == ControlMode::idle) return wrench;
+  wrench.force_B += state.q_WB.conjugate() * body_drag(conditions_.wind.body_drag_area_m2, state.v_WB - v_WA_);
+  return wrench;
+}
+
+bool Surroundings::spend(Tick tick, const Vehicle& vehicle, const RigidBodyState& state) {
+  if (!battery_ || empty_ || tick % kPowerTicks != 0 || vehicle.mode() == ControlMode::idle) return false;
+  const Vector3d v_AB_B = state.q_WB.conjugate() * (state.v_WB - v_WA_);
+  battery_->draw(electric_power(conditions_.battery, vehicle_, vehicle.rotor_thrusts_n(), v_AB_B),
+                 seconds(kPowerTicks));
+  if (!battery_->empty()) return false;
+  empty_ = tick;
+  return true;
+}
+
+RigidBodyState Surroundings::believed(const RigidBodyState& truth) const {
+  return odometry_ ? odometry_->believed(truth) : truth;
+}
+
+std::optional<Isometry3d> Surroundings::X_told_W(const RigidBodyState& truth) const {
+  return odometry_ ? std::optional(odometry_->X_told_W(truth)) : std::nullopt;
+}
+
+ToldState Surroundings::tell(Tick tick, const RigidBodyState& truth) {
+  told_.push_back({tick, odometry_ ? odometry_->told(truth) : truth});
+  while (told_.size() > latency_ + 1) told_.pop_front();
+  return told_.front();
+}
+
+BatteryUse Surroundings::battery_use() const {
+  constexpr double kJoulesPerWh = 3600.0;
+  if (!battery_) return {};
+  const double time_s = battery_->time_s();
+  return {battery_->capacity_wh(), battery_->given_j() / kJoulesPerWh,
+          time_s > 0.0 ? battery_->given_j() / time_s : 0.0, empty_};
+}
+
+}  // namespace skein::sim

@@ -1,0 +1,98 @@
+#include "sim_server/conditions/wind.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/euler.hpp"
+#include "core/rotor_power.hpp"
+#include "sim_server/conditions/normals.hpp"
+
+namespace skein::sim {
+namespace {
+
+constexpr double kReferenceHeight_m = 10.0;  ///< of WindConditions::mean_mps
+constexpr double kFoot_m = 0.3048;
+constexpr double kTwentyFeet_m = 20.0 * kFoot_m;
+/// A UAV that drifts with the wind still meets new air, as eddies turn.
+constexpr double kLeastAirspeed_mps = 1.0;
+
+/// Drawn once for a run, whoever asks.
+double direction_from(const WindConditions& wind, std::uint64_t seed) {
+  if (wind.from_deg) return *wind.from_deg * kRadPerDeg;
+  return RandomStream(seed, "wind_direction", 0).uniform(0.0, 2.0 * std::numbers::pi);
+}
+
+Vector3d blown_to(double from) { return {-std::cos(from), -std::sin(from), 0.0}; }
+
+}  // namespace
+
+double mean_wind(const WindConditions& wind, double height_m) {
+  const double z0_m = wind.roughness_length_m;
+  return wind.mean_mps * std::log(std::max(height_m, z0_m) / z0_m) / std::log(kReferenceHeight_m / z0_m);
+}
+
+GustScales gust_scales(const WindConditions& wind, double height_m) {
+  const double h_ft = std::clamp(height_m / kFoot_m, 10.0, 1000.0);
+  const double base = 0.177 + 0.000823 * h_ft;
+  const double sigma_up = 0.1 * wind.turbulence * mean_wind(wind, kTwentyFeet_m);
+  return {sigma_up / std::pow(base, 0.4), sigma_up, h_ft / std::pow(base, 1.2) * kFoot_m, h_ft * kFoot_m};
+}
+
+double LongitudinalGust::step(double way, RandomStream& draw) {
+  const double keeps = std::exp(-way);
+  state_ = keeps * state_ + std::sqrt(1.0 - keeps * keeps) * draw.normal();
+  return state_;
+}
+
+// Over distance in lengths L: dx1 = -x1 ds + dW, dx2 = (x1 - x2) ds, and the gust is sqrt(3) x1 + (1 - sqrt(3)) x2,
+// whose transfer function is (1 + sqrt(3) s) / (1 + s)^2. Stationary: var x1 = 1/2, cov = var x2 = 1/4.
+TransverseGust::TransverseGust(RandomStream& draw) : first_(std::sqrt(0.5) * draw.normal()), second_(0.0) {
+  second_ = 0.5 * first_ + std::sqrt(0.125) * draw.normal();
+}
+
+double TransverseGust::step(double way, RandomStream& draw) {
+  const double keeps = std::exp(-way), keeps2 = keeps * keeps;
+  const double var_1 = 0.5 * (1.0 - keeps2);
+  const double cov = 0.25 * (1.0 - keeps2 * (1.0 + 2.0 * way));
+  const double var_2 = 0.25 * (1.0 - keeps2 * (1.0 + 2.0 * way + 2.0 * way * way));
+  const double a = std::sqrt(var_1), b = a > 0.0 ? cov / a : 0.0, c = std::sqrt(std::max(0.0, var_2 - b * b));
+  const double noise_1 = draw.normal(), noise_2 = draw.normal();
+  second_ = keeps * (second_ + way * first_) + b * noise_1 + c * noise_2;
+  first_ = keeps * first_ + a * noise_1;
+  return std::numbers::sqrt3 * first_ + (1.0 - std::numbers::sqrt3) * second_;
+}
+
+Wind::Wind(const WindConditions& wind, std::uint64_t seed, UavIndex uav)
+    : wind_(wind),
+      draw_(seed, "gusts", uav),
+      estimate_draw_(seed, "wind_estimate", uav),
+      along_W_(blown_to(direction_from(wind, seed))),
+      across_W_(Vector3d::UnitZ().cross(along_W_)),
+      u_(draw_),
+      v_(draw_),
+      w_(draw_),
+      error_W_(wind.estimate_sigma_mps * normals(estimate_draw_)) {}
+
+void Wind::step(const Vector3d& p_WB, const Vector3d& v_WB, double step_s, const Vector3d& extra_W) {
+  const Vector3d mean_W = mean_wind(wind_, p_WB.z()) * along_W_;
+  const GustScales scales = gust_scales(wind_, p_WB.z());
+  const double way_m = step_s * std::max(kLeastAirspeed_mps, (v_WB - mean_W).norm());
+  velocity_W_ = mean_W + extra_W;
+  if (scales.sigma_up_mps > 0.0) {
+    const double u = u_.step(way_m / scales.length_across_m, draw_), v = v_.step(way_m / scales.length_across_m, draw_);
+    const double w = w_.step(way_m / scales.length_up_m, draw_);
+    velocity_W_ +=
+        scales.sigma_across_mps * (u * along_W_ + v * across_W_) + scales.sigma_up_mps * w * Vector3d::UnitZ();
+  }
+  const double keeps = std::exp(-step_s / wind_.estimate_time_constant_s);
+  lagging_W_ = begun_ ? Vector3d(keeps * lagging_W_ + (1.0 - keeps) * velocity_W_) : velocity_W_;
+  begun_ = true;
+  error_W_ = keeps * error_W_ + wind_.estimate_sigma_mps * std::sqrt(1.0 - keeps * keeps) * normals(estimate_draw_);
+}
+
+Vector3d body_drag(double drag_area_m2, const Vector3d& v_A) {
+  return -0.5 * kAirDensity * drag_area_m2 * v_A.norm() * v_A;
+}
+
+}  // namespace skein::sim

@@ -1,0 +1,152 @@
+#include "uav_agent/flight_core/caution.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/random_stream.hpp"
+#include "uav_agent/flight_core/flight_core.hpp"
+#include "uav_agent/testing/flown_uav.hpp"
+#include "uav_agent/testing/test_world.hpp"
+
+namespace skein::agent {
+namespace {
+
+AgentConfig with_battery() {
+  AgentConfig agent;
+  agent.fleet = {{.name = "a"}};
+  agent.battery.endurance_missions = 0.5;
+  agent.duration_s = 400.0;
+  return agent;
+}
+
+/// A UAV at a place; what it is told is set by hand.
+struct Told : FlownUav {
+  explicit Told(const FlightConfig& flight = {})
+      : FlownUav(with_battery(), {0.0, 0.0, 20.0}), flight_config(flight), caution(flight_config, agent) {}
+  PlannerInput told() const {
+    PlannerInput in = input();
+    in.uncertainty = uncertainty;
+    in.battery = battery;
+    in.wind_W = wind_W;
+    return in;
+  }
+  FlightConfig flight_config;
+  PoseUncertainty uncertainty;
+  std::optional<BatteryStatus> battery;
+  std::optional<Vector3d> wind_W;
+  Caution caution;
+};
+
+TEST(Caution, ChangesNothingWhereNothingIsTold) {
+  Told uav;
+  uav.caution.update(uav.told());
+  EXPECT_EQ(uav.caution.error_m(), 0.0);
+  EXPECT_EQ(uav.caution.most_mps(), std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(uav.caution.must_land(uav.told()));
+}
+
+TEST(Caution, KeepsFartherOffByCovarianceAndWindUpToABound) {
+  Told uav;
+  uav.uncertainty.position_m = {0.1, 0.1, 0.2};
+  uav.caution.update(uav.told());
+  EXPECT_NEAR(uav.caution.error_m(), uav.flight_config.drift_sigmas * 0.2, 1e-12);
+  uav.wind_W = Vector3d(0, 8, 0);
+  uav.caution.update(uav.told());
+  EXPECT_NEAR(uav.caution.error_m(), uav.flight_config.drift_sigmas * 0.2 + uav.flight_config.wind_error_s * 8.0,
+              1e-12);
+  uav.uncertainty.position_m = {5, 5, 5};
+  uav.caution.update(uav.told());
+  EXPECT_EQ(uav.caution.error_m(), 1.0);
+}
+
+TEST(Caution, FliesSlowerInGustsAndNotInASteadyWind) {
+  for (const double gusts_mps : {0.0, 2.0, 4.0}) {
+    Told uav;
+    RandomStream draw(1, "caution_test", 0);
+    for (int i = 0; i < 4000; ++i) {
+      uav.wind_W = Vector3d(9.0 + gusts_mps * draw.normal(), 0, 0);
+      uav.caution.update(uav.told());
+    }
+    if (gusts_mps == 0.0) {
+      EXPECT_GE(uav.caution.most_mps(), uav.flight_config.approach_mps);
+    } else {
+      EXPECT_NEAR(uav.caution.most_mps() / uav.flight_config.approach_mps,
+                  std::max(0.5, 1.0 - uav.flight_config.gust_slows_s_m * (gusts_mps - 1.0)), 0.06);
+    }
+  }
+}
+
+TEST(Caution, GoesHomeByTheChargeTheWayAndTheWind) {
+  // Half the charge is gone in 100 s of 0.5 missions of 400 s: a second costs 0.005.
+  const auto lands_at = [](const Vector3d& p_WB, const std::optional<Vector3d>& wind_W) {
+    Told uav;
+    uav.state.p_WB = p_WB;
+    uav.wind_W = wind_W;
+    double charge = 1.0;
+    for (; charge > 0.0; charge -= 0.005 * 0.05) {
+      uav.battery = BatteryStatus{.charge = charge};
+      uav.caution.update(uav.told());
+      if (uav.caution.must_land(uav.told())) break;
+      ++uav.k;
+    }
+    return charge;
+  };
+  const double reserve = with_battery().battery.reserve;
+  const double near = lands_at({0, 0, 10}, {}), far = lands_at({60, 0, 10}, {}), high = lands_at({0, 0, 40}, {});
+  EXPECT_GT(near, reserve);
+  EXPECT_GT(far, near + 0.005 * 60.0 / 6.0) << "60 m take 10 s at least";
+  EXPECT_NEAR(high - near, 1.15 * 0.005 * 30.0, 0.01) << "30 m more at 1 m/s";
+  EXPECT_GT(lands_at({60, 0, 10}, Vector3d(10, 0, 0)), far) << "against the wind";
+  EXPECT_NEAR(lands_at({60, 0, 10}, Vector3d(-10, 0, 0)), far, 1e-3) << "a tail wind is not counted on";
+}
+
+TEST(Caution, ARestartOrAPauseIsNoReasonToGoHome) {
+  Told uav;
+  uav.battery = BatteryStatus{.charge = 0.6};  // the first that a restarted program hears
+  uav.caution.update(uav.told());
+  EXPECT_FALSE(uav.caution.must_land(uav.told()));
+  uav.k += 400;  // 20 s at 0.005 a second
+  uav.battery->charge = 0.5;
+  uav.caution.update(uav.told());
+  EXPECT_FALSE(uav.caution.must_land(uav.told()));
+}
+
+TEST(Caution, CanBeTurnedOff) {
+  Told uav(FlightConfig{.reacts = false});
+  uav.uncertainty.position_m = {1, 1, 1};
+  uav.wind_W = Vector3d(9, 0, 0);
+  uav.battery = BatteryStatus{.charge = 0.01};
+  uav.caution.update(uav.told());
+  EXPECT_EQ(uav.caution.error_m(), 0.0);
+  EXPECT_FALSE(uav.caution.must_land(uav.told()));
+}
+
+// What the core does with it, until the UAV rests.
+TEST(FlightCore, AUavWithALowBatteryFliesToItsStartAndLands) {
+  Told uav;
+  uav.clear({-24.0, -24.0, 0.0}, {24.0, 24.0, 24.0});
+  uav.boxes = {make_box({0.0, 15.0, 9.0}, {6.0, 6.0, 8.0})};
+  FlightCore core(uav.flight_config, uav.agent);
+  uav.state.p_WB = {12.0, -9.0, 12.0};
+  double charge = 0.5;
+  bool landing = false;
+  for (int i = 0; i < 2400; ++i, charge -= 0.005 * 0.05) {
+    uav.battery = BatteryStatus{.charge = charge};
+    PlannerInput in = uav.told();
+    core.update(in);
+    const Steering steering = core.step(in, std::vector<Goal>{{.id = 1, .way = {{Vector3d(14.0, 5.0, 14.0), 3.0}}}});
+    landing = landing || core.doing(in).what == Doing::What::lands;
+    if (const auto* path = std::get_if<Path>(&steering.motion)) uav.tracker.follow(*path);
+    if (std::holds_alternative<Hold>(steering.motion)) uav.tracker.hold();
+    core.move(uav.tracker,
+              {.tick = in.tick, .state = uav.state, .map = uav.map, .boxes = uav.boxes, .peers = uav.peers});
+    uav.state.p_WB = uav.tracker.commanded().p_WB;
+    uav.state.v_WB = uav.tracker.commanded().v_WB;
+    ++uav.k;
+  }
+  EXPECT_TRUE(landing);
+  EXPECT_LT(uav.state.p_WB.head<2>().norm(), 1.0) << "at its start";
+  EXPECT_LT(uav.state.p_WB.z(), 0.0) << "its setpoint is below the ground: it stands firm";
+}
+
+}  // namespace
+}  // namespace skein::agent
