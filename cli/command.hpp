@@ -61,6 +61,7 @@ struct RunOptions {
   std::vector<std::string> log;                     ///< UAV=LEVEL
   bool cores = false;                               ///< programs that crash leave a core
   bool one_process = false;                         ///< all programs in one process, without DDS
+  std::optional<int> threads;                       ///< of that process
   bool stepped = false;                             ///< there a program steps them, and says what learners do
   bool native = false;
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fault_plan.hpp"
+#include "core/for_each.hpp"
 #include "core/link_matrix.hpp"
 #include "core/scenario.hpp"
 #include "sim_server/rays/ray_scene.hpp"
@@ -28,7 +29,8 @@ class LinkTracer {
         unfailed_(scenario.fleet.size() + 1) {}
 
   /// @param rays  with the bodies where they are. @param uavs  in fleet order.
-  Links trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs);
+  Links trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs,
+              const ForEach& for_each = one_after_another);
   /// Those of the last trace() before faults limited their range.
   const Links& unfailed() const { return unfailed_; }
   /// Those that blackouts, outages and partitions leave.

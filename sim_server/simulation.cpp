@@ -21,6 +21,8 @@ namespace {
 /// A UAV idles while it is slower than this and no capture has raised one of its scores for this long.
 constexpr double kIdleSpeed = 0.1;
 constexpr Tick kIdleAge = 5 * kTicksPerSecond;
+/// The forces on a UAV take a microsecond: only so many at once are worth a helper.
+constexpr std::size_t kForcesAtOnce = 32;
 
 /// Everything that belongs to one UAV.
 struct Uav {
@@ -58,6 +60,7 @@ struct Simulation::Impl {
   void deliver_commands();
   void run_tick();
   void control_and_fly();
+  Wrench control(UavIndex i);
   void judge_mission();
   void measure(const std::vector<RigidBodyState>& before);
   void take_pictures();
@@ -87,6 +90,7 @@ struct Simulation::Impl {
   std::uint64_t step = 0;
   Tick tick = 0;
   WorkClock* clock = nullptr;
+  ForEach for_each = one_after_another;
   Tick rays_tick = -1;  ///< the tick whose poses `rays` has
 };
 
@@ -162,16 +166,26 @@ void Simulation::Impl::run_tick() {
 }
 
 void Simulation::Impl::control_and_fly() {
+  std::vector<Wrench> wrenches(uavs.size());
+  const auto control_some = [&](std::size_t part) {
+    const std::size_t end = std::min(uavs.size(), (part + 1) * kForcesAtOnce);
+    for (std::size_t i = part * kForcesAtOnce; i < end; ++i) wrenches[i] = control(UavIndex{i});
+  };
+  for_each((uavs.size() + kForcesAtOnce - 1) / kForcesAtOnce, control_some);
   for (const UavIndex i : FirstUavs(uavs.size())) {
-    Uav& uav = uavs[i];
     const RigidBodyState& state = world.state(i);
-    if (tick % kControlTicks == 0 && listening(i)) {
-      const auto gimbal_command = std::exchange(uav.gimbal_command, std::nullopt);
-      uav.vehicle.control(tick, state, uav.link.take_trajectory(tick), gimbal_command);
-    }
-    const Wrench wrench = uav.vehicle.step(state);
-    world.apply_wrench(i, state.q_WB * wrench.force_B, state.q_WB * wrench.torque_B);
+    world.apply_wrench(i, state.q_WB * wrenches[i].force_B, state.q_WB * wrenches[i].torque_B);
   }
+}
+
+Wrench Simulation::Impl::control(UavIndex i) {
+  Uav& uav = uavs[i];
+  const RigidBodyState& state = world.state(i);
+  if (tick % kControlTicks == 0 && listening(i)) {
+    const auto gimbal_command = std::exchange(uav.gimbal_command, std::nullopt);
+    uav.vehicle.control(tick, state, uav.link.take_trajectory(tick), gimbal_command);
+  }
+  return uav.vehicle.step(state);
 }
 
 void Simulation::Impl::judge_mission() {
@@ -210,42 +224,60 @@ void Simulation::Impl::measure(const std::vector<RigidBodyState>& before) {
 }
 
 void Simulation::Impl::take_pictures() {
+  std::vector<UavIndex> firing;
   for (const UavIndex i : FirstUavs(uavs.size())) {
     Uav& uav = uavs[i];
     if (!mission.alive(i) || !uav.condition.camera_works) continue;
     if ((uav.manual_trigger && !uav.triggered) || !uav.camera.ready(tick)) continue;
     uav.triggered = false;
-    refresh_rays();
-    Capture capture = [&] {
-      const WorkSection section(clock, Work::camera);
-      return uav.camera.capture(tick, world.state(i), uav.vehicle.gimbal(), rays);
-    }();
+    firing.push_back(i);
+  }
+  if (firing.empty()) return;
+  refresh_rays();
+  std::vector<Capture> captures(firing.size());
+  {
+    const WorkSection section(clock, Work::camera, firing.size());
+    for_each(firing.size(), [&](std::size_t n) {
+      Uav& uav = uavs[firing[n]];
+      captures[n] = uav.camera.capture(tick, world.state(firing[n]), uav.vehicle.gimbal(), rays);
+    });
+  }
+  for (std::size_t n = 0; n < firing.size(); ++n) {
+    Uav& uav = uavs[firing[n]];
+    Capture& capture = captures[n];
     if (capture.detections.empty()) continue;
     ++uav.view.captures;
     if (capture.improved()) uav.last_raise = tick;
-    auto report = referee.enter(i, capture);
-    events.captures.push_back({i, std::move(capture), std::move(report)});
+    auto report = referee.enter(firing[n], capture);
+    events.captures.push_back({firing[n], std::move(capture), std::move(report)});
   }
 }
 
 void Simulation::Impl::take_scans() {
+  std::vector<UavIndex> scanning;
   for (const UavIndex i : FirstUavs(uavs.size())) {
     Uav& uav = uavs[i];
     if (!uav.lidar || !mission.alive(i)) continue;
     uav.lidar->move(tick, world.state(i).X_WB());
     if (!uav.condition.lidar_works || !uav.lidar->due(tick)) continue;
     events.servos.push_back({i, uav.lidar->servo(tick)});
-    const Isometry3d X_WB = world.state(i).X_WB();
-    if (!uav.scans_wanted && !uav.keyframes.wants(tick, X_WB)) continue;
-    refresh_rays();
-    LidarScan scan = [&] {
-      const WorkSection section(clock, Work::lidar);
-      return uav.lidar->scan(tick, X_WB, rays);
-    }();
-    if (auto key_frame = uav.keyframes.offer(scan, X_WB)) {
+    if (uav.scans_wanted || uav.keyframes.wants(tick, world.state(i).X_WB())) scanning.push_back(i);
+  }
+  if (scanning.empty()) return;
+  refresh_rays();
+  std::vector<LidarScan> scans(scanning.size());
+  {
+    const WorkSection section(clock, Work::lidar, scans.size());
+    for_each(scans.size(), [&](std::size_t n) {
+      scans[n] = uavs[scanning[n]].lidar->scan(tick, world.state(scanning[n]).X_WB(), rays);
+    });
+  }
+  for (std::size_t n = 0; n < scans.size(); ++n) {
+    const UavIndex i = scanning[n];
+    if (auto key_frame = uavs[i].keyframes.offer(scans[n], world.state(i).X_WB())) {
       events.key_frames.push_back({i, std::move(*key_frame), {}});
     }
-    events.scans.push_back({i, std::move(scan)});
+    events.scans.push_back({i, std::move(scans[n])});
   }
 }
 
@@ -279,7 +311,7 @@ void Simulation::Impl::trace_links() {
   refresh_rays();
   std::vector<LinkTracer::Place> places;
   for (const UavIndex i : FirstUavs(uavs.size())) places.push_back({world.state(i).p_WB, mission.alive(i)});
-  links = tracer.trace(tick, rays, places);
+  links = tracer.trace(tick, rays, places, for_each);
   open_links = tracer.open(tick, links);
 }
 
@@ -337,6 +369,7 @@ void Simulation::set_faults_by_hand(const std::vector<Fault>& faults) {
   all.insert(all.end(), faults.begin(), faults.end());
 }
 void Simulation::want_scans(UavIndex uav, bool wanted) { impl_->uavs[uav].scans_wanted = wanted; }
+void Simulation::share_work(ForEach for_each) { impl_->for_each = std::move(for_each); }
 void Simulation::watch(WorkClock* clock) { impl_->clock = clock; }
 
 void Simulation::advance() {
