@@ -38,13 +38,14 @@ void Workers::run(std::size_t count, const std::function<void(std::size_t)>& wor
     return;
   }
   Job job{.work = &work, .count = count};
+  const std::size_t helpers = std::min(helpers_.size(), count - 1);
   {
     const std::scoped_lock lock(mutex_);
     job_ = &job;
-    wanted_ = std::min(helpers_.size(), count - 1);
+    wanted_ = helpers;
     ++round_;
   }
-  wanted_ == 1 ? changed_.notify_one() : changed_.notify_all();
+  helpers == 1 ? changed_.notify_one() : changed_.notify_all();
   at_work = true;
   take_part(job);
   at_work = false;

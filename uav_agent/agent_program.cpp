@@ -52,7 +52,7 @@ void check_debug_names(const std::vector<std::string>& names, const std::string&
 
 /// @throws InputError when the planner wants maps that so many UAVs cannot tell each other.
 void check_fleet_size(const Planner& planner, const std::string& name, std::size_t uavs) {
-  if (!planner.wants_world_map() || uavs <= kMostUavs) return;
+  if ((!planner.wants_world_map() && !planner.flight()) || uavs <= kMostUavs) return;
   throw InputError("planner " + name + " wants the map of what is free, which up to " + std::to_string(kMostUavs) +
                    " UAVs tell each other; this fleet has " + std::to_string(uavs));
 }
