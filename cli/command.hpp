@@ -193,6 +193,7 @@ struct BenchOptions {
   bool sensing = false;                          ///< what an explorer knows, and nothing else
   bool tracking = false;                         ///< how far UAVs are from their set-points, and nothing else
   bool view = false;                             ///< what a page costs that follows a run, and nothing else
+  bool profile = false;                          ///< what each stage and planner costs by the size of the fleet
   std::optional<std::filesystem::path> against;  ///< the table of scores to compare with; none: the shipped one
   std::optional<std::filesystem::path> write;    ///< where the new table goes; of sensing, a folder
 };

@@ -1,6 +1,6 @@
 // The programs of a fleet as objects of this process. Each gets a turn when it can do something. Programs that share
-// nothing but the bus, the agents, have theirs side by side where there are threads for it; all others have theirs alone.
-// Nothing of a result depends on it: what a program hears in a turn is counted (docs/lockstep.md).
+// nothing but the bus, the agents, have theirs side by side where there are threads for it; all others have theirs
+// alone. Nothing of a result depends on it: what a program hears in a turn is counted (docs/lockstep.md).
 // What a process is to its program is kept up: a log of its own, a death that leaves no last words, standing still
 // while it is stopped, an end by an exception; and the CPU time that the server is told is its own
 // (process/thread_cpu.hpp).

@@ -269,7 +269,7 @@ TEST_P(CrewTest, EachWritesToItsOwnLog) {
     EXPECT_NE(text.find(name + " complains"), std::string::npos) << text;
     EXPECT_NE(text.find("[" + name + "] info " + name + " logs"), std::string::npos) << text;
     for (const std::string other : {"one", "two", "alone"}) {
-      if (other != name) EXPECT_EQ(text.find(other), std::string::npos) << text;
+      EXPECT_EQ(text.find(other) == std::string::npos, other != name) << text;
     }
   }
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/airframe.hpp"
+#include "sim_server/fleet_bodies.hpp"
 #include "sim_server/flight/command_link.hpp"
 #include "sim_server/flight/enclosure.hpp"
 #include "sim_server/flight/fleet_start.hpp"
@@ -21,7 +21,7 @@ namespace {
 /// A UAV idles while it is slower than this and no capture has raised one of its scores for this long.
 constexpr double kIdleSpeed = 0.1;
 constexpr Tick kIdleAge = 5 * kTicksPerSecond;
-/// The forces on a UAV take a microsecond: only so many at once are worth a helper.
+/// Forces on fewer, a microsecond each, are not worth a helper.
 constexpr std::size_t kForcesAtOnce = 32;
 
 /// Everything that belongs to one UAV.
@@ -38,18 +38,6 @@ struct Uav {
   bool scans_wanted = true;
   Tick last_raise = 0, idle_ticks = 0;  ///< when a capture last raised a score; how long it has idled
 };
-
-std::vector<BodyShape> body_shapes(const Scenario& scenario) {
-  std::vector<BodyShape> shapes;
-  for (const UavConfig& uav : scenario.fleet) shapes.push_back(body_shape(uav.vehicle));
-  return shapes;
-}
-
-std::vector<double> rest_heights(const Scenario& scenario) {
-  std::vector<double> heights;
-  for (const UavConfig& uav : scenario.fleet) heights.push_back(rest_height(uav.vehicle));
-  return heights;
-}
 
 }  // namespace
 
@@ -167,11 +155,7 @@ void Simulation::Impl::run_tick() {
 
 void Simulation::Impl::control_and_fly() {
   std::vector<Wrench> wrenches(uavs.size());
-  const auto control_some = [&](std::size_t part) {
-    const std::size_t end = std::min(uavs.size(), (part + 1) * kForcesAtOnce);
-    for (std::size_t i = part * kForcesAtOnce; i < end; ++i) wrenches[i] = control(UavIndex{i});
-  };
-  for_each((uavs.size() + kForcesAtOnce - 1) / kForcesAtOnce, control_some);
+  in_blocks(for_each, uavs.size(), kForcesAtOnce, [&](std::size_t i) { wrenches[i] = control(UavIndex{i}); });
   for (const UavIndex i : FirstUavs(uavs.size())) {
     const RigidBodyState& state = world.state(i);
     world.apply_wrench(i, state.q_WB * wrenches[i].force_B, state.q_WB * wrenches[i].torque_B);
@@ -181,10 +165,8 @@ void Simulation::Impl::control_and_fly() {
 Wrench Simulation::Impl::control(UavIndex i) {
   Uav& uav = uavs[i];
   const RigidBodyState& state = world.state(i);
-  if (tick % kControlTicks == 0 && listening(i)) {
-    const auto gimbal_command = std::exchange(uav.gimbal_command, std::nullopt);
-    uav.vehicle.control(tick, state, uav.link.take_trajectory(tick), gimbal_command);
-  }
+  if (tick % kControlTicks == 0 && listening(i))
+    uav.vehicle.control(tick, state, uav.link.take_trajectory(tick), std::exchange(uav.gimbal_command, std::nullopt));
   return uav.vehicle.step(state);
 }
 
@@ -234,22 +216,18 @@ void Simulation::Impl::take_pictures() {
   }
   if (firing.empty()) return;
   refresh_rays();
-  std::vector<Capture> captures(firing.size());
-  {
+  auto captures = [&] {
     const WorkSection section(clock, Work::camera, firing.size());
-    for_each(firing.size(), [&](std::size_t n) {
-      Uav& uav = uavs[firing[n]];
-      captures[n] = uav.camera.capture(tick, world.state(firing[n]), uav.vehicle.gimbal(), rays);
+    return all_of<Capture>(for_each, firing, [&](UavIndex i) {
+      return uavs[i].camera.capture(tick, world.state(i), uavs[i].vehicle.gimbal(), rays);
     });
-  }
+  }();
   for (std::size_t n = 0; n < firing.size(); ++n) {
-    Uav& uav = uavs[firing[n]];
-    Capture& capture = captures[n];
-    if (capture.detections.empty()) continue;
-    ++uav.view.captures;
-    if (capture.improved()) uav.last_raise = tick;
-    auto report = referee.enter(firing[n], capture);
-    events.captures.push_back({firing[n], std::move(capture), std::move(report)});
+    if (captures[n].detections.empty()) continue;
+    ++uavs[firing[n]].view.captures;
+    if (captures[n].improved()) uavs[firing[n]].last_raise = tick;
+    auto report = referee.enter(firing[n], captures[n]);
+    events.captures.push_back({firing[n], std::move(captures[n]), std::move(report)});
   }
 }
 
@@ -265,13 +243,11 @@ void Simulation::Impl::take_scans() {
   }
   if (scanning.empty()) return;
   refresh_rays();
-  std::vector<LidarScan> scans(scanning.size());
-  {
-    const WorkSection section(clock, Work::lidar, scans.size());
-    for_each(scans.size(), [&](std::size_t n) {
-      scans[n] = uavs[scanning[n]].lidar->scan(tick, world.state(scanning[n]).X_WB(), rays);
-    });
-  }
+  auto scans = [&] {
+    const WorkSection section(clock, Work::lidar, scanning.size());
+    return all_of<LidarScan>(for_each, scanning,
+                             [&](UavIndex i) { return uavs[i].lidar->scan(tick, world.state(i).X_WB(), rays); });
+  }();
   for (std::size_t n = 0; n < scans.size(); ++n) {
     const UavIndex i = scanning[n];
     if (auto key_frame = uavs[i].keyframes.offer(scans[n], world.state(i).X_WB())) {

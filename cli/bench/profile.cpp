@@ -85,7 +85,7 @@ Json profile_growth(const std::vector<Json>& entries) {
     std::vector<std::pair<double, double>> cost_by_uavs;
     for (const Json& entry : entries) {
       const Json all = value_or(entry, "stages", Json::object());
-      cost_by_uavs.emplace_back(number(entry, "uavs"), number(value_or(all, stage, Json::object()), "ms"));
+      cost_by_uavs.emplace_back(number(entry, "uavs"), number(value_or(all, stage.c_str(), Json::object()), "ms"));
     }
     const std::optional<Growth> fit = growth_of(cost_by_uavs);
     if (!fit) continue;
@@ -112,7 +112,7 @@ void print_profile(std::ostream& out, const Json& report) {
       for (const Json& stage : all) us_a_uav += number(stage, "us_a_uav");
       out << fmt::format("  {:<6}", number(entry, "uavs"));
       for (const auto& [stage, unused] : stages.items()) {
-        out << fmt::format("{:>15.3f}", number(value_or(all, stage, Json::object()), "ms"));
+        out << fmt::format("{:>15.3f}", number(value_or(all, stage.c_str(), Json::object()), "ms"));
       }
       out << fmt::format("{:>15.0f}\n", us_a_uav);
     }
