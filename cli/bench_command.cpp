@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "cli/bench/planners.hpp"
+#include "cli/bench/profile.hpp"
 #include "cli/bench/report.hpp"
 #include "cli/bench/scenario.hpp"
 #include "cli/bench/sensing.hpp"
@@ -261,6 +262,7 @@ int run_bench(const BenchOptions& options, const Console& console) {
   if (options.sensing) return bench_sensing(options, console);
   if (options.tracking) return bench_tracking(options, console);
   if (options.view) return bench_watching(options, console);
+  if (options.profile) return bench_profile(options, console);
   for (const char* program :
        {"bench_floor_cyclonedds", "bench_floor_fastdds", "bench_lidar", "bench_relay", "bench_chatter"}) {
     if (!std::filesystem::exists(program_dir() / program)) {

@@ -62,6 +62,7 @@ struct RunOptions {
   std::vector<std::string> log;                     ///< UAV=LEVEL
   bool cores = false;                               ///< programs that crash leave a core
   bool one_process = false;                         ///< all programs in one process, without DDS
+  std::optional<int> threads;                       ///< of that process
   bool stepped = false;                             ///< there a program steps them, and says what learners do
   bool native = false;
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
@@ -193,6 +194,7 @@ struct BenchOptions {
   bool sensing = false;                          ///< what an explorer knows, and nothing else
   bool tracking = false;                         ///< how far UAVs are from their set-points, and nothing else
   bool view = false;                             ///< what a page costs that follows a run, and nothing else
+  bool profile = false;                          ///< what each stage and planner costs by the size of the fleet
   std::optional<std::filesystem::path> against;  ///< the table of scores to compare with; none: the shipped one
   std::optional<std::filesystem::path> write;    ///< where the new table goes; of sensing, a folder
 };

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/option_checks.hpp"
+#include "cli/threads.hpp"
 #include "cli/tool_options.hpp"
 #include "cli/view_options.hpp"
 #include "core/number_checks.hpp"
@@ -96,8 +97,14 @@ void add_run(CLI::App& app, RunOptions& run) {
                       "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
   command
       ->add_flag("--one-process", run.one_process,
-                 "All programs in one process, without DDS: the same result on one core, and sooner")
+                 "All programs in one process, without DDS: the same result, and sooner")
       ->excludes("--dds");
+  command
+      ->add_option("--threads", run.threads,
+                   "Threads of that process; results do not depend on it (default: SKEIN_THREADS, else the cores that "
+                   "it may use, at most one for each UAV)")
+      ->needs("--one-process")
+      ->check(CLI::Range(1, kMostThreads));
   command
       ->add_option("--debug", run.debug,
                    "Look into this program while the fleet waits: UAV (or gcs, sim_server, comm_router, station), with "

@@ -197,6 +197,12 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
       ->excludes(sensing)
       ->excludes(tracking);
   command
+      ->add_flag("--profile", bench.profile,
+                 "CPU time of an exchange by stage and planner over --sizes, and how each grows; in one process")
+      ->excludes(planners)
+      ->excludes(sensing)
+      ->excludes(tracking);
+  command
       ->add_option("--write", bench.write,
                    "File for the new table of --planners; folder for pictures and page of --sensing")
       ->each([planners, sensing](const std::string&) {
@@ -204,7 +210,8 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
       });
   command->footer(
       "Examples:\n  skein bench --quick --json bench.json\n  skein bench --planners --write scores.csv\n"
-      "  skein bench --sensing --write docs\n  skein bench --tracking --quick\n  skein bench --view");
+      "  skein bench --sensing --write docs\n  skein bench --tracking --quick\n  skein bench --view\n"
+      "  skein bench --profile --sizes 1,5,20");
 }
 
 void add_oracle(CLI::App& app, OracleOptions& oracle) {

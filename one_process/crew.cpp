@@ -37,7 +37,7 @@ struct Crew::Place {
       : name(order.program),
         counts_cpu(order.program == programs::kSimServer),
         output(order.log, order.append_log),
-        notice(order.program),
+        notice(order.program, output.descriptor()),
         status(pipe, order.program) {}
 
   const std::string name;
@@ -55,28 +55,34 @@ struct Crew::Place {
   double cpu_s = 0.0;
 };
 
-/// As long as it lives, this process is the one of that program.
+/// As long as it lives, this thread, and with it the process if nobody has a turn beside, is the one of that program.
 struct Crew::Turn {
-  Turn(Crew& crew, Place& place) : crew_(crew), place_(place) {
-    place.output.enter();
+  Turn(Crew& crew, Place& place, bool is_beside)
+      : crew_(crew), place_(place), beside(is_beside), number(static_cast<std::size_t>(Workers::here())) {
+    beside ? place.output.enter_beside() : place.output.enter();
     place.notice.enter();
     if (place.counts_cpu) begin_thread_cpu_share(place.cpu_s);
-    ++crew.turns_;
-    if (crew.page_ != nullptr) crew.page_->enter(place.name);
+    crew.seats_[number].holder = &place.notice;
+    ++crew.seats_[number].turns;
+    if (crew.page_ != nullptr) crew.page_->enter(number, place.name);
   }
   ~Turn() {
-    ++crew_.turns_;
-    if (crew_.page_ != nullptr) crew_.page_->leave();
+    ++crew_.seats_[number].turns;
+    crew_.seats_[number].holder = nullptr;
+    if (crew_.page_ != nullptr) crew_.page_->leave(number);
     if (place_.counts_cpu) place_.cpu_s = thread_cpu_s();
     DeathNotice::stand_down();
+    if (beside) ProgramOutput::leave_beside();
   }
 
   Crew& crew_;
   Place& place_;
+  const bool beside;
+  const std::size_t number;  ///< of the seat
 };
 
-Crew::Crew(StatusPipe& pipe, MakeProgram make_program, TurnPage* page, int status_fd)
-    : pipe_(pipe), make_program_(std::move(make_program)), page_(page), status_fd_(status_fd) {
+Crew::Crew(StatusPipe& pipe, MakeProgram make_program, TurnPage* page, int status_fd, Workers* workers)
+    : pipe_(pipe), make_program_(std::move(make_program)), page_(page), status_fd_(status_fd), workers_(workers) {
   struct stat status {};
   if (status_fd_ >= 0 && ::fstat(status_fd_, &status) == 0) pipe_inode_ = status.st_ino;
   bus::set_self_signals({.kill = [] { throw Killed{}; }, .stop = [] { throw Paused{}; }});
@@ -117,18 +123,45 @@ void Crew::start(const shared_lines::Start& order) try {
 
 bool Crew::round() {
   bool any = false;
+  std::vector<Place*> beside;
   for (std::size_t i = 0; i < places_.size(); ++i) {  // whoever comes meanwhile is at the end
     Place& place = *places_[i];
     if (place.over || place.paused) continue;
-    bus::LockstepNode& node = place.member->node();
-    const bus::LockstepNode::Rest rest = node.rest();
-    const bool ready = node.inbox().ready(rest.rings);
-    if (!place.continued && place.started && !place.stopped && rest.until_rung && !ready) continue;
-    any = any || ready || !place.started || place.continued || place.stopped;
-    in_turn(place, [&] { return go_on(place); });
+    const bool flies_beside = seats() > 1 && place.member->flies_beside();
+    if (!flies_beside) turns_beside(beside);  // what they say may be what this one waits for
+    if (!is_due(place, any)) continue;
+    if (flies_beside) {
+      beside.push_back(&place);
+    } else {
+      in_turn(place, [&] { return go_on(place); });
+    }
   }
+  turns_beside(beside);
   std::erase_if(places_, [](const auto& place) { return place->over; });
   return any;
+}
+
+bool Crew::is_due(Place& place, bool& any) const {
+  bus::LockstepNode& node = place.member->node();
+  const bus::LockstepNode::Rest rest = node.rest();
+  const bool ready = node.inbox().ready(rest.rings);
+  const bool news = !place.started || place.continued || place.stopped;
+  if (!news && rest.until_rung && !ready) return false;
+  any = any || ready || news;
+  return true;
+}
+
+void Crew::turns_beside(std::vector<Place*>& places) {
+  if (places.size() == 1) in_turn(*places[0], [&] { return go_on(*places[0]); });
+  if (places.size() > 1) {
+    ProgramOutput::stand_aside();
+    std::vector<Outcome> outcomes(places.size());
+    workers_->run(places.size(), [&](std::size_t i) {
+      outcomes[i] = outcome_of(*places[i], true, [&] { return go_on(*places[i]); });
+    });
+    for (std::size_t i = 0; i < places.size(); ++i) settle(*places[i], outcomes[i]);
+  }
+  places.clear();
 }
 
 std::optional<int> Crew::go_on(Place& place) {
@@ -150,41 +183,45 @@ std::optional<int> Crew::go_on(Place& place) {
 }
 
 void Crew::in_turn(Place& place, const std::function<std::optional<int>()>& work) {
-  std::optional<int> code;
-  int signal = 0;
-  bool killed = false;
-  {
-    const Turn turn(*this, place);
-    try {
-      const int went = guarded(place.program ? place.program->name() : place.name, [&] {
-        code = work();
-        return kExitDone;
-      });
-      if (went != kExitDone) code = went;
-    } catch (const Killed&) {
-      killed = true;
-    } catch (const Paused&) {
-      place.paused = true;
-      place.member->node().inbox().set_deaf(true);
-      pipe_.send_surely(shared_lines::news_json(shared_lines::Stopped{place.name}));
-    } catch (...) {  // where nobody can say what it is, a process of its own would have aborted
-      std::cerr << place.name << ": failed: an exception that is no std::exception" << std::endl;
-      signal = SIGABRT;
-      code = kExitProcessFailed;
-    }
-    if (code) place.member.reset();  // says goodbye
-    check_pipe(place);
-  }
-  if (killed) return kill(place);
-  if (code) end(place, signal == 0 ? *code : 0, signal);
+  settle(place, outcome_of(place, false, work));
 }
 
-void Crew::check_pipe(const Place& place) const {
+Crew::Outcome Crew::outcome_of(Place& place, bool beside, const std::function<std::optional<int>()>& work) {
+  Outcome outcome;
+  const Turn turn(*this, place, beside);
+  try {
+    const int went = guarded(place.program ? place.program->name() : place.name, [&] {
+      outcome.code = work();
+      return kExitDone;
+    });
+    if (went != kExitDone) outcome.code = went;
+  } catch (const Killed&) {
+    outcome.killed = true;
+  } catch (const Paused&) {
+    place.paused = true;
+    place.member->node().inbox().set_deaf(true);
+    pipe_.send_surely(shared_lines::news_json(shared_lines::Stopped{place.name}));
+  } catch (...) {  // where nobody can say what it is, a process of its own would have aborted
+    std::cerr << place.name << ": failed: an exception that is no std::exception" << std::endl;
+    outcome.signal = SIGABRT;
+    outcome.code = kExitProcessFailed;
+  }
+  if (outcome.code) place.member.reset();  // says goodbye
+  check_pipe(place, beside);
+  return outcome;
+}
+
+void Crew::settle(Place& place, const Outcome& outcome) {
+  if (outcome.killed) return kill(place);
+  if (outcome.code) end(place, outcome.signal == 0 ? *outcome.code : 0, outcome.signal);
+}
+
+void Crew::check_pipe(const Place& place, bool beside) const {
   struct stat status {};
   if (status_fd_ < 0 || (::fstat(status_fd_, &status) == 0 && status.st_ino == pipe_inode_)) return;
   const std::string reason = "closed file descriptors that are not its own, which ends the whole fleet here";
-  std::cerr << place.name << ": " << reason << std::endl;
-  if (page_ != nullptr) page_->give_reason(reason);
+  if (!beside) std::cerr << place.name << ": " << reason << std::endl;
+  if (page_ != nullptr) page_->give_reason("this program " + reason);  // it, or one that has its turn just now
   ::_exit(kExitProcessFailed);
 }
 

@@ -1,4 +1,5 @@
-// The crew with toys for programs: what a process is to its program is kept up without processes.
+// The crew with toys for programs: what a process is to its program is kept up without processes, on one thread and on
+// several.
 #include "one_process/crew.hpp"
 
 #include <fcntl.h>
@@ -12,50 +13,67 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <latch>
 #include <map>
+#include <mutex>
 #include <set>
 #include <sstream>
 
 #include "bus/lockstep/self_signal.hpp"
+#include "one_process/death_notice.hpp"
+#include "one_process/program_output.hpp"
+#include "one_process/shared_turn.hpp"
 #include "process/thread_cpu.hpp"
 
 namespace skein::one_process {
 namespace {
 
-/// What became of all toys of a test.
+/// What became of all toys of a test. They write on any thread.
 struct Diary {
+  std::mutex mutex;
   std::map<std::string, int> turns;
   std::set<std::string> destroyed, ended;
   std::map<std::string, double> cpu_s;
 };
 Diary* diary = nullptr;
+/// Where those meet that have their turns side by side.
+std::latch* meeting = nullptr;
 
 /// Does what its option --do says, in its third turn.
 class Toy final : public bus::FleetMember, public bus::LockstepNode {
  public:
   Toy(std::string name, std::string what)
       : name_(std::move(name)), what_(std::move(what)), bus_(bus::make_bus({.vendor = "inproc"})) {}
-  ~Toy() override { diary->destroyed.insert(name_); }
+  ~Toy() override {
+    const std::scoped_lock lock(diary->mutex);
+    diary->destroyed.insert(name_);
+  }
 
   bus::LockstepNode& node() override { return *this; }
   bus::Bus& bus() override { return *bus_; }
   std::optional<int> ended(bus::NodeEnd end) override {
-    diary->ended.insert(name_);
+    {
+      const std::scoped_lock lock(diary->mutex);
+      diary->ended.insert(name_);
+    }
     if (end != bus::NodeEnd::resumed) return end == bus::NodeEnd::finished ? 0 : 7;
     end_.reset();
     return std::nullopt;
   }
+
+  bool flies_beside() const override { return name_ != "alone" && name_ != "sim_server"; }
 
   void start() override {
     participant_ = bus_->join(5);
     writer_ = participant_->create_writer({"hello", "text", {}});
   }
   void turn(bool) override {
-    const int turn = ++diary->turns[name_];
-    diary->cpu_s[name_] = thread_cpu_s();
+    const int turn = note_turn();
     std::printf("%s prints\n", name_.c_str());
     spdlog::info("{} logs", name_);
+    std::cerr << name_ << " complains\n";
     if (turn != 3) return;
+    if (what_ == "meets") meeting->arrive_and_wait();
     if (what_ == "ends") end_ = bus::NodeEnd::finished;
     if (what_ == "throws") throw std::runtime_error("enough");
     if (what_ == "dies") bus::kill_ourselves();
@@ -73,6 +91,12 @@ class Toy final : public bus::FleetMember, public bus::LockstepNode {
   Rest rest() override { return {.until_rung = false}; }
 
  private:
+  int note_turn() {
+    const std::scoped_lock lock(diary->mutex);
+    diary->cpu_s[name_] = thread_cpu_s();
+    return ++diary->turns[name_];
+  }
+
   const std::string name_, what_;
   bus::Inbox inbox_;
   const std::unique_ptr<bus::Bus> bus_;
@@ -97,15 +121,24 @@ class ToyProgram final : public bus::FleetProgram {
   std::string what_;
 };
 
-class CrewTest : public testing::Test {
+/// @param  threads
+class CrewTest : public testing::TestWithParam<int> {
  protected:
-  CrewTest() : stdout_(::dup(STDOUT_FILENO)), stderr_(::dup(STDERR_FILENO)) {
+  CrewTest() : stdout_(::dup(STDOUT_FILENO)), stderr_(::dup(STDERR_FILENO)), workers_(GetParam()) {
     diary = &diary_;
+    if (GetParam() > 1) {
+      [[maybe_unused]] static const bool led = [] {
+        ProgramOutput::lead_by_thread();
+        return true;
+      }();
+    }
     std::string pattern = (std::filesystem::temp_directory_path() / "skein-crew-XXXXXX").string();
     folder_ = ::mkdtemp(pattern.data());
     EXPECT_EQ(::pipe2(pipe_, O_NONBLOCK), 0);
     status_.emplace(pipe_[1]);
-    crew_.emplace(*status_, [](const std::string& name) { return std::make_unique<ToyProgram>(name); });
+    crew_.emplace(
+        *status_, [](const std::string& name) { return std::make_unique<ToyProgram>(name); }, nullptr, -1,
+        GetParam() > 1 ? &workers_ : nullptr);
   }
   ~CrewTest() override {
     crew_.reset();
@@ -149,13 +182,16 @@ class CrewTest : public testing::Test {
   std::filesystem::path folder_;
   int pipe_[2] = {-1, -1};
   const int stdout_, stderr_;
+  Workers workers_;
   std::optional<StatusPipe> status_;
   std::optional<Crew> crew_;
   std::map<std::string, shared_lines::Ended> ends_;
   std::set<std::string> stopped_;
 };
 
-TEST_F(CrewTest, EveryEndIsToldAndTheOthersGoOn) {
+INSTANTIATE_TEST_SUITE_P(Threads, CrewTest, testing::Values(1, 2, 16));
+
+TEST_P(CrewTest, EveryEndIsToldAndTheOthersGoOn) {
   for (const char* what : {"ends", "throws", "dies", "stays"}) start(what, what);
   start("checks", "stays", {"--check"});
   start("refuses", "refuses");
@@ -177,7 +213,7 @@ TEST_F(CrewTest, EveryEndIsToldAndTheOthersGoOn) {
   EXPECT_NE(log("refuses").find("no such thing"), std::string::npos);
 }
 
-TEST_F(CrewTest, WhoIsKilledIsGoneWithoutAWord) {
+TEST_P(CrewTest, WhoIsKilledIsGoneWithoutAWord) {
   start("dies", "dies");
   start("stays", "stays");
   const auto outside = bus::make_bus({.vendor = "inproc"})->join(5);
@@ -198,7 +234,7 @@ TEST_F(CrewTest, WhoIsKilledIsGoneWithoutAWord) {
   EXPECT_EQ(diary_.turns["dies"], 5);
 }
 
-TEST_F(CrewTest, WhoIsStoppedStandsStillUntilItGoesOn) {
+TEST_P(CrewTest, WhoIsStoppedStandsStillUntilItGoesOn) {
   start("stops", "stops");
   start("stays", "stays");
   rounds(8);
@@ -211,7 +247,7 @@ TEST_F(CrewTest, WhoIsStoppedStandsStillUntilItGoesOn) {
   EXPECT_EQ(diary_.turns["stops"], 5);
 }
 
-TEST_F(CrewTest, WhoIsAskedToEndDoesSo) {
+TEST_P(CrewTest, WhoIsAskedToEndDoesSo) {
   start("stays", "stays");
   start("stops", "stops");
   rounds(4);
@@ -224,18 +260,49 @@ TEST_F(CrewTest, WhoIsAskedToEndDoesSo) {
   EXPECT_TRUE(diary_.destroyed.contains("stays"));
 }
 
-TEST_F(CrewTest, EachWritesToItsOwnLog) {
-  for (const char* name : {"one", "two"}) start(name, "stays");
-  rounds(2);
-  for (const std::string name : {"one", "two"}) {
-    const std::string other = name == "one" ? "two" : "one", text = log(name);
+TEST_P(CrewTest, EachWritesToItsOwnLog) {
+  for (const char* name : {"one", "two", "alone"}) start(name, "stays");
+  rounds(40);
+  for (const std::string name : {"one", "two", "alone"}) {
+    const std::string text = log(name);
     EXPECT_NE(text.find(name + " prints"), std::string::npos) << text;
+    EXPECT_NE(text.find(name + " complains"), std::string::npos) << text;
     EXPECT_NE(text.find("[" + name + "] info " + name + " logs"), std::string::npos) << text;
-    EXPECT_EQ(text.find(other), std::string::npos) << text;
+    for (const std::string other : {"one", "two", "alone"}) {
+      EXPECT_EQ(text.find(other) == std::string::npos, other != name) << text;
+    }
   }
 }
 
-TEST_F(CrewTest, TheServersTimeIsItsOwn) {
+TEST_P(CrewTest, ThoseThatShareNothingHaveTheirTurnsSideBySide) {
+  if (GetParam() == 1) GTEST_SKIP() << "there is one thread";
+  std::latch both(2);
+  meeting = &both;
+  for (const char* name : {"a", "b"}) start(name, "meets");
+  rounds(4);  // in the third each waits for the other
+  EXPECT_EQ(diary_.turns["a"], 4);
+  EXPECT_EQ(diary_.turns["b"], 4);
+}
+
+TEST_P(CrewTest, WhoeverSharesATurnWorksForItsProgram) {
+  const ForEach for_each = shared_turn(workers_);
+  const DeathNotice notice("shared");
+  ProgramOutput output(folder_ / "shared.log", false);
+  output.enter();
+  notice.enter();
+  std::vector<const DeathNotice*> notices(100);
+  std::vector<const ProgramOutput*> outputs(notices.size());
+  for_each(notices.size(), [&](std::size_t i) {
+    notices[i] = DeathNotice::here();
+    outputs[i] = ProgramOutput::here();
+  });
+  for (const auto* one : notices) EXPECT_EQ(one, &notice);
+  for (const auto* one : outputs) EXPECT_EQ(one, &output);
+  EXPECT_EQ(DeathNotice::here(), &notice) << "it goes on with its turn";
+  DeathNotice::stand_down();
+}
+
+TEST_P(CrewTest, TheServersTimeIsItsOwn) {
   start("sim_server", "stays");
   start("works", "works");
   rounds(2);

@@ -21,8 +21,10 @@ namespace skein::one_process {
 namespace {
 
 // A signal handler can reach nothing but globals.
-std::atomic<const DeathNotice*> in_turn = nullptr;
+thread_local std::atomic<const DeathNotice*> in_turn = nullptr;
 std::atomic<int> status_fd = -1;
+/// Two threads may crash at once; the process dies of the first.
+std::atomic<bool> told = false;
 
 /// The line before it may be torn: a pipe takes what fits.
 std::string line_of(const std::string& program, int code, int signal) {
@@ -40,7 +42,8 @@ const std::array<int, 5> DeathNotice::kSignals = {SIGSEGV, SIGBUS, SIGFPE, SIGIL
 void tell_of_death(int signal) {
   const DeathNotice* notice = in_turn.exchange(nullptr);
   const auto* const found = std::find(DeathNotice::kSignals.begin(), DeathNotice::kSignals.end(), signal);
-  if (notice != nullptr) write_news(notice->lines_[static_cast<std::size_t>(found - DeathNotice::kSignals.begin())]);
+  if (notice != nullptr && !told.exchange(true))
+    write_news(notice->lines_[static_cast<std::size_t>(found - DeathNotice::kSignals.begin())]);
 }
 
 namespace {
@@ -49,7 +52,7 @@ extern "C" void on_sanitizer_death() { tell_of_death(SIGABRT); }
 
 }  // namespace
 
-DeathNotice::DeathNotice(const std::string& program) : program_(program) {
+DeathNotice::DeathNotice(const std::string& program, int log) : program_(program), log_(log) {
   for (std::size_t i = 0; i < kSignals.size(); ++i) lines_[i] = line_of(program, 0, kSignals[i]);
 }
 
@@ -60,6 +63,8 @@ DeathNotice::~DeathNotice() {
 
 void DeathNotice::enter() const { in_turn = this; }
 
+const DeathNotice* DeathNotice::here() { return in_turn; }
+
 void DeathNotice::watch(int fd) {
   status_fd = fd;
   after_crash_notes(tell_of_death);  // whose log the launcher then quotes has all of them
@@ -67,15 +72,17 @@ void DeathNotice::watch(int fd) {
   ::on_exit(
       [](int code, void*) {
         const DeathNotice* notice = in_turn.exchange(nullptr);
-        if (notice == nullptr) return;
+        if (notice == nullptr || told.exchange(true)) return;
         std::cerr << notice->program_ << ": called exit(" << code << "), which ends the whole fleet here" << std::endl;
         write_news(line_of(notice->program_, code == 0 ? kExitProcessFailed : code, 0));
       },
       nullptr);
 }
 
-void DeathNotice::give_up(const std::string& why) {
-  std::cerr << programs::kOneProcess << ": " << why << std::endl;
+void DeathNotice::give_up(const std::string& why) const {
+  const std::string line = std::string(programs::kOneProcess) + ": " + why + "\n";
+  static_cast<void>(!::write(log_ < 0 ? STDERR_FILENO : log_, line.data(), line.size()));
+  in_turn = this;  // the one that does not end is another thread's
   tell_of_death(SIGABRT);
   ::_exit(kExitProcessFailed);
 }

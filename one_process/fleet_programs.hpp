@@ -15,16 +15,17 @@ namespace skein::one_process {
 /// More than a large fleet hears in a step.
 inline constexpr std::size_t kFramesRemembered = 256;
 
-/// What they share. All but the first are of whoever steps the fleet; null: it flies by itself.
+/// What they share. Desk, gate, score and shelf are of whoever steps the fleet; null: it flies by itself.
 struct FleetPrograms {
   std::shared_ptr<agent::ReadyFrames> frames = std::make_shared<agent::ReadyFrames>(kFramesRemembered);
   std::shared_ptr<agent::LearnerDesk> desk = {};
   std::shared_ptr<sim::StepGate> gate = {};
   std::shared_ptr<station::ScoreView> score = {};
   std::shared_ptr<sim::SceneShelf> shelf = {};
+  ForEach for_each = one_after_another;  ///< how the server has its work done
 
   std::unique_ptr<bus::FleetProgram> make(const std::string& name) const {
-    if (name == programs::kSimServer) return std::make_unique<sim::ServerProgram>(gate, shelf);
+    if (name == programs::kSimServer) return std::make_unique<sim::ServerProgram>(gate, shelf, for_each);
     if (name == programs::kCommRouter) return std::make_unique<router::RouterProgram>();
     if (name == programs::kStation) return std::make_unique<station::StationProgram>(score);
     return std::make_unique<agent::AgentProgram>(frames, desk);

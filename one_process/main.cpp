@@ -15,7 +15,9 @@
 #include "one_process/death_notice.hpp"
 #include "one_process/fleet_programs.hpp"
 #include "one_process/order_queue.hpp"
+#include "one_process/program_output.hpp"
 #include "one_process/session.hpp"
+#include "one_process/shared_turn.hpp"
 #include "one_process/watchdog.hpp"
 #include "process/environment.hpp"
 #include "process/run_folder.hpp"
@@ -58,14 +60,19 @@ int main(int argc, char** argv) {
   }
   double patience_s = 60.0;
   std::string turn_page;
+  int threads = 1;
   const auto add_options = [&](CLI::App& app) {
     app.description("Skein: home of a whole fleet in one process");
     app.add_option("--agent-timeout", patience_s, "wall time that a program may take for one turn [s], 0: for ever")
         ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
+    app.add_option("--threads", threads, "Threads, of which one is the fleet's; results do not depend on it")
+        ->check(CLI::Range(1, static_cast<int>(TurnPage::kSeats)))
+        ->capture_default_str();
     app.add_option("--turn-page", turn_page, "File of the launcher that takes whose turn it is")->group("Launcher");
   };
   const int code =
       run_program(programs::kOneProcess, argc, argv, add_options, [&](const ProgramOptions& options, StopSignal& stop) {
+        if (threads > 1) one_process::ProgramOutput::lead_by_thread();
         StatusPipe pipe(options.status_fd);
         one_process::DeathNotice::watch(options.status_fd);
         one_process::OrderQueue orders;
@@ -73,9 +80,11 @@ int main(int argc, char** argv) {
             options.control_fd, [&](const std::string& line) { orders.add(line); }, [&] { orders.end(); });
         std::optional<TurnPage> page;
         if (!turn_page.empty()) page.emplace(turn_page);
+        Workers workers(threads);
+        const one_process::FleetPrograms programs{.for_each = one_process::shared_turn(workers)};
         one_process::Crew crew(
-            pipe, [programs = one_process::FleetPrograms()](const std::string& name) { return programs.make(name); },
-            page ? &*page : nullptr, options.status_fd);
+            pipe, [&programs](const std::string& name) { return programs.make(name); }, page ? &*page : nullptr,
+            options.status_fd, threads > 1 ? &workers : nullptr);
         const one_process::Watchdog watchdog(crew, patience_s);
         one_process::fly(crew, orders, stop);
         return kExitDone;

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <chrono>
+#include <vector>
 
 #include "one_process/death_notice.hpp"
 
@@ -24,19 +25,24 @@ Watchdog::~Watchdog() {
 
 void Watchdog::watch(double patience_s) {
   using Clock = std::chrono::steady_clock;
+  struct Seen {
+    std::uint64_t turn = 0;
+    Clock::time_point since = Clock::now();
+  };
   const auto patience = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience_s));
-  std::uint64_t turn = 0;
-  Clock::time_point since = Clock::now();
+  std::vector<Seen> seen(crew_.seats());
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, patience / 10, [this] { return over_; })) {
-    const std::uint64_t now = crew_.turns();
-    const bool in_turn = now % 2 == 1;
-    if (now != turn || !in_turn) {
-      turn = now;
-      since = Clock::now();
-    } else if (Clock::now() - since >= patience) {
-      DeathNotice::give_up(
-          fmt::format("this program did not end its turn for {} s, and with it stands the fleet", patience_s));
+    for (std::size_t seat = 0; seat < seen.size(); ++seat) {
+      const std::uint64_t now = crew_.turns(seat);
+      if (now != seen[seat].turn || now % 2 == 0) {
+        seen[seat] = {now, Clock::now()};
+      } else if (Clock::now() - seen[seat].since >= patience) {
+        if (const DeathNotice* holder = crew_.holder(seat); holder != nullptr && crew_.turns(seat) == now) {
+          holder->give_up(
+              fmt::format("this program did not end its turn for {} s, and with it stands the fleet", patience_s));
+        }
+      }
     }
   }
 }

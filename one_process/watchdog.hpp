@@ -1,5 +1,5 @@
-// A program that shares its process and never ends its turn stops all others. Nothing can be done for them but to end
-// the process, and to say whose fault it is.
+// A program that shares its process and never ends its turn stops all others, on whatever thread it has that. Nothing
+// can be done for them but to end the process, and to say whose fault it is.
 #pragma once
 
 #include <condition_variable>

@@ -18,15 +18,18 @@ namespace {
 
 constexpr std::array kDeadly = {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL};
 constexpr int kMostFrames = 64;
+constexpr std::size_t kHandlerStack = std::size_t{64} << 10;
 std::atomic<void (*)(int)> last_call = nullptr;
 std::string& last_folder() {
   static std::string folder;
   return folder;
 }
 
+thread_local int notes_fd = STDERR_FILENO;
+
 // All below runs in a signal handler: no memory is taken, nothing but write(2) writes.
 void say(std::string_view text) {
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+  [[maybe_unused]] const ssize_t written = ::write(notes_fd, text.data(), text.size());
 }
 
 void say_number(std::uintptr_t number, unsigned base) {
@@ -75,8 +78,8 @@ extern "C" void on_crash(int signal, siginfo_t*, void* context) {
 void note_crashes(const std::filesystem::path& folder) {
   last_folder() = std::filesystem::absolute(folder);
   std::array<void*, 1> any{};
-  ::backtrace(any.data(), 1);                              // the first call loads a library
-  static std::vector<char> memory(std::size_t{64} << 10);  // who has overflowed the stack has none left
+  ::backtrace(any.data(), 1);                      // the first call loads a library
+  static std::vector<char> memory(kHandlerStack);  // who has overflowed the stack has none left
   const stack_t stack{.ss_sp = memory.data(), .ss_flags = 0, .ss_size = memory.size()};
   struct sigaction action {
   }, former{};
@@ -90,5 +93,17 @@ void note_crashes(const std::filesystem::path& folder) {
 }
 
 void after_crash_notes(void (*call)(int signal)) { last_call = call; }
+
+CrashStack::CrashStack() : memory_(kHandlerStack) {
+  const stack_t stack{.ss_sp = memory_.data(), .ss_flags = 0, .ss_size = memory_.size()};
+  ::sigaltstack(&stack, nullptr);
+}
+
+CrashStack::~CrashStack() {
+  const stack_t none{.ss_sp = nullptr, .ss_flags = SS_DISABLE, .ss_size = 0};
+  ::sigaltstack(&none, nullptr);
+}
+
+void note_crashes_in(int fd) { notes_fd = fd; }
 
 }  // namespace skein

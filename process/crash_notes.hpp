@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace skein {
 
@@ -18,5 +19,20 @@ inline constexpr std::string_view kFrame = "  at ";
 void note_crashes(const std::filesystem::path& folder);
 /// Is called in the handler, when the notes are written: nothing that a signal handler may not do. nullptr: nobody.
 void after_crash_notes(void (*call)(int signal));
+
+/// For a thread that may overflow its stack, as long as it lives: another one for the handler. The first thread has
+/// one by note_crashes().
+class CrashStack {
+ public:
+  CrashStack();
+  ~CrashStack();
+  CrashStack(const CrashStack&) = delete;
+  CrashStack& operator=(const CrashStack&) = delete;
+
+ private:
+  std::vector<char> memory_;
+};
+/// From here on the calling thread's notes go to this descriptor. Usual: stderr's.
+void note_crashes_in(int fd);
 
 }  // namespace skein

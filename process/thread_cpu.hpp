@@ -27,4 +27,7 @@ inline void begin_thread_cpu_share(double so_far_s) {
   thread_cpu_detail::of_others_s = thread_cpu_detail::total_s() - so_far_s;
 }
 
+/// Other threads have worked so long for the calling thread's program.
+inline void add_thread_cpu(double seconds) { thread_cpu_detail::of_others_s -= seconds; }
+
 }  // namespace skein

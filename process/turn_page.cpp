@@ -27,9 +27,13 @@ void write(std::span<char> to, const std::string& text) {
 }  // namespace
 
 struct TurnPage::Content {
-  std::atomic<std::uint64_t> turns;
+  struct Seat {
+    std::atomic<std::uint64_t> turns;
+    std::array<char, 120> holder;
+  };
+  std::array<Seat, kSeats> seats;
   std::atomic<pid_t> process;
-  std::array<char, 256> holder, reason;
+  std::array<char, 256> reason, reason_of;
 };
 
 TurnPage::TurnPage() : fd_(::memfd_create("skein-turns", MFD_CLOEXEC)) {
@@ -62,23 +66,40 @@ std::filesystem::path TurnPage::path() const {
 }
 
 void TurnPage::clear() {
-  content_->turns = 0;
+  for (Content::Seat& seat : content_->seats) {
+    seat.turns = 0;
+    seat.holder[0] = '\0';
+  }
   content_->process = 0;
-  content_->holder[0] = content_->reason[0] = '\0';
+  content_->reason[0] = content_->reason_of[0] = '\0';
 }
 
-void TurnPage::enter(const std::string& program) {
-  write(content_->holder, program);
-  ++content_->turns;
+void TurnPage::enter(std::size_t seat, const std::string& program) {
+  write(content_->seats[seat].holder, program);
+  ++content_->seats[seat].turns;
 }
 
-void TurnPage::leave() { ++content_->turns; }
+void TurnPage::leave(std::size_t seat) { ++content_->seats[seat].turns; }
 
-void TurnPage::give_reason(const std::string& reason) { write(content_->reason, reason); }
+void TurnPage::give_reason(const std::string& reason, const std::string& program) {
+  write(content_->reason_of, program);
+  write(content_->reason, reason);
+}
 
-std::uint64_t TurnPage::turns() const { return content_->turns; }
+std::uint64_t TurnPage::turns(std::size_t seat) const { return content_->seats[seat].turns; }
 
-std::string TurnPage::holder() const { return turns() % 2 == 1 ? text_of(content_->holder) : std::string(); }
+std::string TurnPage::holder(std::size_t seat) const {
+  return turns(seat) % 2 == 1 ? text_of(content_->seats[seat].holder) : std::string();
+}
+
+std::vector<std::string> TurnPage::holders() const {
+  if (std::string program = text_of(content_->reason_of); !program.empty()) return {std::move(program)};
+  std::vector<std::string> programs;
+  for (std::size_t seat = 0; seat < kSeats; ++seat) {
+    if (std::string program = holder(seat); !program.empty()) programs.push_back(std::move(program));
+  }
+  return programs;
+}
 
 std::string TurnPage::reason() const { return text_of(content_->reason); }
 

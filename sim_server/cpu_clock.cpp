@@ -6,10 +6,10 @@ namespace skein::sim {
 
 void CpuClock::begin(Work work) { accounts_[static_cast<std::size_t>(work)].began_s = thread_cpu_s(); }
 
-void CpuClock::end(Work work) {
+void CpuClock::end(Work work, std::size_t pieces) {
   Account& account = accounts_[static_cast<std::size_t>(work)];
   account.total_s += thread_cpu_s() - account.began_s;
-  ++account.count;
+  account.count += pieces;
 }
 
 TimingReport CpuClock::summary() const {

@@ -1,4 +1,4 @@
-// CPU time of this thread by kind of work. What the thread does between its kinds of work is the exchange.
+// CPU time of this thread, and of those that help it, by kind of work. What the thread does between its kinds of work is the exchange.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace skein::sim {
 class CpuClock final : public WorkClock {
  public:
   void begin(Work work) override;
-  void end(Work work) override;
+  void end(Work work, std::size_t pieces) override;
   /// `physics_s` is what the simulation did besides LiDAR, camera and links; lidar_ms_per_scan is there when there was
   /// a scan; cpu_s is the caller's to fill in.
   TimingReport summary() const;

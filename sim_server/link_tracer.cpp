@@ -1,16 +1,23 @@
 #include "sim_server/link_tracer.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace skein::sim {
+namespace {
+
+/// In a smaller fleet the matrix takes less time than it takes to share it.
+constexpr std::size_t kSharedNodes = 16;
+
+}  // namespace
 
 LinkTracer::LinkTracer(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed)
     : scenario_(scenario), faults_(faults), sights_(scenario.fleet.size() + 1), unfailed_(scenario.fleet.size() + 1) {
   if (scenario.conditions.radio.on()) path_loss_.emplace(scenario.conditions.radio, seed);
 }
 
-Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs) {
+Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs, const ForEach& for_each) {
   Links links(uavs.size() + 1);
   unfailed_ = links;
   const auto body_of = [](Node node) { return uav_of_node(node).value_or(kNobody); };
@@ -20,23 +27,30 @@ Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place
     return AntennaNode{uavs[*uav].p_WB, scenario_.fleet[*uav].vehicle.antenna_offset_m};
   };
   const auto on_air = [&](Node node) { return node == kStationNode || uavs[*uav_of_node(node)].alive; };
-  std::vector<UavIndex> about;
-  for (const Node a : scenario_.nodes()) {
-    for (const Node b : scenario_.nodes()) {
-      if (b <= a || !on_air(a) || !on_air(b)) continue;
-      const AntennaNode from = antenna(a), to = antenna(b);
-      rays.body_spheres().about(from.p_W, to.p_W, std::max(antenna_reach(from), antenna_reach(to)), about);
-      const RayFilter filter{.except_uav = body_of(a), .except_other_uav = body_of(b), .among = about};
-      const bool linked = sights_.at(a, b).linked(from, to, rays, filter);
-      const double distance_m = (from.p_W - to.p_W).norm();
-      const std::uint8_t level = !linked ? 0 : path_loss_ ? path_loss_->level(from.p_W, to.p_W) : 1;
-      for (const auto& [source, target] : {std::pair(a, b), std::pair(b, a)}) {
-        const std::uint8_t unfailed = in_range(source, target, distance_m) ? level : 0;
-        unfailed_.at(source, target) = unfailed;
-        links.at(source, target) = fails(tick, source, target, distance_m) ? 0 : unfailed;
-      }
+  const auto trace_pair = [&](Node a, Node b, std::vector<UavIndex>& about) {
+    if (!on_air(a) || !on_air(b)) return;
+    const AntennaNode from = antenna(a), to = antenna(b);
+    rays.body_spheres().about(from.p_W, to.p_W, std::max(antenna_reach(from), antenna_reach(to)), about);
+    const RayFilter filter{.except_uav = body_of(a), .except_other_uav = body_of(b), .among = about};
+    const bool linked = sights_.at(a, b).linked(from, to, rays, filter);
+    const double distance_m = (from.p_W - to.p_W).norm();
+    const std::uint8_t level = !linked ? 0 : path_loss_ ? path_loss_->level(from.p_W, to.p_W) : 1;
+    for (const auto& [source, target] : {std::pair(a, b), std::pair(b, a)}) {
+      const std::uint8_t unfailed = in_range(source, target, distance_m) ? level : 0;
+      unfailed_.at(source, target) = unfailed;
+      links.at(source, target) = fails(tick, source, target, distance_m) ? 0 : unfailed;
     }
-  }
+  };
+  // Row by row, each with the first row from the end, so that all pieces of work are of one size.
+  const std::size_t nodes = links.nodes();
+  const auto trace_rows = [&](std::size_t piece) {
+    std::vector<UavIndex> about;
+    for (const std::size_t row : std::set<std::size_t>{piece, nodes - 1 - piece}) {
+      for (std::size_t other = row + 1; other < nodes; ++other) trace_pair(Node{row}, Node{other}, about);
+    }
+  };
+  const std::size_t pieces = (nodes + 1) / 2;
+  nodes < kSharedNodes ? one_after_another(pieces, trace_rows) : for_each(pieces, trace_rows);
   return links;
 }
 

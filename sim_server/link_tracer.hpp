@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/fault_plan.hpp"
+#include "core/for_each.hpp"
 #include "core/link_matrix.hpp"
 #include "core/scenario.hpp"
 #include "sim_server/conditions/path_loss.hpp"
@@ -27,7 +28,8 @@ class LinkTracer {
 
   /// @param rays  with the bodies where they are. @param uavs  in fleet order.
   /// @returns 1 for a link; with path loss the place of its rate in kRadioRates, counted from 1.
-  Links trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs);
+  Links trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs,
+              const ForEach& for_each = one_after_another);
   /// Those of the last trace() before faults limited their range.
   const Links& unfailed() const { return unfailed_; }
   /// Those that blackouts, outages and partitions leave.

@@ -174,7 +174,8 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .watch = watch_options(watch_speed_, clock_, watch_losses_),
                                     .by_hand = indices_of(by_hand_, *scenario),
                                     .faults = load_fault_plan(options.faults, *scenario, options.seed),
-                                    .gate = gate_};
+                                    .gate = gate_,
+                                    .for_each = for_each_};
   std::optional<Scene> ready = shelf_ ? shelf_->take() : std::nullopt;
   Scene scene = ready ? std::move(*ready) : load_scene(*scenario);
   if (!options.check_only) refuse_used_folder(options);

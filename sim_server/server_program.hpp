@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bus/lockstep/fleet_program.hpp"
+#include "core/for_each.hpp"
 #include "process/run_folder.hpp"
 #include "recording/replay.hpp"
 #include "sim_server/scene_shelf.hpp"
@@ -21,8 +22,10 @@ class ServerProgram final : public bus::FleetProgram {
  public:
   /// @param gate  of whoever steps the fleet in this process; nullptr: it flies by itself.
   /// @param shelf  with the scene of its scenario; nullptr, or empty: it loads that.
-  explicit ServerProgram(std::shared_ptr<StepGate> gate = nullptr, std::shared_ptr<SceneShelf> shelf = nullptr)
-      : gate_(std::move(gate)), shelf_(std::move(shelf)) {}
+  /// @param for_each  how the simulation has its work done.
+  explicit ServerProgram(std::shared_ptr<StepGate> gate = nullptr, std::shared_ptr<SceneShelf> shelf = nullptr,
+                         ForEach for_each = one_after_another)
+      : gate_(std::move(gate)), shelf_(std::move(shelf)), for_each_(std::move(for_each)) {}
   /// Loads the scene that a server with these options will have. @throws InputError
   static Scene load_ahead(const ProgramOptions& options);
   const char* name() const override { return programs::kSimServer; }
@@ -44,6 +47,7 @@ class ServerProgram final : public bus::FleetProgram {
   ServerTasks tasks_;
   const std::shared_ptr<StepGate> gate_;
   const std::shared_ptr<SceneShelf> shelf_;
+  const ForEach for_each_;
 };
 
 }  // namespace skein::sim

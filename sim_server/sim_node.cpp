@@ -54,6 +54,7 @@ SimNode::SimNode(const Scenario& scenario, Scene scene, const SimNodeOptions& op
       hand_(scenario, simulation_, options.by_hand, options.out),
       faults_(scenario, simulation_, server_, status, options_.replay, options.out),
       progress_(scenario, status) {
+  simulation_.share_work(options.for_each);
   if (!options.gate) work_.emplace(scenario, simulation_);
   participants_.push_back(bus.join(world_domain(options.base_domain)));
   for (const Node node : scenario.nodes()) {

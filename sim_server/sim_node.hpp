@@ -51,6 +51,7 @@ struct SimNodeOptions {
   std::vector<UavIndex> by_hand = {};      ///< UAVs that somebody who looks on flies (--by-hand)
   FaultPlan faults;
   std::shared_ptr<StepGate> gate = nullptr;  ///< somebody in this process steps the fleet
+  ForEach for_each = one_after_another;      ///< how the simulation has its work done
 };
 
 class SimNode final : public bus::LockstepNode {

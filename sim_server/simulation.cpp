@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/airframe.hpp"
+#include "sim_server/fleet_bodies.hpp"
 #include "sim_server/flight/enclosure.hpp"
 #include "sim_server/flight/fleet_start.hpp"
 #include "sim_server/flight/physics_world.hpp"
@@ -19,18 +19,8 @@ namespace {
 /// A UAV idles while it is slower than this and no capture has raised one of its scores for this long.
 constexpr double kIdleSpeed = 0.1;
 constexpr Tick kIdleAge = 5 * kTicksPerSecond;
-
-std::vector<BodyShape> body_shapes(const Scenario& scenario) {
-  std::vector<BodyShape> shapes;
-  for (const UavConfig& uav : scenario.fleet) shapes.push_back(body_shape(uav.vehicle));
-  return shapes;
-}
-
-std::vector<double> rest_heights(const Scenario& scenario) {
-  std::vector<double> heights;
-  for (const UavConfig& uav : scenario.fleet) heights.push_back(rest_height(uav.vehicle));
-  return heights;
-}
+/// Forces on fewer, a microsecond each, are not worth a helper.
+constexpr std::size_t kForcesAtOnce = 32;
 
 }  // namespace
 
@@ -41,12 +31,19 @@ struct Simulation::Impl {
   void deliver_commands();
   void run_tick();
   void control_and_fly();
+  Wrench control(UavIndex i);
   void judge_mission();
   void measure(const std::vector<RigidBodyState>& before);
   void take_pictures();
   void take_scans();
   void finish_exchange();
   void trace_links();
+  /// Where a UAV takes itself to be.
+  Isometry3d X_told_B(UavIndex uav) const {
+    const Isometry3d X_WB = world.state(uav).X_WB();
+    const auto X_told_W = uavs[uav].surroundings.X_told_W(world.state(uav));
+    return X_told_W ? *X_told_W * X_WB : X_WB;
+  }
   RigidBodyState believed(UavIndex uav) const { return uavs[uav].surroundings.believed(world.state(uav)); }
   void tell(UavIndex uav, const VehicleCondition& condition);
   void refresh_rays();
@@ -71,6 +68,7 @@ struct Simulation::Impl {
   std::uint64_t step = 0;
   Tick tick = 0;
   WorkClock* clock = nullptr;
+  ForEach for_each = one_after_another;
   Tick rays_tick = -1;  ///< the tick whose poses `rays` has
 };
 
@@ -148,21 +146,26 @@ void Simulation::Impl::run_tick() {
 }
 
 void Simulation::Impl::control_and_fly() {
+  std::vector<Wrench> wrenches(uavs.size());
+  in_blocks(for_each, uavs.size(), kForcesAtOnce, [&](std::size_t i) { wrenches[i] = control(UavIndex{i}); });
   for (const UavIndex i : FirstUavs(uavs.size())) {
-    SimulatedUav& uav = uavs[i];
     const RigidBodyState& state = world.state(i);
-    uav.surroundings.begin_tick(tick, state, uav.condition.gust_W);
-    if (tick % kControlTicks == 0 && listening(i)) {
-      const auto gimbal_command = std::exchange(uav.gimbal_command, std::nullopt);
-      uav.vehicle.control(tick, uav.surroundings.believed(state), uav.link.take_trajectory(tick), gimbal_command);
-    }
-    const Wrench wrench = uav.surroundings.fly(uav.vehicle, state);
-    world.apply_wrench(i, state.q_WB * wrench.force_B, state.q_WB * wrench.torque_B);
-    if (uav.surroundings.spend(tick, uav.vehicle, state)) {
-      uav.vehicle.stop();
-      mission.lose_power(i);
-    }
+    world.apply_wrench(i, state.q_WB * wrenches[i].force_B, state.q_WB * wrenches[i].torque_B);
+    if (!uavs[i].surroundings.spend(tick, uavs[i].vehicle, state)) continue;
+    uavs[i].vehicle.stop();
+    mission.lose_power(i);
   }
+}
+
+Wrench Simulation::Impl::control(UavIndex i) {
+  SimulatedUav& uav = uavs[i];
+  const RigidBodyState& state = world.state(i);
+  uav.surroundings.begin_tick(tick, state, uav.condition.gust_W);
+  if (tick % kControlTicks == 0 && listening(i)) {
+    const auto gimbal_command = std::exchange(uav.gimbal_command, std::nullopt);
+    uav.vehicle.control(tick, uav.surroundings.believed(state), uav.link.take_trajectory(tick), gimbal_command);
+  }
+  return uav.surroundings.fly(uav.vehicle, state);
 }
 
 void Simulation::Impl::judge_mission() {
@@ -202,44 +205,55 @@ void Simulation::Impl::measure(const std::vector<RigidBodyState>& before) {
 
 void Simulation::Impl::take_pictures() {
   const Tick shutter_delay = ticks(scenario.conditions.camera.shutter_delay_s);
+  std::vector<UavIndex> firing;
   for (const UavIndex i : FirstUavs(uavs.size())) {
     SimulatedUav& uav = uavs[i];
     if (!mission.alive(i) || !uav.condition.camera_works) continue;
-    if (!uav.shutter_opens(tick, shutter_delay)) continue;
-    refresh_rays();
-    Capture capture = [&] {
-      const WorkSection section(clock, Work::camera);
-      return uav.camera.capture(tick, world.state(i), uav.vehicle.gimbal(), rays);
-    }();
-    if (capture.detections.empty()) continue;
-    ++uav.view.captures;
-    if (capture.improved()) uav.last_raise = tick;
-    auto report = referee.enter(i, capture);
-    events.captures.push_back({i, std::move(capture), uav.surroundings.X_told_W(world.state(i)), std::move(report)});
+    if (uav.shutter_opens(tick, shutter_delay)) firing.push_back(i);
+  }
+  if (firing.empty()) return;
+  refresh_rays();
+  auto captures = [&] {
+    const WorkSection section(clock, Work::camera, firing.size());
+    return all_of<Capture>(for_each, firing, [&](UavIndex i) {
+      return uavs[i].camera.capture(tick, world.state(i), uavs[i].vehicle.gimbal(), rays);
+    });
+  }();
+  for (std::size_t n = 0; n < firing.size(); ++n) {
+    const UavIndex i = firing[n];
+    if (captures[n].detections.empty()) continue;
+    ++uavs[i].view.captures;
+    if (captures[n].improved()) uavs[i].last_raise = tick;
+    auto report = referee.enter(i, captures[n]);
+    events.captures.push_back(
+        {i, std::move(captures[n]), uavs[i].surroundings.X_told_W(world.state(i)), std::move(report)});
   }
 }
 
 void Simulation::Impl::take_scans() {
+  std::vector<UavIndex> scanning;
   for (const UavIndex i : FirstUavs(uavs.size())) {
     SimulatedUav& uav = uavs[i];
     if (!uav.lidar || !mission.alive(i)) continue;
     uav.lidar->move(tick, world.state(i).X_WB());
     if (!uav.condition.lidar_works || !uav.lidar->due(tick)) continue;
     events.servos.push_back({i, uav.lidar->servo(tick)});
-    const Isometry3d X_WB = world.state(i).X_WB();
-    const std::optional<Isometry3d> X_told_W = uav.surroundings.X_told_W(world.state(i));
-    const Isometry3d X_told_B = X_told_W ? *X_told_W * X_WB : X_WB;
-    if (!uav.scans_wanted && !uav.keyframes.wants(tick, X_told_B)) continue;
-    refresh_rays();
-    LidarScan scan = [&] {
-      const WorkSection section(clock, Work::lidar);
-      return uav.lidar->scan(tick, X_WB, rays);
-    }();
-    if (X_told_W) place(scan, *X_told_W);
-    if (auto key_frame = uav.keyframes.offer(scan, X_told_B)) {
+    if (uav.scans_wanted || uav.keyframes.wants(tick, X_told_B(i))) scanning.push_back(i);
+  }
+  if (scanning.empty()) return;
+  refresh_rays();
+  auto scans = [&] {
+    const WorkSection section(clock, Work::lidar, scanning.size());
+    return all_of<LidarScan>(for_each, scanning,
+                             [&](UavIndex i) { return uavs[i].lidar->scan(tick, world.state(i).X_WB(), rays); });
+  }();
+  for (std::size_t n = 0; n < scans.size(); ++n) {
+    const UavIndex i = scanning[n];
+    if (const auto X_told_W = uavs[i].surroundings.X_told_W(world.state(i))) place(scans[n], *X_told_W);
+    if (auto key_frame = uavs[i].keyframes.offer(scans[n], X_told_B(i))) {
       events.key_frames.push_back({i, std::move(*key_frame), {}});
     }
-    events.scans.push_back({i, std::move(scan)});
+    events.scans.push_back({i, std::move(scans[n])});
   }
 }
 
@@ -273,7 +287,7 @@ void Simulation::Impl::trace_links() {
   refresh_rays();
   std::vector<LinkTracer::Place> places;
   for (const UavIndex i : FirstUavs(uavs.size())) places.push_back({world.state(i).p_WB, mission.alive(i)});
-  links = tracer.trace(tick, rays, places);
+  links = tracer.trace(tick, rays, places, for_each);
   open_links = tracer.open(tick, links);
 }
 
@@ -338,6 +352,7 @@ void Simulation::set_faults_by_hand(const std::vector<Fault>& faults) {
   all.insert(all.end(), faults.begin(), faults.end());
 }
 void Simulation::want_scans(UavIndex uav, bool wanted) { impl_->uavs[uav].scans_wanted = wanted; }
+void Simulation::share_work(ForEach for_each) { impl_->for_each = std::move(for_each); }
 void Simulation::watch(WorkClock* clock) { impl_->clock = clock; }
 
 void Simulation::advance() {

@@ -1,6 +1,6 @@
 // The whole simulated world, one exchange at a time: vehicles, sensors, radio links, mission, referee.
-// Pure and single-threaded: no middleware, no wall clock. The same scenario, scene, seed and commands give the
-// same bits. Frames: W world (ENU), B body (FLU).  Units: SI, radians; times are ticks.
+// Pure: no middleware, no wall clock. The same scenario, scene, seed and commands give the same bits, whoever helps.
+// Threads: one, which may share its work (share_work()). Frames: W world (ENU), B body (FLU).  Units: SI, radians; times are ticks.
 //
 // Commands are handed in at a step boundary, between two calls of advance(); what happened in the exchange is in
 // events(). LiDARs run from the beginning, cameras while the clock runs, nothing after the mission's end: motors stop
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/fault_plan.hpp"
+#include "core/for_each.hpp"
 #include "core/link_matrix.hpp"
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
@@ -144,6 +145,8 @@ class Simulation {
   /// Whether anybody reads this UAV's scans (they do, until told otherwise). Those that nobody reads and that would
   /// not become key frames are not computed: the LiDAR is the most expensive sensor. Nothing else depends on it.
   void want_scans(UavIndex uav, bool wanted);
+  /// What does not depend on one another is done so from now on: scans, exposures, links, and forces of a large fleet.
+  void share_work(ForEach for_each);
   /// Announces work to a clock from now on. @param clock  must outlive the simulation; null: nobody.
   void watch(WorkClock* clock);
 

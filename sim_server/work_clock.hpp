@@ -2,6 +2,8 @@
 // to do, and whoever wants to know takes the time.
 #pragma once
 
+#include <cstddef>
+
 namespace skein::sim {
 
 enum class Work {
@@ -17,17 +19,18 @@ class WorkClock {
  public:
   virtual ~WorkClock() = default;
   virtual void begin(Work work) = 0;
-  virtual void end(Work work) = 0;
+  /// @param pieces  of its kind that were done: scans, exposures.
+  virtual void end(Work work, std::size_t pieces) = 0;
 };
 
-/// Announces a piece of work as long as it lives. @param clock  may be null.
+/// Announces work as long as it lives. @param clock  may be null. @param pieces  as WorkClock::end() has them.
 class WorkSection {
  public:
-  WorkSection(WorkClock* clock, Work work) : clock_(clock), work_(work) {
+  WorkSection(WorkClock* clock, Work work, std::size_t pieces = 1) : clock_(clock), work_(work), pieces_(pieces) {
     if (clock_) clock_->begin(work_);
   }
   ~WorkSection() {
-    if (clock_) clock_->end(work_);
+    if (clock_) clock_->end(work_, pieces_);
   }
   WorkSection(const WorkSection&) = delete;
   WorkSection& operator=(const WorkSection&) = delete;
@@ -35,6 +38,7 @@ class WorkSection {
  private:
   WorkClock* const clock_;
   const Work work_;
+  const std::size_t pieces_;
 };
 
 }  // namespace skein::sim

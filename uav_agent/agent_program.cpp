@@ -52,7 +52,7 @@ void check_debug_names(const std::vector<std::string>& names, const std::string&
 
 /// @throws InputError when the planner wants maps that so many UAVs cannot tell each other.
 void check_fleet_size(const Planner& planner, const std::string& name, std::size_t uavs) {
-  if (!planner.wants_world_map() || uavs <= kMostUavs) return;
+  if ((!planner.wants_world_map() && !planner.flight()) || uavs <= kMostUavs) return;
   throw InputError("planner " + name + " wants the map of what is free, which up to " + std::to_string(kMostUavs) +
                    " UAVs tell each other; this fleet has " + std::to_string(uavs));
 }
@@ -79,11 +79,13 @@ std::unique_ptr<Planner> planner_of(const std::string& spec, const Scenario& sce
 
 class AgentMember final : public bus::FleetMember {
  public:
-  /// @param scenario, bus  that the node refers to.
+  /// @param scenario, bus  that the node refers to. @param steps_alone  a program outside steps it.
   AgentMember(const ProgramOptions& options, std::string planner, StatusPipe& status,
-              std::unique_ptr<const Scenario> scenario, std::unique_ptr<bus::Bus> bus, std::unique_ptr<MemberNode> node)
+              std::unique_ptr<const Scenario> scenario, std::unique_ptr<bus::Bus> bus, std::unique_ptr<MemberNode> node,
+              bool steps_alone)
       : dds_(options.dds),
         planner_(std::move(planner)),
+        beside_(!steps_alone && !python_spec(planner_)),  // an interpreter has one thread at a time
         status_(status),
         scenario_(std::move(scenario)),
         bus_(std::move(bus)),
@@ -96,6 +98,7 @@ class AgentMember final : public bus::FleetMember {
 
   bus::LockstepNode& node() override { return *node_; }
   bus::Bus& bus() override { return *bus_; }
+  bool flies_beside() const override { return beside_; }
 
   std::optional<int> ended(bus::NodeEnd end) override {
     const int code = bus::exit_code(end, node_->member());
@@ -123,6 +126,7 @@ class AgentMember final : public bus::FleetMember {
 
  private:
   const std::string dds_, planner_;
+  const bool beside_;
   StatusPipe& status_;
   const std::unique_ptr<const Scenario> scenario_;
   const std::unique_ptr<bus::Bus> bus_;
@@ -186,7 +190,8 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
     }
     node = std::move(on_board);
   }
-  return std::make_unique<AgentMember>(options, planner_, status, std::move(scenario), std::move(bus), std::move(node));
+  return std::make_unique<AgentMember>(options, planner_, status, std::move(scenario), std::move(bus), std::move(node),
+                                       learner != nullptr);
 }
 
 }  // namespace skein::agent

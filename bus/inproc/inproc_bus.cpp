@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <deque>
 #include <map>
 #include <mutex>
@@ -37,6 +38,7 @@ using Ends = std::vector<std::shared_ptr<End>>;
 
 /// All ends of one topic in one domain. Lists are replaced, not changed: who walks through one keeps it.
 struct Channel {
+  std::recursive_mutex* mutex = nullptr;  ///< of the domain
   std::shared_ptr<const Ends<WriterEnd>> writers = std::make_shared<Ends<WriterEnd>>();
   std::shared_ptr<const Ends<ReaderEnd>> readers = std::make_shared<Ends<ReaderEnd>>();
 };
@@ -64,7 +66,8 @@ bool match(const WriterEnd& writer, const ReaderEnd& reader) {
          writer.topic.qos.reliable >= reader.topic.qos.reliable && writer.topic.qos.latched >= reader.topic.qos.latched;
 }
 
-/// All endpoints of this process. One lock for all domains, recursive, since callbacks write and subscribe.
+/// All endpoints of this process. A lock for each domain, so that agents on different threads do not wait for each
+/// other; recursive, since callbacks write and subscribe, in their own domain. None is held while another is taken.
 class Exchange {
  public:
   /// Buses that know nothing of each other must meet, as they do over a network: hence one for the process.
@@ -74,7 +77,6 @@ class Exchange {
   }
 
   ParticipantId next_id() {
-    const std::scoped_lock lock(mutex_);
     const std::uint64_t number = ++participants_;
     std::array<std::uint8_t, 12> prefix{};
     for (std::size_t i = 0; i < 8; ++i) prefix[11 - i] = static_cast<std::uint8_t>(number >> (8 * i));
@@ -82,8 +84,8 @@ class Exchange {
   }
 
   std::shared_ptr<WriterEnd> add_writer(int domain, ParticipantId participant, const TopicSpec& topic) {
-    const std::scoped_lock lock(mutex_);
-    Channel& channel = channels_[{domain, topic.name}];
+    Channel& channel = channel_of(domain, topic.name);
+    const std::scoped_lock lock(*channel.mutex);
     auto writer = std::make_shared<WriterEnd>(WriterEnd{{channel, participant, topic}, {}});
     add_to(channel.writers, writer);
     return writer;
@@ -91,8 +93,8 @@ class Exchange {
 
   std::shared_ptr<ReaderEnd> add_reader(int domain, ParticipantId participant, const TopicSpec& topic,
                                         OnSample on_sample) {
-    const std::scoped_lock lock(mutex_);
-    Channel& channel = channels_[{domain, topic.name}];
+    Channel& channel = channel_of(domain, topic.name);
+    const std::scoped_lock lock(*channel.mutex);
     auto reader = std::make_shared<ReaderEnd>(ReaderEnd{{channel, participant, topic}, std::move(on_sample)});
     add_to(channel.readers, reader);
     if (!topic.qos.latched) return reader;
@@ -106,28 +108,28 @@ class Exchange {
   }
 
   void remove(const WriterEnd& writer) {
-    const std::scoped_lock lock(mutex_);
+    const std::scoped_lock lock(*writer.channel.mutex);
     remove_from(writer.channel.writers, [&](const WriterEnd& end) { return &end == &writer; });
   }
 
   void remove(ReaderEnd& reader) {
-    const std::scoped_lock lock(mutex_);
+    const std::scoped_lock lock(*reader.channel.mutex);
     remove_from(reader.channel.readers, [&](const ReaderEnd& end) { return &end == &reader; });
     reader.alive = false;
   }
 
   /// All ends of these participants.
   void remove(const std::set<ParticipantId>& participants) {
-    const std::scoped_lock lock(mutex_);
     const auto theirs = [&](const Endpoint& end) { return participants.contains(end.participant); };
-    for (auto& [key, channel] : channels_) {
-      remove_from(channel.writers, theirs);
-      for (const auto& reader : remove_from(channel.readers, theirs)) reader->alive = false;
+    for (Channel* channel : channels()) {
+      const std::scoped_lock lock(*channel->mutex);
+      remove_from(channel->writers, theirs);
+      for (const auto& reader : remove_from(channel->readers, theirs)) reader->alive = false;
     }
   }
 
   void write(WriterEnd& writer, const std::vector<std::uint8_t>& payload) {
-    const std::scoped_lock lock(mutex_);
+    const std::scoped_lock lock(*writer.channel.mutex);
     if (writer.topic.qos.latched) {
       writer.latched.push_back(payload);
       if (writer.latched.size() > static_cast<std::size_t>(writer.topic.qos.depth)) writer.latched.pop_front();
@@ -139,7 +141,7 @@ class Exchange {
   }
 
   std::vector<ParticipantId> readers_of(const WriterEnd& writer) {
-    const std::scoped_lock lock(mutex_);
+    const std::scoped_lock lock(*writer.channel.mutex);
     std::vector<ParticipantId> ids;
     for (const auto& reader : *writer.channel.readers) {
       if (match(writer, *reader)) ids.push_back(reader->participant);
@@ -148,7 +150,7 @@ class Exchange {
   }
 
   std::vector<ParticipantId> writers_of(const ReaderEnd& reader) {
-    const std::scoped_lock lock(mutex_);
+    const std::scoped_lock lock(*reader.channel.mutex);
     std::vector<ParticipantId> ids;
     for (const auto& writer : *reader.channel.writers) {
       if (match(*writer, reader)) ids.push_back(writer->participant);
@@ -157,7 +159,7 @@ class Exchange {
   }
 
   bool has_readers(const WriterEnd& writer) {
-    const std::scoped_lock lock(mutex_);
+    const std::scoped_lock lock(*writer.channel.mutex);
     const Ends<ReaderEnd>& readers = *writer.channel.readers;
     return std::any_of(readers.begin(), readers.end(), [&](const auto& reader) { return match(writer, *reader); });
   }
@@ -167,9 +169,25 @@ class Exchange {
     if (reader.alive) reader.on_sample({payload, writer.participant});
   }
 
-  std::recursive_mutex mutex_;
-  std::uint64_t participants_ = 0;
+  /// Made when it is first asked for; stays.
+  Channel& channel_of(int domain, const std::string& topic) {
+    const std::scoped_lock lock(mutex_);
+    Channel& channel = channels_[{domain, topic}];
+    channel.mutex = &domains_[domain];
+    return channel;
+  }
+
+  std::vector<Channel*> channels() {
+    const std::scoped_lock lock(mutex_);
+    std::vector<Channel*> all;
+    for (auto& [key, channel] : channels_) all.push_back(&channel);
+    return all;
+  }
+
+  std::atomic<std::uint64_t> participants_ = 0;
+  std::mutex mutex_;                                         ///< of the two below; nothing is called under it
   std::map<std::pair<int, std::string>, Channel> channels_;  ///< by domain and topic
+  std::map<int, std::recursive_mutex> domains_;
 };
 
 class InprocWriter : public Writer {

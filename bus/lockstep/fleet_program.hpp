@@ -36,6 +36,9 @@ class FleetMember {
   virtual void on_stop() { node().inbox().wake(); }
   /// It is killed, and its memory is kept: of all that others see of it nothing stays. Only one_process/ does that.
   virtual void vanish() { bus().vanish(); }
+  /// Whether its turns, one at a time, may be on any thread and beside those of other programs: it shares nothing with
+  /// them but the bus. Only one_process/ asks.
+  virtual bool flies_beside() const { return false; }
   /// A line of the launcher's (process/status_lines.hpp).
   virtual void obey(const std::string& /*line*/) {}
 };

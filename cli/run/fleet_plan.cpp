@@ -16,6 +16,7 @@
 #include "cli/run/environment.hpp"
 #include "cli/run/ground_program.hpp"
 #include "cli/run/watch_arguments.hpp"
+#include "cli/threads.hpp"
 #include "core/config_files.hpp"
 #include "core/network_config.hpp"
 #include "core/scenario_reader.hpp"
@@ -346,6 +347,7 @@ ProgramSpec shared_process(const FleetPlan& plan, const std::filesystem::path& o
       fleet_environment(plan.options.native, config_variable(plan, agent)),
       out / run_folder::log_file(programs::kOneProcess)};
   if (plan.options.agent_timeout_s) append(process.argv, {"--agent-timeout", shortest(*plan.options.agent_timeout_s)});
+  append(process.argv, {"--threads", std::to_string(threads_of(plan.options.threads, plan.scenario.fleet.size()))});
   process.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
   process.minded = is_foreign(plan, agent);
   if (plan.watched) process.listener = plan.watched->listener;

@@ -25,7 +25,7 @@ constexpr double kTimesPatience = 1.5;
 }  // namespace
 
 SharedProcess::SharedProcess(ProgramSpec process, double patience_s)
-    : process_(std::move(process)), patience_(patience_s), turn_since_(Clock::now()) {
+    : process_(std::move(process)), patience_(patience_s) {
   process_.argv.insert(process_.argv.end(), {"--turn-page", page_.path()});
 }
 
@@ -49,18 +49,22 @@ std::vector<Event> SharedProcess::wait(std::chrono::milliseconds limit) {
 }
 
 void SharedProcess::look_after_turns() {
-  const std::uint64_t now = page_.turns();
-  const bool watched = patience_.count() > 0.0 && now % 2 == 1 && !page_.holder().empty();
-  if (now != turn_ || !watched || tracer_of(page_.process()) != 0) {  // a debugger takes its time
-    turn_ = now;
-    turn_since_ = Clock::now();
-  } else if (Clock::now() - turn_since_ >= kTimesPatience * patience_) {
-    page_.give_reason(fmt::format("this program did not end its turn for {} s, and its process {}", patience_.count(),
-                                  cli::has_stopped(page_.process()) ? "is stopped (SIGSTOP)" : "does not say why"));
-    supervisor_.signal(process_.name, SIGKILL);
-    supervisor_.signal(process_.name, SIGCONT);  // a minder has stopped with it, and has to see its end
-    turn_since_ = Clock::now();
+  if (patience_.count() <= 0.0) return;
+  const Clock::time_point now = Clock::now();
+  bool too_long = false;
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    Seat& seat = seats_[i];
+    const std::uint64_t turn = page_.turns(i);
+    if (turn != std::exchange(seat.turn, turn) || turn % 2 == 0) seat.since = now;
+    too_long = too_long || now - seat.since >= kTimesPatience * patience_;
   }
+  if (!too_long) return;
+  for (Seat& seat : seats_) seat.since = now;
+  if (tracer_of(page_.process()) != 0) return;  // a debugger takes its time
+  page_.give_reason(fmt::format("this program did not end its turn for {} s, and its process {}", patience_.count(),
+                                cli::has_stopped(page_.process()) ? "is stopped (SIGSTOP)" : "does not say why"));
+  supervisor_.signal(process_.name, SIGKILL);
+  supervisor_.signal(process_.name, SIGCONT);  // a minder has stopped with it, and has to see its end
 }
 
 void SharedProcess::send(const std::string& program, const std::string& line) {
@@ -115,8 +119,9 @@ void SharedProcess::hear(const std::string& text, std::vector<Event>& events) {
 }
 
 std::string SharedProcess::blame(const ExitStatus& exit) {
-  const std::string holder = page_.holder();
-  if (!running(holder)) return {};
+  std::vector<std::string> holders = page_.holders();
+  std::erase_if(holders, [this](const std::string& holder) { return !running(holder); });
+  if (holders.empty()) return {};
   std::string reason = page_.reason();
   // These come from outside: from a user, the system that is out of memory, or the launcher at the end of a run.
   if (reason.empty() && (exit.signal == SIGKILL || exit.signal == SIGTERM || exit.signal == SIGINT)) return {};
@@ -125,8 +130,14 @@ std::string SharedProcess::blame(const ExitStatus& exit) {
                               : "the process ended in this program's turn with " + exit.text() +
                                     ": the program called _exit() or quick_exit(), or became another one (exec)";
   }
-  std::ofstream(logs_[holder], std::ios::app) << "[skein] " << reason << '\n';
-  return holder;
+  if (holders.size() > 1) {
+    std::ofstream(process_.log, std::ios::app) << fmt::format(
+        "[skein] {}; 'this program' is one of {}, which had their turns side by side: --threads 1 tells which\n",
+        reason, fmt::join(holders, ", "));
+    return {};
+  }
+  std::ofstream(logs_[holders.front()], std::ios::app) << "[skein] " << reason << '\n';
+  return holders.front();
 }
 
 /// All that still ran has ended with the process.

@@ -1,7 +1,9 @@
 // All programs of a fleet in one process (one_process/). What becomes of each of them is told as if it were a process.
 #pragma once
 
+#include <array>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -38,15 +40,19 @@ class SharedProcess final : public ProgramHost {
   void on_death(const Event& event, std::vector<Event>& events);
   /// Ends the process when a turn takes too long.
   void look_after_turns();
-  /// Whose turn it was, and how that ended: into its log. @returns its name; empty: nobody of those that ran.
+  /// Whose turn it was, and how that ended: into its log. @returns its name; empty: nobody of those that ran, or one of
+  /// several, which the log of the process then tells.
   std::string blame(const ExitStatus& exit);
 
   ProgramSpec process_;
   Supervisor supervisor_;
   TurnPage page_;
   const std::chrono::duration<double> patience_;
-  std::uint64_t turn_ = 0;
-  std::chrono::steady_clock::time_point turn_since_;
+  struct Seat {
+    std::uint64_t turn = 0;
+    std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
+  };
+  std::array<Seat, TurnPage::kSeats> seats_;
   std::set<std::string> running_, stopped_;
   std::map<std::string, std::filesystem::path> logs_;
   bool explained_ = false;  ///< of a program that died badly, the process said so

@@ -1,5 +1,9 @@
 #include "cli/study/side_by_side.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+
+#include "cli/threads.hpp"
 #include "process/program.hpp"
 
 namespace skein::cli {
@@ -10,6 +14,10 @@ bool SideBySide::fly(std::deque<std::size_t> waiting, const Start& start, const 
       std::optional<ProgramSpec> program = start(waiting.front());
       if (!program) break;
       program->name = "flight " + std::to_string(waiting.front());
+      if (std::getenv(kThreadsVariable) == nullptr) {  // else it is theirs already
+        const std::size_t beside = std::min(at_once_, in_the_air_.size() + waiting.size());
+        program->env.push_back(std::string(kThreadsVariable) + "=" + std::to_string(threads_beside(beside)));
+      }
       supervisor_.start(*program);
       in_the_air_[program->name] = waiting.front();
       waiting.pop_front();

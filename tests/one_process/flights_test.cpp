@@ -23,8 +23,9 @@ class OneProcess : public FleetTest {
     return flight(more);
   }
   /// Jurong brings the whole process to its end. It alone is blamed.
-  SkeinRun& end_with_jurong(const std::string& how) {
-    SkeinRun& flown = run(how, nasty(how, {"--agent-timeout", "2"}), {}, 3);
+  SkeinRun& end_with_jurong(const std::string& how, Arguments more = {}) {
+    more.insert(more.end(), {"--agent-timeout", "2"});
+    SkeinRun& flown = run(how, nasty(how, more), {}, 3);
     EXPECT_TRUE(says(flown.err(), "uav_agent-jurong failed: ")) << flown.err();
     EXPECT_FALSE(says(flown.err(), "changi failed")) << flown.err();
     EXPECT_FALSE(says(flown.err(), "one_process failed")) << flown.err();
@@ -33,6 +34,15 @@ class OneProcess : public FleetTest {
 
   const std::string scene_ = write_small_scene(folder());  ///< two UAVs: jurong and changi
 };
+
+TEST_F(OneProcess, RefusesWhatIsNoNumberOfThreads) {
+  SkeinRun& none = run("none", flight({"--threads", "0"}), {}, 2);
+  EXPECT_TRUE(says(none.err(), "--threads")) << none.err();
+  SkeinRun& named = run("named", flight({}), {{"SKEIN_THREADS", "many"}}, 2);
+  EXPECT_TRUE(says(named.err(), "SKEIN_THREADS: 'many'")) << named.err();
+  SkeinRun& over_dds = run("over_dds", {scene_, "--threads", "2"}, {}, 2);
+  EXPECT_TRUE(says(over_dds.err(), "--one-process")) << over_dds.err();
+}
 
 TEST_F(OneProcess, TellsWhatNeedsProcesses) {
   const std::vector<std::pair<Arguments, std::string>> refused = {
@@ -93,7 +103,7 @@ TEST_F(OneProcess, WhoTakesTheProcessAlongIsNamed) {
                                                                    {"hangs", "did not end its turn for 2 s"}};
   for (const auto& [how, reason] : deaths) {
     SCOPED_TRACE(how);
-    SkeinRun& run = end_with_jurong(how);
+    SkeinRun& run = end_with_jurong(how, {"--threads", "2"});
     if (sanitizer().empty()) {  // a sanitizer takes such deaths for its own, and has the end of the log
       EXPECT_TRUE(says(run.err(), "nasty " + how)) << "what it said last";
       EXPECT_TRUE(says(run.err(), reason)) << run.err();
@@ -115,11 +125,19 @@ TEST_F(OneProcess, WhoEndsOrStopsTheProcessWithoutAWordIsNamed) {
                                                                    {"becomes", "became another one"}};
   for (const auto& [how, reason] : deaths) {
     SCOPED_TRACE(how);
-    SkeinRun& run = end_with_jurong(how);
+    SkeinRun& run = end_with_jurong(how, {"--threads", "1"});  // with more, it may be one of two
     EXPECT_TRUE(says(run.err(), reason)) << run.err();
     EXPECT_NE(run.result()["status"], "completed");
     expect_nothing_left();
   }
+}
+
+TEST_F(OneProcess, OfTurnsSideBySideOneOfTheirProgramsIsNamedOrAll) {
+  if (!sanitizer().empty()) GTEST_SKIP() << "sanitizers take the end of a process for their own";
+  SkeinRun& run = this->run("side_by_side", nasty("exits_now", {"--threads", "2"}), {}, 3);
+  const bool all = says(run.err(), "is one of uav_agent-");
+  EXPECT_TRUE(says(run.err(), all ? "--threads 1 tells which" : "uav_agent-jurong failed: ")) << run.err();
+  EXPECT_FALSE(says(run.err(), "uav_agent-changi failed: ")) << run.err();
 }
 
 TEST_F(OneProcess, DebugNamesThatNobodyReadsAreRefusedAtOnce) {
@@ -143,7 +161,7 @@ TEST_F(OneProcess, WhoIsKilledHasNoLastWords) {
 }
 
 TEST_F(OneProcess, EachHasALogOfItsOwn) {
-  SkeinRun& run = this->run("logs", nasty("none"));
+  SkeinRun& run = this->run("logs", nasty("none", {"--threads", "2"}));
   const std::string log = text_of(run.dir() / "uav_agent-jurong.log");
   EXPECT_TRUE(says(log, "nasty begins")) << "through printf: " << log;
   EXPECT_TRUE(says(log, "nasty plans")) << "through std::cerr: " << log;

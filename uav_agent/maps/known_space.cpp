@@ -175,7 +175,6 @@ struct KnownSpace::Trees {
   }
 
   octomap::OcTree hits, free;
-  mutable octomap::KeyRay ray;  ///< for the moment: it is large
 };
 
 KnownSpace::KnownSpace(double cell_m, double free_cell_m)
@@ -226,13 +225,14 @@ bool KnownSpace::add_hit(const Vector3d& p_W) {
 }
 
 PassedCells KnownSpace::passed_by_rays(const Vector3d& from_W, const std::vector<Vector3d>& to_W) const {
+  thread_local octomap::KeyRay ray;  // it is large, and agents share what traces rays (onboard/ready_frames.hpp)
   PassedCells passed;
   BlockTable<std::size_t> places;  // in `passed`, by block; from 1 on
   for (const Vector3d& to : to_W) {
-    if (!trees_->free.computeRayKeys(octomap_point(from_W), octomap_point(to), trees_->ray)) continue;
+    if (!trees_->free.computeRayKeys(octomap_point(from_W), octomap_point(to), ray)) continue;
     PassedCells::Block* block = nullptr;
     std::uint64_t its_key = 0;
-    for (const octomap::OcTreeKey& key : trees_->ray) {
+    for (const octomap::OcTreeKey& key : ray) {
       const RayBlocks::Cell cell = {key[0], key[1], key[2]};
       if (block == nullptr || RayBlocks::block_of(cell) != its_key) {
         its_key = RayBlocks::block_of(cell);

@@ -20,8 +20,8 @@
 namespace skein::agent {
 
 /// A set of UAVs and this one itself, as a bit for each Teller.
-using Tellers = std::uint64_t;
-inline constexpr std::size_t kMostUavs = 63;
+using Tellers = unsigned __int128;
+inline constexpr std::size_t kMostUavs = 127;
 constexpr Teller teller_of(std::size_t uav) { return static_cast<Teller>(uav + 1); }
 constexpr Tellers only(Teller teller) { return Tellers{1} << teller; }
 

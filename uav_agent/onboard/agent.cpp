@@ -188,7 +188,7 @@ void Agent::Impl::perceive(const AgentInput& input) {
     for (const KeyFrame& frame : input.key_frames) {
       auto sound_W = frames->filter(keep_lone).sound(frame.points_W, bodies);
       const std::optional<Vector3d> p_WS = sensor_position(frame, input);
-      map.insert(frames->ready(std::move(sound_W), p_WS, keep_lone));
+      map.insert(*frames->ready(std::move(sound_W), p_WS, keep_lone));
     }
   }
   uplink.take(input.capture_reports);

@@ -23,38 +23,40 @@ KeyFrameFilter::Config keeping_lone() {
 
 ReadyFrames::ReadyFrames(std::size_t most) : most_(most), keeping_lone_(keeping_lone()) {}
 
-const FrameCells& ReadyFrames::ready(std::vector<Eigen::Vector3f> sound_W, const std::optional<Vector3d>& p_WS,
-                                     bool keep_lone) {
+std::shared_ptr<const FrameCells> ReadyFrames::ready(std::vector<Eigen::Vector3f> sound_W,
+                                                     const std::optional<Vector3d>& p_WS, bool keep_lone) {
   Question question{std::move(sound_W), p_WS, keep_lone};
-  const bool remembers = most_ > 0;
-  const std::size_t hash = remembers ? hash_of(question.sound_W) : 0;
-  if (remembers) {
-    if (const FrameCells* const frame = find(question, hash)) return *frame;
+  if (most_ == 0) return std::make_shared<const FrameCells>(work_out(question));
+  const std::size_t hash = hash_of(question.sound_W);
+  std::shared_ptr<Known> one;
+  {
+    const std::scoped_lock lock(mutex_);
+    one = known(std::move(question), hash);
   }
-  FrameCells frame = work_out(question);
-  if (!remembers) question = {};
-  if (known_.size() < std::max<std::size_t>(1, most_)) {
-    hashes_.push_back(hash);
-    return known_.emplace_back(std::move(question), std::move(frame)).frame;
-  }
-  const std::size_t place = std::exchange(oldest_, (oldest_ + 1) % known_.size());
-  hashes_[place] = hash;
-  known_[place] = {std::move(question), std::move(frame)};
-  return known_[place].frame;
+  std::call_once(one->worked_out, [&] { one->frame = work_out(one->question); });
+  return {one, &one->frame};
 }
 
 FrameCells ReadyFrames::work_out(const Question& question) const {
   return rays_.trace(filter(question.keep_lone).thinned(question.sound_W), question.p_WS);
 }
 
-const FrameCells* ReadyFrames::find(const Question& question, std::size_t hash) {
+std::shared_ptr<ReadyFrames::Known> ReadyFrames::known(Question&& question, std::size_t hash) {
   for (std::size_t n = 0; n < known_.size(); ++n) {
     const std::size_t place = (expected_ + n) % known_.size();
-    if (hashes_[place] != hash || known_[place].question != question) continue;
+    if (hashes_[place] != hash || known_[place]->question != question) continue;
     expected_ = place + 1;
-    return &known_[place].frame;
+    return known_[place];
   }
-  return nullptr;
+  auto one = std::make_shared<Known>();
+  one->question = std::move(question);
+  if (known_.size() < most_) {
+    hashes_.push_back(hash);
+    return known_.emplace_back(std::move(one));
+  }
+  const std::size_t place = std::exchange(oldest_, (oldest_ + 1) % known_.size());
+  hashes_[place] = hash;
+  return known_[place] = std::move(one);
 }
 
 }  // namespace skein::agent

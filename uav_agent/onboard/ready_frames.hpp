@@ -1,9 +1,12 @@
 // Key frames, ready for a map. What it takes to get one ready depends on nothing but the frame, and most frames are
 // heard by many: the agents of one process do it once for all of them. Frame W.   Units: metres.
-// Pure to who asks: an answer is the same whether or not it was worked out before.   Threads: one.
+// Pure to who asks: an answer is the same whether or not it was worked out before.   Threads: any. Who asks for what
+// another thread works out just now waits for it.
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -20,8 +23,9 @@ class ReadyFrames {
   /// @param sound_W     see KeyFrameFilter::sound()
   /// @param p_WS        where the sensor stood, if known
   /// @param keep_lone   whether hits without any other near them are kept
-  /// @returns what is to be inserted into maps of the usual Config; good until the next call.
-  const FrameCells& ready(std::vector<Eigen::Vector3f> sound_W, const std::optional<Vector3d>& p_WS, bool keep_lone);
+  /// @returns what is to be inserted into maps of the usual Config.
+  std::shared_ptr<const FrameCells> ready(std::vector<Eigen::Vector3f> sound_W, const std::optional<Vector3d>& p_WS,
+                                          bool keep_lone);
 
   const KeyFrameFilter& filter(bool keep_lone) const { return keep_lone ? keeping_lone_ : usual_; }
 
@@ -35,17 +39,20 @@ class ReadyFrames {
   struct Known {
     Question question;
     FrameCells frame;
+    std::once_flag worked_out;
   };
 
   FrameCells work_out(const Question& question) const;
-  const FrameCells* find(const Question& question, std::size_t hash);
+  /// The one that is remembered; a new one if there is none. Under the lock.
+  std::shared_ptr<Known> known(Question&& question, std::size_t hash);
 
   const std::size_t most_;
   const KeyFrameFilter usual_;
   const KeyFrameFilter keeping_lone_;
-  const OccupancyMap rays_;          ///< empty: it traces
-  std::vector<Known> known_;         ///< the oldest is overwritten
-  std::vector<std::size_t> hashes_;  ///< of the questions in known_
+  const OccupancyMap rays_;                    ///< empty: it traces
+  std::mutex mutex_;                           ///< of all below
+  std::vector<std::shared_ptr<Known>> known_;  ///< the oldest is replaced
+  std::vector<std::size_t> hashes_;            ///< of the questions in known_
   std::size_t oldest_ = 0;
   std::size_t expected_ = 0;  ///< in known_: who comes after another asks for the same in the same order
 };

@@ -40,9 +40,9 @@ TEST(ReadyFrames, AnswerAsIfNothingWereRemembered) {
     RandomStream random(most, "asked", 0);
     for (int i = 0; i < 400; ++i) {
       const Drawn drawn = question(static_cast<int>(random.bits() % kKinds));
-      const FrameCells& ready = frames.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone);
+      const auto ready = frames.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone);
       ReadyFrames forgetful;
-      ASSERT_TRUE(same(ready, forgetful.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone))) << most << " " << i;
+      ASSERT_TRUE(same(*ready, *forgetful.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone))) << most << " " << i;
     }
   }
 }
@@ -53,8 +53,8 @@ TEST(ReadyFrames, AreWhatAMapMakesOfThem) {
   RandomStream random(1, "asked", 0);
   for (int i = 0; i < 30; ++i) {
     const Drawn drawn = question(i);
-    const FrameCells& ready = frames.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone);
-    by_parts.insert(ready);
+    const auto ready = frames.ready(drawn.sound_W, drawn.p_WS, drawn.keep_lone);
+    by_parts.insert(*ready);
     at_once.insert(frames.filter(drawn.keep_lone).thinned(drawn.sound_W), drawn.p_WS);
   }
   EXPECT_EQ(by_parts.occupied_cells(), at_once.occupied_cells());

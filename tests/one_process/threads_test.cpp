@@ -1,0 +1,50 @@
+// A flight in one process is the same whatever number of threads flies it: planners, seeds and faults are drawn.
+#include "core/random_stream.hpp"
+#include "fleet_fixture.hpp"
+#include "tests/support/places.hpp"
+
+namespace skein::test {
+namespace {
+
+class Threads : public FleetTest, public testing::WithParamInterface<std::size_t> {};
+
+/// Programs that are killed and come back, or stand still for a while, at drawn times.
+std::string drawn_faults(RandomStream& random) {
+  std::string text = "faults:\n";
+  for (const std::string& uav : kFleet) {
+    const std::uint64_t kind = random.bits() % 4, from_s = 2 + random.bits() % 8;
+    const std::string times = "{at_s: " + std::to_string(from_s) + ", until_s: " + std::to_string(from_s + 2);
+    if (kind == 0 || uav == "jurong") text += "  - " + times + ", kill: " + uav + "}\n";
+    if (kind == 1) text += "  - " + times + ", pause: " + uav + "}\n";
+  }
+  return text;
+}
+
+TEST_P(Threads, DoNotShowInTheDigest) {
+  if (!has_turn(GetParam(), 3)) GTEST_SKIP() << "not its turn";
+  RandomStream random(GetParam(), "threads", 0);
+  const std::vector<std::string> planners = {"patrol", "kios", "xxh", "star", "flock"};
+  std::string planner = planners[random.bits() % planners.size()];
+  for (const std::string& uav : kFleet) planner += "," + uav + "=" + planners[random.bits() % planners.size()];
+  const Arguments flight = {"towers",      "--one-process",
+                            "--no-oracle", "--no-report",
+                            "--duration",  sanitizer() == "thread" ? "8" : "20",
+                            "--planner",   planner,
+                            "--seed",      std::to_string(random.bits() % 1000),
+                            "--faults",    write("faults.yaml", drawn_faults(random))};
+  std::set<std::string> digests;
+  for (const std::string threads : {"1", "2", "16"}) {
+    Arguments more = flight;
+    more.insert(more.end(), {"--threads", threads});
+    SkeinRun& run = this->run("threads" + threads, more);
+    digests.insert(run.digest());
+    EXPECT_EQ(run.digest().size(), 64U) << run.err();
+    EXPECT_GT(run.result()["steps"].get<int>(), 100);
+  }
+  EXPECT_EQ(digests.size(), 1U) << planner;
+}
+
+INSTANTIATE_TEST_SUITE_P(Drawn, Threads, testing::Range(std::size_t{1}, std::size_t{10}));
+
+}  // namespace
+}  // namespace skein::test
