@@ -41,6 +41,14 @@ struct ViewOptions {
   bool browser = true;               ///< it opens by itself where there is a browser
 };
 
+/// `skein run --place`: programs on other hosts (cli/place/).
+struct PlaceOptions {
+  std::optional<std::string> at;               ///< UAV=HOST,... or "slurm"; none: all programs run on this host
+  std::string ssh = "ssh";                     ///< the command that logs in, with options of its own if any
+  std::optional<std::filesystem::path> skein;  ///< on those hosts; else where this one is here
+  bool print = false;                          ///< the commands for starting them by hand, instead of flying
+};
+
 struct RunOptions {
   std::string scenario = "towers";  ///< a name under config/scenarios/ or a YAML file
   std::string planner = kDefaultPlanner;
@@ -66,6 +74,7 @@ struct RunOptions {
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
   std::optional<int> domain;
   std::optional<std::string> network;  ///< other hosts take part: an interface, or "all"
+  PlaceOptions place;
   std::optional<double> stop_at_s;
   std::optional<double> agent_timeout_s;  ///< of wall time, for a program's answer, instead of a minute
   std::optional<std::filesystem::path> out;
@@ -262,6 +271,9 @@ struct ForkOptions {
   std::optional<std::string> planner;  ///< "UAV=NAME,..."
 };
 
+/// This process starts a fleet's programs for a launcher on another host (cli/place/host_service.hpp).
+struct HostOptions {};
+
 /// `skein pack`: the programs with their libraries.
 struct PackOptions {
   std::filesystem::path file;
@@ -340,6 +352,6 @@ using Command =
     std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
                  StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions, CheckPlannerOptions,
                  KeysOptions, MergeOptions, ReportOptions, ReplayOptions, RerunOptions, ForkOptions, FleetOptions,
-                 PsOptions, AttachOptions, UnitOptions, PackOptions, HelpText, CompletionOptions>;
+                 PsOptions, AttachOptions, UnitOptions, HostOptions, PackOptions, HelpText, CompletionOptions>;
 
 }  // namespace skein::cli

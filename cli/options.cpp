@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/option_checks.hpp"
+#include "cli/place_options.hpp"
 #include "cli/tool_options.hpp"
 #include "cli/view_options.hpp"
 #include "core/number_checks.hpp"
@@ -128,6 +129,7 @@ void add_run(CLI::App& app, RunOptions& run) {
   command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
   command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
   add_network(*command, run.network);
+  add_place_options(*command, run.place);
   add_result_options(command, run);
   add_view_options(*command, run.view);
   command->footer(
@@ -139,7 +141,8 @@ void add_run(CLI::App& app, RunOptions& run) {
       "  skein run towers --planner orbit@team_a/agent,jurong=kios@team_b/agent\n"
       "  skein run towers --planner hover,jurong=exec:./my_program\n"
       "  skein run towers --planner kios --debug jurong=gdb\n"
-      "  skein run towers --planner kios --view");
+      "  skein run towers --planner kios --view\n"
+      "  skein run towers --planner kios --place jurong=host1,raffles=host2");
 }
 
 void add_compose(CLI::App& app, ComposeOptions& compose) {
@@ -189,6 +192,7 @@ void check_one_process(const RunOptions& run) {
   refuse(!run.debug.empty(), "--debug", "the program that you debug is one of its own");
   refuse(run.cores, "--cores", "the core would be that of all");
   refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
+  refuse(run.place.at.has_value(), "--place", "they run on several hosts");
 }
 
 /// The options of all commands, and what CLI11 fills.
@@ -269,6 +273,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (!arguments.empty() && arguments[0] == "--complete") {
     return CompletionOptions{{arguments.begin() + 1, arguments.end()}};
   }
+  if (arguments == std::vector<std::string>{"--host"}) return HostOptions{};
   if (!arguments.empty() && arguments[0] == "--unit") return unit_options({arguments.begin() + 1, arguments.end()});
   const auto is = [&parser](const char* command) { return parser.app.got_subcommand(command); };
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them

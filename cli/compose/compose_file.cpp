@@ -10,6 +10,7 @@
 #include "cli/compose/compose_yaml.hpp"
 #include "cli/python_planners.hpp"
 #include "cli/run/live_page.hpp"
+#include "cli/run/program_files.hpp"
 #include "core/config_files.hpp"
 #include "core/python_spec.hpp"
 #include "core/text.hpp"
@@ -115,33 +116,11 @@ std::optional<fs::path> in_image(const fs::path& file) {
 /// A path of this host as containers see it: what is not in the image is mounted where it is.
 fs::path in_container(const fs::path& file) { return in_image(file).value_or(fs::absolute(file).lexically_normal()); }
 
-/// The file FILE of NAME:FILE, which holds a planner's parameters; empty: there is none.
-fs::path parameter_file(const UavPlanner& planner) {
-  if (const auto python = python_spec(planner.spec)) {
-    return python->parameters.find('=') == std::string::npos ? fs::path(python->parameters) : fs::path();
-  }
-  const std::size_t colon = planner.spec.find(':');
-  if (exec_command(planner.spec) || colon == std::string::npos || planner.spec.find('=') != std::string::npos) {
-    return {};
-  }
-  return planner.spec.substr(colon + 1);
-}
-
 /// Files of this host that a program reads, by their paths in its container.
 std::map<fs::path, fs::path> files_of(const FleetPlan& plan, const std::string& program) {
-  std::vector<fs::path> files = plan.scenario.vehicle_files;
-  files.push_back(plan.scenario.file);
-  files.push_back(plan.faults.file);
-  files.push_back(plan.faults.named);
-  if (program == programs::kSimServer) {  // the only one that knows the scene
-    const SceneConfig& scene = plan.scenario.scene;
-    files.insert(files.end(), scene.meshes.begin(), scene.meshes.end());
-    files.push_back(scene.points);
-    files.push_back(scene.boxes);
-  }
   std::map<fs::path, fs::path> mounted;
-  for (const fs::path& file : files) {
-    if (!file.empty() && !in_image(file)) mounted[in_container(file)] = fs::weakly_canonical(file);
+  for (const fs::path& file : scenario_files(plan, program)) {
+    if (!in_image(file)) mounted[in_container(file)] = fs::weakly_canonical(file);
   }
   if (programs::is_agent(program)) {
     const fs::path parameters = parameter_file(planner_of(plan, program));
