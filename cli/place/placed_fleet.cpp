@@ -362,7 +362,7 @@ std::vector<std::string> PlacedFleet::collect(const fs::path& out) {
       if (frame.text("say") == "left") left.push_back(frame.text("program") + ": " + frame.text("text"));
     }
     if (there->collected) continue;
-    left.push_back(there->link.why() + "; files of " + joined(there->programs) + " are left there");
+    left.push_back("what " + joined(there->programs) + " wrote is lost: " + there->link.why());
   }
   return left;
 }
