@@ -30,6 +30,9 @@ struct ReplayOf {
   std::vector<std::string> other;  ///< the same, that run other software than then: what they say is not compared
 };
 
+/// That DDS takes, of Cyclone DDS [s].
+inline constexpr int kLongestLease_s = 3600;
+
 /// What --break-on knows.
 inline constexpr std::array kBreakEvents = {"collision", "rejected", "lost", "fault"};
 
@@ -76,6 +79,7 @@ struct RunOptions {
   std::optional<std::string> network;  ///< other hosts take part: an interface, or "all"
   PlaceOptions place;
   std::optional<double> stop_at_s;
+  std::optional<int> lease_s;             ///< of silence, after which DDS counts a program as gone
   std::optional<double> agent_timeout_s;  ///< of wall time, for a program's answer, instead of a minute
   std::optional<std::filesystem::path> out;
   bool force = false;
@@ -243,6 +247,7 @@ struct ComposeOptions {
   std::optional<std::string> subnet;           ///< "172.30.0.0/20"
   std::optional<std::filesystem::path> build;  ///< folder of a build whose programs fly
   bool up = false;                             ///< fly it
+  bool stack = false;                          ///< for several engines that are one swarm
 };
 
 struct ReportOptions {

@@ -68,6 +68,11 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
       ->add_option("--agent-timeout", run.agent_timeout_s,
                    "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
       ->check(seconds);
+  command
+      ->add_option("--lease", run.lease_s,
+                   "Silence after which DDS counts a program as gone [s]: as long as a cut of the network may last "
+                   "(default: 10 in containers and by hand, longer than any wait under this launcher)")
+      ->check(CLI::Range(1, kLongestLease_s));
   command->add_flag("--secure", run.secure, "Enforce the isolation of agents: certificates, encryption, user ids");
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
 }
@@ -151,6 +156,13 @@ void add_compose(CLI::App& app, ComposeOptions& compose) {
   add_flight_options(command, compose.run);
   CLI::Option* up = command->add_flag("--up", compose.up, "Bring the fleet up, follow the run, and take it down again");
   command->add_option("--file", compose.file, "File to write (default: standard output)")->excludes(up);
+  CLI::Option* const stack = command
+                                 ->add_flag("--stack", compose.stack,
+                                            "A file for `docker stack`, which spreads the fleet over several engines")
+                                 ->excludes(up);
+  command->add_option("--place", compose.run.place.at, "Of --stack: UAV=NODE,...: where these UAVs fly")
+      ->type_name("UAV=NODE,...")
+      ->needs(stack);
   command->add_option("--image", compose.images, "UAV=IMAGE: your own in the place of that UAV's agent")
       ->allow_extra_args(false);
   command->add_option("--subnet", compose.subnet,

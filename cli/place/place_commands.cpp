@@ -53,9 +53,9 @@ class Script {
     std::vector<std::string> words = {program_file(plan_, program)};
     const std::vector<std::string> own = program_arguments(plan_, program, base);
     words.insert(words.end(), own.begin(), own.end());
-    words.insert(words.end(),
-                 {"--network", network_, "--run", std::to_string(run_), "--lease", std::to_string(kLease_s),
-                  "--server-timeout", std::to_string(kServerTimeout_s), "--keep", "--out", out});
+    words.insert(words.end(), {"--network", network_, "--run", std::to_string(run_), "--lease",
+                               std::to_string(plan_.options.lease_s.value_or(kLease_s)), "--server-timeout",
+                               std::to_string(kServerTimeout_s), "--keep", "--out", out});
     return shell_line(words) + " &\n";
   }
 
