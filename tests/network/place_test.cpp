@@ -1,8 +1,9 @@
 // `skein run --place`: a fleet over hosts on which the launcher logs in by ssh.
 #include <signal.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 
 #include "fleet_fixture.hpp"
 #include "login_hosts.hpp"
@@ -41,6 +42,15 @@ class Place : public FleetTest {
   bool wait_until_flying(const std::string& name, ChildProcess& launcher) {
     eventually([&] { return is_flying(folder() / name) || launcher.ended(); });
     return !launcher.ended();
+  }
+
+  /// A launcher for hosts that runs as an ordinary user, whoever logs in.
+  std::string write_as_nobody() const {
+    const auto file = write("nobody/skein", "#!/bin/sh\nexec setpriv --reuid=nobody --regid=nogroup --clear-groups " +
+                                                program("skein") + " \"$@\"\n");
+    std::filesystem::permissions(file, std::filesystem::perms(0755));
+    std::filesystem::permissions(file.parent_path(), std::filesystem::perms(0755));
+    return file;
   }
 
   LoginHosts login_{{"a", "b", "c"}};
@@ -171,6 +181,43 @@ TEST_F(Place, DomainsThatAnotherHostUsesAreNotTaken) {
   EXPECT_NE(third.err().find("on b: --domain 3"), std::string::npos) << third.err();
   first.signal(SIGINT);
   first.wait();
+}
+
+// Its commands, typed on each host as they are printed.
+TEST_F(Place, AFleetThatIsStartedByHandFliesTheSame) {
+  const Arguments flight = {"--duration", "10", "--dds", "fastdds"};
+  run("one", joined({scene_, "--planner", "patrol", "--no-oracle", "--no-report"}, flight));
+  std::array<char, 256> own{};
+  ::gethostname(own.data(), own.size() - 1);
+  for (const char* host : {"a", "b"}) {
+    login_.hosts().tell(host, own.data(), login_.hosts().address(0, "a"));
+    login_.hosts().tell(host, "b", login_.hosts().address(0, "b"));
+  }
+  ChildProcess& printed = fly("hand", joined({"--place", "jurong=b", "--print"}, flight));
+  ASSERT_EQ(printed.wait().code, 0) << printed.err();
+  const std::string text = printed.out();
+  const std::size_t there = text.find("# on b"), after = text.find("# when the run is over");
+  ASSERT_TRUE(there != std::string::npos && after != std::string::npos) << text;
+  ChildProcess& b =
+      start_program("hand-b", login_.hosts().on("b", {"/bin/sh", "-c", text.substr(there, after - there)}));
+  ChildProcess& a = start_program("hand-a", login_.hosts().on("a", {"/bin/sh", "-c", text.substr(0, there)}));
+  a.wait();
+  b.wait();
+  EXPECT_EQ(skein({"merge", folder() / "hand"}).wait().code, 0) << text << a.err() << b.err();
+  EXPECT_EQ(result("hand")["digest"], result("one")["digest"]) << text << a.err() << b.err();
+}
+
+// Where the login is not root's, agents run as that user, and the launcher says so.
+TEST_F(Place, ASecuredAgentWithoutAUserIdOfItsOwnIsNamed) {
+  ChildProcess& launcher = start_program(
+      "run", login_.hosts().on("a", {program("skein"), "run", scene_, "--planner", "patrol", "--duration", "8",
+                                     "--secure", "--no-oracle", "--no-report", "--out", folder() / "run", "--place",
+                                     "jurong=b", "--ssh", login_.ssh(), "--skein-path", write_as_nobody()}));
+  EXPECT_EQ(launcher.wait().code, 0) << launcher.err();
+  const std::string warning =
+      "--secure on b: it is not root that logs in there, so uav_agent-jurong runs as the user nobody";
+  EXPECT_NE(launcher.err().find(warning), std::string::npos) << launcher.err();
+  EXPECT_NE(result("run")["warnings"].dump().find(warning), std::string::npos);
 }
 
 TEST_F(Place, WrongInputIsExitCodeTwoAndStartsNothing) {
