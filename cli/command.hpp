@@ -30,6 +30,9 @@ struct ReplayOf {
   std::vector<std::string> other;  ///< the same, that run other software than then: what they say is not compared
 };
 
+/// That DDS takes, of Cyclone DDS [s].
+inline constexpr int kLongestLease_s = 3600;
+
 /// What --break-on knows.
 inline constexpr std::array kBreakEvents = {"collision", "rejected", "lost", "fault"};
 
@@ -39,6 +42,14 @@ struct ViewOptions {
   std::optional<std::string> speed;  ///< of a flight that is watched, as view::read_speed() has it
   bool close = false;                ///< the page ends with the run, instead of staying as its replay
   bool browser = true;               ///< it opens by itself where there is a browser
+};
+
+/// `skein run --place`: programs on other hosts (cli/place/).
+struct PlaceOptions {
+  std::optional<std::string> at;               ///< UAV=HOST,... or "slurm"; none: all programs run on this host
+  std::string ssh = "ssh";                     ///< the command that logs in, with options of its own if any
+  std::optional<std::filesystem::path> skein;  ///< on those hosts; else where this one is here
+  bool print = false;                          ///< the commands for starting them by hand, instead of flying
 };
 
 struct RunOptions {
@@ -68,7 +79,9 @@ struct RunOptions {
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
   std::optional<int> domain;
   std::optional<std::string> network;  ///< other hosts take part: an interface, or "all"
+  PlaceOptions place;
   std::optional<double> stop_at_s;
+  std::optional<int> lease_s;             ///< of silence, after which DDS counts a program as gone
   std::optional<double> agent_timeout_s;  ///< of wall time, for a program's answer, instead of a minute
   std::optional<std::filesystem::path> out;
   bool force = false;
@@ -237,6 +250,7 @@ struct ComposeOptions {
   std::optional<std::string> subnet;           ///< "172.30.0.0/20"
   std::optional<std::filesystem::path> build;  ///< folder of a build whose programs fly
   bool up = false;                             ///< fly it
+  bool stack = false;                          ///< for several engines that are one swarm
 };
 
 struct ReportOptions {
@@ -264,6 +278,9 @@ struct ForkOptions {
   double at_s = 0.0;
   std::optional<std::string> planner;  ///< "UAV=NAME,..."
 };
+
+/// This process starts a fleet's programs for a launcher on another host (cli/place/host_service.hpp).
+struct HostOptions {};
 
 /// `skein pack`: the programs with their libraries.
 struct PackOptions {
@@ -344,6 +361,6 @@ using Command =
     std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
                  StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions, CheckPlannerOptions,
                  KeysOptions, MergeOptions, ReportOptions, ReplayOptions, RerunOptions, ForkOptions, FleetOptions,
-                 PsOptions, AttachOptions, UnitOptions, PackOptions, HelpText, CompletionOptions>;
+                 PsOptions, AttachOptions, UnitOptions, HostOptions, PackOptions, HelpText, CompletionOptions>;
 
 }  // namespace skein::cli

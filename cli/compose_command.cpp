@@ -10,6 +10,7 @@
 #include "cli/compose/compose_file.hpp"
 #include "cli/compose/engine.hpp"
 #include "cli/compose/followers.hpp"
+#include "cli/place/placement.hpp"
 #include "cli/run/live_page.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/results_dir.hpp"
@@ -40,6 +41,14 @@ ComposeLayout layout_of(const ComposeOptions& options) {
       throw InputError("--image " + image + ": must be UAV=IMAGE");
     }
     layout.images[image.substr(0, equals)] = image.substr(equals + 1);
+  }
+  layout.stack = options.stack;
+  if (options.stack && options.run.view.at) {
+    throw InputError(
+        "--stack and --view: a page of a fleet over several engines is not offered; leave out one of them");
+  }
+  if (options.stack && options.build) {
+    throw InputError("--stack and --build-folder: other nodes have no such folder; leave out one of them");
   }
   if (options.subnet) layout.subnet = parse_subnet(*options.subnet);
   if (options.run.view.at) {
@@ -256,6 +265,9 @@ FleetPlan plan_in_containers(const ComposeOptions& compose, const Console& conso
 int compose_fleet(const ComposeOptions& options, const Console& console) {
   const FleetPlan plan = plan_in_containers(options, console);
   ComposeLayout layout = layout_of(options);
+  for (const PlacedHost& node : read_placement(plan)) {
+    for (const std::string& program : node.programs) layout.nodes[program] = node.name;
+  }
   if (options.up) return fly(options, plan, layout, console);
   if (layout.view && !options.file)
     throw InputError("--view needs --up or --file: the page's key lies beside the file");

@@ -21,6 +21,7 @@
 #include "cli/options.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/pack_command.hpp"
+#include "cli/place/host_service.hpp"
 #include "cli/replay_command.hpp"
 #include "cli/report_command.hpp"
 #include "cli/rerun_command.hpp"
@@ -90,6 +91,7 @@ struct Execute {
   int operator()(const AttachOptions& options) const { return attach_to(options, console); }
   int operator()(const StudyOptions& options) const { return run_study(options, console); }
   int operator()(const PackOptions& options) const { return pack_programs(options, console); }
+  int operator()(const HostOptions&) const { return serve_host(); }
   int operator()(const UnitOptions& options) const { return run_unit(options, console); }
   int operator()(const HelpText& help) const {
     console.out << help.text;

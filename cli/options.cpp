@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/option_checks.hpp"
+#include "cli/place_options.hpp"
 #include "cli/threads.hpp"
 #include "cli/tool_options.hpp"
 #include "cli/view_options.hpp"
@@ -70,6 +71,11 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
       ->add_option("--agent-timeout", run.agent_timeout_s,
                    "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
       ->check(seconds);
+  command
+      ->add_option("--lease", run.lease_s,
+                   "Silence after which DDS counts a program as gone [s]: as long as a cut of the network may last "
+                   "(default: 10 in containers and by hand, longer than any wait under this launcher)")
+      ->check(CLI::Range(1, kLongestLease_s));
   command->add_flag("--secure", run.secure, "Enforce the isolation of agents: certificates, encryption, user ids");
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
 }
@@ -137,6 +143,7 @@ void add_run(CLI::App& app, RunOptions& run) {
   command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
   command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
   add_network(*command, run.network);
+  add_place_options(*command, run.place);
   add_result_options(command, run);
   add_view_options(*command, run.view);
   command->footer(
@@ -148,7 +155,8 @@ void add_run(CLI::App& app, RunOptions& run) {
       "  skein run towers --planner orbit@team_a/agent,jurong=kios@team_b/agent\n"
       "  skein run towers --planner hover,jurong=exec:./my_program\n"
       "  skein run towers --planner kios --debug jurong=gdb\n"
-      "  skein run towers --planner kios --view");
+      "  skein run towers --planner kios --view\n"
+      "  skein run towers --planner kios --place jurong=host1,raffles=host2");
 }
 
 void add_compose(CLI::App& app, ComposeOptions& compose) {
@@ -157,6 +165,13 @@ void add_compose(CLI::App& app, ComposeOptions& compose) {
   add_flight_options(command, compose.run);
   CLI::Option* up = command->add_flag("--up", compose.up, "Bring the fleet up, follow the run, and take it down again");
   command->add_option("--file", compose.file, "File to write (default: standard output)")->excludes(up);
+  CLI::Option* const stack = command
+                                 ->add_flag("--stack", compose.stack,
+                                            "A file for `docker stack`, which spreads the fleet over several engines")
+                                 ->excludes(up);
+  command->add_option("--place", compose.run.place.at, "Of --stack: UAV=NODE,...: where these UAVs fly")
+      ->type_name("UAV=NODE,...")
+      ->needs(stack);
   command->add_option("--image", compose.images, "UAV=IMAGE: your own in the place of that UAV's agent")
       ->allow_extra_args(false);
   command->add_option("--subnet", compose.subnet,
@@ -198,6 +213,7 @@ void check_one_process(const RunOptions& run) {
   refuse(!run.debug.empty(), "--debug", "the program that you debug is one of its own");
   refuse(run.cores, "--cores", "the core would be that of all");
   refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
+  refuse(run.place.at.has_value(), "--place", "they run on several hosts");
 }
 
 /// The options of all commands, and what CLI11 fills.
@@ -278,6 +294,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (!arguments.empty() && arguments[0] == "--complete") {
     return CompletionOptions{{arguments.begin() + 1, arguments.end()}};
   }
+  if (arguments == std::vector<std::string>{"--host"}) return HostOptions{};
   if (!arguments.empty() && arguments[0] == "--unit") return unit_options({arguments.begin() + 1, arguments.end()});
   const auto is = [&parser](const char* command) { return parser.app.got_subcommand(command); };
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them

@@ -35,6 +35,7 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
   for (const std::string& value : run.debug) arguments.push_back("--debug=" + value);
   add("--domain", run.domain, number);
   add("--stop-at", run.stop_at_s, number);
+  add("--lease", run.lease_s, number);
   add("--agent-timeout", run.agent_timeout_s, number);
   add("--keep-maps", run.keep_maps_s, number);
   add("--out", run.out, path);

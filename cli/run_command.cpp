@@ -1,8 +1,11 @@
 #include "cli/run_command.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 
+#include "cli/place/place_commands.hpp"
+#include "cli/place/placed_fleet.hpp"
 #include "cli/run/break_event.hpp"
 #include "cli/run/by_hand.hpp"
 #include "cli/run/core_file.hpp"
@@ -28,27 +31,36 @@ void check_before_flight(const FleetPlan& plan, const Console& console) {
              [&](const std::string& waiting) { console.err << waiting << std::endl; });
 }
 
-/// @param domains  none: all in one process.
-std::string start_line(const FleetPlan& plan, const std::optional<DomainBlock>& domains,
-                       const std::filesystem::path& out) {
+/// @param domains  null: all in one process.
+std::string start_line(const FleetPlan& plan, const DomainBlock* domains, const std::filesystem::path& out) {
   const std::string place =
-      domains ? "DDS domains " + std::to_string(domains->base()) + ".." + std::to_string(domains->last())
-              : "in one process";
+      domains != nullptr ? "DDS domains " + std::to_string(domains->base()) + ".." + std::to_string(domains->last())
+                         : "in one process";
   return plan.scenario.name + ": " + std::to_string(plan.scenario.fleet.size()) + " UAVs, planner " +
          plan.options.planner + ", seed " + std::to_string(plan.options.seed) + ", " + place + ", results in " +
          out.string();
 }
 
 /// What the user should know of his surroundings before the run.
-void warn_of_surroundings(const std::optional<DomainBlock>& domains, FleetRun& run) {
+void warn_of_surroundings(const DomainBlock* domains, FleetRun& run) {
   for (const std::string& warning : environment_warnings()) {
     run.view().message("warning: " + warning);
     run.facts().warnings.push_back(warning);
   }
-  if (domains && domains->last() > kLastQuietDomain) {
+  if (domains != nullptr && domains->last() > kLastQuietDomain) {
     run.facts().warnings.push_back("DDS domains above " + std::to_string(kLastQuietDomain) +
                                    " use ports that the system may give to other programs");
   }
+}
+
+/// Connects to the hosts of --place and makes sure that the fleet can fly there. @returns null without --place.
+std::unique_ptr<PlacedFleet> place_fleet(FleetPlan& plan, const Console& console) {
+  if (!plan.options.place.at) return nullptr;
+  auto placed = std::make_unique<PlacedFleet>(plan, read_placement(plan));
+  placed->take_domains(plan.options.domain, domain_count(plan));
+  plan.options.network = placed->network();
+  if (plan.options.check) placed->ask_doctors([&](const std::string& text) { console.err << text << std::endl; });
+  return placed;
 }
 
 /// Who has a terminal debugs there, unless he says otherwise.
@@ -95,6 +107,10 @@ int run_fleet(const RunOptions& given, const Console& console) {
   RunOptions options = with_debugger(given, console);
   find_break(options, console);
   FleetPlan plan = plan_fleet(options, program_dir());
+  if (options.place.print) {
+    console.out << place_commands(plan, read_placement(plan)) << std::flush;
+    return kExitDone;
+  }
   const auto folder = [&] {
     const auto usual = default_results_dir(plan.scenario.name, options.planner, options.seed);
     return options.out.value_or(options.force ? usual : free_results_dir(usual));
@@ -103,9 +119,15 @@ int run_fleet(const RunOptions& given, const Console& console) {
   std::optional<LivePage> page;
   if (options.view.at) plan.watched = page.emplace(view::read_endpoint(*options.view.at)).watched();
   if (options.check) check_before_flight(plan, console);
-  std::optional<DomainBlock> domains;
-  if (!options.one_process) domains.emplace(options.domain, domain_count(plan));
-  const int base_domain = domains ? domains->base() : kFirstDomain;
+  std::optional<DomainBlock> own_domains;
+  const DomainBlock* domains = nullptr;
+  auto placed = place_fleet(plan, console);
+  if (placed) {
+    domains = &placed->domains();
+  } else if (!options.one_process) {
+    domains = &own_domains.emplace(options.domain, domain_count(plan));
+  }
+  const int base_domain = domains != nullptr ? domains->base() : kFirstDomain;
   const std::filesystem::path dir = folder();  // another run may have taken one meanwhile
   check_outlasts(options.faults, dir);
   const ResultsDir out(dir, options.force);
@@ -113,6 +135,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
   if (options.cores) allow_cores();
   FleetRun run(plan, console.err, console.terminal);
   run.view().message(start_line(plan, domains, dir));
+  if (placed) run.view().message(placed->text());
   if (page) {
     page->announce([&](const std::string& text) { run.view().message(text); },
                    options.view.browser && console.terminal);
@@ -121,12 +144,14 @@ int run_fleet(const RunOptions& given, const Console& console) {
   std::optional<SecureRun> secure;
   if (options.secure) {
     secure.emplace(plan, base_domain, out.path());
-    for (const std::string& warning : exposed_files(plan)) {
+    std::vector<std::string> exposed = exposed_files(plan);
+    if (placed) std::ranges::copy(placed->security_warnings(), std::back_inserter(exposed));
+    for (const std::string& warning : exposed) {
       run.view().message(warning);
       run.facts().warnings.push_back(warning);
     }
   }
-  run.fly(base_domain, out.path(), secure ? secure->folders() : SecureFolders{});
+  run.fly(base_domain, out.path(), secure ? secure->folders() : SecureFolders{}, std::move(placed));
 
   const Reports reports = read_reports(out.path(), plan.scenario, run.reports());
   const auto collect = [&] {

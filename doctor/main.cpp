@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kNet = "--net";
 
 struct Options {
-  bool net = false, json = false, base_given = false;
+  bool net = false, json = false, base_given = false, until_heard = false;
   std::string name;
   std::vector<std::string> only;
   double seconds = 5.0;
@@ -31,6 +31,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--as", options.name, "Name of this host (default: its own)");
   app.add_option("--only", options.only, "Domains in which it takes part")->delimiter(',');
   app.add_option("--seconds", options.seconds, "How long it speaks and listens [s]")->check(CLI::Range(0.1, 36000.0));
+  app.add_flag("--until-heard", options.until_heard, "End sooner, once all named peers hear each other");
   app.callback([&] { options.base_given = app.count("--domain") > 0; });
 }
 
@@ -65,6 +66,7 @@ int run(const ProgramOptions& program, const Options& options, StopSignal& stop)
   visit.vendors = program.dds == "mixed" ? bus::dds_vendors() : std::vector{program.dds};
   visit.base = program.domain;
   visit.name = options.name;
+  visit.until_heard = options.until_heard;
   visit.time = std::chrono::milliseconds(static_cast<long>(1000.0 * options.seconds));
   return meet(visit, stop, [&](const Meetings& all) { return say(all, options.json); });
 }

@@ -183,6 +183,13 @@ std::vector<PeerState> judge_meeting(const Meetings& all, const Meeting& meeting
   return states;
 }
 
+bool all_hear_each_other(const Meetings& all) {
+  return exit_code(all) == kExitDone && std::ranges::all_of(all.domains, [&](const Meeting& meeting) {
+           return std::ranges::all_of(judge_meeting(all, meeting),
+                                      [](const PeerState& state) { return state.hears_us.value_or(false); });
+         });
+}
+
 int exit_code(const Meetings& all) {
   for (const Meeting& meeting : all.domains) {
     const auto states = judge_meeting(all, meeting);

@@ -70,6 +70,8 @@ struct PeerState {
 /// The named peers in their order, then who else was heard. This host itself is left out.
 std::vector<PeerState> judge_meeting(const Meetings& all, const Meeting& meeting);
 
+/// Whether nothing is left to be waited for: all named peers are heard, and all say that they hear this host.
+bool all_hear_each_other(const Meetings& all);
 /// kExitCheckFailed when a named peer was not heard as it should, or a domain could not be joined.
 int exit_code(const Meetings& all);
 void print(std::ostream& out, const Meetings& all);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <future>
+#include <limits>
 #include <memory>
 #include <random>
 #include <stdexcept>
@@ -24,6 +25,8 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kGreetAgain{250}, kLookAgain{20}, kAskAgain{200}, kLeaving{2000};
+/// Greetings of a host that ends once all is well: they tell the others so.
+constexpr int kFarewells = 4;
 constexpr std::array<std::uint8_t, 4> kEncapsulation = {0, 1, 0, 0};  // CDR_LE
 
 bus::TopicSpec greeting_topic() { return {"rt/skein/doctor", "skein_doctor::msg::dds_::Greeting_", {}}; }
@@ -87,10 +90,12 @@ class Host {
     for (const std::string& vendor : visit_.vendors) join(vendor);
     stop_.on_stop([this] { inbox_.wake(); });
     const auto end = SteadyClock::now() + visit_.time;
-    for (auto due = SteadyClock::now(); SteadyClock::now() < end && !stop_.requested(); listen()) {
+    int farewells = visit_.until_heard ? kFarewells : std::numeric_limits<int>::max();
+    for (auto due = SteadyClock::now(); SteadyClock::now() < end && farewells > 0 && !stop_.requested(); listen()) {
       if (SteadyClock::now() < due) continue;
       due += kGreetAgain;
       greet();
+      if (farewells < kFarewells || (visit_.until_heard && all_hear_each_other(all_))) --farewells;
     }
     stop_.on_stop({});
     return all_;

@@ -20,6 +20,7 @@ struct NetVisit {
   int base = kFirstDomain;
   std::string name{};  ///< of this host; empty: its own
   std::chrono::milliseconds time{5000};
+  bool until_heard = false;  ///< ends sooner, once all named peers are heard, hear this host, and know that
 };
 
 /// Names of peers are asked for until all are known, at most for `time`; then it speaks and listens for as long, or

@@ -8,13 +8,16 @@
 #include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_checks.hpp"
 #include "cli/compose/compose_yaml.hpp"
+#include "cli/compose/stack_parts.hpp"
 #include "cli/python_planners.hpp"
 #include "cli/run/live_page.hpp"
+#include "cli/run/program_files.hpp"
 #include "core/config_files.hpp"
 #include "core/python_spec.hpp"
 #include "core/text.hpp"
 #include "core/topics.hpp"
 #include "process/run_folder.hpp"
+#include "process/security_files.hpp"
 
 namespace skein::cli {
 namespace {
@@ -31,11 +34,10 @@ constexpr const char* kParametersInContainer = "/planner.yaml";
 constexpr const char* kViewInContainer = "/view";
 constexpr const char* kViewAlias = "page.view";
 constexpr int kViewPort = 8080;
-constexpr int kLease_s = 10;            ///< of silence: without a launcher this tells which program died
-constexpr int kDebuggedLease_s = 3600;  ///< the longest that Cyclone DDS takes: who is debugged stands for long
+constexpr int kLease_s = 10;  ///< of silence: without a launcher this tells which program died
 /// A container that the engine has started again once the run was over ends after so long.
 constexpr int kServerTimeout_s = 60;
-constexpr int kMostProcesses = 256;  ///< in a container, threads included
+constexpr int kMostRestarts = 5;
 
 /// What docker-compose fills in when the file is read.
 constexpr const char* kImageVariable = "${SKEIN_IMAGE:-skein}";
@@ -45,7 +47,7 @@ constexpr const char* kRunVariable = "${SKEIN_RUN:-1}";
 constexpr const char* kUserVariable = "${SKEIN_USER:-1000:1000}";
 
 /// Written as itself, or as the variable that docker-compose fills in.
-void add(ComposeYaml& yaml, const std::optional<std::string>& text, const char* variable) {
+void add(ComposeYaml& yaml, const std::optional<std::string>& text, const std::string& variable) {
   if (text) {
     yaml.literal(*text);
   } else {
@@ -115,33 +117,11 @@ std::optional<fs::path> in_image(const fs::path& file) {
 /// A path of this host as containers see it: what is not in the image is mounted where it is.
 fs::path in_container(const fs::path& file) { return in_image(file).value_or(fs::absolute(file).lexically_normal()); }
 
-/// The file FILE of NAME:FILE, which holds a planner's parameters; empty: there is none.
-fs::path parameter_file(const UavPlanner& planner) {
-  if (const auto python = python_spec(planner.spec)) {
-    return python->parameters.find('=') == std::string::npos ? fs::path(python->parameters) : fs::path();
-  }
-  const std::size_t colon = planner.spec.find(':');
-  if (exec_command(planner.spec) || colon == std::string::npos || planner.spec.find('=') != std::string::npos) {
-    return {};
-  }
-  return planner.spec.substr(colon + 1);
-}
-
 /// Files of this host that a program reads, by their paths in its container.
 std::map<fs::path, fs::path> files_of(const FleetPlan& plan, const std::string& program) {
-  std::vector<fs::path> files = plan.scenario.vehicle_files;
-  files.push_back(plan.scenario.file);
-  files.push_back(plan.faults.file);
-  files.push_back(plan.faults.named);
-  if (program == programs::kSimServer) {  // the only one that knows the scene
-    const SceneConfig& scene = plan.scenario.scene;
-    files.insert(files.end(), scene.meshes.begin(), scene.meshes.end());
-    files.push_back(scene.points);
-    files.push_back(scene.boxes);
-  }
   std::map<fs::path, fs::path> mounted;
-  for (const fs::path& file : files) {
-    if (!file.empty() && !in_image(file)) mounted[in_container(file)] = fs::weakly_canonical(file);
+  for (const fs::path& file : scenario_files(plan, program)) {
+    if (!in_image(file)) mounted[in_container(file)] = fs::weakly_canonical(file);
   }
   if (programs::is_agent(program)) {
     const fs::path parameters = parameter_file(planner_of(plan, program));
@@ -167,6 +147,7 @@ class ComposeText {
     yaml_.end_map();
     add_networks();
     if (!layout_.results) add_volumes();
+    sent_.add_sources(yaml_);
     yaml_.end_map();
     return fmt::format("# The fleet of '{}', a container a program (docs/containers.md), made by\n#   {}\n{}\n",
                        in_comment(plan_.scenario.name), in_comment(layout_.command), yaml_.text());
@@ -175,22 +156,45 @@ class ComposeText {
  private:
   /// What stays the same for all programs. The health check asks whether the program still takes its turns.
   void add_common() {
+    if (layout_.stack) yaml_.key("version").own("3.9");
     yaml_.key("x-program").anchor("program").begin_map();
     yaml_.key("init").flag(true).key("user");
-    add(yaml_, layout_.user, kUserVariable);
+    add(yaml_, layout_.user, layout_.stack ? stack_user() : kUserVariable);
     yaml_.key("read_only").flag(true).key("tmpfs").own(Texts{"/tmp"});
-    yaml_.key("cap_drop").own(Texts{"ALL"}).key("security_opt").own(Texts{"no-new-privileges:true"});
+    yaml_.key("cap_drop").own(Texts{"ALL"});
+    if (!layout_.stack) yaml_.key("security_opt").own(Texts{"no-new-privileges:true"});
     yaml_.key("sysctls").begin_map().key("net.ipv4.ip_forward").own("0").end_map();
-    yaml_.key("dns_opt").own(Texts{"timeout:1", "attempts:1"});
-    yaml_.key("pids_limit").number(kMostProcesses).key("stop_grace_period").own("10s");
+    if (!layout_.stack) {
+      yaml_.key("dns_opt").own(Texts{"timeout:1", "attempts:1"});
+      yaml_.key("pids_limit").number(kMostProcesses);
+    }
+    yaml_.key("stop_grace_period").own("10s");
     yaml_.key("healthcheck").begin_map();
     yaml_.key("test").own(Texts{"CMD-SHELL", "find /tmp/alive -newermt '-20 seconds' | grep -q ."});
     yaml_.key("interval").own("5s").key("timeout").own("5s");
     yaml_.key("retries").number(3).key("start_period").own("30s").end_map().end_map();
   }
 
-  void add_service(const std::string& program) {
+  /// A program that is dropped, or crashes, comes back; a run without its server cannot.
+  void add_care(const std::string& program) {
     const bool agent = programs::is_agent(program), server = program == programs::kSimServer;
+    const char* const memory = server ? "4g" : "1g";
+    if (layout_.stack) {
+      const auto node = layout_.nodes.find(program);
+      add_deployment(yaml_, {.node = node == layout_.nodes.end() ? "" : node->second,
+                             .manager = !agent,
+                             .memory = memory,
+                             .cpus = agent ? "1" : "",
+                             .restarts = server ? 0 : kMostRestarts});
+      return;
+    }
+    yaml_.key("restart").own(server ? "no" : fmt::format("on-failure:{}", kMostRestarts));
+    yaml_.key("mem_limit").own(memory);
+    if (agent) yaml_.key("cpus").number(1);
+  }
+
+  void add_service(const std::string& program) {
+    const bool agent = programs::is_agent(program);
     const auto own_image = layout_.images.find(programs::member_name(program));
     const bool foreign = agent && own_image != layout_.images.end();
     yaml_.blank_line().key(program).begin_map().key("<<").alias("program").key("image");
@@ -199,10 +203,7 @@ class ComposeText {
     } else {
       add(yaml_, agent ? layout_.agent_image : layout_.image, image_variable(program));
     }
-    // A program that is dropped, or crashes, comes back; a run without its server cannot.
-    yaml_.key("restart").own(server ? "no" : "on-failure:5");
-    yaml_.key("mem_limit").own(server ? "4g" : "1g");
-    if (agent) yaml_.key("cpus").number(1);
+    add_care(program);
     yaml_.key("command").begin_list();
     if (!agent) yaml_.own(program);
     for (const std::string& argument : arguments_of(program)) yaml_.literal(argument);
@@ -227,7 +228,9 @@ class ComposeText {
     }
     yaml_.key("volumes").begin_list();
     add_mounts(program);
-    yaml_.end_list().end_map();
+    yaml_.end_list();
+    if (layout_.stack) add_sent_files(program);
+    yaml_.end_map();
   }
 
   const char* image_variable(const std::string& program) const {
@@ -253,8 +256,8 @@ class ComposeText {
     }
     arguments.insert(arguments.end(),
                      {"--keep", "--health", "/tmp/alive", "--lease",
-                      std::to_string(plan_.debug.empty() ? kLease_s : kDebuggedLease_s), "--server-timeout",
-                      std::to_string(kServerTimeout_s), "--out", kResultsInContainer});
+                      std::to_string(plan_.options.lease_s.value_or(plan_.debug.empty() ? kLease_s : kLongestLease_s)),
+                      "--server-timeout", std::to_string(kServerTimeout_s), "--out", kResultsInContainer});
     if (is_debugged(program)) arguments.push_back("--wait-for-debugger");
     if (plan_.options.secure) arguments.insert(arguments.end(), {"--security", kKeysInContainer});
     if (serves_page(program)) {
@@ -293,13 +296,26 @@ class ComposeText {
     } else {
       yaml_.own(volume_of(program) + ":" + kResultsInContainer);
     }
-    for (const auto& [there, here] : files_of(plan_, program)) add_mount(yaml_, here, there);
+    for (const auto& [there, here] : files_of(plan_, program)) {
+      if (!travels(program)) add_mount(yaml_, here, there);
+    }
     if (serves_page(program)) add_mount(yaml_, layout_.view->folder, kViewInContainer);
-    if (plan_.options.secure) add_mount(yaml_, layout_.keys + "/" + program, kKeysInContainer);
+    if (plan_.options.secure && !layout_.stack) add_mount(yaml_, layout_.keys + "/" + program, kKeysInContainer);
     if (layout_.build && !layout_.images.contains(programs::member_name(program))) {
       add_mount(yaml_, *layout_.build / "bin", fs::path(kBuildInContainer) / "bin");
       add_mount(yaml_, default_config_dir(), fs::path(kBuildInContainer) / "config");
     }
+  }
+  /// Of a stack, agents' files go with them to their nodes; the managers have the scene's.
+  bool travels(const std::string& program) const { return layout_.stack && programs::is_agent(program); }
+  void add_sent_files(const std::string& program) {
+    if (travels(program)) sent_.add_configs(yaml_, files_of(plan_, program));
+    if (!plan_.options.secure) return;
+    std::map<fs::path, fs::path> keys;
+    for (const char* file : security_files::kAll) {
+      keys[fs::path(kKeysInContainer) / file] = fs::path(layout_.keys) / program / file;
+    }
+    sent_.add_secrets(yaml_, keys);
   }
   static std::string volume_of(const std::string& program) {
     return programs::is_agent(program) ? "results-" + programs::member_name(program) : "results";
@@ -310,7 +326,11 @@ class ComposeText {
     for (const std::string& name : networks_.names()) {
       // Without an address on the bridge, the host is no neighbour of the containers.
       yaml_.key(name).begin_map().key("internal").flag(true);
-      add_driver_option("com.docker.network.bridge.inhibit_ipv4", "true");
+      if (layout_.stack) {
+        yaml_.key("driver").own("overlay");
+      } else {
+        add_driver_option("com.docker.network.bridge.inhibit_ipv4", "true");
+      }
       add_next_subnet();
       yaml_.end_map();
     }
@@ -351,6 +371,7 @@ class ComposeText {
   const ComposeLayout& layout_;
   const Networks networks_;
   ComposeYaml yaml_;
+  SentFiles sent_;             ///< of a stack
   std::uint32_t subnets_ = 0;  ///< that networks have got
 };
 

@@ -40,6 +40,8 @@ struct ComposeLayout {
   std::optional<Subnet> subnet;                  ///< whose parts the networks get; else the engine chooses
   std::optional<std::filesystem::path> build;    ///< folder whose bin/ flies instead of the images' programs
   std::optional<ComposeView> view;               ///< none: nobody watches
+  bool stack = false;                            ///< for `docker stack`: several engines, one swarm
+  std::map<std::string, std::string> nodes;      ///< of a stack, by program: on which it runs; else where there is room
   bool status_lines = false;                     ///< programs tell on stdout how the run goes (status_lines.hpp)
 };
 

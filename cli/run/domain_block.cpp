@@ -6,7 +6,7 @@
 
 namespace skein::cli {
 
-DomainBlock::DomainBlock(std::optional<int> base, int size, std::string realm) : realm_(std::move(realm)) {
+DomainBlock::DomainBlock(std::optional<int> base, int size, std::string realm, int from) : realm_(std::move(realm)) {
   const int last_base = kLastDomain - size + 1;
   if (last_base < kFirstDomain) {
     throw InputError("the fleet needs " + std::to_string(size) + " DDS domains; Skein has " +
@@ -25,7 +25,7 @@ DomainBlock::DomainBlock(std::optional<int> base, int size, std::string realm) :
     if (const auto taken = try_lock(*base, size)) throw InputError(taken_text(*base, size, *taken));
     return;
   }
-  for (int candidate = kFirstDomain; candidate <= last_base;) {
+  for (int candidate = from; candidate <= last_base;) {
     const auto taken = try_lock(candidate, size);
     if (!taken) return;
     candidate = *taken + 1;

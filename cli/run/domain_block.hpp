@@ -20,9 +20,10 @@ class DomainBlock {
  public:
   /// @param base the user's choice; without one the first block is taken that is free as a whole.
   /// @param size number of domains. @param realm  for tests: blocks of other realms are not in the way.
+  /// @param from  without a choice, no block before it.
   /// @throws InputError when `base` is out of range or taken (it says by which process), or no block of this size is
   /// free.
-  DomainBlock(std::optional<int> base, int size, std::string realm = {});
+  DomainBlock(std::optional<int> base, int size, std::string realm = {}, int from = kFirstDomain);
 
   int base() const { return base_; }
   int last() const { return base_ + static_cast<int>(locks_.size()) - 1; }

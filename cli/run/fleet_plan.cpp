@@ -38,11 +38,11 @@ void append(Arguments& arguments, const Arguments& more) {
 /// A program that is stopped for a while and comes back must not find that the others took it for dead: who it is that
 /// died, the launcher sees for itself. So leases outlast the time for which anybody is waited for, at a start too.
 int lease_s(const FleetPlan& plan) {
-  constexpr int kLongest = 3600;  // that Cyclone DDS takes
-  if (!plan.debug.empty()) return kLongest;
+  if (plan.options.lease_s) return *plan.options.lease_s;
+  if (!plan.debug.empty()) return kLongestLease_s;
   constexpr double kUsualTimeout_s = 60.0, kTimes = 3.0;
   const double timeout_s = std::max(plan.options.agent_timeout_s.value_or(kUsualTimeout_s), kUsualTimeout_s);
-  return static_cast<int>(std::min(kTimes * timeout_s, static_cast<double>(kLongest)));
+  return static_cast<int>(std::min(kTimes * timeout_s, static_cast<double>(kLongestLease_s)));
 }
 
 /// What every program must know to read the same scenario.

@@ -58,14 +58,15 @@ FleetRun::FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal)
   facts_.native = plan.options.native;
 }
 
-void FleetRun::fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure) {
+void FleetRun::fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure,
+                   std::unique_ptr<ProgramHost> elsewhere) {
   facts_.planner_files = keep_python_files(plan_.planners, out, facts_.warnings);
   if (plan_.options.one_process) {
     programs_[programs::kOneProcess] = shared_process(plan_, out);
     host_ = std::make_unique<SharedProcess>(programs_[programs::kOneProcess],
                                             plan_.options.agent_timeout_s.value_or(kUsualPatience_s));
   } else {
-    host_ = std::make_unique<Supervisor>();
+    host_ = elsewhere ? std::move(elsewhere) : std::make_unique<Supervisor>();
   }
   if (!plan_.debug.empty()) debug_.emplace(plan_, base_domain, out, secure, view_, console_, terminal_);
   start(fleet_programs(plan_, base_domain, out, secure));
@@ -106,6 +107,7 @@ void FleetRun::finish(const std::filesystem::path& out) {
     if (!reported && std::filesystem::exists(out / books)) settle(program);
   }
   handle_all(host_->end_all(scaled(kGrace)));  // the process of them all
+  for (std::string& warning : host_->collect(out)) facts_.warnings.push_back(std::move(warning));
   view_.finish();
 }
 

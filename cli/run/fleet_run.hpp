@@ -34,7 +34,9 @@ class FleetRun {
   FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal);
 
   /// Starts all programs and returns when none is left. Once.
-  void fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure);
+  /// @param elsewhere  what runs them, if it is not this process alone.
+  void fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure,
+           std::unique_ptr<ProgramHost> elsewhere = nullptr);
 
   /// The same, where something else watches over the programs, brings them back, and tells nobody: what a fault does to
   /// them is their own business. @param containers  what follows each of them here.

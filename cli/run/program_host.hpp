@@ -46,8 +46,9 @@ struct ExitStatus {
   pid_t pid = 0;                ///< of the process that it was
   bool shared = false;          ///< it was no process of its own: memory and time are told of that process
   bool dragged = false;         ///< it ended for no other reason than that its process did
-  bool ok() const { return code == 0 && signal == 0; }
-  /// "exit code 3" or "signal 11 (Segmentation fault)".
+  std::string lost_host = {};   ///< it ran on a host of which nothing is known any more, and why; empty: it ended
+  bool ok() const { return code == 0 && signal == 0 && lost_host.empty(); }
+  /// "exit code 3", "signal 11 (Segmentation fault)", or what became of its host.
   std::string text() const;
 };
 
@@ -86,6 +87,9 @@ class ProgramHost {
   /// SIGTERM to all, SIGKILL to what is left after `grace` or at once when the user interrupts again.
   /// @returns all events until the last program, and the last process, ended.
   virtual std::vector<Event> end_all(std::chrono::milliseconds grace) = 0;
+  /// Once no program is left: brings what programs wrote elsewhere to the results folder.
+  /// @returns what was left behind, a sentence each.
+  virtual std::vector<std::string> collect(const std::filesystem::path&) { return {}; }
   /// Names of the programs that run, in the order of their names.
   virtual std::vector<std::string> running() const = 0;
   virtual bool running(const std::string& program) const = 0;

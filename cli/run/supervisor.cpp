@@ -102,6 +102,7 @@ struct Supervisor::Child : StartedProgram {
 };
 
 std::string ExitStatus::text() const {
+  if (!lost_host.empty()) return lost_host;
   if (signal != 0) return "signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
   return "exit code " + std::to_string(code);
 }
@@ -137,6 +138,7 @@ std::vector<Event> Supervisor::wait(std::chrono::milliseconds limit) {
     polled.push_back({child->status.get(), POLLIN, 0});
     polled.push_back({child->pidfd.get(), POLLIN, 0});
   }
+  for (const int descriptor : also_watched_) polled.push_back({descriptor, POLLIN, 0});
   std::vector<Event> events;
   if (poll_and_trim(polled, limit) <= 0) return events;
   signalfd_siginfo info;

@@ -31,6 +31,8 @@ class Supervisor final : public ProgramHost {
   /// In a process group of its own, stdin closed, both pipes open.
   void start(const ProgramSpec& spec) override;
   std::vector<Event> wait(std::chrono::milliseconds limit) override;
+  /// wait() returns, with events or without, as soon as one of these can be read. Negative ones are none.
+  void watch_too(std::vector<int> descriptors) { also_watched_ = std::move(descriptors); }
   void send(const std::string& program, const std::string& line) override;
   /// There will be no more lines for it.
   void hang_up(const std::string& program);
@@ -56,6 +58,7 @@ class Supervisor final : public ProgramHost {
   void signal_all(int signal);
 
   std::map<std::string, std::unique_ptr<Child>> children_;
+  std::vector<int> also_watched_;
   int signal_fd_ = -1;
   sigset_t former_mask_{};
   struct sigaction former_pipe_action_ {};

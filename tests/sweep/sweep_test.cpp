@@ -267,5 +267,33 @@ TEST_F(SweepTest, ARealSlurmIsAsThePlainStudy) {
   daemons.wait();
 }
 
+// `skein run --place slurm`: the launcher is on one node of the allocation, the UAVs are on the other.
+TEST_F(SweepTest, AFleetOverTheNodesOfAnAllocation) {
+  if (!long_tests()) GTEST_SKIP() << "in the long suite";
+  const fs::path dir = folder() / "real";
+  fs::create_directories(dir);
+  ChildProcess& daemons = start_program("daemons", {source_path("tests/sweep/real_slurm.sh"), dir});
+  ASSERT_TRUE(eventually([&] { return fs::exists(dir / "ready") || daemons.ended(); })) << daemons.out();
+  if (const auto ended = daemons.ended(); ended && ended->code == 77) GTEST_SKIP() << daemons.out();
+  ASSERT_FALSE(daemons.ended()) << daemons.out() << daemons.err();
+  const Arguments flight = {"towers", "--planner", "patrol", "--duration", "10", "--no-oracle", "--no-report"};
+  run("one", flight);
+  std::string script = "#!/bin/sh\nexec " + program("skein") + " run";
+  for (const std::string& word : flight) script += " " + word;
+  const fs::path job = write("job.sh", script + " --place slurm --out " + (folder() / "placed").string() + "\n");
+  ChildProcess& batch = start_program("sbatch",
+                                      {"/usr/bin/env", "sbatch", "--wait", "--nodes=2", "--ntasks=2",
+                                       "--output=" + (folder() / "job.out").string(), job},
+                                      {{"SLURM_CONF", dir / "slurm.conf"}});
+  EXPECT_EQ(batch.wait().code, 0) << batch.err() << text_of(folder() / "job.out");
+  EXPECT_NE(text_of(folder() / "job.out").find("nanyang on n2"), std::string::npos) << text_of(folder() / "job.out");
+  const auto digest_of = [&](const char* name) {
+    return Json::parse(text_of(folder() / name / "result.json"), nullptr, false)["digest"];
+  };
+  EXPECT_EQ(digest_of("placed"), digest_of("one"));
+  daemons.signal(SIGTERM);
+  daemons.wait();
+}
+
 }  // namespace
 }  // namespace skein::test

@@ -1,0 +1,67 @@
+// Frames: what is said arrives as it was said, whatever pieces the stream comes in.
+#include "cli/place/frames.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace skein::cli {
+namespace {
+
+std::string drawn_text(std::mt19937& random, std::size_t most) {
+  std::string text(std::uniform_int_distribution<std::size_t>(0, most)(random), '\0');
+  for (char& letter : text) letter = static_cast<char>(random());
+  return text;
+}
+
+TEST(Frames, ArriveWholeInWhateverPieces) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 random(seed);
+    const bool greeted = seed % 2 == 0;
+    std::string stream = greeted ? "" : "Welcome!\nno frame {\r\n" + std::string(kHostGreeting) + "\r\n";
+    std::vector<Frame> said;
+    for (int i = 0; i < 10; ++i) {
+      said.push_back({{{"say", "log"}, {"number", i}, {"text", "line\nor \"two\" " + std::to_string(seed)}},
+                      drawn_text(random, 300)});
+      stream += bytes_of(said.back().head, said.back().body);
+    }
+    FrameReader reader(greeted);
+    std::vector<Frame> heard;
+    while (!stream.empty()) {
+      const std::size_t piece = std::uniform_int_distribution<std::size_t>(1, 80)(random);
+      reader.add(stream.substr(0, piece));
+      stream.erase(0, piece);
+      while (auto frame = reader.next()) heard.push_back(*frame);
+    }
+    ASSERT_EQ(heard.size(), said.size()) << seed;
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      EXPECT_EQ(heard[i].head["number"], said[i].head["number"]);
+      EXPECT_EQ(heard[i].text("text"), said[i].text("text"));
+      EXPECT_EQ(heard[i].body, said[i].body);
+    }
+    if (!greeted) EXPECT_EQ(reader.before_greeting(), "Welcome!\nno frame {\n");
+  }
+}
+
+TEST(Frames, WhatIsNoneIsSaid) {
+  for (const std::string text : {"garbage\n", "[1, 2]\n", "{\"bytes\": 99999999999}\n"}) {
+    FrameReader reader(true);
+    reader.add(text);
+    EXPECT_THROW(reader.next(), std::runtime_error) << text;
+  }
+  FrameReader reader(true);
+  reader.add("{\"say\": \"hello\"}");
+  EXPECT_FALSE(reader.next().has_value());
+}
+
+// A program may write what is no UTF-8 on its status pipe.
+TEST(Frames, CarryWhateverAProgramWrote) {
+  FrameReader reader(true);
+  reader.add(bytes_of({{"say", "status"}, {"line", "\xff\xfe and more"}}));
+  const auto frame = reader.next();
+  ASSERT_TRUE(frame.has_value());
+  EXPECT_NE(frame->text("line").find("and more"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace skein::cli

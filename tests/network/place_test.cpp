@@ -1,0 +1,252 @@
+// `skein run --place`: a fleet over hosts on which the launcher logs in by ssh.
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+
+#include "fleet_fixture.hpp"
+#include "login_hosts.hpp"
+#include "small_scene.hpp"
+#include "tests/free_domain.hpp"
+#include "tests/support/places.hpp"
+
+namespace skein::test {
+namespace {
+
+class Place : public FleetTest {
+ protected:
+  void SetUp() override {
+    std::filesystem::permissions(folder(), std::filesystem::perms(0755));  // secured agents read the scenario
+    if (const std::string why = login_.set_up(folder()); !why.empty()) GTEST_SKIP() << why;
+  }
+  void TearDown() override {
+    for (const char* host : {"b", "c"}) {
+      EXPECT_TRUE(login_.is_clean(host)) << host << ": " << testing::PrintToString(login_.processes_on(host))
+                                         << testing::PrintToString(login_.files_on(host));
+    }
+    FleetTest::TearDown();
+  }
+
+  Arguments words(const std::string& name, const Arguments& more, const std::string& planner) const {
+    return login_.hosts().on("a", joined({program("skein"), "run", scene_, "--planner", planner, "--no-oracle",
+                                          "--no-report", "--out", folder() / name, "--ssh", login_.ssh()},
+                                         more));
+  }
+  ChildProcess& fly(const std::string& name, const Arguments& more, const std::string& planner = "patrol") {
+    return start_program(name, words(name, more, planner));
+  }
+  Json result(const std::string& name) const {
+    return Json::parse(text_of(folder() / name / "result.json"), nullptr, false);
+  }
+  bool wait_until_flying(const std::string& name, ChildProcess& launcher) {
+    eventually([&] { return is_flying(folder() / name) || launcher.ended(); });
+    return !launcher.ended();
+  }
+
+  /// A launcher for hosts that runs as an ordinary user, whoever logs in.
+  std::string write_as_nobody() const {
+    const auto file = write("nobody/skein", "#!/bin/sh\nexec setpriv --reuid=nobody --regid=nogroup --clear-groups " +
+                                                program("skein") + " \"$@\"\n");
+    std::filesystem::permissions(file, std::filesystem::perms(0755));
+    std::filesystem::permissions(file.parent_path(), std::filesystem::perms(0755));
+    return file;
+  }
+
+  LoginHosts login_{{"a", "b", "c"}};
+  const std::string scene_ = write_small_scene(folder());
+};
+
+const Arguments kBoth = {"--place", "jurong=b,changi=c"};
+
+class PlaceByVendor : public Place, public testing::WithParamInterface<Arguments> {};
+
+// One of them killed, one paused, and brought back: by processes on other hosts.
+TEST_P(PlaceByVendor, IsTheFlightOfOneHost) {
+  const Arguments flight =
+      joined({"--duration", "25", "--keep-maps", "--faults",
+              write("faults.yaml",
+                    "faults:\n  - {at_s: 3, until_s: 6, kill: jurong}\n  - {at_s: 4, until_s: 7, pause: changi}\n")},
+             GetParam());
+  run("one", joined({scene_, "--planner", "patrol", "--no-oracle", "--no-report"}, flight));
+  ChildProcess& launcher = fly("two", joined(kBoth, flight));
+  std::vector<std::string> seen;
+  eventually([&] {
+    const auto files = login_.files_on("b");
+    seen.insert(seen.end(), files.begin(), files.end());
+    return launcher.ended().has_value();
+  });
+  EXPECT_EQ(launcher.wait().code, 0) << launcher.err();
+  const Json one = result("one"), two = result("two");
+  ASSERT_TRUE(one.is_object() && two.is_object()) << launcher.err();
+  EXPECT_EQ(two["digest"], one["digest"]);
+  EXPECT_FALSE(two["digest"].is_null());
+  EXPECT_EQ(two["lost_members"], one["lost_members"]);
+  for (const char* file : {"recording.mcap", "score.csv", "map-jurong.bt", "map-changi.bt", "maps-jurong.mcap"}) {
+    EXPECT_TRUE(text_of(folder() / "two" / file) == text_of(folder() / "one" / file)) << file;
+  }
+  for (const char* file : {"uav_agent-jurong.log", "uav_agent-changi.report.json"}) {
+    EXPECT_FALSE(text_of(folder() / "two" / file).empty()) << file;
+  }
+  // What an agent may see was there, and nothing else of the scene.
+  const auto had = [&](const std::string& name) {
+    return std::ranges::any_of(seen, [&](const std::string& file) { return file.ends_with(name); });
+  };
+  EXPECT_TRUE(had("/scenario.yaml")) << testing::PrintToString(seen);
+  for (const char* secret : {"points.pcd", "mesh.stl"}) EXPECT_FALSE(had(secret)) << secret;
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, PlaceByVendor,
+                         testing::Values(Arguments{"--dds", "cyclonedds"}, Arguments{"--dds", "fastdds"},
+                                         Arguments{"--secure"}),
+                         [](const auto& tested) { return "v" + std::to_string(tested.index); });
+
+TEST_F(Place, AHostThatVanishesIsTheLossOfItsUavs) {
+  ChildProcess& launcher = fly("run", joined(kBoth, {"--duration", "120"}));
+  ASSERT_TRUE(wait_until_flying("run", launcher)) << launcher.err();
+  login_.cut("b");
+  // Cut off from everybody, its minder ends all.
+  EXPECT_TRUE(login_.is_clean("b")) << testing::PrintToString(login_.processes_on("b"));
+  EXPECT_EQ(launcher.wait().code, 3);
+  EXPECT_NE(launcher.err().find("uav_agent-jurong failed: its host b is gone"), std::string::npos) << launcher.err();
+  const Json flown = result("run");
+  ASSERT_EQ(flown["lost_members"].size(), 1U) << flown["lost_members"];
+  EXPECT_EQ(flown["lost_members"][0]["member"], "jurong");
+  EXPECT_EQ(flown["status"], "completed") << "the others fly on";
+  login_.mend("b");
+}
+
+TEST_F(Place, AKilledLauncherLeavesNothingOnAnyHost) {
+  ChildProcess& launcher = fly("run", joined(kBoth, {"--duration", "2000"}));
+  ASSERT_TRUE(wait_until_flying("run", launcher)) << launcher.err();
+  EXPECT_FALSE(login_.processes_on("b").empty());
+  EXPECT_FALSE(login_.processes_on("c").empty());
+  launcher.signal(SIGKILL);
+  launcher.wait();
+  EXPECT_TRUE(login_.is_clean("b")) << testing::PrintToString(login_.processes_on("b"));
+  EXPECT_TRUE(login_.is_clean("c")) << testing::PrintToString(login_.processes_on("c"));
+  EXPECT_TRUE(eventually([&] { return processes_of(folder() / "run").empty(); }));
+}
+
+TEST_F(Place, ACommandOfTheUsersAndWhatItStartsEndWithTheRun) {
+  // It leaves a child in a session of its own.
+  ChildProcess& launcher =
+      fly("run", {"--place", "jurong=b", "--duration", "10", "--agent-timeout", "10"},
+          "patrol,jurong=exec:setsid sleep 1000 & env > \"$SKEIN_OUT/env\"; sleep 1; kill -SEGV $$");
+  EXPECT_EQ(launcher.wait().code, 3) << launcher.err();
+  EXPECT_NE(launcher.err().find("uav_agent-jurong failed: signal 11"), std::string::npos) << launcher.err();
+  const std::string variables = text_of(folder() / "run/uav_agent-jurong.env");
+  EXPECT_NE(variables.find("SKEIN_UAV=jurong\n"), std::string::npos) << variables;
+  EXPECT_NE(variables.find("SKEIN_NETWORK={'jurong': {peers: "), std::string::npos) << variables;
+}
+
+TEST_F(Place, ASecuredAgentHasAUserIdOfItsOwnThere) {
+  ChildProcess& launcher = fly("run", {"--place", "jurong=b", "--secure", "--duration", "8", "--agent-timeout", "10"},
+                               "patrol,jurong=exec:(id -u; head -n 1 \"$SKEIN_SECURITY/key.pem\") > \"$SKEIN_OUT/id\"");
+  launcher.wait();
+  const std::string said = text_of(folder() / "run/uav_agent-jurong.id");
+  const int uid = std::atoi(said.c_str());
+  EXPECT_GE(uid, 60706) << said << launcher.err();
+  EXPECT_LE(uid, 61182) << said;
+  EXPECT_NE(said.find("PRIVATE KEY"), std::string::npos) << said;
+}
+
+TEST_F(Place, WhatIsInTheWayIsNamedBeforeTheFlight) {
+  const FreeDomains domains(4);
+  const int port = 7400 + 250 * (domains.base() + 2);
+  if (!login_.hosts().run("b", "iptables -A INPUT -p udp --dport " + std::to_string(port) + ":" +
+                                   std::to_string(port + 249) + " -j DROP")) {
+    ASSERT_TRUE(login_.hosts().run("b", "ip link set eth0 mtu 1300"));
+  }
+  ChildProcess& launcher =
+      fly("run", {"--place", "jurong=b", "--duration", "5", "--domain", std::to_string(domains.base())});
+  EXPECT_EQ(launcher.wait().code, 2) << launcher.err();
+  EXPECT_NE(launcher.err().find("the hosts do not hear each other"), std::string::npos) << launcher.err();
+  EXPECT_TRUE(launcher.err().find("MTU") != std::string::npos || launcher.err().find("UDP ports") != std::string::npos)
+      << launcher.err();
+  EXPECT_FALSE(std::filesystem::exists(folder() / "run/sim_server.log"));
+}
+
+TEST_F(Place, DomainsThatAnotherHostUsesAreNotTaken) {
+  ChildProcess& first = start_program(
+      "first", login_.hosts().on("b", {program("skein"), "run", scene_, "--planner", "hover", "--duration", "2000",
+                                       "--no-oracle", "--no-report", "--out", folder() / "first"}));
+  ASSERT_TRUE(wait_until_flying("first", first)) << first.err();
+  ChildProcess& second = fly("second", {"--place", "jurong=b", "--duration", "5"});
+  EXPECT_EQ(second.wait().code, 0) << second.err();
+  EXPECT_NE(first.err().find("DDS domains 1..4"), std::string::npos) << first.err();
+  EXPECT_NE(second.err().find("DDS domains 5..8"), std::string::npos) << second.err();
+  ChildProcess& third = fly("third", {"--place", "jurong=b", "--duration", "5", "--domain", "3"});
+  EXPECT_EQ(third.wait().code, 2);
+  EXPECT_NE(third.err().find("on b: --domain 3"), std::string::npos) << third.err();
+  first.signal(SIGINT);
+  first.wait();
+}
+
+// Its commands, typed on each host as they are printed.
+TEST_F(Place, AFleetThatIsStartedByHandFliesTheSame) {
+  const Arguments flight = {"--duration", "10", "--dds", "fastdds"};
+  run("one", joined({scene_, "--planner", "patrol", "--no-oracle", "--no-report"}, flight));
+  std::array<char, 256> own{};
+  ::gethostname(own.data(), own.size() - 1);
+  for (const char* host : {"a", "b"}) {
+    login_.hosts().tell(host, own.data(), login_.hosts().address(0, "a"));
+    login_.hosts().tell(host, "b", login_.hosts().address(0, "b"));
+  }
+  ChildProcess& printed = fly("hand", joined({"--place", "jurong=b", "--print"}, flight));
+  ASSERT_EQ(printed.wait().code, 0) << printed.err();
+  const std::string text = printed.out();
+  const std::size_t there = text.find("# on b"), after = text.find("# when the run is over");
+  ASSERT_TRUE(there != std::string::npos && after != std::string::npos) << text;
+  ChildProcess& b =
+      start_program("hand-b", login_.hosts().on("b", {"/bin/sh", "-c", text.substr(there, after - there)}));
+  ChildProcess& a = start_program("hand-a", login_.hosts().on("a", {"/bin/sh", "-c", text.substr(0, there)}));
+  a.wait();
+  b.wait();
+  EXPECT_EQ(skein({"merge", folder() / "hand"}).wait().code, 0) << text << a.err() << b.err();
+  EXPECT_EQ(result("hand")["digest"], result("one")["digest"]) << text << a.err() << b.err();
+}
+
+// Where the login is not root's, agents run as that user, and the launcher says so.
+TEST_F(Place, ASecuredAgentWithoutAUserIdOfItsOwnIsNamed) {
+  ChildProcess& launcher = start_program(
+      "run", login_.hosts().on("a", {program("skein"), "run", scene_, "--planner", "patrol", "--duration", "8",
+                                     "--secure", "--no-oracle", "--no-report", "--out", folder() / "run", "--place",
+                                     "jurong=b", "--ssh", login_.ssh(), "--skein-path", write_as_nobody()}));
+  EXPECT_EQ(launcher.wait().code, 0) << launcher.err();
+  const std::string warning =
+      "--secure on b: it is not root that logs in there, so uav_agent-jurong runs as the user nobody";
+  EXPECT_NE(launcher.err().find(warning), std::string::npos) << launcher.err();
+  EXPECT_NE(result("run")["warnings"].dump().find(warning), std::string::npos);
+}
+
+TEST_F(Place, WrongInputIsExitCodeTwoAndStartsNothing) {
+  const std::filesystem::path other =
+      write("other/skein", "#!/bin/sh\nexec env SKEIN_BIN_DIR=" + (folder() / "other").string() + " " +
+                               program("skein") + " \"$@\"\n");
+  std::filesystem::permissions(other, std::filesystem::perms::owner_all);
+  write("other/uav_agent", "another build");
+  const std::vector<std::pair<Arguments, std::string>> cases = {
+      {{"--place", "jurnog=b"}, "there is no UAV 'jurnog'; did you mean 'jurong'?"},
+      {{"--place", "jurong"}, "must be UAV=HOST"},
+      {{"--place", "jurong=-oProxyCommand=x"}, "is no host"},
+      {{"--place", "jurong=b,jurong=c"}, "jurong is placed twice"},
+      {{"--place", "jurong=b,changi=" + login_.hosts().address(0, "b")}, "are one machine"},
+      {{"--place", "jurong=" + login_.hosts().address(0, 77)}, "No route to host"},
+      {{"--place", "jurong=b", "--skein-path", "/nowhere/skein"}, "No such file"},
+      {{"--place", "jurong=b", "--skein-path", other}, "b has another build of Skein"},
+      {{"--place", "sim_server=b"}, "stays with the launcher"},
+      {{"--place", "gcs=b"}, "no program runs at the ground station"},
+      {{"--place", "slurm"}, "no allocation of Slurm"},
+      {{"--place", "jurong=b", "--one-process"}, "--place needs processes"},
+      {{"--place", "jurong=b", "--debug", "jurong=wait"}, "--debug and --place"}};
+  for (const auto& [arguments, message] : cases) {
+    ChildProcess& launcher = fly("wrong", arguments);
+    EXPECT_EQ(launcher.wait().code, 2) << message;
+    EXPECT_NE(launcher.err().find(message), std::string::npos) << message << '\n' << launcher.err();
+    EXPECT_FALSE(std::filesystem::exists(folder() / "wrong/sim_server.log")) << message;
+  }
+}
+
+}  // namespace
+}  // namespace skein::test
