@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "bus/lockstep/lockstep_node.hpp"
+#include "bus/lockstep/self_signal.hpp"
 #include "bus/program_bus.hpp"
 #include "core/radio_routes.hpp"
 #include "core/scenario_reader.hpp"
@@ -333,6 +334,9 @@ PYBIND11_MODULE(_skein_client, module) {
   using namespace skein;
   using namespace skein::agent;
   spdlog::set_default_logger(make_log("skein", ""));
+  // The launcher stops a user's command itself, and goes on with it. A second stop, which the order asks for, might
+  // come after that: so the order means no more than to stand aside until it is over.
+  bus::set_self_signals({.kill = {}, .stop = [] {}});
   py::register_exception<WrongUse>(module, "WrongUse");
   py::register_exception<Lost>(module, "Lost");
   py::register_exception<InputError>(module, "WrongInput");

@@ -125,7 +125,8 @@ class Listener:
         self.node = node if node is not None else first[1] if len(first) > 2 else "gcs"
         given_run = 0
         if domain is None and os.environ.get("SKEIN_DOMAIN") and run is None:
-            domain, dds = whole("SKEIN_DOMAIN", os.environ["SKEIN_DOMAIN"], 230), variable("SKEIN_DDS", dds)
+            domain = whole("SKEIN_DOMAIN", os.environ["SKEIN_DOMAIN"], 230)
+            dds = variable("SKEIN_DDS", dds)
             self.node = node or os.environ.get("SKEIN_UAV", self.node)
         elif domain is None:
             fleet = flying_fleet(run, patience_s)

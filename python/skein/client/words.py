@@ -42,7 +42,8 @@ def _rotated(q: Any, v: Any) -> Vector:
     """v in W, of a vector in B; q is w, x, y, z."""
     w, u = q[0], np.asarray(q[1:], float)
     vector = np.asarray(v, float)
-    return vector + 2.0 * np.cross(u, np.cross(u, vector) + w * vector)
+    rotated: Vector = vector + 2.0 * np.cross(u, np.cross(u, vector) + w * vector)
+    return rotated
 
 
 def _vector(point: Message) -> Vector:
@@ -66,7 +67,7 @@ def seconds_of(duration: Message) -> float:
 
 
 def tick_of(header: Message) -> int:
-    return round((header.stamp.sec + header.stamp.nanosec / _NANOSECONDS) * TICKS_PER_SECOND)
+    return int(round((header.stamp.sec + header.stamp.nanosec / _NANOSECONDS) * TICKS_PER_SECOND))
 
 
 def boxes_of(cloud: Message) -> tuple[OrientedBox, ...]:
