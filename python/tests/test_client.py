@@ -88,42 +88,50 @@ def test_it_hears_and_says_everything_the_same_under_both_vendors_and_under_chao
     assert len(digests) == 1 and None not in digests
 
 
-def test_the_example_photographs_and_scores_and_a_listener_hears_it(root: Path, tmp_path: Path) -> None:
-    heard = subprocess.Popen([sys.executable, "-B", str(root / "python/examples/listen.py"), str(tmp_path / "run")],
+def of_the_page(root: Path, name: str) -> str:
+    """A program of docs/how-to-python.md."""
+    page = (root / "docs/how-to-python.md").read_text()
+    return page.split(f"```python {name}\n")[1].split("```")[0]
+
+
+def test_the_example_scores(root: Path, tmp_path: Path) -> None:
+    example = f"hover,jurong=exec:exec {sys.executable} -B {root}/python/examples/my_uav.py"
+    run = fly(tmp_path, example, duration=70)
+    assert run.score is not None and run.score > 5.0 and run.status == "completed"
+
+
+def test_nobody_notices_a_listener(root: Path, tmp_path: Path) -> None:
+    shooter = "hover," + program(tmp_path, of_the_page(root, "my_uav.py"))
+    heard = subprocess.Popen([sys.executable, "-B", str(root / "python/examples/listen.py"), str(tmp_path / "heard")],
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    example = f"hover,jurong=exec:exec {sys.executable} -B {root}/python/examples/my_uav.py"
-    run = fly(tmp_path, example, duration=75)
-    said, _ = heard.communicate(timeout=60)
+    runs = [fly(tmp_path, shooter, duration=30, dds=dds, out=tmp_path / out)
+            for dds, out in (("fastdds", "heard"), ("cyclonedds", "alone"))]
+    said, _ = heard.communicate(timeout=120)
     assert heard.returncode == 0 and "the fleet has ended" in said, said
-    assert run.score is not None and run.score > 5.0
-    jurong = next(one for one in run.result["uavs"] if one["name"] == "jurong")
-    assert jurong["collisions"] == 0 if "collisions" in jurong else True
-    delivered = run.captures[(run.captures["uav"] == "jurong")]["delivered_at_s"]
-    assert (delivered == delivered).any()
-    quiet = fly(tmp_path, example, duration=75, dds="fastdds", out=tmp_path / "quiet")
-    assert quiet.digest == run.digest, "nobody notices a listener"
-    assert abs(quiet.score - run.score) < 1e-9 if quiet.score is not None else False
+    assert runs[0].digest == runs[1].digest and runs[0].digest is not None
+    assert runs[0].score is not None and runs[0].score > 5.0
 
 
-@pytest.mark.parametrize("fault", ["kill: jurong", "pause: jurong"])
-def test_killed_or_stopped_it_comes_back_and_delivers_everything(root: Path, tmp_path: Path, fault: str) -> None:
+@pytest.mark.parametrize("fault", ["kill", "pause"])
+def test_killed_or_stopped_it_comes_back_and_loses_no_capture(root: Path, tmp_path: Path, fault: str) -> None:
+    """The station does not hear it until after the fault: all that it has by then is delivered later."""
     faults = tmp_path / "faults.yaml"
-    faults.write_text("faults:\n  - {at_s: 26, for_s: 3, " + fault + "}\n")
-    example = f"hover,jurong=exec:exec {sys.executable} -B {root}/python/examples/my_uav.py"
-    runs = [fly(tmp_path, example, duration=60, faults=faults, dds=dds) for dds in ("cyclonedds", "fastdds")]
+    faults.write_text("faults:\n  - {at_s: 0, until_s: 26, blackout: jurong}\n"
+                      f"  - {{at_s: 22, for_s: 2, {fault}: jurong}}\n")
+    shooter = "hover," + program(tmp_path, of_the_page(root, "my_uav.py"))
+    runs = [fly(tmp_path, shooter, duration=34, faults=faults, dds=dds) for dds in ("cyclonedds", "fastdds")]
     assert runs[0].digest is not None and runs[0].digest == runs[1].digest
     run = runs[0]
     assert run.status == "completed" and run.result["deterministic"]
-    own = run.trajectories[(run.trajectories["uav"] == "jurong") & (run.trajectories["time_s"] > 32)]
+    own = run.trajectories[(run.trajectories["uav"] == "jurong") & (run.trajectories["time_s"] > 25)]
     assert (abs(own["vx"]) + abs(own["vy"]) + abs(own["vz"])).max() > 0.5, "it flies on"
-    captures = run.captures[(run.captures["uav"] == "jurong") & (run.captures["time_s"] < 29)]
-    assert len(captures) and (captures["delivered_at_s"] == captures["delivered_at_s"]).all(), "none was lost"
+    before = run.captures[(run.captures["uav"] == "jurong") & (run.captures["time_s"] < 22)]
+    assert len(before) > 10 and before["delivered_at_s"].min() > 26, "none is lost"
 
 
 @pytest.mark.parametrize(("line", "words"), [
     ("raise ValueError('no such plan')", ["ValueError: no such plan", "jurong's program failed at step 40 (2.00 s)"]),
     ("uav.fly_to([1, 2])", ["p_W: must be three finite numbers, not [1, 2]", "at step 40"]),
-    ("import os; os._exit(7)", ["exit code 7"]),
 ])
 def test_an_exception_is_named_with_its_traceback(tmp_path: Path, line: str, words: list[str]) -> None:
     code = ("from skein.client import Client\nwith Client() as uav:\n    for step in uav:\n"
