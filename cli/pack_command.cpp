@@ -78,8 +78,8 @@ std::vector<fs::path> python_modules() {
 
 /// The package `skein`, of this checkout or as installed.
 std::optional<fs::path> python_package() {
-  for (const fs::path& folder : {default_config_dir() / "../python/skein",
-                                 default_config_dir() / "../../../lib/python3/dist-packages/skein"}) {
+  for (const fs::path& folder :
+       {default_config_dir() / "../python/skein", default_config_dir() / "../../../lib/python3/dist-packages/skein"}) {
     if (fs::is_regular_file(folder / "planner.py")) return folder;
   }
   return std::nullopt;
@@ -143,10 +143,11 @@ int pack_programs(const PackOptions& options, const Console& console) {
              dir, "skein"});
   fs::rename(unfinished, archive);
   fs::remove_all(dir);
-  console.out << fmt::format("{}: {} programs, {} libraries, {}{:.0f} MB; unpack it anywhere, and call skein/skein\n",
-                             archive.string(), files.size() - (with_python ? modules.size() : 0), libraries.size(),
-                             with_python ? "the package for Python (whose interpreter and NumPy are the machine's), " : "",
-                             static_cast<double>(fs::file_size(archive)) / 1e6);
+  console.out << fmt::format(
+      "{}: {} programs, {} libraries, {}{:.0f} MB; unpack it anywhere, and call skein/skein\n", archive.string(),
+      files.size() - (with_python ? modules.size() : 0), libraries.size(),
+      with_python ? "the package for Python (whose interpreter and NumPy are the machine's), " : "",
+      static_cast<double>(fs::file_size(archive)) / 1e6);
   return kExitDone;
 }
 

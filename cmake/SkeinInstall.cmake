@@ -55,7 +55,8 @@ if(TARGET skein_python)  # of planners in Python, and of programs of one's own
 endif()
 install(DIRECTORY python/skein DESTINATION lib/python3/dist-packages COMPONENT python
   FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
-install(FILES python/examples/compare.ipynb python/examples/listen.py python/examples/my_uav.py DESTINATION ${CMAKE_INSTALL_DOCDIR}/python COMPONENT python)
+install(FILES python/examples/compare.ipynb python/examples/listen.py python/examples/my_uav.py
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/python COMPONENT python)
 
 set(libraries core process report view idl mcap bus lockstep recording agent agent_nodes agent_main
   sim sim_node router router_node station station_node one_process one_process_main)

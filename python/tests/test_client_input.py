@@ -222,31 +222,29 @@ import random, numpy as np
 import skein
 from skein.client import Client
 from skein.planner import GimbalCommand, TrajectoryCommand
-ODD = [None, True, -1, 1e300, float("nan"), "text", b"x", [], [1, 2], [[1]], {}, (1, "x"), object(), np.zeros((2, 2)), 1j,
-       [float("inf")] * 3]
+ODD = [None, True, -1, 1e300, float("nan"), "text", b"x", [], [1, 2], [[1]], {}, (1, "x"), object(), 1j,
+       np.zeros((2, 2)), [float("inf")] * 3]
 draw, refused = random.Random(4), 0
 with Client(debug=["x"]) as uav:
     start = None
     for step in uav:
         start = step.state.p_WB if start is None else start
         uav.fly_to(start + [0, 0, 2.0])
-        if len("ARGS") and NASTY:
+        if NASTY:
             for _ in range(20):
                 odd, more = draw.choice(ODD), draw.choice(ODD)
                 call = draw.choice([
-                    lambda: uav.command(odd), lambda: uav.command(TrajectoryCommand(p_WB=odd)) if odd is not True else 1 / 0,
+                    lambda: uav.command(odd), lambda: uav.command(TrajectoryCommand(p_WB=odd)),
                     lambda: uav.gimbal(odd), lambda: uav.gimbal(GimbalCommand("angel", 0, 0)),
                     lambda: uav.gimbal(GimbalCommand("angle", odd, "x")), lambda: uav.look_at([odd, 1]),
                     lambda: uav.send(object(), "/plan"), lambda: uav.send("x", "/nowhere"), lambda: uav.debug("y", 1.0),
-                    lambda: uav.debug("x", "text"), lambda: uav.activity(3), lambda: uav.open(odd if odd != "text" else "x", "a"),
+                    lambda: uav.debug("x", "text"), lambda: uav.activity(3), lambda: uav.open("x", "a"),
                     lambda: uav.open("/a", "std_msgs/msg/String", "all"), lambda: uav.listen("nothing"),
                     lambda: step.messages("/jurong/cloud_inW"), lambda: step.scans,
                     lambda: uav.fly_to(start, speed_mps=-1), lambda: uav.fly_to(start, yaw="north")])
                 try:
                     call()
-                except (skein.Error, ZeroDivisionError):
-                    refused += 1
-                except (TypeError, AttributeError):  # of a name or argument that no text can be made of
+                except skein.Error:
                     refused += 1
             for _ in range(300):
                 try:

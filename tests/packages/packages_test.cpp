@@ -189,9 +189,26 @@ TEST_F(Packages, AProgramInPythonFliesByWhatIsInstalled) {
                                        "        uav.fly_to(step.state.p_WB + [0, 0, 1])\n"
                                        "print('flown by', skein.__file__)\n";
   const fs::path modules = prefix / "lib/python3/dist-packages";
-  done({"env", "-C", folder(), "-u", "SKEIN_CONFIG_DIR", "-u", "SKEIN_BIN_DIR", "-u", "SKEIN_AGENT",
-        "PYTHONPATH=" + modules.string(), prefix / "bin" / "skein", "run", "towers", "--planner",
-        "hover,jurong=exec:exec " + python_program() + " -B up.py", "--duration", "2", "--no-report", "--out", "flown"});
+  done({"env",
+        "-C",
+        folder(),
+        "-u",
+        "SKEIN_CONFIG_DIR",
+        "-u",
+        "SKEIN_BIN_DIR",
+        "-u",
+        "SKEIN_AGENT",
+        "PYTHONPATH=" + modules.string(),
+        prefix / "bin" / "skein",
+        "run",
+        "towers",
+        "--planner",
+        "hover,jurong=exec:exec " + python_program() + " -B up.py",
+        "--duration",
+        "2",
+        "--no-report",
+        "--out",
+        "flown"});
   const std::string said = text_of(folder() / "flown" / "uav_agent-jurong.log");
   EXPECT_NE(said.find("flown by " + (modules / "skein").string()), std::string::npos) << said;
 }

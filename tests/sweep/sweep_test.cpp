@@ -245,10 +245,12 @@ TEST_F(SweepTest, APackFliesPython) {
   ASSERT_EQ(pack.wait().code, 0) << pack.err();
   EXPECT_NE(pack.out().find("the package for Python"), std::string::npos) << pack.out();
   ASSERT_EQ(start_program("tar", {"tar", "-xzf", folder() / "skein.tar.gz", "-C", folder()}).wait().code, 0);
-  write("up.py", "from skein.planner import *\nclass Up(Planner):\n    def plan(self, inputs):\n"
-                 "        return PlannerOutput(Hold())\n");
-  write("mine.py", "import skein\nfrom skein.client import Client\nwith Client() as uav:\n    for step in uav:\n"
-                   "        uav.fly_to(step.state.p_WB + [0, 0, 1])\nprint('flown by', skein.__file__)\n");
+  write("up.py",
+        "from skein.planner import *\nclass Up(Planner):\n    def plan(self, inputs):\n"
+        "        return PlannerOutput(Hold())\n");
+  write("mine.py",
+        "import skein\nfrom skein.client import Client\nwith Client() as uav:\n    for step in uav:\n"
+        "        uav.fly_to(step.state.p_WB + [0, 0, 1])\nprint('flown by', skein.__file__)\n");
   const std::string planner = "py:up.py,raffles=exec:exec " + python_program() + " -B mine.py";
   ChildProcess& packed = start_program(
       "packed", {"env", "-C", folder(), "-u", "PYTHONPATH", "-u", "SKEIN_BIN_DIR", "-u", "SKEIN_CONFIG_DIR",

@@ -77,8 +77,8 @@ ProgramOptions options_of(const std::string& dds, std::uint64_t run, const std::
 /// A topic of the table, in the domain of `id`. @throws InputError when there is none of that name.
 topics::WireTopic known_topic(const std::string& ros_topic, const std::string& id) {
   const std::string name = wire_topic(ros_topic);
-  for (const auto all : {topics::uav_topics(), topics::gcs_topics(), topics::viewer_topics(),
-                         topics::lockstep_topics()}) {
+  for (const auto all :
+       {topics::uav_topics(), topics::gcs_topics(), topics::viewer_topics(), topics::lockstep_topics()}) {
     for (const topics::TopicInfo& one : all) {
       if (const topics::WireTopic topic = topics::wire(one, id); topic.name == name) return topic;
     }
@@ -99,10 +99,10 @@ py::dict to_python(const VehicleConfig& vehicle) {
   const GimbalConfig& gimbal = vehicle.gimbal;
   py::object lidar = py::none();
   if (vehicle.lidar) lidar = py::make_tuple(vehicle.lidar->range_min_m, vehicle.lidar->range_max_m);
-  const py::dict of_camera(
-      "hfov"_a = camera.hfov_deg * kRadians, "vfov"_a = camera.vfov_deg * kRadians, "exposure_s"_a = camera.exposure_s,
-      "trigger_interval_s"_a = camera.trigger_interval_s, "focal_length_m"_a = camera.focal_length_m,
-      "pixel_size_m"_a = camera.pixel_size_m, "p_BC"_a = py::make_tuple(camera.p_BC.x(), camera.p_BC.y(), camera.p_BC.z()));
+  const py::dict of_camera("hfov"_a = camera.hfov_deg * kRadians, "vfov"_a = camera.vfov_deg * kRadians,
+                           "exposure_s"_a = camera.exposure_s, "trigger_interval_s"_a = camera.trigger_interval_s,
+                           "focal_length_m"_a = camera.focal_length_m, "pixel_size_m"_a = camera.pixel_size_m,
+                           "p_BC"_a = py::make_tuple(camera.p_BC.x(), camera.p_BC.y(), camera.p_BC.z()));
   return py::dict("name"_a = vehicle.name, "max_speed_mps"_a = vehicle.max_speed_mps,
                   "max_acceleration_mps2"_a = vehicle.max_acceleration_mps2,
                   "max_yaw_rate"_a = vehicle.max_yaw_rate_deg_s * kRadians, "lidar_range_m"_a = lidar,
@@ -120,8 +120,8 @@ py::dict to_python(const Scenario& scenario, Node node) {
   for (const FleetMember& one : config.fleet) {
     const Vector3d& p = one.p_WB_start;
     fleet.append(py::dict("name"_a = one.name, "role"_a = name_of(one.role),
-                          "p_WB_start"_a = py::make_tuple(p.x(), p.y(), p.z()),
-                          "body_radius_m"_a = one.body_radius_m, "max_speed_mps"_a = one.max_speed_mps));
+                          "p_WB_start"_a = py::make_tuple(p.x(), p.y(), p.z()), "body_radius_m"_a = one.body_radius_m,
+                          "max_speed_mps"_a = one.max_speed_mps));
   }
   const Vector3d& station = config.station_position;
   py::object index = py::none(), vehicle = py::none();
@@ -143,9 +143,7 @@ Node node_named(const Scenario& scenario, const std::string& name) {
   throw InputError("'" + name + "' is no UAV of this fleet, nor gcs");
 }
 
-Scenario scenario_of(const std::string& file) {
-  return load_scenario(file, LoadOptions{.needs_scene_files = false});
-}
+Scenario scenario_of(const std::string& file) { return load_scenario(file, LoadOptions{.needs_scene_files = false}); }
 
 /// Radio topics of a scenario at a node, custody's left out: ROS topic, type, whether it may be sent on.
 py::list radio_of(const Scenario& scenario, Node node) {

@@ -45,8 +45,7 @@ void UserNode::write(LockstepClient& client, const topics::WireTopic& topic, Cou
 
 /// Topics of the scenario, of whatever type.
 void UserNode::declare_radio(LockstepClient& client) {
-  const std::set<std::string> custody = {topics::captures(member()).name,
-                                         topics::captures_ack_at_uav(member()).name};
+  const std::set<std::string> custody = {topics::captures(member()).name, topics::captures_ack_at_uav(member()).name};
   const std::size_t nodes = scenario_.fleet.size() + 1;
   for (const RadioRoute& route : radio_routes(scenario_)) {
     if (!route.member.empty()) continue;  // the station's own
@@ -71,12 +70,12 @@ void UserNode::declare_custody(LockstepClient& client) {
     }
     uplink_.take(handed_out);
   });
-  client.read<msg::CaptureAck>(
-      bus::spec(topics::captures_ack_at_uav(member())), Counterpart::router, [this](const auto& m) {
-        const std::vector<std::uint64_t> captures = from_capture_ack(m, member());
-        uplink_.acknowledge(captures);
-        released_.insert(released_.end(), captures.begin(), captures.end());
-      });
+  client.read<msg::CaptureAck>(bus::spec(topics::captures_ack_at_uav(member())), Counterpart::router,
+                               [this](const auto& m) {
+                                 const std::vector<std::uint64_t> captures = from_capture_ack(m, member());
+                                 uplink_.acknowledge(captures);
+                                 released_.insert(released_.end(), captures.begin(), captures.end());
+                               });
   const topics::WireTopic neighbours = topics::neighbour_odometry(member());
   read_.insert(neighbours.name);
   client.read(bus::spec(neighbours), Counterpart::server, [this, name = neighbours.name](bus::Sample&& sample) {

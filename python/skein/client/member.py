@@ -80,8 +80,8 @@ class Client:
             for step in uav:
                 uav.fly_to(step.state.p_WB + [0, 0, 1])
 
-    Each turn of the loop is one exchange; what is commanded in it leaves when the next one is asked for. The fleet waits
-    for it. The launcher says by variables which UAV, domain, vendor and run; arguments say otherwise.
+    Each turn of the loop is one exchange; what is commanded in it leaves when the next one is asked for. The fleet
+    waits for it. The launcher says by variables which UAV, domain, vendor and run; arguments say otherwise.
 
     `scans`, `key_frames`: read them; they cost most. `read`: further topics of this UAV's domain, for
     `Step.messages()`. `debug`: names of values that `debug()` will tell. From the thread that made it alone.
@@ -124,7 +124,7 @@ class Client:
     def is_uav(self) -> bool:
         return self.config.index >= 0
 
-    # ---- steps -----------------------------------------------------------------------------------------------------
+    # ---- steps ---------------------------------------------------------------------------------------------------
 
     def __iter__(self) -> Iterator[Step]:
         return self
@@ -166,7 +166,7 @@ class Client:
             error.add_note(f"{self.name}'s program failed at step {self._step.k} ({self._step.time_s:.2f} s)")
         self.close()
 
-    # ---- what it says, within a step ---------------------------------------------------------------------------------
+    # ---- what it says, within a step -----------------------------------------------------------------------------
 
     def command(self, command: TrajectoryCommand) -> None:
         """To the flight controller as it is, for this exchange (docs/rules.md, P1 to P3)."""
@@ -237,10 +237,11 @@ class Client:
     def debug(self, name: str, value: float) -> None:
         """A value under a name of `Client(debug=[...])`, for faults, properties and plots (docs/properties.md)."""
         if name not in self._debug:
-            raise InputError(f"'{name}' is no name of Client(debug=[...]); those are: {', '.join(self._debug) or 'none'}")
+            known = ", ".join(self._debug) or "none"
+            raise InputError(f"'{name}' is no name of Client(debug=[...]); those are: {known}")
         self._say(f"/{self.name}/debug/{name}", messages.new("std_msgs/msg/Float64", data=words.number(value, name)))
 
-    # ---- radio topics of one's own (docs/radio.md) ---------------------------------------------------------------------
+    # ---- radio topics of one's own (docs/radio.md) ---------------------------------------------------------------
 
     def open(self, topic: str, type: str = _TEXT, targets: Sequence[str] = ("all",)) -> None:
         """Registers a radio topic to send on: from `is_open()` on."""
@@ -272,7 +273,7 @@ class Client:
             self._member.listen(topic, type)
         self._radio[topic] = type
 
-    # ---- within ----------------------------------------------------------------------------------------------------
+    # ---- within --------------------------------------------------------------------------------------------------
 
     def _now(self) -> Step:
         if self._step is None or self._closed:
