@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -32,6 +33,7 @@ constexpr const char* kLauncher = R"sh(#!/bin/sh
 here=$(cd "$(dirname "$(readlink -f "$0")")" && pwd)
 export SKEIN_LAUNCHER="$here/skein" SKEIN_LOADER="$here/lib/{0}" SKEIN_BIN_DIR="$here/bin"
 export SKEIN_CONFIG_DIR="$here/share/skein/config" SKEIN_WEB="$here/share/skein/web/report.js"
+export PYTHONPATH="$here/share/skein/python${{PYTHONPATH:+:$PYTHONPATH}}"
 exec "$SKEIN_LOADER" --library-path "$here/lib" --argv0 skein "$here/bin/skein" "$@"
 )sh";
 
@@ -61,10 +63,40 @@ void add_libraries(const fs::path& program, std::map<std::string, fs::path>& lib
   }
 }
 
+/// What flies planners and programs in Python; none where Skein was built or installed without.
+std::vector<fs::path> python_modules() {
+  std::vector<fs::path> modules;
+  for (const char* name : {"libskein_python.so", "_skein_client.so"}) {
+    for (const fs::path& folder : {program_dir(), program_dir() / "../lib/skein"}) {
+      if (!fs::is_regular_file(folder / name)) continue;
+      modules.push_back(folder / name);
+      break;
+    }
+  }
+  return modules;
+}
+
+/// The package `skein`, of this checkout or as installed.
+std::optional<fs::path> python_package() {
+  for (const fs::path& folder :
+       {default_config_dir() / "../python/skein", default_config_dir() / "../../../lib/python3/dist-packages/skein"}) {
+    if (fs::is_regular_file(folder / "planner.py")) return folder;
+  }
+  return std::nullopt;
+}
+
 /// With who may read and run it.
 void copy_all(const fs::path& from, const fs::path& to) {
   fs::create_directories(to.parent_path());
   fs::copy(from, to, fs::copy_options::recursive);
+}
+
+/// Sources alone: what an interpreter has made of them here is for this one.
+void copy_package(const fs::path& from, const fs::path& to) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(from)) {
+    if (!entry.is_regular_file() || entry.path().extension() == ".pyc") continue;
+    copy_all(entry.path(), to / entry.path().lexically_relative(from));
+  }
 }
 
 }  // namespace
@@ -82,6 +114,10 @@ int pack_programs(const PackOptions& options, const Console& console) {
     const fs::path fleet = agent.string() + programs::kFleetSuffix;
     if (fs::exists(fleet)) files.push_back(fleet);
   }
+  const std::vector<fs::path> modules = python_modules();
+  const std::optional<fs::path> package = python_package();
+  const bool with_python = package && !modules.empty();
+  if (with_python) files.insert(files.end(), modules.begin(), modules.end());
   std::map<std::string, fs::path> libraries;
   std::string loader;
   std::set<std::string> names;
@@ -99,6 +135,7 @@ int pack_programs(const PackOptions& options, const Console& console) {
   copy_all(default_config_dir(), pack / "share/skein/config");
   if (const auto script = find_web_bundle(report::kReportScript)) copy_all(*script, pack / "share/skein/web/report.js");
   if (const auto script = find_web_bundle(report::kLiveScript)) copy_all(*script, pack / "share/skein/web/live.js");
+  if (with_python) copy_package(*package, pack / "share/skein/python/skein");
   std::ofstream(pack / "skein") << fmt::format(fmt::runtime(kLauncher), loader);
   fs::permissions(pack / "skein", fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
                                       fs::perms::others_read | fs::perms::others_exec);
@@ -106,9 +143,11 @@ int pack_programs(const PackOptions& options, const Console& console) {
              dir, "skein"});
   fs::rename(unfinished, archive);
   fs::remove_all(dir);
-  console.out << fmt::format("{}: {} programs, {} libraries, {:.0f} MB; unpack it anywhere, and call skein/skein\n",
-                             archive.string(), files.size(), libraries.size(),
-                             static_cast<double>(fs::file_size(archive)) / 1e6);
+  console.out << fmt::format(
+      "{}: {} programs, {} libraries, {}{:.0f} MB; unpack it anywhere, and call skein/skein\n", archive.string(),
+      files.size() - (with_python ? modules.size() : 0), libraries.size(),
+      with_python ? "the package for Python (whose interpreter and NumPy are the machine's), " : "",
+      static_cast<double>(fs::file_size(archive)) / 1e6);
   return kExitDone;
 }
 

@@ -50,12 +50,13 @@ install(DIRECTORY bus cli comm_router core doctor mcap one_process process prope
   FILES_MATCHING PATTERN "*.cpp" PATTERN "*.hpp" PATTERN testing EXCLUDE)
 
 # The package for Python, where Debian's finds it under /usr.
-if(TARGET skein_python)  # of planners in Python
-  install(TARGETS skein_python LIBRARY DESTINATION lib/skein COMPONENT python)
+if(TARGET skein_python)  # of planners in Python, and of programs of one's own
+  install(TARGETS skein_python skein_client LIBRARY DESTINATION lib/skein COMPONENT python)
 endif()
 install(DIRECTORY python/skein DESTINATION lib/python3/dist-packages COMPONENT python
   FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
-install(FILES python/examples/compare.ipynb DESTINATION ${CMAKE_INSTALL_DOCDIR}/python COMPONENT python)
+install(FILES python/examples/compare.ipynb python/examples/listen.py python/examples/my_uav.py
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/python COMPONENT python)
 
 set(libraries core process report view idl mcap bus lockstep recording agent agent_nodes agent_main
   sim sim_node router router_node station station_node one_process one_process_main)

@@ -78,7 +78,7 @@ ${about}
 .
 This package flies fleets from Python, gives what they leave behind as arrays of
 NumPy and frames of pandas, and plots it for papers. And it flies planners that
-are written in Python.")
+are written in Python, and programs of your own that take part in a fleet.")
 
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 configure_file(cmake/debian/changelog.in ${CMAKE_BINARY_DIR}/changelog @ONLY)

@@ -76,9 +76,9 @@ bool is_foreign(const FleetPlan& plan, const std::string& program) {
   return programs::is_agent(program) && agent_file(plan, program) != plan.bin_dir / programs::kAgent;
 }
 
-/// An agent from elsewhere does not find beside it what it reads and loads.
+/// An agent from elsewhere does not find beside it what it reads and loads, nor does a command (skein.client).
 std::map<std::string, std::string> config_variable(const FleetPlan& plan, const std::string& program) {
-  if (!is_foreign(plan, program)) return {};
+  if (!is_foreign(plan, program) && !is_exec(plan, program)) return {};
   return {{"SKEIN_CONFIG_DIR", std::filesystem::absolute(default_config_dir())},
           {"SKEIN_BIN_DIR", std::filesystem::absolute(plan.bin_dir)}};
 }
@@ -96,6 +96,7 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
       {"SKEIN_DDS", dds_vendors(plan).at(program)},
       {"SKEIN_SCENARIO", std::filesystem::absolute(plan.scenario.file)},
       {"SKEIN_OUT", std::filesystem::absolute(secure.out.empty() ? out : secure.out)}};
+  variables.merge(config_variable(plan, program));
   if (!secure.keys.empty()) variables["SKEIN_SECURITY"] = secure.keys;
   if (secure.user) variables["HOME"] = secure.out;  // the launcher's is closed to it
   return variables;

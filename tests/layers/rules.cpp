@@ -169,7 +169,7 @@ const std::vector<LibraryRule>& library_rules() {
        {"pcl/"},
        {"uav_agent/", "sim_server/sensors/key_frames.cpp", "sim_server/scene_files/point_file_pcl_test.cpp"},
        2},
-      {"Python", {"pybind11/", "Python.h"}, {"uav_agent/python/"}, 12, true},
+      {"Python", {"pybind11/", "Python.h"}, {"uav_agent/python/", "uav_agent/client/"}, 12, true},
       {"Boost", {"boost/"}, {"view/"}, 1},
       {"Assimp", {"assimp/"}, {"sim_server/scene_files/"}, 1}};
   return kRules;

@@ -93,7 +93,8 @@ TEST_F(Packages, EachComponentHasWhatItIsFor) {
   Paths modules = below(files_of(source_path("python")), "skein/");
   std::erase_if(modules, [](const std::string& file) { return file.ends_with(".pyc"); });
   EXPECT_EQ(below(python, "lib/python3/dist-packages/skein/"), modules);
-  EXPECT_EQ(below(python, "lib/skein/"), Paths{"libskein_python.so"}) << "of planners in Python";
+  EXPECT_EQ(below(python, "lib/skein/"), (Paths{"_skein_client.so", "libskein_python.so"}))
+      << "of planners in Python, and of programs of one's own";
   for (const Paths* programs : {&runtime, &agent}) {
     EXPECT_EQ(below(*programs, "share/skein/config/"), files_of(source_path("config")));
     Paths manuals;
@@ -177,6 +178,39 @@ TEST_F(Packages, APlannerInPythonFliesByWhatIsInstalled) {
         "flown"});
   const std::string said = text_of(folder() / "flown" / "uav_agent-jurong.log");
   EXPECT_NE(said.find((prefix / "lib/python3/dist-packages/skein").string()), std::string::npos) << said;
+}
+
+/// The same of a program in the place of a UAV's software.
+TEST_F(Packages, AProgramInPythonFliesByWhatIsInstalled) {
+  const fs::path prefix = install("runtime");
+  done({"cmake", "--install", build_path(), "--component", "python", "--prefix", prefix});
+  std::ofstream(folder() / "up.py") << "from skein.client import Client\nimport skein\n"
+                                       "with Client() as uav:\n    for step in uav:\n"
+                                       "        uav.fly_to(step.state.p_WB + [0, 0, 1])\n"
+                                       "print('flown by', skein.__file__)\n";
+  const fs::path modules = prefix / "lib/python3/dist-packages";
+  done({"env",
+        "-C",
+        folder(),
+        "-u",
+        "SKEIN_CONFIG_DIR",
+        "-u",
+        "SKEIN_BIN_DIR",
+        "-u",
+        "SKEIN_AGENT",
+        "PYTHONPATH=" + modules.string(),
+        prefix / "bin" / "skein",
+        "run",
+        "towers",
+        "--planner",
+        "hover,jurong=exec:exec " + python_program() + " -B up.py",
+        "--duration",
+        "2",
+        "--no-report",
+        "--out",
+        "flown"});
+  const std::string said = text_of(folder() / "flown" / "uav_agent-jurong.log");
+  EXPECT_NE(said.find("flown by " + (modules / "skein").string()), std::string::npos) << said;
 }
 
 TEST_F(Packages, SymbolsThatAreInstalledNameFunctionsAndTheirCode) {

@@ -1,0 +1,199 @@
+"""A program that only listens: to plot, to print, to keep. Nobody waits for it, and it changes nothing."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import math
+import os
+import time
+import weakref
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import Error, InputError
+from . import messages, words
+from ._native import native
+from .member import translated, variable, whole
+from .messages import Message
+
+_LOOK_S = 0.1
+_open: weakref.WeakSet[Listener] = weakref.WeakSet()
+
+
+@dataclass(slots=True)
+class Heard:
+    """What was said."""
+
+    topic: str
+    message: Message
+
+
+@dataclass(frozen=True, slots=True)
+class FlyingFleet:
+    """A fleet that flies on this host."""
+
+    folder: Path
+    base_domain: int
+    run: int
+    dds: str
+    fleet: tuple[str, ...]  #: names of the UAVs
+
+    def domain(self, node: str) -> int:
+        """Of "world", "gcs" or a UAV."""
+        names = ("world", "gcs", *self.fleet)
+        if node not in names:
+            raise InputError(f"'{node}' is no node of this fleet; those are {', '.join(names)}")
+        return self.base_domain + names.index(node)
+
+
+def flying_fleet(run: str | os.PathLike[str] | None = None, patience_s: float = 0.0) -> FlyingFleet:
+    """The fleet whose results go to the folder `run`; None: the only one that flies. It may come within `patience_s`.
+    As `skein ps` finds them, so not those in one process, which are on no network, or in containers."""
+    looks = 1 + int(words.number(patience_s, "patience_s") / _LOOK_S)
+    for look in range(looks):
+        try:
+            return _flying_fleet(run)
+        except InputError:
+            if look == looks - 1:
+                raise
+        time.sleep(_LOOK_S)
+    raise InputError("patience_s: must not be negative")
+
+
+def _flying_fleet(run: str | os.PathLike[str] | None) -> FlyingFleet:
+    found = list(_fleets())
+    if run is not None:
+        found = [fleet for fleet in found if fleet.folder == Path(run).resolve()]
+    if len(found) == 1:
+        return found[0]
+    which = "no fleet flies on this host" if run is None else f"no fleet flies into {os.fspath(run)}"
+    if found:
+        which = "several fleets fly: say which, by its folder: " + ", ".join(str(fleet.folder) for fleet in found)
+    raise InputError(which)
+
+
+def _fleets() -> Iterator[FlyingFleet]:
+    for process in Path("/proc").iterdir():
+        if not process.name.isdigit():
+            continue
+        try:
+            line = (process / "cmdline").read_bytes().decode(errors="surrogateescape").split("\0")
+            folder = Path(os.readlink(process / "cwd"))
+        except OSError:  # it has ended, or is somebody else's
+            continue
+        if "sim_server" not in (Path(word).name for word in line[:6]):  # a loader may stand before it
+            continue
+        options = {word: value for word, value in zip(line, line[1:]) if word.startswith("--")}
+        try:
+            yield FlyingFleet((folder / options["--out"]).resolve(), int(options["--domain"]),
+                              int(options.get("--run", "0")), options.get("--dds", "cyclonedds"),
+                              _names_of(options["--scenario"]))
+        except (KeyError, ValueError):
+            continue
+
+
+def _names_of(scenario: str) -> tuple[str, ...]:
+    with translated():
+        return tuple(one["name"] for one in native.config(scenario, "gcs")["fleet"])
+
+
+class Listener:
+    """Hears topics in one domain of a fleet that flies.
+
+        with Listener(["/jurong/ground_truth/odometry"], node="jurong") as listener:
+            for heard in listener:
+                print(heard.message.pose.pose.position)
+
+    `topics`: names, or names with types for what is none of Skein's own (a radio topic, say). `node`: "world" (the
+    truth), "gcs" or a UAV; by default the first part of the first topic's name. `run`: the fleet's results folder; it
+    may begin to fly within `patience_s`.
+    Without a fleet on this host `domain` and `dds` say where. It ends when the fleet does. What is not taken in time,
+    more than `most` messages, is thrown away, the oldest first (`missed`).
+    """
+
+    def __init__(self, topics: Sequence[str] | Mapping[str, str], *, node: str | None = None,
+                 run: str | os.PathLike[str] | None = None, domain: int | None = None, dds: str | None = None,
+                 security: str | os.PathLike[str] | None = None, patience_s: float = 0.0, most: int = 10_000) -> None:
+        if isinstance(topics, str) or not topics or not all(isinstance(topic, str) for topic in topics):
+            raise InputError(f"topics: must be a list of names like '/jurong/gimbal', not {topics!r}")
+        if whole("most", str(most), 10**9) < 1:
+            raise InputError("most: must be at least 1")
+        named = dict(topics) if isinstance(topics, Mapping) else dict.fromkeys(topics, "")
+        first = next(iter(named)).split("/")
+        self.node = node if node is not None else first[1] if len(first) > 2 else "gcs"
+        given_run = 0
+        if domain is None and os.environ.get("SKEIN_DOMAIN") and run is None:
+            domain = whole("SKEIN_DOMAIN", os.environ["SKEIN_DOMAIN"], 230)
+            dds = variable("SKEIN_DDS", dds)
+            self.node = node or os.environ.get("SKEIN_UAV", self.node)
+        elif domain is None:
+            fleet = flying_fleet(run, patience_s)
+            domain, dds, given_run = fleet.domain(self.node), dds or fleet.dds, fleet.run
+        self._types = {topic: self._type(topic, of) for topic, of in named.items()}
+        self._closed = self._heard_any = False
+        self._missed = 0
+        keys = os.fspath(security) if security is not None else os.environ.get("SKEIN_SECURITY", "")
+        with translated():
+            self._ear = native.Listener(whole("domain", str(domain), 230), dds or "cyclonedds", given_run, keys,
+                                        self.node, [(topic, named[topic]) for topic in named], most)
+        _open.add(self)
+
+    def _type(self, topic: str, of: str) -> str:
+        if of:
+            messages.type_named(of)
+            return of
+        with translated():
+            return native.type_of(topic, self.node)
+
+    def hear(self, timeout_s: float | None = None) -> Heard | None:
+        """The next message; None after `timeout_s`, or, without one, when nobody writes these topics any more."""
+        if self._closed:
+            raise Error("it is closed")
+        if timeout_s is not None and not (math.isfinite(timeout_s) and timeout_s >= 0):
+            raise InputError(f"timeout_s: must be at least 0, not {timeout_s!r}")
+        while True:
+            with translated():
+                heard = self._ear.next(min(timeout_s, 86400.0) if timeout_s is not None else 0.2)
+                if heard is None and timeout_s is None:
+                    writers = self._ear.has_writers()
+                    if writers or not self._heard_any:
+                        self._heard_any = self._heard_any or writers
+                        continue
+            if heard is None:
+                return None
+            self._heard_any = True
+            topic, payload = heard
+            return Heard(topic, messages.decode(self._types[topic], payload))
+
+    def __iter__(self) -> Iterator[Heard]:
+        while (heard := self.hear()) is not None:
+            yield heard
+
+    @property
+    def missed(self) -> int:
+        """Messages that were thrown away, since they were not taken in time."""
+        if not self._closed:
+            with translated():
+                self._missed = self._ear.missed()
+        return self._missed
+
+    def close(self) -> None:
+        if not self._closed:
+            self._missed = self.missed
+        self._closed = True
+        self._ear.close()
+
+    def __enter__(self) -> Listener:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+@atexit.register
+def _leave() -> None:
+    for listener in list(_open):
+        with contextlib.suppress(Exception):
+            listener.close()

@@ -1,0 +1,120 @@
+"""What one exchange brings to a member of the lock-step, in the words of `skein.planner`."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import InputError
+from ..planner import GimbalState, KeyFrame, OrientedBox, RadioMessage, Scan, State, TICKS_PER_SECOND
+from . import messages, words
+from .messages import Message
+from .words import Neighbour
+
+if TYPE_CHECKING:
+    from .member import Client
+
+_TEXT = "std_msgs/msg/String"
+
+
+class Step:
+    """What one exchange of 50 ms brings. It may be kept; fields are converted when they are read first."""
+
+    def __init__(self, client: Client, k: int, tick: int, final: bool, arrived: dict[str, list[bytes]],
+                 station_linked: bool, undelivered: int) -> None:
+        self._client = client
+        self._arrived = arrived
+        self._latest = dict(client._latest)
+        self.k = k          #: exchange
+        self.tick = tick    #: simulated time, 400 a second
+        self.final = final  #: the last one
+        self.station_linked = station_linked  #: direct link to the station
+        self.undelivered = undelivered        #: captures that the station has not acknowledged
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time [s]."""
+        return self.tick / TICKS_PER_SECOND
+
+    def messages(self, topic: str) -> list[Message]:
+        """All that came with this step on a topic that is read, or on a radio topic, in order."""
+        of = self._client._type_of(topic)
+        return [messages.decode(of, payload) for payload in self._arrived.get(self._client._arrival(topic), ())]
+
+    def _last(self, topic: str) -> Message | None:
+        payload = self._latest.get(topic)
+        return None if payload is None else messages.decode(self._client._type_of(topic), payload)
+
+    @cached_property
+    def state(self) -> State:
+        """Of the own body."""
+        odometry = self._last(f"/{self._client.name}/ground_truth/odometry")
+        if odometry is None:
+            raise InputError("the ground station has no body" if not self._client.is_uav else "no odometry yet")
+        return words.state_of(odometry)
+
+    @cached_property
+    def gimbal(self) -> GimbalState | None:
+        last = self._last(f"/{self._client.name}/gimbal")
+        return None if last is None else words.gimbal_of(last)
+
+    @cached_property
+    def boxes(self) -> tuple[OrientedBox, ...]:
+        """What is to be inspected; empty until received."""
+        last = self._last("/gcs/bounding_box_vertices")
+        return () if last is None else words.boxes_of(last)
+
+    @cached_property
+    def mission_remaining_s(self) -> float | None:
+        """None before the first take-off."""
+        last = self._last(f"/{self._client.name}/mission_duration_remained")
+        return None if last is None else words.seconds_of(last)
+
+    @cached_property
+    def neighbours(self) -> tuple[Neighbour, ...]:
+        """Nodes in line of sight at this step, the station among them."""
+        names = ("gcs", *(one.name for one in self._client.config.fleet))
+        clouds = self.messages(f"/{self._client.name}/nbr_odom_cloud")
+        return words.neighbours_of(clouds[-1], names) if clouds else ()
+
+    @cached_property
+    def detected(self) -> npt.NDArray[np.void]:
+        """Interest points in this step's pictures: `p_W`, `n_W` (3 float32), `score`, `order`."""
+        return words.detected_of(self.messages("/skein/detected") if self._client.is_uav else [])
+
+    @cached_property
+    def radio(self) -> tuple[RadioMessage, ...]:
+        """Texts that others sent. Other types: `messages("/their_topic")`."""
+        return tuple(RadioMessage(topic, message.data) for topic, of in self._client._radio.items() if of == _TEXT
+                     for message in self.messages(topic))
+
+    @cached_property
+    def scans(self) -> tuple[Scan, ...]:
+        """Of the LiDAR, with `Client(scans=True)`."""
+        return tuple(Scan(words.tick_of(one.header), words.cloud_points(one))
+                     for one in self._optional("cloud_inW", "scans"))
+
+    @cached_property
+    def key_frames(self) -> tuple[KeyFrame, ...]:
+        """The own ones and those of neighbours, with `Client(key_frames=True)`."""
+        own = self._client.config.index + 1
+        found = [KeyFrame(words.cloud_points(one), None, own) for one in self._optional("slf_kf_cloud", "key_frames")]
+        return tuple(found + [KeyFrame(words.cloud_points(one), None, words.source_of(one))
+                              for one in self._optional("nbr_kf_cloud", "key_frames")])
+
+    @cached_property
+    def rejected(self) -> tuple[str, ...]:
+        """Why commands of the step before were ignored."""
+        if not self._client.is_uav:
+            return ()
+        return tuple(f"{one.command}: {one.reason}"
+                     for one in self.messages(f"/{self._client.name}/command_rejected"))
+
+    def _optional(self, topic: str, option: str) -> list[Message]:
+        if option not in self._client._options:
+            raise InputError(f"{option} are not read: Client({option}=True) does")
+        name = f"/{self._client.name}/{topic}"
+        return self.messages(name) if name in self._client._read else []

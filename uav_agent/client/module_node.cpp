@@ -1,0 +1,386 @@
+// The nodes of this folder as a module of Python, _skein_client: bytes in, bytes out. The package skein.client makes
+// messages of them, and has the words for people (python/skein/client).
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "bus/lockstep/lockstep_node.hpp"
+#include "bus/lockstep/self_signal.hpp"
+#include "bus/program_bus.hpp"
+#include "core/radio_routes.hpp"
+#include "core/scenario_reader.hpp"
+#include "core/view_topics.hpp"
+#include "idl/message_definition.hpp"
+#include "process/log_time.hpp"
+#include "uav_agent/api/agent_config.hpp"
+#include "uav_agent/client/listener_node.hpp"
+#include "uav_agent/client/user_node.hpp"
+
+namespace py = pybind11;
+
+namespace skein::agent {
+namespace {
+
+/// Of the module and the package, which may be installed apart.
+constexpr int kInterface = 1;
+constexpr double kRadians = 3.14159265358979323846 / 180.0;
+/// Ctrl-C is noticed after so long at the latest.
+constexpr std::chrono::milliseconds kLook{100};
+
+/// It was used in a way that cannot be: the text says how it would be right.
+class WrongUse : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+/// The fleet goes on without it, or has gone.
+class Lost : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+py::bytes to_bytes(const std::vector<std::uint8_t>& payload) {
+  return {reinterpret_cast<const char*>(payload.data()), payload.size()};
+}
+
+std::vector<std::uint8_t> from_bytes(const py::bytes& bytes) {
+  const std::string_view text(bytes);
+  return {text.begin(), text.end()};
+}
+
+/// Of the process and thread that made something; vendors' threads do not live on in a copy of the process.
+class Home {
+ public:
+  void check() const {
+    if (::getpid() != pid_) throw WrongUse("this is a copy of the process that joined: a copy must join by itself");
+    if (std::this_thread::get_id() != thread_) throw WrongUse("another thread joined: use it from that one");
+  }
+  bool is_copy() const { return ::getpid() != pid_; }
+
+ private:
+  const pid_t pid_ = ::getpid();
+  const std::thread::id thread_ = std::this_thread::get_id();
+};
+
+ProgramOptions options_of(const std::string& dds, std::uint64_t run, const std::string& security, int lease_s) {
+  ProgramOptions options;
+  options.dds = dds;
+  options.run = RunId{run};
+  options.security = security;
+  options.lease_s = lease_s;
+  return options;
+}
+
+/// A topic of the table, in the domain of `id`. @throws InputError when there is none of that name.
+topics::WireTopic known_topic(const std::string& ros_topic, const std::string& id) {
+  const std::string name = wire_topic(ros_topic);
+  for (const auto all :
+       {topics::uav_topics(), topics::gcs_topics(), topics::viewer_topics(), topics::lockstep_topics()}) {
+    for (const topics::TopicInfo& one : all) {
+      if (const topics::WireTopic topic = topics::wire(one, id); topic.name == name) return topic;
+    }
+  }
+  if (const std::string_view debug = topics::debug_name(name, id); !debug.empty()) return topics::debug(id, debug);
+  throw InputError("'" + ros_topic + "' is no topic of " + (id.empty() ? "a fleet" : id) + " (docs/topics.md)");
+}
+
+/// With a type of its own: a radio topic, as a rule.
+topics::WireTopic topic_of(const std::string& ros_topic, const std::string& ros_type, const std::string& id) {
+  if (ros_type.empty()) return known_topic(ros_topic, id);
+  return {wire_topic(ros_topic), wire_type(ros_type), false, topics::radio_depth(topics::kMostRadioSources)};
+}
+
+py::dict to_python(const VehicleConfig& vehicle) {
+  using namespace py::literals;
+  const CameraConfig& camera = vehicle.camera;
+  const GimbalConfig& gimbal = vehicle.gimbal;
+  py::object lidar = py::none();
+  if (vehicle.lidar) lidar = py::make_tuple(vehicle.lidar->range_min_m, vehicle.lidar->range_max_m);
+  const py::dict of_camera("hfov"_a = camera.hfov_deg * kRadians, "vfov"_a = camera.vfov_deg * kRadians,
+                           "exposure_s"_a = camera.exposure_s, "trigger_interval_s"_a = camera.trigger_interval_s,
+                           "focal_length_m"_a = camera.focal_length_m, "pixel_size_m"_a = camera.pixel_size_m,
+                           "p_BC"_a = py::make_tuple(camera.p_BC.x(), camera.p_BC.y(), camera.p_BC.z()));
+  return py::dict("name"_a = vehicle.name, "max_speed_mps"_a = vehicle.max_speed_mps,
+                  "max_acceleration_mps2"_a = vehicle.max_acceleration_mps2,
+                  "max_yaw_rate"_a = vehicle.max_yaw_rate_deg_s * kRadians, "lidar_range_m"_a = lidar,
+                  "camera"_a = of_camera, "gimbal_pitch_limit"_a = gimbal.pitch_limit_deg * kRadians,
+                  "gimbal_yaw_limit"_a = gimbal.yaw_limit_deg * kRadians,
+                  "gimbal_rate_limit"_a = gimbal.rate_limit_deg_s * kRadians);
+}
+
+/// The fields of skein.planner.AgentConfig. At the ground station `index` is None and there is no vehicle.
+py::dict to_python(const Scenario& scenario, Node node) {
+  using namespace py::literals;
+  const bool is_uav = node != kStationNode;
+  const AgentConfig config = agent_config(scenario, uav_of_node(node).value_or(UavIndex{0}));
+  py::list fleet;
+  for (const FleetMember& one : config.fleet) {
+    const Vector3d& p = one.p_WB_start;
+    fleet.append(py::dict("name"_a = one.name, "role"_a = name_of(one.role),
+                          "p_WB_start"_a = py::make_tuple(p.x(), p.y(), p.z()), "body_radius_m"_a = one.body_radius_m,
+                          "max_speed_mps"_a = one.max_speed_mps));
+  }
+  const Vector3d& station = config.station_position;
+  py::object index = py::none(), vehicle = py::none();
+  if (is_uav) {
+    index = py::int_(static_cast<std::size_t>(config.self));
+    vehicle = to_python(config.vehicle);
+  }
+  return py::dict("index"_a = index, "name"_a = scenario.node_name(node), "fleet"_a = fleet, "vehicle"_a = vehicle,
+                  "desired_mm_per_pixel"_a = config.desired_mm_per_pixel, "duration_s"_a = config.duration_s,
+                  "exchange_period_s"_a = config.exchange_period_s,
+                  "station_position"_a = py::make_tuple(station.x(), station.y(), station.z()));
+}
+
+/// A scenario's nodes; known by name alone.
+Node node_named(const Scenario& scenario, const std::string& name) {
+  for (const Node node : scenario.nodes()) {
+    if (scenario.node_name(node) == name) return node;
+  }
+  throw InputError("'" + name + "' is no UAV of this fleet, nor gcs");
+}
+
+Scenario scenario_of(const std::string& file) { return load_scenario(file, LoadOptions{.needs_scene_files = false}); }
+
+/// Radio topics of a scenario at a node, custody's left out: ROS topic, type, whether it may be sent on.
+py::list radio_of(const Scenario& scenario, Node node) {
+  py::list list;
+  for (const RadioRoute& route : radio_routes(scenario)) {
+    if (route.ros_type == kCapturesType || route.ros_type == kCapturesAckType) continue;
+    const bool sends = route.source == node;
+    const bool hears = std::ranges::any_of(route.targets, [&](const RadioTarget& one) { return one.node == node; });
+    if (sends || hears) list.append(py::make_tuple(route.ros_topic, route.ros_type, sends));
+  }
+  return list;
+}
+
+/// A member of the lock-step that Python drives.
+class Member {
+ public:
+  Member(const std::string& scenario, const std::string& name, int domain, const std::string& dds, std::uint64_t run,
+         const std::string& security, const std::vector<std::string>& reads, const std::vector<std::string>& writes,
+         int lease_s)
+      : scenario_(scenario_of(scenario)) {
+    const Node node = node_named(scenario_, name);
+    UserTopics topics;
+    for (const std::string& topic : reads) topics.reads.push_back(known_topic(topic, name));
+    for (const std::string& topic : writes) topics.writes.push_back(known_topic(topic, name));
+    bus_ = bus::make_bus(options_of(dds, run, security, lease_s), scenario_);
+    node_ = std::make_unique<UserNode>(scenario_, node, domain, *bus_, std::move(topics));
+  }
+  Member(const Member&) = delete;
+  Member& operator=(const Member&) = delete;
+  ~Member() { close(); }
+
+  /// Waits for the next step. @returns false after the last one.
+  bool next() {
+    UserNode& node = checked();
+    {
+      const py::gil_scoped_release released;
+      if (!std::exchange(started_, true)) node.start();
+      if (node.has_step()) {
+        node.answer();
+        node.turn(false);
+      }
+    }
+    while (!node.end() && !node.has_step()) turn(node);
+    if (!node.end()) return true;
+    end();
+    return false;
+  }
+
+  py::list messages() {
+    py::list list;
+    for (const WireMessage& message : in_step().take()) {
+      list.append(py::make_tuple(message.topic.substr(2), to_bytes(message.payload)));
+    }
+    return list;
+  }
+  std::uint64_t k() { return in_step().step().k(); }
+  std::int64_t tick() { return in_step().step().tick(); }
+  bool final_step() { return in_step().step().final_step(); }
+  bool station_linked() { return in_step().station_linked(); }
+  std::size_t undelivered() { return in_step().undelivered(); }
+  int joins() { return checked().joins(); }
+
+  std::string say(const std::string& topic, const py::bytes& payload) {
+    static constexpr const char* kSaid[] = {"sent", "undeclared", "full", "closed"};
+    return kSaid[static_cast<std::size_t>(in_step().say(wire_topic(topic), from_bytes(payload)))];
+  }
+  void open(const std::string& topic, const std::string& type, const std::vector<std::string>& targets) {
+    in_step().open(topic, type, targets);
+  }
+  void listen(const std::string& topic, const std::string& type) { in_step().listen(topic, type); }
+  py::tuple sending(const std::string& topic) { return status(in_step().sending(topic)); }
+  py::tuple listening(const std::string& topic) { return status(in_step().listening(topic)); }
+
+  void close() {
+    if (home_.is_copy()) {  // the vendors' threads are not here, and would be waited for
+      static_cast<void>(node_.release());
+      static_cast<void>(bus_.release());
+      return;
+    }
+    const py::gil_scoped_release released;
+    node_.reset();
+    bus_.reset();
+  }
+
+ private:
+  UserNode& checked() {
+    home_.check();
+    if (!node_) throw WrongUse("it is closed");
+    return *node_;
+  }
+  UserNode& in_step() {
+    UserNode& node = checked();
+    if (!node.has_step()) throw WrongUse("there is no step to be answered: take one first");
+    return node;
+  }
+  static py::tuple status(const bus::RadioTopics::Status& status) {
+    return py::make_tuple(status.open, status.refusal, status.unheard);
+  }
+
+  void turn(UserNode& node) {
+    {
+      const py::gil_scoped_release released;
+      const auto rest = node.rest();
+      node.turn(node.inbox().dispatch(std::min(rest.longest, kLook), rest.rings));
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+
+  void end() {
+    const bus::NodeEnd end = *node_->end();
+    const std::string name = node_->member();
+    const bool late = node_->came_too_late();
+    close();
+    if (end == bus::NodeEnd::server_gone) throw Lost(name + ": sim_server is gone");
+    if (end != bus::NodeEnd::finished && end != bus::NodeEnd::stopped) {
+      throw Lost(name + ": the fleet goes on without this program");
+    }
+    if (late) spdlog::info("{}: the run was over", name);
+  }
+
+  const Home home_;
+  const Scenario scenario_;
+  std::unique_ptr<bus::Bus> bus_;
+  std::unique_ptr<UserNode> node_;
+  bool started_ = false;
+};
+
+class Listener {
+ public:
+  Listener(int domain, const std::string& dds, std::uint64_t run, const std::string& security, const std::string& id,
+           const std::vector<std::pair<std::string, std::string>>& topics, std::size_t most) {
+    std::vector<topics::WireTopic> wire;
+    for (const auto& [topic, type] : topics) wire.push_back(topic_of(topic, type, id));
+    constexpr int kLease_s = 20;
+    bus_ = bus::make_bus({.vendor = dds, .lease_s = kLease_s, .security = security, .run = RunId{run}});
+    node_ = std::make_unique<ListenerNode>(*bus_, domain, wire, most);
+  }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+  ~Listener() { close(); }
+
+  /// (topic, payload), or None when nothing came within `timeout_s`.
+  py::object next(double timeout_s) {
+    ListenerNode& node = checked();
+    for (auto left = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * timeout_s));; left -= kLook) {
+      std::optional<ListenerNode::Heard> heard;
+      {
+        const py::gil_scoped_release released;
+        heard = node.next(std::clamp(left, std::chrono::milliseconds(0), kLook));
+      }
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (heard) return py::make_tuple(heard->topic.substr(2), to_bytes(heard->sample.payload));
+      if (left <= kLook) return py::none();
+    }
+  }
+  bool has_writers() { return checked().has_writers(); }
+  std::uint64_t missed() { return checked().missed(); }
+
+  void close() {
+    if (home_.is_copy()) {
+      static_cast<void>(node_.release());
+      static_cast<void>(bus_.release());
+      return;
+    }
+    const py::gil_scoped_release released;
+    node_.reset();
+    bus_.reset();
+  }
+
+ private:
+  ListenerNode& checked() {
+    home_.check();
+    if (!node_) throw WrongUse("it is closed");
+    return *node_;
+  }
+
+  const Home home_;
+  std::unique_ptr<bus::Bus> bus_;
+  std::unique_ptr<ListenerNode> node_;
+};
+
+}  // namespace
+}  // namespace skein::agent
+
+PYBIND11_MODULE(_skein_client, module) {
+  using namespace skein;
+  using namespace skein::agent;
+  spdlog::set_default_logger(make_log("skein", ""));
+  // The launcher stops a user's command itself, and goes on with it. A second stop, which the order asks for, might
+  // come after that: so the order means no more than to stand aside until it is over.
+  bus::set_self_signals({.kill = {}, .stop = [] {}});
+  py::register_exception<WrongUse>(module, "WrongUse");
+  py::register_exception<Lost>(module, "Lost");
+  py::register_exception<InputError>(module, "WrongInput");
+  module.attr("interface") = kInterface;
+  module.def("definition", [](const std::string& type) {
+    try {
+      return message_definition(wire_type(type)).text;
+    } catch (const std::out_of_range&) {
+      throw py::key_error(type);
+    }
+  });
+  module.def("config", [](const std::string& file, const std::string& name) {
+    const Scenario scenario = scenario_of(file);
+    return to_python(scenario, node_named(scenario, name));
+  });
+  module.def("radio", [](const std::string& file, const std::string& name) {
+    const Scenario scenario = scenario_of(file);
+    return radio_of(scenario, node_named(scenario, name));
+  });
+  module.def("type_of", [](const std::string& topic, const std::string& id) {
+    const std::string type = known_topic(topic, id).type;  // "nav_msgs::msg::dds_::Odometry_"
+    const std::size_t last = type.rfind(':') + 1;
+    return type.substr(0, type.find(':')) + "/msg/" + type.substr(last, type.size() - last - 1);
+  });
+  py::class_<Member>(module, "Member")
+      .def(py::init<const std::string&, const std::string&, int, const std::string&, std::uint64_t, const std::string&,
+                    const std::vector<std::string>&, const std::vector<std::string>&, int>())
+      .def("next", &Member::next)
+      .def("messages", &Member::messages)
+      .def("say", &Member::say)
+      .def("open", &Member::open)
+      .def("listen", &Member::listen)
+      .def("sending", &Member::sending)
+      .def("listening", &Member::listening)
+      .def("close", &Member::close)
+      .def_property_readonly("k", &Member::k)
+      .def_property_readonly("tick", &Member::tick)
+      .def_property_readonly("final_step", &Member::final_step)
+      .def_property_readonly("station_linked", &Member::station_linked)
+      .def_property_readonly("undelivered", &Member::undelivered)
+      .def_property_readonly("joins", &Member::joins);
+  py::class_<Listener>(module, "Listener")
+      .def(py::init<int, const std::string&, std::uint64_t, const std::string&, const std::string&,
+                    const std::vector<std::pair<std::string, std::string>>&, std::size_t>())
+      .def("next", &Listener::next)
+      .def("has_writers", &Listener::has_writers)
+      .def("missed", &Listener::missed)
+      .def("close", &Listener::close);
+}
