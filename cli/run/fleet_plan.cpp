@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "cli/hand_flights.hpp"
 #include "cli/python_planners.hpp"
@@ -18,6 +19,7 @@
 #include "cli/run/watch_arguments.hpp"
 #include "core/config_files.hpp"
 #include "core/network_config.hpp"
+#include "core/radio_routes.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/text.hpp"
 #include "core/topics.hpp"
@@ -81,6 +83,21 @@ std::map<std::string, std::string> config_variable(const FleetPlan& plan, const 
           {"SKEIN_BIN_DIR", std::filesystem::absolute(plan.bin_dir)}};
 }
 
+/// The radio topics of a node, by their ROS names with spaces between them: those that it may send on, and those that
+/// arrive. Not those of captures, which go without saying.
+std::pair<std::string, std::string> radio_topics_of(const Scenario& scenario, Node node) {
+  std::vector<std::string> sends, hears;
+  for (const RadioRoute& route : radio_routes(scenario)) {
+    if (route.ros_type == kCapturesType || route.ros_type == kCapturesAckType) continue;
+    if (route.source == node) sends.push_back(route.ros_topic);
+    for (const RadioTarget& target : route.targets) {
+      const std::string name = target.topic.substr(std::string_view("rt").size());
+      if (target.node == node && std::ranges::find(hears, name) == hears.end()) hears.push_back(name);
+    }
+  }
+  return {joined(sends, " "), joined(hears, " ")};
+}
+
 /// What a user's command is told. It joins SKEIN_DOMAIN and no other.
 std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
                                                   const std::filesystem::path& out, const SecureFolder& secure) {
@@ -94,6 +111,10 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
       {"SKEIN_DDS", dds_vendors(plan).at(program)},
       {"SKEIN_SCENARIO", std::filesystem::absolute(plan.scenario.file)},
       {"SKEIN_OUT", std::filesystem::absolute(secure.out.empty() ? out : secure.out)}};
+  const bool on_ground = program == programs::kGroundAgent;
+  const Node node = on_ground ? kStationNode : node_of_uav(plan.scenario.uav_index(uav));
+  std::tie(variables["SKEIN_RADIO_SENDS"], variables["SKEIN_RADIO_HEARS"]) = radio_topics_of(plan.scenario, node);
+  if (!on_ground) variables["SKEIN_ROLE"] = std::string(name_of(plan.scenario.fleet[plan.scenario.uav_index(uav)].vehicle.role));
   if (!secure.keys.empty()) variables["SKEIN_SECURITY"] = secure.keys;
   if (secure.user) variables["HOME"] = secure.out;  // the launcher's is closed to it
   return variables;
