@@ -15,7 +15,6 @@ namespace skein::cli {
 namespace {
 
 constexpr std::string_view kExec = "exec:";
-constexpr std::string_view kRos = "ros:";
 constexpr std::string_view kGround = "gcs";
 constexpr char kAt = '@';
 constexpr std::size_t kLongestLabel = 100;

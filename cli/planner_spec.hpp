@@ -23,8 +23,7 @@ struct UavPlanner {
 /// As --planner takes it: NAME, NAME@AGENT, exec:CMD or ros:PACKAGE/EXECUTABLE.
 std::string written(const UavPlanner& planner);
 
-/// CMD of "exec:CMD", a shell command that takes the place of uav_agent, or that of a ROS 2 node (ros_command.hpp);
-/// nullopt for a planner of our own. @throws InputError for a node that is not found
+/// The shell command that takes the place of uav_agent: of exec: or ros: (ros_command.hpp); nullopt for our planners.
 std::optional<std::string> exec_command(const std::string& spec);
 
 /// Flown by every UAV for which the user named none.

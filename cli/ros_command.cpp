@@ -15,13 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kRos = "ros:";
 constexpr const char* kStepLibrary = "lib/libskein_step.so";
 
 std::vector<fs::path> prefixes(const std::string& spec) {
   const char* const path = std::getenv("AMENT_PREFIX_PATH");
   if (path == nullptr || *path == '\0') {
-    throw InputError("--planner " + spec + ": no ROS 2 here: AMENT_PREFIX_PATH is not set; source the setup file of a " +
+    throw InputError("--planner " + spec +
+                     ": no ROS 2 here: AMENT_PREFIX_PATH is not set; source the setup file of a " +
                      "workspace with skein_ros (docs/ros2.md)");
   }
   std::vector<fs::path> result;

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -41,12 +42,34 @@ std::vector<Neighbour> neighbours_in(const sensor_msgs::msg::PointCloud2& cloud)
 std::vector<Box> boxes_in(const sensor_msgs::msg::PointCloud& cloud) {
   std::vector<Box> result(cloud.points.size() / 8);
   for (std::size_t i = 0; i < result.size() * 8; ++i) {
-    result[i / 8][i % 8] = {cloud.points[i].x, cloud.points[i].y, cloud.points[i].z};
+    result[i / 8].vertices[i % 8] = {cloud.points[i].x, cloud.points[i].y, cloud.points[i].z};
   }
   return result;
 }
 
 }  // namespace
+
+Vector Box::middle() const {
+  Vector middle{};
+  for (const Vector& vertex : vertices) {
+    for (std::size_t i = 0; i < middle.size(); ++i) middle[i] += vertex[i] / 8.0;
+  }
+  return middle;
+}
+
+double Box::bottom() const {
+  double lowest = vertices[0][2];
+  for (const Vector& vertex : vertices) lowest = std::min(lowest, vertex[2]);
+  return lowest;
+}
+
+double Box::radius() const {
+  double farthest = 0.0;
+  for (const Vector& vertex : vertices) farthest = std::max(farthest, ground_distance(vertex, middle()));
+  return farthest;
+}
+
+double ground_distance(const Vector& p_W, const Vector& q_W) { return std::hypot(p_W[0] - q_W[0], p_W[1] - q_W[1]); }
 
 bool Inputs::sees_station() const {
   for (const Neighbour& neighbour : neighbours) {
@@ -82,21 +105,20 @@ Planner::Planner(const std::string& name, const rclcpp::NodeOptions& options)
 
   Inputs& in = ends_->inputs;
   const auto hear = [&](auto&& subscription) { ends_->subscriptions.push_back(subscription); };
-  hear(create_subscription<nav_msgs::msg::Odometry>(
-      prefix + "/ground_truth/odometry", qos, [this, &in](nav_msgs::msg::Odometry::ConstSharedPtr m) {
-        const auto& p = m->pose.pose.position;
-        in.odometry = *m;
-        in.time_s = rclcpp::Time(m->header.stamp).seconds();
-        in.p_WB = {p.x, p.y, p.z};
-        in.yaw = yaw_of(m->pose.pose.orientation);
-        ends_->has_state = true;
-      }));
+  hear(create_subscription<nav_msgs::msg::Odometry>(prefix + "/ground_truth/odometry", qos,
+                                                    [this, &in](nav_msgs::msg::Odometry::ConstSharedPtr m) {
+                                                      const auto& p = m->pose.pose.position;
+                                                      in.odometry = *m;
+                                                      in.time_s = rclcpp::Time(m->header.stamp).seconds();
+                                                      in.p_WB = {p.x, p.y, p.z};
+                                                      in.yaw = yaw_of(m->pose.pose.orientation);
+                                                      ends_->has_state = true;
+                                                    }));
   hear(create_subscription<geometry_msgs::msg::TwistStamped>(
       prefix + "/gimbal", qos, [&in](geometry_msgs::msg::TwistStamped::ConstSharedPtr m) { in.gimbal = *m; }));
   hear(create_subscription<builtin_interfaces::msg::Duration>(
-      prefix + "/mission_duration_remained", qos, [&in](builtin_interfaces::msg::Duration::ConstSharedPtr m) {
-        in.time_left_s = rclcpp::Duration(*m).seconds();
-      }));
+      prefix + "/mission_duration_remained", qos,
+      [&in](builtin_interfaces::msg::Duration::ConstSharedPtr m) { in.time_left_s = rclcpp::Duration(*m).seconds(); }));
   hear(create_subscription<sensor_msgs::msg::PointCloud>(
       "/gcs/bounding_box_vertices", rclcpp::QoS(1).transient_local(),
       [&in](sensor_msgs::msg::PointCloud::ConstSharedPtr m) { in.boxes = boxes_in(*m); }));
@@ -109,8 +131,7 @@ Planner::Planner(const std::string& name, const rclcpp::NodeOptions& options)
       prefix + "/detected_interest_points", qos,
       [&in](sensor_msgs::msg::PointCloud2::ConstSharedPtr m) { in.detections = m; }));
   hear(create_subscription<std_msgs::msg::String>(
-      "/plan/" + ends_->uav, qos,
-      [&in](std_msgs::msg::String::ConstSharedPtr m) { in.messages.push_back(m->data); }));
+      "/plan/" + ends_->uav, qos, [&in](std_msgs::msg::String::ConstSharedPtr m) { in.messages.push_back(m->data); }));
 
   const auto before_answer = step_function<decltype(&skein_ros_before_answer)>("skein_ros_before_answer");
   if (before_answer != nullptr && is_member()) {

@@ -40,7 +40,8 @@ void fail(const std::string& why) {
 std::string uav_of_environment() {
   const char* const uav = std::getenv("SKEIN_UAV");
   if (uav == nullptr || *uav == '\0') {
-    throw std::runtime_error("SKEIN_UAV is not set: start this planner with skein run --planner UAV=ros:PACKAGE/EXECUTABLE");
+    throw std::runtime_error(
+        "SKEIN_UAV is not set: start this planner with skein run --planner UAV=ros:PACKAGE/EXECUTABLE");
   }
   return uav;
 }

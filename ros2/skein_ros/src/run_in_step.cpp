@@ -1,6 +1,7 @@
 // run_in_step LIBRARY:CLASS [--ros-args ...]: makes a node of a class that knows nothing of Skein, and spins it in the
 // lock-step. The class is a component as rclcpp_components has them: its constructor takes rclcpp::NodeOptions. It is
-// found by that constructor's symbol, so neither rclcpp_components nor a registration is needed.
+// found by that constructor's symbol (so the constructor must be defined outside of the class), and neither
+// rclcpp_components nor a registration is needed.
 //   LIBRARY  a path, or the name of a library in LD_LIBRARY_PATH      CLASS  with its namespaces: my_pkg::MyNode
 #include <dlfcn.h>
 
@@ -34,7 +35,9 @@ std::shared_ptr<rclcpp::Node> make_node(const std::string& library, const std::s
   using Constructor = void (*)(void* self, const rclcpp::NodeOptions&);
   const auto construct = reinterpret_cast<Constructor>(::dlsym(handle, constructor_of(name).c_str()));
   if (construct == nullptr) {
-    throw std::runtime_error(library + " has no class " + name + " with a constructor from const rclcpp::NodeOptions&");
+    throw std::runtime_error(library + " has no class " + name +
+                             " with a constructor from const rclcpp::NodeOptions& " +
+                             "that is defined outside of the class");
   }
   void* const memory = std::calloc(1, kMostBytes);
   construct(memory, rclcpp::NodeOptions());

@@ -9,17 +9,7 @@ namespace plain {
 
 class Climber : public rclcpp::Node {
  public:
-  explicit Climber(const rclcpp::NodeOptions& options) : Node("climber", options) {
-    height_m_ = declare_parameter("height_m", 3.0);
-    commands_ = create_publisher<trajectory_msgs::msg::MultiDOFJointTrajectory>("command/trajectory", 10);
-    goals_ = create_publisher<std_msgs::msg::String>("goals", 10);
-    heard_ = create_subscription<std_msgs::msg::String>("goals", 10, [this](std_msgs::msg::String::ConstSharedPtr) { ++heard_count_; });
-    odometry_ = create_subscription<nav_msgs::msg::Odometry>(
-        "ground_truth/odometry", rclcpp::SensorDataQoS(), [this](nav_msgs::msg::Odometry::ConstSharedPtr m) {
-          if (!start_) start_ = m->pose.pose.position;
-        });
-    timer_ = create_wall_timer(std::chrono::milliseconds(130), [this] { tick(); });
-  }
+  explicit Climber(const rclcpp::NodeOptions& options);
 
  private:
   void tick() {
@@ -48,5 +38,18 @@ class Climber : public rclcpp::Node {
   rclcpp::Subscription<nav_msgs::msg::Odometry>::SharedPtr odometry_;
   rclcpp::TimerBase::SharedPtr timer_;
 };
+
+Climber::Climber(const rclcpp::NodeOptions& options) : Node("climber", options) {
+  height_m_ = declare_parameter("height_m", 3.0);
+  commands_ = create_publisher<trajectory_msgs::msg::MultiDOFJointTrajectory>("command/trajectory", 10);
+  goals_ = create_publisher<std_msgs::msg::String>("goals", 10);
+  heard_ = create_subscription<std_msgs::msg::String>(
+      "goals", 10, [this](std_msgs::msg::String::ConstSharedPtr) { ++heard_count_; });
+  odometry_ = create_subscription<nav_msgs::msg::Odometry>("ground_truth/odometry", rclcpp::SensorDataQoS(),
+                                                           [this](nav_msgs::msg::Odometry::ConstSharedPtr m) {
+                                                             if (!start_) start_ = m->pose.pose.position;
+                                                           });
+  timer_ = create_wall_timer(std::chrono::milliseconds(130), [this] { tick(); });
+}
 
 }  // namespace plain

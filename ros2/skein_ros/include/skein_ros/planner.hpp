@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,13 +28,22 @@ struct Neighbour {
   Vector p_W{};
 };
 
-/// A box around the structure to be inspected: its eight vertices in W.
-using Box = std::array<Vector, 8>;
+/// A box around a part of the structure to be inspected.
+struct Box {
+  std::array<Vector, 8> vertices{};  ///< in W [m]
+
+  Vector middle() const;
+  double bottom() const;  ///< lowest z [m]
+  double radius() const;  ///< of the upright cylinder around it [m]
+};
+
+/// Distance on the ground [m].
+double ground_distance(const Vector& p_W, const Vector& q_W);
 
 /// All that has been received up to a step.
 struct Inputs {
-  double time_s = 0.0;               ///< simulated
-  std::optional<double> time_left_s; ///< of the mission; nullopt before the first take-off
+  double time_s = 0.0;                ///< simulated
+  std::optional<double> time_left_s;  ///< of the mission; nullopt before the first take-off
   Vector p_WB{};
   double yaw = 0.0;
   nav_msgs::msg::Odometry odometry;

@@ -13,8 +13,8 @@ namespace {
 using skein_ros::Counterpart;
 using skein_ros::Incoming;
 using skein_ros::Member;
-using skein_ros::Outgoing;
 using skein_ros::member;
+using skein_ros::Outgoing;
 using skein_ros::Sample;
 
 bool steps() { return member() != nullptr && member()->is_open(); }
@@ -122,7 +122,8 @@ rmw_publisher_t* rmw_create_publisher(const rmw_node_t* node, const rosidl_messa
 rmw_ret_t rmw_destroy_publisher(rmw_node_t* node, rmw_publisher_t* publisher) {
   if (const Outgoing* const out = outgoing_of(publisher)) {
     // What it has sent stays counted until the run is over.
-    if (out->counterpart() != Counterpart::nobody && member()->has_declared() && !member()->is_over()) return RMW_RET_OK;
+    if (out->counterpart() != Counterpart::nobody && member()->has_declared() && !member()->is_over())
+      return RMW_RET_OK;
     member()->remove(*out);
   }
   return SKEIN_REAL(rmw_destroy_publisher)(node, publisher);
@@ -226,8 +227,9 @@ rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* g
 rmw_client_t* rmw_create_client(const rmw_node_t* node, const rosidl_service_type_support_t* type, const char* service,
                                 const rmw_qos_profile_t* qos) {
   if (steps()) {
-    skein_ros::say_once(std::string("a client of the service ") + service +
-                        ": services are not in the lock-step; a call is refused, and waiting for the service is in vain");
+    skein_ros::say_once(
+        std::string("a client of the service ") + service +
+        ": services are not in the lock-step; a call is refused, and waiting for the service is in vain");
   }
   return SKEIN_REAL(rmw_create_client)(node, type, service, qos);
 }

@@ -44,8 +44,9 @@ bool is_of_middleware(const void* address) {
   const auto [entry, is_new] = known.try_emplace(info.dli_fbase, false);
   if (!is_new) return entry->second;
   const std::string path = info.dli_fname, name = path.substr(path.rfind('/') + 1);
-  constexpr std::array kMiddleware = {"libddsc", "libcycl", "libfast", "librmw", "libstdc++", "libc.", "libpython",
-                                      "libskein_step", "libicehoofs", "libiceoryx", "libcrypto", "libssl", "ld-"};
+  constexpr std::array kMiddleware = {"libddsc",   "libcycl",       "libfast",     "librmw",     "libstdc++", "libc.",
+                                      "libpython", "libskein_step", "libicehoofs", "libiceoryx", "libcrypto", "libssl",
+                                      "ld-"};
   for (const char* prefix : kMiddleware) entry->second = entry->second || name.rfind(prefix, 0) == 0;
   return entry->second;
 }

@@ -1,7 +1,7 @@
 #include "member.hpp"
 
-#include <algorithm>
 #include <unistd.h>
+#include <algorithm>
 
 #include <csignal>
 
@@ -22,7 +22,7 @@ using std::chrono::steady_clock;
 constexpr std::int64_t kExchange_ns = 50'000'000;
 constexpr milliseconds kMatchPoll{2};
 constexpr milliseconds kIdlePoll{500};
-constexpr seconds kLinger{5};    // as long as the answer to the last step may be on its way
+constexpr seconds kLinger{5};  // as long as the answer to the last step may be on its way
 constexpr seconds kNotice{10};
 
 std::int64_t ns(const builtin_interfaces::msg::Time& time) { return time.sec * 1'000'000'000LL + time.nanosec; }
@@ -131,8 +131,8 @@ void Member::open_custody() {
   };
   captures_ = in(skein_msgs::msg::CaptureReports(), "/skein/capture", Counterpart::server, kCommandDepth);
   acks_ = in(skein_msgs::msg::CaptureAck(), acks, Counterpart::router, kRadioDepth);
-  neighbours_ = in(sensor_msgs::msg::PointCloud2(), "/" + setup_.uav + "/nbr_odom_cloud", Counterpart::server,
-                   kStateDepth);
+  neighbours_ =
+      in(sensor_msgs::msg::PointCloud2(), "/" + setup_.uav + "/nbr_odom_cloud", Counterpart::server, kStateDepth);
   reports_ = out(skein_msgs::msg::CaptureReports(), captures, Counterpart::router, kRadioDepth);
   stored_ = out(skein_msgs::msg::CaptureAck(), "/skein/capture_ack", Counterpart::server, kCommandDepth);
 }
@@ -145,7 +145,8 @@ bool Member::all_matched() const {
     return end->counterpart() != Counterpart::server || has_matched(node_, end->publisher(), server_);
   };
   return has_matched(node_, steps_, server_) && has_matched(node_, done_, server_) &&
-         std::all_of(incomings_.begin(), incomings_.end(), in) && std::all_of(outgoings_.begin(), outgoings_.end(), out);
+         std::all_of(incomings_.begin(), incomings_.end(), in) &&
+         std::all_of(outgoings_.begin(), outgoings_.end(), out);
 }
 
 void Member::declare() {
@@ -183,7 +184,8 @@ void Member::wait_a_little(rmw_guard_conditions_t* guards, bool* interrupted) {
       if (!incoming->complete()) subscribers.push_back(incoming->subscription()->data);
     }
   }
-  if (guards != nullptr) conditions.assign(guards->guard_conditions, guards->guard_conditions + guards->guard_condition_count);
+  if (guards != nullptr)
+    conditions.assign(guards->guard_conditions, guards->guard_conditions + guards->guard_condition_count);
   rmw_subscriptions_t subscriptions{subscribers.size(), subscribers.data()};
   rmw_guard_conditions_t guard_conditions{conditions.size(), conditions.data()};
   const bool polls = pending_ && router_ != matched_router_;
@@ -218,9 +220,8 @@ void Member::on_step(skein_msgs::msg::Step step) {
   for (const auto& order : step.orders) {
     if (order.source == self_) obey(order.order);
   }
-  const bool ours = std::any_of(step.members.begin(), step.members.end(), [&](const auto& other) {
-    return other.source == self_ && other.name == setup_.uav;
-  });
+  const bool ours = std::any_of(step.members.begin(), step.members.end(),
+                                [&](const auto& other) { return other.source == self_ && other.name == setup_.uav; });
   if (!ours) {
     if (member_) fail("sim_server goes on without this node");
     return;
@@ -311,7 +312,8 @@ void Member::end_turn() {
   in_turn_ = false;
   send_captures(step_->k);
   // While the router is away there is no radio: a message is lost as it would be in the air.
-  for (const auto& outgoing : outgoings_) outgoing->flush(outgoing->counterpart() == Counterpart::router && router_ == 0);
+  for (const auto& outgoing : outgoings_)
+    outgoing->flush(outgoing->counterpart() == Counterpart::router && router_ == 0);
   answer(*step_);
   if (step_->final_step) leave();
 }
@@ -328,8 +330,8 @@ void Member::answer(const skein_msgs::msg::Step& step) {
     count.topic = "rt" + outgoing->topic();
     count.source = self_;
     count.count = outgoing->sent();
-    const auto same = std::find_if(done.sent.begin(), done.sent.end(),
-                                   [&](const auto& other) { return other.topic == count.topic; });
+    const auto same =
+        std::find_if(done.sent.begin(), done.sent.end(), [&](const auto& other) { return other.topic == count.topic; });
     if (same == done.sent.end()) {
       done.sent.push_back(count);
     } else {

@@ -28,7 +28,8 @@ Member::Role Member::role_of_reading(const std::string& topic) const {
     role = {Counterpart::router, kArrivalDepth, false};
   }
   if (role.counterpart != Counterpart::nobody && declared_ && !over_) {
-    role.refusal = "a subscription to " + topic + " made after the node's first wait: the fleet has been told what it "
+    role.refusal = "a subscription to " + topic +
+                   " made after the node's first wait: the fleet has been told what it "
                    "reads; make it in the node's constructor";
   }
   return role;
@@ -52,7 +53,8 @@ Member::Role Member::role_of_writing(const std::string& topic) const {
     }
   }
   if (role.counterpart != Counterpart::nobody && declared_ && !over_) {
-    role.refusal = "a publisher on " + topic + " made after the node's first wait: the fleet has been told what it "
+    role.refusal = "a publisher on " + topic +
+                   " made after the node's first wait: the fleet has been told what it "
                    "writes; make it in the node's constructor";
   }
   return role;
@@ -72,15 +74,15 @@ Outgoing& Member::add(std::unique_ptr<Outgoing> outgoing) {
 }
 
 void Member::remove(const Incoming& incoming) {
-  incomings_.erase(std::remove_if(incomings_.begin(), incomings_.end(),
-                                  [&](const auto& entry) { return entry.get() == &incoming; }),
-                   incomings_.end());
+  incomings_.erase(
+      std::remove_if(incomings_.begin(), incomings_.end(), [&](const auto& entry) { return entry.get() == &incoming; }),
+      incomings_.end());
 }
 
 void Member::remove(const Outgoing& outgoing) {
-  outgoings_.erase(std::remove_if(outgoings_.begin(), outgoings_.end(),
-                                  [&](const auto& entry) { return entry.get() == &outgoing; }),
-                   outgoings_.end());
+  outgoings_.erase(
+      std::remove_if(outgoings_.begin(), outgoings_.end(), [&](const auto& entry) { return entry.get() == &outgoing; }),
+      outgoings_.end());
 }
 
 }  // namespace skein_ros

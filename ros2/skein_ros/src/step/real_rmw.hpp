@@ -12,8 +12,8 @@ void* real_symbol(const char* name);
 }  // namespace skein_ros
 
 /// real(rmw_wait)(...): the function of that name of the node's rmw.
-#define SKEIN_REAL(function)                                                                          \
-  ([]() -> decltype(&(function)) {                                                                    \
+#define SKEIN_REAL(function)                                                                             \
+  ([]() -> decltype(&(function)) {                                                                       \
     static const auto real = reinterpret_cast<decltype(&(function))>(skein_ros::real_symbol(#function)); \
-    return real;                                                                                      \
+    return real;                                                                                         \
   }())

@@ -9,9 +9,9 @@
 namespace skein_ros {
 
 struct Setup {
-  std::string uav;            ///< SKEIN_UAV: the member's name
-  std::uint64_t run = 0;      ///< SKEIN_RUN
-  bool explorer = true;       ///< SKEIN_ROLE is not "photographer": it has a LiDAR
+  std::string uav;                                ///< SKEIN_UAV: the member's name
+  std::uint64_t run = 0;                          ///< SKEIN_RUN
+  bool explorer = true;                           ///< SKEIN_ROLE is not "photographer": it has a LiDAR
   std::set<std::string> radio_sends = {"/plan"};  ///< SKEIN_RADIO_SENDS: "/x /y"
   std::set<std::string> radio_hears;              ///< SKEIN_RADIO_HEARS: "/x/jurong ..."; "/plan/<uav>" if unset
   std::set<std::string> debug_values;             ///< SKEIN_DEBUG_VALUES: "front plan", of /<uav>/debug/<name>

@@ -104,8 +104,7 @@ class Look {
   bool now(Member& me) {
     restore();
     const rmw_time_t none{0, 0};
-    const rmw_ret_t found =
-        SKEIN_REAL(rmw_wait)(nullptr, guards_, nullptr, nullptr, events_, wait_set_, &none);
+    const rmw_ret_t found = SKEIN_REAL(rmw_wait)(nullptr, guards_, nullptr, nullptr, events_, wait_set_, &none);
     if (found != RMW_RET_OK && found != RMW_RET_TIMEOUT) rmw_reset_error();
     const rmw_subscriptions_t asked{asked_.size(), asked_.data()};
     const bool samples = mark_ready(me, &asked, subscriptions_);
