@@ -7,7 +7,6 @@
 #include <limits>
 #include <random>
 #include <set>
-#include <tuple>
 
 #include "cli/hand_flights.hpp"
 #include "cli/python_planners.hpp"
@@ -15,11 +14,11 @@
 #include "cli/run/debug_plan.hpp"
 #include "cli/run/drawn_world.hpp"
 #include "cli/run/environment.hpp"
+#include "cli/run/exec_variables.hpp"
 #include "cli/run/ground_program.hpp"
 #include "cli/run/watch_arguments.hpp"
 #include "core/config_files.hpp"
 #include "core/network_config.hpp"
-#include "core/radio_routes.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/text.hpp"
 #include "core/topics.hpp"
@@ -81,43 +80,6 @@ std::map<std::string, std::string> config_variable(const FleetPlan& plan, const 
   if (!is_foreign(plan, program)) return {};
   return {{"SKEIN_CONFIG_DIR", std::filesystem::absolute(default_config_dir())},
           {"SKEIN_BIN_DIR", std::filesystem::absolute(plan.bin_dir)}};
-}
-
-/// The radio topics of a node, by their ROS names with spaces between them: those that it may send on, and those that
-/// arrive. Not those of captures, which go without saying.
-std::pair<std::string, std::string> radio_topics_of(const Scenario& scenario, Node node) {
-  std::vector<std::string> sends, hears;
-  for (const RadioRoute& route : radio_routes(scenario)) {
-    if (route.ros_type == kCapturesType || route.ros_type == kCapturesAckType) continue;
-    if (route.source == node) sends.push_back(route.ros_topic);
-    for (const RadioTarget& target : route.targets) {
-      const std::string name = target.topic.substr(std::string_view("rt").size());
-      if (target.node == node && std::ranges::find(hears, name) == hears.end()) hears.push_back(name);
-    }
-  }
-  return {joined(sends, " "), joined(hears, " ")};
-}
-
-/// What a user's command is told. It joins SKEIN_DOMAIN and no other.
-std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
-                                                  const std::filesystem::path& out, const SecureFolder& secure) {
-  const std::string uav = programs::member_name(program);
-  const std::string domain = std::to_string(agent_domain(plan, program, base_domain));
-  std::map<std::string, std::string> variables = {
-      {"SKEIN_DOMAIN", domain},
-      {"ROS_DOMAIN_ID", domain},  // a ROS 2 node needs no more: its default settings hear us on this host
-      {"SKEIN_UAV", uav},
-      {"SKEIN_RUN", std::to_string(plan.run)},
-      {"SKEIN_DDS", dds_vendors(plan).at(program)},
-      {"SKEIN_SCENARIO", std::filesystem::absolute(plan.scenario.file)},
-      {"SKEIN_OUT", std::filesystem::absolute(secure.out.empty() ? out : secure.out)}};
-  const bool on_ground = program == programs::kGroundAgent;
-  const Node node = on_ground ? kStationNode : node_of_uav(plan.scenario.uav_index(uav));
-  std::tie(variables["SKEIN_RADIO_SENDS"], variables["SKEIN_RADIO_HEARS"]) = radio_topics_of(plan.scenario, node);
-  if (!on_ground) variables["SKEIN_ROLE"] = std::string(name_of(plan.scenario.fleet[plan.scenario.uav_index(uav)].vehicle.role));
-  if (!secure.keys.empty()) variables["SKEIN_SECURITY"] = secure.keys;
-  if (secure.user) variables["HOME"] = secure.out;  // the launcher's is closed to it
-  return variables;
 }
 
 bool has_ground_program(const FleetPlan& plan) { return plan.ground && takes_part(plan, "gcs"); }
@@ -197,6 +159,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   find_python_files(planners);
   find_agents(planners, plan.agent);
   plan.planners = planners.uavs;
+  check_exec(plan);
   plan.ground = ground_program(planners, fleets_agent(plan));
   if (options.network) read_network(*options.network).check_names(domain_names(plan.scenario));
   for (const std::string& uav : options.replay ? options.replay->only : std::vector<std::string>()) {

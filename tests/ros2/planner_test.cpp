@@ -62,7 +62,7 @@ TEST_F(RosPlanner, InPythonFliesBesideANodeThatKnowsNothingOfSkein) {
 TEST_F(RosPlanner, ThatAFaultKillsOrStopsComesBack) {
   const auto faults = write("faults.yaml",
                             "faults:\n"
-                            "  - {at_s: 4, kill: jurong}\n  - {at_s: 6, restart: jurong}\n"
+                            "  - {at_s: 4, until_s: 6, kill: jurong}\n"
                             "  - {at_s: 9, until_s: 11, pause: sentosa}\n");
   const Arguments flight = {
       "towers",     "--planner", "hover,jurong=ros:skein_ros_examples/circle,sentosa=ros:skein_ros_examples/circle",
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(Oddities, OddRosPlanner,
                          testing::Values(Oddity{"thread", "publishes on /plan in a second thread"},
                                          Oddity{"throw", "the planner threw: no way ahead"},
                                          Oddity{"service", "a call of the service /another/get_parameters"},
-                                         Oddity{"late", "set SKEIN_DEBUG_VALUES='late"},
+                                         Oddity{"late", "made after the node's first wait"},
                                          Oddity{"stall", "did not answer"}),
                          [](const auto& oddity) { return oddity.param.what; });
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <csignal>
+#include <cstdlib>
 
 #include <skein_msgs/msg/ready.hpp>
 #include <skein_msgs/msg/resync.hpp>
@@ -361,7 +362,10 @@ void Member::look_for_server() {
 }
 
 std::string Member::waiting_for() const {
-  if (server_ == 0) return "an invitation from sim_server";
+  if (server_ == 0) {
+    const char* const domain = std::getenv("ROS_DOMAIN_ID");
+    return std::string("an invitation from sim_server in domain ") + (domain == nullptr ? "0" : domain);
+  }
   if (!declared_) return "topics to match with sim_server";
   if (!member_) return "the first step";
   if (!pending_) return "the next step";
