@@ -23,19 +23,19 @@ constexpr const char* kMiddlewares[] = {"cyclonedds", "fastrtps"};
 class RosPlanner : public WorkspaceTest {};
 
 TEST_F(RosPlanner, FliesAndScoresAlikeOverMiddlewaresAndVendors) {
-  const Arguments flight = {"towers", "--planner", "patrol,jurong=ros:skein_ros_examples/circle", "--duration", "100"};
+  const Arguments flight = {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--duration", "60"};
   std::set<std::string> digests;
-  double score = 0.0;
   for (const auto* middleware : kMiddlewares) {
-    // The fleet is of the other vendor, its messages late and out of order.
+    // The fleet is of the other vendor; once its messages are late and out of order.
     const bool other = std::string(middleware) == "cyclonedds";
-    SkeinRun& done = run_with(middleware, middleware, joined(flight, {"--dds", other ? "fastdds" : "cyclonedds"}));
+    const Environment chaos = other ? Environment{} : Environment{{"SKEIN_CHAOS", "38"}};
+    SkeinRun& done =
+        run_with(middleware, middleware, joined(flight, {"--dds", other ? "fastdds" : "cyclonedds"}), 0, chaos);
     const Json result = done.result();
     EXPECT_EQ(result["status"], "completed");
     EXPECT_TRUE(result["deterministic"]) << done.err();
     EXPECT_EQ(result["uavs"][0]["commands_rejected"], 0);
-    score = result["score_by_uav"]["jurong"];
-    EXPECT_GT(score, 3.0) << "its captures reached the station";
+    EXPECT_GT(result["score_by_uav"]["jurong"], 1.0) << "its captures reached the station";
     digests.insert(done.digest());
     EXPECT_NE(text_of(done.dir() / "activity.csv").find(",jurong,circles,"), std::string::npos);
   }
@@ -188,6 +188,15 @@ TEST_P(RosMessages, AreTheSameBytesForRosAndForSkein) {
 
 INSTANTIATE_TEST_SUITE_P(Middlewares, RosMessages, testing::ValuesIn(kMiddlewares),
                          [](const auto& middleware) { return std::string(middleware.param); });
+
+TEST(RosPage, HasThePlannersThatFly) {
+  const std::string page = text_of(source_path("docs/ros2.md"));
+  for (const char* file : {"circle.cpp", "climb.py"}) {
+    const std::string text = text_of(source_path("ros2/skein_ros_examples/src/") + file);
+    ASSERT_FALSE(text.empty()) << file;
+    EXPECT_NE(page.find("\n" + text + "```"), std::string::npos) << file;
+  }
+}
 
 TEST(RosMessageFiles, AreAsTheIdlHasThem) {
   EXPECT_EQ(std::system(("python3 " + source_path("ros2/generate_messages.py") + " --check").c_str()), 0);

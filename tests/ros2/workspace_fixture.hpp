@@ -24,12 +24,10 @@ class WorkspaceTest : public Ros2Test {
   std::string workspace() const { return build_path("ros2_workspace"); }
 
   /// A run whose launcher has the workspace set up, with one middleware for its nodes.
-  SkeinRun& start_with(const std::string& middleware, const std::string& name, const Arguments& arguments) {
-    return start(name, arguments, environment(middleware));
-  }
   SkeinRun& run_with(const std::string& middleware, const std::string& name, const Arguments& arguments,
-                     int exit_code = 0) {
-    return run(name, arguments, environment(middleware), exit_code);
+                     int exit_code = 0, Environment more = {}) {
+    more.merge(environment(middleware));
+    return run(name, arguments, more, exit_code);
   }
   std::string log_of(const SkeinRun& run, const std::string& uav = "jurong") const {
     return text_of(run.dir() / ("uav_agent-" + uav + ".log"));

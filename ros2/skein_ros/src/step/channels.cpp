@@ -1,8 +1,10 @@
 #include "channels.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 
+#include "lockstep_qos.hpp"
 #include "real_rmw.hpp"
 #include "say.hpp"
 
@@ -43,8 +45,8 @@ rmw_serialized_message_t view_of(const std::vector<std::uint8_t>& bytes) {
 }
 
 std::vector<std::uint8_t> serialised(const void* message, const rosidl_message_type_support_t* type) {
-  // Fast DDS leaves what is in the buffer where CDR has padding. The bytes of radio messages are in the digest, so there
-  // must be zeros, and a buffer that has grown meanwhile is of no use.
+  // Fast DDS leaves what is in the buffer where CDR has padding. The bytes of radio messages are in the digest, so
+  // there must be zeros, and a buffer that has grown meanwhile is of no use.
   for (std::size_t capacity = kUsualBytes;;) {
     Buffer buffer(capacity);
     if (rmw_serialize(message, type, buffer.get()) != RMW_RET_OK) {
@@ -57,6 +59,21 @@ std::vector<std::uint8_t> serialised(const void* message, const rosidl_message_t
   }
 }
 
+Incoming::Incoming(rmw_subscription_t* subscription, const rosidl_message_type_support_t* type, Counterpart counterpart,
+                   int depth, bool latched)
+    : subscription_(subscription),
+      type_(type),
+      counterpart_(counterpart),
+      depth_(depth),
+      latched_(latched),
+      made_ns_(std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()) {}
+
+bool Incoming::is_for_us(const rmw_message_info_t& info) {
+  if (!latched_ && !up_to_date_ && may_be_repeated(info) && info.source_timestamp < made_ns_) return false;
+  up_to_date_ = true;
+  return true;
+}
+
 void Incoming::set_base(Source source, std::uint64_t count) {
   // What is latched is received again as far as its history goes back, so that much counts again.
   const std::uint64_t repeated = latched_ ? std::min<std::uint64_t>(count, static_cast<std::uint64_t>(depth_)) : 0;
@@ -66,6 +83,7 @@ void Incoming::set_base(Source source, std::uint64_t count) {
 void Incoming::change_source(Source source) {
   if (source == source_) return;
   source_ = source;
+  up_to_date_ = false;
   waiting_.clear();
   const auto base = base_.find(source);
   arrived_ = released_ = expected_ = base == base_.end() ? 0 : base->second;
@@ -81,7 +99,7 @@ void Incoming::drain(Writers& writers, Source source) {
       rmw_reset_error();
       return;
     }
-    if (!taken || writers.of(subscription_, info) != source_) continue;
+    if (!taken || source_ == 0 || writers.of(subscription_, info) != source_ || !is_for_us(info)) continue;
     ++arrived_;
     waiting_.push_back({buffer.bytes(), info});
   }
@@ -118,6 +136,7 @@ void Outgoing::flush(bool lost) {
       continue;
     }
     const rmw_serialized_message_t view = view_of(bytes);
+    send_heartbeat(publisher_);
     if (SKEIN_REAL(rmw_publish_serialized_message)(publisher_, &view, nullptr) != RMW_RET_OK) {
       fail("cannot publish on " + topic() + ": " + rmw_get_error_string().str);
     }

@@ -32,8 +32,7 @@ enum class Counterpart { server, router, nobody };
 class Incoming {
  public:
   Incoming(rmw_subscription_t* subscription, const rosidl_message_type_support_t* type, Counterpart counterpart,
-           int depth, bool latched)
-      : subscription_(subscription), type_(type), counterpart_(counterpart), depth_(depth), latched_(latched) {}
+           int depth, bool latched);
 
   rmw_subscription_t* subscription() const { return subscription_; }
   const rosidl_message_type_support_t* type() const { return type_; }
@@ -60,12 +59,15 @@ class Incoming {
 
  private:
   void change_source(Source source);
+  bool is_for_us(const rmw_message_info_t& info);
 
   rmw_subscription_t* const subscription_;
   const rosidl_message_type_support_t* const type_;
   const Counterpart counterpart_;
   const int depth_;
   const bool latched_;
+  const std::int64_t made_ns_;  ///< of the wall clock
+  bool up_to_date_ = false;     ///< a sample of source_ has come that was written for this reader
   std::map<Source, std::uint64_t> base_;
   Source source_ = 0;
   std::uint64_t arrived_ = 0, released_ = 0, expected_ = 0;  ///< cumulative, of source_

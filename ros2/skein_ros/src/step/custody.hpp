@@ -1,5 +1,5 @@
-// Custody of captures on board: each report of the camera's is kept until the station acknowledges it, and sent whenever
-// there is a direct link to the station (docs/lockstep.md). Knows no middleware.   Threads: one.
+// Custody of captures on board: each report of the camera's is kept until the station acknowledges it, and sent
+// whenever there is a direct link to the station (docs/lockstep.md). Knows no middleware.   Threads: one.
 #pragma once
 
 #include <cstdint>

@@ -7,20 +7,11 @@
 #include <string>
 
 #include "channels.hpp"
+#include "lockstep_qos.hpp"
 #include "real_rmw.hpp"
 #include "say.hpp"
 
 namespace skein_ros {
-
-/// RELIABLE, KEEP_LAST.
-inline rmw_qos_profile_t lockstep_qos(int depth, bool latched) {
-  rmw_qos_profile_t qos = rmw_qos_profile_default;
-  qos.history = RMW_QOS_POLICY_HISTORY_KEEP_LAST;
-  qos.depth = static_cast<std::size_t>(depth);
-  qos.reliability = RMW_QOS_POLICY_RELIABILITY_RELIABLE;
-  qos.durability = latched ? RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL : RMW_QOS_POLICY_DURABILITY_VOLATILE;
-  return qos;
-}
 
 template <class Message>
 const rosidl_message_type_support_t* type_of() {
@@ -29,7 +20,7 @@ const rosidl_message_type_support_t* type_of() {
 
 template <class Message>
 rmw_subscription_t* subscribe(const rmw_node_t* node, const std::string& topic, int depth, bool latched) {
-  const rmw_qos_profile_t qos = lockstep_qos(depth, latched);
+  const rmw_qos_profile_t qos = reader_qos(depth, latched);
   const rmw_subscription_options_t options = rmw_get_default_subscription_options();
   rmw_subscription_t* const made =
       SKEIN_REAL(rmw_create_subscription)(node, type_of<Message>(), topic.c_str(), &qos, &options);
@@ -39,7 +30,7 @@ rmw_subscription_t* subscribe(const rmw_node_t* node, const std::string& topic, 
 
 template <class Message>
 rmw_publisher_t* advertise(const rmw_node_t* node, const std::string& topic, int depth, bool latched) {
-  const rmw_qos_profile_t qos = lockstep_qos(depth, latched);
+  const rmw_qos_profile_t qos = writer_qos(depth, latched);
   const rmw_publisher_options_t options = rmw_get_default_publisher_options();
   rmw_publisher_t* const made =
       SKEIN_REAL(rmw_create_publisher)(node, type_of<Message>(), topic.c_str(), &qos, &options);
@@ -49,6 +40,7 @@ rmw_publisher_t* advertise(const rmw_node_t* node, const std::string& topic, int
 
 template <class Message>
 void publish(rmw_publisher_t* publisher, const Message& message) {
+  send_heartbeat(publisher);
   if (SKEIN_REAL(rmw_publish)(publisher, &message, nullptr) != RMW_RET_OK) {
     fail(std::string("cannot publish on ") + publisher->topic_name + ": " + rmw_get_error_string().str);
   }

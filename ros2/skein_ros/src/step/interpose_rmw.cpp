@@ -97,6 +97,11 @@ rmw_node_t* rmw_create_node(rmw_context_t* context, const char* name, const char
   return SKEIN_REAL(rmw_create_node)(context, name, name_space);
 }
 
+rmw_ret_t rmw_shutdown(rmw_context_t* context) {
+  if (member() != nullptr) member()->interrupt();
+  return SKEIN_REAL(rmw_shutdown)(context);
+}
+
 rmw_ret_t rmw_context_fini(rmw_context_t* context) {
   if (steps()) member()->close(context);
   return SKEIN_REAL(rmw_context_fini)(context);
@@ -111,7 +116,7 @@ rmw_publisher_t* rmw_create_publisher(const rmw_node_t* node, const rosidl_messa
   const Member::Role role = member()->role_of_writing(topic);
   if (refused(role)) return nullptr;
   const bool counted = role.counterpart != Counterpart::nobody;
-  const rmw_qos_profile_t used = counted ? skein_ros::lockstep_qos(role.depth, false) : *qos;
+  const rmw_qos_profile_t used = counted ? skein_ros::writer_qos(role.depth, false) : *qos;
   rmw_publisher_t* const made = SKEIN_REAL(rmw_create_publisher)(node, type, topic, &used, options);
   if (made == nullptr) return nullptr;
   made->can_loan_messages = false;
@@ -156,7 +161,7 @@ rmw_subscription_t* rmw_create_subscription(const rmw_node_t* node, const rosidl
   const Member::Role role = member()->role_of_reading(topic);
   if (refused(role)) return nullptr;
   const bool counted = role.counterpart != Counterpart::nobody;
-  const rmw_qos_profile_t used = counted ? skein_ros::lockstep_qos(role.depth, role.latched) : *qos;
+  const rmw_qos_profile_t used = counted ? skein_ros::reader_qos(role.depth, role.latched) : *qos;
   rmw_subscription_t* const made = SKEIN_REAL(rmw_create_subscription)(node, type, topic, &used, options);
   if (made == nullptr) return nullptr;
   made->can_loan_messages = false;

@@ -93,6 +93,7 @@ void Member::close(const rmw_context_t* context) {
 void Member::wait_for_invitation() {
   waiting_since_ = said_at_ = steady_clock::now();
   while (self_ == 0 || !take_invitation()) {
+    if (interrupted_) exit_at_once(0);
     if (self_ == 0) self_ = own_source(node_, done_->topic_name);
     void* list[] = {resyncs_->data};
     rmw_subscriptions_t subscriptions{1, list};
@@ -155,6 +156,7 @@ void Member::declare() {
   waiting_since_ = said_at_ = steady_clock::now();
   while (!all_matched()) {
     rmw_reset_error();
+    if (interrupted_) exit_at_once(0);
     sleep_really(kMatchPoll);
     report_waiting();
     if (steady_clock::now() - waiting_since_ > kLinger) look_for_server();
@@ -243,13 +245,15 @@ void Member::on_step(skein_msgs::msg::Step step) {
 }
 
 void Member::obey(const std::string& order) {
-  say("a fault " + std::string(order == "stop" ? "stops" : "kills") + " this program");
-  if (order != "stop") {
-    ::raise(SIGKILL);
-    exit_at_once(128 + SIGKILL);  // the first process of a PID namespace is safe from its own SIGKILL
+  if (order == "stop") {
+    // The launcher stops and continues a user's program by itself. Only a new participant may come back, and it may say
+    // hello as early as it likes: the invitation waits until the fault is over.
+    say("a fault stops this program: it starts again");
+    start_again();
   }
-  ::raise(SIGSTOP);
-  start_again();  // continued: only a new participant may come back
+  say("a fault kills this program");
+  ::raise(SIGKILL);
+  exit_at_once(128 + SIGKILL);  // the first process of a PID namespace is safe from its own SIGKILL
 }
 
 bool Member::step_is_here() {
@@ -270,7 +274,7 @@ Member::Wait Member::begin_turn(rmw_guard_conditions_t* guards) {
     read_steps();
     if (step_is_here()) break;
     wait_a_little(guards, &interrupted);
-    if (interrupted) return Wait::interrupted;
+    if (interrupted || (interrupted_ && guards == nullptr)) return Wait::interrupted;
   }
   step_ = std::move(pending_);
   pending_.reset();

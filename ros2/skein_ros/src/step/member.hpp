@@ -32,6 +32,8 @@ class Member {
   void close(const rmw_context_t* context);
   /// True once the fleet has been told what the node reads and writes.
   bool has_declared() const { return declared_; }
+  /// The node's context is shut down, by a signal mostly: whatever is waited for in vain. From any thread.
+  void interrupt() { interrupted_ = true; }
   /// True once the last step is answered.
   bool is_over() const { return over_; }
   const Setup& setup() const { return setup_; }
@@ -66,7 +68,8 @@ class Member {
     if (before_answer_) before_answer_();
   }
   enum class Wait { stepped, interrupted };
-  /// Waits for the next step. Ends early, and says so in `guards`, when one of these conditions is triggered.
+  /// Waits for the next step. Ends early when one of these conditions is triggered, which `guards` tells then, or,
+  /// without any, when the context is shut down.
   Wait begin_turn(rmw_guard_conditions_t* guards);
 
  private:
@@ -92,7 +95,7 @@ class Member {
   Source source_of(Counterpart counterpart) const { return counterpart == Counterpart::router ? router_ : server_; }
 
   const Setup setup_;
-  std::atomic<bool> open_ = false, over_ = false;
+  std::atomic<bool> open_ = false, over_ = false, interrupted_ = false;
   std::atomic<std::int64_t> now_ns_ = 0;
   bool declared_ = false, member_ = false, in_turn_ = false;
 

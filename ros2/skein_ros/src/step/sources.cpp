@@ -20,8 +20,6 @@ Source source_of_guid(const std::uint8_t* guid) {
   return hash;
 }
 
-bool is_cyclonedds() { return std::strcmp(rmw_get_implementation_identifier(), "rmw_cyclonedds_cpp") == 0; }
-
 /// rmw_cyclonedds names a writer by its instance handle; Cyclone DDS itself knows the GUID. Both structs begin so.
 struct Endpoint {
   std::uint8_t key[16];
@@ -80,6 +78,16 @@ bool can_match(const rmw_qos_profile_t& publisher, const rmw_qos_profile_t& subs
 }
 
 }  // namespace
+
+bool is_cyclonedds() {
+  static const bool is = std::strcmp(rmw_get_implementation_identifier(), "rmw_cyclonedds_cpp") == 0;
+  return is;
+}
+
+bool may_be_repeated(const rmw_message_info_t& info) {
+  const std::uint8_t* const vendor = info.publisher_gid.data;  // of a GUID prefix: the first two bytes
+  return !is_cyclonedds() && vendor[0] == 1 && vendor[1] == 16;
+}
 
 Source Writers::of(const rmw_subscription_t* subscription, const rmw_message_info_t& info) {
   if (!is_cyclonedds()) return source_of_guid(info.publisher_gid.data);

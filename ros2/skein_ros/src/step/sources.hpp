@@ -14,6 +14,13 @@ namespace skein_ros {
 /// FNV-1a (64 bit) over the 12 bytes of a participant's GUID prefix; 0: unknown.
 using Source = std::uint64_t;
 
+/// True where the node's rmw is Cyclone DDS's.
+bool is_cyclonedds();
+
+/// True for a sample that Cyclone DDS has sent to Fast DDS, where older samples come again that were meant for a reader
+/// that has died.
+bool may_be_repeated(const rmw_message_info_t& info);
+
 /// The participant that wrote a sample.
 class Writers {
  public:

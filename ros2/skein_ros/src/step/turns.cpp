@@ -95,7 +95,7 @@ class Look {
     if (guards != nullptr)
       guards_asked_.assign(guards->guard_conditions, guards->guard_conditions + guards->guard_condition_count);
     if (events != nullptr) events_asked_.assign(events->events, events->events + events->event_count);
-    // Who calls a service of the node does so at any time, and an answer comes at any time: neither is in the lock-step.
+    // A service of the node's is called at any time, and an answer comes at any time: neither is in the lock-step.
     if (services != nullptr) clear(services, services->service_count, services->services);
     if (clients != nullptr) clear(clients, clients->client_count, clients->clients);
   }
@@ -189,7 +189,9 @@ bool sleep_until_simulated(std::int64_t until_ns) {
   if (me == nullptr || !me->is_open()) return false;
   require_node_thread("sleeps");
   const InStep in_step;
-  while (!me->is_over() && me->now_ns() < until_ns) next_step(*me, nullptr);
+  while (!me->is_over() && me->now_ns() < until_ns) {
+    if (next_step(*me, nullptr) == Member::Wait::interrupted) return false;
+  }
   if (me->is_over()) count_work_after_end();
   return !me->is_over();
 }
