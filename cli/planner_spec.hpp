@@ -41,7 +41,7 @@ struct Planners {
 
 /// Reads `NAME`, `UAV=NAME,...` or both (`patrol,jurong=hover`: patrol for all but jurong). A comma after a planner
 /// with parameters continues its parameters unless a UAV's name and '=' follow: `jurong=kios:voxel=4,reserve=2`.
-/// In place of NAME may stand `exec:CMD`, or `ros:PACKAGE/EXECUTABLE ARGUMENTS`. CMD goes on, commas and all, to the end of the text or to a comma that a
+/// For NAME may stand `exec:CMD` or `ros:PACKAGE/EXECUTABLE`. It goes on, commas and all, to the end or a comma that a
 /// UAV's name and '=' follow; so a planner for all others stands before it: `hover,jurong=exec:./mine --speed 3`.
 /// `gcs=NAME` names the program at the ground station.
 /// NAME, with its parameters if any, may be followed by `@AGENT`, the file of the agent program that knows it:

@@ -30,8 +30,8 @@ constexpr std::array<std::string_view, 8> kVendorNames = {"ROS_DISCOVERY_SERVER"
                                                           "SKIP_DEFAULT_XML_FILE", "SKIP_DEFAULT_XML"};
 /// Told to each program by its launcher; inherited, they are those of another fleet.
 constexpr std::array<std::string_view, 10> kToldNames = {
-    "SKEIN_DDS",         "SKEIN_DOMAIN", "SKEIN_OUT",      "SKEIN_RADIO_HEARS", "SKEIN_RADIO_SENDS",
-    kRunVariable,        "SKEIN_ROLE",   "SKEIN_SCENARIO", "SKEIN_SECURITY",    "SKEIN_UAV"};
+    "SKEIN_DDS",  "SKEIN_DOMAIN", "SKEIN_OUT",      "SKEIN_RADIO_HEARS", "SKEIN_RADIO_SENDS",
+    kRunVariable, "SKEIN_ROLE",   "SKEIN_SCENARIO", "SKEIN_SECURITY",    "SKEIN_UAV"};
 
 template <class Names>
 bool listed(const Names& names, std::string_view name) {

@@ -10,9 +10,9 @@ export AMENT_PREFIX_PATH="$prefix:${AMENT_PREFIX_PATH:?source the setup file of 
 export CMAKE_PREFIX_PATH="$prefix:${CMAKE_PREFIX_PATH:-}"
 python=$(python3 -c 'import sys; print("local/lib/python%d.%d/dist-packages" % sys.version_info[:2])')
 for package in "$@"; do
-  cmake -G Ninja -S "$here/$package" -B "$prefix/build/$package" -DCMAKE_INSTALL_PREFIX="$prefix" >"$prefix/build.log" ||
-    { cat "$prefix/build.log"; exit 1; }
-  cmake --build "$prefix/build/$package" --target install >>"$prefix/build.log" || { cat "$prefix/build.log"; exit 1; }
+  build="$prefix/build/$package"
+  { cmake -G Ninja -S "$here/$package" -B "$build" -DCMAKE_INSTALL_PREFIX="$prefix" &&
+    cmake --build "$build" --target install; } >"$prefix/build.log" || { cat "$prefix/build.log"; exit 1; }
 done
 cat >"$prefix/setup.sh" <<END
 export AMENT_PREFIX_PATH="$prefix:\$AMENT_PREFIX_PATH"

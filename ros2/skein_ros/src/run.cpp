@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <stdexcept>
 #include <vector>
 
@@ -32,7 +33,7 @@ bool is_member() {
 }
 
 void fail(const std::string& why) {
-  std::fprintf(stderr, "[skein_ros] %s\n", why.c_str());
+  std::cerr << "[skein_ros] " + why + "\n";
   std::fflush(nullptr);
   ::_exit(3);
 }

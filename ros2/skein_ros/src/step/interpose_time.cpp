@@ -87,16 +87,22 @@ rcl_ret_t rcl_timer_call(rcl_timer_t* timer) {
   return SKEIN_REAL(rcl_timer_call)(timer);
 }
 
-int nanosleep(const struct timespec* duration, struct timespec*) {
+// The C library's, by their names for the linker.
+
+int nanosleep_of_node(const struct timespec* duration, struct timespec* left) __asm__("nanosleep");
+int nanosleep_of_node(const struct timespec* duration, struct timespec*) {
   return sleep_of_node(duration, __builtin_return_address(0)) == 0 ? 0 : -1;
 }
 
-int usleep(useconds_t duration) {
+int usleep_of_node(useconds_t duration) __asm__("usleep");
+int usleep_of_node(useconds_t duration) {
   const struct timespec time = {duration / 1'000'000, static_cast<long>(duration % 1'000'000) * 1000};
   return sleep_of_node(&time, __builtin_return_address(0)) == 0 ? 0 : -1;
 }
 
-int clock_nanosleep(clockid_t clock, int flags, const struct timespec* time, struct timespec* left) {
+int clock_nanosleep_of_node(clockid_t clock, int flags, const struct timespec* time,
+                            struct timespec* left) __asm__("clock_nanosleep");
+int clock_nanosleep_of_node(clockid_t clock, int flags, const struct timespec* time, struct timespec* left) {
   if (of_node(__builtin_return_address(0))) {
     const std::int64_t ns = time->tv_sec * kSecond_ns + time->tv_nsec;
     if (flags == 0 ? sleep_for_simulated(ns) : sleep_until_simulated(ns)) return 0;

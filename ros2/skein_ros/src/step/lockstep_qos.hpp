@@ -19,8 +19,9 @@ inline rmw_qos_profile_t reader_qos(int depth, bool latched) {
   return qos;
 }
 
-// Cyclone DDS takes the first heartbeat of a writer for the point from which on samples are reliable, and Fast DDS sends
-// that too early as often as not. So a heartbeat goes ahead of each sample of Fast DDS's: it is how it asserts liveliness.
+// Cyclone DDS takes the first heartbeat of a writer for the point from which on samples are reliable, and Fast DDS
+// sends that too early as often as not. So a heartbeat goes ahead of each sample of Fast DDS's: this is how it asserts
+// liveliness.
 
 inline rmw_qos_profile_t writer_qos(int depth, bool latched) {
   rmw_qos_profile_t qos = reader_qos(depth, latched);

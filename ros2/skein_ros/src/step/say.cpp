@@ -3,12 +3,13 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <iostream>
 #include <mutex>
 #include <set>
 
 namespace skein_ros {
 
-void say(const std::string& text) { std::fprintf(stderr, "[skein_ros] %s\n", text.c_str()); }
+void say(const std::string& text) { std::cerr << "[skein_ros] " + text + "\n"; }
 
 void say_once(const std::string& text) {
   static std::mutex mutex;
