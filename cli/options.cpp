@@ -48,7 +48,8 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
   command
       ->add_option(
           "--planner", run.planner,
-          "NAME, or UAV=NAME,... for some UAVs; NAME@AGENT: of that agent program; exec:CMD: a program of yours")
+          "NAME, or UAV=NAME,... for some UAVs; NAME@AGENT: of that agent program; exec:CMD: a program of yours; "
+          "ros:PACKAGE/EXECUTABLE: a ROS 2 node")
       ->capture_default_str();
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   command->add_option("--seed", run.seed, "What chance draws; 0 draws nothing")->check(seed)->capture_default_str();

@@ -5,6 +5,7 @@
 #include <map>
 #include <string_view>
 
+#include "cli/ros_command.hpp"
 #include "core/python_spec.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
@@ -18,9 +19,11 @@ constexpr std::string_view kGround = "gcs";
 constexpr char kAt = '@';
 constexpr std::size_t kLongestLabel = 100;
 
+bool is_command(std::string_view spec) { return spec.starts_with(kExec) || spec.starts_with(kRos); }
+
 /// Whether what follows a comma may still belong to this planner.
 bool goes_on(const std::string& spec, bool item_has_key) {
-  return spec.starts_with(kExec) || (item_has_key && has_parameters(spec));
+  return is_command(spec) || (item_has_key && has_parameters(spec));
 }
 
 InputError wrong(const std::string& text, const std::string& what) {
@@ -49,7 +52,7 @@ UavPlanner read_planner(const std::string& text, const std::string& node, const 
 }  // namespace
 
 std::optional<std::string> exec_command(const std::string& spec) {
-  if (!spec.starts_with(kExec)) return std::nullopt;
+  if (!spec.starts_with(kExec)) return ros_command(spec);
   return spec.substr(kExec.size());
 }
 
@@ -129,7 +132,8 @@ std::size_t key_end(const std::string& item) {
 std::string with_agents_named(const std::string& text, const NameOfAgent& name_of) {
   std::vector<std::string> items = split(text);
   for (std::string& item : items) {
-    if (item.starts_with(kExec) || item.find("=" + std::string(kExec)) != std::string::npos) break;
+    const std::size_t equals = key_end(item);
+    if (is_command(std::string_view(item).substr(equals == std::string::npos ? 0 : equals + 1))) break;
     const std::size_t path = item.rfind(kAt) + 1;
     const bool has_agent = path != 0 && path < item.size();
     if (has_agent)

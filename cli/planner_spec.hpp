@@ -20,10 +20,10 @@ struct UavPlanner {
   std::optional<std::filesystem::path> agent = {};
 };
 
-/// As --planner takes it: NAME, NAME@AGENT or exec:CMD.
+/// As --planner takes it: NAME, NAME@AGENT, exec:CMD or ros:PACKAGE/EXECUTABLE.
 std::string written(const UavPlanner& planner);
 
-/// CMD of "exec:CMD", a shell command that takes the place of uav_agent; nullopt for a planner of our own.
+/// The shell command that takes the place of uav_agent: of exec: or ros: (ros_command.hpp); nullopt for our planners.
 std::optional<std::string> exec_command(const std::string& spec);
 
 /// Flown by every UAV for which the user named none.
@@ -41,7 +41,7 @@ struct Planners {
 
 /// Reads `NAME`, `UAV=NAME,...` or both (`patrol,jurong=hover`: patrol for all but jurong). A comma after a planner
 /// with parameters continues its parameters unless a UAV's name and '=' follow: `jurong=kios:voxel=4,reserve=2`.
-/// In place of NAME may stand `exec:CMD`. CMD goes on, commas and all, to the end of the text or to a comma that a
+/// For NAME may stand `exec:CMD` or `ros:PACKAGE/EXECUTABLE`. It goes on, commas and all, to the end or a comma that a
 /// UAV's name and '=' follow; so a planner for all others stands before it: `hover,jurong=exec:./mine --speed 3`.
 /// `gcs=NAME` names the program at the ground station.
 /// NAME, with its parameters if any, may be followed by `@AGENT`, the file of the agent program that knows it:

@@ -29,8 +29,9 @@ constexpr std::array<std::string_view, 8> kVendorNames = {"ROS_DISCOVERY_SERVER"
                                                           "ROS_STATIC_PEERS",      "ROS_AUTOMATIC_DISCOVERY_RANGE",
                                                           "SKIP_DEFAULT_XML_FILE", "SKIP_DEFAULT_XML"};
 /// Told to each program by its launcher; inherited, they are those of another fleet.
-constexpr std::array<std::string_view, 7> kToldNames = {"SKEIN_DDS",      "SKEIN_DOMAIN",   "SKEIN_OUT", kRunVariable,
-                                                        "SKEIN_SCENARIO", "SKEIN_SECURITY", "SKEIN_UAV"};
+constexpr std::array<std::string_view, 10> kToldNames = {
+    "SKEIN_DDS",  "SKEIN_DOMAIN", "SKEIN_OUT",      "SKEIN_RADIO_HEARS", "SKEIN_RADIO_SENDS",
+    kRunVariable, "SKEIN_ROLE",   "SKEIN_SCENARIO", "SKEIN_SECURITY",    "SKEIN_UAV"};
 
 template <class Names>
 bool listed(const Names& names, std::string_view name) {

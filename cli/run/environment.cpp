@@ -17,10 +17,10 @@ namespace skein::cli {
 namespace {
 
 /// For the user to set. The last six are the test suite's, and ours.
-const std::vector<std::string> kUserNames = {"SKEIN_AGENT",      "SKEIN_ASSETS",    "SKEIN_BIN_DIR",   "SKEIN_CHAOS",
-                                             "SKEIN_CONFIG_DIR", kDurationVariable, "SKEIN_LOG",       "SKEIN_NETWORK",
-                                             "SKEIN_WEB",        "SKEIN_GOLDEN",    "SKEIN_ROS2",      "SKEIN_LONG",
-                                             "SKEIN_SANITIZE",   "SKEIN_TURN",      "SKEIN_HASH_SEED", kPinnedVariable};
+const std::vector<std::string> kUserNames = {
+    "SKEIN_AGENT",    "SKEIN_ASSETS",  "SKEIN_BIN_DIR",   "SKEIN_CHAOS",        "SKEIN_CONFIG_DIR", kDurationVariable,
+    "SKEIN_LOG",      "SKEIN_NETWORK", "SKEIN_WEB",       "SKEIN_GOLDEN",       "SKEIN_ROS2",       "SKEIN_LONG",
+    "SKEIN_SANITIZE", "SKEIN_TURN",    "SKEIN_HASH_SEED", "SKEIN_DEBUG_VALUES", kPinnedVariable};
 
 /// What flies missions of which the length may be chosen, and need not be.
 const std::set<std::string> kFlyingCommands = {"run", "compose", "compare", "contest"};

@@ -14,6 +14,7 @@
 #include "cli/run/debug_plan.hpp"
 #include "cli/run/drawn_world.hpp"
 #include "cli/run/environment.hpp"
+#include "cli/run/exec_variables.hpp"
 #include "cli/run/ground_program.hpp"
 #include "cli/run/watch_arguments.hpp"
 #include "cli/threads.hpp"
@@ -81,25 +82,6 @@ std::map<std::string, std::string> config_variable(const FleetPlan& plan, const 
   if (!is_foreign(plan, program) && !is_exec(plan, program)) return {};
   return {{"SKEIN_CONFIG_DIR", std::filesystem::absolute(default_config_dir())},
           {"SKEIN_BIN_DIR", std::filesystem::absolute(plan.bin_dir)}};
-}
-
-/// What a user's command is told. It joins SKEIN_DOMAIN and no other.
-std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
-                                                  const std::filesystem::path& out, const SecureFolder& secure) {
-  const std::string uav = programs::member_name(program);
-  const std::string domain = std::to_string(agent_domain(plan, program, base_domain));
-  std::map<std::string, std::string> variables = {
-      {"SKEIN_DOMAIN", domain},
-      {"ROS_DOMAIN_ID", domain},  // a ROS 2 node needs no more: its default settings hear us on this host
-      {"SKEIN_UAV", uav},
-      {"SKEIN_RUN", std::to_string(plan.run)},
-      {"SKEIN_DDS", dds_vendors(plan).at(program)},
-      {"SKEIN_SCENARIO", std::filesystem::absolute(plan.scenario.file)},
-      {"SKEIN_OUT", std::filesystem::absolute(secure.out.empty() ? out : secure.out)}};
-  variables.merge(config_variable(plan, program));
-  if (!secure.keys.empty()) variables["SKEIN_SECURITY"] = secure.keys;
-  if (secure.user) variables["HOME"] = secure.out;  // the launcher's is closed to it
-  return variables;
 }
 
 bool has_ground_program(const FleetPlan& plan) { return plan.ground && takes_part(plan, "gcs"); }
@@ -180,6 +162,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   find_python_files(planners);
   find_agents(planners, plan.agent);
   plan.planners = planners.uavs;
+  check_exec(plan);
   plan.ground = ground_program(planners, fleets_agent(plan));
   if (options.network) read_network(*options.network).check_names(domain_names(plan.scenario));
   for (const std::string& uav : options.replay ? options.replay->only : std::vector<std::string>()) {

@@ -1,0 +1,61 @@
+// run_in_step LIBRARY:CLASS [--ros-args ...]: makes a node of a class that knows nothing of Skein, and spins it in the
+// lock-step. The class is a component as rclcpp_components has them: its constructor takes rclcpp::NodeOptions. It is
+// found by that constructor's symbol (so the constructor must be defined outside of the class), and neither
+// rclcpp_components nor a registration is needed.
+//   LIBRARY  a path, or the name of a library in LD_LIBRARY_PATH      CLASS  with its namespaces: my_pkg::MyNode
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+
+#include "skein_ros/planner.hpp"
+
+namespace {
+
+/// Nobody tells how large an object is; no node is as large as this.
+constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+
+/// The symbol of CLASS::CLASS(const rclcpp::NodeOptions&).
+std::string constructor_of(const std::string& name) {
+  std::string mangled;
+  int parts = 0;
+  std::istringstream text(name);
+  for (std::string part; std::getline(text, part, ':');) {
+    if (part.empty()) continue;
+    mangled += std::to_string(part.size()) + part;
+    ++parts;
+  }
+  return "_ZN" + mangled + "C1ERKN6rclcpp11NodeOptionsE";
+}
+
+std::shared_ptr<rclcpp::Node> make_node(const std::string& library, const std::string& name) {
+  void* const handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  if (handle == nullptr) throw std::runtime_error(::dlerror());
+  using Constructor = void (*)(void* self, const rclcpp::NodeOptions&);
+  const auto construct = reinterpret_cast<Constructor>(::dlsym(handle, constructor_of(name).c_str()));
+  if (construct == nullptr) {
+    throw std::runtime_error(library + " has no class " + name +
+                             " with a constructor from const rclcpp::NodeOptions& " +
+                             "that is defined outside of the class");
+  }
+  void* const memory = std::calloc(1, kMostBytes);
+  construct(memory, rclcpp::NodeOptions());
+  // A component derives from rclcpp::Node first, so the object begins with it.
+  return {static_cast<rclcpp::Node*>(memory), [](rclcpp::Node* node) {
+            node->~Node();
+            std::free(node);
+          }};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string what = argc > 1 ? argv[1] : "";
+  const auto colon = what.find(':');
+  if (colon == std::string::npos || colon == 0 || what[colon + 1] == '\0') {
+    std::cerr << "usage: run_in_step LIBRARY:CLASS [--ros-args ...], such as libmy_pkg.so:my_pkg::MyNode\n";
+    return 2;
+  }
+  return skein_ros::run(argc, argv, [&] { return make_node(what.substr(0, colon), what.substr(colon + 1)); });
+}

@@ -1,0 +1,105 @@
+// The ends of a node's topics that belong to the lock-step: publications are held until the step is answered, and
+// samples until all that the step announced are here. Threads: the node's.
+#pragma once
+
+#include <rmw/rmw.h>
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sources.hpp"
+
+namespace skein_ros {
+
+/// A serialised message and, of an arrival, where it came from.
+struct Sample {
+  std::vector<std::uint8_t> bytes;
+  rmw_message_info_t info = {};
+};
+
+/// rmw's view of bytes, which stay the caller's.
+rmw_serialized_message_t view_of(const std::vector<std::uint8_t>& bytes);
+/// A message in CDR. @throws std::runtime_error when the rmw cannot write it.
+std::vector<std::uint8_t> serialised(const void* message, const rosidl_message_type_support_t* type);
+
+enum class Counterpart { server, router, nobody };
+
+/// A subscription.
+class Incoming {
+ public:
+  Incoming(rmw_subscription_t* subscription, const rosidl_message_type_support_t* type, Counterpart counterpart,
+           int depth, bool latched);
+
+  rmw_subscription_t* subscription() const { return subscription_; }
+  const rosidl_message_type_support_t* type() const { return type_; }
+  std::string topic() const { return subscription_->topic_name; }
+  Counterpart counterpart() const { return counterpart_; }
+
+  /// The source had sent `count` samples when the node was invited.
+  void set_base(Source source, std::uint64_t count);
+  /// Takes what has arrived from `source` out of the rmw; samples of others are dropped.
+  void drain(Writers& writers, Source source);
+  /// What the step announces of a source, cumulative.
+  void expect(Source source, std::uint64_t count);
+  bool complete() const { return arrived_ >= expected_; }
+  /// "3 of 4", for people.
+  std::string missing() const;
+  /// Hands the announced samples to the node.
+  void release();
+  /// Without counting: from a publisher in the same process.
+  void hand(Sample sample) { ready_.push_back(std::move(sample)); }
+
+  bool has_sample() const { return !ready_.empty(); }
+  /// @pre has_sample()
+  Sample take();
+
+ private:
+  void change_source(Source source);
+  bool is_for_us(const rmw_message_info_t& info);
+
+  rmw_subscription_t* const subscription_;
+  const rosidl_message_type_support_t* const type_;
+  const Counterpart counterpart_;
+  const int depth_;
+  const bool latched_;
+  const std::int64_t made_ns_;  ///< of the wall clock
+  bool up_to_date_ = false;     ///< a sample of source_ has come that was written for this reader
+  std::map<Source, std::uint64_t> base_;
+  Source source_ = 0;
+  std::uint64_t arrived_ = 0, released_ = 0, expected_ = 0;  ///< cumulative, of source_
+  std::deque<Sample> waiting_, ready_;
+};
+
+/// A publisher.
+class Outgoing {
+ public:
+  Outgoing(rmw_publisher_t* publisher, const rosidl_message_type_support_t* type, Counterpart counterpart, int depth)
+      : publisher_(publisher), type_(type), counterpart_(counterpart), depth_(depth) {}
+
+  rmw_publisher_t* publisher() const { return publisher_; }
+  const rosidl_message_type_support_t* type() const { return type_; }
+  std::string topic() const { return publisher_->topic_name; }
+  Counterpart counterpart() const { return counterpart_; }
+
+  /// To be sent when the step is answered.
+  void hold(std::vector<std::uint8_t> bytes) { held_.push_back(std::move(bytes)); }
+  /// Sends what was held, as much as a step may have; says once if there is more, which is lost.
+  /// @param lost  sends nothing: nobody is there to hear it
+  void flush(bool lost);
+  std::uint64_t sent() const { return sent_; }
+  std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  rmw_publisher_t* const publisher_;
+  const rosidl_message_type_support_t* const type_;
+  const Counterpart counterpart_;
+  const int depth_;
+  std::vector<std::vector<std::uint8_t>> held_;
+  std::uint64_t sent_ = 0, dropped_ = 0;
+};
+
+}  // namespace skein_ros

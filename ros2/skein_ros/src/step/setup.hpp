@@ -1,0 +1,23 @@
+// What the launcher tells a program, by environment variables (README.md, docs/ros2.md). Needs no ROS.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace skein_ros {
+
+struct Setup {
+  std::string uav;                                ///< SKEIN_UAV: the member's name
+  std::uint64_t run = 0;                          ///< SKEIN_RUN
+  bool explorer = true;                           ///< SKEIN_ROLE is not "photographer": it has a LiDAR
+  std::set<std::string> radio_sends = {"/plan"};  ///< SKEIN_RADIO_SENDS: "/x /y"
+  std::set<std::string> radio_hears;              ///< SKEIN_RADIO_HEARS: "/x/jurong ..."; "/plan/<uav>" if unset
+  std::set<std::string> debug_values;             ///< SKEIN_DEBUG_VALUES: "front plan", of /<uav>/debug/<name>
+};
+
+/// nullopt: this process is no program of a fleet.
+std::optional<Setup> setup_of_environment();
+
+}  // namespace skein_ros

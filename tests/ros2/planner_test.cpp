@@ -1,0 +1,230 @@
+// Planners that are ROS 2 nodes (ros2/skein_ros): they fly and score in the lock-step, alike over both middlewares and
+// in each repeat, and what they must not do is named.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <set>
+
+#include "core/radio_routes.hpp"
+#include "core/topics.hpp"
+#include "idl/filled_message.hpp"
+#include "ros2/skein_ros/src/step/fleet_topics.hpp"
+#include "tests/support/places.hpp"
+#include "workspace_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+constexpr const char* kMiddlewares[] = {"cyclonedds", "fastrtps"};
+
+class RosPlanner : public WorkspaceTest {};
+
+TEST_F(RosPlanner, FliesAndScoresAlikeOverMiddlewaresAndVendors) {
+  const Arguments flight = {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--duration", "60"};
+  std::set<std::string> digests;
+  for (const auto* middleware : kMiddlewares) {
+    // The fleet is of the other vendor; once its messages are late and out of order.
+    const bool other = std::string(middleware) == "cyclonedds";
+    const Environment chaos = other ? Environment{} : Environment{{"SKEIN_CHAOS", "38"}};
+    SkeinRun& done =
+        run_with(middleware, middleware, joined(flight, {"--dds", other ? "fastdds" : "cyclonedds"}), 0, chaos);
+    const Json result = done.result();
+    EXPECT_EQ(result["status"], "completed");
+    EXPECT_TRUE(result["deterministic"]) << done.err();
+    EXPECT_EQ(result["uavs"][0]["commands_rejected"], 0);
+    EXPECT_GT(result["score_by_uav"]["jurong"], 1.0) << "its captures reached the station";
+    digests.insert(done.digest());
+    EXPECT_NE(text_of(done.dir() / "activity.csv").find(",jurong,circles,"), std::string::npos);
+  }
+  EXPECT_EQ(digests.size(), 1U);
+}
+
+TEST_F(RosPlanner, InPythonFliesBesideANodeThatKnowsNothingOfSkein) {
+  const std::string climber = "ros:skein_ros/run_in_step libplain_node.so:plain::Climber --ros-args -p height_m:=4.0";
+  const Arguments flight = {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/climb.py,sentosa=" + climber,
+                            "--duration", "20"};
+  std::set<std::string> digests;
+  for (const auto* middleware : kMiddlewares) {
+    SkeinRun& done = run_with(middleware, middleware, flight);
+    const Json result = done.result();
+    EXPECT_TRUE(result["deterministic"]) << done.err();
+    EXPECT_NEAR(result["uavs"][0]["distance_m"].get<double>(), 6.0, 1.0) << "to its height";
+    EXPECT_NEAR(result["uavs"][2]["distance_m"].get<double>(), 4.0, 0.7) << "its wall timer and its parameter";
+    EXPECT_GT(result["radio"]["sent"], 300) << "what it said in each step";
+    digests.insert(done.digest());
+  }
+  EXPECT_EQ(digests.size(), 1U);
+}
+
+TEST_F(RosPlanner, ThatAFaultKillsOrStopsComesBack) {
+  const auto faults = write("faults.yaml",
+                            "faults:\n"
+                            "  - {at_s: 4, until_s: 6, kill: jurong}\n"
+                            "  - {at_s: 9, until_s: 11, pause: sentosa}\n");
+  const Arguments flight = {
+      "towers",     "--planner", "hover,jurong=ros:skein_ros_examples/circle,sentosa=ros:skein_ros_examples/circle",
+      "--duration", "25",        "--faults",
+      faults};
+  std::set<std::string> digests;
+  for (const auto* middleware : kMiddlewares) {
+    SkeinRun& done = run_with(middleware, middleware, flight);
+    EXPECT_TRUE(done.result()["deterministic"]) << done.err();
+    EXPECT_GT(done.result()["uavs"][0]["distance_m"], 10.0);
+    digests.insert(done.digest());
+  }
+  EXPECT_EQ(digests.size(), 1U);
+}
+
+struct Oddity {
+  const char* what;
+  const char* word;
+};
+
+class OddRosPlanner : public WorkspaceTest, public testing::WithParamInterface<Oddity> {};
+
+TEST_P(OddRosPlanner, IsNamedAndTheRunGoesOn) {
+  const std::string node = "exec:python3 " + source_path("tests/ros2/odd_node.py") + " " + GetParam().what;
+  SkeinRun& done =
+      run_with("cyclonedds", "run",
+               {"towers", "--planner", "hover,jurong=" + node, "--duration", "20", "--agent-timeout", "5"}, 3);
+  const Json result = done.result();
+  EXPECT_EQ(result["status"], "completed");
+  ASSERT_EQ(result["lost_members"].size(), 1U);
+  EXPECT_EQ(result["lost_members"][0]["member"], "jurong");
+  const std::string all = log_of(done) + result["lost_members"].dump();
+  EXPECT_NE(all.find(GetParam().word), std::string::npos) << all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Oddities, OddRosPlanner,
+                         testing::Values(Oddity{"thread", "publishes on /plan in a second thread"},
+                                         Oddity{"throw", "the planner threw: no way ahead"},
+                                         Oddity{"service", "a call of the service /another/get_parameters"},
+                                         Oddity{"late", "made after the node's first wait"},
+                                         Oddity{"stall", "did not answer"}),
+                         [](const auto& oddity) { return oddity.param.what; });
+
+TEST_F(RosPlanner, ThatIsNotThereIsNamedBeforeAnythingStarts) {
+  const auto expect_error = [&](const std::string& planner, const std::string& word) {
+    SkeinRun& refused = run_with("cyclonedds", "refused", {"towers", "--planner", planner, "--force"}, 2);
+    EXPECT_NE(refused.err().find(word), std::string::npos) << refused.err();
+  };
+  expect_error("ros:skein_ros_examples/cirkle", "did you mean 'circle'?");
+  expect_error("ros:skein_ros_exampels/circle", "did you mean 'skein_ros_examples'?");
+  expect_error("ros:circle", "write ros:PACKAGE/EXECUTABLE");
+  SkeinRun& without = run("without", {"towers", "--planner", "ros:a/b"}, {{"AMENT_PREFIX_PATH", ""}}, 2);
+  EXPECT_NE(without.err().find("AMENT_PREFIX_PATH is not set"), std::string::npos) << without.err();
+}
+
+std::vector<std::uint8_t> bytes_of(const std::string& hexadecimal) {
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t i = 0; i + 1 < hexadecimal.size(); i += 2) {
+    bytes.push_back(static_cast<std::uint8_t>(std::stoi(hexadecimal.substr(i, 2), nullptr, 16)));
+  }
+  return bytes;
+}
+
+std::string hexadecimal(const std::vector<std::uint8_t>& bytes) {
+  std::string text;
+  for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
+  return text;
+}
+
+/// The bytes of a message of any of Skein's types, read and written again; nullopt: they are no such message.
+using Again = std::function<std::optional<std::vector<std::uint8_t>>(const std::vector<std::uint8_t>& bytes)>;
+template <class Message>
+std::optional<std::vector<std::uint8_t>> again(const std::vector<std::uint8_t>& bytes) {
+  Message message;
+  if (!decode(bytes, message)) return std::nullopt;
+  return encode(message);
+}
+
+template <class... Messages>
+std::map<std::string, Again> all_types(testing::Types<Messages...>) {
+  return {{type_name<Messages>(), again<Messages>}...};
+}
+
+class RosMessages : public WorkspaceTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(RosMessages, AreTheSameBytesForRosAndForSkein) {
+  constexpr const char* kCount = "40";
+  const auto script = [&](const char* what, const std::string& file) {
+    ChildProcess& python =
+        start_node(what, GetParam(), 0, "",
+                   "env PYTHONPATH=" + workspace() +
+                       "/local/lib/python3.11/dist-packages:$PYTHONPATH"
+                       " LD_LIBRARY_PATH=" +
+                       workspace() + "/lib:$LD_LIBRARY_PATH python3 " + source_path("tests/ros2/message_bytes.py ") +
+                       what + " " + file + " " + kCount);
+    ASSERT_EQ(python.wait().code, 0) << python.err();
+  };
+  const std::string theirs = folder() / "theirs", ours = folder() / "ours";
+  script("write", theirs);
+  const auto types = all_types(AllMessageTypes());
+  std::set<std::string> seen;
+  std::ifstream lines(theirs);
+  std::ofstream out(ours);
+  for (std::string line; std::getline(lines, line);) {
+    Json entry = Json::parse(line);
+    const std::string type = entry["type"];
+    ASSERT_TRUE(types.contains(type)) << type;
+    seen.insert(type);
+    const auto bytes = types.at(type)(bytes_of(entry["bytes"]));
+    ASSERT_TRUE(bytes) << line;
+    // rmw_fastrtps leaves anything where CDR has padding.
+    if (std::string(GetParam()) == "cyclonedds") ASSERT_EQ(hexadecimal(*bytes), entry["bytes"]) << type;
+    ASSERT_EQ(bytes->size(), bytes_of(entry["bytes"]).size()) << type;
+    entry["bytes"] = hexadecimal(*bytes);
+    out << entry.dump() << "\n";
+  }
+  out.close();
+  script("read", ours);
+  for (const auto& [type, unused] : types) {
+    if (type.starts_with("skein_msgs::")) EXPECT_TRUE(seen.contains(type)) << type << " is not in the package";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Middlewares, RosMessages, testing::ValuesIn(kMiddlewares),
+                         [](const auto& middleware) { return std::string(middleware.param); });
+
+TEST(RosPage, HasThePlannersThatFly) {
+  const std::string page = text_of(source_path("docs/ros2.md"));
+  for (const char* file : {"circle.cpp", "climb.py"}) {
+    const std::string text = text_of(source_path("ros2/skein_ros_examples/src/") + file);
+    ASSERT_FALSE(text.empty()) << file;
+    EXPECT_NE(page.find("\n" + text + "```"), std::string::npos) << file;
+  }
+}
+
+TEST(RosMessageFiles, AreAsTheIdlHasThem) {
+  EXPECT_EQ(std::system(("python3 " + source_path("ros2/generate_messages.py") + " --check").c_str()), 0);
+}
+
+// The package has a table of its own, since it needs no Skein.
+TEST(RosTopics, AreThoseOfSkeinsTable) {
+  const auto way = [](const topics::TopicInfo& topic) {
+    return topic.direction == topics::Direction::from_agent ? skein_ros::Way::from_node : skein_ros::Way::to_node;
+  };
+  std::size_t expected = 0;
+  for (const topics::TopicInfo& topic : topics::uav_topics()) {
+    const bool counted =
+        topic.direction == topics::Direction::to_agent || topic.direction == topics::Direction::from_agent;
+    if (!counted || topic.pattern == topics::kHand.pattern) continue;  // nobody flies a node by hand
+    ++expected;
+    const auto found = std::ranges::find_if(skein_ros::kFleetTopics,
+                                            [&](const auto& entry) { return entry.pattern == topic.pattern; });
+    ASSERT_NE(found, std::end(skein_ros::kFleetTopics)) << topic.pattern;
+    EXPECT_EQ(found->way, way(topic)) << topic.pattern;
+    EXPECT_EQ(found->depth, topic.depth) << topic.pattern;
+    EXPECT_EQ(found->latched, topic.latched) << topic.pattern;
+    EXPECT_EQ(found->explorers_only, topic.explorers_only) << topic.pattern;
+  }
+  EXPECT_EQ(std::size(skein_ros::kFleetTopics), expected);
+  EXPECT_EQ(skein_ros::kRadioDepth, topics::kRadioDepth);
+  EXPECT_EQ(skein_ros::kArrivalDepth, topics::radio_depth(topics::kMostRadioSources));
+}
+
+}  // namespace
+}  // namespace skein::test
