@@ -100,7 +100,9 @@ TEST_F(StackParts, ProgramsAreWhereTheyBelongAndAgentsGetTheirFilesAlone) {
       Texts mounted;
       for (const auto& [there, here] : file.mounts(service)) mounted.push_back(here);
       EXPECT_EQ(has(mounted, "points.pcd"), stack.scene_files && service == programs::kSimServer);
-      if (agent) EXPECT_EQ(mounted.size(), 1U) << "its results alone";
+      if (agent) {
+        EXPECT_EQ(mounted.size(), 1U) << "its results alone";
+      }
       Texts keys;
       for (const YAML::Node& secret : file.of(service, "secrets")) {
         keys.push_back(filled_in(root["secrets"][secret["source"].as<std::string>()]["file"].as<std::string>()));
@@ -129,7 +131,6 @@ TEST_F(StackParts, AreWhatDockerReads) {
       }
     }
     write_text(dir_ / "stack.yaml", compose_file(stack.plan, stack.layout));
-    std::string said;
     EXPECT_TRUE(ends_well("cd \"" + dir_.string() + "\" && docker stack config --compose-file stack.yaml"))
         << last_lines_below(dir_ / "docker.log", 5);
   }
