@@ -85,7 +85,8 @@ TEST_F(StackParts, ProgramsAreWhereTheyBelongAndAgentsGetTheirFilesAlone) {
       const std::string where = node != stack.layout.nodes.end() ? "node.hostname == " + node->second
                                 : agent                          ? ""
                                                                  : "node.role == manager";
-      const Texts constraints = texts_of(deploy["placement"]["constraints"]);
+      const YAML::Node placement = deploy["placement"];
+      const Texts constraints = placement ? texts_of(placement["constraints"]) : Texts();
       EXPECT_EQ(constraints, where.empty() ? Texts() : Texts{where}) << service;
       EXPECT_EQ(file.option(service, "--lease"), std::to_string(stack.plan.options.lease_s.value_or(10)));
       Texts sent;
