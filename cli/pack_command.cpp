@@ -103,8 +103,8 @@ void copy_package(const fs::path& from, const fs::path& to) {
 
 int pack_programs(const PackOptions& options, const Console& console) {
   std::vector<fs::path> files;
-  for (const char* name :
-       {"skein", programs::kSimServer, programs::kCommRouter, programs::kStation, programs::kAgent}) {
+  for (const char* name : {"skein", programs::kSimServer, programs::kCommRouter, programs::kStation, programs::kAgent,
+                           programs::kDoctor}) {
     files.push_back(program_dir() / name);
   }
   files.push_back(program_dir() / (std::string(programs::kAgent) + programs::kFleetSuffix));

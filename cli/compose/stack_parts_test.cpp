@@ -85,7 +85,8 @@ TEST_F(StackParts, ProgramsAreWhereTheyBelongAndAgentsGetTheirFilesAlone) {
       const std::string where = node != stack.layout.nodes.end() ? "node.hostname == " + node->second
                                 : agent                          ? ""
                                                                  : "node.role == manager";
-      const Texts constraints = texts_of(deploy["placement"]["constraints"]);
+      const YAML::Node placement = deploy["placement"];
+      const Texts constraints = placement ? texts_of(placement["constraints"]) : Texts();
       EXPECT_EQ(constraints, where.empty() ? Texts() : Texts{where}) << service;
       EXPECT_EQ(file.option(service, "--lease"), std::to_string(stack.plan.options.lease_s.value_or(10)));
       Texts sent;
@@ -100,7 +101,9 @@ TEST_F(StackParts, ProgramsAreWhereTheyBelongAndAgentsGetTheirFilesAlone) {
       Texts mounted;
       for (const auto& [there, here] : file.mounts(service)) mounted.push_back(here);
       EXPECT_EQ(has(mounted, "points.pcd"), stack.scene_files && service == programs::kSimServer);
-      if (agent) EXPECT_EQ(mounted.size(), 1U) << "its results alone";
+      if (agent) {
+        EXPECT_EQ(mounted.size(), 1U) << "its results alone";
+      }
       Texts keys;
       for (const YAML::Node& secret : file.of(service, "secrets")) {
         keys.push_back(filled_in(root["secrets"][secret["source"].as<std::string>()]["file"].as<std::string>()));
@@ -129,7 +132,6 @@ TEST_F(StackParts, AreWhatDockerReads) {
       }
     }
     write_text(dir_ / "stack.yaml", compose_file(stack.plan, stack.layout));
-    std::string said;
     EXPECT_TRUE(ends_well("cd \"" + dir_.string() + "\" && docker stack config --compose-file stack.yaml"))
         << last_lines_below(dir_ / "docker.log", 5);
   }

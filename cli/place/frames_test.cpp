@@ -39,7 +39,9 @@ TEST(Frames, ArriveWholeInWhateverPieces) {
       EXPECT_EQ(heard[i].text("text"), said[i].text("text"));
       EXPECT_EQ(heard[i].body, said[i].body);
     }
-    if (!greeted) EXPECT_EQ(reader.before_greeting(), "Welcome!\nno frame {\n");
+    if (!greeted) {
+      EXPECT_EQ(reader.before_greeting(), "Welcome!\nno frame {\n");
+    }
   }
 }
 
@@ -47,7 +49,7 @@ TEST(Frames, WhatIsNoneIsSaid) {
   for (const std::string text : {"garbage\n", "[1, 2]\n", "{\"bytes\": 99999999999}\n"}) {
     FrameReader reader(true);
     reader.add(text);
-    EXPECT_THROW(reader.next(), std::runtime_error) << text;
+    EXPECT_THROW(static_cast<void>(reader.next()), std::runtime_error) << text;
   }
   FrameReader reader(true);
   reader.add("{\"say\": \"hello\"}");
