@@ -67,7 +67,7 @@ ConditionsConfig harsh() {
   conditions.camera.vibration_deg_s = 3.0;
   conditions.camera.shutter_delay_s = 0.05;
   conditions.radio.exponent = 2.7;
-  conditions.radio.shadowing_sigma_db = 6.0;
+  conditions.radio.shadowing_sigma_db = 5.3;
   return conditions;
 }
 

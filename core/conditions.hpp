@@ -1,7 +1,6 @@
-// What a world does that an ideal one does not: wind, errors of odometry and LiDAR, blur, batteries that run empty, radio
-// that fades. All of it is off by
-// default, and then no bit of a run differs from one without this file. docs/conditions.md has the model of each part,
-// its parameters with their sources, and the presets.
+// What a world does that an ideal one does not: wind, errors of odometry and LiDAR, blur, batteries that run empty,
+// radio that fades. All of it is off by default, and then no bit of a run differs from one without this file.
+// docs/conditions.md has the model of each part, its parameters with their sources, and the presets.
 // Units: SI and radians unless the name says otherwise.  Pure; safe from any thread.
 #pragma once
 

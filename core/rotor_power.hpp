@@ -1,7 +1,7 @@
 // What flying costs, by momentum theory: a rotor of disc area A that gives thrust T accelerates air of density rho by
-// the induced velocity v_i. Hovering, v_i = v_h = sqrt(T / (2 rho A)); through air that comes with V across the disc and
-// climbs with V_c, v_i = v_h^2 / sqrt(V^2 + (V_c + v_i)^2) (Glauert). Ideal power: T (v_i + V_c). What a vehicle needs
-// beyond that (profile drag, motors, controllers) is one efficiency.
+// the induced velocity v_i. Hovering, v_i = v_h = sqrt(T / (2 rho A)). Through air that comes with V across the disc,
+// and climbing with V_c, v_i = v_h^2 / sqrt(V^2 + (V_c + v_i)^2) (Glauert). Ideal power: T (v_i + V_c). What a vehicle
+// needs beyond that (profile drag, motors, controllers) is one efficiency.
 // Source: J. G. Leishman, Principles of Helicopter Aerodynamics, 2nd ed., chapter 2.   Units: SI.   Pure.
 #pragma once
 

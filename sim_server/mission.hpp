@@ -28,9 +28,10 @@ struct Collision {
 ///
 /// A UAV is airborne once it is `takeoff_height_m` above its rest height and faster than `takeoff_speed_mps`, and
 /// grounded again once it is slow and either low or on the ground. The clock starts when the first UAV becomes
-/// airborne. An airborne UAV that touches anything but the ground dies (one without power: the ground, too), each of two UAVs by its own state (with
-/// `rules.collision_kills_both` the one that one touches dies with it, though it rests). The mission ends when the
-/// time is up, when every UAV is dead or has landed after a flight, or when nobody took off in time.
+/// airborne. An airborne UAV that touches anything but the ground dies (one without power: the ground, too), each of
+/// two UAVs by its own state (with `rules.collision_kills_both` the one that one touches dies with it, though it
+/// rests). The mission ends when the time is up, when every UAV is dead or has landed after a flight, or when nobody
+/// took off in time.
 class Mission {
  public:
   /// @param rest_heights  z of each UAV's centre at rest on the ground, in fleet order [m].

@@ -18,7 +18,7 @@
 namespace skein::cli {
 namespace {
 
-const std::vector<std::string> kPlanners = {"patrol", "kios", "xxh", "star", "flock"};
+const std::vector<std::string> kProfiledPlanners = {"patrol", "kios", "xxh", "star", "flock"};
 const std::vector<std::size_t> kSizes = {1, 2, 5, 10, 20, 50}, kQuickSizes = {1, 5, 20};
 constexpr double kMission_s = 30.0, kQuickMission_s = 10.0, kExchange_s = 0.05;
 constexpr double kFar = 1000.0;  ///< UAVs, for which the growth is told
@@ -134,7 +134,7 @@ int bench_profile(const BenchOptions& options, const Console& console) {
   const double mission_s = options.duration_s.value_or(options.quick ? kQuickMission_s : kMission_s);
   Json report = {{"profile", Json::array()}, {"growth", Json::object()}, {"mission_s", mission_s}};
   bool failed = false;
-  for (const std::string& planner : kPlanners) {
+  for (const std::string& planner : kProfiledPlanners) {
     std::vector<Json> entries;
     for (const std::size_t uavs : sizes) {
       const std::filesystem::path file = scratch.path() / ("profile" + std::to_string(uavs) + ".yaml");

@@ -1,9 +1,9 @@
 // How far one UAV's idea of where it is lies off the truth.
 //
-// Position and yaw: first-order Gauss-Markov processes, and a constant offset. While the fix is lost, the position walks
-// off at random from where it was, and the yaw goes on as before; afterwards the error jumps back to what it would have
-// been. The flight controller flies by this, the LiDAR's clouds and what the camera finds are placed by it: all that a
-// UAV is told agrees. The messages have white noise on top, the same in all samples of an exchange.
+// Position and yaw: first-order Gauss-Markov processes, and a constant offset. While the fix is lost, the position
+// walks off at random from where it was, and the yaw goes on as before; afterwards the error jumps back to what it
+// would have been. The flight controller flies by this, the LiDAR's clouds and what the camera finds are placed by it:
+// all that a UAV is told agrees. The messages have white noise on top, the same in all samples of an exchange.
 // Frames: W world, B body.  Units: SI, radians.  Threads: one.  The same seed gives the same bits.
 #pragma once
 
