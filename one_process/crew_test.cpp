@@ -61,7 +61,7 @@ class Toy final : public bus::FleetMember, public bus::LockstepNode {
     return std::nullopt;
   }
 
-  bool flies_beside() const override { return name_ != "alone" && name_ != "sim_server"; }
+  bool flies_beside() const override { return name_ != "solo" && name_ != "sim_server"; }
 
   void start() override {
     participant_ = bus_->join(5);
@@ -128,7 +128,7 @@ class CrewTest : public testing::TestWithParam<int> {
     diary = &diary_;
     if (GetParam() > 1) {
       [[maybe_unused]] static const bool led = [] {
-        ProgramOutput::lead_by_thread();
+        ProgramOutput::lead_by_thread(std::cout);
         return true;
       }();
     }
@@ -261,14 +261,14 @@ TEST_P(CrewTest, WhoIsAskedToEndDoesSo) {
 }
 
 TEST_P(CrewTest, EachWritesToItsOwnLog) {
-  for (const char* name : {"one", "two", "alone"}) start(name, "stays");
+  for (const char* name : {"one", "two", "solo"}) start(name, "stays");
   rounds(40);
-  for (const std::string name : {"one", "two", "alone"}) {
+  for (const std::string name : {"one", "two", "solo"}) {
     const std::string text = log(name);
     EXPECT_NE(text.find(name + " prints"), std::string::npos) << text;
     EXPECT_NE(text.find(name + " complains"), std::string::npos) << text;
     EXPECT_NE(text.find("[" + name + "] info " + name + " logs"), std::string::npos) << text;
-    for (const std::string other : {"one", "two", "alone"}) {
+    for (const std::string other : {"one", "two", "solo"}) {
       EXPECT_EQ(text.find(other) == std::string::npos, other != name) << text;
     }
   }

@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
   };
   const int code =
       run_program(programs::kOneProcess, argc, argv, add_options, [&](const ProgramOptions& options, StopSignal& stop) {
-        if (threads > 1) one_process::ProgramOutput::lead_by_thread();
+        if (threads > 1) one_process::ProgramOutput::lead_by_thread(std::cout);
         StatusPipe pipe(options.status_fd);
         one_process::DeathNotice::watch(options.status_fd);
         one_process::OrderQueue orders;

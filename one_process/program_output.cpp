@@ -129,17 +129,17 @@ void ProgramOutput::leave_beside() {
 
 const ProgramOutput* ProgramOutput::here() { return mine; }
 
-void ProgramOutput::lead_by_thread() {
+void ProgramOutput::lead_by_thread(std::ostream& out) {
   std::fflush(stdout);
   own_stdout = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
   own_stderr = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
   stdout = led_file(own_stdout);
   stderr = led_file(own_stderr);
-  static auto& out = *new LedBuffer(own_stdout);  // until the very end of the process
-  static auto& err = *new LedBuffer(own_stderr);
-  std::cout.rdbuf(&out);
-  std::cerr.rdbuf(&err);
-  std::clog.rdbuf(&err);
+  static auto& led_out = *new LedBuffer(own_stdout);  // until the very end of the process
+  static auto& led_err = *new LedBuffer(own_stderr);
+  out.rdbuf(&led_out);
+  std::cerr.rdbuf(&led_err);
+  std::clog.rdbuf(&led_err);
   own_log = spdlog::default_logger();
   led_log = std::make_shared<LedLog>();
 }

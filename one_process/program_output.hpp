@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <ostream>
 #include <string>
 
 namespace spdlog {
@@ -32,7 +33,8 @@ class ProgramOutput {
   static const ProgramOutput* here();
 
   /// Streams and logs are led by threads from here on, for good. Once, before there are other threads.
-  static void lead_by_thread();
+  /// @param out  of C++, for stdout.
+  static void lead_by_thread(std::ostream& out);
   /// The descriptors, and what threads write that work for nobody, are the process's again. After lead_by_thread().
   static void stand_aside();
 

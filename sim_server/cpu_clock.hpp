@@ -1,4 +1,4 @@
-// CPU time of this thread, and of those that help it, by kind of work. What the thread does between its kinds of work is the exchange.
+// CPU time of this thread and its helpers by kind of work. What it does between its kinds of work is the exchange.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // The whole simulated world, one exchange at a time: vehicles, sensors, radio links, mission, referee.
 // Pure: no middleware, no wall clock. The same scenario, scene, seed and commands give the same bits, whoever helps.
-// Threads: one, which may share its work (share_work()). Frames: W world (ENU), B body (FLU).  Units: SI, radians; times are ticks.
+// Threads: one, which may share its work. Frames: W world (ENU), B body (FLU).  Units: SI, radians; times are ticks.
 //
 // Commands are handed in at a step boundary, between two calls of advance(); what happened in the exchange is in
 // events(). LiDARs run from the beginning, cameras while the clock runs, nothing after the mission's end: motors stop
