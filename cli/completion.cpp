@@ -1,6 +1,9 @@
 #include "cli/completion.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
 
 #include "cli/options.hpp"
 #include "core/scenario_reader.hpp"
@@ -44,12 +47,31 @@ const CLI::Option* valued_option(const CLI::App& app, const std::string& name) {
   return option != nullptr && option->get_type_size() != 0 ? option : nullptr;
 }
 
+/// What a planner's file in Python may be, as typed so far: "py:dir/pl" -> "py:dir/plan.py", "py:dir/plans/".
+Names python_files(const std::string& typed) {
+  namespace fs = std::filesystem;
+  constexpr std::string_view kPrefix = "py:";
+  const std::string path = typed.substr(kPrefix.size());
+  const std::string folder = path.substr(0, path.rfind('/') + 1);  // npos + 1 is 0
+  Names names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, none)) {
+    const std::string name = entry.path().filename();
+    const bool is_folder = entry.is_directory(none);
+    if (name.starts_with(".") || (!is_folder && !name.ends_with(".py"))) continue;
+    names.push_back(std::string(kPrefix) + folder + name + (is_folder ? "/" : ""));
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
 /// Of a list ("kios,hov") and of what is said of a UAV ("jurong=hov") the last name is completed.
 Names fitting(const Names& names, const std::string& typed) {
   const std::size_t cut = typed.find_last_of(",=");
   const std::string before = cut == std::string::npos ? "" : typed.substr(0, cut + 1);
+  const bool of_python = typed.substr(before.size()).starts_with("py:");
   Names result;
-  for (const std::string& name : names) {
+  for (const std::string& name : of_python ? python_files(typed.substr(before.size())) : names) {
     if ((before + name).starts_with(typed)) result.push_back(before + name);
   }
   return result;

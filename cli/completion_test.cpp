@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <regex>
@@ -82,6 +83,18 @@ TEST(Completion, ValuesAreOfferedWhereTheyAreKnown) {
   EXPECT_EQ(offered({"compare", "--executor", ""}), Words({"local", "parallel", "slurm"}));
   EXPECT_EQ(offered({"run", "--dds=f"}), Words({"--dds=fastdds"}));
   EXPECT_EQ(offered({"oracle", "--rules", "p"}), Words({"paper"}));
+}
+
+TEST(Completion, FilesOfPlannersInPythonAreOffered) {
+  const std::string folder = "py:" + source_path("python/examples") + "/";
+  const Words files = offered({"run", "--planner", folder});
+  EXPECT_TRUE(std::ranges::find(files, folder + "hover.py") != files.end());
+  EXPECT_TRUE(std::ranges::all_of(files, [](const std::string& file) { return file.ends_with(".py"); }));
+  EXPECT_EQ(offered({"run", "--planner", folder + "ho"}), Words({folder + "hover.py"}));
+  EXPECT_EQ(offered({"run", "--planner", "kios,jurong=" + folder + "orb"}),
+            Words({"kios,jurong=" + folder + "orbit.py"}));
+  EXPECT_EQ(offered({"run", "--planner", "py:" + source_path("python/exa")}), Words({folder}));
+  EXPECT_EQ(offered({"run", "--planner", "py:/no/such/folder/"}), Words{});
 }
 
 TEST(Completion, NothingIsOfferedWhereAnyTextOrFileWillDo) {

@@ -184,7 +184,8 @@ with Client() as gcs:
 def test_ctrl_c_ends_it_while_it_waits(tmp_path: Path) -> None:
     code = ("import sys\nfrom skein.client import Client\n"
             "uav = Client(name='jurong', scenario='towers', domain=221, dds=sys.argv[1], run=1)\n"
-            "print('waits', flush=True)\ntry:\n    next(uav)\nexcept KeyboardInterrupt:\n    print('interrupted')\n")
+            "try:\n    print('waits', flush=True)\n    next(uav)\n"
+            "except KeyboardInterrupt:\n    print('interrupted')\n")
     for dds in ("cyclonedds", "fastdds"):
         child = subprocess.Popen([sys.executable, "-B", "-c", code, dds], stdout=subprocess.PIPE, text=True)
         assert child.stdout is not None and child.stdout.readline() == "waits\n"

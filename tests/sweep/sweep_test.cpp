@@ -244,7 +244,8 @@ TEST_F(SweepTest, APackFliesPython) {
   ChildProcess& pack = start_program("pack", {program("skein"), "pack", folder() / "skein.tar.gz"});
   ASSERT_EQ(pack.wait().code, 0) << pack.err();
   EXPECT_NE(pack.out().find("the package for Python"), std::string::npos) << pack.out();
-  ASSERT_EQ(start_program("tar", {"tar", "-xzf", folder() / "skein.tar.gz", "-C", folder()}).wait().code, 0);
+  ASSERT_EQ(
+      start_program("tar", {"/usr/bin/env", "tar", "-xzf", folder() / "skein.tar.gz", "-C", folder()}).wait().code, 0);
   write("up.py",
         "from skein.planner import *\nclass Up(Planner):\n    def plan(self, inputs):\n"
         "        return PlannerOutput(Hold())\n");
@@ -253,7 +254,7 @@ TEST_F(SweepTest, APackFliesPython) {
         "        uav.fly_to(step.state.p_WB + [0, 0, 1])\nprint('flown by', skein.__file__)\n");
   const std::string planner = "py:up.py,raffles=exec:exec " + python_program() + " -B mine.py";
   ChildProcess& packed = start_program(
-      "packed", {"env", "-C", folder(), "-u", "PYTHONPATH", "-u", "SKEIN_BIN_DIR", "-u", "SKEIN_CONFIG_DIR",
+      "packed", {"/usr/bin/env", "-C", folder(), "-u", "PYTHONPATH", "-u", "SKEIN_BIN_DIR", "-u", "SKEIN_CONFIG_DIR",
                  folder() / "skein/skein", "run", "towers", "--planner", planner, "--duration", "2", "--out", "flown"});
   ASSERT_EQ(packed.wait().code, 0) << packed.err() << text_of(folder() / "flown/uav_agent-raffles.log");
   const std::string said = text_of(folder() / "flown/uav_agent-raffles.log");

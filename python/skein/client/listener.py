@@ -127,10 +127,12 @@ class Listener:
         if domain is None and os.environ.get("SKEIN_DOMAIN") and run is None:
             domain = whole("SKEIN_DOMAIN", os.environ["SKEIN_DOMAIN"], 230)
             dds = variable("SKEIN_DDS", dds)
-            self.node = node or os.environ.get("SKEIN_UAV", self.node)
+            if node is None:
+                self.node = os.environ.get("SKEIN_UAV", self.node)
         elif domain is None:
             fleet = flying_fleet(run, patience_s)
-            domain, dds, given_run = fleet.domain(self.node), dds or fleet.dds, fleet.run
+            domain, given_run = fleet.domain(self.node), fleet.run
+            dds = dds or fleet.dds
         self._types = {topic: self._type(topic, of) for topic, of in named.items()}
         self._closed = self._heard_any = False
         self._missed = 0
