@@ -76,6 +76,9 @@ foreach(folder api maps flight flight_core planning)
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 install(DIRECTORY ${SKEIN_FORWARD_DIR}/ DESTINATION include/skein COMPONENT dev)
+# Packages for ROS 2, as sources: who has ROS 2 builds them with it (docs/ros2.md).
+install(DIRECTORY ros2 DESTINATION ${CMAKE_INSTALL_DATADIR}/skein COMPONENT dev USE_SOURCE_PERMISSIONS
+  PATTERN generate_messages.py EXCLUDE PATTERN __pycache__ EXCLUDE)
 install(FILES uav_agent/testing/planner_contract_test.cpp uav_agent/testing/test_lidar.cpp
   uav_agent/testing/test_world.cpp
   DESTINATION ${installed_contract_dir} COMPONENT dev)

@@ -103,6 +103,7 @@ TEST_F(Packages, EachComponentHasWhatItIsFor) {
     EXPECT_EQ(below(*programs, "include/"), Paths{});
   }
   EXPECT_TRUE(runtime.contains("share/bash-completion/completions/skein"));
+  EXPECT_TRUE(dev.contains("share/skein/ros2/skein_msgs/msg/Step.msg")) << "for users of ROS 2";
   EXPECT_TRUE(dev.contains("include/skein/uav_agent/api/planner.hpp"));
   EXPECT_TRUE(dev.contains("lib/cmake/skein/skeinConfig.cmake"));
   EXPECT_EQ(runtime.contains("share/skein/web/report.js"), fs::exists(source_path("build/web/report.js")));
