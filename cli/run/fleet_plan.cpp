@@ -95,6 +95,7 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
       {"SKEIN_SCENARIO", std::filesystem::absolute(plan.scenario.file)},
       {"SKEIN_OUT", std::filesystem::absolute(secure.out.empty() ? out : secure.out)}};
   variables.merge(config_variable(plan, program));
+  if (plan.options.network) variables["SKEIN_NETWORK"] = *plan.options.network;
   if (!secure.keys.empty()) variables["SKEIN_SECURITY"] = secure.keys;
   if (secure.user) variables["HOME"] = secure.out;  // the launcher's is closed to it
   return variables;
