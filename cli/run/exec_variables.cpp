@@ -53,6 +53,7 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
     variables["SKEIN_ROLE"] = name_of(plan.scenario.fleet[uav].vehicle.role);
   }
   std::tie(variables["SKEIN_RADIO_SENDS"], variables["SKEIN_RADIO_HEARS"]) = radio_topics_of(plan.scenario, node);
+  if (plan.options.network) variables["SKEIN_NETWORK"] = *plan.options.network;
   if (!secure.keys.empty()) variables["SKEIN_SECURITY"] = secure.keys;
   if (secure.user) variables["HOME"] = secure.out;  // the launcher's is closed to it
   return variables;

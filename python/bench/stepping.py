@@ -1,6 +1,6 @@
 """What it costs to step fleets: the figures of docs/performance.md.
 
-    python3 python/bench/stepping.py [--repeat 3] [--resets 1000] [--seconds 60] [--mbs 300]
+    PYTHONPATH=python python3 python/bench/stepping.py [--repeat 3] [--resets 1000] [--seconds 60] [--mbs 300]
 
 Times are told twice: by the clock, and as CPU time of this program and the fleet's process together, which is the
 clock's time on a core that nobody else uses. mbs needs SKEIN_ASSETS.

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <thread>
 
 #include "bus/lockstep/lockstep_node.hpp"
@@ -168,7 +169,12 @@ class Member {
     UserTopics topics;
     for (const std::string& topic : reads) topics.reads.push_back(known_topic(topic, name));
     for (const std::string& topic : writes) topics.writes.push_back(known_topic(topic, name));
-    bus_ = bus::make_bus(options_of(dds, run, security, lease_s), scenario_);
+    ProgramOptions options = options_of(dds, run, security, lease_s);
+    options.domain = domain - node_domain(0, node);  // the fleet's first one, by which networks are numbered
+    if (const char* network = std::getenv("SKEIN_NETWORK"); network != nullptr && *network != '\0') {
+      options.network = network;
+    }
+    bus_ = bus::make_bus(options, scenario_);
     node_ = std::make_unique<UserNode>(scenario_, node, domain, *bus_, std::move(topics));
   }
   Member(const Member&) = delete;
