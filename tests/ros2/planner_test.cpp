@@ -174,7 +174,9 @@ TEST_P(RosMessages, AreTheSameBytesForRosAndForSkein) {
     const auto bytes = types.at(type)(bytes_of(entry["bytes"]));
     ASSERT_TRUE(bytes) << line;
     // rmw_fastrtps leaves anything where CDR has padding.
-    if (std::string(GetParam()) == "cyclonedds") ASSERT_EQ(hexadecimal(*bytes), entry["bytes"]) << type;
+    if (std::string(GetParam()) == "cyclonedds") {
+      ASSERT_EQ(hexadecimal(*bytes), entry["bytes"]) << type;
+    }
     ASSERT_EQ(bytes->size(), bytes_of(entry["bytes"]).size()) << type;
     entry["bytes"] = hexadecimal(*bytes);
     out << entry.dump() << "\n";
@@ -182,7 +184,8 @@ TEST_P(RosMessages, AreTheSameBytesForRosAndForSkein) {
   out.close();
   script("read", ours);
   for (const auto& [type, unused] : types) {
-    if (type.starts_with("skein_msgs::")) EXPECT_TRUE(seen.contains(type)) << type << " is not in the package";
+    const bool ours_alone = type.starts_with("skein_msgs::");
+    EXPECT_TRUE(!ours_alone || seen.contains(type)) << type << " is not in the package";
   }
 }
 
