@@ -256,6 +256,12 @@ void PlacedFleet::take_news(std::vector<Event>& events) {
 
 void PlacedFleet::hear(There& there, const Frame& frame, std::vector<Event>& events) {
   const std::string say = frame.text("say"), name = frame.text("name");
+  const auto is_placed = [&](const std::string& program) {
+    return std::ranges::find(there.programs, program) != there.programs.end();
+  };
+  // A host speaks for its own programs alone: an agent's is not to be trusted with the server's words.
+  if (!name.empty() && say != "file" && !there.running.contains(name) && !is_placed(name)) return;
+  if ((say == "file" || say == "left") && !is_placed(frame.text("program"))) return;
   const auto number = [&](const char* key) { return value_or(frame.head, key, 0.0).get<double>(); };
   if (say == "log") keep_log(frame);
   if (say == "status") events.push_back({Event::Kind::status_line, name, frame.text("line"), {}});
@@ -265,8 +271,10 @@ void PlacedFleet::hear(There& there, const Frame& frame, std::vector<Event>& eve
   if (say == "file" || say == "left") there.files.push_back(frame);
   if (say == "trouble") there.link.lose(frame.text("text"));
   if (say == "use") {
-    for (const auto& [program, use] : frame.head["programs"].items()) {
-      if (use.is_array() && use.size() == 2) there.use[program] = {use[0].get<double>(), use[1].get<double>()};
+    const Json programs = value_or(frame.head, "programs", Json::object());
+    for (const auto& [program, use] : programs.items()) {
+      const bool numbers = use.is_array() && use.size() == 2 && use[0].is_number() && use[1].is_number();
+      if (numbers) there.use[program] = {use[0].get<double>(), use[1].get<double>()};
     }
   }
   if (say != "exited" && say != "failed") return;
