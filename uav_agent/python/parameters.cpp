@@ -49,6 +49,7 @@ py::object read_by_kind(ConfigReader& reader, const Field& field, bool is_null) 
 struct ToPython {
   const py::object& config;
   void field(const char* key, double& value, const Bounds&) { config.attr(key) = value; }
+  void field(const char* key, bool& value) { config.attr(key) = value; }
 };
 
 /// The other way round, within the bounds.
@@ -59,6 +60,10 @@ struct FromPython {
     const py::object number = config.attr(key);
     value = read_number(number, place);
     if (!bounds.contain(value)) place.refuse(bounds.text(), number);
+  }
+  void field(const char* key, bool& value) {
+    const Place root("flight()"), place(root, key);
+    value = read_bool(config.attr(key), place);
   }
 };
 

@@ -354,6 +354,7 @@ TEST_F(PythonPlannerTest, TheFlightConfigOfPythonIsThatOfCpp) {
   struct Values {
     std::vector<double> all;
     void field(const char*, double& value, const Bounds&) { all.push_back(value); }
+    void field(const char*, bool& value) { all.push_back(value ? 1.0 : 0.0); }
   } ours, theirs;
   FlightConfig usual;
   usual.describe(ours);
