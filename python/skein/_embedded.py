@@ -11,6 +11,7 @@ import difflib
 import hashlib
 import importlib.util
 import inspect
+import io
 import linecache
 import os
 import random
@@ -28,6 +29,21 @@ from .planner import FlightConfig, Planner
 
 #: Of the environment's packages: a folder below the planner's own may hold them.
 _OTHERS = ("site-packages", "dist-packages")
+
+
+def _open_streams() -> None:
+    """Where the streams of C lead each thread to a log of its own they have no descriptors, and Python takes them for
+    closed. A planner in Python has its turns alone, and descriptors 1 and 2 lead to its log then."""
+    for descriptor, name in ((1, "stdout"), (2, "stderr")):
+        if getattr(sys, name) is not None:
+            continue
+        raw = io.FileIO(descriptor, "w", closefd=False)
+        stream = io.TextIOWrapper(raw, encoding="utf-8", errors="backslashreplace", write_through=True)
+        setattr(sys, name, stream)
+        setattr(sys, f"__{name}__", stream)
+
+
+_open_streams()
 
 
 class Wrong(Exception):
