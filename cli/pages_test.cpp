@@ -54,7 +54,7 @@ TEST(Pages, ShowCommandsThatThereAre) {
   EXPECT_GT(read, 80u);
 }
 
-/// The sources of a planner of ours; empty: it is none.
+/// The sources of a planner of ours, and of what all of them have; empty: it is none.
 std::string source_of_planner(const std::string& name) {
   const fs::path planners = source_path("uav_agent/planners");
   std::string text;
@@ -67,7 +67,9 @@ std::string source_of_planner(const std::string& name) {
       text.append(std::istreambuf_iterator<char>(in), {});
     }
   }
-  return text;
+  if (text.empty()) return text;
+  std::ifstream flight(source_path("uav_agent/flight_core/flight_config.hpp"));
+  return text.append(std::istreambuf_iterator<char>(flight), {});
 }
 
 // A parameter of a planner that a page shows has a key in that planner's sources.

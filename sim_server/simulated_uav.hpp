@@ -2,12 +2,16 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "sim_server/conditions/surroundings.hpp"
 #include "sim_server/flight/command_link.hpp"
 #include "sim_server/flight/vehicle.hpp"
 #include "sim_server/flight/vehicle_faults.hpp"
-#include "sim_server/simulation.hpp"
+#include "sim_server/sensors/camera.hpp"
+#include "sim_server/sensors/key_frames.hpp"
+#include "sim_server/sensors/lidar.hpp"
+#include "sim_server/uav_view.hpp"
 
 namespace skein::sim {
 
@@ -25,6 +29,23 @@ struct SimulatedUav {
   std::optional<Tick> shutter_at = {};  ///< a picture that was triggered is taken then
   bool scans_wanted = true;
   Tick last_raise = 0, idle_ticks = 0;  ///< when a capture last raised a score; how long it has idled
+
+  /// Where it takes itself to be. @param truth  its state.
+  Isometry3d X_told_B(const RigidBodyState& truth) const {
+    const auto X_told_W = surroundings.X_told_W(truth);
+    return X_told_W ? *X_told_W * truth.X_WB() : truth.X_WB();
+  }
+
+  /// One tick of its flight controller, if that is due, and of its rotors in this air.
+  /// @param listens  it takes commands.
+  Wrench fly(Tick tick, const RigidBodyState& truth, bool listens) {
+    surroundings.begin_tick(tick, truth, condition.gust_W);
+    if (tick % kControlTicks == 0 && listens) {
+      const auto gimbal = std::exchange(gimbal_command, std::nullopt);
+      vehicle.control(tick, surroundings.believed(truth), link.take_trajectory(tick), gimbal);
+    }
+    return surroundings.fly(vehicle, truth);
+  }
 
   /// Whether a picture is taken at this tick: triggered now, or so much earlier.
   bool shutter_opens(Tick tick, Tick delay) {

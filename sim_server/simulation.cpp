@@ -31,19 +31,12 @@ struct Simulation::Impl {
   void deliver_commands();
   void run_tick();
   void control_and_fly();
-  Wrench control(UavIndex i);
   void judge_mission();
   void measure(const std::vector<RigidBodyState>& before);
   void take_pictures();
   void take_scans();
   void finish_exchange();
   void trace_links();
-  /// Where a UAV takes itself to be.
-  Isometry3d X_told_B(UavIndex uav) const {
-    const Isometry3d X_WB = world.state(uav).X_WB();
-    const auto X_told_W = uavs[uav].surroundings.X_told_W(world.state(uav));
-    return X_told_W ? *X_told_W * X_WB : X_WB;
-  }
   RigidBodyState believed(UavIndex uav) const { return uavs[uav].surroundings.believed(world.state(uav)); }
   void tell(UavIndex uav, const VehicleCondition& condition);
   void refresh_rays();
@@ -147,7 +140,8 @@ void Simulation::Impl::run_tick() {
 
 void Simulation::Impl::control_and_fly() {
   std::vector<Wrench> wrenches(uavs.size());
-  in_blocks(for_each, uavs.size(), kForcesAtOnce, [&](std::size_t i) { wrenches[i] = control(UavIndex{i}); });
+  in_blocks(for_each, uavs.size(), kForcesAtOnce,
+            [&](std::size_t i) { wrenches[i] = uavs[i].fly(tick, world.state(UavIndex{i}), listening(UavIndex{i})); });
   for (const UavIndex i : FirstUavs(uavs.size())) {
     const RigidBodyState& state = world.state(i);
     world.apply_wrench(i, state.q_WB * wrenches[i].force_B, state.q_WB * wrenches[i].torque_B);
@@ -155,17 +149,6 @@ void Simulation::Impl::control_and_fly() {
     uavs[i].vehicle.stop();
     mission.lose_power(i);
   }
-}
-
-Wrench Simulation::Impl::control(UavIndex i) {
-  SimulatedUav& uav = uavs[i];
-  const RigidBodyState& state = world.state(i);
-  uav.surroundings.begin_tick(tick, state, uav.condition.gust_W);
-  if (tick % kControlTicks == 0 && listening(i)) {
-    const auto gimbal_command = std::exchange(uav.gimbal_command, std::nullopt);
-    uav.vehicle.control(tick, uav.surroundings.believed(state), uav.link.take_trajectory(tick), gimbal_command);
-  }
-  return uav.surroundings.fly(uav.vehicle, state);
 }
 
 void Simulation::Impl::judge_mission() {
@@ -238,7 +221,7 @@ void Simulation::Impl::take_scans() {
     uav.lidar->move(tick, world.state(i).X_WB());
     if (!uav.condition.lidar_works || !uav.lidar->due(tick)) continue;
     events.servos.push_back({i, uav.lidar->servo(tick)});
-    if (uav.scans_wanted || uav.keyframes.wants(tick, X_told_B(i))) scanning.push_back(i);
+    if (uav.scans_wanted || uav.keyframes.wants(tick, uav.X_told_B(world.state(i)))) scanning.push_back(i);
   }
   if (scanning.empty()) return;
   refresh_rays();
@@ -250,7 +233,7 @@ void Simulation::Impl::take_scans() {
   for (std::size_t n = 0; n < scans.size(); ++n) {
     const UavIndex i = scanning[n];
     if (const auto X_told_W = uavs[i].surroundings.X_told_W(world.state(i))) place(scans[n], *X_told_W);
-    if (auto key_frame = uavs[i].keyframes.offer(scans[n], X_told_B(i))) {
+    if (auto key_frame = uavs[i].keyframes.offer(scans[n], uavs[i].X_told_B(world.state(i)))) {
       events.key_frames.push_back({i, std::move(*key_frame), {}});
     }
     events.scans.push_back({i, std::move(scans[n])});

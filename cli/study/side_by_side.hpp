@@ -23,7 +23,7 @@ class SideBySide {
 
   SideBySide(std::size_t at_once, const Console& console) : at_once_(at_once), console_(console) {}
 
-  /// Flies these in their order, each with its part of the cores (cli/threads.hpp), and returns when none is in the air.
+  /// Flies these in their order, each with its part of the cores (cli/threads.hpp). Returns when none is in the air.
   /// Ctrl-C ends those in the air at their next step, a second one at once: nothing more starts then, and of a flight
   /// that did not go to its end nobody is told.
   /// @returns false when it was interrupted, also when only one of the flights was told to end.

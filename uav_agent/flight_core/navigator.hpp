@@ -37,8 +37,8 @@ class Navigator {
   bool sees() const { return sight_.sees(); }
   /// What to fly to from now on. A goal that is being flown goes on if it is the first one; its way may have changed.
   void want(std::vector<Goal> goals);
-  /// Flies back along its own trail, whose places are given from here on. Its body has been there: the safety filter asks
-  /// for less about it, and nothing is looked for.
+  /// Flies back along its own trail, whose places are given from here on. Its body has been there: the safety filter
+  /// asks for less about it, and nothing is looked for.
   void retrace(std::vector<Waypoint> trail);
   bool retraces() const { return current_ && retraces_; }
   /// Brakes, and wants nothing.

@@ -1,7 +1,7 @@
 // What a UAV does whose goals all came to nothing: an ordered list of behaviours, each tried in turn until its strategy
 // gets to a goal again. Looking around lets a LiDAR prove more; nearer to a place that it missed it sees how to go on;
-// elsewhere and higher up the world looks different. Where all that is not proved to be free, the way that it came is; a
-// UAV that structure seen since has shut in flies back at once.
+// elsewhere and higher up the world looks different. Where all that is not proved to be free, the way that it came is.
+// A UAV that structure seen since has shut in flies back at once.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 

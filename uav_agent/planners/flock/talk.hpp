@@ -1,5 +1,5 @@
-// What the UAVs of a flock tell each other on /plan: the views that each is about to take and how much they promise, the
-// points that the fleet has found (points.hpp), and the map with the surface that was looked at (map_exchange).
+// What the UAVs of a flock tell each other on /plan: the views that each is about to take and how much they promise,
+// the points that the fleet has found (points.hpp), and the map with the surface that was looked at (map_exchange).
 // Frame W.   Units: SI.   Threads: one.   Bounded: one message now and then, see uav_agent/api/payload.hpp.
 #pragma once
 
