@@ -28,7 +28,7 @@ TEST_F(Ros2Definitions, AreThoseOfOurIdl) {
     const bool known = type.starts_with("skein_msgs/") || type.starts_with("visualization_msgs/") ||
                        type.starts_with("tf2_msgs/") || type.starts_with("octomap_msgs/") ||
                        type == "std_msgs/Float64" || type == "sensor_msgs/CompressedImage" ||
-                       type == "sensor_msgs/JointState";
+                       type == "sensor_msgs/JointState" || type == "sensor_msgs/BatteryState";
     EXPECT_TRUE(known) << type << " is not in ROS 2";
   }
 }

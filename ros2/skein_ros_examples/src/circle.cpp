@@ -12,8 +12,8 @@ class Circle : public skein_ros::Planner {
     if (in.time_left_s.value_or(1e9) < 20.0) return fly_to(*home_, in.yaw);
     const skein_ros::Box* nearest = nullptr;
     for (const skein_ros::Box& box : in.boxes) {
-      const bool nearer =
-          !nearest || ground_distance(box.middle(), *home_) < ground_distance(nearest->middle(), *home_);
+      const bool nearer = !nearest || skein_ros::ground_distance(box.middle(), *home_) <
+                                          skein_ros::ground_distance(nearest->middle(), *home_);
       if (box.bottom() < 8.0 && nearer) nearest = &box;
     }
     if (!nearest) return fly_to(*home_, in.yaw);

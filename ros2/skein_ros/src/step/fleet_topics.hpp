@@ -34,6 +34,8 @@ inline constexpr FleetTopic kFleetTopics[] = {
     {"/clock", Way::to_node, kStateDepth},
     {"/gcs/bounding_box_vertices", Way::to_node, 1, true},
     {"/{id}/command_rejected", Way::to_node, kCommandDepth},
+    {"/{id}/battery", Way::to_node, kStateDepth},
+    {"/{id}/wind", Way::to_node, kStateDepth},
     {"/{id}/activity", Way::from_node, kCommandDepth},
     {"/{id}/command/trajectory", Way::from_node, kCommandDepth},
     {"/{id}/command/gimbal", Way::from_node, kCommandDepth},
