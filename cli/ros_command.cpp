@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kStepLibrary = "lib/libskein_step.so";
+constexpr const char* kFastDdsProfile = "share/skein_ros/fastdds_udp.xml";
 
 std::vector<fs::path> prefixes(const std::string& spec) {
   const char* const path = std::getenv("AMENT_PREFIX_PATH");
@@ -63,9 +64,10 @@ fs::path find_executable(const std::string& spec, const std::string& package, co
                    suggestion(package, {packages.begin(), packages.end()}));
 }
 
-fs::path find_step_library(const std::string& spec) {
+/// Where the package skein_ros is.
+fs::path find_skein_ros(const std::string& spec) {
   for (const fs::path& prefix : prefixes(spec)) {
-    if (fs::exists(prefix / kStepLibrary)) return prefix / kStepLibrary;
+    if (fs::exists(prefix / kStepLibrary)) return prefix;
   }
   throw InputError("--planner " + spec + ": AMENT_PREFIX_PATH has no package skein_ros, which takes a node into the " +
                    "lock-step; build it beside your packages (docs/ros2.md)");
@@ -83,7 +85,10 @@ std::optional<std::string> ros_command(const std::string& spec) {
     throw InputError("--planner " + spec + ": write ros:PACKAGE/EXECUTABLE, such as ros:my_package/my_node");
   }
   const fs::path executable = find_executable(spec, node.substr(0, slash), node.substr(slash + 1));
-  return "ROS_LOG_DIR=\"$SKEIN_OUT/ros-$SKEIN_UAV\" LD_PRELOAD=" + shell_word(find_step_library(spec)) +
+  const fs::path skein_ros = find_skein_ros(spec);
+  return "ROS_LOG_DIR=\"$SKEIN_OUT/ros-$SKEIN_UAV\" "
+         "FASTRTPS_DEFAULT_PROFILES_FILE=${FASTRTPS_DEFAULT_PROFILES_FILE:-" +
+         shell_word(skein_ros / kFastDdsProfile) + "} LD_PRELOAD=" + shell_word(skein_ros / kStepLibrary) +
          "${LD_PRELOAD:+\" $LD_PRELOAD\"} exec " + shell_word(executable) + arguments +
          " --ros-args -r __ns:=/\"$SKEIN_UAV\"";
 }

@@ -46,7 +46,7 @@ class WorkspaceTest : public Ros2Test {
     std::istringstream lines(shell.out());
     for (std::string line; std::getline(lines, line);) {
       const std::size_t equals = line.find('=');
-      for (const char* name : {"AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "RMW_IMPLEMENTATION"}) {
+      for (const char* name : {"AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "PATH", "PYTHONPATH", "RMW_IMPLEMENTATION"}) {
         if (line.substr(0, equals) == name) variables[name] = line.substr(equals + 1);
       }
     }
